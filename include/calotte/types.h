@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <vector>
+
+namespace calotte {
+
+/// 3 x n, one Cartesian point a column. On the sphere a column is a *direction*: its norm does not
+/// matter (1e-200 to 1e200), and every decision is taken as if x/|x| stood exactly on the sphere.
+using Points3 = Eigen::Matrix3Xd;
+
+/// 3 x m ids, one triangle a column.
+using Triangles = Eigen::Matrix<std::int32_t, 3, Eigen::Dynamic>;
+
+/// A Delaunay triangulation of the unit sphere.
+///
+/// `triangles` run counter-clockwise seen from outside, start at their lowest vertex and are sorted
+/// by their vertices, so that equal triangulations are equal arrays. `neighbours(i, t)` is the
+/// triangle across from vertex i of triangle t (it shares the edge of the two other vertices), -1
+/// where the mesh has an open boundary. It has one exactly when all sites lie in a closed
+/// hemisphere; a closed mesh of n sites has 2n - 4 triangles.
+struct Mesh {
+  Points3 points;       ///< 3 x n sites: the distinct columns of the input, as given, in their order
+  Triangles triangles;  ///< 3 x m site ids
+  Triangles neighbours; ///< 3 x m triangle ids, or -1
+  std::vector<std::int32_t> site_of_input; ///< for each input column its site; a duplicate has the lowest's
+
+  bool closed() const { return triangles.cols() == 2 * points.cols() - 4; }
+};
+
+} // namespace calotte
