@@ -74,9 +74,9 @@ inline int in_circle_resolved(const View& view, const Vec3& a, const Vec3& b, co
 
 inline constexpr double roundoff = 0x1p-53;
 
-/// The in-circle determinant of unit vectors good to 3 roundoffs each: det(a-d, b-d, c-d).
+/// The in-circle determinant of unit vectors good to 3 roundoffs each: -det(a-d, b-d, c-d).
 inline double in_circle_determinant(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-  return dot(a - d, cross(b - d, c - d));
+  return dot(a - d, cross(c - d, b - d));
 }
 
 /// A bound on the error of in_circle_determinant when the differences' norms are at most `reach` <= 2.
@@ -94,7 +94,7 @@ constexpr double in_circle_error(double reach) {
 inline int in_circle_filter(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const Vec3 p = a - d, q = b - d, r = c - d;
   const double reach = std::sqrt(std::max({dot(p, p), dot(q, q), dot(r, r)}));
-  const double value = dot(p, cross(q, r)), error = in_circle_error(reach);
+  const double value = dot(p, cross(r, q)), error = in_circle_error(reach);
   return (value > error) - (value < -error);
 }
 
