@@ -22,7 +22,7 @@ struct PredicateCounts {
   std::int64_t exact = 0;    ///< nor could the 106 bits
 };
 
-/// x/|x| to 3 units of roundoff (2^-53) in the norm of the error, for norms from 1e-200 to 1e200.
+/// x/|x| to 5 units of roundoff (2^-53) in the norm of the error, for norms from 1e-200 to 1e200.
 Vec3 normalised(const Vec3& x);
 
 // ---- Signs of directions of any norm. All are -1, 0 or 1; all tiers inside.
@@ -74,27 +74,38 @@ inline int in_circle_resolved(const View& view, const Vec3& a, const Vec3& b, co
 
 inline constexpr double roundoff = 0x1p-53;
 
-/// The in-circle determinant of unit vectors good to 3 roundoffs each: -det(a-d, b-d, c-d).
+/// The in-circle determinant of unit vectors good to 5 roundoffs each: -det(a-d, b-d, c-d).
 inline double in_circle_determinant(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   return dot(a - d, cross(c - d, b - d));
 }
 
 /// A bound on the error of in_circle_determinant when the differences' norms are at most `reach` <= 2.
 ///
-/// Let u be the roundoff, D the reach. A stored unit vector is within 3u of the true one, so a
-/// difference is within 6u + uD of the true difference (the last for the subtraction). A determinant
-/// of three vectors of norm at most D changes by at most 3 D^2 (6u + uD) to first order; evaluating it
-/// from rounded entries errs by at most 6u sum |a_i| |b||c| <= 6 sqrt(3) u D^3. Together
-/// (18 + 13.4 D) u D^2; the constants below also cover the second order and this bound's own rounding.
+/// Let u be the roundoff, D the reach. A stored unit vector is within 5u of the true one, so a
+/// difference is within 10u + uD of the true difference (the last for the subtraction). A determinant
+/// of three vectors of norm at most D changes by at most 3 D^2 (10u + uD) to first order; evaluating
+/// it from rounded entries errs by at most 6u sum |a_i| |b||c| <= 6 sqrt(3) u D^3. Together
+/// (30 + 13.4 D) u D^2; the constants below also cover the second order and this bound's own rounding.
 constexpr double in_circle_error(double reach) {
-  return (20 + 15 * reach) * roundoff * reach * reach;
+  return (32 + 15 * reach) * roundoff * reach * reach;
 }
 
-/// Tier 1 on unit vectors good to 3 roundoffs: the sign, or 0 when the doubles cannot decide.
+/// Tier 1 on unit vectors good to 5 roundoffs: the sign, or 0 when the doubles cannot decide.
 inline int in_circle_filter(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const Vec3 p = a - d, q = b - d, r = c - d;
   const double reach = std::sqrt(std::max({dot(p, p), dot(q, q), dot(r, r)}));
   const double value = dot(p, cross(r, q)), error = in_circle_error(reach);
+  return (value > error) - (value < -error);
+}
+
+/// Tier 1 of the orientation from the centre, on unit vectors good to 5 roundoffs: the sign or 0.
+///
+/// det(a,b,c) = det(a, b-a, c-a). With D the larger norm of the differences, each within 10u + uD, a
+/// within 5u: 2 D (10u + uD) + 5u D^2 + 6 sqrt(3) u D^2 <= (20 + 17.4 D) u D.
+inline int orientation_filter(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 p = b - a, q = c - a;
+  const double reach = std::sqrt(std::max(dot(p, p), dot(q, q)));
+  const double value = dot(a, cross(p, q)), error = (22 + 19 * reach) * roundoff * reach;
   return (value > error) - (value < -error);
 }
 
