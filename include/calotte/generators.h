@@ -7,31 +7,36 @@
 
 namespace calotte {
 
-/// All generators return 3 x n unit columns (to the last bits), and the same bits on every machine.
-/// They throw Error bad_option on a count out of range.
+/// All generators return 3 x n unit columns (to the last bits), Cartesian, and the same bits on
+/// every machine. They throw Error bad_option on a count out of range; none makes more than 2^30
+/// points.
 
-/// n >= 1 points, independent and uniform on the sphere; the same seed gives the same points.
+/// n >= 1 points, independent and uniform on the sphere; the same seed gives the same points, fewer
+/// of them the first ones. Marsaglia's rejection (Ann. Math. Stat. 43, 1972) from SplitMix64.
 Points3 random_sphere(std::int64_t n, std::uint64_t seed = 1);
 
 /// The Fibonacci lattice: z_i = 1 - (2i + 1)/n, longitude i times the golden angle.
 Points3 fibonacci_sphere(std::int64_t n);
 
-/// The generalised spiral of Rakhmanov, Saff and Zhou (Math. Res. Lett. 1, 1994), with both poles. n >= 2.
+/// The generalised spiral of Rakhmanov, Saff and Zhou (Math. Res. Lett. 1, 1994), with both poles.
+/// n >= 2.
 Points3 spiral_sphere(std::int64_t n);
 
-/// The icosahedron with every edge bisected `level` times: 10 * 4^level + 2 points, 0 <= level <= 14.
-/// The points of a coarser level come first, bit for bit.
+/// The icosahedron with every edge bisected `level` times: 10 * 4^level + 2 points, 0 <= level
+/// <= 13. The points of a coarser level come first, bit for bit, and those of the next are its
+/// `bisect` in another order.
 Points3 bisected_icosahedron(int level);
 
-/// A regular latitude-longitude grid: rows of `longitudes` points at cell-centred latitudes, south to north;
-/// with `poles`, the two poles are added at the end. latitudes >= 1, longitudes >= 3.
+/// A regular latitude-longitude grid: rows of `longitudes` points at cell-centred latitudes, south
+/// to north; with `poles`, the two poles are added at the end. latitudes >= 1, longitudes >= 3.
 Points3 lat_lon_sphere(std::int64_t latitudes, std::int64_t longitudes, bool poles = false);
 
 /// Centres of the 6 m^2 cells of the equiangular cubed sphere (Ronchi et al., 1996). m >= 1.
 Points3 cubed_sphere(std::int64_t m);
 
-/// The points of a mesh followed by the midpoint of every edge, normalised, in the order of the
-/// triangles (n -> 4n - 6 on a closed mesh).
+/// The points of a mesh, as they are, followed by the unit midpoint of every edge in the order of
+/// the triangles, edge i of a triangle across from its vertex i (n -> 4n - 6 on a closed mesh).
+/// \throws Error bad_option where an id is outside the mesh.
 Points3 bisect(const Mesh& mesh);
 
 } // namespace calotte

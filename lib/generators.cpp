@@ -1,0 +1,363 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <calotte/error.h>
+#include <calotte/generators.h>
+
+#include "vec3.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+// Only + - * / and sqrt, each rounded once, so that every machine gets the same bits: sin and cos
+// of a C library differ from one build of it to the next.
+
+namespace calotte {
+namespace {
+
+using detail::Vec3;
+
+/// A mesh of n sites has up to 2n - 4 triangles, and their ids are int32.
+constexpr std::int64_t most_points = std::int64_t{1} << 30;
+
+void require(bool holds, const std::string& message) {
+  if (!holds)
+    throw Error(ErrorCode::bad_option, message);
+}
+
+void require_count(std::int64_t count, std::int64_t least, const std::string& name) {
+  require(count >= least && count <= most_points,
+          name + " is " + std::to_string(count) + "; give a number from " + std::to_string(least) +
+              " to " + std::to_string(most_points));
+}
+
+void put(Points3& points, std::int64_t column, const Vec3& p) {
+  points.col(column) << p.x, p.y, p.z;
+}
+
+Vec3 get(const Points3& points, std::int64_t column) {
+  return {points(0, column), points(1, column), points(2, column)};
+}
+
+// ---- Angles
+
+struct CosSin {
+  double cos, sin;
+};
+
+/// Of fraction * pi/4, 0 <= fraction <= 1, by Taylor's series: the next term is below 2^-60.
+CosSin octant_cos_sin(double fraction) {
+  if (fraction == 1)
+    return {0x1.6a09e667f3bcdp-1, 0x1.6a09e667f3bcdp-1};
+  const double x = fraction * 0x1.921fb54442d18p-1, y = x * x;
+  double cosine = 1, sine = 1;
+  for (int k = 18; k >= 2; k -= 2) {
+    cosine = 1 - y * (1.0 / (k * (k - 1))) * cosine;
+    sine = 1 - y * (1.0 / (k * (k + 1))) * sine;
+  }
+  return {cosine, x * sine};
+}
+
+/// Reflects the angle (octant + fraction) pi/4 into the first octant, where `fraction` of an odd
+/// octant is measured from its far end. Lattices come out as symmetric as the circle.
+CosSin from_octant(int octant, double fraction) {
+  CosSin p = octant_cos_sin(fraction);
+  const int quarter = octant / 2;
+  if (octant % 2 == 1)
+    std::swap(p.cos, p.sin);
+  if (quarter % 2 == 1)
+    p = {-p.sin, p.cos};
+  return quarter >= 2 ? CosSin{-p.cos, -p.sin} : p;
+}
+
+/// Of k/n turns, 0 <= k < n <= 2^58.
+CosSin cos_sin(std::int64_t k, std::int64_t n) {
+  const int octant = static_cast<int>(8 * k / n);
+  const std::int64_t rest = 8 * k % n;
+  const std::int64_t part = octant % 2 == 0 ? rest : n - rest;
+  return from_octant(octant, static_cast<double>(part) / static_cast<double>(n));
+}
+
+/// Of an angle in units of 2^-64 turns: additions of such angles wrap around without error.
+CosSin cos_sin(std::uint64_t turns) {
+  constexpr std::uint64_t eighth = std::uint64_t{1} << 61;
+  const int octant = static_cast<int>(turns / eighth);
+  const std::uint64_t rest = turns % eighth;
+  const std::uint64_t part = octant % 2 == 0 ? rest : eighth - rest;
+  return from_octant(octant, static_cast<double>(part) * 0x1p-61);
+}
+
+// ---- Random numbers
+
+/// SplitMix64 (Steele, Lea and Flood, 2014).
+class SplitMix {
+public:
+  explicit SplitMix(std::uint64_t seed) : state_(seed) {}
+
+  /// Uniform in [-1, 1), a multiple of 2^-52.
+  double signed_unit() { return static_cast<double>(next() >> 11) * 0x1p-52 - 1; }
+
+private:
+  std::uint64_t next() {
+    std::uint64_t z = state_ += 0x9e3779b97f4a7c15;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
+    return z ^ (z >> 31);
+  }
+  std::uint64_t state_;
+};
+
+// ---- Midpoints
+
+/// Adds the smaller two first: the sum is the same for any order of the coordinates.
+double symmetric_sum(double a, double b, double c) {
+  const double largest = std::max({a, b, c});
+  if (largest == a)
+    return (b + c) + a;
+  return largest == b ? (a + c) + b : (a + b) + c;
+}
+
+/// The direction of a vector whose square neither overflows nor underflows.
+Vec3 unit(const Vec3& a) {
+  const double length = std::sqrt(symmetric_sum(a.x * a.x, a.y * a.y, a.z * a.z));
+  return {a.x / length, a.y / length, a.z / length};
+}
+
+Vec3 unit_of_any_norm(const Vec3& a) {
+  const double largest = std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)});
+  if (largest > 0x1p-400 && largest < 0x1p400)
+    return unit(a);
+  const double scale = largest < 1 ? 0x1p600 : 0x1p-600;
+  return unit(scale * a);
+}
+
+/// The midpoint of the shorter arc, the same bits from a to b as from b to a.
+Vec3 midpoint(const Vec3& a, const Vec3& b) {
+  return unit(unit_of_any_norm(a) + unit_of_any_norm(b));
+}
+
+// ---- The bisected icosahedron
+
+using Triple = std::array<std::int32_t, 3>;
+
+/// A triangulation with its edges numbered: edge i of a triangle lies across from its vertex i.
+struct EdgeMesh {
+  std::vector<std::array<std::int32_t, 2>> edges; ///< vertex ids
+  std::vector<Triple> triangles;                  ///< vertex ids
+  std::vector<Triple> triangle_edges;
+};
+
+/// The vertices are (0, +-1, +-phi) and their cyclic shifts, normalised.
+constexpr std::array<Vec3, 12> icosahedron_points() {
+  constexpr double s = 0x1.0d2ca0da1530dp-1, t = 0x1.b38880b4603e4p-1;
+  return {Vec3{0, s, t}, {0, -s, t},  {0, s, -t}, {0, -s, -t}, {s, t, 0},  {-s, t, 0},
+          {s, -t, 0},    {-s, -t, 0}, {t, 0, s},  {t, 0, -s},  {-t, 0, s}, {-t, 0, -s}};
+}
+
+EdgeMesh icosahedron() {
+  EdgeMesh mesh;
+  mesh.triangles = {{0, 1, 8},  {0, 10, 1}, {0, 8, 4},   {0, 4, 5},  {0, 5, 10},
+                    {1, 10, 7}, {1, 7, 6},  {1, 6, 8},   {2, 3, 11}, {2, 9, 3},
+                    {2, 11, 5}, {2, 5, 4},  {2, 4, 9},   {3, 9, 6},  {3, 6, 7},
+                    {3, 7, 11}, {4, 8, 9},  {5, 11, 10}, {6, 9, 8},  {7, 10, 11}};
+  for (const Triple& triangle : mesh.triangles) {
+    Triple edges{};
+    for (int i = 0; i < 3; ++i) {
+      const auto [a, b] = std::minmax(triangle[(i + 1) % 3], triangle[(i + 2) % 3]);
+      const std::array<std::int32_t, 2> edge{a, b};
+      const auto found = std::find(mesh.edges.begin(), mesh.edges.end(), edge);
+      edges[i] = static_cast<std::int32_t>(found - mesh.edges.begin());
+      if (found == mesh.edges.end())
+        mesh.edges.push_back(edge);
+    }
+    mesh.triangle_edges.push_back(edges);
+  }
+  return mesh;
+}
+
+/// Splits every triangle in four. The midpoint of edge e is vertex `vertices` + e; e becomes the
+/// edges 2e, at its first vertex, and 2e + 1; the edges inside the triangles follow.
+EdgeMesh refine(const EdgeMesh& coarse, std::int32_t vertices) {
+  EdgeMesh fine;
+  const auto edge_count = static_cast<std::int32_t>(coarse.edges.size());
+  const auto triangle_count = static_cast<std::int32_t>(coarse.triangles.size());
+  fine.edges.resize(2 * coarse.edges.size() + 3 * coarse.triangles.size());
+  fine.triangles.resize(4 * coarse.triangles.size());
+  fine.triangle_edges.resize(4 * coarse.triangles.size());
+  for (std::int32_t e = 0; e < edge_count; ++e) {
+    fine.edges[2 * e] = {coarse.edges[e][0], vertices + e};
+    fine.edges[2 * e + 1] = {vertices + e, coarse.edges[e][1]};
+  }
+  for (std::int32_t t = 0; t < triangle_count; ++t) {
+    const Triple &corners = coarse.triangles[t], &sides = coarse.triangle_edges[t];
+    const Triple middles{vertices + sides[0], vertices + sides[1], vertices + sides[2]};
+    const std::int32_t inner = 2 * edge_count + 3 * t;
+    const auto half_at = [&](std::int32_t side, std::int32_t corner) {
+      return 2 * side + (coarse.edges[side][0] == corner ? 0 : 1);
+    };
+    for (int i = 0; i < 3; ++i) {
+      const int j = (i + 1) % 3, k = (i + 2) % 3;
+      fine.edges[inner + i] = {middles[j], middles[k]};
+      fine.triangles[4 * t + i] = {corners[i], middles[k], middles[j]};
+      fine.triangle_edges[4 * t + i] = {inner + i, half_at(sides[j], corners[i]),
+                                        half_at(sides[k], corners[i])};
+    }
+    fine.triangles[4 * t + 3] = middles;
+    fine.triangle_edges[4 * t + 3] = {inner, inner + 1, inner + 2};
+  }
+  return fine;
+}
+
+} // namespace
+
+Points3 random_sphere(std::int64_t n, std::uint64_t seed) {
+  require_count(n, 1, "the number of points");
+  Points3 points(3, n);
+  SplitMix random(seed);
+  for (std::int64_t i = 0; i < n; ++i) {
+    double u, v, s;
+    do {
+      u = random.signed_unit();
+      v = random.signed_unit();
+      s = u * u + v * v;
+    } while (s >= 1);
+    const double scale = 2 * std::sqrt(1 - s);
+    put(points, i, {scale * u, scale * v, 1 - 2 * s});
+  }
+  return points;
+}
+
+Points3 fibonacci_sphere(std::int64_t n) {
+  require_count(n, 1, "the number of points");
+  // (3 - sqrt 5)/2 turns, to 128 bits.
+  constexpr std::uint64_t golden_high = 0x61c8864680b583ea, golden_next = 0x0c633f9fa31237cb;
+  Points3 points(3, n);
+  for (std::int64_t i = 0; i < n; ++i) {
+    // The lower half is worth i * golden_next / 2^64 < 2^30 units: the top 32 bits of it suffice.
+    const auto count = static_cast<std::uint64_t>(i);
+    const CosSin longitude = cos_sin(count * golden_high + ((count * (golden_next >> 32)) >> 32));
+    const double z = static_cast<double>(n - (2 * i + 1)) / static_cast<double>(n);
+    const double across = static_cast<double>((2 * i + 1) * (2 * n - (2 * i + 1)));
+    const double radius = std::sqrt(across) / static_cast<double>(n);
+    put(points, i, {radius * longitude.cos, radius * longitude.sin, z});
+  }
+  return points;
+}
+
+Points3 spiral_sphere(std::int64_t n) {
+  require_count(n, 2, "the number of points");
+  constexpr double step = 0x1.255ab960267a9p-1; // 3.6 / (2 pi)
+  const double last = static_cast<double>(n - 1), root = std::sqrt(static_cast<double>(n));
+  Points3 points(3, n);
+  put(points, 0, {0, 0, -1});
+  put(points, n - 1, {0, 0, 1});
+  std::uint64_t turns = 0;
+  for (std::int64_t i = 1; i < n - 1; ++i) {
+    const double z = static_cast<double>(2 * i - (n - 1)) / last;
+    const double radius = 2 * std::sqrt(static_cast<double>(i * (n - 1 - i))) / last;
+    turns += static_cast<std::uint64_t>(step / (root * radius) * 0x1p64);
+    const CosSin longitude = cos_sin(turns);
+    put(points, i, {radius * longitude.cos, radius * longitude.sin, z});
+  }
+  return points;
+}
+
+Points3 bisected_icosahedron(int level) {
+  require(level >= 0 && level <= 13,
+          "the level is " + std::to_string(level) + "; give a number from 0 to 13");
+  std::int32_t count = 12;
+  Points3 points(3, 10 * (std::int64_t{1} << (2 * level)) + 2);
+  const std::array<Vec3, 12> corners = icosahedron_points();
+  for (std::int32_t i = 0; i < count; ++i)
+    put(points, i, corners[i]);
+  EdgeMesh mesh = icosahedron();
+  for (int l = 0; l < level; ++l) {
+    if (l > 0)
+      mesh = refine(mesh, count - static_cast<std::int32_t>(mesh.edges.size()));
+    for (const auto& [a, b] : mesh.edges)
+      put(points, count++, midpoint(get(points, a), get(points, b)));
+  }
+  return points;
+}
+
+Points3 lat_lon_sphere(std::int64_t latitudes, std::int64_t longitudes, bool poles) {
+  require_count(latitudes, 1, "the number of latitudes");
+  require_count(longitudes, 3, "the number of longitudes");
+  require(latitudes <= most_points / longitudes,
+          "the grid has more than " + std::to_string(most_points) + " points; give fewer rows");
+  const std::int64_t n = latitudes * longitudes;
+  Points3 points(3, n + (poles ? 2 : 0));
+  for (std::int64_t j = 0; j < latitudes; ++j) {
+    const std::int64_t north = 2 * j + 1 - latitudes; // of 4 * latitudes in a turn
+    const CosSin latitude = cos_sin(std::abs(north), 4 * latitudes);
+    const double z = north < 0 ? -latitude.sin : latitude.sin;
+    for (std::int64_t i = 0; i < longitudes; ++i) {
+      const CosSin longitude = cos_sin(i, longitudes);
+      put(points, j * longitudes + i,
+          {latitude.cos * longitude.cos, latitude.cos * longitude.sin, z});
+    }
+  }
+  if (poles) {
+    put(points, n, {0, 0, -1});
+    put(points, n + 1, {0, 0, 1});
+  }
+  return points;
+}
+
+Points3 cubed_sphere(std::int64_t m) {
+  require_count(m, 1, "the number of cells along an edge");
+  require(m <= 13377, "the grid has more than " + std::to_string(most_points) +
+                          " points; give at most 13377 cells along an edge");
+  std::vector<double> tangents(m);
+  for (std::int64_t i = 0; i < m; ++i) {
+    const std::int64_t right = 2 * i + 1 - m; // of 8 m in a turn
+    const CosSin angle = cos_sin(std::abs(right), 8 * m);
+    tangents[i] = (right < 0 ? -angle.sin : angle.sin) / angle.cos;
+  }
+  Points3 points(3, 6 * m * m);
+  for (std::int64_t j = 0; j < m; ++j) {
+    for (std::int64_t i = 0; i < m; ++i) {
+      const double u = tangents[i], v = tangents[j];
+      const double length = std::sqrt(1 + (u * u + v * v));
+      const double a = 1 / length, b = u / length, c = v / length;
+      const std::array<Vec3, 6> faces{Vec3{a, b, c}, {-b, a, c}, {-a, -b, c},
+                                      {b, -a, c},    {-c, b, a}, {c, b, -a}};
+      for (std::int64_t face = 0; face < 6; ++face)
+        put(points, (face * m + j) * m + i, faces[face]);
+    }
+  }
+  return points;
+}
+
+Points3 bisect(const Mesh& mesh) {
+  const std::int64_t n = mesh.points.cols(), triangles = mesh.triangles.cols();
+  require(mesh.neighbours.cols() == triangles,
+          "the mesh has " + std::to_string(triangles) + " triangles but neighbours of " +
+              std::to_string(mesh.neighbours.cols()) + "; give a mesh with both");
+  const auto is_first = [&](std::int64_t t, int i) {
+    return mesh.neighbours(i, t) < 0 || mesh.neighbours(i, t) > t;
+  };
+  std::int64_t edges = 0;
+  for (std::int64_t t = 0; t < triangles; ++t)
+    for (int i = 0; i < 3; ++i)
+      edges += is_first(t, i);
+  require(n + edges <= most_points,
+          "bisection gives more than " + std::to_string(most_points) + " points; give fewer");
+  Points3 points(3, n + edges);
+  points.leftCols(n) = mesh.points;
+  std::int64_t next = n;
+  for (std::int64_t t = 0; t < triangles; ++t) {
+    for (int i = 0; i < 3; ++i) {
+      if (!is_first(t, i))
+        continue;
+      const std::int32_t a = mesh.triangles((i + 1) % 3, t), b = mesh.triangles((i + 2) % 3, t);
+      require(std::min(a, b) >= 0 && std::max(a, b) < n,
+              "triangle " + std::to_string(t) + " has a vertex outside the mesh's points");
+      put(points, next++, midpoint(get(points, a), get(points, b)));
+    }
+  }
+  return points;
+}
+
+} // namespace calotte
