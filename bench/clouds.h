@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <calotte/types.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace calotte::bench {
+
+/// The names that `cloud` knows: random, bisection, x8.
+const std::vector<std::string>& cloud_names();
+
+/// About n sites of a set, in random order (STRIPACK's documentation asks for it), 3 x n unit
+/// columns:
+///   random     independent and uniform;
+///   bisection  the bisected icosahedron of the level nearest to n, shuffled;
+///   x8         drawn from the density whose spacing is 8 times finer in a cap of 30 degrees than
+///   far from
+///              it, with a smooth step between (Jacobsen et al., 2013, Sect. 3: rho = 8^4 : 1, and
+///              spacing goes with rho^(-1/4), so sites with rho^(1/2)).
+/// Seeded: the same call gives the same sites.
+Points3 cloud(const std::string& name, std::int64_t n);
+
+} // namespace calotte::bench

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Times calotte::delaunay and its peers in one process, in rounds: each round runs every row once
+// on the same sites, so that a ratio of two rows of a round saw the same machine. The next round
+// starts with the next row. Every result is checked; a wrong one ends in a message and exit code 1.
+
+#include "clouds.h"
+#include "peers.h"
+#include "report.h"
+
+#include <CGAL/version.h>
+#include <CLI/CLI.hpp>
+#include <benchmark/benchmark.h>
+
+#include <functional>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <thread>
+
+namespace calotte::bench {
+
+namespace {
+
+struct Options {
+  std::vector<std::string> sets = {"random"};
+  std::vector<std::int64_t> sizes = {163842, 2621442};
+  std::vector<std::string> rows = {"calotte", "one-thread", "one-region", "cgal", "stripack"};
+  std::vector<int> regions;
+  int rounds = 7;
+  int threads = 2;
+  std::int64_t stripack_limit = 200000;
+};
+
+/// The sites of one set, made when first needed, and what the first run of all made of them.
+struct Workload {
+  std::string set;
+  Points3 points;
+  std::optional<Outcome> reference; ///< by the first of the library's rows
+};
+
+using Run = std::function<Outcome(const Points3&)>;
+
+struct Row {
+  std::string name;
+  Run run;
+  bool peer = false;
+  std::int64_t limit = std::numeric_limits<std::int64_t>::max(); ///< sites
+};
+
+Row library_row(std::string name, int threads, std::optional<int> regions = {}) {
+  return {std::move(name), [=](const Points3& points) {
+            DelaunayOptions options;
+            options.regions = regions;
+            return run_calotte(points, threads, options);
+          }};
+}
+
+std::vector<Row> make_rows(const Options& options) {
+  std::vector<Row> rows;
+  for (const std::string& name : options.rows) {
+    if (name == "calotte") {
+      rows.push_back(library_row("calotte", options.threads));
+    } else if (name == "one-thread") {
+      rows.push_back(library_row("calotte 1 thread", 1));
+    } else if (name == "one-region") {
+      rows.push_back(library_row("calotte one region", 1, 1));
+    } else if (name == "cgal") {
+      rows.push_back({"CGAL", run_cgal, true});
+    } else if (name == "stripack" && has_stripack()) {
+      rows.push_back({"STRIPACK", run_stripack, true, options.stripack_limit});
+    }
+  }
+  for (const int regions : options.regions) {
+    rows.push_back(library_row("calotte " + std::to_string(regions) + " regions", 1, regions));
+  }
+  return rows;
+}
+
+/// One line on how an outcome differs from what it must be; empty when it does not. Peers decide by
+/// the stored doubles, the library by the exact directions; on random sites no decision is near
+/// enough for that to show, on a bisected icosahedron many are, so there the peers' triangles are
+/// only counted.
+std::string fault(const Outcome& outcome, const Row& row, const Workload& work) {
+  if (!outcome.failure.empty()) {
+    return outcome.failure;
+  }
+  const std::int64_t expected = 2 * work.points.cols() - 4;
+  if (outcome.triangles != expected) {
+    return std::to_string(outcome.triangles) + " triangles with " + std::to_string(outcome.sites) +
+           " vertices, where " + std::to_string(expected) + " are due";
+  }
+  const bool same_decisions = !row.peer || work.set != "bisection";
+  if (same_decisions && work.reference && outcome.digest != work.reference->digest) {
+    return "another set of triangles than the library's first run gave";
+  }
+  return {};
+}
+
+void add_counters(benchmark::State& state, const Outcome& outcome) {
+  const DelaunayReport& report = outcome.report;
+  if (report.seconds.total == 0) {
+    return; // a peer
+  }
+  state.counters["sites"] = report.seconds.sites;
+  state.counters["regions"] = report.seconds.regions;
+  state.counters["triangulate"] = report.seconds.triangulate;
+  state.counters["unite"] = report.seconds.unite;
+  state.counters["total"] = report.seconds.total;
+  state.counters["region count"] = report.regions;
+  state.counters["overlap"] = report.overlap;
+  state.counters["exact"] = static_cast<double>(report.exact_predicates);
+}
+
+void run_row(benchmark::State& state, Workload& work, std::int64_t n, const Row& row) {
+  if (work.points.cols() == 0) {
+    work.points = cloud(work.set, n);
+  }
+  for (auto _ : state) {
+    const Outcome outcome = row.run(work.points);
+    state.SetIterationTime(outcome.seconds);
+    if (const std::string message = fault(outcome, row, work); !message.empty()) {
+      state.SkipWithError(message.c_str());
+      return;
+    }
+    if (!row.peer && !work.reference) {
+      work.reference = outcome;
+    }
+    add_counters(state, outcome);
+  }
+}
+
+/// Registers one round over one set: every row once, starting with the row of the round's number.
+void register_round(const std::vector<Row>& rows, const std::shared_ptr<Workload>& work,
+                    std::int64_t n, int round) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Row& row = rows[(i + static_cast<std::size_t>(round)) % rows.size()];
+    if (n > row.limit) {
+      continue;
+    }
+    const std::string name =
+        work->set + "/n:" + std::to_string(n) + "/round:" + std::to_string(round) + "/" + row.name;
+    const auto body = [work, n, row](benchmark::State& state) { run_row(state, *work, n, row); };
+    benchmark::RegisterBenchmark(name.c_str(), body)->Iterations(1)->UseManualTime();
+  }
+}
+
+/// Registered in the order in which they are to run; the sets take turns, too. The library's own
+/// row opens the first round, so that the peers have something to be compared with.
+void register_all(const Options& options) {
+  const std::vector<Row> rows = make_rows(options);
+  for (const std::int64_t n : options.sizes) {
+    std::vector<std::shared_ptr<Workload>> works;
+    for (const std::string& set : options.sets) {
+      works.push_back(std::make_shared<Workload>(Workload{set, {}, {}}));
+    }
+    for (int round = 0; round < options.rounds; ++round) {
+      for (const auto& work : works) {
+        register_round(rows, work, n, round);
+      }
+    }
+  }
+}
+
+void add_options(CLI::App& app, Options& options) {
+  app.add_option("--sets", options.sets, "sets of sites: random, bisection, x8")
+      ->delimiter(',')
+      ->check(CLI::IsMember(cloud_names()))
+      ->capture_default_str();
+  app.add_option("--sizes", options.sizes, "numbers of sites")
+      ->delimiter(',')
+      ->check(CLI::Range(4, 300000000))
+      ->capture_default_str();
+  app.add_option("--rows", options.rows,
+                 "what to time: calotte, one-thread, one-region, cgal, stripack, or none")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"calotte", "one-thread", "one-region", "cgal", "stripack", "none"}))
+      ->capture_default_str();
+  app.add_option("--regions", options.regions, "also time these numbers of regions on one thread")
+      ->delimiter(',')
+      ->check(CLI::PositiveNumber);
+  app.add_option("--rounds", options.rounds, "how often every row runs")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--threads", options.threads, "threads of the row calotte")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--stripack-limit", options.stripack_limit,
+                 "most sites that STRIPACK is given; it is slow beyond")
+      ->capture_default_str();
+  app.allow_extras();
+  app.footer("Google Benchmark's own options work too: --benchmark_filter, --benchmark_out, "
+             "--benchmark_list_tests.\nExit codes: 0 done, 1 a result was wrong, 2 bad usage.");
+}
+
+void print_head(const Options& options) {
+  std::cout
+      << "# Delaunay triangulations of the sphere: seconds and paired ratios\n\n"
+      << "calotte on " << options.threads << " threads of " << std::thread::hardware_concurrency()
+      << ", peers on one; CGAL " << CGAL_VERSION_STR << "; compiler " << __VERSION__ << "; "
+      << options.rounds
+      << " rounds, each runs every row once on the same sites.\nA ratio is the row's seconds over "
+         "calotte's of the same round.\n";
+  if (!has_stripack()) {
+    std::cout << "STRIPACK is left out: this program was built without libncarg-dev.\n";
+  }
+}
+
+/// Hands the arguments that this program does not know to Google Benchmark; false when it does not
+/// either.
+bool start_google_benchmark(char* program, std::vector<std::string> arguments) {
+  std::vector<char*> argv = {program};
+  for (std::string& argument : arguments) {
+    argv.push_back(argument.data());
+  }
+  int argc = static_cast<int>(argv.size());
+  argv.push_back(nullptr);
+  benchmark::Initialize(&argc, argv.data());
+  return !benchmark::ReportUnrecognizedArguments(argc, argv.data());
+}
+
+} // namespace
+
+int bench_main(int argc, char** argv) {
+  Options options;
+  CLI::App app{
+      "Times the library's Delaunay triangulation of the sphere and its peers, interleaved."};
+  add_options(app, options);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  if (!start_google_benchmark(argv[0], app.remaining())) {
+    return 2;
+  }
+  register_all(options);
+  RoundReporter reporter;
+  print_head(options);
+  benchmark::RunSpecifiedBenchmarks(&reporter);
+  benchmark::Shutdown();
+  print_tables(std::cout, reporter.results(), "calotte");
+  return reporter.failed() ? 1 : 0;
+}
+
+} // namespace calotte::bench
+
+int main(int argc, char** argv) { return calotte::bench::bench_main(argc, argv); }

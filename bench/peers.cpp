@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "peers.h"
+
+#include <CGAL/Delaunay_triangulation_on_sphere_2.h>
+#include <CGAL/Delaunay_triangulation_on_sphere_traits_2.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <unordered_map>
+#include <vector>
+
+#ifdef CALOTTE_BENCH_STRIPACK
+// SUBROUTINE CSTRMESH (N, X,Y,Z, LIST,LPTR,LEND,LNEW, NEAR,NEXT,DIST, IER): default integers,
+// doubles. LIST and LPTR hold 6n - 12 entries, the others n.
+extern "C" void cstrmesh_(const int* n, const double* x, const double* y, const double* z,
+                          int* list, int* lptr, int* lend, int* lnew, int* near, int* next,
+                          double* dist, int* ier);
+#endif
+
+namespace calotte::bench {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// The finaliser of SplitMix64 (Steele, Lea, Flood, 2014).
+std::uint64_t mix(std::uint64_t x) {
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9U;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebU;
+  return x ^ (x >> 31);
+}
+
+} // namespace
+
+void Digest::add(std::int32_t a, std::int32_t b, std::int32_t c) {
+  while (a > b || a > c) {
+    std::tie(a, b, c) = std::tuple(b, c, a);
+  }
+  const auto word = [](std::int32_t i) { return static_cast<std::uint64_t>(i) + 1; };
+  sum_ += mix(mix(mix(word(a)) + word(b)) + word(c));
+}
+
+Outcome run_calotte(const Points3& points, int threads, const DelaunayOptions& options) {
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                  static_cast<std::size_t>(threads));
+  tbb::task_arena arena(threads);
+  Outcome outcome;
+  Mesh mesh;
+  const auto start = Clock::now();
+  arena.execute([&] { mesh = delaunay(points, options, &outcome.report); });
+  outcome.seconds = seconds_since(start);
+  outcome.sites = mesh.points.cols();
+  outcome.triangles = mesh.triangles.cols();
+  if (mesh.points.cols() != points.cols()) {
+    outcome.failure = "the set holds equal directions; a comparison needs distinct ones";
+  } else if (!mesh.closed()) {
+    outcome.failure = "the mesh is not closed";
+  }
+  Digest digest;
+  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
+    digest.add(mesh.triangles(0, t), mesh.triangles(1, t), mesh.triangles(2, t));
+  }
+  outcome.digest = digest.value();
+  return outcome;
+}
+
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Traits = CGAL::Delaunay_triangulation_on_sphere_traits_2<Kernel>;
+using Triangulation = CGAL::Delaunay_triangulation_on_sphere_2<Traits>;
+using Point = Kernel::Point_3;
+
+struct PointHash {
+  std::size_t operator()(const std::array<double, 3>& p) const {
+    std::uint64_t sum = 0;
+    for (const double x : p) {
+      sum = mix(sum + std::bit_cast<std::uint64_t>(x));
+    }
+    return sum;
+  }
+};
+
+/// The digest of CGAL's triangles in the ids of `points`, which its vertices do not carry.
+std::uint64_t digest_of(const Triangulation& triangulation, const Points3& points) {
+  std::unordered_map<std::array<double, 3>, std::int32_t, PointHash> ids;
+  ids.reserve(static_cast<std::size_t>(points.cols()));
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    ids.emplace(std::array{points(0, i), points(1, i), points(2, i)}, static_cast<std::int32_t>(i));
+  }
+  Digest digest;
+  for (const Triangulation::Face_handle face : triangulation.all_face_handles()) {
+    if (face->is_ghost()) {
+      continue;
+    }
+    std::array<std::int32_t, 3> corner{};
+    for (int i = 0; i < 3; ++i) {
+      const Point& p = face->vertex(i)->point();
+      corner[static_cast<std::size_t>(i)] = ids.at({p.x(), p.y(), p.z()});
+    }
+    digest.add(corner[0], corner[1], corner[2]);
+  }
+  return digest.value();
+}
+
+} // namespace
+
+Outcome run_cgal(const Points3& points) {
+  std::vector<Point> input;
+  input.reserve(static_cast<std::size_t>(points.cols()));
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    input.emplace_back(points(0, i), points(1, i), points(2, i));
+  }
+  Outcome outcome;
+  const auto start = Clock::now();
+  Triangulation triangulation(Point(0, 0, 0), 1);
+  triangulation.insert(input.begin(), input.end());
+  outcome.seconds = seconds_since(start);
+  outcome.sites = static_cast<std::int64_t>(triangulation.number_of_vertices());
+  outcome.triangles = static_cast<std::int64_t>(triangulation.number_of_solid_faces());
+  outcome.digest = digest_of(triangulation, points);
+  return outcome;
+}
+
+#ifdef CALOTTE_BENCH_STRIPACK
+
+namespace {
+
+/// TRMESH's triangulation: node k's neighbours, counter-clockwise, are the cycle of `lptr` that
+/// ends at lend[k]; ids and pointers count from 1.
+struct Lists {
+  explicit Lists(std::size_t n) : list(6 * n), lptr(6 * n), lend(n) {}
+  std::vector<int> list, lptr, lend;
+};
+
+void count_triangles(const Lists& lists, Outcome& outcome) {
+  const auto at = [](const std::vector<int>& v, int i) {
+    return v[static_cast<std::size_t>(i - 1)];
+  };
+  Digest digest;
+  const int n = static_cast<int>(lists.lend.size());
+  for (int a = 1; a <= n; ++a) {
+    const int last = at(lists.lend, a);
+    int pointer = last;
+    do {
+      const int next = at(lists.lptr, pointer);
+      const int b = std::abs(at(lists.list, pointer));
+      const int c = std::abs(at(lists.list, next));
+      // A negative last neighbour says that no triangle lies between it and the first.
+      if (a < b && a < c && at(lists.list, pointer) > 0) {
+        ++outcome.triangles;
+        digest.add(a - 1, b - 1, c - 1);
+      }
+      pointer = next;
+    } while (pointer != last);
+  }
+  outcome.digest = digest.value();
+}
+
+} // namespace
+
+Outcome run_stripack(const Points3& points) {
+  const auto n = static_cast<std::size_t>(points.cols());
+  const std::vector<double> x(points.row(0).begin(), points.row(0).end());
+  const std::vector<double> y(points.row(1).begin(), points.row(1).end());
+  const std::vector<double> z(points.row(2).begin(), points.row(2).end());
+  Lists lists(n);
+  std::vector<int> near(n);
+  std::vector<int> next(n);
+  std::vector<double> distance(n);
+  const int nodes = static_cast<int>(n);
+  int lnew = 0;
+  int error = 0;
+  Outcome outcome;
+  const auto start = Clock::now();
+  cstrmesh_(&nodes, x.data(), y.data(), z.data(), lists.list.data(), lists.lptr.data(),
+            lists.lend.data(), &lnew, near.data(), next.data(), distance.data(), &error);
+  outcome.seconds = seconds_since(start);
+  if (error != 0) {
+    outcome.failure = "TRMESH gave up with IER = " + std::to_string(error);
+    return outcome;
+  }
+  outcome.sites = nodes;
+  count_triangles(lists, outcome);
+  return outcome;
+}
+
+bool has_stripack() { return true; }
+
+#else
+
+Outcome run_stripack(const Points3&) {
+  Outcome outcome;
+  outcome.failure = "built without STRIPACK";
+  return outcome;
+}
+
+bool has_stripack() { return false; }
+
+#endif
+
+} // namespace calotte::bench

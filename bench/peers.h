@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <calotte/delaunay.h>
+
+#include <cstdint>
+#include <string>
+
+namespace calotte::bench {
+
+/// A sum over the triangles that depends on the set of oriented triangles alone, not on their order
+/// or on which vertex each starts at: equal sets have equal digests, others (but for 2^-64) not.
+class Digest {
+public:
+  void add(std::int32_t a, std::int32_t b, std::int32_t c);
+  std::uint64_t value() const { return sum_; }
+
+private:
+  std::uint64_t sum_ = 0;
+};
+
+/// What one timed run made.
+struct Outcome {
+  double seconds = 0;     ///< wall-clock, of the triangulation alone
+  std::int64_t sites = 0; ///< vertices of the result
+  std::int64_t triangles = 0;
+  std::uint64_t digest = 0; ///< Digest of the triangles in the ids of the input
+  std::string failure;      ///< not empty when the run gave no triangulation
+  DelaunayReport report;    ///< of the library's own runs
+};
+
+/// calotte::delaunay from the caller's points to the mesh, on `threads` threads; freeing it is not
+/// timed.
+Outcome run_calotte(const Points3& points, int threads, const DelaunayOptions& options = {});
+
+/// CGAL::Delaunay_triangulation_on_sphere_2 with exact predicates and inexact constructions: the
+/// insertion of a range of points of CGAL's own type, which CGAL sorts along a space-filling curve.
+Outcome run_cgal(const Points3& points);
+
+/// STRIPACK's TRMESH in double precision (Renka, ACM TOMS 23(3), 1997, Algorithm 772) as NCAR ships
+/// it. Its arrays are allocated and touched before the clock starts, and its linked lists are its
+/// result. \pre has_stripack().
+Outcome run_stripack(const Points3& points);
+
+/// Whether this program was built with STRIPACK.
+bool has_stripack();
+
+} // namespace calotte::bench
