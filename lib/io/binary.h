@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace calotte::detail {
+
+inline constexpr bool little_endian = std::endian::native == std::endian::little;
+
+/// The number that follows the first `key` in `text`, if it is one that can count an array.
+std::optional<std::int64_t> count_after(std::string_view text, std::string_view key);
+
+/// What is left of a file's bytes to take.
+class Bytes {
+public:
+  Bytes(std::string_view bytes, std::string name) : rest_(bytes), name_(std::move(name)) {}
+
+  /// The next `size` bytes. \throws Error parse when there are fewer.
+  std::string_view take(std::int64_t size);
+
+  /// Takes `expected`, or fails with the problem. \throws Error parse.
+  void take(std::string_view expected, const std::string& problem);
+
+  /// \throws Error parse when bytes are left.
+  void finish() const;
+
+  [[noreturn]] void fail(const std::string& problem) const;
+
+private:
+  std::string_view rest_;
+  std::string name_;
+};
+
+template <class T> T load(const char* place) {
+  T value;
+  std::memcpy(&value, place, sizeof value);
+  return value;
+}
+
+} // namespace calotte::detail

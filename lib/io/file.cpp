@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "file.h"
+
+#include <calotte/error.h>
+#include <calotte/io.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+namespace calotte {
+namespace detail {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string describe(int error) {
+  switch (error) {
+  case ENOENT:
+  case ENOTDIR:
+    return "its folder does not exist; create it first";
+  case ENOSPC:
+  case EDQUOT:
+  case EFBIG:
+    return std::generic_category().message(error) + "; make room or write elsewhere";
+  case EISDIR:
+    return "it is a folder; give the name of a file";
+  default:
+    return std::generic_category().message(error) + "; write elsewhere";
+  }
+}
+
+bool renameable(const fs::path& place) {
+  std::error_code absent;
+  const fs::file_status status = fs::status(place, absent);
+  return !fs::exists(status) || fs::is_regular_file(status);
+}
+
+fs::path follow_links(const std::string& path) {
+  std::error_code error;
+  if (!fs::is_symlink(path, error))
+    return path;
+  const fs::path place = fs::weakly_canonical(path, error);
+  return error ? fs::path(path) : place;
+}
+
+} // namespace
+
+OutputFile::OutputFile(const std::string& path) : name_(path), place_(follow_links(path)) {
+  if (std::error_code error; fs::is_directory(place_, error))
+    fail(EISDIR);
+  if (!renameable(place_)) {
+    descriptor_ = ::open(place_.c_str(), O_WRONLY | O_CLOEXEC);
+  } else {
+    // Another process or an interrupted one may have left such a name: never write into it.
+    for (int attempt = 0; descriptor_ < 0 && attempt < 100; ++attempt) {
+      temporary_ = place_ + ".part" + std::to_string(::getpid()) + "-" + std::to_string(attempt);
+      descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+      if (descriptor_ < 0 && errno != EEXIST)
+        break;
+    }
+  }
+  if (descriptor_ < 0)
+    fail(errno);
+}
+
+OutputFile::~OutputFile() {
+  if (descriptor_ >= 0)
+    ::close(descriptor_);
+  if (!temporary_.empty())
+    ::unlink(temporary_.c_str());
+}
+
+void OutputFile::append(std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+    if (written >= 0)
+      bytes.remove_prefix(static_cast<std::size_t>(written));
+    else if (errno != EINTR)
+      fail(errno);
+  }
+}
+
+void OutputFile::commit() {
+  // A device or a pipe has nothing to bring to the disk.
+  if (!temporary_.empty() && ::fsync(descriptor_) != 0)
+    fail(errno);
+  const int descriptor = std::exchange(descriptor_, -1);
+  if (::close(descriptor) != 0)
+    fail(errno);
+  if (!temporary_.empty() && ::rename(temporary_.c_str(), place_.c_str()) != 0)
+    fail(errno);
+  temporary_.clear();
+}
+
+void OutputFile::fail(int error) const {
+  throw Error(ErrorCode::file, "cannot write " + name_ + ": " + describe(error));
+}
+
+std::ifstream open_input(const std::string& path) {
+  if (std::error_code error; fs::is_directory(path, error))
+    throw Error(ErrorCode::file,
+                "cannot read " + path + ": it is a folder; give the name of a file");
+  errno = 0;
+  std::ifstream in(path, std::ios::binary);
+  if (!in)
+    throw Error(ErrorCode::file, "cannot read " + path + ": " +
+                                     std::generic_category().message(errno) +
+                                     "; check its name and its permissions");
+  return in;
+}
+
+std::string read_all(std::istream& in, const std::string& name) {
+  constexpr std::size_t chunk = std::size_t{1} << 20;
+  std::string bytes;
+  std::size_t size = 0;
+  do {
+    if (bytes.size() - size < chunk)
+      bytes.resize(std::max(2 * bytes.size(), chunk));
+    in.read(bytes.data() + size, static_cast<std::streamsize>(bytes.size() - size));
+    size += static_cast<std::size_t>(in.gcount());
+  } while (in);
+  if (in.bad())
+    throw Error(ErrorCode::file, "cannot read " + name + ": the disk or the network failed");
+  bytes.resize(size);
+  return bytes;
+}
+
+} // namespace detail
+
+void write_file(const std::string& path, std::string_view bytes) {
+  detail::OutputFile file(path);
+  file.append(bytes);
+  file.commit();
+}
+
+} // namespace calotte

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <iosfwd>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace calotte::detail {
+
+// ---- Reading
+
+/// The lines of a stream, which end in LF, CRLF or CR; the last may lack its ending. A UTF-8 byte
+/// order mark before the first is skipped.
+class LineReader {
+public:
+  /// \param name stands for the stream in messages.
+  LineReader(std::istream& in, std::string name);
+
+  /// The next line, without its ending; it lives until the next call. False after the last one.
+  /// \throws Error file.
+  bool next(std::string_view& line);
+
+  /// As next, without comments; lines that hold nothing else are passed over.
+  bool next_content(std::string_view& line);
+
+  std::int64_t number() const { return number_; } ///< 1-based, of the line that `next` returned
+  const std::string& name() const { return name_; }
+
+  /// \throws Error parse that names the current line.
+  [[noreturn]] void fail(const std::string& problem) const;
+
+private:
+  bool refill();
+
+  std::istream& in_;
+  std::string name_;
+  std::vector<char> buffer_;
+  std::size_t begin_ = 0, end_ = 0; ///< what of the buffer is not yet returned
+  std::int64_t number_ = 0;
+  bool after_cr_ = false; ///< an LF here belongs to the line before
+};
+
+/// What the numbers at the start of a line came to.
+enum class Outcome {
+  ok,
+  too_few,      ///< the line ends before `count` columns
+  no_number,    ///< a column is no number, or empty
+  out_of_range, ///< a column is a number that the type cannot hold
+};
+
+/// A view of the first column that was not as it should be, or how many there were.
+struct Columned {
+  Outcome outcome = Outcome::ok;
+  int columns = 0;       ///< read so far
+  std::string_view text; ///< of the offending column
+};
+
+/// Reads the first `count` columns of a line: blanks and tabs, and at most one of comma, semicolon
+/// and bar, separate them.
+Columned parse_columns(std::string_view line, int count, double* values);
+Columned parse_columns(std::string_view line, int count, std::int64_t* values);
+
+/// Whether one of the line's columns, all of them taken, is a number.
+bool holds_number(std::string_view line);
+
+/// Text from a file as one short printable line within quotes.
+std::string in_quotes(std::string_view text);
+
+/// "`abc` is no number" and the like, without the remedy. \pre the outcome is not ok or too_few.
+std::string describe(const Columned& read);
+
+// ---- Writing
+
+/// Where bytes go.
+using Sink = std::function<void(std::string_view)>;
+
+/// Collects small pieces for a sink. Call flush() at the end.
+class Writer {
+public:
+  explicit Writer(Sink sink);
+
+  Writer& text(std::string_view bytes);
+  Writer& number(double value); ///< the fewest digits that read back to the same bits
+  Writer& number(std::int64_t value);
+  template <class T> Writer& raw(const T& value) {
+    return text({reinterpret_cast<const char*>(&value), sizeof value});
+  }
+  void flush();
+
+private:
+  Sink sink_;
+  std::string buffer_;
+};
+
+} // namespace calotte::detail

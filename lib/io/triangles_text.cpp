@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats.h"
+
+#include <calotte/error.h>
+
+namespace calotte::detail {
+namespace {
+
+/// For each site its lowest input column.
+std::vector<std::int32_t> input_of_site(const Mesh& mesh) {
+  std::vector<std::int32_t> inputs(static_cast<std::size_t>(mesh.points.cols()), -1);
+  for (std::size_t i = 0; i < mesh.site_of_input.size(); ++i) {
+    std::int32_t& input = inputs[static_cast<std::size_t>(mesh.site_of_input[i])];
+    if (input < 0)
+      input = static_cast<std::int32_t>(i);
+  }
+  return inputs;
+}
+
+} // namespace
+
+void put_triangles_text(const Sink& sink, const Mesh& mesh) {
+  const bool merged = mesh.site_of_input.size() > static_cast<std::size_t>(mesh.points.cols());
+  const std::vector<std::int32_t> inputs =
+      merged ? input_of_site(mesh) : std::vector<std::int32_t>();
+  const auto id = [&](std::int32_t site) -> std::int64_t {
+    return merged ? inputs[static_cast<std::size_t>(site)] : site;
+  };
+  Writer out(sink);
+  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
+    out.number(id(mesh.triangles(0, t)))
+        .text(" ")
+        .number(id(mesh.triangles(1, t)))
+        .text(" ")
+        .number(id(mesh.triangles(2, t)))
+        .text("\n");
+  out.flush();
+}
+
+void parse_ids(const LineReader& reader, const std::int64_t* ids, std::int64_t points,
+               std::vector<std::int32_t>& triangles) {
+  for (int i = 0; i < 3; ++i) {
+    if (ids[i] < 0 || ids[i] >= points)
+      reader.fail("id " + std::to_string(ids[i]) + " is not one of the " + std::to_string(points) +
+                  " points; ids count from 0");
+    triangles.push_back(static_cast<std::int32_t>(ids[i]));
+  }
+}
+
+Triangles get_triangles_text(std::istream& in, const std::string& name, std::int64_t points) {
+  LineReader reader(in, name);
+  std::vector<std::int32_t> triangles;
+  for (std::string_view line; reader.next_content(line);) {
+    std::int64_t ids[3];
+    const Columned read = parse_columns(line, 3, ids);
+    if (read.outcome != Outcome::ok)
+      reader.fail((read.outcome == Outcome::too_few ? "too few columns" : describe(read)) +
+                  "; write three ids i j k a line, counted from 0");
+    parse_ids(reader, ids, points, triangles);
+  }
+  if (triangles.empty())
+    throw Error(ErrorCode::parse, name + ": no triangles; write three ids i j k a line");
+  return Eigen::Map<const Triangles>(triangles.data(), 3,
+                                     static_cast<Eigen::Index>(triangles.size() / 3));
+}
+
+} // namespace calotte::detail

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "vtk_xml.h"
+
+namespace calotte::detail {
+namespace {
+
+const VtkFlavour poly_data{
+    .data_set = "PolyData",
+    .cell_counts = "NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"",
+    .cells = "Polys",
+    .types = false};
+
+} // namespace
+
+void put_vtp(const Sink& sink, const Mesh& mesh) { put_vtk(sink, mesh, poly_data); }
+
+Soup get_vtp(std::istream& in, const std::string& name) { return get_vtk(in, name, poly_data); }
+
+} // namespace calotte::detail

@@ -1,0 +1,473 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <calotte/error.h>
+#include <calotte/io.h>
+
+#include <doctest/doctest.h>
+
+#include <bit>
+#include <cmath>
+#include <csignal>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <numeric>
+#include <random>
+#include <sstream>
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+namespace fs = std::filesystem;
+using calotte::Columns;
+using calotte::Error;
+using calotte::ErrorCode;
+using calotte::Mesh;
+using calotte::Points3;
+using calotte::Triangles;
+
+namespace {
+
+/// A folder that goes when the test ends.
+struct Scratch {
+  fs::path folder;
+  Scratch() {
+    std::string name = fs::temp_directory_path() / "calotte-io-XXXXXX";
+    folder = ::mkdtemp(name.data());
+  }
+  ~Scratch() { fs::remove_all(folder); }
+  std::string operator/(const std::string& name) const { return folder / name; }
+  std::ptrdiff_t files() const {
+    return std::distance(fs::directory_iterator(folder), fs::directory_iterator());
+  }
+};
+
+/// Points from text; the test names the columns only where it must.
+Points3 points_of(const std::string& text, Columns columns = Columns::xyz) {
+  std::istringstream in(text);
+  return calotte::read_points(in, "points", columns);
+}
+
+template <class Work> Error error_of(Work work) {
+  try {
+    work();
+  } catch (const Error& error) {
+    CHECK(std::string(error.what()).find('\n') == std::string::npos);
+    return error;
+  }
+  FAIL("no error");
+  std::abort();
+}
+
+void check_bad(const std::string& text, std::int64_t line, const std::string& message,
+               Columns columns = Columns::xyz) {
+  CAPTURE(text);
+  const Error error = error_of([&] { points_of(text, columns); });
+  CHECK(error.code() == ErrorCode::parse);
+  CHECK(error.index() == line);
+  CHECK(std::string(error.what()) == message);
+}
+
+template <class A, class B> bool same_bits(const A& a, const B& b) {
+  return a.rows() == b.rows() && a.cols() == b.cols() &&
+         std::memcmp(a.data(), b.data(), sizeof(*a.data()) * std::size_t(a.size())) == 0;
+}
+
+std::vector<std::int32_t> identity(std::int64_t count) {
+  std::vector<std::int32_t> ids(static_cast<std::size_t>(count));
+  std::iota(ids.begin(), ids.end(), 0);
+  return ids;
+}
+
+/// +x +y +z -x -y -z of norms that no text shortens, the triangles in canonical order.
+Mesh octahedron() {
+  Mesh mesh;
+  mesh.points.resize(3, 6);
+  mesh.points.setZero();
+  for (int i = 0; i < 3; ++i) {
+    mesh.points(i, i) = std::pow(1.0 / 3, 40 * i + 1);
+    mesh.points(i, i + 3) = -std::pow(7.1, 70 * i);
+  }
+  mesh.triangles.resize(3, 8);
+  mesh.triangles << 0, 0, 0, 0, 1, 1, 2, 3, //
+      1, 2, 4, 5, 3, 5, 3, 5,               //
+      2, 4, 5, 1, 2, 3, 4, 4;
+  mesh.neighbours.resize(3, 8);
+  mesh.neighbours << 4, 6, 7, 5, 6, 7, 7, 2, //
+      1, 2, 3, 0, 0, 4, 1, 6,                //
+      3, 0, 1, 2, 5, 3, 4, 5;
+  mesh.site_of_input = identity(6);
+  return mesh;
+}
+
+/// The octahedron without its last triangle.
+Mesh open_octahedron() {
+  Mesh mesh = octahedron();
+  mesh.triangles.conservativeResize(3, 7);
+  mesh.neighbours.conservativeResize(3, 7);
+  for (std::int32_t& t : mesh.neighbours.reshaped())
+    if (t == 7)
+      t = -1;
+  return mesh;
+}
+
+std::string read_file(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+void write_text(const std::string& path, const std::string& text) {
+  std::ofstream(path, std::ios::binary) << text;
+}
+
+void check_equal(const Mesh& a, const Mesh& b) {
+  CHECK(same_bits(a.points, b.points));
+  CHECK(same_bits(a.triangles, b.triangles));
+  CHECK(same_bits(a.neighbours, b.neighbours));
+  CHECK(a.site_of_input == b.site_of_input);
+}
+
+} // namespace
+
+TEST_CASE("any separators, comments, blank lines, endings and a header give the same points") {
+  const Points3 expected = (Points3(3, 2) << 1, 4, 2, -5, 3, 0.5).finished();
+  for (const std::string text :
+       {"1 2 3\n4 -5 0.5\n", "1 2 3\n4 -5 0.5", "1,2,3\n4,-5,0.5\n", "1;2;3\n4; -5 ;0.5\n",
+        "1\t2\t3\n\t4 \t-5\t\t0.5 \n", "1|2|3\n4 | -5 | 0.5", "1, 2; 3\n4 -5,0.5\n",
+        "1 2 3\r\n4 -5 0.5\r\n", "1 2 3\r4 -5 0.5\r", "\r\n1 2 3\r\n\r\n4 -5 0.5",
+        "# a comment\n\n1 2 3 # of one\n   \n#4 4 4\n4 -5 0.5\n", "x y z\n1 2 3\n4 -5 0.5\n",
+        "# stations\n\"x\",\"y\",\"z\"\n1,2,3\n4,-5,0.5\n",
+        "\xef\xbb\xbf"
+        "1 2 3\n4 -5 0.5\n",
+        "\xef\xbb\xbfx,y,z\n1 2 3\n4 -5 0.5\n", "1 2 3 99 name\n4 -5 0.5,,nan\n",
+        "+1.0 2e0 300E-2\n+4 -5.0 +.5\n"}) {
+    CAPTURE(text);
+    CHECK(same_bits(points_of(text), expected));
+  }
+}
+
+TEST_CASE("lines are those of the columns") {
+  std::istringstream in("# c\nx y z\n1 2 3\n\n4 5 6\n");
+  std::vector<std::int64_t> lines;
+  calotte::read_points(in, "points", Columns::xyz, &lines);
+  CHECK(lines == std::vector<std::int64_t>{3, 5});
+}
+
+TEST_CASE("a file longer than the reader's buffer loses nothing, whatever ends its lines") {
+  for (const std::string ending : {"\n", "\r\n", "\r"}) {
+    std::string text;
+    const int count = 200'000;
+    for (int i = 0; i < count; ++i)
+      text += std::to_string(i) + " " + std::to_string(i * 7) + " 1" + ending;
+    const Points3 points = points_of(text);
+    REQUIRE(points.cols() == count);
+    bool same = true;
+    for (int i = 0; i < count; ++i)
+      same = same && points(0, i) == i && points(1, i) == i * 7 && points(2, i) == 1;
+    CHECK(same);
+  }
+  CHECK(points_of("#" + std::string(5'000'000, ' ') + "\n1 2 3").cols() == 1);
+}
+
+TEST_CASE("points that are none end in one line that names the file's line and the remedy") {
+  const std::string xyz = "; write three numbers x y z a line";
+  check_bad("1 2 3\n4 abc 6\n", 2, "points line 2: \"abc\" is no number" + xyz);
+  check_bad("1 2 3\n\n# c\n4 5 6x\n", 4, "points line 4: \"6x\" is no number" + xyz);
+  check_bad("1 2 3\r\n4 5 0x6\r\n", 2, "points line 2: \"0x6\" is no number" + xyz);
+  check_bad("x y z\nu v w\n1 2 3\n", 2, "points line 2: \"u\" is no number" + xyz);
+  check_bad("1 x 3\n", 1, "points line 1: \"x\" is no number" + xyz);
+  check_bad("1 2 3\nx y z\n", 2, "points line 2: \"x\" is no number" + xyz);
+  check_bad("1,2,3\n4,,6\n", 2, "points line 2: a column is empty" + xyz);
+  check_bad("1,2,3\n,4,5,6\n", 2, "points line 2: a column is empty" + xyz);
+  check_bad("1 2 3\n--1 2 3\n", 2, "points line 2: \"--1\" is no number" + xyz);
+  check_bad("1 2 3\n+-1 2 3\n", 2, "points line 2: \"+-1\" is no number" + xyz);
+  check_bad("1 2 3\n1e400 2 3\n", 2, "points line 2: \"1e400\" is out of range" + xyz);
+  check_bad("1 2 3\n4 5", 2,
+            "points line 2: 2 columns only" + xyz +
+                ", or read them as longitude and latitude (--lonlat)");
+  check_bad("1 2 3\n4\n", 2, "points line 2: 1 column only" + xyz);
+  check_bad("1 2 3\n4,5,\n", 2,
+            "points line 2: 2 columns only" + xyz +
+                ", or read them as longitude and latitude (--lonlat)");
+  check_bad("1 2 3\n4 # 5 6\n", 2, "points line 2: 1 column only" + xyz);
+  check_bad("1 2 3\n\x01\x02garbage\n", 2, "points line 2: \"??garbage\" is no number" + xyz);
+  check_bad("1 2 3\n" + std::string(99, 'a'), 2,
+            "points line 2: \"" + std::string(40, 'a') + "...\" is no number" + xyz);
+  for (const char* nan : {"nan", "NaN", "-nan", "NAN"})
+    check_bad("1 2 3\n4 " + std::string(nan) + " 6\n", 2,
+              "points line 2: NaN gives no direction; remove the point or correct it");
+  for (const char* infinity : {"inf", "-Inf", "+INF", "infinity"})
+    check_bad(
+        "1 2 3\n4 5 " + std::string(infinity), 2,
+        "points line 2: an infinite number gives no direction; remove the point or correct it");
+  for (const char* zero : {"0 0 0", "-0 0.0 0e5", "0,0,0"})
+    check_bad("1 2 3\n" + std::string(zero), 2,
+              "points line 2: the zero vector has no direction; remove the point or correct it");
+  check_bad("", -1, "points: no points in 0 lines" + xyz);
+  check_bad("# only a comment\n", -1, "points: no points in 1 line" + xyz);
+  check_bad("x y z\n\n", -1, "points: no points in 2 lines" + xyz);
+}
+
+TEST_CASE("longitude and latitude out of range, or too few, name their line") {
+  const auto bad = [](const std::string& text, const std::string& message) {
+    check_bad(text, 2, "points line 2: " + message, Columns::lonlat);
+  };
+  bad("0 0\n0 90.5\n",
+      "latitude 90.5 is outside -90 to 90; write longitude first, then latitude, in degrees");
+  bad("0 0\n0 -91\n",
+      "latitude -91 is outside -90 to 90; write longitude first, then latitude, in degrees");
+  bad("0 0\n7\n", "1 column only; write longitude and latitude in degrees a line");
+  bad("0 0\nnan 7\n", "NaN gives no direction; remove the point or correct it");
+  CHECK(points_of("lon,lat\n1e300,-90\n", Columns::lonlat) == Eigen::Vector3d(0, 0, -1));
+}
+
+TEST_CASE("longitude and latitude are exact at multiples of 90 degrees") {
+  const auto check_place = [](const std::string& lonlat, double x, double y, double z) {
+    CAPTURE(lonlat);
+    CHECK(same_bits(points_of(lonlat, Columns::lonlat), Eigen::Vector3d(x, y, z)));
+  };
+  for (const char* turn : {"0 0", "360 0", "-360 0", "720 0", "-0 -0"})
+    check_place(turn, 1, 0, 0);
+  for (const char* turn : {"90 0", "-270 0", "450 0"})
+    check_place(turn, 0, 1, 0);
+  for (const char* turn : {"180 0", "-180 0", "540 0"})
+    check_place(turn, -1, 0, 0);
+  for (const char* turn : {"-90 0", "270 0"})
+    check_place(turn, 0, -1, 0);
+  for (const char* longitude : {"0", "17.3", "-180", "90", "123456"}) {
+    check_place(std::string(longitude) + " 90", 0, 0, 1);
+    check_place(std::string(longitude) + " -90", 0, 0, -1);
+  }
+}
+
+TEST_CASE("longitude and latitude agree with the C library, and equal places are equal bits") {
+  std::mt19937_64 random(3);
+  const long double degree = std::acos(-1.0L) / 180;
+  for (int i = 0; i < 10'000; ++i) {
+    // Multiples of 2^-30 degrees, so that a full turn can be added without rounding.
+    const double lon = std::ldexp(double(std::int64_t(random() % (360ll << 30))), -30) - 180;
+    const double lat = std::ldexp(double(std::int64_t(random() % (180ll << 30))), -30) - 90;
+    std::ostringstream text;
+    text.precision(17);
+    for (const double turns : {0, -360, 360})
+      text << lon + turns << ' ' << lat << '\n';
+    const Points3 p = points_of(text.str(), Columns::lonlat);
+    const long double x = std::cos(lat * degree) * std::cos(lon * degree);
+    const long double y = std::cos(lat * degree) * std::sin(lon * degree);
+    const long double z = std::sin(lat * degree);
+    // An angle is good to 4 roundings, and has a slope of at most 1 in an octant: with the series,
+    // each factor is within 4 units of roundoff, a product of two within 9.
+    const double bound = 9 * std::numeric_limits<double>::epsilon() / 2;
+    REQUIRE(std::abs(double(p(0, 0) - x)) <= bound);
+    REQUIRE(std::abs(double(p(1, 0) - y)) <= bound);
+    REQUIRE(std::abs(double(p(2, 0) - z)) <= bound);
+    REQUIRE(same_bits(p.col(0).eval(), p.col(1).eval()));
+    REQUIRE(same_bits(p.col(0).eval(), p.col(2).eval()));
+  }
+}
+
+TEST_CASE("points come back bit for bit") {
+  const Scratch scratch;
+  std::mt19937_64 random(1);
+  Points3 points(3, 20'000);
+  for (double& x : points.reshaped())
+    do
+      x = std::bit_cast<double>(random());
+    while (!std::isfinite(x));
+  points.col(7) << -0.0, 5e-324, 1.7976931348623157e308;
+  calotte::write_points(scratch / "points.txt", points);
+  CHECK(same_bits(calotte::read_points(scratch / "points.txt"), points));
+  std::stringstream stream;
+  calotte::write_points(stream, points);
+  CHECK(same_bits(calotte::read_points(stream, "stream"), points));
+  CHECK(scratch.files() == 1);
+}
+
+TEST_CASE("meshes come back bit for bit in every format") {
+  const Scratch scratch;
+  for (const Mesh& mesh : {octahedron(), open_octahedron()})
+    for (const std::string suffix : {".vtp", ".vtu", ".off", ".ply", ".OFF"}) {
+      CAPTURE(suffix);
+      const std::string path = scratch / ("mesh" + suffix);
+      calotte::write(path, mesh);
+      check_equal(calotte::read_mesh(path), mesh);
+      calotte::write(scratch / "again.off", calotte::read_mesh(path));
+      calotte::write(scratch / "first.off", mesh);
+      CHECK(read_file(scratch / "again.off") == read_file(scratch / "first.off"));
+    }
+  for (const char* name : {"mesh.txt", "mesh.tri"}) {
+    const Mesh mesh = octahedron();
+    calotte::write(scratch / name, mesh);
+    CHECK(read_file(scratch / name).starts_with("0 1 2\n0 2 4\n"));
+    check_equal(calotte::read_mesh(scratch / name, &mesh.points), mesh);
+  }
+}
+
+TEST_CASE("a merged duplicate goes by its lowest column in triangles as text") {
+  const Scratch scratch;
+  Mesh mesh = octahedron();
+  // Columns 1, 4 and 8 repeat an earlier direction; 4 at another length.
+  mesh.site_of_input = {0, 0, 1, 2, 1, 3, 4, 5, 5};
+  Points3 columns(3, 9);
+  for (int i = 0; i < 9; ++i)
+    columns.col(i) = mesh.points.col(mesh.site_of_input[std::size_t(i)]) * (i == 4 ? 3.7 : 1);
+  calotte::write(scratch / "mesh.tri", mesh);
+  CHECK(read_file(scratch / "mesh.tri").starts_with("0 2 3\n0 3 6\n0 6 7\n"));
+  check_equal(calotte::read_mesh(scratch / "mesh.tri", &columns), mesh);
+}
+
+TEST_CASE("a column in no triangle that repeats none stays as a site") {
+  const Scratch scratch;
+  const Mesh mesh = octahedron();
+  Points3 columns(3, 8);
+  columns << mesh.points, Points3::Constant(3, 2, 0.1);
+  calotte::write(scratch / "mesh.tri", mesh);
+  const Mesh read = calotte::read_mesh(scratch / "mesh.tri", &columns);
+  CHECK(read.points.cols() == 7);
+  CHECK(read.site_of_input == std::vector<std::int32_t>{0, 1, 2, 3, 4, 5, 6, 6});
+}
+
+TEST_CASE("neighbours: an edge of three triangles, or of two the same way, stays open") {
+  const Scratch scratch;
+  const auto neighbours = [&](const std::string& faces, int count) {
+    write_text(scratch / "mesh.off", "OFF\n5 " + std::to_string(count) +
+                                         " 0\n1 0 0\n0 1 0\n0 0 1\n-1 0 0\n0 -1 0\n" + faces);
+    return calotte::read_mesh(scratch / "mesh.off").neighbours;
+  };
+  CHECK(neighbours("3 0 1 2\n3 1 0 3\n", 2) ==
+        (Triangles(3, 2) << -1, -1, -1, -1, 1, 0).finished());
+  CHECK((neighbours("3 0 1 2\n3 0 1 3\n", 2).array() == -1).all());
+  CHECK((neighbours("3 0 1 2\n3 1 0 3\n3 0 1 4\n", 3).array() == -1).all());
+  CHECK((neighbours("3 0 1 2\n3 1 0 3\n3 0 1 4\n3 1 0 2\n", 4)(2, 0)) == -1);
+}
+
+TEST_CASE("a VTK file says what the readers demand") {
+  const Scratch scratch;
+  calotte::write(scratch / "mesh.vtp", octahedron());
+  const std::string vtp = read_file(scratch / "mesh.vtp");
+  for (const char* part :
+       {"type=\"PolyData\"", "header_type=\"UInt64\"", "encoding=\"raw\">\n_",
+        "NumberOfPolys=\"8\"",
+        "<DataArray type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"",
+        "<DataArray type=\"Int64\" Name=\"connectivity\" format=\"appended\" offset=\"152\"/>",
+        "<DataArray type=\"Int64\" Name=\"offsets\" format=\"appended\" offset=\"352\"/>"})
+    CHECK(vtp.find(part) != std::string::npos);
+  const std::size_t data = vtp.find("\n_") + 2;
+  std::uint64_t size = 0;
+  std::memcpy(&size, &vtp[data + 352], sizeof size);
+  CHECK(size == 64);
+  std::int64_t last = 0;
+  std::memcpy(&last, &vtp[data + 352 + 8 + 56], sizeof last);
+  CHECK(last == 24);
+}
+
+TEST_CASE("mesh files that are none, or not whole, end in one clear error") {
+  const Scratch scratch;
+  const auto error = [&](const std::string& name, const Points3* points = nullptr) {
+    return error_of([&] { calotte::read_mesh(scratch / name, points); });
+  };
+  for (const std::string name : {"mesh.vtp", "mesh.vtu", "mesh.ply", "mesh.off"}) {
+    CAPTURE(name);
+    calotte::write(scratch / name, octahedron());
+    const std::string whole = read_file(scratch / name);
+    for (std::size_t size = 0; size + 2 < whole.size(); size += 7) {
+      CAPTURE(size);
+      write_text(scratch / name, whole.substr(0, size));
+      CHECK(error(name).code() == ErrorCode::parse);
+    }
+    write_text(scratch / name, whole + "more\n");
+    CHECK(error(name).code() == ErrorCode::parse);
+  }
+  write_text(scratch / "mesh.off", "OFF\n3 1 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 3\n");
+  CHECK(std::string(error("mesh.off").what())
+            .ends_with("mesh.off line 6: id 3 is not one of the 3 points; ids count from 0"));
+  write_text(scratch / "mesh.off", "OFF\n3 1 0\n1 0 0\n0 1 0\n0 0 nan\n3 0 1 2\n");
+  CHECK(std::string(error("mesh.off").what())
+            .ends_with("point 2 has no direction (NaN, infinite or zero); make the file again"));
+  write_text(scratch / "mesh.off", "OFF\n9999999999 1 0\n1 0 0\n");
+  CHECK(error("mesh.off").index() == 3);
+  write_text(scratch / "mesh.tri", "0 1 2\n0 1 x\n");
+  const Points3 points = octahedron().points;
+  CHECK(
+      std::string(error("mesh.tri", &points).what())
+          .ends_with(
+              "mesh.tri line 2: \"x\" is no number; write three ids i j k a line, counted from 0"));
+  write_text(scratch / "mesh.tri", "0 1 2\n0 1 -1\n");
+  CHECK(error("mesh.tri", &points).index() == 2);
+  CHECK(error("mesh.tri").code() == ErrorCode::bad_option);
+  write_text(scratch / "mesh.tri", "");
+  CHECK(error("mesh.tri", &points).code() == ErrorCode::parse);
+  CHECK(error("mesh.xyz").code() == ErrorCode::bad_option);
+  CHECK(error("absent.vtp").code() == ErrorCode::file);
+}
+
+TEST_CASE("an id out of range in a binary file names its triangle") {
+  const Scratch scratch;
+  for (const std::int32_t bad : {6, -1, std::numeric_limits<std::int32_t>::max()}) {
+    Mesh mesh = octahedron();
+    mesh.triangles(1, 5) = bad;
+    for (const char* name : {"mesh.vtp", "mesh.vtu", "mesh.ply"}) {
+      calotte::write(scratch / name, mesh);
+      CHECK(error_of([&] { calotte::read_mesh(scratch / name); }).index() == 5);
+    }
+  }
+}
+
+TEST_CASE("unknown suffixes, folders that do not exist and full disks leave nothing behind") {
+  const Scratch scratch;
+  const Mesh mesh = octahedron();
+  const auto error = [&](const std::string& path) {
+    return error_of([&] { calotte::write(path, mesh); });
+  };
+  CHECK(error(scratch / "mesh.stl").code() == ErrorCode::bad_option);
+  CHECK(
+      std::string(error(scratch / "mesh").what())
+          .ends_with("mesh: no suffix; a mesh file ends in .txt, .tri, .vtp, .vtu, .off or .ply"));
+  CHECK(error(scratch / "absent/mesh.vtp").code() == ErrorCode::file);
+  CHECK(error_of([&] { calotte::read_points(scratch / "absent.txt"); }).code() == ErrorCode::file);
+  CHECK(error_of([&] { calotte::read_points(scratch.folder.string()); }).code() == ErrorCode::file);
+  CHECK(scratch.files() == 0);
+  CHECK(std::string(error_of([&] { calotte::write_points("/dev/full", mesh.points); }).what()) ==
+        "cannot write /dev/full: No space left on device; make room or write elsewhere");
+  CHECK(fs::is_character_file("/dev/full"));
+}
+
+TEST_CASE("a disk that fills up keeps the old file and removes the new one") {
+  const Scratch scratch;
+  calotte::write_file(scratch / "mesh.vtp", "old");
+  // A limit on the size of files stands for the disk.
+  rlimit before;
+  REQUIRE(::getrlimit(RLIMIT_FSIZE, &before) == 0);
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit tight{500, before.rlim_max};
+  REQUIRE(::setrlimit(RLIMIT_FSIZE, &tight) == 0);
+  std::string message;
+  try {
+    calotte::write(scratch / "mesh.vtp", octahedron());
+  } catch (const Error& error) {
+    message = error.what();
+  }
+  ::setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
+  CHECK(message == "cannot write " + (scratch / "mesh.vtp") +
+                       ": File too large; make room or write elsewhere");
+  CHECK(scratch.files() == 1);
+  CHECK(read_file(scratch / "mesh.vtp") == "old");
+}
+
+TEST_CASE("a symbolic link stays one, and its target is replaced") {
+  const Scratch scratch;
+  fs::create_directory(scratch / "real");
+  write_text(scratch / "real/mesh.off", "old");
+  fs::create_symlink("real/mesh.off", scratch / "link.off");
+  calotte::write(scratch / "link.off", octahedron());
+  CHECK(fs::is_symlink(scratch / "link.off"));
+  CHECK(read_file(scratch / "real/mesh.off").starts_with("OFF\n"));
+}
+
+TEST_CASE("the weather stations are read as they are") {
+  const Points3 points =
+      calotte::read_points(CALOTTE_FIXTURES "/weather-stations.csv", Columns::lonlat);
+  CHECK(points.cols() > 28'000);
+  CHECK((points.colwise().norm().array() - 1).abs().maxCoeff() < 1e-15);
+}
