@@ -7,10 +7,10 @@ namespace calotte::detail {
 
 /// An unevaluated sum hi + lo of two doubles, |lo| <= ulp(hi)/2: about 106 bits.
 ///
-/// Sums and products err by at most 3 v^2 and 5 v^2 relative, v = 2^-53, barring underflow (Joldes, Muller,
-/// Popescu: Tight and rigorous error bounds for basic building blocks of double-word arithmetic, ACM
-/// Trans. Math. Softw. 44, 2017, algorithms 6 and 11). Written with + - * alone, so that every machine
-/// gives the same bits.
+/// Sums and products err by at most 3 v^2 and 5 v^2 relative, v = 2^-53, barring underflow (Joldes,
+/// Muller, Popescu: Tight and rigorous error bounds for basic building blocks of double-word
+/// arithmetic, ACM Trans. Math. Softw. 44, 2017, algorithms 6 and 11). Written with + - * alone, so
+/// that every machine gives the same bits.
 struct DoubleDouble {
   double hi = 0, lo = 0;
 };
@@ -49,7 +49,8 @@ inline DoubleDouble operator*(const DoubleDouble& a, const DoubleDouble& b) {
   return quick_two_sum(p.hi, p.lo + (a.hi * b.lo + a.lo * b.hi));
 }
 
-/// 1/sqrt(a) for a in [1/4, 4]: one Newton step from the double result, relative error below 2^-102.
+/// 1/sqrt(a) for a in [1/4, 4]: one Newton step from the double result, relative error below
+/// 2^-102.
 inline DoubleDouble inverse_sqrt(const DoubleDouble& a) {
   const double y = 1 / std::sqrt(a.hi);
   const DoubleDouble residual = DoubleDouble{1, 0} - a * two_product(y, y);

@@ -12,7 +12,8 @@
 #include <utility>
 
 #if defined(__FAST_MATH__) || (defined(__FLT_EVAL_METHOD__) && __FLT_EVAL_METHOD__ != 0)
-#error "the predicates' error bounds hold for IEEE doubles evaluated as written: no -ffast-math, no x87"
+#error                                                                                             \
+    "the predicates' error bounds hold for IEEE doubles evaluated as written: no -ffast-math, no x87"
 #endif
 
 namespace calotte::detail {
@@ -20,7 +21,8 @@ namespace {
 
 int sign_of(double x) { return (x > 0) - (x < 0); }
 
-/// The same direction with its largest component in [1/2, 1): exact, but for components below 1e-307.
+/// The same direction with its largest component in [1/2, 1): exact, but for components below
+/// 1e-307.
 Vec3 scaled_to_one(const Vec3& x) {
   int exponent = 0;
   std::frexp(std::max({std::abs(x.x), std::abs(x.y), std::abs(x.z)}), &exponent);
@@ -43,12 +45,11 @@ Vec3Extended cross(const Vec3Extended& a, const Vec3Extended& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// x/|x| within 2^-100 in the norm of the error: the norm errs by 2^-102.5, its inverse by 2^-102, the products by
-/// 2^-103; components that underflow in scaling add 1e-307.
+/// x/|x| within 2^-100 in the norm of the error: the norm errs by 2^-102.5, its inverse by 2^-102,
+/// the products by 2^-103; components that underflow in scaling add 1e-307.
 Vec3Extended normalised_extended(const Vec3& given) {
   const Vec3 x = scaled_to_one(given);
-  const DoubleDouble square =
-      two_product(x.x, x.x) + two_product(x.y, x.y) + two_product(x.z, x.z);
+  const DoubleDouble square = two_product(x.x, x.x) + two_product(x.y, x.y) + two_product(x.z, x.z);
   const DoubleDouble scale = inverse_sqrt(square);
   return {scale * DoubleDouble{x.x, 0}, scale * DoubleDouble{x.y, 0}, scale * DoubleDouble{x.z, 0}};
 }
@@ -79,7 +80,8 @@ void set_scaled(mpz_class& out, double x, int shift) {
 void set_integers(Vec3Integer& out, const Vec3& given) {
   int lowest = std::numeric_limits<int>::max();
   for (const double x : {given.x, given.y, given.z}) {
-    if (x == 0) continue;
+    if (x == 0)
+      continue;
     int exponent = 0;
     std::frexp(x, &exponent);
     lowest = std::min(lowest, exponent - 53);
@@ -103,9 +105,9 @@ struct Root {
 
 int sign_of_sum(const Root& p, const Root& q) {
   const int sp = sgn(p.factor) * sgn(p.radicand), sq = sgn(q.factor) * sgn(q.radicand);
-  if (sp == 0 || sq == 0 || sp == sq) return sp != 0 ? sp : sq;
-  const mpz_class difference =
-      p.factor * p.factor * p.radicand - q.factor * q.factor * q.radicand;
+  if (sp == 0 || sq == 0 || sp == sq)
+    return sp != 0 ? sp : sq;
+  const mpz_class difference = p.factor * p.factor * p.radicand - q.factor * q.factor * q.radicand;
   return sp * sgn(difference);
 }
 
@@ -113,10 +115,10 @@ int sign_of_sum(const Root& p, const Root& q) {
 /// one root, sqrt(p.radicand q.radicand).
 int sign_of_sum(const mpz_class& whole, const Root& p, const Root& q) {
   const int roots = sign_of_sum(p, q);
-  if (roots == 0 || sgn(whole) == 0 || roots == sgn(whole)) return roots != 0 ? roots : sgn(whole);
-  const Root rational{p.factor * p.factor * p.radicand + q.factor * q.factor * q.radicand -
-                          whole * whole,
-                      1};
+  if (roots == 0 || sgn(whole) == 0 || roots == sgn(whole))
+    return roots != 0 ? roots : sgn(whole);
+  const Root rational{
+      p.factor * p.factor * p.radicand + q.factor * q.factor * q.radicand - whole * whole, 1};
   const Root mixed{2 * p.factor * q.factor, p.radicand * q.radicand};
   return roots * sign_of_sum(rational, mixed);
 }
@@ -124,7 +126,8 @@ int sign_of_sum(const mpz_class& whole, const Root& p, const Root& q) {
 /// Sign of p + q + r + s, likewise: (p + q)^2 - (r + s)^2 has two roots.
 int sign_of_sum(const Root& p, const Root& q, const Root& r, const Root& s) {
   const int left = sign_of_sum(p, q), right = sign_of_sum(r, s);
-  if (left == 0 || right == 0 || left == right) return left != 0 ? left : right;
+  if (left == 0 || right == 0 || left == right)
+    return left != 0 ? left : right;
   const mpz_class whole = p.factor * p.factor * p.radicand + q.factor * q.factor * q.radicand -
                           r.factor * r.factor * r.radicand - s.factor * s.factor * s.radicand;
   const Root pq{2 * p.factor * q.factor, p.radicand * q.radicand};
@@ -155,7 +158,8 @@ int orientation_exact(const Vec3& a, const Vec3& b, const Vec3& c) {
 /// Sign of a/sqrt(aa) - b/sqrt(bb), for positive aa, bb.
 int compare_quotients(const mpz_class& a, const mpz_class& aa, const mpz_class& b,
                       const mpz_class& bb) {
-  if (sgn(a) != sgn(b)) return sgn(a) > sgn(b) ? 1 : -1;
+  if (sgn(a) != sgn(b))
+    return sgn(a) > sgn(b) ? 1 : -1;
   const mpz_class difference = a * a * bb - b * b * aa;
   return sgn(a) * sgn(difference);
 }
@@ -165,8 +169,10 @@ int compare_directions_exact(const Vec3& a, const Vec3& b) {
   set_integers(ia, a);
   set_integers(ib, b);
   const mpz_class aa = squared_norm(ia), bb = squared_norm(ib);
-  if (const int s = compare_quotients(ia.x, aa, ib.x, bb)) return s;
-  if (const int s = compare_quotients(ia.y, aa, ib.y, bb)) return s;
+  if (const int s = compare_quotients(ia.x, aa, ib.x, bb))
+    return s;
+  if (const int s = compare_quotients(ia.y, aa, ib.y, bb))
+    return s;
   return compare_quotients(ia.z, aa, ib.z, bb);
 }
 
@@ -174,21 +180,21 @@ int compare_directions_exact(const Vec3& a, const Vec3& b) {
 
 Vec3 normalised(const Vec3& x) {
   double square = dot(x, x);
-  if (square > 1e-200 && square < 1e200) return (1 / std::sqrt(square)) * x;
+  if (square > 1e-200 && square < 1e200)
+    return (1 / std::sqrt(square)) * x;
   const Vec3 scaled = scaled_to_one(x);
   return (1 / norm(scaled)) * scaled;
 }
 
-// Tier 2's bound: each difference errs by 2^-99 and 3 v^2 D for its sums, the evaluation by some 40 v^2 times
-// sqrt(3) D^3: 3 D^2 (2^-99 + 2^-104 D) + 2^-99.8 D^3 < 2^-96 D^2 for D <= 2, with a factor of 2 to
-// spare for the rounding of D itself.
+// Tier 2's bound: each difference errs by 2^-99 and 3 v^2 D for its sums, the evaluation by some 40
+// v^2 times sqrt(3) D^3: 3 D^2 (2^-99 + 2^-104 D) + 2^-99.8 D^3 < 2^-96 D^2 for D <= 2, with a
+// factor of 2 to spare for the rounding of D itself.
 int in_circle_extended(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const Vec3Extended origin = normalised_extended(d);
   const Vec3Extended p = normalised_extended(a) - origin, q = normalised_extended(b) - origin,
                      r = normalised_extended(c) - origin;
   const double value = dot(p, cross(r, q)).hi;
-  const double error =
-      0x1p-95 * std::max({squared_reach(p), squared_reach(q), squared_reach(r)});
+  const double error = 0x1p-95 * std::max({squared_reach(p), squared_reach(q), squared_reach(r)});
   return (value > error) - (value < -error);
 }
 
@@ -208,35 +214,39 @@ int in_circle_exact(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) 
 int in_circle_beyond_filter(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d,
                             PredicateCounts& counts) {
   ++counts.filtered;
-  if (const int sign = in_circle_extended(a, b, c, d)) return sign;
+  if (const int sign = in_circle_extended(a, b, c, d))
+    return sign;
   ++counts.exact;
   return in_circle_exact(a, b, c, d);
 }
 
 int in_circle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-  if (const int sign =
-          in_circle_filter(normalised(a), normalised(b), normalised(c), normalised(d)))
+  if (const int sign = in_circle_filter(normalised(a), normalised(b), normalised(c), normalised(d)))
     return sign;
   PredicateCounts uncounted;
   return in_circle_beyond_filter(a, b, c, d, uncounted);
 }
 
 int orientation(const Vec3& a, const Vec3& b, const Vec3& c) {
-  if (const int sign = orientation_filter(normalised(a), normalised(b), normalised(c))) return sign;
+  if (const int sign = orientation_filter(normalised(a), normalised(b), normalised(c)))
+    return sign;
   return orientation_exact(a, b, c);
 }
 
 int compare_directions(const Vec3& a, const Vec3& b) {
   constexpr double error = 11 * roundoff; // 5 for each component and 1 for the subtraction
   const Vec3 p = normalised(a), q = normalised(b);
-  if (const double x = p.x - q.x; std::abs(x) > error) return sign_of(x);
+  if (const double x = p.x - q.x; std::abs(x) > error)
+    return sign_of(x);
   return compare_directions_exact(a, b);
 }
 
 bool same_direction(const Vec3& a, const Vec3& b) {
-  if (a.x == b.x && a.y == b.y && a.z == b.z) return true;
+  if (a.x == b.x && a.y == b.y && a.z == b.z)
+    return true;
   const Vec3 p = normalised(a) - normalised(b);
-  if (dot(p, p) > 0x1p-98) return false; // 12 roundoffs apart: 5 for each and some for the rest
+  if (dot(p, p) > 0x1p-98)
+    return false; // 12 roundoffs apart: 5 for each and some for the rest
   return compare_directions_exact(a, b) == 0;
 }
 
@@ -244,19 +254,22 @@ int orientation(const View& view, const Vec3& a, const Vec3& b, const Vec3& c) {
   return view.from_centre ? orientation(a, b, c) : -in_circle(a, b, c, view.focus);
 }
 
-// Seen from a focus f, a line of the view is a circle through f, and p lies between a and b when p and f
-// are on different sides of the chord ab, hence of any plane through a, b and a point g off the circle's
-// plane. From the centre it is a great circle, and the arcs ap, pb must run the same way as ab.
+// Seen from a focus f, a line of the view is a circle through f, and p lies between a and b when p
+// and f are on different sides of the chord ab, hence of any plane through a, b and a point g off
+// the circle's plane. From the centre it is a great circle, and the arcs ap, pb must run the same
+// way as ab.
 bool between(const View& view, const Vec3& a, const Vec3& p, const Vec3& b) {
   constexpr std::array<Vec3, 4> tetrahedron{
       Vec3{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}}; // no plane holds all four
   for (const Vec3& g : tetrahedron) {
     if (view.from_centre) {
       const int way = orientation(a, b, g);
-      if (way != 0) return orientation(a, p, g) == way && orientation(p, b, g) == way;
+      if (way != 0)
+        return orientation(a, p, g) == way && orientation(p, b, g) == way;
     } else {
       const int focus_side = in_circle(a, b, g, view.focus);
-      if (focus_side != 0) return in_circle(a, b, g, p) == -focus_side;
+      if (focus_side != 0)
+        return in_circle(a, b, g, p) == -focus_side;
     }
   }
   assert(false && "a, b and the view's point are distinct");
@@ -271,13 +284,14 @@ int in_circle_tie(const View& view, const Vec3& a, const Vec3& b, const Vec3& c,
                               *sites[static_cast<std::size_t>(j)]) < 0;
   });
   for (const int pushed : order) {
-    // The determinant falls with d's push for a, b, c counter-clockwise; exchanging a pushed site with
-    // d changes its sign.
+    // The determinant falls with d's push for a, b, c counter-clockwise; exchanging a pushed site
+    // with d changes its sign.
     const int sign = pushed == 0   ? orientation(view, d, b, c)
                      : pushed == 1 ? orientation(view, a, d, c)
                      : pushed == 2 ? orientation(view, a, b, d)
                                    : -orientation(view, a, b, c);
-    if (sign != 0) return sign;
+    if (sign != 0)
+      return sign;
   }
   return 0;
 }

@@ -8,9 +8,10 @@
 
 /// The exact signs on which every topological decision on the sphere rests.
 ///
-/// A site is a direction: each sign is that of the points x/|x| standing exactly on the unit sphere,
-/// whatever the norms and the rounding of the stored doubles. Three tiers decide it: doubles with a
-/// derived bound, about 106 bits with a derived bound, then integers and square roots without error.
+/// A site is a direction: each sign is that of the points x/|x| standing exactly on the unit
+/// sphere, whatever the norms and the rounding of the stored doubles. Three tiers decide it:
+/// doubles with a derived bound, about 106 bits with a derived bound, then integers and square
+/// roots without error.
 ///
 /// Laws: in_circle and orientation are antisymmetric under exchange of two arguments and do not
 /// change when an argument is scaled by a positive number.
@@ -27,14 +28,16 @@ Vec3 normalised(const Vec3& x);
 
 // ---- Signs of directions of any norm. All are -1, 0 or 1; all tiers inside.
 
-/// Positive when d is inside the circumcap of a, b, c counter-clockwise seen from outside: the sign of
-/// |a| det(b,c,d) - |b| det(a,c,d) + |c| det(a,b,d) - |d| det(a,b,c), which is orient3d of the normalised points.
+/// Positive when d is inside the circumcap of a, b, c counter-clockwise seen from outside: the sign
+/// of |a| det(b,c,d) - |b| det(a,c,d) + |c| det(a,b,d) - |d| det(a,b,c), which is orient3d of the
+/// normalised points.
 int in_circle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 
 /// Sign of det(a, b, c): positive when a, b, c run counter-clockwise seen from outside.
 int orientation(const Vec3& a, const Vec3& b, const Vec3& c);
 
-/// The order of directions by the exact (x, y, z) of x/|x|, lexicographically: -1 when a comes first.
+/// The order of directions by the exact (x, y, z) of x/|x|, lexicographically: -1 when a comes
+/// first.
 int compare_directions(const Vec3& a, const Vec3& b);
 
 /// Whether a is a positive multiple of b.
@@ -42,8 +45,8 @@ bool same_direction(const Vec3& a, const Vec3& b);
 
 // ---- The point from which the sphere is looked at.
 
-/// Either the sphere's centre, or a focus on the sphere from which it is projected stereographically.
-/// From both, the picture of a Delaunay triangulation is a planar one.
+/// Either the sphere's centre, or a focus on the sphere from which it is projected
+/// stereographically. From both, the picture of a Delaunay triangulation is a planar one.
 struct View {
   bool from_centre = true;
   Vec3 focus{0, 0, 0}; ///< a direction; not used from the centre
@@ -53,14 +56,16 @@ struct View {
 /// centre the sign of det(a,b,c), from a focus f the sign of -in_circle(a,b,c,f).
 int orientation(const View& view, const Vec3& a, const Vec3& b, const Vec3& c);
 
-/// For p on the line through a and b in that view (orientation 0): whether it lies strictly between them.
+/// For p on the line through a and b in that view (orientation 0): whether it lies strictly between
+/// them.
 bool between(const View& view, const Vec3& a, const Vec3& p, const Vec3& b);
 
 /// The sign of in_circle where that is exactly 0, for four distinct directions.
 ///
-/// Site i is pushed outward by eps_i along its ray from the view's point, eps larger for the site that
-/// comes first in compare_directions. To first order in eps_p the determinant changes by the
-/// orientation of the other three; the first that is not 0 decides. 0 only when all four lie on one line of the view.
+/// Site i is pushed outward by eps_i along its ray from the view's point, eps larger for the site
+/// that comes first in compare_directions. To first order in eps_p the determinant changes by the
+/// orientation of the other three; the first that is not 0 decides. 0 only when all four lie on one
+/// line of the view.
 int in_circle_tie(const View& view, const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 
 /// in_circle with ties resolved: never 0 for four distinct sites not all on one line of the view.
@@ -79,13 +84,15 @@ inline double in_circle_determinant(const Vec3& a, const Vec3& b, const Vec3& c,
   return dot(a - d, cross(c - d, b - d));
 }
 
-/// A bound on the error of in_circle_determinant when the differences' norms are at most `reach` <= 2.
+/// A bound on the error of in_circle_determinant when the differences' norms are at most `reach`
+/// <= 2.
 ///
 /// Let u be the roundoff, D the reach. A stored unit vector is within 5u of the true one, so a
-/// difference is within 10u + uD of the true difference (the last for the subtraction). A determinant
-/// of three vectors of norm at most D changes by at most 3 D^2 (10u + uD) to first order; evaluating
-/// it from rounded entries errs by at most 6u sum |a_i| |b||c| <= 6 sqrt(3) u D^3. Together
-/// (30 + 13.4 D) u D^2; the constants below also cover the second order and this bound's own rounding.
+/// difference is within 10u + uD of the true difference (the last for the subtraction). A
+/// determinant of three vectors of norm at most D changes by at most 3 D^2 (10u + uD) to first
+/// order; evaluating it from rounded entries errs by at most 6u sum |a_i| |b||c| <= 6 sqrt(3) u
+/// D^3. Together (30 + 13.4 D) u D^2; the constants below also cover the second order and this
+/// bound's own rounding.
 constexpr double in_circle_error(double reach) {
   return (32 + 15 * reach) * roundoff * reach * reach;
 }
@@ -100,8 +107,8 @@ inline int in_circle_filter(const Vec3& a, const Vec3& b, const Vec3& c, const V
 
 /// Tier 1 of the orientation from the centre, on unit vectors good to 5 roundoffs: the sign or 0.
 ///
-/// det(a,b,c) = det(a, b-a, c-a). With D the larger norm of the differences, each within 10u + uD, a
-/// within 5u: 2 D (10u + uD) + 5u D^2 + 6 sqrt(3) u D^2 <= (20 + 17.4 D) u D.
+/// det(a,b,c) = det(a, b-a, c-a). With D the larger norm of the differences, each within 10u + uD,
+/// a within 5u: 2 D (10u + uD) + 5u D^2 + 6 sqrt(3) u D^2 <= (20 + 17.4 D) u D.
 inline int orientation_filter(const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 p = b - a, q = c - a;
   const double reach = std::sqrt(std::max(dot(p, p), dot(q, q)));

@@ -5,7 +5,8 @@
 
 namespace calotte::detail {
 
-/// A Cartesian triple. Plain, so that arrays of it are arrays of doubles: column j of a Points3 is a Vec3.
+/// A Cartesian triple. Plain, so that arrays of it are arrays of doubles: column j of a Points3 is
+/// a Vec3.
 struct Vec3 {
   double x, y, z;
 };

@@ -12,7 +12,8 @@ namespace calotte {
 /// Which sites a region triangulates beside those it owns.
 enum class Sort {
   halo,     ///< those within a thin strip beyond its coarse Voronoi cell's bisectors
-  distance, ///< those nearer to its centre than the farthest neighbouring centre (Jacobsen et al., 2013, Sect. 2.1.1)
+  distance, ///< those nearer to its centre than the farthest neighbouring centre (Jacobsen et al.,
+            ///< 2013, Sect. 2.1.1)
   voronoi,  ///< those owned by the neighbouring regions (same section)
 };
 
@@ -27,12 +28,14 @@ enum class Duplicates {
 };
 
 struct DelaunayOptions {
-  std::optional<int> regions;          ///< number of regions, >= 1; default from the number of sites
+  std::optional<int> regions; ///< number of regions, >= 1; default from the number of sites
   Centres centres = Centres::sample;
-  std::optional<Points3> given_centres; ///< the regions' centres (MPI-SCVT's RegionList); overrides the two above
+  std::optional<Points3>
+      given_centres; ///< the regions' centres (MPI-SCVT's RegionList); overrides the two above
   Sort sort = Sort::halo;
   Duplicates duplicates = Duplicates::merge;
-  double merge_within = 0; ///< radians: a site nearer than this to an earlier site that stays is merged into it
+  double merge_within =
+      0; ///< radians: a site nearer than this to an earlier site that stays is merged into it
 };
 
 /// What one run did. Seconds are wall-clock time.
@@ -47,30 +50,32 @@ struct DelaunayReport {
   std::int64_t sites = 0;
   std::int64_t duplicates = 0; ///< input columns that were merged into another
   int regions = 0;
-  int threads = 0;             ///< of the task arena it ran in
-  bool one_region = false;     ///< the set was triangulated serially as a whole
-  double overlap = 0;          ///< sites of all regions, halos included, over the number of sites
-  std::vector<std::int64_t> sites_per_region;  ///< owned and halo
+  int threads = 0;         ///< of the task arena it ran in
+  bool one_region = false; ///< the set was triangulated serially as a whole
+  double overlap = 0;      ///< sites of all regions, halos included, over the number of sites
+  std::vector<std::int64_t> sites_per_region; ///< owned and halo
   std::vector<std::int64_t> owned_per_region;
-  std::vector<double> seconds_per_region;      ///< gather to certify, by region
-  std::int64_t certified_by_cull = 0;  ///< reports of triangles whose circumcap lies in the covered part
+  std::vector<double> seconds_per_region; ///< gather to certify, by region
+  std::int64_t certified_by_cull =
+      0; ///< reports of triangles whose circumcap lies in the covered part
   std::int64_t certified_by_query = 0; ///< reports certified by asking for sites in their circumcap
   std::int64_t halo_insertions = 0;    ///< sites that such queries added to regions
   std::int64_t seam_triangles = 0;     ///< triangles whose vertices have different owners
   std::int64_t filtered_predicates = 0; ///< predicates that the first tier left to the second
-  std::int64_t exact_predicates = 0;    ///< predicates that the second tier left to exact arithmetic
+  std::int64_t exact_predicates = 0; ///< predicates that the second tier left to exact arithmetic
 };
 
 /// The Delaunay triangulation of the directions of `points` on the unit sphere.
 ///
 /// The result depends on the set of directions alone: it is the same to the last bit for any number
-/// of threads and regions, any `sort` and any centres; a permuted input permutes the ids. Cocircular
-/// sites are resolved by one symbolic rule (design of the in-circle predicate in lib/predicates.h).
-/// It runs in the caller's task arena.
+/// of threads and regions, any `sort` and any centres; a permuted input permutes the ids.
+/// Cocircular sites are resolved by one symbolic rule (design of the in-circle predicate in
+/// lib/predicates.h). It runs in the caller's task arena.
 ///
 /// \param points 3 x n directions of any norm from 1e-200 to 1e200.
 /// \param report if not null, filled.
-/// \throws Error not_finite, zero_vector, duplicate (when refused), too_few_sites (fewer than 4 distinct),
+/// \throws Error not_finite, zero_vector, duplicate (when refused), too_few_sites (fewer than 4
+/// distinct),
 ///         degenerate (all on one great circle), bad_option.
 ///
 /// Jacobsen, Gunzburger, Ringler, Burkardt, Peterson: Parallel algorithms for planar and spherical

@@ -8,19 +8,20 @@
 namespace calotte {
 
 enum class ErrorCode {
-  not_finite,     ///< a coordinate is NaN or infinite
-  zero_vector,    ///< a point at the origin has no direction
-  duplicate,      ///< equal directions, and the options refuse them
-  too_few_sites,  ///< fewer than 4 distinct sites
-  degenerate,     ///< all sites on one great circle
-  bad_option,     ///< an option outside its range
-  parse,          ///< a file's text is not what its format demands
-  file,           ///< a file cannot be opened, read or written
-  internal,       ///< a law of this library does not hold: a bug, never the caller's fault
+  not_finite,    ///< a coordinate is NaN or infinite
+  zero_vector,   ///< a point at the origin has no direction
+  duplicate,     ///< equal directions, and the options refuse them
+  too_few_sites, ///< fewer than 4 distinct sites
+  degenerate,    ///< all sites on one great circle
+  bad_option,    ///< an option outside its range
+  parse,         ///< a file's text is not what its format demands
+  file,          ///< a file cannot be opened, read or written
+  internal,      ///< a law of this library does not hold: a bug, never the caller's fault
 };
 
 /// The one exception this library throws. `what()` is one line that names the offending index (or
-/// line of a file) and the remedy; `index()` is that 0-based index or 1-based line, -1 where none is.
+/// line of a file) and the remedy; `index()` is that 0-based index or 1-based line, -1 where none
+/// is.
 class Error : public std::runtime_error {
 public:
   Error(ErrorCode code, const std::string& message, std::int64_t index = -1)

@@ -23,10 +23,11 @@ using Triangles = Eigen::Matrix<std::int32_t, 3, Eigen::Dynamic>;
 /// where the mesh has an open boundary. It has one exactly when all sites lie in a closed
 /// hemisphere; a closed mesh of n sites has 2n - 4 triangles.
 struct Mesh {
-  Points3 points;       ///< 3 x n sites: the distinct columns of the input, as given, in their order
-  Triangles triangles;  ///< 3 x m site ids
+  Points3 points;      ///< 3 x n sites: the distinct columns of the input, as given, in their order
+  Triangles triangles; ///< 3 x m site ids
   Triangles neighbours; ///< 3 x m triangle ids, or -1
-  std::vector<std::int32_t> site_of_input; ///< for each input column its site; a duplicate has the lowest's
+  std::vector<std::int32_t>
+      site_of_input; ///< for each input column its site; a duplicate has the lowest's
 
   bool closed() const { return triangles.cols() == 2 * points.cols() - 4; }
 };

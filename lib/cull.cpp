@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cull.h"
+
+#include "cells.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace calotte::detail {
+namespace {
+
+using Face = CapTriangulation::Face;
+using Vertex = CapTriangulation::Vertex;
+
+bool has_owned_vertex(Face face) {
+  return face->vertex(0)->owned || face->vertex(1)->owned || face->vertex(2)->owned;
+}
+
+/// Radius of a ball around the centre that the region covers.
+double inner_radius(const Vec3& centre, const std::vector<HalfSpace>& covered) {
+  double radius = 2;
+  for (const HalfSpace& h : covered)
+    radius = std::min(radius, h.offset - dot(centre, h.normal));
+  return radius;
+}
+
+/// Distance of x to the covered part's rim, if not far inside: then a lower bound.
+double depth_of(const Vec3& x, const Vec3& centre, double inner,
+                const std::vector<HalfSpace>& covered) {
+  double depth = inner - norm(x - centre);
+  if (depth > inner / 4)
+    return depth;
+  depth = 2;
+  for (const HalfSpace& h : covered)
+    depth = std::min(depth, h.offset - dot(x, h.normal));
+  return depth;
+}
+
+// ---- The cull test
+
+/// A triangle's plane and circumcap, in doubles.
+struct Circumcap {
+  Vec3 normal;  ///< (b - a) x (c - a), not normalised
+  double area;  ///< its norm
+  double sine;  ///< of the cap's radius, the circumradius of the flat triangle
+  double error; ///< of the normal's direction, radians
+  bool below_hemisphere;
+};
+
+Circumcap circumcap(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 ab = b - a, ac = c - a, bc = c - b;
+  const double ab2 = dot(ab, ab), ac2 = dot(ac, ac), bc2 = dot(bc, bc);
+  const Vec3 normal = cross(ab, ac);
+  const double area2 = dot(normal, normal), area = std::sqrt(area2);
+  const double longest = std::sqrt(std::max({ab2, ac2, bc2}));
+  // Each difference errs by 10 roundoffs and its own rounding, the cross product by two such times
+  // a side.
+  const double error = 50 * roundoff * longest / area;
+  return {normal, area, std::sqrt(ab2 * ac2 * bc2) / (2 * area), error, dot(normal, a) > 0};
+}
+
+/// Whether the cap of a ball around a vertex, of twice the circumradius, is covered: 2 sin r is the
+/// chord of its diameter. A normal with an error of 1e-3 moves the radius by less than the 1% set
+/// aside.
+bool is_within_depth(Face face, const Circumcap& cap) {
+  double depth = 0;
+  for (int i = 0; i < 3; ++i)
+    if (face->vertex(i)->owned)
+      depth = std::max<double>(depth, face->vertex(i)->depth);
+  return cap.below_hemisphere && cap.error < 1e-3 && 2.02 * cap.sine < depth;
+}
+
+/// Whether the cap lies in all half-spaces: its highest point over each is cos(angle - r), the
+/// angle from the cap's centre to the normal, or 1 when the cap holds the normal.
+bool is_covered(const Circumcap& cap, const std::vector<HalfSpace>& covered) {
+  if (!cap.below_hemisphere || !(cap.error < 1e-3) || cap.sine > 0.9)
+    return false;
+  const Vec3 centre = (1 / cap.area) * cap.normal;
+  const double cosine = std::sqrt(1 - cap.sine * cap.sine);
+  // The centre moves by the error, and sin r by its product with r / sin(2r) <= 2 for a bound.
+  const double margin = 8 * cap.error + 1e-14;
+  return std::all_of(covered.begin(), covered.end(), [&](const HalfSpace& h) {
+    const double height = dot(centre, h.normal);
+    if (height >= cosine)
+      return false;
+    const double highest = height * cosine + cap.sine * std::sqrt(1 - height * height);
+    return highest + margin <= h.offset;
+  });
+}
+
+// ---- Queries
+
+/// Sites of the whole set in conflict with a face, found from the nearest cells on: at most a few,
+/// since each changes the triangulation around it.
+class ConflictQuery {
+public:
+  ConflictQuery(CapTriangulation& triangulation, const Sites& sites)
+      : triangulation_(triangulation), sites_(sites), keys_(sites.key.begin(), sites.key.end()) {}
+
+  const std::vector<std::int32_t>& run(Face face) {
+    face_ = face;
+    found_.clear();
+    const int infinite = face->infinite;
+    const Sphere& space = triangulation_.space();
+    for (int i = 0; i < 3; ++i)
+      corner_[static_cast<std::size_t>(i)] =
+          i == infinite ? normalised(space.view().focus) : face->vertex(i)->place.unit;
+    normal_ = cross(corner_[1] - corner_[0], corner_[2] - corner_[0]);
+    const double longest = std::max({norm(corner_[1] - corner_[0]), norm(corner_[2] - corner_[0]),
+                                     norm(corner_[2] - corner_[1])});
+    normal_error_ = 50 * roundoff * longest;
+    near_ = infinite < 0 ? corner_[0] : corner_[static_cast<std::size_t>(infinite == 0)];
+    for (const Cell& cell : by_distance(face_cells(keys_)))
+      descend(cell);
+    return found_;
+  }
+
+private:
+  static constexpr std::size_t enough = 8;
+  static constexpr std::int64_t leaf_size = 8;
+
+  /// No site of the cell lies above the face's plane, whatever the rounding. Over the vertex a and
+  /// any x of the ball, (x - a).q errs by |x - a| times the normal's error and by 12 roundoffs
+  /// times |q|.
+  bool is_below(const Ball& ball) const {
+    const Vec3 apart = ball.centre - corner_[0];
+    const double area = norm(normal_), reach = norm(apart) + ball.radius;
+    const double error = normal_error_ * reach + 16 * roundoff * (1 + reach) * area;
+    return dot(apart, normal_) + ball.radius * area < -error;
+  }
+
+  template <std::size_t count>
+  std::array<Cell, count> by_distance(std::array<Cell, count> cells) const {
+    std::array<std::pair<double, std::size_t>, count> order;
+    for (std::size_t c = 0; c < count; ++c) {
+      const Ball ball = bounding_ball(cells[c]);
+      order[c] = {norm(ball.centre - near_), c};
+    }
+    std::sort(order.begin(), order.end());
+    std::array<Cell, count> sorted;
+    for (std::size_t c = 0; c < count; ++c)
+      sorted[c] = cells[order[c].second];
+    return sorted;
+  }
+
+  void descend(const Cell& cell) {
+    if (cell.size() == 0 || found_.size() >= enough || is_below(bounding_ball(cell)))
+      return;
+    if (cell.size() <= leaf_size || !cell.divisible()) {
+      for (std::int64_t r = cell.begin; r != cell.end && found_.size() < enough; ++r)
+        if (is_in_conflict(r))
+          found_.push_back(static_cast<std::int32_t>(r));
+    } else {
+      for (const Cell& child : by_distance(children(cell, keys_)))
+        descend(child);
+    }
+  }
+
+  bool is_in_conflict(std::int64_t rank) {
+    for (int i = 0; i < 3; ++i)
+      if (i != face_->infinite && face_->vertex(i)->place.site == sites_.id[rank])
+        return false;
+    Sphere& space = triangulation_.space();
+    return space.has_place(rank) && triangulation_.conflicts(face_, space.place(rank));
+  }
+
+  CapTriangulation& triangulation_;
+  const Sites& sites_;
+  std::span<const std::uint64_t> keys_;
+  Face face_;
+  std::array<Vec3, 3> corner_{};
+  Vec3 normal_{}, near_{};
+  double normal_error_ = 0;
+  std::vector<std::int32_t> found_;
+};
+
+/// Faces with an owned vertex that the cull test does not certify.
+std::vector<Face> uncertified_faces(CapTriangulation& triangulation,
+                                    const std::vector<HalfSpace>& covered, CullCounts& counts) {
+  std::vector<Face> uncertified;
+  triangulation.for_each_face([&](Face face) {
+    if (face->certified || !has_owned_vertex(face))
+      return;
+    if (CapTriangulation::is_infinite(face)) {
+      uncertified.push_back(face);
+      return;
+    }
+    const Circumcap cap = circumcap(face->vertex(0)->place.unit, face->vertex(1)->place.unit,
+                                    face->vertex(2)->place.unit);
+    if (is_within_depth(face, cap) || is_covered(cap, covered)) {
+      face->certified = true;
+      ++counts.by_cull;
+    } else {
+      uncertified.push_back(face);
+    }
+  });
+  return uncertified;
+}
+
+} // namespace
+
+std::vector<Member> gather(const Sites& sites, const Regions& regions, std::int32_t k) {
+  const auto region = static_cast<std::size_t>(k);
+  const std::vector<HalfSpace>& covered = regions.covered[region];
+  const Vec3& centre = regions.centres[region];
+  const double inner = inner_radius(centre, covered);
+  std::vector<Member> members;
+  std::size_t count = 0;
+  for (const Run& run : regions.members[region])
+    count += static_cast<std::size_t>(run.end - run.begin);
+  members.reserve(count);
+  for (const Run& run : regions.members[region])
+    for (std::int32_t r = run.begin; r != run.end; ++r) {
+      const bool owned = regions.owner[r] == k;
+      const double depth = owned ? depth_of(sites.unit[r], centre, inner, covered) : 0;
+      // Rounded down, by more than the rounding of half-spaces: 1e-14.
+      members.push_back({r, static_cast<float>(0.999999 * depth - 1e-14), owned});
+    }
+  return members;
+}
+
+bool certify(CapTriangulation& triangulation, const Sites& sites, const Regions& regions,
+             std::int32_t k, CullCounts& counts) {
+  const std::vector<HalfSpace>& covered = regions.covered[static_cast<std::size_t>(k)];
+  ConflictQuery query(triangulation, sites);
+  for (;;) {
+    std::vector<Face> faces = uncertified_faces(triangulation, covered, counts);
+    std::vector<std::int32_t> missing;
+    bool open = false;
+    for (const Face face : faces) {
+      const std::vector<std::int32_t>& found = query.run(face);
+      missing.insert(missing.end(), found.begin(), found.end());
+      if (!found.empty())
+        continue;
+      if (CapTriangulation::is_infinite(face))
+        open = true;
+      face->certified = true;
+      ++counts.by_query;
+    }
+    if (open)
+      return false;
+    if (missing.empty())
+      return true;
+    std::sort(missing.begin(), missing.end());
+    missing.erase(std::unique(missing.begin(), missing.end()), missing.end());
+    for (const std::int32_t rank : missing)
+      triangulation.insert({rank, 0, false});
+    counts.inserted += std::ssize(missing);
+  }
+}
+
+} // namespace calotte::detail

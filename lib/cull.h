@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "regions.h"
+#include "sphere.h"
+#include "triangulate.h"
+
+namespace calotte::detail {
+
+using CapTriangulation = Triangulation<Sphere>;
+
+struct CullCounts {
+  std::int64_t by_cull = 0, by_query = 0, inserted = 0;
+};
+
+/// The members of region k; empty when a rounded bisector has cost it a site that it owns.
+std::vector<Member> gather(const Sites& sites, const Regions& regions, std::int32_t k);
+
+/// Certifies every triangle with an owned vertex: by the paper's cull test (Jacobsen et al., 2013,
+/// Eq. 1 and Sect. 3.2) that its circumcap lies where the region holds all sites; else by asking
+/// for sites in the circumcap, inserting those found, and repeating. \return whether all owned
+/// sites have closed stars now. They have not when the focus lies in one of
+///         their circumcaps, as with a few sites or all sites in a hemisphere.
+bool certify(CapTriangulation& triangulation, const Sites& sites, const Regions& regions,
+             std::int32_t k, CullCounts& counts);
+
+} // namespace calotte::detail

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+/// The only file with oneTBB's loops. They run in the caller's task arena; every body writes slots
+/// of its own, so that no result depends on the number of threads.
+namespace calotte::detail {
+
+/// n values, not initialised, so that the thread that first writes a page also faults it in.
+template <class T> class Array {
+public:
+  Array() = default;
+  explicit Array(std::int64_t n)
+      : size_(n), data_(std::make_unique_for_overwrite<T[]>(static_cast<std::size_t>(n))) {}
+  T& operator[](std::int64_t i) { return data_[static_cast<std::size_t>(i)]; }
+  const T& operator[](std::int64_t i) const { return data_[static_cast<std::size_t>(i)]; }
+  std::int64_t size() const { return size_; }
+  T* begin() { return data_.get(); }
+  T* end() { return data_.get() + size_; }
+  const T* begin() const { return data_.get(); }
+  const T* end() const { return data_.get() + size_; }
+
+private:
+  std::int64_t size_ = 0;
+  std::unique_ptr<T[]> data_;
+};
+
+/// body(i) for 0 <= i < n, each a task of its own.
+template <class Body> void for_each_task(std::int64_t n, const Body& body) {
+  tbb::parallel_for(
+      tbb::blocked_range<std::int64_t>(0, n, 1),
+      [&](const tbb::blocked_range<std::int64_t>& range) {
+        for (std::int64_t i = range.begin(); i != range.end(); ++i)
+          body(i);
+      },
+      tbb::simple_partitioner());
+}
+
+/// The number of blocks that for_each_block and exclusive_scan cut n items into: a function of n
+/// alone.
+inline std::int64_t block_count(std::int64_t n) {
+  constexpr std::int64_t block = 1 << 14;
+  return (n + block - 1) / block;
+}
+
+/// body(block, begin, end) for consecutive blocks of [0, n).
+template <class Body> void for_each_block(std::int64_t n, const Body& body) {
+  const std::int64_t blocks = block_count(n);
+  for_each_task(blocks, [&](std::int64_t block) {
+    body(block, n * block / blocks, n * (block + 1) / blocks);
+  });
+}
+
+/// Replaces each value by the sum of those before it; returns the sum of all.
+template <class T> T exclusive_scan(std::span<T> values) {
+  const auto n = static_cast<std::int64_t>(values.size());
+  std::vector<T> before(static_cast<std::size_t>(block_count(n)));
+  for_each_block(n, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
+    T sum = 0;
+    for (std::int64_t i = begin; i != end; ++i)
+      sum += values[static_cast<std::size_t>(i)];
+    before[static_cast<std::size_t>(block)] = sum;
+  });
+  T total = 0;
+  for (T& sum : before)
+    total += std::exchange(sum, total);
+  for_each_block(n, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
+    T sum = before[static_cast<std::size_t>(block)];
+    for (std::int64_t i = begin; i != end; ++i)
+      sum += std::exchange(values[static_cast<std::size_t>(i)], sum);
+  });
+  return total;
+}
+
+inline int thread_count() { return tbb::this_task_arena::max_concurrency(); }
+
+} // namespace calotte::detail

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "parallel.h"
+#include "sphere.h"
+#include "triangulate.h"
+
+#include <calotte/types.h>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace calotte::detail {
+
+using Triple = std::array<std::int32_t, 3>;
+
+/// What one region reports: its triangles with an owned vertex, each from its lowest site on. First
+/// those whose lowest site it owns, in runs of equal lowest site, sorted by the second; then the
+/// others, in no order.
+struct RegionTriangles {
+  std::int64_t lowest_owned = 0; ///< number of the first kind
+  std::vector<Triple> sites;     ///< counter-clockwise
+  std::vector<Triple>
+      neighbours; ///< across from each vertex, as places in these arrays; -1 where not reported
+  std::vector<std::int32_t>
+      seams; ///< places of triangles whose vertices have different owners, ascending
+  std::vector<std::int8_t> reporters; ///< by seam: the number of owners
+  std::vector<std::int8_t> own_edges; ///< by seam: bit i set where this region owns the lower site
+                                      ///< of the edge across from vertex i
+};
+
+/// Reports a certified triangulation.
+/// \param owner by rank, to count a seam's owners.
+/// \param triangles_of by site: set, for the owned sites, to the number of triangles with that
+/// lowest site.
+RegionTriangles report_triangles(Triangulation<Sphere>& triangulation, const Sites& sites,
+                                 const Array<std::int32_t>& owner,
+                                 std::vector<std::int32_t>& triangles_of);
+
+/// Unites the regions' reports to triangles and neighbours in canonical order. Triangles with one
+/// owner go straight to their place. Seam triangles meet in a concurrent hash table, which counts
+/// who reported each. \param triangles_of by site, as report_triangles left it; used up. \throws
+/// Error internal, when a seam triangle was not reported by exactly the owners of its vertices.
+void unite(const std::vector<RegionTriangles>& reports, std::vector<std::int32_t>& triangles_of,
+           Mesh& mesh);
+
+} // namespace calotte::detail
