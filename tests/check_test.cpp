@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/clouds.h"
+#include "support/laws.h"
+
+#include <calotte/check.h>
+
+#include <doctest/doctest.h>
+
+#include <limits>
+#include <string>
+#include <vector>
+
+using namespace calotte;
+using namespace calotte::test;
+
+namespace {
+
+bool fails_with(const Mesh& mesh, const std::string& words) {
+  const Check result = check(mesh);
+  INFO("failure: ", result.failure);
+  CHECK_FALSE(result.passed());
+  CHECK(result.failure.find('\n') == std::string::npos);
+  const bool found = result.failure.find(words) != std::string::npos;
+  CHECK(found);
+  return found;
+}
+
+std::vector<Triple> triangles_of(const Mesh& mesh) {
+  std::vector<Triple> out;
+  for (std::int64_t t = 0; t < mesh.triangles.cols(); ++t)
+    out.push_back(triple(mesh, t));
+  return out;
+}
+
+Mesh good_mesh() { return oracle::delaunay(random_sphere(20, 4)); }
+
+/// With the edge across from vertex 0 of triangle t flipped.
+Mesh flipped(const Mesh& mesh, std::int64_t t) {
+  std::vector<Triple> triangles = triangles_of(mesh);
+  const std::int32_t other = mesh.neighbours(0, t);
+  const Triple own = triple(mesh, t);
+  std::int32_t across = -1;
+  for (int j = 0; j < 3; ++j)
+    if (std::find(own.begin(), own.end(), mesh.triangles(j, other)) == own.end())
+      across = mesh.triangles(j, other);
+  triangles[static_cast<std::size_t>(t)] = {own[0], own[1], across};
+  triangles[static_cast<std::size_t>(other)] = {own[0], across, own[2]};
+  return oracle::mesh_of(mesh.points, triangles);
+}
+
+void exchange_sites(Points3& points, Eigen::Index i, Eigen::Index j) {
+  const Eigen::Vector3d p = points.col(i);
+  points.col(i) = points.col(j);
+  points.col(j) = p;
+}
+
+} // namespace
+
+TEST_CASE("meshes made by the definition pass, closed and open") {
+  for (const Cloud& cloud : small_clouds()) {
+    if (cloud.points.cols() > 25 || cloud.sites >= 0)
+      continue;
+    CAPTURE(cloud.name);
+    const Mesh mesh = oracle::delaunay(cloud.points);
+    const Check result = check(mesh);
+    CHECK(result.failure == "");
+    CHECK(result.sites == mesh.points.cols());
+    CHECK(result.triangles == mesh.triangles.cols());
+    CHECK((result.boundary_edges == 0) == cloud.closed);
+    CHECK(mesh.closed() == cloud.closed);
+    if (cloud.closed)
+      CHECK(result.area == doctest::Approx(4 * std::numbers::pi).epsilon(1e-9));
+    else
+      CHECK(result.area <= 2 * std::numbers::pi * (1 + 1e-12));
+  }
+}
+
+TEST_CASE("an empty mesh, and sizes that do not match") {
+  fails_with(Mesh{}, "no triangle");
+  Mesh mesh = good_mesh();
+  mesh.neighbours.conservativeResize(3, mesh.neighbours.cols() - 1);
+  fails_with(mesh, "neighbours");
+  mesh = good_mesh();
+  mesh.points.resize(3, 0);
+  mesh.site_of_input.clear();
+  fails_with(mesh, "vertex outside");
+}
+
+TEST_CASE("sites that are not directions") {
+  for (const double bad :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    Mesh mesh = good_mesh();
+    mesh.points(1, 7) = bad;
+    fails_with(mesh, "site 7 ");
+  }
+  Mesh mesh = good_mesh();
+  mesh.points.col(3).setZero();
+  fails_with(mesh, "site 3 ");
+}
+
+TEST_CASE("ids out of range") {
+  for (const std::int32_t id : {-1, 20, 1 << 30, std::numeric_limits<std::int32_t>::min()}) {
+    Mesh mesh = good_mesh();
+    mesh.triangles(2, 5) = id;
+    fails_with(mesh, "triangle 5 ");
+  }
+  for (const std::int32_t id : {-2, 36, 1 << 30, std::numeric_limits<std::int32_t>::min()}) {
+    Mesh mesh = good_mesh();
+    mesh.neighbours(1, 9) = id;
+    fails_with(mesh, "triangle 9 ");
+  }
+  Mesh mesh = good_mesh();
+  mesh.site_of_input[4] = 20;
+  fails_with(mesh, "input 4 ");
+}
+
+TEST_CASE("order that is not canonical") {
+  Mesh mesh = good_mesh();
+  std::rotate(mesh.triangles.col(6).data(), mesh.triangles.col(6).data() + 1,
+              mesh.triangles.col(6).data() + 3);
+  fails_with(mesh, "triangle 6 ");
+  mesh = good_mesh();
+  mesh.triangles.col(3).swap(mesh.triangles.col(4));
+  fails_with(mesh, "triangle 4 ");
+  mesh = good_mesh();
+  mesh.triangles(1, 8) = mesh.triangles(2, 8);
+  fails_with(mesh, "vertex twice");
+  mesh = good_mesh();
+  mesh.triangles.col(8) = mesh.triangles.col(7);
+  fails_with(mesh, "there twice");
+}
+
+TEST_CASE("neighbours that are wrong") {
+  Mesh mesh = good_mesh();
+  mesh.neighbours(0, 2) = 2;
+  fails_with(mesh, "triangle 2 ");
+  mesh = good_mesh();
+  std::swap(mesh.neighbours(0, 2), mesh.neighbours(1, 2));
+  fails_with(mesh, "triangle 2 ");
+  mesh = good_mesh();
+  mesh.neighbours(0, 2) = -1;
+  fails_with(mesh, "edge");
+  mesh = good_mesh();
+  // Cut along one edge: both sides say that nothing is across.
+  const std::int32_t other = mesh.neighbours(0, 2);
+  for (int j = 0; j < 3; ++j)
+    if (mesh.neighbours(j, other) == 2)
+      mesh.neighbours(j, other) = -1;
+  mesh.neighbours(0, 2) = -1;
+  fails_with(mesh, "site");
+}
+
+TEST_CASE("a triangle missing, there twice, or turned over") {
+  const Mesh mesh = good_mesh();
+  std::vector<Triple> triangles = triangles_of(mesh);
+  triangles.erase(triangles.begin() + 10);
+  fails_with(oracle::mesh_of(mesh.points, triangles), "convex");
+  triangles = triangles_of(mesh);
+  std::swap(triangles[10][0], triangles[10][1]);
+  CHECK_FALSE(check(oracle::mesh_of(mesh.points, triangles)).passed());
+  Mesh twice = mesh;
+  twice.triangles.col(11) = twice.triangles.col(10);
+  CHECK_FALSE(check(twice).passed());
+}
+
+TEST_CASE("every edge flipped is found") {
+  const Mesh mesh = good_mesh();
+  for (std::int64_t t = 0; t < mesh.triangles.cols(); ++t) {
+    CAPTURE(t);
+    CHECK_FALSE(check(flipped(mesh, t)).passed());
+  }
+}
+
+TEST_CASE("a flipped edge of a convex quadrilateral is named") {
+  // A long thin diamond on the equator with its long diagonal.
+  const Points3 points = columns({{1, 0, 0}, {0.6, 0.8, 0}, {1, 0.4, 0.1}, {1, 0.4, -0.1}});
+  fails_with(oracle::mesh_of(points, {{0, 1, 2}, {0, 3, 1}}), "edge (0, 1) of triangle 0");
+  CHECK(check(oracle::mesh_of(points, {{0, 3, 2}, {1, 2, 3}})).failure == "");
+}
+
+TEST_CASE("two sites exchanged") {
+  const Mesh mesh = good_mesh();
+  for (Eigen::Index j = 1; j < 20; ++j) {
+    Mesh wrong = mesh;
+    exchange_sites(wrong.points, 0, j);
+    CAPTURE(j);
+    CHECK_FALSE(check(wrong).passed());
+  }
+}
+
+TEST_CASE("a cube's face with the other diagonal") {
+  const Mesh mesh = oracle::delaunay(signs_of({1, 1, 1}));
+  REQUIRE(check(mesh).failure == "");
+  int tied = 0;
+  for (std::int64_t t = 0; t < mesh.triangles.cols(); ++t) {
+    const Mesh other = flipped(mesh, t);
+    if (exact::orientation(site(other.points, other.triangles(0, t)),
+                           site(other.points, other.triangles(1, t)),
+                           site(other.points, other.triangles(2, t))) <= 0)
+      continue;
+    ++tied;
+    CHECK_FALSE(check(other).passed());
+  }
+  CHECK(tied > 0);
+}
+
+TEST_CASE("a site that is no vertex") {
+  Mesh mesh = good_mesh();
+  mesh.points.conservativeResize(3, 21);
+  mesh.points.col(20) << 1, 2, 3;
+  fails_with(mesh, "site 20 is no vertex");
+}
+
+TEST_CASE("a boundary that is not convex") {
+  const Points3 points = columns({{0, 0, 1}, {1, -1, 2}, {1, 1, 2}, {-1, 1, 2}, {-1, -1, 2}});
+  const Mesh whole = oracle::mesh_of(points, {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}});
+  CHECK(check(whole).failure == "");
+  fails_with(oracle::mesh_of(points, {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}}), "not convex at site 0");
+}
+
+TEST_CASE("one site of two fans") {
+  const Points3 points = columns({{0, 0, 1}, {1, -1, 2}, {1, 1, 2}, {-1, 1, 2}, {-1, -1, 2}});
+  fails_with(oracle::mesh_of(points, {{0, 1, 2}, {0, 3, 4}}),
+             "site 0 are not a single cycle or fan");
+}
+
+TEST_CASE("two sheets over the sphere") {
+  // The octahedron, twice round its axis: every triangle counter-clockwise, every edge in two.
+  std::vector<Vec3> ring;
+  for (int i = 0; i < 8; ++i)
+    ring.push_back({std::cos(i * std::numbers::pi / 2 + 0.01 * i),
+                    std::sin(i * std::numbers::pi / 2 + 0.01 * i), 0});
+  ring.push_back({0, 0, 1});
+  ring.push_back({0, 0, -1});
+  std::vector<Triple> triangles;
+  for (std::int32_t i = 0; i < 8; ++i) {
+    triangles.push_back({i, (i + 1) % 8, 8});
+    triangles.push_back({(i + 1) % 8, i, 9});
+  }
+  fails_with(oracle::mesh_of(columns(ring), triangles), "turn 2 times around site 8");
+}
+
+TEST_CASE("two spheres in one mesh") {
+  const Points3 one = columns({{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}});
+  const Mesh mesh = oracle::delaunay(one);
+  std::vector<Triple> triangles = triangles_of(mesh);
+  for (std::size_t t = 0; t < 4; ++t)
+    triangles.push_back({triangles[t][0] + 4, triangles[t][1] + 4, triangles[t][2] + 4});
+  fails_with(oracle::mesh_of(joined(one, 2 * one), triangles), "Euler");
+}
+
+TEST_CASE("arrays of nonsense do not crash") {
+  Random random(47);
+  for (int round = 0; round < 3000; ++round) {
+    const int n = random.integer(0, 6), m = random.integer(0, 8);
+    Mesh mesh;
+    mesh.points.resize(3, n);
+    for (Eigen::Index i = 0; i < mesh.points.size(); ++i)
+      mesh.points.data()[i] = random.integer(-1, 1);
+    mesh.triangles.resize(3, m);
+    mesh.neighbours.resize(3, m);
+    for (Eigen::Index i = 0; i < mesh.triangles.size(); ++i) {
+      mesh.triangles.data()[i] = random.integer(0, n);
+      mesh.neighbours.data()[i] = random.integer(-1, m);
+    }
+    CHECK_FALSE(check(mesh).passed());
+  }
+  // Good triangles over points that do not fit, neighbours mutual: past the first laws.
+  const Mesh mesh = good_mesh();
+  for (int round = 0; round < 1000; ++round) {
+    Mesh wrong = mesh;
+    for (int k = 0; k < 20; ++k)
+      exchange_sites(wrong.points, random.integer(0, 19), random.integer(0, 19));
+    const Check result = check(wrong);
+    CHECK((!result.passed() || wrong.points == mesh.points));
+  }
+}
