@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <calotte/types.h>
+#include <calotte/io.h>
 
 #include <CLI/CLI.hpp>
 
 #include <memory>
 #include <string>
+#include <vector>
 
 /// The command's parts. A subcommand throws calotte::Error, which main turns into one line and an
 /// exit code.
@@ -26,13 +27,17 @@ enum ExitCode { done = 0, check_failed = 1, bad_input = 2, file_trouble = 3, int
 /// Ends the command with an exit code, without a message.
 [[noreturn]] void finish(ExitCode code);
 
-/// Refuses, before any work, a file that could not be written because its folder does not exist or
-/// is closed. \throws Error file.
+/// Refuses, before any work, a file that could not be written: it is a folder, or its own does not
+/// exist or is closed. \throws Error file.
 void require_folder(const std::string& path);
 
 /// Refuses an output that would replace an input ("-" is none).
 /// \throws Error bad_option.
 void require_distinct(const std::string& output, const std::string& input);
+
+/// As read_points; "-" is standard input.
+Points3 points_from(const std::string& path, Columns columns,
+                    std::vector<std::int64_t>* lines = nullptr);
 
 /// Where a mesh is read from: the file, and the points that a .txt or .tri file refers to.
 struct MeshSource {

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "commands.h"
+
+#include <calotte/error.h>
+
+#include <csignal>
+#include <exception>
+#include <iostream>
+#include <new>
+#include <string>
+
+namespace calotte::tools {
+namespace {
+
+constexpr const char* footer =
+    R"(Results go to standard output, messages to standard error. Exit codes:
+  0  done
+  1  the mesh failed a check
+  2  bad usage or input
+  3  file trouble: one cannot be opened, read or written
+  4  internal error)";
+
+/// How to ask for the help that the arguments call for.
+std::string help_of(const CLI::App& app) {
+  const auto commands = app.get_subcommands();
+  return "calotte " + (commands.empty() ? "" : commands.back()->get_name() + " ") + "--help";
+}
+
+/// One line, whatever the message.
+void complain(std::string message) {
+  for (char& c : message)
+    if (c == '\n')
+      c = ' ';
+  std::cerr << "calotte: " + message + "\n";
+}
+
+ExitCode exit_code(ErrorCode code) {
+  switch (code) {
+  case ErrorCode::file:
+    return file_trouble;
+  case ErrorCode::internal:
+    return internal_error;
+  default:
+    return bad_input;
+  }
+}
+
+void run(CLI::App& app, int argc, char** argv) {
+  app.footer(footer); // before the subcommands, which inherit it
+  app.set_version_flag("--version", std::string("calotte " CALOTTE_VERSION));
+  app.require_subcommand(0, 1);
+  add_delaunay(app);
+  add_points(app);
+  add_check(app);
+  add_draw(app);
+  app.parse(argc, argv);
+  if (app.get_subcommands().empty())
+    throw CLI::RequiredError("delaunay, points, check or draw");
+}
+
+/// Runs the command, and turns what it throws into one line and an exit code.
+ExitCode guarded_run(CLI::App& app, int argc, char** argv) {
+  try {
+    run(app, argc, argv);
+    return done;
+  } catch (const CLI::Success& request) { // --help, --version
+    app.exit(request);
+    return done;
+  } catch (const CLI::RuntimeError& finished) {
+    return static_cast<ExitCode>(finished.get_exit_code());
+  } catch (const CLI::ParseError& error) {
+    complain(std::string(error.what()) + "; see " + help_of(app));
+    return bad_input;
+  } catch (const Error& error) {
+    const bool bug = error.code() == ErrorCode::internal;
+    complain((bug ? "internal error, please report it: " : "") + std::string(error.what()));
+    return exit_code(error.code());
+  } catch (const std::bad_alloc&) {
+    complain("not enough memory; try fewer points");
+    return internal_error;
+  } catch (const std::exception& error) {
+    complain("internal error, please report it: " + std::string(error.what()));
+    return internal_error;
+  }
+}
+
+} // namespace
+} // namespace calotte::tools
+
+int main(int argc, char** argv) {
+  using namespace calotte::tools;
+  // A file larger than allowed is an error like a full disk, not a reason to die.
+  std::signal(SIGXFSZ, SIG_IGN);
+  std::ios::sync_with_stdio(false);
+  CLI::App app("Exact Delaunay triangulations of the sphere, in parallel.", "calotte");
+  const ExitCode code = guarded_run(app, argc, argv);
+  if (code == done && !std::cout.flush()) {
+    complain("cannot write standard output; make room or send it elsewhere");
+    return file_trouble;
+  }
+  return code;
+}

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "commands.h"
+
+#include <calotte/error.h>
+#include <calotte/generators.h>
+#include <calotte/io.h>
+
+#include <filesystem>
+#include <iostream>
+#include <limits>
+#include <optional>
+
+namespace calotte::tools {
+namespace {
+
+struct Request {
+  std::string kind, output;
+  std::int64_t count = 0;
+  std::optional<std::uint64_t> seed;
+  bool poles = false;
+};
+
+void require_options(const Request& request) {
+  if (request.seed && request.kind != "random")
+    throw Error(ErrorCode::bad_option, "--seed is for random points only; leave it out");
+  if (request.poles && request.kind != "latlon")
+    throw Error(ErrorCode::bad_option, "--poles is for latlon points only; leave it out");
+  if (request.output == "-")
+    return;
+  const std::string suffix = std::filesystem::path(request.output).extension();
+  for (const char* mesh : {".tri", ".vtp", ".vtu", ".off", ".ply"})
+    if (suffix == mesh)
+      throw Error(ErrorCode::bad_option, request.output +
+                                             ": points are text, x y z a line; give a name such as "
+                                             "points.txt, and make a mesh with calotte delaunay");
+  require_folder(request.output);
+}
+
+int level_of(std::int64_t count) {
+  if (count < 0 || count > std::numeric_limits<int>::max())
+    throw Error(ErrorCode::bad_option,
+                "the level is " + std::to_string(count) + "; give a number from 0");
+  return static_cast<int>(count);
+}
+
+Points3 generate(const Request& request) {
+  if (request.kind == "random")
+    return random_sphere(request.count, request.seed.value_or(1));
+  if (request.kind == "fibonacci")
+    return fibonacci_sphere(request.count);
+  if (request.kind == "spiral")
+    return spiral_sphere(request.count);
+  if (request.kind == "icosahedron")
+    return bisected_icosahedron(level_of(request.count));
+  if (request.kind == "latlon")
+    return lat_lon_sphere(request.count, 2 * request.count, request.poles);
+  return cubed_sphere(request.count);
+}
+
+void run(const Request& request) {
+  require_options(request);
+  const Points3 points = generate(request);
+  if (request.output == "-") {
+    write_points(std::cout, points);
+    return;
+  }
+  write_points(request.output, points);
+  std::cout << request.output << ": " << points.cols() << " points\n";
+}
+
+} // namespace
+
+void add_points(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("points", "Write a set of points, x y z a line.");
+  auto request = std::make_shared<Request>();
+  command
+      ->add_option("KIND", request->kind,
+                   "random, fibonacci, spiral, icosahedron, latlon or cubed (an equiangular cube)")
+      ->required()
+      ->check(CLI::IsMember({"random", "fibonacci", "spiral", "icosahedron", "latlon", "cubed"}));
+  command
+      ->add_option(
+          "N", request->count,
+          "the number of points; of bisections for icosahedron, of rows for latlon (with 2N "
+          "columns), of cells along an edge for cubed")
+      ->required();
+  command->add_option("-o,--output", request->output, "the file; - is standard output")->required();
+  command->add_option("--seed", request->seed, "of random points; default 1");
+  command->add_flag("--poles", request->poles, "add both poles to latlon");
+  command->callback([request] { run(*request); });
+}
+
+} // namespace calotte::tools

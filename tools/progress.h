@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <string>
+#include <thread>
+
+namespace calotte::tools {
+
+/// One line on standard error that names the stage and the seconds so far: on a terminal only,
+/// after a second only, and gone at the end.
+class Progress {
+public:
+  Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+  ~Progress();
+
+  void stage(const std::string& name);
+
+private:
+  void show();
+
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::mutex mutex_;
+  std::condition_variable ended_;
+  std::string stage_;
+  bool end_ = false;
+  std::thread thread_; ///< last, so that it starts when all else is there
+};
+
+/// Seconds of wall-clock time that a piece of work takes.
+template <class Work> double seconds_of(Work work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+} // namespace calotte::tools
