@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "../tools/draw.h"
+#include "../tools/draw_globe.h"
+
+#include <calotte/delaunay.h>
+#include <calotte/error.h>
+#include <calotte/generators.h>
+
+#include <cairo.h>
+#include <doctest/doctest.h>
+#include <unistd.h>
+
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <numbers>
+
+using namespace calotte;
+using namespace calotte::tools;
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+constexpr std::array all_shapes = {Shapes::triangles, Shapes::cells};
+constexpr std::array all_colourings = {Colouring::spacing, Colouring::angle, Colouring::valence,
+                                       Colouring::none};
+
+/// A folder of its own that goes with the test.
+struct Folder {
+  Folder() : path(fs::temp_directory_path() / ("calotte-draw-" + std::to_string(getpid()))) {
+    fs::remove_all(path);
+    fs::create_directory(path);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  ~Folder() { fs::remove_all(path); }
+  std::string file(const std::string& name) const { return (path / name).string(); }
+  std::ptrdiff_t count() const {
+    return std::distance(fs::directory_iterator(path), fs::directory_iterator());
+  }
+  fs::path path;
+};
+
+std::string bytes_of(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// Four sites, made by hand.
+Mesh tetrahedron() {
+  Mesh mesh;
+  mesh.points.resize(3, 4);
+  mesh.points << 1, 1, -1, -1, /**/ 1, -1, 1, -1, /**/ 1, -1, -1, 1;
+  mesh.triangles.resize(3, 4);
+  mesh.triangles << 0, 0, 0, 1, /**/ 1, 2, 3, 3, /**/ 2, 3, 1, 2;
+  mesh.neighbours.resize(3, 4);
+  mesh.neighbours << 3, 3, 3, 1, /**/ 1, 2, 0, 0, /**/ 2, 0, 1, 2;
+  return mesh;
+}
+
+/// Sites within 40 degrees of the north pole.
+Mesh polar_cap() {
+  const Points3 all = fibonacci_sphere(1000);
+  Eigen::Index count = 0;
+  while (all(2, count) > std::cos(40 * degree)) {
+    ++count;
+  }
+  return delaunay(all.leftCols(count));
+}
+
+ErrorCode code_of(const std::function<void()>& act) {
+  try {
+    act();
+  } catch (const Error& error) {
+    return error.code();
+  }
+  FAIL("no error");
+  return ErrorCode::internal;
+}
+
+struct Picture {
+  explicit Picture(const std::string& path)
+      : surface(cairo_image_surface_create_from_png(path.c_str())) {
+    REQUIRE(cairo_surface_status(surface) == CAIRO_STATUS_SUCCESS);
+  }
+  Picture(const Picture&) = delete;
+  Picture& operator=(const Picture&) = delete;
+  ~Picture() { cairo_surface_destroy(surface); }
+  int width() const { return cairo_image_surface_get_width(surface); }
+  int height() const { return cairo_image_surface_get_height(surface); }
+  std::uint32_t at(int x, int y) const {
+    const auto* row = cairo_image_surface_get_data(surface) +
+                      static_cast<std::ptrdiff_t>(y) * cairo_image_surface_get_stride(surface);
+    return reinterpret_cast<const std::uint32_t*>(row)[x] & 0xffffff;
+  }
+  cairo_surface_t* surface;
+};
+
+/// The globe alone, as the pixels of its image; calls visit(pixel) for those within 0.97 of its
+/// radius.
+void for_each_globe_pixel(const Painting& painting, int radius,
+                          const std::function<void(std::uint32_t)>& visit) {
+  cairo_surface_t* image = raster_globe(painting, radius);
+  REQUIRE(cairo_image_surface_get_width(image) == 2 * radius);
+  const unsigned char* data = cairo_image_surface_get_data(image);
+  for (int y = 0; y < 2 * radius; ++y) {
+    for (int x = 0; x < 2 * radius; ++x) {
+      if (std::hypot(x + 0.5 - radius, y + 0.5 - radius) < 0.97 * radius) {
+        const auto* row =
+            data + static_cast<std::ptrdiff_t>(y) * cairo_image_surface_get_stride(image);
+        visit(reinterpret_cast<const std::uint32_t*>(row)[x] & 0xffffff);
+      }
+    }
+  }
+  cairo_surface_destroy(image);
+}
+
+Painting painting_of(const Mesh& mesh, Shapes shapes, Colouring colouring, const LonLat& view) {
+  Painting painting;
+  painting.scene = make_scene(mesh, shapes, view);
+  painting.values = values_of(painting.scene, colouring);
+  painting.widths = widths_of(painting.scene);
+  painting.scale = make_scale(painting.values, colouring);
+  return painting;
+}
+
+std::uint32_t packed(const Rgb& c) {
+  const auto byte = [](double x) { return static_cast<std::uint32_t>(std::lround(255 * x)); };
+  return byte(c.r) << 16 | byte(c.g) << 8 | byte(c.b);
+}
+
+} // namespace
+
+TEST_CASE("a picture has its format's signature, and is the only file that appears") {
+  const Folder folder;
+  const Mesh mesh = delaunay(random_sphere(300));
+  draw(folder.file("a.png"), mesh);
+  draw(folder.file("a.svg"), mesh);
+  draw(folder.file("a.PDF"), mesh);
+  CHECK(bytes_of(folder.file("a.png")).starts_with("\x89PNG\r\n\x1a\n"));
+  CHECK(bytes_of(folder.file("a.svg")).starts_with("<?xml"));
+  CHECK(bytes_of(folder.file("a.svg")).ends_with("</svg>\n"));
+  CHECK(bytes_of(folder.file("a.PDF")).starts_with("%PDF-"));
+  CHECK(bytes_of(folder.file("a.PDF")).ends_with("%%EOF\n"));
+  CHECK(folder.count() == 3);
+}
+
+TEST_CASE("what cannot be drawn is refused, and leaves nothing") {
+  const Folder folder;
+  const Mesh mesh = tetrahedron();
+  for (const char* name : {"a.jpg", "a", "png", ".", "a.png/"}) {
+    CAPTURE(name);
+    CHECK(code_of([&] { draw(folder.file(name), mesh); }) == ErrorCode::bad_option);
+  }
+  CHECK(code_of([&] { draw(folder.file("a.png"), mesh, {.size = 63}); }) == ErrorCode::bad_option);
+  CHECK(code_of([&] { draw(folder.file("a.png"), mesh, {.size = 16385}); }) ==
+        ErrorCode::bad_option);
+  CHECK(code_of([&] { draw(folder.file("none/a.png"), mesh); }) == ErrorCode::file);
+  CHECK(folder.count() == 0);
+}
+
+TEST_CASE("a full disk is an error in every format") {
+  const Folder folder;
+  for (const char* name : {"a.png", "a.svg", "a.pdf"}) {
+    CAPTURE(name);
+    fs::create_symlink("/dev/full", folder.file(name));
+    CHECK(code_of([&] { draw(folder.file(name), tetrahedron()); }) == ErrorCode::file);
+  }
+  CHECK(folder.count() == 3); // the links
+}
+
+TEST_CASE("four sites, an open mesh and a usual one can be drawn in every way") {
+  const Folder folder;
+  for (const Mesh& mesh : {tetrahedron(), polar_cap(), delaunay(random_sphere(100))}) {
+    for (const Shapes shapes : all_shapes) {
+      for (const Colouring colouring : all_colourings) {
+        const DrawOptions options = {.size = 120, .shapes = shapes, .colouring = colouring};
+        draw(folder.file("a.png"), mesh, options);
+        draw(folder.file("a.svg"), mesh, options);
+        const Picture picture(folder.file("a.png"));
+        CHECK(picture.width() == 120);
+        CHECK(picture.height() >= 120);
+        CHECK(picture.at(0, 0) == 0xffffff);
+        CHECK(picture.at(60, 70) != 0xffffff);
+      }
+    }
+  }
+}
+
+TEST_CASE("the hidden side is not drawn, and the near side is") {
+  const Mesh cap = polar_cap();
+  const std::uint32_t bare = packed(globe_colour);
+  for (const double latitude : {-90., 90.}) {
+    const Painting painting = painting_of(cap, Shapes::triangles, Colouring::none,
+                                          {.longitude = 0, .latitude = latitude});
+    CHECK(visible_shapes(painting) == (latitude > 0 ? cap.triangles.cols() : 0));
+    std::int64_t painted = 0;
+    std::int64_t all = 0;
+    for_each_globe_pixel(painting, 100, [&](std::uint32_t pixel) {
+      painted += pixel != bare ? 1 : 0;
+      ++all;
+    });
+    // The cap's picture takes sin(40 deg)^2 = 0.41 of the disk, less a spacing along its rim.
+    const double share = static_cast<double>(painted) / static_cast<double>(all);
+    CHECK((latitude > 0 ? share > 0.3 && share < 0.5 : share == 0));
+  }
+}
+
+TEST_CASE("shapes leave no gap: a sample that none covers would change its pixel's mean") {
+  const Mesh mesh = delaunay(fibonacci_sphere(30000)); // too small here for outlines
+  for (const Shapes shapes : all_shapes) {
+    const Painting painting =
+        painting_of(mesh, shapes, Colouring::none, {.longitude = 7, .latitude = 3});
+    const std::uint32_t fill = packed(painting.scale.colour(0));
+    std::int64_t others = 0;
+    for_each_globe_pixel(painting, 90,
+                         [&](std::uint32_t pixel) { others += pixel != fill ? 1 : 0; });
+    CHECK(others == 0);
+  }
+}
+
+TEST_CASE("sites are directions: their norms change no byte of the picture") {
+  const Folder folder;
+  Mesh mesh = delaunay(random_sphere(200));
+  draw(folder.file("a.png"), mesh, {.shapes = Shapes::cells});
+  for (Eigen::Index i = 0; i < mesh.points.cols(); ++i) {
+    mesh.points.col(i) *= std::ldexp(1.0, static_cast<int>(i * 6) - 600); // to 1e-180 and 1e179
+  }
+  draw(folder.file("b.png"), mesh, {.shapes = Shapes::cells});
+  CHECK(bytes_of(folder.file("a.png")) == bytes_of(folder.file("b.png")));
+}
+
+TEST_CASE("values: the icosahedron's are known, and 6 - valence sums to 12") {
+  const Mesh icosahedron = delaunay(bisected_icosahedron(0));
+  const Mesh random = delaunay(random_sphere(1000));
+  const LonLat view = {.longitude = 40, .latitude = -20};
+  for (const Shapes shapes : all_shapes) {
+    const Scene scene = make_scene(icosahedron, shapes, view);
+    for (const double spacing : values_of(scene, Colouring::spacing)) {
+      CHECK(spacing == doctest::Approx(std::atan(2)).epsilon(1e-14)); // angle subtended by a side
+    }
+    for (const double angle : values_of(scene, Colouring::angle)) {
+      CHECK(angle == doctest::Approx(72 * degree).epsilon(1e-14));
+    }
+    for (const double valence : values_of(scene, Colouring::valence)) {
+      CHECK(valence == 5);
+    }
+  }
+  const auto valences = values_of(make_scene(random, Shapes::cells, view), Colouring::valence);
+  double sum = 0;
+  for (const double valence : valences) {
+    sum += 6 - valence;
+  }
+  CHECK(sum == 12);
+  std::int64_t counted = 0;
+  for (const ValenceClass& c : valence_classes(valences)) {
+    counted += c.count;
+  }
+  CHECK(counted == random.points.cols());
+}
+
+TEST_CASE("cells of an open boundary have no value and no outline") {
+  const Mesh cap = polar_cap();
+  const Scene scene = make_scene(cap, Shapes::cells, {.longitude = 0, .latitude = 90});
+  const auto boundary = (cap.neighbours.array() < 0).count();
+  CHECK(boundary > 0);
+  std::int64_t open = 0;
+  std::vector<Eigen::Vector3d> corners;
+  const std::vector<double> values = values_of(scene, Colouring::spacing);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    outline_of(scene, static_cast<std::int64_t>(i), corners);
+    CHECK(corners.empty() == std::isnan(values[i]));
+    open += corners.empty() ? 1 : 0;
+  }
+  CHECK(open == boundary); // a closed curve has as many vertices as edges
+}
+
+TEST_CASE("a scale runs from 0 to 1, rises, and its ticks lie on it") {
+  for (const auto& [low, high] : {std::pair{0.01, 0.012}, {0.001, 0.5}, {1e-7, 1.0}, {0.2, 0.2}}) {
+    const Scale scale = make_scale({low, high, std::nan("")}, Colouring::spacing);
+    CAPTURE(low);
+    CHECK(scale.place(scale.low) == 0);
+    CHECK(scale.place(scale.high) == doctest::Approx(1));
+    CHECK(scale.place(0.5 * (scale.low + scale.high)) > 0);
+    const std::vector<Tick> ticks = degree_ticks(scale);
+    CHECK(ticks.size() >= 2);
+    CHECK(ticks.size() <= 11);
+    double last = -1e-9;
+    for (const Tick& tick : ticks) {
+      CHECK(tick.place > last);
+      last = tick.place;
+    }
+    CHECK(last <= 1 + 1e-9);
+  }
+}
