@@ -109,6 +109,9 @@ public:
     const double longest = std::max({norm(corner_[1] - corner_[0]), norm(corner_[2] - corner_[0]),
                                      norm(corner_[2] - corner_[1])});
     normal_error_ = 50 * roundoff * longest;
+    const double area = norm(normal_);
+    cap_centre_ = area > 0 ? (1 / area) * normal_ : corner_[0];
+    cap_radius_ = area > 0 ? norm(corner_[0] - cap_centre_) + 2 * normal_error_ / area + 1e-14 : 2;
     near_ = infinite < 0 ? corner_[0] : corner_[static_cast<std::size_t>(infinite == 0)];
     for (const Cell& cell : by_distance(face_cells(keys_)))
       descend(cell);
@@ -119,10 +122,12 @@ private:
   static constexpr std::size_t enough = 8;
   static constexpr std::int64_t leaf_size = 8;
 
-  /// No site of the cell lies above the face's plane, whatever the rounding. Over the vertex a and
-  /// any x of the ball, (x - a).q errs by |x - a| times the normal's error and by 12 roundoffs
-  /// times |q|.
-  bool is_below(const Ball& ball) const {
+  /// No site of the ball lies in the circumcap, whatever the rounding: the cap's centre and the chord
+  /// of its radius err by the normal's error each. Of a triangle so thin that this says little, the
+  /// ball must be below the plane: over the vertex a and any x of the ball, (x - a).q errs by |x - a|
+  /// times the error and 12 roundoffs of |q|.
+  bool is_outside(const Ball& ball) const {
+    if (norm(ball.centre - cap_centre_) > cap_radius_ + ball.radius) return true;
     const Vec3 apart = ball.centre - corner_[0];
     const double area = norm(normal_), reach = norm(apart) + ball.radius;
     const double error = normal_error_ * reach + 16 * roundoff * (1 + reach) * area;
@@ -144,7 +149,7 @@ private:
   }
 
   void descend(const Cell& cell) {
-    if (cell.size() == 0 || found_.size() >= enough || is_below(bounding_ball(cell)))
+    if (cell.size() == 0 || found_.size() >= enough || is_outside(bounding_ball(cell)))
       return;
     if (cell.size() <= leaf_size || !cell.divisible()) {
       for (std::int64_t r = cell.begin; r != cell.end && found_.size() < enough; ++r)
@@ -169,8 +174,8 @@ private:
   std::span<const std::uint64_t> keys_;
   Face face_;
   std::array<Vec3, 3> corner_{};
-  Vec3 normal_{}, near_{};
-  double normal_error_ = 0;
+  Vec3 normal_{}, cap_centre_{}, near_{};
+  double normal_error_ = 0, cap_radius_ = 0; ///< the latter a chord, and rounded up
   std::vector<std::int32_t> found_;
 };
 

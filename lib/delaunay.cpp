@@ -112,7 +112,7 @@ void summarise(const std::vector<CapResult>& caps, std::int64_t sites, DelaunayR
     report.certified_by_query += cap.cull.by_query;
     report.halo_insertions += cap.cull.inserted;
     for (const std::int32_t t : cap.triangles.seams)
-      report.seam_triangles += t < cap.triangles.lowest_owned;
+      report.seam_triangles += cap.triangles.rank[t] >= 0;
     add(report, cap.predicates);
   }
   report.regions = static_cast<int>(caps.size());

@@ -80,6 +80,9 @@ public:
   bool conflicts(Face face, const Place& p);
 
 private:
+  /// Whether p lies beyond the hull's edge of an infinite face, or on it.
+  bool is_beyond(Face face, const Place& p);
+
   /// An edge as seen from the face beyond it.
   struct Edge {
     Face face;
@@ -202,10 +205,14 @@ template <class Space> auto Triangulation<Space>::locate(const Place& p) -> Face
   return face;
 }
 
-template <class Space> bool Triangulation<Space>::conflicts(Face face, const Place& p) {
-  if (!is_infinite(face))
+template <class Space> inline bool Triangulation<Space>::conflicts(Face face, const Place& p) {
+  if (!is_infinite(face)) [[likely]]
     return space_.in_circle(face->vertex(0)->place, face->vertex(1)->place, face->vertex(2)->place,
                             p) > 0;
+  return is_beyond(face, p);
+}
+
+template <class Space> bool Triangulation<Space>::is_beyond(Face face, const Place& p) {
   const Place& a = face->vertex(next(face->infinite))->place;
   const Place& b = face->vertex(previous(face->infinite))->place;
   const int way = space_.orientation(a, b, p);

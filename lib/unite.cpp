@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <bit>
+#include <string>
 
 namespace calotte::detail {
 namespace {
@@ -13,65 +14,66 @@ namespace {
 using Face = Triangulation<Sphere>::Face;
 using Vertex = Triangulation<Sphere>::Vertex;
 
-int next(int i) { return i == 2 ? 0 : i + 1; }
-int previous(int i) { return i == 0 ? 2 : i - 1; }
+constexpr std::array<int, 3> next{1, 2, 0}, previous{2, 0, 1};
 
-int lowest_index(Face face) {
-  const std::int32_t a = face->vertex(0)->place.site, b = face->vertex(1)->place.site,
-                     c = face->vertex(2)->place.site;
-  return a < b ? (a < c ? 0 : 2) : (b < c ? 1 : 2);
-}
-
-/// A face from its lowest vertex on.
-struct Report {
-  Face face;
-  int first;
-  Vertex vertex(int i) const { return face->vertex((first + i) % 3); }
-  Face neighbour(int i) const { return face->neighbor((first + i) % 3); }
-  std::int32_t site(int i) const { return vertex(i)->place.site; }
+/// A face's vertices and neighbours from its lowest site on.
+struct Turned {
+  std::array<Vertex, 3> vertex;
+  Triple neighbours;
 };
 
-/// The faces with an owned vertex in the order of RegionTriangles.
-std::vector<Report> order_reports(Triangulation<Sphere>& triangulation,
-                                  std::vector<std::int32_t>& begin) {
-  std::vector<Report> own, foreign;
-  own.reserve(2 * triangulation.members().size());
-  begin.assign(triangulation.members().size() + 1, 0);
-  triangulation.for_each_face([&](Face face) {
-    if (Triangulation<Sphere>::is_infinite(face))
-      return;
-    const Report report{face, lowest_index(face)};
-    if (report.vertex(0)->owned) {
-      own.push_back(report);
-      ++begin[static_cast<std::size_t>(report.vertex(0)->local) + 1];
-    } else if (report.vertex(1)->owned || report.vertex(2)->owned) {
-      foreign.push_back(report);
-    }
-  });
-  for (std::size_t v = 1; v < begin.size(); ++v)
-    begin[v] += begin[v - 1];
-  std::vector<Report> ordered(own.size() + foreign.size());
-  std::vector<std::int32_t> place = begin;
-  for (const Report& report : own) {
-    const auto v = static_cast<std::size_t>(report.vertex(0)->local);
-    auto slot = static_cast<std::size_t>(place[v]++);
-    for (; slot > static_cast<std::size_t>(begin[v]) && ordered[slot - 1].site(1) > report.site(1);
-         --slot)
-      ordered[slot] = ordered[slot - 1];
-    ordered[slot] = report;
-  }
-  std::copy(foreign.begin(), foreign.end(), ordered.begin() + std::ssize(own));
-  return ordered;
+Turned turned(Face face) {
+  const std::int32_t a = face->vertex(0)->place.site, b = face->vertex(1)->place.site,
+                     c = face->vertex(2)->place.site;
+  const int i = a < b ? (a < c ? 0 : 2) : (b < c ? 1 : 2);
+  const auto j = next[static_cast<std::size_t>(i)], k = previous[static_cast<std::size_t>(i)];
+  return {{face->vertex(i), face->vertex(j), face->vertex(k)},
+          {face->neighbor(i)->number, face->neighbor(j)->number, face->neighbor(k)->number}};
 }
 
-std::int8_t own_edges(const Report& report) {
+bool is_reported(Face face) {
+  return !Triangulation<Sphere>::is_infinite(face) &&
+         (face->vertex(0)->owned || face->vertex(1)->owned || face->vertex(2)->owned);
+}
+
+std::int8_t own_edges(const std::array<Vertex, 3>& v) {
   int bits = 0;
-  for (int i = 0; i < 3; ++i) {
-    const Vertex a = report.vertex(next(i)), b = report.vertex(previous(i));
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vertex a = v[static_cast<std::size_t>(next[i])], b = v[static_cast<std::size_t>(previous[i])];
     const Vertex lower = a->place.site < b->place.site ? a : b;
     bits |= static_cast<int>(lower->owned) << i;
   }
   return static_cast<std::int8_t>(bits);
+}
+
+/// Lists of the triangles by their lowest vertex, linked, and their lengths.
+struct ByLowest {
+  std::vector<std::int32_t> last, count; ///< by local vertex
+  Array<std::int32_t> before;            ///< by triangle: the one before it in its list, or -1
+};
+
+/// Ranks each list by its triangles' second sites. Most have no more than a few members; a hub's may
+/// have any number.
+void rank_lists(const ByLowest& lists, RegionTriangles& out) {
+  std::vector<std::int32_t> list;
+  const auto second = [&](std::int32_t t) { return out.sites[t][1]; };
+  for (const std::int32_t last : lists.last) {
+    if (last < 0) continue;
+    const std::int32_t before = lists.before[last];
+    if (before < 0) {
+      out.rank[last] = 0;
+    } else if (lists.before[before] < 0) {
+      out.rank[last] = second(before) < second(last);
+      out.rank[before] = 1 - out.rank[last];
+    } else {
+      list.clear();
+      for (std::int32_t t = last; t >= 0; t = lists.before[t]) list.push_back(t);
+      std::sort(list.begin(), list.end(),
+                [&](std::int32_t t, std::int32_t u) { return second(t) < second(u); });
+      for (std::size_t r = 0; r < list.size(); ++r)
+        out.rank[list[r]] = static_cast<std::int32_t>(r);
+    }
+  }
 }
 
 } // namespace
@@ -79,34 +81,40 @@ std::int8_t own_edges(const Report& report) {
 RegionTriangles report_triangles(Triangulation<Sphere>& triangulation, const Sites& sites,
                                  const Array<std::int32_t>& owner,
                                  std::vector<std::int32_t>& triangles_of) {
-  std::vector<std::int32_t> begin;
-  const std::vector<Report> ordered = order_reports(triangulation, begin);
-  RegionTriangles out;
-  out.lowest_owned = begin.back();
-  out.sites.resize(ordered.size());
-  out.neighbours.resize(ordered.size());
-  for (std::size_t t = 0; t < ordered.size(); ++t)
-    ordered[t].face->number = static_cast<std::int32_t>(t);
-  for (std::size_t t = 0; t < ordered.size(); ++t) {
-    const Report& report = ordered[t];
-    const std::array<Vertex, 3> v{report.vertex(0), report.vertex(1), report.vertex(2)};
+  std::int32_t count = 0;
+  triangulation.for_each_face([&](Face face) {
+    if (is_reported(face)) face->number = count++;
+  });
+  RegionTriangles out{Array<Triple>(count), Array<Triple>(count), Array<std::int32_t>(count), {}, {}, {}};
+  const std::size_t locals = triangulation.members().size();
+  ByLowest lists{std::vector<std::int32_t>(locals, -1), std::vector<std::int32_t>(locals, 0),
+                 Array<std::int32_t>(count)};
+  const auto owner_of = [&](Vertex v) {
+    return owner[triangulation.members()[static_cast<std::size_t>(v->local)].rank];
+  };
+  triangulation.for_each_face([&](Face face) {
+    const std::int32_t t = face->number;
+    if (t < 0) return;
+    const auto [v, neighbours] = turned(face);
     out.sites[t] = {v[0]->place.site, v[1]->place.site, v[2]->place.site};
-    for (int i = 0; i < 3; ++i)
-      out.neighbours[t][static_cast<std::size_t>(i)] = report.neighbour(i)->number;
-    if (v[0]->owned && v[1]->owned && v[2]->owned)
-      continue;
-    const auto owner_of = [&](int i) {
-      const auto local = static_cast<std::size_t>(v[static_cast<std::size_t>(i)]->local);
-      return owner[triangulation.members()[local].rank];
-    };
-    const std::int32_t a = owner_of(0), b = owner_of(1), c = owner_of(2);
-    out.seams.push_back(static_cast<std::int32_t>(t));
+    out.neighbours[t] = neighbours;
+    if (v[0]->owned) {
+      const auto lowest = static_cast<std::size_t>(v[0]->local);
+      lists.before[t] = std::exchange(lists.last[lowest], t);
+      ++lists.count[lowest];
+    } else {
+      out.rank[t] = -1;
+    }
+    if (v[0]->owned && v[1]->owned && v[2]->owned) return;
+    const std::int32_t a = owner_of(v[0]), b = owner_of(v[1]), c = owner_of(v[2]);
+    out.seams.push_back(t);
     out.reporters.push_back(static_cast<std::int8_t>(1 + (b != a) + (c != a && c != b)));
-    out.own_edges.push_back(own_edges(report));
-  }
-  for (std::size_t v = 0; v < triangulation.members().size(); ++v)
+    out.own_edges.push_back(own_edges(v));
+  });
+  rank_lists(lists, out);
+  for (std::size_t v = 0; v < locals; ++v)
     if (const Member& member = triangulation.members()[v]; member.owned)
-      triangles_of[static_cast<std::size_t>(sites.id[member.rank])] = begin[v + 1] - begin[v];
+      triangles_of[static_cast<std::size_t>(sites.id[member.rank])] = lists.count[v];
   return out;
 }
 
@@ -179,17 +187,12 @@ private:
 /// Places of the triangles whose lowest site the region owns, which it writes.
 Array<std::int32_t> place_own(const RegionTriangles& report,
                               const std::vector<std::int32_t>& first_of, Triangles& out) {
-  Array<std::int32_t> place(std::ssize(report.sites));
-  std::int32_t lowest = -1, next_place = 0;
-  for (std::int64_t t = 0; t < report.lowest_owned; ++t) {
-    const Triple& sites = report.sites[static_cast<std::size_t>(t)];
-    if (sites[0] != lowest) {
-      lowest = sites[0];
-      next_place = first_of[static_cast<std::size_t>(lowest)];
-    }
-    for (int i = 0; i < 3; ++i)
-      out(i, next_place) = sites[static_cast<std::size_t>(i)];
-    place[t] = next_place++;
+  Array<std::int32_t> place(report.sites.size());
+  for (std::int64_t t = 0; t < place.size(); ++t) {
+    if (report.rank[t] < 0) continue;
+    const Triple& sites = report.sites[t];
+    place[t] = first_of[static_cast<std::size_t>(sites[0])] + report.rank[t];
+    for (int i = 0; i < 3; ++i) out(i, place[t]) = sites[static_cast<std::size_t>(i)];
   }
   return place;
 }
@@ -199,7 +202,7 @@ Array<std::int32_t> place_own(const RegionTriangles& report,
 void write_neighbours(const RegionTriangles& report, const Array<std::int32_t>& place,
                       Triangles& out) {
   const auto write = [&](std::int64_t t, int bits) {
-    const Triple& neighbours = report.neighbours[static_cast<std::size_t>(t)];
+    const Triple& neighbours = report.neighbours[t];
     for (int i = 0; i < 3; ++i)
       if (bits >> i & 1) {
         const std::int32_t across = neighbours[static_cast<std::size_t>(i)];
@@ -212,7 +215,7 @@ void write_neighbours(const RegionTriangles& report, const Array<std::int32_t>& 
       write(t, 7);
     write(t++, report.own_edges[s]);
   }
-  for (; t < std::ssize(report.sites); ++t)
+  for (; t < report.sites.size(); ++t)
     write(t, 7);
 }
 
@@ -235,25 +238,21 @@ void unite(const std::vector<RegionTriangles>& reports, std::vector<std::int32_t
     Array<std::int32_t>& own = place[static_cast<std::size_t>(k)];
     own = place_own(report, triangles_of, mesh.triangles);
     for (const std::int32_t t : report.seams)
-      if (t < report.lowest_owned)
-        table.enter(report.sites[static_cast<std::size_t>(t)], own[t]);
+      if (report.rank[t] >= 0) table.enter(report.sites[t], own[t]);
   });
   for_each_task(regions, [&](std::int64_t k) {
     const RegionTriangles& report = reports[static_cast<std::size_t>(k)];
     for (const std::int32_t t : report.seams) {
-      const Triple& sites = report.sites[static_cast<std::size_t>(t)];
-      if (t < report.lowest_owned)
-        continue;
-      const std::int32_t found = table.count(sites);
-      if (found < 0)
-        disagree(sites);
+      if (report.rank[t] >= 0) continue;
+      const std::int32_t found = table.count(report.sites[t]);
+      if (found < 0) disagree(report.sites[t]);
       place[static_cast<std::size_t>(k)][t] = found;
     }
   });
   for_each_task(regions, [&](std::int64_t k) {
     const RegionTriangles& report = reports[static_cast<std::size_t>(k)];
     for (std::size_t s = 0; s < report.seams.size(); ++s) {
-      const Triple& sites = report.sites[static_cast<std::size_t>(report.seams[s])];
+      const Triple& sites = report.sites[report.seams[s]];
       if (table.reports(sites) != report.reporters[s])
         disagree(sites);
     }
