@@ -1,0 +1,359 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <calotte/generators.h>
+#include <calotte/io.h>
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <string>
+
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+// The command as a user runs it: by a shell, in a folder of its own.
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string contents(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+struct Outcome {
+  int code;
+  std::string out, err;
+};
+
+/// A folder that goes when the test ends, and what the command does in it.
+class Bench {
+public:
+  Bench() {
+    std::string name = fs::temp_directory_path() / "calotte-command-XXXXXX";
+    scratch_ = ::mkdtemp(name.data());
+    fs::create_directory(folder());
+  }
+  ~Bench() { fs::remove_all(scratch_); }
+  Bench(const Bench&) = delete;
+  Bench& operator=(const Bench&) = delete;
+
+  fs::path folder() const { return scratch_ / "work"; }
+
+  void file(const std::string& name, const std::string& text) const {
+    std::ofstream(folder() / name, std::ios::binary) << text;
+  }
+
+  /// \param arguments in the shell's syntax, redirections included.
+  /// \param before a command for the shell, ended by a semicolon.
+  Outcome run(const std::string& arguments, const std::string& before = "") const {
+    const std::string line = "cd '" + folder().string() + "' && { " + before + " exec '" +
+                             CALOTTE_COMMAND "' " + arguments + "; } >'" +
+                             (scratch_ / "out").string() + "' 2>'" + (scratch_ / "err").string() +
+                             "'";
+    const int status = std::system(line.c_str()); // NOLINT(bugprone-command-processor)
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(scratch_ / "out"),
+            contents(scratch_ / "err")};
+  }
+
+  std::set<std::string> names() const {
+    std::set<std::string> found;
+    for (const auto& entry : fs::directory_iterator(folder()))
+      found.insert(entry.path().filename());
+    return found;
+  }
+
+private:
+  fs::path scratch_;
+};
+
+constexpr const char* octahedron = "1 0 0\n0 1 0\n0 0 1\n-1 0 0\n0 -1 0\n0 0 -1\n";
+
+bool one_line(const std::string& text) {
+  return !text.empty() && std::count(text.begin(), text.end(), '\n') == 1 && text.back() == '\n';
+}
+
+/// The command ends with this code and exactly this message, and leaves no file behind.
+void check_refusal(const Bench& bench, const std::string& arguments, int code,
+                   const std::string& message, const std::string& before = "") {
+  CAPTURE(arguments);
+  const auto names = bench.names();
+  const Outcome outcome = bench.run(arguments, before);
+  CHECK(outcome.code == code);
+  CHECK(outcome.err == "calotte: " + message + "\n");
+  CHECK(outcome.out.empty());
+  CHECK(bench.names() == names);
+}
+
+/// As check_refusal, for a message whose words belong to a stage of the library.
+void check_refusal_naming(const Bench& bench, const std::string& arguments, int code,
+                          const std::string& part) {
+  CAPTURE(arguments);
+  const auto names = bench.names();
+  const Outcome outcome = bench.run(arguments);
+  CAPTURE(outcome.err);
+  CHECK(outcome.code == code);
+  CHECK(one_line(outcome.err));
+  CHECK(outcome.err.starts_with("calotte: "));
+  CHECK(outcome.err.find(part) != std::string::npos);
+  CHECK(outcome.out.empty());
+  CHECK(bench.names() == names);
+}
+
+} // namespace
+
+TEST_CASE("points that are none: the message names the line, and nothing is written") {
+  const Bench bench;
+  const auto check_bad = [&](const std::string& text, const std::string& message,
+                             const std::string& options = "") {
+    CAPTURE(text);
+    bench.file("points.txt", text);
+    check_refusal(bench, "delaunay points.txt -o mesh.vtp --report report.json" + options, 2,
+                  message);
+  };
+  const std::string xyz = "; write three numbers x y z a line";
+  const std::string start = octahedron; // lines 1 to 6
+  check_bad(start + "nan 0 1\n",
+            "points.txt line 7: NaN gives no direction; remove the point or correct it");
+  check_bad(start + "0 1 inf",
+            "points.txt line 7: an infinite number gives no direction; remove the point or correct "
+            "it");
+  check_bad("# a comment\n" + start + "0 0 0\n",
+            "points.txt line 8: the zero vector has no direction; remove the point or correct it");
+  check_bad(start + "\n1 two 3\n", "points.txt line 8: \"two\" is no number" + xyz);
+  check_bad("x,y,z\n" + start + "1,2\n", "points.txt line 8: 2 columns only" + xyz +
+                                             ", or read them as longitude and latitude (--lonlat)");
+  check_bad("", "points.txt: no points in 0 lines" + xyz);
+  check_bad("x y z\n", "points.txt: no points in 1 line" + xyz);
+  check_bad("0 0\n90 91\n",
+            "points.txt line 2: latitude 91 is outside -90 to 90; write longitude first, then "
+            "latitude, in degrees",
+            " --lonlat");
+  check_refusal(bench, "delaunay absent.txt -o mesh.vtp", 3,
+                "cannot read absent.txt: No such file or directory; check its name and its "
+                "permissions");
+  check_refusal(bench, "delaunay . -o mesh.vtp", 3,
+                "cannot read .: it is a folder; give the name of a file");
+  check_refusal(bench, "delaunay - -o mesh.vtp </dev/null", 2,
+                "standard input: no points in 0 lines" + xyz);
+}
+
+TEST_CASE("sets that span no mesh are refused, and nothing is written") {
+  const Bench bench;
+  bench.file("three.txt", "1 0 0\n0 1 0\n0 0 1\n0 0 2\n0 3 0\n");
+  check_refusal_naming(bench, "delaunay three.txt -o mesh.vtp", 2, "4");
+  bench.file("circle.txt", "1 0 0\n0 1 0\n-1 0 0\n0 -1 0\n1 1 0\n");
+  check_refusal_naming(bench, "delaunay circle.txt -o mesh.vtp", 2, "great circle");
+  bench.file("twice.txt", "# six and one again\n" + std::string(octahedron) + "0 7 0\n");
+  check_refusal_naming(bench, "delaunay twice.txt -o mesh.vtp --duplicates refuse", 2,
+                       "twice.txt line 8: ");
+  check_refusal_naming(bench, "delaunay - -o mesh.vtp --duplicates refuse <twice.txt", 2,
+                       "standard input line 8: ");
+}
+
+TEST_CASE("bad usage is refused before any work") {
+  const Bench bench;
+  // A named pipe that nobody writes: reading it would hang, so nothing may be read.
+  REQUIRE(::mkfifo((bench.folder() / "never").c_str(), 0600) == 0);
+  const auto check_usage = [&](const std::string& arguments, const std::string& message) {
+    check_refusal(bench, arguments, 2, message);
+  };
+  const std::string suffixes = "; a mesh file ends in .txt, .tri, .vtp, .vtu, .off or .ply";
+  check_usage("delaunay never -o mesh.stl", "mesh.stl: unknown suffix \".stl\"" + suffixes);
+  check_usage("delaunay never -o mesh", "mesh: no suffix" + suffixes);
+  check_usage("delaunay never -o mesh.vtp --regions 0",
+              "--regions: \"0\" is not a whole number 1 or more; see calotte delaunay --help");
+  check_usage("delaunay never -o mesh.vtp --regions many",
+              "--regions: \"many\" is not a whole number 1 or more; see calotte delaunay --help");
+  check_usage("delaunay never -o mesh.vtp --threads 0",
+              "--threads: \"0\" is not a whole number from 1 to 4096; see calotte delaunay --help");
+  check_usage("delaunay never -o mesh.vtp --sort any",
+              "--sort: any not in {halo,distance,voronoi}; see calotte delaunay --help");
+  check_usage("delaunay never -o mesh.vtp --fast",
+              "The following argument was not expected: --fast; see calotte delaunay --help");
+  check_usage("delaunay never -o mesh.vtp --centres absent",
+              "--centres absent is not a file; give sample, fibonacci or a file of points");
+  check_usage("delaunay never -o mesh.vtp --centres never --regions 3",
+              "--regions and a file of centres exclude each other; leave one of them out");
+  check_usage("delaunay never", "--output is required; see calotte delaunay --help");
+  check_usage("delaunay -o mesh.vtp", "POINTS is required; see calotte delaunay --help");
+  check_usage("delaunay never -o mesh.vtp --report mesh.vtp",
+              "mesh.vtp is both mesh and report; give the report another name");
+  check_usage("", "delaunay, points, check or draw is required; see calotte --help");
+  check_usage("triangulate",
+              "The following argument was not expected: triangulate; see calotte --help");
+  check_usage("check mesh.tri",
+              "mesh.tri holds triangles only; give the points they refer to (--points FILE)");
+  check_usage(
+      "points random 9 -o points.vtp",
+      "points.vtp: points are text, x y z a line; give a name such as points.txt, and make a "
+      "mesh with calotte delaunay");
+  check_usage("points fibonacci 9 --seed 3 -o points.txt",
+              "--seed is for random points only; leave it out");
+  check_usage("points spiral 9 --poles -o points.txt",
+              "--poles is for latlon points only; leave it out");
+  bench.file("points.txt", octahedron);
+  check_usage("delaunay points.txt -o points.txt",
+              "points.txt is both input and output; give the output another name");
+  CHECK(contents(bench.folder() / "points.txt") == octahedron);
+}
+
+TEST_CASE("an output that cannot be written is refused before any work") {
+  const Bench bench;
+  REQUIRE(::mkfifo((bench.folder() / "never").c_str(), 0600) == 0);
+  fs::create_directory(bench.folder() / "folder.vtp");
+  check_refusal(bench, "delaunay never -o absent/mesh.vtp", 3,
+                "cannot write absent/mesh.vtp: the folder absent does not exist; create it first");
+  check_refusal(bench, "delaunay never -o mesh.vtp --report absent/report.json", 3,
+                "cannot write absent/report.json: the folder absent does not exist; create it "
+                "first");
+  check_refusal(bench, "delaunay never -o folder.vtp", 3,
+                "cannot write folder.vtp: it is a folder; give the name of a file");
+  check_refusal(
+      bench, "points random 9 -o absent/points.txt", 3,
+      "cannot write absent/points.txt: the folder absent does not exist; create it first");
+}
+
+TEST_CASE("a full disk leaves nothing behind, and what was there before as it was") {
+  const Bench bench;
+  const Outcome made = bench.run("points random 100 -o points.txt");
+  REQUIRE(made.code == 0);
+  bench.file("mesh.vtp", "old");
+  // The shell's limit on the size of files stands for the disk: 1 block of 512 or 1024 bytes.
+  const std::string limit = "ulimit -f 1;";
+  check_refusal(bench, "delaunay points.txt -o mesh.vtp", 3,
+                "cannot write mesh.vtp: File too large; make room or write elsewhere", limit);
+  check_refusal(bench, "delaunay points.txt -o other.off", 3,
+                "cannot write other.off: File too large; make room or write elsewhere", limit);
+  check_refusal(bench, "points random 100 -o points.txt", 3,
+                "cannot write points.txt: File too large; make room or write elsewhere", limit);
+  check_refusal(bench, "points random 100 -o /dev/full", 3,
+                "cannot write /dev/full: No space left on device; make room or write elsewhere");
+  CHECK(contents(bench.folder() / "mesh.vtp") == "old");
+  CHECK(calotte::read_points(bench.folder() / "points.txt").cols() == 100);
+  CHECK(bench.run("points random 100 -o - >/dev/full").code == 3);
+  CHECK(bench.run("--version >/dev/full").code == 3);
+}
+
+TEST_CASE("from points to a mesh that passes its check, in every format") {
+  const Bench bench;
+  CHECK(bench.run("points fibonacci 500 -o points.txt").out == "points.txt: 500 points\n");
+  for (const std::string mesh : {"mesh.vtp", "mesh.vtu", "mesh.off", "mesh.ply", "mesh.tri"}) {
+    CAPTURE(mesh);
+    const Outcome made = bench.run("delaunay points.txt -o " + mesh);
+    CHECK(made.code == 0);
+    CHECK(made.out == mesh + ": 500 sites, 996 triangles, closed\n");
+    CHECK(made.err.empty());
+    const Outcome checked = bench.run("check " + mesh + " --points points.txt");
+    CHECK(checked.code == 0);
+    CHECK(checked.out.find("triangles       996\n") != std::string::npos);
+    CHECK(checked.err.empty());
+  }
+  const calotte::Mesh mesh = calotte::read_mesh(bench.folder() / "mesh.vtp");
+  CHECK(mesh.points == calotte::fibonacci_sphere(500));
+}
+
+TEST_CASE("standard input and output take the place of files") {
+  const Bench bench;
+  bench.file("points.txt", octahedron);
+  CHECK(bench.run("delaunay - -o mesh.tri <points.txt").code == 0);
+  CHECK(bench.run("check mesh.tri --points - <points.txt").code == 0);
+  const Outcome points = bench.run("points icosahedron 0 -o -");
+  CHECK(points.code == 0);
+  CHECK(std::count(points.out.begin(), points.out.end(), '\n') == 12);
+}
+
+TEST_CASE("a mesh that is not Delaunay fails its check with exit code 1") {
+  const Bench bench;
+  bench.file("points.txt", octahedron);
+  // The last triangle runs the wrong way.
+  bench.file("mesh.tri", "0 1 2\n0 2 4\n0 4 5\n0 5 1\n1 3 2\n1 5 3\n2 3 4\n3 4 5\n");
+  const Outcome outcome = bench.run("check mesh.tri --points points.txt");
+  CHECK(outcome.code == 1);
+  CHECK(one_line(outcome.err));
+  CHECK(outcome.err.starts_with("calotte: mesh.tri: "));
+  CHECK(outcome.out.find("sites           6\n") != std::string::npos);
+}
+
+TEST_CASE("duplicates are merged and counted, and triangles as text keep the input's ids") {
+  const Bench bench;
+  bench.file("points.txt", "1 0 0\n2 0 0\n0 1 0\n0 0 1\n-1 0 0\n0 -1 0\n0 0 -1\n0 0 -9\n");
+  CHECK(bench.run("delaunay points.txt -o mesh.tri").out ==
+        "mesh.tri: 6 sites, 8 triangles, closed, 2 duplicates merged\n");
+  CHECK(contents(bench.folder() / "mesh.tri").starts_with("0 2 3\n"));
+  CHECK(bench.run("check mesh.tri --points points.txt").code == 0);
+}
+
+TEST_CASE("a set in a hemisphere gives an open mesh, and says so") {
+  const Bench bench;
+  bench.file("points.txt", "0 0 1\n1 0 1\n0 1 1\n-1 -1 1\n");
+  CHECK(bench.run("delaunay points.txt -o mesh.vtp").out ==
+        "mesh.vtp: 4 sites, 3 triangles, open: all sites lie in a hemisphere\n");
+  CHECK(bench.run("check mesh.vtp").code == 0);
+}
+
+TEST_CASE("the report holds what it promises") {
+  const Bench bench;
+  CHECK(bench.run("points random 2000 --seed 5 -o points.txt").code == 0);
+  CHECK(bench.run("delaunay points.txt -o mesh.vtp --threads 2 --regions 12 --report report.json")
+            .code == 0);
+  const std::string report = contents(bench.folder() / "report.json");
+  for (const char* key :
+       {"sites", "regions", "threads", "overlap", "seconds", "triangulate", "unite", "total",
+        "read", "write", "duplicates", "seam_triangles", "exact_predicates", "sites_per_region"})
+    CHECK(report.find(std::string("\"").append(key).append("\": ")) != std::string::npos);
+  CHECK(report.find("\"regions\": 12,") != std::string::npos);
+  CHECK(report.find("\"threads\": 2,") != std::string::npos);
+}
+
+TEST_CASE("the mesh file is the same bytes for any threads, regions, centres and sort") {
+  const Bench bench;
+  CHECK(bench.run("points random 3000 -o points.txt").code == 0);
+  CHECK(bench.run("points fibonacci 17 -o centres.txt").code == 0);
+  CHECK(bench.run("delaunay points.txt -o first.vtp").code == 0);
+  for (const char* options :
+       {"--threads 1", "--threads 3 --regions 42", "--regions 1", "--sort distance --regions 12",
+        "--sort voronoi --regions 12", "--centres fibonacci", "--centres centres.txt"}) {
+    CHECK(bench.run("delaunay points.txt -o mesh.vtp " + std::string(options)).code == 0);
+    CHECK(contents(bench.folder() / "mesh.vtp") == contents(bench.folder() / "first.vtp"));
+  }
+}
+
+TEST_CASE("every kind of points") {
+  const Bench bench;
+  const auto count = [&](const std::string& arguments) {
+    CHECK(bench.run("points " + arguments + " -o points.txt").code == 0);
+    return calotte::read_points(bench.folder() / "points.txt").cols();
+  };
+  CHECK(count("random 7") == 7);
+  CHECK(count("fibonacci 7") == 7);
+  CHECK(count("spiral 7") == 7);
+  CHECK(count("icosahedron 2") == 162);
+  CHECK(count("latlon 4") == 32);
+  CHECK(count("latlon 4 --poles") == 34);
+  CHECK(count("cubed 3") == 54);
+}
+
+TEST_CASE("help names the exit codes, for the command and for each of its parts") {
+  const Bench bench;
+  for (const char* part : {"", "delaunay", "points", "check", "draw"}) {
+    const Outcome help = bench.run(std::string(part) + " --help");
+    CHECK(help.code == 0);
+    CHECK(help.out.find("1  the mesh failed a check") != std::string::npos);
+    CHECK(help.err.empty());
+  }
+}
+
+TEST_CASE("the weather stations become a mesh") {
+  const Bench bench;
+  const std::string stations = CALOTTE_FIXTURES "/weather-stations.csv";
+  const Outcome made = bench.run("delaunay '" + stations + "' --lonlat -o mesh.tri");
+  CHECK(made.code == 0);
+  CHECK(made.out.find(", closed") != std::string::npos);
+  CHECK(bench.run("check mesh.tri --lonlat --points '" + stations + "'").code == 0);
+}
