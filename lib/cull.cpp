@@ -122,12 +122,13 @@ private:
   static constexpr std::size_t enough = 8;
   static constexpr std::int64_t leaf_size = 8;
 
-  /// No site of the ball lies in the circumcap, whatever the rounding: the cap's centre and the chord
-  /// of its radius err by the normal's error each. Of a triangle so thin that this says little, the
-  /// ball must be below the plane: over the vertex a and any x of the ball, (x - a).q errs by |x - a|
-  /// times the error and 12 roundoffs of |q|.
+  /// No site of the ball lies in the circumcap, whatever the rounding: the cap's centre and the
+  /// chord of its radius err by the normal's error each. Of a triangle so thin that this says
+  /// little, the ball must be below the plane: over the vertex a and any x of the ball, (x - a).q
+  /// errs by |x - a| times the error and 12 roundoffs of |q|.
   bool is_outside(const Ball& ball) const {
-    if (norm(ball.centre - cap_centre_) > cap_radius_ + ball.radius) return true;
+    if (norm(ball.centre - cap_centre_) > cap_radius_ + ball.radius)
+      return true;
     const Vec3 apart = ball.centre - corner_[0];
     const double area = norm(normal_), reach = norm(apart) + ball.radius;
     const double error = normal_error_ * reach + 16 * roundoff * (1 + reach) * area;

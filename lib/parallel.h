@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "memory.h"
+
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
@@ -15,25 +16,6 @@
 /// The only file with oneTBB's loops. They run in the caller's task arena; every body writes slots
 /// of its own, so that no result depends on the number of threads.
 namespace calotte::detail {
-
-/// n values, not initialised, so that the thread that first writes a page also faults it in.
-template <class T> class Array {
-public:
-  Array() = default;
-  explicit Array(std::int64_t n)
-      : size_(n), data_(std::make_unique_for_overwrite<T[]>(static_cast<std::size_t>(n))) {}
-  T& operator[](std::int64_t i) { return data_[static_cast<std::size_t>(i)]; }
-  const T& operator[](std::int64_t i) const { return data_[static_cast<std::size_t>(i)]; }
-  std::int64_t size() const { return size_; }
-  T* begin() { return data_.get(); }
-  T* end() { return data_.get() + size_; }
-  const T* begin() const { return data_.get(); }
-  const T* end() const { return data_.get() + size_; }
-
-private:
-  std::int64_t size_ = 0;
-  std::unique_ptr<T[]> data_;
-};
 
 /// body(i) for 0 <= i < n, each a task of its own.
 template <class Body> void for_each_task(std::int64_t n, const Body& body) {

@@ -183,6 +183,7 @@ void keep_distinct(const Points3& points, const std::vector<std::int32_t>& lowes
 
 void copy_all(const Points3& points, Sites& sites) {
   sites.points.resize(3, points.cols());
+  prefer_huge_pages(sites.points.data(), 24 * static_cast<std::size_t>(points.cols()));
   for_each_block(points.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     sites.points.middleCols(begin, end - begin) = points.middleCols(begin, end - begin);
     for (std::int64_t i = begin; i != end; ++i)

@@ -39,7 +39,8 @@ bool is_reported(Face face) {
 std::int8_t own_edges(const std::array<Vertex, 3>& v) {
   int bits = 0;
   for (std::size_t i = 0; i < 3; ++i) {
-    const Vertex a = v[static_cast<std::size_t>(next[i])], b = v[static_cast<std::size_t>(previous[i])];
+    const Vertex a = v[static_cast<std::size_t>(next[i])],
+                 b = v[static_cast<std::size_t>(previous[i])];
     const Vertex lower = a->place.site < b->place.site ? a : b;
     bits |= static_cast<int>(lower->owned) << i;
   }
@@ -52,13 +53,14 @@ struct ByLowest {
   Array<std::int32_t> before;            ///< by triangle: the one before it in its list, or -1
 };
 
-/// Ranks each list by its triangles' second sites. Most have no more than a few members; a hub's may
-/// have any number.
+/// Ranks each list by its triangles' second sites. Most have no more than a few members; a hub's
+/// may have any number.
 void rank_lists(const ByLowest& lists, RegionTriangles& out) {
   std::vector<std::int32_t> list;
   const auto second = [&](std::int32_t t) { return out.sites[t][1]; };
   for (const std::int32_t last : lists.last) {
-    if (last < 0) continue;
+    if (last < 0)
+      continue;
     const std::int32_t before = lists.before[last];
     if (before < 0) {
       out.rank[last] = 0;
@@ -67,7 +69,8 @@ void rank_lists(const ByLowest& lists, RegionTriangles& out) {
       out.rank[before] = 1 - out.rank[last];
     } else {
       list.clear();
-      for (std::int32_t t = last; t >= 0; t = lists.before[t]) list.push_back(t);
+      for (std::int32_t t = last; t >= 0; t = lists.before[t])
+        list.push_back(t);
       std::sort(list.begin(), list.end(),
                 [&](std::int32_t t, std::int32_t u) { return second(t) < second(u); });
       for (std::size_t r = 0; r < list.size(); ++r)
@@ -83,9 +86,11 @@ RegionTriangles report_triangles(Triangulation<Sphere>& triangulation, const Sit
                                  std::vector<std::int32_t>& triangles_of) {
   std::int32_t count = 0;
   triangulation.for_each_face([&](Face face) {
-    if (is_reported(face)) face->number = count++;
+    if (is_reported(face))
+      face->number = count++;
   });
-  RegionTriangles out{Array<Triple>(count), Array<Triple>(count), Array<std::int32_t>(count), {}, {}, {}};
+  RegionTriangles out{
+      Array<Triple>(count), Array<Triple>(count), Array<std::int32_t>(count), {}, {}, {}};
   const std::size_t locals = triangulation.members().size();
   ByLowest lists{std::vector<std::int32_t>(locals, -1), std::vector<std::int32_t>(locals, 0),
                  Array<std::int32_t>(count)};
@@ -94,7 +99,8 @@ RegionTriangles report_triangles(Triangulation<Sphere>& triangulation, const Sit
   };
   triangulation.for_each_face([&](Face face) {
     const std::int32_t t = face->number;
-    if (t < 0) return;
+    if (t < 0)
+      return;
     const auto [v, neighbours] = turned(face);
     out.sites[t] = {v[0]->place.site, v[1]->place.site, v[2]->place.site};
     out.neighbours[t] = neighbours;
@@ -105,7 +111,8 @@ RegionTriangles report_triangles(Triangulation<Sphere>& triangulation, const Sit
     } else {
       out.rank[t] = -1;
     }
-    if (v[0]->owned && v[1]->owned && v[2]->owned) return;
+    if (v[0]->owned && v[1]->owned && v[2]->owned)
+      return;
     const std::int32_t a = owner_of(v[0]), b = owner_of(v[1]), c = owner_of(v[2]);
     out.seams.push_back(t);
     out.reporters.push_back(static_cast<std::int8_t>(1 + (b != a) + (c != a && c != b)));
@@ -189,10 +196,12 @@ Array<std::int32_t> place_own(const RegionTriangles& report,
                               const std::vector<std::int32_t>& first_of, Triangles& out) {
   Array<std::int32_t> place(report.sites.size());
   for (std::int64_t t = 0; t < place.size(); ++t) {
-    if (report.rank[t] < 0) continue;
+    if (report.rank[t] < 0)
+      continue;
     const Triple& sites = report.sites[t];
     place[t] = first_of[static_cast<std::size_t>(sites[0])] + report.rank[t];
-    for (int i = 0; i < 3; ++i) out(i, place[t]) = sites[static_cast<std::size_t>(i)];
+    for (int i = 0; i < 3; ++i)
+      out(i, place[t]) = sites[static_cast<std::size_t>(i)];
   }
   return place;
 }
@@ -226,6 +235,8 @@ void unite(const std::vector<RegionTriangles>& reports, std::vector<std::int32_t
   const std::int32_t count = exclusive_scan(std::span(triangles_of));
   mesh.triangles.resize(3, count);
   mesh.neighbours.resize(3, count);
+  prefer_huge_pages(mesh.triangles.data(), 12 * static_cast<std::size_t>(count));
+  prefer_huge_pages(mesh.neighbours.data(), 12 * static_cast<std::size_t>(count));
   std::int64_t seams = 0;
   for (const RegionTriangles& report : reports)
     seams += std::ssize(report.seams);
@@ -238,14 +249,17 @@ void unite(const std::vector<RegionTriangles>& reports, std::vector<std::int32_t
     Array<std::int32_t>& own = place[static_cast<std::size_t>(k)];
     own = place_own(report, triangles_of, mesh.triangles);
     for (const std::int32_t t : report.seams)
-      if (report.rank[t] >= 0) table.enter(report.sites[t], own[t]);
+      if (report.rank[t] >= 0)
+        table.enter(report.sites[t], own[t]);
   });
   for_each_task(regions, [&](std::int64_t k) {
     const RegionTriangles& report = reports[static_cast<std::size_t>(k)];
     for (const std::int32_t t : report.seams) {
-      if (report.rank[t] >= 0) continue;
+      if (report.rank[t] >= 0)
+        continue;
       const std::int32_t found = table.count(report.sites[t]);
-      if (found < 0) disagree(report.sites[t]);
+      if (found < 0)
+        disagree(report.sites[t]);
       place[static_cast<std::size_t>(k)][t] = found;
     }
   });

@@ -15,15 +15,17 @@ namespace calotte::detail {
 
 using Triple = std::array<std::int32_t, 3>;
 
-/// What one region reports: its triangles with an owned vertex, in no order, each from its lowest site on.
+/// What one region reports: its triangles with an owned vertex, in no order, each from its lowest
+/// site on.
 struct RegionTriangles {
   Array<Triple> sites;      ///< counter-clockwise
   Array<Triple> neighbours; ///< across from each vertex, as places in these arrays; -1 if not here
-  Array<std::int32_t> rank; ///< by second site among those of one lowest site; -1 if that is not owned
+  Array<std::int32_t>
+      rank; ///< by second site among those of one lowest site; -1 if that is not owned
   std::vector<std::int32_t> seams;    ///< triangles whose vertices have different owners, ascending
   std::vector<std::int8_t> reporters; ///< by seam: the number of owners
-  std::vector<std::int8_t> own_edges; ///< by seam: bit i set where this region owns the lower site of
-                                      ///< the edge across from vertex i
+  std::vector<std::int8_t> own_edges; ///< by seam: bit i set where this region owns the lower site
+                                      ///< of the edge across from vertex i
 };
 
 /// Reports a certified triangulation.

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cells.h"
+#include "curve.h"
+#include "order.h"
+#include "predicates.h"
+
+#include <calotte/generators.h>
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <random>
+
+using namespace calotte;
+using namespace calotte::detail;
+
+namespace {
+
+std::vector<Vec3> directions(std::int64_t n) {
+  const Points3 points = random_sphere(n, 11);
+  std::vector<Vec3> out;
+  for (Eigen::Index i = 0; i < points.cols(); ++i)
+    out.push_back({points(0, i), points(1, i), points(2, i)});
+  for (const double x : {-1.0, 0.0, 1.0}) // the cube's corners, edges and axes
+    for (const double y : {-1.0, 0.0, 1.0})
+      for (const double z : {-1.0, 0.0, 1.0})
+        if (x != 0 || y != 0 || z != 0)
+          out.push_back({x, y, z});
+  return out;
+}
+
+} // namespace
+
+TEST_CASE("central projection onto the cube is inverted by from_cube") {
+  for (const Vec3& p : directions(5000)) {
+    const CubePoint c = to_cube(p);
+    CHECK(std::abs(c.u) <= 1);
+    CHECK(std::abs(c.v) <= 1);
+    const Vec3 back = normalised(from_cube(c)) - normalised(p);
+    CHECK(norm(back) < 1e-15);
+  }
+}
+
+TEST_CASE("multiples of one direction have one key and the same bits on the cube") {
+  std::mt19937_64 random(3);
+  for (const Vec3& p : directions(2000)) {
+    // Integers times a small integer: both exact.
+    const Vec3 q{std::floor(p.x * 0x1p40), std::floor(p.y * 0x1p40), std::floor(p.z * 0x1p40)};
+    const double s = 1 + static_cast<double>(random() % 1000);
+    const CubePoint a = to_cube(q), b = to_cube(s * q), c = to_cube(0x1p-600 * q);
+    CHECK(a.face == b.face);
+    CHECK(a.u == b.u);
+    CHECK(a.v == b.v);
+    CHECK(curve_key(a) == curve_key(b));
+    CHECK(curve_key(a) == curve_key(c));
+  }
+}
+
+TEST_CASE("steps of the curve go to neighbouring cells, from face to face too") {
+  // All cells of a coarse level in the order of the curve, by their middle points.
+  constexpr int level = 5, cells = 1 << level;
+  std::vector<std::pair<std::uint64_t, Vec3>> middles;
+  for (int face = 0; face < 6; ++face)
+    for (int i = 0; i < cells; ++i)
+      for (int j = 0; j < cells; ++j) {
+        const CubePoint c{face, (2.0 * i + 1) / cells - 1, (2.0 * j + 1) / cells - 1};
+        middles.emplace_back(curve_key(c), from_cube(c));
+      }
+  std::sort(middles.begin(), middles.end(),
+            [](const auto& a, const auto& b) { return a.first < b.first; });
+  for (std::size_t m = 1; m < middles.size(); ++m)
+    CHECK(norm(middles[m].second - middles[m - 1].second) < 2.0 / cells + 1e-12);
+}
+
+TEST_CASE("sorting by key is that of std::sort, for spread, crowded and equal keys") {
+  std::mt19937_64 random(5);
+  for (const std::int64_t n : {0, 1, 2, 100, 70000})
+    for (const int bits : {63, 40, 7, 0}) {
+      Array<KeyedIndex> entries(n);
+      for (std::int64_t i = 0; i < n; ++i) {
+        const std::uint64_t low = bits == 0 ? 0 : random() >> (64 - bits);
+        entries[i] = {
+            std::min<std::uint64_t>(low + (std::uint64_t{5} << 50), (std::uint64_t{6} << 60) - 1),
+            static_cast<std::int32_t>(n - i)};
+      }
+      std::vector<KeyedIndex> expected(entries.begin(), entries.end());
+      std::sort(expected.begin(), expected.end(), [](const KeyedIndex& a, const KeyedIndex& b) {
+        return a.key != b.key ? a.key < b.key : a.index < b.index;
+      });
+      sort_by_key(entries);
+      CHECK(std::equal(entries.begin(), entries.end(), expected.begin(), expected.end(),
+                       [](const KeyedIndex& a, const KeyedIndex& b) {
+                         return a.key == b.key && a.index == b.index;
+                       }));
+    }
+}
+
+TEST_CASE("the cells of each level part the sites, and their balls hold them") {
+  std::vector<std::pair<std::uint64_t, Vec3>> sites;
+  for (const Vec3& p : directions(3000))
+    sites.emplace_back(curve_key(to_cube(p)), normalised(p));
+  std::sort(sites.begin(), sites.end(),
+            [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<std::uint64_t> keys;
+  for (const auto& [key, p] : sites)
+    keys.push_back(key);
+
+  const auto faces = face_cells(keys);
+  std::vector<Cell> cells(faces.begin(), faces.end());
+  for (int level = 0; level < 12; ++level) {
+    std::int64_t next = 0;
+    std::vector<Cell> below;
+    for (const Cell& cell : cells) {
+      CHECK(cell.begin == next);
+      CHECK(cell.level == level);
+      next = cell.end;
+      const Ball ball = bounding_ball(cell);
+      for (std::int64_t r = cell.begin; r != cell.end; ++r)
+        CHECK(norm(sites[static_cast<std::size_t>(r)].second - ball.centre) <= ball.radius);
+      if (cell.size() == 0)
+        continue;
+      for (const Cell& child : children(cell, keys))
+        below.push_back(child);
+    }
+    CHECK(next == std::ssize(keys));
+    cells = below;
+  }
+}

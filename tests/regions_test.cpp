@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "regions.h"
+
+#include <calotte/error.h>
+#include <calotte/generators.h>
+
+#include <doctest/doctest.h>
+
+using namespace calotte;
+using namespace calotte::detail;
+
+namespace {
+
+std::vector<std::vector<std::int32_t>> all_pairs(std::size_t count) {
+  std::vector<std::vector<std::int32_t>> adjacent(count);
+  for (std::size_t k = 0; k < count; ++k)
+    for (std::size_t m = 0; m < count; ++m)
+      if (m != k)
+        adjacent[k].push_back(static_cast<std::int32_t>(m));
+  return adjacent;
+}
+
+Regions regions_of(const Sites& sites, int count, Centres centres, Sort sort) {
+  DelaunayOptions options;
+  options.regions = count;
+  options.centres = centres;
+  return make_regions(sites, make_centres(sites, options),
+                      all_pairs(static_cast<std::size_t>(count)), sort);
+}
+
+} // namespace
+
+TEST_CASE("each site is owned by the nearest centre, by brute force") {
+  const Sites sites = make_sites(random_sphere(5000, 8), Duplicates::merge, 0);
+  for (const int count : {2, 12, 100}) {
+    const Regions regions = regions_of(sites, count, Centres::sample, Sort::halo);
+    for (std::int64_t r = 0; r < sites.size(); ++r) {
+      const auto squared = [&](std::int32_t k) {
+        const Vec3 apart = sites.unit[r] - regions.centres[static_cast<std::size_t>(k)];
+        return dot(apart, apart);
+      };
+      for (std::int32_t k = 0; k < count; ++k) {
+        const bool tie_to_lowest = squared(k) == squared(regions.owner[r]) && k >= regions.owner[r];
+        CHECK((squared(k) > squared(regions.owner[r]) || tie_to_lowest));
+      }
+    }
+  }
+}
+
+TEST_CASE("members ascend, hold all owned sites and all sites of the covered part, in every sort") {
+  const Sites sites = make_sites(random_sphere(4000, 9), Duplicates::merge, 0);
+  for (const Sort sort : {Sort::halo, Sort::distance, Sort::voronoi})
+    for (const int count : {2, 12, 60}) {
+      const Regions regions = regions_of(sites, count, Centres::fibonacci, sort);
+      for (std::size_t k = 0; k < regions.members.size(); ++k) {
+        std::vector<bool> member(static_cast<std::size_t>(sites.size()), false);
+        std::int32_t end = 0;
+        for (const Run& run : regions.members[k]) {
+          CHECK(run.begin >= end);
+          CHECK(run.end > run.begin);
+          end = run.end;
+          std::fill(member.begin() + run.begin, member.begin() + run.end, true);
+        }
+        for (std::int64_t r = 0; r < sites.size(); ++r) {
+          bool covered = true;
+          for (const HalfSpace& h : regions.covered[k])
+            covered = covered && dot(sites.unit[r], h.normal) <= h.offset;
+          const bool owned = regions.owner[r] == static_cast<std::int32_t>(k);
+          CHECK((!(covered || owned) || member[static_cast<std::size_t>(r)]));
+        }
+      }
+    }
+}
+
+TEST_CASE("regions of sampled centres hold nearly equal numbers of sites") {
+  // Half of the sites within a tenth of the sphere.
+  const Points3 all = random_sphere(60000, 3);
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index i = 0; i < all.cols(); ++i)
+    if (all(2, i) > 0.8 || i % 9 == 0)
+      kept.push_back(i);
+  const Points3 points = all(Eigen::all, kept);
+  const Sites sites = make_sites(points, Duplicates::merge, 0);
+  const Regions regions = regions_of(sites, 24, Centres::sample, Sort::halo);
+  std::vector<std::int64_t> owned(24, 0);
+  for (const std::int32_t k : regions.owner)
+    ++owned[static_cast<std::size_t>(k)];
+  const auto [least, most] = std::minmax_element(owned.begin(), owned.end());
+  CHECK(*most < 2 * sites.size() / 24);
+  CHECK(*least > sites.size() / 24 / 3);
+}
+
+TEST_CASE("centres need a number and directions") {
+  const Sites sites = make_sites(random_sphere(50), Duplicates::merge, 0);
+  DelaunayOptions options;
+  options.regions = 0;
+  CHECK_THROWS_WITH_AS(make_centres(sites, options), "the number of regions is 0: give at least 1",
+                       Error);
+  options.given_centres = Points3::Zero(3, 2);
+  CHECK_THROWS_AS(make_centres(sites, options), Error);
+}

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sites.h"
+
+#include "predicates.h"
+
+#include <calotte/error.h>
+#include <calotte/generators.h>
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+
+using namespace calotte;
+using namespace calotte::detail;
+
+namespace {
+
+ErrorCode code_of(const Points3& points, std::int64_t& index,
+                  Duplicates duplicates = Duplicates::merge, double within = 0) {
+  try {
+    make_sites(points, duplicates, within);
+  } catch (const Error& e) {
+    index = e.index();
+    return e.code();
+  }
+  FAIL("no error");
+  return ErrorCode::internal;
+}
+
+} // namespace
+
+TEST_CASE("ranks run along the curve and hold every site once, ids keep the order of the input") {
+  const Points3 points = random_sphere(30000, 2);
+  const Sites sites = make_sites(points, Duplicates::merge, 0);
+  REQUIRE(sites.size() == points.cols());
+  CHECK(sites.points == points);
+  std::vector<bool> seen(static_cast<std::size_t>(sites.size()), false);
+  for (std::int64_t r = 0; r < sites.size(); ++r) {
+    CHECK((r == 0 || sites.key[r - 1] <= sites.key[r]));
+    const auto id = static_cast<std::size_t>(sites.id[r]);
+    CHECK(!seen[id]);
+    seen[id] = true;
+    CHECK(norm(sites.unit[r] - normalised(sites.given(sites.id[r]))) == 0);
+  }
+}
+
+TEST_CASE("equal directions of any norm are merged into the lowest index") {
+  Points3 points(3, 9);
+  points.col(0) << 1, 1, 1;
+  points.col(1) << 0, 0, 2;
+  points.col(2) << 3, 3, 3;
+  points.col(3) << 0x1p600, 0x1p600, 0x1p600;
+  points.col(4) << -1, 0, 0;
+  points.col(5) << 0, 0, 1e-200;
+  points.col(6) << 1, 1, 1 + 0x1p-52; // not equal
+  points.col(7) << 0, -1, -0.0;
+  points.col(8) << 0, -5, 0.0;
+  const Sites sites = make_sites(points, Duplicates::merge, 0);
+  CHECK(sites.site_of_input == std::vector<std::int32_t>{0, 1, 0, 0, 2, 1, 3, 4, 4});
+  CHECK(sites.size() == 5);
+  CHECK(sites.points.col(3) == points.col(6));
+  std::int64_t index = -1;
+  CHECK(code_of(points, index, Duplicates::refuse) == ErrorCode::duplicate);
+  CHECK(index == 2);
+}
+
+TEST_CASE("ten thousand copies of a few directions, in a cell, are merged") {
+  Points3 points = random_sphere(10000, 4);
+  for (Eigen::Index i = 100; i < points.cols(); ++i)
+    points.col(i) = 2 * points.col(i % 100);
+  const Sites sites = make_sites(points, Duplicates::merge, 0);
+  CHECK(sites.size() == 100);
+  for (std::size_t i = 0; i < 10000; ++i)
+    CHECK(sites.site_of_input[i] == static_cast<std::int32_t>(i % 100));
+}
+
+TEST_CASE("merge_within merges into the earlier site that stays, not along chains") {
+  const double step = 0.6e-3;
+  Points3 points(3, 8);
+  for (int i = 0; i < 4; ++i)
+    points.col(i) << std::cos(i * step), std::sin(i * step), 0;
+  points.col(4) << 0, 0, 1;
+  points.col(5) << 0, 0, -1;
+  points.col(6) << 0, -1, 0;
+  points.col(7) << 7, 0, 0; // site 0 again
+  const Sites sites = make_sites(points, Duplicates::merge, 1e-3);
+  CHECK(sites.site_of_input == std::vector<std::int32_t>{0, 0, 1, 1, 2, 3, 4, 0});
+}
+
+TEST_CASE("bad input is refused with its first offending index") {
+  Points3 points = random_sphere(40000, 1);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinity = std::numeric_limits<double>::infinity();
+  points(1, 39000) = nan;
+  points.col(20001).setZero();
+  std::int64_t index = -1;
+  CHECK(code_of(points, index) == ErrorCode::zero_vector);
+  CHECK(index == 20001);
+  points(2, 17) = -infinity;
+  CHECK(code_of(points, index) == ErrorCode::not_finite);
+  CHECK(index == 17);
+  CHECK(code_of(points.leftCols(3), index) == ErrorCode::too_few_sites);
+  CHECK(code_of(Points3(3, 0), index) == ErrorCode::too_few_sites);
+  Points3 same = Points3::Ones(3, 10);
+  CHECK(code_of(same, index) == ErrorCode::too_few_sites);
+  CHECK(code_of(random_sphere(10), index, Duplicates::merge, -1) == ErrorCode::bad_option);
+  CHECK(code_of(random_sphere(10), index, Duplicates::merge, nan) == ErrorCode::bad_option);
+}
