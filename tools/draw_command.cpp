@@ -4,8 +4,10 @@
 
 #include <calotte/error.h>
 
+#include <algorithm>
 #include <charconv>
-#include <map>
+#include <cmath>
+#include <iostream>
 #include <string_view>
 
 namespace calotte::tools {
@@ -42,32 +44,46 @@ LonLat parse_view(std::string_view text) {
   return view;
 }
 
+/// An option whose value is one of a few words.
+template <class Value>
+void add_choice(CLI::App& command, const std::string& names, Value& value,
+                const std::vector<std::pair<std::string, Value>>& choices,
+                const std::string& help) {
+  std::vector<std::string> words;
+  for (const auto& choice : choices) {
+    words.push_back(choice.first);
+  }
+  const auto choose = [&value, choices](const std::string& word) {
+    const auto is_it = [&](const auto& choice) { return choice.first == word; };
+    value = std::find_if(choices.begin(), choices.end(), is_it)->second;
+  };
+  command.add_option_function<std::string>(names, choose, help)
+      ->check(CLI::IsMember(words))
+      ->type_name("WORD")
+      ->default_str(words.front());
+}
+
 void add_look(CLI::App& command, DrawOptions& options) {
-  static const std::map<std::string, Shapes> shapes = {{"triangles", Shapes::triangles},
-                                                       {"cells", Shapes::cells}};
-  static const std::map<std::string, Colouring> colourings = {{"spacing", Colouring::spacing},
-                                                              {"angle", Colouring::angle},
-                                                              {"valence", Colouring::valence},
-                                                              {"none", Colouring::none}};
+  const auto look_from = [&options](const std::string& text) { options.view = parse_view(text); };
   command
       .add_option_function<std::string>(
-          "--view", [&options](const std::string& text) { options.view = parse_view(text); },
+          "--view", look_from,
           "the middle of the globe; default: 15,25, or the middle of an open mesh")
       ->type_name("LON,LAT");
   command.add_option("--size", options.size, "width in pixels (points in SVG and PDF)")
       ->check(CLI::Range(64, 16384))
       ->capture_default_str();
-  command.add_option("--what", options.shapes, "triangles, or cells: Voronoi cells")
-      ->transform(CLI::CheckedTransformer(shapes).description(""))
-      ->type_name("SHAPES")
-      ->default_str("triangles");
-  command
-      .add_option("--colour,--color", options.colouring,
-                  "spacing: mean distance of neighbours; angle: smallest angle; valence: number of "
-                  "neighbours; or none")
-      ->transform(CLI::CheckedTransformer(colourings).description(""))
-      ->type_name("QUANTITY")
-      ->default_str("spacing");
+  add_choice<Shapes>(command, "--what", options.shapes,
+                     {{"triangles", Shapes::triangles}, {"cells", Shapes::cells}},
+                     "the Delaunay triangles or the Voronoi cells");
+  add_choice<Colouring>(
+      command, "--colour,--color", options.colouring,
+      {{"spacing", Colouring::spacing},
+       {"angle", Colouring::angle},
+       {"valence", Colouring::valence},
+       {"none", Colouring::none}},
+      "by what to colour them: spacing is the mean distance of neighbours, angle the "
+      "smallest, valence the number of neighbours");
 }
 
 void run(const DrawArguments& arguments) {
@@ -75,7 +91,10 @@ void run(const DrawArguments& arguments) {
   require_folder(arguments.output);
   require_distinct(arguments.output, arguments.source->path);
   require_distinct(arguments.output, arguments.source->points);
-  draw(arguments.output, read_mesh(*arguments.source), arguments.options);
+  const Mesh mesh = read_mesh(*arguments.source);
+  draw(arguments.output, mesh, arguments.options);
+  std::cout << arguments.output << ": picture of " << mesh.points.cols() << " sites, "
+            << mesh.triangles.cols() << " triangles\n";
 }
 
 } // namespace

@@ -38,9 +38,11 @@ double round_below(double x) {
 
 std::vector<double> linear_steps(double low, double high) {
   const double step = 2 * round_below((high - low) / 10);
+  const double first = std::ceil(low / step - 1e-9);
+  const auto count = static_cast<int>(std::floor(high / step + 1e-9) - first) + 1;
   std::vector<double> steps;
-  for (double k = std::ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; ++k) {
-    steps.push_back(k * step);
+  for (int k = 0; k < count; ++k) {
+    steps.push_back((first + k) * step);
   }
   return steps;
 }
@@ -49,7 +51,10 @@ std::vector<double> linear_steps(double low, double high) {
 std::vector<double> logarithmic_steps(double low, double high) {
   std::vector<double> steps;
   std::vector<double> powers;
-  for (double power = std::pow(10, std::floor(std::log10(low))); power <= high; power *= 10) {
+  const auto last = static_cast<int>(std::floor(std::log10(high)));
+  for (auto exponent = static_cast<int>(std::floor(std::log10(low))); exponent <= last;
+       ++exponent) {
+    const double power = std::pow(10, exponent);
     for (const double factor : {1., 2., 5.}) {
       if (factor * power >= low && factor * power <= high) {
         steps.push_back(factor * power);
