@@ -11,10 +11,12 @@
 #include <CLI/CLI.hpp>
 #include <benchmark/benchmark.h>
 
+#include <exception>
 #include <functional>
 #include <iostream>
-#include <map>
+#include <limits>
 #include <memory>
+#include <optional>
 #include <thread>
 
 namespace calotte::bench {
@@ -244,4 +246,11 @@ int bench_main(int argc, char** argv) {
 
 } // namespace calotte::bench
 
-int main(int argc, char** argv) { return calotte::bench::bench_main(argc, argv); }
+int main(int argc, char** argv) {
+  try {
+    return calotte::bench::bench_main(argc, argv);
+  } catch (const std::exception& error) {
+    std::cerr << "delaunay_bench: " << error.what() << '\n';
+    return 1;
+  }
+}

@@ -9,13 +9,16 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <chrono>
+#include <tuple>
 #include <unordered_map>
 #include <vector>
 
 #ifdef CALOTTE_BENCH_STRIPACK
 // SUBROUTINE CSTRMESH (N, X,Y,Z, LIST,LPTR,LEND,LNEW, NEAR,NEXT,DIST, IER): default integers,
 // doubles. LIST and LPTR hold 6n - 12 entries, the others n.
+// NOLINTNEXTLINE(readability-identifier-naming): Fortran names it.
 extern "C" void cstrmesh_(const int* n, const double* x, const double* y, const double* z,
                           int* list, int* lptr, int* lend, int* lnew, int* near, int* next,
                           double* dist, int* ier);
