@@ -87,7 +87,7 @@ ExitCode guarded_run(CLI::App& app, int argc, char** argv) {
 } // namespace
 } // namespace calotte::tools
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   using namespace calotte::tools;
   // A file larger than allowed is an error like a full disk, not a reason to die.
   std::signal(SIGXFSZ, SIG_IGN);
@@ -99,4 +99,6 @@ int main(int argc, char** argv) {
     return file_trouble;
   }
   return code;
+} catch (...) { // not even a message could be made
+  return calotte::tools::internal_error;
 }

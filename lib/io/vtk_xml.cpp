@@ -23,9 +23,9 @@ Blocks blocks(std::int64_t points, std::int64_t triangles) {
 
 std::string data_array(const std::string& type, const std::string& name, std::int64_t& offset,
                        std::int64_t size) {
-  const std::string line = "        <DataArray type=\"" + type + "\" Name=\"" + name + "\"" +
-                           (name == "Points" ? " NumberOfComponents=\"3\"" : "") +
-                           " format=\"appended\" offset=\"" + std::to_string(offset) + "\"/>\n";
+  std::string line = "        <DataArray type=\"" + type + "\" Name=\"" + name + "\"" +
+                     (name == "Points" ? " NumberOfComponents=\"3\"" : "") +
+                     " format=\"appended\" offset=\"" + std::to_string(offset) + "\"/>\n";
   offset += 8 + size;
   return line;
 }
