@@ -99,6 +99,7 @@ std::string fault(const Outcome& outcome, const Row& row, const Workload& work) 
 }
 
 void add_counters(benchmark::State& state, const Outcome& outcome) {
+  state.counters["cpu"] = outcome.cpu_seconds;
   const DelaunayReport& report = outcome.report;
   if (report.seconds.total == 0) {
     return; // a peer
@@ -201,7 +202,8 @@ void print_head(const Options& options) {
       << ", peers on one; CGAL " << CGAL_VERSION_STR << "; compiler " << __VERSION__ << "; "
       << options.rounds
       << " rounds, each runs every row once on the same sites.\nA ratio is the row's seconds over "
-         "calotte's of the same round.\n";
+         "calotte's of the same round. Where CPU seconds of a row with one thread are "
+         "less than its seconds, the machine was busy.\n";
   if (!has_stripack()) {
     std::cout << "STRIPACK is left out: this program was built without libncarg-dev.\n";
   }

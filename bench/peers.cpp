@@ -11,6 +11,7 @@
 #include <array>
 #include <bit>
 #include <chrono>
+#include <ctime>
 #include <tuple>
 #include <unordered_map>
 #include <vector>
@@ -28,11 +29,19 @@ namespace calotte::bench {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
+/// Measures from its construction.
+class Stopwatch {
+public:
+  void stop(Outcome& outcome) const {
+    outcome.seconds = std::chrono::duration<double>(Clock::now() - start_).count();
+    outcome.cpu_seconds = static_cast<double>(std::clock() - cpu_start_) / CLOCKS_PER_SEC;
+  }
 
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
+private:
+  using Clock = std::chrono::steady_clock;
+  std::clock_t cpu_start_ = std::clock();
+  Clock::time_point start_ = Clock::now();
+};
 
 /// The finaliser of SplitMix64 (Steele, Lea, Flood, 2014).
 std::uint64_t mix(std::uint64_t x) {
@@ -57,9 +66,9 @@ Outcome run_calotte(const Points3& points, int threads, const DelaunayOptions& o
   tbb::task_arena arena(threads);
   Outcome outcome;
   Mesh mesh;
-  const auto start = Clock::now();
+  const Stopwatch watch;
   arena.execute([&] { mesh = delaunay(points, options, &outcome.report); });
-  outcome.seconds = seconds_since(start);
+  watch.stop(outcome);
   outcome.sites = mesh.points.cols();
   outcome.triangles = mesh.triangles.cols();
   if (mesh.points.cols() != points.cols()) {
@@ -123,10 +132,10 @@ Outcome run_cgal(const Points3& points) {
     input.emplace_back(points(0, i), points(1, i), points(2, i));
   }
   Outcome outcome;
-  const auto start = Clock::now();
+  const Stopwatch watch;
   Triangulation triangulation(Point(0, 0, 0), 1);
   triangulation.insert(input.begin(), input.end());
-  outcome.seconds = seconds_since(start);
+  watch.stop(outcome);
   outcome.sites = static_cast<std::int64_t>(triangulation.number_of_vertices());
   outcome.triangles = static_cast<std::int64_t>(triangulation.number_of_solid_faces());
   outcome.digest = digest_of(triangulation, points);
@@ -183,10 +192,10 @@ Outcome run_stripack(const Points3& points) {
   int lnew = 0;
   int error = 0;
   Outcome outcome;
-  const auto start = Clock::now();
+  const Stopwatch watch;
   cstrmesh_(&nodes, x.data(), y.data(), z.data(), lists.list.data(), lists.lptr.data(),
             lists.lend.data(), &lnew, near.data(), next.data(), distance.data(), &error);
-  outcome.seconds = seconds_since(start);
+  watch.stop(outcome);
   if (error != 0) {
     outcome.failure = "TRMESH gave up with IER = " + std::to_string(error);
     return outcome;

@@ -22,6 +22,7 @@ private:
 /// What one timed run made.
 struct Outcome {
   double seconds = 0;     ///< wall-clock, of the triangulation alone
+  double cpu_seconds = 0; ///< of all threads in that time
   std::int64_t sites = 0; ///< vertices of the result
   std::int64_t triangles = 0;
   std::uint64_t digest = 0; ///< Digest of the triangles in the ids of the input

@@ -60,14 +60,16 @@ std::string title(const SetResults& set) { return set.set + ", n = " + std::to_s
 
 void print_times(std::ostream& out, const SetResults& set, const std::string& base) {
   out << "\n### " << title(set) << "\n\n"
-      << "| run | rounds | median s | min - max s | us a site | times " << base
-      << " | quartiles | min - max |\n| --- | --: | --: | --: | --: | --: | --: | --: |\n";
+      << "| run | rounds | median s | min - max s | CPU s | us a site | times " << base
+      << " | quartiles | min - max |\n"
+      << "| --- | --: | --: | --: | --: | --: | --: | --: | --: |\n";
   const auto found = set.rows.find(base);
   for (const std::string& name : set.order) {
     const Series& row = set.rows.at(name);
     const std::vector<double> s = values_of(row);
     out << "| " << name << " | " << s.size() << " | " << seconds_text(median(s)) << " | "
         << seconds_text(quantile(s, 0)) << " - " << seconds_text(quantile(s, 1)) << " | "
+        << seconds_text(median(row.counters.at("cpu"))) << " | "
         << fixed(1e6 * median(s) / static_cast<double>(set.sites), 3) << " | ";
     if (found == set.rows.end()) {
       out << "| | |\n";
