@@ -123,7 +123,7 @@ Result triangulate(const Input& input, const DelaunayOptions& options, std::opti
   if (threads)
     control.emplace(tbb::global_control::max_allowed_parallelism,
                     static_cast<std::size_t>(*threads));
-  tbb::task_arena arena(threads.value_or(tbb::task_arena::automatic));
+  tbb::task_arena arena(threads ? *threads : int{tbb::task_arena::automatic});
   Result result;
   try {
     arena.execute([&] { result.mesh = delaunay(input.points, options, &result.report); });
