@@ -13,7 +13,7 @@ struct CullCounts {
   std::int64_t by_cull = 0, by_query = 0, inserted = 0;
 };
 
-/// The members of region k; empty when a rounded bisector has cost it a site that it owns.
+/// The members of region k.
 std::vector<Member> gather(const Sites& sites, const Regions& regions, std::int32_t k);
 
 /// Certifies every triangle with an owned vertex: by the paper's cull test (Jacobsen et al., 2013,

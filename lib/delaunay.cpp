@@ -31,7 +31,7 @@ double lap(Clock::time_point& mark) {
 /// The values that the stages of a triangulation by regions leave for the union.
 struct Reports {
   std::vector<RegionTriangles> regions;
-  std::vector<std::int32_t> triangles_of; ///< by site, see report_triangles
+  Array<std::int32_t> triangles_of; ///< by site, see report_triangles
 };
 
 void add(DelaunayReport& report, const PredicateCounts& counts) {
@@ -49,7 +49,7 @@ Reports triangulate_whole(const Sites& sites, DelaunayReport& report) {
     throw Error(ErrorCode::degenerate,
                 "all sites lie on one great circle: add a site off it, they span no triangle");
   Reports reports;
-  reports.triangles_of.assign(members.size(), 0);
+  reports.triangles_of = Array<std::int32_t>(sites.size());
   reports.regions.push_back(
       report_triangles(triangulation, sites, Array<std::int32_t>(), reports.triangles_of));
   add(report, triangulation.space().counts());
@@ -71,17 +71,14 @@ struct CapResult {
 /// One region: gather, project, triangulate, cull and certify. Empty when its cap cannot certify
 /// its sites.
 std::optional<CapResult> triangulate_cap(const Sites& sites, const Regions& regions, std::int32_t k,
-                                         std::int64_t owned,
-                                         std::vector<std::int32_t>& triangles_of) {
+                                         Array<std::int32_t>& triangles_of) {
   const Clock::time_point start = Clock::now();
-  CapResult result;
-  result.owned = owned;
-  if (owned == 0)
-    return result;
   std::vector<Member> members = gather(sites, regions, k);
-  const auto is_owned = [](const Member& m) { return m.owned; };
-  if (std::count_if(members.begin(), members.end(), is_owned) != owned)
-    return std::nullopt;
+  CapResult result;
+  result.owned =
+      std::count_if(members.begin(), members.end(), [](const Member& m) { return m.owned; });
+  if (result.owned == 0)
+    return result;
   const Vec3& centre = regions.centres[static_cast<std::size_t>(k)];
   double reach = 0;
   for (const Member& m : members) {
@@ -90,9 +87,7 @@ std::optional<CapResult> triangulate_cap(const Sites& sites, const Regions& regi
   }
   CapTriangulation triangulation{Sphere(sites, centre, 1.000001 * std::sqrt(reach))};
   std::erase_if(members, [&](const Member& m) { return !triangulation.space().has_place(m.rank); });
-  if (!triangulation.build(members))
-    return std::nullopt;
-  if (!certify(triangulation, sites, regions, k, result.cull))
+  if (!triangulation.build(members) || !certify(triangulation, sites, regions, k, result.cull))
     return std::nullopt;
   result.triangles = report_triangles(triangulation, sites, regions.owner, triangles_of);
   result.predicates = triangulation.space().counts();
@@ -119,28 +114,28 @@ void summarise(const std::vector<CapResult>& caps, std::int64_t sites, DelaunayR
   report.overlap = static_cast<double>(members) / static_cast<double>(sites);
 }
 
-/// All regions, a task each; empty when one of them cannot certify its sites.
+/// All regions, a task each; empty when one of them cannot certify its sites, or when a rounded
+/// bisector has cost one a site that it owns.
 std::optional<Reports> triangulate_caps(const Sites& sites, const Regions& regions,
                                         DelaunayReport& report) {
-  std::vector<std::int64_t> owned(regions.centres.size(), 0);
-  for (const std::int32_t k : regions.owner)
-    ++owned[static_cast<std::size_t>(k)];
   Reports reports;
-  reports.triangles_of.resize(static_cast<std::size_t>(sites.size()));
+  reports.triangles_of = Array<std::int32_t>(sites.size());
   std::vector<CapResult> caps(regions.centres.size());
   std::atomic<bool> failed = false;
   for_each_task(std::ssize(caps), [&](std::int64_t k) {
     if (failed.load(std::memory_order_relaxed))
       return;
-    const auto index = static_cast<std::size_t>(k);
-    std::optional<CapResult> cap = triangulate_cap(sites, regions, static_cast<std::int32_t>(k),
-                                                   owned[index], reports.triangles_of);
+    std::optional<CapResult> cap =
+        triangulate_cap(sites, regions, static_cast<std::int32_t>(k), reports.triangles_of);
     if (cap)
-      caps[index] = std::move(*cap);
+      caps[static_cast<std::size_t>(k)] = std::move(*cap);
     else
       failed.store(true, std::memory_order_relaxed);
   });
-  if (failed)
+  std::int64_t owned = 0;
+  for (const CapResult& cap : caps)
+    owned += cap.owned;
+  if (failed || owned != sites.size())
     return std::nullopt;
   summarise(caps, sites.size(), report);
   for (CapResult& cap : caps)
@@ -150,7 +145,7 @@ std::optional<Reports> triangulate_caps(const Sites& sites, const Regions& regio
 
 Mesh make_mesh(Sites&& sites, Reports&& reports) {
   Mesh mesh;
-  unite(reports.regions, reports.triangles_of, mesh);
+  unite(std::move(reports.regions), std::move(reports.triangles_of), mesh);
   mesh.points = std::move(sites.points);
   mesh.site_of_input = std::move(sites.site_of_input);
   return mesh;

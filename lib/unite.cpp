@@ -83,7 +83,7 @@ void rank_lists(const ByLowest& lists, RegionTriangles& out) {
 
 RegionTriangles report_triangles(Triangulation<Sphere>& triangulation, const Sites& sites,
                                  const Array<std::int32_t>& owner,
-                                 std::vector<std::int32_t>& triangles_of) {
+                                 Array<std::int32_t>& triangles_of) {
   std::int32_t count = 0;
   triangulation.for_each_face([&](Face face) {
     if (is_reported(face))
@@ -121,7 +121,7 @@ RegionTriangles report_triangles(Triangulation<Sphere>& triangulation, const Sit
   rank_lists(lists, out);
   for (std::size_t v = 0; v < locals; ++v)
     if (const Member& member = triangulation.members()[v]; member.owned)
-      triangles_of[static_cast<std::size_t>(sites.id[member.rank])] = lists.count[v];
+      triangles_of[sites.id[member.rank]] = lists.count[v];
   return out;
 }
 
@@ -192,14 +192,14 @@ private:
 }
 
 /// Places of the triangles whose lowest site the region owns, which it writes.
-Array<std::int32_t> place_own(const RegionTriangles& report,
-                              const std::vector<std::int32_t>& first_of, Triangles& out) {
+Array<std::int32_t> place_own(const RegionTriangles& report, const Array<std::int32_t>& first_of,
+                              Triangles& out) {
   Array<std::int32_t> place(report.sites.size());
   for (std::int64_t t = 0; t < place.size(); ++t) {
     if (report.rank[t] < 0)
       continue;
     const Triple& sites = report.sites[t];
-    place[t] = first_of[static_cast<std::size_t>(sites[0])] + report.rank[t];
+    place[t] = first_of[sites[0]] + report.rank[t];
     for (int i = 0; i < 3; ++i)
       out(i, place[t]) = sites[static_cast<std::size_t>(i)];
   }
@@ -230,9 +230,8 @@ void write_neighbours(const RegionTriangles& report, const Array<std::int32_t>& 
 
 } // namespace
 
-void unite(const std::vector<RegionTriangles>& reports, std::vector<std::int32_t>& triangles_of,
-           Mesh& mesh) {
-  const std::int32_t count = exclusive_scan(std::span(triangles_of));
+void unite(std::vector<RegionTriangles>&& reports, Array<std::int32_t>&& triangles_of, Mesh& mesh) {
+  const std::int32_t count = exclusive_scan(std::span(triangles_of.begin(), triangles_of.end()));
   mesh.triangles.resize(3, count);
   mesh.neighbours.resize(3, count);
   prefer_huge_pages(mesh.triangles.data(), 12 * static_cast<std::size_t>(count));
@@ -264,13 +263,15 @@ void unite(const std::vector<RegionTriangles>& reports, std::vector<std::int32_t
     }
   });
   for_each_task(regions, [&](std::int64_t k) {
-    const RegionTriangles& report = reports[static_cast<std::size_t>(k)];
+    RegionTriangles& report = reports[static_cast<std::size_t>(k)];
     for (std::size_t s = 0; s < report.seams.size(); ++s) {
       const Triple& sites = report.sites[report.seams[s]];
       if (table.reports(sites) != report.reporters[s])
         disagree(sites);
     }
     write_neighbours(report, place[static_cast<std::size_t>(k)], mesh.neighbours);
+    report = {}; // freed here, by all threads
+    place[static_cast<std::size_t>(k)] = {};
   });
 }
 
