@@ -22,6 +22,8 @@ namespace calotte::test {
 
 using detail::Vec3;
 
+constexpr std::int64_t unknown_sites = -2;
+
 struct Cloud {
   std::string name;
   Points3 points;
@@ -386,7 +388,7 @@ inline std::vector<Cloud> slow_clouds(const std::string& fixtures) {
           {"octahedral Gaussian 32", octahedral_gaussian(32), true, true},
           {"8:1, 20000", eight_to_one(20000, 53)},
           {"random 40000", random_sphere(40000, 54)},
-          {"weather stations", weather_stations(fixtures), true, true, -2}};
+          {"weather stations", weather_stations(fixtures), true, true, unknown_sites}};
 }
 
 } // namespace calotte::test
