@@ -180,27 +180,29 @@ EdgeMesh icosahedron() {
 /// edges 2e, at its first vertex, and 2e + 1; the edges inside the triangles follow.
 EdgeMesh refine(const EdgeMesh& coarse, std::int32_t vertices) {
   EdgeMesh fine;
-  const auto edge_count = static_cast<std::int32_t>(coarse.edges.size());
-  const auto triangle_count = static_cast<std::int32_t>(coarse.triangles.size());
-  fine.edges.resize(2 * coarse.edges.size() + 3 * coarse.triangles.size());
-  fine.triangles.resize(4 * coarse.triangles.size());
-  fine.triangle_edges.resize(4 * coarse.triangles.size());
-  for (std::int32_t e = 0; e < edge_count; ++e) {
-    fine.edges[2 * e] = {coarse.edges[e][0], vertices + e};
-    fine.edges[2 * e + 1] = {vertices + e, coarse.edges[e][1]};
+  const std::size_t edge_count = coarse.edges.size(), triangle_count = coarse.triangles.size();
+  fine.edges.resize(2 * edge_count + 3 * triangle_count);
+  fine.triangles.resize(4 * triangle_count);
+  fine.triangle_edges.resize(4 * triangle_count);
+  for (std::size_t e = 0; e < edge_count; ++e) {
+    const std::int32_t middle = vertices + static_cast<std::int32_t>(e);
+    fine.edges[2 * e] = {coarse.edges[e][0], middle};
+    fine.edges[2 * e + 1] = {middle, coarse.edges[e][1]};
   }
-  for (std::int32_t t = 0; t < triangle_count; ++t) {
+  const auto half_at = [&](std::int32_t side, std::int32_t corner) {
+    return 2 * side + (coarse.edges[static_cast<std::size_t>(side)][0] == corner ? 0 : 1);
+  };
+  for (std::size_t t = 0; t < triangle_count; ++t) {
     const Triple &corners = coarse.triangles[t], &sides = coarse.triangle_edges[t];
     const Triple middles{vertices + sides[0], vertices + sides[1], vertices + sides[2]};
-    const std::int32_t inner = 2 * edge_count + 3 * t;
-    const auto half_at = [&](std::int32_t side, std::int32_t corner) {
-      return 2 * side + (coarse.edges[side][0] == corner ? 0 : 1);
-    };
-    for (int i = 0; i < 3; ++i) {
-      const int j = (i + 1) % 3, k = (i + 2) % 3;
-      fine.edges[inner + i] = {middles[j], middles[k]};
+    const std::size_t first = 2 * edge_count + 3 * t;
+    const auto inner = static_cast<std::int32_t>(first);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+      fine.edges[first + i] = {middles[j], middles[k]};
       fine.triangles[4 * t + i] = {corners[i], middles[k], middles[j]};
-      fine.triangle_edges[4 * t + i] = {inner + i, half_at(sides[j], corners[i]),
+      fine.triangle_edges[4 * t + i] = {inner + static_cast<std::int32_t>(i),
+                                        half_at(sides[j], corners[i]),
                                         half_at(sides[k], corners[i])};
     }
     fine.triangles[4 * t + 3] = middles;
