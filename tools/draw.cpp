@@ -17,6 +17,12 @@
 #include <memory>
 #include <numbers>
 
+#ifdef __SANITIZE_ADDRESS__
+// Fontconfig loses some of what it keeps for the life of a process.
+extern "C" const char* __lsan_default_suppressions();
+extern "C" const char* __lsan_default_suppressions() { return "leak:libfontconfig"; }
+#endif
+
 namespace calotte::tools {
 
 namespace {
