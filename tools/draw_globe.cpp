@@ -72,25 +72,41 @@ struct Samples {
   std::vector<std::uint32_t> rgb;
 };
 
-/// A spherical triangle with great-circle sides; those of the mask (bit i: across from corner i)
-/// are outlined.
+/// A spherical triangle with great-circle sides, counter-clockwise.
 struct Facet {
   Vector3d a, b, c;
-  int outlined;
 };
 
+/// How a shape is painted. It is convex, so the great circles of its sides do not enter it, and the
+/// distance to the nearest of them is that to its outline.
 struct Paint {
+  Paint(const Rgb& colour, const Line& outline, const std::vector<Vector3d>& corners)
+      : fill(colour), line(outline), packed(Samples::pack(colour)) {
+    for (std::size_t i = 0; line.alpha > 0 && i < corners.size(); ++i) {
+      const Vector3d normal = corners[i].cross(corners[(i + 1) % corners.size()]);
+      // A side of no length to speak of, as between cocircular sites, has no direction either.
+      if (normal.squaredNorm() > 1e-14) {
+        sides.push_back(normal);
+      }
+    }
+  }
+
   Rgb fill;
   Line line;
-  std::uint32_t packed = Samples::pack(fill);
+  std::uint32_t packed;
+  std::vector<Vector3d> sides; ///< normals of the outline's great circles; none without an outline
 };
 
-/// How near the sample is to a side, in samples: f = normal . p vanishes on it, and |f| over the
-/// length of its gradient in the picture's plane is the distance to first order.
-double distance_to_side(const Vector3d& normal, double f, const Vector3d& p, double radius) {
-  const double gx = normal.x() - normal.z() * p.x() / p.z();
-  const double gy = normal.y() - normal.z() * p.y() / p.z();
-  return radius * std::abs(f) / std::hypot(gx, gy);
+/// How near the point is to the shape's outline, in samples. f = normal . p vanishes on a side, and
+/// |f| over the length of its gradient in the picture's plane is the distance to first order.
+double distance_to_outline(const Paint& paint, const Vector3d& p, double radius) {
+  double least = HUGE_VAL;
+  for (const Vector3d& normal : paint.sides) {
+    const double gx = normal.x() - normal.z() * p.x() / p.z();
+    const double gy = normal.y() - normal.z() * p.y() / p.z();
+    least = std::min(least, std::abs(normal.dot(p)) / std::hypot(gx, gy));
+  }
+  return radius * least;
 }
 
 std::uint32_t sample_colour(const Paint& paint, double distance, double per_pixel) {
@@ -131,19 +147,12 @@ void paint_facet(Samples& samples, const Facet& f, const Paint& paint) {
         continue;
       }
       const Vector3d p(x, y, std::sqrt(z2));
-      const double side[3] = {normal[0].dot(p), normal[1].dot(p), normal[2].dot(p)};
-      if (side[0] < 0 || side[1] < 0 || side[2] < 0) {
+      if (normal[0].dot(p) < 0 || normal[1].dot(p) < 0 || normal[2].dot(p) < 0) {
         continue;
-      }
-      double distance = HUGE_VAL;
-      for (int i = 0; paint.line.alpha > 0 && i < 3; ++i) {
-        if ((f.outlined >> i) & 1) {
-          distance = std::min(distance, distance_to_side(normal[i], side[i], p, radius));
-        }
       }
       samples.rgb[static_cast<std::size_t>(row) * static_cast<std::size_t>(samples.side) +
                   static_cast<std::size_t>(column)] =
-          sample_colour(paint, distance, samples.per_pixel);
+          sample_colour(paint, distance_to_outline(paint, p, radius), samples.per_pixel);
     }
   }
 }
@@ -246,14 +255,14 @@ cairo_surface_t* raster_globe(const Painting& painting, int radius) {
     const auto i = static_cast<std::size_t>(shape);
     const Line line =
         line_of(painting.widths[i] * radius, mean_height(corners), painting.scale.colouring);
-    const Paint paint = {painting.scale.colour(painting.values[i]), line};
+    const Paint paint(painting.scale.colour(painting.values[i]), line, corners);
     if (scene.shapes == Shapes::triangles) {
-      paint_facet(samples, {corners[0], corners[1], corners[2], 7}, paint);
+      paint_facet(samples, {corners[0], corners[1], corners[2]}, paint);
       return;
     }
     for (std::size_t k = 0; k < corners.size(); ++k) {
       const Vector3d& next = corners[(k + 1) % corners.size()];
-      paint_facet(samples, {scene.sites.col(shape), corners[k], next, 1}, paint);
+      paint_facet(samples, {scene.sites.col(shape), corners[k], next}, paint);
     }
   });
   return average(samples);
