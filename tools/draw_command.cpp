@@ -50,6 +50,7 @@ void add_choice(CLI::App& command, const std::string& names, Value& value,
                 const std::vector<std::pair<std::string, Value>>& choices,
                 const std::string& help) {
   std::vector<std::string> words;
+  words.reserve(choices.size());
   for (const auto& choice : choices) {
     words.push_back(choice.first);
   }

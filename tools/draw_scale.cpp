@@ -41,6 +41,7 @@ std::vector<double> linear_steps(double low, double high) {
   const double first = std::ceil(low / step - 1e-9);
   const auto count = static_cast<int>(std::floor(high / step + 1e-9) - first) + 1;
   std::vector<double> steps;
+  steps.reserve(static_cast<std::size_t>(count));
   for (int k = 0; k < count; ++k) {
     steps.push_back((first + k) * step);
   }
