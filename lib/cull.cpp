@@ -203,6 +203,19 @@ std::vector<Face> uncertified_faces(CapTriangulation& triangulation,
   return uncertified;
 }
 
+/// Whether the triangle is one of a closed mesh: finite, and its circumcap below a hemisphere.
+/// Empty caps beyond that are the far side of sites that a hemisphere holds.
+bool is_counter_clockwise(Face face, const Sites& sites) {
+  if (CapTriangulation::is_infinite(face))
+    return false;
+  const auto given = [&](int i) { return sites.given(face->vertex(i)->place.site); };
+  return orientation(given(0), given(1), given(2)) > 0;
+}
+
+/// Undecided predicates and insertions for each member, beyond which the set as a whole is cheaper:
+/// a cap's lattices need a few, clusters that are hard to certify thousands.
+constexpr std::int64_t effort = 16;
+
 } // namespace
 
 std::vector<Member> gather(const Sites& sites, const Regions& regions, std::int32_t k) {
@@ -229,22 +242,21 @@ bool certify(CapTriangulation& triangulation, const Sites& sites, const Regions&
              std::int32_t k, CullCounts& counts) {
   const std::vector<HalfSpace>& covered = regions.covered[static_cast<std::size_t>(k)];
   ConflictQuery query(triangulation, sites);
+  const std::int64_t patience = effort * (std::ssize(triangulation.members()) + 1000);
   for (;;) {
-    std::vector<Face> faces = uncertified_faces(triangulation, covered, counts);
     std::vector<std::int32_t> missing;
-    bool open = false;
-    for (const Face face : faces) {
+    for (const Face face : uncertified_faces(triangulation, covered, counts)) {
       const std::vector<std::int32_t>& found = query.run(face);
       missing.insert(missing.end(), found.begin(), found.end());
       if (!found.empty())
         continue;
-      if (CapTriangulation::is_infinite(face))
-        open = true;
+      if (!is_counter_clockwise(face, sites))
+        return false;
       face->certified = true;
       ++counts.by_query;
+      if (counts.inserted + triangulation.space().counts().filtered > patience)
+        return false;
     }
-    if (open)
-      return false;
     if (missing.empty())
       return true;
     std::sort(missing.begin(), missing.end());

@@ -18,9 +18,11 @@ std::vector<Member> gather(const Sites& sites, const Regions& regions, std::int3
 
 /// Certifies every triangle with an owned vertex: by the paper's cull test (Jacobsen et al., 2013,
 /// Eq. 1 and Sect. 3.2) that its circumcap lies where the region holds all sites; else by asking
-/// for sites in the circumcap, inserting those found, and repeating. \return whether all owned
-/// sites have closed stars now. They have not when the focus lies in one of
-///         their circumcaps, as with a few sites or all sites in a hemisphere.
+/// for sites in the circumcap, inserting those found, and repeating.
+///
+/// \return whether all owned sites have closed stars now, within reasonable effort. They have not
+///         when the focus lies in one of their circumcaps, as with a few sites, or when all sites are
+///         in a hemisphere.
 bool certify(CapTriangulation& triangulation, const Sites& sites, const Regions& regions,
              std::int32_t k, CullCounts& counts);
 

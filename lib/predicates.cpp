@@ -284,12 +284,12 @@ int in_circle_tie(const View& view, const Vec3& a, const Vec3& b, const Vec3& c,
                               *sites[static_cast<std::size_t>(j)]) < 0;
   });
   for (const int pushed : order) {
-    // The determinant falls with d's push for a, b, c counter-clockwise; exchanging a pushed site
-    // with d changes its sign.
-    const int sign = pushed == 0   ? orientation(view, d, b, c)
-                     : pushed == 1 ? orientation(view, a, d, c)
-                     : pushed == 2 ? orientation(view, a, b, d)
-                                   : -orientation(view, a, b, c);
+    // Pushed outward, d rises over the plane of a, b, c counter-clockwise, and the determinant with
+    // it; exchanging another pushed site with d changes its sign.
+    const int sign = pushed == 0   ? -orientation(view, d, b, c)
+                     : pushed == 1 ? -orientation(view, a, d, c)
+                     : pushed == 2 ? -orientation(view, a, b, d)
+                                   : orientation(view, a, b, c);
     if (sign != 0)
       return sign;
   }

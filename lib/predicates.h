@@ -91,10 +91,11 @@ inline double in_circle_determinant(const Vec3& a, const Vec3& b, const Vec3& c,
 /// difference is within 10u + uD of the true difference (the last for the subtraction). A
 /// determinant of three vectors of norm at most D changes by at most 3 D^2 (10u + uD) to first
 /// order; evaluating it from rounded entries errs by at most 6u sum |a_i| |b||c| <= 6 sqrt(3) u
-/// D^3. Together (30 + 13.4 D) u D^2; the constants below also cover the second order and this
-/// bound's own rounding.
+/// D^3. Together (30 + 13.4 D) u D^2. The bound lets nothing be decided unless D > 42u, for no
+/// determinant exceeds D^3; there the second and third order add at most 7.1u + 0.6u times D^2, and
+/// what the constants leave beyond that covers this bound's own rounding.
 constexpr double in_circle_error(double reach) {
-  return (32 + 15 * reach) * roundoff * reach * reach;
+  return (42 + 15 * reach) * roundoff * reach * reach;
 }
 
 /// Tier 1 on unit vectors good to 5 roundoffs: the sign, or 0 when the doubles cannot decide.
@@ -108,11 +109,12 @@ inline int in_circle_filter(const Vec3& a, const Vec3& b, const Vec3& c, const V
 /// Tier 1 of the orientation from the centre, on unit vectors good to 5 roundoffs: the sign or 0.
 ///
 /// det(a,b,c) = det(a, b-a, c-a). With D the larger norm of the differences, each within 10u + uD,
-/// a within 5u: 2 D (10u + uD) + 5u D^2 + 6 sqrt(3) u D^2 <= (20 + 17.4 D) u D.
+/// a within 5u: 2 D (10u + uD) + 5u D^2 + 6 sqrt(3) u D^2 <= (20 + 17.4 D) u D, and 3.9u D of
+/// second order where D > 26u, without which nothing is decided.
 inline int orientation_filter(const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 p = b - a, q = c - a;
   const double reach = std::sqrt(std::max(dot(p, p), dot(q, q)));
-  const double value = dot(a, cross(p, q)), error = (22 + 19 * reach) * roundoff * reach;
+  const double value = dot(a, cross(p, q)), error = (26 + 19 * reach) * roundoff * reach;
   return (value > error) - (value < -error);
 }
 

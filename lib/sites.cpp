@@ -44,8 +44,10 @@ Array<KeyedIndex> make_entries(const Points3& points) {
   for_each_block(n, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = end - 1; i >= begin; --i) {
       const Vec3& p = column(points, i);
-      if (!is_finite(p) || is_zero(p))
+      if (!is_finite(p) || is_zero(p)) {
         offending[static_cast<std::size_t>(block)] = i;
+        continue;
+      }
       entries[i] = {curve_key(to_cube(p)), static_cast<std::int32_t>(i)};
     }
   });

@@ -28,7 +28,7 @@ enum class Duplicates {
 };
 
 struct DelaunayOptions {
-  std::optional<int> regions; ///< number of regions, >= 1; default from the number of sites
+  std::optional<int> regions = {}; ///< number of regions, >= 1; default from the number of sites
   Centres centres = Centres::sample;
   std::optional<Points3>
       given_centres; ///< the regions' centres (MPI-SCVT's RegionList); overrides the two above
