@@ -20,10 +20,15 @@ std::vector<Member> gather(const Sites& sites, const Regions& regions, std::int3
 /// Eq. 1 and Sect. 3.2) that its circumcap lies where the region holds all sites; else by asking
 /// for sites in the circumcap, inserting those found, and repeating.
 ///
+/// Those faces, and no others, are marked as certified.
+///
 /// \return whether all owned sites have closed stars now, within reasonable effort. They have not
 ///         when the focus lies in one of their circumcaps, as with a few sites, or when all sites are
 ///         in a hemisphere.
 bool certify(CapTriangulation& triangulation, const Sites& sites, const Regions& regions,
              std::int32_t k, CullCounts& counts);
+
+/// Marks every finite face as certified: for a set as a whole, of which nothing is left out.
+void certify_all(CapTriangulation& triangulation);
 
 } // namespace calotte::detail

@@ -48,6 +48,7 @@ Reports triangulate_whole(const Sites& sites, DelaunayReport& report) {
   if (!triangulation.build(members))
     throw Error(ErrorCode::degenerate,
                 "all sites lie on one great circle: add a site off it, they span no triangle");
+  certify_all(triangulation);
   Reports reports;
   reports.triangles_of = Array<std::int32_t>(sites.size());
   reports.regions.push_back(

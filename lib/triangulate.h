@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+// CGAL's containers take their memory through this macro. The malloc of the C library gives a region's
+// blocks back to the system, only for the next region to fault them in again; oneTBB's keeps them.
+#include <tbb/scalable_allocator.h>
+#define CGAL_ALLOCATOR(T) tbb::scalable_allocator<T>
 #include <CGAL/Triangulation_data_structure_2.h>
 
 #include <array>
@@ -102,7 +106,12 @@ private:
   Vertex infinity_;
   Face hint_;
   std::vector<Member> members_;
-  std::vector<Edge> pending_, rim_; // of one insertion, kept for their memory
+  struct PendingEdge {
+    Edge edge;
+    bool conflict; ///< of its face, found ahead of need: the processor overlaps the tests
+  };
+  std::vector<PendingEdge> pending_; // of one insertion, as the next two, kept for their memory
+  std::vector<Edge> rim_;
   std::vector<Face> conflicting_;
 };
 
@@ -184,23 +193,27 @@ template <class Space> void Triangulation<Space>::insert(const Member& member) {
 
 /// The face that holds p, by a visibility walk; an infinite face when p lies beyond the hull. It
 /// ends in a Delaunay triangulation, whose faces seen from any point are ordered without a cycle.
+/// Both edges ahead are tested before either answer is needed: the processor overlaps them.
 template <class Space> auto Triangulation<Space>::locate(const Place& p) -> Face {
   Face face = is_infinite(hint_) ? hint_->neighbor(hint_->infinite) : hint_;
-  Face from = face;
-  while (!is_infinite(face)) {
-    const Vertex a = face->vertex(0), b = face->vertex(1), c = face->vertex(2);
-    const Face across_a = face->neighbor(0), across_b = face->neighbor(1),
-               across_c = face->neighbor(2);
-    Face beyond = face;
-    if (across_a != from && space_.orientation(b->place, c->place, p) < 0)
-      beyond = across_a;
-    else if (across_b != from && space_.orientation(c->place, a->place, p) < 0)
-      beyond = across_b;
-    else if (across_c != from && space_.orientation(a->place, b->place, p) < 0)
-      beyond = across_c;
-    if (beyond == face)
+  int back = 0; // index of the vertex across from the edge behind
+  for (int i = 0; i < 3; ++i)
+    if (space_.orientation(face->vertex(next(i))->place, face->vertex(previous(i))->place, p) < 0) {
+      const Face beyond = face->neighbor(i);
+      back = beyond->index(std::exchange(face, beyond));
+      break;
+    } else if (i == 2) {
       return face;
-    from = std::exchange(face, beyond);
+    }
+  while (!is_infinite(face)) {
+    const int left = next(back), right = previous(back);
+    const Place& apex = face->vertex(back)->place;
+    const bool beyond_left = space_.orientation(face->vertex(right)->place, apex, p) < 0;
+    const bool beyond_right = space_.orientation(apex, face->vertex(left)->place, p) < 0;
+    if (!beyond_left && !beyond_right)
+      return face;
+    const Face beyond = face->neighbor(beyond_left ? left : right);
+    back = beyond->index(std::exchange(face, beyond));
   }
   return face;
 }
@@ -223,23 +236,27 @@ template <class Space> bool Triangulation<Space>::is_beyond(Face face, const Pla
 template <class Space> void Triangulation<Space>::find_conflicts(Face start, const Place& p) {
   conflicting_.assign(1, start);
   rim_.clear();
+  pending_.clear();
   start->in_conflict = true;
-  pending_.assign({{start, 2}, {start, 1}, {start, 0}});
+  const auto look_across = [&](Face inner, int index) {
+    const Face face = inner->neighbor(index);
+    pending_.push_back({{face, face->index(inner)}, conflicts(face, p)});
+  };
+  look_across(start, 2);
+  look_across(start, 1);
+  look_across(start, 0);
   while (!pending_.empty()) {
-    const auto [inner, across] = pending_.back();
+    const auto [edge, conflict] = pending_.back();
     pending_.pop_back();
-    const Face face = inner->neighbor(across);
-    if (face->in_conflict)
-      continue;
-    const int back = face->index(inner);
-    if (!conflicts(face, p)) {
-      rim_.push_back({face, back});
-      continue;
+    const auto [face, back] = edge;
+    if (!conflict) {
+      rim_.push_back(edge);
+    } else if (!face->in_conflict) { // else reached around a vertex that vanishes
+      face->in_conflict = true;
+      conflicting_.push_back(face);
+      look_across(face, previous(back));
+      look_across(face, next(back));
     }
-    face->in_conflict = true;
-    conflicting_.push_back(face);
-    pending_.push_back({face, previous(back)});
-    pending_.push_back({face, next(back)});
   }
 }
 

@@ -31,11 +31,6 @@ Turned turned(Face face) {
           {face->neighbor(i)->number, face->neighbor(j)->number, face->neighbor(k)->number}};
 }
 
-bool is_reported(Face face) {
-  return !Triangulation<Sphere>::is_infinite(face) &&
-         (face->vertex(0)->owned || face->vertex(1)->owned || face->vertex(2)->owned);
-}
-
 std::int8_t own_edges(const std::array<Vertex, 3>& v) {
   int bits = 0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -86,7 +81,7 @@ RegionTriangles report_triangles(Triangulation<Sphere>& triangulation, const Sit
                                  Array<std::int32_t>& triangles_of) {
   std::int32_t count = 0;
   triangulation.for_each_face([&](Face face) {
-    if (is_reported(face))
+    if (face->certified)
       face->number = count++;
   });
   RegionTriangles out{

@@ -28,7 +28,7 @@ struct RegionTriangles {
                                       ///< of the edge across from vertex i
 };
 
-/// Reports a certified triangulation.
+/// Reports the certified faces of a triangulation.
 /// \param owner by rank, to count a seam's owners.
 /// \param triangles_of by site: set, for the owned sites, to the number of triangles with that
 /// lowest site.
