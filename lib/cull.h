@@ -23,8 +23,8 @@ std::vector<Member> gather(const Sites& sites, const Regions& regions, std::int3
 /// Those faces, and no others, are marked as certified.
 ///
 /// \return whether all owned sites have closed stars now, within reasonable effort. They have not
-///         when the focus lies in one of their circumcaps, as with a few sites, or when all sites are
-///         in a hemisphere.
+///         when the focus lies in one of their circumcaps, as with a few sites, or when all sites
+///         are in a hemisphere.
 bool certify(CapTriangulation& triangulation, const Sites& sites, const Regions& regions,
              std::int32_t k, CullCounts& counts);
 

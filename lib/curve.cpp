@@ -11,7 +11,7 @@ constexpr int step = 5;
 constexpr unsigned cells = 1U << (2 * step);
 
 struct Tables {
-  std::array<std::uint16_t, 4 * cells> key_and_turn{};
+  std::array<std::uint16_t, std::size_t{4} * cells> key_and_turn{};
 };
 
 constexpr Tables make_tables() {

@@ -7,6 +7,8 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include "handover.h"
+
 #include <algorithm>
 #include <cstdint>
 #include <span>
@@ -19,13 +21,18 @@ namespace calotte::detail {
 
 /// body(i) for 0 <= i < n, each a task of its own.
 template <class Body> void for_each_task(std::int64_t n, const Body& body) {
+  Handover handover;
+  handover.fork();
   tbb::parallel_for(
       tbb::blocked_range<std::int64_t>(0, n, 1),
-      [&](const tbb::blocked_range<std::int64_t>& range) {
+      [&](const tbb::blocked_range<std::int64_t>& range) CALOTTE_UNSEEN {
+        handover.enter();
         for (std::int64_t i = range.begin(); i != range.end(); ++i)
           body(i);
+        handover.leave();
       },
       tbb::simple_partitioner());
+  handover.join();
 }
 
 /// The number of blocks that for_each_block and exclusive_scan cut n items into: a function of n

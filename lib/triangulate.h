@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// CGAL's containers take their memory through this macro. The malloc of the C library gives a region's
-// blocks back to the system, only for the next region to fault them in again; oneTBB's keeps them.
+// CGAL's containers take their memory through this macro. The malloc of the C library gives a
+// region's blocks back to the system, only for the next region to fault them in again; oneTBB's
+// keeps them.
 #include <tbb/scalable_allocator.h>
 #define CGAL_ALLOCATOR(T) tbb::scalable_allocator<T>
 #include <CGAL/Triangulation_data_structure_2.h>

@@ -7,8 +7,8 @@
 
 namespace calotte {
 
-/// What `check` found. `failure` is one line on the first law that does not hold, naming the triangle,
-/// edge or site; empty when all hold.
+/// What `check` found. `failure` is one line on the first law that does not hold, naming the
+/// triangle, edge or site; empty when all hold.
 struct Check {
   std::string failure;
   std::int64_t sites = 0;
@@ -19,12 +19,12 @@ struct Check {
   bool passed() const { return failure.empty(); }
 };
 
-/// Proves that a mesh is the Delaunay triangulation of its own points: ids in range; canonical order;
-/// neighbours mutual; each edge in two triangles, or in one along an open boundary; every site a
-/// vertex with a single cycle (or, on the boundary, a single fan) of triangles; Euler's
-/// characteristic; every triangle counter-clockwise; every edge Delaunay in exact arithmetic, ties by the
-/// library's rule; a boundary that is convex; areas that sum to 4 pi when closed.
-/// Local properties imply the global one (Delaunay, 1934), so the cost is linear.
+/// Proves that a mesh is the Delaunay triangulation of its own points: ids in range; canonical
+/// order; neighbours mutual; each edge in two triangles, or in one along an open boundary; every
+/// site a vertex with a single cycle (or, on the boundary, a single fan) of triangles; Euler's
+/// characteristic; every triangle counter-clockwise; every edge Delaunay in exact arithmetic, ties
+/// by the library's rule; a boundary that is convex; areas that sum to 4 pi when closed. Local
+/// properties imply the global one (Delaunay, 1934), so the cost is linear.
 Check check(const Mesh& mesh);
 
 } // namespace calotte
