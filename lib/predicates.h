@@ -79,13 +79,8 @@ inline int in_circle_resolved(const View& view, const Vec3& a, const Vec3& b, co
 
 inline constexpr double roundoff = 0x1p-53;
 
-/// The in-circle determinant of unit vectors good to 5 roundoffs each: -det(a-d, b-d, c-d).
-inline double in_circle_determinant(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-  return dot(a - d, cross(c - d, b - d));
-}
-
-/// A bound on the error of in_circle_determinant when the differences' norms are at most `reach`
-/// <= 2.
+/// A bound on the error of the in-circle determinant in doubles, the triple product of the differences from any
+/// one of the four unit vectors, good to 5 roundoffs each, when the differences' norms are at most `reach` <= 2.
 ///
 /// Let u be the roundoff, D the reach. A stored unit vector is within 5u of the true one, so a
 /// difference is within 10u + uD of the true difference (the last for the subtraction). A

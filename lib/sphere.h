@@ -28,6 +28,12 @@ public:
     std::int32_t site;
   };
 
+  /// What is the same for all in-circle tests of one triangle: the flat triangle's normal
+  /// (b - a) x (c - a), so that the determinant is its product with d - a.
+  struct Circle {
+    Vec3 normal;
+  };
+
   /// The whole sphere from its centre.
   explicit Sphere(const Sites& sites) : sites_(&sites) { widen(2); }
 
@@ -59,8 +65,13 @@ public:
     return detail::between(view_, given(a), given(p), given(b));
   }
 
-  int in_circle(const Place& a, const Place& b, const Place& c, const Place& d) {
-    const double value = in_circle_determinant(a.unit, b.unit, c.unit, d.unit);
+  static Circle circle(const Place& a, const Place& b, const Place& c) {
+    return {cross(b.unit - a.unit, c.unit - a.unit)};
+  }
+
+  /// \param circle that of a, b, c.
+  int in_circle(const Circle& circle, const Place& a, const Place& b, const Place& c, const Place& d) {
+    const double value = dot(circle.normal, d.unit - a.unit);
     if (value > in_circle_error_)
       return 1;
     if (value < -in_circle_error_)

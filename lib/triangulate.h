@@ -34,11 +34,12 @@ struct RegionVertex : CGAL::Triangulation_ds_vertex_base_2<Tds> {
   bool owned = false;
 };
 
-/// CGAL's face with marks of its own.
-template <class Tds = void> struct RegionFace : CGAL::Triangulation_ds_face_base_2<Tds> {
+/// CGAL's face with its circle and marks of its own.
+template <class Circle, class Tds = void> struct RegionFace : CGAL::Triangulation_ds_face_base_2<Tds> {
   using Base = CGAL::Triangulation_ds_face_base_2<Tds>;
   using Base::Base;
-  template <class OtherTds> struct Rebind_TDS { using Other = RegionFace<OtherTds>; };
+  template <class OtherTds> struct Rebind_TDS { using Other = RegionFace<Circle, OtherTds>; };
+  Circle circle;             ///< of a finite face
   std::int32_t number = -1;  ///< free for a later stage; -1 in a new face
   std::int8_t infinite = -1; ///< index of the vertex at infinity, -1 in a finite face
   bool in_conflict = false;  ///< during an insertion
@@ -59,7 +60,8 @@ template <class Tds = void> struct RegionFace : CGAL::Triangulation_ds_face_base
 template <class Space> class Triangulation {
 public:
   using Place = typename Space::Place;
-  using Store = CGAL::Triangulation_data_structure_2<RegionVertex<Place>, RegionFace<>>;
+  using Store = CGAL::Triangulation_data_structure_2<RegionVertex<Place>,
+                                                    RegionFace<typename Space::Circle>>;
   using Vertex = typename Store::Vertex_handle;
   using Face = typename Store::Face_handle;
 
@@ -170,6 +172,7 @@ template <class Space> bool Triangulation<Space>::build(std::span<const Member> 
   outer[2]->set_neighbors(abc, outer[1], outer[0]);
   for (const Face face : outer)
     face->infinite = 0;
+  abc->circle = space_.circle(a->place, b->place, c->place);
   hint_ = abc;
 
   // Along the curve, the steps of a walk are few; in rounds from coarse to fine, the hull is soon
@@ -221,8 +224,8 @@ template <class Space> auto Triangulation<Space>::locate(const Place& p) -> Face
 
 template <class Space> inline bool Triangulation<Space>::conflicts(Face face, const Place& p) {
   if (!is_infinite(face)) [[likely]]
-    return space_.in_circle(face->vertex(0)->place, face->vertex(1)->place, face->vertex(2)->place,
-                            p) > 0;
+    return space_.in_circle(face->circle, face->vertex(0)->place, face->vertex(1)->place,
+                            face->vertex(2)->place, p) > 0;
   return is_beyond(face, p);
 }
 
@@ -280,6 +283,8 @@ template <class Space> void Triangulation<Space>::make_star(Vertex centre) {
                                       : std::int8_t{-1};
     face->in_conflict = false;
     face->certified = false;
+    if (face->infinite < 0)
+      face->circle = space_.circle(centre->place, a->place, b->place);
   }
   hint_ = star[count - 1];
 }
