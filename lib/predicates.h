@@ -79,8 +79,9 @@ inline int in_circle_resolved(const View& view, const Vec3& a, const Vec3& b, co
 
 inline constexpr double roundoff = 0x1p-53;
 
-/// A bound on the error of the in-circle determinant in doubles, the triple product of the differences from any
-/// one of the four unit vectors, good to 5 roundoffs each, when the differences' norms are at most `reach` <= 2.
+/// A bound on the error of the in-circle determinant in doubles, the triple product of the
+/// differences from any one of the four unit vectors, good to 5 roundoffs each, when the
+/// differences' norms are at most `reach` <= 2.
 ///
 /// Let u be the roundoff, D the reach. A stored unit vector is within 5u of the true one, so a
 /// difference is within 10u + uD of the true difference (the last for the subtraction). A

@@ -70,7 +70,8 @@ public:
   }
 
   /// \param circle that of a, b, c.
-  int in_circle(const Circle& circle, const Place& a, const Place& b, const Place& c, const Place& d) {
+  int in_circle(const Circle& circle, const Place& a, const Place& b, const Place& c,
+                const Place& d) {
     const double value = dot(circle.normal, d.unit - a.unit);
     if (value > in_circle_error_)
       return 1;

@@ -35,7 +35,8 @@ struct RegionVertex : CGAL::Triangulation_ds_vertex_base_2<Tds> {
 };
 
 /// CGAL's face with its circle and marks of its own.
-template <class Circle, class Tds = void> struct RegionFace : CGAL::Triangulation_ds_face_base_2<Tds> {
+template <class Circle, class Tds = void>
+struct RegionFace : CGAL::Triangulation_ds_face_base_2<Tds> {
   using Base = CGAL::Triangulation_ds_face_base_2<Tds>;
   using Base::Base;
   template <class OtherTds> struct Rebind_TDS { using Other = RegionFace<Circle, OtherTds>; };
@@ -60,8 +61,8 @@ template <class Circle, class Tds = void> struct RegionFace : CGAL::Triangulatio
 template <class Space> class Triangulation {
 public:
   using Place = typename Space::Place;
-  using Store = CGAL::Triangulation_data_structure_2<RegionVertex<Place>,
-                                                    RegionFace<typename Space::Circle>>;
+  using Store =
+      CGAL::Triangulation_data_structure_2<RegionVertex<Place>, RegionFace<typename Space::Circle>>;
   using Vertex = typename Store::Vertex_handle;
   using Face = typename Store::Face_handle;
 
@@ -90,18 +91,23 @@ private:
   /// Whether p lies beyond the hull's edge of an infinite face, or on it.
   bool is_beyond(Face face, const Place& p);
 
-  /// An edge as seen from the face beyond it.
+  /// An edge as seen from one of its faces.
   struct Edge {
     Face face;
     int index; ///< of the vertex across from the edge
   };
   static int next(int i) { return i == 2 ? 0 : i + 1; }
   static int previous(int i) { return i == 0 ? 2 : i - 1; }
+  /// Index in a face of its neighbour; without branches, which would be mispredicted.
+  static int index_of(Face face, Face neighbour) {
+    return (face->neighbor(1) == neighbour) + 2 * (face->neighbor(2) == neighbour);
+  }
 
   Vertex make_vertex(const Member& member);
   std::array<std::int64_t, 3> first_triangle(std::span<const Member> members);
   Face locate(const Place& p);
   void find_conflicts(Face start, const Place& p);
+  void grow();
   void make_star(Vertex centre);
 
   Space space_;
@@ -109,13 +115,10 @@ private:
   Vertex infinity_;
   Face hint_;
   std::vector<Member> members_;
-  struct PendingEdge {
-    Edge edge;
-    bool conflict; ///< of its face, found ahead of need: the processor overlaps the tests
-  };
-  std::vector<PendingEdge> pending_; // of one insertion, as the next two, kept for their memory
-  std::vector<Edge> rim_;
-  std::vector<Face> conflicting_;
+  // Of one insertion; kept for their memory, whose size is never 0.
+  std::vector<Edge> inner_edges_ = std::vector<Edge>(64), rim_ = std::vector<Edge>(64);
+  std::vector<Face> conflicting_ = std::vector<Face>(64);
+  std::size_t conflicts_ = 0, rim_size_ = 0;
 };
 
 template <class Space> auto Triangulation<Space>::make_vertex(const Member& member) -> Vertex {
@@ -204,7 +207,7 @@ template <class Space> auto Triangulation<Space>::locate(const Place& p) -> Face
   for (int i = 0; i < 3; ++i)
     if (space_.orientation(face->vertex(next(i))->place, face->vertex(previous(i))->place, p) < 0) {
       const Face beyond = face->neighbor(i);
-      back = beyond->index(std::exchange(face, beyond));
+      back = index_of(beyond, std::exchange(face, beyond));
       break;
     } else if (i == 2) {
       return face;
@@ -217,7 +220,7 @@ template <class Space> auto Triangulation<Space>::locate(const Place& p) -> Face
     if (!beyond_left && !beyond_right)
       return face;
     const Face beyond = face->neighbor(beyond_left ? left : right);
-    back = beyond->index(std::exchange(face, beyond));
+    back = index_of(beyond, std::exchange(face, beyond));
   }
   return face;
 }
@@ -236,48 +239,56 @@ template <class Space> bool Triangulation<Space>::is_beyond(Face face, const Pla
   return way != 0 ? way > 0 : space_.between(a, p, b);
 }
 
-/// The conflicting faces, which hang together, and their rim counter-clockwise around p.
+/// The conflicting faces, which hang together, and their rim. Whether a face conflicts is as good
+/// as random, so no branch depends on it: every edge is written to all lists, and their lengths
+/// decide.
 template <class Space> void Triangulation<Space>::find_conflicts(Face start, const Place& p) {
-  conflicting_.assign(1, start);
-  rim_.clear();
-  pending_.clear();
   start->in_conflict = true;
-  const auto look_across = [&](Face inner, int index) {
-    const Face face = inner->neighbor(index);
-    pending_.push_back({{face, face->index(inner)}, conflicts(face, p)});
-  };
-  look_across(start, 2);
-  look_across(start, 1);
-  look_across(start, 0);
-  while (!pending_.empty()) {
-    const auto [edge, conflict] = pending_.back();
-    pending_.pop_back();
-    const auto [face, back] = edge;
-    if (!conflict) {
-      rim_.push_back(edge);
-    } else if (!face->in_conflict) { // else reached around a vertex that vanishes
-      face->in_conflict = true;
-      conflicting_.push_back(face);
-      look_across(face, previous(back));
-      look_across(face, next(back));
+  conflicting_[0] = start;
+  for (int i = 0; i < 3; ++i)
+    inner_edges_[static_cast<std::size_t>(i)] = {start, i};
+  std::size_t edges = 3;
+  conflicts_ = 1;
+  rim_size_ = 0;
+  for (std::size_t e = 0; e < edges; ++e) {
+    if (edges + 2 > inner_edges_.size())
+      grow();
+    const Edge inner = inner_edges_[e];
+    const Face face = inner.face->neighbor(inner.index);
+    const int back = index_of(face, inner.face);
+    if (face->in_conflict) // reached around a vertex that vanishes
+      continue;
+    if (!conflicts(face, p)) {
+      rim_[rim_size_++] = {face, back};
+      continue;
     }
+    face->in_conflict = true;
+    conflicting_[conflicts_++] = face;
+    inner_edges_[edges++] = {face, next(back)};
+    inner_edges_[edges++] = {face, previous(back)};
   }
 }
 
-/// Replaces the conflicting faces by the star of a vertex over their rim.
+template <class Space> void Triangulation<Space>::grow() {
+  inner_edges_.resize(2 * inner_edges_.size());
+  rim_.resize(inner_edges_.size());
+  conflicting_.resize(inner_edges_.size());
+}
+
+/// Replaces the conflicting faces by the star of a vertex over their rim. The rim's vertices tell,
+/// by the face that they point to, which faces of the star are neighbours.
 template <class Space> void Triangulation<Space>::make_star(Vertex centre) {
-  std::vector<Face>& star = conflicting_;
-  while (star.size() < rim_.size())
-    star.push_back(store_.create_face());
-  const std::size_t count = rim_.size();
-  assert(star.size() == count);
-  for (std::size_t e = 0; e < count; ++e) {
+  for (; conflicts_ < rim_size_; ++conflicts_)
+    conflicting_[conflicts_] = store_.create_face();
+  assert(conflicts_ == rim_size_);
+  for (std::size_t e = 0; e < rim_size_; ++e) {
     const auto [outer, index] = rim_[e];
-    const Face face = star[e];
+    const Face face = conflicting_[e];
     const Vertex a = outer->vertex(previous(index)), b = outer->vertex(next(index));
     face->set_vertices(centre, a, b);
-    face->set_neighbors(outer, star[e + 1 < count ? e + 1 : 0], star[e > 0 ? e - 1 : count - 1]);
+    face->set_neighbor(0, outer);
     outer->set_neighbor(index, face);
+    a->set_face(face);
     face->infinite = a == infinity_   ? std::int8_t{1}
                      : b == infinity_ ? std::int8_t{2}
                                       : std::int8_t{-1};
@@ -286,7 +297,13 @@ template <class Space> void Triangulation<Space>::make_star(Vertex centre) {
     if (face->infinite < 0)
       face->circle = space_.circle(centre->place, a->place, b->place);
   }
-  hint_ = star[count - 1];
+  for (std::size_t e = 0; e < rim_size_; ++e) {
+    const Face face = conflicting_[e], following = face->vertex(2)->face();
+    face->set_neighbor(1, following);
+    following->set_neighbor(2, face);
+  }
+  hint_ = conflicting_[0];
+  centre->set_face(hint_);
 }
 
 } // namespace calotte::detail
