@@ -1,39 +1,69 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cells.h"
 
+#include "parallel.h"
+
 #include <algorithm>
 
 namespace calotte::detail {
 namespace {
 
-std::int64_t first_not_below(std::span<const std::uint64_t> keys, std::int64_t begin,
-                             std::int64_t end, std::uint64_t key) {
-  return std::lower_bound(keys.begin() + begin, keys.begin() + end, key) - keys.begin();
-}
+/// Bits of a key below the cells of a level.
+constexpr int bits_below(int level) { return 2 * (curve_levels - level); }
 
 } // namespace
 
-std::array<Cell, 6> face_cells(std::span<const std::uint64_t> keys) {
+CellTree::CellTree(Array<std::uint64_t> keys) : keys_(std::move(keys)) {
+  constexpr std::int64_t faces = 6, sites_a_cell = 4;
+  const std::int64_t n = keys_.size();
+  while (faces << 2 * (level_ + 1) <= n / sites_a_cell)
+    ++level_;
+  const std::int64_t cells = faces << 2 * level_;
+  first_ = Array<std::int32_t>(cells + 1);
+  const auto cell_of = [&](std::int64_t rank) {
+    return static_cast<std::int64_t>(keys_[rank] >> bits_below(level_));
+  };
+  for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    std::int64_t cell = begin == 0 ? -1 : cell_of(begin - 1);
+    for (std::int64_t rank = begin; rank != end; ++rank)
+      while (cell < cell_of(rank))
+        first_[++cell] = static_cast<std::int32_t>(rank);
+  });
+  std::fill(first_.begin() + (n == 0 ? 0 : cell_of(n - 1) + 1), first_.end(),
+            static_cast<std::int32_t>(n));
+}
+
+/// The first rank, of those from begin to end, with that key or a higher one. \param key that of a
+/// cell of the level.
+std::int64_t CellTree::first_rank(std::uint64_t key, int level, std::int64_t begin,
+                                  std::int64_t end) const {
+  if (level <= level_)
+    return first_[static_cast<std::int64_t>(key >> bits_below(level_))];
+  return std::lower_bound(keys_.begin() + begin, keys_.begin() + end, key) - keys_.begin();
+}
+
+std::array<Cell, 6> CellTree::faces() const {
   std::array<Cell, 6> faces{};
   std::int64_t begin = 0;
   for (int face = 0; face < 6; ++face) {
-    const std::uint64_t key = static_cast<std::uint64_t>(face) << 2 * curve_levels;
-    const std::int64_t end = first_not_below(keys, begin, std::ssize(keys),
-                                             key + (std::uint64_t{1} << 2 * curve_levels));
+    const std::uint64_t key = static_cast<std::uint64_t>(face) << bits_below(0);
+    const std::int64_t end =
+        first_rank(key + (std::uint64_t{1} << bits_below(0)), 0, begin, size());
     faces[static_cast<std::size_t>(face)] = {begin, end, key, 0, 0, face, 0, face_turn(face)};
     begin = end;
   }
   return faces;
 }
 
-std::array<Cell, 4> children(const Cell& cell, std::span<const std::uint64_t> keys) {
-  const std::uint64_t width = std::uint64_t{1} << 2 * (curve_levels - cell.level - 1);
+std::array<Cell, 4> CellTree::children(const Cell& cell) const {
+  const int level = cell.level + 1;
+  const std::uint64_t width = std::uint64_t{1} << bits_below(level);
   std::array<Cell, 4> out{};
   std::int64_t begin = cell.begin;
   for (int position = 0; position < 4; ++position) {
     const std::uint64_t key = cell.key + static_cast<std::uint64_t>(position) * width;
     const std::int64_t end =
-        position == 3 ? cell.end : first_not_below(keys, begin, cell.end, key + width);
+        position == 3 ? cell.end : first_rank(key + width, level, begin, cell.end);
     const Quadrant quadrant = curve_quadrant(cell.turn, position);
     out[static_cast<std::size_t>(position)] = {begin,
                                                end,
@@ -41,7 +71,7 @@ std::array<Cell, 4> children(const Cell& cell, std::span<const std::uint64_t> ke
                                                2 * cell.i + quadrant.i,
                                                2 * cell.j + quadrant.j,
                                                cell.face,
-                                               cell.level + 1,
+                                               level,
                                                curve_turn(cell.turn, position)};
     begin = end;
   }

@@ -2,15 +2,14 @@
 #pragma once
 
 #include "curve.h"
+#include "memory.h"
 
 #include <array>
 #include <cstdint>
-#include <span>
 
-/// The quadtree that sites sorted by curve key are: a cell is a square of a cube's face and the run
-/// of ranks in it. Nothing is stored; a descent bisects the keys.
 namespace calotte::detail {
 
+/// A square of a cube's face and the run of ranks in it.
 struct Cell {
   std::int64_t begin, end; ///< ranks
   std::uint64_t key;       ///< that of the cell's first finest cell
@@ -22,8 +21,26 @@ struct Cell {
   bool divisible() const { return level < curve_levels; }
 };
 
-std::array<Cell, 6> face_cells(std::span<const std::uint64_t> keys);
-std::array<Cell, 4> children(const Cell& cell, std::span<const std::uint64_t> keys);
+/// The quadtree that sites sorted by curve key are. A directory tells where the cells of one level
+/// begin, of a few sites each where these are evenly spread; below it, a descent bisects the keys.
+class CellTree {
+public:
+  CellTree() = default;
+  /// \param keys ascending.
+  explicit CellTree(Array<std::uint64_t> keys);
+
+  const Array<std::uint64_t>& keys() const { return keys_; }
+  std::int64_t size() const { return keys_.size(); }
+  std::array<Cell, 6> faces() const;
+  std::array<Cell, 4> children(const Cell& cell) const;
+
+private:
+  std::int64_t first_rank(std::uint64_t key, int level, std::int64_t begin, std::int64_t end) const;
+
+  Array<std::uint64_t> keys_;
+  int level_ = 0;               ///< of the directory
+  Array<std::int32_t> first_{}; ///< by cell of that level, and the number of all
+};
 
 /// A ball that holds the directions of the cell.
 struct Ball {

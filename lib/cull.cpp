@@ -57,8 +57,8 @@ Circumcap circumcap(Face face) {
              &c = face->vertex(2)->place.unit;
   const Vec3 ab = b - a, ac = c - a, bc = c - b;
   const double ab2 = dot(ab, ab), ac2 = dot(ac, ac), bc2 = dot(bc, bc);
-  const Vec3 normal = cross(ab, ac);
-  const double area2 = dot(normal, normal), area = std::sqrt(area2);
+  const Vec3& normal = face->circle.normal;
+  const double area = norm(face->circle.normal);
   const double longest = std::sqrt(std::max({ab2, ac2, bc2}));
   const double error = normal_error * longest / area;
   return {normal, area, std::sqrt(ab2 * ac2 * bc2) / (2 * area), error, dot(normal, a) > 0};
@@ -69,19 +69,16 @@ Circumcap circumcap(Face face) {
 /// triangles pass, so it is written without roots or quotients; a relative error of 1e-3 in q moves
 /// it by less than the 2% set aside.
 bool is_within_depth(Face face) {
-  double depth = 0;
-  for (int i = 0; i < 3; ++i)
-    if (face->vertex(i)->owned)
-      depth = std::max<double>(depth, face->vertex(i)->depth);
-  const Vec3 &a = face->vertex(0)->place.unit, &b = face->vertex(1)->place.unit,
-             &c = face->vertex(2)->place.unit;
-  const Vec3 ab = b - a, ac = c - a, bc = c - b;
+  const Vertex a = face->vertex(0), b = face->vertex(1), c = face->vertex(2);
+  const float depth = std::max({a->depth, b->depth, c->depth}); // 0 where not owned
+  const Vec3 ab = b->place.unit - a->place.unit, ac = c->place.unit - a->place.unit,
+             bc = c->place.unit - b->place.unit;
   const double ab2 = dot(ab, ab), ac2 = dot(ac, ac), bc2 = dot(bc, bc);
-  const Vec3 normal = cross(ab, ac);
+  const Vec3& normal = face->circle.normal;
   const double area2 = dot(normal, normal);
   constexpr double most_error = 1e-3, error = normal_error / most_error;
-  return dot(normal, a) > 0 && area2 > error * error * std::max({ab2, ac2, bc2}) &&
-         1.04 * ab2 * ac2 * bc2 < depth * depth * area2;
+  return dot(normal, a->place.unit) > 0 && area2 > error * error * std::max({ab2, ac2, bc2}) &&
+         1.04 * ab2 * ac2 * bc2 < static_cast<double>(depth) * depth * area2;
 }
 
 /// Whether the cap lies in all half-spaces: its highest point over each is cos(angle - r), the
@@ -109,7 +106,7 @@ bool is_covered(const Circumcap& cap, const std::vector<HalfSpace>& covered) {
 class ConflictQuery {
 public:
   ConflictQuery(CapTriangulation& triangulation, const Sites& sites)
-      : triangulation_(triangulation), sites_(sites), keys_(sites.key.begin(), sites.key.end()) {}
+      : triangulation_(triangulation), sites_(sites) {}
 
   const std::vector<std::int32_t>& run(Face face) {
     face_ = face;
@@ -127,7 +124,7 @@ public:
     cap_centre_ = area > 0 ? (1 / area) * normal_ : corner_[0];
     cap_radius_ = area > 0 ? norm(corner_[0] - cap_centre_) + 2 * normal_error_ / area + 1e-14 : 2;
     near_ = infinite < 0 ? corner_[0] : corner_[static_cast<std::size_t>(infinite == 0)];
-    for (const Cell& cell : by_distance(face_cells(keys_)))
+    for (const Cell& cell : by_distance(sites_.cells.faces()))
       descend(cell);
     return found_;
   }
@@ -171,7 +168,7 @@ private:
         if (is_in_conflict(r))
           found_.push_back(static_cast<std::int32_t>(r));
     } else {
-      for (const Cell& child : by_distance(children(cell, keys_)))
+      for (const Cell& child : by_distance(sites_.cells.children(cell)))
         descend(child);
     }
   }
@@ -186,7 +183,6 @@ private:
 
   CapTriangulation& triangulation_;
   const Sites& sites_;
-  std::span<const std::uint64_t> keys_;
   Face face_;
   std::array<Vec3, 3> corner_{};
   Vec3 normal_{}, cap_centre_{}, near_{};
@@ -245,7 +241,7 @@ std::vector<Member> gather(const Sites& sites, const Regions& regions, std::int3
       const bool owned = regions.owner[r] == k;
       const double depth = owned ? depth_of(sites.unit[r], centre, inner, covered) : 0;
       // Rounded down, by more than the rounding of half-spaces: 1e-14.
-      members.push_back({r, static_cast<float>(0.999999 * depth - 1e-14), owned});
+      members.push_back({r, static_cast<float>(std::max(0.999999 * depth - 1e-14, 0.0)), owned});
     }
   return members;
 }

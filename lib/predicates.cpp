@@ -21,14 +21,6 @@ namespace {
 
 int sign_of(double x) { return (x > 0) - (x < 0); }
 
-/// The same direction with its largest component in [1/2, 1): exact, but for components below
-/// 1e-307.
-Vec3 scaled_to_one(const Vec3& x) {
-  int exponent = 0;
-  std::frexp(std::max({std::abs(x.x), std::abs(x.y), std::abs(x.z)}), &exponent);
-  return {std::ldexp(x.x, -exponent), std::ldexp(x.y, -exponent), std::ldexp(x.z, -exponent)};
-}
-
 // ---- Tier 2
 
 struct Vec3Extended {
@@ -178,12 +170,10 @@ int compare_directions_exact(const Vec3& a, const Vec3& b) {
 
 } // namespace
 
-Vec3 normalised(const Vec3& x) {
-  double square = dot(x, x);
-  if (square > 1e-200 && square < 1e200)
-    return (1 / std::sqrt(square)) * x;
-  const Vec3 scaled = scaled_to_one(x);
-  return (1 / norm(scaled)) * scaled;
+Vec3 scaled_to_one(const Vec3& x) {
+  int exponent = 0;
+  std::frexp(std::max({std::abs(x.x), std::abs(x.y), std::abs(x.z)}), &exponent);
+  return {std::ldexp(x.x, -exponent), std::ldexp(x.y, -exponent), std::ldexp(x.z, -exponent)};
 }
 
 // Tier 2's bound: each difference errs by 2^-99 and 3 v^2 D for its sums, the evaluation by some 40

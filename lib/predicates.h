@@ -23,8 +23,18 @@ struct PredicateCounts {
   std::int64_t exact = 0;    ///< nor could the 106 bits
 };
 
+/// The same direction with its largest component in [1/2, 1): exact, but for components below
+/// 1e-307.
+Vec3 scaled_to_one(const Vec3& x);
+
 /// x/|x| to 5 units of roundoff (2^-53) in the norm of the error, for norms from 1e-200 to 1e200.
-Vec3 normalised(const Vec3& x);
+inline Vec3 normalised(const Vec3& x) {
+  const double square = dot(x, x);
+  if (square > 1e-200 && square < 1e200) [[likely]]
+    return (1 / std::sqrt(square)) * x;
+  const Vec3 scaled = scaled_to_one(x);
+  return (1 / norm(scaled)) * scaled;
+}
 
 // ---- Signs of directions of any norm. All are -1, 0 or 1; all tiers inside.
 

@@ -15,28 +15,24 @@ namespace {
 
 constexpr std::int64_t leaf_size = 16;
 
-std::span<const std::uint64_t> keys_of(const Array<std::uint64_t>& keys) {
-  return {keys.begin(), keys.end()};
-}
-
 /// Cells of like size that together hold all sites, in the order of the curve: the tasks of a
 /// descent.
-std::vector<Cell> task_cells(std::span<const std::uint64_t> keys) {
-  const std::int64_t enough = std::ssize(keys) / 128 + leaf_size;
+std::vector<Cell> task_cells(const CellTree& tree) {
+  const std::int64_t enough = tree.size() / 128 + leaf_size;
   std::vector<Cell> cells, pending;
   const auto push_reversed = [&](const auto& group) {
     for (auto it = group.rbegin(); it != group.rend(); ++it)
       if (it->size() > 0)
         pending.push_back(*it);
   };
-  push_reversed(face_cells(keys));
+  push_reversed(tree.faces());
   while (!pending.empty()) {
     const Cell cell = pending.back();
     pending.pop_back();
     if (cell.size() <= enough || !cell.divisible())
       cells.push_back(cell);
     else
-      push_reversed(children(cell, keys));
+      push_reversed(tree.children(cell));
   }
   return cells;
 }
@@ -73,9 +69,8 @@ std::vector<std::int32_t> possible_owners(const Ball& ball, const std::vector<Ve
   return possible;
 }
 
-void own(const Cell& cell, std::span<const std::uint64_t> keys, const Vec3* unit,
-         const std::vector<Vec3>& centres, const std::vector<std::int32_t>& candidates,
-         std::int32_t* owner) {
+void own(const Cell& cell, const CellTree& tree, const Vec3* unit, const std::vector<Vec3>& centres,
+         const std::vector<std::int32_t>& candidates, std::int32_t* owner) {
   const std::vector<std::int32_t> possible =
       possible_owners(bounding_ball(cell), centres, candidates);
   if (possible.size() == 1) {
@@ -84,9 +79,9 @@ void own(const Cell& cell, std::span<const std::uint64_t> keys, const Vec3* unit
     for (std::int64_t r = cell.begin; r != cell.end; ++r)
       owner[r] = nearest(unit[r], centres, possible);
   } else {
-    for (const Cell& child : children(cell, keys))
+    for (const Cell& child : tree.children(cell))
       if (child.size() > 0)
-        own(child, keys, unit, centres, possible, owner);
+        own(child, tree, unit, centres, possible, owner);
   }
 }
 
@@ -98,14 +93,13 @@ std::vector<std::int32_t> all_of(const std::vector<Vec3>& centres) {
 }
 
 /// The nearest centre of each of some directions sorted along the curve.
-Array<std::int32_t> owners(const Array<std::uint64_t>& keys, const Array<Vec3>& unit,
+Array<std::int32_t> owners(const CellTree& tree, const Array<Vec3>& unit,
                            const std::vector<Vec3>& centres) {
   Array<std::int32_t> owner(unit.size());
-  const std::vector<Cell> cells = task_cells(keys_of(keys));
+  const std::vector<Cell> cells = task_cells(tree);
   const std::vector<std::int32_t> all = all_of(centres);
   for_each_task(std::ssize(cells), [&](std::int64_t c) {
-    own(cells[static_cast<std::size_t>(c)], keys_of(keys), unit.begin(), centres, all,
-        owner.begin());
+    own(cells[static_cast<std::size_t>(c)], tree, unit.begin(), centres, all, owner.begin());
   });
   return owner;
 }
@@ -115,18 +109,19 @@ Array<std::int32_t> owners(const Array<std::uint64_t>& keys, const Array<Vec3>& 
 /// Sites at even steps along the curve: a sample that follows any density.
 struct Sample {
   Array<Vec3> unit;
-  Array<std::uint64_t> key;
+  CellTree cells;
 };
 
 Sample take_sample(const Sites& sites, std::int64_t count) {
   count = std::min(count, sites.size());
-  Sample sample{Array<Vec3>(count), Array<std::uint64_t>(count)};
+  Array<Vec3> unit(count);
+  Array<std::uint64_t> keys(count);
   for (std::int64_t s = 0; s < count; ++s) {
     const std::int64_t rank = (2 * s + 1) * sites.size() / (2 * count);
-    sample.unit[s] = sites.unit[rank];
-    sample.key[s] = sites.key[rank];
+    unit[s] = sites.unit[rank];
+    keys[s] = sites.cells.keys()[rank];
   }
-  return sample;
+  return {std::move(unit), CellTree(std::move(keys))};
 }
 
 /// Moves each centre to the mean of the samples it owns; one that owns none, or whose mean
@@ -155,7 +150,7 @@ std::vector<Vec3> sampled_centres(const Sites& sites, int regions) {
   move_to_means(sample, owner, centres);
   constexpr int steps = 4;
   for (int step = 0; step < steps; ++step) {
-    owner = owners(sample.key, sample.unit, centres);
+    owner = owners(sample.cells, sample.unit, centres);
     move_to_means(sample, owner, centres);
   }
   return centres;
@@ -304,7 +299,7 @@ Side side(const Ball& ball, const std::vector<HalfSpace>& half_spaces) {
 }
 
 /// Emits, along the curve, the runs of the cell that lie in the candidates' half-spaces.
-void collect(const Cell& cell, std::span<const std::uint64_t> keys, const Vec3* unit,
+void collect(const Cell& cell, const CellTree& tree, const Vec3* unit,
              const std::vector<std::vector<HalfSpace>>& covered,
              const std::vector<std::int32_t>& candidates, std::vector<RegionRun>& out) {
   const Ball ball = bounding_ball(cell);
@@ -327,19 +322,19 @@ void collect(const Cell& cell, std::span<const std::uint64_t> keys, const Vec3* 
           out.push_back({k, {r, r + 1}});
     return;
   }
-  for (const Cell& child : children(cell, keys))
+  for (const Cell& child : tree.children(cell))
     if (child.size() > 0)
-      collect(child, keys, unit, covered, across, out);
+      collect(child, tree, unit, covered, across, out);
 }
 
 std::vector<std::vector<Run>> members_inside(const Sites& sites,
                                              const std::vector<std::vector<HalfSpace>>& covered,
                                              const std::vector<std::int32_t>& all) {
-  const std::vector<Cell> cells = task_cells(keys_of(sites.key));
+  const std::vector<Cell> cells = task_cells(sites.cells);
   std::vector<std::vector<RegionRun>> found(cells.size());
   for_each_task(std::ssize(cells), [&](std::int64_t c) {
     const auto index = static_cast<std::size_t>(c);
-    collect(cells[index], keys_of(sites.key), sites.unit.begin(), covered, all, found[index]);
+    collect(cells[index], sites.cells, sites.unit.begin(), covered, all, found[index]);
   });
   std::vector<std::vector<Run>> members(covered.size());
   for (const auto& list : found)
@@ -392,7 +387,7 @@ Regions make_regions(const Sites& sites, std::vector<Vec3> centres,
                      const std::vector<std::vector<std::int32_t>>& adjacent, Sort sort) {
   Regions regions;
   regions.centres = std::move(centres);
-  regions.owner = owners(sites.key, sites.unit, regions.centres);
+  regions.owner = owners(sites.cells, sites.unit, regions.centres);
   if (sort == Sort::halo)
     regions.covered = halo_half_spaces(sites, regions, adjacent);
   if (sort == Sort::distance)

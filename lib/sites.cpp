@@ -224,14 +224,15 @@ Sites make_sites(const Points3& points, Duplicates duplicates, double merge_with
   require_count(n, "distinct directions");
   sites.id = Array<std::int32_t>(n);
   sites.unit = Array<Vec3>(n);
-  sites.key = Array<std::uint64_t>(n);
+  Array<std::uint64_t> keys(n);
   for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t rank = begin; rank != end; ++rank) {
       sites.id[rank] = entries[rank].index;
-      sites.key[rank] = entries[rank].key;
+      keys[rank] = entries[rank].key;
       sites.unit[rank] = normalised(sites.given(entries[rank].index));
     }
   });
+  sites.cells = CellTree(std::move(keys));
   return sites;
 }
 

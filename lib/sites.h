@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "cells.h"
 #include "parallel.h"
 #include "vec3.h"
 
@@ -19,7 +20,7 @@ struct Sites {
   std::vector<std::int32_t> site_of_input; ///< id for each input column
   Array<std::int32_t> id;                  ///< by rank
   Array<Vec3> unit;                        ///< by rank: normalised to 5 roundoffs
-  Array<std::uint64_t> key;                ///< by rank: curve key, ascending
+  CellTree cells;                          ///< over the ranks: what stands where on the sphere
 
   std::int64_t size() const { return id.size(); }
   const Vec3& given(std::int32_t site) const {

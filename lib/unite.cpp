@@ -23,10 +23,14 @@ struct Turned {
 };
 
 Turned turned(Face face) {
-  const std::int32_t a = face->vertex(0)->place.site, b = face->vertex(1)->place.site,
-                     c = face->vertex(2)->place.site;
-  const int i = a < b ? (a < c ? 0 : 2) : (b < c ? 1 : 2);
-  const auto j = next[static_cast<std::size_t>(i)], k = previous[static_cast<std::size_t>(i)];
+  std::int32_t lowest = face->vertex(0)->place.site;
+  int i = 0; // found without branches, which would be mispredicted
+  for (const int j : {1, 2}) {
+    const std::int32_t site = face->vertex(j)->place.site;
+    i = site < lowest ? j : i;
+    lowest = std::min(lowest, site);
+  }
+  const int j = next[static_cast<std::size_t>(i)], k = previous[static_cast<std::size_t>(i)];
   return {{face->vertex(i), face->vertex(j), face->vertex(k)},
           {face->neighbor(i)->number, face->neighbor(j)->number, face->neighbor(k)->number}};
 }

@@ -101,11 +101,12 @@ TEST_CASE("the cells of each level part the sites, and their balls hold them") {
     sites.emplace_back(curve_key(to_cube(p)), normalised(p));
   std::sort(sites.begin(), sites.end(),
             [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::vector<std::uint64_t> keys;
-  for (const auto& [key, p] : sites)
-    keys.push_back(key);
+  Array<std::uint64_t> keys(std::ssize(sites));
+  for (std::int64_t r = 0; r < keys.size(); ++r)
+    keys[r] = sites[static_cast<std::size_t>(r)].first;
 
-  const auto faces = face_cells(keys);
+  const CellTree tree(std::move(keys));
+  const auto faces = tree.faces();
   std::vector<Cell> cells(faces.begin(), faces.end());
   for (int level = 0; level < 12; ++level) {
     std::int64_t next = 0;
@@ -119,10 +120,10 @@ TEST_CASE("the cells of each level part the sites, and their balls hold them") {
         CHECK(norm(sites[static_cast<std::size_t>(r)].second - ball.centre) <= ball.radius);
       if (cell.size() == 0)
         continue;
-      for (const Cell& child : children(cell, keys))
+      for (const Cell& child : tree.children(cell))
         below.push_back(child);
     }
-    CHECK(next == std::ssize(keys));
+    CHECK(next == tree.size());
     cells = below;
   }
 }

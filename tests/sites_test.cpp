@@ -37,7 +37,7 @@ TEST_CASE("ranks run along the curve and hold every site once, ids keep the orde
   CHECK(sites.points == points);
   std::vector<bool> seen(static_cast<std::size_t>(sites.size()), false);
   for (std::int64_t r = 0; r < sites.size(); ++r) {
-    CHECK((r == 0 || sites.key[r - 1] <= sites.key[r]));
+    CHECK((r == 0 || sites.cells.keys()[r - 1] <= sites.cells.keys()[r]));
     const auto id = static_cast<std::size_t>(sites.id[r]);
     CHECK(!seen[id]);
     seen[id] = true;
