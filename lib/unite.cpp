@@ -46,35 +46,25 @@ std::int8_t own_edges(const std::array<Vertex, 3>& v) {
   return static_cast<std::int8_t>(bits);
 }
 
-/// Lists of the triangles by their lowest vertex, linked, and their lengths.
-struct ByLowest {
-  std::vector<std::int32_t> last, count; ///< by local vertex
-  Array<std::int32_t> before;            ///< by triangle: the one before it in its list, or -1
-};
-
-/// Ranks each list by its triangles' second sites. Most have no more than a few members; a hub's
-/// may have any number.
-void rank_lists(const ByLowest& lists, RegionTriangles& out) {
+/// Replaces lists of the triangles of one lowest vertex by ranks: each triangle's rank by second
+/// site. Most lists have a few members; a hub's may have any number. \param last by local vertex: a
+/// triangle, or -1; out.rank leads from it to the one before, or to -1.
+void rank_lists(const std::vector<std::int32_t>& last, RegionTriangles& out) {
   std::vector<std::int32_t> list;
   const auto second = [&](std::int32_t t) { return out.sites[t][1]; };
-  for (const std::int32_t last : lists.last) {
-    if (last < 0)
-      continue;
-    const std::int32_t before = lists.before[last];
-    if (before < 0) {
-      out.rank[last] = 0;
-    } else if (lists.before[before] < 0) {
-      out.rank[last] = second(before) < second(last);
-      out.rank[before] = 1 - out.rank[last];
-    } else {
-      list.clear();
-      for (std::int32_t t = last; t >= 0; t = lists.before[t])
-        list.push_back(t);
+  for (std::int32_t t : last) {
+    list.clear();
+    for (; t >= 0; t = out.rank[t])
+      list.push_back(t);
+    if (list.size() == 2) {
+      if (second(list[0]) > second(list[1]))
+        std::swap(list[0], list[1]);
+    } else if (list.size() > 2) {
       std::sort(list.begin(), list.end(),
-                [&](std::int32_t t, std::int32_t u) { return second(t) < second(u); });
-      for (std::size_t r = 0; r < list.size(); ++r)
-        out.rank[list[r]] = static_cast<std::int32_t>(r);
+                [&](std::int32_t a, std::int32_t b) { return second(a) < second(b); });
     }
+    for (std::size_t r = 0; r < list.size(); ++r)
+      out.rank[list[r]] = static_cast<std::int32_t>(r);
   }
 }
 
@@ -91,8 +81,7 @@ RegionTriangles report_triangles(Triangulation<Sphere>& triangulation, const Sit
   RegionTriangles out{
       Array<Triple>(count), Array<Triple>(count), Array<std::int32_t>(count), {}, {}, {}};
   const std::size_t locals = triangulation.members().size();
-  ByLowest lists{std::vector<std::int32_t>(locals, -1), std::vector<std::int32_t>(locals, 0),
-                 Array<std::int32_t>(count)};
+  std::vector<std::int32_t> last(locals, -1), length(locals, 0);
   const auto owner_of = [&](Vertex v) {
     return owner[triangulation.members()[static_cast<std::size_t>(v->local)].rank];
   };
@@ -105,8 +94,8 @@ RegionTriangles report_triangles(Triangulation<Sphere>& triangulation, const Sit
     out.neighbours[t] = neighbours;
     if (v[0]->owned) {
       const auto lowest = static_cast<std::size_t>(v[0]->local);
-      lists.before[t] = std::exchange(lists.last[lowest], t);
-      ++lists.count[lowest];
+      out.rank[t] = std::exchange(last[lowest], t);
+      ++length[lowest];
     } else {
       out.rank[t] = -1;
     }
@@ -117,10 +106,10 @@ RegionTriangles report_triangles(Triangulation<Sphere>& triangulation, const Sit
     out.reporters.push_back(static_cast<std::int8_t>(1 + (b != a) + (c != a && c != b)));
     out.own_edges.push_back(own_edges(v));
   });
-  rank_lists(lists, out);
+  rank_lists(last, out);
   for (std::size_t v = 0; v < locals; ++v)
     if (const Member& member = triangulation.members()[v]; member.owned)
-      triangles_of[sites.id[member.rank]] = lists.count[v];
+      triangles_of[sites.id[member.rank]] = length[v];
   return out;
 }
 
@@ -190,17 +179,17 @@ private:
                                        ": please report this input as a bug");
 }
 
-/// Places of the triangles whose lowest site the region owns, which it writes.
-Array<std::int32_t> place_own(const RegionTriangles& report, const Array<std::int32_t>& first_of,
-                              Triangles& out) {
-  Array<std::int32_t> place(report.sites.size());
+/// Turns the ranks of the triangles whose lowest site the region owns into their places in the
+/// mesh, where it writes them.
+Array<std::int32_t> place_own(Array<std::int32_t>&& rank, const Array<Triple>& sites,
+                              const Array<std::int32_t>& first_of, Triangles& out) {
+  Array<std::int32_t> place = std::move(rank);
   for (std::int64_t t = 0; t < place.size(); ++t) {
-    if (report.rank[t] < 0)
+    if (place[t] < 0)
       continue;
-    const Triple& sites = report.sites[t];
-    place[t] = first_of[sites[0]] + report.rank[t];
+    place[t] += first_of[sites[t][0]];
     for (int i = 0; i < 3; ++i)
-      out(i, place[t]) = sites[static_cast<std::size_t>(i)];
+      out(i, place[t]) = sites[t][static_cast<std::size_t>(i)];
   }
   return place;
 }
@@ -243,22 +232,21 @@ void unite(std::vector<RegionTriangles>&& reports, Array<std::int32_t>&& triangl
   const std::int64_t regions = std::ssize(reports);
 
   for_each_task(regions, [&](std::int64_t k) {
-    const RegionTriangles& report = reports[static_cast<std::size_t>(k)];
+    RegionTriangles& report = reports[static_cast<std::size_t>(k)];
     Array<std::int32_t>& own = place[static_cast<std::size_t>(k)];
-    own = place_own(report, triangles_of, mesh.triangles);
+    own = place_own(std::move(report.rank), report.sites, triangles_of, mesh.triangles);
     for (const std::int32_t t : report.seams)
-      if (report.rank[t] >= 0)
+      if (own[t] >= 0)
         table.enter(report.sites[t], own[t]);
   });
   for_each_task(regions, [&](std::int64_t k) {
     const RegionTriangles& report = reports[static_cast<std::size_t>(k)];
     for (const std::int32_t t : report.seams) {
-      if (report.rank[t] >= 0)
-        continue;
-      const std::int32_t found = table.count(report.sites[t]);
-      if (found < 0)
+      std::int32_t& here = place[static_cast<std::size_t>(k)][t];
+      if (here < 0)
+        here = table.count(report.sites[t]);
+      if (here < 0)
         disagree(report.sites[t]);
-      place[static_cast<std::size_t>(k)][t] = found;
     }
   });
   for_each_task(regions, [&](std::int64_t k) {
