@@ -195,7 +195,7 @@ std::vector<double> mean_steps(const Sites& sites, const Array<std::int32_t>& ow
 
 /// A circumcap of random sites rarely spans more than this many steps across a bisector; for the
 /// rest a query is cheaper than a wider halo of all.
-constexpr double halo_steps = 2;
+constexpr double halo_steps = 2.5;
 
 HalfSpace beyond_bisector(const Vec3& own, const Vec3& other, double width) {
   const Vec3 apart = other - own;
