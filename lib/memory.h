@@ -1,12 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <tbb/scalable_allocator.h>
+
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <memory>
+#include <new>
+#include <type_traits>
 
 #ifdef __linux__
 #include <sys/mman.h>
+#endif
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define CALOTTE_POOLED false // the sanitizers see what malloc gives
+#else
+#define CALOTTE_POOLED true
 #endif
 
 namespace calotte::detail {
@@ -24,14 +35,17 @@ inline void prefer_huge_pages([[maybe_unused]] void* begin, [[maybe_unused]] std
 #endif
 }
 
-/// n values, not initialised, so that the thread that first writes a page also faults it in.
+/// n values of a type without constructors, not initialised, so that the thread that first writes a
+/// page also faults it in.
+///
+/// Up to some megabytes the memory is oneTBB's, which keeps it for the next array; the C library
+/// returns such blocks to the system, and faulting them in again would cost a tenth of a
+/// triangulation. Larger arrays come from the system and go back to it.
 template <class T> class Array {
 public:
   Array() = default;
   explicit Array(std::int64_t n)
-      : size_(n), data_(std::make_unique_for_overwrite<T[]>(static_cast<std::size_t>(n))) {
-    prefer_huge_pages(data_.get(), static_cast<std::size_t>(n) * sizeof(T));
-  }
+      : size_(n), data_(allocate(static_cast<std::size_t>(n) * sizeof(T))) {}
   T& operator[](std::int64_t i) { return data_[static_cast<std::size_t>(i)]; }
   const T& operator[](std::int64_t i) const { return data_[static_cast<std::size_t>(i)]; }
   std::int64_t size() const { return size_; }
@@ -41,8 +55,25 @@ public:
   const T* end() const { return data_.get() + size_; }
 
 private:
+  struct Free {
+    bool pooled = true;
+    void operator()(T* data) const { pooled ? scalable_free(data) : std::free(data); }
+  };
+  using Data = std::unique_ptr<T[], Free>;
+
+  static Data allocate(std::size_t bytes) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    constexpr std::size_t most_pooled = 16 << 20;
+    const bool pooled = CALOTTE_POOLED && bytes <= most_pooled;
+    void* data = pooled ? scalable_malloc(bytes) : std::malloc(bytes);
+    if (data == nullptr && bytes > 0)
+      throw std::bad_alloc();
+    prefer_huge_pages(data, bytes);
+    return Data(static_cast<T*>(data), Free{pooled});
+  }
+
   std::int64_t size_ = 0;
-  std::unique_ptr<T[]> data_;
+  Data data_;
 };
 
 } // namespace calotte::detail

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// CGAL's containers take their memory through this macro. The malloc of the C library gives a
-// region's blocks back to the system, only for the next region to fault them in again; oneTBB's
-// keeps them.
-#include <tbb/scalable_allocator.h>
+#include "memory.h"
+
+// CGAL's containers take their memory through this macro: for the same reason as Array, from
+// oneTBB.
+#if CALOTTE_POOLED
 #define CGAL_ALLOCATOR(T) tbb::scalable_allocator<T>
+#endif
 #include <CGAL/Triangulation_data_structure_2.h>
 
 #include <array>
