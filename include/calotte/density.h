@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <calotte/types.h>
+
+#include <functional>
+#include <vector>
+
+namespace calotte {
+
+/// The paper's bump (Jacobsen et al., 2013, Sect. 4.3), with angles in radians:
+/// rho(x) = (tanh((beta - d)/alpha) + 1) / (2 (1 - gamma)) + gamma, d the angle between x and the
+/// centre. About 1 within beta of the centre, gamma far away, changing over a width alpha. Spacings
+/// differ by gamma^(-1/4): (1/8)^4 is the paper's x8.
+struct Bump {
+  Eigen::Vector3d centre{0, 0, 1};  ///< a direction
+  double beta = 0.5235987755982988; ///< > 0
+  double alpha = 0.2;               ///< > 0
+  double gamma = 1.0 / 4096;        ///< 0 < gamma < 1
+  /// Stretch of an ellipse: distances along `major` count this much less than across. 1 for a
+  /// circle.
+  double stretch = 1;
+  Eigen::Vector3d major{1, 0,
+                        0}; ///< the direction of the long axis at the centre, where stretch > 1
+};
+
+/// A density on the unit sphere: uniform, bumps, or a callable.
+struct Density {
+  enum class Kind { uniform, maximum, sum, callable };
+  /// Fills rho(j) with the density at column j of x, unit columns. It is called from many threads
+  /// at once with blocks of a few hundred columns.
+  using Callable =
+      std::function<void(const Eigen::Ref<const Points3>& x, Eigen::Ref<Eigen::VectorXd> rho)>;
+
+  Kind kind = Kind::uniform;
+  std::vector<Bump> bumps; ///< joined by their maximum or their sum
+  Callable callable;
+
+  bool uniform() const { return kind == Kind::uniform; }
+};
+
+Density tanh_bump(const Eigen::Vector3d& centre, double beta, double alpha, double gamma);
+
+/// The density at each unit column. \throws Error bad_option, when the density is ill-formed.
+Eigen::VectorXd evaluate(const Density& density, const Points3& x);
+
+} // namespace calotte

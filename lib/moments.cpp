@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "moments.h"
+
+#include "elementary.h"
+#include "parallel.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace calotte::detail {
+namespace {
+
+constexpr int lanes = 64; ///< triangles that are worked on at a time, each quantity in a row
+
+using Row = std::array<double, lanes>;
+using Rows3 = std::array<Row, 3>;
+
+/// Corners of up to `lanes` triangles.
+struct Corners {
+  std::array<Rows3, 3> corner; ///< [vertex][x, y, z][lane]
+  int count = 0;
+};
+
+/// What each edge, named by the vertex across from it, gives to both of its ends.
+struct EdgeTerms {
+  Rows3 pull; ///< delta / (2 |a-b|): the first moment's part is that times (a - b) for a
+  Rows3 area;
+  Rows3 energy;
+};
+
+Corners gather(const Mesh& mesh, std::int64_t begin, std::int64_t end) {
+  Corners corners;
+  corners.count = static_cast<int>(end - begin);
+  for (int lane = 0; lane < lanes; ++lane) { // the last triangle fills the lanes that are left
+    const Eigen::Index t = std::min(begin + lane, end - 1);
+    for (std::size_t v = 0; v < 3; ++v)
+      for (std::size_t x = 0; x < 3; ++x)
+        corners.corner[v][x][static_cast<std::size_t>(lane)] = mesh.points(
+            static_cast<Eigen::Index>(x), mesh.triangles(static_cast<Eigen::Index>(v), t));
+  }
+  return corners;
+}
+
+CALOTTE_VECTOR_WIDTHS
+void edge_terms(const Corners& corners, EdgeTerms& out) {
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    const auto at = [&](std::size_t v) {
+      return Vec3{corners.corner[v][0][lane], corners.corner[v][1][lane],
+                  corners.corner[v][2][lane]};
+    };
+    const Vec3 a = at(0), b = at(1), c = at(2);
+    const Vec3 ab = b - a, bc = c - b, ca = a - c;
+    const Vec3 normal = cross(ab, ca);
+    const double scale = 1 / std::sqrt(dot(normal, normal));
+    const std::array<Vec3, 3> side{bc, ca, ab};
+    const std::array<double, 3> cotangent{-dot(ca, ab) * scale, -dot(ab, bc) * scale,
+                                          -dot(bc, ca) * scale};
+    for (std::size_t e = 0; e < 3; ++e) {
+      const double square = dot(side[e], side[e]);
+      const double sine = 0.5 * std::sqrt(square), cosine = std::sqrt(1 - 0.25 * square);
+      const double raw = sine / cosine * cotangent[e];
+      const double across =
+          std::clamp(raw, -1.0, 1.0); // rounding can pass 1 where the circumcap is a hemisphere
+      const double arc = arc_sine(across);
+      const double quarter_tangents =
+          sine / (1 + cosine) * (across / (1 + std::sqrt(1 - across * across)));
+      const double area = 2 * arc_tangent(quarter_tangents);
+      out.pull[e][lane] = 0.25 * arc / sine;
+      out.area[e][lane] = area;
+      out.energy[e][lane] = 2 * (area - 0.5 * arc * sine);
+    }
+  }
+}
+
+struct SiteTerms {
+  double mass = 0;
+  Vec3 first{0, 0, 0};
+  double energy = 0;
+};
+
+/// Terms of each triangle's three vertices, triangle by triangle.
+using TriangleTerms = Array<std::array<SiteTerms, 3>>;
+
+/// Sums each site's terms over its star.
+Moments sum_over_stars(const Mesh& mesh, const Stars& stars, const TriangleTerms& terms) {
+  const std::int64_t n = mesh.points.cols();
+  Moments moments{Array<double>(n), Array<Vec3>(n), Array<double>(n)};
+  for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i != end; ++i) {
+      SiteTerms sum;
+      for (std::int64_t s = stars.begin[i]; s != stars.begin[i + 1]; ++s) {
+        const std::int32_t t = stars.triangles[s];
+        const int v = mesh.triangles(0, t) == i ? 0 : mesh.triangles(1, t) == i ? 1 : 2;
+        const SiteTerms& term = terms[t][static_cast<std::size_t>(v)];
+        sum.mass += term.mass;
+        sum.first = sum.first + term.first;
+        sum.energy += term.energy;
+      }
+      moments.mass[i] = sum.mass;
+      moments.first[i] = sum.first;
+      moments.energy[i] = sum.energy;
+    }
+  });
+  return moments;
+}
+
+Vec3 point(const Mesh& mesh, Eigen::Index vertex, Eigen::Index triangle) {
+  const auto column = mesh.points.col(mesh.triangles(vertex, triangle));
+  return {column[0], column[1], column[2]};
+}
+
+// ---- General densities
+
+/// Six half kites of a triangle: two for each edge, one for each of its ends.
+struct HalfKite {
+  int site; ///< the vertex whose cell it is part of
+  Vec3 a, b, c;
+};
+
+std::array<HalfKite, 6> half_kites(const std::array<Vec3, 3>& vertex) {
+  const Vec3 normal = cross(vertex[1] - vertex[0], vertex[2] - vertex[0]);
+  const Vec3 centre = (1 / norm(normal)) * normal;
+  std::array<HalfKite, 6> halves;
+  for (std::size_t e = 0; e < 3; ++e) {
+    const std::size_t i = (e + 1) % 3, j = (e + 2) % 3;
+    const Vec3 sum = vertex[i] + vertex[j];
+    const Vec3 middle = (1 / norm(sum)) * sum;
+    halves[2 * e] = {static_cast<int>(i), vertex[i], middle, centre};
+    halves[2 * e + 1] = {static_cast<int>(j), middle, vertex[j], centre};
+  }
+  return halves;
+}
+
+/// A node of the rule on a part of a half kite.
+struct Sample {
+  Vec3 x; ///< on the sphere
+  double weight;
+  std::int32_t owner; ///< 3 times the triangle's number in its block, plus the vertex
+};
+
+/// The nodes on a flat triangle a, b, c, cut into divisions^2 parts.
+class Cutter {
+public:
+  Cutter(const QuadratureRule& rule, int divisions) : rule_(rule), divisions_(divisions) {}
+
+  void cut(const HalfKite& half, std::int32_t owner, std::vector<Sample>& out) const {
+    const double determinant = dot(half.a, cross(half.b, half.c));
+    const double step = 1.0 / divisions_;
+    const double weight = 0.5 * determinant * step * step;
+    const Vec3 u = step * (half.b - half.a), v = step * (half.c - half.a);
+    for (int i = 0; i < divisions_; ++i)
+      for (int j = 0; i + j < divisions_; ++j) {
+        const Vec3 corner = half.a + i * u + j * v;
+        add(corner, u, v, weight, owner, out);
+        if (i + j + 1 < divisions_)
+          add(corner + u + v, -u, -v, weight, owner, out);
+      }
+  }
+
+private:
+  void add(const Vec3& corner, const Vec3& u, const Vec3& v, double weight, std::int32_t owner,
+           std::vector<Sample>& out) const {
+    for (const QuadratureRule::Node& node : rule_.nodes) {
+      const Vec3 p = corner + node.b * u + node.c * v;
+      const double scale = 1 / norm(p);
+      out.push_back({scale * p, weight * node.weight * scale * scale * scale, owner});
+    }
+  }
+
+  const QuadratureRule& rule_;
+  int divisions_;
+};
+
+} // namespace
+
+Stars make_stars(const Mesh& mesh) {
+  const std::int64_t n = mesh.points.cols(), m = mesh.triangles.cols();
+  Stars stars{Array<std::int32_t>(n + 1), Array<std::int32_t>(3 * m)};
+  std::fill(stars.begin.begin(), stars.begin.end(), 0);
+  for (std::int64_t t = 0; t < m; ++t)
+    for (int v = 0; v < 3; ++v)
+      ++stars.begin[mesh.triangles(v, t)];
+  exclusive_scan(std::span(stars.begin.begin(), stars.begin.end()));
+  Array<std::int32_t> place(n);
+  std::copy(stars.begin.begin(), stars.begin.end() - 1, place.begin());
+  for (std::int64_t t = 0; t < m; ++t)
+    for (int v = 0; v < 3; ++v)
+      stars.triangles[place[mesh.triangles(v, t)]++] = static_cast<std::int32_t>(t);
+  return stars;
+}
+
+Moments uniform_moments(const Mesh& mesh, const Stars& stars) {
+  const std::int64_t m = mesh.triangles.cols();
+  TriangleTerms terms(m);
+  for_each_block(m, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    EdgeTerms edges;
+    for (std::int64_t first = begin; first < end; first += lanes) {
+      const Corners corners = gather(mesh, first, std::min<std::int64_t>(first + lanes, end));
+      edge_terms(corners, edges);
+      for (int lane = 0; lane < corners.count; ++lane) {
+        const auto l = static_cast<std::size_t>(lane);
+        const auto at = [&](std::size_t v) {
+          return Vec3{corners.corner[v][0][l], corners.corner[v][1][l], corners.corner[v][2][l]};
+        };
+        for (std::size_t v = 0; v < 3; ++v) {
+          const std::size_t i = (v + 1) % 3,
+                            j = (v + 2) % 3; // edge j goes to vertex i, edge i to j
+          terms[first + lane][v] = {edges.area[i][l] + edges.area[j][l],
+                                    edges.pull[j][l] * (at(v) - at(i)) +
+                                        edges.pull[i][l] * (at(v) - at(j)),
+                                    edges.energy[i][l] + edges.energy[j][l]};
+        }
+      }
+    }
+  });
+  return sum_over_stars(mesh, stars, terms);
+}
+
+Moments quadrature_moments(const Mesh& mesh, const Stars& stars, const Density& density,
+                           const QuadratureRule& rule, int divisions) {
+  const std::int64_t m = mesh.triangles.cols();
+  TriangleTerms terms(m);
+  const Cutter cutter(rule, divisions);
+  constexpr std::int64_t batch = 16; // triangles whose nodes are evaluated at once
+  for_each_block(m, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    std::vector<Sample> samples;
+    Points3 x;
+    for (std::int64_t first = begin; first < end; first += batch) {
+      const std::int64_t last = std::min(first + batch, end);
+      samples.clear();
+      for (std::int64_t t = first; t < last; ++t)
+        for (const HalfKite& half :
+             half_kites({point(mesh, 0, t), point(mesh, 1, t), point(mesh, 2, t)}))
+          cutter.cut(half, static_cast<std::int32_t>(3 * (t - first) + half.site), samples);
+      x.resize(3, std::ssize(samples));
+      for (Eigen::Index s = 0; s < x.cols(); ++s) {
+        const Vec3& p = samples[static_cast<std::size_t>(s)].x;
+        x.col(s) << p.x, p.y, p.z;
+      }
+      const Eigen::VectorXd rho = evaluate(density, x);
+      std::fill(terms.begin() + first, terms.begin() + last, std::array<SiteTerms, 3>{});
+      for (Eigen::Index s = 0; s < x.cols(); ++s) {
+        const Sample& sample = samples[static_cast<std::size_t>(s)];
+        const std::int64_t t = first + sample.owner / 3;
+        const int v = sample.owner % 3;
+        const double weight = sample.weight * rho[s];
+        const Vec3 apart = sample.x - point(mesh, v, t);
+        SiteTerms& term = terms[t][static_cast<std::size_t>(v)];
+        term.mass += weight;
+        term.first = term.first + weight * sample.x;
+        term.energy += weight * dot(apart, apart);
+      }
+    }
+  });
+  return sum_over_stars(mesh, stars, terms);
+}
+
+} // namespace calotte::detail
