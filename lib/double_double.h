@@ -49,7 +49,7 @@ inline DoubleDouble operator*(const DoubleDouble& a, const DoubleDouble& b) {
   return quick_two_sum(p.hi, p.lo + (a.hi * b.lo + a.lo * b.hi));
 }
 
-/// 1/sqrt(a) for a in [1/4, 4]: one Newton step from the double result, relative error below
+/// 1/sqrt(a) for a from 1e-30 to 1e30: one Newton step from the double result, relative error below
 /// 2^-102.
 inline DoubleDouble inverse_sqrt(const DoubleDouble& a) {
   const double y = 1 / std::sqrt(a.hi);

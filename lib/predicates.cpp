@@ -40,7 +40,9 @@ Vec3Extended cross(const Vec3Extended& a, const Vec3Extended& b) {
 /// x/|x| within 2^-100 in the norm of the error: the norm errs by 2^-102.5, its inverse by 2^-102,
 /// the products by 2^-103; components that underflow in scaling add 1e-307.
 Vec3Extended normalised_extended(const Vec3& given) {
-  const Vec3 x = scaled_to_one(given);
+  const double rough = dot(given, given);
+  const bool moderate = rough > 1e-30 && rough < 1e30; // no product of it underflows or overflows
+  const Vec3 x = moderate ? given : scaled_to_one(given);
   const DoubleDouble square = two_product(x.x, x.x) + two_product(x.y, x.y) + two_product(x.z, x.z);
   const DoubleDouble scale = inverse_sqrt(square);
   return {scale * DoubleDouble{x.x, 0}, scale * DoubleDouble{x.y, 0}, scale * DoubleDouble{x.z, 0}};
