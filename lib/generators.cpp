@@ -2,6 +2,7 @@
 #include <calotte/error.h>
 #include <calotte/generators.h>
 
+#include "circle.h"
 #include "vec3.h"
 
 #include <algorithm>
@@ -16,6 +17,8 @@
 namespace calotte {
 namespace {
 
+using detail::cos_sin_of_octant;
+using detail::CosSin;
 using detail::Vec3;
 
 /// A mesh of n sites has up to 2n - 4 triangles, and their ids are int32.
@@ -42,41 +45,12 @@ Vec3 get(const Points3& points, std::int64_t column) {
 
 // ---- Angles
 
-struct CosSin {
-  double cos, sin;
-};
-
-/// Of fraction * pi/4, 0 <= fraction <= 1, by Taylor's series: the next term is below 2^-60.
-CosSin octant_cos_sin(double fraction) {
-  if (fraction == 1)
-    return {0x1.6a09e667f3bcdp-1, 0x1.6a09e667f3bcdp-1};
-  const double x = fraction * 0x1.921fb54442d18p-1, y = x * x;
-  double cosine = 1, sine = 1;
-  for (int k = 18; k >= 2; k -= 2) {
-    cosine = 1 - y * (1.0 / (k * (k - 1))) * cosine;
-    sine = 1 - y * (1.0 / (k * (k + 1))) * sine;
-  }
-  return {cosine, x * sine};
-}
-
-/// Reflects the angle (octant + fraction) pi/4 into the first octant, where `fraction` of an odd
-/// octant is measured from its far end. Lattices come out as symmetric as the circle.
-CosSin from_octant(int octant, double fraction) {
-  CosSin p = octant_cos_sin(fraction);
-  const int quarter = octant / 2;
-  if (octant % 2 == 1)
-    std::swap(p.cos, p.sin);
-  if (quarter % 2 == 1)
-    p = {-p.sin, p.cos};
-  return quarter >= 2 ? CosSin{-p.cos, -p.sin} : p;
-}
-
 /// Of k/n turns, 0 <= k < n <= 2^58.
 CosSin cos_sin(std::int64_t k, std::int64_t n) {
   const int octant = static_cast<int>(8 * k / n);
   const std::int64_t rest = 8 * k % n;
   const std::int64_t part = octant % 2 == 0 ? rest : n - rest;
-  return from_octant(octant, static_cast<double>(part) / static_cast<double>(n));
+  return cos_sin_of_octant(octant, static_cast<double>(part) / static_cast<double>(n));
 }
 
 /// Of an angle in units of 2^-64 turns: additions of such angles wrap around without error.
@@ -85,7 +59,7 @@ CosSin cos_sin(std::uint64_t turns) {
   const int octant = static_cast<int>(turns / eighth);
   const std::uint64_t rest = turns % eighth;
   const std::uint64_t part = octant % 2 == 0 ? rest : eighth - rest;
-  return from_octant(octant, static_cast<double>(part) * 0x1p-61);
+  return cos_sin_of_octant(octant, static_cast<double>(part) * 0x1p-61);
 }
 
 // ---- Random numbers
