@@ -11,10 +11,6 @@ namespace {
 constexpr int key_bits = 3 + 2 * curve_levels;
 constexpr int first_digit = 12, digit = 8;
 
-bool precedes(const KeyedIndex& a, const KeyedIndex& b) {
-  return a.key != b.key ? a.key < b.key : a.index < b.index;
-}
-
 /// Sorts [begin, end), whose keys agree above bit `shift`, with `buffer` of the same length to
 /// spare. The inner loops of comparison sorts mispredict; a digit pass does not, so short runs
 /// alone are compared.

@@ -13,6 +13,10 @@ struct KeyedIndex {
   std::int32_t index;
 };
 
+inline bool precedes(const KeyedIndex& a, const KeyedIndex& b) {
+  return a.key != b.key ? a.key < b.key : a.index < b.index;
+}
+
 /// Sorts by key, equal keys by index. Radix sort from the leading bits: linear time, and as many
 /// passes as the keys' crowding needs.
 void sort_by_key(Array<KeyedIndex>& entries);

@@ -57,40 +57,68 @@ Array<KeyedIndex> make_entries(const Points3& points) {
   return entries;
 }
 
+/// Orders a run of equal keys: along a curve over the square that its cube points fill, and so on
+/// where those keys are equal too. A cluster narrower than a finest cell is a curve like any other
+/// then, where walks from site to site are short. Equal cube points end up side by side, ordered by
+/// direction, then index.
+void order_finely(const Points3& points, KeyedIndex* begin, KeyedIndex* end) {
+  const auto cube_point = [&](const KeyedIndex& e) { return to_cube(column(points, e.index)); };
+  CubePoint low = cube_point(*begin), high = low;
+  for (const KeyedIndex* e = begin; e != end; ++e) {
+    const CubePoint p = cube_point(*e);
+    low = {p.face, std::min(low.u, p.u), std::min(low.v, p.v)};
+    high = {p.face, std::max(high.u, p.u), std::max(high.v, p.v)};
+  }
+  const double width = std::max(high.u - low.u, high.v - low.v);
+  if (width == 0) {
+    std::sort(begin, end, [&](const KeyedIndex& a, const KeyedIndex& b) {
+      const Vec3 &p = column(points, a.index), &q = column(points, b.index);
+      const bool equal_bits = p.x == q.x && p.y == q.y && p.z == q.z; // spares exact arithmetic
+      const int order = equal_bits ? 0 : compare_directions(p, q);
+      return order != 0 ? order < 0 : a.index < b.index;
+    });
+    return;
+  }
+  std::vector<KeyedIndex> finer(begin, end);
+  for (KeyedIndex& e : finer) {
+    const CubePoint p = cube_point(e);
+    const double u = (p.u - low.u) / width, v = (p.v - low.v) / width;
+    e.key = curve_key({p.face, 2 * u - 1, 2 * v - 1});
+  }
+  std::sort(finer.begin(), finer.end(), precedes);
+  for (std::size_t i = 0; i < finer.size(); ++i)
+    begin[i].index = finer[i].index;
+  for (std::size_t i = 0, last = 0; i < finer.size(); i = last) {
+    while (last < finer.size() && finer[last].key == finer[i].key)
+      ++last;
+    if (last - i > 1)
+      order_finely(points, begin + i, begin + last);
+  }
+}
+
 /// For each input the lowest index of the same direction. Equal directions have the same bits on
-/// the cube, hence the same key; in a run of equal keys they are brought together and compared
-/// exactly. Runs are short but for clusters narrower than a finest cell.
+/// the cube, hence the same key, and stand side by side in a run of equal keys that is in order.
 void link_duplicates(const Points3& points, KeyedIndex* begin, KeyedIndex* end,
                      std::vector<std::int32_t>& lowest) {
-  std::sort(begin, end, [&](const KeyedIndex& a, const KeyedIndex& b) {
-    const CubePoint p = to_cube(column(points, a.index)), q = to_cube(column(points, b.index));
-    return p.u != q.u ? p.u < q.u : p.v != q.v ? p.v < q.v : a.index < b.index;
-  });
-  const auto same_cube_point = [&](const KeyedIndex& a, const KeyedIndex& b) {
-    const CubePoint p = to_cube(column(points, a.index)), q = to_cube(column(points, b.index));
-    return p.u == q.u && p.v == q.v;
-  };
-  for (KeyedIndex* e = begin; e != end; ++e)
-    for (KeyedIndex* f = e; f != begin && same_cube_point(f[-1], *e); --f) {
-      const std::int32_t earlier = lowest[static_cast<std::size_t>(f[-1].index)];
-      if (same_direction(column(points, earlier), column(points, e->index))) {
-        lowest[static_cast<std::size_t>(e->index)] = earlier;
-        break;
-      }
-    }
+  order_finely(points, begin, end);
+  for (KeyedIndex* e = begin + 1; e < end; ++e)
+    if (same_direction(column(points, e[-1].index), column(points, e->index)))
+      lowest[static_cast<std::size_t>(e->index)] = lowest[static_cast<std::size_t>(e[-1].index)];
 }
 
 /// Merges each input into an earlier one that stays and is nearer than `within` radians, if there
 /// is one: those that stay are kept in a grid of cubes no smaller than the distance.
 void link_near(const Points3& points, double within, std::vector<std::int32_t>& lowest) {
   const double chord = 2 * std::sin(std::min(within, 3.141592653589793) / 2);
-  const double cell = std::max(chord, 1e-6);
+  const double cell = std::max(chord, 0x1p-50); // unit vectors are not closer than some of these
   std::unordered_multimap<std::uint64_t, std::int32_t> grid;
-  const auto cell_of = [&](double x) {
-    return static_cast<std::int64_t>(std::floor(x / cell)) + (1 << 20);
-  };
+  const auto cell_of = [&](double x) { return static_cast<std::int64_t>(std::floor(x / cell)); };
+  // Cubes that share a hash cost time alone: distances are compared.
   const auto hash = [](std::int64_t i, std::int64_t j, std::int64_t k) {
-    return static_cast<std::uint64_t>(i << 42 | j << 21 | k);
+    std::uint64_t h = 0;
+    for (const std::int64_t index : {i, j, k})
+      h = (h ^ h >> 32 ^ static_cast<std::uint64_t>(index)) * 0x9e3779b97f4a7c15U;
+    return h;
   };
   const auto nearest_kept = [&](const Vec3& p) {
     std::int64_t best = none;

@@ -8,8 +8,10 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 using namespace calotte;
 using namespace calotte::detail;
@@ -73,6 +75,55 @@ TEST_CASE("ten thousand copies of a few directions, in a cell, are merged") {
   CHECK(sites.size() == 100);
   for (std::size_t i = 0; i < 10000; ++i)
     CHECK(sites.site_of_input[i] == static_cast<std::int32_t>(i % 100));
+}
+
+TEST_CASE("rounded multiples of one direction are merged where they are exactly equal") {
+  Points3 points(3, 600);
+  for (Eigen::Index i = 0; i < 600; ++i)
+    points.col(i) = (1 + 0.01 * static_cast<double>(i % 300)) * Eigen::Vector3d(0.3, -0.5, 0.7);
+  points.rightCols(300) *= 4;
+  const Sites sites = make_sites(points, Duplicates::merge, 0);
+  const auto given = [&](Eigen::Index i) { return Vec3{points(0, i), points(1, i), points(2, i)}; };
+  std::int32_t distinct = 0;
+  for (Eigen::Index i = 0; i < 600; ++i) {
+    Eigen::Index first = 0;
+    while (!same_direction(given(first), given(i)))
+      ++first;
+    const std::int32_t site = first == i ? distinct++ : sites.site_of_input[first];
+    CHECK(sites.site_of_input[i] == site);
+  }
+  CHECK(distinct > 100);
+}
+
+TEST_CASE("ranks run along the curve within a finest cell, too") {
+  const std::int64_t n = 20000;
+  for (const double width : {1e-9, 1e-11, 1e-13, 1e-200}) {
+    CAPTURE(width);
+    Points3 points = width * random_sphere(n, 3);
+    points.row(0).setOnes();
+    const Sites sites = make_sites(points, Duplicates::merge, 0);
+    REQUIRE(sites.size() == n);
+    double length = 0;
+    for (std::int64_t r = 0; r + 1 < n; ++r)
+      length += norm(sites.given(sites.id[r + 1]) - sites.given(sites.id[r]));
+    CHECK(length < 4 * width * std::sqrt(static_cast<double>(n)));
+  }
+}
+
+TEST_CASE("merge_within finds the earlier sites of a small crowd, by brute force") {
+  Points3 points = 1e-7 * random_sphere(2000, 9);
+  points.row(1).setOnes();
+  const double within = 3e-9;
+  const Sites sites = make_sites(points, Duplicates::merge, within);
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index i = 0; i < 2000; ++i) {
+    const auto near = std::find_if(kept.begin(), kept.end(), [&](Eigen::Index k) {
+      return (points.col(k).normalized() - points.col(i).normalized()).norm() < within;
+    });
+    CHECK(sites.site_of_input[i] == near - kept.begin());
+    if (near == kept.end())
+      kept.push_back(i);
+  }
 }
 
 TEST_CASE("merge_within merges into the earlier site that stays, not along chains") {
