@@ -176,20 +176,25 @@ std::vector<Vec3> columns(const Points3& points) {
 // ---- Members
 
 /// Mean step along the curve between sites of one owner, by region: the local spacing, but for a
-/// factor near 1.
+/// factor near 1. That of all sites for a region of a site or two, as where there are as many
+/// regions as sites.
 std::vector<double> mean_steps(const Sites& sites, const Array<std::int32_t>& owner,
                                std::size_t regions) {
   std::vector<double> sum(regions, 0), count(regions, 0);
+  double sum_of_all = 0, count_of_all = 0;
   const std::int64_t stride = std::max<std::int64_t>(1, sites.size() / (256 * std::ssize(sum)));
   for (std::int64_t r = 0; r + 1 < sites.size(); r += stride) {
     const auto k = static_cast<std::size_t>(owner[r]);
+    const double step = norm(sites.unit[r + 1] - sites.unit[r]);
+    sum_of_all += step;
+    ++count_of_all;
     if (owner[r] != owner[r + 1])
       continue;
-    sum[k] += norm(sites.unit[r + 1] - sites.unit[r]);
+    sum[k] += step;
     ++count[k];
   }
   for (std::size_t k = 0; k < regions; ++k)
-    sum[k] = count[k] > 0 ? sum[k] / count[k] : 2;
+    sum[k] = count[k] > 0 ? sum[k] / count[k] : sum_of_all / count_of_all;
   return sum;
 }
 
@@ -246,7 +251,8 @@ distance_half_spaces(const Sites& sites, const Regions& regions,
 }
 
 /// What is nearer to a region's centre than to any centre that is not its neighbour's is surely
-/// owned by it or a neighbour.
+/// owned by it or a neighbour. `nearest` compares squared distances that err by 5e-15 each; over a
+/// bisector of centres that stand close together, that is much.
 std::vector<std::vector<HalfSpace>>
 voronoi_half_spaces(const Regions& regions,
                     const std::vector<std::vector<std::int32_t>>& adjacent) {
@@ -258,11 +264,13 @@ voronoi_half_spaces(const Regions& regions,
                                             static_cast<std::int32_t>(m)) != adjacent[k].end();
       if (near)
         continue;
-      if (norm(regions.centres[m] - regions.centres[k]) < 1e-12) {
+      const double length = norm(regions.centres[m] - regions.centres[k]);
+      if (length < 1e-12) {
         covered[k].assign(1, {regions.centres[k], -2}); // a twin: nothing is surely covered
         break;
       }
-      covered[k].push_back(beyond_bisector(regions.centres[k], regions.centres[m], -1e-13));
+      covered[k].push_back(
+          beyond_bisector(regions.centres[k], regions.centres[m], -1e-13 - 1e-14 / length));
     }
   return covered;
 }
@@ -378,9 +386,11 @@ std::vector<Vec3> make_centres(const Sites& sites, const DelaunayOptions& option
   if (regions < 1)
     throw Error(ErrorCode::bad_option,
                 "the number of regions is " + std::to_string(regions) + ": give at least 1");
+  // More regions than sites would own nothing; their centres would only take time and memory.
+  const auto useful = static_cast<int>(std::min<std::int64_t>(regions, sites.size()));
   if (options.centres == Centres::fibonacci)
-    return columns(fibonacci_sphere(regions));
-  return sampled_centres(sites, regions);
+    return columns(fibonacci_sphere(useful));
+  return sampled_centres(sites, useful);
 }
 
 Regions make_regions(const Sites& sites, std::vector<Vec3> centres,

@@ -6,6 +6,8 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+
 using namespace calotte;
 using namespace calotte::detail;
 
@@ -70,6 +72,49 @@ TEST_CASE("members ascend, hold all owned sites and all sites of the covered par
         }
       }
     }
+}
+
+TEST_CASE(
+    "what the voronoi sort calls covered is, though centres stand too close to tell owners apart") {
+  // Near the centres and across from them, each site is as near to one as to the other, by doubles.
+  Points3 points = random_sphere(20000, 6), centres = random_sphere(40, 7);
+  const Eigen::Vector3d middle = centres.col(0);
+  for (Eigen::Index i = 0; i < points.cols(); ++i)
+    points.col(i) = (i % 2 == 0 ? 1 : -1) * middle + 1e-3 * points.col(i);
+  for (Eigen::Index k = 0; k < centres.cols(); ++k)
+    centres.col(k) = middle + 3e-12 * centres.col(k);
+  const Sites sites = make_sites(points, Duplicates::merge, 0);
+  DelaunayOptions options;
+  options.given_centres = centres;
+  std::vector<std::vector<std::int32_t>> adjacent(40); // none but a few: most owners are no members
+  for (std::int32_t k = 0; k < 40; ++k)
+    adjacent[static_cast<std::size_t>(k)] = {k == 0 ? 39 : k - 1, k == 39 ? 0 : k + 1};
+  const Regions regions =
+      make_regions(sites, make_centres(sites, options), adjacent, Sort::voronoi);
+  for (std::size_t k = 0; k < 40; ++k)
+    for (std::int64_t r = 0; r < sites.size(); ++r) {
+      const auto in = [&](const HalfSpace& h) { return dot(sites.unit[r], h.normal) <= h.offset; };
+      if (!std::all_of(regions.covered[k].begin(), regions.covered[k].end(), in))
+        continue;
+      const std::int32_t owner = regions.owner[r];
+      CHECK((owner == static_cast<std::int32_t>(k) || owner == adjacent[k][0] ||
+             owner == adjacent[k][1]));
+    }
+}
+
+TEST_CASE("there are no more placed centres than sites, and halos stay thin with one each") {
+  const Sites sites = make_sites(random_sphere(1000, 5), Duplicates::merge, 0);
+  DelaunayOptions options;
+  options.regions = 1000000000;
+  CHECK(make_centres(sites, options).size() == 1000);
+  options.centres = Centres::fibonacci;
+  CHECK(make_centres(sites, options).size() == 1000);
+  const Regions regions = regions_of(sites, 1000, Centres::sample, Sort::halo);
+  std::int64_t members = 0;
+  for (const std::vector<Run>& runs : regions.members)
+    for (const Run& run : runs)
+      members += run.end - run.begin;
+  CHECK(members < 100 * sites.size());
 }
 
 TEST_CASE("regions of sampled centres hold nearly equal numbers of sites") {
