@@ -88,14 +88,16 @@ bool is_covered(const Circumcap& cap, const std::vector<HalfSpace>& covered) {
     return false;
   const Vec3 centre = (1 / cap.area) * cap.normal;
   const double cosine = std::sqrt(1 - cap.sine * cap.sine);
-  // The centre moves by the error, and sin r by its product with r / sin(2r) <= 2 for a bound.
+  // The cap's centre errs by the normal's error e, and sin r by 1.6 e relative: by e for the
+  // normal's length, by e/5 for each side, 10 roundoffs long. That moves r by 1.6 e tan r < 3.4 e.
   const double margin = 8 * cap.error + 1e-14;
   return std::all_of(covered.begin(), covered.end(), [&](const HalfSpace& h) {
     const double height = dot(centre, h.normal);
     if (height >= cosine)
       return false;
-    const double highest = height * cosine + cap.sine * std::sqrt(1 - height * height);
-    return highest + margin <= h.offset;
+    // Near -1, the root makes 1e-8 of a rounding in the height: it must not come out too small.
+    const double across = std::sqrt(1 - height * height + 1e-14);
+    return height * cosine + cap.sine * across + margin <= h.offset;
   });
 }
 
@@ -107,6 +109,9 @@ class ConflictQuery {
 public:
   ConflictQuery(CapTriangulation& triangulation, const Sites& sites)
       : triangulation_(triangulation), sites_(sites) {}
+
+  /// Cells and sites looked at so far.
+  std::int64_t looks() const { return looks_; }
 
   const std::vector<std::int32_t>& run(Face face) {
     face_ = face;
@@ -161,10 +166,11 @@ private:
   }
 
   void descend(const Cell& cell) {
+    ++looks_;
     if (cell.size() == 0 || found_.size() >= enough || is_outside(bounding_ball(cell)))
       return;
     if (cell.size() <= leaf_size || !cell.divisible()) {
-      for (std::int64_t r = cell.begin; r != cell.end && found_.size() < enough; ++r)
+      for (std::int64_t r = cell.begin; r != cell.end && found_.size() < enough; ++r, ++looks_)
         if (is_in_conflict(r))
           found_.push_back(static_cast<std::int32_t>(r));
     } else {
@@ -188,6 +194,7 @@ private:
   Vec3 normal_{}, cap_centre_{}, near_{};
   double normal_error_ = 0, cap_radius_ = 0; ///< the latter a chord, and rounded up
   std::vector<std::int32_t> found_;
+  std::int64_t looks_ = 0;
 };
 
 /// Faces with an owned vertex that the cull test does not certify.
@@ -224,6 +231,11 @@ bool is_counter_clockwise(Face face, const Sites& sites) {
 /// a cap's lattices need a few, clusters that are hard to certify thousands.
 constexpr std::int64_t effort = 16;
 
+/// Looks of queries that cost as much as one of those. Where most sites stand along a great circle,
+/// each triangle's circumcap runs past all of them, and the queries' looks grow with the square of
+/// their number.
+constexpr std::int64_t looks_an_effort = 4;
+
 } // namespace
 
 std::vector<Member> gather(const Sites& sites, const Regions& regions, std::int32_t k) {
@@ -255,6 +267,10 @@ bool certify(CapTriangulation& triangulation, const Sites& sites, const Regions&
     std::vector<std::int32_t> missing;
     for (const Face face : uncertified_faces(triangulation, covered, counts)) {
       const std::vector<std::int32_t>& found = query.run(face);
+      if (counts.inserted + triangulation.space().counts().filtered +
+              query.looks() / looks_an_effort >
+          patience)
+        return false;
       missing.insert(missing.end(), found.begin(), found.end());
       if (!found.empty())
         continue;
@@ -262,8 +278,6 @@ bool certify(CapTriangulation& triangulation, const Sites& sites, const Regions&
         return false;
       face->certified = true;
       ++counts.by_query;
-      if (counts.inserted + triangulation.space().counts().filtered > patience)
-        return false;
     }
     if (missing.empty())
       return true;

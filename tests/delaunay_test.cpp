@@ -490,3 +490,11 @@ TEST_CASE("the report adds up") {
   delaunay(upper_half(500, 92), with_regions(12), &report);
   CHECK(report.one_region);
 }
+
+TEST_CASE("caps give up where each query would look at most sites: along a satellite's track") {
+  const Points3 points = joined(circle_at_random(30000, 1e-6, 93), random_sphere(6, 94));
+  DelaunayReport report;
+  const Mesh mesh = delaunay(points, with_regions(12), &report);
+  CHECK(report.one_region);
+  CHECK(check(mesh).failure == "");
+}
