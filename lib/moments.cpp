@@ -42,26 +42,36 @@ Corners gather(const Mesh& mesh, std::int64_t begin, std::int64_t end) {
   return corners;
 }
 
+/// What both kernels need of a triangle.
+struct Triangle {
+  std::array<double, 3> square;    ///< of the side across from each vertex
+  std::array<double, 3> cotangent; ///< of the angle at each vertex
+  double height;                   ///< the normal (b - a) x (c - a) times a
+};
+
+inline Triangle triangle_at(const Corners& corners, std::size_t lane) {
+  const auto at = [&](std::size_t v) {
+    return Vec3{corners.corner[v][0][lane], corners.corner[v][1][lane], corners.corner[v][2][lane]};
+  };
+  const Vec3 a = at(0), b = at(1), c = at(2);
+  const Vec3 ab = b - a, bc = c - b, ca = a - c;
+  const Vec3 normal = cross(ca, ab);
+  const double scale = 1 / std::sqrt(dot(normal, normal));
+  return {{dot(bc, bc), dot(ca, ca), dot(ab, ab)},
+          {-dot(ca, ab) * scale, -dot(ab, bc) * scale, -dot(bc, ca) * scale},
+          dot(normal, a)};
+}
+
 CALOTTE_VECTOR_WIDTHS
 void edge_terms(const Corners& corners, EdgeTerms& out) {
   for (std::size_t lane = 0; lane < lanes; ++lane) {
-    const auto at = [&](std::size_t v) {
-      return Vec3{corners.corner[v][0][lane], corners.corner[v][1][lane],
-                  corners.corner[v][2][lane]};
-    };
-    const Vec3 a = at(0), b = at(1), c = at(2);
-    const Vec3 ab = b - a, bc = c - b, ca = a - c;
-    const Vec3 normal = cross(ab, ca);
-    const double scale = 1 / std::sqrt(dot(normal, normal));
-    const std::array<Vec3, 3> side{bc, ca, ab};
-    const std::array<double, 3> cotangent{-dot(ca, ab) * scale, -dot(ab, bc) * scale,
-                                          -dot(bc, ca) * scale};
+    const Triangle triangle = triangle_at(corners, lane);
     for (std::size_t e = 0; e < 3; ++e) {
-      const double square = dot(side[e], side[e]);
+      const double square = triangle.square[e];
       const double sine = 0.5 * std::sqrt(square), cosine = std::sqrt(1 - 0.25 * square);
-      const double raw = sine / cosine * cotangent[e];
-      const double across =
-          std::clamp(raw, -1.0, 1.0); // rounding can pass 1 where the circumcap is a hemisphere
+      // Rounding can pass 1 where the circumcap is a hemisphere.
+      const double raw = sine / cosine * triangle.cotangent[e];
+      const double across = raw > 1 ? 1 : raw < -1 ? -1 : raw;
       const double arc = arc_sine(across);
       const double quarter_tangents =
           sine / (1 + cosine) * (across / (1 + std::sqrt(1 - across * across)));
@@ -70,6 +80,22 @@ void edge_terms(const Corners& corners, EdgeTerms& out) {
       out.area[e][lane] = area;
       out.energy[e][lane] = 2 * (area - 0.5 * arc * sine);
     }
+  }
+}
+
+/// The first three rows of Pulls and the orientations.
+CALOTTE_VECTOR_WIDTHS
+void pull_rows(const Corners& corners, std::array<Row, 4>& out) {
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    const Triangle triangle = triangle_at(corners, lane);
+    for (std::size_t e = 0; e < 3; ++e) {
+      const double square = triangle.square[e];
+      const double sine = 0.5 * std::sqrt(square), cosine = std::sqrt(1 - 0.25 * square);
+      const double raw = sine / cosine * triangle.cotangent[e];
+      const double across = raw > 1 ? 1 : raw < -1 ? -1 : raw;
+      out[e][lane] = 0.25 * arc_sine(across) / sine;
+    }
+    out[3][lane] = triangle.height;
   }
 }
 
@@ -90,9 +116,9 @@ Moments sum_over_stars(const Mesh& mesh, const Stars& stars, const TriangleTerms
     for (std::int64_t i = begin; i != end; ++i) {
       SiteTerms sum;
       for (std::int64_t s = stars.begin[i]; s != stars.begin[i + 1]; ++s) {
-        const std::int32_t t = stars.triangles[s];
-        const int v = mesh.triangles(0, t) == i ? 0 : mesh.triangles(1, t) == i ? 1 : 2;
-        const SiteTerms& term = terms[t][static_cast<std::size_t>(v)];
+        const Corner corner = stars.corners[s];
+        const SiteTerms& term =
+            terms[triangle_of(corner)][static_cast<std::size_t>(vertex_of(corner))];
         sum.mass += term.mass;
         sum.first = sum.first + term.first;
         sum.energy += term.energy;
@@ -174,20 +200,48 @@ private:
 
 } // namespace
 
-Stars make_stars(const Mesh& mesh) {
-  const std::int64_t n = mesh.points.cols(), m = mesh.triangles.cols();
-  Stars stars{Array<std::int32_t>(n + 1), Array<std::int32_t>(3 * m)};
-  std::fill(stars.begin.begin(), stars.begin.end(), 0);
-  for (std::int64_t t = 0; t < m; ++t)
-    for (int v = 0; v < 3; ++v)
-      ++stars.begin[mesh.triangles(v, t)];
-  exclusive_scan(std::span(stars.begin.begin(), stars.begin.end()));
-  Array<std::int32_t> place(n);
-  std::copy(stars.begin.begin(), stars.begin.end() - 1, place.begin());
-  for (std::int64_t t = 0; t < m; ++t)
-    for (int v = 0; v < 3; ++v)
-      stars.triangles[place[mesh.triangles(v, t)]++] = static_cast<std::int32_t>(t);
-  return stars;
+Pulls edge_pulls(const Mesh& mesh) {
+  const std::int64_t m = mesh.triangles.cols();
+  Pulls pulls(4 * m);
+  for_each_block(m, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    std::array<Row, 4> rows;
+    for (std::int64_t first = begin; first < end; first += lanes) {
+      const Corners corners = gather(mesh, first, std::min<std::int64_t>(first + lanes, end));
+      pull_rows(corners, rows);
+      for (int lane = 0; lane < corners.count; ++lane)
+        for (std::size_t e = 0; e < 4; ++e)
+          pulls[4 * (first + lane) + static_cast<std::int64_t>(e)] =
+              rows[e][static_cast<std::size_t>(lane)];
+    }
+  });
+  return pulls;
+}
+
+Array<Vec3> uniform_first_moments(const Mesh& mesh, const Stars& stars, const Pulls& pulls) {
+  const std::int64_t n = mesh.points.cols();
+  Array<Vec3> moments(n);
+  const auto site = [&](std::int64_t i) {
+    return Vec3{mesh.points(0, i), mesh.points(1, i), mesh.points(2, i)};
+  };
+  for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i != end; ++i) {
+      const Vec3 x = site(i);
+      Vec3 sum{0, 0, 0};
+      Corner before = stars.corners[stars.begin[i + 1] - 1];
+      for (std::int64_t s = stars.begin[i]; s != stars.begin[i + 1]; ++s) {
+        const Corner corner = stars.corners[s];
+        const std::int32_t t = triangle_of(corner);
+        const int v = vertex_of(corner);
+        const double pull =
+            pulls[4 * std::int64_t{t} + previous_vertex(v)] +
+            pulls[4 * std::int64_t{triangle_of(before)} + next_vertex(vertex_of(before))];
+        sum = sum + pull * (x - site(mesh.triangles(next_vertex(v), t)));
+        before = corner;
+      }
+      moments[i] = sum;
+    }
+  });
+  return moments;
 }
 
 Moments uniform_moments(const Mesh& mesh, const Stars& stars) {

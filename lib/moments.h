@@ -3,6 +3,7 @@
 
 #include "memory.h"
 #include "quadrature.h"
+#include "stars.h"
 #include "vec3.h"
 
 #include <calotte/density.h>
@@ -22,12 +23,16 @@ struct Moments {
   Array<double> energy; ///< integral of rho |x - x_i|^2
 };
 
-/// The triangles around each site: those of site i are at begin[i] to begin[i + 1], ascending.
-struct Stars {
-  Array<std::int32_t> begin;
-  Array<std::int32_t> triangles;
-};
-Stars make_stars(const Mesh& mesh);
+/// For each edge of each triangle, named by the vertex e across from it, the signed arc delta from
+/// the edge's midpoint to the circumcentre over twice the edge's length: at [4 t + e]. The first
+/// moment of a uniform cell is the sum over its edges ab, from both triangles, of that times (a -
+/// b). The two together are negative exactly when the edge is not Delaunay. At [4 t + 3] stands the
+/// triangle's normal times its corner: positive when it runs counter-clockwise, up to rounding.
+using Pulls = Array<double>;
+Pulls edge_pulls(const Mesh& mesh);
+
+/// First moments for rho = 1 from the pulls, by site.
+Array<Vec3> uniform_first_moments(const Mesh& mesh, const Stars& stars, const Pulls& pulls);
 
 /// Exact moments for rho = 1, without quadrature.
 ///

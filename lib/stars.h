@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "memory.h"
+
+#include <calotte/types.h>
+
+#include <cstdint>
+
+namespace calotte::detail {
+
+/// A vertex of a triangle: 4 t + v.
+using Corner = std::int32_t;
+inline std::int32_t triangle_of(Corner corner) { return corner >> 2; }
+inline int vertex_of(Corner corner) { return corner & 3; }
+
+/// The index after v, and the one before it, in a triangle.
+inline int next_vertex(int v) { return v == 2 ? 0 : v + 1; }
+inline int previous_vertex(int v) { return v == 0 ? 2 : v - 1; }
+
+/// The corners at each site of a closed mesh, counter-clockwise, from the one whose next vertex is
+/// the lowest neighbour on: an order that the triangulation alone determines, whatever its history.
+struct Stars {
+  Array<std::int32_t> begin; ///< those of site i are at begin[i] to begin[i + 1]
+  Array<Corner> corners;
+};
+
+Stars make_stars(const Mesh& mesh);
+
+/// The corner at the same site in the triangle that follows counter-clockwise.
+inline Corner next_around(const Mesh& mesh, Corner corner) {
+  const std::int32_t t = triangle_of(corner);
+  const int v = vertex_of(corner);
+  const std::int32_t beyond = mesh.neighbours(next_vertex(v), t), site = mesh.triangles(v, t);
+  const int there = mesh.triangles(0, beyond) == site   ? 0
+                    : mesh.triangles(1, beyond) == site ? 1
+                                                        : 2;
+  return 4 * beyond + there;
+}
+
+} // namespace calotte::detail
