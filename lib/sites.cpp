@@ -234,7 +234,9 @@ void require_count(std::int64_t n, const char* kind) {
 
 Sites make_sites(const Points3& points, Duplicates duplicates, double merge_within) {
   if (!(merge_within >= 0) || !std::isfinite(merge_within))
-    throw Error(ErrorCode::bad_option, "merge_within must be an angle of 0 radians or more");
+    throw Error(ErrorCode::bad_option, "the angle to merge within is " +
+                                           std::to_string(merge_within) +
+                                           "; give 0 radians or more");
   require_count(points.cols(), "points");
   Array<KeyedIndex> entries = make_entries(points);
   sort_by_key(entries);
