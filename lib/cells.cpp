@@ -33,8 +33,8 @@ CellTree::CellTree(Array<std::uint64_t> keys) : keys_(std::move(keys)) {
             static_cast<std::int32_t>(n));
 }
 
-/// The first rank, of those from begin to end, with that key or a higher one. \param key that of a
-/// cell of the level.
+/// The first rank, of those from begin to end, with that key or a higher one.
+/// \param key that of a cell of the level.
 std::int64_t CellTree::first_rank(std::uint64_t key, int level, std::int64_t begin,
                                   std::int64_t end) const {
   if (level <= level_)

@@ -116,7 +116,7 @@ public:
   const std::vector<std::int32_t>& run(Face face) {
     face_ = face;
     found_.clear();
-    const int infinite = face->infinite;
+    const std::int8_t infinite = face->infinite;
     const Sphere& space = triangulation_.space();
     for (int i = 0; i < 3; ++i)
       corner_[static_cast<std::size_t>(i)] =

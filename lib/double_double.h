@@ -7,10 +7,10 @@ namespace calotte::detail {
 
 /// An unevaluated sum hi + lo of two doubles, |lo| <= ulp(hi)/2: about 106 bits.
 ///
-/// Sums and products err by at most 3 v^2 and 5 v^2 relative, v = 2^-53, barring underflow (Joldes,
+/// Sums and products err by at most 4 v^2 and 8 v^2 relative, v = 2^-53, barring underflow (Joldes,
 /// Muller, Popescu: Tight and rigorous error bounds for basic building blocks of double-word
-/// arithmetic, ACM Trans. Math. Softw. 44, 2017, algorithms 6 and 11). Written with + - * alone, so
-/// that every machine gives the same bits.
+/// arithmetic, ACM Trans. Math. Softw. 44, 2017, algorithms 6 and 10, rounded up). Written with
+/// + - * alone, so that every machine gives the same bits.
 struct DoubleDouble {
   double hi = 0, lo = 0;
 };

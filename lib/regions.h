@@ -26,21 +26,21 @@ struct Regions {
   std::vector<Vec3> centres; ///< t_k, unit vectors
   Array<std::int32_t> owner; ///< by rank: the region with the nearest centre, ties to the lowest
   std::vector<std::vector<Run>> members; ///< by region, ascending: its own sites and its halo
-  std::vector<std::vector<HalfSpace>>
-      covered; ///< by region: every site in all of these is a member
+  /// By region: every site in all of these is a member.
+  std::vector<std::vector<HalfSpace>> covered;
 };
 
 /// Regions' number by default: a function of the number of sites alone, such that a region's
 /// triangulation stays in cache and its halo is a small part of it.
 int default_region_count(std::int64_t sites);
 
-/// Unit centres. \throws Error bad_option (fewer than one region, centres without a direction).
+/// Unit centres: those given, or as many as regions are asked for, but no more than sites.
+/// \throws Error bad_option (fewer than one region, centres without a direction).
 std::vector<Vec3> make_centres(const Sites& sites, const DelaunayOptions& options);
 
 /// Owners of the sites, by rank, and members by the options' sort.
 /// \param adjacent for each region its neighbours: regions whose coarse Voronoi cells meet its own.
-/// Too many
-///        of them cost time, too few make halos larger than need be.
+///        Too many of them cost time, too few make halos larger than need be.
 Regions make_regions(const Sites& sites, std::vector<Vec3> centres,
                      const std::vector<std::vector<std::int32_t>>& adjacent, Sort sort);
 

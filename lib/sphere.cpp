@@ -23,9 +23,10 @@ Sphere::Sphere(const Sites& sites, const Vec3& centre, double reach)
 /// In-circle: any two of them are at most twice the reach apart. Orientation: let u be the
 /// roundoff. The axes are within 16u of an orthonormal frame around the exact focus, the site
 /// within 5u, a 3-term sum rounds by 5u: a numerator errs by 26u, a denominator 1 + c.x >= 1/2 by
-/// 18u, so that a coordinate, at most sqrt(3), errs by 52u + 63u + u = 116u =: e. A difference then
-/// errs by 2e + uD, D <= 2 P, P the largest projected norm, and the determinant by 4 D (2e + uD) +
-/// 3u D^2 < 960 u D.
+/// 18u, so that a coordinate, at most sqrt(3), errs by 52u + 63u + 4u = 119u =: e. A difference, at
+/// most D = 2 P long, P the largest projected norm, then errs by f = 2e + uD in each coordinate,
+/// and the determinant by 2 sqrt(2) D f + 2 f^2 + 3u D^2 for its evaluation. Nothing is decided
+/// unless D > 1000u, where that is below 800 u D.
 void Sphere::widen(double reach) {
   reach_ = reach;
   in_circle_error_ = in_circle_error(std::min(2 * reach, 2.0));

@@ -54,9 +54,9 @@ struct RegionFace : CGAL::Triangulation_ds_face_base_2<Tds> {
 ///
 /// CGAL's Triangulation_data_structure_2 holds vertices and faces. The insertion over it is
 /// Bowyer's and Watson's (1981): the faces in conflict with the new site are found from the one
-/// that holds it and become the site's star, so that each is written once. (CGAL's own insertion writes a
-/// star of three and flips; with its planar predicates, on 20 000 sites in the same order, it took
-/// 1.6 times as long.)
+/// that holds it and become the site's star, so that each is written once. (CGAL's own insertion
+/// writes a star of three and flips; with its planar predicates, on 20 000 sites in the same order,
+/// it took 1.6 times as long.)
 ///
 /// Invariant after `build`: a Delaunay triangulation, ties as the Space resolves them. From the
 /// sphere's centre the vertex at infinity stands for the centre, and vanishes once the sites

@@ -47,8 +47,8 @@ std::int8_t own_edges(const std::array<Vertex, 3>& v) {
 }
 
 /// Replaces lists of the triangles of one lowest vertex by ranks: each triangle's rank by second
-/// site. Most lists have a few members; a hub's may have any number. \param last by local vertex: a
-/// triangle, or -1; out.rank leads from it to the one before, or to -1.
+/// site. Most lists have a few members; a hub's may have any number.
+/// \param last by local vertex: a triangle, or -1; out.rank leads to the one before, or to -1.
 void rank_lists(const std::vector<std::int32_t>& last, RegionTriangles& out) {
   std::vector<std::int32_t> list;
   const auto second = [&](std::int32_t t) { return out.sites[t][1]; };

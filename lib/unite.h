@@ -38,9 +38,9 @@ RegionTriangles report_triangles(Triangulation<Sphere>& triangulation, const Sit
 
 /// Unites the regions' reports to triangles and neighbours in canonical order. Triangles with one
 /// owner go straight to their place. Seam triangles meet in a concurrent hash table, which counts
-/// who reported each. \param triangles_of by site, as report_triangles left it; used up, as the
-/// reports are. \throws Error internal, when a seam triangle was not reported by exactly the owners
-/// of its vertices.
+/// who reported each.
+/// \param triangles_of by site, as report_triangles left it; used up, as the reports are.
+/// \throws Error internal, when a seam triangle was not reported by exactly its vertices' owners.
 void unite(std::vector<RegionTriangles>&& reports, Array<std::int32_t>&& triangles_of, Mesh& mesh);
 
 } // namespace calotte::detail

@@ -38,12 +38,13 @@ struct DrawOptions {
 
 enum class PictureFormat { png, svg, pdf };
 
-/// The format of a file's suffix. \throws Error bad_option for a suffix that is none.
+/// The format of a file's suffix.
+/// \throws Error bad_option for a suffix that is none.
 PictureFormat picture_format(const std::string& path);
 
 /// Draws a mesh of the sphere as an orthographic globe with a title and a legend. The points may
-/// have any norm. The file is written beside its place and renamed when whole. \throws Error
-/// bad_option, file.
+/// have any norm. The file is written beside its place and renamed when whole.
+/// \throws Error bad_option, file.
 void draw(const std::string& path, const Mesh& mesh, const DrawOptions& options = {});
 
 } // namespace calotte::tools

@@ -28,14 +28,16 @@ enum class Duplicates {
 };
 
 struct DelaunayOptions {
-  std::optional<int> regions = {}; ///< number of regions, >= 1; default from the number of sites
+  /// Number of regions, >= 1; default from the number of sites, and never more than these.
+  std::optional<int> regions = {};
   Centres centres = Centres::sample;
-  std::optional<Points3>
-      given_centres; ///< the regions' centres (MPI-SCVT's RegionList); overrides the two above
+  /// The regions' centres (MPI-SCVT's RegionList), directions of any norm; overrides the two above.
+  std::optional<Points3> given_centres;
   Sort sort = Sort::halo;
   Duplicates duplicates = Duplicates::merge;
-  double merge_within =
-      0; ///< radians: a site nearer than this to an earlier site that stays is merged into it
+  /// Radians: a site nearer than this to an earlier site that stays is merged into it. Angles are
+  /// measured in doubles, good to 1e-15.
+  double merge_within = 0;
 };
 
 /// What one run did. Seconds are wall-clock time.
@@ -56,8 +58,8 @@ struct DelaunayReport {
   std::vector<std::int64_t> sites_per_region; ///< owned and halo
   std::vector<std::int64_t> owned_per_region;
   std::vector<double> seconds_per_region; ///< gather to certify, by region
-  std::int64_t certified_by_cull =
-      0; ///< reports of triangles whose circumcap lies in the covered part
+  /// Reports of triangles whose circumcap lies in the covered part.
+  std::int64_t certified_by_cull = 0;
   std::int64_t certified_by_query = 0; ///< reports certified by asking for sites in their circumcap
   std::int64_t halo_insertions = 0;    ///< sites that such queries added to regions
   std::int64_t seam_triangles = 0;     ///< triangles whose vertices have different owners
@@ -75,8 +77,7 @@ struct DelaunayReport {
 /// \param points 3 x n directions of any norm from 1e-200 to 1e200.
 /// \param report if not null, filled.
 /// \throws Error not_finite, zero_vector, duplicate (when refused), too_few_sites (fewer than 4
-/// distinct),
-///         degenerate (all on one great circle), bad_option.
+///         distinct), degenerate (all on one great circle), bad_option.
 ///
 /// Jacobsen, Gunzburger, Ringler, Burkardt, Peterson: Parallel algorithms for planar and spherical
 /// Delaunay construction, Geosci. Model Dev. 6, 1353-1365, 2013.

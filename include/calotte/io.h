@@ -29,8 +29,7 @@ enum class Columns {
 /// \param name stands for the stream in messages.
 /// \param lines if not null, the 1-based line of each column.
 /// \throws Error parse (index() is the 1-based line): text that is no number, NaN, infinite or the
-/// zero vector;
-///         too few columns; a latitude out of range; no points at all. Error file.
+///         zero vector; too few columns; a latitude out of range; no points at all. Error file.
 Points3 read_points(std::istream& in, const std::string& name, Columns columns = Columns::xyz,
                     std::vector<std::int64_t>* lines = nullptr);
 Points3 read_points(const std::string& path, Columns columns = Columns::xyz,
@@ -43,9 +42,8 @@ void write_points(std::ostream& out, const Points3& points);
 
 /// Writes in the format of the suffix:
 ///   .txt .tri   0-based `i j k` a line. The ids are columns of the input of delaunay(), so that
-///   the file
-///               goes with the points it was made from: a merged duplicate goes by its site's
-///               lowest column.
+///               the file goes with the points it was made from: a merged duplicate goes by its
+///               site's lowest column.
 ///   .vtp .vtu   VTK XML, points Float64, ids Int64, appended raw binary
 ///   .off        text, digits as write_points
 ///   .ply        binary doubles
@@ -59,10 +57,10 @@ void require_mesh_suffix(const std::string& path);
 /// Reads a mesh that `write` wrote (.vtp, .vtu, .off, .ply; coordinates come back bit for bit), or
 /// .txt/.tri with the points it refers to. Ids are checked to be in range, geometry is not: check()
 /// proves it. Neighbours are rebuilt; an edge of three triangles, or of two that run through it the
-/// same way, stays open. \param points the columns that a .txt/.tri file refers to; not used
-/// otherwise. A column in no triangle
-///        is the duplicate of one that has the same direction, or else stays as a site without
-///        triangles.
+/// same way, stays open.
+/// \param points the columns that a .txt/.tri file refers to; not used otherwise. A column in no
+///        triangle is the duplicate of one that has the same direction, or else stays as a site
+///        without triangles.
 /// \throws Error bad_option, parse, file.
 Mesh read_mesh(const std::string& path, const Points3* points = nullptr);
 
