@@ -62,23 +62,32 @@ inline Triangle triangle_at(const Corners& corners, std::size_t lane) {
           dot(normal, a)};
 }
 
+/// An edge's half, from its end to its middle, and the signed arc from there to the circumcentre.
+struct HalfEdge {
+  double sine, cosine; ///< of half of the edge's arc
+  double arc, sine_of_arc;
+};
+
+inline HalfEdge half_edge(double square, double cotangent) {
+  const double sine = 0.5 * std::sqrt(square), cosine = std::sqrt(1 - 0.25 * square);
+  // Rounding can pass 1 where the circumcap is a hemisphere.
+  const double raw = sine / cosine * cotangent;
+  const double sine_of_arc = raw > 1 ? 1 : raw < -1 ? -1 : raw;
+  return {sine, cosine, arc_sine(sine_of_arc), sine_of_arc};
+}
+
 CALOTTE_VECTOR_WIDTHS
 void edge_terms(const Corners& corners, EdgeTerms& out) {
   for (std::size_t lane = 0; lane < lanes; ++lane) {
     const Triangle triangle = triangle_at(corners, lane);
     for (std::size_t e = 0; e < 3; ++e) {
-      const double square = triangle.square[e];
-      const double sine = 0.5 * std::sqrt(square), cosine = std::sqrt(1 - 0.25 * square);
-      // Rounding can pass 1 where the circumcap is a hemisphere.
-      const double raw = sine / cosine * triangle.cotangent[e];
-      const double across = raw > 1 ? 1 : raw < -1 ? -1 : raw;
-      const double arc = arc_sine(across);
-      const double quarter_tangents =
-          sine / (1 + cosine) * (across / (1 + std::sqrt(1 - across * across)));
-      const double area = 2 * arc_tangent(quarter_tangents);
-      out.pull[e][lane] = 0.25 * arc / sine;
+      const HalfEdge half = half_edge(triangle.square[e], triangle.cotangent[e]);
+      const double tangent_of_half_arc =
+          half.sine_of_arc / (1 + std::sqrt(1 - half.sine_of_arc * half.sine_of_arc));
+      const double area = 2 * arc_tangent(half.sine / (1 + half.cosine) * tangent_of_half_arc);
+      out.pull[e][lane] = 0.25 * half.arc / half.sine;
       out.area[e][lane] = area;
-      out.energy[e][lane] = 2 * (area - 0.5 * arc * sine);
+      out.energy[e][lane] = 2 * (area - 0.5 * half.arc * half.sine);
     }
   }
 }
@@ -89,11 +98,8 @@ void pull_rows(const Corners& corners, std::array<Row, 4>& out) {
   for (std::size_t lane = 0; lane < lanes; ++lane) {
     const Triangle triangle = triangle_at(corners, lane);
     for (std::size_t e = 0; e < 3; ++e) {
-      const double square = triangle.square[e];
-      const double sine = 0.5 * std::sqrt(square), cosine = std::sqrt(1 - 0.25 * square);
-      const double raw = sine / cosine * triangle.cotangent[e];
-      const double across = raw > 1 ? 1 : raw < -1 ? -1 : raw;
-      out[e][lane] = 0.25 * arc_sine(across) / sine;
+      const HalfEdge half = half_edge(triangle.square[e], triangle.cotangent[e]);
+      out[e][lane] = 0.25 * half.arc / half.sine;
     }
     out[3][lane] = triangle.height;
   }
