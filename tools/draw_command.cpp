@@ -101,7 +101,7 @@ void run(const DrawArguments& arguments) {
 } // namespace
 
 void add_draw(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("draw", "Draw a mesh as a globe");
+  CLI::App* command = app.add_subcommand("draw", "Draw a mesh as a globe.");
   auto arguments = std::make_shared<DrawArguments>();
   arguments->source = add_mesh_source(*command);
   command->add_option("-o,--output", arguments->output, "the picture: .png, .svg or .pdf")
