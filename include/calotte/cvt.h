@@ -10,10 +10,10 @@
 
 namespace calotte {
 
-/// How far the generators moved in an iteration, x to x', n of them.
+/// How far n generators moved in an iteration, x to x', on the unit sphere. The first two are as
+/// printed by Jacobsen et al., 2013, Sect. 2.2; MPI-SCVT divides outside the root.
 enum class Norm {
-  l2, ///< sqrt( (1/n) sum |x - x'|^2 ), as printed by Jacobsen et al., 2013, Sect. 2.2 (MPI-SCVT
-      ///< divides outside the root)
+  l2,          ///< sqrt( (1/n) sum |x - x'|^2 )
   linf,        ///< max |x - x'|
   l2_scaled,   ///< l2 over h = sqrt(4 pi / n)
   linf_scaled, ///< linf over h
