@@ -76,8 +76,7 @@ Vec3 site(const Points3& points, std::int64_t i) {
   return *reinterpret_cast<const Vec3*>(points.data() + 3 * i);
 }
 
-/// First moments and energy of the tessellation's cells. For uniform density the masses sum to 4
-/// pi, so that the energy, 2 sum (m_i - M_i.x_i), needs no areas.
+/// First moments and energy of the tessellation's cells.
 struct Functional {
   Array<Vec3> first;
   double energy = 0;
@@ -88,9 +87,7 @@ Functional evaluate_functional(const Tessellation& t, const CvtOptions& options,
   Functional result;
   if (options.density.uniform()) {
     result.first = uniform_first_moments(t.mesh, t.stars, t.pulls);
-    const double along = sum_by_blocks(
-        n, [&](std::int64_t i) { return dot(result.first[i], site(t.mesh.points, i)); });
-    result.energy = 2 * (4 * std::numbers::pi - along);
+    result.energy = t.pulls.energy;
   } else {
     Moments moments = quadrature_moments(t.mesh, t.stars, options.density, quadrature_rule(rule),
                                          options.triangle_divisions);

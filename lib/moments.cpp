@@ -76,6 +76,30 @@ inline HalfEdge half_edge(double square, double cotangent) {
   return {sine, cosine, arc_sine(sine_of_arc), sine_of_arc};
 }
 
+/// atan(sqrt(z))/sqrt(z) - 1 for 0 <= z <= 1/16, by its series.
+inline double arc_tangent_excess(double z) {
+  double sum = 0;
+  for (int k = 12; k >= 1; --k)
+    sum = -z * (1.0 / (2 * k + 1) + sum);
+  return sum;
+}
+
+/// Energy of half a kite about its site: twice its area less arc/2 times the sine of the edge's
+/// half. With p, q the tangents of half of both arcs these are 2 atan(p q) and 2 p atan(q)/(1 +
+/// p^2), whose first terms cancel: they agree to the square of the spacing. Where the arc is small
+/// the series are subtracted term by term.
+inline double half_energy(const HalfEdge& half) {
+  const double p = half.sine / (1 + half.cosine);
+  const double q = half.sine_of_arc / (1 + std::sqrt(1 - half.sine_of_arc * half.sine_of_arc));
+  const double c = 1 / (1 + p * p);
+  const bool small = q * q < 1.0 / 16;
+  const double z = small ? q * q : 0;
+  const double by_series =
+      p * q * (p * p * c + arc_tangent_excess(z * p * p) - c * arc_tangent_excess(z));
+  const double direct = arc_tangent(p * q) - 0.5 * half.arc * p * c;
+  return 4 * (small ? by_series : direct);
+}
+
 CALOTTE_VECTOR_WIDTHS
 void edge_terms(const Corners& corners, EdgeTerms& out) {
   for (std::size_t lane = 0; lane < lanes; ++lane) {
@@ -87,21 +111,24 @@ void edge_terms(const Corners& corners, EdgeTerms& out) {
       const double area = 2 * arc_tangent(half.sine / (1 + half.cosine) * tangent_of_half_arc);
       out.pull[e][lane] = 0.25 * half.arc / half.sine;
       out.area[e][lane] = area;
-      out.energy[e][lane] = 2 * (area - 0.5 * half.arc * half.sine);
+      out.energy[e][lane] = half_energy(half);
     }
   }
 }
 
-/// The first three rows of Pulls and the orientations.
+/// The four rows of Pulls, and each triangle's energy.
 CALOTTE_VECTOR_WIDTHS
-void pull_rows(const Corners& corners, std::array<Row, 4>& out) {
+void pull_rows(const Corners& corners, std::array<Row, 5>& out) {
   for (std::size_t lane = 0; lane < lanes; ++lane) {
     const Triangle triangle = triangle_at(corners, lane);
+    double energy = 0;
     for (std::size_t e = 0; e < 3; ++e) {
       const HalfEdge half = half_edge(triangle.square[e], triangle.cotangent[e]);
       out[e][lane] = 0.25 * half.arc / half.sine;
+      energy += 2 * half_energy(half); // of both ends
     }
     out[3][lane] = triangle.height;
+    out[4][lane] = energy;
   }
 }
 
@@ -208,18 +235,23 @@ private:
 
 Pulls edge_pulls(const Mesh& mesh) {
   const std::int64_t m = mesh.triangles.cols();
-  Pulls pulls(4 * m);
-  for_each_block(m, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-    std::array<Row, 4> rows;
+  Pulls pulls{Array<double>(4 * m), 0};
+  std::vector<double> energy(static_cast<std::size_t>(block_count(m)), 0);
+  for_each_block(m, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
+    std::array<Row, 5> rows;
     for (std::int64_t first = begin; first < end; first += lanes) {
       const Corners corners = gather(mesh, first, std::min<std::int64_t>(first + lanes, end));
       pull_rows(corners, rows);
-      for (int lane = 0; lane < corners.count; ++lane)
+      for (int lane = 0; lane < corners.count; ++lane) {
+        const auto l = static_cast<std::size_t>(lane);
         for (std::size_t e = 0; e < 4; ++e)
-          pulls[4 * (first + lane) + static_cast<std::int64_t>(e)] =
-              rows[e][static_cast<std::size_t>(lane)];
+          pulls.values[4 * (first + lane) + static_cast<std::int64_t>(e)] = rows[e][l];
+        energy[static_cast<std::size_t>(block)] += rows[4][l];
+      }
     }
   });
+  for (const double part : energy) // in the order of the blocks: the same for any threads
+    pulls.energy += part;
   return pulls;
 }
 

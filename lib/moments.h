@@ -28,7 +28,12 @@ struct Moments {
 /// moment of a uniform cell is the sum over its edges ab, from both triangles, of that times (a -
 /// b). The two together are negative exactly when the edge is not Delaunay. At [4 t + 3] stands the
 /// triangle's normal times its corner: positive when it runs counter-clockwise, up to rounding.
-using Pulls = Array<double>;
+struct Pulls {
+  Array<double> values;
+  double energy = 0; ///< of all cells, for rho = 1
+
+  double operator[](std::int64_t i) const { return values[i]; }
+};
 Pulls edge_pulls(const Mesh& mesh);
 
 /// First moments for rho = 1 from the pulls, by site.

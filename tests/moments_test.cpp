@@ -65,10 +65,12 @@ TEST_CASE("uniform moments: masses sum to 4 pi, first moments to 0, energies fol
     const Moments moments = uniform_moments(c.mesh, make_stars(c.mesh));
     CHECK(std::abs(sum(moments.mass) - 4 * pi) < 1e-12);
     CHECK(norm(sum(moments.first)) < 1e-12);
+    CHECK(edge_pulls(c.mesh).energy == doctest::Approx(sum(moments.energy)).epsilon(1e-14));
     for (std::int64_t i = 0; i < moments.mass.size(); ++i) {
       CHECK(moments.mass[i] > 0);
       CHECK(moments.energy[i] > 0);
       const Vec3 x{c.mesh.points(0, i), c.mesh.points(1, i), c.mesh.points(2, i)};
+      // No digits cancel in the energy itself.
       CHECK(std::abs(2 * (moments.mass[i] - dot(moments.first[i], x)) - moments.energy[i]) < 1e-14);
     }
   }
