@@ -18,10 +18,17 @@ namespace calotte::detail {
 #define CALOTTE_VECTOR_WIDTHS
 #endif
 
+/// A call would end the vector code of the loop around it.
+#ifdef __GNUC__
+#define CALOTTE_INLINE inline __attribute__((always_inline))
+#else
+#define CALOTTE_INLINE inline
+#endif
+
 /// asin(x) for |x| <= 1, to 2 units in the last place: the rational approximation of asin(s)/s - 1
 /// on s^2 <= 1/4 (Sun Microsystems, fdlibm, 1993) and asin(x) = pi/2 - 2 asin(sqrt((1-x)/2))
 /// beyond.
-inline double arc_sine(double x) {
+CALOTTE_INLINE double arc_sine(double x) {
   const double magnitude = std::abs(x);
   const bool beyond = magnitude > 0.5;
   const double z = beyond ? 0.5 * (1 - magnitude) : x * x;
@@ -41,10 +48,10 @@ inline double arc_sine(double x) {
 }
 
 /// atan(x) for |x| <= 1; beyond, it loses digits.
-inline double arc_tangent(double x) { return arc_sine(x / std::sqrt(1 + x * x)); }
+CALOTTE_INLINE double arc_tangent(double x) { return arc_sine(x / std::sqrt(1 + x * x)); }
 
 /// exp(x) for |x| <= 700, to 2 units in the last place; beyond, that of the nearest bound.
-inline double exponential(double x) {
+CALOTTE_INLINE double exponential(double x) {
   constexpr double log2_e = 1.4426950408889634, ln2_high = 6.93147180369123816490e-01,
                    ln2_low = 1.90821492927058770002e-10;
   constexpr double shifter =
@@ -53,10 +60,22 @@ inline double exponential(double x) {
   x = x > 700 ? 700 : x;
   const double shifted = x * log2_e + shifter, k = shifted - shifter;
   const double r = (x - k * ln2_high) - k * ln2_low; // |r| <= ln(2)/2: 13 terms of Taylor's series
-  double sum = 1.0 / 6227020800;
-  for (const double factorial : {479001600.0, 39916800.0, 3628800.0, 362880.0, 40320.0, 5040.0,
-                                 720.0, 120.0, 24.0, 6.0, 2.0, 1.0, 1.0})
-    sum = sum * r + 1 / factorial;
+  const double sum =
+      1 +
+      r * (1 +
+           r * (1 / 2.0 +
+                r * (1 / 6.0 +
+                     r * (1 / 24.0 +
+                          r * (1 / 120.0 +
+                               r * (1 / 720.0 +
+                                    r * (1 / 5040.0 +
+                                         r * (1 / 40320.0 +
+                                              r * (1 / 362880.0 +
+                                                   r * (1 / 3628800.0 +
+                                                        r * (1 / 39916800.0 +
+                                                             r * (1 / 479001600.0 +
+                                                                  r * (1 /
+                                                                       6227020800.0)))))))))))));
   const auto exponent = std::bit_cast<std::uint64_t>(shifted) << 52;
   return std::bit_cast<double>(std::bit_cast<std::uint64_t>(sum) + exponent);
 }

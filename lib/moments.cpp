@@ -42,24 +42,30 @@ Corners gather(const Mesh& mesh, std::int64_t begin, std::int64_t end) {
   return corners;
 }
 
-/// What both kernels need of a triangle.
-struct Triangle {
-  std::array<double, 3> square;    ///< of the side across from each vertex
-  std::array<double, 3> cotangent; ///< of the angle at each vertex
-  double height;                   ///< the normal (b - a) x (c - a) times a
+/// What the kernels need of triangles: loops over the lanes of one quantity become vector code.
+struct TriangleRows {
+  Rows3 square;    ///< of the side across from each vertex
+  Rows3 cotangent; ///< of the angle at each vertex
+  Row height;      ///< the normal (b - a) x (c - a) times a
 };
 
-inline Triangle triangle_at(const Corners& corners, std::size_t lane) {
-  const auto at = [&](std::size_t v) {
-    return Vec3{corners.corner[v][0][lane], corners.corner[v][1][lane], corners.corner[v][2][lane]};
-  };
-  const Vec3 a = at(0), b = at(1), c = at(2);
-  const Vec3 ab = b - a, bc = c - b, ca = a - c;
-  const Vec3 normal = cross(ca, ab);
-  const double scale = 1 / std::sqrt(dot(normal, normal));
-  return {{dot(bc, bc), dot(ca, ca), dot(ab, ab)},
-          {-dot(ca, ab) * scale, -dot(ab, bc) * scale, -dot(bc, ca) * scale},
-          dot(normal, a)};
+CALOTTE_VECTOR_WIDTHS
+void triangle_rows(const Corners& corners, TriangleRows& out) {
+  const auto& [p, q, r] = corners.corner;
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    const Vec3 a{p[0][lane], p[1][lane], p[2][lane]}, b{q[0][lane], q[1][lane], q[2][lane]},
+        c{r[0][lane], r[1][lane], r[2][lane]};
+    const Vec3 ab = b - a, bc = c - b, ca = a - c;
+    const Vec3 normal = cross(ca, ab);
+    const double scale = 1 / std::sqrt(dot(normal, normal));
+    out.square[0][lane] = dot(bc, bc);
+    out.square[1][lane] = dot(ca, ca);
+    out.square[2][lane] = dot(ab, ab);
+    out.cotangent[0][lane] = -dot(ca, ab) * scale;
+    out.cotangent[1][lane] = -dot(ab, bc) * scale;
+    out.cotangent[2][lane] = -dot(bc, ca) * scale;
+    out.height[lane] = dot(normal, a);
+  }
 }
 
 /// An edge's half, from its end to its middle, and the signed arc from there to the circumcentre.
@@ -68,27 +74,35 @@ struct HalfEdge {
   double arc, sine_of_arc;
 };
 
-inline HalfEdge half_edge(double square, double cotangent) {
+CALOTTE_INLINE HalfEdge half_edge(double square, double cotangent) {
   const double sine = 0.5 * std::sqrt(square), cosine = std::sqrt(1 - 0.25 * square);
   // Rounding can pass 1 where the circumcap is a hemisphere.
-  const double raw = sine / cosine * cotangent;
-  const double sine_of_arc = raw > 1 ? 1 : raw < -1 ? -1 : raw;
+  const double raw = sine / cosine * cotangent, low = raw < -1 ? -1 : raw;
+  const double sine_of_arc = low > 1 ? 1 : low;
   return {sine, cosine, arc_sine(sine_of_arc), sine_of_arc};
 }
 
 /// atan(sqrt(z))/sqrt(z) - 1 for 0 <= z <= 1/16, by its series.
-inline double arc_tangent_excess(double z) {
-  double sum = 0;
-  for (int k = 12; k >= 1; --k)
-    sum = -z * (1.0 / (2 * k + 1) + sum);
-  return sum;
+CALOTTE_INLINE double arc_tangent_excess(double z) {
+  return -z *
+         (1.0 / 3 -
+          z * (1.0 / 5 -
+               z * (1.0 / 7 -
+                    z * (1.0 / 9 -
+                         z * (1.0 / 11 -
+                              z * (1.0 / 13 -
+                                   z * (1.0 / 15 -
+                                        z * (1.0 / 17 -
+                                             z * (1.0 / 19 -
+                                                  z * (1.0 / 21 -
+                                                       z * (1.0 / 23 - z * (1.0 / 25))))))))))));
 }
 
 /// Energy of half a kite about its site: twice its area less arc/2 times the sine of the edge's
 /// half. With p, q the tangents of half of both arcs these are 2 atan(p q) and 2 p atan(q)/(1 +
 /// p^2), whose first terms cancel: they agree to the square of the spacing. Where the arc is small
 /// the series are subtracted term by term.
-inline double half_energy(const HalfEdge& half) {
+CALOTTE_INLINE double half_energy(const HalfEdge& half) {
   const double p = half.sine / (1 + half.cosine);
   const double q = half.sine_of_arc / (1 + std::sqrt(1 - half.sine_of_arc * half.sine_of_arc));
   const double c = 1 / (1 + p * p);
@@ -101,34 +115,21 @@ inline double half_energy(const HalfEdge& half) {
 }
 
 CALOTTE_VECTOR_WIDTHS
-void edge_terms(const Corners& corners, EdgeTerms& out) {
+void pull_and_energy(const Row& square, const Row& cotangent, Row& pull, Row& energy) {
   for (std::size_t lane = 0; lane < lanes; ++lane) {
-    const Triangle triangle = triangle_at(corners, lane);
-    for (std::size_t e = 0; e < 3; ++e) {
-      const HalfEdge half = half_edge(triangle.square[e], triangle.cotangent[e]);
-      const double tangent_of_half_arc =
-          half.sine_of_arc / (1 + std::sqrt(1 - half.sine_of_arc * half.sine_of_arc));
-      const double area = 2 * arc_tangent(half.sine / (1 + half.cosine) * tangent_of_half_arc);
-      out.pull[e][lane] = 0.25 * half.arc / half.sine;
-      out.area[e][lane] = area;
-      out.energy[e][lane] = half_energy(half);
-    }
+    const HalfEdge half = half_edge(square[lane], cotangent[lane]);
+    pull[lane] = 0.25 * half.arc / half.sine;
+    energy[lane] = half_energy(half);
   }
 }
 
-/// The four rows of Pulls, and each triangle's energy.
 CALOTTE_VECTOR_WIDTHS
-void pull_rows(const Corners& corners, std::array<Row, 5>& out) {
+void half_area(const Row& square, const Row& cotangent, Row& area) {
   for (std::size_t lane = 0; lane < lanes; ++lane) {
-    const Triangle triangle = triangle_at(corners, lane);
-    double energy = 0;
-    for (std::size_t e = 0; e < 3; ++e) {
-      const HalfEdge half = half_edge(triangle.square[e], triangle.cotangent[e]);
-      out[e][lane] = 0.25 * half.arc / half.sine;
-      energy += 2 * half_energy(half); // of both ends
-    }
-    out[3][lane] = triangle.height;
-    out[4][lane] = energy;
+    const HalfEdge half = half_edge(square[lane], cotangent[lane]);
+    const double tangent =
+        half.sine_of_arc / (1 + std::sqrt(1 - half.sine_of_arc * half.sine_of_arc));
+    area[lane] = 2 * arc_tangent(half.sine / (1 + half.cosine) * tangent);
   }
 }
 
@@ -238,15 +239,21 @@ Pulls edge_pulls(const Mesh& mesh) {
   Pulls pulls{Array<double>(4 * m), 0};
   std::vector<double> energy(static_cast<std::size_t>(block_count(m)), 0);
   for_each_block(m, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
-    std::array<Row, 5> rows;
+    TriangleRows rows;
+    EdgeTerms edges;
     for (std::int64_t first = begin; first < end; first += lanes) {
       const Corners corners = gather(mesh, first, std::min<std::int64_t>(first + lanes, end));
-      pull_rows(corners, rows);
+      triangle_rows(corners, rows);
+      for (std::size_t e = 0; e < 3; ++e)
+        pull_and_energy(rows.square[e], rows.cotangent[e], edges.pull[e], edges.energy[e]);
       for (int lane = 0; lane < corners.count; ++lane) {
         const auto l = static_cast<std::size_t>(lane);
-        for (std::size_t e = 0; e < 4; ++e)
-          pulls.values[4 * (first + lane) + static_cast<std::int64_t>(e)] = rows[e][l];
-        energy[static_cast<std::size_t>(block)] += rows[4][l];
+        double* row = pulls.values.begin() + 4 * (first + lane);
+        for (std::size_t e = 0; e < 3; ++e)
+          row[e] = edges.pull[e][l];
+        row[3] = rows.height[l];
+        energy[static_cast<std::size_t>(block)] += // of both ends
+            2 * (edges.energy[0][l] + edges.energy[1][l] + edges.energy[2][l]);
       }
     }
   });
@@ -286,10 +293,15 @@ Moments uniform_moments(const Mesh& mesh, const Stars& stars) {
   const std::int64_t m = mesh.triangles.cols();
   TriangleTerms terms(m);
   for_each_block(m, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    TriangleRows rows;
     EdgeTerms edges;
     for (std::int64_t first = begin; first < end; first += lanes) {
       const Corners corners = gather(mesh, first, std::min<std::int64_t>(first + lanes, end));
-      edge_terms(corners, edges);
+      triangle_rows(corners, rows);
+      for (std::size_t e = 0; e < 3; ++e) {
+        pull_and_energy(rows.square[e], rows.cotangent[e], edges.pull[e], edges.energy[e]);
+        half_area(rows.square[e], rows.cotangent[e], edges.area[e]);
+      }
       for (int lane = 0; lane < corners.count; ++lane) {
         const auto l = static_cast<std::size_t>(lane);
         const auto at = [&](std::size_t v) {
