@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <calotte/cvt.h>
 
+#include "clock.h"
 #include "moments.h"
 #include "parallel.h"
 #include "repair.h"
@@ -9,7 +10,6 @@
 #include <calotte/delaunay.h>
 #include <calotte/error.h>
 
-#include <chrono>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -17,13 +17,6 @@
 namespace calotte {
 namespace detail {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double lap(Clock::time_point& mark) {
-  const Clock::time_point before = std::exchange(mark, Clock::now());
-  return std::chrono::duration<double>(mark - before).count();
-}
 
 void require(const CvtOptions& options) {
   const auto refuse = [](const std::string& what) { throw Error(ErrorCode::bad_option, what); };
@@ -72,10 +65,6 @@ template <class Term> double sum_by_blocks(std::int64_t n, const Term& term) {
   return total;
 }
 
-Vec3 site(const Points3& points, std::int64_t i) {
-  return *reinterpret_cast<const Vec3*>(points.data() + 3 * i);
-}
-
 /// First moments and energy of the tessellation's cells.
 struct Functional {
   Array<Vec3> first;
@@ -102,17 +91,17 @@ void move(Points3& points, const Array<Vec3>& first, CvtIteration& iteration) {
   const std::int64_t n = points.cols();
   std::vector<double> largest(static_cast<std::size_t>(block_count(n)), 0);
   std::vector<double> squares(largest.size(), 0);
-  std::vector<std::int64_t> failed(largest.size(), n);
+  std::vector<std::uint8_t> failed(largest.size(), 0);
   for_each_block(n, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
     const auto b = static_cast<std::size_t>(block);
     for (std::int64_t i = begin; i != end; ++i) {
       const double length = norm(first[i]);
       if (!(length > 0) || !std::isfinite(length)) {
-        failed[b] = std::min(failed[b], i);
+        failed[b] = 1;
         continue;
       }
       const Vec3 centroid = (1 / length) * first[i];
-      const Vec3 step = centroid - site(points, i);
+      const Vec3 step = centroid - column(points, i);
       const double square = dot(step, step);
       squares[b] += square;
       largest[b] = std::max(largest[b], square);
@@ -121,10 +110,9 @@ void move(Points3& points, const Array<Vec3>& first, CvtIteration& iteration) {
   });
   double sum = 0, most = 0;
   for (std::size_t b = 0; b < largest.size(); ++b) {
-    if (failed[b] < n)
-      throw Error(
-          ErrorCode::bad_option,
-          "the density is NaN, infinite or zero over a whole cell: make it positive everywhere");
+    if (failed[b] != 0)
+      throw Error(ErrorCode::bad_option,
+                  "the density is infinite or zero over a whole cell: make it positive everywhere");
     sum += squares[b];
     most = std::max(most, largest[b]);
   }

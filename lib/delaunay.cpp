@@ -1,32 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <calotte/delaunay.h>
 
+#include "clock.h"
 #include "cull.h"
 #include "regions.h"
 #include "unite.h"
 
 #include <calotte/error.h>
 
+#include <algorithm>
 #include <atomic>
-#include <chrono>
-#include <numeric>
 #include <optional>
 
 namespace calotte {
 namespace detail {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-/// Moves a mark forward; the seconds since where it stood.
-double lap(Clock::time_point& mark) {
-  const Clock::time_point before = std::exchange(mark, Clock::now());
-  return std::chrono::duration<double>(mark - before).count();
-}
 
 /// The values that the stages of a triangulation by regions leave for the union.
 struct Reports {
@@ -73,11 +61,13 @@ struct CapResult {
 /// its sites.
 std::optional<CapResult> triangulate_cap(const Sites& sites, const Regions& regions, std::int32_t k,
                                          Array<std::int32_t>& triangles_of) {
-  const Clock::time_point start = Clock::now();
+  Clock::time_point start = Clock::now();
   std::vector<Member> members = gather(sites, regions, k);
+  const auto count_owned = [&] {
+    return std::count_if(members.begin(), members.end(), [](const Member& m) { return m.owned; });
+  };
   CapResult result;
-  result.owned =
-      std::count_if(members.begin(), members.end(), [](const Member& m) { return m.owned; });
+  result.owned = count_owned();
   if (result.owned == 0)
     return result;
   const Vec3& centre = regions.centres[static_cast<std::size_t>(k)];
@@ -88,12 +78,14 @@ std::optional<CapResult> triangulate_cap(const Sites& sites, const Regions& regi
   }
   CapTriangulation triangulation{Sphere(sites, centre, 1.000001 * std::sqrt(reach))};
   std::erase_if(members, [&](const Member& m) { return !triangulation.space().has_place(m.rank); });
+  if (count_owned() != result.owned) // its own focus is a site of its own
+    return std::nullopt;
   if (!triangulation.build(members) || !certify(triangulation, sites, regions, k, result.cull))
     return std::nullopt;
   result.triangles = report_triangles(triangulation, sites, regions.owner, triangles_of);
   result.predicates = triangulation.space().counts();
   result.members = std::ssize(triangulation.members());
-  result.seconds = seconds_since(start);
+  result.seconds = lap(start);
   return result;
 }
 
@@ -182,8 +174,7 @@ std::vector<std::vector<std::int32_t>> adjacent_centres(const std::vector<Vec3>&
 }
 
 Mesh run(const Points3& points, const DelaunayOptions& options, DelaunayReport& report) {
-  const Clock::time_point start = Clock::now();
-  Clock::time_point mark = start;
+  Clock::time_point start = Clock::now(), mark = start;
   Sites sites = make_sites(points, options.duplicates, options.merge_within);
   report.threads = thread_count();
   report.sites = sites.size();
@@ -204,7 +195,7 @@ Mesh run(const Points3& points, const DelaunayOptions& options, DelaunayReport& 
 
   Mesh mesh = make_mesh(std::move(sites), std::move(*reports));
   report.seconds.unite = lap(mark);
-  report.seconds.total = seconds_since(start);
+  report.seconds.total = lap(start);
   return mesh;
 }
 

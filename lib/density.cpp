@@ -85,6 +85,8 @@ Eigen::VectorXd evaluate(const Density& density, const Points3& x) {
       detail::refuse("the density is a callable, but none is given");
     Eigen::VectorXd rho(x.cols());
     density.callable(x, rho);
+    if (!(rho.array() >= 0).all()) // NaN included
+      detail::refuse("the density is negative or NaN somewhere: make it positive everywhere");
     return rho;
   }
   default:

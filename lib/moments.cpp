@@ -3,6 +3,7 @@
 
 #include "elementary.h"
 #include "parallel.h"
+#include "points.h"
 
 #include <algorithm>
 #include <array>
@@ -166,8 +167,7 @@ Moments sum_over_stars(const Mesh& mesh, const Stars& stars, const TriangleTerms
 }
 
 Vec3 point(const Mesh& mesh, Eigen::Index vertex, Eigen::Index triangle) {
-  const auto column = mesh.points.col(mesh.triangles(vertex, triangle));
-  return {column[0], column[1], column[2]};
+  return column(mesh.points, mesh.triangles(vertex, triangle));
 }
 
 // ---- General densities
@@ -265,12 +265,9 @@ Pulls edge_pulls(const Mesh& mesh) {
 Array<Vec3> uniform_first_moments(const Mesh& mesh, const Stars& stars, const Pulls& pulls) {
   const std::int64_t n = mesh.points.cols();
   Array<Vec3> moments(n);
-  const auto site = [&](std::int64_t i) {
-    return Vec3{mesh.points(0, i), mesh.points(1, i), mesh.points(2, i)};
-  };
   for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i) {
-      const Vec3 x = site(i);
+      const Vec3 x = column(mesh.points, i);
       Vec3 sum{0, 0, 0};
       Corner before = stars.corners[stars.begin[i + 1] - 1];
       for (std::int64_t s = stars.begin[i]; s != stars.begin[i + 1]; ++s) {
@@ -280,7 +277,7 @@ Array<Vec3> uniform_first_moments(const Mesh& mesh, const Stars& stars, const Pu
         const double pull =
             pulls[4 * std::int64_t{t} + previous_vertex(v)] +
             pulls[4 * std::int64_t{triangle_of(before)} + next_vertex(vertex_of(before))];
-        sum = sum + pull * (x - site(mesh.triangles(next_vertex(v), t)));
+        sum = sum + pull * (x - column(mesh.points, mesh.triangles(next_vertex(v), t)));
         before = corner;
       }
       moments[i] = sum;

@@ -2,6 +2,7 @@
 #include "repair.h"
 
 #include "parallel.h"
+#include "points.h"
 #include "predicates.h"
 
 #include <calotte/delaunay.h>
@@ -19,9 +20,7 @@ struct TriangleEdge {
   int across;
 };
 
-const Vec3& site(const Mesh& mesh, std::int32_t i) {
-  return *reinterpret_cast<const Vec3*>(mesh.points.data() + 3 * std::int64_t{i});
-}
+const Vec3& site(const Mesh& mesh, std::int32_t i) { return column(mesh.points, i); }
 
 /// Index in a triangle of the vertex across from its neighbour.
 int index_of(const Mesh& mesh, std::int32_t triangle, std::int32_t neighbour) {

@@ -18,10 +18,6 @@ namespace {
 
 constexpr std::int64_t none = std::numeric_limits<std::int64_t>::max();
 
-const Vec3& column(const Points3& points, std::int64_t i) {
-  return *reinterpret_cast<const Vec3*>(points.data() + 3 * i);
-}
-
 bool is_finite(const Vec3& p) {
   return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }

@@ -3,6 +3,7 @@
 
 #include "cells.h"
 #include "parallel.h"
+#include "points.h"
 #include "vec3.h"
 
 #include <calotte/delaunay.h>
@@ -23,9 +24,7 @@ struct Sites {
   CellTree cells;                          ///< over the ranks: what stands where on the sphere
 
   std::int64_t size() const { return id.size(); }
-  const Vec3& given(std::int32_t site) const {
-    return *reinterpret_cast<const Vec3*>(points.data() + 3 * static_cast<std::int64_t>(site));
-  }
+  const Vec3& given(std::int32_t site) const { return column(points, site); }
 };
 
 /// \throws Error not_finite, zero_vector, duplicate, too_few_sites (for more than 2^30 points too),

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "memory.h"
+#include "triangle.h"
 
 #include <calotte/types.h>
 
@@ -13,10 +14,6 @@ namespace calotte::detail {
 using Corner = std::int32_t;
 inline std::int32_t triangle_of(Corner corner) { return corner >> 2; }
 inline int vertex_of(Corner corner) { return corner & 3; }
-
-/// The index after v, and the one before it, in a triangle.
-inline int next_vertex(int v) { return v == 2 ? 0 : v + 1; }
-inline int previous_vertex(int v) { return v == 0 ? 2 : v - 1; }
 
 /// The corners at each site of a closed mesh, counter-clockwise, from the one whose next vertex is
 /// the lowest neighbour on: an order that the triangulation alone determines, whatever its history.

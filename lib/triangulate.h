@@ -2,6 +2,7 @@
 #pragma once
 
 #include "memory.h"
+#include "triangle.h"
 
 // CGAL's containers take their memory through this macro: for the same reason as Array, from
 // oneTBB.
@@ -99,8 +100,6 @@ private:
     Face face;
     int index; ///< of the vertex across from the edge
   };
-  static int next(int i) { return i == 2 ? 0 : i + 1; }
-  static int previous(int i) { return i == 0 ? 2 : i - 1; }
   /// Index in a face of its neighbour; without branches, which would be mispredicted.
   static int index_of(Face face, Face neighbour) {
     return (face->neighbor(1) == neighbour) + 2 * (face->neighbor(2) == neighbour);
@@ -208,7 +207,8 @@ template <class Space> auto Triangulation<Space>::locate(const Place& p) -> Face
   Face face = is_infinite(hint_) ? hint_->neighbor(hint_->infinite) : hint_;
   int back = 0; // index of the vertex across from the edge behind
   for (int i = 0; i < 3; ++i)
-    if (space_.orientation(face->vertex(next(i))->place, face->vertex(previous(i))->place, p) < 0) {
+    if (space_.orientation(face->vertex(next_vertex(i))->place,
+                           face->vertex(previous_vertex(i))->place, p) < 0) {
       const Face beyond = face->neighbor(i);
       back = index_of(beyond, std::exchange(face, beyond));
       break;
@@ -216,7 +216,7 @@ template <class Space> auto Triangulation<Space>::locate(const Place& p) -> Face
       return face;
     }
   while (!is_infinite(face)) {
-    const int left = next(back), right = previous(back);
+    const int left = next_vertex(back), right = previous_vertex(back);
     const Place& apex = face->vertex(back)->place;
     const bool beyond_left = space_.orientation(face->vertex(right)->place, apex, p) < 0;
     const bool beyond_right = space_.orientation(apex, face->vertex(left)->place, p) < 0;
@@ -236,15 +236,14 @@ template <class Space> inline bool Triangulation<Space>::conflicts(Face face, co
 }
 
 template <class Space> bool Triangulation<Space>::is_beyond(Face face, const Place& p) {
-  const Place& a = face->vertex(next(face->infinite))->place;
-  const Place& b = face->vertex(previous(face->infinite))->place;
+  const Place& a = face->vertex(next_vertex(face->infinite))->place;
+  const Place& b = face->vertex(previous_vertex(face->infinite))->place;
   const int way = space_.orientation(a, b, p);
   return way != 0 ? way > 0 : space_.between(a, p, b);
 }
 
-/// The conflicting faces, which hang together, and their rim. Whether a face conflicts is as good
-/// as random, so no branch depends on it: every edge is written to all lists, and their lengths
-/// decide.
+/// The conflicting faces, which hang together, and their rim, breadth first: the next edges are
+/// known before the last answer is, and the processor overlaps their tests.
 template <class Space> void Triangulation<Space>::find_conflicts(Face start, const Place& p) {
   start->in_conflict = true;
   conflicting_[0] = start;
@@ -267,8 +266,8 @@ template <class Space> void Triangulation<Space>::find_conflicts(Face start, con
     }
     face->in_conflict = true;
     conflicting_[conflicts_++] = face;
-    inner_edges_[edges++] = {face, next(back)};
-    inner_edges_[edges++] = {face, previous(back)};
+    inner_edges_[edges++] = {face, next_vertex(back)};
+    inner_edges_[edges++] = {face, previous_vertex(back)};
   }
 }
 
@@ -287,7 +286,7 @@ template <class Space> void Triangulation<Space>::make_star(Vertex centre) {
   for (std::size_t e = 0; e < rim_size_; ++e) {
     const auto [outer, index] = rim_[e];
     const Face face = conflicting_[e];
-    const Vertex a = outer->vertex(previous(index)), b = outer->vertex(next(index));
+    const Vertex a = outer->vertex(previous_vertex(index)), b = outer->vertex(next_vertex(index));
     face->set_vertices(centre, a, b);
     face->set_neighbor(0, outer);
     outer->set_neighbor(index, face);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "unite.h"
 
+#include "triangle.h"
+
 #include <calotte/error.h>
 
 #include <algorithm>
@@ -13,8 +15,6 @@ namespace {
 
 using Face = Triangulation<Sphere>::Face;
 using Vertex = Triangulation<Sphere>::Vertex;
-
-constexpr std::array<int, 3> next{1, 2, 0}, previous{2, 0, 1};
 
 /// A face's vertices and neighbours from its lowest site on.
 struct Turned {
@@ -30,16 +30,16 @@ Turned turned(Face face) {
     i = site < lowest ? j : i;
     lowest = std::min(lowest, site);
   }
-  const int j = next[static_cast<std::size_t>(i)], k = previous[static_cast<std::size_t>(i)];
+  const int j = next_vertex(i), k = previous_vertex(i);
   return {{face->vertex(i), face->vertex(j), face->vertex(k)},
           {face->neighbor(i)->number, face->neighbor(j)->number, face->neighbor(k)->number}};
 }
 
 std::int8_t own_edges(const std::array<Vertex, 3>& v) {
   int bits = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Vertex a = v[static_cast<std::size_t>(next[i])],
-                 b = v[static_cast<std::size_t>(previous[i])];
+  for (int i = 0; i < 3; ++i) {
+    const Vertex a = v[static_cast<std::size_t>(next_vertex(i))],
+                 b = v[static_cast<std::size_t>(previous_vertex(i))];
     const Vertex lower = a->place.site < b->place.site ? a : b;
     bits |= static_cast<int>(lower->owned) << i;
   }

@@ -161,6 +161,10 @@ TEST_CASE("bad input is refused in one line") {
   };
   CHECK(code(start, options) == ErrorCode::bad_option);
   options.density.callable = [](const Eigen::Ref<const Points3>&, Eigen::Ref<Eigen::VectorXd> rho) {
+    rho.setConstant(-1);
+  };
+  CHECK(code(start, options) == ErrorCode::bad_option);
+  options.density.callable = [](const Eigen::Ref<const Points3>&, Eigen::Ref<Eigen::VectorXd> rho) {
     rho.setConstant(std::nan(""));
   };
   CHECK(code(start, options) == ErrorCode::bad_option);

@@ -59,11 +59,13 @@ struct Cvt {
 /// The same start gives the same bits for any number of threads. Not converging within
 /// max_iterations is reported, not an error.
 ///
-/// \param start 3 x n directions, at least 12 distinct, not within a hemisphere; equal ones are
-/// merged. \param stop asked after each iteration with its report so far; true ends the run there.
-/// \throws Error as delaunay(), and bad_option: an ill-formed density or one that is NaN, negative
-/// or zero over a whole
-///         cell; tolerance <= 0; fewer than 12 generators; no such rule.
+/// \param start 3 x n directions, 12 distinct at least, not within a hemisphere; equal ones merge.
+///
+/// \param stop asked after each iteration with its report so far; true ends the run there.
+///
+/// \throws Error as delaunay(); too_few_sites for fewer than 12 generators, or when generators
+/// meet; bad_option for a tolerance <= 0, an unknown rule, or a density that is ill-formed,
+/// negative or NaN somewhere, or zero over a whole cell.
 Cvt cvt(const Points3& start, const CvtOptions& options = {},
         const std::function<bool(const CvtReport&)>& stop = {});
 

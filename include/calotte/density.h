@@ -17,11 +17,11 @@ struct Bump {
   double beta = 0.5235987755982988; ///< > 0
   double alpha = 0.2;               ///< > 0
   double gamma = 1.0 / 4096;        ///< 0 < gamma < 1
-  /// Stretch of an ellipse: distances along `major` count this much less than across. 1 for a
-  /// circle.
+  /// Of an ellipse: distances along the long axis count this much less than across. 1 for a circle.
   double stretch = 1;
-  Eigen::Vector3d major{1, 0,
-                        0}; ///< the direction of the long axis at the centre, where stretch > 1
+  /// Direction of the long axis at the centre, projected to the tangent plane there. Used where
+  /// stretch > 1.
+  Eigen::Vector3d major{1, 0, 0};
 };
 
 /// A density on the unit sphere: uniform, bumps, or a callable.
@@ -39,9 +39,13 @@ struct Density {
   bool uniform() const { return kind == Kind::uniform; }
 };
 
+/// One round bump about a direction of any norm; angles in radians. What is out of range is refused
+/// where the density is used.
 Density tanh_bump(const Eigen::Vector3d& centre, double beta, double alpha, double gamma);
 
-/// The density at each unit column. \throws Error bad_option, when the density is ill-formed.
+/// The density at each of n unit columns.
+/// \param x 3 x n.
+/// \throws Error bad_option, when the density is ill-formed, or a callable's value negative or NaN.
 Eigen::VectorXd evaluate(const Density& density, const Points3& x);
 
 } // namespace calotte
