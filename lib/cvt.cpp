@@ -4,12 +4,15 @@
 #include "clock.h"
 #include "moments.h"
 #include "parallel.h"
-#include "repair.h"
 #include "sites.h"
+#include "tessellation.h"
 
 #include <calotte/delaunay.h>
 #include <calotte/error.h>
+#include <calotte/generators.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -24,6 +27,8 @@ void require(const CvtOptions& options) {
     refuse("the tolerance must be positive");
   if (options.max_iterations < 0)
     refuse("the number of iterations must not be negative");
+  if (options.bisections < 0)
+    refuse("the number of bisections must not be negative");
   if (options.triangle_divisions < 1)
     refuse("triangle_divisions must be at least 1");
   quadrature_rule(options.rule);
@@ -31,93 +36,80 @@ void require(const CvtOptions& options) {
   evaluate(options.density, Points3(Eigen::Vector3d::UnitZ())); // says what is wrong with it
 }
 
-/// A tessellation in the making: a mesh whose sites are numbered along the curve, which keeps what
-/// an iteration reads together.
-struct Tessellation {
-  Mesh mesh;
-  Stars stars;
-  Pulls pulls;
+/// What the step of one generator adds to an iteration's sums.
+struct SiteStep {
+  double energy;
+  double square; ///< of the distance moved
+  double slope;  ///< square of the gradient
 };
-
-Tessellation tessellate(const Points3& points) {
-  Tessellation result;
-  result.mesh = delaunay(points);
-  if (result.mesh.points.cols() != points.cols() || !result.mesh.closed())
-    throw Error(ErrorCode::bad_option, "the start lies within a hemisphere, or two of its points "
-                                       "are nearer than rounding: spread it over the sphere");
-  result.stars = make_stars(result.mesh);
-  result.pulls = edge_pulls(result.mesh);
-  return result;
-}
 
 /// Sums of blocks of sites, added in the order of the blocks: the same for any number of threads.
-template <class Term> double sum_by_blocks(std::int64_t n, const Term& term) {
-  std::vector<double> sums(static_cast<std::size_t>(block_count(n)), 0);
+void add_sums(const Array<SiteStep>& steps, CvtIteration& iteration) {
+  const std::int64_t n = steps.size();
+  std::vector<SiteStep> sums(static_cast<std::size_t>(block_count(n)));
+  std::vector<double> largest(sums.size(), 0);
   for_each_block(n, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
-    double sum = 0;
-    for (std::int64_t i = begin; i != end; ++i)
-      sum += term(i);
-    sums[static_cast<std::size_t>(block)] = sum;
-  });
-  double total = 0;
-  for (const double sum : sums)
-    total += sum;
-  return total;
-}
-
-/// First moments and energy of the tessellation's cells.
-struct Functional {
-  Array<Vec3> first;
-  double energy = 0;
-};
-
-Functional evaluate_functional(const Tessellation& t, const CvtOptions& options, int rule) {
-  const std::int64_t n = t.mesh.points.cols();
-  Functional result;
-  if (options.density.uniform()) {
-    result.first = uniform_first_moments(t.mesh, t.stars, t.pulls);
-    result.energy = t.pulls.energy;
-  } else {
-    Moments moments = quadrature_moments(t.mesh, t.stars, options.density, quadrature_rule(rule),
-                                         options.triangle_divisions);
-    result.energy = sum_by_blocks(n, [&](std::int64_t i) { return moments.energy[i]; });
-    result.first = std::move(moments.first);
-  }
-  return result;
-}
-
-/// Moves every generator to its constrained centroid; the norms of the move.
-void move(Points3& points, const Array<Vec3>& first, CvtIteration& iteration) {
-  const std::int64_t n = points.cols();
-  std::vector<double> largest(static_cast<std::size_t>(block_count(n)), 0);
-  std::vector<double> squares(largest.size(), 0);
-  std::vector<std::uint8_t> failed(largest.size(), 0);
-  for_each_block(n, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
-    const auto b = static_cast<std::size_t>(block);
+    SiteStep sum{0, 0, 0};
+    double most = 0;
     for (std::int64_t i = begin; i != end; ++i) {
-      const double length = norm(first[i]);
-      if (!(length > 0) || !std::isfinite(length)) {
-        failed[b] = 1;
-        continue;
-      }
-      const Vec3 centroid = (1 / length) * first[i];
-      const Vec3 step = centroid - column(points, i);
-      const double square = dot(step, step);
-      squares[b] += square;
-      largest[b] = std::max(largest[b], square);
-      points.col(i) << centroid.x, centroid.y, centroid.z;
+      sum.energy += steps[i].energy;
+      sum.square += steps[i].square;
+      sum.slope += steps[i].slope;
+      most = std::max(most, steps[i].square);
     }
+    sums[static_cast<std::size_t>(block)] = sum;
+    largest[static_cast<std::size_t>(block)] = most;
   });
-  double sum = 0, most = 0;
-  for (std::size_t b = 0; b < largest.size(); ++b) {
-    if (failed[b] != 0)
-      throw Error(ErrorCode::bad_option,
-                  "the density is infinite or zero over a whole cell: make it positive everywhere");
-    sum += squares[b];
-    most = std::max(most, largest[b]);
-  }
-  iteration.l2 = std::sqrt(sum / static_cast<double>(n));
-  iteration.linf = std::sqrt(most);
+  SiteStep total{0, 0, 0};
+  for (const SiteStep& sum : sums)
+    total = {total.energy + sum.energy, total.square + sum.square, total.slope + sum.slope};
+  iteration.energy = total.energy;
+  iteration.l2 = std::sqrt(total.square / static_cast<double>(n));
+  iteration.linf = std::sqrt(*std::max_element(largest.begin(), largest.end()));
+  iteration.gradient = std::sqrt(total.slope);
+}
+
+/// Lloyd's step of a generator x: to the constrained centroid M/|M|. False where that is none.
+bool lloyd_step(const Vec3& x, const CellMoments& cell, Vec3& centroid, SiteStep& step) {
+  const double length = norm(cell.first);
+  if (!(length > 0) || !std::isfinite(length))
+    return false;
+  centroid = (1 / length) * cell.first;
+  const Vec3 apart = centroid - x, tangent = cell.first - dot(cell.first, x) * x;
+  step = {cell.energy, dot(apart, apart), 4 * dot(tangent, tangent)};
+  return true;
+}
+
+/// One Lloyd step of all generators, from points to next.
+CvtIteration lloyd_iteration(Tessellation& tessellation, const Points3& points,
+                             const Integrand& integrand, Points3& next, Array<SiteStep>& steps) {
+  Clock::time_point mark = Clock::now();
+  std::atomic<bool> failed = false;
+  const Tessellation::Effort effort = tessellation.evaluate(
+      points, integrand,
+      [&](const Patch& patch, const Array<Vec3>& x, const Array<CellMoments>& moments) {
+        for (std::int32_t i = 0; i < patch.owned; ++i) {
+          const std::int32_t site = patch.sites[static_cast<std::size_t>(i)];
+          Vec3 centroid{0, 0, 0};
+          if (!lloyd_step(x[i], moments[i], centroid, steps[site]))
+            failed.store(true, std::memory_order_relaxed);
+          next.col(site) << centroid.x, centroid.y, centroid.z;
+        }
+      });
+  if (failed)
+    throw Error(ErrorCode::bad_option,
+                "the density is infinite or zero over a whole cell: make it positive everywhere");
+  CvtIteration iteration;
+  iteration.cells = points.cols();
+  iteration.flips = effort.flips;
+  iteration.rebuilt = effort.rebuilt;
+  iteration.seconds_exchange = effort.seconds_exchange;
+  iteration.seconds_repair = effort.seconds_repair;
+  iteration.seconds_moments = effort.seconds_moments;
+  add_sums(steps, iteration);
+  tessellation.moved(iteration.linf);
+  iteration.seconds = lap(mark);
+  return iteration;
 }
 
 double residual(const CvtIteration& iteration, Norm norm, std::int64_t n) {
@@ -129,64 +121,119 @@ double residual(const CvtIteration& iteration, Norm norm, std::int64_t n) {
     return iteration.linf;
   case Norm::l2_scaled:
     return iteration.l2 / h;
-  default:
+  case Norm::linf_scaled:
     return iteration.linf / h;
+  case Norm::gradient:
+    return iteration.gradient;
+  default:
+    return 0;
   }
 }
 
-void iterate(Tessellation& t, const CvtOptions& options, CvtReport& report,
-             const std::function<bool(const CvtReport&)>& stop) {
-  const std::int64_t n = t.mesh.points.cols();
-  int rule = options.rule;
-  for (int k = 0; k < options.max_iterations && !report.converged; ++k) {
-    CvtIteration iteration;
+/// Takes an iteration into the state: its norm, and what follows from it.
+void conclude(CvtState& state, const CvtOptions& options, const CvtIteration& iteration) {
+  CvtReport& report = state.report;
+  const bool final_rule = state.final_rule || options.density.uniform();
+  report.iterations.push_back(iteration);
+  report.residual = residual(iteration, options.norm, iteration.cells);
+  ++state.iterations_of_level;
+  // Near the end the finer rule takes over; only with it a run can converge.
+  if (options.norm == Norm::none)
+    report.converged = state.iterations_of_level == options.max_iterations;
+  else
+    report.converged = final_rule && report.residual <= options.tolerance;
+  state.final_rule = state.final_rule || report.residual <= 10 * options.tolerance;
+}
+
+/// Lloyd's steps of one level; true when `stop` ended them.
+bool iterate(CvtState& state, const CvtOptions& options, const CvtStop& stop) {
+  CvtReport& report = state.report;
+  const std::int64_t n = state.points.cols();
+  Tessellation tessellation(state.points, options.partition);
+  const Integrand coarse =
+                      make_integrand(options.density, options.rule, options.triangle_divisions),
+                  fine = make_integrand(options.density, options.final_rule,
+                                        options.triangle_divisions);
+  Points3 next(3, n);
+  Array<SiteStep> steps(n);
+  bool stopped = false;
+  while (!stopped && !report.converged && state.iterations_of_level < options.max_iterations) {
+    const double before = report.seconds;
     Clock::time_point mark = Clock::now();
-    const Functional functional = evaluate_functional(t, options, rule);
-    iteration.energy = functional.energy;
-    move(t.mesh.points, functional.first, iteration);
-    t.pulls = edge_pulls(t.mesh);
-    iteration.seconds_moments = lap(mark);
-    const Repair repaired = repair(t.mesh, t.stars, t.pulls);
-    iteration.flips = repaired.flips;
-    iteration.rebuilt = repaired.rebuilt;
-    iteration.seconds_repair = lap(mark);
-    report.iterations.push_back(iteration);
-    report.residual = residual(iteration, options.norm, n);
-    // Near the end the finer rule takes over; only with it a run can converge.
-    report.converged = rule == options.final_rule || options.density.uniform()
-                           ? report.residual <= options.tolerance
-                           : false;
-    if (report.residual <= 10 * options.tolerance)
-      rule = options.final_rule;
-    if (stop && stop(report))
-      return;
+    CvtIteration iteration =
+        lloyd_iteration(tessellation, state.points, state.final_rule ? fine : coarse, next, steps);
+    if (!options.density.uniform())
+      iteration.rule = state.final_rule ? options.final_rule : options.rule;
+    state.points.swap(next);
+    conclude(state, options, iteration);
+    report.seconds = before + lap(mark);
+    stopped = stop && stop(state);
   }
+  report.regions = tessellation.regions();
+  return stopped;
+}
+
+/// The order of the start.
+Points3 in_order(const CvtState& state) {
+  Points3 points(3, state.points.cols());
+  for (Eigen::Index r = 0; r < points.cols(); ++r)
+    points.col(state.id[static_cast<std::size_t>(r)]) = state.points.col(r);
+  return points;
+}
+
+void set_points(CvtState& state, const Sites& sites) {
+  const std::int64_t n = sites.size();
+  state.points.resize(3, n);
+  state.id.resize(static_cast<std::size_t>(n));
+  for (std::int64_t r = 0; r < n; ++r) {
+    state.points.col(r) << sites.unit[r].x, sites.unit[r].y, sites.unit[r].z;
+    state.id[static_cast<std::size_t>(r)] = sites.id[r];
+  }
+}
+
+CvtState begin(const Points3& start, const CvtOptions& options) {
+  Sites sites = make_sites(start, options.partition.duplicates, options.partition.merge_within);
+  if (sites.size() < 12)
+    throw Error(ErrorCode::too_few_sites, "there are " + std::to_string(sites.size()) +
+                                              " distinct generators: give at least 12");
+  CvtState state;
+  set_points(state, sites);
+  state.site_of_input = std::move(sites.site_of_input);
+  state.bisections_left = options.bisections;
+  return state;
+}
+
+/// The next level's start.
+void refine(CvtState& state) {
+  set_points(state, make_sites(bisect(delaunay(in_order(state))), Duplicates::refuse, 0));
+  state.site_of_input.clear();
+  --state.bisections_left;
+  state.iterations_of_level = 0;
+  state.final_rule = false;
+  state.report.converged = false;
 }
 
 } // namespace
 } // namespace detail
 
-Cvt cvt(const Points3& start, const CvtOptions& options,
-        const std::function<bool(const CvtReport&)>& stop) {
-  detail::Clock::time_point mark = detail::Clock::now();
+Cvt cvt(CvtState state, const CvtOptions& options, const CvtStop& stop) {
   detail::require(options);
-  const detail::Sites sites = detail::make_sites(start, Duplicates::merge, 0);
-  const std::int64_t n = sites.size();
-  if (n < 12)
-    throw Error(ErrorCode::too_few_sites,
-                "there are " + std::to_string(n) + " distinct generators: give at least 12");
-  Points3 points(3, n);
-  for (std::int64_t r = 0; r < n; ++r)
-    points.col(r) << sites.unit[r].x, sites.unit[r].y, sites.unit[r].z;
-  detail::Tessellation tessellation = detail::tessellate(points);
+  detail::Clock::time_point mark = detail::Clock::now();
+  const double before = state.report.seconds;
+  while (!detail::iterate(state, options, stop) && state.bisections_left > 0)
+    detail::refine(state);
   Cvt result;
-  detail::iterate(tessellation, options, result.report, stop);
-  for (std::int64_t r = 0; r < n; ++r)
-    points.col(sites.id[r]) = tessellation.mesh.points.col(r);
-  result.mesh = delaunay(points);
-  result.mesh.site_of_input = sites.site_of_input;
-  result.report.seconds = detail::lap(mark);
+  result.mesh = delaunay(detail::in_order(state));
+  if (!state.site_of_input.empty())
+    result.mesh.site_of_input = state.site_of_input;
+  result.report = std::move(state.report);
+  result.report.seconds = before + detail::lap(mark);
   return result;
+}
+
+Cvt cvt(const Points3& start, const CvtOptions& options, const CvtStop& stop) {
+  detail::require(options);
+  return cvt(detail::begin(start, options), options, stop);
 }
 
 } // namespace calotte

@@ -3,6 +3,7 @@
 
 #include "clock.h"
 #include "cull.h"
+#include "divide.h"
 #include "regions.h"
 #include "unite.h"
 
@@ -173,6 +174,18 @@ std::vector<std::vector<std::int32_t>> adjacent_centres(const std::vector<Vec3>&
   return adjacent;
 }
 
+} // namespace
+
+Regions divide(const Sites& sites, const DelaunayOptions& options) {
+  std::vector<Vec3> centres = make_centres(sites, options);
+  if (centres.size() == 1)
+    return {std::move(centres), {}, {}, {}};
+  const std::vector<std::vector<std::int32_t>> adjacent = adjacent_centres(centres);
+  return make_regions(sites, std::move(centres), adjacent, options.sort);
+}
+
+namespace {
+
 Mesh run(const Points3& points, const DelaunayOptions& options, DelaunayReport& report) {
   Clock::time_point start = Clock::now(), mark = start;
   Sites sites = make_sites(points, options.duplicates, options.merge_within);
@@ -181,14 +194,11 @@ Mesh run(const Points3& points, const DelaunayOptions& options, DelaunayReport& 
   report.duplicates = points.cols() - sites.size();
   report.seconds.sites = lap(mark);
 
-  std::vector<Vec3> centres = make_centres(sites, options);
+  const Regions regions = divide(sites, options);
+  report.seconds.regions = lap(mark);
   std::optional<Reports> reports;
-  if (centres.size() > 1) {
-    const std::vector<std::vector<std::int32_t>> adjacent = adjacent_centres(centres);
-    const Regions regions = make_regions(sites, std::move(centres), adjacent, options.sort);
-    report.seconds.regions = lap(mark);
+  if (regions.centres.size() > 1)
     reports = triangulate_caps(sites, regions, report);
-  }
   if (!reports)
     reports = triangulate_whole(sites, report);
   report.seconds.triangulate = lap(mark);

@@ -3,10 +3,14 @@
 
 #include "elementary.h"
 #include "predicates.h"
+#include "profile.h"
 
 #include <calotte/error.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 #include <string>
 
 namespace calotte {
@@ -29,13 +33,6 @@ void require(const Bump& bump, std::size_t b) {
     refuse(name + "stretch must be at least 1");
 }
 
-/// A bump as its inner loop needs it.
-struct Profile {
-  Vec3 centre, major; ///< unit vectors; major tangential
-  double shrink;      ///< 1 - 1/stretch, by which offsets along major are reduced
-  double beta, minus_two_over_alpha, height, gamma;
-};
-
 Profile profile_of(const Bump& bump) {
   const Vec3 centre = normalised({bump.centre[0], bump.centre[1], bump.centre[2]});
   Vec3 major{0, 0, 0};
@@ -50,23 +47,102 @@ Profile profile_of(const Bump& bump) {
           bump.gamma};
 }
 
-/// rho = gamma + 1 / ((1 - gamma) (1 + exp(-2 (beta - d)/alpha))), which is the tanh of the header,
-/// with the angle d = 2 asin(|x - c|/2): acos(x.c) would lose half of the digits near the centre.
+/// The angle between a unit vector and the centre: 2 asin(|x - c|/2) in the near hemisphere and
+/// pi - 2 asin(|x + c|/2) in the far one. acos(x.c) would lose half of the digits near the centre,
+/// and the first form in the far hemisphere. Of a stretched bump, |x - c| is the reduced length.
+CALOTTE_INLINE double angle_from(const Profile& bump, const Vec3& x) {
+  const double along = dot(x, bump.major), squeeze = bump.shrink * along;
+  const Vec3 apart = x - bump.centre - squeeze * bump.major, sum = x + bump.centre;
+  const double near = 0.25 * dot(apart, apart),
+               far = 0.25 * (dot(sum, sum) + (2 - bump.shrink) * squeeze * along);
+  const bool beyond = far < near;
+  const double arc = 2 * arc_sine_of_root(beyond ? far : near);
+  return beyond ? std::numbers::pi - arc : arc;
+}
+
+/// rho = gamma + 1 / ((1 - gamma) (1 + exp(-2 (beta - d)/alpha))), which is the tanh of the header.
+CALOTTE_INLINE double value_at(const Profile& bump, double angle) {
+  return bump.gamma +
+         bump.height / (1 + exponential((bump.beta - angle) * bump.minus_two_over_alpha));
+}
+
 CALOTTE_VECTOR_WIDTHS
-void add_bump(const Profile& bump, const double* x, std::int64_t count, bool maximum, double* rho) {
-  for (std::int64_t j = 0; j < count; ++j) {
-    Vec3 apart = Vec3{x[3 * j], x[3 * j + 1], x[3 * j + 2]} - bump.centre;
-    apart = apart - (bump.shrink * dot(apart, bump.major)) * bump.major;
-    const double half_chord = 0.5 * std::sqrt(dot(apart, apart));
-    const double angle = 2 * arc_sine(half_chord < 1 ? half_chord : 1);
-    const double value =
-        bump.gamma +
-        bump.height / (1 + exponential((bump.beta - angle) * bump.minus_two_over_alpha));
-    rho[j] = maximum ? (value > rho[j] ? value : rho[j]) : rho[j] + value;
+void add_bump(const Profile& profile, const double* x, const double* y, const double* z,
+              std::size_t count, bool maximum, double* rho) {
+  const Profile bump = profile; // writing to rho cannot change it
+  if (maximum) {                // two loops: a choice inside would keep them from being vectorised
+#pragma GCC ivdep
+    for (std::size_t j = 0; j < count; ++j) {
+      const double value = value_at(bump, angle_from(bump, {x[j], y[j], z[j]}));
+      rho[j] = value > rho[j] ? value : rho[j];
+    }
+  } else {
+#pragma GCC ivdep
+    for (std::size_t j = 0; j < count; ++j)
+      rho[j] += value_at(bump, angle_from(bump, {x[j], y[j], z[j]}));
   }
 }
 
+std::vector<Profile> profiles_of(const Density& density) {
+  const bool has_bumps =
+      density.kind == Density::Kind::maximum || density.kind == Density::Kind::sum;
+  if (has_bumps && density.bumps.empty())
+    refuse("the density has no bump: give one, or make it uniform");
+  if (density.kind == Density::Kind::callable && !density.callable)
+    refuse("the density is a callable, but none is given");
+  std::vector<Profile> profiles;
+  for (std::size_t b = 0; has_bumps && b < density.bumps.size(); ++b) {
+    require(density.bumps[b], b);
+    profiles.push_back(profile_of(density.bumps[b]));
+  }
+  return profiles;
+}
+
 } // namespace
+
+DensityEvaluator::DensityEvaluator(const Density& density)
+    : density_(density), profiles_(profiles_of(density)) {}
+
+void DensityEvaluator::operator()(std::span<const double> x, std::span<const double> y,
+                                  std::span<const double> z, std::span<double> rho) const {
+  if (density_.kind == Density::Kind::callable) {
+    call(x, y, z, rho);
+    return;
+  }
+  std::fill(rho.begin(), rho.end(), density_.uniform() ? 1.0 : 0.0);
+  for (const Profile& profile : profiles_)
+    add_bump(profile, x.data(), y.data(), z.data(), x.size(),
+             density_.kind == Density::Kind::maximum, rho.data());
+}
+
+DensityEvaluator::Bounds DensityEvaluator::bounds(const Vec3& middle, double reach) const {
+  constexpr double slack = 1e-14; // of an angle, and of a value: more than rounding takes
+  Bounds bounds;
+  for (const Profile& profile : profiles_) {
+    const double change = reach * (profile.shrink > 0 ? std::numbers::sqrt2 : 1) + slack;
+    const double angle = angle_from(profile, middle);
+    const double least = value_at(profile, std::min(std::numbers::pi, angle + change)),
+                 greatest = value_at(profile, std::max(0.0, angle - change)) * (1 + slack);
+    const bool sum = density_.kind == Density::Kind::sum;
+    bounds.least = sum ? bounds.least + least : std::max(bounds.least, least);
+    bounds.greatest = sum ? bounds.greatest + greatest : std::max(bounds.greatest, greatest);
+  }
+  return bounds;
+}
+
+void DensityEvaluator::call(std::span<const double> x, std::span<const double> y,
+                            std::span<const double> z, std::span<double> rho) const {
+  Points3 columns(3, static_cast<Eigen::Index>(x.size()));
+  for (std::size_t j = 0; j < x.size(); ++j)
+    columns.col(static_cast<Eigen::Index>(j)) << x[j], y[j], z[j];
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(columns.cols());
+  density_.callable(columns, values);
+  if (values.size() != columns.cols() || !(values.array() >= 0).all() || // NaN included
+      !values.allFinite())
+    refuse("the density is negative, infinite or NaN somewhere: make it positive everywhere");
+  std::copy(values.begin(), values.end(), rho.begin());
+}
+
 } // namespace detail
 
 Density tanh_bump(const Eigen::Vector3d& centre, double beta, double alpha, double gamma) {
@@ -77,28 +153,17 @@ Density tanh_bump(const Eigen::Vector3d& centre, double beta, double alpha, doub
 }
 
 Eigen::VectorXd evaluate(const Density& density, const Points3& x) {
-  switch (density.kind) {
-  case Density::Kind::uniform:
-    return Eigen::VectorXd::Ones(x.cols());
-  case Density::Kind::callable: {
-    if (!density.callable)
-      detail::refuse("the density is a callable, but none is given");
-    Eigen::VectorXd rho(x.cols());
-    density.callable(x, rho);
-    if (!(rho.array() >= 0).all()) // NaN included
-      detail::refuse("the density is negative or NaN somewhere: make it positive everywhere");
-    return rho;
-  }
-  default:
-    break;
-  }
-  if (density.bumps.empty())
-    detail::refuse("the density has no bump: give one, or make it uniform");
-  Eigen::VectorXd rho = Eigen::VectorXd::Zero(x.cols());
-  for (std::size_t b = 0; b < density.bumps.size(); ++b) {
-    detail::require(density.bumps[b], b);
-    detail::add_bump(detail::profile_of(density.bumps[b]), x.data(), x.cols(),
-                     density.kind == Density::Kind::maximum, rho.data());
+  const detail::DensityEvaluator evaluator(density);
+  constexpr Eigen::Index batch = 512;
+  Eigen::VectorXd rho(x.cols());
+  std::array<std::array<double, batch>, 3> rows{};
+  for (Eigen::Index begin = 0; begin < x.cols(); begin += batch) {
+    const auto count = static_cast<std::size_t>(std::min(batch, x.cols() - begin));
+    for (std::size_t j = 0; j < count; ++j)
+      for (std::size_t i = 0; i < 3; ++i)
+        rows[i][j] = x(static_cast<Eigen::Index>(i), begin + static_cast<Eigen::Index>(j));
+    const auto row = [&](std::size_t i) { return std::span(rows[i]).first(count); };
+    evaluator(row(0), row(1), row(2), std::span(rho.data() + begin, count));
   }
   return rho;
 }

@@ -2,8 +2,9 @@
 #pragma once
 
 #include "memory.h"
+#include "patches.h"
+#include "profile.h"
 #include "quadrature.h"
-#include "stars.h"
 #include "vec3.h"
 
 #include <calotte/density.h>
@@ -14,48 +15,57 @@
 
 namespace calotte::detail {
 
-/// Moments of the Voronoi cells of sites x_i, by site. Each site's are summed over its triangles in
-/// the order of the mesh, whatever the partition of the work: they are the same bits for any
-/// threads and regions.
+/// What is integrated over Voronoi cells, and how: rho = 1 exactly, other densities by a rule on
+/// each half kite, which is first cut into divisions^2 similar triangles.
+struct Integrand {
+  DensityEvaluator density;
+  bool uniform = true;
+  std::vector<QuadratureRule::Node> nodes; ///< of all parts of a half kite; weights sum to 1
+};
+
+/// \param rule a number of points, see quadrature_rule(). \param divisions >= 1.
+/// \throws Error bad_option, when the density or the rule is not to be had.
+Integrand make_integrand(const Density& density, int rule, int divisions);
+
+/// Moments of the Voronoi cell of a site x_i.
+struct CellMoments {
+  Vec3 first;    ///< integral of rho x
+  double energy; ///< integral of rho |x - x_i|^2
+};
+
+/// Moments of the cells of a patch's sites, by local number; those of its halo are not whole. Each
+/// is summed over the site's triangles in the patch's order: the same bits for any partition.
+///
+/// Uniform density: half a kite is a right spherical triangle, from a site a to the midpoint of an
+/// edge ab, an arc theta/2, and on to the circumcentre, a signed arc delta with sin(delta) =
+/// |a-b|/|a+b| cot(C), C the angle across. Its first moment's part that does not cancel is delta/2
+/// (a-b)/|a-b|, its area 2 atan(tan(theta/4) tan(delta/2)), its energy twice that less delta
+/// sin(theta/2). Obtuse triangles contribute signed arcs.
+///
+/// Other densities: on the flat triangle, whose plane is at the distance D from the centre and
+/// touches the sphere of radius D in the circumcentre, integral f = D integral of f(p/|p|)/|p|^3
+/// over the half kite, which central projection makes exact but for the rule.
+///
+/// \param x by local number: unit vectors.
+/// \param mass if not null, by local number: set to the integral of rho.
+/// \param suspects triangles of the patch, by place in its list, that are not clearly acute and
+///        counter-clockwise, are added. Where none is, the mesh is Delaunay: the angles across
+///        each edge sum to less than two right ones.
+void integrate(const Integrand& integrand, const Patch& patch, const Array<Vec3>& x,
+               Array<CellMoments>& moments, Array<double>* mass,
+               std::vector<std::int32_t>& suspects);
+
+/// The suspects alone.
+void find_suspects(const Patch& patch, const Array<Vec3>& x, std::vector<std::int32_t>& suspects);
+
+/// Moments of all cells of a mesh, by site.
 struct Moments {
   Array<double> mass;   ///< integral of rho over the cell
   Array<Vec3> first;    ///< integral of rho x
   Array<double> energy; ///< integral of rho |x - x_i|^2
 };
 
-/// For each edge of each triangle, named by the vertex e across from it, the signed arc delta from
-/// the edge's midpoint to the circumcentre over twice the edge's length: at [4 t + e]. The first
-/// moment of a uniform cell is the sum over its edges ab, from both triangles, of that times (a -
-/// b). The two together are negative exactly when the edge is not Delaunay. At [4 t + 3] stands the
-/// triangle's normal times its corner: positive when it runs counter-clockwise, up to rounding.
-struct Pulls {
-  Array<double> values;
-  double energy = 0; ///< of all cells, for rho = 1
-
-  double operator[](std::int64_t i) const { return values[i]; }
-};
-Pulls edge_pulls(const Mesh& mesh);
-
-/// First moments for rho = 1 from the pulls, by site.
-Array<Vec3> uniform_first_moments(const Mesh& mesh, const Stars& stars, const Pulls& pulls);
-
-/// Exact moments for rho = 1, without quadrature.
-///
-/// Half a kite is a right spherical triangle: from a site a to the midpoint of an edge ab, an arc
-/// theta/2, and on to the circumcentre, a signed arc delta with sin(delta) = |a-b|/|a+b| cot(C), C
-/// the angle across. Its area is 2 atan(tan(theta/4) tan(delta/2)), its first moment's part that
-/// does not cancel delta/2 (a-b)/|a-b|. Obtuse triangles contribute signed arcs.
-///
 /// \param mesh closed, of unit columns.
-Moments uniform_moments(const Mesh& mesh, const Stars& stars);
-
-/// Moments for any density, by a rule on each half kite: with A, B, C its corners and p the rule's
-/// nodes on the flat triangle, integral f = det(A,B,C)/2 sum w f(p/|p|) / |p|^3, which central
-/// projection makes exact but for the rule. The signed determinant makes circumcentres outside
-/// their triangle right.
-///
-/// \param divisions each half kite is first cut into divisions^2 similar triangles. >= 1.
-Moments quadrature_moments(const Mesh& mesh, const Stars& stars, const Density& density,
-                           const QuadratureRule& rule, int divisions = 1);
+Moments mesh_moments(const Mesh& mesh, const Density& density, int rule = 6, int divisions = 1);
 
 } // namespace calotte::detail

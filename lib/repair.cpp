@@ -1,89 +1,52 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "repair.h"
 
-#include "parallel.h"
 #include "points.h"
 #include "predicates.h"
+#include "triangle.h"
 
 #include <calotte/delaunay.h>
 #include <calotte/error.h>
 
 #include <optional>
-#include <vector>
+#include <utility>
 
 namespace calotte::detail {
 namespace {
 
-/// An edge of a triangle, across from its vertex.
-struct TriangleEdge {
-  std::int32_t triangle;
-  int across;
-};
-
-const Vec3& site(const Mesh& mesh, std::int32_t i) { return column(mesh.points, i); }
+const Vec3& corner(const Connectivity& mesh, const Points3& points, std::int32_t t, int v) {
+  return column(points, mesh.triangles(v, t));
+}
 
 /// Index in a triangle of the vertex across from its neighbour.
-int index_of(const Mesh& mesh, std::int32_t triangle, std::int32_t neighbour) {
+int index_of(const Connectivity& mesh, std::int32_t triangle, std::int32_t neighbour) {
   return mesh.neighbours(0, triangle) == neighbour   ? 0
          : mesh.neighbours(1, triangle) == neighbour ? 1
                                                      : 2;
 }
 
-/// Edges and triangles that the pulls leave in doubt.
-struct Doubts {
-  std::vector<TriangleEdge> edges;
-  std::vector<std::int32_t> triangles;
-};
-
-/// The pulls of an edge, some tenths each, err by roundoffs over the edge's length, times 1 + cot^2
-/// for thin triangles. A doubt too many costs a predicate, one too few an edge that is Delaunay but
-/// for a length of 1e-9 of its cell's.
-bool is_clear(double pull, double other) {
-  return pull + other > 1e-9 * (1 + 16 * (pull * pull + other * other));
+bool is_overturned(const Connectivity& mesh, const Points3& points, std::int32_t t) {
+  return orientation(corner(mesh, points, t, 0), corner(mesh, points, t, 1),
+                     corner(mesh, points, t, 2)) <= 0;
 }
 
-Doubts find_doubts(const Mesh& mesh, const Pulls& pulls) {
-  const std::int64_t m = mesh.triangles.cols();
-  std::vector<Doubts> found(static_cast<std::size_t>(block_count(m)));
-  for_each_block(m, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
-    Doubts& doubts = found[static_cast<std::size_t>(block)];
-    for (auto t = static_cast<std::int32_t>(begin); t != end; ++t) {
-      if (!(pulls[4 * std::int64_t{t} + 3] > 1e-14))
-        doubts.triangles.push_back(t);
-      for (int e = 0; e < 3; ++e) {
-        const std::int32_t beyond = mesh.neighbours(e, t);
-        if (beyond < t)
-          continue;
-        const double other = pulls[4 * std::int64_t{beyond} + index_of(mesh, beyond, t)];
-        if (!is_clear(pulls[4 * std::int64_t{t} + e], other))
-          doubts.edges.push_back({t, e});
-      }
-    }
-  });
-  Doubts all;
-  for (const Doubts& doubts : found) {
-    all.edges.insert(all.edges.end(), doubts.edges.begin(), doubts.edges.end());
-    all.triangles.insert(all.triangles.end(), doubts.triangles.begin(), doubts.triangles.end());
-  }
-  return all;
+/// Up to rounding, which 1e-14 exceeds for unit vectors.
+bool is_clearly_acute(const Connectivity& mesh, const Points3& points, std::int32_t t, int v) {
+  const Vec3& here = corner(mesh, points, t, v);
+  return dot(corner(mesh, points, t, next_vertex(v)) - here,
+             corner(mesh, points, t, previous_vertex(v)) - here) > 1e-14;
 }
 
-bool is_overturned(const Mesh& mesh, std::int32_t t) {
-  return orientation(site(mesh, mesh.triangles(0, t)), site(mesh, mesh.triangles(1, t)),
-                     site(mesh, mesh.triangles(2, t))) <= 0;
-}
-
-bool is_delaunay(const Mesh& mesh, const TriangleEdge& edge) {
-  const std::int32_t beyond = mesh.neighbours(edge.across, edge.triangle);
-  const std::int32_t apex = mesh.triangles(index_of(mesh, beyond, edge.triangle), beyond);
-  return in_circle_resolved(View{}, site(mesh, mesh.triangles(0, edge.triangle)),
-                            site(mesh, mesh.triangles(1, edge.triangle)),
-                            site(mesh, mesh.triangles(2, edge.triangle)), site(mesh, apex)) <= 0;
+bool is_delaunay(const Connectivity& mesh, const Points3& points, const TriangleEdge& edge) {
+  const std::int32_t t = edge.triangle, beyond = mesh.neighbours(edge.across, t);
+  return in_circle_resolved(View{}, corner(mesh, points, t, 0), corner(mesh, points, t, 1),
+                            corner(mesh, points, t, 2),
+                            corner(mesh, points, beyond, index_of(mesh, beyond, t))) <= 0;
 }
 
 /// Replaces the edge bc of the triangles abc and dcb by ad: they become abd and dca. The four outer
 /// edges are to be looked at again.
-void flip(Mesh& mesh, const TriangleEdge& edge, std::vector<TriangleEdge>& pending) {
+void flip(Connectivity& mesh, const TriangleEdge& edge, std::vector<TriangleEdge>& pending) {
   const std::int32_t t = edge.triangle, u = mesh.neighbours(edge.across, t);
   const int at = edge.across, ut = index_of(mesh, u, t);
   const std::int32_t a = mesh.triangles(at, t), b = mesh.triangles(next_vertex(at), t),
@@ -105,48 +68,50 @@ void flip(Mesh& mesh, const TriangleEdge& edge, std::vector<TriangleEdge>& pendi
 }
 
 /// Flips until all edges are Delaunay; empty when that takes more than `most` flips.
-std::optional<std::int64_t> flip_all(Mesh& mesh, std::vector<TriangleEdge> pending,
-                                     std::int64_t most) {
-  std::int64_t flips = 0;
+std::optional<Repair> flip_all(Connectivity& mesh, const Points3& points,
+                               std::vector<TriangleEdge> pending, std::int64_t most) {
+  Repair result;
   while (!pending.empty()) {
     const TriangleEdge edge = pending.back();
     pending.pop_back();
-    if (is_delaunay(mesh, edge))
+    if (is_delaunay(mesh, points, edge))
       continue;
-    if (++flips > most)
+    if (++result.flips > most)
       return std::nullopt;
+    result.changed.push_back(edge.triangle);
+    result.changed.push_back(mesh.neighbours(edge.across, edge.triangle));
     flip(mesh, edge, pending);
   }
-  return flips;
+  return result;
+}
+
+Connectivity rebuild(const Points3& points) {
+  Mesh mesh = delaunay(points);
+  if (mesh.points.cols() != points.cols() || !mesh.closed())
+    throw Error(
+        ErrorCode::too_few_sites,
+        "generators met, or left a hemisphere empty: take another start or a smoother density");
+  return {std::move(mesh.triangles), std::move(mesh.neighbours)};
 }
 
 } // namespace
 
-Repair repair(Mesh& mesh, Stars& stars, Pulls& pulls) {
-  const Doubts doubts = find_doubts(mesh, pulls);
-  Repair result;
-  for (const std::int32_t t : doubts.triangles)
-    result.rebuilt = result.rebuilt || is_overturned(mesh, t);
+void add_faults(const Connectivity& mesh, const Points3& points, std::int32_t triangle,
+                Faults& faults) {
+  faults.overturned = faults.overturned || is_overturned(mesh, points, triangle);
+  for (int v = 0; v < 3; ++v)
+    if (!is_clearly_acute(mesh, points, triangle, v) && !is_delaunay(mesh, points, {triangle, v}))
+      faults.edges.push_back({triangle, v});
+}
+
+Repair repair(Connectivity& mesh, const Points3& points, const Faults& faults) {
   // A flip costs about as much as three sites of a new triangulation, which is parallel.
-  const std::int64_t most = mesh.points.cols() / 16;
-  if (!result.rebuilt) {
-    const std::optional<std::int64_t> flips = flip_all(mesh, doubts.edges, most);
-    result.rebuilt = !flips;
-    result.flips = flips.value_or(0);
-  }
-  if (result.rebuilt) {
-    const Eigen::Index n = mesh.points.cols();
-    mesh = delaunay(mesh.points);
-    if (mesh.points.cols() != n || !mesh.closed())
-      throw Error(
-          ErrorCode::too_few_sites,
-          "generators met, or left a hemisphere empty: take another start or a smoother density");
-  }
-  if (result.rebuilt || result.flips > 0) {
-    stars = make_stars(mesh);
-    pulls = edge_pulls(mesh);
-  }
-  return result;
+  const std::int64_t most = points.cols() / 16;
+  if (!faults.overturned)
+    if (std::optional<Repair> flipped = flip_all(mesh, points, faults.edges, most))
+      return *std::move(flipped);
+  mesh = rebuild(points);
+  return {0, true, {}};
 }
 
 } // namespace calotte::detail

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <calotte/cvt.h>
 
-#include "repair.h"
+#include "moments.h"
 
 #include <calotte/check.h>
 #include <calotte/delaunay.h>
@@ -14,7 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <set>
+#include <vector>
 
 using namespace calotte;
 using namespace calotte::detail;
@@ -32,17 +32,6 @@ Density x8() {
 void check_descent(const CvtReport& report) {
   for (std::size_t k = 1; k < report.iterations.size(); ++k)
     CHECK(report.iterations[k].energy <= report.iterations[k - 1].energy * (1 + 1e-13));
-}
-
-/// Triangles of a mesh from their lowest vertex on, as a set.
-std::set<std::array<std::int32_t, 3>> triangles_of(const Mesh& mesh) {
-  std::set<std::array<std::int32_t, 3>> out;
-  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
-    std::array<std::int32_t, 3> v{mesh.triangles(0, t), mesh.triangles(1, t), mesh.triangles(2, t)};
-    std::rotate(v.begin(), std::min_element(v.begin(), v.end()), v.end());
-    out.insert(v);
-  }
-  return out;
 }
 
 } // namespace
@@ -65,24 +54,133 @@ TEST_CASE("uniform bisected grids converge to the known optimum without a flip")
   }
 }
 
-TEST_CASE("random starts: the energy falls, every law holds, and the threads do not show") {
+TEST_CASE("random starts: the energy falls, and threads, regions and sorts do not show") {
   for (const Density& density : {Density{}, x8()}) {
     CvtOptions options;
     options.density = density;
-    options.max_iterations = 60;
-    const auto with = [&](std::size_t threads) {
+    options.max_iterations = 40;
+    const auto with = [&](std::size_t threads, int regions, Sort sort) {
       const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-      return cvt(random_sphere(20000, 4), options);
+      options.partition.regions = regions;
+      options.partition.sort = sort;
+      return cvt(random_sphere(5000, 4), options);
     };
-    const Cvt one = with(1), four = with(4);
-    CHECK(one.mesh.points == four.mesh.points);
-    CHECK(one.mesh.triangles == four.mesh.triangles);
-    for (std::size_t k = 0; k < one.report.iterations.size(); ++k)
-      CHECK(one.report.iterations[k].energy == four.report.iterations[k].energy);
-    check_descent(one.report);
+    const Cvt one = with(1, 1, Sort::halo);
     CHECK(!one.report.converged);
-    CHECK(one.report.iterations.size() == 60);
+    CHECK(one.report.iterations.size() == 40);
     CHECK(check(one.mesh).failure == "");
+    check_descent(one.report);
+    for (const Cvt& other : {with(4, 12, Sort::halo), with(2, 42, Sort::distance),
+                             with(3, 2, Sort::voronoi), with(2, 700, Sort::halo)}) {
+      CHECK((one.mesh.points == other.mesh.points));
+      CHECK((one.mesh.triangles == other.mesh.triangles));
+      for (std::size_t k = 0; k < one.report.iterations.size(); ++k) {
+        CHECK(one.report.iterations[k].energy == other.report.iterations[k].energy);
+        CHECK(one.report.iterations[k].l2 == other.report.iterations[k].l2);
+        CHECK(one.report.iterations[k].linf == other.report.iterations[k].linf);
+        CHECK(one.report.iterations[k].gradient == other.report.iterations[k].gradient);
+      }
+    }
+  }
+}
+
+TEST_CASE("a run goes on from any of its states to the same bits") {
+  CvtOptions options;
+  options.density = x8();
+  options.max_iterations = 25;
+  options.bisections = 1;
+  options.norm = Norm::none;
+  std::vector<CvtState> states;
+  const Cvt whole = cvt(random_sphere(400, 4), options, [&](const CvtState& state) {
+    states.push_back(state);
+    return false;
+  });
+  CHECK(states.size() == 50);
+  CHECK(whole.mesh.points.cols() == 4 * 400 - 6);
+  for (std::size_t k = 0; k < states.size(); k += 7) {
+    const Cvt rest = cvt(states[k], options);
+    CAPTURE(k);
+    CHECK((rest.mesh.points == whole.mesh.points));
+    CHECK((rest.mesh.triangles == whole.mesh.triangles));
+    CHECK(rest.report.iterations.size() == 50);
+    CHECK(rest.report.iterations.back().energy == whole.report.iterations.back().energy);
+  }
+}
+
+TEST_CASE("the norms stop as they say") {
+  CvtOptions options;
+  options.max_iterations = 2000;
+  const double h = std::sqrt(4 * pi / 642);
+  for (const Norm norm :
+       {Norm::l2, Norm::linf, Norm::l2_scaled, Norm::linf_scaled, Norm::gradient}) {
+    options.norm = norm;
+    options.tolerance = 1e-5;
+    const Cvt grid = cvt(bisected_icosahedron(3), options);
+    CHECK(grid.report.converged);
+    const auto value = [&](const CvtIteration& it) {
+      return norm == Norm::l2            ? it.l2
+             : norm == Norm::linf        ? it.linf
+             : norm == Norm::l2_scaled   ? it.l2 / h
+             : norm == Norm::linf_scaled ? it.linf / h
+                                         : it.gradient;
+    };
+    for (std::size_t k = 0; k + 1 < grid.report.iterations.size(); ++k)
+      CHECK(value(grid.report.iterations[k]) > 1e-5);
+    CHECK(value(grid.report.iterations.back()) <= 1e-5);
+    CHECK(grid.report.residual == doctest::Approx(value(grid.report.iterations.back())));
+  }
+}
+
+TEST_CASE("the gradient is the energy's slope") {
+  // Along the steepest descent from x the energy falls by |g|^2 for a unit of it.
+  const Points3 x = random_sphere(300, 9);
+  CvtOptions options;
+  options.density = x8();
+  options.rule = options.final_rule = 19; // else the rule's error shows in the energy
+  options.norm = Norm::none;
+  options.max_iterations = 1;
+  const auto energy = [&](const Points3& points) {
+    return cvt(points, options).report.iterations.back().energy;
+  };
+  const Moments moments = mesh_moments(delaunay(x), options.density, 19);
+  Points3 gradient(3, x.cols());
+  for (Eigen::Index i = 0; i < x.cols(); ++i) {
+    const Vec3 first = moments.first[i];
+    const Eigen::Vector3d m(first.x, first.y, first.z);
+    gradient.col(i) = -2 * (m - m.dot(x.col(i)) * x.col(i));
+  }
+  CHECK(cvt(x, options).report.iterations.back().gradient ==
+        doctest::Approx(gradient.norm()).epsilon(1e-12));
+  const double step = 1e-4;
+  const Points3 there = (x - step * gradient).colwise().normalized();
+  const Points3 back = (x + step * gradient).colwise().normalized();
+  const double slope = (energy(back) - energy(there)) / (2 * step);
+  CHECK(slope == doctest::Approx(gradient.squaredNorm()).epsilon(2e-3));
+}
+
+TEST_CASE("the report counts regions, their sites and what they would send") {
+  CvtOptions options;
+  options.max_iterations = 3;
+  options.norm = Norm::none;
+  const Points3 start = bisected_icosahedron(5);
+  std::int64_t halo_bytes = 0;
+  for (const Sort sort : {Sort::halo, Sort::distance, Sort::voronoi}) {
+    options.partition.sort = sort;
+    const CvtReport report = cvt(start, options).report;
+    std::int64_t sites = 0, halos = 0, bytes = 0;
+    for (const CvtRegion& region : report.regions) {
+      sites += region.sites;
+      halos += region.halo;
+      bytes += region.halo_bytes;
+      CHECK(region.seconds > 0);
+    }
+    CHECK(report.converged);
+    CHECK(sites == start.cols());
+    CHECK(bytes == 24 * halos);
+    CHECK(bytes > halo_bytes); // the paper's sorts take more than the strip, Voronoi the most
+    halo_bytes = bytes;
+    for (const CvtIteration& iteration : report.iterations)
+      CHECK(iteration.seconds_exchange + iteration.seconds_moments > 0);
   }
 }
 
@@ -92,24 +190,6 @@ TEST_CASE("generators stay in the order of the start") {
   options.max_iterations = 20;
   const Cvt grid = cvt(start, options);
   CHECK((grid.mesh.points - start).colwise().norm().maxCoeff() < 0.05);
-}
-
-TEST_CASE("repair finds the Delaunay triangulation of moved points, by flips or anew") {
-  for (const double amount : {0.0, 0.02, 0.2, 1.0}) { // of the spacing
-    Mesh mesh = delaunay(bisected_icosahedron(4));
-    const double h = std::sqrt(4 * pi / static_cast<double>(mesh.points.cols()));
-    mesh.points += amount * h * random_sphere(mesh.points.cols(), 7);
-    mesh.points.colwise().normalize();
-    Stars stars = make_stars(mesh);
-    Pulls pulls = edge_pulls(mesh);
-    const Repair repaired = repair(mesh, stars, pulls);
-    CAPTURE(amount);
-    CHECK((repaired.flips > 0) == (amount == 0.2));
-    CHECK(repaired.rebuilt == (amount == 1.0));
-    CHECK(triangles_of(mesh) == triangles_of(delaunay(mesh.points)));
-    const Stars again = make_stars(mesh);
-    CHECK(std::equal(stars.corners.begin(), stars.corners.end(), again.corners.begin()));
-  }
 }
 
 TEST_CASE("the tanh bump spreads spacings by the fourth root of its contrast [slow]") {

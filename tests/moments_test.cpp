@@ -49,6 +49,16 @@ Vec3 sum(const Array<Vec3>& values) {
   return total;
 }
 
+/// Uniform, but integrated by quadrature.
+Density ones() {
+  Density density;
+  density.kind = Density::Kind::callable;
+  density.callable = [](const Eigen::Ref<const Points3>&, Eigen::Ref<Eigen::VectorXd> rho) {
+    rho.setOnes();
+  };
+  return density;
+}
+
 double largest_difference(const Moments& a, const Moments& b) {
   double worst = 0;
   for (std::int64_t i = 0; i < a.mass.size(); ++i)
@@ -62,10 +72,9 @@ double largest_difference(const Moments& a, const Moments& b) {
 TEST_CASE("uniform moments: masses sum to 4 pi, first moments to 0, energies follow from both") {
   for (const Case& c : cases()) {
     CAPTURE(c.name);
-    const Moments moments = uniform_moments(c.mesh, make_stars(c.mesh));
+    const Moments moments = mesh_moments(c.mesh, Density{});
     CHECK(std::abs(sum(moments.mass) - 4 * pi) < 1e-12);
     CHECK(norm(sum(moments.first)) < 1e-12);
-    CHECK(edge_pulls(c.mesh).energy == doctest::Approx(sum(moments.energy)).epsilon(1e-14));
     for (std::int64_t i = 0; i < moments.mass.size(); ++i) {
       CHECK(moments.mass[i] > 0);
       CHECK(moments.energy[i] > 0);
@@ -79,31 +88,26 @@ TEST_CASE("uniform moments: masses sum to 4 pi, first moments to 0, energies fol
 TEST_CASE("the closed form agrees with quadrature, obtuse triangles included") {
   for (const Case& c : cases()) {
     CAPTURE(c.name);
-    const Stars stars = make_stars(c.mesh);
-    const Moments exact = uniform_moments(c.mesh, stars);
+    const Moments exact = mesh_moments(c.mesh, Density{});
     const bool coarse = c.mesh.points.cols() < 1000;
-    const Moments fine =
-        quadrature_moments(c.mesh, stars, Density{}, quadrature_rule(19), coarse ? 12 : 2);
+    const Moments fine = mesh_moments(c.mesh, ones(), 19, coarse ? 12 : 2);
     CHECK(largest_difference(exact, fine) < 1e-11);
   }
 }
 
 TEST_CASE("every rule converges at its order under division") {
   const Mesh mesh = delaunay(spiral_sphere(150));
-  const Stars stars = make_stars(mesh);
   // Smooth everywhere, as a bump is not: its distance to the centre has a kink there.
   Density density;
   density.kind = Density::Kind::callable;
   density.callable = [](const Eigen::Ref<const Points3>& x, Eigen::Ref<Eigen::VectorXd> rho) {
     rho = (2 * x.row(2).array() + x.row(0).array()).exp().matrix().transpose();
   };
-  const Moments exact = quadrature_moments(mesh, stars, density, quadrature_rule(19), 8);
+  const Moments exact = mesh_moments(mesh, density, 19, 8);
   for (const int points : {1, 3, 6, 7}) {
     const QuadratureRule& rule = quadrature_rule(points);
-    const double once =
-        largest_difference(quadrature_moments(mesh, stars, density, rule, 1), exact);
-    const double twice =
-        largest_difference(quadrature_moments(mesh, stars, density, rule, 2), exact);
+    const double once = largest_difference(mesh_moments(mesh, density, points, 1), exact);
+    const double twice = largest_difference(mesh_moments(mesh, density, points, 2), exact);
     CAPTURE(points);
     CHECK(std::log2(once / twice) > rule.degree + 0.5); // degree + 1, but for the next order
   }
@@ -123,7 +127,7 @@ TEST_CASE("moments of a density: mass against its integral in closed form") {
   integral *= 2 * pi * pi / steps / 3;
   const Mesh mesh = delaunay(bisected_icosahedron(5));
   const Density density = tanh_bump({0, 0, 2}, beta, alpha, gamma);
-  const Moments moments = quadrature_moments(mesh, make_stars(mesh), density, quadrature_rule(6));
+  const Moments moments = mesh_moments(mesh, density, 6);
   CHECK(std::abs(sum(moments.mass) - integral) < 1e-9);
 }
 
@@ -132,52 +136,9 @@ TEST_CASE("moments are the same bits for any number of threads") {
   const Density density = tanh_bump({1, 2, 3}, 0.6, 0.5, 0.1);
   const auto with = [&](std::size_t threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    const Stars stars = make_stars(mesh);
-    return std::pair(uniform_moments(mesh, stars),
-                     quadrature_moments(mesh, stars, density, quadrature_rule(3)));
+    return std::pair(mesh_moments(mesh, Density{}), mesh_moments(mesh, density, 3));
   };
   const auto one = with(1), four = with(4);
   CHECK(largest_difference(one.first, four.first) == 0);
   CHECK(largest_difference(one.second, four.second) == 0);
-}
-
-TEST_CASE("densities: the bump as printed, batches of any length, and what they refuse") {
-  const Bump bump{{0, 0, 5}, 0.5, 0.1, 0.01};
-  Density density;
-  density.kind = Density::Kind::maximum;
-  density.bumps = {bump};
-  const Points3 x = random_sphere(997, 2);
-  const Eigen::VectorXd rho = evaluate(density, x);
-  for (Eigen::Index j = 0; j < x.cols(); ++j) {
-    const double d = std::acos(std::clamp(x(2, j), -1.0, 1.0));
-    const double printed = (std::tanh((0.5 - d) / 0.1) + 1) / (2 * (1 - 0.01)) + 0.01;
-    CHECK(rho[j] == doctest::Approx(printed).epsilon(1e-12));
-    CHECK(evaluate(density, x.middleCols(j, 1))[0] == rho[j]);
-  }
-  density.bumps.push_back({{1, 0, 0}, 0.5, 0.1, 0.01});
-  const Eigen::VectorXd highest = evaluate(density, x);
-  density.kind = Density::Kind::sum;
-  const Eigen::VectorXd both = evaluate(density, x);
-  CHECK((highest.array() >= rho.array()).all());
-  CHECK((both.array() > highest.array()).all());
-
-  // A stretched bump equals the round one across its axis and reaches farther along it.
-  Density ellipse;
-  ellipse.kind = Density::Kind::maximum;
-  ellipse.bumps = {Bump{{0, 0, 1}, 0.3, 0.1, 0.01, 2, {1, 0, 0}}};
-  Density round = ellipse;
-  round.bumps[0].stretch = 1;
-  Points3 axes(3, 2);
-  axes << std::sin(0.5), 0, 0, std::sin(0.5), std::cos(0.5), std::cos(0.5);
-  CHECK(evaluate(ellipse, axes)[0] > 4 * evaluate(round, axes)[0]);
-  CHECK(evaluate(ellipse, axes)[1] == evaluate(round, axes)[1]);
-
-  for (const Bump& bad :
-       {Bump{{0, 0, 0}}, Bump{{0, 0, 1}, -1}, Bump{{0, 0, 1}, 1, 0}, Bump{{0, 0, 1}, 1, 1, 0},
-        Bump{{0, 0, 1}, 1, 1, std::nan("")}, Bump{{0, 0, 1}, 1, 1, 0.5, 2, {0, 0, 1}}}) {
-    density.bumps = {bad};
-    CHECK_THROWS_AS(evaluate(density, x), Error);
-  }
-  density.kind = Density::Kind::callable;
-  CHECK_THROWS_AS(evaluate(density, x), Error);
 }

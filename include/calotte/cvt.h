@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <calotte/delaunay.h>
 #include <calotte/density.h>
 #include <calotte/types.h>
 
@@ -10,63 +11,120 @@
 
 namespace calotte {
 
-/// How far n generators moved in an iteration, x to x', on the unit sphere. The first two are as
-/// printed by Jacobsen et al., 2013, Sect. 2.2; MPI-SCVT divides outside the root.
+/// What is compared with the tolerance, when n generators move in an iteration from x to x' on the
+/// unit sphere. The first two are as printed by Jacobsen et al., 2013, Sect. 2.2; MPI-SCVT divides
+/// outside the root.
 enum class Norm {
   l2,          ///< sqrt( (1/n) sum |x - x'|^2 )
   linf,        ///< max |x - x'|
   l2_scaled,   ///< l2 over h = sqrt(4 pi / n)
   linf_scaled, ///< linf over h
+  gradient,    ///< sqrt( sum |g|^2 ), g = dE/dx = -2 (M - (M.x) x) of the energy, before the move
+  none,        ///< nothing is: the run ends, converged, after max_iterations
 };
 
 struct CvtOptions {
   Density density = {};
   Norm norm = Norm::l2_scaled;
   double tolerance = 1e-6;   ///< stop when the norm is at most this; > 0
-  int max_iterations = 1000; ///< >= 0
+  int max_iterations = 1000; ///< of each level; >= 0
+  /// Continuation: that often, what has converged is bisected (n -> 4n - 6, see bisect()) and
+  /// converged again; >= 0.
+  int bisections = 0;
   int rule = 3; ///< quadrature points on each half kite: 1, 3, 6, 7, 13 or 19; not used for uniform
                 ///< density
   int final_rule = 6;         ///< the same once the norm is within ten times the tolerance
   int triangle_divisions = 1; ///< each half kite is first cut into that many squared; >= 1
+  /// Regions, their centres and what they exchange; duplicates and merge_within hold for the start.
+  /// Nothing of it but the last two shows in the result.
+  DelaunayOptions partition = {};
 };
 
 /// One iteration: what the mesh was before the move, and the move.
 struct CvtIteration {
+  std::int64_t cells = 0;
+  int rule = 0;            ///< quadrature points on each half kite, 0 for the exact moments
   double l2 = 0, linf = 0; ///< on the unit sphere, not scaled
-  double energy = 0;       ///< sum over cells of the integral of rho |x - x_i|^2, before the move
-  std::int64_t flips = 0;  ///< of edges, after the move
-  bool rebuilt = false;    ///< after the move, the mesh was triangulated anew
-  double seconds_moments = 0, seconds_repair = 0;
+  double gradient = 0;     ///< see Norm
+  double energy = 0;       ///< sum over cells of the integral of rho |x - x_i|^2
+  std::int64_t flips = 0;  ///< of edges, that the move before called for
+  bool rebuilt = false;    ///< the move before called for a new triangulation
+  double seconds = 0;      ///< wall-clock time
+  /// Sums over the regions' tasks, whatever number ran at a time: taking over positions; finding
+  /// and mending what is no longer Delaunay; moments and the move.
+  double seconds_exchange = 0, seconds_repair = 0, seconds_moments = 0;
+};
+
+/// A region at the end of the run.
+struct CvtRegion {
+  std::int64_t sites = 0; ///< that it owns
+  std::int64_t halo = 0;  ///< others that it would have to know, by the options' sort
+  /// Of positions that it would send to others in an iteration of a distributed run.
+  std::int64_t halo_bytes = 0;
+  double seconds = 0; ///< of its tasks since the sites were last sorted to regions
 };
 
 struct CvtReport {
   bool converged = false;
   double residual = 0; ///< the norm of the last move
   std::vector<CvtIteration> iterations;
-  double seconds = 0;
+  std::vector<CvtRegion> regions;
+  double seconds = 0; ///< wall-clock time of the run; of all its parts when it was resumed
+};
+
+/// All that a run needs to go on with the same bits: what a checkpoint holds.
+struct CvtState {
+  Points3 points;                          ///< unit generators, along a space-filling curve
+  std::vector<std::int32_t> id;            ///< of each: its column in the result
+  std::vector<std::int32_t> site_of_input; ///< as Mesh's; of the start, or empty after a bisection
+  int bisections_left = 0;
+  int iterations_of_level = 0;
+  bool final_rule = false; ///< it has taken over
+  CvtReport report;
 };
 
 /// A centroidal Voronoi tessellation: generators that are the centroids of their Voronoi cells.
 struct Cvt {
   Mesh mesh; ///< Delaunay triangulation of the generators, unit columns, in the order of the start
+             ///< (after bisections, the midpoints follow)
   CvtReport report;
 };
 
+/// Asked after each iteration; true ends the run there, not converged.
+using CvtStop = std::function<bool(const CvtState&)>;
+
 /// Lloyd's iteration on the unit sphere: each generator moves to its cell's constrained centroid
 /// M/|M|, M the integral of rho x over the cell (Jacobsen et al., 2013, Sect. 3.3), until the norm
-/// is within the tolerance.
+/// is within the tolerance. A region's task moves the generators that the region owns.
 ///
-/// The same start gives the same bits for any number of threads. Not converging within
-/// max_iterations is reported, not an error.
+/// The same start gives the same bits for any number of threads and any regions. Not converging
+/// within max_iterations is reported, not an error.
 ///
 /// \param start 3 x n directions, 12 distinct at least, not within a hemisphere; equal ones merge.
-///
-/// \param stop asked after each iteration with its report so far; true ends the run there.
 ///
 /// \throws Error as delaunay(); too_few_sites for fewer than 12 generators, or when generators
 /// meet; bad_option for a tolerance <= 0, an unknown rule, or a density that is ill-formed,
 /// negative or NaN somewhere, or zero over a whole cell.
-Cvt cvt(const Points3& start, const CvtOptions& options = {},
-        const std::function<bool(const CvtReport&)>& stop = {});
+Cvt cvt(const Points3& start, const CvtOptions& options = {}, const CvtStop& stop = {});
+
+/// Goes on from a state to the bits that the run would have reached without the interruption,
+/// provided that the options are the same.
+Cvt cvt(CvtState state, const CvtOptions& options, const CvtStop& stop = {});
+
+/// Where a continuation to a number of cells starts: n cells with bisections b reach it when
+/// cells = 4^b (n - 2) + 2.
+struct Continuation {
+  Points3 start;
+  int bisections = 0;
+  bool icosahedral = false; ///< the start is a bisected icosahedron
+};
+
+/// The coarsest start that bisections lead from: the least such n that is at least 12 (uniform
+/// density) or 642 (others); all of the cells, where no bisection leads to their number from there.
+/// When cells = 10 * 4^k + 2, it is a bisected icosahedron; otherwise a Fibonacci lattice (uniform
+/// density) or points drawn from the density.
+/// \throws Error bad_option for cells < 12 or > 2^30, an ill-formed density, or as
+/// random_sphere(n, density, seed) where it draws.
+Continuation continuation(std::int64_t cells, const Density& density, std::uint64_t seed = 1);
 
 } // namespace calotte

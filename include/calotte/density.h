@@ -45,7 +45,8 @@ Density tanh_bump(const Eigen::Vector3d& centre, double beta, double alpha, doub
 
 /// The density at each of n unit columns.
 /// \param x 3 x n.
-/// \throws Error bad_option, when the density is ill-formed, or a callable's value negative or NaN.
+/// \throws Error bad_option, when the density is ill-formed, or a callable's value negative,
+/// infinite or NaN.
 Eigen::VectorXd evaluate(const Density& density, const Points3& x);
 
 } // namespace calotte

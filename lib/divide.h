@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "regions.h"
+
+namespace calotte::detail {
+
+/// The sphere's regions by the options: centres, owners, and who takes which sites beside its own.
+/// A single region has no owners or members listed.
+/// \throws Error bad_option.
+Regions divide(const Sites& sites, const DelaunayOptions& options);
+
+} // namespace calotte::detail
