@@ -43,6 +43,24 @@ struct SiteStep {
   double slope;  ///< square of the gradient
 };
 
+/// Refuses a state that no run has left.
+void require(const CvtState& state) {
+  const auto n = static_cast<std::size_t>(state.points.cols());
+  std::vector<std::uint8_t> seen(n, 0);
+  bool good = n >= 12 && state.id.size() == n && state.bisections_left >= 0 &&
+              state.iterations_of_level >= 0 &&
+              ((state.points.colwise().squaredNorm().array() - 1).abs() < 1e-12).all();
+  for (std::size_t i = 0; good && i < n; ++i) {
+    const std::int32_t id = state.id[i];
+    good = id >= 0 && static_cast<std::size_t>(id) < n && seen[static_cast<std::size_t>(id)]++ == 0;
+  }
+  for (const std::int32_t site : state.site_of_input)
+    good = good && site >= 0 && static_cast<std::size_t>(site) < n;
+  if (!good)
+    throw Error(ErrorCode::bad_option, "the state is not one that a run has left: its points must "
+                                       "be unit vectors and its ids a permutation");
+}
+
 /// Sums of blocks of sites, added in the order of the blocks: the same for any number of threads.
 void add_sums(const Array<SiteStep>& steps, CvtIteration& iteration) {
   const std::int64_t n = steps.size();
@@ -218,6 +236,7 @@ void refine(CvtState& state) {
 
 Cvt cvt(CvtState state, const CvtOptions& options, const CvtStop& stop) {
   detail::require(options);
+  detail::require(state);
   detail::Clock::time_point mark = detail::Clock::now();
   const double before = state.report.seconds;
   while (!detail::iterate(state, options, stop) && state.bisections_left > 0)

@@ -42,7 +42,9 @@ Tessellation::Tessellation(const Points3& points, const DelaunayOptions& partiti
 }
 
 void Tessellation::divide(const Points3& points) {
-  const Sites sites = make_sites(points, Duplicates::refuse, 0);
+  const Sites sites = make_sites(points, Duplicates::merge, 0);
+  if (sites.size() != points.cols()) // two have met: the old regions do, repair() will say it
+    return;
   const Regions regions = detail::divide(sites, partition_);
   const std::size_t count = regions.centres.size();
   Array<std::int32_t> owner(points.cols());

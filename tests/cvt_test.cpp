@@ -12,6 +12,7 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -105,6 +106,42 @@ TEST_CASE("a run goes on from any of its states to the same bits") {
     CHECK(rest.report.iterations.size() == 50);
     CHECK(rest.report.iterations.back().energy == whole.report.iterations.back().energy);
   }
+}
+
+TEST_CASE("every machine, compiler option and vector width gives the same bits") {
+  // FNV-1a of the coordinates, as a build without vector code gave them: the sanitizers' builds
+  // have none, the release has that of the machine.
+  const auto hash = [](const Points3& points) {
+    std::uint64_t h = 0xcbf29ce484222325U;
+    for (const double value : points.reshaped())
+      for (int byte = 0; byte < 8; ++byte)
+        h = (h ^ (std::bit_cast<std::uint64_t>(value) >> (8 * byte) & 0xff)) * 0x100000001b3U;
+    return h;
+  };
+  CvtOptions options;
+  options.max_iterations = 30;
+  CHECK(hash(cvt(random_sphere(1500, 6), options).mesh.points) == 2641754437363962629U);
+  options.density = x8();
+  CHECK(hash(cvt(random_sphere(1500, 6), options).mesh.points) == 4397988346090177093U);
+}
+
+TEST_CASE("a state that no run has left is refused") {
+  CvtOptions options;
+  options.max_iterations = 1;
+  CvtState good;
+  cvt(random_sphere(50), options, [&](const CvtState& state) {
+    good = state;
+    return true;
+  });
+  CHECK_NOTHROW(cvt(good, options));
+  std::vector<CvtState> bad(5, good);
+  bad[0].id[3] = bad[0].id[4];
+  bad[1].id.pop_back();
+  bad[2].points(0, 7) = std::nan("");
+  bad[3].points *= 2;
+  bad[4].site_of_input[0] = 50;
+  for (const CvtState& state : bad)
+    CHECK_THROWS_AS(cvt(state, options), Error);
 }
 
 TEST_CASE("the norms stop as they say") {

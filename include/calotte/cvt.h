@@ -108,7 +108,8 @@ using CvtStop = std::function<bool(const CvtState&)>;
 Cvt cvt(const Points3& start, const CvtOptions& options = {}, const CvtStop& stop = {});
 
 /// Goes on from a state to the bits that the run would have reached without the interruption,
-/// provided that the options are the same.
+/// provided that the options are the same. \throws Error as above; bad_option for a state that is
+/// not whole.
 Cvt cvt(CvtState state, const CvtOptions& options, const CvtStop& stop = {});
 
 /// Where a continuation to a number of cells starts: n cells with bisections b reach it when
