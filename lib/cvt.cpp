@@ -156,11 +156,12 @@ void conclude(CvtState& state, const CvtOptions& options, const CvtIteration& it
   report.residual = residual(iteration, options.norm, iteration.cells);
   ++state.iterations_of_level;
   // Near the end the finer rule takes over; only with it a run can converge.
-  if (options.norm == Norm::none)
+  if (options.norm == Norm::none) {
     report.converged = state.iterations_of_level == options.max_iterations;
-  else
+  } else {
     report.converged = final_rule && report.residual <= options.tolerance;
-  state.final_rule = state.final_rule || report.residual <= 10 * options.tolerance;
+    state.final_rule = state.final_rule || report.residual <= 10 * options.tolerance;
+  }
 }
 
 /// Lloyd's steps of one level; true when `stop` ended them.

@@ -33,7 +33,8 @@ struct CvtOptions {
   int bisections = 0;
   int rule = 3; ///< quadrature points on each half kite: 1, 3, 6, 7, 13 or 19; not used for uniform
                 ///< density
-  int final_rule = 6;         ///< the same once the norm is within ten times the tolerance
+  int final_rule = 6; ///< the same once the norm is within ten times the tolerance; a run without a
+                      ///< norm keeps to the first
   int triangle_divisions = 1; ///< each half kite is first cut into that many squared; >= 1
   /// Regions, their centres and what they exchange; duplicates and merge_within hold for the start.
   /// Nothing of it but the last two shows in the result.
