@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <calotte/error.h>
 #include <calotte/generators.h>
 
 #include "circle.h"
+#include "counts.h"
+#include "sampling.h"
+#include "split_mix.h"
 #include "vec3.h"
 
 #include <algorithm>
@@ -19,21 +21,11 @@ namespace {
 
 using detail::cos_sin_of_octant;
 using detail::CosSin;
+using detail::most_points;
+using detail::require;
+using detail::require_count;
+using detail::SplitMix;
 using detail::Vec3;
-
-/// A mesh of n sites has up to 2n - 4 triangles, and their ids are int32.
-constexpr std::int64_t most_points = std::int64_t{1} << 30;
-
-void require(bool holds, const std::string& message) {
-  if (!holds)
-    throw Error(ErrorCode::bad_option, message);
-}
-
-void require_count(std::int64_t count, std::int64_t least, const std::string& name) {
-  require(count >= least && count <= most_points,
-          name + " is " + std::to_string(count) + "; give a number from " + std::to_string(least) +
-              " to " + std::to_string(most_points));
-}
 
 void put(Points3& points, std::int64_t column, const Vec3& p) {
   points.col(column) << p.x, p.y, p.z;
@@ -61,26 +53,6 @@ CosSin cos_sin(std::uint64_t turns) {
   const std::uint64_t part = octant % 2 == 0 ? rest : eighth - rest;
   return cos_sin_of_octant(octant, static_cast<double>(part) * 0x1p-61);
 }
-
-// ---- Random numbers
-
-/// SplitMix64 (Steele, Lea and Flood, 2014).
-class SplitMix {
-public:
-  explicit SplitMix(std::uint64_t seed) : state_(seed) {}
-
-  /// Uniform in [-1, 1), a multiple of 2^-52.
-  double signed_unit() { return static_cast<double>(next() >> 11) * 0x1p-52 - 1; }
-
-private:
-  std::uint64_t next() {
-    std::uint64_t z = state_ += 0x9e3779b97f4a7c15;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
-    return z ^ (z >> 31);
-  }
-  std::uint64_t state_;
-};
 
 // ---- Midpoints
 
@@ -202,6 +174,11 @@ Points3 random_sphere(std::int64_t n, std::uint64_t seed) {
     put(points, i, {scale * u, scale * v, 1 - 2 * s});
   }
   return points;
+}
+
+Points3 random_sphere(std::int64_t n, const Density& density, std::uint64_t seed) {
+  require_count(n, 1, "the number of points");
+  return density.uniform() ? random_sphere(n, seed) : detail::draw(n, density, seed);
 }
 
 Points3 fibonacci_sphere(std::int64_t n) {

@@ -74,8 +74,10 @@ struct Named {
 };
 
 std::vector<Named> samples() {
+  const Density x8 = tanh_bump({1, 2, -3}, 0.5, 0.2, 1.0 / 4096);
   return {{"random", random_sphere(1000), 1000, 0xce28624f111fae17},
           {"random, seed 7", random_sphere(1000, 7), 1000, 0xb9d39ed80908babb},
+          {"random, x8", random_sphere(1000, x8, 7), 1000, 0x530126bd7fe15963},
           {"fibonacci", fibonacci_sphere(1000), 1000, 0xa3e23d7866bad0d7},
           {"spiral", spiral_sphere(1000), 1000, 0xd8a82f84bd726650},
           {"icosahedron 3", bisected_icosahedron(3), 642, 0xc7cd063cf228655d},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <calotte/density.h>
 #include <calotte/types.h>
 
 #include <cstdint>
@@ -14,6 +15,18 @@ namespace calotte {
 /// n >= 1 points, independent and uniform on the sphere; the same seed gives the same points, fewer
 /// of them the first ones. Marsaglia's rejection (Ann. Math. Stat. 43, 1972) from SplitMix64.
 Points3 random_sphere(std::int64_t n, std::uint64_t seed = 1);
+
+/// n >= 1 points, independent and distributed as the density (uniform: the points above); the same
+/// seed gives the same points for any number of threads, fewer of them the first ones. Von
+/// Neumann's rejection (1951) from a bound of the density that is constant on small boxes, so that
+/// narrow bumps cost no more than wide ones.
+///
+/// A callable's bound comes from a lattice of its values. Where a proposal lies above it, all is
+/// drawn anew from a better one; then fewer points may be others. What is narrower than 0.01
+/// radians can go unseen (0.001, where all else is zero), but for the points that would fall there.
+/// \throws Error bad_option, when the density is ill-formed, negative, infinite or NaN somewhere,
+/// zero everywhere, or a callable that has no greatest value.
+Points3 random_sphere(std::int64_t n, const Density& density, std::uint64_t seed = 1);
 
 /// The Fibonacci lattice: z_i = 1 - (2i + 1)/n, longitude i times the golden angle.
 Points3 fibonacci_sphere(std::int64_t n);

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "envelope.h"
+
+#include "elementary.h"
+#include "parallel.h"
+
+#include <calotte/error.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+namespace calotte::detail {
+namespace {
+
+using Bounds = DensityEvaluator::Bounds;
+
+constexpr double smallest_side = 0x1p-40; // far from where halves of it would round
+constexpr std::size_t lattice = 8;        ///< points along a box
+constexpr int first_depth = 6, last_depth = 9;
+
+/// The square of the distance of a box from the disc's centre.
+double least_square(const Box& box) {
+  const double x = std::max({0.0, box.x, -(box.x + box.side)}),
+               y = std::max({0.0, box.y, -(box.y + box.side)});
+  return x * x + y * y;
+}
+
+void add_quarters(const Box& box, std::vector<Box>& out) {
+  const double half = 0.5 * box.side;
+  for (const double y : {box.y, box.y + half})
+    for (const double x : {box.x, box.x + half}) {
+      const Box quarter{x, y, half, box.south, {}};
+      if (least_square(quarter) < 1)
+        out.push_back(quarter);
+    }
+}
+
+/// The place in the disc that is nearest to (x, y).
+std::array<double, 2> into_disc(double x, double y) {
+  const double length = std::sqrt(x * x + y * y);
+  return length > 1 ? std::array{x / length, y / length} : std::array{x, y};
+}
+
+/// The disc is convex: what lies in it and in the box is no farther from the box's middle, when
+/// that is moved into the disc, than half a diagonal.
+Bounds certain_bounds(const DensityEvaluator& density, const Box& box) {
+  const auto [x, y] = into_disc(box.x + 0.5 * box.side, box.y + 0.5 * box.side);
+  const double half_chord = std::min(1.0, std::sqrt(0.5) * box.side);
+  return density.bounds(on_sphere(x, y, box.south), 2 * arc_sine(half_chord));
+}
+
+bool holds(const Box& box, const Witness& witness) {
+  return witness.x >= box.x && witness.x < box.x + box.side && witness.y >= box.y &&
+         witness.y < box.y + box.side;
+}
+
+} // namespace
+
+Vec3 on_sphere(double x, double y, bool south) {
+  const double square = x * x + y * y, scale = std::sqrt(std::max(0.0, 2 - square));
+  return {x * scale, y * scale, south ? square - 1 : 1 - square};
+}
+
+Envelope::Envelope(const Density& density)
+    : density_(density), sampled_(density.kind == Density::Kind::callable) {
+  const auto is_zero = [](const Box& box) { return !(box.bounds.greatest > 0); };
+  int depth = sampled_ ? first_depth : 0;
+  cover(depth);
+  while (std::all_of(boxes_.begin(), boxes_.end(), is_zero)) {
+    if (depth++ == last_depth)
+      throw Error(ErrorCode::bad_option,
+                  "the density is zero at each of " +
+                      std::to_string(boxes_.size() * lattice * lattice) +
+                      " points spread over the sphere: make it positive somewhere");
+    cover(depth);
+  }
+  refine();
+  finish();
+}
+
+/// Starts from both hemispheres, halved so often.
+void Envelope::cover(int depth) {
+  boxes_ = {Box{}, Box{-1, -1, 2, true, {}}};
+  for (; depth > 0; --depth) {
+    std::vector<Box> quarters;
+    for (const Box& box : boxes_)
+      add_quarters(box, quarters);
+    boxes_ = std::move(quarters);
+  }
+  bound(boxes_);
+}
+
+/// Halves the boxes that matter until the bounds are close to each other on the whole, or there are
+/// too many boxes: then a long thin ridge costs more proposals.
+void Envelope::refine() {
+  const std::size_t most = boxes_.size() + (1 << 16);
+  while (boxes_.size() < most) {
+    double least = 0, greatest = 0;
+    for (const Box& box : boxes_) {
+      least += box.bounds.least * box.area();
+      greatest += box.bounds.greatest * box.area();
+    }
+    const double mean_excess = (greatest - least) / static_cast<double>(boxes_.size());
+    const auto stays = [&](const Box& box) {
+      return (box.bounds.greatest - box.bounds.least) * box.area() <= 0.5 * mean_excess ||
+             box.side <= smallest_side;
+    };
+    const auto rest = std::stable_partition(boxes_.begin(), boxes_.end(), stays);
+    if (greatest <= 2 * least || rest == boxes_.end())
+      return;
+    std::vector<Box> quarters;
+    for (auto box = rest; box != boxes_.end(); ++box)
+      add_quarters(*box, quarters);
+    bound(quarters);
+    boxes_.erase(rest, boxes_.end());
+    boxes_.insert(boxes_.end(), quarters.begin(), quarters.end());
+  }
+}
+
+void Envelope::finish() {
+  double mass = 0, area = 0;
+  for (const Box& box : boxes_) {
+    mass += box.bounds.greatest * box.area();
+    area += box.area();
+  }
+  const double floor = sampled_ ? mass / area / 16 : 0;
+  double sum = 0;
+  mass_before_.clear();
+  for (Box& box : boxes_) {
+    box.bounds.greatest = std::max(box.bounds.greatest, floor);
+    mass_before_.push_back(sum += box.bounds.greatest * box.area());
+  }
+}
+
+std::int64_t Envelope::choose(double unit) const {
+  const auto found =
+      std::upper_bound(mass_before_.begin(), mass_before_.end() - 1, unit * mass_before_.back());
+  return found - mass_before_.begin();
+}
+
+void Envelope::raise(const std::vector<Witness>& witnesses) {
+  constexpr int halvings = 4;
+  std::vector<Box> siblings;
+  for (const Witness& witness : witnesses) {
+    Box& box = boxes_[static_cast<std::size_t>(witness.box)];
+    for (int h = 0; h < halvings && box.side > smallest_side; ++h) {
+      std::vector<Box> quarters;
+      add_quarters(box, quarters);
+      for (const Box& quarter : quarters)
+        if (holds(quarter, witness))
+          box = quarter;
+        else
+          siblings.push_back(quarter);
+    }
+    // Both bounds the same: it is not halved again.
+    box.bounds.greatest = std::max(2 * witness.rho, box.bounds.greatest);
+    box.bounds.least = box.bounds.greatest;
+  }
+  bound(siblings);
+  boxes_.insert(boxes_.end(), siblings.begin(), siblings.end());
+  refine();
+  finish();
+}
+
+void Envelope::bound(std::vector<Box>& boxes) const {
+  const auto n = std::ssize(boxes);
+  constexpr std::int64_t batch = 64; // boxes of a task
+  for_each_task((n + batch - 1) / batch, [&](std::int64_t task) {
+    for (std::int64_t b = task * batch; b < std::min(n, (task + 1) * batch); ++b) {
+      Box& box = boxes[static_cast<std::size_t>(b)];
+      box.bounds = sampled_ ? sampled_bounds(box) : certain_bounds(density_, box);
+    }
+  });
+}
+
+/// From values in the box and a quarter of a side around it, with a margin.
+Bounds Envelope::sampled_bounds(const Box& box) const {
+  constexpr double step = 1.5 / lattice, margin = 1.25;
+  std::array<std::array<double, lattice * lattice>, 4> rows;
+  auto& [x, y, z, rho] = rows;
+  for (std::size_t i = 0; i < rho.size(); ++i) {
+    const std::size_t row = i / lattice, column = i % lattice;
+    const auto [u, v] =
+        into_disc(box.x + box.side * (step * (static_cast<double>(column) + 0.5) - 0.25),
+                  box.y + box.side * (step * (static_cast<double>(row) + 0.5) - 0.25));
+    const Vec3 p = on_sphere(u, v, box.south);
+    x[i] = p.x;
+    y[i] = p.y;
+    z[i] = p.z;
+  }
+  density_(x, y, z, rho);
+  const auto [least, greatest] = std::minmax_element(rho.begin(), rho.end());
+  return {*least, margin * *greatest};
+}
+
+} // namespace calotte::detail
