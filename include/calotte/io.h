@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <calotte/cvt.h>
 #include <calotte/types.h>
 
 #include <cstdint>
@@ -63,6 +64,14 @@ void require_mesh_suffix(const std::string& path);
 ///        without triangles.
 /// \throws Error bad_option, parse, file.
 Mesh read_mesh(const std::string& path, const Points3* points = nullptr);
+
+/// A checkpoint: a run's state as binary, with the configuration that it belongs to in words of the
+/// caller's choice. A file that was cut short or damaged is refused, and so is another version's.
+/// \throws Error file.
+void write_checkpoint(const std::string& path, const CvtState& state,
+                      const std::string& configuration);
+/// \throws Error file, parse, bad_option (of another configuration).
+CvtState read_checkpoint(const std::string& path, const std::string& configuration);
 
 /// Writes bytes in the way of all files here.
 /// \throws Error file.

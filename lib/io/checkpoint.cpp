@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "binary.h"
+#include "file.h"
+#include "formats.h"
+
+#include <calotte/error.h>
+#include <calotte/io.h>
+
+#include <boost/crc.hpp>
+
+#include <algorithm>
+#include <type_traits>
+
+// The head, which names format, version and order of bytes; the configuration; the fields of
+// CvtState as they stand, each array after its length as Int64; and the CRC-32 of all that.
+
+namespace calotte {
+namespace {
+
+using namespace detail;
+
+constexpr std::string_view format = "calotte checkpoint ";
+
+std::string head() {
+  return std::string(format) + "1, " + (little_endian ? "little" : "big") + "-endian\n";
+}
+
+/// One list of fields serves writing and reading.
+template <class Iteration, class Visit> void visit_iteration(Iteration& i, const Visit& visit) {
+  visit(i.cells), visit(i.rule), visit(i.l2), visit(i.linf), visit(i.gradient), visit(i.energy);
+  visit(i.flips), visit(i.rebuilt), visit(i.seconds);
+  visit(i.seconds_exchange), visit(i.seconds_repair), visit(i.seconds_moments);
+}
+
+template <class Region, class Visit> void visit_region(Region& r, const Visit& visit) {
+  visit(r.sites), visit(r.halo), visit(r.halo_bytes), visit(r.seconds);
+}
+
+template <class State, class Visit> void visit_scalars(State& s, const Visit& visit) {
+  visit(s.bisections_left), visit(s.iterations_of_level), visit(s.final_rule);
+  visit(s.report.converged), visit(s.report.residual), visit(s.report.seconds);
+}
+
+// ---- Writing
+
+void put_ids(Writer& out, const std::vector<std::int32_t>& ids) {
+  const auto count = static_cast<std::int64_t>(ids.size());
+  out.raw(count).text(bytes_of(ids.data(), count));
+}
+
+void put_checkpoint(const Sink& sink, const CvtState& state, const std::string& configuration) {
+  Writer out(sink);
+  const auto raw = [&](const auto& value) { out.raw(value); };
+  out.text(head());
+  out.raw(std::ssize(configuration)).text(configuration);
+  out.raw(std::int64_t{state.points.cols()});
+  out.text(bytes_of(state.points.data(), state.points.size()));
+  put_ids(out, state.id);
+  put_ids(out, state.site_of_input);
+  visit_scalars(state, raw);
+  out.raw(std::ssize(state.report.iterations));
+  for (const CvtIteration& iteration : state.report.iterations)
+    visit_iteration(iteration, raw);
+  out.raw(std::ssize(state.report.regions));
+  for (const CvtRegion& region : state.report.regions)
+    visit_region(region, raw);
+  out.flush();
+}
+
+// ---- Reading
+
+/// Takes the next value of its own type.
+struct Take {
+  Bytes* bytes;
+  template <class T> void operator()(T& value) const {
+    if constexpr (std::is_same_v<T, bool>)
+      value = *bytes->take(1).data() != 0;
+    else
+      value = load<T>(bytes->take(sizeof value).data());
+  }
+};
+
+std::int64_t take_count(Bytes& bytes) {
+  constexpr std::int64_t most = std::int64_t{1} << 40;
+  std::int64_t count = 0;
+  Take{&bytes}(count);
+  if (count < 0 || count > most)
+    bytes.fail("a length is out of range; use another checkpoint or start anew");
+  return count;
+}
+
+std::vector<std::int32_t> take_ids(Bytes& bytes) {
+  const std::int64_t count = take_count(bytes);
+  const std::string_view raw = bytes.take(4 * count);
+  std::vector<std::int32_t> ids(static_cast<std::size_t>(count));
+  std::copy(raw.begin(), raw.end(), reinterpret_cast<char*>(ids.data()));
+  return ids;
+}
+
+CvtState take_state(Bytes& bytes) {
+  CvtState state;
+  const std::int64_t points = take_count(bytes);
+  const std::string_view coordinates = bytes.take(24 * points);
+  state.points.resize(3, points);
+  std::copy(coordinates.begin(), coordinates.end(), reinterpret_cast<char*>(state.points.data()));
+  state.id = take_ids(bytes);
+  state.site_of_input = take_ids(bytes);
+  const Take take{&bytes};
+  visit_scalars(state, take);
+  for (std::int64_t k = take_count(bytes); k > 0; --k)
+    visit_iteration(state.report.iterations.emplace_back(), take);
+  for (std::int64_t k = take_count(bytes); k > 0; --k)
+    visit_region(state.report.regions.emplace_back(), take);
+  bytes.finish();
+  return state;
+}
+
+/// What stands between head and checksum. \throws Error parse.
+std::string_view body_of(const std::string& path, std::string_view content) {
+  const Bytes bytes(content, path);
+  const std::string expected = head();
+  const std::string_view start = content.substr(0, expected.size());
+  if (start != expected) {
+    if (expected.starts_with(start))
+      bytes.fail("the checkpoint is cut short; use another or start anew");
+    if (start.starts_with(format))
+      bytes.fail("a checkpoint of another version of calotte or kind of machine; finish the run "
+                 "there or start anew");
+    bytes.fail("not a checkpoint; give the file that a run wrote as its checkpoint");
+  }
+  boost::crc_32_type checksum;
+  constexpr std::size_t size = sizeof checksum.checksum();
+  const std::size_t checked = content.size() < expected.size() + size ? 0 : content.size() - size;
+  checksum.process_bytes(content.data(), checked);
+  if (checked == 0 ||
+      load<decltype(checksum.checksum())>(content.data() + checked) != checksum.checksum())
+    bytes.fail("the checkpoint is cut short or damaged; use another or start anew");
+  return content.substr(expected.size(), checked - expected.size());
+}
+
+/// The next line, taken off the text.
+std::string take_line(std::string_view& text) {
+  const std::size_t end = text.find('\n');
+  const std::string line(text.substr(0, end));
+  text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+  return line.empty() ? "nothing more" : "\"" + line + "\"";
+}
+
+void require_same(const std::string& path, std::string_view theirs, std::string_view ours) {
+  if (theirs == ours)
+    return;
+  std::string their_line, our_line;
+  do {
+    their_line = take_line(theirs);
+    our_line = take_line(ours);
+  } while (their_line == our_line && !(theirs.empty() && ours.empty()));
+  throw Error(ErrorCode::bad_option, path + ": a checkpoint of another configuration: it has " +
+                                         their_line + " where this run has " + our_line +
+                                         "; give the same options or start anew");
+}
+
+} // namespace
+
+void write_checkpoint(const std::string& path, const CvtState& state,
+                      const std::string& configuration) {
+  OutputFile file(path);
+  boost::crc_32_type checksum;
+  const auto sink = [&](std::string_view bytes) {
+    checksum.process_bytes(bytes.data(), bytes.size());
+    file.append(bytes);
+  };
+  put_checkpoint(sink, state, configuration);
+  const auto sum = checksum.checksum();
+  file.append({reinterpret_cast<const char*>(&sum), sizeof sum});
+  file.commit();
+}
+
+CvtState read_checkpoint(const std::string& path, const std::string& configuration) {
+  std::ifstream in = open_input(path);
+  const std::string content = read_all(in, path);
+  Bytes bytes(body_of(path, content), path);
+  const std::int64_t words = take_count(bytes);
+  require_same(path, bytes.take(words), configuration);
+  return take_state(bytes);
+}
+
+} // namespace calotte

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <calotte/cvt.h>
+#include <calotte/error.h>
+#include <calotte/generators.h>
+#include <calotte/io.h>
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <string>
+
+#include <unistd.h>
+
+using namespace calotte;
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::string configuration = "start random\ncells 30\ntolerance 1e-06\n";
+
+/// A file name that goes when the test ends.
+struct Scratch {
+  Scratch() {
+    std::string name = fs::temp_directory_path() / "calotte-checkpoint-XXXXXX";
+    folder = ::mkdtemp(name.data());
+    path = folder / "run.checkpoint";
+  }
+  ~Scratch() { fs::remove_all(folder); }
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+
+  std::string bytes() const {
+    std::ifstream in(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+  void put(const std::string& content) const { std::ofstream(path, std::ios::binary) << content; }
+
+  fs::path folder, path;
+};
+
+/// A state in which every field has a value of its own.
+CvtState some_state() {
+  CvtState state;
+  state.points = random_sphere(30);
+  state.points(0, 7) = -0.0;
+  for (int i = 0; i < 30; ++i)
+    state.id.push_back((7 * i) % 30);
+  for (int i = 0; i < 33; ++i)
+    state.site_of_input.push_back(i % 30);
+  state.bisections_left = 2;
+  state.iterations_of_level = 17;
+  state.final_rule = true;
+  state.report.residual = 0.125;
+  state.report.seconds = 1e300;
+  for (int k = 0; k < 3; ++k) {
+    CvtIteration i;
+    i.cells = (std::int64_t{1} << 33) + k;
+    i.rule = 6;
+    i.l2 = 0.1, i.linf = std::numeric_limits<double>::denorm_min(), i.gradient = 0.3;
+    i.energy = 0.4, i.flips = 5 + k, i.rebuilt = k == 1;
+    i.seconds = 0.6, i.seconds_exchange = 0.7, i.seconds_repair = 0.8, i.seconds_moments = 0.9;
+    state.report.iterations.push_back(i);
+  }
+  state.report.regions.push_back({11, 12, 13, 1.4});
+  state.report.regions.push_back({21, 22, 23, 2.4});
+  return state;
+}
+
+void check_equal(const CvtIteration& a, const CvtIteration& b) {
+  CHECK(a.cells == b.cells);
+  CHECK(a.rule == b.rule);
+  CHECK(a.l2 == b.l2);
+  CHECK(a.linf == b.linf);
+  CHECK(a.gradient == b.gradient);
+  CHECK(a.energy == b.energy);
+  CHECK(a.flips == b.flips);
+  CHECK(a.rebuilt == b.rebuilt);
+  CHECK(a.seconds == b.seconds);
+  CHECK(a.seconds_exchange == b.seconds_exchange);
+  CHECK(a.seconds_repair == b.seconds_repair);
+  CHECK(a.seconds_moments == b.seconds_moments);
+}
+
+void check_equal(const CvtState& a, const CvtState& b) {
+  CHECK((a.points == b.points));
+  CHECK(a.id == b.id);
+  CHECK(a.site_of_input == b.site_of_input);
+  CHECK(a.bisections_left == b.bisections_left);
+  CHECK(a.iterations_of_level == b.iterations_of_level);
+  CHECK(a.final_rule == b.final_rule);
+  CHECK(a.report.converged == b.report.converged);
+  CHECK(a.report.residual == b.report.residual);
+  CHECK(a.report.seconds == b.report.seconds);
+  REQUIRE(a.report.iterations.size() == b.report.iterations.size());
+  for (std::size_t k = 0; k < a.report.iterations.size(); ++k)
+    check_equal(a.report.iterations[k], b.report.iterations[k]);
+  REQUIRE(a.report.regions.size() == b.report.regions.size());
+  for (std::size_t k = 0; k < a.report.regions.size(); ++k) {
+    CHECK(a.report.regions[k].sites == b.report.regions[k].sites);
+    CHECK(a.report.regions[k].halo == b.report.regions[k].halo);
+    CHECK(a.report.regions[k].halo_bytes == b.report.regions[k].halo_bytes);
+    CHECK(a.report.regions[k].seconds == b.report.regions[k].seconds);
+  }
+}
+
+/// The refusal's code and words; the code is internal where there was none.
+Error refusal(const Scratch& scratch, const std::string& words = configuration) {
+  try {
+    read_checkpoint(scratch.path, words);
+  } catch (const Error& error) {
+    return error;
+  }
+  return {ErrorCode::internal, "not refused"};
+}
+
+bool says(const Error& error, const std::string& part) {
+  const std::string message = error.what();
+  return message.find(part) != std::string::npos && message.find('\n') == std::string::npos;
+}
+
+} // namespace
+
+TEST_CASE("a state comes back with every field, bit for bit") {
+  const Scratch scratch;
+  CvtState state = some_state();
+  for (const bool converged : {false, true}) {
+    state.report.converged = converged;
+    write_checkpoint(scratch.path, state, configuration);
+    check_equal(read_checkpoint(scratch.path, configuration), state);
+    CHECK(std::signbit(read_checkpoint(scratch.path, configuration).points(0, 7)));
+  }
+  write_checkpoint(scratch.path, {}, "");
+  check_equal(read_checkpoint(scratch.path, ""), CvtState{});
+  CHECK(std::distance(fs::directory_iterator(scratch.folder), {}) == 1);
+}
+
+TEST_CASE("a run goes on from its checkpoint to the same bits") {
+  const Scratch scratch;
+  const Points3 start = random_sphere(200, 3);
+  CvtOptions options;
+  options.norm = Norm::none;
+  options.max_iterations = 12;
+  options.bisections = 1;
+  const Cvt whole = cvt(start, options);
+  for (const std::size_t last : {1, 11, 12, 13, 24}) { // 12 end the coarse level, 24 the fine one
+    CAPTURE(last);
+    cvt(start, options, [&](const CvtState& state) {
+      const bool stop = state.report.iterations.size() == last;
+      if (stop)
+        write_checkpoint(scratch.path, state, configuration);
+      return stop;
+    });
+    const Cvt resumed = cvt(read_checkpoint(scratch.path, configuration), options);
+    CHECK((resumed.mesh.points == whole.mesh.points));
+    CHECK((resumed.mesh.triangles == whole.mesh.triangles));
+    CHECK(resumed.mesh.site_of_input == whole.mesh.site_of_input);
+    CHECK(resumed.report.converged == whole.report.converged);
+    CHECK(resumed.report.iterations.size() == whole.report.iterations.size());
+  }
+}
+
+TEST_CASE("a checkpoint that was cut short anywhere is refused, and so is one with more") {
+  const Scratch scratch;
+  write_checkpoint(scratch.path, some_state(), configuration);
+  const std::string whole = scratch.bytes();
+  for (std::size_t size = 0; size < whole.size(); ++size) {
+    CAPTURE(size);
+    scratch.put(whole.substr(0, size));
+    const Error error = refusal(scratch);
+    CHECK(error.code() == ErrorCode::parse);
+    CHECK(says(error, "run.checkpoint: the checkpoint is cut short"));
+  }
+  scratch.put(whole + '\0');
+  CHECK(says(refusal(scratch), "damaged"));
+  scratch.put(whole);
+  CHECK(refusal(scratch).code() == ErrorCode::internal);
+}
+
+TEST_CASE("damage to any byte is found") {
+  const Scratch scratch;
+  write_checkpoint(scratch.path, some_state(), configuration);
+  const std::string whole = scratch.bytes();
+  for (std::size_t place = 0; place < whole.size(); ++place) {
+    CAPTURE(place);
+    std::string damaged = whole;
+    damaged[place] = static_cast<char>(damaged[place] ^ (1 << place % 8));
+    scratch.put(damaged);
+    CHECK(refusal(scratch).code() == ErrorCode::parse);
+  }
+}
+
+TEST_CASE("what is no checkpoint of this version is refused") {
+  const Scratch scratch;
+  write_checkpoint(scratch.path, some_state(), configuration);
+  std::string other = scratch.bytes();
+  other[other.find('1')] = '2';
+  scratch.put(other);
+  CHECK(says(refusal(scratch), "run.checkpoint: a checkpoint of another version"));
+  scratch.put("1 0 0\n0 1 0\n");
+  CHECK(says(refusal(scratch), "run.checkpoint: not a checkpoint"));
+  fs::remove(scratch.path);
+  CHECK(refusal(scratch).code() == ErrorCode::file);
+  fs::create_directory(scratch.path);
+  CHECK(refusal(scratch).code() == ErrorCode::file);
+}
+
+TEST_CASE("another configuration is refused with the first line that differs") {
+  const Scratch scratch;
+  write_checkpoint(scratch.path, some_state(), configuration);
+  const auto check_words = [&](const std::string& words, const std::string& part) {
+    CAPTURE(words);
+    const Error error = refusal(scratch, words);
+    CHECK(error.code() == ErrorCode::bad_option);
+    CHECK(says(error, "run.checkpoint: a checkpoint of another configuration: it has " + part));
+  };
+  check_words("start random\ncells 31\ntolerance 1e-08\n",
+              "\"cells 30\" where this run has \"cells 31\"");
+  check_words("start random\ncells 30\n", "\"tolerance 1e-06\" where this run has nothing more");
+  check_words(configuration + "rule 3\n", "nothing more where this run has \"rule 3\"");
+  check_words("", "\"start random\" where this run has nothing more");
+  check_words(configuration.substr(0, configuration.size() - 1), "");
+}
+
+TEST_CASE("a checkpoint that cannot be written leaves the one before as it was") {
+  const Scratch scratch;
+  write_checkpoint(scratch.path, some_state(), configuration);
+  const std::string before = scratch.bytes();
+  CHECK_THROWS_AS(write_checkpoint(scratch.folder / "absent" / "file", {}, ""), Error);
+  CHECK_THROWS_AS(write_checkpoint("/dev/full", some_state(), ""), Error);
+  CHECK(scratch.bytes() == before);
+}
