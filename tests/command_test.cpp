@@ -1,109 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/command.h"
+
 #include <calotte/generators.h>
 #include <calotte/io.h>
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <set>
 #include <string>
 
 #include <sys/stat.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
-// The command as a user runs it: by a shell, in a folder of its own.
 
 namespace fs = std::filesystem;
 
+using namespace calotte::test;
+
 namespace {
 
-std::string contents(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-struct Outcome {
-  int code;
-  std::string out, err;
-};
-
-/// A folder that goes when the test ends, and what the command does in it.
-class Bench {
-public:
-  Bench() {
-    std::string name = fs::temp_directory_path() / "calotte-command-XXXXXX";
-    scratch_ = ::mkdtemp(name.data());
-    fs::create_directory(folder());
-  }
-  ~Bench() { fs::remove_all(scratch_); }
-  Bench(const Bench&) = delete;
-  Bench& operator=(const Bench&) = delete;
-
-  fs::path folder() const { return scratch_ / "work"; }
-
-  void file(const std::string& name, const std::string& text) const {
-    std::ofstream(folder() / name, std::ios::binary) << text;
-  }
-
-  /// \param arguments in the shell's syntax, redirections included.
-  /// \param before a command for the shell, ended by a semicolon.
-  Outcome run(const std::string& arguments, const std::string& before = "") const {
-    const std::string line = "cd '" + folder().string() + "' && { " + before + " exec '" +
-                             CALOTTE_COMMAND "' " + arguments + "; } >'" +
-                             (scratch_ / "out").string() + "' 2>'" + (scratch_ / "err").string() +
-                             "'";
-    const int status = std::system(line.c_str()); // NOLINT(bugprone-command-processor)
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(scratch_ / "out"),
-            contents(scratch_ / "err")};
-  }
-
-  std::set<std::string> names() const {
-    std::set<std::string> found;
-    for (const auto& entry : fs::directory_iterator(folder()))
-      found.insert(entry.path().filename());
-    return found;
-  }
-
-private:
-  fs::path scratch_;
-};
-
 constexpr const char* octahedron = "1 0 0\n0 1 0\n0 0 1\n-1 0 0\n0 -1 0\n0 0 -1\n";
-
-bool one_line(const std::string& text) {
-  return !text.empty() && std::count(text.begin(), text.end(), '\n') == 1 && text.back() == '\n';
-}
-
-/// The command ends with this code and exactly this message, and leaves no file behind.
-void check_refusal(const Bench& bench, const std::string& arguments, int code,
-                   const std::string& message, const std::string& before = "") {
-  CAPTURE(arguments);
-  const auto names = bench.names();
-  const Outcome outcome = bench.run(arguments, before);
-  CHECK(outcome.code == code);
-  CHECK(outcome.err == "calotte: " + message + "\n");
-  CHECK(outcome.out.empty());
-  CHECK(bench.names() == names);
-}
-
-/// As check_refusal, for a message whose words belong to a stage of the library.
-void check_refusal_naming(const Bench& bench, const std::string& arguments, int code,
-                          const std::string& part) {
-  CAPTURE(arguments);
-  const auto names = bench.names();
-  const Outcome outcome = bench.run(arguments);
-  CAPTURE(outcome.err);
-  CHECK(outcome.code == code);
-  CHECK(one_line(outcome.err));
-  CHECK(outcome.err.starts_with("calotte: "));
-  CHECK(outcome.err.find(part) != std::string::npos);
-  CHECK(outcome.out.empty());
-  CHECK(bench.names() == names);
-}
 
 } // namespace
 
@@ -184,7 +99,7 @@ TEST_CASE("bad usage is refused before any work") {
   check_usage("delaunay -o mesh.vtp", "POINTS is required; see calotte delaunay --help");
   check_usage("delaunay never -o mesh.vtp --report mesh.vtp",
               "mesh.vtp is both mesh and report; give the report another name");
-  check_usage("", "delaunay, points, check or draw is required; see calotte --help");
+  check_usage("", "delaunay, cvt, points, check, info or draw is required; see calotte --help");
   check_usage("triangulate",
               "The following argument was not expected: triangulate; see calotte --help");
   check_usage("check mesh.tri",
@@ -341,7 +256,7 @@ TEST_CASE("every kind of points") {
 
 TEST_CASE("help names the exit codes, for the command and for each of its parts") {
   const Bench bench;
-  for (const char* part : {"", "delaunay", "points", "check", "draw"}) {
+  for (const char* part : {"", "delaunay", "cvt", "points", "check", "info", "draw"}) {
     const Outcome help = bench.run(std::string(part) + " --help");
     CHECK(help.code == 0);
     CHECK(help.out.find("1  the mesh failed a check") != std::string::npos);
@@ -356,4 +271,52 @@ TEST_CASE("the weather stations become a mesh") {
   CHECK(made.code == 0);
   CHECK(made.out.find(", closed") != std::string::npos);
   CHECK(bench.run("check mesh.tri --lonlat --points '" + stations + "'").code == 0);
+}
+
+TEST_CASE("info prints a table of the mesh as a grid, and reports the same as JSON") {
+  const Bench bench;
+  CHECK(bench.run("points icosahedron 0 -o points.txt").code == 0);
+  CHECK(bench.run("delaunay points.txt -o mesh.tri").code == 0);
+  const Outcome shown = bench.run("info mesh.tri --points points.txt --report report.json");
+  CHECK(shown.code == 0);
+  CHECK(shown.err.empty());
+  for (const char* row :
+       {"cells                 12\n", "triangles             20\n", "degree: cells         5: 12\n",
+        "sigma                 1  ", "spacing, radians      1.10715       1.10715       1.10715\n",
+        "area ratio            1\n", "obtuse triangles      0\n"})
+    CHECK(shown.out.find(row) != std::string::npos);
+  const std::string report = contents(bench.folder() / "report.json");
+  for (const char* key :
+       {"cells", "triangles", "degrees", "obtuse", "spacing", "sigma", "cell_quality", "cell_area",
+        "area_ratio", "triangle_quality", "angles", "off_centring", "residual", "energy",
+        "energy_times_cells", "cells_area", "triangles_area"})
+    CHECK(report.find(std::string("\"").append(key).append("\": ")) != std::string::npos);
+}
+
+TEST_CASE("info measures against a density") {
+  const Bench bench;
+  CHECK(bench.run("points icosahedron 2 -o points.txt").code == 0);
+  CHECK(bench.run("delaunay points.txt -o mesh.vtp").code == 0);
+  const Outcome uniform = bench.run("info mesh.vtp --density uniform");
+  const Outcome bump =
+      bench.run("info mesh.vtp --density tanh:lon=270,lat=30,beta=30deg,alpha=0.20,gamma=x8");
+  CHECK(uniform.out == bench.run("info mesh.vtp").out);
+  CHECK(bump.code == 0);
+  const auto before = [](const Outcome& outcome) {
+    return outcome.out.substr(0, outcome.out.find("residual"));
+  };
+  CHECK(before(bump) == before(uniform)); // what no density shows in
+  CHECK(bump.out != uniform.out);
+}
+
+TEST_CASE("info refuses a mesh without a Voronoi tessellation, and a report in its place") {
+  const Bench bench;
+  bench.file("points.txt", "0 0 1\n1 0 1\n0 1 1\n-1 -1 1\n");
+  CHECK(bench.run("delaunay points.txt -o mesh.vtp").code == 0);
+  check_refusal_naming(bench, "info mesh.vtp --report report.json", 2, "the mesh is open");
+  check_refusal(bench, "info mesh.vtp --report mesh.vtp", 2,
+                "mesh.vtp is both input and output; give the output another name");
+  check_refusal(bench, "info mesh.vtp --report absent/report.json", 3,
+                "cannot write absent/report.json: the folder absent does not exist; create it "
+                "first");
 }

@@ -1,24 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "../tools/draw.h"
 #include "../tools/draw_globe.h"
+#include "support/pictures.h"
 
 #include <calotte/delaunay.h>
-#include <calotte/error.h>
 #include <calotte/generators.h>
 
 #include <cairo.h>
 #include <doctest/doctest.h>
-#include <unistd.h>
 
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <functional>
-#include <iterator>
 #include <numbers>
 
 using namespace calotte;
+using namespace calotte::test;
 using namespace calotte::tools;
 namespace fs = std::filesystem;
 
@@ -28,27 +26,6 @@ constexpr double degree = std::numbers::pi / 180;
 constexpr std::array all_shapes = {Shapes::triangles, Shapes::cells};
 constexpr std::array all_colourings = {Colouring::spacing, Colouring::angle, Colouring::valence,
                                        Colouring::none};
-
-/// A folder of its own that goes with the test.
-struct Folder {
-  Folder() : path(fs::temp_directory_path() / ("calotte-draw-" + std::to_string(getpid()))) {
-    fs::remove_all(path);
-    fs::create_directory(path);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  ~Folder() { fs::remove_all(path); }
-  std::string file(const std::string& name) const { return (path / name).string(); }
-  std::ptrdiff_t count() const {
-    return std::distance(fs::directory_iterator(path), fs::directory_iterator());
-  }
-  fs::path path;
-};
-
-std::string bytes_of(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 /// Four sites, made by hand.
 Mesh tetrahedron() {
@@ -71,34 +48,6 @@ Mesh polar_cap() {
   }
   return delaunay(all.leftCols(count));
 }
-
-ErrorCode code_of(const std::function<void()>& act) {
-  try {
-    act();
-  } catch (const Error& error) {
-    return error.code();
-  }
-  FAIL("no error");
-  return ErrorCode::internal;
-}
-
-struct Picture {
-  explicit Picture(const std::string& path)
-      : surface(cairo_image_surface_create_from_png(path.c_str())) {
-    REQUIRE(cairo_surface_status(surface) == CAIRO_STATUS_SUCCESS);
-  }
-  Picture(const Picture&) = delete;
-  Picture& operator=(const Picture&) = delete;
-  ~Picture() { cairo_surface_destroy(surface); }
-  int width() const { return cairo_image_surface_get_width(surface); }
-  int height() const { return cairo_image_surface_get_height(surface); }
-  std::uint32_t at(int x, int y) const {
-    const auto* row = cairo_image_surface_get_data(surface) +
-                      static_cast<std::ptrdiff_t>(y) * cairo_image_surface_get_stride(surface);
-    return reinterpret_cast<const std::uint32_t*>(row)[x] & 0xffffff;
-  }
-  cairo_surface_t* surface;
-};
 
 /// The globe alone, as the pixels of its image; calls visit(pixel) for those within 0.97 of its
 /// radius.
@@ -126,11 +75,6 @@ Painting painting_of(const Mesh& mesh, Shapes shapes, Colouring colouring, const
   painting.widths = widths_of(painting.scene);
   painting.scale = make_scale(painting.values, colouring);
   return painting;
-}
-
-std::uint32_t packed(const Rgb& c) {
-  const auto byte = [](double x) { return static_cast<std::uint32_t>(std::lround(255 * x)); };
-  return byte(c.r) << 16 | byte(c.g) << 8 | byte(c.b);
 }
 
 } // namespace

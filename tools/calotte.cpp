@@ -15,10 +15,11 @@ namespace {
 constexpr const char* footer =
     R"(Results go to standard output, messages to standard error. Exit codes:
   0  done
-  1  the mesh failed a check
+  1  the mesh failed a check, or did not converge (it is written)
   2  bad usage or input
   3  file trouble: one cannot be opened, read or written
-  4  internal error)";
+  4  internal error
+  130, 143  stopped by SIGINT or SIGTERM; a run with --checkpoint can be resumed)";
 
 /// How to ask for the help that the arguments call for.
 std::string help_of(const CLI::App& app) {
@@ -50,12 +51,14 @@ void run(CLI::App& app, int argc, char** argv) {
   app.set_version_flag("--version", std::string("calotte " CALOTTE_VERSION));
   app.require_subcommand(0, 1);
   add_delaunay(app);
+  add_cvt(app);
   add_points(app);
   add_check(app);
+  add_info(app);
   add_draw(app);
   app.parse(argc, argv);
   if (app.get_subcommands().empty())
-    throw CLI::RequiredError("delaunay, points, check or draw");
+    throw CLI::RequiredError("delaunay, cvt, points, check, info or draw");
 }
 
 /// Runs the command, and turns what it throws into one line and an exit code.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <calotte/error.h>
 #include <calotte/io.h>
 
 #include <CLI/CLI.hpp>
@@ -16,13 +17,24 @@ namespace calotte::tools {
 // ---- Each registers one subcommand with its options and a callback that does the work.
 
 void add_delaunay(CLI::App& app);
+void add_cvt(CLI::App& app);
 void add_points(CLI::App& app);
 void add_check(CLI::App& app);
+void add_info(CLI::App& app);
 void add_draw(CLI::App& app);
 
 // ---- What they share.
 
-enum ExitCode { done = 0, check_failed = 1, bad_input = 2, file_trouble = 3, internal_error = 4 };
+enum ExitCode {
+  done = 0,
+  check_failed = 1,
+  not_converged = 1,
+  bad_input = 2,
+  file_trouble = 3,
+  internal_error = 4,
+  interrupted = 130, ///< by SIGINT, as a shell has it: 128 and the signal's number
+  terminated = 143,  ///< by SIGTERM
+};
 
 /// Ends the command with an exit code, without a message.
 [[noreturn]] void finish(ExitCode code);
@@ -35,9 +47,34 @@ void require_folder(const std::string& path);
 /// \throws Error bad_option.
 void require_distinct(const std::string& output, const std::string& input);
 
+/// A file that a command writes, and the word that messages have for it.
+struct Output {
+  std::string what, path;
+};
+
+/// As require_folder and require_distinct, of all the outputs with a path; nor may two be one file.
+/// \throws Error file, bad_option.
+void require_outputs(const std::vector<Output>& outputs, const std::vector<std::string>& inputs);
+
+/// Whole numbers in a range, for an option.
+CLI::Validator whole_number(int least, int most);
+
 /// As read_points; "-" is standard input.
 Points3 points_from(const std::string& path, Columns columns,
                     std::vector<std::int64_t>* lines = nullptr);
+
+/// Points with the lines they stand on, for messages.
+struct PointFile {
+  std::string name;
+  Points3 points;
+  std::vector<std::int64_t> lines;
+};
+
+/// \throws Error as points_from.
+PointFile read_point_file(const std::string& path, bool lonlat);
+
+/// The library names the column of a bad point; who wrote the file looks for the line.
+[[noreturn]] void rethrow_with_line(const Error& error, const PointFile& file);
 
 /// Where a mesh is read from: the file, and the points that a .txt or .tri file refers to.
 struct MeshSource {

@@ -5,8 +5,10 @@
 #include <calotte/io.h>
 
 #include <cerrno>
+#include <charconv>
 #include <filesystem>
 #include <iostream>
+#include <limits>
 #include <system_error>
 
 #include <unistd.h>
@@ -36,9 +38,61 @@ void require_distinct(const std::string& output, const std::string& input) {
                                                 "another name");
 }
 
+void require_outputs(const std::vector<Output>& outputs, const std::vector<std::string>& inputs) {
+  const auto place = [](const Output& output) {
+    return std::filesystem::path(output.path).lexically_normal();
+  };
+  for (auto output = outputs.begin(); output != outputs.end(); ++output) {
+    if (output->path.empty())
+      continue;
+    require_folder(output->path);
+    for (const std::string& input : inputs)
+      require_distinct(output->path, input);
+    for (auto other = outputs.begin(); other != output; ++other)
+      if (place(*other) == place(*output))
+        throw Error(ErrorCode::bad_option, output->path + " is both " + other->what + " and " +
+                                               output->what + "; give the " + output->what +
+                                               " another name");
+  }
+}
+
+CLI::Validator whole_number(int least, int most) {
+  const std::string range = most == std::numeric_limits<int>::max()
+                                ? std::to_string(least) + " or more"
+                                : "from " + std::to_string(least) + " to " + std::to_string(most);
+  return {[=](const std::string& text) {
+            int value = least - 1;
+            const char* const end = text.data() + text.size();
+            const bool whole = std::from_chars(text.data(), end, value).ptr == end;
+            return whole && least <= value && value <= most
+                       ? std::string()
+                       : "\"" + text + "\" is not a whole number " + range;
+          },
+          "N"};
+}
+
 Points3 points_from(const std::string& path, Columns columns, std::vector<std::int64_t>* lines) {
   return path == "-" ? read_points(std::cin, "standard input", columns, lines)
                      : read_points(path, columns, lines);
+}
+
+PointFile read_point_file(const std::string& path, bool lonlat) {
+  PointFile file;
+  file.name = path == "-" ? "standard input" : path;
+  file.points = points_from(path, lonlat ? Columns::lonlat : Columns::xyz, &file.lines);
+  return file;
+}
+
+void rethrow_with_line(const Error& error, const PointFile& file) {
+  const bool of_input = error.code() == ErrorCode::not_finite ||
+                        error.code() == ErrorCode::zero_vector ||
+                        error.code() == ErrorCode::duplicate;
+  if (!of_input || error.index() < 0 ||
+      error.index() >= static_cast<std::int64_t>(file.lines.size()))
+    throw error;
+  const std::int64_t line = file.lines[static_cast<std::size_t>(error.index())];
+  throw Error(error.code(), file.name + " line " + std::to_string(line) + ": " + error.what(),
+              line);
 }
 
 std::shared_ptr<MeshSource> add_mesh_source(CLI::App& command) {

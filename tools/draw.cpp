@@ -1,36 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "draw.h"
 
-#include "../lib/io/file.h"
 #include "draw_globe.h"
+#include "draw_picture.h"
+#include "draw_text.h"
 
-#include <calotte/error.h>
-
-#include <cairo-pdf.h>
-#include <cairo-svg.h>
 #include <cairo.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <exception>
 #include <memory>
 #include <numbers>
-
-#ifdef __SANITIZE_ADDRESS__
-// Fontconfig loses some of what it keeps for the life of a process.
-extern "C" const char* __lsan_default_suppressions();
-extern "C" const char* __lsan_default_suppressions() { return "leak:libfontconfig"; }
-#endif
 
 namespace calotte::tools {
 
 namespace {
 
 using Surface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
-using Context = std::unique_ptr<cairo_t, decltype(&cairo_destroy)>;
 
-constexpr Rgb text_colour = {0.13, 0.15, 0.19};
 constexpr Rgb limb_colour = {0.45, 0.48, 0.52};
 constexpr std::int64_t most_paths = 30000; ///< a vector file of more shapes is slow to open
 
@@ -49,31 +36,6 @@ struct Page {
   double middle_y, bar_y;
   int height;
 };
-
-void set_colour(cairo_t* context, const Rgb& colour) {
-  cairo_set_source_rgb(context, colour.r, colour.g, colour.b);
-}
-
-double text_width(cairo_t* context, const std::string& text) {
-  cairo_text_extents_t extents;
-  cairo_text_extents(context, text.c_str(), &extents);
-  return extents.x_advance;
-}
-
-/// One line of text whose middle is at x.
-void centred_text(cairo_t* context, double x, double baseline, const std::string& text) {
-  cairo_move_to(context, x - text_width(context, text) / 2, baseline);
-  cairo_show_text(context, text.c_str());
-}
-
-/// 2621442 as 2 621 442.
-std::string grouped(std::int64_t number) {
-  std::string text = std::to_string(number);
-  for (auto at = static_cast<std::ptrdiff_t>(text.size()) - 3; at > 0; at -= 3) {
-    text.insert(static_cast<std::size_t>(at), "\u2009");
-  }
-  return text;
-}
 
 bool has_boundary(const Mesh& mesh) { return (mesh.neighbours.array() < 0).any(); }
 
@@ -210,54 +172,13 @@ void globe(cairo_t* context, const Page& page, const Painting& painting, bool pa
 }
 
 void compose(cairo_t* context, const Page& page, const Painting& painting, bool paths) {
-  cairo_set_source_rgb(context, 1, 1, 1);
-  cairo_paint(context);
   globe(context, page, painting, paths);
-  cairo_select_font_face(context, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
-  cairo_set_font_size(context, 1.1 * page.text);
+  select_font(context, 1.1 * page.text);
   set_colour(context, text_colour);
   centred_text(context, page.middle_x(), 1.65 * page.text, title_of(*painting.scene.mesh));
   if (painting.scale.colouring != Colouring::none) {
     legend(context, page, painting);
   }
-}
-
-/// Where Cairo's C code hands over bytes: an exception waits there until it may pass.
-struct Stream {
-  detail::OutputFile file;
-  std::exception_ptr failure;
-
-  static cairo_status_t write(void* closure, const unsigned char* data, unsigned int length) {
-    auto& stream = *static_cast<Stream*>(closure);
-    try {
-      stream.file.append({reinterpret_cast<const char*>(data), length});
-      return CAIRO_STATUS_SUCCESS;
-    } catch (...) {
-      stream.failure = std::current_exception();
-      return CAIRO_STATUS_WRITE_ERROR;
-    }
-  }
-  void check(cairo_status_t status, const std::string& path) const {
-    if (failure) {
-      std::rethrow_exception(failure);
-    }
-    if (status != CAIRO_STATUS_SUCCESS) {
-      throw Error(ErrorCode::file, path + ": the picture cannot be made: " +
-                                       cairo_status_to_string(status) + "; try a smaller size");
-    }
-  }
-};
-
-Surface surface_for(PictureFormat format, const Page& page, Stream& stream) {
-  cairo_surface_t* surface = nullptr;
-  if (format == PictureFormat::png) {
-    surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, page.width, page.height);
-  } else if (format == PictureFormat::svg) {
-    surface = cairo_svg_surface_create_for_stream(Stream::write, &stream, page.width, page.height);
-  } else {
-    surface = cairo_pdf_surface_create_for_stream(Stream::write, &stream, page.width, page.height);
-  }
-  return {surface, cairo_surface_destroy};
 }
 
 Painting make_painting(const Mesh& mesh, const DrawOptions& options) {
@@ -272,49 +193,14 @@ Painting make_painting(const Mesh& mesh, const DrawOptions& options) {
 
 } // namespace
 
-PictureFormat picture_format(const std::string& path) {
-  const std::size_t dot = path.find_last_of("./");
-  std::string suffix = dot == std::string::npos || path[dot] == '/' ? "" : path.substr(dot);
-  std::transform(suffix.begin(), suffix.end(), suffix.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (suffix == ".png") {
-    return PictureFormat::png;
-  }
-  if (suffix == ".svg") {
-    return PictureFormat::svg;
-  }
-  if (suffix == ".pdf") {
-    return PictureFormat::pdf;
-  }
-  throw Error(ErrorCode::bad_option,
-              path + ": the suffix names no picture format; use .png, .svg or .pdf");
-}
-
 void draw(const std::string& path, const Mesh& mesh, const DrawOptions& options) {
-  const PictureFormat format = picture_format(path);
-  if (options.size < 64 || options.size > 16384) {
-    throw Error(ErrorCode::bad_option,
-                "a picture is 64 to 16384 pixels wide, not " + std::to_string(options.size));
-  }
+  require_picture(path, options.size);
   const Painting painting = make_painting(mesh, options);
   const Page page(options.size, options.colouring != Colouring::none);
-  const bool paths = format != PictureFormat::png && visible_shapes(painting) <= most_paths;
-  Stream stream{detail::OutputFile(path), nullptr};
-  const Surface surface = surface_for(format, page, stream);
-  {
-    const Context context(cairo_create(surface.get()), cairo_destroy);
-    compose(context.get(), page, painting, paths);
-    stream.check(cairo_status(context.get()), path);
-  }
-  cairo_status_t status = CAIRO_STATUS_SUCCESS;
-  if (format == PictureFormat::png) {
-    status = cairo_surface_write_to_png_stream(surface.get(), Stream::write, &stream);
-  } else {
-    cairo_surface_finish(surface.get());
-    status = cairo_surface_status(surface.get());
-  }
-  stream.check(status, path);
-  stream.file.commit();
+  const bool paths =
+      picture_format(path) != PictureFormat::png && visible_shapes(painting) <= most_paths;
+  write_picture(path, page.width, page.height,
+                [&](cairo_t* context) { compose(context, page, painting, paths); });
 }
 
 } // namespace calotte::tools

@@ -36,12 +36,6 @@ struct DrawOptions {
   Colouring colouring = Colouring::spacing;
 };
 
-enum class PictureFormat { png, svg, pdf };
-
-/// The format of a file's suffix.
-/// \throws Error bad_option for a suffix that is none.
-PictureFormat picture_format(const std::string& path);
-
 /// Draws a mesh of the sphere as an orthographic globe with a title and a legend. The points may
 /// have any norm. The file is written beside its place and renamed when whole.
 /// \throws Error bad_option, file.

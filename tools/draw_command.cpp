@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands.h"
+#include "density_option.h"
 #include "draw.h"
+#include "draw_history.h"
+#include "draw_picture.h"
+#include "draw_spacing_law.h"
 
 #include <calotte/error.h>
 
@@ -16,8 +20,11 @@ namespace {
 
 struct DrawArguments {
   std::shared_ptr<MeshSource> source;
+  std::shared_ptr<DensityWords> density;
   std::string output;
   DrawOptions options;
+  std::vector<std::string> reports; ///< to be drawn instead of a mesh
+  bool spacing_law = false;
 };
 
 /// Takes a number and what follows it; false where none is.
@@ -87,27 +94,83 @@ void add_look(CLI::App& command, DrawOptions& options) {
       "smallest, valence the number of neighbours");
 }
 
-void run(const DrawArguments& arguments) {
-  picture_format(arguments.output); // fails before the mesh is read
-  require_folder(arguments.output);
+/// The pictures that are no globe, and which options they do without.
+void add_plots(CLI::App& command, DrawArguments& arguments) {
+  CLI::Option* history =
+      command
+          .add_option("--history", arguments.reports,
+                      "instead of a mesh, draw how runs converged: reports of calotte cvt --report")
+          ->type_name("REPORT ...")
+          ->expected(1, static_cast<int>(most_histories));
+  CLI::Option* law = command.add_flag(
+      "--spacing-law", arguments.spacing_law,
+      "instead of the globe, draw the cells' spacings against those that --density asks for");
+  law->needs(command.get_option("--density"));
+  for (const char* name : {"--density", "--join"}) {
+    command.get_option(name)->needs(law);
+  }
+  for (const char* name : {"--view", "--what", "--colour"}) {
+    law->excludes(command.get_option(name));
+    history->excludes(command.get_option(name));
+  }
+  for (const char* name : {"MESH", "--points", "--lonlat", "--spacing-law"}) {
+    history->excludes(command.get_option(name));
+  }
+}
+
+void draw_reports(const DrawArguments& arguments) {
+  std::vector<History> histories;
+  for (const std::string& report : arguments.reports) {
+    require_distinct(arguments.output, report);
+    histories.push_back(read_history(report));
+  }
+  draw_history(arguments.output, histories, arguments.options.size);
+  std::cout << arguments.output << ": convergence of " << histories.size()
+            << (histories.size() == 1 ? " run\n" : " runs\n");
+}
+
+void draw_mesh(const DrawArguments& arguments) {
+  if (arguments.source->path.empty()) {
+    throw CLI::RequiredError("MESH");
+  }
   require_distinct(arguments.output, arguments.source->path);
   require_distinct(arguments.output, arguments.source->points);
+  const Density density = density_of(*arguments.density);
   const Mesh mesh = read_mesh(*arguments.source);
-  draw(arguments.output, mesh, arguments.options);
-  std::cout << arguments.output << ": picture of " << mesh.points.cols() << " sites, "
-            << mesh.triangles.cols() << " triangles\n";
+  if (arguments.spacing_law) {
+    draw_spacing_law(arguments.output, mesh, density, arguments.options.size);
+  } else {
+    draw(arguments.output, mesh, arguments.options);
+  }
+  std::cout << arguments.output << ": "
+            << (arguments.spacing_law ? "spacing law of " : "picture of ") << mesh.points.cols()
+            << " sites, " << mesh.triangles.cols() << " triangles\n";
+}
+
+void run(const DrawArguments& arguments) {
+  picture_format(arguments.output); // fails before anything is read
+  require_folder(arguments.output);
+  if (arguments.reports.empty()) {
+    draw_mesh(arguments);
+  } else {
+    draw_reports(arguments);
+  }
 }
 
 } // namespace
 
 void add_draw(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("draw", "Draw a mesh as a globe.");
+  CLI::App* command = app.add_subcommand(
+      "draw", "Draw a mesh as a globe, its spacing law, or how a CVT converged.");
   auto arguments = std::make_shared<DrawArguments>();
   arguments->source = add_mesh_source(*command);
+  command->get_option("MESH")->required(false); // a report takes its place
   command->add_option("-o,--output", arguments->output, "the picture: .png, .svg or .pdf")
       ->required()
       ->type_name("FILE");
   add_look(*command, arguments->options);
+  arguments->density = add_density(*command);
+  add_plots(*command, *arguments);
   command->callback([arguments] { run(*arguments); });
 }
 

@@ -20,6 +20,9 @@ public:
 
   void stage(const std::string& name);
 
+  /// A line of standard error that stays, terminal or not.
+  void say(const std::string& line);
+
 private:
   void show();
 

@@ -1,0 +1,531 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/command.h"
+
+#include <calotte/io.h>
+
+#include <doctest/doctest.h>
+
+#include <chrono>
+#include <csignal>
+#include <functional>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <sys/stat.h>
+
+using namespace calotte::test;
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::string bump = "tanh:lon=270,lat=30,beta=30deg,alpha=0.20,gamma=x3";
+
+/// Waits for what another process shall do. It is an error when it does not within minutes.
+void wait_until(const std::function<bool()>& done) {
+  for (int k = 0; k < 200'000 && !done(); ++k)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  REQUIRE(done());
+}
+
+/// A key as it stands in a report.
+std::string quoted(const std::string& key) { return std::string("\"").append(key).append("\": "); }
+
+/// Those lines of a report that a run determines, whoever made it and how fast.
+std::vector<std::string> course(const std::string& report) {
+  std::vector<std::string> lines;
+  std::istringstream in(report);
+  for (std::string line; std::getline(in, line);)
+    for (const char* key : {"cells", "rule", "l2", "linf", "gradient", "energy"})
+      if (line.find(quoted(key)) != std::string::npos)
+        lines.push_back(line);
+  return lines;
+}
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+/// Whether the command runs there and has a handler for the signal. (The test's own process, which
+/// it is for a moment after the fork, has one, too.)
+bool handles(pid_t process, int signal) {
+  std::istringstream status(contents("/proc/" + std::to_string(process) + "/status"));
+  bool command = false;
+  for (std::string word; status >> word;) {
+    if (word == "Name:" && status >> word)
+      command = word == "calotte";
+    if (word == "SigCgt:" && status >> word)
+      return command && (std::stoull(word, nullptr, 16) >> (signal - 1) & 1) != 0;
+  }
+  return false;
+}
+
+/// Runs long enough to be interrupted many times: they keep their state after every iteration.
+const std::string long_run = "cvt --cells 162 --start random --seed 5 --iterations 3000";
+const std::string long_levels = "cvt --cells 162 --iterations 1500";
+const std::string long_bump = "cvt --cells 162 --start density --iterations 3000 --density " + bump;
+const std::string kept = " --checkpoint run.checkpoint --checkpoint-every 1";
+
+/// Interrupts a run in its midst.
+Outcome interrupt(const Bench& bench, const std::string& arguments, int signal) {
+  const pid_t process = bench.start(arguments + kept + " -o mesh.vtp --report report.json");
+  wait_until([&] { return fs::exists(bench.folder() / "run.checkpoint"); });
+  REQUIRE(::kill(process, signal) == 0);
+  return bench.finish(process);
+}
+
+/// Resumes and compares with what the run makes when nothing interrupts it.
+void check_resumed(const Bench& bench, const std::string& arguments, const std::string& other) {
+  REQUIRE(bench.run(arguments + " -o whole.vtp --report whole.json").code == 0);
+  const Outcome resumed = bench.run(arguments +
+                                    " --resume run.checkpoint -o mesh.vtp "
+                                    "--report report.json " +
+                                    other);
+  CHECK(resumed.code == 0);
+  CHECK(resumed.err.empty());
+  CHECK(has(resumed.out, " before it was resumed)"));
+  CHECK((bench.file("mesh.vtp") == bench.file("whole.vtp")));
+  CHECK((course(bench.file("report.json")) == course(bench.file("whole.json"))));
+}
+
+} // namespace
+
+TEST_CASE("every start leads to the cells that were asked for") {
+  const Bench bench;
+  const auto check_start = [&](const std::string& arguments, int cells, const std::string& note) {
+    CAPTURE(arguments);
+    const Outcome made =
+        bench.run("cvt " + arguments + " -o mesh.vtp --iterations 5 --report report.json");
+    CHECK(made.code == 0);
+    CHECK(made.err == note);
+    CHECK(one_line(made.out));
+    CHECK(made.out.starts_with("mesh.vtp: " + std::to_string(cells) + " cells, "));
+    CHECK(calotte::read_mesh(bench.folder() / "mesh.vtp").points.cols() == cells);
+    CHECK(bench.run("check mesh.vtp").code == 0);
+    CHECK(has(bench.file("report.json"), "\n \"cells\": " + std::to_string(cells) + ",\n"));
+  };
+  check_start("--cells 12", 12, "");
+  check_start("--cells 162", 162, "");
+  check_start("--cells 162 --density " + bump, 162, "");
+  check_start("--cells 150 --start continuation", 150,
+              "calotte: 150 cells are not 10 x 4^k + 2: starting from 39 points of a Fibonacci "
+              "lattice, to be bisected once\n");
+  check_start("--cells 100 --seed 4 --density " + bump, 100,
+              "calotte: 100 cells are not 10 x 4^k + 2: starting from 100 points drawn from the "
+              "density\n");
+  check_start("--cells 100 --start random", 100, "");
+  check_start("--cells 100 --start random --seed 7", 100, "");
+  check_start("--cells 100 --start density --density " + bump, 100, "");
+  check_start("--cells 100 --start fibonacci", 100, "");
+  check_start("--cells 102 --start fibonacci --bisections 1", 102, "");
+  check_start("--cells 100 --start spiral", 100, "");
+  check_start("--cells 162 --start icosahedron", 162, "");
+  check_start("--cells 162 --start icosahedron --bisections 2", 162, "");
+  CHECK(bench.run("points random 50 -o points.txt").code == 0);
+  check_start("points.txt", 50, "");
+  check_start("- <points.txt", 50, "");
+  check_start("points.txt --bisections 1", 194, "");
+  bench.file("places.txt", "0 0\n90 0\n180 0\n270 0\n45 45\n135 45\n225 45\n315 45\n0 -45\n90 -45\n"
+                           "180 -45\n270 -45\n0 90\n");
+  check_start("--lonlat places.txt", 13, "");
+  check_start("places.txt --lonlat --density uniform", 13, "");
+}
+
+TEST_CASE("seeds make a difference, and the same seed makes none") {
+  const Bench bench;
+  const auto made = [&](const std::string& arguments) {
+    CHECK(bench.run("cvt --cells 100 --iterations 3 -o mesh.off " + arguments).code == 0);
+    return bench.file("mesh.off");
+  };
+  CHECK(made("--start random") == made("--start random --seed 1"));
+  CHECK(made("--start random") != made("--start random --seed 2"));
+  CHECK(made("--start density --density " + bump) !=
+        made("--start density --seed 2 --density " + bump));
+}
+
+TEST_CASE("bad usage is refused before any work") {
+  const Bench bench;
+  // A named pipe that nobody writes: reading it would hang, so nothing may be read.
+  REQUIRE(::mkfifo((bench.folder() / "never").c_str(), 0600) == 0);
+  const auto check_usage = [&](const std::string& arguments, const std::string& message) {
+    check_refusal(bench, "cvt " + arguments, 2, message);
+  };
+  const std::string out = " -o mesh.vtp ", see = "; see calotte cvt --help";
+  check_usage("never", "--output is required" + see);
+  check_usage("never -o mesh.stl", "mesh.stl: unknown suffix \".stl\"; a mesh file ends in .txt, "
+                                   ".tri, .vtp, .vtu, .off or .ply");
+  check_usage(out, "no start: give a file of points, or the number of cells (--cells N)");
+  check_usage("never --cells 12" + out, "the start is the file never; leave --cells out");
+  check_usage("never --start random" + out, "the start is the file never; leave --start out");
+  check_usage("never --seed 2" + out, "the start is the file never; leave --seed out");
+  for (const std::string cells : {"11", "0", "-12", "2e3", "many"})
+    check_usage("--cells=" + cells + out,
+                "--cells: \"" + cells + "\" is not a whole number from 12 to 1073741824" + see);
+  check_usage("--cells 12 --lonlat" + out, "--lonlat is for a file of points; leave it out");
+  check_usage("--cells 12 --start fibonacci --seed 2" + out,
+              "--seed is for the starts continuation, random and density; leave it out");
+  check_usage("--cells 42 --bisections 1" + out,
+              "--start continuation chooses the bisections; leave --bisections out");
+  const std::string icosahedral = "--start icosahedron makes 10 x 4^k + 2 cells, not ";
+  check_usage("--cells 1000 --start icosahedron" + out,
+              icosahedral + "1000; the nearest counts are 642 and 2562");
+  check_usage("--cells 100 --start icosahedron --bisections 3" + out,
+              icosahedral + "100; the nearest count is 642");
+  check_usage("--cells 42 --start icosahedron --bisections 2" + out,
+              icosahedral + "42; the nearest count is 162");
+  check_usage("--cells 100 --start spiral --bisections 1" + out,
+              "--bisections 1 does not lead to 100 cells; the nearest counts are 98 and 102");
+  check_usage("--cells 30 --start random --bisections 1" + out,
+              "--bisections 1 does not lead to 30 cells; the nearest count is 42");
+  check_usage("--cells 12 --start there" + out,
+              "--start: there not in {continuation,random,density,fibonacci,spiral,icosahedron}" +
+                  see);
+  for (const std::string tolerance : {"0", "-1e-06", "nan", "inf"})
+    check_usage("never --tolerance=" + tolerance + out,
+                "--tolerance " + tolerance + " is not a positive number; give one such as 1e-6");
+  check_usage("never --norm l3" + out,
+              "--norm: l3 not in {l2,linf,l2-scaled,linf-scaled,gradient}" + see);
+  for (const std::string limit : {"--max-iterations", "--iterations", "--checkpoint-every"})
+    check_usage("never " + limit + " 0" + out,
+                limit + ": \"0\" is not a whole number 1 or more" + see);
+  for (const std::string other : {"--norm l2", "--tolerance 1", "--max-iterations 9"})
+    check_usage("never --iterations 9 " + other + out,
+                other.substr(0, other.find(' ')) + " excludes --iterations" + see);
+  check_usage("never --rule 5" + out, "--rule: 5 not in {1,3,6,7,13,19}" + see);
+  check_usage("never --triangle-divisions 0" + out,
+              "--triangle-divisions: \"0\" is not a whole number from 1 to 100" + see);
+  check_usage("never --checkpoint-minutes 0" + out,
+              "--checkpoint-minutes 0 is not a positive number; give one such as 10");
+  check_usage("never --density tanh:lon=0,lat=0,beta=1,alpha=1,gamma=0" + out,
+              "--density \"tanh:lon=0,lat=0,beta=1,alpha=1,gamma=0\": gamma \"0\" is not between 0 "
+              "and 1; give such a number, or x8 for spacings of 8:1");
+  check_usage("never --threads 0" + out,
+              "--threads: \"0\" is not a whole number from 1 to 4096" + see);
+  check_usage("never never" + out, "The following argument was not expected: never" + see);
+}
+
+TEST_CASE("outputs that cannot be, or would replace what is read, are refused before any work") {
+  const Bench bench;
+  REQUIRE(::mkfifo((bench.folder() / "never").c_str(), 0600) == 0);
+  bench.file("points.off", "0 0 1\n");
+  bench.file("start.txt", "0 0 1\n");
+  bench.file("config.off", "threads = 2\n");
+  const auto both = [](const std::string& path) {
+    return path + " is both input and output; give the output another name";
+  };
+  check_refusal(bench, "cvt never -o absent/mesh.vtp", 3,
+                "cannot write absent/mesh.vtp: the folder absent does not exist; create it first");
+  for (const std::string option : {"--report", "--checkpoint"})
+    check_refusal(bench, "cvt never -o mesh.vtp " + option + " absent/file", 3,
+                  "cannot write absent/file: the folder absent does not exist; create it first");
+  check_refusal(bench, "cvt never -o mesh.vtp --report ./mesh.vtp", 2,
+                "./mesh.vtp is both mesh and report; give the report another name");
+  check_refusal(bench, "cvt never -o mesh.vtp --report file --checkpoint file", 2,
+                "file is both report and checkpoint; give the checkpoint another name");
+  check_refusal(bench, "cvt points.off -o points.off", 2, both("points.off"));
+  check_refusal(bench, "cvt start.txt -o mesh.vtp --checkpoint start.txt", 2, both("start.txt"));
+  check_refusal(bench, "cvt never --config config.off -o config.off", 2, both("config.off"));
+  check_refusal(bench, "cvt never --resume points.off -o points.off", 2, both("points.off"));
+  check_refusal(bench, "cvt never --centres points.off -o points.off", 2, both("points.off"));
+  CHECK(bench.file("points.off") == "0 0 1\n");
+}
+
+TEST_CASE("starts that make no tessellation are refused, and nothing is written") {
+  const Bench bench;
+  CHECK(bench.run("points fibonacci 11 -o eleven.txt").code == 0);
+  check_refusal_naming(bench, "cvt eleven.txt -o mesh.vtp", 2, "12");
+  CHECK(bench.run("points fibonacci 13 -o points.txt").code == 0);
+  bench.file("twice.txt", bench.file("points.txt") + "# again\n" + bench.file("points.txt"));
+  check_refusal_naming(bench, "cvt twice.txt -o mesh.vtp --duplicates refuse", 2,
+                       "twice.txt line 15: ");
+  CHECK(bench.run("cvt twice.txt -o mesh.vtp --iterations 2").code == 0);
+  check_refusal_naming(bench, "cvt absent.txt -o mesh.vtp", 3, "cannot read absent.txt");
+}
+
+TEST_CASE("options from a file: the command line wins, and what is unknown is refused") {
+  const Bench bench;
+  bench.file("run.toml", "# a run\ncells = 42\nstart = \"random\"\niterations = 4\n"
+                         "density = [\"" +
+                             bump + "\",\n  \"" + bump +
+                             "\"]\njoin = \"sum\"\n"
+                             "output = \"mesh.vtp\"\nreport = 'report.json'\n");
+  const std::string outright = "cvt --start random --iterations 4 --density " + bump +
+                               " --density " + bump + " --join sum -o mesh.off ";
+  CHECK(bench.run("cvt --config run.toml").code == 0);
+  CHECK(has(bench.file("report.json"), "\n \"density\": [\n  \"" + bump + "\",\n  \"" + bump));
+  CHECK(bench.run("cvt --config run.toml -o mesh.off").code == 0);
+  const std::string from_file = bench.file("mesh.off");
+  CHECK(bench.run(outright + "--cells 42").code == 0);
+  CHECK((bench.file("mesh.off") == from_file));
+  CHECK(bench.run("cvt --cells 50 --config run.toml -o mesh.off").code == 0);
+  CHECK(bench.run(outright + "--cells 50 --report other.json").code == 0);
+  CHECK(has(bench.file("other.json"), "\n \"cells\": 50,\n"));
+  CHECK((course(bench.file("report.json")) == course(bench.file("other.json"))));
+  bench.file("places.txt", "0 0\n90 0\n180 0\n270 0\n45 45\n135 45\n225 45\n315 45\n0 -45\n90 -45\n"
+                           "180 -45\n270 -45\n0 90\n");
+  bench.file("places.toml", "points = \"places.txt\"\nlonlat = true\niterations = 1");
+  CHECK(bench.run("cvt --config places.toml -o mesh.vtp").out.starts_with("mesh.vtp: 13 cells"));
+  const auto check_file = [&](const std::string& text, const std::string& message) {
+    bench.file("bad.toml", text);
+    check_refusal(bench, "cvt --config bad.toml -o mesh.tri", 2, "bad.toml: " + message);
+  };
+  const std::string see = "; see calotte cvt --help";
+  check_file("cells = 12\nspeed = 3\n", "unknown option \"speed\"" + see);
+  check_file("config = \"bad.toml\"\n", "unknown option \"config\"" + see);
+  check_file("help = true\n", "unknown option \"help\"" + see);
+  check_file("cells = 12\nseed = 1\ncells = 42\n", "cells is given twice; leave one of them out");
+  check_file("[cvt]\ncells = 12\n", "there are no sections, but [cvt] is one; leave it out");
+  check_file("cells = 11\n", "--cells: \"11\" is not a whole number from 12 to 1073741824");
+  check_refusal(bench, "cvt --config absent.toml -o mesh.tri", 3,
+                "cannot read absent.toml: No such file or directory; check its name and its "
+                "permissions");
+  check_refusal(bench, "cvt --config . -o mesh.tri", 3,
+                "cannot read .: it is a folder; give the name of a file");
+}
+
+TEST_CASE("not converging is exit code 1 with the residual; the mesh and the report are there") {
+  const Bench bench;
+  const Outcome outcome = bench.run("cvt --cells 100 --start random --max-iterations 3 "
+                                    "--tolerance 1e-5 -o mesh.vtp --report report.json");
+  CHECK(outcome.code == 1);
+  CHECK(one_line(outcome.err));
+  CHECK(outcome.err.starts_with("calotte: not converged: l2-scaled 0."));
+  CHECK(outcome.err.ends_with(" is above the tolerance 1e-05 after 3 iterations; the mesh is "
+                              "written, raise --max-iterations\n"));
+  CHECK(outcome.out.starts_with("mesh.vtp: 100 cells, not converged, 3 iterations, l2-scaled 0."));
+  CHECK(bench.run("check mesh.vtp").code == 0);
+  CHECK(has(bench.file("report.json"), "\"converged\": false"));
+  CHECK(bench.run("cvt --cells 12 -o mesh.vtp").out.starts_with("mesh.vtp: 12 cells, converged, "));
+}
+
+TEST_CASE("the norm that is asked for is the one that ends the run") {
+  const Bench bench;
+  const auto iterations = [&](const std::string& options) {
+    const Outcome made = bench.run("cvt --cells 100 --start fibonacci -o mesh.vtp " + options);
+    CHECK(made.code == 0);
+    return made.out.substr(0, made.out.find(" iterations"));
+  };
+  std::set<std::string> counts;
+  for (const std::string norm : {"l2", "linf", "l2-scaled", "linf-scaled", "gradient"})
+    counts.insert(iterations("--tolerance 2e-3 --norm " + norm));
+  CHECK(counts.size() == 5);
+  CHECK(iterations("--tolerance 2e-3") == iterations("--tolerance 2e-3 --norm l2-scaled"));
+}
+
+TEST_CASE("the report holds what it promises") {
+  const Bench bench;
+  CHECK(bench
+            .run("cvt --cells 162 --iterations 2 --threads 2 --regions 3 -o mesh.vtp "
+                 "--report report.json")
+            .code == 0);
+  const std::string report = bench.file("report.json");
+  for (const char* key : {"calotte",
+                          "density",
+                          "norm",
+                          "tolerance",
+                          "converged",
+                          "residual",
+                          "cells",
+                          "threads",
+                          "seconds",
+                          "iterations",
+                          "regions",
+                          "rule",
+                          "l2",
+                          "linf",
+                          "gradient",
+                          "energy",
+                          "flips",
+                          "rebuilt",
+                          "seconds_exchange",
+                          "seconds_repair",
+                          "seconds_moments",
+                          "sites",
+                          "halo",
+                          "halo_bytes"}) {
+    CAPTURE(key);
+    CHECK(has(report, quoted(key)));
+  }
+  CHECK(has(report, "\"norm\": \"none\""));
+  CHECK(has(report, "\"threads\": 2,"));
+  CHECK(has(report, "\"density\": [\n  \"uniform\"\n ]"));
+  CHECK(course(report).size() == 1 + 6 * 6); // cells, and two iterations on each of three levels
+}
+
+TEST_CASE("the mesh file is the same bytes for any threads, regions, centres and sort") {
+  const Bench bench;
+  const std::string run = "cvt --cells 500 --start random --iterations 20 --density " + bump;
+  CHECK(bench.run("points fibonacci 9 -o centres.txt").code == 0);
+  CHECK(bench.run(run + " -o first.vtp").code == 0);
+  for (const std::string options :
+       {"--threads 1", "--threads 3 --regions 7", "--regions 1", "--sort distance --regions 6",
+        "--sort voronoi --regions 6", "--centres fibonacci", "--centres centres.txt"}) {
+    CAPTURE(options);
+    CHECK(bench.run(run + " -o mesh.vtp " + options).code == 0);
+    CHECK((bench.file("mesh.vtp") == bench.file("first.vtp")));
+  }
+}
+
+TEST_CASE("SIGTERM and SIGINT end a run in order, and it resumes to the same bits") {
+  for (const auto& [arguments, signal, name, code] :
+       {std::tuple(long_run, SIGTERM, "SIGTERM", 143), {long_levels, SIGINT, "SIGINT", 130}}) {
+    const Bench bench;
+    CAPTURE(name);
+    const Outcome outcome = interrupt(bench, arguments, signal);
+    CHECK(outcome.code == code);
+    CHECK(outcome.out.empty());
+    CHECK(one_line(outcome.err));
+    CHECK(
+        outcome.err.starts_with("calotte: stopped by " + std::string(name) + " after iteration "));
+    CHECK(
+        outcome.err.ends_with(" cells; to go on, give the same command --resume run.checkpoint\n"));
+    CHECK(bench.names() == std::set<std::string>{"run.checkpoint"});
+    check_resumed(bench, arguments, "--threads 1 --regions 5");
+  }
+}
+
+TEST_CASE("a run that keeps nothing says so when a signal ends it") {
+  const Bench bench;
+  const pid_t process = bench.start(long_run + "000 -o mesh.vtp");
+  wait_until([&] { return handles(process, SIGTERM); });
+  REQUIRE(::kill(process, SIGTERM) == 0);
+  const Outcome outcome = bench.finish(process);
+  CHECK(outcome.code == 143);
+  CHECK(one_line(outcome.err));
+  CHECK(has(outcome.err, "; nothing is kept, give --checkpoint FILE to be able to go on\n"));
+  CHECK(bench.names().empty());
+}
+
+TEST_CASE("a second signal ends the process at once") {
+  const Bench bench;
+  // One iteration of this takes longer than any wait here.
+  const pid_t process =
+      bench.start("cvt --cells 5000 --start random --density " + bump +
+                  " --rule 19 --triangle-divisions 100 -o mesh.vtp --checkpoint run.checkpoint");
+  wait_until([&] { return handles(process, SIGTERM); });
+  REQUIRE(::kill(process, SIGTERM) == 0);
+  wait_until([&] { return !handles(process, SIGTERM); }); // it took the first
+  REQUIRE(::kill(process, SIGINT) == 0);
+  CHECK(bench.finish(process).code == -SIGINT);
+  CHECK(bench.names().empty());
+}
+
+TEST_CASE("kill -9 at any moment: the run resumes from its checkpoint to the same bits") {
+  const Bench bench;
+  const fs::path checkpoint = bench.folder() / "run.checkpoint";
+  CHECK(interrupt(bench, long_bump, SIGKILL).code == -SIGKILL);
+  for (const int milliseconds : {1, 5, 11}) { // again and again, going on from the same file
+    const auto size = fs::file_size(checkpoint);
+    const pid_t process =
+        bench.start(long_bump + kept + " --resume run.checkpoint --regions 4 -o mesh.vtp");
+    wait_until([&] { return fs::file_size(checkpoint) > size; }); // each iteration adds to it
+    std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+    const auto before = fs::file_size(checkpoint);
+    REQUIRE(::kill(process, SIGKILL) == 0);
+    CHECK(bench.finish(process).code == -SIGKILL);
+    CHECK(fs::file_size(checkpoint) >= before);
+    CHECK(!fs::exists(bench.folder() / "mesh.vtp"));
+  }
+  check_resumed(bench, long_bump, "--threads 2 --sort voronoi");
+}
+
+TEST_CASE("checkpoints come every so many iterations or minutes, over all levels") {
+  const Bench bench;
+  const auto before = [&](const std::string& options) {
+    const std::string run = "cvt --cells 42 --iterations 17 "; // 34 on the two levels
+    fs::remove(bench.folder() / "run.checkpoint");
+    CHECK(bench.run(run + "-o mesh.vtp --checkpoint run.checkpoint " + options).code == 0);
+    if (!fs::exists(bench.folder() / "run.checkpoint"))
+      return std::string("none");
+    const std::string out = bench.run(run + "-o again.vtp --resume run.checkpoint").out;
+    CHECK((bench.file("again.vtp") == bench.file("mesh.vtp")));
+    const std::size_t place = out.find('(');
+    return out.substr(place, out.find(')') - place);
+  };
+  CHECK(before("") == "none");
+  CHECK(before("--checkpoint-every 20") == "(20 before it was resumed");
+  CHECK(before("--checkpoint-every 9") == "(27 before it was resumed");
+  CHECK(before("--checkpoint-every 17") == "(34 before it was resumed");
+  CHECK(before("--checkpoint-minutes 1e-9") == "(34 before it was resumed");
+}
+
+TEST_CASE("a checkpoint that cannot be written is told, and the run goes on") {
+  const Bench bench;
+  // The shell's limit on the size of files stands for the disk: 1 block of 512 or 1024 bytes.
+  const Outcome outcome = bench.run("cvt --cells 12 --iterations 50 -o mesh.tri "
+                                    "--checkpoint run.checkpoint --checkpoint-every 20",
+                                    "ulimit -f 1;");
+  CHECK(outcome.code == 0);
+  const std::string warning = "calotte: cannot write run.checkpoint: File too large; make room or "
+                              "write elsewhere (the run goes on)\n";
+  CHECK(outcome.err == warning + warning);
+  CHECK(bench.names() == std::set<std::string>{"mesh.tri"});
+}
+
+TEST_CASE("a checkpoint of another configuration is refused with the option that differs") {
+  const Bench bench;
+  CHECK(bench.run("points random 60 -o points.txt").code == 0);
+  CHECK(bench.run("points random 60 --seed 2 -o others.txt").code == 0);
+  const auto check_other = [&](const std::string& run, const std::string& other,
+                               const std::string& theirs, const std::string& ours) {
+    CAPTURE(other);
+    fs::remove(bench.folder() / "run.checkpoint");
+    bench.run("cvt " + run + kept + " -o mesh.vtp");
+    const Outcome outcome = bench.run("cvt " + other + " --resume run.checkpoint -o other.vtp");
+    CHECK(outcome.code == 2);
+    CHECK(one_line(outcome.err));
+    CHECK(has(outcome.err, "run.checkpoint: a checkpoint of another configuration: it has \"" +
+                               theirs + "\" where this run has \"" + ours + "\""));
+    CHECK(!fs::exists(bench.folder() / "other.vtp"));
+  };
+  const std::string base = "--cells 42 --start random --max-iterations 2 ";
+  check_other(base, "--cells 50 --start random --max-iterations 2", "cells 42", "cells 50");
+  check_other(base, "--cells 42 --max-iterations 2", "start random", "start continuation");
+  check_other(base, base + "--seed 2", "seed 1", "seed 2");
+  check_other(base, "--cells 42 --start random --max-iterations 3", "max-iterations 2",
+              "max-iterations 3");
+  check_other(base, base + "--density " + bump, "density uniform", "density " + bump);
+  check_other(base, base + "--tolerance 1e-5", "tolerance 1e-06", "tolerance 1e-05");
+  check_other(base, base + "--norm l2", "norm l2-scaled", "norm l2");
+  check_other(base, base + "--rule 6", "rule 3", "rule 6");
+  check_other(base, base + "--final-rule 7", "final-rule 6", "final-rule 7");
+  check_other(base, base + "--triangle-divisions 2", "triangle-divisions 1",
+              "triangle-divisions 2");
+  check_other(base, base + "--duplicates refuse", "duplicates merge", "duplicates refuse");
+  check_other(base, base + "--merge-within 1e-4", "merge-within 0", "merge-within 1e-04");
+  check_other("--cells 42 --start icosahedron --iterations 2",
+              "--cells 42 --start icosahedron --bisections 1 --iterations 2", "bisections 0",
+              "bisections 1");
+  check_other("points.txt --iterations 2", "points.txt --iterations 3", "iterations 2",
+              "iterations 3");
+  fs::copy_file(bench.folder() / "points.txt", bench.folder() / "same.txt");
+  CHECK(bench.run("cvt same.txt --iterations 2 --resume run.checkpoint -o mesh.vtp").code == 0);
+  check_refusal_naming(bench, "cvt others.txt --iterations 2 --resume run.checkpoint -o mesh.tri",
+                       2, "it has \"points 60 with checksum ");
+}
+
+TEST_CASE("a checkpoint that is cut short, damaged, something else or missing is refused") {
+  const Bench bench;
+  const std::string run = "cvt --cells 42 --iterations 2 ";
+  CHECK(bench.run(run + kept + " -o mesh.vtp").code == 0);
+  const std::string whole = bench.file("run.checkpoint");
+  const std::string resume = run + "--resume run.checkpoint -o other.vtp";
+  for (const std::size_t size :
+       {std::size_t{0}, std::size_t{5}, std::size_t{40}, whole.size() / 2, whole.size() - 1}) {
+    bench.file("run.checkpoint", whole.substr(0, size));
+    check_refusal_naming(bench, resume, 2, "run.checkpoint: the checkpoint is cut short");
+  }
+  std::string damaged = whole;
+  damaged[whole.size() / 3] ^= 1;
+  bench.file("run.checkpoint", damaged);
+  check_refusal_naming(bench, resume, 2, "damaged; use another or start anew");
+  fs::copy_file(bench.folder() / "mesh.vtp", bench.folder() / "run.checkpoint",
+                fs::copy_options::overwrite_existing);
+  check_refusal_naming(bench, resume, 2, "run.checkpoint: not a checkpoint");
+  fs::remove(bench.folder() / "run.checkpoint");
+  check_refusal(bench, resume, 3,
+                "cannot read run.checkpoint: No such file or directory; check its name and its "
+                "permissions");
+}

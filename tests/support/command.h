@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <string>
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+/// The command as a user runs it: by a shell, in a folder of its own. CALOTTE_COMMAND is its path.
+namespace calotte::test {
+
+inline std::string contents(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+struct Outcome {
+  int code; ///< the exit code, or minus the signal that killed it
+  std::string out, err;
+};
+
+/// A folder that goes when the test ends, and what the command does in it.
+class Bench {
+public:
+  Bench() {
+    std::string name = std::filesystem::temp_directory_path() / "calotte-command-XXXXXX";
+    scratch_ = ::mkdtemp(name.data());
+    std::filesystem::create_directory(folder());
+  }
+  ~Bench() { std::filesystem::remove_all(scratch_); }
+  Bench(const Bench&) = delete;
+  Bench& operator=(const Bench&) = delete;
+
+  std::filesystem::path folder() const { return scratch_ / "work"; }
+
+  void file(const std::string& name, const std::string& text) const {
+    std::ofstream(folder() / name, std::ios::binary) << text;
+  }
+
+  std::string file(const std::string& name) const { return contents(folder() / name); }
+
+  /// Starts the command; its process has the number that is returned.
+  /// \param arguments in the shell's syntax, redirections included.
+  /// \param before a command for the shell, ended by a semicolon.
+  pid_t start(const std::string& arguments, const std::string& before = "") const {
+    const std::string line = "cd '" + folder().string() + "' && { " + before + " exec '" +
+                             CALOTTE_COMMAND "' " + arguments + "; } >'" +
+                             (scratch_ / "out").string() + "' 2>'" + (scratch_ / "err").string() +
+                             "'";
+    const pid_t process = ::fork();
+    if (process == 0) {
+      ::execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
+      ::_exit(127);
+    }
+    return process;
+  }
+
+  /// Waits for its end.
+  Outcome finish(pid_t process) const {
+    int status = 0;
+    REQUIRE(::waitpid(process, &status, 0) == process);
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), contents(scratch_ / "out"),
+            contents(scratch_ / "err")};
+  }
+
+  Outcome run(const std::string& arguments, const std::string& before = "") const {
+    return finish(start(arguments, before));
+  }
+
+  std::set<std::string> names() const {
+    std::set<std::string> found;
+    for (const auto& entry : std::filesystem::directory_iterator(folder()))
+      found.insert(entry.path().filename());
+    return found;
+  }
+
+private:
+  std::filesystem::path scratch_;
+};
+
+inline bool one_line(const std::string& text) {
+  return !text.empty() && std::count(text.begin(), text.end(), '\n') == 1 && text.back() == '\n';
+}
+
+/// The command ends with this code and exactly this message, and leaves no file behind.
+inline void check_refusal(const Bench& bench, const std::string& arguments, int code,
+                          const std::string& message, const std::string& before = "") {
+  CAPTURE(arguments);
+  const auto names = bench.names();
+  const Outcome outcome = bench.run(arguments, before);
+  CHECK(outcome.code == code);
+  CHECK(outcome.err == "calotte: " + message + "\n");
+  CHECK(outcome.out.empty());
+  CHECK(bench.names() == names);
+}
+
+/// As check_refusal, for a message whose words belong to a stage of the library.
+inline void check_refusal_naming(const Bench& bench, const std::string& arguments, int code,
+                                 const std::string& part) {
+  CAPTURE(arguments);
+  const auto names = bench.names();
+  const Outcome outcome = bench.run(arguments);
+  CAPTURE(outcome.err);
+  CHECK(outcome.code == code);
+  CHECK(one_line(outcome.err));
+  CHECK(outcome.err.starts_with("calotte: "));
+  CHECK(outcome.err.find(part) != std::string::npos);
+  CHECK(outcome.out.empty());
+  CHECK(bench.names() == names);
+}
+
+} // namespace calotte::test

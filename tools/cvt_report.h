@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "cvt_request.h"
+
+#include <calotte/cvt.h>
+
+#include <string>
+
+namespace calotte::tools {
+
+/// What is told of a run that ended.
+/// \param threads that it had.
+std::string to_json(const CvtRequest& request, const Cvt& result, int threads);
+
+/// One line without its ending. \param before iterations of the parts that the run resumed.
+std::string summary(const CvtRequest& request, const Cvt& result, std::int64_t before);
+
+/// "l2-scaled 1.2e-05", or "" for a run of a number of iterations.
+std::string residual_words(const CvtRequest& request, const CvtReport& report);
+
+} // namespace calotte::tools

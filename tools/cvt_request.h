@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "density_option.h"
+#include "partition_options.h"
+
+#include <calotte/cvt.h>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace calotte::tools {
+
+/// What the options of `calotte cvt` say.
+struct CvtRequest {
+  std::string points; ///< the file of the start, or none
+  bool lonlat = false;
+  std::optional<int> cells;         ///< of the result
+  std::optional<std::string> start; ///< default continuation
+  std::optional<std::uint64_t> seed;
+  std::optional<int> bisections;
+
+  std::shared_ptr<DensityWords> density;
+  std::string norm = "l2-scaled";
+  double tolerance = CvtOptions{}.tolerance;
+  int max_iterations = CvtOptions{}.max_iterations;
+  std::optional<int> iterations;
+  int rule = CvtOptions{}.rule, final_rule = CvtOptions{}.final_rule;
+  int triangle_divisions = CvtOptions{}.triangle_divisions;
+  std::shared_ptr<PartitionWords> partition;
+
+  std::string mesh, report;
+  std::string checkpoint, resume;
+  int checkpoint_every = 100;
+  double checkpoint_minutes = 10;
+  std::shared_ptr<std::string> config;
+};
+
+/// The word of --norm, "none" for a run of --iterations.
+std::string norm_word(const CvtRequest& request);
+
+/// All but the bisections, which belong to the start.
+/// \throws Error bad_option.
+CvtOptions options_of(const CvtRequest& request);
+
+} // namespace calotte::tools

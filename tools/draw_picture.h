@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cairo.h>
+
+#include <functional>
+#include <string>
+
+namespace calotte::tools {
+
+enum class PictureFormat { png, svg, pdf };
+
+/// The format of a file's suffix.
+/// \throws Error bad_option for a suffix that is none.
+PictureFormat picture_format(const std::string& path);
+
+/// Refuses, before any work, what write_picture would.
+/// \throws Error bad_option for a suffix that is no picture's, or a width outside 64 to 16384.
+void require_picture(const std::string& path, int width);
+
+/// Has a picture painted on white, width times height pixels (points in SVG and PDF), and writes it
+/// in the format of the suffix. The file is written beside its place and renamed when whole.
+/// \throws Error as require_picture; file.
+void write_picture(const std::string& path, int width, int height,
+                   const std::function<void(cairo_t*)>& paint);
+
+} // namespace calotte::tools

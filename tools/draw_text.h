@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "draw_scale.h"
+
+#include <cairo.h>
+
+#include <cstdint>
+#include <string>
+
+namespace calotte::tools {
+
+inline constexpr Rgb text_colour = {0.13, 0.15, 0.19};
+
+void set_colour(cairo_t* context, const Rgb& colour);
+
+/// The face of all text, in letters of this size.
+void select_font(cairo_t* context, double size);
+
+double text_width(cairo_t* context, const std::string& text);
+
+/// One line of text whose middle is at x.
+void centred_text(cairo_t* context, double x, double baseline, const std::string& text);
+
+/// 2621442 as 2 621 442.
+std::string grouped(std::int64_t number);
+
+/// The length of a line of marked text: `*h*` is in italics, `_{i}` lowered, `^{2}` raised.
+double marked_width(cairo_t* context, const std::string& text);
+
+/// One line of marked text.
+/// \param align the part of it that stands left of x: 0, 0.5 for its middle, 1.
+/// \return where it ends.
+double marked_text(cairo_t* context, double x, double baseline, const std::string& text,
+                   double align = 0);
+
+} // namespace calotte::tools

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <calotte/delaunay.h>
+
+#include <CLI/CLI.hpp>
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace calotte::tools {
+
+/// What the options say about the parts of the work and who does them.
+struct PartitionWords {
+  std::optional<int> threads, regions;
+  std::string centres = "sample", sort = "halo", duplicates = "merge";
+  double merge_within = 0;
+};
+
+/// Adds --threads, --regions, --centres, --sort, --duplicates and --merge-within.
+std::shared_ptr<PartitionWords> add_partition(CLI::App& command);
+
+/// The file of centres, "" where there is none.
+std::string centres_file(const PartitionWords& words);
+
+/// Reads the file of centres where there is one.
+/// \throws Error bad_option, or as read_points.
+DelaunayOptions options_of(const PartitionWords& words);
+
+/// Does the work with so many threads, or all.
+void with_threads(std::optional<int> threads, const std::function<void()>& work);
+
+} // namespace calotte::tools
