@@ -6,6 +6,7 @@
 #include "clouds.h"
 #include "peers.h"
 #include "report.h"
+#include "stripack.h"
 
 #include <CGAL/version.h>
 #include <CLI/CLI.hpp>
@@ -132,19 +133,14 @@ void run_row(benchmark::State& state, Workload& work, std::int64_t n, const Row&
   }
 }
 
-/// Registers one round over one set: every row once, starting with the row of the round's number.
-void register_round(const std::vector<Row>& rows, const std::shared_ptr<Workload>& work,
-                    std::int64_t n, int round) {
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const Row& row = rows[(i + static_cast<std::size_t>(round)) % rows.size()];
-    if (n > row.limit) {
-      continue;
-    }
-    const std::string name =
-        work->set + "/n:" + std::to_string(n) + "/round:" + std::to_string(round) + "/" + row.name;
-    const auto body = [work, n, row](benchmark::State& state) { run_row(state, *work, n, row); };
-    benchmark::RegisterBenchmark(name.c_str(), body)->Iterations(1)->UseManualTime();
+std::vector<RoundRow> rows_of(const std::vector<Row>& rows, const std::shared_ptr<Workload>& work,
+                              std::int64_t n) {
+  std::vector<RoundRow> result;
+  for (const Row& row : rows) {
+    const auto run = [work, n, row](benchmark::State& state) { run_row(state, *work, n, row); };
+    result.push_back({row.name, run, row.limit});
   }
+  return result;
 }
 
 /// Registered in the order in which they are to run; the sets take turns, too. The library's own
@@ -158,7 +154,7 @@ void register_all(const Options& options) {
     }
     for (int round = 0; round < options.rounds; ++round) {
       for (const auto& work : works) {
-        register_round(rows, work, n, round);
+        register_round(work->set, n, round, rows_of(rows, work, n));
       }
     }
   }
@@ -207,19 +203,6 @@ void print_head(const Options& options) {
   if (!has_stripack()) {
     std::cout << "STRIPACK is left out: this program was built without libncarg-dev.\n";
   }
-}
-
-/// Hands the arguments that this program does not know to Google Benchmark; false when it does not
-/// either.
-bool start_google_benchmark(char* program, std::vector<std::string> arguments) {
-  std::vector<char*> argv = {program};
-  for (std::string& argument : arguments) {
-    argv.push_back(argument.data());
-  }
-  int argc = static_cast<int>(argv.size());
-  argv.push_back(nullptr);
-  benchmark::Initialize(&argc, argv.data());
-  return !benchmark::ReportUnrecognizedArguments(argc, argv.data());
 }
 
 } // namespace

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "peers.h"
 
+#include "stripack.h"
+
 #include <CGAL/Delaunay_triangulation_on_sphere_2.h>
 #include <CGAL/Delaunay_triangulation_on_sphere_traits_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -15,15 +17,6 @@
 #include <tuple>
 #include <unordered_map>
 #include <vector>
-
-#ifdef CALOTTE_BENCH_STRIPACK
-// SUBROUTINE CSTRMESH (N, X,Y,Z, LIST,LPTR,LEND,LNEW, NEAR,NEXT,DIST, IER): default integers,
-// doubles. LIST and LPTR hold 6n - 12 entries, the others n.
-// NOLINTNEXTLINE(readability-identifier-naming): Fortran names it.
-extern "C" void cstrmesh_(const int* n, const double* x, const double* y, const double* z,
-                          int* list, int* lptr, int* lend, int* lnew, int* near, int* next,
-                          double* dist, int* ier);
-#endif
 
 namespace calotte::bench {
 
@@ -142,81 +135,27 @@ Outcome run_cgal(const Points3& points) {
   return outcome;
 }
 
-#ifdef CALOTTE_BENCH_STRIPACK
-
-namespace {
-
-/// TRMESH's triangulation: node k's neighbours, counter-clockwise, are the cycle of `lptr` that
-/// ends at lend[k]; ids and pointers count from 1.
-struct Lists {
-  explicit Lists(std::size_t n) : list(6 * n), lptr(6 * n), lend(n) {}
-  std::vector<int> list, lptr, lend;
-};
-
-void count_triangles(const Lists& lists, Outcome& outcome) {
-  const auto at = [](const std::vector<int>& v, int i) {
-    return v[static_cast<std::size_t>(i - 1)];
-  };
-  Digest digest;
-  const int n = static_cast<int>(lists.lend.size());
-  for (int a = 1; a <= n; ++a) {
-    const int last = at(lists.lend, a);
-    int pointer = last;
-    do {
-      const int next = at(lists.lptr, pointer);
-      const int b = std::abs(at(lists.list, pointer));
-      const int c = std::abs(at(lists.list, next));
-      // A negative last neighbour says that no triangle lies between it and the first.
-      if (a < b && a < c && at(lists.list, pointer) > 0) {
-        ++outcome.triangles;
-        digest.add(a - 1, b - 1, c - 1);
-      }
-      pointer = next;
-    } while (pointer != last);
-  }
-  outcome.digest = digest.value();
-}
-
-} // namespace
-
 Outcome run_stripack(const Points3& points) {
-  const auto n = static_cast<std::size_t>(points.cols());
-  const std::vector<double> x(points.row(0).begin(), points.row(0).end());
-  const std::vector<double> y(points.row(1).begin(), points.row(1).end());
-  const std::vector<double> z(points.row(2).begin(), points.row(2).end());
-  Lists lists(n);
-  std::vector<int> near(n);
-  std::vector<int> next(n);
-  std::vector<double> distance(n);
-  const int nodes = static_cast<int>(n);
-  int lnew = 0;
-  int error = 0;
+  Stripack mesh(points.cols());
+  mesh.x.assign(points.row(0).begin(), points.row(0).end());
+  mesh.y.assign(points.row(1).begin(), points.row(1).end());
+  mesh.z.assign(points.row(2).begin(), points.row(2).end());
   Outcome outcome;
   const Stopwatch watch;
-  cstrmesh_(&nodes, x.data(), y.data(), z.data(), lists.list.data(), lists.lptr.data(),
-            lists.lend.data(), &lnew, near.data(), next.data(), distance.data(), &error);
+  const int error = mesh.triangulate();
   watch.stop(outcome);
   if (error != 0) {
     outcome.failure = "TRMESH gave up with IER = " + std::to_string(error);
     return outcome;
   }
-  outcome.sites = nodes;
-  count_triangles(lists, outcome);
+  outcome.sites = points.cols();
+  Digest digest;
+  mesh.for_each_triangle([&](std::int32_t a, std::int32_t b, std::int32_t c) {
+    ++outcome.triangles;
+    digest.add(a, b, c);
+  });
+  outcome.digest = digest.value();
   return outcome;
 }
-
-bool has_stripack() { return true; }
-
-#else
-
-Outcome run_stripack(const Points3&) {
-  Outcome outcome;
-  outcome.failure = "built without STRIPACK";
-  return outcome;
-}
-
-bool has_stripack() { return false; }
-
-#endif
 
 } // namespace calotte::bench

@@ -38,12 +38,8 @@ Outcome run_calotte(const Points3& points, int threads, const DelaunayOptions& o
 /// insertion of a range of points of CGAL's own type, which CGAL sorts along a space-filling curve.
 Outcome run_cgal(const Points3& points);
 
-/// STRIPACK's TRMESH in double precision (Renka, ACM TOMS 23(3), 1997, Algorithm 772) as NCAR ships
-/// it. Its arrays are allocated and touched before the clock starts, and its linked lists are its
-/// result. \pre has_stripack().
+/// STRIPACK's TRMESH, with its arrays allocated and touched before the clock starts; its linked
+/// lists are its result. \pre has_stripack().
 Outcome run_stripack(const Points3& points);
-
-/// Whether this program was built with STRIPACK.
-bool has_stripack();
 
 } // namespace calotte::bench

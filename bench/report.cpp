@@ -10,9 +10,6 @@
 
 namespace calotte::bench {
 
-namespace {
-
-/// The p-quantile of values that need no order, linear between neighbours; 0 of none.
 double quantile(std::vector<double> values, double p) {
   if (values.empty()) {
     return 0;
@@ -32,18 +29,20 @@ std::string fixed(double value, int digits) {
   return text;
 }
 
-/// Seconds with about four significant digits.
-std::string seconds_text(double s) { return fixed(s, s < 1 ? 4 : s < 10 ? 3 : 2); }
-
-std::vector<double> values_of(const Series& series) {
-  std::vector<double> values;
-  for (const auto& [round, seconds] : series.seconds) {
-    values.push_back(seconds);
-  }
-  return values;
+std::string scientific(double value) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.1e", value);
+  return text;
 }
 
-/// row / base of every round in which both ran.
+std::string seconds_text(double s) {
+  return fixed(s, s < 0.01 ? 6 : s < 0.1 ? 5 : s < 1 ? 4 : s < 10 ? 3 : 2);
+}
+
+std::string range_text(const std::vector<double>& values, double from, double to, int digits) {
+  return fixed(quantile(values, from), digits) + " - " + fixed(quantile(values, to), digits);
+}
+
 std::vector<double> paired_ratios(const Series& row, const Series& base) {
   std::vector<double> ratios;
   for (const auto& [round, seconds] : row.seconds) {
@@ -54,9 +53,30 @@ std::vector<double> paired_ratios(const Series& row, const Series& base) {
   return ratios;
 }
 
-bool is_sweep(const std::string& row) { return row.find(" regions") != std::string::npos; }
+std::vector<double> site_ratios(const SetResults& set, const SetResults& base,
+                                const std::string& row) {
+  std::vector<double> ratios = paired_ratios(set.rows.at(row), base.rows.at(row));
+  for (double& ratio : ratios) {
+    ratio *= static_cast<double>(base.sites) / static_cast<double>(set.sites);
+  }
+  return ratios;
+}
 
 std::string title(const SetResults& set) { return set.set + ", n = " + std::to_string(set.sites); }
+
+namespace {
+
+std::vector<double> values_of(const Series& series) {
+  std::vector<double> values;
+  for (const auto& [round, seconds] : series.seconds) {
+    values.push_back(seconds);
+  }
+  return values;
+}
+
+bool is_sweep(const std::string& row) { return row.find(" regions") != std::string::npos; }
+
+} // namespace
 
 void print_times(std::ostream& out, const SetResults& set, const std::string& base) {
   out << "\n### " << title(set) << "\n\n"
@@ -76,11 +96,12 @@ void print_times(std::ostream& out, const SetResults& set, const std::string& ba
       continue;
     }
     const std::vector<double> r = paired_ratios(row, found->second);
-    out << fixed(median(r), 2) << " | " << fixed(quantile(r, 0.25), 2) << " - "
-        << fixed(quantile(r, 0.75), 2) << " | " << fixed(quantile(r, 0), 2) << " - "
-        << fixed(quantile(r, 1), 2) << " |\n";
+    out << fixed(median(r), 2) << " | " << range_text(r, 0.25, 0.75, 2) << " | "
+        << range_text(r, 0, 1, 2) << " |\n";
   }
 }
+
+namespace {
 
 constexpr const char* stages[] = {"sites", "regions", "triangulate", "unite", "total"};
 
@@ -149,11 +170,9 @@ void print_sets(std::ostream& out, const std::vector<SetResults>& results,
         !first->rows.contains(base)) {
       continue;
     }
-    std::vector<double> ratios = paired_ratios(set.rows.at(base), first->rows.at(base));
-    const double scale = static_cast<double>(first->sites) / static_cast<double>(set.sites);
-    lines += "| " + title(set) + " | " + fixed(scale * median(ratios), 3) + " | " +
-             fixed(scale * quantile(ratios, 0), 3) + " - " + fixed(scale * quantile(ratios, 1), 3) +
-             " |\n";
+    const std::vector<double> ratios = site_ratios(set, *first, base);
+    lines += "| " + title(set) + " | " + fixed(median(ratios), 3) + " | " +
+             range_text(ratios, 0, 1, 3) + " |\n";
   }
   if (!lines.empty()) {
     out << "\n### Cost a site of " << base << " against " << results.front().set
@@ -163,6 +182,30 @@ void print_sets(std::ostream& out, const std::vector<SetResults>& results,
 }
 
 } // namespace
+
+bool start_google_benchmark(char* program, std::vector<std::string> arguments) {
+  std::vector<char*> argv = {program};
+  for (std::string& argument : arguments) {
+    argv.push_back(argument.data());
+  }
+  int argc = static_cast<int>(argv.size());
+  argv.push_back(nullptr);
+  benchmark::Initialize(&argc, argv.data());
+  return !benchmark::ReportUnrecognizedArguments(argc, argv.data());
+}
+
+void register_round(const std::string& set, std::int64_t n, int round,
+                    const std::vector<RoundRow>& rows) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const RoundRow& row = rows[(i + static_cast<std::size_t>(round)) % rows.size()];
+    if (n > row.limit) {
+      continue;
+    }
+    const std::string name =
+        set + "/n:" + std::to_string(n) + "/round:" + std::to_string(round) + "/" + row.name;
+    benchmark::RegisterBenchmark(name.c_str(), row.run)->Iterations(1)->UseManualTime();
+  }
+}
 
 bool RoundReporter::ReportContext(const Context&) { return true; }
 

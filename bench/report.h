@@ -3,7 +3,10 @@
 
 #include <benchmark/benchmark.h>
 
+#include <cstdint>
+#include <functional>
 #include <iosfwd>
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -24,6 +27,42 @@ struct SetResults {
   std::map<std::string, Series> rows;
 };
 
+/// The p-quantile of values that need no order, linear between neighbours; 0 of none.
+double quantile(std::vector<double> values, double p);
+double median(const std::vector<double>& values);
+
+/// row / base of every round in which both ran.
+std::vector<double> paired_ratios(const Series& row, const Series& base);
+
+/// A row's seconds a site over those of another set, of every round in which both ran.
+std::vector<double> site_ratios(const SetResults& set, const SetResults& base,
+                                const std::string& row);
+
+std::string fixed(double value, int digits);
+/// With two significant digits.
+std::string scientific(double value);
+/// Seconds with about four significant digits.
+std::string seconds_text(double s);
+/// Two quantiles of the values, as "from - to".
+std::string range_text(const std::vector<double>& values, double from, double to, int digits);
+/// The set's name and its number of sites.
+std::string title(const SetResults& set);
+
+/// Hands the arguments that a program does not know to Google Benchmark; false when it does not
+/// either.
+bool start_google_benchmark(char* program, std::vector<std::string> arguments);
+
+/// What is timed in every round, in sets of up to a number of sites.
+struct RoundRow {
+  std::string name;
+  std::function<void(benchmark::State&)> run; ///< once a round; sets the iteration's time
+  std::int64_t limit = std::numeric_limits<std::int64_t>::max(); ///< sites
+};
+
+/// Registers one round over one set: every row once, starting with the row of the round's number.
+void register_round(const std::string& set, std::int64_t n, int round,
+                    const std::vector<RoundRow>& rows);
+
 /// A benchmark's name is set/n:SITES/round:ROUND/row. This reporter writes one line a run to the
 /// error stream, and collects the runs for `print_tables`.
 class RoundReporter : public benchmark::BenchmarkReporter {
@@ -38,6 +77,10 @@ private:
   std::vector<SetResults> results_;
   bool failed_ = false;
 };
+
+/// Markdown: a set's rows' seconds, and their ratios to `base`, paired by round. Rows have a
+/// counter cpu.
+void print_times(std::ostream& out, const SetResults& set, const std::string& base);
 
 /// Markdown: for each set the rows' seconds and the ratios to `base`, paired by round; then the
 /// stages of the library's rows; then the sweep over region counts; then each set's cost a site

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "density_cost.h"
+
+#include "clock.h"
+#include "profile.h"
+
+#include <calotte/generators.h>
+
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+namespace calotte::bench {
+
+namespace {
+
+constexpr std::size_t points = 512;
+
+/// Uniform on the sphere, by coordinate, and the density there.
+struct alignas(64) Sample {
+  std::array<std::array<double, points>, 3> x;
+  std::array<double, points> rho;
+};
+
+Sample make_sample() {
+  Sample sample{};
+  const Points3 columns = random_sphere(points, 8);
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < points; ++j)
+      sample.x[i][j] = columns(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+  return sample;
+}
+
+void evaluate_rows(const detail::DensityEvaluator& density, std::size_t row, Sample& sample) {
+  for (std::size_t first = 0; first < points; first += row) {
+    const std::size_t count = std::min(row, points - first);
+    const auto part = [&](const auto& values) { return std::span(values).subspan(first, count); };
+    density(part(sample.x[0]), part(sample.x[1]), part(sample.x[2]),
+            std::span(sample.rho).subspan(first, count));
+  }
+}
+
+} // namespace
+
+std::vector<DensityCost> density_costs(const Density& density, const std::vector<std::size_t>& rows,
+                                       int samples) {
+  constexpr int repeats = 200; // some half a millisecond, far above the clock's grain
+  const detail::DensityEvaluator evaluator(density);
+  Sample sample = make_sample();
+  std::vector<DensityCost> costs;
+  for (const std::size_t row : rows)
+    costs.push_back({row, {}});
+  for (int s = 0; s < samples; ++s)
+    for (DensityCost& cost : costs) {
+      detail::Clock::time_point mark = detail::Clock::now();
+      for (int r = 0; r < repeats; ++r) {
+        evaluate_rows(evaluator, cost.row, sample);
+        benchmark::DoNotOptimize(sample.rho.data());
+        benchmark::ClobberMemory();
+      }
+      cost.nanoseconds.push_back(1e9 * detail::lap(mark) / (repeats * points));
+    }
+  return costs;
+}
+
+} // namespace calotte::bench
