@@ -4,6 +4,7 @@
 #include "clock.h"
 #include "moments.h"
 #include "parallel.h"
+#include "points.h"
 #include "sites.h"
 #include "tessellation.h"
 
@@ -111,7 +112,7 @@ CvtIteration lloyd_iteration(Tessellation& tessellation, const Points3& points,
           Vec3 centroid{0, 0, 0};
           if (!lloyd_step(x[i], moments[i], centroid, steps[site]))
             failed.store(true, std::memory_order_relaxed);
-          next.col(site) << centroid.x, centroid.y, centroid.z;
+          set_column(next, site, centroid);
         }
       });
   if (failed)

@@ -50,11 +50,16 @@ Profile profile_of(const Bump& bump) {
 /// The angle between a unit vector and the centre: 2 asin(|x - c|/2) in the near hemisphere and
 /// pi - 2 asin(|x + c|/2) in the far one. acos(x.c) would lose half of the digits near the centre,
 /// and the first form in the far hemisphere. Of a stretched bump, |x - c| is the reduced length.
-CALOTTE_INLINE double angle_from(const Profile& bump, const Vec3& x) {
-  const double along = dot(x, bump.major), squeeze = bump.shrink * along;
-  const Vec3 apart = x - bump.centre - squeeze * bump.major, sum = x + bump.centre;
-  const double near = 0.25 * dot(apart, apart),
-               far = 0.25 * (dot(sum, sum) + (2 - bump.shrink) * squeeze * along);
+template <bool stretched> CALOTTE_INLINE double angle_from(const Profile& bump, const Vec3& x) {
+  Vec3 apart = x - bump.centre;
+  const Vec3 sum = x + bump.centre;
+  double sum_square = dot(sum, sum);
+  if constexpr (stretched) {
+    const double along = dot(x, bump.major), squeeze = bump.shrink * along;
+    apart = apart - squeeze * bump.major;
+    sum_square += (2 - bump.shrink) * squeeze * along;
+  }
+  const double near = 0.25 * dot(apart, apart), far = 0.25 * sum_square;
   const bool beyond = far < near;
   const double arc = 2 * arc_sine_of_root(beyond ? far : near);
   return beyond ? std::numbers::pi - arc : arc;
@@ -67,20 +72,23 @@ CALOTTE_INLINE double value_at(const Profile& bump, double angle) {
 }
 
 CALOTTE_VECTOR_WIDTHS
-void add_bump(const Profile& profile, const double* x, const double* y, const double* z,
-              std::size_t count, bool maximum, double* rho) {
+void bump_values(const Profile& profile, const double* x, const double* y, const double* z,
+                 std::size_t count, double* rho) {
   const Profile bump = profile; // writing to rho cannot change it
-  if (maximum) {                // two loops: a choice inside would keep them from being vectorised
+  if (bump.shrink > 0) {        // two loops: a choice inside would keep them from being vectorised
 #pragma GCC ivdep
-    for (std::size_t j = 0; j < count; ++j) {
-      const double value = value_at(bump, angle_from(bump, {x[j], y[j], z[j]}));
-      rho[j] = value > rho[j] ? value : rho[j];
-    }
+    for (std::size_t j = 0; j < count; ++j)
+      rho[j] = value_at(bump, angle_from<true>(bump, {x[j], y[j], z[j]}));
   } else {
 #pragma GCC ivdep
     for (std::size_t j = 0; j < count; ++j)
-      rho[j] += value_at(bump, angle_from(bump, {x[j], y[j], z[j]}));
+      rho[j] = value_at(bump, angle_from<false>(bump, {x[j], y[j], z[j]}));
   }
+}
+
+void join(const double* values, std::size_t count, bool maximum, double* rho) {
+  for (std::size_t j = 0; j < count; ++j)
+    rho[j] = maximum ? std::max(rho[j], values[j]) : rho[j] + values[j];
 }
 
 std::vector<Profile> profiles_of(const Density& density) {
@@ -109,10 +117,19 @@ void DensityEvaluator::operator()(std::span<const double> x, std::span<const dou
     call(x, y, z, rho);
     return;
   }
-  std::fill(rho.begin(), rho.end(), density_.uniform() ? 1.0 : 0.0);
-  for (const Profile& profile : profiles_)
-    add_bump(profile, x.data(), y.data(), z.data(), x.size(),
-             density_.kind == Density::Kind::maximum, rho.data());
+  if (density_.uniform())
+    std::fill(rho.begin(), rho.end(), 1.0);
+  constexpr std::size_t most = 512;
+  std::array<double, most> values;
+  for (std::size_t begin = 0; begin < rho.size(); begin += most) {
+    const std::size_t count = std::min(most, rho.size() - begin);
+    for (std::size_t b = 0; b < profiles_.size(); ++b) {
+      double* const out = b == 0 ? rho.data() + begin : values.data();
+      bump_values(profiles_[b], x.data() + begin, y.data() + begin, z.data() + begin, count, out);
+      if (b > 0)
+        join(out, count, density_.kind == Density::Kind::maximum, rho.data() + begin);
+    }
+  }
 }
 
 DensityEvaluator::Bounds DensityEvaluator::bounds(const Vec3& middle, double reach) const {
@@ -120,7 +137,7 @@ DensityEvaluator::Bounds DensityEvaluator::bounds(const Vec3& middle, double rea
   Bounds bounds;
   for (const Profile& profile : profiles_) {
     const double change = reach * (profile.shrink > 0 ? std::numbers::sqrt2 : 1) + slack;
-    const double angle = angle_from(profile, middle);
+    const double angle = angle_from<true>(profile, middle);
     const double least = value_at(profile, std::min(std::numbers::pi, angle + change)),
                  greatest = value_at(profile, std::max(0.0, angle - change)) * (1 + slack);
     const bool sum = density_.kind == Density::Kind::sum;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "moments.h"
 
+#include "elementary.h"
 #include "parallel.h"
 #include "points.h"
 #include "rows.h"
@@ -8,29 +9,43 @@
 #include <calotte/error.h>
 
 #include <algorithm>
+#include <cstring>
 
 namespace calotte::detail {
 namespace {
 
-void add_suspects(const Batch& batch, const TriangleRows& rows, std::size_t first,
-                  std::vector<std::int32_t>& suspects) {
+/// The rows of a batch; triangles that are not clear are added to the suspects.
+void triangle_rows(const Batch& batch, std::size_t first, TriangleRows& rows,
+                   std::vector<std::int32_t>& suspects) {
+  if (triangle_rows(batch, rows))
+    return;
   for (std::size_t lane = 0; lane < batch.count; ++lane)
     if (!(rows.clearance[lane] > 0))
       suspects.push_back(static_cast<std::int32_t>(first + lane));
 }
 
+using Quad = double __attribute__((vector_size(32))); ///< four doubles that are added at once
+
 /// Adds each triangle's terms to its sites, in the order of the triangles.
-void scatter(const Batch& batch, const VertexTerms& terms, Array<CellMoments>& moments,
-             Array<double>* mass) {
+CALOTTE_VECTOR_WIDTHS
+void scatter(const Batch& batch, const VertexTerms& terms, CellMoments* moments) {
+  static_assert(sizeof(Quad) == sizeof(CellMoments));
   for (std::size_t lane = 0; lane < batch.count; ++lane)
     for (std::size_t v = 0; v < 3; ++v) {
-      const std::int32_t site = batch.locals[lane][v];
-      CellMoments& sum = moments[site];
-      sum.first = sum.first + at(terms.first[v], lane);
-      sum.energy += terms.energy[v][lane];
-      if (mass != nullptr)
-        (*mass)[site] += terms.mass[v][lane];
+      const Rows3& first = terms.first[v];
+      const Quad term{first[0][lane], first[1][lane], first[2][lane], terms.energy[v][lane]};
+      CellMoments& cell = moments[batch.locals[lane][v]];
+      Quad sum;
+      std::memcpy(&sum, &cell, sizeof sum);
+      sum += term;
+      std::memcpy(&cell, &sum, sizeof sum);
     }
+}
+
+void scatter_mass(const Batch& batch, const VertexTerms& terms, Array<double>& mass) {
+  for (std::size_t lane = 0; lane < batch.count; ++lane)
+    for (std::size_t v = 0; v < 3; ++v)
+      mass[batch.locals[lane][v]] += terms.mass[v][lane];
 }
 
 /// The nodes of a rule on each of divisions^2 similar parts of a triangle, as nodes on the whole.
@@ -71,13 +86,14 @@ void integrate(const Integrand& integrand, const Patch& patch, const Array<Vec3>
   VertexTerms terms;
   for (std::size_t first = 0; first < patch.corners.size(); first += lanes) {
     const Batch batch = gather(patch, x, first);
-    triangle_rows(batch, rows);
-    add_suspects(batch, rows, first, suspects);
+    triangle_rows(batch, first, rows, suspects);
     if (integrand.uniform)
       uniform_terms(batch, rows, mass != nullptr, terms);
     else
       kite_terms(batch, rows, integrand, terms);
-    scatter(batch, terms, moments, mass);
+    scatter(batch, terms, moments.begin());
+    if (mass != nullptr)
+      scatter_mass(batch, terms, *mass);
   }
 }
 
@@ -85,8 +101,7 @@ void find_suspects(const Patch& patch, const Array<Vec3>& x, std::vector<std::in
   TriangleRows rows;
   for (std::size_t first = 0; first < patch.corners.size(); first += lanes) {
     const Batch batch = gather(patch, x, first);
-    triangle_rows(batch, rows);
-    add_suspects(batch, rows, first, suspects);
+    triangle_rows(batch, first, rows, suspects);
   }
 }
 

@@ -14,4 +14,8 @@ inline const Vec3& column(const Points3& points, std::int64_t i) {
   return *reinterpret_cast<const Vec3*>(points.data() + 3 * i);
 }
 
+inline void set_column(Points3& points, std::int64_t i, const Vec3& value) {
+  *reinterpret_cast<Vec3*>(points.data() + 3 * i) = value;
+}
+
 } // namespace calotte::detail

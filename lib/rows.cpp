@@ -15,12 +15,8 @@ Batch gather(const Patch& patch, const Array<Vec3>& x, std::size_t first) {
   batch.count = std::min(lanes, patch.corners.size() - first);
   batch.locals = patch.corners.data() + first;
   for (std::size_t lane = 0; lane < lanes; ++lane)
-    for (std::size_t v = 0; v < 3; ++v) {
-      const Vec3& site = x[batch.locals[std::min(lane, batch.count - 1)][v]];
-      batch.corner[v][0][lane] = site.x;
-      batch.corner[v][1][lane] = site.y;
-      batch.corner[v][2][lane] = site.z;
-    }
+    for (std::size_t v = 0; v < 3; ++v)
+      put(x[batch.locals[std::min(lane, batch.count - 1)][v]], batch.corner[v], lane);
   return batch;
 }
 
@@ -28,8 +24,9 @@ Batch gather(const Patch& patch, const Array<Vec3>& x, std::size_t first) {
 // roundoffs of itself, and stored vectors differ from unit ones by 5: 1e-14 exceeds both, for sides
 // as long as can be. The same bounds the normal's product.
 CALOTTE_VECTOR_WIDTHS
-void triangle_rows(const Batch& batch, TriangleRows& out) {
+bool triangle_rows(const Batch& batch, TriangleRows& out) {
   constexpr double margin = 1e-14;
+  std::int64_t unclear = 0;
 #pragma GCC ivdep
   for (std::size_t lane = 0; lane < lanes; ++lane) {
     const Vec3 a = at(batch.corner[0], lane), b = at(batch.corner[1], lane),
@@ -49,8 +46,11 @@ void triangle_rows(const Batch& batch, TriangleRows& out) {
     const double height = dot(normal, a);
     out.height[lane] = height;
     const double ab_least = at_a < at_b ? at_a : at_b, c_least = at_c < height ? at_c : height;
-    out.clearance[lane] = (ab_least < c_least ? ab_least : c_least) - margin;
+    const double clearance = (ab_least < c_least ? ab_least : c_least) - margin;
+    out.clearance[lane] = clearance;
+    unclear |= clearance > 0 ? 0 : 1;
   }
+  return unclear == 0;
 }
 
 namespace {

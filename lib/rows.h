@@ -53,7 +53,8 @@ struct alignas(64) VertexTerms {
 
 Batch gather(const Patch& patch, const Array<Vec3>& x, std::size_t first);
 
-void triangle_rows(const Batch& batch, TriangleRows& out);
+/// True when the clearance of all lanes is positive.
+bool triangle_rows(const Batch& batch, TriangleRows& out);
 
 /// Terms for rho = 1. \param with_mass otherwise terms.mass is not set.
 void uniform_terms(const Batch& batch, const TriangleRows& rows, bool with_mass,
