@@ -249,6 +249,57 @@ TEST_CASE("the tanh bump spreads spacings by the fourth root of its contrast [sl
   CHECK(longest / shortest < 14);
 }
 
+TEST_CASE("the fixed point depends on the rule by the rule's order only [slow]") {
+  // Smooth and without any symmetry, along which generators could turn.
+  CvtOptions options;
+  options.density.kind = Density::Kind::callable;
+  options.density.callable = [](const Eigen::Ref<const Points3>& x,
+                                Eigen::Ref<Eigen::VectorXd> rho) {
+    const auto px = x.row(0).array(), py = x.row(1).array(), pz = x.row(2).array();
+    rho = (pz + 0.7 * px + 2 * py * py - px * pz).exp().matrix().transpose();
+  };
+  options.tolerance = 1e-11;
+  options.max_iterations = 20000;
+  const auto fixed_point = [&](int rule, int divisions) {
+    options.rule = options.final_rule = rule;
+    options.triangle_divisions = divisions;
+    const Cvt grid = cvt(bisected_icosahedron(1), options);
+    CHECK(grid.report.converged);
+    return grid.mesh.points;
+  };
+  const Points3 exact = fixed_point(19, 2);
+  const auto error = [&](int rule, int divisions) {
+    return (fixed_point(rule, divisions) - exact).colwise().norm().maxCoeff();
+  };
+  const double three = error(3, 1), three_halved = error(3, 2), six = error(6, 1),
+               seven = error(7, 1);
+  CHECK(three < 0.02);
+  CHECK(three_halved < three / 3); // its degree is 2
+  CHECK(six < three / 5);
+  CHECK(seven < six);
+  CHECK(error(13, 1) < seven / 3);
+}
+
+TEST_CASE("x8: the default rule's centroids are right to 1e-8 of the spacing [slow]") {
+  CvtOptions options;
+  options.density = x8();
+  options.tolerance = 1e-3;
+  options.bisections = 2;
+  const Cvt grid = cvt(bisected_icosahedron(3), options);
+  const double h = std::sqrt(4 * pi / 10242);
+  CHECK(grid.mesh.points.cols() == 10242);
+  CHECK(grid.report.converged);
+  const Moments rule = mesh_moments(grid.mesh, options.density, CvtOptions{}.final_rule);
+  const Moments exact = mesh_moments(grid.mesh, options.density, 19, 4);
+  double squares = 0;
+  for (std::int64_t i = 0; i < 10242; ++i) {
+    const Vec3 apart =
+        (1 / norm(rule.first[i])) * rule.first[i] - (1 / norm(exact.first[i])) * exact.first[i];
+    squares += dot(apart, apart);
+  }
+  CHECK(std::sqrt(squares / 10242) < 1e-8 * h);
+}
+
 TEST_CASE("bad input is refused in one line") {
   const Points3 start = random_sphere(100);
   const auto code = [&](const Points3& points, const CvtOptions& options) {
