@@ -2,7 +2,7 @@
 #include "density_cost.h"
 
 #include "clock.h"
-#include "profile.h"
+#include "density_evaluator.h"
 
 #include <calotte/generators.h>
 

@@ -115,6 +115,7 @@ void step(Serial& serial, const detail::Integrand& integrand, Points3& next) {
 CvtOptions fixed_iterations(const Target& target, int iterations) {
   CvtOptions options;
   options.density = target.density;
+  options.method = Method::lloyd;
   options.norm = Norm::none;
   options.max_iterations = iterations;
   options.rule = options.final_rule = target.rule;

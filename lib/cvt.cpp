@@ -2,18 +2,15 @@
 #include <calotte/cvt.h>
 
 #include "clock.h"
-#include "moments.h"
-#include "parallel.h"
-#include "points.h"
+#include "counts.h"
+#include "descent.h"
+#include "functional.h"
 #include "sites.h"
-#include "tessellation.h"
 
 #include <calotte/delaunay.h>
 #include <calotte/error.h>
 #include <calotte/generators.h>
 
-#include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -22,30 +19,27 @@ namespace calotte {
 namespace detail {
 namespace {
 
-void require(const CvtOptions& options) {
+void require_options(const CvtOptions& options) {
   const auto refuse = [](const std::string& what) { throw Error(ErrorCode::bad_option, what); };
   if (!(options.tolerance > 0) || !std::isfinite(options.tolerance))
-    refuse("the tolerance must be positive");
+    refuse("the tolerance is " + std::to_string(options.tolerance) +
+           "; give a positive number such as 1e-6");
   if (options.max_iterations < 0)
-    refuse("the number of iterations must not be negative");
+    refuse("the number of iterations is " + std::to_string(options.max_iterations) +
+           "; give 0 or more");
   if (options.bisections < 0)
-    refuse("the number of bisections must not be negative");
-  if (options.triangle_divisions < 1)
-    refuse("triangle_divisions must be at least 1");
+    refuse("the number of bisections is " + std::to_string(options.bisections) +
+           "; give 0 or more");
+  if (options.triangle_divisions < 1 || options.triangle_divisions > 100)
+    refuse("triangle_divisions is " + std::to_string(options.triangle_divisions) +
+           "; give a number from 1 to 100");
   quadrature_rule(options.rule);
   quadrature_rule(options.final_rule);
   evaluate(options.density, Points3(Eigen::Vector3d::UnitZ())); // says what is wrong with it
 }
 
-/// What the step of one generator adds to an iteration's sums.
-struct SiteStep {
-  double energy;
-  double square; ///< of the distance moved
-  double slope;  ///< square of the gradient
-};
-
 /// Refuses a state that no run has left.
-void require(const CvtState& state) {
+void require_state(const CvtState& state) {
   const auto n = static_cast<std::size_t>(state.points.cols());
   std::vector<std::uint8_t> seen(n, 0);
   bool good = n >= 12 && state.id.size() == n && state.bisections_left >= 0 &&
@@ -55,6 +49,14 @@ void require(const CvtState& state) {
     const std::int32_t id = state.id[i];
     good = id >= 0 && static_cast<std::size_t>(id) < n && seen[static_cast<std::size_t>(id)]++ == 0;
   }
+  const CvtMemory& memory = state.memory;
+  for (const std::vector<Points3>* list : {&memory.steps, &memory.changes})
+    for (const Points3& points : *list)
+      good = good && points.cols() == state.points.cols();
+  good = good && memory.steps.size() == memory.changes.size() &&
+         memory.steps.size() == memory.curvatures.size();
+  for (const Points3* points : {&memory.laplacian_at, &memory.before})
+    good = good && (points->cols() == 0 || points->cols() == state.points.cols());
   for (const std::int32_t site : state.site_of_input)
     good = good && site >= 0 && static_cast<std::size_t>(site) < n;
   if (!good)
@@ -62,135 +64,63 @@ void require(const CvtState& state) {
                                        "be unit vectors and its ids a permutation");
 }
 
-/// Sums of blocks of sites, added in the order of the blocks: the same for any number of threads.
-void add_sums(const Array<SiteStep>& steps, CvtIteration& iteration) {
-  const std::int64_t n = steps.size();
-  std::vector<SiteStep> sums(static_cast<std::size_t>(block_count(n)));
-  std::vector<double> largest(sums.size(), 0);
-  for_each_block(n, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
-    SiteStep sum{0, 0, 0};
-    double most = 0;
-    for (std::int64_t i = begin; i != end; ++i) {
-      sum.energy += steps[i].energy;
-      sum.square += steps[i].square;
-      sum.slope += steps[i].slope;
-      most = std::max(most, steps[i].square);
-    }
-    sums[static_cast<std::size_t>(block)] = sum;
-    largest[static_cast<std::size_t>(block)] = most;
-  });
-  SiteStep total{0, 0, 0};
-  for (const SiteStep& sum : sums)
-    total = {total.energy + sum.energy, total.square + sum.square, total.slope + sum.slope};
-  iteration.energy = total.energy;
-  iteration.l2 = std::sqrt(total.square / static_cast<double>(n));
-  iteration.linf = std::sqrt(*std::max_element(largest.begin(), largest.end()));
-  iteration.gradient = std::sqrt(total.slope);
-}
-
-/// Lloyd's step of a generator x: to the constrained centroid M/|M|. False where that is none.
-bool lloyd_step(const Vec3& x, const CellMoments& cell, Vec3& centroid, SiteStep& step) {
-  const double length = norm(cell.first);
-  if (!(length > 0) || !std::isfinite(length))
-    return false;
-  centroid = (1 / length) * cell.first;
-  const Vec3 apart = centroid - x, tangent = cell.first - dot(cell.first, x) * x;
-  step = {cell.energy, dot(apart, apart), 4 * dot(tangent, tangent)};
-  return true;
-}
-
-/// One Lloyd step of all generators, from points to next.
-CvtIteration lloyd_iteration(Tessellation& tessellation, const Points3& points,
-                             const Integrand& integrand, Points3& next, Array<SiteStep>& steps) {
-  Clock::time_point mark = Clock::now();
-  std::atomic<bool> failed = false;
-  const Tessellation::Effort effort = tessellation.evaluate(
-      points, integrand,
-      [&](const Patch& patch, const Array<Vec3>& x, const Array<CellMoments>& moments) {
-        for (std::int32_t i = 0; i < patch.owned; ++i) {
-          const std::int32_t site = patch.sites[static_cast<std::size_t>(i)];
-          Vec3 centroid{0, 0, 0};
-          if (!lloyd_step(x[i], moments[i], centroid, steps[site]))
-            failed.store(true, std::memory_order_relaxed);
-          set_column(next, site, centroid);
-        }
-      });
-  if (failed)
+/// Refuses bisections to more generators than a mesh can hold, before any work.
+void require_room(const CvtState& state) {
+  const std::int64_t n = state.points.cols();
+  int most = 0;
+  while ((n - 2) << (2 * most + 2) <= most_points - 2)
+    ++most;
+  if (state.bisections_left > most)
     throw Error(ErrorCode::bad_option,
-                "the density is infinite or zero over a whole cell: make it positive everywhere");
-  CvtIteration iteration;
-  iteration.cells = points.cols();
-  iteration.flips = effort.flips;
-  iteration.rebuilt = effort.rebuilt;
-  iteration.seconds_exchange = effort.seconds_exchange;
-  iteration.seconds_repair = effort.seconds_repair;
-  iteration.seconds_moments = effort.seconds_moments;
-  add_sums(steps, iteration);
-  tessellation.moved(iteration.linf);
-  iteration.seconds = lap(mark);
-  return iteration;
+                std::to_string(state.bisections_left) + " bisections of " + std::to_string(n) +
+                    " generators are too many; give at most " + std::to_string(most));
 }
 
-double residual(const CvtIteration& iteration, Norm norm, std::int64_t n) {
-  const double h = std::sqrt(4 * std::numbers::pi / static_cast<double>(n));
-  switch (norm) {
-  case Norm::l2:
-    return iteration.l2;
-  case Norm::linf:
-    return iteration.linf;
-  case Norm::l2_scaled:
-    return iteration.l2 / h;
-  case Norm::linf_scaled:
-    return iteration.linf / h;
-  case Norm::gradient:
-    return iteration.gradient;
-  default:
-    return 0;
-  }
-}
-
-/// Takes an iteration into the state: its norm, and what follows from it.
+/// Takes the evaluation at the state's points into the state: its norm, and what follows from it.
 void conclude(CvtState& state, const CvtOptions& options, const CvtIteration& iteration) {
   CvtReport& report = state.report;
-  const bool final_rule = state.final_rule || options.density.uniform();
-  report.iterations.push_back(iteration);
-  report.residual = residual(iteration, options.norm, iteration.cells);
-  ++state.iterations_of_level;
+  const bool by_final_rule = options.density.uniform() || iteration.rule == options.final_rule;
+  report.residual = norm_of(iteration, options.norm);
   // Near the end the finer rule takes over; only with it a run can converge.
   if (options.norm == Norm::none) {
-    report.converged = state.iterations_of_level == options.max_iterations;
+    report.converged = state.iterations_of_level >= options.max_iterations;
   } else {
-    report.converged = final_rule && report.residual <= options.tolerance;
+    report.converged = by_final_rule && report.residual <= options.tolerance;
     state.final_rule = state.final_rule || report.residual <= 10 * options.tolerance;
   }
 }
 
-/// Lloyd's steps of one level; true when `stop` ended them.
+bool level_ended(const CvtState& state, const CvtOptions& options) {
+  return state.report.converged || state.iterations_of_level >= options.max_iterations;
+}
+
+/// The descent of one level; true when `stop` ended it.
 bool iterate(CvtState& state, const CvtOptions& options, const CvtStop& stop) {
-  CvtReport& report = state.report;
-  const std::int64_t n = state.points.cols();
-  Tessellation tessellation(state.points, options.partition);
-  const Integrand coarse =
-                      make_integrand(options.density, options.rule, options.triangle_divisions),
-                  fine = make_integrand(options.density, options.final_rule,
-                                        options.triangle_divisions);
-  Points3 next(3, n);
-  Array<SiteStep> steps(n);
-  bool stopped = false;
-  while (!stopped && !report.converged && state.iterations_of_level < options.max_iterations) {
-    const double before = report.seconds;
-    Clock::time_point mark = Clock::now();
-    CvtIteration iteration =
-        lloyd_iteration(tessellation, state.points, state.final_rule ? fine : coarse, next, steps);
-    if (!options.density.uniform())
-      iteration.rule = state.final_rule ? options.final_rule : options.rule;
-    state.points.swap(next);
-    conclude(state, options, iteration);
-    report.seconds = before + lap(mark);
-    stopped = stop && stop(state);
+  if (level_ended(state, options)) {
+    state.report.converged = state.report.converged || options.norm == Norm::none;
+    return false;
   }
-  report.regions = tessellation.regions();
-  return stopped;
+  const double before = state.report.seconds;
+  const Clock::time_point start = Clock::now();
+  Functional functional(state.points, options);
+  Descent descent(state, options, functional);
+  const bool resumed = state.iterations_of_level > 0;
+  descent.begin();
+  if (resumed)
+    descent.step();
+  for (;; descent.step()) {
+    conclude(state, options, descent.here().iteration);
+    const bool ended = level_ended(state, options);
+    if (ended)
+      state.points = descent.here().centroids;
+    Clock::time_point now = start;
+    state.report.seconds = before + lap(now);
+    const bool stopped = stop && stop(state);
+    if (ended || stopped) {
+      state.report.regions = functional.regions();
+      return stopped;
+    }
+  }
 }
 
 /// The order of the start.
@@ -230,30 +160,54 @@ void refine(CvtState& state) {
   --state.bisections_left;
   state.iterations_of_level = 0;
   state.final_rule = false;
+  state.memory = {};
   state.report.converged = false;
 }
 
 } // namespace
 } // namespace detail
 
+double norm_of(const CvtIteration& iteration, Norm norm) {
+  const double h = std::sqrt(4 * std::numbers::pi / static_cast<double>(iteration.cells));
+  switch (norm) {
+  case Norm::l2:
+    return iteration.l2;
+  case Norm::linf:
+    return iteration.linf;
+  case Norm::l2_scaled:
+    return iteration.l2 / h;
+  case Norm::linf_scaled:
+    return iteration.linf / h;
+  case Norm::gradient:
+    return iteration.gradient;
+  default:
+    return 0;
+  }
+}
+
 Cvt cvt(CvtState state, const CvtOptions& options, const CvtStop& stop) {
-  detail::require(options);
-  detail::require(state);
+  detail::require_options(options);
+  detail::require_state(state);
+  detail::require_room(state);
   detail::Clock::time_point mark = detail::Clock::now();
   const double before = state.report.seconds;
-  while (!detail::iterate(state, options, stop) && state.bisections_left > 0)
+  bool stopped = detail::iterate(state, options, stop);
+  while (!stopped && state.bisections_left > 0) {
     detail::refine(state);
+    stopped = detail::iterate(state, options, stop);
+  }
   Cvt result;
   result.mesh = delaunay(detail::in_order(state));
   if (!state.site_of_input.empty())
     result.mesh.site_of_input = state.site_of_input;
   result.report = std::move(state.report);
+  result.report.converged = result.report.converged && state.bisections_left == 0;
   result.report.seconds = before + detail::lap(mark);
   return result;
 }
 
 Cvt cvt(const Points3& start, const CvtOptions& options, const CvtStop& stop) {
-  detail::require(options);
+  detail::require_options(options);
   return cvt(detail::begin(start, options), options, stop);
 }
 

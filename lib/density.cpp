@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <calotte/density.h>
 
+#include "density_evaluator.h"
 #include "elementary.h"
 #include "predicates.h"
-#include "profile.h"
 
 #include <calotte/error.h>
 
@@ -94,6 +94,8 @@ void join(const double* values, std::size_t count, bool maximum, double* rho) {
 std::vector<Profile> profiles_of(const Density& density) {
   const bool has_bumps =
       density.kind == Density::Kind::maximum || density.kind == Density::Kind::sum;
+  if (!has_bumps && !density.uniform() && density.kind != Density::Kind::callable)
+    refuse("the density is of an unknown kind; give one of Density::Kind");
   if (has_bumps && density.bumps.empty())
     refuse("the density has no bump: give one, or make it uniform");
   if (density.kind == Density::Kind::callable && !density.callable)

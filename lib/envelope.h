@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "profile.h"
+#include "density_evaluator.h"
 #include "vec3.h"
 
 #include <calotte/density.h>

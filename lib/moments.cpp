@@ -6,8 +6,6 @@
 #include "points.h"
 #include "rows.h"
 
-#include <calotte/error.h>
-
 #include <algorithm>
 #include <cstring>
 
@@ -15,8 +13,8 @@ namespace calotte::detail {
 namespace {
 
 /// The rows of a batch; triangles that are not clear are added to the suspects.
-void triangle_rows(const Batch& batch, std::size_t first, TriangleRows& rows,
-                   std::vector<std::int32_t>& suspects) {
+void checked_rows(const Batch& batch, std::size_t first, TriangleRows& rows,
+                  std::vector<std::int32_t>& suspects) {
   if (triangle_rows(batch, rows))
     return;
   for (std::size_t lane = 0; lane < batch.count; ++lane)
@@ -48,33 +46,7 @@ void scatter_mass(const Batch& batch, const VertexTerms& terms, Array<double>& m
       mass[batch.locals[lane][v]] += terms.mass[v][lane];
 }
 
-/// The nodes of a rule on each of divisions^2 similar parts of a triangle, as nodes on the whole.
-std::vector<QuadratureRule::Node> composite(const QuadratureRule& rule, int divisions) {
-  std::vector<QuadratureRule::Node> nodes;
-  const double step = 1.0 / divisions;
-  const auto add = [&](double b, double c, double side) { // a part from its right-angled corner on
-    for (const QuadratureRule::Node& node : rule.nodes) {
-      const double whole_b = b + side * node.b, whole_c = c + side * node.c;
-      nodes.push_back({1 - whole_b - whole_c, whole_b, whole_c, node.weight * step * step});
-    }
-  };
-  for (int i = 0; i < divisions; ++i)
-    for (int j = 0; i + j < divisions; ++j) {
-      add(i * step, j * step, step);
-      if (i + j + 1 < divisions)
-        add((i + 1) * step, (j + 1) * step, -step);
-    }
-  return nodes;
-}
-
 } // namespace
-
-Integrand make_integrand(const Density& density, int rule, int divisions) {
-  if (divisions < 1)
-    throw Error(ErrorCode::bad_option, "triangle_divisions must be at least 1");
-  return {DensityEvaluator(density), density.uniform(),
-          composite(quadrature_rule(rule), divisions)};
-}
 
 void integrate(const Integrand& integrand, const Patch& patch, const Array<Vec3>& x,
                Array<CellMoments>& moments, Array<double>* mass,
@@ -86,7 +58,7 @@ void integrate(const Integrand& integrand, const Patch& patch, const Array<Vec3>
   VertexTerms terms;
   for (std::size_t first = 0; first < patch.corners.size(); first += lanes) {
     const Batch batch = gather(patch, x, first);
-    triangle_rows(batch, first, rows, suspects);
+    checked_rows(batch, first, rows, suspects);
     if (integrand.uniform)
       uniform_terms(batch, rows, mass != nullptr, terms);
     else
@@ -101,7 +73,7 @@ void find_suspects(const Patch& patch, const Array<Vec3>& x, std::vector<std::in
   TriangleRows rows;
   for (std::size_t first = 0; first < patch.corners.size(); first += lanes) {
     const Batch batch = gather(patch, x, first);
-    triangle_rows(batch, first, rows, suspects);
+    checked_rows(batch, first, rows, suspects);
   }
 }
 

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "integrand.h"
 #include "memory.h"
 #include "patches.h"
-#include "profile.h"
-#include "quadrature.h"
 #include "vec3.h"
 
 #include <calotte/density.h>
@@ -14,18 +13,6 @@
 #include <vector>
 
 namespace calotte::detail {
-
-/// What is integrated over Voronoi cells, and how: rho = 1 exactly, other densities by a rule on
-/// each half kite, which is first cut into divisions^2 similar triangles.
-struct Integrand {
-  DensityEvaluator density;
-  bool uniform = true;
-  std::vector<QuadratureRule::Node> nodes; ///< of all parts of a half kite; weights sum to 1
-};
-
-/// \param rule a number of points, see quadrature_rule(). \param divisions >= 1.
-/// \throws Error bad_option, when the density or the rule is not to be had.
-Integrand make_integrand(const Density& density, int rule, int divisions);
 
 /// Moments of the Voronoi cell of a site x_i.
 struct CellMoments {
@@ -44,7 +31,8 @@ struct CellMoments {
 ///
 /// Other densities: on the flat triangle, whose plane is at the distance D from the centre and
 /// touches the sphere of radius D in the circumcentre, integral f = D integral of f(p/|p|)/|p|^3
-/// over the half kite, which central projection makes exact but for the rule.
+/// over the half kite, which central projection makes exact but for the rule: good where cells are
+/// small beside the density's changes and their circumcaps beside a hemisphere.
 ///
 /// \param x by local number: unit vectors.
 /// \param mass if not null, by local number: set to the integral of rho.

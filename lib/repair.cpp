@@ -85,16 +85,16 @@ std::optional<Repair> flip_all(Connectivity& mesh, const Points3& points,
   return result;
 }
 
-Connectivity rebuild(const Points3& points) {
+} // namespace
+
+Connectivity triangulate_closed(const Points3& points) {
   Mesh mesh = delaunay(points);
   if (mesh.points.cols() != points.cols() || !mesh.closed())
-    throw Error(
-        ErrorCode::too_few_sites,
-        "generators met, or left a hemisphere empty: take another start or a smoother density");
+    throw Error(ErrorCode::too_few_sites,
+                "the generators lie within a hemisphere, or two of them have met: spread the start "
+                "over the sphere, or take a smoother density");
   return {std::move(mesh.triangles), std::move(mesh.neighbours)};
 }
-
-} // namespace
 
 void add_faults(const Connectivity& mesh, const Points3& points, std::int32_t triangle,
                 Faults& faults) {
@@ -110,8 +110,10 @@ Repair repair(Connectivity& mesh, const Points3& points, const Faults& faults) {
   if (!faults.overturned)
     if (std::optional<Repair> flipped = flip_all(mesh, points, faults.edges, most))
       return *std::move(flipped);
-  mesh = rebuild(points);
-  return {0, true, {}};
+  mesh = triangulate_closed(points);
+  Repair result;
+  result.rebuilt = true;
+  return result;
 }
 
 } // namespace calotte::detail

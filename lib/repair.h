@@ -34,6 +34,9 @@ struct Faults {
 void add_faults(const Connectivity& mesh, const Points3& points, std::int32_t triangle,
                 Faults& faults);
 
+/// \throws Error too_few_sites, when two points have met or a hemisphere is empty.
+Connectivity triangulate_closed(const Points3& points);
+
 struct Repair {
   std::int64_t flips = 0;
   bool rebuilt = false;              ///< all triangles are new
@@ -42,7 +45,7 @@ struct Repair {
 
 /// Makes the mesh Delaunay: flips from the faulty edges on until all are, or triangulates the
 /// points anew where a triangle is overturned or the flips would take longer.
-/// \throws Error too_few_sites, when two points have met or a hemisphere is empty.
+/// \throws Error as triangulate_closed().
 Repair repair(Connectivity& mesh, const Points3& points, const Faults& faults);
 
 } // namespace calotte::detail

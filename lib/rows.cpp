@@ -2,7 +2,6 @@
 #include "rows.h"
 
 #include "elementary.h"
-#include "moments.h"
 #include "triangle.h"
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "integrand.h"
 #include "memory.h"
 #include "patches.h"
 #include "vec3.h"
@@ -59,8 +60,6 @@ bool triangle_rows(const Batch& batch, TriangleRows& out);
 /// Terms for rho = 1. \param with_mass otherwise terms.mass is not set.
 void uniform_terms(const Batch& batch, const TriangleRows& rows, bool with_mass,
                    VertexTerms& terms);
-
-struct Integrand;
 
 /// Terms for any density, by the integrand's nodes.
 void kite_terms(const Batch& batch, const TriangleRows& rows, const Integrand& integrand,

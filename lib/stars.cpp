@@ -8,6 +8,17 @@
 namespace calotte::detail {
 namespace {
 
+/// The corner at the same site in the triangle that follows counter-clockwise.
+Corner next_around(const Mesh& mesh, Corner corner) {
+  const std::int32_t t = triangle_of(corner);
+  const int v = vertex_of(corner);
+  const std::int32_t beyond = mesh.neighbours(next_vertex(v), t), site = mesh.triangles(v, t);
+  const int there = mesh.triangles(0, beyond) == site   ? 0
+                    : mesh.triangles(1, beyond) == site ? 1
+                                                        : 2;
+  return 4 * beyond + there;
+}
+
 /// For each site some corner at it: which one may vary, as the stars' order does not depend on it.
 Array<Corner> some_corners(const Mesh& mesh) {
   Array<Corner> corner(mesh.points.cols());

@@ -32,12 +32,7 @@ void count_halos(const Regions& regions, std::vector<CvtRegion>& out) {
 } // namespace
 
 Tessellation::Tessellation(const Points3& points, const DelaunayOptions& partition)
-    : partition_(partition) {
-  Mesh mesh = delaunay(points);
-  if (mesh.points.cols() != points.cols() || !mesh.closed())
-    throw Error(ErrorCode::bad_option, "the start lies within a hemisphere, or two of its points "
-                                       "are nearer than rounding: spread it over the sphere");
-  mesh_ = {std::move(mesh.triangles), std::move(mesh.neighbours)};
+    : partition_(partition), mesh_(triangulate_closed(points)) {
   divide(points);
 }
 

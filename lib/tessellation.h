@@ -21,7 +21,7 @@ namespace calotte::detail {
 class Tessellation {
 public:
   /// \param points 3 x n unit columns.
-  /// \throws Error bad_option, when they do not span the sphere, or two are nearer than rounding.
+  /// \throws Error as triangulate_closed().
   Tessellation(const Points3& points, const DelaunayOptions& partition);
 
   /// What a region's task hands over: moments by local number, whole for the patch's own sites.

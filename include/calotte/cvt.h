@@ -11,9 +11,9 @@
 
 namespace calotte {
 
-/// What is compared with the tolerance, when n generators move in an iteration from x to x' on the
-/// unit sphere. The first two are as printed by Jacobsen et al., 2013, Sect. 2.2; MPI-SCVT divides
-/// outside the root.
+/// What is compared with the tolerance, for n generators x on the unit sphere whose centroids, to
+/// which Lloyd's step would move them, are x'. The first two are as printed by Jacobsen et al.,
+/// 2013, Sect. 2.2; MPI-SCVT divides outside the root.
 enum class Norm {
   l2,          ///< sqrt( (1/n) sum |x - x'|^2 )
   linf,        ///< max |x - x'|
@@ -23,37 +23,50 @@ enum class Norm {
   none,        ///< nothing is: the run ends, converged, after max_iterations
 };
 
+/// How the energy is brought down. All go to the same optima; they differ in how many evaluations
+/// of the energy that takes.
+enum class Method {
+  automatic, ///< lbfgs from afar, lbfgs_laplacian from near
+  lloyd,     ///< each generator moves to its centroid
+  nesterov,  ///< Lloyd's map, accelerated; restarts where it would climb
+  lbfgs,     ///< quasi-Newton, from Lloyd's map (Yang, Gunzburger and Ju, J. Comput. Phys. 2018)
+  lbfgs_laplacian, ///< quasi-Newton, from the inverse of the graph Laplacian of the mesh
+};
+
 struct CvtOptions {
   Density density = {};
+  Method method = Method::automatic;
   Norm norm = Norm::l2_scaled;
   double tolerance = 1e-6;   ///< stop when the norm is at most this; > 0
-  int max_iterations = 1000; ///< of each level; >= 0
-  /// Continuation: that often, what has converged is bisected (n -> 4n - 6, see bisect()) and
-  /// converged again; >= 0.
+  int max_iterations = 1000; ///< evaluations on each level; >= 0
+  /// Continuation: that often, what has converged, or come to max_iterations, is bisected (n -> 4n
+  /// - 6, see bisect()) and converged again; from 0 to what 2^30 generators allow.
   int bisections = 0;
   int rule = 3; ///< quadrature points on each half kite: 1, 3, 6, 7, 13 or 19; not used for uniform
                 ///< density
   int final_rule = 6; ///< the same once the norm is within ten times the tolerance; a run without a
                       ///< norm keeps to the first
-  int triangle_divisions = 1; ///< each half kite is first cut into that many squared; >= 1
+  int triangle_divisions = 1; ///< each half kite is first cut into that many squared; 1 to 100
   /// Regions, their centres and what they exchange; duplicates and merge_within hold for the start.
   /// Nothing of it but the last two shows in the result.
   DelaunayOptions partition = {};
 };
 
-/// One iteration: what the mesh was before the move, and the move.
+/// One evaluation of the energy and its centroids; an iteration of Lloyd's method.
 struct CvtIteration {
   std::int64_t cells = 0;
   int rule = 0;            ///< quadrature points on each half kite, 0 for the exact moments
   double l2 = 0, linf = 0; ///< on the unit sphere, not scaled
   double gradient = 0;     ///< see Norm
   double energy = 0;       ///< sum over cells of the integral of rho |x - x_i|^2
-  std::int64_t flips = 0;  ///< of edges, that the move before called for
-  bool rebuilt = false;    ///< the move before called for a new triangulation
+  bool accepted = true;    ///< false for a trial that was not gone on from
+  std::int64_t flips = 0;  ///< of edges, that the move to there called for
+  bool rebuilt = false;    ///< that move called for a new triangulation
   double seconds = 0;      ///< wall-clock time
   /// Sums over the regions' tasks, whatever number ran at a time: taking over positions; finding
   /// and mending what is no longer Delaunay; moments and the move.
   double seconds_exchange = 0, seconds_repair = 0, seconds_moments = 0;
+  double seconds_solver = 0; ///< wall-clock time of finding the direction that led there
 };
 
 /// A region at the end of the run.
@@ -65,12 +78,26 @@ struct CvtRegion {
   double seconds = 0; ///< of its tasks since the sites were last sorted to regions
 };
 
+/// The value that CvtOptions::tolerance is compared with; 0 for Norm::none.
+double norm_of(const CvtIteration& iteration, Norm norm);
+
 struct CvtReport {
   bool converged = false;
-  double residual = 0; ///< the norm of the last move
+  double residual = 0; ///< the norm where the run ended
   std::vector<CvtIteration> iterations;
   std::vector<CvtRegion> regions;
   double seconds = 0; ///< wall-clock time of the run; of all its parts when it was resumed
+};
+
+/// What a method remembers of its way.
+struct CvtMemory {
+  std::vector<Points3> steps, changes; ///< of generators, and of the gradient then; oldest first
+  std::vector<double> curvatures;      ///< their inner products
+  Points3 laplacian_at;                ///< generators that the graph Laplacian was made for
+  int since_laplacian = 0;             ///< evaluations
+  bool flipped = false;                ///< edges, since then
+  Points3 before;                      ///< Nesterov's: the centroids before
+  double momentum = 1;
 };
 
 /// All that a run needs to go on with the same bits: what a checkpoint holds.
@@ -81,6 +108,7 @@ struct CvtState {
   int bisections_left = 0;
   int iterations_of_level = 0;
   bool final_rule = false; ///< it has taken over
+  CvtMemory memory;
   CvtReport report;
 };
 
@@ -91,21 +119,24 @@ struct Cvt {
   CvtReport report;
 };
 
-/// Asked after each iteration; true ends the run there, not converged.
+/// Asked after each iteration that was gone on from; true ends the run there. It may throw: what it
+/// throws ends the run and passes through, as what a callable density throws does.
 using CvtStop = std::function<bool(const CvtState&)>;
 
-/// Lloyd's iteration on the unit sphere: each generator moves to its cell's constrained centroid
-/// M/|M|, M the integral of rho x over the cell (Jacobsen et al., 2013, Sect. 3.3), until the norm
-/// is within the tolerance. A region's task moves the generators that the region owns.
+/// A centroidal Voronoi tessellation of the unit sphere: the generators are moved until they are
+/// the constrained centroids M/|M| of their cells, M the integral of rho x (Jacobsen et al., 2013,
+/// Sect. 3.3), up to the tolerance; then once more to these. What is brought down is the energy E,
+/// the sum over cells of the integral of rho |x - x_i|^2. A region's task integrates over the cells
+/// that the region owns.
 ///
 /// The same start gives the same bits for any number of threads and any regions. Not converging
 /// within max_iterations is reported, not an error.
 ///
 /// \param start 3 x n directions, 12 distinct at least, not within a hemisphere; equal ones merge.
 ///
-/// \throws Error as delaunay(); too_few_sites for fewer than 12 generators, or when generators
-/// meet; bad_option for a tolerance <= 0, an unknown rule, or a density that is ill-formed,
-/// negative or NaN somewhere, or zero over a whole cell.
+/// \throws Error as delaunay(); too_few_sites for fewer than 12 generators, or when they leave a
+/// hemisphere empty or meet; bad_option for an option out of range, or a density that is
+/// ill-formed, negative or NaN somewhere, or zero over a whole cell.
 Cvt cvt(const Points3& start, const CvtOptions& options = {}, const CvtStop& stop = {});
 
 /// Goes on from a state to the bits that the run would have reached without the interruption,

@@ -27,8 +27,9 @@ struct Bump {
 /// A density on the unit sphere: uniform, bumps, or a callable.
 struct Density {
   enum class Kind { uniform, maximum, sum, callable };
-  /// Fills rho(j) with the density at column j of x, unit columns. It is called from many threads
-  /// at once with blocks of a few hundred columns.
+  /// Fills rho(j) with the density at column j of x, unit columns: from 1e-150 to 1e150 where it is
+  /// not 0, and of that column alone. It is called from many threads at once with blocks of a few
+  /// dozen columns, the last of which may be repeats.
   using Callable =
       std::function<void(const Eigen::Ref<const Points3>& x, Eigen::Ref<Eigen::VectorXd> rho)>;
 
