@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <string>
 
@@ -169,6 +170,24 @@ Density tanh_bump(const Eigen::Vector3d& centre, double beta, double alpha, doub
   density.kind = Density::Kind::maximum;
   density.bumps.push_back({centre, beta, alpha, gamma});
   return density;
+}
+
+Density site_density(const Density& density) {
+  if (density.uniform())
+    return density;
+  Density root;
+  root.kind = Density::Kind::callable;
+  root.callable = [evaluator = std::make_shared<const detail::DensityEvaluator>(density)](
+                      const Eigen::Ref<const Points3>& points, Eigen::Ref<Eigen::VectorXd> rho) {
+    const Eigen::VectorXd x = points.row(0), y = points.row(1), z = points.row(2);
+    Eigen::VectorXd values(x.size());
+    (*evaluator)({x.data(), static_cast<std::size_t>(x.size())},
+                 {y.data(), static_cast<std::size_t>(y.size())},
+                 {z.data(), static_cast<std::size_t>(z.size())},
+                 {values.data(), static_cast<std::size_t>(values.size())});
+    rho = values.cwiseSqrt();
+  };
+  return root;
 }
 
 Eigen::VectorXd evaluate(const Density& density, const Points3& x) {

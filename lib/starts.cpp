@@ -33,7 +33,8 @@ Continuation continuation(std::int64_t cells, const Density& density, std::uint6
   if (level)
     result.start = bisected_icosahedron(*level);
   else
-    result.start = density.uniform() ? fibonacci_sphere(n) : random_sphere(n, density, seed);
+    result.start =
+        density.uniform() ? fibonacci_sphere(n) : random_sphere(n, site_density(density), seed);
   return result;
 }
 

@@ -6,11 +6,14 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <set>
 #include <string>
+#include <vector>
 
 #include <unistd.h>
 
@@ -54,6 +57,16 @@ CvtState some_state() {
   state.bisections_left = 2;
   state.iterations_of_level = 17;
   state.final_rule = true;
+  for (std::uint64_t seed = 2; seed < 5; ++seed) {
+    state.memory.steps.push_back(random_sphere(30, seed));
+    state.memory.changes.push_back(-0.5 * random_sphere(30, seed));
+    state.memory.curvatures.push_back(1 / static_cast<double>(seed));
+  }
+  state.memory.laplacian_at = random_sphere(30, 5);
+  state.memory.before = random_sphere(30, 6);
+  state.memory.since_laplacian = 19;
+  state.memory.flipped = true;
+  state.memory.momentum = 1.75;
   state.report.residual = 0.125;
   state.report.seconds = 1e300;
   for (int k = 0; k < 3; ++k) {
@@ -61,14 +74,18 @@ CvtState some_state() {
     i.cells = (std::int64_t{1} << 33) + k;
     i.rule = 6;
     i.l2 = 0.1, i.linf = std::numeric_limits<double>::denorm_min(), i.gradient = 0.3;
-    i.energy = 0.4, i.flips = 5 + k, i.rebuilt = k == 1;
+    i.energy = 0.4, i.accepted = k != 2, i.flips = 5 + k, i.rebuilt = k == 1;
     i.seconds = 0.6, i.seconds_exchange = 0.7, i.seconds_repair = 0.8, i.seconds_moments = 0.9;
+    i.seconds_solver = 1.1;
     state.report.iterations.push_back(i);
   }
   state.report.regions.push_back({11, 12, 13, 1.4});
   state.report.regions.push_back({21, 22, 23, 2.4});
   return state;
 }
+
+/// Of any number of columns; Eigen's operator asks that they be as many.
+bool equal(const Points3& a, const Points3& b) { return a.cols() == b.cols() && a == b; }
 
 void check_equal(const CvtIteration& a, const CvtIteration& b) {
   CHECK(a.cells == b.cells);
@@ -77,21 +94,40 @@ void check_equal(const CvtIteration& a, const CvtIteration& b) {
   CHECK(a.linf == b.linf);
   CHECK(a.gradient == b.gradient);
   CHECK(a.energy == b.energy);
+  CHECK(a.accepted == b.accepted);
   CHECK(a.flips == b.flips);
   CHECK(a.rebuilt == b.rebuilt);
   CHECK(a.seconds == b.seconds);
   CHECK(a.seconds_exchange == b.seconds_exchange);
   CHECK(a.seconds_repair == b.seconds_repair);
   CHECK(a.seconds_moments == b.seconds_moments);
+  CHECK(a.seconds_solver == b.seconds_solver);
+}
+
+bool equal(const std::vector<Points3>& a, const std::vector<Points3>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const Points3& x, const Points3& y) { return equal(x, y); });
+}
+
+void check_equal(const CvtMemory& a, const CvtMemory& b) {
+  CHECK(equal(a.steps, b.steps));
+  CHECK(equal(a.changes, b.changes));
+  CHECK(a.curvatures == b.curvatures);
+  CHECK(equal(a.laplacian_at, b.laplacian_at));
+  CHECK(a.since_laplacian == b.since_laplacian);
+  CHECK(a.flipped == b.flipped);
+  CHECK(equal(a.before, b.before));
+  CHECK(a.momentum == b.momentum);
 }
 
 void check_equal(const CvtState& a, const CvtState& b) {
-  CHECK((a.points == b.points));
+  CHECK(equal(a.points, b.points));
   CHECK(a.id == b.id);
   CHECK(a.site_of_input == b.site_of_input);
   CHECK(a.bisections_left == b.bisections_left);
   CHECK(a.iterations_of_level == b.iterations_of_level);
   CHECK(a.final_rule == b.final_rule);
+  check_equal(a.memory, b.memory);
   CHECK(a.report.converged == b.report.converged);
   CHECK(a.report.residual == b.report.residual);
   CHECK(a.report.seconds == b.report.seconds);
@@ -105,6 +141,14 @@ void check_equal(const CvtState& a, const CvtState& b) {
     CHECK(a.report.regions[k].halo_bytes == b.report.regions[k].halo_bytes);
     CHECK(a.report.regions[k].seconds == b.report.regions[k].seconds);
   }
+}
+
+/// Of all the evaluations, trials too.
+std::vector<double> energies(const Cvt& run) {
+  std::vector<double> values;
+  for (const CvtIteration& iteration : run.report.iterations)
+    values.push_back(iteration.energy);
+  return values;
 }
 
 /// The refusal's code and words; the code is internal where there was none.
@@ -138,10 +182,11 @@ TEST_CASE("a state comes back with every field, bit for bit") {
   CHECK(std::distance(fs::directory_iterator(scratch.folder), {}) == 1);
 }
 
-TEST_CASE("a run goes on from its checkpoint to the same bits") {
+TEST_CASE("a run goes on from its checkpoint to the same bits, on every level") {
   const Scratch scratch;
   const Points3 start = random_sphere(200, 3);
   CvtOptions options;
+  options.method = Method::lloyd; // whose steps are one iteration each
   options.norm = Norm::none;
   options.max_iterations = 12;
   options.bisections = 1;
@@ -160,6 +205,44 @@ TEST_CASE("a run goes on from its checkpoint to the same bits") {
     CHECK(resumed.mesh.site_of_input == whole.mesh.site_of_input);
     CHECK(resumed.report.converged == whole.report.converged);
     CHECK(resumed.report.iterations.size() == whole.report.iterations.size());
+  }
+}
+
+TEST_CASE("whatever a method remembers, a run goes on from its checkpoint to the same bits") {
+  const Scratch scratch;
+  CvtOptions options;
+  options.density = tanh_bump({0.6, 0, 0.8}, 0.5, 0.2, 1.0 / 4096);
+  options.tolerance = 2e-3; // so that the final rule takes over on the way
+  options.max_iterations = 90;
+  const Density milder = tanh_bump({0.6, 0, 0.8}, 0.5, 0.2, 1.0 / 81); // some fall far away, too
+  const Points3 start = random_sphere(150, milder, 3);
+  for (const Method method : {Method::automatic, Method::lloyd, Method::nesterov, Method::lbfgs,
+                              Method::lbfgs_laplacian}) {
+    CAPTURE(method);
+    options.method = method;
+    std::vector<CvtState> states; // after each step
+    const Cvt whole = cvt(start, options, [&](const CvtState& state) {
+      states.push_back(state);
+      return false;
+    });
+    REQUIRE(states.size() > 10);
+    const auto ruled = std::find_if(states.begin(), states.end(),
+                                    [](const CvtState& state) { return state.final_rule; });
+    std::set<std::ptrdiff_t> places{
+        0, 1, 2, ruled - states.begin() - 1, ruled - states.begin(), ruled - states.begin() + 1};
+    for (std::ptrdiff_t place = 5; place < std::ssize(states); place += 11)
+      places.insert(place);
+    for (const std::ptrdiff_t place : places) {
+      CAPTURE(place);
+      if (place < 0 || place >= std::ssize(states))
+        continue;
+      write_checkpoint(scratch.path, states[static_cast<std::size_t>(place)], configuration);
+      const Cvt resumed = cvt(read_checkpoint(scratch.path, configuration), options);
+      CHECK(equal(resumed.mesh.points, whole.mesh.points));
+      CHECK((resumed.mesh.triangles == whole.mesh.triangles));
+      CHECK(resumed.report.converged == whole.report.converged);
+      CHECK(energies(resumed) == energies(whole));
+    }
   }
 }
 
@@ -197,7 +280,7 @@ TEST_CASE("what is no checkpoint of this version is refused") {
   const Scratch scratch;
   write_checkpoint(scratch.path, some_state(), configuration);
   std::string other = scratch.bytes();
-  other[other.find('1')] = '2';
+  other[other.find('2')] = '1';
   scratch.put(other);
   CHECK(says(refusal(scratch), "run.checkpoint: a checkpoint of another version"));
   scratch.put("1 0 0\n0 1 0\n");

@@ -64,8 +64,9 @@ bool handles(pid_t process, int signal) {
 
 /// Runs long enough to be interrupted many times: they keep their state after every iteration.
 const std::string long_run = "cvt --cells 162 --start random --seed 5 --iterations 3000";
-const std::string long_levels = "cvt --cells 162 --iterations 1500";
-const std::string long_bump = "cvt --cells 162 --start density --iterations 3000 --density " + bump;
+const std::string long_levels = "cvt --cells 162 --method nesterov --iterations 1500";
+const std::string long_bump =
+    "cvt --cells 162 --method lloyd --start density --iterations 3000 --density " + bump;
 const std::string kept = " --checkpoint run.checkpoint --checkpoint-every 1";
 
 /// Interrupts a run in its midst.
@@ -127,10 +128,76 @@ TEST_CASE("every start leads to the cells that were asked for") {
   check_start("points.txt", 50, "");
   check_start("- <points.txt", 50, "");
   check_start("points.txt --bisections 1", 194, "");
+  CHECK(bench.run("cvt points.txt --iterations 1 -o mesh.off").code == 0);
+  fs::copy_file(bench.folder() / "mesh.off", bench.folder() / "grid.off");
+  check_start("grid.off", 50, "");
   bench.file("places.txt", "0 0\n90 0\n180 0\n270 0\n45 45\n135 45\n225 45\n315 45\n0 -45\n90 -45\n"
                            "180 -45\n270 -45\n0 90\n");
   check_start("--lonlat places.txt", 13, "");
   check_start("places.txt --lonlat --density uniform", 13, "");
+}
+
+TEST_CASE("a run goes on from the mesh that another left, in any format") {
+  const Bench bench;
+  const std::string run = "cvt --method lloyd --duplicates refuse --iterations ";
+  CHECK(bench.run("points random 60 -o points.txt").code == 0);
+  CHECK(bench.run(run + "7 points.txt -o whole.vtp").code == 0);
+  const calotte::Mesh whole = calotte::read_mesh(bench.folder() / "whole.vtp");
+  for (const std::string grid : {"grid.vtp", "grid.vtu", "grid.off", "grid.ply"}) {
+    CAPTURE(grid);
+    CHECK(bench.run(run + "4 points.txt -o " + grid).code == 0);
+    CHECK(bench.run(run + "3 " + grid + " -o mesh.vtp").code == 0);
+    const calotte::Mesh mesh = calotte::read_mesh(bench.folder() / "mesh.vtp");
+    CHECK((mesh.triangles == whole.triangles));
+    CHECK((mesh.points - whole.points).cwiseAbs().maxCoeff() < 1e-13); // it is normalised anew
+    CHECK(bench.run("delaunay " + grid + " -o same.vtp").code == 0);
+    CHECK(calotte::read_mesh(bench.folder() / "same.vtp").triangles.cols() == 116);
+    for (const std::string command : {"cvt ", "delaunay "})
+      check_refusal(bench, command + grid + " --lonlat -o mesh.tri", 2,
+                    grid + ": a mesh's points are x y z; leave --lonlat out, or give text");
+  }
+  bench.file("text.vtp", bench.file("points.txt"));
+  check_refusal_naming(bench, "cvt text.vtp -o mesh.tri", 2, "text.vtp");
+  check_refusal_naming(bench, "cvt absent.vtp -o mesh.tri", 3, "cannot read absent.vtp");
+}
+
+TEST_CASE("every method converges in its own way, and the report names it") {
+  const Bench bench;
+  const auto converged = [&](const std::string& method) {
+    CAPTURE(method);
+    const Outcome made = bench.run("cvt --cells 162 --tolerance 1e-4 -o mesh.vtp "
+                                   "--report report.json " +
+                                   (method.empty() ? "" : "--method " + method));
+    CHECK(made.code == 0);
+    CHECK(has(bench.file("report.json"),
+              "\n \"method\": \"" + (method.empty() ? "auto" : method) + "\",\n"));
+    return bench.file("mesh.vtp");
+  };
+  CHECK((converged("") == converged("auto")));
+  std::set<std::string> meshes;
+  for (const std::string method : {"lloyd", "nesterov", "lbfgs", "lbfgs-laplacian"})
+    meshes.insert(converged(method));
+  CHECK(meshes.size() == 4);
+}
+
+TEST_CASE("seeds are whole numbers below 2^64, in decimal") {
+  const Bench bench;
+  for (const std::string command :
+       {"cvt --cells 20 --start random --iterations 1 -o ", "points random 20 -o "}) {
+    const auto made = [&](const std::string& seed) {
+      CHECK(bench.run(command + "made.txt --seed " + seed).code == 0);
+      return bench.file("made.txt");
+    };
+    CHECK(made("010") == made("10"));
+    CHECK(made("010") != made("8"));
+    CHECK(made("0") != made("1"));
+    CHECK(made("18446744073709551615") != made("9223372036854775807"));
+    for (const std::string seed : {"-1", "18446744073709551616", "", "0x10", "1.5", "1e3", "+1"})
+      check_refusal(bench, command + "mesh.txt --seed '" + seed + "'", 2,
+                    "--seed: \"" + seed +
+                        "\" is not a whole number from 0 to 18446744073709551615; see calotte " +
+                        command.substr(0, command.find(' ')) + " --help");
+  }
 }
 
 TEST_CASE("seeds make a difference, and the same seed makes none") {
@@ -193,6 +260,8 @@ TEST_CASE("bad usage is refused before any work") {
   for (const std::string other : {"--norm l2", "--tolerance 1", "--max-iterations 9"})
     check_usage("never --iterations 9 " + other + out,
                 other.substr(0, other.find(' ')) + " excludes --iterations" + see);
+  check_usage("never --method newton" + out,
+              "--method: newton not in {auto,lloyd,nesterov,lbfgs,lbfgs-laplacian}" + see);
   check_usage("never --rule 5" + out, "--rule: 5 not in {1,3,6,7,13,19}" + see);
   check_usage("never --triangle-divisions 0" + out,
               "--triangle-divisions: \"0\" is not a whole number from 1 to 100" + see);
@@ -287,7 +356,8 @@ TEST_CASE("options from a file: the command line wins, and what is unknown is re
 
 TEST_CASE("not converging is exit code 1 with the residual; the mesh and the report are there") {
   const Bench bench;
-  const Outcome outcome = bench.run("cvt --cells 100 --start random --max-iterations 3 "
+  const Outcome outcome = bench.run("cvt --cells 100 --start random --method lloyd "
+                                    "--max-iterations 3 "
                                     "--tolerance 1e-5 -o mesh.vtp --report report.json");
   CHECK(outcome.code == 1);
   CHECK(one_line(outcome.err));
@@ -303,7 +373,8 @@ TEST_CASE("not converging is exit code 1 with the residual; the mesh and the rep
 TEST_CASE("the norm that is asked for is the one that ends the run") {
   const Bench bench;
   const auto iterations = [&](const std::string& options) {
-    const Outcome made = bench.run("cvt --cells 100 --start fibonacci -o mesh.vtp " + options);
+    const Outcome made =
+        bench.run("cvt --cells 100 --start fibonacci --method lloyd -o mesh.vtp " + options);
     CHECK(made.code == 0);
     return made.out.substr(0, made.out.find(" iterations"));
   };
@@ -316,13 +387,15 @@ TEST_CASE("the norm that is asked for is the one that ends the run") {
 
 TEST_CASE("the report holds what it promises") {
   const Bench bench;
-  CHECK(bench
-            .run("cvt --cells 162 --iterations 2 --threads 2 --regions 3 -o mesh.vtp "
-                 "--report report.json")
-            .code == 0);
+  CHECK(
+      bench
+          .run("cvt --cells 162 --method lloyd --iterations 2 --threads 2 --regions 3 -o mesh.vtp "
+               "--report report.json")
+          .code == 0);
   const std::string report = bench.file("report.json");
   for (const char* key : {"calotte",
                           "density",
+                          "method",
                           "norm",
                           "tolerance",
                           "converged",
@@ -337,11 +410,13 @@ TEST_CASE("the report holds what it promises") {
                           "linf",
                           "gradient",
                           "energy",
+                          "accepted",
                           "flips",
                           "rebuilt",
                           "seconds_exchange",
                           "seconds_repair",
                           "seconds_moments",
+                          "seconds_solver",
                           "sites",
                           "halo",
                           "halo_bytes"}) {
@@ -434,7 +509,8 @@ TEST_CASE("kill -9 at any moment: the run resumes from its checkpoint to the sam
 TEST_CASE("checkpoints come every so many iterations or minutes, over all levels") {
   const Bench bench;
   const auto before = [&](const std::string& options) {
-    const std::string run = "cvt --cells 42 --iterations 17 "; // 34 on the two levels
+    const std::string run =
+        "cvt --cells 42 --method lloyd --iterations 17 "; // 34 on the two levels
     fs::remove(bench.folder() / "run.checkpoint");
     CHECK(bench.run(run + "-o mesh.vtp --checkpoint run.checkpoint " + options).code == 0);
     if (!fs::exists(bench.folder() / "run.checkpoint"))
@@ -454,7 +530,7 @@ TEST_CASE("checkpoints come every so many iterations or minutes, over all levels
 TEST_CASE("a checkpoint that cannot be written is told, and the run goes on") {
   const Bench bench;
   // The shell's limit on the size of files stands for the disk: 1 block of 512 or 1024 bytes.
-  const Outcome outcome = bench.run("cvt --cells 12 --iterations 50 -o mesh.tri "
+  const Outcome outcome = bench.run("cvt --cells 12 --method lloyd --iterations 50 -o mesh.tri "
                                     "--checkpoint run.checkpoint --checkpoint-every 20",
                                     "ulimit -f 1;");
   CHECK(outcome.code == 0);
@@ -489,15 +565,22 @@ TEST_CASE("a checkpoint of another configuration is refused with the option that
   check_other(base, base + "--density " + bump, "density uniform", "density " + bump);
   check_other(base, base + "--tolerance 1e-5", "tolerance 1e-06", "tolerance 1e-05");
   check_other(base, base + "--norm l2", "norm l2-scaled", "norm l2");
-  check_other(base, base + "--rule 6", "rule 3", "rule 6");
-  check_other(base, base + "--final-rule 7", "final-rule 6", "final-rule 7");
-  check_other(base, base + "--triangle-divisions 2", "triangle-divisions 1",
+  check_other(base, base + "--method lloyd", "method auto", "method lloyd");
+  const std::string dense = base + "--density " + bump + " ";
+  check_other(dense, dense + "--rule 6", "rule 3", "rule 6");
+  check_other(dense, dense + "--final-rule 7", "final-rule 6", "final-rule 7");
+  check_other(dense, dense + "--triangle-divisions 2", "triangle-divisions 1",
               "triangle-divisions 2");
   check_other(base, base + "--duplicates refuse", "duplicates merge", "duplicates refuse");
   check_other(base, base + "--merge-within 1e-4", "merge-within 0", "merge-within 1e-04");
   check_other("--cells 42 --start icosahedron --iterations 2",
               "--cells 42 --start icosahedron --bisections 1 --iterations 2", "bisections 0",
               "bisections 1");
+  bench.run("cvt --cells 42 --iterations 2" + kept + " -o mesh.vtp");
+  CHECK(bench
+            .run("cvt --cells 42 --iterations 2 --rule 6 --final-rule 7 --triangle-divisions 2 "
+                 "--resume run.checkpoint -o mesh.vtp")
+            .code == 0); // uniform density uses none of these
   check_other("points.txt --iterations 2", "points.txt --iterations 3", "iterations 2",
               "iterations 3");
   fs::copy_file(bench.folder() / "points.txt", bench.folder() / "same.txt");

@@ -56,6 +56,13 @@ TEST_CASE("the limit of iterations ends what would take longer, and a run of a n
   }
 }
 
+TEST_CASE("a last step that went beyond the limit of iterations leaves no time") {
+  CvtOptions options;
+  options.norm = Norm::none;
+  options.max_iterations = 38;
+  CHECK(forecast(decaying(40, 0.9), options)->seconds == 0);
+}
+
 TEST_CASE("nothing is foreseen from few iterations, or those of another level") {
   CvtOptions options;
   CHECK(!forecast(decaying(9, 0.9), options));
@@ -64,6 +71,24 @@ TEST_CASE("nothing is foreseen from few iterations, or those of another level") 
   CHECK(!forecast(next, options));
   next.iterations_of_level = 0;
   CHECK(!forecast(next, options));
+}
+
+TEST_CASE("trials that were not gone on from take time, and their norms count for nothing") {
+  CvtOptions options;
+  options.norm = Norm::l2;
+  options.tolerance = std::pow(0.9, 300.5);
+  options.max_iterations = 1000;
+  CvtState state = decaying(101, 0.9);
+  for (std::size_t k = 1; k < 101; k += 3) {
+    state.report.iterations[k].accepted = false;
+    state.report.iterations[k].l2 = 1e6 / static_cast<double>(k);
+  }
+  for (CvtIteration& iteration : state.report.iterations)
+    iteration.seconds = 1.5, iteration.seconds_solver = 0.5;
+  const auto end = forecast(state, options);
+  REQUIRE(end);
+  CHECK(end->converges);
+  CHECK(end->seconds == doctest::Approx(2 * (301 - 100)));
 }
 
 TEST_CASE("what has converged takes no more time") {
@@ -82,6 +107,7 @@ TEST_CASE("the norms are those of the report") {
   CHECK(norm_of(iteration, Norm::l2) == 1);
   CHECK(norm_of(iteration, Norm::linf) == 2);
   CHECK(norm_of(iteration, Norm::gradient) == 3);
+  CHECK(norm_of(iteration, Norm::none) == 0);
   CHECK(norm_of(iteration, Norm::l2_scaled) == doctest::Approx(1 / h));
   CHECK(norm_of(iteration, Norm::linf_scaled) == doctest::Approx(2 / h));
 }

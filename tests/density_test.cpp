@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "profile.h"
+#include "density_evaluator.h"
 #include "support/random.h"
 
 #include <calotte/density.h>
@@ -258,4 +258,12 @@ TEST_CASE("an ill-formed density is one line that names the bump and the remedy"
     });
     CHECK(message_of(density).find("somewhere") != std::string::npos);
   }
+}
+
+TEST_CASE("the sites' density is the root of the density") {
+  const Points3 x = random_sphere(200, 4);
+  const Density density = tanh_bump({1, 2, 3}, 0.5, 0.2, 0.01);
+  const Eigen::VectorXd root = evaluate(site_density(density), x);
+  CHECK((root.cwiseAbs2() - evaluate(density, x)).cwiseAbs().maxCoeff() < 1e-15);
+  CHECK(site_density(Density{}).uniform());
 }

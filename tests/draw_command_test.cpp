@@ -65,8 +65,7 @@ TEST_CASE("what is no report is named, and nothing is written") {
   const Bench bench;
   const std::string remedy = "; give a report of calotte cvt --report";
   bench.file("a.json", "{\"norm\": \"l2\"}\n");
-  check_refusal(bench, "draw --history a.json -o a.png", 2,
-                "a.json: tolerance is missing" + remedy);
+  check_refusal(bench, "draw --history a.json -o a.png", 2, "a.json: density is missing" + remedy);
   bench.file("empty.json", "");
   check_refusal(bench, "draw --history empty.json -o a.png", 2,
                 "empty.json line 1: this is not JSON, or was cut short" + remedy);

@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <numbers>
 #include <string>
 
 using namespace calotte;
@@ -59,8 +60,9 @@ TEST_CASE("continuation: what the start is") {
   CHECK(continuation(162, bump()).start == bisected_icosahedron(2));
   CHECK(continuation(50, {}).start == fibonacci_sphere(14));
   CHECK(continuation(1009, {}).start == fibonacci_sphere(1009));
-  CHECK(continuation(1009, bump(), 7).start == random_sphere(1009, bump(), 7));
-  CHECK(continuation(4 * 1001 + 2, bump(), 7).start == random_sphere(1003, bump(), 7));
+  CHECK(continuation(1009, bump(), 7).start == random_sphere(1009, site_density(bump()), 7));
+  CHECK(continuation(4 * 1001 + 2, bump(), 7).start ==
+        random_sphere(1003, site_density(bump()), 7));
   // Two thirds of a billion, from the fewest.
   CHECK(continuation(10 * (std::int64_t{1} << 26) + 2, {}).bisections == 13);
 }
@@ -82,4 +84,20 @@ TEST_CASE("continuation refuses what it cannot reach in one line") {
   const Density bad = tanh_bump({0, 0, 1}, 0.5, -1, 0.1);
   for (const std::int64_t cells : {642, 1000}) // drawn from it or not
     CHECK(message(cells, bad).find("alpha") != std::string::npos);
+}
+
+TEST_CASE("drawn starts of a peaked density span the sphere, and converge") {
+  constexpr double pi = std::numbers::pi;
+  const Density x8 = tanh_bump({0, -std::cos(pi / 6), std::sin(pi / 6)}, pi / 6, 0.2, 1.0 / 4096);
+  for (const std::int64_t cells : {643, 2000, 2571}) {
+    CvtOptions options;
+    options.density = x8;
+    options.tolerance = 1e-3;
+    const Continuation from = continuation(cells, x8);
+    options.bisections = from.bisections;
+    const Cvt grid = cvt(from.start, options);
+    CHECK(!from.icosahedral);
+    CHECK(grid.report.converged);
+    CHECK(grid.mesh.points.cols() == cells);
+  }
 }

@@ -95,7 +95,9 @@ int main(int argc, char** argv) try {
   // A file larger than allowed is an error like a full disk, not a reason to die.
   std::signal(SIGXFSZ, SIG_IGN);
   std::ios::sync_with_stdio(false);
-  CLI::App app("Exact Delaunay triangulations of the sphere, in parallel.", "calotte");
+  CLI::App app("Exact Delaunay triangulations and centroidal Voronoi tessellations of the sphere, "
+               "in parallel.",
+               "calotte");
   const ExitCode code = guarded_run(app, argc, argv);
   if (code == done && !std::cout.flush()) {
     complain("cannot write standard output; make room or send it elsewhere");

@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -56,8 +57,9 @@ struct Output {
 /// \throws Error file, bad_option.
 void require_outputs(const std::vector<Output>& outputs, const std::vector<std::string>& inputs);
 
-/// Whole numbers in a range, for an option.
-CLI::Validator whole_number(int least, int most);
+/// Whole numbers in a range, for an option's transform: in decimal, though they may start with
+/// zeros.
+CLI::Validator whole_number(std::uint64_t least, std::uint64_t most);
 
 /// As read_points; "-" is standard input.
 Points3 points_from(const std::string& path, Columns columns,
@@ -70,7 +72,8 @@ struct PointFile {
   std::vector<std::int64_t> lines;
 };
 
-/// \throws Error as points_from.
+/// Text, or the points of a .vtp, .vtu, .off or .ply mesh, which have no lines.
+/// \throws Error as points_from and read_mesh; bad_option for a mesh in longitude and latitude.
 PointFile read_point_file(const std::string& path, bool lonlat);
 
 /// The library names the column of a bad point; who wrote the file looks for the line.

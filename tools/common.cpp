@@ -15,6 +15,16 @@
 
 namespace calotte::tools {
 
+namespace {
+
+/// Whether the suffix is that of a mesh which holds its points.
+bool holds_mesh_points(const std::string& path) {
+  const std::string suffix = std::filesystem::path(path).extension();
+  return suffix == ".vtp" || suffix == ".vtu" || suffix == ".off" || suffix == ".ply";
+}
+
+} // namespace
+
 void finish(ExitCode code) { throw CLI::RuntimeError(code); }
 
 void require_folder(const std::string& path) {
@@ -56,17 +66,18 @@ void require_outputs(const std::vector<Output>& outputs, const std::vector<std::
   }
 }
 
-CLI::Validator whole_number(int least, int most) {
+CLI::Validator whole_number(std::uint64_t least, std::uint64_t most) {
   const std::string range = most == std::numeric_limits<int>::max()
                                 ? std::to_string(least) + " or more"
                                 : "from " + std::to_string(least) + " to " + std::to_string(most);
-  return {[=](const std::string& text) {
-            int value = least - 1;
+  return {[=](std::string& text) -> std::string {
+            std::uint64_t value = 0;
             const char* const end = text.data() + text.size();
-            const bool whole = std::from_chars(text.data(), end, value).ptr == end;
-            return whole && least <= value && value <= most
-                       ? std::string()
-                       : "\"" + text + "\" is not a whole number " + range;
+            const auto [stop, problem] = std::from_chars(text.data(), end, value);
+            if (problem != std::errc() || stop != end || value < least || value > most)
+              return "\"" + text + "\" is not a whole number " + range;
+            text = std::to_string(value); // CLI11 takes leading zeros for octal
+            return "";
           },
           "N"};
 }
@@ -77,6 +88,12 @@ Points3 points_from(const std::string& path, Columns columns, std::vector<std::i
 }
 
 PointFile read_point_file(const std::string& path, bool lonlat) {
+  if (holds_mesh_points(path)) {
+    if (lonlat)
+      throw Error(ErrorCode::bad_option,
+                  path + ": a mesh's points are x y z; leave --lonlat out, or give text");
+    return {path, calotte::read_mesh(path).points, {}};
+  }
   PointFile file;
   file.name = path == "-" ? "standard input" : path;
   file.points = points_from(path, lonlat ? Columns::lonlat : Columns::xyz, &file.lines);

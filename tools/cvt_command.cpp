@@ -31,6 +31,12 @@ const std::map<std::string, Norm> norms{{"l2", Norm::l2},
                                         {"gradient", Norm::gradient},
                                         {"none", Norm::none}};
 
+const std::map<std::string, Method> methods{{"auto", Method::automatic},
+                                            {"lloyd", Method::lloyd},
+                                            {"nesterov", Method::nesterov},
+                                            {"lbfgs", Method::lbfgs},
+                                            {"lbfgs-laplacian", Method::lbfgs_laplacian}};
+
 std::string shortest(double value) {
   char digits[32];
   return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
@@ -61,7 +67,8 @@ void require_request(const CvtRequest& request) {
 
 /// All that determines the bits of the result, a line each; see write_checkpoint. Threads, regions
 /// and outputs do not.
-std::string configuration_of(const CvtRequest& request, const CvtStart& start) {
+std::string configuration_of(const CvtRequest& request, const CvtOptions& options,
+                             const CvtStart& start) {
   std::string text = "calotte " CALOTTE_VERSION "\n" + start.configuration;
   const auto add = [&](const std::string& name, const std::string& value) {
     text += name + " " + value + "\n";
@@ -73,6 +80,7 @@ std::string configuration_of(const CvtRequest& request, const CvtStart& start) {
     add("density", "uniform");
   if (densities.size() > 1)
     add("join", request.density->join);
+  add("method", request.method);
   if (request.iterations) {
     add("iterations", std::to_string(*request.iterations));
   } else {
@@ -80,9 +88,11 @@ std::string configuration_of(const CvtRequest& request, const CvtStart& start) {
     add("tolerance", shortest(request.tolerance));
     add("max-iterations", std::to_string(request.max_iterations));
   }
-  add("rule", std::to_string(request.rule));
-  add("final-rule", std::to_string(request.final_rule));
-  add("triangle-divisions", std::to_string(request.triangle_divisions));
+  if (!options.density.uniform()) {
+    add("rule", std::to_string(request.rule));
+    add("final-rule", std::to_string(request.final_rule));
+    add("triangle-divisions", std::to_string(request.triangle_divisions));
+  }
   add("duplicates", request.partition->duplicates);
   add("merge-within", shortest(request.partition->merge_within));
   return text;
@@ -158,12 +168,15 @@ Plan prepare(const CvtRequest& request, Progress& progress) {
   Plan plan;
   plan.options = options_of(request);
   progress.stage("making the start");
-  plan.start = make_start(request, plan.options.density);
-  plan.options.bisections = plan.start.bisections;
-  plan.configuration = configuration_of(request, plan.start);
-  if (!request.resume.empty())
+  plan.start = open_start(request);
+  plan.configuration = configuration_of(request, plan.options, plan.start);
+  if (!request.resume.empty()) {
     plan.state = read_checkpoint(request.resume, plan.configuration);
-  else if (!plan.start.note.empty())
+    return plan;
+  }
+  generate_points(request, plan.options.density, plan.start);
+  plan.options.bisections = plan.start.bisections;
+  if (!plan.start.note.empty())
     progress.say("calotte: " + plan.start.note);
   return plan;
 }
@@ -244,23 +257,38 @@ void run(const CvtRequest& request) {
 
 void add_start(CLI::App& command, CvtRequest& request) {
   command.add_option("START,--points", request.points,
-                     "where to start: text, x y z a line; - is standard input; or give --cells");
-  command.add_flag("--lonlat", request.lonlat, "the points are longitude and latitude in degrees");
+                     "where to start: text, x y z a line; - is standard input; or the points of a "
+                     "mesh, .vtp .vtu .off .ply; or give --cells");
+  command.add_flag("--lonlat", request.lonlat,
+                   "the text's points are longitude and latitude in degrees");
   command.add_option("--cells", request.cells, "the number of cells of the result")
-      ->check(whole_number(12, 1 << 30));
+      ->transform(whole_number(12, 1 << 30));
   command
       .add_option("--start", request.start,
                   "where to start without a file: continuation (the default: from a coarse grid, "
-                  "converged and bisected in turn), random, density (drawn from it), fibonacci, "
+                  "converged and bisected in turn), random, density (drawn from its root, as the "
+                  "cells of an optimal grid lie), fibonacci, "
                   "spiral or icosahedron")
       ->check(CLI::IsMember(
           {"continuation", "random", "density", "fibonacci", "spiral", "icosahedron"}));
-  command.add_option("--seed", request.seed, "of random points; default 1");
+  command.add_option("--seed", request.seed, "of random points; default 1")
+      ->transform(whole_number(0, std::numeric_limits<std::uint64_t>::max()));
   command
       .add_option("--bisections", request.bisections,
                   "how often to bisect what has converged and converge again; --cells counts the "
                   "cells after the last; default 0")
-      ->check(whole_number(0, 14));
+      ->transform(whole_number(0, 13));
+}
+
+void add_method(CLI::App& command, CvtRequest& request) {
+  command
+      .add_option("--method", request.method,
+                  "how the energy is brought down: auto (lbfgs from afar, lbfgs-laplacian from "
+                  "near), lloyd (each generator moves to its centroid), nesterov (that, "
+                  "accelerated), lbfgs (quasi-Newton), or lbfgs-laplacian (from the inverse of "
+                  "the mesh's graph Laplacian)")
+      ->check(CLI::IsMember({"auto", "lloyd", "nesterov", "lbfgs", "lbfgs-laplacian"}))
+      ->capture_default_str();
 }
 
 void add_end(CLI::App& command, CvtRequest& request) {
@@ -278,12 +306,13 @@ void add_end(CLI::App& command, CvtRequest& request) {
   CLI::Option* limit = command
                            .add_option("--max-iterations", request.max_iterations,
                                        "stop there, not converged (exit code 1); of each level")
-                           ->check(whole_number(1, std::numeric_limits<int>::max()))
+                           ->transform(whole_number(1, std::numeric_limits<int>::max()))
                            ->capture_default_str();
   command
       .add_option("--iterations", request.iterations,
-                  "do exactly so many, on each level, instead of converging")
-      ->check(whole_number(1, std::numeric_limits<int>::max()))
+                  "do so many, on each level, instead of converging; trials of a step count, and "
+                  "the last step is finished")
+      ->transform(whole_number(1, std::numeric_limits<int>::max()))
       ->excludes(norm)
       ->excludes(tolerance)
       ->excludes(limit);
@@ -304,7 +333,7 @@ void add_quadrature(CLI::App& command, CvtRequest& request) {
   command
       .add_option("--triangle-divisions", request.triangle_divisions,
                   "each half kite is first cut into that many squared")
-      ->check(whole_number(1, 100))
+      ->transform(whole_number(1, 100))
       ->capture_default_str();
 }
 
@@ -318,7 +347,7 @@ void add_files(CLI::App& command, CvtRequest& request) {
                      "keep the run's state in this file, to go on after an interruption");
   command
       .add_option("--checkpoint-every", request.checkpoint_every, "iterations between checkpoints")
-      ->check(whole_number(1, std::numeric_limits<int>::max()))
+      ->transform(whole_number(1, std::numeric_limits<int>::max()))
       ->capture_default_str();
   command
       .add_option("--checkpoint-minutes", request.checkpoint_minutes,
@@ -339,6 +368,7 @@ std::string norm_word(const CvtRequest& request) {
 CvtOptions options_of(const CvtRequest& request) {
   CvtOptions options;
   options.density = density_of(*request.density);
+  options.method = methods.at(request.method);
   options.norm = norms.at(norm_word(request));
   options.tolerance = request.tolerance;
   options.max_iterations = request.iterations.value_or(request.max_iterations);
@@ -356,6 +386,7 @@ void add_cvt(CLI::App& app) {
   auto request = std::make_shared<CvtRequest>();
   add_start(*command, *request);
   request->density = add_density(*command);
+  add_method(*command, *request);
   add_end(*command, *request);
   add_quadrature(*command, *request);
   request->partition = add_partition(*command);

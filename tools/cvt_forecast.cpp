@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 #include <span>
 
 namespace calotte::tools {
@@ -26,19 +25,29 @@ struct Decay {
   double slope, last;
 };
 
+/// Calls visit(k, norm's logarithm) for the accepted iterations k.
+template <class Visit>
+void visit_norms(std::span<const CvtIteration> iterations, Norm norm, const Visit& visit) {
+  for (std::size_t k = 0; k < iterations.size(); ++k)
+    if (iterations[k].accepted)
+      visit(static_cast<double>(k), std::log(norm_of(iterations[k], norm)));
+}
+
 Decay fit(std::span<const CvtIteration> iterations, Norm norm) {
-  const auto count = static_cast<double>(iterations.size());
-  const double middle = (count - 1) / 2;
-  double mean = 0, slope = 0, spread = 0;
-  for (std::size_t k = 0; k < iterations.size(); ++k) {
-    const double x = static_cast<double>(k) - middle;
-    const double y = std::log(norm_of(iterations[k], norm));
-    mean += y / count;
-    slope += x * y;
-    spread += x * x;
-  }
+  double count = 0, mean_x = 0, mean_y = 0, slope = 0, spread = 0;
+  visit_norms(iterations, norm, [&](double x, double y) {
+    ++count;
+    mean_x += x;
+    mean_y += y;
+  });
+  mean_x /= count;
+  mean_y /= count;
+  visit_norms(iterations, norm, [&](double x, double y) {
+    slope += (x - mean_x) * (y - mean_y);
+    spread += (x - mean_x) * (x - mean_x);
+  });
   slope /= spread;
-  return {slope, mean + slope * middle};
+  return {slope, mean_y + slope * (static_cast<double>(iterations.size()) - 1 - mean_x)};
 }
 
 std::string duration(double seconds) {
@@ -55,30 +64,16 @@ std::string duration(double seconds) {
 
 } // namespace
 
-double norm_of(const CvtIteration& iteration, Norm norm) {
-  const double h = std::sqrt(4 * std::numbers::pi / static_cast<double>(iteration.cells));
-  switch (norm) {
-  case Norm::l2:
-    return iteration.l2;
-  case Norm::linf:
-    return iteration.linf;
-  case Norm::linf_scaled:
-    return iteration.linf / h;
-  case Norm::gradient:
-    return iteration.gradient;
-  default:
-    return iteration.l2 / h;
-  }
-}
-
 std::optional<Forecast> forecast(const CvtState& state, const CvtOptions& options) {
   const std::span<const CvtIteration> iterations = recent(state);
   if (iterations.empty())
     return std::nullopt;
   double seconds = 0;
   for (const CvtIteration& iteration : iterations)
-    seconds += iteration.seconds / static_cast<double>(iterations.size());
-  const double to_limit = options.max_iterations - state.iterations_of_level;
+    seconds +=
+        (iteration.seconds + iteration.seconds_solver) / static_cast<double>(iterations.size());
+  // The last step's trials may go beyond the limit.
+  const double to_limit = std::max(options.max_iterations - state.iterations_of_level, 0);
   if (options.norm == Norm::none)
     return Forecast{seconds * to_limit, false};
   const Decay decay = fit(iterations, options.norm);

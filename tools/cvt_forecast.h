@@ -8,9 +8,6 @@
 
 namespace calotte::tools {
 
-/// The norm of one iteration, as CvtReport::residual has it. \pre the norm is not none.
-double norm_of(const CvtIteration& iteration, Norm norm);
-
 /// When a level ends.
 struct Forecast {
   double seconds = 0;
@@ -18,8 +15,9 @@ struct Forecast {
 };
 
 /// From the decay of the norm over the level's last half, 10 to 500 iterations: a straight line
-/// through its logarithms, and the mean of their seconds. While the norm does not fall, the limit
-/// is foreseen; nothing before there are 10 iterations.
+/// through its logarithms where they were accepted, and the mean of the seconds of all, which the
+/// trials take part in. While the norm does not fall, the limit is foreseen; nothing before there
+/// are 10 iterations.
 std::optional<Forecast> forecast(const CvtState& state, const CvtOptions& options);
 
 /// Where a run stands: the line that progress shows.

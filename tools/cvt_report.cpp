@@ -18,12 +18,14 @@ Json to_json(const CvtIteration& iteration) {
           {"linf", iteration.linf},
           {"gradient", iteration.gradient},
           {"energy", iteration.energy},
+          {"accepted", iteration.accepted},
           {"flips", iteration.flips},
           {"rebuilt", iteration.rebuilt},
           {"seconds", iteration.seconds},
           {"seconds_exchange", iteration.seconds_exchange},
           {"seconds_repair", iteration.seconds_repair},
-          {"seconds_moments", iteration.seconds_moments}};
+          {"seconds_moments", iteration.seconds_moments},
+          {"seconds_solver", iteration.seconds_solver}};
 }
 
 Json to_json(const CvtRegion& region) {
@@ -54,6 +56,7 @@ std::string to_json(const CvtRequest& request, const Cvt& result, int threads) {
   Json json;
   json["calotte"] = CALOTTE_VERSION;
   json["density"] = density.empty() ? std::vector<std::string>{"uniform"} : density;
+  json["method"] = request.method;
   json["norm"] = norm_word(request);
   json["tolerance"] = request.tolerance;
   json["converged"] = report.converged;

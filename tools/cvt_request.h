@@ -23,6 +23,7 @@ struct CvtRequest {
   std::optional<int> bisections;
 
   std::shared_ptr<DensityWords> density;
+  std::string method = "auto";
   std::string norm = "l2-scaled";
   double tolerance = CvtOptions{}.tolerance;
   int max_iterations = CvtOptions{}.max_iterations;

@@ -116,7 +116,7 @@ Points3 generate(const std::string& kind, std::int64_t count, const Density& den
   if (kind == "random")
     return random_sphere(count, seed);
   if (kind == "density")
-    return random_sphere(count, density, seed);
+    return random_sphere(count, site_density(density), seed);
   if (kind == "fibonacci")
     return fibonacci_sphere(count);
   if (kind == "spiral")
@@ -124,29 +124,19 @@ Points3 generate(const std::string& kind, std::int64_t count, const Density& den
   return bisected_icosahedron(level_of(count));
 }
 
-CvtStart generate(const CvtRequest& request, const Density& density) {
+std::uint64_t seed_of(const CvtRequest& request) { return request.seed.value_or(1); }
+
+CvtStart announce(const CvtRequest& request) {
   const std::string kind = kind_of(request);
-  const std::int64_t cells = *request.cells;
-  const std::uint64_t seed = request.seed.value_or(1);
   CvtStart start;
-  if (kind == "continuation") {
-    Continuation from = continuation(cells, density, seed);
-    start.note = note_on(from, cells, density);
-    start.bisections = from.bisections;
-    start.file.points = std::move(from.start);
-  } else {
-    start.bisections = request.bisections.value_or(0);
-    start.file.points = generate(kind, start_count(cells, start.bisections), density, seed);
-  }
-  start.configuration = "start " + kind + "\ncells " + std::to_string(cells) + "\n" +
-                        (seeded(kind) ? "seed " + std::to_string(seed) + "\n" : "");
+  start.configuration = "start " + kind + "\ncells " + std::to_string(*request.cells) + "\n" +
+                        (seeded(kind) ? "seed " + std::to_string(seed_of(request)) + "\n" : "");
   return start;
 }
 
 CvtStart read(const CvtRequest& request) {
   CvtStart start;
   start.file = read_point_file(request.points, request.lonlat);
-  start.bisections = request.bisections.value_or(0);
   const Points3& points = start.file.points;
   boost::crc_32_type checksum;
   checksum.process_bytes(points.data(), sizeof(double) * static_cast<std::size_t>(points.size()));
@@ -164,10 +154,28 @@ void require_start(const CvtRequest& request) {
     require_file(request);
 }
 
-CvtStart make_start(const CvtRequest& request, const Density& density) {
-  CvtStart start = request.points.empty() ? generate(request, density) : read(request);
-  start.configuration += "bisections " + std::to_string(start.bisections) + "\n";
+CvtStart open_start(const CvtRequest& request) {
+  CvtStart start = request.points.empty() ? announce(request) : read(request);
+  start.bisections = request.bisections.value_or(0);
+  if (kind_of(request) != "continuation") // whose bisections follow from cells and density
+    start.configuration += "bisections " + std::to_string(start.bisections) + "\n";
   return start;
+}
+
+void generate_points(const CvtRequest& request, const Density& density, CvtStart& start) {
+  if (!request.points.empty())
+    return;
+  const std::string kind = kind_of(request);
+  const std::int64_t cells = *request.cells;
+  if (kind != "continuation") {
+    start.file.points =
+        generate(kind, start_count(cells, start.bisections), density, seed_of(request));
+    return;
+  }
+  Continuation from = continuation(cells, density, seed_of(request));
+  start.note = note_on(from, cells, density);
+  start.bisections = from.bisections;
+  start.file.points = std::move(from.start);
 }
 
 } // namespace calotte::tools

@@ -21,8 +21,12 @@ struct CvtStart {
 /// \throws Error bad_option.
 void require_start(const CvtRequest& request);
 
-/// Makes or reads the points.
+/// Reads the points, if they come from a file, and says what determines them.
 /// \throws Error bad_option, parse, file.
-CvtStart make_start(const CvtRequest& request, const Density& density);
+CvtStart open_start(const CvtRequest& request);
+
+/// Makes the points, unless they come from a file; a continuation's bisections and note, too.
+/// \throws Error bad_option.
+void generate_points(const CvtRequest& request, const Density& density, CvtStart& start);
 
 } // namespace calotte::tools

@@ -113,14 +113,15 @@ void add_delaunay(CLI::App& app) {
   auto request = std::make_shared<Request>();
   command
       ->add_option("POINTS", request->points,
-                   "text, x y z a line (directions of any norm); - is standard input")
+                   "text, x y z a line (directions of any norm); - is standard input; or the "
+                   "points of a mesh, .vtp .vtu .off .ply")
       ->required();
   command
       ->add_option("-o,--output", request->mesh,
                    "the mesh; its suffix names the format: .txt .tri .vtp .vtu .off .ply")
       ->required();
   command->add_flag("--lonlat", request->lonlat,
-                    "the points are longitude and latitude in degrees");
+                    "the text's points are longitude and latitude in degrees");
   request->partition = add_partition(*command);
   command->add_option("--report", request->report, "a JSON file of times and counts");
   command->callback([request] { run(*request); });

@@ -98,8 +98,10 @@ void add_look(CLI::App& command, DrawOptions& options) {
 void add_plots(CLI::App& command, DrawArguments& arguments) {
   CLI::Option* history =
       command
-          .add_option("--history", arguments.reports,
-                      "instead of a mesh, draw how runs converged: reports of calotte cvt --report")
+          .add_option(
+              "--history", arguments.reports,
+              "instead of a mesh, draw how runs converged, against evaluations and seconds: "
+              "reports of calotte cvt --report")
           ->type_name("REPORT ...")
           ->expected(1, static_cast<int>(most_histories));
   CLI::Option* law = command.add_flag(

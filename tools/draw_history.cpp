@@ -14,7 +14,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <functional>
-#include <numeric>
 
 namespace calotte::tools {
 
@@ -25,13 +24,19 @@ constexpr Rgb level_colour = {0.62, 0.64, 0.67};
 constexpr double least_excess = 1e-14; ///< below, energies differ by rounding
 constexpr double row = 1.5;            ///< height of a line of the legend; of letters, as below
 constexpr double repairs_row = 1.5;
+constexpr std::size_t far_apart = 20; ///< such a ratio of evaluations calls for logarithmic axes
 
 // ---- What is drawn.
 
-std::vector<double> iteration_numbers(const History& history) {
-  std::vector<double> numbers(history.iterations.size());
-  std::iota(numbers.begin(), numbers.end(), 1);
-  return numbers;
+/// By evaluation its place across.
+std::vector<double> places(const History& history, Across across) {
+  return across == Across::seconds ? elapsed_seconds(history) : evaluation_numbers(history);
+}
+
+/// The place of the border before an evaluation: between two numbers; where the clock stood.
+double border_before(const History& history, std::size_t evaluation, Across across) {
+  return across == Across::seconds ? elapsed_seconds(history)[evaluation - 1]
+                                   : static_cast<double>(evaluation) + 0.5;
 }
 
 std::vector<double> joined(const std::vector<History>& histories,
@@ -53,20 +58,47 @@ Axis norms_axis(const std::vector<History>& histories) {
 }
 
 Axis energy_axis(const std::vector<History>& histories) {
-  std::vector<double> all = joined(histories, energy_excess);
-  for (double& excess : all) {
-    excess = excess > 0 ? std::max(excess, least_excess) : excess;
+  std::vector<double> all;
+  for (const std::vector<double>& excesses : energy_excess(histories)) {
+    for (const double excess : excesses) {
+      all.push_back(excess > 0 ? std::max(excess, least_excess) : excess);
+    }
   }
   return axis_around(all, true);
 }
 
-Axis iterations_axis(const std::vector<History>& histories) {
+bool are_far_apart(const std::vector<History>& histories) {
+  const auto shorter = [](const History& a, const History& b) {
+    return a.iterations.size() < b.iterations.size();
+  };
+  const auto [least, most] = std::minmax_element(histories.begin(), histories.end(), shorter);
+  return most->iterations.size() > far_apart * least->iterations.size();
+}
+
+Axis evaluations_axis(const std::vector<History>& histories) {
   std::size_t most = 1;
   for (const History& history : histories) {
     most = std::max(most, history.iterations.size());
   }
   const double margin = 0.01 * static_cast<double>(most);
   return {0.5 - margin, 0.5 + static_cast<double>(most) + margin};
+}
+
+Axis seconds_axis(const std::vector<History>& histories) {
+  double most = 1e-9;
+  for (const History& history : histories) {
+    most = std::max(most, elapsed_seconds(history).back());
+  }
+  most = std::min(most, 1e100);
+  return {-0.01 * most, 1.01 * most};
+}
+
+Axis across_axis(const std::vector<History>& histories, Across across) {
+  if (are_far_apart(histories)) {
+    const auto own = [&](const History& history) { return places(history, across); };
+    return axis_around(joined(histories, own), true, 0.01);
+  }
+  return across == Across::seconds ? seconds_axis(histories) : evaluations_axis(histories);
 }
 
 bool has_levels(const History& history) { return level_starts(history).size() > 2; }
@@ -99,14 +131,16 @@ std::string counted(std::int64_t number, const std::string& thing) {
   return grouped(number) + " " + thing + (number == 1 ? "" : "s");
 }
 
+/// Its method and what it took.
 std::string summary_of(const History& history) {
   char seconds[32];
   std::snprintf(seconds, sizeof seconds, "%.3g s", history.seconds);
   const std::string end = history.norm == Norm::none ? ""
                           : history.converged        ? "converged in "
                                                      : "not converged in ";
-  return counted(history.iterations.back().cells, "cell") + ", " + end +
-         counted(static_cast<std::int64_t>(history.iterations.size()), "iteration") + ", " +
+  const std::string method = history.method.empty() ? "" : ", " + history.method;
+  return method + ": " + counted(history.iterations.back().cells, "cell") + ", " + end +
+         counted(static_cast<std::int64_t>(history.iterations.size()), "evaluation") + ", " +
          seconds;
 }
 
@@ -114,6 +148,9 @@ Rgb faded(const Rgb& colour) {
   const auto fade = [](double channel) { return std::lerp(channel, 1, 0.45); };
   return {fade(colour.r), fade(colour.g), fade(colour.b)};
 }
+
+double left_of(const HistoryPage& page) { return page.columns.front().norms.left; }
+double right_of(const HistoryPage& page) { return page.columns.back().norms.right(); }
 
 // ---- The legend.
 
@@ -170,10 +207,10 @@ void runs_legend(cairo_t* context, const HistoryPage& page, const std::vector<Hi
     const double baseline = (1.7 + row * static_cast<double>(run)) * page.text;
     set_dashes(context, page, false);
     select_l2_line(context, page, history_colour(run));
-    const double x = sample(context, page, page.norms.left, baseline);
-    const std::string text = names[run] + ": " + summary_of(histories[run]);
+    const double x = sample(context, page, left_of(page), baseline);
+    const std::string text = names[run] + summary_of(histories[run]);
     select_font(context, page.text);
-    const double room = (page.norms.right() - x) / text_width(context, text);
+    const double room = (right_of(page) - x) / text_width(context, text);
     select_font(context, std::min(1.0, room) * page.text);
     set_colour(context, text_colour);
     cairo_move_to(context, x, baseline);
@@ -191,7 +228,7 @@ void styles_legend(cairo_t* context, const HistoryPage& page,
   const std::size_t runs = histories.size();
   const double baseline = (1.7 + row * static_cast<double>(runs)) * page.text;
   const Rgb colour = runs == 1 ? history_colour(0) : text_colour;
-  double x = page.norms.left;
+  double x = left_of(page);
   const auto name = [&](const std::string& text) {
     set_colour(context, text_colour);
     x = marked_text(context, x, baseline, text) + 1.6 * page.text;
@@ -226,17 +263,31 @@ void styles_legend(cairo_t* context, const HistoryPage& page,
 
 // ---- The data.
 
+/// Where a curve goes.
+struct Way {
+  std::vector<double> x, y;
+};
+
+Way accepted_way(const History& history, const std::vector<double>& x, const std::vector<double>& y,
+                 std::size_t first, std::size_t last) {
+  Way way;
+  for (std::size_t i = first; i < last; ++i) {
+    if (history.iterations[i].accepted) {
+      way.x.push_back(x[i]);
+      way.y.push_back(y[i]);
+    }
+  }
+  return way;
+}
+
 /// A curve for each level, as values of two levels are not one run's descent.
-void draw_levels(cairo_t* context, const Frame& frame, const History& history,
+void draw_levels(cairo_t* context, const Frame& frame, const History& history, Across across,
                  const std::vector<double>& values) {
-  const std::vector<double> numbers = iteration_numbers(history);
+  const std::vector<double> x = places(history, across);
   const std::vector<std::size_t> starts = level_starts(history);
   for (std::size_t level = 0; level + 1 < starts.size(); ++level) {
-    const auto part = [&](const std::vector<double>& all) {
-      return std::vector(all.begin() + static_cast<std::ptrdiff_t>(starts[level]),
-                         all.begin() + static_cast<std::ptrdiff_t>(starts[level + 1]));
-    };
-    draw_curve(context, frame, part(numbers), part(values));
+    const Way way = accepted_way(history, x, values, starts[level], starts[level + 1]);
+    draw_curve(context, frame, way.x, way.y);
   }
 }
 
@@ -247,12 +298,13 @@ struct ToleranceLine {
 };
 
 /// From end to end of the axis.
-ToleranceLine tolerance_line(const Axis& across, const History& history) {
+ToleranceLine tolerance_line(const HistoryColumn& column, const History& history) {
+  const Axis& across = column.norms.across;
   const std::vector<double> tolerance = scaled_tolerance(history);
   ToleranceLine line = {{across.low}, {tolerance.front()}};
   for (std::size_t i = 1; i < tolerance.size(); ++i) {
     if (tolerance[i] != tolerance[i - 1] && !std::isnan(tolerance[i])) {
-      line.x.insert(line.x.end(), 2, static_cast<double>(i) + 0.5);
+      line.x.insert(line.x.end(), 2, border_before(history, i, column.quantity));
       line.y.insert(line.y.end(), {tolerance[i - 1], tolerance[i]});
     }
   }
@@ -262,39 +314,45 @@ ToleranceLine tolerance_line(const Axis& across, const History& history) {
 }
 
 /// Each line once, as dashes on dashes would look like another.
-void draw_tolerances(cairo_t* context, const HistoryPage& page,
+void draw_tolerances(cairo_t* context, const HistoryPage& page, const HistoryColumn& column,
                      const std::vector<History>& histories) {
   std::vector<ToleranceLine> drawn;
   select_tolerance_line(context, page);
   for (const History& history : histories) {
-    const ToleranceLine line = tolerance_line(page.norms.across, history);
+    const ToleranceLine line = tolerance_line(column, history);
     if (std::find(drawn.begin(), drawn.end(), line) == drawn.end()) {
-      draw_curve(context, page.norms, line.x, line.y);
+      draw_curve(context, column.norms, line.x, line.y);
       drawn.push_back(line);
     }
   }
   set_dashes(context, page, false);
 }
 
-void draw_norms(cairo_t* context, const HistoryPage& page, const std::vector<History>& histories) {
-  inside(context, page.norms, [&] {
+void draw_norms(cairo_t* context, const HistoryPage& page, const HistoryColumn& column,
+                const std::vector<History>& histories) {
+  const auto draw = [&](const History& history, const std::vector<double>& values) {
+    draw_levels(context, column.norms, history, column.quantity, values);
+  };
+  inside(context, column.norms, [&] {
     for (std::size_t run = 0; run < histories.size(); ++run) {
       select_linf_line(context, page, history_colour(run));
-      draw_levels(context, page.norms, histories[run], scaled_linf(histories[run]));
+      draw(histories[run], scaled_linf(histories[run]));
     }
     for (std::size_t run = 0; run < histories.size(); ++run) {
       select_l2_line(context, page, history_colour(run));
-      draw_levels(context, page.norms, histories[run], scaled_l2(histories[run]));
+      draw(histories[run], scaled_l2(histories[run]));
     }
-    draw_tolerances(context, page, histories);
+    draw_tolerances(context, page, column, histories);
   });
 }
 
-void draw_energy(cairo_t* context, const HistoryPage& page, const std::vector<History>& histories) {
-  inside(context, page.energy, [&] {
+void draw_energy(cairo_t* context, const HistoryPage& page, const HistoryColumn& column,
+                 const std::vector<History>& histories) {
+  const std::vector<std::vector<double>> excess = energy_excess(histories);
+  inside(context, column.energy, [&] {
     for (std::size_t run = 0; run < histories.size(); ++run) {
       select_l2_line(context, page, history_colour(run));
-      draw_levels(context, page.energy, histories[run], energy_excess(histories[run]));
+      draw_levels(context, column.energy, histories[run], column.quantity, excess[run]);
     }
   });
 }
@@ -303,53 +361,85 @@ bool was_repaired(const CvtIteration& iteration) {
   return iteration.flips > 0 || iteration.rebuilt;
 }
 
-/// A run's row: strokes for flips, longer for more (by the logarithm), above triangles.
-void draw_repairs(cairo_t* context, const HistoryPage& page, const History& history,
-                  std::size_t run) {
-  const double top = page.repairs.top + repairs_row * page.text * static_cast<double>(run);
+/// How long a stroke is, of letters: longer for more flips, by the logarithm.
+double stroke_length(std::int64_t flips, std::int64_t most) {
+  return 0.2 +
+         0.55 * std::log1p(static_cast<double>(flips)) / std::log1p(static_cast<double>(most));
+}
+
+std::int64_t most_flips(const History& history) {
   std::int64_t most = 1;
   for (const CvtIteration& iteration : history.iterations) {
     most = std::max(most, iteration.flips);
   }
-  set_colour(context, history_colour(run));
-  if (std::none_of(history.iterations.begin(), history.iterations.end(), was_repaired)) {
+  return most;
+}
+
+/// A run's row: strokes for flips above triangles for rebuilds.
+void draw_repairs(cairo_t* context, const HistoryPage& page, const HistoryColumn& column,
+                  const History& history, double top) {
+  const auto& iterations = history.iterations;
+  if (std::none_of(iterations.begin(), iterations.end(), was_repaired)) {
     select_font(context, 0.85 * page.text);
-    cairo_move_to(context, page.repairs.at(1, 0).x, top + 1.1 * page.text);
+    cairo_move_to(context, column.repairs.left + 0.7 * page.text, top + 1.1 * page.text);
     cairo_show_text(context, "no flips, not rebuilt");
   }
+  const std::int64_t most = most_flips(history);
+  const std::vector<double> x = places(history, column.quantity);
   cairo_set_line_cap(context, CAIRO_LINE_CAP_BUTT);
   cairo_set_line_width(context, 0.07 * page.text);
-  for (std::size_t i = 0; i < history.iterations.size(); ++i) {
-    const CvtIteration& iteration = history.iterations[i];
-    const double x = page.repairs.at(static_cast<double>(i + 1), 0).x;
-    if (iteration.flips > 0) {
-      const double part =
-          std::log1p(static_cast<double>(iteration.flips)) / std::log1p(static_cast<double>(most));
-      const double height = (0.2 + 0.55 * part) * page.text;
-      flips_mark(context, x, top + 0.95 * page.text - height / 2, height);
+  for (std::size_t i = 0; i < iterations.size(); ++i) {
+    if (!was_repaired(iterations[i]) || !column.repairs.across.shows(x[i])) {
+      continue;
     }
-    if (iteration.rebuilt) {
-      rebuilt_mark(context, x, top + 1.42 * page.text, 0.4 * page.text);
+    const double across = column.repairs.at(x[i], 0).x;
+    if (iterations[i].flips > 0) {
+      const double height = stroke_length(iterations[i].flips, most) * page.text;
+      flips_mark(context, across, top + 0.95 * page.text - height / 2, height);
+    }
+    if (iterations[i].rebuilt) {
+      rebuilt_mark(context, across, top + 1.42 * page.text, 0.4 * page.text);
     }
   }
 }
 
-/// Lines where a level ends, and above them the cells of each level that has room for their number.
-void draw_level_ends(cairo_t* context, const HistoryPage& page, const History& history,
-                     const Rgb& colour, double baseline) {
-  const std::vector<std::size_t> starts = level_starts(history);
-  double free_to = page.norms.right();
-  for (std::size_t level = starts.size() - 1; level-- > 0;) {
-    const double x =
-        level == 0 ? page.norms.left
-                   : page.norms.at(static_cast<double>(starts[level]) + 0.5, 1).x; // amid a step
-    set_colour(context, colour);
-    cairo_set_line_width(context, 0.07 * page.text);
-    for (const Frame* frame : {&page.norms, &page.energy, &page.repairs}) {
-      cairo_move_to(context, x, frame->top);
-      cairo_line_to(context, x, level == 0 ? frame->top : frame->bottom());
+void draw_all_repairs(cairo_t* context, const HistoryPage& page, const HistoryColumn& column,
+                      const std::vector<History>& histories) {
+  inside(context, column.repairs, [&] {
+    double top = column.repairs.top;
+    for (std::size_t run = 0; run < histories.size(); ++run) {
+      set_colour(context, history_colour(run));
+      draw_repairs(context, page, column, histories[run], top);
+      top += repairs_row * page.text;
     }
-    cairo_stroke(context);
+  });
+}
+
+/// A line through a column's frames.
+void draw_level_end(cairo_t* context, const HistoryPage& page, const HistoryColumn& column,
+                    double x) {
+  cairo_set_line_width(context, 0.07 * page.text);
+  for (const Frame* frame : {&column.norms, &column.energy, &column.repairs}) {
+    cairo_move_to(context, x, frame->top);
+    cairo_line_to(context, x, frame->bottom());
+  }
+  cairo_stroke(context);
+}
+
+/// Lines where a level ends, and above them the cells of each level that has room for their number.
+void draw_level_ends(cairo_t* context, const HistoryPage& page, const HistoryColumn& column,
+                     const History& history, const Rgb& colour, double baseline) {
+  const std::vector<std::size_t> starts = level_starts(history);
+  const Frame& frame = column.norms;
+  double free_to = frame.right();
+  for (std::size_t level = starts.size() - 1; level-- > 0;) {
+    double x = frame.left;
+    set_colour(context, colour);
+    if (level > 0) {
+      const double border = border_before(history, starts[level], column.quantity);
+      x = std::max(x, frame.across.shows(border) ? frame.at(border, 1).x : x);
+      draw_level_end(context, page, column, x);
+    }
     const std::string label =
         grouped(history.iterations[starts[level]].cells) + (level == 0 ? " cells" : "");
     const double width = text_width(context, label);
@@ -362,42 +452,50 @@ void draw_level_ends(cairo_t* context, const HistoryPage& page, const History& h
   }
 }
 
-void draw_all_level_ends(cairo_t* context, const HistoryPage& page,
+void draw_all_level_ends(cairo_t* context, const HistoryPage& page, const HistoryColumn& column,
                          const std::vector<History>& histories) {
   double baseline = page.levels;
   select_font(context, 0.85 * page.text);
   for (std::size_t run = 0; run < histories.size(); ++run) {
     if (has_levels(histories[run])) {
-      draw_level_ends(context, page, histories[run],
+      draw_level_ends(context, page, column, histories[run],
                       histories.size() == 1 ? level_colour : history_colour(run), baseline);
       baseline += 1.1 * page.text;
     }
   }
 }
 
+/// The columns share the axes upwards, whose names stand on the left.
+void draw_column(cairo_t* context, const HistoryPage& page, const HistoryColumn& column,
+                 const std::vector<History>& histories) {
+  const bool named = &column == &page.columns.front();
+  const AxesLook norms = {
+      .text = page.text, .up = named ? "move of the generators / *h*" : "", .across_labels = false};
+  const AxesLook energy = {.text = page.text,
+                           .up = named ? "energy, *E* / *E*_{min} \u2212 1" : "",
+                           .most_up = 6,
+                           .across_labels = false};
+  const AxesLook repairs = {
+      .text = page.text,
+      .across = column.quantity == Across::seconds ? "seconds" : "evaluations of the energy",
+      .most_up = 0};
+  draw_grid(context, column.norms, norms);
+  draw_grid(context, column.energy, energy);
+  draw_all_level_ends(context, page, column, histories);
+  draw_norms(context, page, column, histories);
+  draw_energy(context, page, column, histories);
+  draw_all_repairs(context, page, column, histories);
+  draw_axes(context, column.norms, norms);
+  draw_axes(context, column.energy, energy);
+  draw_axes(context, column.repairs, repairs);
+}
+
 void compose(cairo_t* context, const HistoryPage& page, const std::vector<History>& histories) {
   runs_legend(context, page, histories);
   styles_legend(context, page, histories);
-  const AxesLook norms = {
-      .text = page.text, .up = "move of the generators / *h*", .across_labels = false};
-  const AxesLook energy = {.text = page.text,
-                           .up = "energy, *E* / *E*_{end} \u2212 1",
-                           .most_up = 6,
-                           .across_labels = false};
-  const AxesLook repairs = {.text = page.text, .across = "iteration", .most_up = 0};
-  draw_grid(context, page.norms, norms);
-  draw_grid(context, page.energy, energy);
-  draw_all_level_ends(context, page, histories);
-  draw_norms(context, page, histories);
-  draw_energy(context, page, histories);
-  inside(context, page.repairs, [&] {
-    for (std::size_t run = 0; run < histories.size(); ++run) {
-      draw_repairs(context, page, histories[run], run);
-    }
-  });
-  draw_axes(context, page.norms, norms);
-  draw_axes(context, page.energy, energy);
-  draw_axes(context, page.repairs, repairs);
+  for (const HistoryColumn& column : page.columns) {
+    draw_column(context, page, column, histories);
+  }
 }
 
 } // namespace
@@ -405,23 +503,30 @@ void compose(cairo_t* context, const HistoryPage& page, const std::vector<Histor
 HistoryPage history_page(const std::vector<History>& histories, int size) {
   HistoryPage page;
   page.width = size;
-  page.text = size / 60.0;
-  const Axis across = iterations_axis(histories);
+  page.text = size / 80.0;
   const auto runs = static_cast<double>(histories.size());
   const auto rows = static_cast<double>(count_with_levels(histories));
   double y = 1.7 + row * (runs + 1);
-  const auto frame = [&](double height, double gap, const Axis& up) {
-    const Frame placed = {7 * page.text,      y * page.text, 51.2 * page.text,
-                          height * page.text, across,        up};
-    y += height + gap;
-    return placed;
-  };
   page.levels = y * page.text;
   y += rows > 0 ? 1.1 * rows - 0.65 : -0.5;
-  page.norms = frame(19, 1.1, norms_axis(histories));
-  page.energy = frame(14, 1.1, energy_axis(histories));
-  page.repairs = frame(repairs_row * runs + 0.1, 3.6, {0, runs});
-  page.height = static_cast<int>(std::ceil(y * page.text));
+  page.columns[1].quantity = Across::seconds;
+  const auto frames = [&](Frame HistoryColumn::*place, double height, const Axis& up) {
+    double left = 7;
+    for (HistoryColumn& column : page.columns) {
+      column.*place = {left * page.text,
+                       y * page.text,
+                       34 * page.text,
+                       height * page.text,
+                       across_axis(histories, column.quantity),
+                       up};
+      left += 38;
+    }
+    y += height + 1.1;
+  };
+  frames(&HistoryColumn::norms, 19, norms_axis(histories));
+  frames(&HistoryColumn::energy, 15, energy_axis(histories));
+  frames(&HistoryColumn::repairs, repairs_row * runs + 0.1, {0, runs});
+  page.height = static_cast<int>(std::ceil((y + 2.5) * page.text));
   return page;
 }
 

@@ -10,7 +10,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
+#include <numeric>
+#include <tuple>
 #include <utility>
 
 namespace calotte::tools {
@@ -92,6 +95,28 @@ Norm norm_of(const Part& part) {
   part.fail("is none of l2, linf, l2-scaled, linf-scaled, gradient and none");
 }
 
+std::vector<std::string> density_of(const Part& part) {
+  const auto is_text = [](const json& word) { return word.is_string(); };
+  if (!part.value.is_array() || !std::all_of(part.value.begin(), part.value.end(), is_text)) {
+    part.fail("is not an array of strings");
+  }
+  return part.value.get<std::vector<std::string>>();
+}
+
+/// The reports of versions that had no other method than Lloyd's do not name it.
+std::string method_of(const Part& report) {
+  if (!report.value.contains("method")) {
+    return "";
+  }
+  const Part method = report.at("method");
+  for (const char* word : {"auto", "lloyd", "nesterov", "lbfgs", "lbfgs-laplacian"}) {
+    if (method.value == word) {
+      return word;
+    }
+  }
+  method.fail("is none of auto, lloyd, nesterov, lbfgs and lbfgs-laplacian");
+}
+
 CvtIteration iteration_of(const Part& part) {
   CvtIteration iteration;
   iteration.cells = part.at("cells").count(1);
@@ -101,8 +126,16 @@ CvtIteration iteration_of(const Part& part) {
   iteration.energy = part.at("energy").number();
   iteration.flips = part.at("flips").count(0);
   iteration.rebuilt = part.at("rebuilt").truth();
+  iteration.seconds = part.at("seconds").number();
+  // The reports of Lloyd's method alone had neither.
+  iteration.accepted = !part.value.contains("accepted") || part.at("accepted").truth();
+  if (part.value.contains("seconds_solver")) {
+    iteration.seconds_solver = part.at("seconds_solver").number();
+  }
   return iteration;
 }
+
+constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
 
 double spacing(const CvtIteration& iteration) {
   return std::sqrt(4 * std::numbers::pi / static_cast<double>(iteration.cells));
@@ -112,9 +145,62 @@ std::vector<double> scaled(const History& history, double CvtIteration::*norm) {
   std::vector<double> values;
   values.reserve(history.iterations.size());
   for (const CvtIteration& iteration : history.iterations) {
-    values.push_back(iteration.*norm / spacing(iteration));
+    values.push_back(iteration.accepted ? iteration.*norm / spacing(iteration) : nowhere);
   }
   return values;
+}
+
+/// The evaluations of a level that were accepted.
+std::vector<std::size_t> accepted_between(const History& history, std::size_t first,
+                                          std::size_t last) {
+  std::vector<std::size_t> accepted;
+  for (std::size_t i = first; i < last; ++i) {
+    if (history.iterations[i].accepted) {
+      accepted.push_back(i);
+    }
+  }
+  return accepted;
+}
+
+/// How far the energy falls from the k-th to the next of the evaluations `way` of a level.
+double descent(const History& history, const std::vector<std::size_t>& way, std::size_t k) {
+  const auto at = [&](std::size_t j) -> const CvtIteration& { return history.iterations[way[j]]; };
+  if (at(k).rule == at(k + 1).rule) {
+    return at(k).energy - at(k + 1).energy;
+  }
+  // Two rules' energies do not compare.
+  return k > 0 && at(k - 1).rule == at(k).rule ? at(k - 1).energy - at(k).energy : 0;
+}
+
+/// Runs' levels whose energies compare have the same.
+using Comparable = std::tuple<std::vector<std::string>, std::int64_t, int>;
+
+Comparable comparable(const History& history, std::size_t last) {
+  return {history.density, history.iterations[last].cells, history.iterations[last].rule};
+}
+
+/// Calls with each level of a run: its accepted evaluations, if there are any.
+template <class Visit> void each_level(const History& history, const Visit& visit) {
+  const std::vector<std::size_t> starts = level_starts(history);
+  for (std::size_t level = 0; level + 1 < starts.size(); ++level) {
+    const std::vector<std::size_t> way =
+        accepted_between(history, starts[level], starts[level + 1]);
+    if (!way.empty()) {
+      visit(way);
+    }
+  }
+}
+
+std::map<Comparable, double> least_energies(const std::vector<History>& histories) {
+  std::map<Comparable, double> least;
+  for (const History& history : histories) {
+    each_level(history, [&](const std::vector<std::size_t>& way) {
+      const double end = history.iterations[way.back()].energy;
+      const auto [place, first] = least.try_emplace(comparable(history, way.back()), end);
+      place->second = std::min(place->second, end);
+    });
+  }
+  return least;
 }
 
 } // namespace
@@ -124,6 +210,8 @@ History read_history(const std::string& path) {
   const Part report = {document, path, ""};
   History history;
   history.name = path;
+  history.density = density_of(report.at("density"));
+  history.method = method_of(report);
   history.norm = norm_of(report.at("norm"));
   history.tolerance = report.at("tolerance").number();
   history.converged = report.at("converged").truth();
@@ -140,6 +228,23 @@ History read_history(const std::string& path) {
         iteration_of({iterations.value[i], path, "iterations[" + std::to_string(i) + "]"}));
   }
   return history;
+}
+
+std::vector<double> evaluation_numbers(const History& history) {
+  std::vector<double> numbers(history.iterations.size());
+  std::iota(numbers.begin(), numbers.end(), 1);
+  return numbers;
+}
+
+std::vector<double> elapsed_seconds(const History& history) {
+  std::vector<double> elapsed;
+  elapsed.reserve(history.iterations.size());
+  double sum = 0;
+  for (const CvtIteration& iteration : history.iterations) {
+    sum += iteration.seconds + iteration.seconds_solver;
+    elapsed.push_back(sum);
+  }
+  return elapsed;
 }
 
 std::vector<double> scaled_l2(const History& history) { return scaled(history, &CvtIteration::l2); }
@@ -162,7 +267,7 @@ std::vector<double> scaled_tolerance(const History& history) {
       values.push_back(history.tolerance);
       break;
     default:
-      values.push_back(std::numeric_limits<double>::quiet_NaN());
+      values.push_back(nowhere);
     }
   }
   return values;
@@ -179,23 +284,21 @@ std::vector<std::size_t> level_starts(const History& history) {
   return starts;
 }
 
-std::vector<double> energy_excess(const History& history) {
-  const std::vector<std::size_t> starts = level_starts(history);
-  const auto& steps = history.iterations;
-  std::vector<double> excess(steps.size());
-  for (std::size_t level = 0; level + 1 < starts.size(); ++level) {
-    const double end = steps[starts[level + 1] - 1].energy;
-    for (std::size_t i = starts[level + 1] - 1; i-- > starts[level];) {
-      double descent = steps[i].energy - steps[i + 1].energy;
-      if (steps[i].rule != steps[i + 1].rule) { // two rules' energies do not compare
-        descent = i > starts[level] && steps[i - 1].rule == steps[i].rule
-                      ? steps[i - 1].energy - steps[i].energy
-                      : 0;
+std::vector<std::vector<double>> energy_excess(const std::vector<History>& histories) {
+  const std::map<Comparable, double> least = least_energies(histories);
+  std::vector<std::vector<double>> excesses;
+  for (const History& history : histories) {
+    std::vector<double>& excess = excesses.emplace_back(history.iterations.size(), nowhere);
+    each_level(history, [&](const std::vector<std::size_t>& way) {
+      const double end = history.iterations[way.back()].energy;
+      const double reference = least.at(comparable(history, way.back()));
+      excess[way.back()] = (end - reference) / reference;
+      for (std::size_t k = way.size() - 1; k-- > 0;) {
+        excess[way[k]] = excess[way[k + 1]] + descent(history, way, k) / reference;
       }
-      excess[i] = excess[i + 1] + descent / end;
-    }
+    });
   }
-  return excess;
+  return excesses;
 }
 
 } // namespace calotte::tools

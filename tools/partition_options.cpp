@@ -32,12 +32,12 @@ Points3 read_centres(const PartitionWords& words) {
 std::shared_ptr<PartitionWords> add_partition(CLI::App& command) {
   auto words = std::make_shared<PartitionWords>();
   command.add_option("--threads", words->threads, "threads to use; default all")
-      ->check(whole_number(1, 4096));
+      ->transform(whole_number(1, 4096));
   command
       .add_option("--regions", words->regions,
                   "regions to divide the sphere into; default from "
                   "the number of points")
-      ->check(whole_number(1, std::numeric_limits<int>::max()));
+      ->transform(whole_number(1, std::numeric_limits<int>::max()));
   command
       .add_option("--centres", words->centres,
                   "the regions' centres: sample (a coarse CVT of the points), fibonacci, or a "

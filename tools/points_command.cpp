@@ -85,7 +85,8 @@ void add_points(CLI::App& app) {
           "columns), of cells along an edge for cubed")
       ->required();
   command->add_option("-o,--output", request->output, "the file; - is standard output")->required();
-  command->add_option("--seed", request->seed, "of random points; default 1");
+  command->add_option("--seed", request->seed, "of random points; default 1")
+      ->transform(whole_number(0, std::numeric_limits<std::uint64_t>::max()));
   command->add_flag("--poles", request->poles, "add both poles to latlon");
   command->callback([request] { run(*request); });
 }

@@ -155,7 +155,7 @@ struct Continuation {
 /// The coarsest start that bisections lead from: the least such n that is at least 12 (uniform
 /// density) or 642 (others); all of the cells, where no bisection leads to their number from there.
 /// When cells = 10 * 4^k + 2, it is a bisected icosahedron; otherwise a Fibonacci lattice (uniform
-/// density) or points drawn from the density.
+/// density) or points drawn from its site_density().
 /// \throws Error bad_option for cells < 12 or > 2^30, an ill-formed density, or as
 /// random_sphere(n, density, seed) where it draws.
 Continuation continuation(std::int64_t cells, const Density& density, std::uint64_t seed = 1);

@@ -44,6 +44,11 @@ struct Density {
 /// where the density is used.
 Density tanh_bump(const Eigen::Vector3d& centre, double beta, double alpha, double gamma);
 
+/// How the generators of an optimal CVT of many cells are distributed: as rho^(1/2). (In d
+/// dimensions as rho^(d/(d+2)): Gersho, IEEE Trans. Inf. Theory 25, 1979.) Starts are best drawn
+/// from that. \throws Error bad_option, when the density is ill-formed.
+Density site_density(const Density& density);
+
 /// The density at each of n unit columns.
 /// \param x 3 x n.
 /// \throws Error bad_option, when the density is ill-formed, or a callable's value negative,

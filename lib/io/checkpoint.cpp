@@ -22,14 +22,15 @@ using namespace detail;
 constexpr std::string_view format = "calotte checkpoint ";
 
 std::string head() {
-  return std::string(format) + "1, " + (little_endian ? "little" : "big") + "-endian\n";
+  return std::string(format) + "2, " + (little_endian ? "little" : "big") + "-endian\n";
 }
 
 /// One list of fields serves writing and reading.
 template <class Iteration, class Visit> void visit_iteration(Iteration& i, const Visit& visit) {
   visit(i.cells), visit(i.rule), visit(i.l2), visit(i.linf), visit(i.gradient), visit(i.energy);
-  visit(i.flips), visit(i.rebuilt), visit(i.seconds);
+  visit(i.accepted), visit(i.flips), visit(i.rebuilt), visit(i.seconds);
   visit(i.seconds_exchange), visit(i.seconds_repair), visit(i.seconds_moments);
+  visit(i.seconds_solver);
 }
 
 template <class Region, class Visit> void visit_region(Region& r, const Visit& visit) {
@@ -39,24 +40,40 @@ template <class Region, class Visit> void visit_region(Region& r, const Visit& v
 template <class State, class Visit> void visit_scalars(State& s, const Visit& visit) {
   visit(s.bisections_left), visit(s.iterations_of_level), visit(s.final_rule);
   visit(s.report.converged), visit(s.report.residual), visit(s.report.seconds);
+  visit(s.memory.since_laplacian), visit(s.memory.flipped), visit(s.memory.momentum);
+}
+
+/// What follows an array's length: points, ids, or a list of points.
+template <class State, class Visit> void visit_arrays(State& s, const Visit& visit) {
+  visit(s.points), visit(s.id), visit(s.site_of_input);
+  visit(s.memory.steps), visit(s.memory.changes), visit(s.memory.curvatures);
+  visit(s.memory.laplacian_at), visit(s.memory.before);
 }
 
 // ---- Writing
 
-void put_ids(Writer& out, const std::vector<std::int32_t>& ids) {
-  const auto count = static_cast<std::int64_t>(ids.size());
-  out.raw(count).text(bytes_of(ids.data(), count));
-}
+/// Puts an array after its length.
+struct Put {
+  Writer* out;
+  void operator()(const Points3& points) const {
+    out->raw(std::int64_t{points.cols()}).text(bytes_of(points.data(), points.size()));
+  }
+  template <class T> void operator()(const std::vector<T>& values) const {
+    out->raw(std::ssize(values)).text(bytes_of(values.data(), std::ssize(values)));
+  }
+  void operator()(const std::vector<Points3>& list) const {
+    out->raw(std::ssize(list));
+    for (const Points3& points : list)
+      (*this)(points);
+  }
+};
 
 void put_checkpoint(const Sink& sink, const CvtState& state, const std::string& configuration) {
   Writer out(sink);
   const auto raw = [&](const auto& value) { out.raw(value); };
   out.text(head());
   out.raw(std::ssize(configuration)).text(configuration);
-  out.raw(std::int64_t{state.points.cols()});
-  out.text(bytes_of(state.points.data(), state.points.size()));
-  put_ids(out, state.id);
-  put_ids(out, state.site_of_input);
+  visit_arrays(state, Put{&out});
   visit_scalars(state, raw);
   out.raw(std::ssize(state.report.iterations));
   for (const CvtIteration& iteration : state.report.iterations)
@@ -89,22 +106,30 @@ std::int64_t take_count(Bytes& bytes) {
   return count;
 }
 
-std::vector<std::int32_t> take_ids(Bytes& bytes) {
-  const std::int64_t count = take_count(bytes);
-  const std::string_view raw = bytes.take(4 * count);
-  std::vector<std::int32_t> ids(static_cast<std::size_t>(count));
-  std::copy(raw.begin(), raw.end(), reinterpret_cast<char*>(ids.data()));
-  return ids;
-}
+/// Takes an array with its length.
+struct TakeArray {
+  Bytes* bytes;
+  void operator()(Points3& points) const {
+    const std::int64_t count = take_count(*bytes);
+    const std::string_view raw = bytes->take(24 * count);
+    points.resize(3, count);
+    std::copy(raw.begin(), raw.end(), reinterpret_cast<char*>(points.data()));
+  }
+  template <class T> void operator()(std::vector<T>& values) const {
+    const std::int64_t count = take_count(*bytes);
+    const std::string_view raw = bytes->take(static_cast<std::int64_t>(sizeof(T)) * count);
+    values.resize(static_cast<std::size_t>(count));
+    std::copy(raw.begin(), raw.end(), reinterpret_cast<char*>(values.data()));
+  }
+  void operator()(std::vector<Points3>& list) const {
+    for (std::int64_t k = take_count(*bytes); k > 0; --k)
+      (*this)(list.emplace_back());
+  }
+};
 
 CvtState take_state(Bytes& bytes) {
   CvtState state;
-  const std::int64_t points = take_count(bytes);
-  const std::string_view coordinates = bytes.take(24 * points);
-  state.points.resize(3, points);
-  std::copy(coordinates.begin(), coordinates.end(), reinterpret_cast<char*>(state.points.data()));
-  state.id = take_ids(bytes);
-  state.site_of_input = take_ids(bytes);
+  visit_arrays(state, TakeArray{&bytes});
   const Take take{&bytes};
   visit_scalars(state, take);
   for (std::int64_t k = take_count(bytes); k > 0; --k)
