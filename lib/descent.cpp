@@ -18,6 +18,7 @@ namespace {
 
 constexpr std::size_t most_pairs = 10;
 constexpr int most_trials = 3;
+constexpr double rule_error = 1e-7;  ///< of the energy by quadrature: below it slopes decide
 constexpr double rounding = 1e-13;   ///< of the energy, over itself
 constexpr int laplacian_lasts = 60;  ///< evaluations, once edges have flipped
 constexpr double near_enough = 0.05; ///< rms distance from the centroids over h: for the Laplacian
@@ -232,8 +233,12 @@ bool Descent::search(const Points3& direction, double slope, Points3& points) {
     Points3 onward = direction;
     make_tangential(onward, points);
     const double slope_there = inner(onward, there_.gradient);
-    const bool lower = there_.iteration.energy <= here_.iteration.energy * (1 + rounding);
-    if (lower && (slope_there <= -0.9 * slope || trial + 1 == most_trials))
+    const double rise = there_.iteration.energy / here_.iteration.energy - 1;
+    const bool lower =
+        rise <= rounding && (slope_there <= -0.9 * slope || trial + 1 == most_trials);
+    const bool below_rule = !options_.density.uniform() && std::abs(rise) <= rule_error &&
+                            std::abs(slope_there) <= -0.5 * slope;
+    if (lower || below_rule)
       return true;
     state_.report.iterations.back().accepted = false;
     const double secant = step * slope / (slope - slope_there);
@@ -273,8 +278,9 @@ void Descent::quasi_newton_step() {
   Points3 points;
   if (slope < 0 && search(d, slope, points)) {
     remember(points);
-  } else { // Lloyd's step always descends
+  } else { // Lloyd's step always descends; and the coarser rule's energy may have misled the search
     forget();
+    state_.final_rule = true;
     points = here_.centroids;
     functional_.moved(here_.iteration.linf);
     evaluate(points, there_);
