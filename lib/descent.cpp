@@ -76,10 +76,12 @@ void Descent::begin() {
 void Descent::step() {
   const bool other_rule = !options_.density.uniform() && state_.final_rule &&
                           here_.iteration.rule != options_.final_rule;
-  if (options_.method == Method::lloyd)
+  if (options_.method == Method::lloyd && options_.relaxation == 1)
     lloyd_step();
   else if (other_rule) // another functional: its energies are not to be compared
     evaluate(state_.points, here_);
+  else if (options_.method == Method::lloyd)
+    relaxed_step();
   else if (options_.method == Method::nesterov)
     nesterov_step();
   else
@@ -98,6 +100,26 @@ void Descent::lloyd_step() {
   evaluate(state_.points, here_);
 }
 
+void Descent::relaxed_step() {
+  const Points3 move = difference(here_.centroids, state_.points);
+  step_or_lloyd(retract(state_.points, options_.relaxation, move));
+}
+
+/// Goes to the points, unless they are higher: then by Lloyd's step. False for the latter.
+bool Descent::step_or_lloyd(Points3&& next) {
+  functional_.moved(longest(difference(next, state_.points)));
+  evaluate(next, there_);
+  const bool lower = there_.iteration.energy <= here_.iteration.energy * (1 + rounding);
+  if (!lower) {
+    state_.report.iterations.back().accepted = false;
+    functional_.moved(longest(difference(next, here_.centroids)));
+    next = here_.centroids;
+    evaluate(next, there_);
+  }
+  accept(std::move(next));
+  return lower;
+}
+
 /// Nesterov's sequence (1983) over Lloyd's map, which restarts where it turns back (O'Donoghue and
 /// Candes, 2015) or climbs.
 void Descent::nesterov_step() {
@@ -114,16 +136,10 @@ void Descent::nesterov_step() {
       next = retract(next, share, move);
   }
   memory.before = here_.centroids;
-  functional_.moved(longest(difference(next, state_.points)));
-  evaluate(next, there_);
-  if (share > 0 && !(there_.iteration.energy <= here_.iteration.energy * (1 + rounding))) {
-    state_.report.iterations.back().accepted = false;
+  if (share == 0)
+    lloyd_step();
+  else if (!step_or_lloyd(std::move(next)))
     memory.momentum = 1;
-    functional_.moved(longest(difference(next, here_.centroids)));
-    next = here_.centroids;
-    evaluate(next, there_);
-  }
-  accept(std::move(next));
 }
 
 // ---- L-BFGS (Nocedal, 1980; Liu and Nocedal, 1989) on the sphere: ambient vectors, projected to
@@ -147,36 +163,33 @@ void Descent::make_laplacian() {
   forget();
 }
 
-/// Multiplies by gamma B^-1, B the graph Laplacian or twice the masses; gamma is such that gamma^-1
-/// B has the energy's curvature along the last step.
-void Descent::apply_initial_inverse(Points3& vectors) {
-  const CvtMemory& memory = state_.memory;
-  const bool by_laplacian = method() == Method::lbfgs_laplacian;
-  const auto masses = [&](Points3& v, bool inverse) {
-    for_each_block(v.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-      for (std::int64_t i = begin; i != end; ++i) {
-        const double twice = 2 * here_.mass[i];
-        set_column(v, i, (inverse ? 1 / twice : twice) * column(v, i));
-      }
-    });
-  };
-  if (by_laplacian)
+/// Multiplies by B^-1, B the graph Laplacian or twice the masses.
+void Descent::precondition(Points3& vectors) const {
+  if (method() == Method::lbfgs_laplacian) {
     vectors = laplacian_->solve(vectors);
-  else
-    masses(vectors, true);
+    return;
+  }
+  for_each_block(vectors.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i != end; ++i)
+      set_column(vectors, i, (0.5 / here_.mass[i]) * column(vectors, i));
+  });
+}
+
+/// Multiplies by gamma B^-1; gamma is such that this, as the inverse of the second derivative,
+/// agrees with the last step and the change of the gradient along it.
+void Descent::apply_initial_inverse(Points3& vectors) const {
+  precondition(vectors);
+  const CvtMemory& memory = state_.memory;
   if (memory.steps.empty())
     return;
-  Points3 z = memory.changes.back();
-  make_tangential(z, state_.points);
-  if (by_laplacian)
-    z = laplacian_->solve(z);
-  else
-    masses(z, true);
-  multiply(vectors, memory.curvatures.back() / inner(memory.changes.back(), z));
+  Points3 change = memory.changes.back();
+  make_tangential(change, state_.points);
+  precondition(change);
+  multiply(vectors, memory.curvatures.back() / inner(memory.changes.back(), change));
 }
 
 /// Minus the inverse of the approximate second derivative, times the gradient.
-Points3 Descent::direction() {
+Points3 Descent::direction() const {
   const CvtMemory& memory = state_.memory;
   const std::size_t pairs = memory.steps.size();
   Points3 d = here_.gradient;
@@ -221,9 +234,10 @@ double Descent::longest_step(const Points3& direction) const {
   return 0.5 / std::sqrt(*std::max_element(most.begin(), most.end()));
 }
 
-/// Trials along a direction until one satisfies the approximate Wolfe conditions (Hager and Zhang,
-/// 2005), which rounding of the energy does not disturb; each next one by the secant of the slopes.
-/// \param points set to the accepted ones.
+/// Trials along a direction until one is lower and not far beyond the lowest, or until the slopes
+/// say so where the energies differ by less than quadrature resolves (in the way of Hager and
+/// Zhang's approximate Wolfe conditions, 2005); each next one by the secant of the slopes. False
+/// when none is. \param points set to the accepted ones.
 bool Descent::search(const Points3& direction, double slope, Points3& points) {
   double step = std::min(1.0, longest_step(direction)), at = 0;
   for (int trial = 0; trial < most_trials; ++trial) {
@@ -280,7 +294,7 @@ void Descent::quasi_newton_step() {
     remember(points);
   } else { // Lloyd's step always descends; and the coarser rule's energy may have misled the search
     forget();
-    state_.final_rule = true;
+    state_.final_rule = state_.final_rule || options_.norm != Norm::none;
     points = here_.centroids;
     functional_.moved(here_.iteration.linf);
     evaluate(points, there_);

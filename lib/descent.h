@@ -31,10 +31,13 @@ private:
   void evaluate(const Points3& points, Evaluation& out);
   void accept(Points3&& points);
   void lloyd_step();
+  void relaxed_step();
+  bool step_or_lloyd(Points3&& next);
   void nesterov_step();
   void quasi_newton_step();
-  Points3 direction();
-  void apply_initial_inverse(Points3& vectors);
+  Points3 direction() const;
+  void precondition(Points3& vectors) const;
+  void apply_initial_inverse(Points3& vectors) const;
   void make_laplacian();
   void remember(const Points3& points);
   void forget();

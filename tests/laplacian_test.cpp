@@ -3,6 +3,7 @@
 #include "functional.h"
 #include "laplacian.h"
 #include "multigrid.h"
+#include "support/densities.h"
 
 #include <calotte/cvt.h>
 #include <calotte/generators.h>
@@ -15,14 +16,11 @@
 
 using namespace calotte;
 using namespace calotte::detail;
+using test::x8;
 
 namespace {
 
 constexpr double pi = std::numbers::pi;
-
-Density x8() {
-  return tanh_bump({0, -std::cos(pi / 6), std::sin(pi / 6)}, pi / 6, 0.2, 1.0 / 4096);
-}
 
 /// Generators along a space-filling curve, near an optimum of the energy.
 Points3 near_optimum(const Density& density, std::int64_t cells) {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/densities.h"
+
 #include <calotte/cvt.h>
 #include <calotte/error.h>
 #include <calotte/generators.h>
@@ -6,7 +8,6 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <numbers>
 #include <string>
 
 using namespace calotte;
@@ -87,13 +88,11 @@ TEST_CASE("continuation refuses what it cannot reach in one line") {
 }
 
 TEST_CASE("drawn starts of a peaked density span the sphere, and converge") {
-  constexpr double pi = std::numbers::pi;
-  const Density x8 = tanh_bump({0, -std::cos(pi / 6), std::sin(pi / 6)}, pi / 6, 0.2, 1.0 / 4096);
   for (const std::int64_t cells : {643, 2000, 2571}) {
     CvtOptions options;
-    options.density = x8;
+    options.density = test::x8();
     options.tolerance = 1e-3;
-    const Continuation from = continuation(cells, x8);
+    const Continuation from = continuation(cells, test::x8());
     options.bisections = from.bisections;
     const Cvt grid = cvt(from.start, options);
     CHECK(!from.icosahedral);

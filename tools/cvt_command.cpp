@@ -54,6 +54,8 @@ void require_positive(const std::string& option, double value, const std::string
 void require_request(const CvtRequest& request) {
   require_positive("--tolerance", request.tolerance, "one such as 1e-6");
   require_positive("--checkpoint-minutes", request.checkpoint_minutes, "one such as 10");
+  if (request.relaxation != 1 && request.method != "lloyd")
+    throw Error(ErrorCode::bad_option, "--relaxation is for --method lloyd only; leave it out");
   require_start(request);
   require_mesh_suffix(request.mesh);
   const std::vector<std::string> inputs{request.points, centres_file(*request.partition),
@@ -81,6 +83,8 @@ std::string configuration_of(const CvtRequest& request, const CvtOptions& option
   if (densities.size() > 1)
     add("join", request.density->join);
   add("method", request.method);
+  if (options.method == Method::lloyd)
+    add("relaxation", shortest(request.relaxation));
   if (request.iterations) {
     add("iterations", std::to_string(*request.iterations));
   } else {
@@ -289,6 +293,10 @@ void add_method(CLI::App& command, CvtRequest& request) {
                   "the mesh's graph Laplacian)")
       ->check(CLI::IsMember({"auto", "lloyd", "nesterov", "lbfgs", "lbfgs-laplacian"}))
       ->capture_default_str();
+  command
+      .add_option("--relaxation", request.relaxation,
+                  "of Lloyd's steps: times the way to the centroid, from 1 to below 2")
+      ->capture_default_str();
 }
 
 void add_end(CLI::App& command, CvtRequest& request) {
@@ -369,6 +377,7 @@ CvtOptions options_of(const CvtRequest& request) {
   CvtOptions options;
   options.density = density_of(*request.density);
   options.method = methods.at(request.method);
+  options.relaxation = request.relaxation;
   options.norm = norms.at(norm_word(request));
   options.tolerance = request.tolerance;
   options.max_iterations = request.iterations.value_or(request.max_iterations);

@@ -24,6 +24,7 @@ struct CvtRequest {
 
   std::shared_ptr<DensityWords> density;
   std::string method = "auto";
+  double relaxation = 1;
   std::string norm = "l2-scaled";
   double tolerance = CvtOptions{}.tolerance;
   int max_iterations = CvtOptions{}.max_iterations;

@@ -36,6 +36,9 @@ enum class Method {
 struct CvtOptions {
   Density density = {};
   Method method = Method::automatic;
+  /// Of Lloyd's steps: times the way to the centroid; from 1 to below 2. A step that would climb is
+  /// taken without it.
+  double relaxation = 1;
   Norm norm = Norm::l2_scaled;
   double tolerance = 1e-6;   ///< stop when the norm is at most this; > 0
   int max_iterations = 1000; ///< evaluations on each level; >= 0
