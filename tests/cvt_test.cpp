@@ -54,7 +54,7 @@ void check_random_start(const Density& density, Method method) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     options.partition.regions = regions;
     options.partition.sort = sort;
-    return cvt(random_sphere(4200, 4), options);
+    return cvt(random_sphere(1700, 4), options);
   };
   const Cvt one = with(1, 1, Sort::halo);
   CHECK(!one.report.converged);
@@ -62,7 +62,7 @@ void check_random_start(const Density& density, Method method) {
   CHECK(check(one.mesh).failure == "");
   check_descent(one.report);
   for (const Cvt& other : {with(4, 12, Sort::halo), with(2, 42, Sort::distance),
-                           with(3, 2, Sort::voronoi), with(2, 700, Sort::halo)}) {
+                           with(3, 2, Sort::voronoi), with(2, 300, Sort::halo)}) {
     CHECK((one.mesh.points == other.mesh.points));
     CHECK((one.mesh.triangles == other.mesh.triangles));
     for (std::size_t k = 0; k < one.report.iterations.size(); ++k) {
