@@ -60,11 +60,11 @@ Multigrid::Multigrid(SparseMatrix matrix) {
     const SparseMatrix smoothed = scale.asDiagonal() * SparseMatrix(matrix * pieces);
     level.prolongation = pieces - smoothed;
     level.restriction = level.prolongation.transpose();
-    level.matrix = std::move(matrix);
+    level.matrix.swap(matrix);
     matrix = level.restriction * SparseMatrix(level.matrix * level.prolongation);
     levels_.push_back(std::move(level));
   }
-  coarsest_ = std::move(matrix);
+  coarsest_.swap(matrix);
   factors_.compute(Eigen::SparseMatrix<double>(coarsest_));
 }
 
@@ -75,22 +75,23 @@ Points3 Multigrid::apply(const Points3& x) const {
 Points3 Multigrid::cycle(std::size_t level, const Points3& right) const {
   if (level == levels_.size())
     return factors_.solve(Eigen::MatrixXd(right.transpose())).transpose();
-  const auto& [matrix, prolongation, restriction, inverse_diagonal] = levels_[level];
+  const Level& here = levels_[level];
+  const SparseMatrix& matrix = here.matrix;
+  const auto relaxing = [&](std::int64_t i, const Vec3& residual) {
+    return (relaxation * here.inverse_diagonal[i]) * residual;
+  };
   const auto relaxed = [&](const Points3& x) {
     return by_rows(matrix.rows(), [&](std::int64_t i) {
-      return column(x, i) +
-             (relaxation * inverse_diagonal[i]) * (column(right, i) - row_times(matrix, i, x));
+      return column(x, i) + relaxing(i, column(right, i) - row_times(matrix, i, x));
     });
   };
-  Points3 x = by_rows(matrix.rows(), [&](std::int64_t i) {
-    return (relaxation * inverse_diagonal[i]) * column(right, i);
-  });
+  Points3 x = by_rows(matrix.rows(), [&](std::int64_t i) { return relaxing(i, column(right, i)); });
   x = relaxed(x);
   const Points3 residual = by_rows(
       matrix.rows(), [&](std::int64_t i) { return column(right, i) - row_times(matrix, i, x); });
-  const Points3 correction = cycle(level + 1, times(restriction, residual));
+  const Points3 correction = cycle(level + 1, times(here.restriction, residual));
   x = by_rows(matrix.rows(), [&](std::int64_t i) {
-    return column(x, i) + row_times(prolongation, i, correction);
+    return column(x, i) + row_times(here.prolongation, i, correction);
   });
   return relaxed(relaxed(x));
 }

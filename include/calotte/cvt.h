@@ -23,8 +23,8 @@ enum class Norm {
   none,        ///< nothing is: the run ends, converged, after max_iterations
 };
 
-/// How the energy is brought down. All go to the same optima; they differ in how many evaluations
-/// of the energy that takes.
+/// How the energy is brought down. They differ in how many evaluations of it that takes; where
+/// edges flip on the way, they may end in different optima.
 enum class Method {
   automatic, ///< lbfgs from afar, lbfgs_laplacian from near
   lloyd,     ///< each generator moves to its centroid
@@ -41,7 +41,7 @@ struct CvtOptions {
   double relaxation = 1;
   Norm norm = Norm::l2_scaled;
   double tolerance = 1e-6;   ///< stop when the norm is at most this; > 0
-  int max_iterations = 1000; ///< evaluations on each level; >= 0
+  int max_iterations = 1000; ///< evaluations on each level, but for a search's last ones; >= 0
   /// Continuation: that often, what has converged, or come to max_iterations, is bisected (n -> 4n
   /// - 6, see bisect()) and converged again; from 0 to what 2^30 generators allow.
   int bisections = 0;
@@ -65,7 +65,7 @@ struct CvtIteration {
   bool accepted = true;    ///< false for a trial that was not gone on from
   std::int64_t flips = 0;  ///< of edges, that the move to there called for
   bool rebuilt = false;    ///< that move called for a new triangulation
-  double seconds = 0;      ///< wall-clock time
+  double seconds = 0;      ///< wall-clock time of the evaluation
   /// Sums over the regions' tasks, whatever number ran at a time: taking over positions; finding
   /// and mending what is no longer Delaunay; moments and the move.
   double seconds_exchange = 0, seconds_repair = 0, seconds_moments = 0;
