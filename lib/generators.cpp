@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -155,6 +157,62 @@ EdgeMesh refine(const EdgeMesh& coarse, std::int32_t vertices) {
     fine.triangle_edges[4 * t + 3] = {inner, inner + 1, inner + 2};
   }
   return fine;
+}
+
+// ---- Hexagons
+
+/// A triangle's vertices, from the lowest on, and the triangles across from them.
+struct LinkedTriangle {
+  Triple vertices, neighbours;
+};
+
+LinkedTriangle from_lowest(const Triple& v, const Triple& across) {
+  const auto first = static_cast<std::size_t>(std::min_element(v.begin(), v.end()) - v.begin());
+  const std::size_t second = (first + 1) % 3, third = (first + 2) % 3;
+  return {{v[first], v[second], v[third]}, {across[first], across[second], across[third]}};
+}
+
+/// Two triangles stand on each site of the hexagons: 2i on the way to the next one in its row, 2i +
+/// 1 on its tip.
+std::vector<LinkedTriangle> hexagons_triangles(std::int64_t columns, std::int64_t rows) {
+  std::vector<LinkedTriangle> out;
+  out.reserve(static_cast<std::size_t>(2 * columns * rows));
+  const auto site = [&](std::int64_t row, std::int64_t column) {
+    return static_cast<std::int32_t>((row + rows) % rows * columns + (column + columns) % columns);
+  };
+  for (std::int64_t r = 0; r < rows; ++r)
+    for (std::int64_t c = 0; c < columns; ++c) {
+      const std::int64_t odd = r % 2;
+      const std::int32_t i = site(r, c), left = site(r, c - 1), right = site(r, c + 1),
+                         above_left = site(r + 1, c + odd - 1), above = site(r + 1, c + odd),
+                         below = site(r - 1, c + odd);
+      out.push_back(from_lowest({i, right, above}, {2 * right + 1, 2 * i + 1, 2 * below + 1}));
+      out.push_back(from_lowest({i, above, above_left}, {2 * above_left, 2 * left, 2 * i}));
+    }
+  return out;
+}
+
+/// Sorted by their vertices.
+void set_hexagons_triangles(std::int64_t columns, std::int64_t rows, PlanarMesh& mesh) {
+  const std::vector<LinkedTriangle> triangles = hexagons_triangles(columns, rows);
+  std::vector<std::int32_t> order(triangles.size()), place(triangles.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto triangle = [&](std::int32_t t) { return triangles[static_cast<std::size_t>(t)]; };
+  std::sort(order.begin(), order.end(), [&](std::int32_t s, std::int32_t t) {
+    return triangle(s).vertices < triangle(t).vertices;
+  });
+  for (std::size_t t = 0; t < order.size(); ++t)
+    place[static_cast<std::size_t>(order[t])] = static_cast<std::int32_t>(t);
+  mesh.triangles.resize(3, std::ssize(triangles));
+  mesh.neighbours.resize(3, std::ssize(triangles));
+  for (std::size_t t = 0; t < order.size(); ++t) {
+    const LinkedTriangle from = triangle(order[t]);
+    for (std::size_t v = 0; v < 3; ++v) {
+      const auto row = static_cast<Eigen::Index>(v), column = static_cast<Eigen::Index>(t);
+      mesh.triangles(row, column) = from.vertices[v];
+      mesh.neighbours(row, column) = place[static_cast<std::size_t>(from.neighbours[v])];
+    }
+  }
 }
 
 } // namespace
@@ -311,6 +369,28 @@ Points3 bisect(const Mesh& mesh) {
     }
   }
   return points;
+}
+
+PlanarMesh periodic_hexagons(std::int64_t columns, std::int64_t rows, double spacing) {
+  require_count(columns, 3, "the number of columns");
+  require_count(rows, 4, "the number of rows");
+  require(rows % 2 == 0, "the number of rows is " + std::to_string(rows) +
+                             "; give an even one, as every second row is shifted");
+  require(rows <= most_points / columns,
+          "the plane has more than " + std::to_string(most_points) + " cells; give fewer rows");
+  const double rise = spacing * (std::numbers::sqrt3 / 2);
+  PlanarMesh mesh;
+  mesh.period = {static_cast<double>(columns) * spacing, static_cast<double>(rows) * rise};
+  require(rise > 0 && mesh.period.allFinite(),
+          "the spacing is " + std::to_string(spacing) + "; give a positive number");
+  mesh.points.resize(2, columns * rows);
+  for (std::int64_t r = 0; r < rows; ++r)
+    for (std::int64_t c = 0; c < columns; ++c)
+      mesh.points.col(r * columns + c)
+          << (static_cast<double>(c) + (r % 2 == 0 ? 0 : 0.5)) * spacing,
+          static_cast<double>(r) * rise;
+  set_hexagons_triangles(columns, rows, mesh);
+  return mesh;
 }
 
 } // namespace calotte

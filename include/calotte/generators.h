@@ -52,4 +52,10 @@ Points3 cubed_sphere(std::int64_t m);
 /// \throws Error bad_option where an id is outside the mesh.
 Points3 bisect(const Mesh& mesh);
 
+/// Regular hexagons in a doubly periodic box, [0, columns spacing) x [0, rows spacing sqrt(3)/2):
+/// every second row is shifted by half a spacing. Site r columns + c stands in row r.
+/// \throws Error bad_option, for fewer than 3 columns, or 4 rows, or an odd number of these; for a
+/// spacing that is not positive and finite.
+PlanarMesh periodic_hexagons(std::int64_t columns, std::int64_t rows, double spacing);
+
 } // namespace calotte

@@ -12,6 +12,9 @@ namespace calotte {
 /// matter (1e-200 to 1e200), and every decision is taken as if x/|x| stood exactly on the sphere.
 using Points3 = Eigen::Matrix3Xd;
 
+/// 2 x n, one Cartesian point a column.
+using Points2 = Eigen::Matrix2Xd;
+
 /// 3 x m ids, one triangle a column.
 using Triangles = Eigen::Matrix<std::int32_t, 3, Eigen::Dynamic>;
 
@@ -30,6 +33,16 @@ struct Mesh {
       site_of_input; ///< for each input column its site; a duplicate has the lowest's
 
   bool closed() const { return triangles.cols() == 2 * points.cols() - 4; }
+};
+
+/// A Delaunay triangulation of a doubly periodic box of the plane: [0, period.x) x [0, period.y).
+/// Triangles and neighbours are as Mesh's; a triangle's corners are the nearest copies of its
+/// sites. n sites have 2n triangles.
+struct PlanarMesh {
+  Points2 points;       ///< 2 x n sites in the box
+  Triangles triangles;  ///< 3 x m site ids, counter-clockwise
+  Triangles neighbours; ///< 3 x m triangle ids
+  Eigen::Vector2d period{0, 0};
 };
 
 } // namespace calotte

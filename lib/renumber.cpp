@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "renumber.h"
+
+#include "curve.h"
+#include "order.h"
+#include "parallel.h"
+#include "points.h"
+#include "room.h"
+#include "triangle.h"
+
+#include <calotte/error.h>
+#include <calotte/io.h>
+
+#include <boost/graph/compressed_sparse_row_graph.hpp>
+#include <boost/graph/cuthill_mckee_ordering.hpp>
+#include <boost/property_map/function_property_map.hpp>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <string>
+
+namespace calotte {
+namespace detail {
+namespace {
+
+/// At least 0 and below the bound, or -1 where `or_none`.
+bool in_range(const Triangles& ids, std::int64_t bound, bool or_none = false) {
+  return ids.size() == 0 || (ids.minCoeff() >= (or_none ? -1 : 0) && ids.maxCoeff() < bound);
+}
+
+void require_directions(const Points3& points) {
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    const Vec3& p = column(points, i);
+    if (p.x == 0 && p.y == 0 && p.z == 0)
+      throw Error(ErrorCode::zero_vector, "point " + std::to_string(i) + " is the zero vector", i);
+    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+      throw Error(ErrorCode::not_finite,
+                  "point " + std::to_string(i) + " has a coordinate that is NaN or infinite", i);
+  }
+}
+
+/// For each site its place in the order.
+Array<std::int32_t> inverse(const Array<std::int32_t>& order) {
+  Array<std::int32_t> place(order.size());
+  for_each_block(order.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i != end; ++i)
+      place[order[i]] = static_cast<std::int32_t>(i);
+  });
+  return place;
+}
+
+using Triple = std::array<std::int32_t, 3>;
+
+/// A triangle's new ids, from the old ones.
+Triple new_ids(const Triangles& triangles, std::int64_t t, const Array<std::int32_t>& place) {
+  return {place[triangles(0, t)], place[triangles(1, t)], place[triangles(2, t)]};
+}
+
+/// Where a triangle starts. Of vertices that are repeated, as a file may have them, the start is
+/// the one that makes the ids the lowest.
+int first_vertex(const Triple& ids) {
+  const auto vertex = [&](int i) { return ids[static_cast<std::size_t>(i)]; };
+  int best = 0;
+  for (const int i : {1, 2})
+    if (vertex(i) < vertex(best) ||
+        (vertex(i) == vertex(best) && vertex(next_vertex(i)) < vertex(next_vertex(best))))
+      best = i;
+  return best;
+}
+
+Triple turned(const Triple& ids, int first) {
+  const auto vertex = [&](int i) { return ids[static_cast<std::size_t>(i)]; };
+  return {vertex(first), vertex(next_vertex(first)), vertex(previous_vertex(first))};
+}
+
+Triple turned(const Triple& ids) { return turned(ids, first_vertex(ids)); }
+
+/// Sorts runs of equal keys by their third vertex: there are none in a manifold, where no two
+/// triangles leave a vertex along one edge.
+void sort_by_third(const Triangles& triangles, const Array<std::int32_t>& place,
+                   Array<KeyedIndex>& entries) {
+  const auto same = [](const KeyedIndex& a, const KeyedIndex& b) { return a.key == b.key; };
+  const auto third = [&](const KeyedIndex& e) {
+    return turned(new_ids(triangles, e.index, place))[2];
+  };
+  for (KeyedIndex* run = std::adjacent_find(entries.begin(), entries.end(), same);
+       run != entries.end();) {
+    KeyedIndex* const end =
+        std::find_if(run, entries.end(), [&](const KeyedIndex& e) { return e.key != run->key; });
+    std::stable_sort(run, end,
+                     [&](const KeyedIndex& a, const KeyedIndex& b) { return third(a) < third(b); });
+    run = std::adjacent_find(end, entries.end(), same);
+  }
+}
+
+/// The triangles in canonical order. Keys are the first two vertices, from the highest bits on.
+Array<KeyedIndex> canonical_order(const Triangles& triangles, const Array<std::int32_t>& place) {
+  const int bits = std::bit_width(static_cast<std::uint64_t>(place.size()));
+  constexpr int key_bits = 3 + 2 * curve_levels; // of which sort_by_key takes the highest first
+  Array<KeyedIndex> entries(triangles.cols());
+  for_each_block(entries.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t t = begin; t != end; ++t) {
+      const Triple ids = turned(new_ids(triangles, t, place));
+      const auto first = static_cast<std::uint64_t>(ids[0]);
+      entries[t] = {(first << bits | static_cast<std::uint64_t>(ids[1])) << (key_bits - 2 * bits),
+                    static_cast<std::int32_t>(t)};
+    }
+  });
+  sort_by_key(entries);
+  sort_by_third(triangles, place, entries);
+  return entries;
+}
+
+/// Triangles and neighbours of `mesh` to `out`, in that order.
+void move_triangles(const Mesh& mesh, const Array<std::int32_t>& place,
+                    const Array<KeyedIndex>& order, Mesh& out) {
+  const std::int64_t count = order.size();
+  Array<std::int32_t> new_triangle(count);
+  for_each_block(count, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t k = begin; k != end; ++k)
+      new_triangle[order[k].index] = static_cast<std::int32_t>(k);
+  });
+  make_room(out.triangles, 3, count);
+  make_room(out.neighbours, 3, count);
+  for_each_block(count, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t k = begin; k != end; ++k) {
+      const std::int64_t t = order[k].index;
+      const Triple ids = new_ids(mesh.triangles, t, place);
+      const int first = first_vertex(ids);
+      const Triple vertices = turned(ids, first);
+      const Triple across = turned(
+          Triple{mesh.neighbours(0, t), mesh.neighbours(1, t), mesh.neighbours(2, t)}, first);
+      for (int i = 0; i < 3; ++i) {
+        const std::int32_t old = across[static_cast<std::size_t>(i)];
+        out.triangles(i, k) = vertices[static_cast<std::size_t>(i)];
+        out.neighbours(i, k) = old < 0 ? -1 : new_triangle[old];
+      }
+    }
+  });
+}
+
+/// Both half-edges of each edge.
+std::vector<std::pair<std::int32_t, std::int32_t>> half_edges(const Mesh& mesh) {
+  std::vector<std::pair<std::int32_t, std::int32_t>> edges;
+  edges.reserve(static_cast<std::size_t>(mesh.triangles.size()));
+  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
+    for (int i = 0; i < 3; ++i) {
+      const std::int32_t from = mesh.triangles(next_vertex(i), t),
+                         to = mesh.triangles(previous_vertex(i), t);
+      edges.emplace_back(from, to);
+      if (mesh.neighbours(i, t) < 0)
+        edges.emplace_back(to, from);
+    }
+  return edges;
+}
+
+void require_ids(const Mesh& mesh) {
+  const bool fit = in_range(mesh.triangles, mesh.points.cols()) &&
+                   mesh.neighbours.cols() == mesh.triangles.cols() &&
+                   in_range(mesh.neighbours, mesh.triangles.cols(), true) &&
+                   std::all_of(mesh.site_of_input.begin(), mesh.site_of_input.end(),
+                               [&](std::int32_t s) { return 0 <= s && s < mesh.points.cols(); });
+  if (!fit)
+    throw Error(ErrorCode::bad_option, "the mesh to renumber has an id out of range, or not the "
+                                       "neighbours of its triangles; give one as delaunay() or "
+                                       "read_mesh() makes it");
+}
+
+} // namespace
+
+Array<std::int32_t> curve_order(const Points3& points) {
+  require_directions(points);
+  Array<KeyedIndex> entries(points.cols());
+  for_each_block(entries.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i != end; ++i)
+      entries[i] = {curve_key(to_cube(column(points, i))), static_cast<std::int32_t>(i)};
+  });
+  sort_by_key(entries);
+  Array<std::int32_t> order(entries.size());
+  for_each_block(order.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i != end; ++i)
+      order[i] = entries[i].index;
+  });
+  return order;
+}
+
+Array<std::int32_t> reverse_cuthill_mckee_order(const Mesh& mesh) {
+  using Graph =
+      boost::compressed_sparse_row_graph<boost::directedS, boost::no_property, boost::no_property,
+                                         boost::no_property, std::int32_t, std::int64_t>;
+  const std::int64_t sites = mesh.points.cols();
+  const auto edges = half_edges(mesh);
+  const Graph graph(boost::edges_are_unsorted_multi_pass, edges.begin(), edges.end(),
+                    static_cast<std::int32_t>(sites));
+  std::vector<boost::default_color_type> colours(static_cast<std::size_t>(sites));
+  // Sites of equal degree are told apart by their ids, as no sort is the same in all libraries.
+  const auto rank = [&](std::int32_t site) {
+    return static_cast<std::int64_t>(out_degree(site, graph)) * sites + site;
+  };
+  Array<std::int32_t> order(sites);
+  boost::cuthill_mckee_ordering(
+      graph, std::make_reverse_iterator(order.end()),
+      boost::make_iterator_property_map(colours.begin(), get(boost::vertex_index, graph)),
+      boost::make_function_property_map<std::int32_t, std::int64_t>(rank));
+  return order;
+}
+
+Mesh in_order(const Mesh& mesh, const Array<std::int32_t>& order) {
+  const Array<std::int32_t> place = inverse(order);
+  Mesh out;
+  make_room(out.points, 3, mesh.points.cols());
+  for_each_block(order.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i != end; ++i)
+      out.points.col(i) = mesh.points.col(order[i]);
+  });
+  move_triangles(mesh, place, canonical_order(mesh.triangles, place), out);
+  out.site_of_input.resize(mesh.site_of_input.size());
+  std::transform(mesh.site_of_input.begin(), mesh.site_of_input.end(), out.site_of_input.begin(),
+                 [&](std::int32_t site) { return place[site]; });
+  return out;
+}
+
+} // namespace detail
+
+Mesh renumbered(const Mesh& mesh, Numbering numbering) {
+  using namespace detail;
+  require_ids(mesh);
+  switch (numbering) {
+  case Numbering::curve:
+    return in_order(mesh, curve_order(mesh.points));
+  case Numbering::rcm:
+    return in_order(mesh, reverse_cuthill_mckee_order(mesh));
+  default:
+    return mesh;
+  }
+}
+
+} // namespace calotte

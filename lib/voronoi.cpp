@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <calotte/voronoi.h>
+
+#include "connectivity.h"
+#include "counts.h"
+#include "first_fault.h"
+#include "parallel.h"
+#include "points.h"
+#include "predicates.h"
+#include "room.h"
+#include "voronoi_geometry.h"
+
+#include <calotte/error.h>
+
+#include <cmath>
+#include <string>
+
+namespace calotte {
+namespace detail {
+namespace {
+
+/// A norm that is 1 but for rounding stays, so that unit columns come back bit for bit: normalised
+/// ones err by 5 units of roundoff, their squares by twice that and 3 of their own.
+Vec3 unit_column(const Vec3& x) { return std::abs(dot(x, x) - 1) <= 0x1p-49 ? x : normalised(x); }
+
+void set_cells(const Mesh& mesh, Voronoi& out) {
+  make_room(out.cells, 3, mesh.points.cols());
+  FirstFault fault;
+  for_each_block(mesh.points.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i != end; ++i) {
+      const Vec3 unit = unit_column(column(mesh.points, i));
+      set_column(out.cells, i, unit);
+      if (!(std::abs(dot(unit, unit) - 1) < 1e-9)) // NaN of what has no direction
+        fault.at(i);
+    }
+  });
+  fault.refuse("site", "has no direction: give finite points other than 0");
+}
+
+void set_cells(const PlanarMesh& mesh, Voronoi& out) {
+  make_room(out.cells, 3, mesh.points.cols());
+  FirstFault fault;
+  for_each_block(mesh.points.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i != end; ++i) {
+      const double x = mesh.points(0, i), y = mesh.points(1, i);
+      set_column(out.cells, i, {x, y, 0});
+      if (!(x >= 0 && x < mesh.period[0] && y >= 0 && y < mesh.period[1]))
+        fault.at(i);
+    }
+  });
+  fault.refuse("site", "lies outside the periodic box: give the copy of it that is inside");
+}
+
+/// Sets all but the kind of the space.
+template <class AnyMesh> void tessellate(const AnyMesh& mesh, Voronoi& out) {
+  constexpr std::int64_t most_cells = std::int64_t{1} << 29;
+  require(mesh.points.cols() <= most_cells,
+          "the mesh has " + std::to_string(mesh.points.cols()) +
+              " sites, and the edges of more than 536870912 cannot be numbered: give fewer");
+  require(mesh.neighbours.cols() == mesh.triangles.cols(),
+          "the mesh has " + std::to_string(mesh.triangles.cols()) +
+              " triangles but neighbours of " + std::to_string(mesh.neighbours.cols()) +
+              ": give a mesh with both");
+  connect({mesh.points.cols(), mesh.triangles, mesh.neighbours}, out);
+  set_cells(mesh, out);
+  measure(out);
+}
+
+} // namespace
+} // namespace detail
+
+Voronoi voronoi(const Mesh& mesh) {
+  detail::require(mesh.closed(),
+                  "the mesh is open, as all its sites lie in a hemisphere, and its Voronoi cells "
+                  "do not tessellate the sphere: give sites all around");
+  Voronoi out;
+  detail::tessellate(mesh, out);
+  return out;
+}
+
+Voronoi voronoi(const PlanarMesh& mesh) {
+  detail::require(mesh.period.allFinite() && mesh.period.minCoeff() > 0,
+                  "the box of the plane is " + std::to_string(mesh.period[0]) + " x " +
+                      std::to_string(mesh.period[1]) + ": give two positive periods");
+  detail::require(mesh.triangles.cols() == 2 * mesh.points.cols(),
+                  "the mesh of " + std::to_string(mesh.points.cols()) + " sites has " +
+                      std::to_string(mesh.triangles.cols()) +
+                      " triangles, and one that covers a periodic box has two for each site: give "
+                      "such a mesh");
+  Voronoi out;
+  out.on_sphere = false;
+  out.period = mesh.period;
+  detail::tessellate(mesh, out);
+  return out;
+}
+
+} // namespace calotte
