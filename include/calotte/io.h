@@ -41,29 +41,119 @@ Points3 read_points(const std::string& path, Columns columns = Columns::xyz,
 void write_points(const std::string& path, const Points3& points);
 void write_points(std::ostream& out, const Points3& points);
 
-/// Writes in the format of the suffix:
-///   .txt .tri   0-based `i j k` a line. The ids are columns of the input of delaunay(), so that
-///               the file goes with the points it was made from: a merged duplicate goes by its
-///               site's lowest column.
-///   .vtp .vtu   VTK XML, points Float64, ids Int64, appended raw binary
-///   .off        text, digits as write_points
-///   .ply        binary doubles
-/// All but the first hold the sites as given and their ids.
-/// \throws Error bad_option for an unknown suffix, file.
-void write(const std::string& path, const Mesh& mesh);
+enum class Format {
+  by_name,         ///< of the path, see write
+  mpas,            ///< full MPAS mesh, NetCDF; NAME.graph.info, as METIS reads it, beside NAME.nc
+  mpas_minimal,    ///< what MPAS's MpasMeshConverter.x reads, NetCDF
+  ugrid,           ///< UGRID of the Voronoi cells, NetCDF
+  ugrid_triangles, ///< UGRID of the Delaunay triangles, NetCDF
+  scrip,           ///< SCRIP of the cells, NetCDF
+  esmf,            ///< ESMF unstructured of the cells, NetCDF
+  vtp,             ///< VTK PolyData of the triangles, CellFields at the sites
+  vtu,             ///< VTK UnstructuredGrid of the same
+  vtp_cells,       ///< VTK PolyData of the Voronoi cells with their CellFields
+  vtu_cells,       ///< VTK UnstructuredGrid of the same
+  off,             ///< text, digits as write_points
+  ply,             ///< binary doubles
+  triangles,       ///< 0-based `i j k` a line
+  mpi_scvt,        ///< SaveVertices, and SaveTriangles and SaveDensity beside it
+  msh,             ///< JIGSAW
+  geojson,         ///< the cells as polygons with their CellFields
+};
+
+/// How the cells of a file are numbered.
+enum class Numbering {
+  by_format, ///< curve where the cells are numbered anew for a model (NetCDF), else input
+  curve,     ///< along a space-filling curve
+  rcm,       ///< reverse Cuthill-McKee: small differences between neighbours
+  input,     ///< as the mesh's sites
+};
+
+struct WriteOptions {
+  Format format = Format::by_name;
+  Numbering numbering = Numbering::by_format;
+  /// Of the sphere, in the file's unit of length (MPAS: metres): > 0. NetCDF formats; others hold
+  /// the points as given.
+  double sphere_radius = 1;
+  /// What the mesh was made for: of the fields meshDensity and nominalMinDc, and the like.
+  Density density = {};
+  std::string history =
+      {}; ///< one line a fact: how the mesh was made; an attribute of NetCDF files
+};
+
+/// Writes a mesh. By its name the format is that of
+///   .nc          mpas
+///   .vtp .vtu .off .ply .msh .geojson
+///   .txt .tri    triangles: the ids are columns of the input of delaunay(), so that the file goes
+///                with the points it was made from: a merged duplicate goes by its site's lowest
+///                column
+///   SaveVertices mpi_scvt; the rest of the name, if any, is that of the files beside it, too
+/// Formats of cells, and the fields of the others, need a closed mesh.
+/// Places of NetCDF files are sphere_radius times the unit vectors; a point whose norm is that
+/// radius but for rounding keeps its bits.
+/// \throws Error bad_option for an unknown suffix, a radius out of range, an ill-formed density,
+///         ids that are not the mesh's, an open mesh where cells are asked for: before any file is
+///         touched; file.
+void write(const std::string& path, const Mesh& mesh, const WriteOptions& options = {});
+
+/// A periodic plane: mpas and mpas_minimal alone, numbered as it is.
+void write(const std::string& path, const PlanarMesh& mesh, const WriteOptions& options = {});
+
+/// The same mesh with its sites in another order, and its triangles in the canonical order of
+/// these: the mesh that delaunay() makes of the permuted points, where it is Delaunay.
+/// site_of_input tells where the sites went. A mesh that is along the curve stays as it is;
+/// by_format and input change nothing. Any mesh that read_mesh returns will do. Linear time.
+/// \throws Error bad_option, for ids out of range; not_finite, zero_vector.
+Mesh renumbered(const Mesh& mesh, Numbering numbering);
+
+/// The format that `write` gives a path: the option's, or else that of its name.
+/// \throws Error bad_option for a name that says none; for an option that is not that of the name's
+///         suffix (a NetCDF format of .nc; vtp and vtp_cells of .vtp, and so on), as nobody could
+///         read the file; for mpi_scvt under another name.
+Format format_of(const std::string& path, Format option = Format::by_name);
+
+/// Whether the format's files hold Voronoi cells, so that it needs a closed mesh.
+bool holds_cells(Format format);
 
 /// \throws Error bad_option when `write` does not know the path's suffix.
 void require_mesh_suffix(const std::string& path);
 
-/// Reads a mesh that `write` wrote (.vtp, .vtu, .off, .ply; coordinates come back bit for bit), or
-/// .txt/.tri with the points it refers to. Ids are checked to be in range, geometry is not: check()
-/// proves it. Neighbours are rebuilt; an edge of three triangles, or of two that run through it the
-/// same way, stays open.
+/// Reads a mesh that `write` wrote, of any format, and those of their kind that others wrote. By
+/// name as `write`, except that a NetCDF file's contents tell which of these it is, and that it is
+/// one where its name says nothing. Coordinates come back bit for bit where the format holds them.
+/// Formats without triangles of the sites (scrip, esmf, geojson, and cells of UGRID that others
+/// wrote) and files of points alone give the sites' Delaunay triangulation, in which equal
+/// directions are one site; so does SaveVertices without a SaveTriangles beside it that closes the
+/// sphere. Ids are checked to be in range, geometry is not: check() proves it. Neighbours are
+/// rebuilt; an edge of three triangles, or of two that run through it the same way, stays open.
 /// \param points the columns that a .txt/.tri file refers to; not used otherwise. A column in no
 ///        triangle is the duplicate of one that has the same direction, or else stays as a site
 ///        without triangles.
-/// \throws Error bad_option, parse, file.
+/// \throws Error bad_option, parse, file; of a planar mesh bad_option; of sites that delaunay()
+///         refuses, its code.
 Mesh read_mesh(const std::string& path, const Points3* points = nullptr);
+
+/// The points of such a file, without a look at its triangles: the generators of an MPAS or UGRID
+/// mesh, the nodes of another's UGRID, SaveVertices, .msh; and MPI-SCVT's centres of regions, which
+/// RegionList holds, and RegionTriangulation by the RegionList beside it. (read_mesh triangulates
+/// these.)
+/// \throws Error as read_mesh.
+Points3 read_sites(const std::string& path);
+
+/// A periodic plane of an MPAS file. \throws Error as read_mesh; bad_option of a sphere's mesh.
+PlanarMesh read_planar_mesh(const std::string& path);
+
+/// A variable of a NetCDF file with one number for each cell.
+struct CellField {
+  Eigen::VectorXd values;       ///< NaN where the file has its _FillValue
+  std::string long_name, units; ///< the variable's attributes, or empty
+};
+
+/// Reads a variable whose one dimension, or the last after some of size 1, has the size `cells`.
+/// \param cells the columns of read_sites: cells of MPAS and UGRID files, nodes of UGRID triangles.
+/// \throws Error bad_option where the file has no such variable (names those there are); parse,
+///         file.
+CellField read_cell_field(const std::string& path, const std::string& name, std::int64_t cells);
 
 /// A checkpoint: a run's state as binary, with the configuration that it belongs to in words of the
 /// caller's choice. A file that was cut short or damaged is refused, and so is another version's.

@@ -86,6 +86,18 @@ void OutputFile::append(std::string_view bytes) {
   }
 }
 
+void OutputFile::put(std::int64_t offset, std::string_view bytes) const {
+  while (!bytes.empty()) {
+    const ssize_t written = ::pwrite(descriptor_, bytes.data(), bytes.size(), offset);
+    if (written >= 0) {
+      bytes.remove_prefix(static_cast<std::size_t>(written));
+      offset += written;
+    } else if (errno != EINTR) {
+      fail(errno);
+    }
+  }
+}
+
 void OutputFile::commit() {
   // A device or a pipe has nothing to bring to the disk.
   if (!temporary_.empty() && ::fsync(descriptor_) != 0)
@@ -100,6 +112,13 @@ void OutputFile::commit() {
 
 void OutputFile::fail(int error) const {
   throw Error(ErrorCode::file, "cannot write " + name_ + ": " + describe(error));
+}
+
+void require_regular_output(const std::string& path) {
+  if (!renameable(path) && !fs::is_directory(path))
+    throw Error(ErrorCode::file, "cannot write " + path +
+                                     ": it is no regular file, and the format is not written from "
+                                     "front to back; give the name of a file");
 }
 
 std::ifstream open_input(const std::string& path) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <fstream>
 #include <string>
 #include <string_view>
@@ -21,17 +22,29 @@ public:
   /// \throws Error file.
   void append(std::string_view bytes);
 
-  /// The file takes its name. \throws Error file.
+  /// Writes bytes at an offset, from any thread. \pre temporary() is not empty. \throws Error file.
+  void put(std::int64_t offset, std::string_view bytes) const;
+
+  /// Where the file stands until it is whole, so that others may write to it; empty when it is
+  /// written in place.
+  const std::string& temporary() const { return temporary_; }
+
+  /// The file takes its name; what others wrote to temporary() is brought to the disk, too.
+  /// \throws Error file.
   void commit();
 
-private:
+  /// \throws Error file that says what an errno means for this file, always.
   [[noreturn]] void fail(int error) const;
 
+private:
   std::string name_;      ///< as the caller wrote it, for messages
   std::string place_;     ///< where the file shall be: symbolic links are followed
   std::string temporary_; ///< where it is until it is whole; empty when it is written in place
   int descriptor_ = -1;
 };
+
+/// For formats that are not written from front to back. \throws Error file for a device or a pipe.
+void require_regular_output(const std::string& path);
 
 /// \throws Error file.
 std::ifstream open_input(const std::string& path);

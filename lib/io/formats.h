@@ -3,35 +3,74 @@
 
 #include "text.h"
 
+#include <calotte/io.h>
 #include <calotte/types.h>
 
 #include <iosfwd>
 #include <string>
 
-/// What the formats have in common: a pair of functions each, from a mesh to bytes and from bytes
-/// to points and triangles. Readers check that the file is whole and leave the rest to read_mesh.
+/// The formats. A writer's mesh is numbered as its file shall be; a reader checks that the file is
+/// whole and leaves the rest to read_mesh.
 namespace calotte::detail {
 
-/// Points and triangles as a file holds them.
+/// Points and triangles as a file holds them; no triangles where the sites are to be triangulated.
 struct Soup {
   Points3 points;
   Triangles triangles;
 };
 
-void put_vtp(const Sink& sink, const Mesh& mesh);
-void put_vtu(const Sink& sink, const Mesh& mesh);
+// ---- Streams
+
+void put_points(const Sink& sink, const Points3& points);              ///< x y z a line
+void put_triangle_lines(const Sink& sink, const Triangles& triangles); ///< i j k a line
 void put_off(const Sink& sink, const Mesh& mesh);
 void put_ply(const Sink& sink, const Mesh& mesh);
 void put_triangles_text(const Sink& sink, const Mesh& mesh);
+void put_msh(const Sink& sink, const Mesh& mesh);
+void put_vtp(const Sink& sink, const Mesh& mesh, const WriteOptions& options);
+void put_vtu(const Sink& sink, const Mesh& mesh, const WriteOptions& options);
+void put_vtp_cells(const Sink& sink, const Mesh& mesh, const WriteOptions& options);
+void put_vtu_cells(const Sink& sink, const Mesh& mesh, const WriteOptions& options);
+void put_geojson(const Sink& sink, const Mesh& mesh, const WriteOptions& options);
 
 /// \throws Error parse, file.
 Soup get_vtp(std::istream& in, const std::string& name);
 Soup get_vtu(std::istream& in, const std::string& name);
 Soup get_off(std::istream& in, const std::string& name);
 Soup get_ply(std::istream& in, const std::string& name);
+Soup get_msh(std::istream& in, const std::string& name);
+Soup get_geojson(std::istream& in, const std::string& name);
 
 /// Triangles of `points` columns.
 Triangles get_triangles_text(std::istream& in, const std::string& name, std::int64_t points);
+
+// ---- Files of their own making. \throws Error bad_option, file.
+
+void write_mpas(const std::string& path, const Mesh& mesh, const WriteOptions& options);
+void write_mpas(const std::string& path, const PlanarMesh& mesh, const WriteOptions& options);
+void write_mpas_minimal(const std::string& path, const Mesh& mesh, const WriteOptions& options);
+void write_mpas_minimal(const std::string& path, const PlanarMesh& mesh,
+                        const WriteOptions& options);
+void write_ugrid(const std::string& path, const Mesh& mesh, const WriteOptions& options);
+void write_ugrid_triangles(const std::string& path, const Mesh& mesh, const WriteOptions& options);
+void write_scrip(const std::string& path, const Mesh& mesh, const WriteOptions& options);
+void write_esmf(const std::string& path, const Mesh& mesh, const WriteOptions& options);
+void write_mpi_scvt(const std::string& path, const Mesh& mesh, const WriteOptions& options);
+
+class NetcdfReader;
+/// Whether an open file is of the kind.
+bool is_mpas(const NetcdfReader& file);
+bool is_ugrid(const NetcdfReader& file);
+bool is_scrip(const NetcdfReader& file);
+bool is_esmf(const NetcdfReader& file);
+/// \pre it is. \throws Error parse, file.
+Soup read_mpas(const NetcdfReader& file);
+Points3 read_mpas_sites(const NetcdfReader& file); ///< without a look at the triangles
+PlanarMesh read_planar_mpas(const NetcdfReader& file);
+Soup read_ugrid(const NetcdfReader& file);
+Soup read_scrip(const NetcdfReader& file);
+Soup read_esmf(const NetcdfReader& file);
+Soup read_mpi_scvt(const std::string& path);
 
 /// Three ids, each 0 <= id < points, from one line of text. \throws Error parse.
 void parse_ids(const LineReader& reader, const std::int64_t* ids, std::int64_t points,

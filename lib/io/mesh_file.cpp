@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "assemble.h"
 #include "file.h"
+#include "file_names.h"
 #include "formats.h"
+#include "netcdf.h"
 
+#include <calotte/delaunay.h>
 #include <calotte/error.h>
 #include <calotte/io.h>
 
 #include <algorithm>
 #include <array>
-#include <cctype>
-#include <filesystem>
+#include <cmath>
 #include <numeric>
 
 namespace calotte {
@@ -17,31 +19,92 @@ namespace {
 
 using namespace detail;
 
-/// Triangles as text have no reader here: they need their points.
-struct Format {
-  std::string_view suffix;
-  void (*put)(const Sink&, const Mesh&);
-  Soup (*get)(std::istream&, const std::string&);
-};
+// ---- Writing
 
-constexpr std::array formats{Format{".txt", put_triangles_text, nullptr},
-                             Format{".tri", put_triangles_text, nullptr},
-                             Format{".vtp", put_vtp, get_vtp},
-                             Format{".vtu", put_vtu, get_vtu},
-                             Format{".off", put_off, get_off},
-                             Format{".ply", put_ply, get_ply}};
-
-const Format& format_of(const std::string& path) {
-  std::string suffix = std::filesystem::path(path).extension();
-  std::transform(suffix.begin(), suffix.end(), suffix.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  for (const Format& format : formats)
-    if (format.suffix == suffix)
-      return format;
-  throw Error(ErrorCode::bad_option,
-              path + ": " + (suffix.empty() ? "no suffix" : "unknown suffix " + in_quotes(suffix)) +
-                  "; a mesh file ends in .txt, .tri, .vtp, .vtu, .off or .ply");
+[[noreturn]] void refuse(const std::string& path, const std::string& problem) {
+  throw Error(ErrorCode::bad_option, path + ": " + problem);
 }
+
+void require_options(const std::string& path, const WriteOptions& options) {
+  if (!(options.sphere_radius > 0 && std::isfinite(options.sphere_radius)))
+    refuse(path, "the sphere's radius is " + std::to_string(options.sphere_radius) +
+                     "; give a positive number");
+  evaluate(options.density, Points3(3, 0)); // throws where it is ill-formed
+}
+
+bool are_ids(const Triangles& ids, std::int64_t bound) {
+  return ids.size() == 0 || (ids.minCoeff() >= 0 && ids.maxCoeff() < bound);
+}
+
+void require_mesh(const std::string& path, const Mesh& mesh, Format format) {
+  const std::int64_t sites = mesh.points.cols();
+  if (!are_ids(mesh.triangles, sites) ||
+      !std::all_of(mesh.site_of_input.begin(), mesh.site_of_input.end(),
+                   [&](std::int32_t site) { return 0 <= site && site < sites; }))
+    refuse(path, "the mesh has an id that is not one of its " + std::to_string(sites) + " points");
+  if (holds_cells(format) && !mesh.closed())
+    refuse(path, "the mesh is open, and its outer cells have no end; write its triangles (.vtp, "
+                 ".vtu, .off, .ply, .msh), or add sites all around the sphere");
+}
+
+Numbering numbering_of(const WriteOptions& options) {
+  if (options.numbering != Numbering::by_format)
+    return options.numbering;
+  return is_netcdf(options.format) ? Numbering::curve : Numbering::input;
+}
+
+/// A file from front to back.
+template <class Put> void put_file(const std::string& path, const Put& put) {
+  OutputFile file(path);
+  put([&](std::string_view bytes) { file.append(bytes); });
+  file.commit();
+}
+
+void put_mesh(const Sink& sink, const Mesh& mesh, const WriteOptions& options) {
+  switch (options.format) {
+  case Format::vtp:
+    return put_vtp(sink, mesh, options);
+  case Format::vtu:
+    return put_vtu(sink, mesh, options);
+  case Format::vtp_cells:
+    return put_vtp_cells(sink, mesh, options);
+  case Format::vtu_cells:
+    return put_vtu_cells(sink, mesh, options);
+  case Format::geojson:
+    return put_geojson(sink, mesh, options);
+  case Format::off:
+    return put_off(sink, mesh);
+  case Format::ply:
+    return put_ply(sink, mesh);
+  case Format::msh:
+    return put_msh(sink, mesh);
+  default:
+    return put_triangles_text(sink, mesh);
+  }
+}
+
+void write_numbered(const std::string& path, const Mesh& mesh, const WriteOptions& options) {
+  switch (options.format) {
+  case Format::mpas:
+    return write_mpas(path, mesh, options);
+  case Format::mpas_minimal:
+    return write_mpas_minimal(path, mesh, options);
+  case Format::ugrid:
+    return write_ugrid(path, mesh, options);
+  case Format::ugrid_triangles:
+    return write_ugrid_triangles(path, mesh, options);
+  case Format::scrip:
+    return write_scrip(path, mesh, options);
+  case Format::esmf:
+    return write_esmf(path, mesh, options);
+  case Format::mpi_scvt:
+    return write_mpi_scvt(path, mesh, options);
+  default:
+    put_file(path, [&](const Sink& sink) { put_mesh(sink, mesh, options); });
+  }
+}
+
+// ---- Reading
 
 void require_directions(const std::string& name, const Points3& points) {
   for (Eigen::Index i = 0; i < points.cols(); ++i)
@@ -63,8 +126,18 @@ void require_ids(const std::string& name, const Triangles& triangles, std::int64
                     t);
 }
 
+Mesh triangulated(const std::string& name, const Points3& sites) {
+  try {
+    return delaunay(sites);
+  } catch (const Error& error) {
+    throw Error(error.code(), name + ": " + error.what(), error.index());
+  }
+}
+
 Mesh mesh_of(const std::string& name, Soup soup) {
   require_directions(name, soup.points);
+  if (soup.triangles.cols() == 0)
+    return triangulated(name, soup.points);
   require_ids(name, soup.triangles, soup.points.cols());
   Mesh mesh{std::move(soup.points), std::move(soup.triangles), {}, {}};
   mesh.neighbours = neighbours_of(mesh.triangles, mesh.points.cols());
@@ -73,26 +146,145 @@ Mesh mesh_of(const std::string& name, Soup soup) {
   return mesh;
 }
 
-} // namespace
-
-void write(const std::string& path, const Mesh& mesh) {
-  const Format& format = format_of(path);
-  OutputFile file(path);
-  format.put([&](std::string_view bytes) { file.append(bytes); }, mesh);
-  file.commit();
+Soup read_netcdf(const std::string& path) {
+  const NetcdfReader file(path);
+  if (is_mpas(file))
+    return read_mpas(file);
+  if (is_ugrid(file))
+    return read_ugrid(file);
+  if (is_scrip(file))
+    return read_scrip(file);
+  if (is_esmf(file))
+    return read_esmf(file);
+  file.fail("a NetCDF file, but no mesh of MPAS, UGRID, SCRIP or ESMF; convert it to one of them");
 }
 
-void require_mesh_suffix(const std::string& path) { format_of(path); }
+/// Whether the first bytes are those of a classic NetCDF file or of HDF5.
+bool starts_as_netcdf(const std::string& path) {
+  std::array<char, 4> start{};
+  std::ifstream in(path, std::ios::binary);
+  in.read(start.data(), start.size());
+  const std::string_view bytes(start.data(), start.size());
+  return bytes.starts_with("CDF") || bytes == "\x89HDF";
+}
 
-Mesh read_mesh(const std::string& path, const Points3* points) {
-  const Format& format = format_of(path);
-  if (!format.get && !points)
+/// MPI-SCVT's centres of regions. Its triangles of these say nothing that the centres do not, so
+/// that either file stands for both. Nothing where the name is none of the two.
+std::optional<Soup> read_centres(const std::string& path) {
+  if (format_of_name(path).value_or(Format::triangles) != Format::triangles)
+    return std::nullopt;
+  if (sibling(path, centres_name, centres_name))
+    return Soup{read_points(path), {}};
+  const std::optional<std::string> centres = sibling(path, centre_triangles_name, centres_name);
+  if (!centres)
+    return std::nullopt;
+  if (!std::ifstream(*centres))
+    throw Error(ErrorCode::file, path + ": it holds the centres' triangles only, and " + *centres +
+                                     ", which holds the centres, cannot be read; put it there");
+  return Soup{read_points(*centres), {}};
+}
+
+Soup read_stream(const std::string& path, Format format) {
+  std::ifstream in = open_input(path);
+  switch (format) {
+  case Format::vtp:
+    return get_vtp(in, path);
+  case Format::vtu:
+    return get_vtu(in, path);
+  case Format::off:
+    return get_off(in, path);
+  case Format::ply:
+    return get_ply(in, path);
+  case Format::msh:
+    return get_msh(in, path);
+  default:
+    return get_geojson(in, path);
+  }
+}
+
+/// Whether the file is NetCDF: its name says so, or its contents where the name says nothing.
+/// \throws Error bad_option, where neither says a format.
+bool holds_netcdf(const std::string& path) {
+  const std::optional<Format> format = format_of_name(path);
+  if (!format && !starts_as_netcdf(path))
+    refuse_name(path);
+  return !format || is_netcdf(*format);
+}
+
+/// Of all formats that hold points.
+Soup read_soup(const std::string& path) {
+  if (std::optional<Soup> centres = read_centres(path))
+    return *std::move(centres);
+  if (holds_netcdf(path))
+    return read_netcdf(path);
+  const std::optional<Format> format = format_of_name(path);
+  if (*format == Format::triangles)
     throw Error(ErrorCode::bad_option,
                 path + " holds triangles only; give the points they refer to (--points FILE)");
+  return *format == Format::mpi_scvt ? read_mpi_scvt(path) : read_stream(path, *format);
+}
+
+/// The points alone, without what goes with them where that costs a look or may fail.
+Points3 sites_of(const std::string& path) {
+  if (std::optional<Soup> centres = read_centres(path))
+    return std::move(centres->points);
+  if (format_of_name(path) == Format::mpi_scvt)
+    return read_points(path);
+  if (holds_netcdf(path))
+    if (const NetcdfReader file(path); is_mpas(file))
+      return read_mpas_sites(file);
+  return read_soup(path).points;
+}
+
+} // namespace
+
+void write(const std::string& path, const Mesh& mesh, const WriteOptions& options) {
+  WriteOptions resolved = options;
+  resolved.format = format_of(path, options.format);
+  require_options(path, resolved);
+  require_mesh(path, mesh, resolved.format);
+  if (const Numbering numbering = numbering_of(resolved); numbering != Numbering::input)
+    write_numbered(path, renumbered(mesh, numbering), resolved);
+  else
+    write_numbered(path, mesh, resolved);
+}
+
+void write(const std::string& path, const PlanarMesh& mesh, const WriteOptions& options) {
+  WriteOptions resolved = options;
+  resolved.format = format_of(path, options.format);
+  require_options(path, resolved);
+  if (resolved.format != Format::mpas && resolved.format != Format::mpas_minimal)
+    refuse(path, "a periodic plane is written as MPAS alone; give a name that ends in .nc");
+  if (options.numbering == Numbering::curve || options.numbering == Numbering::rcm)
+    refuse(path, "the cells of a periodic plane keep their numbers; leave the order out");
+  if (!are_ids(mesh.triangles, mesh.points.cols()))
+    refuse(path, "the mesh has an id that is not one of its points");
+  if (resolved.format == Format::mpas)
+    write_mpas(path, mesh, resolved);
+  else
+    write_mpas_minimal(path, mesh, resolved);
+}
+
+Mesh read_mesh(const std::string& path, const Points3* points) {
+  if (!points || format_of_name(path) != Format::triangles)
+    return mesh_of(path, read_soup(path));
   std::ifstream in = open_input(path);
-  if (format.get)
-    return mesh_of(path, format.get(in, path));
   return mesh_of_columns(*points, get_triangles_text(in, path, points->cols()));
+}
+
+Points3 read_sites(const std::string& path) {
+  Points3 sites = sites_of(path);
+  require_directions(path, sites);
+  return sites;
+}
+
+PlanarMesh read_planar_mesh(const std::string& path) {
+  if (!holds_netcdf(path))
+    refuse(path, "a periodic plane is read from MPAS's NetCDF files alone");
+  const NetcdfReader file(path);
+  if (!is_mpas(file))
+    file.fail("no MPAS mesh, which alone holds a periodic plane");
+  return read_planar_mpas(file);
 }
 
 } // namespace calotte

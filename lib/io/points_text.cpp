@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "file.h"
+#include "formats.h"
 #include "lonlat.h"
-#include "text.h"
 
 #include <calotte/error.h>
 #include <calotte/io.h>
@@ -16,7 +16,6 @@ namespace {
 using detail::Columned;
 using detail::LineReader;
 using detail::Outcome;
-using detail::Sink;
 
 std::string expected(Columns columns) {
   return columns == Columns::xyz ? "write three numbers x y z a line"
@@ -59,8 +58,12 @@ void append_place(std::vector<double>& coordinates, const double* values, Column
   coordinates.insert(coordinates.end(), {p.x, p.y, p.z});
 }
 
+} // namespace
+
+namespace detail {
+
 void put_points(const Sink& sink, const Points3& points) {
-  detail::Writer out(sink);
+  Writer out(sink);
   for (Eigen::Index i = 0; i < points.cols(); ++i)
     out.number(points(0, i))
         .text(" ")
@@ -71,7 +74,7 @@ void put_points(const Sink& sink, const Points3& points) {
   out.flush();
 }
 
-} // namespace
+} // namespace detail
 
 Points3 read_points(std::istream& in, const std::string& name, Columns columns,
                     std::vector<std::int64_t>* lines) {
@@ -111,12 +114,12 @@ Points3 read_points(const std::string& path, Columns columns, std::vector<std::i
 
 void write_points(const std::string& path, const Points3& points) {
   detail::OutputFile file(path);
-  put_points([&](std::string_view bytes) { file.append(bytes); }, points);
+  detail::put_points([&](std::string_view bytes) { file.append(bytes); }, points);
   file.commit();
 }
 
 void write_points(std::ostream& out, const Points3& points) {
-  put_points(
+  detail::put_points(
       [&](std::string_view bytes) {
         out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
       },

@@ -3,12 +3,16 @@
 
 #include <calotte/error.h>
 
+#include <numeric>
+
 namespace calotte::detail {
 namespace {
 
-/// For each site its lowest input column.
+/// For each site its lowest input column, or itself where the mesh does not say.
 std::vector<std::int32_t> input_of_site(const Mesh& mesh) {
   std::vector<std::int32_t> inputs(static_cast<std::size_t>(mesh.points.cols()), -1);
+  if (mesh.site_of_input.empty())
+    std::iota(inputs.begin(), inputs.end(), 0);
   for (std::size_t i = 0; i < mesh.site_of_input.size(); ++i) {
     std::int32_t& input = inputs[static_cast<std::size_t>(mesh.site_of_input[i])];
     if (input < 0)
@@ -19,22 +23,24 @@ std::vector<std::int32_t> input_of_site(const Mesh& mesh) {
 
 } // namespace
 
-void put_triangles_text(const Sink& sink, const Mesh& mesh) {
-  const bool merged = mesh.site_of_input.size() > static_cast<std::size_t>(mesh.points.cols());
-  const std::vector<std::int32_t> inputs =
-      merged ? input_of_site(mesh) : std::vector<std::int32_t>();
-  const auto id = [&](std::int32_t site) -> std::int64_t {
-    return merged ? inputs[static_cast<std::size_t>(site)] : site;
-  };
+void put_triangle_lines(const Sink& sink, const Triangles& triangles) {
   Writer out(sink);
-  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
-    out.number(id(mesh.triangles(0, t)))
+  for (Eigen::Index t = 0; t < triangles.cols(); ++t)
+    out.number(std::int64_t{triangles(0, t)})
         .text(" ")
-        .number(id(mesh.triangles(1, t)))
+        .number(std::int64_t{triangles(1, t)})
         .text(" ")
-        .number(id(mesh.triangles(2, t)))
+        .number(std::int64_t{triangles(2, t)})
         .text("\n");
   out.flush();
+}
+
+void put_triangles_text(const Sink& sink, const Mesh& mesh) {
+  const std::vector<std::int32_t> inputs = input_of_site(mesh);
+  Triangles columns = mesh.triangles;
+  for (std::int32_t& id : columns.reshaped())
+    id = inputs[static_cast<std::size_t>(id)];
+  put_triangle_lines(sink, columns);
 }
 
 void parse_ids(const LineReader& reader, const std::int64_t* ids, std::int64_t points,

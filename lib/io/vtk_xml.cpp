@@ -4,49 +4,42 @@
 #include "binary.h"
 #include "file.h"
 
-#include <algorithm>
+#include <utility>
 
 namespace calotte::detail {
 namespace {
 
-constexpr const char* tail = "\n  </AppendedData>\n</VTKFile>\n";
-constexpr std::uint8_t triangle_type = 5;
+constexpr std::string_view tail = "\n  </AppendedData>\n</VTKFile>\n";
 
-/// Sizes of the appended blocks in bytes, in the order of the file.
-struct Blocks {
-  std::int64_t points, connectivity, offsets, types;
-};
-
-Blocks blocks(std::int64_t points, std::int64_t triangles) {
-  return {24 * points, 24 * triangles, 8 * triangles, triangles};
-}
-
-std::string data_array(const std::string& type, const std::string& name, std::int64_t& offset,
-                       std::int64_t size) {
-  std::string line = "        <DataArray type=\"" + type + "\" Name=\"" + name + "\"" +
-                     (name == "Points" ? " NumberOfComponents=\"3\"" : "") +
-                     " format=\"appended\" offset=\"" + std::to_string(offset) + "\"/>\n";
-  offset += 8 + size;
-  return line;
-}
+/// The element's name alone ends it.
+std::string end_of(const std::string& element) { return element.substr(0, element.find(' ')); }
 
 /// Everything before the first block.
-std::string head(const VtkFlavour& flavour, std::int64_t points, std::int64_t triangles) {
-  const Blocks size = blocks(points, triangles);
+std::string text_of(const VtkHead& head) {
+  const VtkFlavour& flavour = head.flavour;
+  std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"" + flavour.data_set +
+                     "\" version=\"1.0\" byte_order=\"" +
+                     (little_endian ? "LittleEndian" : "BigEndian") +
+                     "\" header_type=\"UInt64\">\n  <" + flavour.data_set +
+                     ">\n    <Piece NumberOfPoints=\"" + std::to_string(head.points) + "\" " +
+                     flavour.cell_counts + std::to_string(head.cells) + "\">\n";
   std::int64_t offset = 0;
-  std::string text =
-      "<?xml version=\"1.0\"?>\n<VTKFile type=\"" + flavour.data_set +
-      "\" version=\"1.0\" byte_order=\"" + (little_endian ? "LittleEndian" : "BigEndian") +
-      "\" header_type=\"UInt64\">\n  <" + flavour.data_set + ">\n    <Piece NumberOfPoints=\"" +
-      std::to_string(points) + "\" " + flavour.cell_counts + std::to_string(triangles) +
-      "\">\n      <Points>\n" + data_array("Float64", "Points", offset, size.points) +
-      "      </Points>\n      <" + flavour.cells + ">\n";
-  text += data_array("Int64", "connectivity", offset, size.connectivity);
-  text += data_array("Int64", "offsets", offset, size.offsets);
-  if (flavour.types)
-    text += data_array("UInt8", "types", offset, size.types);
-  return text + "      </" + flavour.cells + ">\n    </Piece>\n  </" + flavour.data_set +
-         ">\n  <AppendedData encoding=\"raw\">\n_";
+  std::string open;
+  const auto close = [&] { text += open.empty() ? "" : "      </" + end_of(open) + ">\n"; };
+  for (const VtkArray& array : head.arrays) {
+    if (array.element != open) {
+      close();
+      open = array.element;
+      text += "      <" + open + ">\n";
+    }
+    text += "        <DataArray type=\"" + array.type + "\" Name=\"" + array.name + "\"";
+    if (array.components > 1)
+      text += " NumberOfComponents=\"" + std::to_string(array.components) + "\"";
+    text += " format=\"appended\" offset=\"" + std::to_string(offset) + "\"/>\n";
+    offset += 8 + array.bytes();
+  }
+  close();
+  return text + "    </Piece>\n  </" + flavour.data_set + ">\n  <AppendedData encoding=\"raw\">\n_";
 }
 
 std::string_view take_block(Bytes& bytes, std::int64_t size) {
@@ -55,66 +48,83 @@ std::string_view take_block(Bytes& bytes, std::int64_t size) {
   return bytes.take(size);
 }
 
-/// Ids beyond an int32 become -1, which read_mesh refuses as it does every id out of range.
-Triangles triangles_of(std::string_view connectivity) {
-  Triangles triangles(3, static_cast<Eigen::Index>(connectivity.size() / 24));
-  for (Eigen::Index i = 0; i < triangles.size(); ++i) {
-    const auto id = load<std::int64_t>(connectivity.data() + 8 * i);
-    const auto narrow = static_cast<std::int32_t>(id);
-    triangles.data()[i] = narrow == id ? narrow : -1;
-  }
-  return triangles;
-}
-
-void require_triangles(const Bytes& bytes, std::string_view offsets, std::string_view types) {
-  for (std::size_t t = 0; t < offsets.size() / 8; ++t)
-    if (load<std::int64_t>(offsets.data() + 8 * t) != static_cast<std::int64_t>(3 * (t + 1)) ||
-        (!types.empty() && types[t] != triangle_type))
-      bytes.fail("cell " + std::to_string(t) + " is no triangle; only triangles are read");
-}
-
 } // namespace
 
-void put_vtk(const Sink& sink, const Mesh& mesh, const VtkFlavour& flavour) {
-  const std::int64_t points = mesh.points.cols(), triangles = mesh.triangles.cols();
-  const Blocks size = blocks(points, triangles);
+std::int64_t VtkArray::bytes() const {
+  const std::int64_t size = type == "UInt8" ? 1 : type == "Int32" ? 4 : 8;
+  return size * components * tuples;
+}
+
+void put_vtk(const Sink& sink, const VtkHead& head, const std::vector<VtkContent>& contents) {
   Writer out(sink);
-  out.text(head(flavour, points, triangles));
-  out.raw(size.points).text(bytes_of(mesh.points.data(), mesh.points.size()));
-  out.raw(size.connectivity);
-  for (std::int64_t i = 0; i < 3 * triangles; ++i)
-    out.raw(std::int64_t{mesh.triangles.data()[i]});
-  out.raw(size.offsets);
-  for (std::int64_t t = 0; t < triangles; ++t)
-    out.raw(3 * (t + 1));
-  if (flavour.types)
-    out.raw(size.types).text(std::string(static_cast<std::size_t>(triangles), triangle_type));
+  out.text(text_of(head));
+  for (std::size_t i = 0; i < contents.size(); ++i) {
+    out.raw(head.arrays[i].bytes());
+    contents[i](out);
+  }
   out.text(tail).flush();
+}
+
+std::optional<std::vector<std::string_view>>
+vtk_blocks(std::string_view content, const std::string& name, const VtkHead& head) {
+  const std::string text = text_of(head);
+  if (!content.starts_with(text))
+    return std::nullopt;
+  Bytes bytes(content.substr(text.size()), name);
+  std::vector<std::string_view> blocks;
+  for (const VtkArray& array : head.arrays)
+    blocks.push_back(take_block(bytes, array.bytes()));
+  bytes.take(tail, "the file does not end as it should; it is damaged, make it again");
+  bytes.finish();
+  return blocks;
+}
+
+void add_field_arrays(const std::string& element, std::int64_t cells, VtkHead& head) {
+  // ParaView colours by the scalars that it is told of.
+  for (const char* name : {"area", "density", "spacing", "quality"})
+    head.arrays.push_back({element + " Scalars=\"spacing\"", "Float64", name, cells});
+  head.arrays.push_back({element + " Scalars=\"spacing\"", "Int32", "degree", cells});
+}
+
+void add_field_contents(const CellFields& fields, std::vector<VtkContent>& contents) {
+  for (const Eigen::VectorXd* field :
+       {&fields.area, &fields.density, &fields.spacing, &fields.quality})
+    contents.emplace_back(
+        [field](Writer& out) { out.text(bytes_of(field->data(), field->size())); });
+  contents.emplace_back(
+      [&fields](Writer& out) { out.text(bytes_of(fields.degree.data(), fields.degree.size())); });
+}
+
+void add_points(std::int64_t points, VtkHead& head) {
+  head.arrays.push_back({"Points", "Float64", "Points", points, 3});
+}
+
+VtkContent content_of(const Points3& points) {
+  return [&points](Writer& out) { out.text(bytes_of(points.data(), points.size())); };
+}
+
+void add_cells(std::int64_t corners, VtkHead& head) {
+  const std::string& element = head.flavour.cells;
+  head.arrays.push_back({element, "Int64", "connectivity", corners});
+  head.arrays.push_back({element, "Int64", "offsets", head.cells});
+  if (head.flavour.types)
+    head.arrays.push_back({element, "UInt8", "types", head.cells});
 }
 
 Soup get_vtk(std::istream& in, const std::string& name, const VtkFlavour& flavour) {
   const std::string content = read_all(in, name);
-  Bytes bytes(content, name);
   const auto points = count_after(content, "NumberOfPoints=\"");
-  const auto triangles = count_after(content, flavour.cell_counts);
-  const std::string problem = "its head is not that of a VTK " + flavour.data_set +
-                              " file of triangles which calotte wrote; convert it to .off";
-  if (!points || !triangles)
-    bytes.fail(problem);
-  bytes.take(head(flavour, *points, *triangles), problem);
-
-  const Blocks size = blocks(*points, *triangles);
-  const std::string_view coordinates = take_block(bytes, size.points);
-  const std::string_view connectivity = take_block(bytes, size.connectivity);
-  const std::string_view offsets = take_block(bytes, size.offsets);
-  const std::string_view types = flavour.types ? take_block(bytes, size.types) : std::string_view();
-  bytes.take(tail, "the file does not end as it should; it is damaged, make it again");
-  bytes.finish();
-  require_triangles(bytes, offsets, types);
-
-  Soup soup{Points3(3, *points), triangles_of(connectivity)};
-  std::memcpy(soup.points.data(), coordinates.data(), coordinates.size());
-  return soup;
+  const auto cells = count_after(content, flavour.cell_counts);
+  if (points && cells) {
+    const VtkHead counts{flavour, *points, *cells, {}};
+    if (std::optional<Soup> soup = vtk_triangles(content, name, counts))
+      return *std::move(soup);
+    if (std::optional<Soup> soup = vtk_cells(content, name, counts))
+      return *std::move(soup);
+  }
+  Bytes(content, name)
+      .fail("its head is not that of a VTK " + flavour.data_set +
+            " file of triangles or cells which calotte wrote; convert it to .off");
 }
 
 } // namespace calotte::detail

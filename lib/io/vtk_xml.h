@@ -3,22 +3,77 @@
 
 #include "formats.h"
 
+#include <calotte/voronoi.h>
+
+#include <optional>
+
+/// VTK's XML files with appended raw blocks, each after its length as UInt64: what PolyData (.vtp)
+/// and UnstructuredGrid (.vtu) have in common.
 namespace calotte::detail {
 
-/// In what a VTK XML file of triangles differs between PolyData (.vtp) and UnstructuredGrid (.vtu).
+/// In what the two differ.
 struct VtkFlavour {
   std::string data_set; ///< the name of the data set's element
   std::string
-      cell_counts;   ///< attributes of Piece that count the cells, up to the number of triangles
+      cell_counts;   ///< attributes of Piece that count the cells, up to the number of those here
   std::string cells; ///< the element that holds connectivity and offsets
   bool types;        ///< whether a UInt8 type follows for each cell
 };
 
-/// Points Float64 x 3, connectivity and offsets Int64, types 5 (triangle): appended raw blocks,
-/// each after its length as UInt64.
-void put_vtk(const Sink& sink, const Mesh& mesh, const VtkFlavour& flavour);
+/// An array as the head announces it.
+struct VtkArray {
+  std::string element; ///< it stands in, of several arrays in a row
+  std::string type, name;
+  std::int64_t tuples = 0;
+  int components = 1;
 
-/// Reads a file with exactly the head that put_vtk writes. \throws Error parse, file.
+  std::int64_t bytes() const;
+};
+
+/// All that the head of a file says.
+struct VtkHead {
+  VtkFlavour flavour;
+  std::int64_t points = 0, cells = 0;
+  std::vector<VtkArray> arrays;
+};
+
+/// Puts the bytes of an array.
+using VtkContent = std::function<void(Writer&)>;
+
+/// \param contents of the head's arrays.
+void put_vtk(const Sink& sink, const VtkHead& head, const std::vector<VtkContent>& contents);
+
+/// The bytes of the head's arrays, where the file has that head. \throws Error parse, where what
+/// follows the head is not whole.
+std::optional<std::vector<std::string_view>>
+vtk_blocks(std::string_view content, const std::string& name, const VtkHead& head);
+
+/// CellFields as arrays of an element, and their contents; the fields must outlive these.
+void add_field_arrays(const std::string& element, std::int64_t cells, VtkHead& head);
+void add_field_contents(const CellFields& fields, std::vector<VtkContent>& contents);
+/// Points Float64, which stay where they are until they are put.
+void add_points(std::int64_t points, VtkHead& head);
+VtkContent content_of(const Points3& points);
+/// Connectivity, offsets and types of cells with so many corners in all.
+void add_cells(std::int64_t corners, VtkHead& head);
+
+// ---- The two kinds of files, a file for each
+
+/// Triangles, with the CellFields at the points of a closed mesh.
+void put_vtk_triangles(const Sink& sink, const Mesh& mesh, const WriteOptions& options,
+                       const VtkFlavour& flavour);
+std::optional<Soup> vtk_triangles(std::string_view content, const std::string& name,
+                                  const VtkHead& counts);
+
+/// Voronoi cells as polygons with their CellFields and sites; at each point, a corner of cells, the
+/// three sites of its triangle.
+void put_vtk_cells(const Sink& sink, const Mesh& mesh, const WriteOptions& options,
+                   const VtkFlavour& flavour);
+std::optional<Soup> vtk_cells(std::string_view content, const std::string& name,
+                              const VtkHead& counts);
+
+/// Reads a file with exactly a head that is written here, of either kind. \throws Error parse,
+/// file.
 Soup get_vtk(std::istream& in, const std::string& name, const VtkFlavour& flavour);
 
 } // namespace calotte::detail

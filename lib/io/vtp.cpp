@@ -12,7 +12,13 @@ const VtkFlavour poly_data{
 
 } // namespace
 
-void put_vtp(const Sink& sink, const Mesh& mesh) { put_vtk(sink, mesh, poly_data); }
+void put_vtp(const Sink& sink, const Mesh& mesh, const WriteOptions& options) {
+  put_vtk_triangles(sink, mesh, options, poly_data);
+}
+
+void put_vtp_cells(const Sink& sink, const Mesh& mesh, const WriteOptions& options) {
+  put_vtk_cells(sink, mesh, options, poly_data);
+}
 
 Soup get_vtp(std::istream& in, const std::string& name) { return get_vtk(in, name, poly_data); }
 

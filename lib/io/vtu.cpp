@@ -11,7 +11,13 @@ const VtkFlavour unstructured_grid{.data_set = "UnstructuredGrid",
 
 } // namespace
 
-void put_vtu(const Sink& sink, const Mesh& mesh) { put_vtk(sink, mesh, unstructured_grid); }
+void put_vtu(const Sink& sink, const Mesh& mesh, const WriteOptions& options) {
+  put_vtk_triangles(sink, mesh, options, unstructured_grid);
+}
+
+void put_vtu_cells(const Sink& sink, const Mesh& mesh, const WriteOptions& options) {
+  put_vtk_cells(sink, mesh, options, unstructured_grid);
+}
 
 Soup get_vtu(std::istream& in, const std::string& name) {
   return get_vtk(in, name, unstructured_grid);

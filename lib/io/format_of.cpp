@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "file_names.h"
+#include "text.h"
+
+#include <calotte/error.h>
+#include <calotte/io.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <filesystem>
+
+namespace calotte {
+namespace detail {
+namespace {
+
+struct Suffix {
+  std::string_view text;
+  Format format; ///< by default
+};
+
+constexpr std::array suffixes{Suffix{".nc", Format::mpas},        Suffix{".vtp", Format::vtp},
+                              Suffix{".vtu", Format::vtu},        Suffix{".off", Format::off},
+                              Suffix{".ply", Format::ply},        Suffix{".msh", Format::msh},
+                              Suffix{".txt", Format::triangles},  Suffix{".tri", Format::triangles},
+                              Suffix{".geojson", Format::geojson}};
+
+std::string suffix_of(const std::string& path) {
+  std::string suffix = std::filesystem::path(path).extension();
+  std::transform(suffix.begin(), suffix.end(), suffix.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return suffix;
+}
+
+/// The format that stands for those of one suffix.
+Format of_suffix(Format format) {
+  switch (format) {
+  case Format::mpas_minimal:
+  case Format::ugrid:
+  case Format::ugrid_triangles:
+  case Format::scrip:
+  case Format::esmf:
+    return Format::mpas;
+  case Format::vtp_cells:
+    return Format::vtp;
+  case Format::vtu_cells:
+    return Format::vtu;
+  default:
+    return format;
+  }
+}
+
+std::string name_of(const std::string& path) { return std::filesystem::path(path).filename(); }
+
+} // namespace
+
+bool is_netcdf(Format format) { return of_suffix(format) == Format::mpas; }
+
+std::optional<Format> format_of_name(const std::string& path) {
+  const std::string suffix = suffix_of(path);
+  const auto* const known = std::find_if(suffixes.begin(), suffixes.end(),
+                                         [&](const Suffix& s) { return s.text == suffix; });
+  // SaveVertices.vtp is what somebody makes of SaveVertices.
+  if (name_of(path).starts_with(vertices_name) &&
+      (known == suffixes.end() || known->text == ".txt"))
+    return Format::mpi_scvt;
+  return known == suffixes.end() ? std::nullopt : std::optional(known->format);
+}
+
+std::optional<std::string> sibling(const std::string& path, std::string_view stem,
+                                   std::string_view other) {
+  const std::string name = name_of(path);
+  if (!name.starts_with(stem))
+    return std::nullopt;
+  const std::filesystem::path file(path);
+  return (file.parent_path() / (std::string(other) + name.substr(stem.size()))).string();
+}
+
+void refuse_name(const std::string& path) {
+  const std::string suffix = suffix_of(path);
+  throw Error(ErrorCode::bad_option,
+              path + ": " + (suffix.empty() ? "no suffix" : "unknown suffix " + in_quotes(suffix)) +
+                  "; a mesh file ends in .nc, .vtp, .vtu, .off, .ply, .msh, .geojson, .txt or "
+                  ".tri, or is named SaveVertices");
+}
+
+} // namespace detail
+
+using namespace detail;
+
+Format format_of(const std::string& path, Format option) {
+  const std::optional<Format> named = format_of_name(path);
+  if (option == Format::by_name) {
+    if (!named)
+      refuse_name(path);
+    return *named;
+  }
+  if (option == Format::mpi_scvt && named != Format::mpi_scvt)
+    throw Error(ErrorCode::bad_option, path + ": files of that format are named " +
+                                           std::string(vertices_name) +
+                                           " and so on; give such a name");
+  if (named && of_suffix(option) != *named)
+    throw Error(ErrorCode::bad_option,
+                path + ": its name is that of another format than the one asked for; change one "
+                       "of them");
+  return option;
+}
+
+bool holds_cells(Format format) {
+  switch (format) {
+  case Format::mpas:
+  case Format::mpas_minimal:
+  case Format::ugrid:
+  case Format::scrip:
+  case Format::esmf:
+  case Format::vtp_cells:
+  case Format::vtu_cells:
+  case Format::geojson:
+    return true;
+  default:
+    return false;
+  }
+}
+
+void require_mesh_suffix(const std::string& path) { format_of(path); }
+
+} // namespace calotte

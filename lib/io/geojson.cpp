@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cell_outline.h"
+#include "formats.h"
+#include "lonlat.h"
+
+#include "../points.h"
+
+#include <calotte/error.h>
+#include <calotte/voronoi.h>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <istream>
+
+// GeoJSON (Butler et al., RFC 7946, 2016): a feature a cell. As a polygon does not tell its site,
+// the site's coordinates are properties.
+
+namespace calotte::detail {
+namespace {
+
+using nlohmann::json;
+
+// ---- Writing
+
+/// A number that readers take for the same double: -0 would be read as the integer 0.
+void put_number(Writer& out, double value) {
+  if (!std::isfinite(value))
+    out.text("null");
+  else if (value == 0)
+    out.text(std::signbit(value) ? "-0.0" : "0.0");
+  else
+    out.number(value);
+}
+
+void put_place(Writer& out, const MapPlace& place) {
+  out.text("[");
+  put_number(out, place.longitude);
+  out.text(",");
+  put_number(out, place.latitude);
+  out.text("]");
+}
+
+/// A polygon's coordinates: one ring, which ends where it starts.
+void put_polygon(Writer& out, const std::vector<MapPlace>& ring) {
+  out.text("[[");
+  for (const MapPlace& place : ring) {
+    put_place(out, place);
+    out.text(",");
+  }
+  put_place(out, ring.front());
+  out.text("]]");
+}
+
+void put_geometry(Writer& out, const std::vector<std::vector<MapPlace>>& rings) {
+  if (rings.empty()) {
+    out.text("null");
+    return;
+  }
+  const bool several = rings.size() > 1;
+  out.text(several ? R"({"type":"MultiPolygon","coordinates":[)"
+                   : R"({"type":"Polygon","coordinates":)");
+  for (std::size_t r = 0; r < rings.size(); ++r) {
+    out.text(r > 0 ? "," : "");
+    put_polygon(out, rings[r]);
+  }
+  out.text(several ? "]}" : "}");
+}
+
+void put_property(Writer& out, const char* name, double value) {
+  out.text(",\"").text(name).text("\":");
+  put_number(out, value);
+}
+
+std::vector<Vec3> corners_of(const Voronoi& cells, std::int64_t cell) {
+  std::vector<Vec3> corners;
+  for (std::int64_t k = cells.begin[cell]; k < cells.begin[cell + 1]; ++k)
+    corners.push_back(column(cells.vertices, cells.vertices_on_cell[k]));
+  return corners;
+}
+
+void put_feature(Writer& out, const Voronoi& cells, const CellFields& fields, const Vec3& site,
+                 std::int64_t cell) {
+  out.text(R"({"type":"Feature","geometry":)");
+  put_geometry(out, outline_of(corners_of(cells, cell)));
+  out.text(R"(,"properties":{"id":)").number(cell);
+  put_property(out, "x", site.x);
+  put_property(out, "y", site.y);
+  put_property(out, "z", site.z);
+  put_property(out, "area", fields.area[cell]);
+  put_property(out, "density", fields.density[cell]);
+  put_property(out, "spacing", fields.spacing[cell]);
+  put_property(out, "quality", fields.quality[cell]);
+  out.text(R"(,"degree":)").number(std::int64_t{fields.degree[cell]}).text("}}");
+}
+
+// ---- Reading
+
+std::string text_in(const json& object, const char* key) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
+/// The site of a feature: x, y and z of its properties, or else its point.
+Points3 site_of(const json& feature, const std::string& name, std::int64_t index) {
+  const json properties = feature.value("properties", json());
+  Points3 site(3, 1);
+  const std::array<const char*, 3> axes{"x", "y", "z"};
+  const auto is_number = [&](const char* axis) {
+    return properties.is_object() && properties.contains(axis) && properties[axis].is_number();
+  };
+  if (std::all_of(axes.begin(), axes.end(), is_number)) {
+    for (std::size_t i = 0; i < 3; ++i)
+      site(static_cast<Eigen::Index>(i)) = properties[axes[i]].get<double>();
+    return site;
+  }
+  const json geometry = feature.value("geometry", json());
+  if (geometry.is_object() && text_in(geometry, "type") == "Point") {
+    const json place = geometry.value("coordinates", json());
+    if (place.is_array() && place.size() >= 2 && place[0].is_number() && place[1].is_number() &&
+        std::abs(place[1].get<double>()) <= 90) {
+      const Vec3 p = from_lonlat(place[0].get<double>(), place[1].get<double>());
+      site << p.x, p.y, p.z;
+      return site;
+    }
+  }
+  throw Error(ErrorCode::parse,
+              name + ": feature " + std::to_string(index) +
+                  " is no point, and does not tell its cell's site; give it numbers x, y and z as "
+                  "properties",
+              index);
+}
+
+/// The whole file without its features, of which each is shown to `take` as soon as it is read.
+json parse(std::istream& in, const std::string& name,
+           const std::function<void(const json& feature)>& take) {
+  bool in_features = false;
+  const auto keep = [&](int depth, json::parse_event_t event, json& parsed) {
+    if (event == json::parse_event_t::key && depth == 1)
+      in_features = parsed == "features";
+    if (event != json::parse_event_t::object_end || depth != 2 || !in_features)
+      return true;
+    take(parsed);
+    return false;
+  };
+  try {
+    return json::parse(in, keep);
+  } catch (const json::parse_error& error) {
+    throw Error(ErrorCode::parse, name + ": no JSON, or not whole, at byte " +
+                                      std::to_string(error.byte) + "; make the file again");
+  } catch (const json::exception&) {
+    throw Error(ErrorCode::parse, name + ": a number is out of range; make the file again");
+  }
+}
+
+} // namespace
+
+void put_geojson(const Sink& sink, const Mesh& mesh, const WriteOptions& options) {
+  const Voronoi cells = voronoi(mesh);
+  const CellFields fields = cell_fields(cells, options.density);
+  Writer out(sink);
+  out.text(R"({"type":"FeatureCollection","features":[)");
+  for (Eigen::Index i = 0; i < mesh.points.cols(); ++i) {
+    out.text(i > 0 ? ",\n" : "\n");
+    put_feature(out, cells, fields, column(mesh.points, i), i);
+  }
+  out.text("\n]}\n").flush();
+}
+
+Soup get_geojson(std::istream& in, const std::string& name) {
+  std::vector<double> sites;
+  const json rest = parse(in, name, [&](const json& feature) {
+    const auto index = static_cast<std::int64_t>(sites.size() / 3);
+    const Points3 site = site_of(feature, name, index);
+    sites.insert(sites.end(), site.data(), site.data() + 3);
+  });
+  if (!rest.is_object() || text_in(rest, "type") != "FeatureCollection")
+    throw Error(ErrorCode::parse, name + ": no GeoJSON FeatureCollection; give one of the cells");
+  const json features = rest.value("features", json());
+  if (sites.empty() || !features.is_array() || !features.empty())
+    throw Error(ErrorCode::parse,
+                name + ": its features are none, or no objects; give one for each cell");
+  return {Eigen::Map<const Points3>(sites.data(), 3, static_cast<Eigen::Index>(sites.size() / 3)),
+          {}};
+}
+
+} // namespace calotte::detail

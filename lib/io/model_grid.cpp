@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "model_grid.h"
+
+#include "../parallel.h"
+#include "../points.h"
+#include "../spherical_angles.h"
+#include "lonlat.h"
+#include "text.h"
+
+#include <calotte/error.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace calotte::detail {
+namespace {
+
+constexpr double degrees_per_radian = 180 / std::numbers::pi;
+
+std::int64_t corners_of(const Voronoi& cells, std::int64_t cell) {
+  return cells.begin[cell + 1] - cells.begin[cell];
+}
+
+/// of(point) for each column.
+template <class Of> NetcdfWriter::Fill<double> each(const Points3& points, const Of& of) {
+  return table<double>(
+      1, [&points, of](std::int64_t i, std::int64_t /*k*/) { return of(column(points, i)); });
+}
+
+} // namespace
+
+LonLat lonlat_of(const Vec3& place) {
+  const double east = longitude_of(place.x, place.y) * degrees_per_radian;
+  const double turned = east < 0 ? east + 360 : east;
+  // What is west of 0 by less than the spacing of doubles at 360 is rounded to 360; -0 becomes 0.
+  return {turned < 360 ? turned + 0.0 : 0,
+          latitude_of(place.x, place.y, place.z) * degrees_per_radian + 0.0};
+}
+
+Points3 on_sphere(const Points3& points, double radius) {
+  if (!(radius > 0 && std::isfinite(radius)))
+    throw Error(ErrorCode::bad_option,
+                "the sphere's radius is " + std::to_string(radius) + "; it must be positive");
+  constexpr double rounding = 0x1p-50; // of a norm, in which four operations round
+  Points3 places = points;
+  for_each_block(places.cols(), [&](std::int64_t /*block*/, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i < end; ++i)
+      if (!(std::abs(points.col(i).norm() - radius) <= rounding * radius))
+        places.col(i) = radius * points.col(i).stableNormalized();
+  });
+  return places;
+}
+
+std::int64_t most_corners(const Voronoi& cells) {
+  std::int64_t most = 0;
+  for (Eigen::Index i = 0; i < cells.cells.cols(); ++i)
+    most = std::max(most, corners_of(cells, i));
+  return most;
+}
+
+std::int32_t corner(const Voronoi& cells, std::int64_t cell, std::int64_t k) {
+  return k < corners_of(cells, cell) ? cells.vertices_on_cell[cells.begin[cell] + k] : -1;
+}
+
+std::int32_t corner_or_last(const Voronoi& cells, std::int64_t cell, std::int64_t k) {
+  return corner(cells, cell, std::min(k, corners_of(cells, cell) - 1));
+}
+
+NetcdfWriter::Fill<double> longitudes_of(const Points3& points) {
+  return each(points, [](const Vec3& p) { return lonlat_of(p).longitude; });
+}
+
+NetcdfWriter::Fill<double> latitudes_of(const Points3& points) {
+  return each(points, [](const Vec3& p) { return lonlat_of(p).latitude; });
+}
+
+NetcdfWriter::Fill<double> lonlats_of(const Points3& points) {
+  return table<double>(2, [&points](std::int64_t i, std::int64_t k) {
+    const LonLat place = lonlat_of(column(points, i));
+    return k == 0 ? place.longitude : place.latitude;
+  });
+}
+
+NetcdfWriter::Fill<double> row_of(const Points3& points, int row) {
+  return table<double>(
+      1, [&points, row](std::int64_t i, std::int64_t /*k*/) { return points(row, i); });
+}
+
+NetcdfWriter::Fill<double> values_of(const Eigen::VectorXd& values) {
+  return table<double>(1, [&values](std::int64_t i, std::int64_t /*k*/) { return values[i]; });
+}
+
+NetcdfWriter::Fill<std::int32_t> constant(std::int64_t value) {
+  return table<std::int32_t>(1, [value](std::int64_t /*row*/, std::int64_t /*k*/) {
+    return static_cast<std::int32_t>(value);
+  });
+}
+
+GridFile::GridFile(const std::string& path, const WriteOptions& options,
+                   const std::string& conventions)
+    : file_(path) {
+  file_.attribute({"Conventions", conventions});
+  file_.attribute({"sphere_radius", options.sphere_radius});
+  if (!options.history.empty())
+    file_.attribute({"history", options.history});
+}
+
+void GridFile::commit() {
+  file_.begin();
+  for (const auto& put : puts_)
+    put();
+  file_.commit();
+}
+
+void scale(std::vector<double>& values, double factor) {
+  for (double& value : values)
+    value *= factor;
+}
+
+double degrees_per_unit(const NetcdfReader& file, const std::string& variable) {
+  const std::string units = file.text(variable, "units");
+  if (units.empty() || units.starts_with("deg"))
+    return 1;
+  if (units.starts_with("rad"))
+    return degrees_per_radian;
+  file.fail("the units of " + variable + " are " + in_quotes(units) +
+            "; only degrees and radians of longitude and latitude are read");
+}
+
+Points3 from_lonlats(const NetcdfReader& file, const std::string& variables,
+                     const std::vector<double>& longitudes, const std::vector<double>& latitudes) {
+  constexpr double pole = 90 * (1 + 0x1p-50); // from radians, a pole may come a rounding beyond it
+  Points3 points(3, std::ssize(longitudes));
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    const double longitude = longitudes[static_cast<std::size_t>(i)];
+    const double latitude = latitudes[static_cast<std::size_t>(i)];
+    if (!std::isfinite(longitude) || !(std::abs(latitude) <= pole))
+      file.fail(variables + " hold no place on the sphere at index " + std::to_string(i) +
+                " (0-based): longitude " + std::to_string(longitude) + ", latitude " +
+                std::to_string(latitude) + " degrees; make the file again");
+    set_column(points, i, from_lonlat(longitude, std::clamp(latitude, -90.0, 90.0)));
+  }
+  return points;
+}
+
+Points3 read_lonlats(const NetcdfReader& file, const std::string& longitude,
+                     const std::string& latitude) {
+  std::vector<double> east = file.doubles(longitude, {-1});
+  std::vector<double> north = file.doubles(latitude, {std::ssize(east)});
+  scale(east, degrees_per_unit(file, longitude));
+  scale(north, degrees_per_unit(file, latitude));
+  return from_lonlats(file, longitude + " and " + latitude, east, north);
+}
+
+} // namespace calotte::detail

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "../vec3.h"
+#include "netcdf.h"
+
+#include <calotte/io.h>
+#include <calotte/types.h>
+#include <calotte/voronoi.h>
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+/// What NetCDF files of grids as polygons on longitudes and latitudes have in common (UGRID, SCRIP,
+/// ESMF).
+namespace calotte::detail {
+
+// ---- Writing
+
+/// Degrees: longitude in [0, 360), 0 at the poles; latitude -90 to 90.
+struct LonLat {
+  double longitude, latitude;
+};
+/// Of a unit vector.
+LonLat lonlat_of(const Vec3& place);
+
+/// `radius` times the unit vectors; a point whose norm is that but for rounding keeps its bits.
+/// \throws Error bad_option for a radius that is not positive and finite.
+Points3 on_sphere(const Points3& points, double radius);
+
+/// The number of corners of the cell that has most.
+std::int64_t most_corners(const Voronoi& cells);
+/// The vertex that is corner k of a cell, counter-clockwise; past the last one -1, or the last.
+std::int32_t corner(const Voronoi& cells, std::int64_t cell, std::int64_t k);
+std::int32_t corner_or_last(const Voronoi& cells, std::int64_t cell, std::int64_t k);
+
+/// Columns of points as contents of variables; unit columns, where it is their longitude and
+/// latitude. The points must outlive them.
+NetcdfWriter::Fill<double> longitudes_of(const Points3& points);
+NetcdfWriter::Fill<double> latitudes_of(const Points3& points);
+NetcdfWriter::Fill<double> lonlats_of(const Points3& points); ///< two a row
+NetcdfWriter::Fill<double> row_of(const Points3& points, int row);
+NetcdfWriter::Fill<double> values_of(const Eigen::VectorXd& values);
+NetcdfWriter::Fill<std::int32_t> constant(std::int64_t value);
+
+/// of(row, k) for 0 <= k < width of each row.
+template <class T, class Of> NetcdfWriter::Fill<T> table(std::int64_t width, const Of& of) {
+  return [width, of](std::int64_t begin, std::int64_t end, T* out) {
+    for (std::int64_t row = begin; row < end; ++row)
+      for (std::int64_t k = 0; k < width; ++k)
+        *out++ = of(row, k);
+  };
+}
+
+/// A file whose variables are announced together with their contents.
+class GridFile {
+public:
+  /// With the attributes that all such files have. \throws Error file.
+  GridFile(const std::string& path, const WriteOptions& options, const std::string& conventions);
+  GridFile(const GridFile&) = delete;
+  GridFile& operator=(const GridFile&) = delete;
+
+  NetcdfWriter& netcdf() { return file_; }
+  template <class T>
+  void variable(const std::string& name, NetcdfType type, const std::vector<int>& dimensions,
+                const NetcdfAttributes& attributes, const NetcdfWriter::Fill<T>& contents) {
+    const int id = file_.variable(name, type, dimensions, attributes);
+    puts_.emplace_back([this, id, contents] { file_.put(id, contents); });
+  }
+  void doubles(const std::string& name, const std::vector<int>& dimensions,
+               const NetcdfAttributes& attributes, const NetcdfWriter::Fill<double>& contents) {
+    variable(name, NetcdfType::float64, dimensions, attributes, contents);
+  }
+  void ints(const std::string& name, const std::vector<int>& dimensions,
+            const NetcdfAttributes& attributes, const NetcdfWriter::Fill<std::int32_t>& contents) {
+    variable(name, NetcdfType::int32, dimensions, attributes, contents);
+  }
+  /// Two variables of as many rows, whose contents are made together.
+  struct Announced {
+    std::string name;
+    std::vector<int> dimensions;
+    NetcdfAttributes attributes;
+  };
+  void ints_and_doubles(const Announced& ints, const Announced& doubles,
+                        const NetcdfWriter::PairFill& contents) {
+    const int of_ints =
+        file_.variable(ints.name, NetcdfType::int32, ints.dimensions, ints.attributes);
+    const int of_doubles =
+        file_.variable(doubles.name, NetcdfType::float64, doubles.dimensions, doubles.attributes);
+    puts_.emplace_back(
+        [this, of_ints, of_doubles, contents] { file_.put(of_ints, of_doubles, contents); });
+  }
+  /// \throws Error file.
+  void commit();
+
+private:
+  NetcdfWriter file_;
+  std::vector<std::function<void()>> puts_;
+};
+
+// ---- Reading
+
+/// How many degrees the unit of a variable is: of none, or one that starts with "deg", 1; of one
+/// that starts with "rad", 180 / pi. \throws Error parse, for others.
+double degrees_per_unit(const NetcdfReader& file, const std::string& variable);
+
+void scale(std::vector<double>& values, double factor);
+
+/// Unit columns. \param variables are named in messages. \throws Error parse, for a place that is
+/// not finite or beyond a pole.
+Points3 from_lonlats(const NetcdfReader& file, const std::string& variables,
+                     const std::vector<double>& longitudes, const std::vector<double>& latitudes);
+
+/// The same from a variable each, of one dimension. \throws Error parse, file.
+Points3 read_lonlats(const NetcdfReader& file, const std::string& longitude,
+                     const std::string& latitude);
+
+} // namespace calotte::detail

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mpas.h"
+
+#include "../parallel.h"
+
+#include <bit>
+#include <charconv>
+#include <filesystem>
+
+namespace calotte::detail {
+namespace {
+
+/// One word after another, in a way that their order counts (the finaliser of SplitMix64).
+std::uint64_t mixed(std::uint64_t state, std::uint64_t word) {
+  std::uint64_t z = (state ^ word) + 0x9e3779b97f4a7c15;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
+  return z ^ (z >> 31);
+}
+
+/// Of word(i), 0 <= i < n; the same for any number of threads.
+template <class Word> std::uint64_t mixed_words(std::int64_t n, const Word& word) {
+  std::vector<std::uint64_t> of_block(static_cast<std::size_t>(block_count(n)));
+  for_each_block(n, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
+    std::uint64_t state = 0;
+    for (std::int64_t i = begin; i != end; ++i)
+      state = mixed(state, word(i));
+    of_block[static_cast<std::size_t>(block)] = state;
+  });
+  std::uint64_t state = static_cast<std::uint64_t>(n);
+  for (const std::uint64_t of : of_block)
+    state = mixed(state, of);
+  return state;
+}
+
+std::string hexadecimal(std::uint64_t number) {
+  char digits[16];
+  const char* const end = std::to_chars(digits, digits + sizeof digits, number, 16).ptr;
+  return std::string(static_cast<std::size_t>(digits + sizeof digits - end), '0') +
+         std::string(static_cast<const char*>(digits), end);
+}
+
+std::string neighbour_lines(const Voronoi& voronoi, std::int64_t begin, std::int64_t end) {
+  constexpr std::int64_t longest = 11; // a blank or a line's end, and ten digits
+  std::string lines(
+      static_cast<std::size_t>(longest * (voronoi.begin[end] - voronoi.begin[begin]) + end - begin),
+      ' ');
+  char* out = lines.data();
+  for (std::int64_t i = begin; i != end; ++i) {
+    for (std::int64_t k = voronoi.begin[i]; k != voronoi.begin[i + 1]; ++k) {
+      out = std::to_chars(out, out + longest, voronoi.cells_on_cell[k] + 1).ptr;
+      *out++ = ' ';
+    }
+    out[-1] = '\n';
+  }
+  lines.resize(static_cast<std::size_t>(out - lines.data()));
+  return lines;
+}
+
+WriteOptions of_plane(WriteOptions options) {
+  options.sphere_radius = 0; // as planar meshes have it
+  return options;
+}
+
+} // namespace
+
+NetcdfAttributes described(const std::string& units, const std::string& long_name,
+                           const std::string& standard_name) {
+  NetcdfAttributes attributes{{"units", units}, {"long_name", long_name}};
+  if (!standard_name.empty())
+    attributes.push_back({"standard_name", standard_name});
+  return attributes;
+}
+
+MpasFile::MpasFile(const std::string& path, const MpasMesh& mesh, const WriteOptions& options)
+    : GridFile(path, mesh.voronoi.on_sphere ? options : of_plane(options), "CF-1.8 MPAS") {
+  const bool on_sphere = mesh.voronoi.on_sphere;
+  netcdf().attribute({"on_a_sphere", std::string(on_sphere ? "YES" : "NO")});
+  netcdf().attribute({"is_periodic", std::string(on_sphere ? "NO" : "YES")});
+  netcdf().attribute({"x_period", mesh.voronoi.period[0]});
+  netcdf().attribute({"y_period", mesh.voronoi.period[1]});
+  netcdf().attribute({"mesh_spec", std::string("1.0")});
+  netcdf().attribute({"file_id", fingerprint(mesh)});
+  netcdf().attribute({"parent_id", std::string()});
+  netcdf().attribute({"source", std::string("calotte " CALOTTE_VERSION)});
+}
+
+void MpasFile::places(const MpasKind& kind, int dimension, const Points3& points, double factor) {
+  for (int row = 0; row < 3; ++row) {
+    const std::string axis(1, "xyz"[row]);
+    std::string long_name = axis;
+    long_name.append(" coordinate of ").append(kind.place);
+    doubles(axis + kind.name, {dimension}, described("m", long_name),
+            table<double>(1, [&points, row, factor](std::int64_t i, std::int64_t) {
+              return factor * points(row, i);
+            }));
+  }
+}
+
+std::string fingerprint(const MpasMesh& mesh) {
+  const double* const coordinates = mesh.places.data();
+  const std::int32_t* const ids = mesh.voronoi.cells_on_vertex.data();
+  const std::uint64_t places = mixed_words(mesh.places.size(), [=](std::int64_t i) {
+    return std::bit_cast<std::uint64_t>(coordinates[i]);
+  });
+  const std::uint64_t triangles =
+      mixed_words(mesh.voronoi.cells_on_vertex.size(),
+                  [=](std::int64_t i) { return static_cast<std::uint64_t>(ids[i]); });
+  return hexadecimal(mixed(places, triangles));
+}
+
+std::string graph_path(const std::string& path) {
+  return std::filesystem::path(path).replace_extension(".graph.info");
+}
+
+void put_graph(const Sink& sink, const Voronoi& voronoi) {
+  const std::int64_t cells = voronoi.cells.cols(), blocks = block_count(cells);
+  sink(std::to_string(cells) + " " + std::to_string(voronoi.cells_on_edge.cols()) + "\n");
+  constexpr std::int64_t at_once = 32; // blocks, so that not all of the text waits in memory
+  std::vector<std::string> texts(at_once);
+  for (std::int64_t first = 0; first < blocks; first += at_once) {
+    const std::int64_t count = std::min(at_once, blocks - first);
+    for_each_task(count, [&](std::int64_t k) {
+      const std::int64_t block = first + k;
+      texts[static_cast<std::size_t>(k)] =
+          neighbour_lines(voronoi, cells * block / blocks, cells * (block + 1) / blocks);
+    });
+    for (std::int64_t k = 0; k < count; ++k)
+      sink(texts[static_cast<std::size_t>(k)]);
+  }
+}
+
+} // namespace calotte::detail

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "model_grid.h"
+#include "text.h"
+
+#include <calotte/io.h>
+#include <calotte/voronoi.h>
+
+#include <string>
+
+/// What the full and the minimal MPAS file have in common.
+namespace calotte::detail {
+
+/// A mesh as a file shall hold it.
+struct MpasMesh {
+  const Voronoi& voronoi;
+  const Points3& places; ///< 3 x n: of the cells, radius times the unit vectors; in a plane, z = 0
+  double radius;         ///< of the sphere; 1 in a plane
+  const CellFields& fields; ///< of voronoi
+};
+
+/// One of the three kinds of places.
+struct MpasKind {
+  std::string name;  ///< ends the names of its variables
+  std::string word;  ///< for one of it
+  std::string place; ///< where it is
+};
+inline const MpasKind mpas_cell{"Cell", "cell", "the cells' generators"};
+inline const MpasKind mpas_edge{"Edge", "edge",
+                                "the edges, where those between cells and vertices cross"};
+inline const MpasKind mpas_vertex{"Vertex", "vertex", "the vertices"};
+
+/// The attributes of a variable. \param standard_name of the CF conventions, or "".
+NetcdfAttributes described(const std::string& units, const std::string& long_name,
+                           const std::string& standard_name = "");
+
+/// A file with the attributes of its kind and those that tell of the mesh.
+class MpasFile : public GridFile {
+public:
+  /// \throws Error file.
+  MpasFile(const std::string& path, const MpasMesh& mesh, const WriteOptions& options);
+
+  /// x, y and z: a factor times the points, which must outlive this.
+  void places(const MpasKind& kind, int dimension, const Points3& points, double factor);
+};
+
+/// 16 hexadecimal digits that differ where meshes do.
+std::string fingerprint(const MpasMesh& mesh);
+
+/// NAME.graph.info for NAME.nc.
+std::string graph_path(const std::string& path);
+
+/// The text of a graph.info file, as METIS reads it: the numbers of cells and of edges, then a
+/// line of each cell's neighbours, 1-based. It comes in pieces.
+void put_graph(const Sink& sink, const Voronoi& voronoi);
+
+} // namespace calotte::detail

@@ -1,0 +1,412 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats.h"
+#include "mpas.h"
+
+#include "../elementary.h"
+#include "../points.h"
+#include "../spherical_angles.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace calotte::detail {
+namespace {
+
+struct Dimensions {
+  int cells, edges, vertices, max_edges, max_edges2, two, vertex_degree;
+};
+
+Dimensions full_dimensions(NetcdfWriter& file, const Voronoi& voronoi) {
+  const std::int64_t most = most_corners(voronoi);
+  const Dimensions dimensions{.cells = file.dimension("nCells", voronoi.cells.cols()),
+                              .edges = file.dimension("nEdges", voronoi.edges.cols()),
+                              .vertices = file.dimension("nVertices", voronoi.vertices.cols()),
+                              .max_edges = file.dimension("maxEdges", most),
+                              .max_edges2 = file.dimension("maxEdges2", 2 * most),
+                              .two = file.dimension("TWO", 2),
+                              .vertex_degree = file.dimension("vertexDegree", 3)};
+  file.dimension("Time", 0);
+  return dimensions;
+}
+
+// ---- Places
+
+/// From 0 to below 2 pi.
+CALOTTE_INLINE double eastern_longitude(double x, double y) {
+  constexpr double turn = 2 * std::numbers::pi;
+  const double angle = longitude_of(x, y);
+  const double turned = angle < 0 ? angle + turn : angle;
+  // What is west of 0 by less than the spacing of doubles at 2 pi is rounded to it; -0 becomes 0.
+  return turned < turn ? turned + 0.0 : 0;
+}
+
+CALOTTE_VECTOR_WIDTHS
+void longitudes(const double* xyz, std::int64_t count, double* out) {
+  for (std::int64_t i = 0; i < count; ++i)
+    out[i] = eastern_longitude(xyz[3 * i], xyz[3 * i + 1]);
+}
+
+CALOTTE_VECTOR_WIDTHS
+void latitudes(const double* xyz, std::int64_t count, double* out) {
+  for (std::int64_t i = 0; i < count; ++i)
+    out[i] = latitude_of(xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]);
+}
+
+/// Of the columns of points; zeros in a plane.
+NetcdfWriter::Fill<double> angles_of(const Points3& points, bool on_sphere,
+                                     void (*angles)(const double*, std::int64_t, double*)) {
+  return [&points, on_sphere, angles](std::int64_t begin, std::int64_t end, double* out) {
+    if (on_sphere)
+      angles(points.data() + 3 * begin, end - begin, out);
+    else
+      std::fill(out, out + (end - begin), 0.0);
+  };
+}
+
+/// Numbers from 1 on, lat, lon, x, y and z: a factor times the places.
+void put_kind(MpasFile& file, const MpasKind& kind, int dimension, const Points3& directions,
+              const Points3& places, double factor, bool on_sphere) {
+  file.doubles("lat" + kind.name, {dimension},
+               described("radians", "latitude of " + kind.place, "latitude"),
+               angles_of(directions, on_sphere, latitudes));
+  file.doubles("lon" + kind.name, {dimension},
+               described("radians", "longitude of " + kind.place, "longitude"),
+               angles_of(directions, on_sphere, longitudes));
+  file.places(kind, dimension, places, factor);
+  file.ints("indexTo" + kind.name + "ID", {dimension},
+            described("1", "number of each " + kind.word),
+            table<std::int32_t>(
+                1, [](std::int64_t i, std::int64_t) { return static_cast<std::int32_t>(i + 1); }));
+}
+
+// ---- Connectivity
+
+/// 1-based, padded with 0.
+NetcdfWriter::Fill<std::int32_t> cell_lists(const Voronoi& voronoi, const Ids& lists,
+                                            std::int64_t width) {
+  return [&voronoi, &lists, width](std::int64_t begin, std::int64_t end, std::int32_t* out) {
+    for (std::int64_t i = begin; i < end; ++i) {
+      const std::int64_t first = voronoi.begin[i], count = voronoi.begin[i + 1] - first;
+      for (std::int64_t k = 0; k < width; ++k)
+        *out++ = k < count ? lists[first + k] + 1 : 0;
+    }
+  };
+}
+
+/// The columns of a matrix of ids, 1-based.
+template <class Matrix> NetcdfWriter::Fill<std::int32_t> id_columns(const Matrix& ids) {
+  return [&ids](std::int64_t begin, std::int64_t end, std::int32_t* out) {
+    const std::int64_t rows = ids.rows();
+    std::transform(ids.data() + rows * begin, ids.data() + rows * end, out,
+                   [](std::int32_t id) { return id + 1; });
+  };
+}
+
+void put_cell_ids(MpasFile& file, const Dimensions& dimensions, const MpasMesh& mesh) {
+  const Voronoi& voronoi = mesh.voronoi;
+  const std::int64_t width = most_corners(voronoi);
+  const std::vector<int> shape{dimensions.cells, dimensions.max_edges};
+  file.ints("nEdgesOnCell", {dimensions.cells}, described("1", "number of edges of each cell"),
+            table<std::int32_t>(
+                1, [&mesh](std::int64_t i, std::int64_t) { return mesh.fields.degree[i]; }));
+  file.ints("edgesOnCell", shape,
+            described("1", "edges of each cell, counter-clockwise: edge k lies between vertices "
+                           "k - 1 and k of verticesOnCell"),
+            cell_lists(voronoi, voronoi.edges_on_cell, width));
+  file.ints("verticesOnCell", shape, described("1", "vertices of each cell, counter-clockwise"),
+            cell_lists(voronoi, voronoi.vertices_on_cell, width));
+  file.ints("cellsOnCell", shape,
+            described("1", "neighbours of each cell, across the edges of edgesOnCell"),
+            cell_lists(voronoi, voronoi.cells_on_cell, width));
+}
+
+void put_edge_ids(MpasFile& file, const Dimensions& dimensions, const Voronoi& voronoi) {
+  const std::vector<int> shape{dimensions.edges, dimensions.two};
+  file.ints("cellsOnEdge", shape,
+            described("1", "cells on both sides of each edge: its normal points from the first to "
+                           "the second"),
+            id_columns(voronoi.cells_on_edge));
+  file.ints("verticesOnEdge", shape,
+            described("1", "vertices at both ends of each edge: its tangent points from the first "
+                           "to the second, and is the normal turned to the left"),
+            id_columns(voronoi.vertices_on_edge));
+}
+
+void put_vertex_ids(MpasFile& file, const Dimensions& dimensions, const Voronoi& voronoi) {
+  const std::vector<int> shape{dimensions.vertices, dimensions.vertex_degree};
+  file.ints("cellsOnVertex", shape,
+            described("1", "cells around each vertex, counter-clockwise: cell j lies between edges "
+                           "j and j + 1 of edgesOnVertex"),
+            id_columns(voronoi.cells_on_vertex));
+  file.ints("edgesOnVertex", shape, described("1", "edges at each vertex, counter-clockwise"),
+            id_columns(voronoi.edges_on_vertex));
+  file.ints("boundaryVertex", {dimensions.vertices},
+            described("1", "1 where a vertex lies on the boundary of the mesh"), constant(0));
+}
+
+// ---- Lengths, areas and angles
+
+NetcdfWriter::Fill<double> scaled(const Eigen::VectorXd& values, double factor) {
+  return table<double>(
+      1, [&values, factor](std::int64_t i, std::int64_t) { return factor * values[i]; });
+}
+
+void put_measures(MpasFile& file, const Dimensions& dimensions, const MpasMesh& mesh) {
+  const Voronoi& voronoi = mesh.voronoi;
+  const double length = mesh.radius, area = mesh.radius * mesh.radius;
+  file.doubles("dcEdge", {dimensions.edges},
+               described("m", "distance of the generators of the cells on each edge"),
+               scaled(voronoi.dc, length));
+  file.doubles("dvEdge", {dimensions.edges},
+               described("m", "distance of the vertices at the ends of each edge"),
+               scaled(voronoi.dv, length));
+  file.doubles("angleEdge", {dimensions.edges},
+               described("radians", voronoi.on_sphere
+                                        ? "angle of the normal of each edge from east"
+                                        : "angle of the normal of each edge from the x axis"),
+               scaled(voronoi.angle, 1));
+  file.doubles("areaCell", {dimensions.cells}, described("m2", "area of each cell", "cell_area"),
+               scaled(voronoi.cell_area, area));
+  file.doubles("areaTriangle", {dimensions.vertices},
+               described("m2", "area of the triangle of generators around each vertex"),
+               scaled(voronoi.vertex_area, area));
+  file.doubles("kiteAreasOnVertex", {dimensions.vertices, dimensions.vertex_degree},
+               described("m2", "signed area of the part of each triangle in each of its cells"),
+               table<double>(3, [&voronoi, area](std::int64_t v, std::int64_t j) {
+                 return area * voronoi.kites(j, v);
+               }));
+}
+
+// ---- The tangential velocity
+
+std::int32_t edges_on_edge(const Voronoi& voronoi, std::int64_t e) {
+  std::int64_t count = -2;
+  for (int side = 0; side < 2; ++side) {
+    const std::int32_t cell = voronoi.cells_on_edge(side, e);
+    count += voronoi.begin[cell + 1] - voronoi.begin[cell];
+  }
+  return static_cast<std::int32_t>(count);
+}
+
+void fill_weights(const Voronoi& voronoi, std::int64_t begin, std::int64_t end, std::int64_t width,
+                  std::int32_t* edges, double* weights) {
+  const TangentialWeights of = tangential_weights(voronoi, begin, end);
+  for (std::int64_t e = 0; e < end - begin; ++e) {
+    const std::int64_t first = of.begin[e], count = of.begin[e + 1] - first;
+    for (std::int64_t k = 0; k < width; ++k) {
+      *edges++ = k < count ? of.edges[first + k] + 1 : 0;
+      *weights++ = k < count ? of.weights[first + k] : 0;
+    }
+  }
+}
+
+void put_weights(MpasFile& file, const Dimensions& dimensions, const Voronoi& voronoi) {
+  const std::int64_t width = 2 * most_corners(voronoi);
+  const std::vector<int> shape{dimensions.edges, dimensions.max_edges2};
+  file.ints("nEdgesOnEdge", {dimensions.edges},
+            described("1", "number of other edges of the cells on each edge"),
+            table<std::int32_t>(
+                1, [&voronoi](std::int64_t e, std::int64_t) { return edges_on_edge(voronoi, e); }));
+  file.ints_and_doubles(
+      {"edgesOnEdge", shape,
+       described("1", "other edges of the cells on each edge: those of the first cell, "
+                      "counter-clockwise from the edge on, then of the second")},
+      {"weightsOnEdge", shape,
+       described("1", "weights of the normal velocities at edgesOnEdge in the tangential velocity "
+                      "at each edge")},
+      [&voronoi, width](std::int64_t begin, std::int64_t end, std::int32_t* edges,
+                        double* weights) {
+        fill_weights(voronoi, begin, end, width, edges, weights);
+      });
+}
+
+// ---- Fields and quality
+
+void put_fields(MpasFile& file, const Dimensions& dimensions, const MpasMesh& mesh) {
+  const CellFields& fields = mesh.fields;
+  file.doubles("meshDensity", {dimensions.cells},
+               described("1", "density that the mesh was made for, over its maximum"),
+               scaled(fields.density, 1));
+  const double nominal = mesh.radius * nominal_spacing(fields);
+  file.doubles("nominalMinDc", {},
+               described("m", "nominal distance of neighbouring generators where meshDensity is 1"),
+               table<double>(1, [nominal](std::int64_t, std::int64_t) { return nominal; }));
+  file.doubles("cellQuality", {dimensions.cells},
+               described("1", "shortest over longest edge of each cell"),
+               scaled(fields.quality, 1));
+  file.doubles("gridSpacing", {dimensions.cells},
+               described("m", "mean distance of each generator from its neighbours"),
+               scaled(fields.spacing, mesh.radius));
+}
+
+/// The sides of a triangle, shortest first.
+struct Sides {
+  double a, b, c;
+};
+
+Sides sorted(double x, double y, double z) {
+  const double low = std::min(x, y), high = std::max(x, y);
+  return {std::min(low, z), std::max(low, std::min(high, z)), std::max(high, z)};
+}
+
+Sides arcs(const Voronoi& voronoi, std::int64_t vertex) {
+  const auto side = [&](int j) { return voronoi.dc[voronoi.edges_on_vertex(j, vertex)]; };
+  return sorted(side(0), side(1), side(2));
+}
+
+/// Of the flat triangle.
+Sides chords(const Voronoi& voronoi, std::int64_t vertex) {
+  if (!voronoi.on_sphere)
+    return arcs(voronoi, vertex);
+  const auto corner = [&](int j) {
+    return column(voronoi.cells, voronoi.cells_on_vertex(j, vertex));
+  };
+  const Vec3 p = corner(0), q = corner(1), r = corner(2);
+  return sorted(norm(q - p), norm(r - q), norm(p - r));
+}
+
+/// By more than rounding, as Quality::obtuse has it.
+bool is_obtuse(const Sides& sides) {
+  const auto [a, b, c] = sides;
+  return a * a + b * b - c * c < -2e-9 * a * b;
+}
+
+/// Half of an angle whose sine has this square.
+CALOTTE_INLINE double half_angle(double square) {
+  return arc_sine(std::sqrt(std::min(std::max(square, 0.0), 1.0)));
+}
+
+/// Smallest over largest angle of flat triangles with these sides, as MPAS's mesh converter has it:
+/// 2 asin(sqrt((s - b)(s - c) / (b c))) is the angle between sides b and c, s half of the sum.
+CALOTTE_VECTOR_WIDTHS
+void angle_qualities(const double* a, const double* b, const double* c, std::int64_t count,
+                     double* out) {
+  for (std::int64_t i = 0; i < count; ++i) {
+    const double to_a = 0.5 * ((c[i] - a[i]) + b[i]), to_b = 0.5 * ((c[i] - b[i]) + a[i]),
+                 to_c = 0.5 * (a[i] - (c[i] - b[i]));
+    out[i] = half_angle(to_b * to_c / (b[i] * c[i])) / half_angle(to_a * to_b / (a[i] * b[i]));
+  }
+}
+
+/// Vertices begin to end - 1.
+void fill_angle_qualities(const Voronoi& voronoi, std::int64_t begin, std::int64_t end,
+                          double* out) {
+  constexpr std::int64_t lanes = 64;
+  std::array<std::array<double, lanes>, 3> sides;
+  for (std::int64_t first = begin; first < end; first += lanes) {
+    const std::int64_t count = std::min(lanes, end - first);
+    for (std::int64_t i = 0; i < count; ++i) {
+      const Sides of = arcs(voronoi, first + i);
+      const auto lane = static_cast<std::size_t>(i);
+      sides[0][lane] = of.a, sides[1][lane] = of.b, sides[2][lane] = of.c;
+    }
+    angle_qualities(sides[0].data(), sides[1].data(), sides[2].data(), count,
+                    out + (first - begin));
+  }
+}
+
+void put_triangle_quality(MpasFile& file, const Dimensions& dimensions, const Voronoi& voronoi) {
+  file.doubles("triangleQuality", {dimensions.vertices},
+               described("1", "shortest over longest side of the triangle around each vertex"),
+               table<double>(1, [&voronoi](std::int64_t v, std::int64_t) {
+                 const Sides sides = arcs(voronoi, v);
+                 return sides.a / sides.c;
+               }));
+  file.doubles("triangleAngleQuality", {dimensions.vertices},
+               described("1", "smallest over largest angle of the triangle around each vertex"),
+               [&voronoi](std::int64_t begin, std::int64_t end, double* out) {
+                 fill_angle_qualities(voronoi, begin, end, out);
+               });
+  file.ints("obtuseTriangle", {dimensions.vertices},
+            described("1", "1 where the triangle around a vertex has an obtuse angle"),
+            table<std::int32_t>(1, [&voronoi](std::int64_t v, std::int64_t) {
+              return is_obtuse(chords(voronoi, v)) ? 1 : 0;
+            }));
+}
+
+// ---- Files
+
+void write_full(const std::string& path, const MpasMesh& mesh, const WriteOptions& options) {
+  const Voronoi& voronoi = mesh.voronoi;
+  OutputFile graph(graph_path(path));
+  put_graph([&](std::string_view text) { graph.append(text); }, voronoi);
+
+  MpasFile file(path, mesh, options);
+  const Dimensions dimensions = full_dimensions(file.netcdf(), voronoi);
+  const bool on_sphere = voronoi.on_sphere;
+  put_kind(file, mpas_cell, dimensions.cells, voronoi.cells, mesh.places, 1, on_sphere);
+  put_kind(file, mpas_edge, dimensions.edges, voronoi.edges, voronoi.edges, mesh.radius, on_sphere);
+  put_kind(file, mpas_vertex, dimensions.vertices, voronoi.vertices, voronoi.vertices, mesh.radius,
+           on_sphere);
+  put_cell_ids(file, dimensions, mesh);
+  put_edge_ids(file, dimensions, voronoi);
+  put_vertex_ids(file, dimensions, voronoi);
+  put_measures(file, dimensions, mesh);
+  put_weights(file, dimensions, voronoi);
+  put_fields(file, dimensions, mesh);
+  put_triangle_quality(file, dimensions, voronoi);
+  file.commit();
+  graph.commit();
+}
+
+void write_minimal(const std::string& path, const MpasMesh& mesh, const WriteOptions& options) {
+  const Voronoi& voronoi = mesh.voronoi;
+  MpasFile file(path, mesh, options);
+  NetcdfWriter& netcdf = file.netcdf();
+  const int cells = netcdf.dimension("nCells", voronoi.cells.cols());
+  const int vertices = netcdf.dimension("nVertices", voronoi.vertices.cols());
+  const int degree = netcdf.dimension("vertexDegree", 3);
+  netcdf.dimension("Time", 0);
+  file.places(mpas_cell, cells, mesh.places, 1);
+  file.places(mpas_vertex, vertices, voronoi.vertices, mesh.radius);
+  file.ints("cellsOnVertex", {vertices, degree},
+            described("1", "cells around each vertex, counter-clockwise"),
+            id_columns(voronoi.cells_on_vertex));
+  file.doubles("meshDensity", {cells},
+               described("1", "density that the mesh was made for, over its maximum"),
+               scaled(mesh.fields.density, 1));
+  file.commit();
+}
+
+using Writer = void (*)(const std::string&, const MpasMesh&, const WriteOptions&);
+
+/// All is computed from the places as the file holds them, so that its mesh gives the same file.
+void write_sphere(const std::string& path, const Mesh& mesh, const WriteOptions& options,
+                  Writer writer) {
+  const Points3 places = on_sphere(mesh.points, options.sphere_radius);
+  const Voronoi cells = places == mesh.points
+                            ? voronoi(mesh)
+                            : voronoi(Mesh{places, mesh.triangles, mesh.neighbours, {}});
+  const CellFields fields = cell_fields(cells, options.density);
+  writer(path, {cells, places, options.sphere_radius, fields}, options);
+}
+
+void write_plane(const std::string& path, const PlanarMesh& mesh, const WriteOptions& options,
+                 Writer writer) {
+  const Voronoi cells = voronoi(mesh);
+  const CellFields fields = cell_fields(cells, options.density);
+  writer(path, {cells, cells.cells, 1, fields}, options);
+}
+
+} // namespace
+
+void write_mpas(const std::string& path, const Mesh& mesh, const WriteOptions& options) {
+  write_sphere(path, mesh, options, write_full);
+}
+
+void write_mpas(const std::string& path, const PlanarMesh& mesh, const WriteOptions& options) {
+  write_plane(path, mesh, options, write_full);
+}
+
+void write_mpas_minimal(const std::string& path, const Mesh& mesh, const WriteOptions& options) {
+  write_sphere(path, mesh, options, write_minimal);
+}
+
+void write_mpas_minimal(const std::string& path, const PlanarMesh& mesh,
+                        const WriteOptions& options) {
+  write_plane(path, mesh, options, write_minimal);
+}
+
+} // namespace calotte::detail

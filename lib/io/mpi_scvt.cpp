@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "assemble.h"
+#include "file.h"
+#include "file_names.h"
+#include "formats.h"
+
+#include "../points.h"
+#include "../predicates.h"
+
+#include <calotte/density.h>
+#include <calotte/error.h>
+
+#include <filesystem>
+#include <utility>
+
+// Files of MPI-SCVT (Jacobsen et al., Geosci. Model Dev. 6, 2013): SaveVertices has a generator
+// x y z a line, SaveTriangles three generators a line, counted from 0 and in no order of turning,
+// SaveDensity the density at each generator.
+
+namespace calotte::detail {
+namespace {
+
+std::string beside(const std::string& path, std::string_view name) {
+  return sibling(path, vertices_name, name).value_or(path);
+}
+
+void put_values(const Sink& sink, const Eigen::VectorXd& values) {
+  Writer out(sink);
+  for (const double value : values)
+    out.number(value).text("\n");
+  out.flush();
+}
+
+/// Turns the triangles counter-clockwise. False where one has no direction of turning.
+bool orient(const Points3& points, Triangles& triangles) {
+  for (Eigen::Index t = 0; t < triangles.cols(); ++t) {
+    const int turning =
+        orientation(column(points, triangles(0, t)), column(points, triangles(1, t)),
+                    column(points, triangles(2, t)));
+    if (turning == 0)
+      return false;
+    if (turning < 0)
+      std::swap(triangles(1, t), triangles(2, t));
+  }
+  return true;
+}
+
+/// Whether the triangles close the sphere: 2n - 4 that have all their neighbours.
+bool close_sphere(const Points3& points, const Triangles& triangles) {
+  return triangles.cols() == 2 * points.cols() - 4 &&
+         neighbours_of(triangles, points.cols()).minCoeff() >= 0;
+}
+
+/// The triangles of the file beside the points, where they fit: those of another run, or a part of
+/// them, do not close the sphere.
+Triangles triangles_of(const std::string& path, const Points3& points) {
+  const std::string file = beside(path, triangles_name);
+  if (std::error_code error; !std::filesystem::is_regular_file(file, error))
+    return {};
+  try {
+    std::ifstream in = open_input(file);
+    Triangles triangles = get_triangles_text(in, file, points.cols());
+    if (orient(points, triangles) && close_sphere(points, triangles))
+      return triangles;
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::parse)
+      throw;
+  }
+  return {};
+}
+
+} // namespace
+
+void write_mpi_scvt(const std::string& path, const Mesh& mesh, const WriteOptions& options) {
+  Points3 units(3, mesh.points.cols());
+  for (Eigen::Index i = 0; i < units.cols(); ++i)
+    set_column(units, i, normalised(column(mesh.points, i)));
+  const Eigen::VectorXd density = evaluate(options.density, units);
+  OutputFile vertices(path), triangles(beside(path, triangles_name)),
+      densities(beside(path, density_name));
+  const auto to = [](OutputFile& file) {
+    return [&file](std::string_view bytes) { file.append(bytes); };
+  };
+  put_points(to(vertices), mesh.points);
+  put_triangle_lines(to(triangles), mesh.triangles);
+  put_values(to(densities), density);
+  triangles.commit();
+  densities.commit();
+  vertices.commit();
+}
+
+Soup read_mpi_scvt(const std::string& path) {
+  Soup soup{read_points(path), {}};
+  soup.triangles = triangles_of(path, soup.points);
+  return soup;
+}
+
+} // namespace calotte::detail

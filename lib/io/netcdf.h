@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "file.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+/// NetCDF files through the C library, whose codes become this library's errors.
+namespace calotte::detail {
+
+enum class NetcdfType { int8, int32, float64 };
+
+struct NetcdfAttribute {
+  std::string name;
+  std::variant<std::string, double, std::int32_t, std::int8_t> value;
+};
+using NetcdfAttributes = std::vector<NetcdfAttribute>;
+
+/// A classic NetCDF file in the making: 64-bit offsets, or CDF-5 as soon as a variable takes 4 GiB.
+/// Dimensions, variables and attributes are announced first, begin() writes the header, then each
+/// variable is put once. Nothing appears at the path before commit().
+/// Every method \throws Error file.
+class NetcdfWriter {
+public:
+  explicit NetcdfWriter(const std::string& path);
+  NetcdfWriter(const NetcdfWriter&) = delete;
+  NetcdfWriter& operator=(const NetcdfWriter&) = delete;
+  ~NetcdfWriter();
+
+  /// \returns its id. A size of 0 makes it unlimited; no variable may have it.
+  int dimension(const std::string& name, std::int64_t size);
+  /// \param dimensions ids, the slowest first; none for a scalar. \returns its id.
+  int variable(const std::string& name, NetcdfType type, const std::vector<int>& dimensions,
+               const NetcdfAttributes& attributes = {});
+  /// Of the whole file.
+  void attribute(NetcdfAttribute attribute);
+
+  void begin();
+
+  /// fill(begin, end, out) writes rows begin to end - 1 of the variable (its slowest dimension; a
+  /// scalar is one row) to out. It is called for blocks of rows, from several threads at once.
+  template <class T> using Fill = std::function<void(std::int64_t begin, std::int64_t end, T* out)>;
+  void put(int variable, const Fill<double>& fill);
+  void put(int variable, const Fill<std::int32_t>& fill);
+  void put(int variable, const Fill<std::int8_t>& fill);
+
+  /// The same for two variables of as many rows, whose values are made together.
+  using PairFill = std::function<void(std::int64_t begin, std::int64_t end, std::int32_t* ints,
+                                      double* doubles)>;
+  void put(int ints, int doubles, const PairFill& fill);
+
+  void commit();
+
+private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// An open NetCDF file of any kind. Names are the file's; messages name path and variable.
+/// Every method \throws Error parse, file.
+class NetcdfReader {
+public:
+  explicit NetcdfReader(const std::string& path);
+  NetcdfReader(const NetcdfReader&) = delete;
+  NetcdfReader& operator=(const NetcdfReader&) = delete;
+  ~NetcdfReader();
+
+  bool has_variable(const std::string& name) const;
+  std::vector<std::string> variables() const;
+  std::vector<std::string> dimensions_of(const std::string& variable) const;
+  std::vector<std::int64_t> shape_of(const std::string& variable) const;
+  /// The size of a dimension, -1 where the file has none of that name.
+  std::int64_t dimension(const std::string& name) const;
+  /// A text attribute of a variable, or with "" of the file; "" where there is none.
+  std::string text(const std::string& variable, const std::string& attribute) const;
+  /// A number attribute of the same, else the fallback.
+  double number(const std::string& variable, const std::string& attribute, double fallback) const;
+
+  /// All of a variable, converted. Its shape must be the one given (-1: any size).
+  std::vector<double> doubles(const std::string& variable,
+                              const std::vector<std::int64_t>& shape) const;
+  std::vector<std::int32_t> ints(const std::string& variable,
+                                 const std::vector<std::int64_t>& shape) const;
+
+  const std::string& path() const { return path_; }
+  [[noreturn]] void fail(const std::string& problem) const; ///< parse, "PATH: problem"
+
+private:
+  std::string path_;
+  int id_ = -1;
+};
+
+} // namespace calotte::detail

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+/// What the C library does not tell of the classic formats: where a variable's values stand.
+namespace calotte::detail {
+
+/// A classic file's variable: value 0 stands at byte `begin`, the last one ends before byte `end`.
+struct NetcdfExtent {
+  std::int64_t begin = 0, end = 0;
+};
+
+struct NetcdfLayout {
+  std::int64_t header = 0; ///< bytes
+  std::vector<NetcdfExtent> variables;
+};
+
+/// Of an open classic file (CDF-1, -2 or -5). The lengths that the library tells lead to the
+/// offsets in the header (NetCDF Classic Format Specification, Unidata). \pre its format is
+/// classic, the header is on the disk, and nobody else calls the library.
+NetcdfLayout classic_layout(int id, const std::string& path);
+
+/// Whether one of the variables, of so many bytes each, is too large for the 64-bit offset format.
+bool needs_cdf5(const std::vector<std::int64_t>& variable_bytes);
+
+} // namespace calotte::detail

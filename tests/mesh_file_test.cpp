@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/files.h"
+#include "support/meshes.h"
+
+#include <calotte/check.h>
+#include <calotte/density.h>
+#include <calotte/io.h>
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <vector>
+
+using calotte::ErrorCode;
+using calotte::Format;
+using calotte::Mesh;
+using calotte::Numbering;
+using calotte::Points3;
+using namespace calotte::test;
+
+namespace {
+
+/// A format's name of a file, and whether its files hold cells.
+struct Kind {
+  Format format;
+  std::string file;
+  bool cells;
+};
+
+const std::vector<Kind> kinds{
+    {Format::mpas, "mesh.nc", true},        {Format::mpas_minimal, "mesh.nc", true},
+    {Format::ugrid, "mesh.nc", true},       {Format::ugrid_triangles, "mesh.nc", false},
+    {Format::scrip, "mesh.nc", true},       {Format::esmf, "mesh.nc", true},
+    {Format::vtp, "mesh.vtp", false},       {Format::vtu, "mesh.vtu", false},
+    {Format::vtp_cells, "mesh.vtp", true},  {Format::vtu_cells, "mesh.vtu", true},
+    {Format::off, "mesh.off", false},       {Format::ply, "mesh.ply", false},
+    {Format::triangles, "mesh.tri", false}, {Format::mpi_scvt, "SaveVertices", false},
+    {Format::msh, "mesh.msh", false},       {Format::geojson, "mesh.geojson", true}};
+
+bool is_netcdf(const Kind& kind) { return kind.file == "mesh.nc"; }
+
+/// Whether the format holds the points as they are.
+bool holds_coordinates(Format format) { return format != Format::scrip && format != Format::esmf; }
+
+} // namespace
+
+TEST_CASE("a name tells its format, in any case; an option tells it too, and must not contradict") {
+  using calotte::format_of;
+  CHECK(format_of("a/mesh.nc") == Format::mpas);
+  CHECK(format_of("mesh.VTP") == Format::vtp);
+  CHECK(format_of("mesh.vtu") == Format::vtu);
+  CHECK(format_of("mesh.Off") == Format::off);
+  CHECK(format_of("mesh.ply") == Format::ply);
+  CHECK(format_of("mesh.MSH") == Format::msh);
+  CHECK(format_of("mesh.GeoJSON") == Format::geojson);
+  CHECK(format_of("mesh.txt") == Format::triangles);
+  CHECK(format_of("mesh.tri") == Format::triangles);
+  for (const char* name :
+       {"SaveVertices", "a.b/SaveVertices", "SaveVertices.42", "SaveVertices.txt"})
+    CHECK(format_of(name) == Format::mpi_scvt);
+  CHECK(format_of("SaveVertices.vtp") == Format::vtp);
+
+  for (const Kind& kind : kinds) {
+    CHECK(format_of(kind.file, kind.format) == kind.format);
+    if (kind.format != Format::mpi_scvt)
+      CHECK(format_of("grid.data", kind.format) == kind.format);
+    CHECK(calotte::holds_cells(kind.format) == kind.cells);
+    for (const Kind& other : kinds)
+      if (kind.file != other.file)
+        CHECK(error_of([&] { format_of(other.file, kind.format); }).code() ==
+              ErrorCode::bad_option);
+  }
+  CHECK(error_of([&] { format_of("grid.data", Format::mpi_scvt); }).code() ==
+        ErrorCode::bad_option);
+  for (const char* name : {"mesh", "mesh.stl", "", "vtp", "a.vtp/mesh", "SaveTriangles"})
+    CHECK(error_of([&] { calotte::require_mesh_suffix(name); }).code() == ErrorCode::bad_option);
+  CHECK(std::string(error_of([&] { format_of("mesh.stl"); }).what()) ==
+        "mesh.stl: unknown suffix \".stl\"; a mesh file ends in .nc, .vtp, .vtu, .off, .ply, .msh, "
+        ".geojson, .txt or .tri, or is named SaveVertices");
+}
+
+TEST_CASE("every format's file is read as the mesh that was written") {
+  const Scratch scratch;
+  for (const auto& [name, mesh] :
+       {NamedMesh{"random", calotte::delaunay(calotte::random_sphere(200, 1))},
+        NamedMesh{"cubed sphere", calotte::delaunay(calotte::cubed_sphere(4))}})
+    for (const Kind& kind : kinds) {
+      CAPTURE(name);
+      CAPTURE(int(kind.format));
+      const std::string path = scratch / kind.file;
+      calotte::write(path, mesh, {.format = kind.format});
+      const Mesh expected =
+          calotte::renumbered(mesh, is_netcdf(kind) ? Numbering::curve : Numbering::input);
+      const Mesh read = calotte::read_mesh(path, &mesh.points);
+      REQUIRE(read.points.cols() == mesh.points.cols());
+      CHECK((read.points - expected.points).colwise().norm().maxCoeff() < 1e-14);
+      if (holds_coordinates(kind.format)) {
+        CHECK(equal_bits(read.points, expected.points));
+        CHECK(equal_bits(read.triangles, expected.triangles));
+        CHECK(equal_bits(read.neighbours, expected.neighbours));
+      }
+      if (kind.format != Format::triangles)
+        CHECK(equal_bits(calotte::read_sites(path), read.points));
+    }
+}
+
+TEST_CASE("numbering: along the curve for NetCDF by default, as asked for in every format") {
+  const Scratch scratch;
+  const Mesh mesh = calotte::delaunay(calotte::random_sphere(120, 2));
+  for (const Numbering numbering : {Numbering::curve, Numbering::rcm, Numbering::input})
+    for (const Kind& kind : kinds) {
+      CAPTURE(int(kind.format));
+      CAPTURE(int(numbering));
+      const std::string path = scratch / kind.file;
+      calotte::write(path, mesh, {.format = kind.format, .numbering = numbering});
+      if (kind.format == Format::triangles) // they refer to the columns of the input in any order
+        CHECK(calotte::check(
+                  calotte::renumbered(calotte::read_mesh(path, &mesh.points), Numbering::curve))
+                  .passed());
+      else if (holds_coordinates(kind.format))
+        CHECK(equal_bits(calotte::read_sites(path), calotte::renumbered(mesh, numbering).points));
+    }
+}
+
+TEST_CASE("a NetCDF file's contents tell its kind, whatever its name") {
+  const Scratch scratch;
+  const Mesh mesh = calotte::delaunay(calotte::random_sphere(100, 3));
+  for (const Kind& kind : kinds)
+    if (is_netcdf(kind)) {
+      calotte::write(scratch / "grid.data", mesh, {.format = kind.format});
+      CHECK(calotte::read_mesh(scratch / "grid.data").points.cols() == 100);
+    }
+  write_text(scratch / "mesh.nc", "x y z\n1 2 3\n");
+  CHECK(error_of([&] { calotte::read_mesh(scratch / "mesh.nc"); }).code() == ErrorCode::parse);
+  write_text(scratch / "grid.data", "x y z\n1 2 3\n");
+  CHECK(error_of([&] { calotte::read_mesh(scratch / "grid.data"); }).code() ==
+        ErrorCode::bad_option);
+  CHECK(error_of([&] { calotte::read_mesh(scratch / "absent.nc"); }).code() == ErrorCode::file);
+  CHECK(error_of([&] { calotte::read_mesh(scratch / "absent.vtp"); }).code() == ErrorCode::file);
+}
+
+TEST_CASE("options out of range are refused before any file is touched") {
+  const Scratch scratch;
+  const Mesh mesh = calotte::delaunay(octahedron());
+  const auto refused = [&](const Kind& kind, calotte::WriteOptions options) {
+    options.format = kind.format;
+    CHECK(error_of([&] { calotte::write(scratch / kind.file, mesh, options); }).code() ==
+          ErrorCode::bad_option);
+    CHECK(scratch.files() == 0);
+  };
+  for (const Kind& kind : kinds) {
+    for (const double radius : {0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity()})
+      refused(kind, {.sphere_radius = radius});
+    refused(kind, {.density = calotte::tanh_bump({1, 0, 0}, 0.5, 0.2, 2)});
+    calotte::Density empty;
+    empty.kind = calotte::Density::Kind::callable;
+    refused(kind, {.density = empty});
+  }
+  CHECK(error_of([&] { calotte::write(scratch / "mesh.stl", mesh); }).code() ==
+        ErrorCode::bad_option);
+  CHECK(scratch.files() == 0);
+}
+
+TEST_CASE("cells need a closed mesh, triangles none; ids must be the mesh's") {
+  const Scratch scratch;
+  for (const auto& [name, mesh] : open_meshes())
+    for (const Kind& kind : kinds) {
+      CAPTURE(int(kind.format));
+      const auto write = [&, &open = mesh] {
+        calotte::write(scratch / kind.file, open, {.format = kind.format});
+      };
+      if (kind.cells)
+        CHECK(std::string(error_of(write).what()).find("the mesh is open") != std::string::npos);
+      else
+        write();
+    }
+  const Mesh good = calotte::delaunay(octahedron());
+  for (const std::int32_t id : {-1, 6, std::numeric_limits<std::int32_t>::max()})
+    for (const Kind& kind : kinds) {
+      Mesh bad = good;
+      bad.triangles(2, 3) = id;
+      const auto write = [&] {
+        calotte::write(scratch / "bad.data", bad, {.format = kind.format});
+      };
+      if (kind.format != Format::mpi_scvt)
+        CHECK(error_of(write).code() == ErrorCode::bad_option);
+      bad = good;
+      bad.site_of_input[3] = id;
+      if (kind.format != Format::mpi_scvt)
+        CHECK(error_of(write).code() == ErrorCode::bad_option);
+    }
+  CHECK_FALSE(std::filesystem::exists(scratch / "bad.data"));
+}
+
+TEST_CASE("a soup is written as triangles without fields, and read back") {
+  const Scratch scratch;
+  Mesh soup = calotte::delaunay(octahedron());
+  soup.triangles.col(7) = soup.triangles.col(0); // as many as a closed mesh has, but open edges
+  soup.neighbours.setConstant(-1);
+  for (const char* file : {"mesh.vtp", "mesh.vtu", "mesh.off", "mesh.ply", "mesh.msh"}) {
+    calotte::write(scratch / file, soup);
+    CHECK(equal_bits(calotte::read_mesh(scratch / file).triangles, soup.triangles));
+  }
+  soup.neighbours.resize(3, 0);
+  soup.site_of_input.clear();
+  for (const char* file : {"mesh.vtp", "mesh.vtu", "mesh.off", "mesh.ply", "mesh.msh", "mesh.tri"})
+    calotte::write(scratch / file, soup);
+  CHECK(
+      equal_bits(calotte::read_mesh(scratch / "mesh.tri", &soup.points).triangles, soup.triangles));
+}
+
+TEST_CASE("points without triangles are triangulated, and equal directions merged") {
+  const Scratch scratch;
+  write_text(scratch / "mesh.off", "OFF\n5 0 0\n1 0 0\n0 1 0\n0 0 1\n-1 -1 -1\n2 0 0\n");
+  const Mesh mesh = calotte::read_mesh(scratch / "mesh.off");
+  CHECK(mesh.points.cols() == 4);
+  CHECK(mesh.triangles.cols() == 4);
+  CHECK(mesh.site_of_input == std::vector<std::int32_t>{0, 1, 2, 3, 0});
+  CHECK(calotte::read_sites(scratch / "mesh.off").cols() == 5);
+  write_text(scratch / "mesh.off", "OFF\n4 0 0\n1 0 0\n0 1 0\n-1 0 0\n-1 -1 0\n");
+  const calotte::Error flat = error_of([&] { calotte::read_mesh(scratch / "mesh.off"); });
+  CHECK(flat.code() == ErrorCode::degenerate);
+  CHECK(std::string(flat.what()).starts_with(scratch / "mesh.off: "));
+}
+
+TEST_CASE("region centres: RegionList, and RegionTriangulation by the list beside it") {
+  const Scratch scratch;
+  const Points3 centres = calotte::fibonacci_sphere(12);
+  for (const std::string rest : {"", ".12", ".txt"}) {
+    calotte::write_points(scratch / ("RegionList" + rest), centres);
+    CHECK(equal_bits(calotte::read_sites(scratch / ("RegionList" + rest)), centres));
+    CHECK(equal_bits(calotte::read_sites(scratch / ("RegionTriangulation" + rest)), centres));
+    check_equal(calotte::read_mesh(scratch / ("RegionTriangulation" + rest)),
+                calotte::delaunay(centres));
+  }
+  write_text(scratch / "RegionTriangulation.4", "0 1 2\n0 2 3\n");
+  const calotte::Error alone =
+      error_of([&] { calotte::read_sites(scratch / "RegionTriangulation.4"); });
+  CHECK(alone.code() == ErrorCode::file);
+  CHECK(std::string(alone.what()) ==
+        (scratch / "RegionTriangulation.4") + ": it holds the centres' triangles only, and " +
+            (scratch / "RegionList.4") + ", which holds the centres, cannot be read; put it there");
+}
+
+TEST_CASE("triangles alone are no sites") {
+  const Scratch scratch;
+  const Mesh mesh = calotte::delaunay(octahedron());
+  for (const char* file : {"mesh.txt", "mesh.tri"}) {
+    calotte::write(scratch / file, mesh);
+    CHECK(error_of([&] { calotte::read_sites(scratch / file); }).code() == ErrorCode::bad_option);
+    CHECK(error_of([&] { calotte::read_mesh(scratch / file); }).code() == ErrorCode::bad_option);
+  }
+}
+
+TEST_CASE("a periodic plane is MPAS's alone, and keeps its numbers") {
+  const Scratch scratch;
+  const calotte::PlanarMesh plane = calotte::periodic_hexagons(6, 8, 1000);
+  for (const Kind& kind : kinds) {
+    CAPTURE(int(kind.format));
+    const std::string path = scratch / kind.file;
+    const auto write = [&](Numbering numbering) {
+      calotte::write(path, plane, {.format = kind.format, .numbering = numbering});
+    };
+    if (kind.format != Format::mpas && kind.format != Format::mpas_minimal) {
+      CHECK(error_of([&] { write(Numbering::by_format); }).code() == ErrorCode::bad_option);
+      CHECK((is_netcdf(kind) || !std::filesystem::exists(path)));
+      continue;
+    }
+    CHECK(error_of([&] { write(Numbering::curve); }).code() == ErrorCode::bad_option);
+    CHECK(error_of([&] { write(Numbering::rcm); }).code() == ErrorCode::bad_option);
+    write(Numbering::by_format);
+    const calotte::PlanarMesh read = calotte::read_planar_mesh(path);
+    CHECK(equal_bits(read.points, plane.points));
+    CHECK(equal_bits(read.triangles, plane.triangles));
+    CHECK(read.period == plane.period);
+    CHECK(error_of([&] { calotte::read_mesh(path); }).code() == ErrorCode::bad_option);
+  }
+  const Mesh sphere = calotte::delaunay(octahedron());
+  calotte::write(scratch / "mesh.nc", sphere);
+  CHECK(error_of([&] { calotte::read_planar_mesh(scratch / "mesh.nc"); }).code() ==
+        ErrorCode::bad_option);
+  calotte::write(scratch / "mesh.off", sphere);
+  CHECK(error_of([&] { calotte::read_planar_mesh(scratch / "mesh.off"); }).code() ==
+        ErrorCode::bad_option);
+}

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <calotte/error.h>
+#include <calotte/types.h>
+
+#include <doctest/doctest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <string>
+
+#include <unistd.h>
+
+/// What tests of files have in common.
+namespace calotte::test {
+
+/// A folder that goes when the test ends.
+struct Scratch {
+  std::filesystem::path folder;
+  Scratch() {
+    std::string name = std::filesystem::temp_directory_path() / "calotte-test-XXXXXX";
+    folder = ::mkdtemp(name.data());
+  }
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+  ~Scratch() { std::filesystem::remove_all(folder); }
+  std::string operator/(const std::string& name) const { return folder / name; }
+  std::ptrdiff_t files() const {
+    return std::distance(std::filesystem::directory_iterator(folder),
+                         std::filesystem::directory_iterator());
+  }
+};
+
+inline std::string read_file(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+inline void write_text(const std::string& path, const std::string& text) {
+  std::ofstream(path, std::ios::binary) << text;
+}
+
+/// The error that the work ends in: one line.
+template <class Work> Error error_of(Work work) {
+  try {
+    work();
+  } catch (const Error& error) {
+    CHECK(std::string(error.what()).find('\n') == std::string::npos);
+    return error;
+  }
+  FAIL("no error");
+  std::abort();
+}
+
+/// Work on a file cut short at every length, but for the last byte, ends in an Error, or else is
+/// done. \returns how often it was done. The file is whole again at the end.
+inline int done_when_cut(const std::string& path, const std::function<void()>& work) {
+  const std::string whole = read_file(path);
+  int done = 0;
+  for (std::size_t size = 0; size + 1 < whole.size(); ++size) {
+    std::filesystem::remove(path); // some file systems bring what is overwritten to the disk
+    write_text(path, whole.substr(0, size));
+    INFO("cut to ", size, " bytes");
+    try {
+      work();
+      ++done;
+    } catch (const Error& error) {
+      CHECK(std::string(error.what()).find('\n') == std::string::npos);
+    }
+  }
+  write_text(path, whole);
+  return done;
+}
+
+} // namespace calotte::test
