@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <calotte/cell_width.h>
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+/// Cell widths from files, one function a format; see read_cell_width.
+namespace calotte::detail {
+
+/// A raster as a file has it, and what its parts are called there.
+struct Raster {
+  std::vector<double> longitudes, latitudes; ///< degrees
+  Eigen::MatrixXd widths;                    ///< longitudes x latitudes, km
+  std::string longitude_name, latitude_name, width_name;
+  bool longitude_fastest = true; ///< in the file: how messages give a width's index
+};
+
+/// Brings a raster into the order of CellWidth: latitudes ascending, no longitude repeated.
+/// \throws Error parse, "NAME: ..." with the variable and its index, where it does not cover the
+///         sphere, or a width is not positive.
+CellWidth checked(Raster raster, const std::string& name);
+
+CellWidth read_cell_width_netcdf(const std::string& path, const std::string& variable);
+CellWidth read_cell_width_msh(std::istream& in, const std::string& name);
+CellWidth read_cell_width_geojson(std::istream& in, const std::string& name,
+                                  const PolygonWidths& widths);
+
+} // namespace calotte::detail
