@@ -78,7 +78,8 @@ TEST_CASE("bad usage is refused before any work") {
   const auto check_usage = [&](const std::string& arguments, const std::string& message) {
     check_refusal(bench, arguments, 2, message);
   };
-  const std::string suffixes = "; a mesh file ends in .txt, .tri, .vtp, .vtu, .off or .ply";
+  const std::string suffixes = "; a mesh file ends in .nc, .vtp, .vtu, .off, .ply, .msh, .geojson, "
+                               ".txt or .tri, or is named SaveVertices";
   check_usage("delaunay never -o mesh.stl", "mesh.stl: unknown suffix \".stl\"" + suffixes);
   check_usage("delaunay never -o mesh", "mesh: no suffix" + suffixes);
   check_usage("delaunay never -o mesh.vtp --regions 0",
@@ -96,18 +97,19 @@ TEST_CASE("bad usage is refused before any work") {
   check_usage("delaunay never -o mesh.vtp --centres never --regions 3",
               "--regions and a file of centres exclude each other; leave one of them out");
   check_usage("delaunay never", "--output is required; see calotte delaunay --help");
-  check_usage("delaunay -o mesh.vtp", "POINTS is required; see calotte delaunay --help");
+  check_usage("delaunay -o mesh.vtp", "--points is required; see calotte delaunay --help");
   check_usage("delaunay never -o mesh.vtp --report mesh.vtp",
               "mesh.vtp is both mesh and report; give the report another name");
-  check_usage("", "delaunay, cvt, points, check, info or draw is required; see calotte --help");
+  check_usage(
+      "", "delaunay, cvt, points, check, info, draw or convert is required; see calotte --help");
   check_usage("triangulate",
               "The following argument was not expected: triangulate; see calotte --help");
   check_usage("check mesh.tri",
               "mesh.tri holds triangles only; give the points they refer to (--points FILE)");
-  check_usage(
-      "points random 9 -o points.vtp",
-      "points.vtp: points are text, x y z a line; give a name such as points.txt, and make a "
-      "mesh with calotte delaunay");
+  for (const std::string mesh : {"points.vtp", "points.nc", "points.msh", "points.tri"})
+    check_usage("points random 9 -o " + mesh,
+                mesh + ": points are text, x y z a line; give a name such as points.txt, and make "
+                       "a mesh with calotte delaunay");
   check_usage("points fibonacci 9 --seed 3 -o points.txt",
               "--seed is for random points only; leave it out");
   check_usage("points spiral 9 --poles -o points.txt",
@@ -256,7 +258,7 @@ TEST_CASE("every kind of points") {
 
 TEST_CASE("help names the exit codes, for the command and for each of its parts") {
   const Bench bench;
-  for (const char* part : {"", "delaunay", "cvt", "points", "check", "info", "draw"}) {
+  for (const char* part : {"", "delaunay", "cvt", "points", "check", "info", "draw", "convert"}) {
     const Outcome help = bench.run(std::string(part) + " --help");
     CHECK(help.code == 0);
     CHECK(help.out.find("1  the mesh failed a check") != std::string::npos);

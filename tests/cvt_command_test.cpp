@@ -221,8 +221,12 @@ TEST_CASE("bad usage is refused before any work") {
   };
   const std::string out = " -o mesh.vtp ", see = "; see calotte cvt --help";
   check_usage("never", "--output is required" + see);
-  check_usage("never -o mesh.stl", "mesh.stl: unknown suffix \".stl\"; a mesh file ends in .txt, "
-                                   ".tri, .vtp, .vtu, .off or .ply");
+  check_usage("never -o mesh.stl",
+              "mesh.stl: unknown suffix \".stl\"; a mesh file ends in .nc, .vtp, .vtu, .off, .ply, "
+              ".msh, .geojson, .txt or .tri, or is named SaveVertices");
+  check_usage("never -o mesh.vtp --sphere-radius 6371229",
+              "--sphere-radius 6371229 is for NetCDF files, and mesh.vtp holds points as they are; "
+              "leave it out, or give a name that ends in .nc");
   check_usage(out, "no start: give a file of points, or the number of cells (--cells N)");
   check_usage("never --cells 12" + out, "the start is the file never; leave --cells out");
   check_usage("never --start random" + out, "the start is the file never; leave --start out");
@@ -298,6 +302,7 @@ TEST_CASE("outputs that cannot be, or would replace what is read, are refused be
   check_refusal(bench, "cvt never --config config.off -o config.off", 2, both("config.off"));
   check_refusal(bench, "cvt never --resume points.off -o points.off", 2, both("points.off"));
   check_refusal(bench, "cvt never --centres points.off -o points.off", 2, both("points.off"));
+  check_refusal(bench, "cvt never --cell-width points.off -o points.off", 2, both("points.off"));
   CHECK(bench.file("points.off") == "0 0 1\n");
 }
 
@@ -336,22 +341,113 @@ TEST_CASE("options from a file: the command line wins, and what is unknown is re
                            "180 -45\n270 -45\n0 90\n");
   bench.file("places.toml", "points = \"places.txt\"\nlonlat = true\niterations = 1");
   CHECK(bench.run("cvt --config places.toml -o mesh.vtp").out.starts_with("mesh.vtp: 13 cells"));
-  const auto check_file = [&](const std::string& text, const std::string& message) {
+  fs::create_directory(bench.folder() / "away"); // files are where the file of options is
+  CHECK(bench.run("cvt --config ../places.toml -o mesh.vtp", "cd away;")
+            .out.starts_with("mesh.vtp: 13 cells"));
+  const auto check_file = [&](const std::string& text, int line, const std::string& message) {
     bench.file("bad.toml", text);
-    check_refusal(bench, "cvt --config bad.toml -o mesh.tri", 2, "bad.toml: " + message);
+    check_refusal(bench, "cvt --config bad.toml -o mesh.tri", 2,
+                  "bad.toml line " + std::to_string(line) + ": " + message);
   };
-  const std::string see = "; see calotte cvt --help";
-  check_file("cells = 12\nspeed = 3\n", "unknown option \"speed\"" + see);
-  check_file("config = \"bad.toml\"\n", "unknown option \"config\"" + see);
-  check_file("help = true\n", "unknown option \"help\"" + see);
-  check_file("cells = 12\nseed = 1\ncells = 42\n", "cells is given twice; leave one of them out");
-  check_file("[cvt]\ncells = 12\n", "there are no sections, but [cvt] is one; leave it out");
-  check_file("cells = 11\n", "--cells: \"11\" is not a whole number from 12 to 1073741824");
+  const std::string see = " calotte cvt --help";
+  check_file("cells = 12\ntolerence = 3\n", 2,
+             "unknown option \"tolerence\"; did you mean tolerance? See" + see);
+  check_file("config = \"bad.toml\"\n", 1, "unknown option \"config\"; see" + see);
+  check_file("cells = 11\n", 1, "--cells: \"11\" is not a whole number from 12 to 1073741824");
+  check_file("tolerance = 'small'\n", 1, "Could not convert: --tolerance = small");
+  check_file("[a]\nlonlat = 1\n", 2, "lonlat takes true or false");
   check_refusal(bench, "cvt --config absent.toml -o mesh.tri", 3,
                 "cannot read absent.toml: No such file or directory; check its name and its "
                 "permissions");
   check_refusal(bench, "cvt --config . -o mesh.tri", 3,
                 "cannot read .: it is a folder; give the name of a file");
+}
+
+TEST_CASE("the examples run, from anywhere, and write beside themselves") {
+  const Bench bench;
+  fs::copy(CALOTTE_FIXTURES "/../../tools/examples", bench.folder() / "examples");
+  std::set<std::string> runs;
+  for (const auto& entry : fs::directory_iterator(bench.folder() / "examples"))
+    if (entry.path().extension() == ".toml")
+      runs.insert(entry.path().stem());
+  CHECK(runs == std::set<std::string>{"coastal", "uniform-120km", "x8"});
+  for (const std::string& run : runs) {
+    CAPTURE(run);
+    const std::string mesh = "examples/" + run + ".nc";
+    const Outcome made =
+        bench.run("cvt --config examples/" + run + ".toml --cells 162 --max-iterations 30");
+    CAPTURE(made.err);
+    CHECK((made.code == 0 || has(made.err, "raise --max-iterations")));
+    CHECK(!has(made.err, "warning"));
+    CHECK(made.out.starts_with(mesh + ": 162 cells, "));
+    CHECK(bench.run("check " + mesh).code == 0);
+  }
+  CHECK(fs::exists(bench.folder() / "examples/x8.json"));
+  CHECK(has(bench.file("examples/x8.nc"),
+            "tolerance 1e-04; max-iterations 30; rule 7; final-rule 7; ")); // MPI-SCVT's names
+  CHECK(has(bench.file("examples/coastal.nc"), "cell-width of "));
+}
+
+TEST_CASE("cell widths say how many cells, warn, and belong to a checkpoint") {
+  const Bench bench;
+  const auto widths = [&](const std::string& one) {
+    bench.file("widths.msh", "MSHID=3;ELLIPSOID-GRID\nNDIMS=2\nCOORD=1;2\n0\n3.141592653589793\n"
+                             "COORD=2;3\n-1.5707963267948966\n0\n1.5707963267948966\n"
+                             "VALUE=6;1\n1500\n1500\n1500\n1500\n" +
+                                 one + "\n1500\n");
+  };
+  widths("1500");
+  const std::string run = "cvt --cell-width widths.msh --cells auto --iterations 2 -o mesh.vtp ";
+  const Outcome outcome = bench.run(run + kept);
+  CAPTURE(outcome.err);
+  CHECK(outcome.code == 0);
+  CHECK(outcome.out.starts_with("mesh.vtp: 262 cells, ")); // 4 pi R^2 / (sqrt(3)/2 h^2) = 261.8
+  CHECK(outcome.err.starts_with("calotte: widths.msh: cells 1500 to 1500 km wide, on 2 x 3 nodes, "
+                                "ask for 262 cells; "));
+  CHECK(!has(outcome.err, "warning"));
+  CHECK(bench.run(run + "--resume run.checkpoint").code == 0);
+  widths("1500.5");
+  check_refusal_naming(bench, run + "--resume run.checkpoint", 2, "cell-width of ");
+  widths("2500");
+  CHECK(
+      has(bench.run(run).err, "calotte: warning: the width of cells changes by 0.11 km a km at "));
+  check_refusal(bench, "cvt --cells auto -o mesh.vtp", 2,
+                "--cells auto is for cell widths; give --cell-width FILE, or a number of cells");
+  check_refusal_naming(bench,
+                       "cvt --cells auto --cell-width widths.msh --start icosahedron -o other.vtp",
+                       2, "makes 10 x 4^k + 2 cells, not 186");
+}
+
+TEST_CASE("a mesh tells how it was made, and equal runs give equal bytes") {
+  const Bench bench;
+  const std::string run = "cvt --cells 42 --seed 3 --iterations 4 --density " + bump;
+  const auto history = [&](const std::string& name) {
+    const std::string bytes = bench.file(name);
+    const std::size_t from = bytes.find("start continuation; "), to = bytes.find("merge-within 0");
+    REQUIRE(from < to);
+    REQUIRE(to != std::string::npos);
+    return bytes.substr(from, to - from);
+  };
+  CHECK(bench.run(run + " -o first.nc").code == 0);
+  CHECK(bench.run(run + " -o second.nc --threads 1 --regions 3").code == 0);
+  CHECK((bench.file("first.nc") == bench.file("second.nc")));
+  CHECK(has(bench.file("first.nc"), "calotte 0."));
+  CHECK(history("first.nc") ==
+        "start continuation; cells 42; seed 3; density " + bump +
+            "; method auto; iterations 4; rule 3; final-rule 6; triangle-divisions 1; duplicates "
+            "merge; ");
+  CHECK(bench.run(run + " --method lloyd -o other.nc").code == 0);
+  CHECK(history("other.nc") != history("first.nc"));
+}
+
+TEST_CASE("formats are no part of a checkpoint's configuration") {
+  const Bench bench;
+  const std::string run = "cvt --cells 162 --method lloyd --iterations 4";
+  CHECK(bench.run(run + " -o mesh.vtp" + kept).code == 0);
+  const std::string earth = " --format mpas-minimal --sphere-radius 6371229 --order rcm";
+  CHECK(bench.run(run + " --resume run.checkpoint -o resumed.nc" + earth).code == 0);
+  CHECK(bench.run(run + " -o whole.nc" + earth).code == 0);
+  CHECK((bench.file("resumed.nc") == bench.file("whole.nc")));
 }
 
 TEST_CASE("not converging is exit code 1 with the residual; the mesh and the report are there") {

@@ -145,6 +145,16 @@ TEST_CASE("marks are not letters: raised and lowered text is smaller, other text
   cairo_surface_destroy(surface);
 }
 
+TEST_CASE("a file's words become text that can be shown, its exponents raised") {
+  CHECK(shown("a\xff") == "a\ufffd");
+  CHECK(unmarked("2*x_{1}, y^2") == "2x_1, y^2");
+  CHECK(unit_text("kg m-2 s-1") == "kg m^{\u22122} s^{\u22121}");
+  CHECK(unit_text("m2") == "m^{2}");
+  for (const char* plain : {"degrees_north", "1e-3", "K", "", "days since 2000-01-01", "m/s"}) {
+    CHECK(unit_text(plain) == plain);
+  }
+}
+
 TEST_CASE("a curve has gaps where it cannot be shown, and a dot between two gaps") {
   cairo_surface_t* surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, 100, 20);
   cairo_t* context = cairo_create(surface);

@@ -3,6 +3,9 @@
 
 #include <doctest/doctest.h>
 
+#include <string>
+#include <vector>
+
 using namespace calotte::test;
 
 namespace {
@@ -49,16 +52,82 @@ TEST_CASE("the options of one picture are refused for another, before anything i
     check_refusal(bench, "draw " + arguments, 2, message + "; see calotte draw --help");
   };
   check_usage("-o a.png", "MESH is required");
-  check_usage("a.vtp -o a.png --spacing-law", "--spacing-law requires --density");
-  check_usage("a.vtp -o a.png --density uniform", "--density requires --spacing-law");
+  check_usage("a.vtp -o a.png --colour blue",
+              "--colour: \"blue\" is none of spacing, angle, valence (or degree), area, quality, "
+              "density, field:NAME, none");
+  check_usage("a.vtp -o a.png --colour field:",
+              "--colour: \"field:\" is none of spacing, angle, valence (or degree), area, quality, "
+              "density, field:NAME, none");
+  check_usage("-o a.png --density uniform --what cells", "--what: MESH is required");
   check_usage("a.vtp -o a.png --spacing-law --density uniform --view 1,2",
               "--view excludes --spacing-law");
   check_usage("a.vtp --history a.json -o a.png", "MESH excludes --history");
   check_usage("--history a.json -o a.png --what cells", "--what excludes --history");
-  check_usage("--history a.json -o a.png --spacing-law --density uniform",
-              "--history excludes --spacing-law");
+  check_usage("--history a.json -o a.png --spacing-law", "--history excludes --spacing-law");
+  check_usage("--history a.json -o a.png --density uniform", "--density excludes --history");
+  check_usage("--history a.json -o a.png --projection globe", "--projection excludes --history");
   check_usage("--history 1 2 3 4 5 6 7 8 9 -o a.png",
               "--history: At Most 8 required but received 9");
+}
+
+TEST_CASE("a density is asked for and given, or neither, before anything is read") {
+  const Bench bench;
+  check_refusal(bench, "draw a.vtp -o a.png --spacing-law", 2,
+                "--spacing-law needs a density; give --density or --cell-width");
+  check_refusal(bench, "draw a.vtp -o a.png --colour density", 2,
+                "--colour density needs a density; give --density or --cell-width");
+  check_refusal(bench, "draw a.vtp -o a.png --density uniform", 2,
+                "with a mesh a density is for --colour density or --spacing-law; give one of "
+                "these, or no MESH for a picture of the density itself");
+  check_refusal(bench, "draw -o a.png --density uniform --colour valence", 2,
+                "without MESH a density is coloured by density or spacing; give one of these, or a "
+                "mesh");
+}
+
+TEST_CASE("a mesh is drawn on either map, by its shapes and by what they are coloured by") {
+  const Bench bench;
+  make_run(bench, "a");
+  const std::vector<std::string> looks = {
+      "--projection plate-carree --view 180,0 --graticule --what both --colour area",
+      "--projection globe --colour quality", "--colour degree --what cells",
+      "--colour density --what cells --density " + bump};
+  for (const std::string& options : looks) {
+    const Outcome outcome = bench.run("draw a.vtp -o a.png --size 200 " + options);
+    CAPTURE(options);
+    CHECK(outcome.err.empty());
+    CHECK(outcome.out == "a.png: picture of 162 sites, 320 triangles\n");
+    CHECK(bench.file("a.png").starts_with("\x89PNG"));
+  }
+}
+
+TEST_CASE("a density alone becomes a picture of it, or of the spacings it asks for") {
+  const Bench bench;
+  const std::vector<std::string> looks = {"", "--projection plate-carree --graticule",
+                                          "--colour spacing --view 270,30",
+                                          "--join sum --density " + bump};
+  for (const std::string& options : looks) {
+    CAPTURE(options);
+    const Outcome outcome = bench.run("draw -o a.png --size 200 --density " + bump + " " + options);
+    CHECK(outcome.err.empty());
+    CHECK(outcome.out == "a.png: picture of a density\n");
+    CHECK(bench.file("a.png").starts_with("\x89PNG"));
+  }
+}
+
+TEST_CASE("a mesh file's variables colour its cells; an unknown one names those there are") {
+  const Bench bench;
+  make_run(bench, "a");
+  REQUIRE(bench.run("convert a.vtp a.nc").code == 0);
+  const Outcome outcome =
+      bench.run("draw a.nc -o a.png --size 200 --what cells --colour field:areaCell");
+  CHECK(outcome.err.empty());
+  CHECK(outcome.out == "a.png: picture of 162 sites, 320 triangles\n");
+  const Outcome unknown = bench.run("draw a.nc -o b.png --colour field:area");
+  CHECK(unknown.code == 2);
+  CHECK(unknown.err.starts_with("calotte: a.nc: no variable area; there are "));
+  CHECK(unknown.err.find("areaCell") != std::string::npos);
+  CHECK(unknown.err.find("areaTriangle") == std::string::npos);
+  check_refusal_naming(bench, "draw a.vtp -o b.png --colour field:area", 2, "a.vtp");
 }
 
 TEST_CASE("what is no report is named, and nothing is written") {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "../tools/draw_shapes.h"
 #include "../tools/draw_spacing_law.h"
+#include "../tools/draw_values.h"
 #include "support/pictures.h"
 
 #include <calotte/delaunay.h>

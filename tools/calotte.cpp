@@ -56,9 +56,10 @@ void run(CLI::App& app, int argc, char** argv) {
   add_check(app);
   add_info(app);
   add_draw(app);
+  add_convert(app);
   app.parse(argc, argv);
   if (app.get_subcommands().empty())
-    throw CLI::RequiredError("delaunay, cvt, points, check, info or draw");
+    throw CLI::RequiredError("delaunay, cvt, points, check, info, draw or convert");
 }
 
 /// Runs the command, and turns what it throws into one line and an exit code.

@@ -23,6 +23,7 @@ void add_points(CLI::App& app);
 void add_check(CLI::App& app);
 void add_info(CLI::App& app);
 void add_draw(CLI::App& app);
+void add_convert(CLI::App& app);
 
 // ---- What they share.
 
@@ -57,6 +58,9 @@ struct Output {
 /// \throws Error file, bad_option.
 void require_outputs(const std::vector<Output>& outputs, const std::vector<std::string>& inputs);
 
+/// With the fewest digits that read back to the same bits.
+std::string shortest(double value);
+
 /// Whole numbers in a range, for an option's transform: in decimal, though they may start with
 /// zeros.
 CLI::Validator whole_number(std::uint64_t least, std::uint64_t most);
@@ -72,8 +76,13 @@ struct PointFile {
   std::vector<std::int64_t> lines;
 };
 
-/// Text, or the points of a .vtp, .vtu, .off or .ply mesh, which have no lines.
-/// \throws Error as points_from and read_mesh; bad_option for a mesh in longitude and latitude.
+/// The suffixes of meshes that hold their points, for help texts.
+inline constexpr const char* mesh_suffixes =
+    ".nc (MPAS, UGRID, SCRIP or ESMF), .vtp, .vtu, .off, .ply, .msh or .geojson";
+
+/// Text (MPI-SCVT's SaveVertices and RegionList are such), or the points of a mesh, see
+/// mesh_suffixes, which have no lines.
+/// \throws Error as points_from and read_sites; bad_option for a mesh in longitude and latitude.
 PointFile read_point_file(const std::string& path, bool lonlat);
 
 /// The library names the column of a bad point; who wrote the file looks for the line.
@@ -86,8 +95,8 @@ struct MeshSource {
   bool lonlat = false;
 };
 
-/// Adds the positional MESH and the options --points and --lonlat.
-std::shared_ptr<MeshSource> add_mesh_source(CLI::App& command);
+/// Adds the positional MESH, or of another name, and the options --points and --lonlat.
+std::shared_ptr<MeshSource> add_mesh_source(CLI::App& command, const std::string& names = "MESH");
 
 /// \throws Error as read_mesh and read_points do.
 Mesh read_mesh(const MeshSource& source);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands.h"
 
+#include "format_options.h"
+
 #include <calotte/error.h>
 #include <calotte/io.h>
 
@@ -14,16 +16,6 @@
 #include <unistd.h>
 
 namespace calotte::tools {
-
-namespace {
-
-/// Whether the suffix is that of a mesh which holds its points.
-bool holds_mesh_points(const std::string& path) {
-  const std::string suffix = std::filesystem::path(path).extension();
-  return suffix == ".vtp" || suffix == ".vtu" || suffix == ".off" || suffix == ".ply";
-}
-
-} // namespace
 
 void finish(ExitCode code) { throw CLI::RuntimeError(code); }
 
@@ -66,6 +58,11 @@ void require_outputs(const std::vector<Output>& outputs, const std::vector<std::
   }
 }
 
+std::string shortest(double value) {
+  char digits[32];
+  return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
+}
+
 CLI::Validator whole_number(std::uint64_t least, std::uint64_t most) {
   const std::string range = most == std::numeric_limits<int>::max()
                                 ? std::to_string(least) + " or more"
@@ -88,11 +85,11 @@ Points3 points_from(const std::string& path, Columns columns, std::vector<std::i
 }
 
 PointFile read_point_file(const std::string& path, bool lonlat) {
-  if (holds_mesh_points(path)) {
+  if (holds_points(path)) {
     if (lonlat)
       throw Error(ErrorCode::bad_option,
                   path + ": a mesh's points are x y z; leave --lonlat out, or give text");
-    return {path, calotte::read_mesh(path).points, {}};
+    return {path, read_sites(path), {}};
   }
   PointFile file;
   file.name = path == "-" ? "standard input" : path;
@@ -112,13 +109,16 @@ void rethrow_with_line(const Error& error, const PointFile& file) {
               line);
 }
 
-std::shared_ptr<MeshSource> add_mesh_source(CLI::App& command) {
+std::shared_ptr<MeshSource> add_mesh_source(CLI::App& command, const std::string& names) {
   auto source = std::make_shared<MeshSource>();
   command
-      .add_option("MESH", source->path,
-                  "the mesh: .vtp, .vtu, .off, .ply, or .txt/.tri with --points")
+      .add_option(names, source->path,
+                  "the mesh: " + std::string(mesh_suffixes) +
+                      ", SaveVertices (MPI-SCVT), or .txt and .tri with --points")
+      ->type_name("FILE")
       ->required();
-  command.add_option("--points", source->points, "the points that a .txt or .tri file refers to");
+  command.add_option("--points", source->points, "the points that a .txt or .tri file refers to")
+      ->type_name("FILE");
   command.add_flag("--lonlat", source->lonlat,
                    "these points are longitude and latitude in degrees");
   return source;
@@ -127,7 +127,7 @@ std::shared_ptr<MeshSource> add_mesh_source(CLI::App& command) {
 Mesh read_mesh(const MeshSource& source) {
   if (source.points.empty())
     return calotte::read_mesh(source.path);
-  const Points3 points = points_from(source.points, source.lonlat ? Columns::lonlat : Columns::xyz);
+  const Points3 points = read_point_file(source.points, source.lonlat).points;
   return calotte::read_mesh(source.path, &points);
 }
 

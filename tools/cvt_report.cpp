@@ -52,10 +52,9 @@ std::string formatted(const char* format, double value) {
 
 std::string to_json(const CvtRequest& request, const Cvt& result, int threads) {
   const CvtReport& report = result.report;
-  const std::vector<std::string>& density = request.density->densities;
   Json json;
   json["calotte"] = CALOTTE_VERSION;
-  json["density"] = density.empty() ? std::vector<std::string>{"uniform"} : density;
+  json["density"] = density_names(*request.density);
   json["method"] = request.method;
   json["norm"] = norm_word(request);
   json["tolerance"] = request.tolerance;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "density_option.h"
+#include "format_options.h"
 #include "partition_options.h"
 
 #include <calotte/cvt.h>
@@ -18,6 +19,7 @@ struct CvtRequest {
   std::string points; ///< the file of the start, or none
   bool lonlat = false;
   std::optional<int> cells;         ///< of the result
+  bool cells_of_widths = false;     ///< --cells auto: those that the cell widths ask for
   std::optional<std::string> start; ///< default continuation
   std::optional<std::uint64_t> seed;
   std::optional<int> bisections;
@@ -33,6 +35,7 @@ struct CvtRequest {
   int triangle_divisions = CvtOptions{}.triangle_divisions;
   std::shared_ptr<PartitionWords> partition;
 
+  std::shared_ptr<FormatWords> format;
   std::string mesh, report;
   std::string checkpoint, resume;
   int checkpoint_every = 100;
@@ -43,7 +46,7 @@ struct CvtRequest {
 /// The word of --norm, "none" for a run of --iterations.
 std::string norm_word(const CvtRequest& request);
 
-/// All but the bisections, which belong to the start.
+/// All but the bisections, which belong to the start, and the density.
 /// \throws Error bad_option.
 CvtOptions options_of(const CvtRequest& request);
 

@@ -73,7 +73,9 @@ void require_icosahedral(std::int64_t cells, int bisections) {
 
 void require_cells(const CvtRequest& request) {
   const std::string kind = kind_of(request);
-  if (!request.cells)
+  if (request.cells_of_widths && request.density->widths.file.empty())
+    refuse("--cells auto is for cell widths; give --cell-width FILE, or a number of cells");
+  if (!request.cells && !request.cells_of_widths)
     refuse("no start: give a file of points, or the number of cells (--cells N)");
   if (request.lonlat)
     refuse("--lonlat is for a file of points; leave it out");
@@ -81,6 +83,8 @@ void require_cells(const CvtRequest& request) {
     refuse("--seed is for the starts continuation, random and density; leave it out");
   if (request.bisections && kind == "continuation")
     refuse("--start continuation chooses the bisections; leave --bisections out");
+  if (!request.cells) // see settle_cells
+    return;
   if (kind == "icosahedron")
     require_icosahedral(*request.cells, request.bisections.value_or(0));
   else if (kind != "continuation")
@@ -92,7 +96,7 @@ void require_file(const CvtRequest& request) {
     if (given)
       refuse("the start is the file " + request.points + "; leave " + option + " out");
   };
-  exclude(request.cells.has_value(), "--cells");
+  exclude(request.cells.has_value() || request.cells_of_widths, "--cells");
   exclude(request.start.has_value(), "--start");
   exclude(request.seed.has_value(), "--seed");
 }
@@ -152,6 +156,17 @@ void require_start(const CvtRequest& request) {
     require_cells(request);
   else
     require_file(request);
+}
+
+std::vector<std::string> settle_cells(CvtRequest& request, const std::optional<CellWidth>& widths) {
+  if (!widths)
+    return {};
+  const WidthWords& words = request.density->widths;
+  if (request.cells_of_widths) {
+    request.cells = static_cast<int>(cells_for(*widths, words, kind_of(request) == "continuation"));
+    require_cells(request);
+  }
+  return notes_on(*widths, words, request.cells);
 }
 
 CvtStart open_start(const CvtRequest& request) {

@@ -4,7 +4,9 @@
 #include "commands.h"
 #include "cvt_request.h"
 
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace calotte::tools {
 
@@ -20,6 +22,10 @@ struct CvtStart {
 /// Refuses, before any work, what the options say of the start.
 /// \throws Error bad_option.
 void require_start(const CvtRequest& request);
+
+/// Gives the request the number of cells that the widths ask for, where it is to have that.
+/// \returns what the user ought to know of the widths, a line each. \throws Error bad_option.
+std::vector<std::string> settle_cells(CvtRequest& request, const std::optional<CellWidth>& widths);
 
 /// Reads the points, if they come from a file, and says what determines them.
 /// \throws Error bad_option, parse, file.

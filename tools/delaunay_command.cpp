@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands.h"
+#include "config_option.h"
+#include "format_options.h"
 #include "partition_options.h"
 #include "progress.h"
 
@@ -19,6 +21,8 @@ struct Request {
   std::string points, mesh, report;
   bool lonlat = false;
   std::shared_ptr<PartitionWords> partition;
+  std::shared_ptr<FormatWords> format;
+  std::shared_ptr<std::string> config;
 };
 
 struct Result {
@@ -28,8 +32,9 @@ struct Result {
 
 /// Everything about the output that can be known to fail, before any work.
 void require_request(const Request& request) {
-  require_mesh_suffix(request.mesh);
-  require_outputs({{"mesh", request.mesh}, {"report", request.report}}, {request.points});
+  options_of(*request.format, request.mesh); // throws for a file that could not be written
+  require_outputs({{"mesh", request.mesh}, {"report", request.report}},
+                  {request.points, centres_file(*request.partition), *request.config});
 }
 
 Result triangulate(const PointFile& input, const DelaunayOptions& options,
@@ -41,6 +46,15 @@ Result triangulate(const PointFile& input, const DelaunayOptions& options,
     rethrow_with_line(error, input);
   }
   return result;
+}
+
+WriteOptions write_options(const Request& request, const PointFile& input) {
+  WriteOptions options = options_of(*request.format, request.mesh);
+  options.history = "calotte " CALOTTE_VERSION " delaunay: " + request.points + ", " +
+                    std::to_string(input.points.cols()) + " points; duplicates " +
+                    request.partition->duplicates + "; merge-within " +
+                    shortest(request.partition->merge_within);
+  return options;
 }
 
 std::string to_json(const Result& result, double read, double write) {
@@ -97,7 +111,8 @@ void run(const Request& request) {
     progress.stage("triangulating " + std::to_string(input.points.cols()) + " points");
     result = triangulate(input, options, request.partition->threads);
     progress.stage("writing " + request.mesh);
-    const double written = seconds_of([&] { write(request.mesh, result.mesh); });
+    const double written =
+        seconds_of([&] { write(request.mesh, result.mesh, write_options(request, input)); });
     if (!request.report.empty())
       write_file(request.report, to_json(result, read, written));
   }
@@ -112,18 +127,22 @@ void add_delaunay(CLI::App& app) {
       "Triangulate points on the sphere; the mesh is the same for any threads and regions.");
   auto request = std::make_shared<Request>();
   command
-      ->add_option("POINTS", request->points,
+      ->add_option("POINTS,--points", request->points,
                    "text, x y z a line (directions of any norm); - is standard input; or the "
-                   "points of a mesh, .vtp .vtu .off .ply")
+                   "points of a mesh, " +
+                       std::string(mesh_suffixes))
+      ->type_name("FILE")
       ->required();
-  command
-      ->add_option("-o,--output", request->mesh,
-                   "the mesh; its suffix names the format: .txt .tri .vtp .vtu .off .ply")
+  command->add_option("-o,--output", request->mesh, help_of_output())
+      ->type_name("FILE")
       ->required();
   command->add_flag("--lonlat", request->lonlat,
                     "the text's points are longitude and latitude in degrees");
   request->partition = add_partition(*command);
-  command->add_option("--report", request->report, "a JSON file of times and counts");
+  request->format = add_format(*command);
+  command->add_option("--report", request->report, "a JSON file of times and counts")
+      ->type_name("FILE");
+  request->config = add_config(*command);
   command->callback([request] { run(*request); });
 }
 

@@ -157,26 +157,7 @@ Bump bump_of(const std::string& text) {
   return bump;
 }
 
-} // namespace
-
-std::shared_ptr<DensityWords> add_density(CLI::App& command) {
-  auto words = std::make_shared<DensityWords>();
-  command
-      .add_option("--density", words->densities,
-                  "uniform (the default), or a bump such as " + std::string(example) +
-                      ": about 1 within beta of its centre and gamma far away, changing over "
-                      "alpha; lon and lat in degrees, beta and alpha in radians or as 30deg, gamma "
-                      "a number below 1 or x8 for spacings of 8:1; stretch=2,azimuth=45 makes it "
-                      "an ellipse with its long axis 45 degrees clockwise from north. May be given "
-                      "several times")
-      ->allow_extra_args(false);
-  command.add_option("--join", words->join, "what several bumps make together")
-      ->check(CLI::IsMember({"maximum", "sum"}))
-      ->capture_default_str();
-  return words;
-}
-
-Density density_of(const DensityWords& words) {
+Density bumps_of(const DensityWords& words) {
   Density density;
   for (const std::string& text : words.densities) {
     if (text != "uniform")
@@ -187,6 +168,57 @@ Density density_of(const DensityWords& words) {
   if (!density.bumps.empty())
     density.kind = words.join == "sum" ? Density::Kind::sum : Density::Kind::maximum;
   return density;
+}
+
+} // namespace
+
+std::shared_ptr<DensityWords> add_density(CLI::App& command) {
+  auto words = std::make_shared<DensityWords>();
+  CLI::Option* const density =
+      command
+          .add_option(
+              "--density", words->densities,
+              "uniform (the default), or a bump such as " + std::string(example) +
+                  ": about 1 within beta of its centre and gamma far away, changing over "
+                  "alpha; lon and lat in degrees, beta and alpha in radians or as 30deg, gamma "
+                  "a number below 1 or x8 for spacings of 8:1; stretch=2,azimuth=45 makes it "
+                  "an ellipse with its long axis 45 degrees clockwise from north. May be given "
+                  "several times")
+          ->allow_extra_args(false);
+  command.add_option("--join", words->join, "what several bumps make together")
+      ->check(CLI::IsMember({"maximum", "sum"}))
+      ->capture_default_str();
+  add_cell_width(command, words->widths, density);
+  return words;
+}
+
+Resolution resolution_of(const DensityWords& words) {
+  if (!words.widths.given())
+    return {bumps_of(words), {}};
+  CellWidth widths = read_widths(words.widths);
+  Density density = calotte::density_of(widths);
+  if (words.widths.file.empty()) // a density raster's widths have no unit
+    return {std::move(density), {}};
+  return {std::move(density), std::move(widths)};
+}
+
+Density density_of(const DensityWords& words) { return resolution_of(words).density; }
+
+std::vector<std::string> density_names(const DensityWords& words) {
+  if (!words.widths.file.empty())
+    return {"cell widths of " + words.widths.file};
+  if (!words.widths.raster.empty())
+    return {"density of " + words.widths.raster};
+  return words.densities.empty() ? std::vector<std::string>{"uniform"} : words.densities;
+}
+
+std::string density_configuration(const DensityWords& words) {
+  if (words.widths.given())
+    return width_configuration(words.widths);
+  std::string text;
+  for (const std::string& density : density_names(words))
+    text += "density " + density + "\n";
+  return words.densities.size() > 1 ? text + "join " + words.join + "\n" : text;
 }
 
 } // namespace calotte::tools

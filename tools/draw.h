@@ -1,24 +1,38 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <calotte/density.h>
+#include <calotte/io.h>
 #include <calotte/types.h>
 
+#include <functional>
 #include <optional>
 #include <string>
 
 namespace calotte::tools {
 
+enum class Projection {
+  globe,        ///< orthographic: one half of the sphere, from far away
+  plate_carree, ///< the whole sphere: longitude to the right, latitude up, in the same unit
+};
+
 /// What a picture shows of a mesh.
 enum class Shapes {
   triangles, ///< the Delaunay triangles
   cells,     ///< the Voronoi cells; those that an open boundary leaves unbounded are left out
+  both,      ///< the cells, and over them the triangles' edges
 };
 
-/// By what its shapes are coloured.
+/// By what its shapes are coloured. Cells have the values of their sites; triangles their own, or
+/// for density and field the mean of their corners'.
 enum class Colouring {
   spacing, ///< mean distance of a site to its neighbours, or mean side of a triangle; radians
   angle,   ///< smallest angle of a triangle, or of those around a site; radians
   valence, ///< number of a site's neighbours; a triangle has that of its corner furthest from 6
+  area,    ///< over the mean; of cells of closed meshes only
+  quality, ///< shortest over longest side of a cell, closed meshes only; Quality::triangle_quality
+  density, ///< DrawOptions::density, over its greatest at a site
+  field,   ///< DrawOptions::field
   none,
 };
 
@@ -28,17 +42,40 @@ struct LonLat {
   double latitude = 0;
 };
 
-struct DrawOptions {
-  /// The middle of the globe; by default 15 E 25 N, or the middle of an open mesh.
+/// How a picture of the sphere looks.
+struct Look {
+  Projection projection = Projection::globe;
+  /// The middle of the globe, by default 15 E 25 N or the middle of an open mesh; of plate carree
+  /// the central longitude, by default 0.
   std::optional<LonLat> view = {};
-  int size = 1200; ///< width in pixels; in points for SVG and PDF. 64 to 16384
-  Shapes shapes = Shapes::triangles;
-  Colouring colouring = Colouring::spacing;
+  bool graticule = false; ///< faint meridians and parallels, labelled
+  int size = 1200;        ///< width in pixels; in points for SVG and PDF. 64 to 16384
 };
 
-/// Draws a mesh of the sphere as an orthographic globe with a title and a legend. The points may
-/// have any norm. The file is written beside its place and renamed when whole.
-/// \throws Error bad_option, file.
+struct DrawOptions {
+  Look look = {};
+  Shapes shapes = Shapes::triangles;
+  Colouring colouring = Colouring::spacing;
+  Density density = {};
+  CellField field = {};        ///< by site
+  std::string field_name = {}; ///< for the legend
+};
+
+/// Draws a mesh of the sphere with a title and a legend. The points may have any norm. The file is
+/// written beside its place and renamed when whole.
+/// \throws Error bad_option, also for cells' area or quality of an open mesh, and for a density or
+///         field that does not fit; file.
 void draw(const std::string& path, const Mesh& mesh, const DrawOptions& options = {});
+
+/// What is known everywhere on the sphere.
+struct SphereField {
+  /// At each of n unit columns; finite.
+  std::function<Eigen::VectorXd(const Points3& x)> values;
+  std::string title, caption;
+};
+
+/// Draws a field, each pixel evaluated, with its title and a colour bar.
+/// \throws Error bad_option, file, and what `values` throws.
+void draw(const std::string& path, const SphereField& field, const Look& look = {});
 
 } // namespace calotte::tools

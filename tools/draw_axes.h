@@ -24,6 +24,11 @@ struct Axis {
 /// range; from 0 (or 0.1) to 1 where it can show none.
 Axis axis_around(const std::vector<double>& values, bool logarithmic, double margin = 0.04);
 
+struct Tick {
+  double place = 0; ///< on an axis or a colour bar, 0 to 1
+  std::string label;
+};
+
 /// Round values along an axis: those with a label (marked text), and the others' places.
 struct AxisTicks {
   std::vector<Tick> labelled;

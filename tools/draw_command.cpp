@@ -12,7 +12,9 @@
 #include <charconv>
 #include <cmath>
 #include <iostream>
+#include <map>
 #include <string_view>
+#include <utility>
 
 namespace calotte::tools {
 
@@ -21,10 +23,15 @@ namespace {
 struct DrawArguments {
   std::shared_ptr<MeshSource> source;
   std::shared_ptr<DensityWords> density;
+  std::vector<const CLI::Option*> density_options; ///< all that add_density adds
+  const CLI::Option* what = nullptr;
+  const CLI::Option* colour = nullptr;
   std::string output;
   DrawOptions options;
   std::vector<std::string> reports; ///< to be drawn instead of a mesh
   bool spacing_law = false;
+
+  bool has_density() const { return !density->densities.empty() || density->widths.given(); }
 };
 
 /// Takes a number and what follows it; false where none is.
@@ -71,30 +78,79 @@ void add_choice(CLI::App& command, const std::string& names, Value& value,
       ->default_str(words.front());
 }
 
-void add_look(CLI::App& command, DrawOptions& options) {
-  const auto look_from = [&options](const std::string& text) { options.view = parse_view(text); };
+constexpr const char* field_prefix = "field:";
+
+/// --colour: a word, or field:NAME.
+void add_colour(CLI::App& command, DrawArguments& arguments) {
+  static const std::map<std::string, Colouring> words = {
+      {"spacing", Colouring::spacing}, {"angle", Colouring::angle}, {"valence", Colouring::valence},
+      {"degree", Colouring::valence},  {"area", Colouring::area},   {"quality", Colouring::quality},
+      {"density", Colouring::density}, {"none", Colouring::none}};
+  const auto check = [](const std::string& text) -> std::string {
+    const bool field = text.starts_with(field_prefix) && text != field_prefix;
+    return field || words.contains(text)
+               ? ""
+               : "\"" + text +
+                     "\" is none of spacing, angle, valence (or degree), area, quality, "
+                     "density, field:NAME, none";
+  };
+  DrawOptions& options = arguments.options;
+  const auto choose = [&options](const std::string& text) {
+    const auto word = words.find(text);
+    options.colouring = word == words.end() ? Colouring::field : word->second;
+    options.field_name =
+        word == words.end() ? text.substr(std::string_view(field_prefix).size()) : "";
+  };
+  arguments.colour =
+      command
+          .add_option_function<std::string>(
+              "--colour,--color", choose,
+              "by what to colour: spacing (mean distance of neighbours), angle (the smallest), "
+              "valence or degree (number of neighbours), area, quality (shortest over longest "
+              "side of a cell; of a triangle 1 when equilateral), density (of --density), none, "
+              "or field:NAME, a variable of a NetCDF mesh with one number for each cell")
+          ->check(check)
+          ->type_name("WORD")
+          ->default_str("spacing");
+}
+
+void add_look(CLI::App& command, DrawArguments& arguments) {
+  Look& look = arguments.options.look;
+  add_choice<Projection>(
+      command, "--projection", look.projection,
+      {{"globe", Projection::globe}, {"plate-carree", Projection::plate_carree}},
+      "the near half of the sphere, or all of it with longitude and latitude as x and y");
+  const auto look_from = [&look](const std::string& text) { look.view = parse_view(text); };
   command
       .add_option_function<std::string>(
           "--view", look_from,
-          "the middle of the globe; default: 15,25, or the middle of an open mesh")
+          "the middle of the globe (default: 15,25, or the middle of an open mesh); of plate "
+          "carree the longitude alone counts (default: 0)")
       ->type_name("LON,LAT");
-  command.add_option("--size", options.size, "width in pixels (points in SVG and PDF)")
+  command.add_flag("--graticule", look.graticule, "meridians and parallels every 30 degrees");
+  command.add_option("--size", look.size, "width in pixels (points in SVG and PDF)")
       ->check(CLI::Range(64, 16384))
       ->capture_default_str();
-  add_choice<Shapes>(command, "--what", options.shapes,
-                     {{"triangles", Shapes::triangles}, {"cells", Shapes::cells}},
-                     "the Delaunay triangles or the Voronoi cells");
-  add_choice<Colouring>(
-      command, "--colour,--color", options.colouring,
-      {{"spacing", Colouring::spacing},
-       {"angle", Colouring::angle},
-       {"valence", Colouring::valence},
-       {"none", Colouring::none}},
-      "by what to colour them: spacing is the mean distance of neighbours, angle the "
-      "smallest, valence the number of neighbours");
+  DrawOptions& options = arguments.options;
+  add_choice<Shapes>(
+      command, "--what", options.shapes,
+      {{"triangles", Shapes::triangles}, {"cells", Shapes::cells}, {"both", Shapes::both}},
+      "the Delaunay triangles, the Voronoi cells, or the triangles' edges over the cells");
+  arguments.what = command.get_option("--what");
+  add_colour(command, arguments);
 }
 
-/// The pictures that are no globe, and which options they do without.
+void add_density_options(CLI::App& command, DrawArguments& arguments) {
+  const std::vector<const CLI::Option*> others = std::as_const(command).get_options();
+  arguments.density = add_density(command);
+  for (const CLI::Option* option : std::as_const(command).get_options()) {
+    if (std::find(others.begin(), others.end(), option) == others.end()) {
+      arguments.density_options.push_back(option);
+    }
+  }
+}
+
+/// The pictures that are no map, and which options they do without.
 void add_plots(CLI::App& command, DrawArguments& arguments) {
   CLI::Option* history =
       command
@@ -106,17 +162,16 @@ void add_plots(CLI::App& command, DrawArguments& arguments) {
           ->expected(1, static_cast<int>(most_histories));
   CLI::Option* law = command.add_flag(
       "--spacing-law", arguments.spacing_law,
-      "instead of the globe, draw the cells' spacings against those that --density asks for");
-  law->needs(command.get_option("--density"));
-  for (const char* name : {"--density", "--join"}) {
-    command.get_option(name)->needs(law);
-  }
-  for (const char* name : {"--view", "--what", "--colour"}) {
+      "instead of a map, draw the cells' spacings against those that --density asks for");
+  for (const char* name : {"--projection", "--view", "--graticule", "--what", "--colour"}) {
     law->excludes(command.get_option(name));
     history->excludes(command.get_option(name));
   }
   for (const char* name : {"MESH", "--points", "--lonlat", "--spacing-law"}) {
     history->excludes(command.get_option(name));
+  }
+  for (const CLI::Option* option : arguments.density_options) {
+    history->excludes(command.get_option(option->get_name()));
   }
 }
 
@@ -126,36 +181,116 @@ void draw_reports(const DrawArguments& arguments) {
     require_distinct(arguments.output, report);
     histories.push_back(read_history(report));
   }
-  draw_history(arguments.output, histories, arguments.options.size);
+  draw_history(arguments.output, histories, arguments.options.look.size);
   std::cout << arguments.output << ": convergence of " << histories.size()
             << (histories.size() == 1 ? " run\n" : " runs\n");
 }
 
-void draw_mesh(const DrawArguments& arguments) {
-  if (arguments.source->path.empty()) {
-    throw CLI::RequiredError("MESH");
+/// A density that is not wanted is a mistake, and so is one that is missing.
+void require_density(const DrawArguments& arguments) {
+  const bool wanted = arguments.spacing_law || arguments.options.colouring == Colouring::density;
+  if (wanted && !arguments.has_density()) {
+    throw Error(ErrorCode::bad_option,
+                std::string(arguments.spacing_law ? "--spacing-law" : "--colour density") +
+                    " needs a density; give --density or --cell-width");
   }
+  if (!wanted && arguments.has_density()) {
+    throw Error(ErrorCode::bad_option,
+                "with a mesh a density is for --colour density or --spacing-law; give one of "
+                "these, or no MESH for a picture of the density itself");
+  }
+}
+
+/// The values of the mesh's sites: a cell whose site is a duplicate goes by the first.
+CellField read_field(const std::string& path, const std::string& name, const Mesh& mesh) {
+  const auto cells = mesh.site_of_input.empty()
+                         ? static_cast<std::int64_t>(mesh.points.cols())
+                         : static_cast<std::int64_t>(mesh.site_of_input.size());
+  CellField field = read_cell_field(path, name, cells);
+  if (cells != mesh.points.cols()) {
+    const Eigen::VectorXd values = field.values;
+    field.values.resize(mesh.points.cols());
+    for (auto cell = cells; cell-- > 0;) {
+      field.values[mesh.site_of_input[static_cast<std::size_t>(cell)]] = values[cell];
+    }
+  }
+  return field;
+}
+
+void draw_mesh(const DrawArguments& arguments) {
   require_distinct(arguments.output, arguments.source->path);
   require_distinct(arguments.output, arguments.source->points);
-  const Density density = density_of(*arguments.density);
+  require_density(arguments);
+  DrawOptions options = arguments.options;
+  options.density = density_of(*arguments.density);
   const Mesh mesh = read_mesh(*arguments.source);
+  if (options.colouring == Colouring::field) {
+    options.field = read_field(arguments.source->path, options.field_name, mesh);
+  }
   if (arguments.spacing_law) {
-    draw_spacing_law(arguments.output, mesh, density, arguments.options.size);
+    draw_spacing_law(arguments.output, mesh, options.density, options.look.size);
   } else {
-    draw(arguments.output, mesh, arguments.options);
+    draw(arguments.output, mesh, options);
   }
   std::cout << arguments.output << ": "
             << (arguments.spacing_law ? "spacing law of " : "picture of ") << mesh.points.cols()
             << " sites, " << mesh.triangles.cols() << " triangles\n";
 }
 
+std::string title_of(const DensityWords& words) {
+  const std::vector<std::string> names = density_names(words);
+  return names.size() == 1 ? names.front()
+                           : std::to_string(names.size()) + " bumps, their " + words.join;
+}
+
+/// The spacings that a density asks for: `unit` where it is 1.
+std::function<Eigen::VectorXd(const Points3&)> spacings_by(const Density& density, double unit) {
+  return [density, unit](const Points3& x) -> Eigen::VectorXd {
+    return unit * evaluate(density, x).array().max(1e-150).pow(-0.25);
+  };
+}
+
+/// The widths of a file, else the density; or by --colour the other.
+SphereField field_of(const DrawArguments& arguments) {
+  const Resolution resolution = resolution_of(*arguments.density);
+  const Density& density = resolution.density;
+  const std::string title = title_of(*arguments.density);
+  const bool asked = arguments.colour->count() > 0;
+  const bool density_asked = asked && arguments.options.colouring == Colouring::density;
+  if (resolution.widths && !density_asked) {
+    const double least = resolution.widths->widths.minCoeff();
+    return {spacings_by(density, least), title, "cell width, km"};
+  }
+  if (asked && !density_asked) {
+    return {spacings_by(density, 1), title, "spacing by the density, over that where it is 1"};
+  }
+  return {[density](const Points3& x) { return evaluate(density, x); }, title, "density"};
+}
+
+void draw_density(const DrawArguments& arguments) {
+  const Colouring colouring = arguments.options.colouring;
+  if (arguments.what->count() > 0) {
+    throw CLI::RequiredError("--what: MESH");
+  }
+  if (colouring != Colouring::density && colouring != Colouring::spacing) {
+    throw Error(ErrorCode::bad_option, "without MESH a density is coloured by density or spacing; "
+                                       "give one of these, or a mesh");
+  }
+  draw(arguments.output, field_of(arguments), arguments.options.look);
+  std::cout << arguments.output << ": picture of a density\n";
+}
+
 void run(const DrawArguments& arguments) {
   picture_format(arguments.output); // fails before anything is read
   require_folder(arguments.output);
-  if (arguments.reports.empty()) {
-    draw_mesh(arguments);
-  } else {
+  if (!arguments.reports.empty()) {
     draw_reports(arguments);
+  } else if (!arguments.source->path.empty()) {
+    draw_mesh(arguments);
+  } else if (arguments.has_density() && !arguments.spacing_law) {
+    draw_density(arguments);
+  } else {
+    throw CLI::RequiredError("MESH");
   }
 }
 
@@ -163,15 +298,15 @@ void run(const DrawArguments& arguments) {
 
 void add_draw(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
-      "draw", "Draw a mesh as a globe, its spacing law, or how a CVT converged.");
+      "draw", "Draw a mesh or a density on a map, a mesh's spacing law, or how a CVT converged.");
   auto arguments = std::make_shared<DrawArguments>();
   arguments->source = add_mesh_source(*command);
-  command->get_option("MESH")->required(false); // a report takes its place
+  command->get_option("MESH")->required(false); // a density or a report takes its place
   command->add_option("-o,--output", arguments->output, "the picture: .png, .svg or .pdf")
       ->required()
       ->type_name("FILE");
-  add_look(*command, arguments->options);
-  arguments->density = add_density(*command);
+  add_look(*command, *arguments);
+  add_density_options(*command, *arguments);
   add_plots(*command, *arguments);
   command->callback([arguments] { run(*arguments); });
 }

@@ -6,14 +6,11 @@
 
 #include <calotte/error.h>
 
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <functional>
 
 namespace calotte::tools {
 
@@ -21,98 +18,6 @@ namespace {
 
 constexpr Rgb tolerance_colour = {0.35, 0.36, 0.40};
 constexpr Rgb level_colour = {0.62, 0.64, 0.67};
-constexpr double least_excess = 1e-14; ///< below, energies differ by rounding
-constexpr double row = 1.5;            ///< height of a line of the legend; of letters, as below
-constexpr double repairs_row = 1.5;
-constexpr std::size_t far_apart = 20; ///< such a ratio of evaluations calls for logarithmic axes
-
-// ---- What is drawn.
-
-/// By evaluation its place across.
-std::vector<double> places(const History& history, Across across) {
-  return across == Across::seconds ? elapsed_seconds(history) : evaluation_numbers(history);
-}
-
-/// The place of the border before an evaluation: between two numbers; where the clock stood.
-double border_before(const History& history, std::size_t evaluation, Across across) {
-  return across == Across::seconds ? elapsed_seconds(history)[evaluation - 1]
-                                   : static_cast<double>(evaluation) + 0.5;
-}
-
-std::vector<double> joined(const std::vector<History>& histories,
-                           const std::function<std::vector<double>(const History&)>& values) {
-  std::vector<double> all;
-  for (const History& history : histories) {
-    const std::vector<double> own = values(history);
-    all.insert(all.end(), own.begin(), own.end());
-  }
-  return all;
-}
-
-Axis norms_axis(const std::vector<History>& histories) {
-  std::vector<double> all = joined(histories, scaled_l2);
-  for (const auto& others : {joined(histories, scaled_linf), joined(histories, scaled_tolerance)}) {
-    all.insert(all.end(), others.begin(), others.end());
-  }
-  return axis_around(all, true);
-}
-
-Axis energy_axis(const std::vector<History>& histories) {
-  std::vector<double> all;
-  for (const std::vector<double>& excesses : energy_excess(histories)) {
-    for (const double excess : excesses) {
-      all.push_back(excess > 0 ? std::max(excess, least_excess) : excess);
-    }
-  }
-  return axis_around(all, true);
-}
-
-bool are_far_apart(const std::vector<History>& histories) {
-  const auto shorter = [](const History& a, const History& b) {
-    return a.iterations.size() < b.iterations.size();
-  };
-  const auto [least, most] = std::minmax_element(histories.begin(), histories.end(), shorter);
-  return most->iterations.size() > far_apart * least->iterations.size();
-}
-
-Axis evaluations_axis(const std::vector<History>& histories) {
-  std::size_t most = 1;
-  for (const History& history : histories) {
-    most = std::max(most, history.iterations.size());
-  }
-  const double margin = 0.01 * static_cast<double>(most);
-  return {0.5 - margin, 0.5 + static_cast<double>(most) + margin};
-}
-
-Axis seconds_axis(const std::vector<History>& histories) {
-  double most = 1e-9;
-  for (const History& history : histories) {
-    most = std::max(most, elapsed_seconds(history).back());
-  }
-  most = std::min(most, 1e100);
-  return {-0.01 * most, 1.01 * most};
-}
-
-Axis across_axis(const std::vector<History>& histories, Across across) {
-  if (are_far_apart(histories)) {
-    const auto own = [&](const History& history) { return places(history, across); };
-    return axis_around(joined(histories, own), true, 0.01);
-  }
-  return across == Across::seconds ? seconds_axis(histories) : evaluations_axis(histories);
-}
-
-bool has_levels(const History& history) { return level_starts(history).size() > 2; }
-
-std::size_t count_with_levels(const std::vector<History>& histories) {
-  return static_cast<std::size_t>(std::count_if(histories.begin(), histories.end(), has_levels));
-}
-
-/// Whatever a file is called, as text that can be shown.
-std::string shown(const std::string& name) {
-  const std::string quoted =
-      nlohmann::json(name).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-  return nlohmann::json::parse(quoted).get<std::string>();
-}
 
 /// The runs' names: their files', with the folders where two files have the same.
 std::vector<std::string> names_of(const std::vector<History>& histories) {
@@ -204,7 +109,7 @@ void rebuilt_mark(cairo_t* context, double x, double bottom, double height) {
 void runs_legend(cairo_t* context, const HistoryPage& page, const std::vector<History>& histories) {
   const std::vector<std::string> names = names_of(histories);
   for (std::size_t run = 0; run < histories.size(); ++run) {
-    const double baseline = (1.7 + row * static_cast<double>(run)) * page.text;
+    const double baseline = (1.7 + legend_row * static_cast<double>(run)) * page.text;
     set_dashes(context, page, false);
     select_l2_line(context, page, history_colour(run));
     const double x = sample(context, page, left_of(page), baseline);
@@ -226,7 +131,7 @@ bool has_tolerance(const History& history) {
 void styles_legend(cairo_t* context, const HistoryPage& page,
                    const std::vector<History>& histories) {
   const std::size_t runs = histories.size();
-  const double baseline = (1.7 + row * static_cast<double>(runs)) * page.text;
+  const double baseline = (1.7 + legend_row * static_cast<double>(runs)) * page.text;
   const Rgb colour = runs == 1 ? history_colour(0) : text_colour;
   double x = left_of(page);
   const auto name = [&](const std::string& text) {
@@ -499,36 +404,6 @@ void compose(cairo_t* context, const HistoryPage& page, const std::vector<Histor
 }
 
 } // namespace
-
-HistoryPage history_page(const std::vector<History>& histories, int size) {
-  HistoryPage page;
-  page.width = size;
-  page.text = size / 80.0;
-  const auto runs = static_cast<double>(histories.size());
-  const auto rows = static_cast<double>(count_with_levels(histories));
-  double y = 1.7 + row * (runs + 1);
-  page.levels = y * page.text;
-  y += rows > 0 ? 1.1 * rows - 0.65 : -0.5;
-  page.columns[1].quantity = Across::seconds;
-  const auto frames = [&](Frame HistoryColumn::*place, double height, const Axis& up) {
-    double left = 7;
-    for (HistoryColumn& column : page.columns) {
-      column.*place = {left * page.text,
-                       y * page.text,
-                       34 * page.text,
-                       height * page.text,
-                       across_axis(histories, column.quantity),
-                       up};
-      left += 38;
-    }
-    y += height + 1.1;
-  };
-  frames(&HistoryColumn::norms, 19, norms_axis(histories));
-  frames(&HistoryColumn::energy, 15, energy_axis(histories));
-  frames(&HistoryColumn::repairs, repairs_row * runs + 0.1, {0, runs});
-  page.height = static_cast<int>(std::ceil((y + 2.5) * page.text));
-  return page;
-}
 
 Rgb history_colour(std::size_t run) {
   // Okabe and Ito, Color universal design, 2008, without yellow; then a brown.

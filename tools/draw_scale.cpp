@@ -4,15 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <map>
-#include <numbers>
 
 namespace calotte::tools {
 
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr Rgb plain = {0.90, 0.93, 0.95};
 constexpr int least_class = 3;
 constexpr int greatest_class = 9;
@@ -30,46 +27,14 @@ Rgb valence_colour(double valence) {
   return hex(colours[static_cast<std::size_t>(v - least_class)]);
 }
 
-/// 1, 2 or 5 times a power of ten, the largest that is at most x > 0.
-double round_below(double x) {
-  const double power = std::pow(10, std::floor(std::log10(x)));
-  return power * (x >= 5 * power ? 5 : x >= 2 * power ? 2 : 1);
+/// What may spread over powers of ten.
+bool is_magnitude(Colouring colouring) {
+  return colouring == Colouring::spacing || colouring == Colouring::area ||
+         colouring == Colouring::density || colouring == Colouring::field;
 }
 
-std::vector<double> linear_steps(double low, double high) {
-  const double step = 2 * round_below((high - low) / 10);
-  const double first = std::ceil(low / step - 1e-9);
-  const auto count = static_cast<int>(std::floor(high / step + 1e-9) - first) + 1;
-  std::vector<double> steps;
-  steps.reserve(static_cast<std::size_t>(count));
-  for (int k = 0; k < count; ++k) {
-    steps.push_back((first + k) * step);
-  }
-  return steps;
-}
-
-/// 1, 2 and 5 times the powers of ten, or these alone where that were too many.
-std::vector<double> logarithmic_steps(double low, double high) {
-  std::vector<double> steps;
-  std::vector<double> powers;
-  const auto last = static_cast<int>(std::floor(std::log10(high)));
-  for (auto exponent = static_cast<int>(std::floor(std::log10(low))); exponent <= last;
-       ++exponent) {
-    const double power = std::pow(10, exponent);
-    for (const double factor : {1., 2., 5.}) {
-      if (factor * power >= low && factor * power <= high) {
-        steps.push_back(factor * power);
-        if (factor == 1) {
-          powers.push_back(power);
-        }
-      }
-    }
-  }
-  return steps.size() > 9 ? powers : steps;
-}
-
-/// A few values far out must not leave the others nearly one colour. Of spacings only the least are
-/// cut off: a few wide shapes fill much of the picture.
+/// A few values far out must not leave the others nearly one colour. Of spacings and areas only the
+/// least are cut off: a few wide shapes fill much of the picture.
 void trim(Scale& scale, std::vector<double>& values) {
   const auto quantile = [&](double p) {
     const auto k = static_cast<std::ptrdiff_t>(p * static_cast<double>(values.size() - 1));
@@ -77,7 +42,8 @@ void trim(Scale& scale, std::vector<double>& values) {
     return values[static_cast<std::size_t>(k)];
   };
   const double low = quantile(0.01);
-  const double high = scale.colouring == Colouring::spacing ? scale.high : quantile(0.99);
+  const bool wide = scale.colouring == Colouring::spacing || scale.colouring == Colouring::area;
+  const double high = wide ? scale.high : quantile(0.99);
   const double range = scale.place(high) - scale.place(low);
   if (values.size() < 200 || range > 0.8 || high <= low) {
     return;
@@ -114,8 +80,7 @@ Scale make_scale(const std::vector<double>& values, Colouring colouring) {
   const auto [least, greatest] = std::minmax_element(known.begin(), known.end());
   scale.low = *least;
   scale.high = *greatest;
-  scale.logarithmic =
-      colouring == Colouring::spacing && scale.low > 0 && scale.high > 4 * scale.low;
+  scale.logarithmic = is_magnitude(colouring) && scale.low > 0 && scale.high > 4 * scale.low;
   if (scale.high - scale.low <= 1e-6 * std::abs(scale.high)) {
     // All the same but for rounding: one colour, amid a bar that has a width.
     const double margin = std::max(0.05 * std::abs(scale.high), 1e-300);
@@ -123,7 +88,9 @@ Scale make_scale(const std::vector<double>& values, Colouring colouring) {
     scale.high += margin;
     return scale;
   }
-  trim(scale, known);
+  if (colouring != Colouring::density) { // smooth
+    trim(scale, known);
+  }
   return scale;
 }
 
@@ -137,25 +104,6 @@ Rgb viridis(double place) {
   const Rgb b = hex(anchors[i + 1]);
   const double t = x - static_cast<double>(i);
   return {std::lerp(a.r, b.r, t), std::lerp(a.g, b.g, t), std::lerp(a.b, b.b, t)};
-}
-
-std::vector<Tick> degree_ticks(const Scale& scale) {
-  const double low = scale.low / degree;
-  const double high = scale.high / degree;
-  std::vector<double> steps;
-  if (scale.logarithmic) {
-    steps = logarithmic_steps(low, high);
-  }
-  if (steps.size() < 3) {
-    steps = linear_steps(low, high);
-  }
-  std::vector<Tick> ticks;
-  for (const double step : steps) {
-    char label[32];
-    std::snprintf(label, sizeof label, "%.6g\u00b0", step);
-    ticks.push_back({scale.place(step * degree), label});
-  }
-  return ticks;
 }
 
 std::vector<ValenceClass> valence_classes(const std::vector<double>& values) {

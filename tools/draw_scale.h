@@ -27,19 +27,11 @@ struct Scale {
 };
 
 /// A scale for these values, NaN left out. Its ends are the extreme values, unless one in a hundred
-/// at an end would take more than a fifth of it.
+/// at an end would take more than a fifth of it. Logarithmic for values that spread widely.
 Scale make_scale(const std::vector<double>& values, Colouring colouring);
 
 /// The colour bar's colour from 0 to 1: viridis (van der Walt and Smith, 2015).
 Rgb viridis(double place);
-
-struct Tick {
-  double place = 0; ///< on the bar, 0 to 1
-  std::string label;
-};
-
-/// Round values in degrees along a bar of radians.
-std::vector<Tick> degree_ticks(const Scale& scale);
 
 /// One class of valences: its colour, its name, how many shapes are of it.
 struct ValenceClass {

@@ -3,8 +3,9 @@
 
 #include "draw.h"
 
+#include <Eigen/Geometry>
+
 #include <functional>
-#include <span>
 #include <vector>
 
 namespace calotte::tools {
@@ -12,10 +13,11 @@ namespace calotte::tools {
 /// A mesh as it is seen: all points on the unit sphere, x to the right, y up, z to the viewer.
 struct Scene {
   Points3 sites;
-  Points3 circumcentres;                 ///< of the triangles, where the shapes are cells
+  Points3 circumcentres;                 ///< of the triangles, where there are cells
   std::vector<std::int32_t> triangle_of; ///< for each site one of its triangles, or -1
   const Mesh* mesh = nullptr;
-  Shapes shapes = Shapes::triangles;
+  Shapes shapes = Shapes::triangles;                   ///< that are filled: triangles or cells
+  Eigen::Matrix3d frame = Eigen::Matrix3d::Identity(); ///< from places on the earth
 
   std::int64_t count() const { ///< shapes: triangles, or sites
     return shapes == Shapes::cells ? sites.cols() : mesh->triangles.cols();
@@ -25,16 +27,39 @@ struct Scene {
 /// The mesh turned so that `view` comes to the middle, north up. Rounded: for pictures only.
 Scene make_scene(const Mesh& mesh, Shapes shapes, const LonLat& view);
 
+/// Its rows are the viewer's right, up and towards.
+Eigen::Matrix3d frame_of(const LonLat& view);
+
+/// The unit vector of a place on the earth.
+Eigen::Vector3d direction_of(const LonLat& place);
+
+/// Unit, for norms whose squares under- or overflow, too.
+Eigen::Vector3d direction_of(const Eigen::Vector3d& point);
+
 /// The middle of the sites: where to look at an open mesh from.
 LonLat middle(const Mesh& mesh);
 
-/// The corners of one shape, counter-clockwise; none of a cell that is not closed.
-void outline_of(const Scene& scene, std::int64_t shape, std::vector<Eigen::Vector3d>& corners);
+/// The corners of a triangle or, counter-clockwise, of a cell; none of a cell that is not closed.
+void outline_of(const Scene& scene, Shapes shapes, std::int64_t shape,
+                std::vector<Eigen::Vector3d>& corners);
 
-/// For each shape the quantity that colours it, NaN where there is none (an open cell).
-std::vector<double> values_of(const Scene& scene, Colouring colouring);
+/// For each triangle or cell the side of a square of its area on the unit sphere, roughly.
+std::vector<float> widths_of(const Scene& scene, Shapes shapes);
 
-/// For each shape the side of a square of its area on the unit sphere, roughly.
-std::vector<float> widths_of(const Scene& scene);
+/// One triangle's corners, and what is measured of it.
+struct Corners {
+  Corners(const Scene& scene, Eigen::Index triangle);
+  double side(int i) const; ///< from corner i to the next
+  double smallest_angle() const;
+  double mean_side() const { return (side(0) + side(1) + side(2)) / 3; }
+  double area() const;    ///< steradians
+  double quality() const; ///< as Quality::triangle_quality
+
+  Eigen::Vector3i id;
+  Eigen::Vector3d at[3];
+};
+
+/// The triangles around a site, counter-clockwise, one call each; false when the star is open.
+bool around(const Scene& scene, std::int64_t site, const std::function<void(std::int32_t)>& visit);
 
 } // namespace calotte::tools

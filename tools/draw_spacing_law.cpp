@@ -2,8 +2,8 @@
 #include "draw_spacing_law.h"
 
 #include "draw_picture.h"
-#include "draw_shapes.h"
 #include "draw_text.h"
+#include "draw_values.h"
 
 #include <calotte/error.h>
 

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "draw_text.h"
 
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <regex>
 #include <utility>
 #include <vector>
 
@@ -74,12 +78,38 @@ void centred_text(cairo_t* context, double x, double baseline, const std::string
   cairo_show_text(context, text.c_str());
 }
 
+void fitted_text(cairo_t* context, double x, double baseline, const std::string& text, double size,
+                 double room) {
+  select_font(context, size);
+  select_font(context, size * std::min(1.0, room / std::max(marked_width(context, text), 1e-9)));
+  marked_text(context, x, baseline, text, 0.5);
+}
+
 std::string grouped(std::int64_t number) {
   std::string text = std::to_string(number);
   for (auto at = static_cast<std::ptrdiff_t>(text.size()) - 3; at > 0; at -= 3) {
     text.insert(static_cast<std::size_t>(at), "\u2009");
   }
   return text;
+}
+
+std::string shown(const std::string& name) {
+  const std::string quoted =
+      nlohmann::json(name).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  return nlohmann::json::parse(quoted).get<std::string>();
+}
+
+std::string unmarked(const std::string& text) {
+  std::string result = shown(text);
+  std::erase_if(result, [](char c) { return c == '*' || c == '{' || c == '}'; });
+  return result;
+}
+
+std::string unit_text(const std::string& units) {
+  static const std::regex negative("\\b([A-Za-z]+)-([0-9]+)\\b");
+  static const std::regex positive("\\b([A-Za-z]+)([0-9]+)\\b");
+  const std::string text = std::regex_replace(unmarked(units), negative, "$1^{\u2212$2}");
+  return std::regex_replace(text, positive, "$1^{$2}");
 }
 
 double marked_width(cairo_t* context, const std::string& text) {

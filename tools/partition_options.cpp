@@ -24,7 +24,7 @@ Points3 read_centres(const PartitionWords& words) {
     throw Error(ErrorCode::bad_option,
                 "--centres " + words.centres +
                     " is not a file; give sample, fibonacci or a file of points");
-  return points_from(words.centres, Columns::xyz);
+  return read_point_file(words.centres, false).points;
 }
 
 } // namespace
@@ -41,7 +41,8 @@ std::shared_ptr<PartitionWords> add_partition(CLI::App& command) {
   command
       .add_option("--centres", words->centres,
                   "the regions' centres: sample (a coarse CVT of the points), fibonacci, or a "
-                  "file of points")
+                  "file of points: text such as MPI-SCVT's RegionList, or a mesh")
+      ->type_name("sample|fibonacci|FILE")
       ->capture_default_str();
   command.add_option("--sort", words->sort, "which points a region takes beside its own")
       ->check(CLI::IsMember({"halo", "distance", "voronoi"}))

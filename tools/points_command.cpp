@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands.h"
+#include "format_options.h"
 
 #include <calotte/error.h>
 #include <calotte/generators.h>
@@ -27,12 +28,10 @@ void require_options(const Request& request) {
     throw Error(ErrorCode::bad_option, "--poles is for latlon points only; leave it out");
   if (request.output == "-")
     return;
-  const std::string suffix = std::filesystem::path(request.output).extension();
-  for (const char* mesh : {".tri", ".vtp", ".vtu", ".off", ".ply"})
-    if (suffix == mesh)
-      throw Error(ErrorCode::bad_option, request.output +
-                                             ": points are text, x y z a line; give a name such as "
-                                             "points.txt, and make a mesh with calotte delaunay");
+  if (holds_points(request.output) || std::filesystem::path(request.output).extension() == ".tri")
+    throw Error(ErrorCode::bad_option, request.output +
+                                           ": points are text, x y z a line; give a name such as "
+                                           "points.txt, and make a mesh with calotte delaunay");
   require_folder(request.output);
 }
 

@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/command.h"
+
+#include <calotte/density.h>
+#include <calotte/generators.h>
+#include <calotte/io.h>
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <sys/stat.h>
+
+using namespace calotte::test;
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A mesh file and the option that its format needs.
+struct File {
+  std::string name, option;
+};
+
+/// Formats that hold their points as numbers x y z.
+const std::vector<File> exact{
+    {"full.nc", ""}, {"mesh.vtp", ""}, {"mesh.ply", ""}, {"mesh.msh", ""}, {"SaveVertices", ""}};
+const std::vector<File> exact_too{
+    {"minimal.nc", " --format mpas-minimal"}, {"mesh.vtu", ""}, {"mesh.off", ""}};
+
+/// Formats of angles, or of cells.
+const std::vector<File> others{{"cells.nc", " --format ugrid"},
+                               {"triangles.nc", " --format ugrid-triangles"},
+                               {"scrip.nc", " --format scrip"},
+                               {"esmf.nc", " --format esmf"},
+                               {"cells.vtp", " --format vtp-cells"},
+                               {"cells.vtu", " --format vtu-cells"},
+                               {"cells.geojson", ""}};
+
+std::string in_folder(const Bench& bench, const std::string& name) { return bench.folder() / name; }
+
+/// A mesh that is no lattice, in the folder as start.vtp.
+calotte::Mesh make_start(const Bench& bench, int count) {
+  REQUIRE(bench.run("points random " + std::to_string(count) + " -o points.txt").code == 0);
+  REQUIRE(bench.run("delaunay points.txt -o start.vtp").code == 0);
+  return calotte::read_mesh(in_folder(bench, "start.vtp"));
+}
+
+/// Converts, and checks what is told.
+void convert(const Bench& bench, const std::string& in, const File& out, int cells,
+             const std::string& options = " --order input") {
+  const Outcome made = bench.run("convert " + in + " " + out.name + out.option + options);
+  CAPTURE(made.err);
+  CHECK(made.code == 0);
+  CHECK(made.err.empty());
+  CHECK(made.out == out.name + ": " + std::to_string(cells) + " sites, " +
+                        std::to_string(2 * cells - 4) + " triangles, closed\n");
+}
+
+} // namespace
+
+TEST_CASE("from exact format to exact format: the points keep their bits, the mesh is the same") {
+  const Bench bench;
+  const calotte::Mesh start = make_start(bench, 60);
+  for (const File& in : exact) {
+    CAPTURE(in.name);
+    fs::create_directory(bench.folder() / "in");
+    convert(bench, "start.vtp", {"in/" + in.name, in.option}, 60);
+    for (const File& out : exact) {
+      CAPTURE(out.name);
+      convert(bench, "in/" + in.name, out, 60);
+      const calotte::Mesh mesh = calotte::read_mesh(in_folder(bench, out.name));
+      CHECK((mesh.points == start.points));
+      CHECK((mesh.triangles == start.triangles));
+    }
+  }
+}
+
+TEST_CASE("formats of angles and cells give the same mesh, places as far as angles tell") {
+  const Bench bench;
+  const calotte::Mesh start = make_start(bench, 60);
+  for (const File& file : others) {
+    CAPTURE(file.name);
+    convert(bench, "start.vtp", file, 60);
+    convert(bench, file.name, {"back.vtp", ""}, 60);
+    const calotte::Mesh back = calotte::read_mesh(in_folder(bench, "back.vtp"));
+    CHECK((back.triangles == start.triangles));
+    CHECK((back.points - start.points).cwiseAbs().maxCoeff() < 1e-14);
+  }
+}
+
+TEST_CASE("the order that is asked for") {
+  const Bench bench;
+  const calotte::Mesh start = make_start(bench, 100);
+  const auto check_order = [&](const std::string& out, const std::string& options,
+                               calotte::Numbering numbering) {
+    CAPTURE(options);
+    convert(bench, "start.vtp", {out, ""}, 100, options);
+    const calotte::Mesh expected = calotte::renumbered(start, numbering);
+    const calotte::Mesh mesh = calotte::read_mesh(in_folder(bench, out));
+    CHECK((mesh.points == expected.points));
+    CHECK((mesh.triangles == expected.triangles));
+  };
+  check_order("mesh.nc", "", calotte::Numbering::curve);
+  check_order("mesh.vtp", "", calotte::Numbering::input);
+  for (const std::string out : {"mesh.nc", "mesh.off"}) {
+    check_order(out, " --order curve", calotte::Numbering::curve);
+    check_order(out, " --order rcm", calotte::Numbering::rcm);
+    check_order(out, " --order input", calotte::Numbering::input);
+  }
+}
+
+TEST_CASE("the sphere's radius: the one that is asked for, or that of the points") {
+  const Bench bench;
+  const calotte::Mesh start = make_start(bench, 50);
+  const auto points = [&](const std::string& name) {
+    return calotte::read_mesh(in_folder(bench, name)).points;
+  };
+  convert(bench, "start.vtp", {"unit.nc", ""}, 50);
+  CHECK((points("unit.nc") == start.points));
+  convert(bench, "start.vtp", {"earth.nc", " --sphere-radius 6371229"}, 50);
+  CHECK(((points("earth.nc") / 6371229 - start.points).cwiseAbs().maxCoeff() < 1e-15));
+  convert(bench, "earth.nc", {"again.nc", ""}, 50);
+  CHECK((points("again.nc") == points("earth.nc")));
+  CHECK((bench.file("again.nc").size() == bench.file("earth.nc").size()));
+  convert(bench, "earth.nc", {"back.nc", " --sphere-radius 1"}, 50);
+  CHECK(((points("back.nc") - start.points).cwiseAbs().maxCoeff() < 1e-15));
+  // Points that stand on no sphere have one of radius 1.
+  bench.file("octahedron.off", "OFF\n6 8 0\n1 0 0\n0 2 0\n0 0 3\n-1 0 0\n0 -1 0\n0 0 -1\n"
+                               "3 0 1 2\n3 0 2 4\n3 0 4 5\n3 0 5 1\n3 1 3 2\n3 1 5 3\n3 2 3 4\n"
+                               "3 3 5 4\n");
+  convert(bench, "octahedron.off", {"octahedron.nc", ""}, 6);
+  CHECK(points("octahedron.nc").colwise().norm().maxCoeff() == doctest::Approx(1).epsilon(1e-15));
+}
+
+TEST_CASE("the density goes into the fields, and equal runs give equal files") {
+  const Bench bench;
+  make_start(bench, 60);
+  const std::string bump = " --density tanh:lon=270,lat=30,beta=30deg,alpha=0.20,gamma=x3";
+  convert(bench, "start.vtp", {"first.nc", ""}, 60, bump);
+  convert(bench, "start.vtp", {"second.nc", ""}, 60, bump);
+  convert(bench, "start.vtp", {"uniform.nc", ""}, 60, "");
+  CHECK((bench.file("first.nc") == bench.file("second.nc")));
+  const auto density = [&](const std::string& name) {
+    return calotte::read_cell_field(in_folder(bench, name), "meshDensity", 60).values;
+  };
+  CHECK(density("uniform.nc") == Eigen::VectorXd::Ones(60));
+  CHECK(density("first.nc").maxCoeff() == 1);
+  CHECK(density("first.nc").minCoeff() < 0.02);
+  CHECK(bench.file("first.nc").find("calotte 0.") != std::string::npos);
+}
+
+TEST_CASE("triangles alone go with their points") {
+  const Bench bench;
+  const calotte::Mesh start = make_start(bench, 40);
+  convert(bench, "start.vtp", {"mesh.tri", ""}, 40, "");
+  convert(bench, "mesh.tri --points points.txt", {"back.off", ""}, 40, "");
+  const calotte::Mesh back = calotte::read_mesh(in_folder(bench, "back.off"));
+  CHECK((back.points == start.points));
+  CHECK((back.triangles == start.triangles));
+  const auto neither = [](const std::string& name) {
+    return name + " holds triangles only, give the points they refer to (--points FILE); or, if "
+                  "it holds points, make their mesh with calotte delaunay";
+  };
+  check_refusal(bench, "convert points.txt mesh.nc", 2, neither("points.txt"));
+  check_refusal(bench, "convert mesh.tri mesh.nc", 2, neither("mesh.tri"));
+  check_refusal(bench, "convert start.vtp mesh.tri --order rcm", 2,
+                "mesh.tri holds triangles of the points as they were given; leave --order out");
+}
+
+TEST_CASE("MPI-SCVT's files are a mesh, a start, points and centres") {
+  const Bench bench;
+  const calotte::Mesh start = make_start(bench, 60);
+  std::string vertices = bench.file("points.txt");
+  vertices.pop_back(); // its final newline
+  bench.file("SaveVertices", vertices);
+  REQUIRE(bench.run("points fibonacci 7 -o RegionList").code == 0);
+  REQUIRE(bench.run("delaunay RegionList -o RegionTriangulation.tri").code == 0);
+  fs::rename(bench.folder() / "RegionTriangulation.tri", bench.folder() / "RegionTriangulation");
+  const std::string as_centres[] = {"", " --centres RegionList", " --centres RegionTriangulation"};
+  for (const std::string& centres : as_centres) {
+    CAPTURE(centres);
+    CHECK(bench.run("delaunay SaveVertices -o mesh.vtp" + centres).code == 0);
+    CHECK((calotte::read_mesh(in_folder(bench, "mesh.vtp")).triangles == start.triangles));
+  }
+  CHECK(bench.run("cvt SaveVertices --iterations 1 -o mesh.vtp").code == 0);
+  CHECK(calotte::read_mesh(in_folder(bench, "mesh.vtp")).points.cols() == 60);
+  convert(bench, "RegionTriangulation", {"regions.vtp", ""}, 7);
+}
+
+TEST_CASE("every format's points can be triangulated and iterated from again") {
+  const Bench bench;
+  const calotte::Mesh start = make_start(bench, 60);
+  for (const std::vector<File>& files : {exact_too, others})
+    for (const File& file : files) {
+      CAPTURE(file.name);
+      convert(bench, "start.vtp", file, 60);
+      CHECK(bench.run("delaunay " + file.name + " -o again.vtp").code == 0);
+      CHECK((calotte::read_mesh(in_folder(bench, "again.vtp")).triangles == start.triangles));
+    }
+  CHECK(bench.run("cvt minimal.nc --iterations 1 -o again.nc").code == 0);
+  CHECK(bench.run("check minimal.nc").code == 0);
+  CHECK(bench.run("info minimal.nc").out == bench.run("info start.vtp").out);
+}
+
+TEST_CASE("a periodic plane goes from MPAS to MPAS") {
+  const Bench bench;
+  const calotte::PlanarMesh plane = calotte::periodic_hexagons(6, 4, 0.25);
+  calotte::write(in_folder(bench, "plane.nc"), plane);
+  for (const std::string format : {"", " --format mpas-minimal"}) {
+    const Outcome made = bench.run("convert plane.nc again.nc" + format);
+    CHECK(made.code == 0);
+    CHECK(made.out == "again.nc: 24 sites, 48 triangles, a periodic plane\n");
+    const calotte::PlanarMesh again = calotte::read_planar_mesh(in_folder(bench, "again.nc"));
+    CHECK((again.points == plane.points));
+    CHECK((again.triangles == plane.triangles));
+    CHECK(again.period == plane.period);
+  }
+  check_refusal_naming(bench, "convert plane.nc plane.vtp", 2, "plane.vtp: ");
+  check_refusal_naming(bench, "convert plane.nc scrip.nc --format scrip", 2, "scrip.nc: ");
+}
+
+TEST_CASE("what cannot be is refused before anything is read") {
+  const Bench bench;
+  REQUIRE(::mkfifo((bench.folder() / "never.vtp").c_str(), 0600) == 0);
+  bench.file("mesh.vtp", "a mesh");
+  const std::string see = "; see calotte convert --help";
+  check_refusal_naming(bench, "convert never.vtp mesh.stl", 2, "mesh.stl: unknown suffix \".stl\"");
+  check_refusal_naming(bench, "convert never.vtp mesh.vtp --format ugrid", 2, "mesh.vtp: ");
+  check_refusal_naming(bench, "convert never.vtp mesh.nc --format msh", 2, "mesh.nc: ");
+  check_refusal_naming(bench, "convert never.vtp grid --format mpi-scvt", 2, "grid: ");
+  check_refusal_naming(bench, "convert never.vtp mesh.nc --format netcdf", 2,
+                       "--format: netcdf not in {mpas,");
+  for (const std::string radius : {"0", "-1", "nan", "inf"})
+    check_refusal(bench, "convert never.vtp mesh.nc --sphere-radius=" + radius, 2,
+                  "--sphere-radius " + radius +
+                      " is not a positive number; give one such as 6371229, in metres");
+  check_refusal(bench, "convert never.vtp other.off --sphere-radius 6371229", 2,
+                "--sphere-radius 6371229 is for NetCDF files, and other.off holds points as they "
+                "are; leave it out, or give a name that ends in .nc");
+  check_refusal(bench, "convert never.vtp mesh.nc --order random", 2,
+                "--order: random not in {curve,rcm,input}" + see);
+  check_refusal(bench, "convert mesh.vtp ./mesh.vtp", 2,
+                "./mesh.vtp is both input and output; give the output another name");
+  bench.file("widths.geojson", "widths");
+  check_refusal(bench, "convert never.vtp widths.geojson --cell-width widths.geojson", 2,
+                "widths.geojson is both input and output; give the output another name");
+  check_refusal(bench, "convert never.vtp absent/mesh.nc", 3,
+                "cannot write absent/mesh.nc: the folder absent does not exist; create it first");
+  check_refusal(bench, "convert never.vtp", 2, "--output is required" + see);
+  check_refusal_naming(bench, "convert absent.nc mesh.off", 3, "absent.nc");
+  check_refusal_naming(bench, "convert mesh.vtp mesh.off", 2, "mesh.vtp");
+  CHECK(bench.file("mesh.vtp") == "a mesh");
+}
+
+TEST_CASE("options of convert and delaunay from a file") {
+  const Bench bench;
+  REQUIRE(bench.run("points fibonacci 30 -o points.txt").code == 0);
+  bench.file("mesh.toml",
+             "points = \"points.txt\"\n[out]\noutput = \"mesh.nc\"\nformat = \"scrip\"\n"
+             "sort_method = 0\n");
+  CHECK(bench.run("delaunay --config mesh.toml").out ==
+        "mesh.nc: 30 sites, 56 triangles, closed\n");
+  bench.file("convert.toml", "input = \"mesh.nc\"\noutput = \"mesh.off\"\n");
+  CHECK(bench.run("convert --config convert.toml").code == 0);
+  CHECK(bench.run("convert mesh.nc other.off --config convert.toml").code == 0);
+  CHECK((bench.file("mesh.off") == bench.file("other.off")));
+  check_refusal(bench, "delaunay --config convert.toml", 2,
+                "convert.toml line 1: unknown option \"input\"; see calotte delaunay --help");
+}
+
+TEST_CASE("kill -9 in the midst of writing leaves the old file whole [slow]") {
+  const Bench bench;
+  REQUIRE(bench.run("points fibonacci 100000 -o points.txt").code == 0);
+  REQUIRE(bench.run("delaunay points.txt -o mesh.vtp").code == 0);
+  bench.file("mesh.nc", "old");
+  bench.file("mesh.graph.info", "old");
+  const auto before = bench.names();
+  for (int k = 0; k < 5; ++k) {
+    const pid_t process = bench.start("convert mesh.vtp mesh.nc");
+    for (int wait = 0; wait < 100'000 && bench.names() == before; ++wait) // until it writes
+      std::this_thread::sleep_for(std::chrono::microseconds(200));
+    std::this_thread::sleep_for(std::chrono::milliseconds(k * k));
+    REQUIRE(::kill(process, SIGKILL) == 0);
+    CHECK(bench.finish(process).code == -SIGKILL);
+    CHECK(bench.file("mesh.nc") == "old");
+    const std::string graph = bench.file("mesh.graph.info");
+    CHECK((graph == "old" || std::count(graph.begin(), graph.end(), '\n') == 100'001));
+    for (const std::string& name : bench.names())
+      if (!before.contains(name))
+        fs::remove(bench.folder() / name); // what is left has another name
+  }
+  CHECK(bench.run("convert mesh.vtp mesh.nc").code == 0);
+  CHECK(calotte::read_sites(in_folder(bench, "mesh.nc")).cols() == 100'000);
+}

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "draw_axes.h"
+#include "draw_scale.h"
+
+#include <cairo.h>
+
+#include <string>
+#include <vector>
+
+namespace calotte::tools {
+
+/// What the colours mean.
+struct Legend {
+  Scale scale;
+  std::vector<ValenceClass> classes = {}; ///< of Colouring::valence
+  std::string caption = {};
+};
+
+/// Round values along the colour bar: of angles (spacing, angle) in degrees, of numbers that are
+/// very large or small in units of a power of ten.
+struct BarTicks {
+  AxisTicks ticks;
+  int exponent = 0;
+};
+
+BarTicks bar_ticks(const Scale& scale, int most);
+
+/// Draws the legend beneath y = top, in the middle of a page so wide: about 4 letters high.
+void draw_legend(cairo_t* context, const Legend& legend, double page_width, double top,
+                 double text);
+
+} // namespace calotte::tools

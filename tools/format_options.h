@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <calotte/io.h>
+
+#include <CLI/CLI.hpp>
+
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace calotte::tools {
+
+/// What the options say of the mesh file that is written.
+struct FormatWords {
+  std::optional<std::string> format; ///< by the file's name where none is given
+  std::optional<std::string> order;  ///< by the format
+  std::optional<double> sphere_radius;
+};
+
+/// Adds --format, --sphere-radius and --order.
+/// \param default_radius for the help.
+std::shared_ptr<FormatWords> add_format(CLI::App& command, const std::string& default_radius = "1");
+
+/// Whether read_sites is for a file of this name: it is a mesh that holds its points, and no text
+/// of them, as MPI-SCVT's SaveVertices and RegionList are.
+bool holds_points(const std::string& path);
+
+/// Whether a file of this name holds triangles alone, for all that the name says.
+bool holds_triangles(const std::string& path);
+
+/// The help of an option for a mesh that is written in the format of its name or of --format.
+std::string help_of_output();
+
+/// Without density and history, for a file of this name.
+/// \throws Error bad_option, before any work: for a name that is no mesh's, or of another format
+///         than --format; for a radius that is not positive, or not 1 where the format takes points
+///         as they are; for an order of triangles alone, which go with the points they were made
+///         from.
+WriteOptions options_of(const FormatWords& words, const std::string& path);
+
+} // namespace calotte::tools
