@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <memory>
 #include <numbers>
@@ -341,12 +342,15 @@ double step_for(const PolygonWidths& widths) {
   constexpr double finest = 0.05, coarsest = 1;
   constexpr double samples = 16, fewest_samples = 4; ///< of a transition
   const double degrees = widths.transition / widths.radius * 180 / std::numbers::pi;
-  if (degrees < fewest_samples * finest)
-    throw Error(
-        ErrorCode::bad_option,
-        "a transition of " + std::to_string(widths.transition) +
-            " km is too narrow for the finest raster of 0.05 degrees; give at least " +
-            std::to_string(fewest_samples * finest * std::numbers::pi / 180 * widths.radius));
+  if (degrees < fewest_samples * finest) {
+    const double least = widths.transition * fewest_samples * finest / degrees;
+    char text[128];
+    std::snprintf(text, sizeof text,
+                  "a transition of %g km is too narrow for the finest raster, of %g degrees; give "
+                  "at least %.3g km",
+                  widths.transition, finest, 1.005 * least);
+    throw Error(ErrorCode::bad_option, text);
+  }
   return std::clamp(degrees / samples, finest, coarsest);
 }
 

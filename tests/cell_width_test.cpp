@@ -690,7 +690,9 @@ TEST_CASE("the raster resolves the transition and is the same for any number of 
   // A cubic's greatest slope is 3/2 of the mean one.
   CHECK(largest_gradient(one).slope == doctest::Approx(1.5 * 100 / 400).epsilon(0.02));
   widths.transition = 10;
-  CHECK_THROWS_AS(read_cell_width(path, widths), Error);
+  CHECK(refusal(path, widths, ErrorCode::bad_option) ==
+        ": a transition of 10 km is too narrow for the finest raster, of 0.05 degrees; give at "
+        "least 22.4 km");
 }
 
 TEST_CASE("GeoJSON that gives no widths ends in one line that names the feature") {

@@ -44,7 +44,11 @@ public:
     if (regions_.empty())
       fail("no polygons; give Polygon or MultiPolygon geometries");
     require_narrower();
-    return cell_width_of(regions_, widths_);
+    try {
+      return cell_width_of(regions_, widths_);
+    } catch (const Error& error) {
+      throw Error(error.code(), name_ + ": " + error.what());
+    }
   }
 
 private:
