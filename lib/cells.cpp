@@ -13,8 +13,10 @@ constexpr int bits_below(int level) { return 2 * (curve_levels - level); }
 
 } // namespace
 
-CellTree::CellTree(Array<std::uint64_t> keys) : keys_(std::move(keys)) {
-  constexpr std::int64_t faces = 6, sites_a_cell = 4;
+CellTree::CellTree(Array<std::uint64_t> keys, bool planar)
+    : keys_(std::move(keys)), planar_(planar) {
+  constexpr std::int64_t sites_a_cell = 4;
+  const std::int64_t faces = planar ? 1 : 6;
   const std::int64_t n = keys_.size();
   while (faces << 2 * (level_ + 1) <= n / sites_a_cell)
     ++level_;
@@ -48,8 +50,9 @@ std::array<Cell, 6> CellTree::faces() const {
   for (int face = 0; face < 6; ++face) {
     const std::uint64_t key = static_cast<std::uint64_t>(face) << bits_below(0);
     const std::int64_t end =
-        first_rank(key + (std::uint64_t{1} << bits_below(0)), 0, begin, size());
-    faces[static_cast<std::size_t>(face)] = {begin, end, key, 0, 0, face, 0, face_turn(face)};
+        planar_ ? size() : first_rank(key + (std::uint64_t{1} << bits_below(0)), 0, begin, size());
+    faces[static_cast<std::size_t>(face)] = {
+        begin, end, key, 0, 0, planar_ ? plane_face : face, 0, face_turn(face)};
     begin = end;
   }
   return faces;
@@ -80,8 +83,10 @@ std::array<Cell, 4> CellTree::children(const Cell& cell) const {
 
 Ball bounding_ball(const Cell& cell) {
   const double width = std::ldexp(2.0, -cell.level);
-  const Vec3 middle =
-      from_cube({cell.face, (cell.i + 0.5) * width - 1, (cell.j + 0.5) * width - 1});
+  const double u = (cell.i + 0.5) * width - 1, v = (cell.j + 0.5) * width - 1;
+  if (cell.face == plane_face)
+    return {{u, v, 0}, 0.70710679 * width + 0x1p-50};
+  const Vec3 middle = from_cube({cell.face, u, v});
   // Central projection from the cube onto the unit ball inside it lengthens no distance.
   return {(1 / norm(middle)) * middle, 0.70710679 * width + 0x1p-50};
 }

@@ -9,7 +9,10 @@
 
 namespace calotte::detail {
 
-/// A square of a cube's face and the run of ranks in it.
+/// The face of a plane's cells, which are squares of [-1,1]^2. Their keys are those of face 0.
+inline constexpr int plane_face = 6;
+
+/// A square of a cube's face or of the plane, and the run of ranks in it.
 struct Cell {
   std::int64_t begin, end; ///< ranks
   std::uint64_t key;       ///< that of the cell's first finest cell
@@ -27,24 +30,26 @@ class CellTree {
 public:
   CellTree() = default;
   /// \param keys ascending.
-  explicit CellTree(Array<std::uint64_t> keys);
+  /// \param planar whether they are those of a plane's cells.
+  explicit CellTree(Array<std::uint64_t> keys, bool planar = false);
 
   const Array<std::uint64_t>& keys() const { return keys_; }
   std::int64_t size() const { return keys_.size(); }
-  std::array<Cell, 6> faces() const;
+  std::array<Cell, 6> faces() const; ///< in a plane all but the first are empty
   std::array<Cell, 4> children(const Cell& cell) const;
 
 private:
   std::int64_t first_rank(std::uint64_t key, int level, std::int64_t begin, std::int64_t end) const;
 
   Array<std::uint64_t> keys_;
+  bool planar_ = false;
   int level_ = 0;               ///< of the directory
   Array<std::int32_t> first_{}; ///< by cell of that level, and the number of all
 };
 
-/// A ball that holds the directions of the cell.
+/// A ball that holds the directions of the cell, or in a plane its square.
 struct Ball {
-  Vec3 centre; ///< a unit vector
+  Vec3 centre; ///< a unit vector, or z = 0
   double radius;
 };
 Ball bounding_ball(const Cell& cell);

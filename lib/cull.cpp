@@ -1,24 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cull.h"
 
-#include "cells.h"
-
 #include <algorithm>
 #include <cmath>
 
 namespace calotte::detail {
 namespace {
 
-using Face = CapTriangulation::Face;
-using Vertex = CapTriangulation::Vertex;
+template <class Space> using FaceOf = typename Triangulation<Space>::Face;
 
-bool has_owned_vertex(Face face) {
+template <class Face> bool has_owned_vertex(Face face) {
   return face->vertex(0)->owned || face->vertex(1)->owned || face->vertex(2)->owned;
 }
 
-/// Radius of a ball around the centre that the region covers.
-double inner_radius(const Vec3& centre, const std::vector<HalfSpace>& covered) {
-  double radius = 2;
+/// Radius of a ball around the centre that the region covers, at most that of the domain.
+double inner_radius(const Vec3& centre, const std::vector<HalfSpace>& covered, double diameter) {
+  double radius = diameter;
   for (const HalfSpace& h : covered)
     radius = std::min(radius, h.offset - dot(centre, h.normal));
   return radius;
@@ -26,11 +23,11 @@ double inner_radius(const Vec3& centre, const std::vector<HalfSpace>& covered) {
 
 /// Distance of x to the covered part's rim, if not far inside: then a lower bound.
 double depth_of(const Vec3& x, const Vec3& centre, double inner,
-                const std::vector<HalfSpace>& covered) {
+                const std::vector<HalfSpace>& covered, double diameter) {
   double depth = inner - norm(x - centre);
   if (depth > inner / 4)
     return depth;
-  depth = 2;
+  depth = diameter;
   for (const HalfSpace& h : covered)
     depth = std::min(depth, h.offset - dot(x, h.normal));
   return depth;
@@ -43,51 +40,63 @@ double depth_of(const Vec3& x, const Vec3& centre, double inner,
 /// side.
 constexpr double normal_error = 50 * roundoff;
 
-/// A triangle's plane and circumcap, in doubles.
-struct Circumcap {
-  Vec3 normal;  ///< (b - a) x (c - a), not normalised
-  double area;  ///< its norm
-  double sine;  ///< of the cap's radius, the circumradius of the flat triangle
-  double error; ///< of the normal's direction, radians
-  bool below_hemisphere;
+/// The flat triangle's normal (b - a) x (c - a), not normalised.
+Vec3 normal_of(FaceOf<Sphere> face) { return face->circle.normal; }
+Vec3 normal_of(FaceOf<Plane> face) {
+  return cross(face->vertex(1)->place.unit - face->vertex(0)->place.unit,
+               face->vertex(2)->place.unit - face->vertex(0)->place.unit);
+}
+
+/// Whether the triangle's normal points outward, so that its circumcap is less than a hemisphere.
+bool is_below_hemisphere(FaceOf<Sphere> face) {
+  return dot(face->circle.normal, face->vertex(0)->place.unit) > 0;
+}
+bool is_below_hemisphere(FaceOf<Plane>) { return true; }
+
+/// A triangle's circumcircle, in doubles.
+struct Circumcircle {
+  Vec3 normal;   ///< as normal_of
+  double area;   ///< its norm
+  double radius; ///< of the flat triangle; on the sphere the sine of the cap's
+  double error;  ///< of the normal, relative
 };
 
-Circumcap circumcap(Face face) {
+template <class Face> Circumcircle circumcircle(Face face) {
   const Vec3 &a = face->vertex(0)->place.unit, &b = face->vertex(1)->place.unit,
              &c = face->vertex(2)->place.unit;
   const Vec3 ab = b - a, ac = c - a, bc = c - b;
   const double ab2 = dot(ab, ab), ac2 = dot(ac, ac), bc2 = dot(bc, bc);
-  const Vec3& normal = face->circle.normal;
-  const double area = norm(face->circle.normal);
+  const Vec3 normal = normal_of(face);
+  const double area = norm(normal);
   const double longest = std::sqrt(std::max({ab2, ac2, bc2}));
-  const double error = normal_error * longest / area;
-  return {normal, area, std::sqrt(ab2 * ac2 * bc2) / (2 * area), error, dot(normal, a) > 0};
+  return {normal, area, std::sqrt(ab2 * ac2 * bc2) / (2 * area), normal_error * longest / area};
 }
 
 /// Whether a ball around an owned vertex that holds the circumcap is covered. Its radius is the
 /// chord of the cap's diameter, 2 sin r, and sin r = |ab||ac||bc| / (2 |q|), q = ab x ac. Most
 /// triangles pass, so it is written without roots or quotients; a relative error of 1e-3 in q moves
 /// it by less than the 2% set aside.
-bool is_within_depth(Face face) {
-  const Vertex a = face->vertex(0), b = face->vertex(1), c = face->vertex(2);
+template <class Face> bool is_within_depth(Face face) {
+  const auto a = face->vertex(0), b = face->vertex(1), c = face->vertex(2);
   const float depth = std::max({a->depth, b->depth, c->depth}); // 0 where not owned
   const Vec3 ab = b->place.unit - a->place.unit, ac = c->place.unit - a->place.unit,
              bc = c->place.unit - b->place.unit;
   const double ab2 = dot(ab, ab), ac2 = dot(ac, ac), bc2 = dot(bc, bc);
-  const Vec3& normal = face->circle.normal;
+  const Vec3 normal = normal_of(face);
   const double area2 = dot(normal, normal);
   constexpr double most_error = 1e-3, error = normal_error / most_error;
-  return dot(normal, a->place.unit) > 0 && area2 > error * error * std::max({ab2, ac2, bc2}) &&
+  return is_below_hemisphere(face) && area2 > error * error * std::max({ab2, ac2, bc2}) &&
          1.04 * ab2 * ac2 * bc2 < static_cast<double>(depth) * depth * area2;
 }
 
 /// Whether the cap lies in all half-spaces: its highest point over each is cos(angle - r), the
 /// angle from the cap's centre to the normal, or 1 when the cap holds the normal.
-bool is_covered(const Circumcap& cap, const std::vector<HalfSpace>& covered) {
-  if (!cap.below_hemisphere || !(cap.error < 1e-3) || cap.sine > 0.9)
+bool is_covered(FaceOf<Sphere> face, const std::vector<HalfSpace>& covered) {
+  const Circumcircle cap = circumcircle(face);
+  if (!is_below_hemisphere(face) || !(cap.error < 1e-3) || cap.radius > 0.9)
     return false;
   const Vec3 centre = (1 / cap.area) * cap.normal;
-  const double cosine = std::sqrt(1 - cap.sine * cap.sine);
+  const double cosine = std::sqrt(1 - cap.radius * cap.radius);
   // The cap's centre errs by the normal's error e, and sin r by 1.6 e relative: by e for the
   // normal's length, by e/5 for each side, 10 roundoffs long. That moves r by 1.6 e tan r < 3.4 e.
   const double margin = 8 * cap.error + 1e-14;
@@ -97,27 +106,53 @@ bool is_covered(const Circumcap& cap, const std::vector<HalfSpace>& covered) {
       return false;
     // Near -1, the root makes 1e-8 of a rounding in the height: it must not come out too small.
     const double across = std::sqrt(1 - height * height + 1e-14);
-    return height * cosine + cap.sine * across + margin <= h.offset;
+    return height * cosine + cap.radius * across + margin <= h.offset;
+  });
+}
+
+/// Whether the disc lies in all half-planes. With e the relative error of q, radius and centre,
+/// a + ((ab . ab) ac - (ac . ac) ab) turned / 2q, err by some e times the radius and longest side.
+bool is_covered(FaceOf<Plane> face, const std::vector<HalfSpace>& covered) {
+  const Circumcircle disc = circumcircle(face);
+  if (!(disc.error < 1e-3) || disc.radius > Plane::diameter)
+    return false;
+  const Vec3& a = face->vertex(0)->place.unit;
+  const Vec3 ab = face->vertex(1)->place.unit - a, ac = face->vertex(2)->place.unit - a;
+  const Vec3 across = dot(ab, ab) * ac - dot(ac, ac) * ab;
+  const Vec3 centre = a + (1 / (2 * disc.normal.z)) * Vec3{across.y, -across.x, 0};
+  const double margin = 16 * disc.error * disc.radius + 1e-14;
+  return std::all_of(covered.begin(), covered.end(), [&](const HalfSpace& h) {
+    return dot(centre, h.normal) + disc.radius + margin <= h.offset;
   });
 }
 
 // ---- Queries
 
-/// Sites of the whole set in conflict with a face, found from the nearest cells on: at most a few,
-/// since each changes the triangulation around it.
-class ConflictQuery {
+Vec3 middle_of(const SiteBox& box) { return {box.middle[0], box.middle[1], box.middle[2]}; }
+Vec3 half_of(const SiteBox& box) { return {box.half[0], box.half[1], box.half[2]}; }
+
+/// The greatest d.x over offsets x from the box's middle.
+double most_along(const Vec3& d, const SiteBox& box) {
+  const Vec3 half = half_of(box);
+  return std::abs(d.x) * half.x + std::abs(d.y) * half.y + std::abs(d.z) * half.z;
+}
+
+/// Squared distance of the box from a point.
+double square_distance(const SiteBox& box, const Vec3& p) {
+  const Vec3 apart = middle_of(box) - p, half = half_of(box);
+  const double x = std::max(std::abs(apart.x) - half.x, 0.0),
+               y = std::max(std::abs(apart.y) - half.y, 0.0),
+               z = std::max(std::abs(apart.z) - half.z, 0.0);
+  return x * x + y * y + z * z;
+}
+
+/// Where sites in conflict with a face may stand, in doubles: what is outside is surely outside.
+template <class Space> class Zone;
+
+template <> class Zone<Sphere> {
 public:
-  ConflictQuery(CapTriangulation& triangulation, const Sites& sites)
-      : triangulation_(triangulation), sites_(sites) {}
-
-  /// Cells and sites looked at so far.
-  std::int64_t looks() const { return looks_; }
-
-  const std::vector<std::int32_t>& run(Face face) {
-    face_ = face;
-    found_.clear();
+  Zone(FaceOf<Sphere> face, const Sphere& space) {
     const std::int8_t infinite = face->infinite;
-    const Sphere& space = triangulation_.space();
     for (int i = 0; i < 3; ++i)
       corner_[static_cast<std::size_t>(i)] =
           i == infinite ? normalised(space.view().focus) : face->vertex(i)->place.unit;
@@ -128,87 +163,156 @@ public:
     const double area = norm(normal_);
     cap_centre_ = area > 0 ? (1 / area) * normal_ : corner_[0];
     cap_radius_ = area > 0 ? norm(corner_[0] - cap_centre_) + 2 * normal_error_ / area + 1e-14 : 2;
-    near_ = infinite < 0 ? corner_[0] : corner_[static_cast<std::size_t>(infinite == 0)];
-    for (const Cell& cell : by_distance(sites_.cells.faces()))
-      descend(cell);
+  }
+
+  /// No site of the box lies in the circumcap, whatever the rounding: the cap's centre and the
+  /// chord of its radius err by the normal's error each. Of a triangle so thin that this says
+  /// little, the box must be below the plane: over the vertex a and any x of the box, (x - a).q
+  /// errs by |x - a| times the error and 12 roundoffs of |q|.
+  bool is_outside(const SiteBox& box) const {
+    if (square_distance(box, cap_centre_) > cap_radius_ * cap_radius_ * (1 + 1e-14))
+      return true;
+    const Vec3 apart = middle_of(box) - corner_[0];
+    const double area = norm(normal_), reach = norm(apart) + norm(half_of(box));
+    const double error = normal_error_ * reach + 16 * roundoff * (1 + reach) * area;
+    return dot(apart, normal_) + most_along(normal_, box) < -error;
+  }
+
+private:
+  std::array<Vec3, 3> corner_{};
+  Vec3 normal_{}, cap_centre_{};
+  double normal_error_ = 0, cap_radius_ = 0; ///< the latter a chord, and rounded up
+};
+
+/// f(x) = n.(x - a) - q |x - a|^2 is positive inside the circle, n and q the lifted triangle's
+/// normal (see plane.h); beyond a hull's edge, an infinite circle, q = 0.
+template <> class Zone<Plane> {
+public:
+  Zone(FaceOf<Plane> face, const Plane&) {
+    const std::int8_t infinite = face->infinite;
+    const int first = infinite < 0 ? 0 : next_vertex(infinite);
+    a_ = face->vertex(first)->place.unit;
+    const Vec3 p = face->vertex(next_vertex(first))->place.unit - a_;
+    if (infinite >= 0) {
+      straight_ = true;
+      normal_ = {-p.y, p.x, 0};
+      size_ = norm(p);
+      return;
+    }
+    const Vec3 r = face->vertex(previous_vertex(first))->place.unit - a_;
+    const double p2 = dot(p, p), r2 = dot(r, r);
+    normal_ = {p2 * r.y - p.y * r2, p.x * r2 - p2 * r.x, 0};
+    curvature_ = p.x * r.y - p.y * r.x;
+    size_ = std::sqrt(std::max(p2, r2)) + 16 * roundoff;
+  }
+
+  /// f is concave, so over the box it is at most its value in the middle and the rise of the
+  /// tangent there. A frame's coordinate errs by 3 roundoffs, a difference by 6 and its own; with L
+  /// the longer side from a and R the reach of the box, n errs by 36 L^2 + 8 L^3 roundoffs, q by 12
+  /// L, and x - a moves f by 12 L^3 + 12 L^2 R: below 128 L (L + R)^2 in all, as L < 3. The second
+  /// order counts only where L is no more than some roundoffs, which are added to it.
+  bool is_outside(const SiteBox& box) const {
+    const Vec3 apart = middle_of(box) - a_;
+    const double reach = norm(apart) + norm(half_of(box)), q = std::max(curvature_, 0.0);
+    const Vec3 slope = normal_ - 2 * q * apart;
+    const double value = dot(normal_, apart) - q * dot(apart, apart) + most_along(slope, box);
+    const double error = straight_ ? 32 * roundoff * (reach + size_)
+                                   : 128 * roundoff * size_ * (size_ + reach) * (size_ + reach);
+    return value < -error;
+  }
+
+private:
+  Vec3 a_{}, normal_{};
+  bool straight_ = false;
+  double curvature_ = 0, size_ = 0;
+};
+
+/// Sites of the whole set in conflict with a face, found from the nearest cells on: at most a few,
+/// since each changes the triangulation around it.
+template <class Space> class ConflictQuery {
+public:
+  ConflictQuery(Triangulation<Space>& triangulation, const Sites& sites)
+      : triangulation_(triangulation), sites_(sites) {}
+
+  /// Boxes and sites looked at so far.
+  std::int64_t looks() const { return looks_; }
+
+  const std::vector<std::int32_t>& run(FaceOf<Space> face) {
+    face_ = face;
+    found_.clear();
+    near_ = face->vertex(face->infinite == 0 ? 1 : 0)->place.unit;
+    const Zone<Space> zone(face, triangulation_.space());
+    descend(sites_.boxes.levels() - 1, 0, sites_.boxes.nodes(sites_.boxes.levels() - 1), zone);
     return found_;
   }
 
 private:
   static constexpr std::size_t enough = 8;
-  static constexpr std::int64_t leaf_size = 8;
 
-  /// No site of the ball lies in the circumcap, whatever the rounding: the cap's centre and the
-  /// chord of its radius err by the normal's error each. Of a triangle so thin that this says
-  /// little, the ball must be below the plane: over the vertex a and any x of the ball, (x - a).q
-  /// errs by |x - a| times the error and 12 roundoffs of |q|.
-  bool is_outside(const Ball& ball) const {
-    if (norm(ball.centre - cap_centre_) > cap_radius_ + ball.radius)
-      return true;
-    const Vec3 apart = ball.centre - corner_[0];
-    const double area = norm(normal_), reach = norm(apart) + ball.radius;
-    const double error = normal_error_ * reach + 16 * roundoff * (1 + reach) * area;
-    return dot(apart, normal_) + ball.radius * area < -error;
+  /// Nodes begin to end - 1 of a level, the nearest first.
+  void descend(int level, std::int64_t begin, std::int64_t end, const Zone<Space>& zone) {
+    const SiteBoxes& boxes = sites_.boxes;
+    std::array<std::pair<double, std::int64_t>, SiteBoxes::width> order;
+    std::size_t count = 0;
+    looks_ += end - begin;
+    for (std::int64_t i = begin; i != end; ++i) {
+      const SiteBox& box = boxes.box(level, i);
+      if (zone.is_outside(box))
+        continue;
+      const std::pair<double, std::int64_t> entry{square_distance(box, near_), i};
+      std::size_t c = count++;
+      for (; c > 0 && entry < order[c - 1]; --c)
+        order[c] = order[c - 1];
+      order[c] = entry;
+    }
+    for (std::size_t c = 0; c < count && found_.size() < enough; ++c) {
+      const std::int64_t first = order[c].second * SiteBoxes::width,
+                         last = first + SiteBoxes::width;
+      if (level == 0)
+        look_at(first, std::min(last, sites_.size()));
+      else
+        descend(level - 1, first, std::min(last, boxes.nodes(level - 1)), zone);
+    }
   }
 
-  template <std::size_t count>
-  std::array<Cell, count> by_distance(std::array<Cell, count> cells) const {
-    std::array<std::pair<double, std::size_t>, count> order;
-    for (std::size_t c = 0; c < count; ++c) {
-      const Ball ball = bounding_ball(cells[c]);
-      order[c] = {norm(ball.centre - near_), c};
-    }
-    std::sort(order.begin(), order.end());
-    std::array<Cell, count> sorted;
-    for (std::size_t c = 0; c < count; ++c)
-      sorted[c] = cells[order[c].second];
-    return sorted;
-  }
-
-  void descend(const Cell& cell) {
-    ++looks_;
-    if (cell.size() == 0 || found_.size() >= enough || is_outside(bounding_ball(cell)))
-      return;
-    if (cell.size() <= leaf_size || !cell.divisible()) {
-      for (std::int64_t r = cell.begin; r != cell.end && found_.size() < enough; ++r, ++looks_)
-        if (is_in_conflict(r))
-          found_.push_back(static_cast<std::int32_t>(r));
-    } else {
-      for (const Cell& child : by_distance(sites_.cells.children(cell)))
-        descend(child);
-    }
+  void look_at(std::int64_t begin, std::int64_t end) {
+    looks_ += end - begin;
+    for (std::int64_t r = begin; r != end && found_.size() < enough; ++r)
+      if (is_in_conflict(r))
+        found_.push_back(static_cast<std::int32_t>(r));
   }
 
   bool is_in_conflict(std::int64_t rank) {
     for (int i = 0; i < 3; ++i)
       if (i != face_->infinite && face_->vertex(i)->place.site == sites_.id[rank])
         return false;
-    Sphere& space = triangulation_.space();
+    Space& space = triangulation_.space();
     return space.has_place(rank) && triangulation_.conflicts(face_, space.place(rank));
   }
 
-  CapTriangulation& triangulation_;
+  Triangulation<Space>& triangulation_;
   const Sites& sites_;
-  Face face_;
-  std::array<Vec3, 3> corner_{};
-  Vec3 normal_{}, cap_centre_{}, near_{};
-  double normal_error_ = 0, cap_radius_ = 0; ///< the latter a chord, and rounded up
+  FaceOf<Space> face_;
+  Vec3 near_{};
   std::vector<std::int32_t> found_;
   std::int64_t looks_ = 0;
 };
 
 /// Faces with an owned vertex that the cull test does not certify.
-std::vector<Face> uncertified_faces(CapTriangulation& triangulation,
-                                    const std::vector<HalfSpace>& covered, CullCounts& counts) {
+template <class Space>
+std::vector<FaceOf<Space>> uncertified_faces(Triangulation<Space>& triangulation,
+                                             const std::vector<HalfSpace>& covered,
+                                             CullCounts& counts) {
+  using Face = FaceOf<Space>;
   std::vector<Face> uncertified;
   triangulation.for_each_face([&](Face face) {
     if (face->certified || !has_owned_vertex(face))
       return;
-    if (CapTriangulation::is_infinite(face)) {
+    if (triangulation.is_infinite(face)) {
       uncertified.push_back(face);
       return;
     }
-    if (is_within_depth(face) || is_covered(circumcap(face), covered)) {
+    if (is_within_depth(face) || is_covered(face, covered)) {
       face->certified = true;
       ++counts.by_cull;
     } else {
@@ -220,12 +324,13 @@ std::vector<Face> uncertified_faces(CapTriangulation& triangulation,
 
 /// Whether the triangle is one of a closed mesh: finite, and its circumcap below a hemisphere.
 /// Empty caps beyond that are the far side of sites that a hemisphere holds.
-bool is_counter_clockwise(Face face, const Sites& sites) {
-  if (CapTriangulation::is_infinite(face))
+bool may_stand(FaceOf<Sphere> face, const Sites& sites) {
+  if (Triangulation<Sphere>::is_infinite(face))
     return false;
   const auto given = [&](int i) { return sites.given(face->vertex(i)->place.site); };
   return orientation(given(0), given(1), given(2)) > 0;
 }
+bool may_stand(FaceOf<Plane>, const Sites&) { return true; }
 
 /// Undecided predicates and insertions for each member, beyond which the set as a whole is cheaper:
 /// a cap's lattices need a few, clusters that are hard to certify thousands.
@@ -238,11 +343,12 @@ constexpr std::int64_t looks_an_effort = 4;
 
 } // namespace
 
+template <class Space>
 std::vector<Member> gather(const Sites& sites, const Regions& regions, std::int32_t k) {
   const auto region = static_cast<std::size_t>(k);
   const std::vector<HalfSpace>& covered = regions.covered[region];
   const Vec3& centre = regions.centres[region];
-  const double inner = inner_radius(centre, covered);
+  const double inner = inner_radius(centre, covered, Space::diameter);
   std::vector<Member> members;
   std::size_t count = 0;
   for (const Run& run : regions.members[region])
@@ -251,21 +357,23 @@ std::vector<Member> gather(const Sites& sites, const Regions& regions, std::int3
   for (const Run& run : regions.members[region])
     for (std::int32_t r = run.begin; r != run.end; ++r) {
       const bool owned = regions.owner[r] == k;
-      const double depth = owned ? depth_of(sites.unit[r], centre, inner, covered) : 0;
+      const double depth =
+          owned ? depth_of(sites.unit[r], centre, inner, covered, Space::diameter) : 0;
       // Rounded down, by more than the rounding of half-spaces: 1e-14.
       members.push_back({r, static_cast<float>(std::max(0.999999 * depth - 1e-14, 0.0)), owned});
     }
   return members;
 }
 
-bool certify(CapTriangulation& triangulation, const Sites& sites, const Regions& regions,
+template <class Space>
+bool certify(Triangulation<Space>& triangulation, const Sites& sites, const Regions& regions,
              std::int32_t k, CullCounts& counts) {
   const std::vector<HalfSpace>& covered = regions.covered[static_cast<std::size_t>(k)];
-  ConflictQuery query(triangulation, sites);
+  ConflictQuery<Space> query(triangulation, sites);
   const std::int64_t patience = effort * (std::ssize(triangulation.members()) + 1000);
   for (;;) {
     std::vector<std::int32_t> missing;
-    for (const Face face : uncertified_faces(triangulation, covered, counts)) {
+    for (const FaceOf<Space> face : uncertified_faces(triangulation, covered, counts)) {
       const std::vector<std::int32_t>& found = query.run(face);
       if (counts.inserted + triangulation.space().counts().filtered +
               query.looks() / looks_an_effort >
@@ -274,10 +382,10 @@ bool certify(CapTriangulation& triangulation, const Sites& sites, const Regions&
       missing.insert(missing.end(), found.begin(), found.end());
       if (!found.empty())
         continue;
-      if (!is_counter_clockwise(face, sites))
+      if (!may_stand(face, sites))
         return false;
       face->certified = true;
-      ++counts.by_query;
+      counts.by_query += !triangulation.is_infinite(face);
     }
     if (missing.empty())
       return true;
@@ -289,9 +397,17 @@ bool certify(CapTriangulation& triangulation, const Sites& sites, const Regions&
   }
 }
 
-void certify_all(CapTriangulation& triangulation) {
-  triangulation.for_each_face(
-      [](Face face) { face->certified = !CapTriangulation::is_infinite(face); });
+template <class Space> void certify_all(Triangulation<Space>& triangulation) {
+  triangulation.for_each_face([](FaceOf<Space> face) { face->certified = true; });
 }
+
+template std::vector<Member> gather<Sphere>(const Sites&, const Regions&, std::int32_t);
+template std::vector<Member> gather<Plane>(const Sites&, const Regions&, std::int32_t);
+template bool certify(Triangulation<Sphere>&, const Sites&, const Regions&, std::int32_t,
+                      CullCounts&);
+template bool certify(Triangulation<Plane>&, const Sites&, const Regions&, std::int32_t,
+                      CullCounts&);
+template void certify_all(Triangulation<Sphere>&);
+template void certify_all(Triangulation<Plane>&);
 
 } // namespace calotte::detail

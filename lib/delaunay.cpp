@@ -4,6 +4,7 @@
 #include "clock.h"
 #include "cull.h"
 #include "divide.h"
+#include "periodic.h"
 #include "regions.h"
 #include "unite.h"
 
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <atomic>
 #include <optional>
+#include <type_traits>
 
 namespace calotte {
 namespace detail {
@@ -28,15 +30,22 @@ void add(DelaunayReport& report, const PredicateCounts& counts) {
   report.exact_predicates += counts.exact;
 }
 
-/// The whole set as one region, seen from the sphere's centre: nothing is left to certify.
-Reports triangulate_whole(const Sites& sites, DelaunayReport& report) {
+/// What sites that span no triangle all stand on.
+[[noreturn]] void refuse_degenerate(const Sites& sites) {
+  throw Error(ErrorCode::degenerate,
+              sites.frame
+                  ? "all sites lie on one line: add a site off it, they span no triangle"
+                  : "all sites lie on one great circle: add a site off it, they span no triangle");
+}
+
+/// The whole set as one region, on the sphere seen from its centre: nothing is left to certify.
+template <class Space> Reports triangulate_whole(const Sites& sites, DelaunayReport& report) {
   std::vector<Member> members(static_cast<std::size_t>(sites.size()));
   for (std::size_t r = 0; r < members.size(); ++r)
     members[r] = {static_cast<std::int32_t>(r), 0, true};
-  CapTriangulation triangulation{Sphere(sites)};
+  Triangulation<Space> triangulation{Space(sites)};
   if (!triangulation.build(members))
-    throw Error(ErrorCode::degenerate,
-                "all sites lie on one great circle: add a site off it, they span no triangle");
+    refuse_degenerate(sites);
   certify_all(triangulation);
   Reports reports;
   reports.triangles_of = Array<std::int32_t>(sites.size());
@@ -58,12 +67,31 @@ struct CapResult {
   double seconds = 0;
 };
 
+/// The members together with some sites from all over the set; empty when they, too, span no
+/// triangle.
+template <class Space>
+Triangulation<Space> build_with_sample(const Space& space, std::int64_t sites,
+                                       std::vector<Member> members) {
+  constexpr std::int64_t sample = 64;
+  for (std::int64_t s = 0; s < std::min(sample, sites); ++s)
+    members.push_back({static_cast<std::int32_t>(s * sites / std::min(sample, sites)), 0, false});
+  const auto by_rank = [](const Member& a, const Member& b) { return a.rank < b.rank; };
+  const auto same_rank = [](const Member& a, const Member& b) { return a.rank == b.rank; };
+  std::stable_sort(members.begin(), members.end(), by_rank); // a member stays before its double
+  members.erase(std::unique(members.begin(), members.end(), same_rank), members.end());
+  std::erase_if(members, [&](const Member& m) { return !space.has_place(m.rank); });
+  Triangulation<Space> triangulation(space);
+  triangulation.build(members);
+  return triangulation;
+}
+
 /// One region: gather, project, triangulate, cull and certify. Empty when its cap cannot certify
 /// its sites.
+template <class Space>
 std::optional<CapResult> triangulate_cap(const Sites& sites, const Regions& regions, std::int32_t k,
                                          Array<std::int32_t>& triangles_of) {
   Clock::time_point start = Clock::now();
-  std::vector<Member> members = gather(sites, regions, k);
+  std::vector<Member> members = gather<Space>(sites, regions, k);
   const auto count_owned = [&] {
     return std::count_if(members.begin(), members.end(), [](const Member& m) { return m.owned; });
   };
@@ -77,11 +105,14 @@ std::optional<CapResult> triangulate_cap(const Sites& sites, const Regions& regi
     const Vec3 apart = sites.unit[m.rank] - centre;
     reach = std::max(reach, dot(apart, apart));
   }
-  CapTriangulation triangulation{Sphere(sites, centre, 1.000001 * std::sqrt(reach))};
-  std::erase_if(members, [&](const Member& m) { return !triangulation.space().has_place(m.rank); });
+  const Space space(sites, centre, 1.000001 * std::sqrt(reach));
+  std::erase_if(members, [&](const Member& m) { return !space.has_place(m.rank); });
   if (count_owned() != result.owned) // its own focus is a site of its own
     return std::nullopt;
-  if (!triangulation.build(members) || !certify(triangulation, sites, regions, k, result.cull))
+  Triangulation<Space> triangulation(space);
+  if (!triangulation.build(members)) // too few, or on one line: some from afar make a triangle
+    triangulation = build_with_sample<Space>(space, sites.size(), members);
+  if (triangulation.members().empty() || !certify(triangulation, sites, regions, k, result.cull))
     return std::nullopt;
   result.triangles = report_triangles(triangulation, sites, regions.owner, triangles_of);
   result.predicates = triangulation.space().counts();
@@ -110,6 +141,7 @@ void summarise(const std::vector<CapResult>& caps, std::int64_t sites, DelaunayR
 
 /// All regions, a task each; empty when one of them cannot certify its sites, or when a rounded
 /// bisector has cost one a site that it owns.
+template <class Space>
 std::optional<Reports> triangulate_caps(const Sites& sites, const Regions& regions,
                                         DelaunayReport& report) {
   Reports reports;
@@ -120,7 +152,7 @@ std::optional<Reports> triangulate_caps(const Sites& sites, const Regions& regio
     if (failed.load(std::memory_order_relaxed))
       return;
     std::optional<CapResult> cap =
-        triangulate_cap(sites, regions, static_cast<std::int32_t>(k), reports.triangles_of);
+        triangulate_cap<Space>(sites, regions, static_cast<std::int32_t>(k), reports.triangles_of);
     if (cap)
       caps[static_cast<std::size_t>(k)] = std::move(*cap);
     else
@@ -145,28 +177,51 @@ Mesh make_mesh(Sites&& sites, Reports&& reports) {
   return mesh;
 }
 
-/// For each centre those whose coarse Voronoi cells meet its own: its neighbours in the Delaunay
-/// triangulation of the centres, or all others where those have none.
-std::vector<std::vector<std::int32_t>> adjacent_centres(const std::vector<Vec3>& centres) {
-  const std::size_t count = centres.size();
+/// Both ends of each edge learn of each other.
+std::vector<std::vector<std::int32_t>> neighbours_in(const Triangles& triangles,
+                                                     std::size_t count) {
   std::vector<std::vector<std::int32_t>> adjacent(count);
-  Points3 points(3, static_cast<Eigen::Index>(count));
-  for (std::size_t k = 0; k < count; ++k)
-    points.col(static_cast<Eigen::Index>(k)) << centres[k].x, centres[k].y, centres[k].z;
+  for (Eigen::Index t = 0; t < triangles.cols(); ++t)
+    for (int i = 0; i < 3; ++i) {
+      const std::int32_t a = triangles(i, t), b = triangles((i + 1) % 3, t);
+      adjacent[static_cast<std::size_t>(a)].push_back(b);
+      adjacent[static_cast<std::size_t>(b)].push_back(a);
+    }
+  for (std::vector<std::int32_t>& list : adjacent) {
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+  }
+  return adjacent;
+}
+
+/// The triangles of some centres, or none when they are too few, meet, or lie on one line, or on
+/// the sphere in a hemisphere.
+template <class Space, class Points> Triangles triangles_of(const Points& points) {
   try {
     Sites sites = make_sites(points, Duplicates::merge, 0);
     DelaunayReport unused;
-    Reports reports = triangulate_whole(sites, unused);
+    Reports reports = triangulate_whole<Space>(sites, unused);
     const Mesh mesh = make_mesh(std::move(sites), std::move(reports));
-    if (mesh.closed() && mesh.points.cols() == points.cols()) {
-      for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
-        for (int i = 0; i < 3; ++i)
-          adjacent[static_cast<std::size_t>(mesh.triangles(i, t))].push_back(
-              mesh.triangles((i + 1) % 3, t));
-      return adjacent;
-    }
-  } catch (const Error&) { // too few centres, or all on one great circle
+    if (mesh.points.cols() == points.cols() && (std::is_same_v<Space, Plane> || mesh.closed()))
+      return mesh.triangles;
+  } catch (const Error&) {
   }
+  return Triangles(3, 0);
+}
+
+/// For each centre those whose coarse Voronoi cells meet its own: its neighbours in the Delaunay
+/// triangulation of the centres, or all others where there is none.
+std::vector<std::vector<std::int32_t>> adjacent_centres(const std::vector<Vec3>& centres,
+                                                        bool planar) {
+  const std::size_t count = centres.size();
+  Points3 points(3, static_cast<Eigen::Index>(count));
+  for (std::size_t k = 0; k < count; ++k)
+    set_column(points, static_cast<std::int64_t>(k), centres[k]);
+  const Triangles triangles =
+      planar ? triangles_of<Plane>(Points2(points.topRows<2>())) : triangles_of<Sphere>(points);
+  if (triangles.cols() > 0)
+    return neighbours_in(triangles, count);
+  std::vector<std::vector<std::int32_t>> adjacent(count);
   for (std::size_t k = 0; k < count; ++k)
     for (std::size_t m = 0; m < count; ++m)
       if (m != k)
@@ -180,33 +235,46 @@ Regions divide(const Sites& sites, const DelaunayOptions& options) {
   std::vector<Vec3> centres = make_centres(sites, options);
   if (centres.size() == 1)
     return {std::move(centres), {}, {}, {}};
-  const std::vector<std::vector<std::int32_t>> adjacent = adjacent_centres(centres);
+  const std::vector<std::vector<std::int32_t>> adjacent =
+      adjacent_centres(centres, sites.frame.has_value());
   return make_regions(sites, std::move(centres), adjacent, options.sort);
 }
 
 namespace {
 
-Mesh run(const Points3& points, const DelaunayOptions& options, DelaunayReport& report) {
-  Clock::time_point start = Clock::now(), mark = start;
-  Sites sites = make_sites(points, options.duplicates, options.merge_within);
-  report.threads = thread_count();
-  report.sites = sites.size();
-  report.duplicates = points.cols() - sites.size();
-  report.seconds.sites = lap(mark);
-
+/// From the sites to the mesh, whose points in a plane have z = 0.
+template <class Space>
+Mesh triangulate(Sites&& sites, const DelaunayOptions& options, DelaunayReport& report) {
+  Clock::time_point mark = Clock::now();
   const Regions regions = divide(sites, options);
   report.seconds.regions = lap(mark);
   std::optional<Reports> reports;
   if (regions.centres.size() > 1)
-    reports = triangulate_caps(sites, regions, report);
+    reports = triangulate_caps<Space>(sites, regions, report);
   if (!reports)
-    reports = triangulate_whole(sites, report);
+    reports = triangulate_whole<Space>(sites, report);
   report.seconds.triangulate = lap(mark);
 
   Mesh mesh = make_mesh(std::move(sites), std::move(*reports));
   report.seconds.unite = lap(mark);
-  report.seconds.total = lap(start);
   return mesh;
+}
+
+template <class Points>
+Sites sites_of(const Points& points, const DelaunayOptions& options, DelaunayReport& report) {
+  Clock::time_point mark = Clock::now();
+  Sites sites = make_sites(points, options.duplicates, options.merge_within);
+  report = {};
+  report.threads = thread_count();
+  report.sites = sites.size();
+  report.duplicates = points.cols() - sites.size();
+  report.seconds.sites = lap(mark);
+  return sites;
+}
+
+PlanarMesh planar(Mesh&& mesh) {
+  return {mesh.points.topRows<2>(), std::move(mesh.triangles), std::move(mesh.neighbours),
+          std::move(mesh.site_of_input)};
 }
 
 } // namespace
@@ -215,8 +283,45 @@ Mesh run(const Points3& points, const DelaunayOptions& options, DelaunayReport& 
 Mesh delaunay(const Points3& points, const DelaunayOptions& options, DelaunayReport* report) {
   DelaunayReport unused;
   DelaunayReport& used = report != nullptr ? *report : unused;
-  used = {};
-  return detail::run(points, options, used);
+  detail::Clock::time_point start = detail::Clock::now();
+  detail::Sites sites = detail::sites_of(points, options, used);
+  Mesh mesh = detail::triangulate<detail::Sphere>(std::move(sites), options, used);
+  used.seconds.total = detail::lap(start);
+  return mesh;
+}
+
+template <>
+PlanarMesh delaunay(const Points2& points, const DelaunayOptions& options, DelaunayReport* report) {
+  DelaunayReport unused;
+  DelaunayReport& used = report != nullptr ? *report : unused;
+  detail::Clock::time_point start = detail::Clock::now();
+  detail::Sites sites = detail::sites_of(points, options, used);
+  PlanarMesh mesh =
+      detail::planar(detail::triangulate<detail::Plane>(std::move(sites), options, used));
+  used.seconds.total = detail::lap(start);
+  return mesh;
+}
+
+template <>
+PlanarMesh delaunay(const Points2& points, const Eigen::Vector2d& period,
+                    const DelaunayOptions& options, DelaunayReport* report) {
+  DelaunayReport unused;
+  DelaunayReport& used = report != nullptr ? *report : unused;
+  detail::Clock::time_point start = detail::Clock::now();
+  detail::require_in_box(points, period);
+  detail::Sites sites = detail::sites_of(points, options, used);
+  const Points2 distinct = sites.points.topRows<2>();
+  const auto triangulate = [&](std::vector<detail::Image> images, const detail::Vec2& box) {
+    detail::Sites copies = detail::make_sites(std::move(images), box);
+    used.sites_per_region.clear();
+    used.owned_per_region.clear();
+    used.seconds_per_region.clear();
+    return detail::planar(detail::triangulate<detail::Plane>(std::move(copies), options, used));
+  };
+  PlanarMesh mesh = detail::triangulate_periodic(distinct, period, triangulate);
+  mesh.site_of_input = std::move(sites.site_of_input);
+  used.seconds.total = detail::lap(start);
+  return mesh;
 }
 
 } // namespace calotte

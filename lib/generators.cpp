@@ -3,6 +3,7 @@
 
 #include "circle.h"
 #include "counts.h"
+#include "points.h"
 #include "sampling.h"
 #include "split_mix.h"
 #include "vec3.h"
@@ -390,6 +391,7 @@ PlanarMesh periodic_hexagons(std::int64_t columns, std::int64_t rows, double spa
           << (static_cast<double>(c) + (r % 2 == 0 ? 0 : 0.5)) * spacing,
           static_cast<double>(r) * rise;
   set_hexagons_triangles(columns, rows, mesh);
+  mesh.site_of_input = detail::themselves(mesh.points.cols());
   return mesh;
 }
 

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 
 namespace calotte::detail {
@@ -121,21 +122,35 @@ Sample take_sample(const Sites& sites, std::int64_t count) {
     unit[s] = sites.unit[rank];
     keys[s] = sites.cells.keys()[rank];
   }
-  return {std::move(unit), CellTree(std::move(keys))};
+  return {std::move(unit), CellTree(std::move(keys), sites.frame.has_value())};
 }
 
-/// Moves each centre to the mean of the samples it owns; one that owns none, or whose mean
-/// vanishes, stays.
-void move_to_means(const Sample& sample, const Array<std::int32_t>& owner,
+/// Moves each centre to the mean of the samples it owns, on the sphere to its direction; one that
+/// owns none, or whose mean has no direction, stays.
+void move_to_means(const Sample& sample, const Array<std::int32_t>& owner, bool planar,
                    std::vector<Vec3>& centres) {
   std::vector<Vec3> sum(centres.size(), Vec3{0, 0, 0});
+  std::vector<double> count(centres.size(), 0);
   for (std::int64_t s = 0; s < owner.size(); ++s) {
-    Vec3& mean = sum[static_cast<std::size_t>(owner[s])];
-    mean = mean + sample.unit[s];
+    const auto k = static_cast<std::size_t>(owner[s]);
+    sum[k] = sum[k] + sample.unit[s];
+    ++count[k];
   }
   for (std::size_t k = 0; k < centres.size(); ++k)
-    if (const double length = norm(sum[k]); length > 1e-9)
+    if (const double length = planar ? count[k] : norm(sum[k]); length > 1e-9)
       centres[k] = (1 / length) * sum[k];
+}
+
+/// A Fibonacci lattice over the box of the sites: even, whatever their density.
+std::vector<Vec3> plane_lattice(const Frame& frame, int regions) {
+  constexpr double golden = 0.6180339887498949;
+  std::vector<Vec3> centres;
+  for (int k = 0; k < regions; ++k) {
+    const double turns = k * golden;
+    centres.push_back({frame.width * (2 * (turns - std::floor(turns)) - 1),
+                       frame.height * ((2 * k + 1.0) / regions - 1), 0});
+  }
+  return centres;
 }
 
 /// A coarse CVT of a sample. It starts from equal parts of the curve, so that the regions hold
@@ -147,20 +162,25 @@ std::vector<Vec3> sampled_centres(const Sites& sites, int regions) {
   Array<std::int32_t> owner(sample.unit.size());
   for (std::int64_t s = 0; s < owner.size(); ++s)
     owner[s] = static_cast<std::int32_t>(s * regions / owner.size());
-  move_to_means(sample, owner, centres);
+  const bool planar = sites.frame.has_value();
+  move_to_means(sample, owner, planar, centres);
   constexpr int steps = 4;
   for (int step = 0; step < steps; ++step) {
     owner = owners(sample.cells, sample.unit, centres);
-    move_to_means(sample, owner, centres);
+    move_to_means(sample, owner, planar, centres);
   }
   return centres;
 }
 
-std::vector<Vec3> columns(const Points3& points) {
+std::vector<Vec3> columns(const Points3& points, const std::optional<Frame>& plane) {
   std::vector<Vec3> out(static_cast<std::size_t>(points.cols()));
   for (Eigen::Index k = 0; k < points.cols(); ++k) {
-    const Vec3 p{points(0, k), points(1, k), points(2, k)};
+    const Vec3 p = column(points, k);
     const bool finite = std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+    if (plane && finite) {
+      out[static_cast<std::size_t>(k)] = (*plane)(p.x, p.y);
+      continue;
+    }
     if (!finite || (p.x == 0 && p.y == 0 && p.z == 0))
       throw Error(ErrorCode::bad_option,
                   "region centre " + std::to_string(k) +
@@ -205,7 +225,9 @@ constexpr double halo_steps = 2.5;
 HalfSpace beyond_bisector(const Vec3& own, const Vec3& other, double width) {
   const Vec3 apart = other - own;
   const double length = norm(apart);
-  return {(1 / length) * apart, width};
+  const double offset =
+      dot(own + other, apart) / (2 * length); // 0 of unit vectors, but for rounding
+  return {(1 / length) * apart, offset + width};
 }
 
 std::vector<std::vector<HalfSpace>>
@@ -235,6 +257,18 @@ std::vector<double> owned_radii(const Sites& sites, const Regions& regions) {
   return radius;
 }
 
+/// A polygon around a disc of the plane, 0.2% wider at its corners.
+std::vector<HalfSpace> half_planes_around(const Vec3& centre, double radius) {
+  constexpr int sides = 48;
+  std::vector<HalfSpace> polygon;
+  for (int side = 0; side < sides; ++side) {
+    const double angle = 2 * std::numbers::pi * side / sides;
+    const Vec3 normal{std::cos(angle), std::sin(angle), 0};
+    polygon.push_back({normal, dot(centre, normal) + radius + 1e-12});
+  }
+  return polygon;
+}
+
 std::vector<std::vector<HalfSpace>>
 distance_half_spaces(const Sites& sites, const Regions& regions,
                      const std::vector<std::vector<std::int32_t>>& adjacent) {
@@ -244,8 +278,11 @@ distance_half_spaces(const Sites& sites, const Regions& regions,
     for (const std::int32_t m : adjacent[k])
       chord[k] = std::max(chord[k],
                           norm(regions.centres[static_cast<std::size_t>(m)] - regions.centres[k]));
-    // |x - t|^2 <= chord^2  <=>  -t.x <= chord^2/2 - 1
-    covered[k].push_back({-regions.centres[k], chord[k] * chord[k] / 2 - 1 + 1e-12});
+    covered[k] =
+        sites.frame
+            ? half_planes_around(regions.centres[k], chord[k])
+            // |x - t|^2 <= chord^2  <=>  -t.x <= chord^2/2 - 1
+            : std::vector<HalfSpace>{{-regions.centres[k], chord[k] * chord[k] / 2 - 1 + 1e-12}};
   }
   return covered;
 }
@@ -380,7 +417,7 @@ std::vector<Vec3> make_centres(const Sites& sites, const DelaunayOptions& option
   if (options.given_centres) {
     if (options.given_centres->cols() == 0)
       throw Error(ErrorCode::bad_option, "there is no region centre: give at least 1");
-    return columns(*options.given_centres);
+    return columns(*options.given_centres, sites.frame);
   }
   const int regions = options.regions.value_or(default_region_count(sites.size()));
   if (regions < 1)
@@ -389,7 +426,8 @@ std::vector<Vec3> make_centres(const Sites& sites, const DelaunayOptions& option
   // More regions than sites would own nothing; their centres would only take time and memory.
   const auto useful = static_cast<int>(std::min<std::int64_t>(regions, sites.size()));
   if (options.centres == Centres::fibonacci)
-    return columns(fibonacci_sphere(useful));
+    return sites.frame ? plane_lattice(*sites.frame, useful)
+                       : columns(fibonacci_sphere(useful), std::nullopt);
   return sampled_centres(sites, useful);
 }
 

@@ -10,7 +10,7 @@
 
 namespace calotte::detail {
 
-/// The directions x with x.normal <= offset; normals are unit vectors.
+/// The sites x with x.normal <= offset; normals are unit vectors.
 struct HalfSpace {
   Vec3 normal;
   double offset;
@@ -23,7 +23,7 @@ struct Run {
 
 /// The decomposition: who owns each site, and which sites each region triangulates.
 struct Regions {
-  std::vector<Vec3> centres; ///< t_k, unit vectors
+  std::vector<Vec3> centres; ///< t_k, unit vectors; in a plane places in its frame
   Array<std::int32_t> owner; ///< by rank: the region with the nearest centre, ties to the lowest
   std::vector<std::vector<Run>> members; ///< by region, ascending: its own sites and its halo
   /// By region: every site in all of these is a member.
@@ -34,7 +34,7 @@ struct Regions {
 /// triangulation stays in cache and its halo is a small part of it.
 int default_region_count(std::int64_t sites);
 
-/// Unit centres: those given, or as many as regions are asked for, but no more than sites.
+/// Centres: those given, or as many as regions are asked for, but no more than sites.
 /// \throws Error bad_option (fewer than one region, centres without a direction).
 std::vector<Vec3> make_centres(const Sites& sites, const DelaunayOptions& options);
 

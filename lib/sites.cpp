@@ -3,6 +3,7 @@
 
 #include "curve.h"
 #include "order.h"
+#include "plane_predicates.h"
 #include "predicates.h"
 
 #include <calotte/error.h>
@@ -11,6 +12,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <type_traits>
 #include <unordered_map>
 
 namespace calotte::detail {
@@ -18,38 +20,129 @@ namespace {
 
 constexpr std::int64_t none = std::numeric_limits<std::int64_t>::max();
 
+// ---- What sites are made of: how an input's points are told apart and placed along the curve.
+
 bool is_finite(const Vec3& p) {
   return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
 bool is_zero(const Vec3& p) { return p.x == 0 && p.y == 0 && p.z == 0; }
 
-[[noreturn]] void refuse(const Points3& points, std::int64_t i) {
-  const std::string name = "point " + std::to_string(i);
-  if (is_zero(column(points, i)))
-    throw Error(ErrorCode::zero_vector,
-                name + " is the zero vector: remove it, it has no direction", i);
-  throw Error(ErrorCode::not_finite, name + " has a coordinate that is NaN or infinite: remove it",
+[[noreturn]] void refuse_not_finite(std::int64_t i) {
+  throw Error(ErrorCode::not_finite,
+              "point " + std::to_string(i) + " has a coordinate that is NaN or infinite: remove it",
               i);
 }
 
+/// Directions of any norm.
+struct Directions {
+  const Points3& points;
+
+  static constexpr std::int64_t fewest = 4;
+  static constexpr const char* distinct = "distinct directions";
+  static constexpr const char* domain = "the sphere";
+  static constexpr const char* twin = " has the direction of point ";
+
+  const Vec3& at(std::int64_t i) const { return column(points, i); }
+  bool is_valid(std::int64_t i) const { return is_finite(at(i)) && !is_zero(at(i)); }
+  [[noreturn]] void refuse(std::int64_t i) const {
+    if (!is_zero(at(i)))
+      refuse_not_finite(i);
+    throw Error(
+        ErrorCode::zero_vector,
+        "point " + std::to_string(i) + " is the zero vector: remove it, it has no direction", i);
+  }
+  CubePoint square(std::int64_t i) const { return to_cube(at(i)); }
+  int compare(std::int64_t i, std::int64_t j) const {
+    const Vec3 &p = at(i), &q = at(j);
+    const bool equal_bits = p.x == q.x && p.y == q.y && p.z == q.z; // spares exact arithmetic
+    return equal_bits ? 0 : compare_directions(p, q);
+  }
+  bool same(std::int64_t i, std::int64_t j) const { return same_direction(at(i), at(j)); }
+  Vec3 unit(const Vec3& p) const { return normalised(p); }
+  /// The chord of an angle.
+  static double distance(double within) {
+    return 2 * std::sin(std::min(within, 3.141592653589793) / 2);
+  }
+};
+
+/// Pairs of doubles.
+struct Places {
+  const Points2& points;
+  Frame frame;
+
+  static constexpr std::int64_t fewest = 3;
+  static constexpr const char* distinct = "distinct places";
+  static constexpr const char* domain = "the plane";
+  static constexpr const char* twin = " stands where point ";
+
+  Vec3 at(std::int64_t i) const { return {points(0, i), points(1, i), 0}; }
+  bool is_valid(std::int64_t i) const { return is_finite(at(i)); }
+  [[noreturn]] static void refuse(std::int64_t i) { refuse_not_finite(i); }
+  CubePoint square(std::int64_t i) const {
+    const Vec3 p = unit(at(i));
+    return {0, p.x, p.y};
+  }
+  int compare(std::int64_t i, std::int64_t j) const {
+    return detail::compare({points(0, i), points(1, i)}, {points(0, j), points(1, j)});
+  }
+  bool same(std::int64_t i, std::int64_t j) const { return compare(i, j) == 0; }
+  Vec3 unit(const Vec3& p) const {
+    const Vec3 q = frame(p.x, p.y);
+    return {std::clamp(q.x, -1.0, 1.0), std::clamp(q.y, -1.0, 1.0), 0};
+  }
+  double distance(double within) const { return within * frame.scale / frame.half; }
+};
+
+/// Of the finite points.
+Frame frame_of(const Points2& points) {
+  double largest = 0;
+  for (const double x : points.reshaped())
+    if (std::isfinite(x))
+      largest = std::max(largest, std::abs(x));
+  Frame frame;
+  if (largest > 0) // so far that neither the scale nor what it scales leaves the doubles' range
+    frame.scale = std::ldexp(1.0, -std::clamp(std::ilogb(largest), -1000, 1000));
+  Eigen::Array2d low(2, 2), high(-2, -2);
+  for (Eigen::Index i = 0; i < points.cols(); ++i)
+    if (points.col(i).allFinite()) {
+      const Eigen::Array2d scaled = frame.scale * points.col(i).array();
+      low = low.min(scaled);
+      high = high.max(scaled);
+    }
+  if (largest > 0) {
+    const Eigen::Array2d centre = (low + high) / 2, half = (high - low) / 2;
+    frame.centre = {centre.x(), centre.y(), 0};
+    frame.half = half.maxCoeff() > 0 ? half.maxCoeff() : 1;
+    frame.width = half.x() / frame.half;
+    frame.height = half.y() / frame.half;
+  }
+  return frame;
+}
+
+/// Images of sites, which stand where their rounded points do.
+struct Images : Places {
+  static bool same(std::int64_t, std::int64_t) { return false; }
+};
+
+// ---- Stages
+
 /// Curve keys of all inputs, which it checks.
-Array<KeyedIndex> make_entries(const Points3& points) {
-  const std::int64_t n = points.cols();
+template <class Input> Array<KeyedIndex> make_entries(const Input& input) {
+  const std::int64_t n = input.points.cols();
   Array<KeyedIndex> entries(n);
   std::vector<std::int64_t> offending(static_cast<std::size_t>(block_count(n)), none);
   for_each_block(n, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = end - 1; i >= begin; --i) {
-      const Vec3& p = column(points, i);
-      if (!is_finite(p) || is_zero(p)) {
+      if (!input.is_valid(i)) {
         offending[static_cast<std::size_t>(block)] = i;
         continue;
       }
-      entries[i] = {curve_key(to_cube(p)), static_cast<std::int32_t>(i)};
+      entries[i] = {curve_key(input.square(i)), static_cast<std::int32_t>(i)};
     }
   });
   const auto first = std::min_element(offending.begin(), offending.end());
   if (first != offending.end() && *first != none)
-    refuse(points, *first);
+    input.refuse(*first);
   return entries;
 }
 
@@ -57,8 +150,8 @@ Array<KeyedIndex> make_entries(const Points3& points) {
 /// where those keys are equal too. A cluster narrower than a finest cell is a curve like any other
 /// then, where walks from site to site are short. Equal cube points end up side by side, ordered by
 /// direction, then index.
-void order_finely(const Points3& points, KeyedIndex* begin, KeyedIndex* end) {
-  const auto cube_point = [&](const KeyedIndex& e) { return to_cube(column(points, e.index)); };
+template <class Input> void order_finely(const Input& input, KeyedIndex* begin, KeyedIndex* end) {
+  const auto cube_point = [&](const KeyedIndex& e) { return input.square(e.index); };
   CubePoint low = cube_point(*begin), high = low;
   for (const KeyedIndex* e = begin; e != end; ++e) {
     const CubePoint p = cube_point(*e);
@@ -68,9 +161,7 @@ void order_finely(const Points3& points, KeyedIndex* begin, KeyedIndex* end) {
   const double width = std::max(high.u - low.u, high.v - low.v);
   if (width == 0) {
     std::sort(begin, end, [&](const KeyedIndex& a, const KeyedIndex& b) {
-      const Vec3 &p = column(points, a.index), &q = column(points, b.index);
-      const bool equal_bits = p.x == q.x && p.y == q.y && p.z == q.z; // spares exact arithmetic
-      const int order = equal_bits ? 0 : compare_directions(p, q);
+      const int order = input.compare(a.index, b.index);
       return order != 0 ? order < 0 : a.index < b.index;
     });
     return;
@@ -88,24 +179,26 @@ void order_finely(const Points3& points, KeyedIndex* begin, KeyedIndex* end) {
     while (last < finer.size() && finer[last].key == finer[i].key)
       ++last;
     if (last - i > 1)
-      order_finely(points, begin + i, begin + last);
+      order_finely(input, begin + i, begin + last);
   }
 }
 
 /// For each input the lowest index of the same direction. Equal directions have the same bits on
 /// the cube, hence the same key, and stand side by side in a run of equal keys that is in order.
-void link_duplicates(const Points3& points, KeyedIndex* begin, KeyedIndex* end,
+template <class Input>
+void link_duplicates(const Input& input, KeyedIndex* begin, KeyedIndex* end,
                      std::vector<std::int32_t>& lowest) {
-  order_finely(points, begin, end);
+  order_finely(input, begin, end);
   for (KeyedIndex* e = begin + 1; e < end; ++e)
-    if (same_direction(column(points, e[-1].index), column(points, e->index)))
+    if (input.same(e[-1].index, e->index))
       lowest[static_cast<std::size_t>(e->index)] = lowest[static_cast<std::size_t>(e[-1].index)];
 }
 
-/// Merges each input into an earlier one that stays and is nearer than `within` radians, if there
-/// is one: those that stay are kept in a grid of cubes no smaller than the distance.
-void link_near(const Points3& points, double within, std::vector<std::int32_t>& lowest) {
-  const double chord = 2 * std::sin(std::min(within, 3.141592653589793) / 2);
+/// Merges each input into an earlier one that stays and is nearer than `within`, if there is one:
+/// those that stay are kept in a grid of cubes no smaller than the distance.
+template <class Input>
+void link_near(const Input& input, double within, std::vector<std::int32_t>& lowest) {
+  const double chord = input.distance(within);
   const double cell = std::max(chord, 0x1p-50); // unit vectors are not closer than some of these
   std::unordered_multimap<std::uint64_t, std::int32_t> grid;
   const auto cell_of = [&](double x) { return static_cast<std::int64_t>(std::floor(x / cell)); };
@@ -123,18 +216,18 @@ void link_near(const Points3& points, double within, std::vector<std::int32_t>& 
         for (std::int64_t k = cell_of(p.z) - 1; k <= cell_of(p.z) + 1; ++k) {
           const auto [first, last] = grid.equal_range(hash(i, j, k));
           for (auto it = first; it != last; ++it)
-            if (norm(p - normalised(column(points, it->second))) < chord)
+            if (norm(p - input.unit(input.at(it->second))) < chord)
               best = std::min<std::int64_t>(best, it->second);
         }
     return best;
   };
-  for (std::int64_t i = 0; i < points.cols(); ++i) {
+  for (std::int64_t i = 0; i < input.points.cols(); ++i) {
     const auto index = static_cast<std::size_t>(i);
     if (lowest[index] != i) { // its twin came earlier and knows by now where it went
       lowest[index] = lowest[static_cast<std::size_t>(lowest[index])];
       continue;
     }
-    const Vec3 p = normalised(column(points, i));
+    const Vec3 p = input.unit(input.at(i));
     if (const std::int64_t kept = nearest_kept(p); kept != none)
       lowest[index] = static_cast<std::int32_t>(kept);
     else
@@ -143,7 +236,8 @@ void link_near(const Points3& points, double within, std::vector<std::int32_t>& 
 }
 
 /// For each input the one that stands for it; empty when each stands for itself.
-std::vector<std::int32_t> link_inputs(const Points3& points, Array<KeyedIndex>& entries,
+template <class Input>
+std::vector<std::int32_t> link_inputs(const Input& input, Array<KeyedIndex>& entries,
                                       double merge_within) {
   const std::int64_t n = entries.size();
   std::vector<std::pair<std::int64_t, std::int64_t>> runs; // of equal keys
@@ -171,24 +265,25 @@ std::vector<std::int32_t> link_inputs(const Points3& points, Array<KeyedIndex>& 
     lowest[i] = static_cast<std::int32_t>(i);
   for_each_task(static_cast<std::int64_t>(runs.size()), [&](std::int64_t r) {
     const auto [begin, end] = runs[static_cast<std::size_t>(r)];
-    link_duplicates(points, entries.begin() + begin, entries.begin() + end, lowest);
+    link_duplicates(input, entries.begin() + begin, entries.begin() + end, lowest);
   });
   if (merge_within > 0)
-    link_near(points, merge_within, lowest);
+    link_near(input, merge_within, lowest);
   return lowest;
 }
 
-void refuse_duplicates(const std::vector<std::int32_t>& lowest) {
+void refuse_duplicates(const std::vector<std::int32_t>& lowest, const char* twin) {
   for (std::size_t i = 0; i < lowest.size(); ++i)
     if (static_cast<std::size_t>(lowest[i]) != i)
       throw Error(ErrorCode::duplicate,
-                  "point " + std::to_string(i) + " has the direction of point " +
-                      std::to_string(lowest[i]) + ": remove it, or let duplicates be merged",
+                  "point " + std::to_string(i) + twin + std::to_string(lowest[i]) +
+                      ": remove it, or let duplicates be merged",
                   static_cast<std::int64_t>(i));
 }
 
 /// Keeps the entries that stand for themselves and numbers them in the order of the input.
-void keep_distinct(const Points3& points, const std::vector<std::int32_t>& lowest,
+template <class Input>
+void keep_distinct(const Input& input, const std::vector<std::int32_t>& lowest,
                    Array<KeyedIndex>& entries, Sites& sites) {
   std::int32_t kept = 0;
   for (std::size_t i = 0; i < lowest.size(); ++i)
@@ -198,7 +293,7 @@ void keep_distinct(const Points3& points, const std::vector<std::int32_t>& lowes
   sites.points.resize(3, kept);
   for (std::size_t i = 0; i < lowest.size(); ++i)
     if (static_cast<std::size_t>(lowest[i]) == i)
-      sites.points.col(sites.site_of_input[i]) = points.col(static_cast<Eigen::Index>(i));
+      set_column(sites.points, sites.site_of_input[i], input.at(static_cast<std::int64_t>(i)));
   Array<KeyedIndex> distinct(kept);
   std::int64_t next = 0;
   for (const KeyedIndex& e : entries)
@@ -207,47 +302,45 @@ void keep_distinct(const Points3& points, const std::vector<std::int32_t>& lowes
   entries = std::move(distinct);
 }
 
-void copy_all(const Points3& points, Sites& sites) {
-  sites.points.resize(3, points.cols());
-  prefer_huge_pages(sites.points.data(), 24 * static_cast<std::size_t>(points.cols()));
-  for_each_block(points.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-    sites.points.middleCols(begin, end - begin) = points.middleCols(begin, end - begin);
-    for (std::int64_t i = begin; i != end; ++i)
+template <class Input> void copy_all(const Input& input, Sites& sites) {
+  const std::int64_t n = input.points.cols();
+  sites.points.resize(3, n);
+  prefer_huge_pages(sites.points.data(), 24 * static_cast<std::size_t>(n));
+  for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i != end; ++i) {
+      set_column(sites.points, i, input.at(i));
       sites.site_of_input[static_cast<std::size_t>(i)] = static_cast<std::int32_t>(i);
+    }
   });
 }
 
-void require_count(std::int64_t n, const char* kind) {
-  if (n < 4)
+template <class Input> void require_count(std::int64_t n, const char* kind) {
+  if (n < Input::fewest)
     throw Error(ErrorCode::too_few_sites, "there are " + std::to_string(n) + " " + kind +
-                                              ": a triangulation of the sphere needs at least 4");
+                                              ": a triangulation of " + Input::domain +
+                                              " needs at least " + std::to_string(Input::fewest));
   if (n > std::int64_t{1} << 30)
     throw Error(ErrorCode::bad_option, "there are " + std::to_string(n) +
                                            " points: 32-bit triangle ids allow 2^30 at most");
 }
 
-} // namespace
-
-Sites make_sites(const Points3& points, Duplicates duplicates, double merge_within) {
-  if (!(merge_within >= 0) || !std::isfinite(merge_within))
-    throw Error(ErrorCode::bad_option, "the angle to merge within is " +
-                                           std::to_string(merge_within) +
-                                           "; give 0 radians or more");
-  require_count(points.cols(), "points");
-  Array<KeyedIndex> entries = make_entries(points);
+template <class Input>
+Sites make_sites_of(const Input& input, Duplicates duplicates, double merge_within) {
+  require_count<Input>(input.points.cols(), "points");
+  Array<KeyedIndex> entries = make_entries(input);
   sort_by_key(entries);
-  const std::vector<std::int32_t> lowest = link_inputs(points, entries, merge_within);
+  const std::vector<std::int32_t> lowest = link_inputs(input, entries, merge_within);
   if (duplicates == Duplicates::refuse)
-    refuse_duplicates(lowest);
+    refuse_duplicates(lowest, Input::twin);
 
   Sites sites;
-  sites.site_of_input.resize(static_cast<std::size_t>(points.cols()));
+  sites.site_of_input.resize(static_cast<std::size_t>(input.points.cols()));
   if (lowest.empty())
-    copy_all(points, sites);
+    copy_all(input, sites);
   else
-    keep_distinct(points, lowest, entries, sites);
+    keep_distinct(input, lowest, entries, sites);
   const std::int64_t n = entries.size();
-  require_count(n, "distinct directions");
+  require_count<Input>(n, Input::distinct);
   sites.id = Array<std::int32_t>(n);
   sites.unit = Array<Vec3>(n);
   Array<std::uint64_t> keys(n);
@@ -255,10 +348,51 @@ Sites make_sites(const Points3& points, Duplicates duplicates, double merge_with
     for (std::int64_t rank = begin; rank != end; ++rank) {
       sites.id[rank] = entries[rank].index;
       keys[rank] = entries[rank].key;
-      sites.unit[rank] = normalised(sites.given(entries[rank].index));
+      sites.unit[rank] = input.unit(sites.given(entries[rank].index));
     }
   });
-  sites.cells = CellTree(std::move(keys));
+  sites.cells = CellTree(std::move(keys), !std::is_same_v<Input, Directions>);
+  sites.boxes = SiteBoxes(sites.unit);
+  return sites;
+}
+
+void require_distance(double merge_within, const std::string& kind, const std::string& unit) {
+  if (!(merge_within >= 0) || !std::isfinite(merge_within))
+    throw Error(ErrorCode::bad_option, "the " + kind + " to merge within is " +
+                                           std::to_string(merge_within) + "; give 0" + unit +
+                                           " or more");
+}
+
+Vec2 place_of(const Image& image, const Vec2& period) {
+  return {image.site.x + image.i * period.x, image.site.y + image.j * period.y};
+}
+
+} // namespace
+
+Sites make_sites(const Points3& points, Duplicates duplicates, double merge_within) {
+  require_distance(merge_within, "angle", " radians");
+  return make_sites_of(Directions{points}, duplicates, merge_within);
+}
+
+Sites make_sites(const Points2& points, Duplicates duplicates, double merge_within) {
+  require_distance(merge_within, "distance", "");
+  const Frame frame = frame_of(points);
+  Sites sites = make_sites_of(Places{points, frame}, duplicates, merge_within);
+  sites.frame = frame;
+  return sites;
+}
+
+Sites make_sites(std::vector<Image> images, const Vec2& period) {
+  Points2 points(2, std::ssize(images));
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    const Vec2 place = place_of(images[static_cast<std::size_t>(i)], period);
+    points.col(i) << place.x, place.y;
+  }
+  Frame frame = frame_of(points);
+  frame.period = period;
+  Sites sites = make_sites_of(Images{{points, frame}}, Duplicates::merge, 0);
+  sites.frame = frame;
+  sites.images = std::move(images);
   return sites;
 }
 

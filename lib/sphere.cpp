@@ -35,8 +35,8 @@ void Sphere::widen(double reach) {
   if (!projected_)
     return;
   const double half = std::min(reach / 2, 0.87); // sine of half the angle; P is its tangent
-  const double diameter = 2 * half / std::sqrt(1 - half * half);
-  orientation_error_ = 1000 * roundoff * diameter;
+  const double span = 2 * half / std::sqrt(1 - half * half);
+  orientation_error_ = 1000 * roundoff * span;
 }
 
 bool Sphere::has_place(std::int64_t rank) const {

@@ -34,6 +34,9 @@ public:
     Vec3 normal;
   };
 
+  /// The greatest chord.
+  static constexpr double diameter = 2;
+
   /// The whole sphere from its centre.
   explicit Sphere(const Sites& sites) : sites_(&sites) { widen(2); }
 

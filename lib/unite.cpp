@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "unite.h"
 
+#include "plane.h"
+#include "sphere.h"
 #include "triangle.h"
 
 #include <calotte/error.h>
@@ -13,16 +15,15 @@
 namespace calotte::detail {
 namespace {
 
-using Face = Triangulation<Sphere>::Face;
-using Vertex = Triangulation<Sphere>::Vertex;
+template <class Space> using Vertices = std::array<typename Triangulation<Space>::Vertex, 3>;
 
 /// A face's vertices and neighbours from its lowest site on.
-struct Turned {
-  std::array<Vertex, 3> vertex;
+template <class Space> struct Turned {
+  Vertices<Space> vertex;
   Triple neighbours;
 };
 
-Turned turned(Face face) {
+template <class Space> Turned<Space> turned(typename Triangulation<Space>::Face face) {
   std::int32_t lowest = face->vertex(0)->place.site;
   int i = 0; // found without branches, which would be mispredicted
   for (const int j : {1, 2}) {
@@ -35,12 +36,12 @@ Turned turned(Face face) {
           {face->neighbor(i)->number, face->neighbor(j)->number, face->neighbor(k)->number}};
 }
 
-std::int8_t own_edges(const std::array<Vertex, 3>& v) {
+template <class Vertices> std::int8_t own_edges(const Vertices& v) {
   int bits = 0;
   for (int i = 0; i < 3; ++i) {
-    const Vertex a = v[static_cast<std::size_t>(next_vertex(i))],
-                 b = v[static_cast<std::size_t>(previous_vertex(i))];
-    const Vertex lower = a->place.site < b->place.site ? a : b;
+    const auto a = v[static_cast<std::size_t>(next_vertex(i))],
+               b = v[static_cast<std::size_t>(previous_vertex(i))];
+    const auto lower = a->place.site < b->place.site ? a : b;
     bits |= static_cast<int>(lower->owned) << i;
   }
   return static_cast<std::int8_t>(bits);
@@ -70,12 +71,15 @@ void rank_lists(const std::vector<std::int32_t>& last, RegionTriangles& out) {
 
 } // namespace
 
-RegionTriangles report_triangles(Triangulation<Sphere>& triangulation, const Sites& sites,
+template <class Space>
+RegionTriangles report_triangles(Triangulation<Space>& triangulation, const Sites& sites,
                                  const Array<std::int32_t>& owner,
                                  Array<std::int32_t>& triangles_of) {
+  using Face = typename Triangulation<Space>::Face;
+  using Vertex = typename Triangulation<Space>::Vertex;
   std::int32_t count = 0;
   triangulation.for_each_face([&](Face face) {
-    if (face->certified)
+    if (face->certified && !triangulation.is_infinite(face))
       face->number = count++;
   });
   RegionTriangles out{
@@ -89,7 +93,7 @@ RegionTriangles report_triangles(Triangulation<Sphere>& triangulation, const Sit
     const std::int32_t t = face->number;
     if (t < 0)
       return;
-    const auto [v, neighbours] = turned(face);
+    const auto [v, neighbours] = turned<Space>(face);
     out.sites[t] = {v[0]->place.site, v[1]->place.site, v[2]->place.site};
     out.neighbours[t] = neighbours;
     if (v[0]->owned) {
@@ -112,6 +116,11 @@ RegionTriangles report_triangles(Triangulation<Sphere>& triangulation, const Sit
       triangles_of[sites.id[member.rank]] = length[v];
   return out;
 }
+
+template RegionTriangles report_triangles(Triangulation<Sphere>&, const Sites&,
+                                          const Array<std::int32_t>&, Array<std::int32_t>&);
+template RegionTriangles report_triangles(Triangulation<Plane>&, const Sites&,
+                                          const Array<std::int32_t>&, Array<std::int32_t>&);
 
 namespace {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "parallel.h"
-#include "sphere.h"
+#include "sites.h"
 #include "triangulate.h"
 
 #include <calotte/types.h>
@@ -28,11 +28,12 @@ struct RegionTriangles {
                                       ///< of the edge across from vertex i
 };
 
-/// Reports the certified faces of a triangulation.
+/// Reports the certified finite faces of a triangulation.
 /// \param owner by rank, to count a seam's owners.
 /// \param triangles_of by site: set, for the owned sites, to the number of triangles with that
 /// lowest site.
-RegionTriangles report_triangles(Triangulation<Sphere>& triangulation, const Sites& sites,
+template <class Space>
+RegionTriangles report_triangles(Triangulation<Space>& triangulation, const Sites& sites,
                                  const Array<std::int32_t>& owner,
                                  Array<std::int32_t>& triangles_of);
 

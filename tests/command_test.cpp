@@ -41,8 +41,10 @@ TEST_CASE("points that are none: the message names the line, and nothing is writ
   check_bad("# a comment\n" + start + "0 0 0\n",
             "points.txt line 8: the zero vector has no direction; remove the point or correct it");
   check_bad(start + "\n1 two 3\n", "points.txt line 8: \"two\" is no number" + xyz);
-  check_bad("x,y,z\n" + start + "1,2\n", "points.txt line 8: 2 columns only" + xyz +
-                                             ", or read them as longitude and latitude (--lonlat)");
+  check_bad("x,y,z\n" + start + "1,2\n",
+            "points.txt line 8: 2 columns only" + xyz +
+                ", or read them as longitude and latitude (--lonlat) or places in "
+                "a plane (--plane)");
   check_bad("", "points.txt: no points in 0 lines" + xyz);
   check_bad("x y z\n", "points.txt: no points in 1 line" + xyz);
   check_bad("0 0\n90 91\n",
@@ -321,4 +323,41 @@ TEST_CASE("info refuses a mesh without a Voronoi tessellation, and a report in i
   check_refusal(bench, "info mesh.vtp --report absent/report.json", 3,
                 "cannot write absent/report.json: the folder absent does not exist; create it "
                 "first");
+}
+
+TEST_CASE("a plane is triangulated, open or periodic, and read and written as such") {
+  const Bench bench;
+  std::string lattice = "x, y\n";
+  for (int i = 0; i < 10; ++i)
+    for (int j = 0; j < 10; ++j)
+      lattice += std::to_string(i) + ", " + std::to_string(j) + "\n";
+  bench.file("points.txt", lattice);
+  CHECK(bench.run("delaunay --plane points.txt -o mesh.off").out ==
+        "mesh.off: 100 sites, 162 triangles, 36 sites on the hull\n");
+  CHECK(bench.run("delaunay --plane points.txt -o mesh.vtp --regions 4").code == 0);
+  const Outcome box = bench.run("delaunay --plane --periodic 10,10 points.txt -o box.nc");
+  CHECK(box.out == "box.nc: 100 sites, 200 triangles, periodic\n");
+  CHECK(bench.run("convert box.nc again.nc").code == 0);
+  CHECK(calotte::read_planar_mesh(bench.folder() / "box.nc").triangles ==
+        calotte::read_planar_mesh(bench.folder() / "again.nc").triangles);
+}
+
+TEST_CASE("what a plane cannot be is refused, naming line or option") {
+  const Bench bench;
+  bench.file("points.txt", "0 0\n1 0\n0.5 1\n0.7 0.2\n");
+  bench.file("bad.txt", "0 0\n1 0\n0.5 inf\n");
+  bench.file("line.txt", "0 0\n1 1\n2 2\n");
+  check_refusal(
+      bench, "delaunay --plane bad.txt -o mesh.vtp", 2,
+      "bad.txt line 3: an infinite number gives no place; remove the point or correct it");
+  check_refusal_naming(bench, "delaunay --plane line.txt -o mesh.vtp", 2, "on one line");
+  check_refusal_naming(bench, "delaunay --plane points.txt -o mesh.nc", 2, "a plane is written as");
+  check_refusal_naming(bench, "delaunay --plane points.txt -o mesh.nc --periodic 2,2", 2,
+                       "a circle wider than half of the periodic box");
+  check_refusal_naming(bench, "delaunay --plane points.txt -o mesh.nc --periodic 0.5,2", 2,
+                       "point 1 is outside the periodic box");
+  check_refusal_naming(bench, "delaunay --plane points.txt -o mesh.nc --periodic 5", 2,
+                       "--periodic 5 is no box");
+  check_refusal_naming(bench, "delaunay points.txt -o mesh.nc --periodic 5,5", 2, "--plane");
+  check_refusal_naming(bench, "delaunay --plane --lonlat points.txt -o mesh.vtp", 2, "excludes");
 }

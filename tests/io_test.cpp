@@ -184,11 +184,13 @@ TEST_CASE("points that are none end in one line that names the file's line and t
   check_bad("1 2 3\n1e400 2 3\n", 2, "points line 2: \"1e400\" is out of range" + xyz);
   check_bad("1 2 3\n4 5", 2,
             "points line 2: 2 columns only" + xyz +
-                ", or read them as longitude and latitude (--lonlat)");
+                ", or read them as longitude and latitude (--lonlat) or places in "
+                "a plane (--plane)");
   check_bad("1 2 3\n4\n", 2, "points line 2: 1 column only" + xyz);
   check_bad("1 2 3\n4,5,\n", 2,
             "points line 2: 2 columns only" + xyz +
-                ", or read them as longitude and latitude (--lonlat)");
+                ", or read them as longitude and latitude (--lonlat) or places in "
+                "a plane (--plane)");
   check_bad("1 2 3\n4 # 5 6\n", 2, "points line 2: 1 column only" + xyz);
   check_bad("1 2 3\n\x01\x02garbage\n", 2, "points line 2: \"??garbage\" is no number" + xyz);
   check_bad("1 2 3\n" + std::string(99, 'a'), 2,
@@ -473,4 +475,18 @@ TEST_CASE("the weather stations are read as they are") {
       calotte::read_points(CALOTTE_FIXTURES "/weather-stations.csv", Columns::lonlat);
   CHECK(points.cols() > 28'000);
   CHECK((points.colwise().norm().array() - 1).abs().maxCoeff() < 1e-15);
+}
+
+TEST_CASE("places in a plane are read as they stand, with their lines") {
+  std::istringstream in("# two\nx;y\n1e-300;-2\n\n0x;0\n");
+  CHECK_THROWS_WITH_AS(calotte::read_planar_points(in, "points"),
+                       "points line 5: \"0x\" is no number; write two numbers x y a line",
+                       calotte::Error);
+  std::istringstream good("x y\n1e-300 -2 7\n0 0\n");
+  std::vector<std::int64_t> lines;
+  const calotte::Points2 points = calotte::read_planar_points(good, "points", &lines);
+  REQUIRE(points.cols() == 2);
+  CHECK(points(0, 0) == 1e-300);
+  CHECK(points(1, 0) == -2);
+  CHECK(lines == std::vector<std::int64_t>{2, 3});
 }

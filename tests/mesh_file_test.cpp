@@ -253,10 +253,12 @@ TEST_CASE("triangles alone are no sites") {
   }
 }
 
-TEST_CASE("a periodic plane is MPAS's alone, and keeps its numbers") {
+TEST_CASE("a periodic plane is MPAS's or triangles alone, and keeps its numbers") {
   const Scratch scratch;
   const calotte::PlanarMesh plane = calotte::periodic_hexagons(6, 8, 1000);
   for (const Kind& kind : kinds) {
+    if (kind.format == Format::triangles)
+      continue;
     CAPTURE(int(kind.format));
     const std::string path = scratch / kind.file;
     const auto write = [&](Numbering numbering) {
@@ -283,4 +285,27 @@ TEST_CASE("a periodic plane is MPAS's alone, and keeps its numbers") {
   calotte::write(scratch / "mesh.off", sphere);
   CHECK(error_of([&] { calotte::read_planar_mesh(scratch / "mesh.off"); }).code() ==
         ErrorCode::bad_option);
+}
+
+TEST_CASE("a plane that does not repeat itself is written with z = 0, but not as cells") {
+  const Scratch scratch;
+  calotte::Points2 points(2, 5);
+  points << 1, 3, 3, 1, 2, 1, 1, 2, 2, 1.5;
+  const calotte::PlanarMesh plane = calotte::delaunay(points);
+  for (const Kind& kind : kinds) {
+    CAPTURE(int(kind.format));
+    const std::string path = scratch / kind.file;
+    const auto write = [&] { calotte::write(path, plane, {.format = kind.format}); };
+    if (is_netcdf(kind) || holds_cells(kind.format) || kind.format == Format::mpi_scvt) {
+      CHECK(error_of(write).code() == ErrorCode::bad_option);
+      continue;
+    }
+    write();
+    if (kind.format == Format::triangles)
+      continue;
+    const Mesh read = calotte::read_mesh(path);
+    CHECK(equal_bits(read.triangles, plane.triangles));
+    CHECK(calotte::Points2(read.points.topRows<2>()) == points);
+    CHECK((read.points.row(2).array() == 0).all());
+  }
 }

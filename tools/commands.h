@@ -85,8 +85,20 @@ inline constexpr const char* mesh_suffixes =
 /// \throws Error as points_from and read_sites; bad_option for a mesh in longitude and latitude.
 PointFile read_point_file(const std::string& path, bool lonlat);
 
+/// Places in a plane, likewise.
+struct PlanarPointFile {
+  std::string name;
+  Points2 points;
+  std::vector<std::int64_t> lines;
+};
+
+/// Text, x y a line; "-" is standard input. \throws Error as read_planar_points.
+PlanarPointFile read_planar_point_file(const std::string& path);
+
 /// The library names the column of a bad point; who wrote the file looks for the line.
-[[noreturn]] void rethrow_with_line(const Error& error, const PointFile& file);
+/// \param lines of the columns of the file `name`; none where it has none.
+[[noreturn]] void rethrow_with_line(const Error& error, const std::string& name,
+                                    const std::vector<std::int64_t>& lines);
 
 /// Where a mesh is read from: the file, and the points that a .txt or .tri file refers to.
 struct MeshSource {

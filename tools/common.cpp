@@ -97,16 +97,23 @@ PointFile read_point_file(const std::string& path, bool lonlat) {
   return file;
 }
 
-void rethrow_with_line(const Error& error, const PointFile& file) {
+PlanarPointFile read_planar_point_file(const std::string& path) {
+  PlanarPointFile file;
+  file.name = path == "-" ? "standard input" : path;
+  file.points = path == "-" ? read_planar_points(std::cin, file.name, &file.lines)
+                            : read_planar_points(path, &file.lines);
+  return file;
+}
+
+void rethrow_with_line(const Error& error, const std::string& name,
+                       const std::vector<std::int64_t>& lines) {
   const bool of_input = error.code() == ErrorCode::not_finite ||
                         error.code() == ErrorCode::zero_vector ||
                         error.code() == ErrorCode::duplicate;
-  if (!of_input || error.index() < 0 ||
-      error.index() >= static_cast<std::int64_t>(file.lines.size()))
+  if (!of_input || error.index() < 0 || error.index() >= static_cast<std::int64_t>(lines.size()))
     throw error;
-  const std::int64_t line = file.lines[static_cast<std::size_t>(error.index())];
-  throw Error(error.code(), file.name + " line " + std::to_string(line) + ": " + error.what(),
-              line);
+  const std::int64_t line = lines[static_cast<std::size_t>(error.index())];
+  throw Error(error.code(), name + " line " + std::to_string(line) + ": " + error.what(), line);
 }
 
 std::shared_ptr<MeshSource> add_mesh_source(CLI::App& command, const std::string& names) {

@@ -154,7 +154,7 @@ Outcome tessellate(const CvtRequest& request, Plan& plan, Progress& progress) {
                                   : cvt(plan.start.file.points, plan.options, stop);
     });
   } catch (const Error& error) {
-    rethrow_with_line(error, plan.start.file);
+    rethrow_with_line(error, plan.start.file.name, plan.start.file.lines);
   }
   return outcome;
 }

@@ -11,6 +11,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <charconv>
 #include <iostream>
 #include <optional>
 
@@ -19,50 +20,82 @@ namespace {
 
 struct Request {
   std::string points, mesh, report;
-  bool lonlat = false;
+  bool lonlat = false, plane = false;
+  std::optional<Eigen::Vector2d> period; ///< of a periodic plane
   std::shared_ptr<PartitionWords> partition;
   std::shared_ptr<FormatWords> format;
   std::shared_ptr<std::string> config;
 };
 
-struct Result {
-  Mesh mesh;
+template <class AnyMesh> struct Result {
+  AnyMesh mesh;
   DelaunayReport report;
 };
 
-/// Everything about the output that can be known to fail, before any work.
+/// Two positive lengths and a comma. \throws Error bad_option.
+Eigen::Vector2d period_of(const std::string& text) {
+  Eigen::Vector2d period{0, 0};
+  const char* const end = text.data() + text.size();
+  const auto [comma, problem] = std::from_chars(text.data(), end, period.x());
+  const bool pair = problem == std::errc() && comma != end && *comma == ',';
+  if (const auto [stop, other] = std::from_chars(pair ? comma + 1 : end, end, period.y());
+      !pair || other != std::errc() || stop != end || !(period.minCoeff() > 0))
+    throw Error(ErrorCode::bad_option, "--periodic " + text +
+                                           " is no box; give two positive lengths, as in "
+                                           "--periodic 1000,866.025");
+  return period;
+}
+
+/// Everything about the options that can be known to fail, before any work.
 void require_request(const Request& request) {
+  if (request.plane && request.format->sphere_radius)
+    throw Error(ErrorCode::bad_option, "--sphere-radius is not for --plane; leave it out");
   options_of(*request.format, request.mesh); // throws for a file that could not be written
   require_outputs({{"mesh", request.mesh}, {"report", request.report}},
                   {request.points, centres_file(*request.partition), *request.config});
 }
 
-Result triangulate(const PointFile& input, const DelaunayOptions& options,
-                   std::optional<int> threads) {
-  Result result;
+Mesh mesh_of(const Points3& points, const Request& request, DelaunayReport& report) {
+  return delaunay(points, options_of(*request.partition), &report);
+}
+
+PlanarMesh mesh_of(const Points2& points, const Request& request, DelaunayReport& report) {
+  const DelaunayOptions options = options_of(*request.partition);
+  return request.period ? delaunay(points, *request.period, options, &report)
+                        : delaunay(points, options, &report);
+}
+
+template <class AnyMesh, class File>
+Result<AnyMesh> triangulate(const File& input, const Request& request) {
+  Result<AnyMesh> result;
   try {
-    with_threads(threads, [&] { result.mesh = delaunay(input.points, options, &result.report); });
+    with_threads(request.partition->threads,
+                 [&] { result.mesh = mesh_of(input.points, request, result.report); });
   } catch (const Error& error) {
-    rethrow_with_line(error, input);
+    rethrow_with_line(error, input.name, input.lines);
   }
   return result;
 }
 
-WriteOptions write_options(const Request& request, const PointFile& input) {
+WriteOptions write_options(const Request& request, std::int64_t points) {
   WriteOptions options = options_of(*request.format, request.mesh);
   options.history = "calotte " CALOTTE_VERSION " delaunay: " + request.points + ", " +
-                    std::to_string(input.points.cols()) + " points; duplicates " +
+                    std::to_string(points) + " points; duplicates " +
                     request.partition->duplicates + "; merge-within " +
                     shortest(request.partition->merge_within);
   return options;
 }
 
-std::string to_json(const Result& result, double read, double write) {
+bool has_no_boundary(const Mesh& mesh) { return mesh.closed(); }
+bool has_no_boundary(const PlanarMesh& mesh) { return mesh.period.minCoeff() > 0; }
+
+template <class AnyMesh>
+std::string to_json(const Result<AnyMesh>& result, double read, double write) {
   const DelaunayReport& report = result.report;
   nlohmann::ordered_json json;
   json["sites"] = report.sites;
   json["triangles"] = result.mesh.triangles.cols();
-  json["closed"] = result.mesh.closed();
+  json["closed"] = has_no_boundary(result.mesh);
   json["duplicates"] = report.duplicates;
   json["regions"] = report.regions;
   json["threads"] = report.threads;
@@ -87,36 +120,54 @@ std::string to_json(const Result& result, double read, double write) {
   return json.dump(2) + "\n";
 }
 
-std::string summary(const Request& request, const Result& result) {
+std::string kind_of(const Mesh& mesh) {
+  return mesh.closed() ? "closed" : "open: all sites lie in a hemisphere";
+}
+std::string kind_of(const PlanarMesh& mesh) {
+  if (has_no_boundary(mesh))
+    return "periodic";
+  return std::to_string(2 * mesh.points.cols() - 2 - mesh.triangles.cols()) + " sites on the hull";
+}
+
+template <class AnyMesh>
+std::string summary(const Request& request, const Result<AnyMesh>& result) {
   const std::int64_t duplicates = result.report.duplicates;
   std::string line = request.mesh + ": " + std::to_string(result.mesh.points.cols()) + " sites, " +
                      std::to_string(result.mesh.triangles.cols()) + " triangles, ";
-  line += result.mesh.closed() ? "closed" : "open: all sites lie in a hemisphere";
+  line += kind_of(result.mesh);
   if (duplicates > 0)
     line += ", " + std::to_string(duplicates) + (duplicates == 1 ? " duplicate" : " duplicates") +
             " merged";
   return line + "\n";
 }
 
+/// \param read_file reads the points.
+template <class AnyMesh, class ReadFile>
+std::string triangulate_file(const Request& request, const ReadFile& read_file) {
+  Progress progress;
+  decltype(read_file()) input;
+  progress.stage("reading points");
+  const double read = seconds_of([&] { input = read_file(); });
+  progress.stage("triangulating " + std::to_string(input.points.cols()) + " points");
+  const Result<AnyMesh> result = triangulate<AnyMesh>(input, request);
+  progress.stage("writing " + request.mesh);
+  const double written = seconds_of(
+      [&] { write(request.mesh, result.mesh, write_options(request, input.points.cols())); });
+  if (!request.report.empty())
+    write_file(request.report, to_json(result, read, written));
+  return summary(request, result);
+}
+
 void run(const Request& request) {
   require_request(request);
-  const DelaunayOptions options = options_of(*request.partition);
-  Result result;
-  {
-    Progress progress;
-    PointFile input;
-    progress.stage("reading points");
-    const double read =
-        seconds_of([&] { input = read_point_file(request.points, request.lonlat); });
-    progress.stage("triangulating " + std::to_string(input.points.cols()) + " points");
-    result = triangulate(input, options, request.partition->threads);
-    progress.stage("writing " + request.mesh);
-    const double written =
-        seconds_of([&] { write(request.mesh, result.mesh, write_options(request, input)); });
-    if (!request.report.empty())
-      write_file(request.report, to_json(result, read, written));
-  }
-  std::cout << summary(request, result);
+  options_of(*request.partition); // throws before the points are read
+  const std::string line =
+      request.plane
+          ? triangulate_file<PlanarMesh>(request,
+                                         [&] { return read_planar_point_file(request.points); })
+          : triangulate_file<Mesh>(request,
+                                   [&] { return read_point_file(request.points, request.lonlat); });
+  std::cout << line;
 }
 
 } // namespace
@@ -124,7 +175,8 @@ void run(const Request& request) {
 void add_delaunay(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "delaunay",
-      "Triangulate points on the sphere; the mesh is the same for any threads and regions.");
+      "Triangulate points on the sphere, or in the plane; the mesh is the same for any threads and "
+      "regions.");
   auto request = std::make_shared<Request>();
   command
       ->add_option("POINTS,--points", request->points,
@@ -136,8 +188,22 @@ void add_delaunay(CLI::App& app) {
   command->add_option("-o,--output", request->mesh, help_of_output())
       ->type_name("FILE")
       ->required();
-  command->add_flag("--lonlat", request->lonlat,
-                    "the text's points are longitude and latitude in degrees");
+  CLI::Option* lonlat = command->add_flag(
+      "--lonlat", request->lonlat, "the text's points are longitude and latitude in degrees");
+  CLI::Option* plane =
+      command
+          ->add_flag("--plane", request->plane,
+                     "triangulate in the plane: the points are text, x y a line; the mesh is .vtp, "
+                     ".vtu, .off, .ply, .msh or triangles alone")
+          ->excludes(lonlat);
+  command
+      ->add_option_function<std::string>(
+          "--periodic", [request](const std::string& text) { request->period = period_of(text); },
+          "the plane repeats itself every WIDTH in x and HEIGHT in y, and all points lie in the "
+          "box "
+          "from 0 0 on; the mesh is .nc (MPAS) or triangles alone")
+      ->type_name("WIDTH,HEIGHT")
+      ->needs(plane);
   request->partition = add_partition(*command);
   request->format = add_format(*command);
   command->add_option("--report", request->report, "a JSON file of times and counts")

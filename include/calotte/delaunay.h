@@ -3,6 +3,7 @@
 
 #include <calotte/types.h>
 
+#include <concepts>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -83,5 +84,24 @@ struct DelaunayReport {
 /// Delaunay construction, Geosci. Model Dev. 6, 1353-1365, 2013.
 Mesh delaunay(const Points3& points, const DelaunayOptions& options = {},
               DelaunayReport* report = nullptr);
+
+/// The Delaunay triangulation of sites in the plane: that of their convex hull. Their doubles are
+/// taken as exact, whatever their size; all that is said above holds for it, of places instead of
+/// directions. Of the options' centres z counts for nothing, and merge_within is a distance.
+/// \param points 2 x n.
+/// \throws Error not_finite, duplicate (when refused), too_few_sites (fewer than 3 distinct),
+///         degenerate (all on one line), bad_option.
+template <std::same_as<Points2> Places> // an expression is a set of directions, as ever
+PlanarMesh delaunay(const Places& points, const DelaunayOptions& options = {},
+                    DelaunayReport* report = nullptr);
+
+/// The Delaunay triangulation of a doubly periodic box, [0, period.x) x [0, period.y), which
+/// repeats itself in both directions: 2n triangles, without a boundary. Exact for copies at the
+/// exact sums of coordinates and periods. The report counts the copies around the box, too. \throws
+/// Error as above; bad_option for a point outside the box; too_few_sites where a circle wider
+///         than half of the box holds none.
+template <std::same_as<Points2> Places>
+PlanarMesh delaunay(const Places& points, const Eigen::Vector2d& period,
+                    const DelaunayOptions& options = {}, DelaunayReport* report = nullptr);
 
 } // namespace calotte

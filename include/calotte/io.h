@@ -36,6 +36,11 @@ Points3 read_points(std::istream& in, const std::string& name, Columns columns =
 Points3 read_points(const std::string& path, Columns columns = Columns::xyz,
                     std::vector<std::int64_t>* lines = nullptr);
 
+/// The same for places in the plane: x y a line. \throws Error as above.
+Points2 read_planar_points(std::istream& in, const std::string& name,
+                           std::vector<std::int64_t>* lines = nullptr);
+Points2 read_planar_points(const std::string& path, std::vector<std::int64_t>* lines = nullptr);
+
 /// x y z a line, with the fewest digits (17 at most) that read back to the same bits.
 /// \throws Error file.
 void write_points(const std::string& path, const Points3& points);
@@ -96,7 +101,8 @@ struct WriteOptions {
 ///         touched; file.
 void write(const std::string& path, const Mesh& mesh, const WriteOptions& options = {});
 
-/// A periodic plane: mpas and mpas_minimal alone, numbered as it is.
+/// A plane, numbered as it is. Periodic: mpas, mpas_minimal and triangles. Not periodic: triangles,
+/// and the streams vtp, vtu, off, ply and msh with z = 0.
 void write(const std::string& path, const PlanarMesh& mesh, const WriteOptions& options = {});
 
 /// The same mesh with its sites in another order, and its triangles in the canonical order of

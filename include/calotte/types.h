@@ -39,10 +39,11 @@ struct Mesh {
 /// Triangles and neighbours are as Mesh's; a triangle's corners are the nearest copies of its
 /// sites. n sites have 2n triangles.
 struct PlanarMesh {
-  Points2 points;       ///< 2 x n sites in the box
-  Triangles triangles;  ///< 3 x m site ids, counter-clockwise
-  Triangles neighbours; ///< 3 x m triangle ids
-  Eigen::Vector2d period{0, 0};
+  Points2 points;                          ///< 2 x n sites in the box
+  Triangles triangles;                     ///< 3 x m site ids, counter-clockwise
+  Triangles neighbours;                    ///< 3 x m triangle ids; -1 along an open boundary
+  std::vector<std::int32_t> site_of_input; ///< as Mesh's
+  Eigen::Vector2d period{0, 0};            ///< of the box; 0 of a plane without
 };
 
 } // namespace calotte

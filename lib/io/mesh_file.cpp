@@ -5,6 +5,8 @@
 #include "formats.h"
 #include "netcdf.h"
 
+#include "../points.h"
+
 #include <calotte/delaunay.h>
 #include <calotte/error.h>
 #include <calotte/io.h>
@@ -12,7 +14,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 
 namespace calotte {
 namespace {
@@ -104,6 +105,26 @@ void write_numbered(const std::string& path, const Mesh& mesh, const WriteOption
   }
 }
 
+void require_planar_format(const std::string& path, bool periodic, Format format) {
+  const bool mpas = format == Format::mpas || format == Format::mpas_minimal;
+  const bool places = format == Format::vtp || format == Format::vtu || format == Format::off ||
+                      format == Format::ply || format == Format::msh;
+  if (format == Format::triangles || (periodic ? mpas : places))
+    return;
+  refuse(path, periodic ? "a periodic plane is written as MPAS or as triangles alone; give a name "
+                          "that ends in .nc, .txt or .tri"
+                        : "a plane is written as triangles, .vtp, .vtu, .off, .ply or .msh; give a "
+                          "name that ends so");
+}
+
+/// At z = 0.
+Mesh in_space(const PlanarMesh& mesh) {
+  Mesh out{Points3::Zero(3, mesh.points.cols()), mesh.triangles, mesh.neighbours,
+           mesh.site_of_input};
+  out.points.topRows<2>() = mesh.points;
+  return out;
+}
+
 // ---- Reading
 
 void require_directions(const std::string& name, const Points3& points) {
@@ -141,8 +162,7 @@ Mesh mesh_of(const std::string& name, Soup soup) {
   require_ids(name, soup.triangles, soup.points.cols());
   Mesh mesh{std::move(soup.points), std::move(soup.triangles), {}, {}};
   mesh.neighbours = neighbours_of(mesh.triangles, mesh.points.cols());
-  mesh.site_of_input.resize(static_cast<std::size_t>(mesh.points.cols()));
-  std::iota(mesh.site_of_input.begin(), mesh.site_of_input.end(), 0);
+  mesh.site_of_input = themselves(mesh.points.cols());
   return mesh;
 }
 
@@ -253,16 +273,17 @@ void write(const std::string& path, const PlanarMesh& mesh, const WriteOptions& 
   WriteOptions resolved = options;
   resolved.format = format_of(path, options.format);
   require_options(path, resolved);
-  if (resolved.format != Format::mpas && resolved.format != Format::mpas_minimal)
-    refuse(path, "a periodic plane is written as MPAS alone; give a name that ends in .nc");
+  require_planar_format(path, mesh.period.minCoeff() > 0, resolved.format);
   if (options.numbering == Numbering::curve || options.numbering == Numbering::rcm)
-    refuse(path, "the cells of a periodic plane keep their numbers; leave the order out");
+    refuse(path, "the cells of a plane keep their numbers; leave the order out");
   if (!are_ids(mesh.triangles, mesh.points.cols()))
     refuse(path, "the mesh has an id that is not one of its points");
   if (resolved.format == Format::mpas)
     write_mpas(path, mesh, resolved);
-  else
+  else if (resolved.format == Format::mpas_minimal)
     write_mpas_minimal(path, mesh, resolved);
+  else
+    write_numbered(path, in_space(mesh), resolved);
 }
 
 Mesh read_mesh(const std::string& path, const Points3* points) {

@@ -3,6 +3,8 @@
 #include "formats.h"
 #include "netcdf.h"
 
+#include "../points.h"
+
 #include <calotte/error.h>
 
 #include <algorithm>
@@ -88,6 +90,7 @@ PlanarMesh read_planar_mpas(const NetcdfReader& file) {
       x = wrapped(x, mesh.period[row]);
   mesh.triangles = cells_on_vertices(file, mesh.points.cols());
   mesh.neighbours = neighbours_of(mesh.triangles, mesh.points.cols());
+  mesh.site_of_input = themselves(mesh.points.cols());
   return mesh;
 }
 

@@ -17,45 +17,104 @@ using detail::Columned;
 using detail::LineReader;
 using detail::Outcome;
 
-std::string expected(Columns columns) {
-  return columns == Columns::xyz ? "write three numbers x y z a line"
-                                 : "write longitude and latitude in degrees a line";
-}
+/// What a line holds.
+struct Row {
+  int columns;
+  std::string expected; ///< what to write in a line, for messages
+  std::string perhaps;  ///< a remedy where a column is missing, or empty
+  const char* use;      ///< what a number that is not finite gives none of
+  void (*require)(const LineReader&, const double*);
+  void (*append)(std::vector<double>&, const double*);
+};
 
-[[noreturn]] void refuse(const LineReader& reader, const Columned& read, Columns columns) {
-  if (read.outcome != Outcome::too_few)
-    reader.fail(describe(read) + "; " + expected(columns));
-  const std::string has =
-      read.columns == 1 ? "1 column" : std::to_string(read.columns) + " columns";
-  const bool maybe_degrees = columns == Columns::xyz && read.columns == 2;
-  reader.fail(has + " only; " + expected(columns) +
-              (maybe_degrees ? ", or read them as longitude and latitude (--lonlat)" : ""));
-}
-
-/// Requires finite numbers, not all 0, and for degrees a latitude in range.
-void require_place(const LineReader& reader, const double* values, Columns columns) {
-  const int count = columns == Columns::xyz ? 3 : 2;
-  for (int i = 0; i < count; ++i)
-    if (!std::isfinite(values[i]))
-      reader.fail(std::string(std::isnan(values[i]) ? "NaN" : "an infinite number") +
-                  " gives no direction; remove the point or correct it");
-  if (columns == Columns::xyz && values[0] == 0 && values[1] == 0 && values[2] == 0)
+void require_direction(const LineReader& reader, const double* values) {
+  if (values[0] == 0 && values[1] == 0 && values[2] == 0)
     reader.fail("the zero vector has no direction; remove the point or correct it");
-  if (columns == Columns::lonlat && std::abs(values[1]) > 90) {
-    char latitude[32];
-    std::snprintf(latitude, sizeof latitude, "%g", values[1]);
-    reader.fail("latitude " + std::string(latitude) +
-                " is outside -90 to 90; write longitude first, then latitude, in degrees");
-  }
 }
 
-void append_place(std::vector<double>& coordinates, const double* values, Columns columns) {
-  if (columns == Columns::xyz) {
-    coordinates.insert(coordinates.end(), values, values + 3);
+void require_latitude(const LineReader& reader, const double* values) {
+  if (std::abs(values[1]) <= 90)
     return;
-  }
+  char latitude[32];
+  std::snprintf(latitude, sizeof latitude, "%g", values[1]);
+  reader.fail("latitude " + std::string(latitude) +
+              " is outside -90 to 90; write longitude first, then latitude, in degrees");
+}
+
+void append_lonlat(std::vector<double>& coordinates, const double* values) {
   const detail::Vec3 p = detail::from_lonlat(values[0], values[1]);
   coordinates.insert(coordinates.end(), {p.x, p.y, p.z});
+}
+
+template <int count> void append(std::vector<double>& coordinates, const double* values) {
+  coordinates.insert(coordinates.end(), values, values + count);
+}
+
+Row row_of(Columns columns) {
+  if (columns == Columns::lonlat)
+    return {2,
+            "write longitude and latitude in degrees a line",
+            "",
+            "direction",
+            require_latitude,
+            append_lonlat};
+  return {3,
+          "write three numbers x y z a line",
+          ", or read them as longitude and latitude (--lonlat) or places in a plane (--plane)",
+          "direction",
+          require_direction,
+          append<3>};
+}
+
+Row planar_row() {
+  return {2,       "write two numbers x y a line",          "",
+          "place", [](const LineReader&, const double*) {}, append<2>};
+}
+
+[[noreturn]] void refuse(const LineReader& reader, const Columned& read, const Row& row) {
+  if (read.outcome != Outcome::too_few)
+    reader.fail(describe(read) + "; " + row.expected);
+  const std::string has =
+      read.columns == 1 ? "1 column" : std::to_string(read.columns) + " columns";
+  reader.fail(has + " only; " + row.expected + (read.columns == 2 ? row.perhaps : ""));
+}
+
+void require_finite(const LineReader& reader, const double* values, const Row& row) {
+  for (int i = 0; i < row.columns; ++i)
+    if (!std::isfinite(values[i]))
+      reader.fail(std::string(std::isnan(values[i]) ? "NaN" : "an infinite number") + " gives no " +
+                  row.use + "; remove the point or correct it");
+}
+
+/// Coordinates of all points, one after the other.
+std::vector<double> read_rows(std::istream& in, const std::string& name, const Row& row,
+                              std::vector<std::int64_t>* lines) {
+  LineReader reader(in, name);
+  std::vector<double> coordinates;
+  std::vector<std::int64_t> numbers;
+  bool header = false;
+  for (std::string_view line; reader.next_content(line);) {
+    double values[3];
+    const Columned read = detail::parse_columns(line, row.columns, values);
+    if (read.outcome != Outcome::ok) {
+      if (header || !coordinates.empty() || detail::holds_number(line))
+        refuse(reader, read, row);
+      header = true;
+      continue;
+    }
+    require_finite(reader, values, row);
+    row.require(reader, values);
+    row.append(coordinates, values);
+    if (lines)
+      numbers.push_back(reader.number());
+  }
+  if (coordinates.empty())
+    throw Error(ErrorCode::parse, name + ": no points in " + std::to_string(reader.number()) +
+                                      (reader.number() == 1 ? " line" : " lines") + "; " +
+                                      row.expected);
+  if (lines)
+    *lines = std::move(numbers);
+  return coordinates;
 }
 
 } // namespace
@@ -78,33 +137,21 @@ void put_points(const Sink& sink, const Points3& points) {
 
 Points3 read_points(std::istream& in, const std::string& name, Columns columns,
                     std::vector<std::int64_t>* lines) {
-  const int count = columns == Columns::xyz ? 3 : 2;
-  LineReader reader(in, name);
-  std::vector<double> coordinates;
-  std::vector<std::int64_t> numbers;
-  bool header = false;
-  for (std::string_view line; reader.next_content(line);) {
-    double values[3];
-    const Columned read = detail::parse_columns(line, count, values);
-    if (read.outcome != Outcome::ok) {
-      if (header || !coordinates.empty() || detail::holds_number(line))
-        refuse(reader, read, columns);
-      header = true;
-      continue;
-    }
-    require_place(reader, values, columns);
-    append_place(coordinates, values, columns);
-    if (lines)
-      numbers.push_back(reader.number());
-  }
-  if (coordinates.empty())
-    throw Error(ErrorCode::parse, name + ": no points in " + std::to_string(reader.number()) +
-                                      (reader.number() == 1 ? " line" : " lines") + "; " +
-                                      expected(columns));
-  if (lines)
-    *lines = std::move(numbers);
+  const std::vector<double> coordinates = read_rows(in, name, row_of(columns), lines);
   return Eigen::Map<const Points3>(coordinates.data(), 3,
                                    static_cast<Eigen::Index>(coordinates.size() / 3));
+}
+
+Points2 read_planar_points(std::istream& in, const std::string& name,
+                           std::vector<std::int64_t>* lines) {
+  const std::vector<double> coordinates = read_rows(in, name, planar_row(), lines);
+  return Eigen::Map<const Points2>(coordinates.data(), 2,
+                                   static_cast<Eigen::Index>(coordinates.size() / 2));
+}
+
+Points2 read_planar_points(const std::string& path, std::vector<std::int64_t>* lines) {
+  std::ifstream in = detail::open_input(path);
+  return read_planar_points(in, path, lines);
 }
 
 Points3 read_points(const std::string& path, Columns columns, std::vector<std::int64_t>* lines) {
