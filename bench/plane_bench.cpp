@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Times the planar calotte::delaunay and CGAL's own triangulation of the plane in one process, in
+// rounds as delaunay_bench does. The triangles of both are compared in every round.
+
+#include "peers.h"
+#include "report.h"
+
+#include <calotte/delaunay.h>
+
+#include <CGAL/Delaunay_triangulation_2.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Triangulation_vertex_base_with_info_2.h>
+#include <CGAL/version.h>
+#include <CLI/CLI.hpp>
+#include <benchmark/benchmark.h>
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
+#include <chrono>
+#include <ctime>
+#include <exception>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <random>
+#include <utility>
+#include <vector>
+
+namespace calotte::bench {
+namespace {
+
+/// About n places in random order:
+///   uniform   independent in the unit square;
+///   clusters  20 Gaussian clusters of width 0.01;
+///   line      Gaussian about a line, 1e-6 wide.
+Points2 plane_cloud(const std::string& set, std::int64_t n) {
+  std::mt19937_64 engine(1);
+  std::uniform_real_distribution<double> unit(0, 1);
+  std::normal_distribution<double> normal;
+  Points2 centres(2, 20);
+  for (double& x : centres.reshaped())
+    x = unit(engine);
+  Points2 points(2, n);
+  for (auto point : points.colwise()) {
+    if (set == "uniform")
+      point << unit(engine), unit(engine);
+    else if (set == "line")
+      point << unit(engine), 1e-6 * normal(engine);
+    else
+      point = centres.col(static_cast<Eigen::Index>(engine() % 20)) +
+              0.01 * Eigen::Vector2d(normal(engine), normal(engine));
+  }
+  return points;
+}
+
+/// Runs and times a body once.
+template <class Body> void time(Outcome& outcome, const Body& body) {
+  const std::clock_t cpu = std::clock();
+  const auto start = std::chrono::steady_clock::now();
+  body();
+  outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  outcome.cpu_seconds = static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC;
+}
+
+Outcome run_library(const Points2& points, int threads) {
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                  static_cast<std::size_t>(threads));
+  tbb::task_arena arena(threads);
+  Outcome outcome;
+  PlanarMesh mesh;
+  time(outcome, [&] { arena.execute([&] { mesh = delaunay(points, {}, &outcome.report); }); });
+  outcome.triangles = mesh.triangles.cols();
+  Digest digest;
+  for (const auto& t : mesh.triangles.colwise())
+    digest.add(t(0), t(1), t(2));
+  outcome.digest = digest.value();
+  return outcome;
+}
+
+/// The insertion of a range, which CGAL sorts along a space-filling curve.
+Outcome run_cgal_plane(const Points2& points) {
+  using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+  using Vertex = CGAL::Triangulation_vertex_base_with_info_2<std::int32_t, Kernel>;
+  using Store = CGAL::Triangulation_data_structure_2<Vertex>;
+  std::vector<std::pair<Kernel::Point_2, std::int32_t>> range;
+  range.reserve(static_cast<std::size_t>(points.cols()));
+  for (Eigen::Index i = 0; i < points.cols(); ++i)
+    range.emplace_back(Kernel::Point_2(points(0, i), points(1, i)), static_cast<std::int32_t>(i));
+  Outcome outcome;
+  CGAL::Delaunay_triangulation_2<Kernel, Store> triangulation;
+  time(outcome, [&] { triangulation.insert(range.begin(), range.end()); });
+  outcome.triangles = static_cast<std::int64_t>(triangulation.number_of_faces());
+  Digest digest;
+  for (auto face = triangulation.finite_faces_begin(); face != triangulation.finite_faces_end();
+       ++face)
+    digest.add(face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info());
+  outcome.digest = digest.value();
+  return outcome;
+}
+
+struct Options {
+  std::vector<std::string> sets = {"uniform", "clusters", "line"};
+  std::int64_t size = 1000000;
+  int rounds = 7, threads = 2;
+};
+
+/// The places of a set, made when first needed, and the digest of the first run.
+struct Workload {
+  Points2 points;
+  std::optional<std::uint64_t> digest;
+};
+
+template <class Run>
+RoundRow row_of(const std::string& name, const std::string& set, std::int64_t n,
+                const std::shared_ptr<Workload>& work, const Run& run) {
+  return {name, [=](benchmark::State& state) {
+            if (work->points.cols() == 0)
+              work->points = plane_cloud(set, n);
+            for (auto _ : state) {
+              const Outcome outcome = run(work->points);
+              state.SetIterationTime(outcome.seconds);
+              state.counters["cpu"] = outcome.cpu_seconds;
+              if (work->digest.value_or(outcome.digest) != outcome.digest)
+                state.SkipWithError("another set of triangles than the first run gave");
+              work->digest = outcome.digest;
+            }
+          }};
+}
+
+void register_all(const Options& options) {
+  const std::int64_t n = options.size;
+  std::vector<std::shared_ptr<Workload>> works(options.sets.size());
+  for (auto& work : works)
+    work = std::make_shared<Workload>();
+  for (int round = 0; round < options.rounds; ++round)
+    for (std::size_t s = 0; s < works.size(); ++s) {
+      const std::string& set = options.sets[s];
+      const auto library = [](int threads) {
+        return [threads](const Points2& points) { return run_library(points, threads); };
+      };
+      register_round(set, n, round,
+                     {row_of("calotte", set, n, works[s], library(options.threads)),
+                      row_of("calotte 1 thread", set, n, works[s], library(1)),
+                      row_of("CGAL", set, n, works[s], run_cgal_plane)});
+    }
+}
+
+int bench_main(int argc, char** argv) {
+  Options options;
+  CLI::App app{"Times the library's Delaunay triangulation of the plane beside CGAL's."};
+  app.add_option("--sets", options.sets, "uniform, clusters, line")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"uniform", "clusters", "line"}))
+      ->capture_default_str();
+  app.add_option("--size", options.size, "number of sites")
+      ->check(CLI::Range(3, 300000000))
+      ->capture_default_str();
+  app.add_option("--rounds", options.rounds, "how often every row runs")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--threads", options.threads, "threads of the row calotte")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.allow_extras();
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  if (!start_google_benchmark(argv[0], app.remaining()))
+    return 2;
+  register_all(options);
+  std::cout << "# Delaunay triangulations of the plane: seconds and paired ratios\n\n"
+            << "calotte on " << options.threads << " threads, CGAL " << CGAL_VERSION_STR
+            << " on one; " << options.rounds << " rounds; compiler " << __VERSION__ << ".\n";
+  RoundReporter reporter;
+  benchmark::RunSpecifiedBenchmarks(&reporter);
+  benchmark::Shutdown();
+  print_tables(std::cout, reporter.results(), "calotte");
+  return reporter.failed() ? 1 : 0;
+}
+
+} // namespace
+} // namespace calotte::bench
+
+int main(int argc, char** argv) {
+  try {
+    return calotte::bench::bench_main(argc, argv);
+  } catch (const std::exception& error) {
+    std::cerr << "plane_bench: " << error.what() << '\n';
+    return 1;
+  }
+}
