@@ -32,7 +32,8 @@ double largest(const Frame& frame) {
 /// the four places is below 6 D^3, by 48e D^3.
 void Plane::widen(double reach) {
   reach_ = reach;
-  const double d = 2.01 * reach * sites_->frame->half;
+  // Frame coordinates err by 3 roundoffs: places may be that much further apart than they say.
+  const double d = 2.01 * (reach + 64 * roundoff) * sites_->frame->half;
   image_error_ = periodic() ? roundoff * largest(*sites_->frame) : 0;
   orientation_error_ = (8 * roundoff * d + 8 * image_error_) * d + least_error;
   in_circle_error_ = (80 * roundoff * d + 50 * image_error_) * d * d * d + least_error;
@@ -71,7 +72,8 @@ int Plane::in_circle_beyond_static(const Place& a, const Place& b, const Place& 
   const auto square = [&](const Place& p) {
     return (p.x - a.x) * (p.x - a.x) + (p.y - a.y) * (p.y - a.y);
   };
-  const double size2 = std::max(square(b), square(c)), s2 = square(d), s = std::sqrt(s2);
+  const double size2 = std::max(square(b), square(c)), s2 = square(d),
+               s = std::abs(d.x - a.x) + std::abs(d.y - a.y); // no root: s2 may underflow
   const double value =
       -(lifted.normal.x * (d.x - a.x) + lifted.normal.y * (d.y - a.y) + lifted.normal.z * s2);
   const double size = std::sqrt(size2) + s;

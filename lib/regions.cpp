@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 
@@ -43,7 +44,7 @@ std::vector<Cell> task_cells(const CellTree& tree) {
 std::int32_t nearest(const Vec3& x, const std::vector<Vec3>& centres,
                      const std::vector<std::int32_t>& candidates) {
   std::int32_t best = candidates.front();
-  double least = 5;
+  double least = std::numeric_limits<double>::infinity();
   for (const std::int32_t k : candidates) { // ascending: a tie stays with the lowest
     const Vec3 apart = x - centres[static_cast<std::size_t>(k)];
     if (const double square = dot(apart, apart); square < least) {
@@ -58,7 +59,7 @@ std::int32_t nearest(const Vec3& x, const std::vector<Vec3>& centres,
 std::vector<std::int32_t> possible_owners(const Ball& ball, const std::vector<Vec3>& centres,
                                           const std::vector<std::int32_t>& candidates) {
   std::vector<double> distance(candidates.size());
-  double least = 4;
+  double least = std::numeric_limits<double>::infinity();
   for (std::size_t c = 0; c < candidates.size(); ++c) {
     distance[c] = norm(ball.centre - centres[static_cast<std::size_t>(candidates[c])]);
     least = std::min(least, distance[c]);

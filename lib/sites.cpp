@@ -58,10 +58,13 @@ struct Directions {
     return equal_bits ? 0 : compare_directions(p, q);
   }
   bool same(std::int64_t i, std::int64_t j) const { return same_direction(at(i), at(j)); }
-  Vec3 unit(const Vec3& p) const { return normalised(p); }
+  static Vec3 unit(const Vec3& p) { return normalised(p); }
   /// The chord of an angle.
   static double distance(double within) {
     return 2 * std::sin(std::min(within, 3.141592653589793) / 2);
+  }
+  bool are_within(std::int64_t i, std::int64_t j, double within) const {
+    return norm(unit(at(i)) - unit(at(j))) < distance(within);
   }
 };
 
@@ -91,6 +94,11 @@ struct Places {
     return {std::clamp(q.x, -1.0, 1.0), std::clamp(q.y, -1.0, 1.0), 0};
   }
   double distance(double within) const { return within * frame.scale / frame.half; }
+  /// In halves, lest they overflow.
+  bool are_within(std::int64_t i, std::int64_t j, double within) const {
+    return std::hypot(points(0, i) / 2 - points(0, j) / 2, points(1, i) / 2 - points(1, j) / 2) <
+           within / 2;
+  }
 };
 
 /// Of the finite points.
@@ -110,7 +118,8 @@ Frame frame_of(const Points2& points) {
       high = high.max(scaled);
     }
   if (largest > 0) {
-    const Eigen::Array2d centre = (low + high) / 2, half = (high - low) / 2;
+    const Eigen::Array2d centre = (low + high) / 2,
+                         half = (high - centre).max(centre - low); // the centre is rounded
     frame.centre = {centre.x(), centre.y(), 0};
     frame.half = half.maxCoeff() > 0 ? half.maxCoeff() : 1;
     frame.width = half.x() / frame.half;
@@ -195,11 +204,10 @@ void link_duplicates(const Input& input, KeyedIndex* begin, KeyedIndex* end,
 }
 
 /// Merges each input into an earlier one that stays and is nearer than `within`, if there is one:
-/// those that stay are kept in a grid of cubes no smaller than the distance.
+/// those that stay are kept in a grid of cubes wider than the distance, rounding included.
 template <class Input>
 void link_near(const Input& input, double within, std::vector<std::int32_t>& lowest) {
-  const double chord = input.distance(within);
-  const double cell = std::max(chord, 0x1p-50); // unit vectors are not closer than some of these
+  const double cell = (1 + 1e-9) * input.distance(within) + 0x1p-48;
   std::unordered_multimap<std::uint64_t, std::int32_t> grid;
   const auto cell_of = [&](double x) { return static_cast<std::int64_t>(std::floor(x / cell)); };
   // Cubes that share a hash cost time alone: distances are compared.
@@ -209,14 +217,15 @@ void link_near(const Input& input, double within, std::vector<std::int32_t>& low
       h = (h ^ h >> 32 ^ static_cast<std::uint64_t>(index)) * 0x9e3779b97f4a7c15U;
     return h;
   };
-  const auto nearest_kept = [&](const Vec3& p) {
+  const auto lowest_kept = [&](std::int64_t candidate) {
+    const Vec3 p = input.unit(input.at(candidate));
     std::int64_t best = none;
     for (std::int64_t i = cell_of(p.x) - 1; i <= cell_of(p.x) + 1; ++i)
       for (std::int64_t j = cell_of(p.y) - 1; j <= cell_of(p.y) + 1; ++j)
         for (std::int64_t k = cell_of(p.z) - 1; k <= cell_of(p.z) + 1; ++k) {
           const auto [first, last] = grid.equal_range(hash(i, j, k));
           for (auto it = first; it != last; ++it)
-            if (norm(p - input.unit(input.at(it->second))) < chord)
+            if (input.are_within(candidate, it->second, within))
               best = std::min<std::int64_t>(best, it->second);
         }
     return best;
@@ -228,7 +237,7 @@ void link_near(const Input& input, double within, std::vector<std::int32_t>& low
       continue;
     }
     const Vec3 p = input.unit(input.at(i));
-    if (const std::int64_t kept = nearest_kept(p); kept != none)
+    if (const std::int64_t kept = lowest_kept(i); kept != none)
       lowest[index] = static_cast<std::int32_t>(kept);
     else
       grid.emplace(hash(cell_of(p.x), cell_of(p.y), cell_of(p.z)), static_cast<std::int32_t>(i));

@@ -79,9 +79,11 @@ Voronoi voronoi(const Mesh& mesh) {
 }
 
 Voronoi voronoi(const PlanarMesh& mesh) {
-  detail::require(mesh.period.allFinite() && mesh.period.minCoeff() > 0,
+  // Areas' products and quotients must stay among the doubles.
+  detail::require(mesh.period.minCoeff() > 1e-30 && mesh.period.maxCoeff() < 1e30,
                   "the box of the plane is " + std::to_string(mesh.period[0]) + " x " +
-                      std::to_string(mesh.period[1]) + ": give two positive periods");
+                      std::to_string(mesh.period[1]) +
+                      ": give two positive periods between 1e-30 and 1e30");
   detail::require(mesh.triangles.cols() == 2 * mesh.points.cols(),
                   "the mesh of " + std::to_string(mesh.points.cols()) + " sites has " +
                       std::to_string(mesh.triangles.cols()) +

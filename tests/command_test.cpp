@@ -359,5 +359,7 @@ TEST_CASE("what a plane cannot be is refused, naming line or option") {
   check_refusal_naming(bench, "delaunay --plane points.txt -o mesh.nc --periodic 5", 2,
                        "--periodic 5 is no box");
   check_refusal_naming(bench, "delaunay points.txt -o mesh.nc --periodic 5,5", 2, "--plane");
+  CHECK(bench.run("delaunay --plane points.txt -o good.off --centres points.txt").code == 0);
+  check_refusal_naming(bench, "delaunay --plane good.off -o mesh.vtp", 2, "--plane takes text");
   check_refusal_naming(bench, "delaunay --plane --lonlat points.txt -o mesh.vtp", 2, "excludes");
 }

@@ -50,6 +50,9 @@ Eigen::Vector2d period_of(const std::string& text) {
 void require_request(const Request& request) {
   if (request.plane && request.format->sphere_radius)
     throw Error(ErrorCode::bad_option, "--sphere-radius is not for --plane; leave it out");
+  if (request.plane && holds_points(request.points))
+    throw Error(ErrorCode::bad_option,
+                request.points + ": --plane takes text, x y a line; leave it out for a mesh");
   options_of(*request.format, request.mesh); // throws for a file that could not be written
   require_outputs({{"mesh", request.mesh}, {"report", request.report}},
                   {request.points, centres_file(*request.partition), *request.config});
@@ -60,7 +63,7 @@ Mesh mesh_of(const Points3& points, const Request& request, DelaunayReport& repo
 }
 
 PlanarMesh mesh_of(const Points2& points, const Request& request, DelaunayReport& report) {
-  const DelaunayOptions options = options_of(*request.partition);
+  const DelaunayOptions options = options_of(*request.partition, true);
   return request.period ? delaunay(points, *request.period, options, &report)
                         : delaunay(points, options, &report);
 }
@@ -160,7 +163,7 @@ std::string triangulate_file(const Request& request, const ReadFile& read_file) 
 
 void run(const Request& request) {
   require_request(request);
-  options_of(*request.partition); // throws before the points are read
+  options_of(*request.partition, request.plane); // throws before the points are read
   const std::string line =
       request.plane
           ? triangulate_file<PlanarMesh>(request,

@@ -15,7 +15,7 @@
 namespace calotte::tools {
 namespace {
 
-Points3 read_centres(const PartitionWords& words) {
+Points3 read_centres(const PartitionWords& words, bool plane) {
   if (words.regions)
     throw Error(ErrorCode::bad_option,
                 "--regions and a file of centres exclude each other; leave one of them out");
@@ -24,7 +24,12 @@ Points3 read_centres(const PartitionWords& words) {
     throw Error(ErrorCode::bad_option,
                 "--centres " + words.centres +
                     " is not a file; give sample, fibonacci or a file of points");
-  return read_point_file(words.centres, false).points;
+  if (!plane)
+    return read_point_file(words.centres, false).points;
+  const Points2 places = read_planar_point_file(words.centres).points;
+  Points3 centres = Points3::Zero(3, places.cols());
+  centres.topRows<2>() = places;
+  return centres;
 }
 
 } // namespace
@@ -35,7 +40,7 @@ std::shared_ptr<PartitionWords> add_partition(CLI::App& command) {
       ->transform(whole_number(1, 4096));
   command
       .add_option("--regions", words->regions,
-                  "regions to divide the sphere into; default from "
+                  "regions to divide the domain into; default from "
                   "the number of points")
       ->transform(whole_number(1, std::numeric_limits<int>::max()));
   command
@@ -47,11 +52,12 @@ std::shared_ptr<PartitionWords> add_partition(CLI::App& command) {
   command.add_option("--sort", words->sort, "which points a region takes beside its own")
       ->check(CLI::IsMember({"halo", "distance", "voronoi"}))
       ->capture_default_str();
-  command.add_option("--duplicates", words->duplicates, "what to do with equal directions")
+  command.add_option("--duplicates", words->duplicates, "what to do with equal points")
       ->check(CLI::IsMember({"merge", "refuse"}))
       ->capture_default_str();
-  command.add_option("--merge-within", words->merge_within,
-                     "merge points nearer than this to an earlier one, radians");
+  command.add_option(
+      "--merge-within", words->merge_within,
+      "merge points nearer than this to an earlier one: radians, in the plane a distance");
   return words;
 }
 
@@ -59,7 +65,7 @@ std::string centres_file(const PartitionWords& words) {
   return words.centres == "sample" || words.centres == "fibonacci" ? "" : words.centres;
 }
 
-DelaunayOptions options_of(const PartitionWords& words) {
+DelaunayOptions options_of(const PartitionWords& words, bool plane) {
   static const std::map<std::string, Sort> sorts{
       {"halo", Sort::halo}, {"distance", Sort::distance}, {"voronoi", Sort::voronoi}};
   DelaunayOptions options;
@@ -70,7 +76,7 @@ DelaunayOptions options_of(const PartitionWords& words) {
   if (words.centres == "fibonacci")
     options.centres = Centres::fibonacci;
   else if (!centres_file(words).empty())
-    options.given_centres = read_centres(words);
+    options.given_centres = read_centres(words, plane);
   return options;
 }
 

@@ -25,9 +25,9 @@ std::shared_ptr<PartitionWords> add_partition(CLI::App& command);
 /// The file of centres, "" where there is none.
 std::string centres_file(const PartitionWords& words);
 
-/// Reads the file of centres where there is one.
+/// Reads the file of centres where there is one, in the plane x y a line.
 /// \throws Error bad_option, or as read_points.
-DelaunayOptions options_of(const PartitionWords& words);
+DelaunayOptions options_of(const PartitionWords& words, bool plane = false);
 
 /// Does the work with so many threads, or all.
 void with_threads(std::optional<int> threads, const std::function<void()>& work);

@@ -37,7 +37,7 @@ struct DelaunayOptions {
   Sort sort = Sort::halo;
   Duplicates duplicates = Duplicates::merge;
   /// Radians: a site nearer than this to an earlier site that stays is merged into it. Angles are
-  /// measured in doubles, good to 1e-15.
+  /// measured in doubles, good to 1e-15. In the plane a distance; not across a periodic box's edge.
   double merge_within = 0;
 };
 

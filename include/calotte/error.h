@@ -10,9 +10,9 @@ namespace calotte {
 enum class ErrorCode {
   not_finite,    ///< a coordinate is NaN or infinite
   zero_vector,   ///< a point at the origin has no direction
-  duplicate,     ///< equal directions, and the options refuse them
-  too_few_sites, ///< fewer than 4 distinct sites
-  degenerate,    ///< all sites on one great circle
+  duplicate,     ///< equal directions or places, and the options refuse them
+  too_few_sites, ///< fewer than 4 distinct sites, in the plane 3; too few for a periodic box
+  degenerate,    ///< all sites on one great circle or line
   bad_option,    ///< an option outside its range
   parse,         ///< a file's text is not what its format demands
   file,          ///< a file cannot be opened, read or written

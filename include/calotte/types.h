@@ -35,11 +35,11 @@ struct Mesh {
   bool closed() const { return triangles.cols() == 2 * points.cols() - 4; }
 };
 
-/// A Delaunay triangulation of a doubly periodic box of the plane: [0, period.x) x [0, period.y).
-/// Triangles and neighbours are as Mesh's; a triangle's corners are the nearest copies of its
-/// sites. n sites have 2n triangles.
+/// A Delaunay triangulation in the plane: of the sites' convex hull, or of a doubly periodic box,
+/// [0, period.x) x [0, period.y), where a triangle's corners are the nearest copies of its sites
+/// and n sites have 2n triangles. Triangles and neighbours are as Mesh's.
 struct PlanarMesh {
-  Points2 points;                          ///< 2 x n sites in the box
+  Points2 points;                          ///< 2 x n sites
   Triangles triangles;                     ///< 3 x m site ids, counter-clockwise
   Triangles neighbours;                    ///< 3 x m triangle ids; -1 along an open boundary
   std::vector<std::int32_t> site_of_input; ///< as Mesh's

@@ -37,12 +37,17 @@ bool are_ids(const Triangles& ids, std::int64_t bound) {
   return ids.size() == 0 || (ids.minCoeff() >= 0 && ids.maxCoeff() < bound);
 }
 
-void require_mesh(const std::string& path, const Mesh& mesh, Format format) {
+/// Of either kind of mesh.
+template <class AnyMesh> void require_ids(const std::string& path, const AnyMesh& mesh) {
   const std::int64_t sites = mesh.points.cols();
   if (!are_ids(mesh.triangles, sites) ||
       !std::all_of(mesh.site_of_input.begin(), mesh.site_of_input.end(),
                    [&](std::int32_t site) { return 0 <= site && site < sites; }))
     refuse(path, "the mesh has an id that is not one of its " + std::to_string(sites) + " points");
+}
+
+void require_mesh(const std::string& path, const Mesh& mesh, Format format) {
+  require_ids(path, mesh);
   if (holds_cells(format) && !mesh.closed())
     refuse(path, "the mesh is open, and its outer cells have no end; write its triangles (.vtp, "
                  ".vtu, .off, .ply, .msh), or add sites all around the sphere");
@@ -276,8 +281,7 @@ void write(const std::string& path, const PlanarMesh& mesh, const WriteOptions& 
   require_planar_format(path, mesh.period.minCoeff() > 0, resolved.format);
   if (options.numbering == Numbering::curve || options.numbering == Numbering::rcm)
     refuse(path, "the cells of a plane keep their numbers; leave the order out");
-  if (!are_ids(mesh.triangles, mesh.points.cols()))
-    refuse(path, "the mesh has an id that is not one of its points");
+  require_ids(path, mesh);
   if (resolved.format == Format::mpas)
     write_mpas(path, mesh, resolved);
   else if (resolved.format == Format::mpas_minimal)
