@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/netcdf.h"
 #include "io/netcdf_header.h"
+#include "support/full_disk.h"
 #include "support/random.h"
 
 #include <calotte/error.h>
@@ -117,23 +118,6 @@ struct Opened {
     return v;
   }
   int id = -1;
-};
-
-/// A limit on the size of files stands for a full disk.
-struct FullDisk {
-  explicit FullDisk(rlim_t bytes) : handler(std::signal(SIGXFSZ, SIG_IGN)) {
-    REQUIRE(::getrlimit(RLIMIT_FSIZE, &before) == 0);
-    const rlimit tight{bytes, before.rlim_max};
-    REQUIRE(::setrlimit(RLIMIT_FSIZE, &tight) == 0);
-  }
-  FullDisk(const FullDisk&) = delete;
-  FullDisk& operator=(const FullDisk&) = delete;
-  ~FullDisk() {
-    ::setrlimit(RLIMIT_FSIZE, &before);
-    std::signal(SIGXFSZ, handler);
-  }
-  rlimit before{};
-  void (*handler)(int);
 };
 
 /// A file as another program makes it: defined by `define`, whose return value is the format.
@@ -282,7 +266,7 @@ TEST_CASE("a disk that fills up keeps the old file and removes the new one") {
     calotte::write_file(scratch / "a.nc", "old");
     std::string message;
     {
-      const FullDisk full(bytes);
+      const calotte::test::FullDisk full(bytes);
       try {
         write_sample(scratch / "a.nc");
       } catch (const Error& error) {

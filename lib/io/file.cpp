@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "file.h"
 
+#include "output_queue.h"
+
 #include <calotte/error.h>
 #include <calotte/io.h>
 
@@ -49,7 +51,35 @@ fs::path follow_links(const std::string& path) {
   return error ? fs::path(path) : place;
 }
 
+/// Tells of a failure by its errno, of success by 0.
+int pwrite_all(int descriptor, std::int64_t offset, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::pwrite(descriptor, bytes.data(), bytes.size(), offset);
+    if (written < 0 && errno != EINTR)
+      return errno;
+    if (written > 0) {
+      bytes.remove_prefix(static_cast<std::size_t>(written));
+      offset += written;
+    }
+  }
+  return 0;
+}
+
+/// Smaller blocks gain nothing by waiting for the disk one by one.
+constexpr std::int64_t least_direct = 1 << 18;
+/// Of an appended block.
+constexpr std::int64_t tail_bytes = 1 << 22;
+
+std::int64_t page_before(std::int64_t offset) { return offset & -OutputBlock::page; }
+
 } // namespace
+
+OutputBlock::OutputBlock(std::int64_t offset, std::int64_t size)
+    : memory_(size + 2 * page), offset_(offset), size_(size) {
+  const std::int64_t start = reinterpret_cast<std::intptr_t>(memory_.begin());
+  begin_ =
+      memory_.begin() + (page_before(start + page - 1) - start) + (offset - page_before(offset));
+}
 
 OutputFile::OutputFile(const std::string& path) : name_(path), place_(follow_links(path)) {
   if (std::error_code error; fs::is_directory(place_, error))
@@ -70,35 +100,92 @@ OutputFile::OutputFile(const std::string& path) : name_(path), place_(follow_lin
 }
 
 OutputFile::~OutputFile() {
-  if (descriptor_ >= 0)
-    ::close(descriptor_);
+  queue_.reset();
+  for (const int descriptor : {direct_, descriptor_})
+    if (descriptor >= 0)
+      ::close(descriptor);
   if (!temporary_.empty())
     ::unlink(temporary_.c_str());
 }
 
 void OutputFile::append(std::string_view bytes) {
   while (!bytes.empty()) {
-    const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
-    if (written >= 0)
-      bytes.remove_prefix(static_cast<std::size_t>(written));
-    else if (errno != EINTR)
-      fail(errno);
+    if (temporary_.empty()) {
+      const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+      if (written >= 0)
+        bytes.remove_prefix(static_cast<std::size_t>(written));
+      else if (errno != EINTR)
+        fail(errno);
+      continue;
+    }
+    if (tail_size_ == tail_.size())
+      put_tail();
+    const auto count = std::min(bytes.size(), static_cast<std::size_t>(tail_.size() - tail_size_));
+    std::copy_n(bytes.data(), count, tail_.begin() + tail_size_);
+    tail_size_ += static_cast<std::int64_t>(count);
+    bytes.remove_prefix(count);
   }
 }
 
-void OutputFile::put(std::int64_t offset, std::string_view bytes) const {
-  while (!bytes.empty()) {
-    const ssize_t written = ::pwrite(descriptor_, bytes.data(), bytes.size(), offset);
-    if (written >= 0) {
-      bytes.remove_prefix(static_cast<std::size_t>(written));
-      offset += written;
-    } else if (errno != EINTR) {
-      fail(errno);
-    }
-  }
+/// Begins the next.
+void OutputFile::put_tail() {
+  const std::int64_t next = tail_.offset() + tail_size_;
+  tail_.shorten(tail_size_);
+  if (tail_size_ > 0)
+    put(std::move(tail_));
+  tail_ = OutputBlock(next, tail_bytes);
+  tail_size_ = 0;
+}
+
+void OutputFile::start_queue() {
+#ifdef O_DIRECT
+  direct_ = ::open(temporary_.c_str(), O_WRONLY | O_CLOEXEC | O_DIRECT);
+  if (direct_ >= 0)
+    queue_ = std::make_unique<OutputQueue>(
+        [this](const OutputBlock& block) { return write_direct(block); });
+#endif
+}
+
+void OutputFile::put(OutputBlock block) {
+  int error = 0;
+  if (block.size() >= least_direct)
+    std::call_once(queue_started_, [this] { start_queue(); });
+  if (block.size() >= least_direct && queue_)
+    error = queue_->push(std::move(block));
+  else
+    error = write_through_cache(block.offset(), block.bytes());
+  if (error != 0)
+    fail(error);
+}
+
+int OutputFile::write_through_cache(std::int64_t offset, std::string_view bytes) const {
+  return pwrite_all(descriptor_, offset, bytes);
+}
+
+/// Whole pages go from memory to the disk; what the block has of its first and last page meets the
+/// neighbours' parts in the page cache.
+int OutputFile::write_direct(const OutputBlock& block) {
+  const std::int64_t end = block.offset() + block.size(),
+                     first = page_before(block.offset() + OutputBlock::page - 1),
+                     last = page_before(end);
+  const auto part = [&](std::int64_t from, std::int64_t to) {
+    return block.bytes().substr(static_cast<std::size_t>(from - block.offset()),
+                                static_cast<std::size_t>(to - from));
+  };
+  int error = pwrite_all(direct_, first, part(first, last));
+  if (error == EINVAL) // the file system opens such files and does not write them
+    error = write_through_cache(first, part(first, last));
+  if (error == 0)
+    error = write_through_cache(block.offset(), part(block.offset(), first));
+  return error != 0 ? error : write_through_cache(last, part(last, end));
 }
 
 void OutputFile::commit() {
+  if (tail_size_ > 0)
+    put_tail();
+  if (queue_)
+    if (const int error = queue_->finish(); error != 0)
+      fail(error);
   // A device or a pipe has nothing to bring to the disk.
   if (!temporary_.empty() && ::fsync(descriptor_) != 0)
     fail(errno);

@@ -1,12 +1,41 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "../memory.h"
+
 #include <cstdint>
 #include <fstream>
+#include <memory>
+#include <mutex>
 #include <string>
 #include <string_view>
 
 namespace calotte::detail {
+
+/// Consecutive bytes of a file in the making. They stand in memory as they stand in the file's
+/// pages, so that the disk can fetch them from there.
+class OutputBlock {
+public:
+  static constexpr std::int64_t page = 4096; ///< of the system, and at least a sector of any disk
+
+  OutputBlock() = default;
+  /// The bytes are not initialised. \param offset of the first one in the file.
+  OutputBlock(std::int64_t offset, std::int64_t size);
+
+  std::int64_t offset() const { return offset_; }
+  std::int64_t size() const { return size_; }
+  char* begin() { return begin_; }
+  std::string_view bytes() const { return {begin_, static_cast<std::size_t>(size_)}; }
+  /// \pre size <= size()
+  void shorten(std::int64_t size) { size_ = size; }
+
+private:
+  Array<char> memory_;
+  char* begin_ = nullptr;
+  std::int64_t offset_ = 0, size_ = 0;
+};
+
+class OutputQueue;
 
 /// A file that appears under its name only when it is whole: it is written beside its place,
 /// brought to the disk and renamed. What cannot be renamed, such as a device or a pipe, is written
@@ -19,11 +48,13 @@ public:
   OutputFile& operator=(const OutputFile&) = delete;
   ~OutputFile(); ///< removes what was not committed
 
-  /// \throws Error file.
+  /// \throws Error file, at once or from commit().
   void append(std::string_view bytes);
 
-  /// Writes bytes at an offset, from any thread. \pre temporary() is not empty. \throws Error file.
-  void put(std::int64_t offset, std::string_view bytes) const;
+  /// Writes a block, from any thread. A large one goes from its memory to the disk where the file
+  /// system can do that, while the caller goes on. \pre temporary() is not empty; nothing is
+  /// appended. \throws Error file, at once, from a later call or from commit().
+  void put(OutputBlock block);
 
   /// Where the file stands until it is whole, so that others may write to it; empty when it is
   /// written in place.
@@ -37,10 +68,20 @@ public:
   [[noreturn]] void fail(int error) const;
 
 private:
+  void start_queue();
+  int write_direct(const OutputBlock& block);
+  int write_through_cache(std::int64_t offset, std::string_view bytes) const;
+  void put_tail();
+
   std::string name_;      ///< as the caller wrote it, for messages
   std::string place_;     ///< where the file shall be: symbolic links are followed
   std::string temporary_; ///< where it is until it is whole; empty when it is written in place
   int descriptor_ = -1;
+  int direct_ = -1;  ///< writes past the page cache; -1 where the file system cannot
+  OutputBlock tail_; ///< what is appended and not yet put
+  std::int64_t tail_size_ = 0;
+  std::once_flag queue_started_;
+  std::unique_ptr<OutputQueue> queue_; ///< of blocks for direct_; null where it is -1
 };
 
 /// For formats that are not written from front to back. \throws Error file for a device or a pipe.

@@ -40,12 +40,16 @@ std::string hexadecimal(std::uint64_t number) {
          std::string(static_cast<const char*>(digits), end);
 }
 
-std::string neighbour_lines(const Voronoi& voronoi, std::int64_t begin, std::int64_t end) {
+struct Lines {
+  Array<char> room; ///< larger than what is used
+  std::int64_t size = 0;
+  std::string_view text() const { return {room.begin(), static_cast<std::size_t>(size)}; }
+};
+
+Lines neighbour_lines(const Voronoi& voronoi, std::int64_t begin, std::int64_t end) {
   constexpr std::int64_t longest = 11; // a blank or a line's end, and ten digits
-  std::string lines(
-      static_cast<std::size_t>(longest * (voronoi.begin[end] - voronoi.begin[begin]) + end - begin),
-      ' ');
-  char* out = lines.data();
+  Lines lines{Array<char>(longest * (voronoi.begin[end] - voronoi.begin[begin]) + end - begin)};
+  char* out = lines.room.begin();
   for (std::int64_t i = begin; i != end; ++i) {
     for (std::int64_t k = voronoi.begin[i]; k != voronoi.begin[i + 1]; ++k) {
       out = std::to_chars(out, out + longest, voronoi.cells_on_cell[k] + 1).ptr;
@@ -53,7 +57,7 @@ std::string neighbour_lines(const Voronoi& voronoi, std::int64_t begin, std::int
     }
     out[-1] = '\n';
   }
-  lines.resize(static_cast<std::size_t>(out - lines.data()));
+  lines.size = out - lines.room.begin();
   return lines;
 }
 
@@ -117,7 +121,7 @@ void put_graph(const Sink& sink, const Voronoi& voronoi) {
   const std::int64_t cells = voronoi.cells.cols(), blocks = block_count(cells);
   sink(std::to_string(cells) + " " + std::to_string(voronoi.cells_on_edge.cols()) + "\n");
   constexpr std::int64_t at_once = 32; // blocks, so that not all of the text waits in memory
-  std::vector<std::string> texts(at_once);
+  std::vector<Lines> texts(at_once);
   for (std::int64_t first = 0; first < blocks; first += at_once) {
     const std::int64_t count = std::min(at_once, blocks - first);
     for_each_task(count, [&](std::int64_t k) {
@@ -126,7 +130,7 @@ void put_graph(const Sink& sink, const Voronoi& voronoi) {
           neighbour_lines(voronoi, cells * block / blocks, cells * (block + 1) / blocks);
     });
     for (std::int64_t k = 0; k < count; ++k)
-      sink(texts[static_cast<std::size_t>(k)]);
+      sink(texts[static_cast<std::size_t>(k)].text());
   }
 }
 

@@ -5,6 +5,7 @@
 #include "../elementary.h"
 #include "../points.h"
 #include "../spherical_angles.h"
+#include "../voronoi_at.h"
 
 #include <algorithm>
 #include <array>
@@ -376,9 +377,7 @@ using Writer = void (*)(const std::string&, const MpasMesh&, const WriteOptions&
 void write_sphere(const std::string& path, const Mesh& mesh, const WriteOptions& options,
                   Writer writer) {
   const Points3 places = on_sphere(mesh.points, options.sphere_radius);
-  const Voronoi cells = places == mesh.points
-                            ? voronoi(mesh)
-                            : voronoi(Mesh{places, mesh.triangles, mesh.neighbours, {}});
+  const Voronoi cells = voronoi_at(places, mesh);
   const CellFields fields = cell_fields(cells, options.density);
   writer(path, {cells, places, options.sphere_radius, fields}, options);
 }

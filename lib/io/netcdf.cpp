@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <limits>
 #include <mutex>
@@ -72,29 +73,45 @@ int put_attribute(int id, int variable, const NetcdfAttribute& attribute) {
                           std::get_if<std::int8_t>(&attribute.value));
 }
 
-/// The classic formats hold numbers with the most significant byte first.
-template <class T> void to_big_endian(T* values, std::int64_t count) {
+/// The classic formats hold numbers with the most significant byte first. \param out need not be
+/// aligned.
+template <class T> void to_big_endian(const T* values, std::int64_t count, char* out) {
   using Bits = std::conditional_t<sizeof(T) == 8, std::uint64_t, std::uint32_t>;
-  if constexpr (sizeof(T) > 1 && std::endian::native == std::endian::little)
+  if constexpr (sizeof(T) == 1 || std::endian::native == std::endian::big) {
+    std::memcpy(out, values, static_cast<std::size_t>(count) * sizeof(T));
+  } else {
     for (std::int64_t i = 0; i < count; ++i) {
-      const Bits bits = std::bit_cast<Bits>(values[i]);
+      Bits bits = std::bit_cast<Bits>(values[i]);
       if constexpr (sizeof(T) == 8)
-        values[i] = std::bit_cast<T>(static_cast<Bits>(__builtin_bswap64(bits)));
+        bits = __builtin_bswap64(bits);
       else
-        values[i] = std::bit_cast<T>(static_cast<Bits>(__builtin_bswap32(bits)));
+        bits = __builtin_bswap32(bits);
+      std::memcpy(out + i * std::int64_t{sizeof(T)}, &bits, sizeof(T));
     }
+  }
 }
 
-/// body(begin, end) for blocks of rows of so many bytes each.
+/// body(begin, end) for consecutive ranges of [first, last) of rows of so many bytes each.
 template <class Body>
-void for_each_rows(std::int64_t rows, std::int64_t row_bytes, const Body& body) {
-  // The system's copy finds blocks of some 256 kB in the cache.
-  constexpr std::int64_t block_bytes = 1 << 18;
+void for_each_rows(std::int64_t first, std::int64_t last, std::int64_t row_bytes,
+                   std::int64_t range_bytes, const Body& body) {
+  const std::int64_t rows = std::max<std::int64_t>(range_bytes / row_bytes, 1);
+  for (std::int64_t begin = first; begin < last; begin += rows)
+    body(begin, std::min(last, begin + rows));
+}
+
+/// The same for all rows, in blocks that the disk likes, each a task.
+template <class Body>
+void for_each_block_of_rows(std::int64_t rows, std::int64_t row_bytes, const Body& body) {
+  constexpr std::int64_t block_bytes = 1 << 22;
   const std::int64_t block_rows = std::max<std::int64_t>(block_bytes / row_bytes, 1);
   for_each_task((rows + block_rows - 1) / block_rows, [&](std::int64_t block) {
     body(block * block_rows, std::min(rows, (block + 1) * block_rows));
   });
 }
+
+/// What is filled at once, in bytes: its conversion finds it in the cache.
+constexpr std::int64_t fill_bytes = 1 << 17;
 
 } // namespace
 
@@ -119,6 +136,29 @@ struct NetcdfWriter::State {
     std::int64_t bytes() const { return rows * row_bytes(); }
   };
 
+  /// Some rows of a variable on their way to the file.
+  template <class T> struct RowBlock {
+    RowBlock(const Variable& of, std::int64_t begin, std::int64_t end)
+        : first(begin), row_values(of.row_values),
+          bytes(of.offset + begin * of.row_bytes(), (end - begin) * of.row_bytes()) {}
+
+    /// For the values of rows begin to end - 1.
+    T* room(std::int64_t begin, std::int64_t end) {
+      if (const std::int64_t count = (end - begin) * row_values; values.size() < count)
+        values = Array<T>(count);
+      return values.begin();
+    }
+    /// Of what stands there.
+    void convert(std::int64_t begin, std::int64_t end) {
+      to_big_endian(values.begin(), (end - begin) * row_values,
+                    bytes.begin() + (begin - first) * row_values * std::int64_t{sizeof(T)});
+    }
+
+    std::int64_t first, row_values;
+    OutputBlock bytes;
+    Array<T> values;
+  };
+
   explicit State(const std::string& path) : file(path) {}
 
   void require(int code) const;
@@ -126,8 +166,6 @@ struct NetcdfWriter::State {
   template <class T> void put(int variable, const Fill<T>& fill);
   void put(int ints, int doubles, const PairFill& fill);
   template <class T> Variable& start(int variable);
-  /// Converts the values in place.
-  template <class T> void put_rows(const Variable& of, std::int64_t begin, Array<T>& values) const;
 
   OutputFile file;
   std::vector<Dimension> dimensions;
@@ -172,33 +210,33 @@ template <class T> NetcdfWriter::State::Variable& NetcdfWriter::State::start(int
   return of;
 }
 
-template <class T>
-void NetcdfWriter::State::put_rows(const Variable& of, std::int64_t begin, Array<T>& values) const {
-  to_big_endian(values.begin(), values.size());
-  file.put(of.offset + begin * of.row_values * std::int64_t{sizeof(T)},
-           {reinterpret_cast<const char*>(values.begin()),
-            static_cast<std::size_t>(values.size()) * sizeof(T)});
-}
-
 template <class T> void NetcdfWriter::State::put(int variable, const Fill<T>& fill) {
   const Variable& of = start<T>(variable);
-  for_each_rows(of.rows, of.row_bytes(), [&](std::int64_t begin, std::int64_t end) {
-    Array<T> values((end - begin) * of.row_values);
-    fill(begin, end, values.begin());
-    put_rows(of, begin, values);
+  for_each_block_of_rows(of.rows, of.row_bytes(), [&](std::int64_t first, std::int64_t last) {
+    RowBlock<T> block(of, first, last);
+    for_each_rows(first, last, of.row_bytes(), fill_bytes,
+                  [&](std::int64_t begin, std::int64_t end) {
+                    fill(begin, end, block.room(begin, end));
+                    block.convert(begin, end);
+                  });
+    file.put(std::move(block.bytes));
   });
 }
 
 void NetcdfWriter::State::put(int ints, int doubles, const PairFill& fill) {
-  const Variable &first = start<std::int32_t>(ints), &second = start<double>(doubles);
-  for_each_rows(first.rows, first.row_bytes() + second.row_bytes(),
-                [&](std::int64_t begin, std::int64_t end) {
-                  Array<std::int32_t> of_first((end - begin) * first.row_values);
-                  Array<double> of_second((end - begin) * second.row_values);
-                  fill(begin, end, of_first.begin(), of_second.begin());
-                  put_rows(first, begin, of_first);
-                  put_rows(second, begin, of_second);
-                });
+  const Variable &of_ints = start<std::int32_t>(ints), &of_doubles = start<double>(doubles);
+  const std::int64_t row_bytes = of_ints.row_bytes() + of_doubles.row_bytes();
+  for_each_block_of_rows(of_ints.rows, row_bytes, [&](std::int64_t first, std::int64_t last) {
+    RowBlock<std::int32_t> one(of_ints, first, last);
+    RowBlock<double> other(of_doubles, first, last);
+    for_each_rows(first, last, row_bytes, fill_bytes, [&](std::int64_t begin, std::int64_t end) {
+      fill(begin, end, one.room(begin, end), other.room(begin, end));
+      one.convert(begin, end);
+      other.convert(begin, end);
+    });
+    file.put(std::move(one.bytes));
+    file.put(std::move(other.bytes));
+  });
 }
 
 NetcdfWriter::NetcdfWriter(const std::string& path) {

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "output_queue.h"
+
+#include <system_error>
+#include <utility>
+
+namespace calotte::detail {
+
+OutputQueue::OutputQueue(Write write) : write_(std::move(write)) {
+  constexpr int threads = 2; // while one is woken, the disk is busy with the other's block
+  try {
+    for (int t = 0; t < threads; ++t)
+      threads_.emplace_back([this] { run(); });
+  } catch (const std::system_error&) { // the system gives no more: those that there are will do
+  }
+}
+
+OutputQueue::~OutputQueue() {
+  {
+    const std::lock_guard lock(mutex_);
+    ended_ = true;
+    waiting_.clear();
+  }
+  changed_.notify_all();
+  for (std::thread& thread : threads_)
+    thread.join();
+}
+
+int OutputQueue::push(OutputBlock block) {
+  if (threads_.empty())
+    return write_(block);
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [this] { return waiting_.size() < most_waiting || error_ != 0; });
+  if (error_ == 0)
+    waiting_.push_back(std::move(block));
+  changed_.notify_all();
+  return error_;
+}
+
+int OutputQueue::finish() {
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [this] { return (waiting_.empty() && writing_ == 0) || error_ != 0; });
+  return error_;
+}
+
+void OutputQueue::run() {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    changed_.wait(lock, [this] { return !waiting_.empty() || ended_; });
+    if (ended_)
+      return;
+    const OutputBlock block = std::move(waiting_.front());
+    waiting_.pop_front();
+    ++writing_;
+    changed_.notify_all();
+    lock.unlock();
+    const int error = write_(block);
+    lock.lock();
+    --writing_;
+    if (error != 0 && error_ == 0) {
+      error_ = error;
+      waiting_.clear();
+    }
+    changed_.notify_all();
+  }
+}
+
+} // namespace calotte::detail

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/file.h"
+#include "io/output_queue.h"
+#include "parallel.h"
+#include "support/full_disk.h"
+
+#include <calotte/error.h>
+
+#include <doctest/doctest.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+namespace fs = std::filesystem;
+using calotte::Error;
+using calotte::ErrorCode;
+using calotte::detail::OutputBlock;
+using calotte::detail::OutputFile;
+using calotte::detail::OutputQueue;
+
+namespace {
+
+/// A folder that goes when the test ends.
+struct Scratch {
+  fs::path folder;
+  explicit Scratch(const fs::path& parent) {
+    std::string name = parent / "calotte-output-XXXXXX";
+    folder = ::mkdtemp(name.data());
+  }
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+  ~Scratch() { fs::remove_all(folder); }
+  std::string operator/(const std::string& name) const { return folder / name; }
+  std::ptrdiff_t files() const {
+    return std::distance(fs::directory_iterator(folder), fs::directory_iterator());
+  }
+};
+
+/// On a disk, and on a file system in memory, which may have a page cache alone.
+std::vector<fs::path> parents() {
+  std::vector<fs::path> all{fs::temp_directory_path()};
+  if (fs::is_directory("/dev/shm"))
+    all.emplace_back("/dev/shm");
+  return all;
+}
+
+std::string read_file(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+char byte_at(std::int64_t i) { return static_cast<char>(i * 2654435761 >> 13); }
+
+std::string bytes_to(std::int64_t size) {
+  std::string bytes(static_cast<std::size_t>(size), ' ');
+  for (std::int64_t i = 0; i < size; ++i)
+    bytes[static_cast<std::size_t>(i)] = byte_at(i);
+  return bytes;
+}
+
+/// Puts the bytes between consecutive cuts, each a task of its own, the last first.
+void put_pieces(OutputFile& file, const std::vector<std::int64_t>& cuts) {
+  const auto pieces = static_cast<std::int64_t>(cuts.size()) - 1;
+  calotte::detail::for_each_task(pieces, [&](std::int64_t k) {
+    const auto piece = static_cast<std::size_t>(pieces - 1 - k);
+    OutputBlock block(cuts[piece], cuts[piece + 1] - cuts[piece]);
+    for (std::int64_t i = 0; i < block.size(); ++i)
+      block.begin()[i] = byte_at(block.offset() + i);
+    file.put(std::move(block));
+  });
+}
+
+/// Of blocks large and small, whose ends are those of pages, beside them, and anywhere.
+std::vector<std::int64_t> uneven_cuts() {
+  std::vector<std::int64_t> cuts{0, 4096, 4096 + 300'000, 1 << 20, (1 << 20) + 1};
+  for (int k = 0; k < 20; ++k)
+    cuts.push_back(cuts.back() + 262'144 + 37 * k);
+  for (const std::int64_t step : {1, 4095, 4097, 5'000'000, 262'143})
+    cuts.push_back(cuts.back() + step);
+  return cuts;
+}
+
+std::string message_of(const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const Error& error) {
+    CHECK(error.code() == ErrorCode::file);
+    return error.what();
+  }
+  return "";
+}
+
+} // namespace
+
+TEST_CASE("a block stands in memory as in the file's pages") {
+  for (const std::int64_t offset : {0, 1, 4095, 4096, 123'457}) {
+    OutputBlock block(offset, 10'000);
+    CHECK(block.size() == 10'000);
+    CHECK((reinterpret_cast<std::intptr_t>(block.begin()) - offset) % OutputBlock::page == 0);
+    std::fill_n(block.begin(), 10'000, 'x'); // the sanitizers watch
+  }
+}
+
+TEST_CASE("blocks of any size, put in any order from any thread, become one file") {
+  const std::vector<std::int64_t> cuts = uneven_cuts();
+  const std::string expected = bytes_to(cuts.back());
+  for (const fs::path& parent : parents())
+    for (const int threads : {1, 2, 5}) {
+      CAPTURE(parent.string());
+      const Scratch scratch(parent);
+      OutputFile file(scratch / "a");
+      tbb::task_arena(threads).execute([&] { put_pieces(file, cuts); });
+      CHECK(!fs::exists(scratch / "a"));
+      file.commit();
+      CHECK(scratch.files() == 1);
+      CHECK((read_file(scratch / "a") == expected));
+    }
+}
+
+TEST_CASE("what is appended in pieces of any size stands in order") {
+  const std::string expected = bytes_to(13'000'001);
+  for (const fs::path& parent : parents())
+    for (const std::size_t step : {std::size_t{977'777}, std::size_t{4 << 20}, expected.size()}) {
+      const Scratch scratch(parent);
+      OutputFile file(scratch / "a");
+      for (std::size_t i = 0; i < expected.size(); i += step)
+        file.append(std::string_view(expected).substr(i, step));
+      file.commit();
+      CHECK((read_file(scratch / "a") == expected));
+    }
+}
+
+TEST_CASE("a disk that fills up at any block keeps the old file and removes the new one") {
+  const std::vector<std::int64_t> cuts = uneven_cuts();
+  const std::string bytes = bytes_to(cuts.back());
+  for (const fs::path& parent : parents()) {
+    const Scratch scratch(parent);
+    calotte::detail::OutputFile old(scratch / "a");
+    old.append("old");
+    old.commit();
+    const std::string expected =
+        "cannot write " + (scratch / "a") + ": File too large; make room or write elsewhere";
+    for (const std::int64_t room : {std::int64_t{0}, cuts[2] - 5, cuts[10], cuts.back() - 1}) {
+      const calotte::test::FullDisk full(static_cast<rlim_t>(room));
+      CHECK(message_of([&] {
+              OutputFile file(scratch / "a");
+              put_pieces(file, cuts);
+              file.commit();
+            }) == expected);
+      CHECK(message_of([&] {
+              OutputFile file(scratch / "a");
+              file.append(bytes);
+              file.commit();
+            }) == expected);
+      CHECK(scratch.files() == 1);
+      CHECK(read_file(scratch / "a") == "old");
+    }
+  }
+}
+
+TEST_CASE("a file that is given up while blocks wait leaves nothing") {
+  const Scratch scratch(fs::temp_directory_path());
+  {
+    OutputFile file(scratch / "a");
+    put_pieces(file, uneven_cuts());
+  }
+  CHECK(scratch.files() == 0);
+}
+
+TEST_CASE("the queue writes each block once and tells of the first failure") {
+  std::atomic<std::int64_t> sum = 0;
+  OutputQueue right([&](const OutputBlock& block) {
+    sum += block.offset();
+    return 0;
+  });
+  for (std::int64_t k = 1; k <= 1000; ++k)
+    CHECK(right.push(OutputBlock(k, 1)) == 0);
+  CHECK(right.finish() == 0);
+  CHECK(sum == 500'500);
+
+  std::atomic<int> writes = 0;
+  OutputQueue wrong([&](const OutputBlock& block) {
+    ++writes;
+    return block.offset() == 20 ? ENOSPC : 0;
+  });
+  int error = 0;
+  for (std::int64_t k = 0; k < 1000; ++k)
+    error = std::max(error, wrong.push(OutputBlock(k, 1)));
+  CHECK(error == ENOSPC);
+  CHECK(wrong.finish() == ENOSPC);
+  CHECK(wrong.push(OutputBlock(0, 1)) == ENOSPC);
+  CHECK(writes >= 21);
+  CHECK(writes < 40); // at most those that waited or were being pushed
+}
