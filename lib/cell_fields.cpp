@@ -13,12 +13,12 @@
 namespace calotte {
 namespace {
 
-/// \throws Error bad_option.
+/// Empty where it is 1 at all cells. \throws Error bad_option.
 Eigen::VectorXd relative_density(const Voronoi& voronoi, const Density& density) {
   detail::require(density.uniform() || voronoi.on_sphere,
                   "a periodic plane has uniform density alone: give no other");
   if (density.uniform())
-    return Eigen::VectorXd::Ones(voronoi.cells.cols());
+    return {};
   Eigen::VectorXd rho = evaluate(density, voronoi.cells);
   const double greatest = rho.maxCoeff();
   detail::require(greatest > 0,
@@ -32,8 +32,11 @@ Eigen::VectorXd relative_density(const Voronoi& voronoi, const Density& density)
 CellFields cell_fields(const Voronoi& voronoi, const Density& density) {
   const std::int64_t n = voronoi.cells.cols();
   CellFields out;
-  out.area = voronoi.cell_area;
   out.density = relative_density(voronoi, density);
+  const bool uniform = out.density.size() == 0;
+  if (uniform)
+    detail::make_room(out.density, n, 1);
+  detail::make_room(out.area, n, 1);
   detail::make_room(out.spacing, n, 1);
   detail::make_room(out.quality, n, 1);
   detail::make_room(out.degree, n, 1);
@@ -47,6 +50,9 @@ CellFields cell_fields(const Voronoi& voronoi, const Density& density) {
         longest = std::max(longest, voronoi.dv[e]);
       }
       const auto degree = static_cast<std::int32_t>(voronoi.begin[i + 1] - voronoi.begin[i]);
+      if (uniform)
+        out.density[i] = 1;
+      out.area[i] = voronoi.cell_area[i];
       out.degree[i] = degree;
       out.spacing[i] = sum / degree;
       out.quality[i] = longest > 0 ? shortest / longest : 0;

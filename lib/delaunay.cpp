@@ -14,6 +14,7 @@
 #include <atomic>
 #include <optional>
 #include <type_traits>
+#include <utility>
 
 namespace calotte {
 namespace detail {
@@ -171,9 +172,10 @@ std::optional<Reports> triangulate_caps(const Sites& sites, const Regions& regio
 
 Mesh make_mesh(Sites&& sites, Reports&& reports) {
   Mesh mesh;
-  unite(std::move(reports.regions), std::move(reports.triangles_of), mesh);
   mesh.points = std::move(sites.points);
   mesh.site_of_input = std::move(sites.site_of_input);
+  sites = {}; // the mesh's triangles take the room of what is left of them
+  unite(std::move(reports.regions), std::move(reports.triangles_of), mesh);
   return mesh;
 }
 
@@ -242,32 +244,44 @@ Regions divide(const Sites& sites, const DelaunayOptions& options) {
 
 namespace {
 
+/// What small arrays have left in the pools is kept for the next triangulation, but for a large one
+/// it is too much: reports of 2^23 sites take half a gigabyte.
+void empty_pools_of_many(std::int64_t sites) {
+  if (sites > 1 << 23)
+    empty_pools();
+}
+
 /// From the sites to the mesh, whose points in a plane have z = 0.
 template <class Space>
 Mesh triangulate(Sites&& sites, const DelaunayOptions& options, DelaunayReport& report) {
   Clock::time_point mark = Clock::now();
-  const Regions regions = divide(sites, options);
+  empty_pools_of_many(sites.size());
+  Regions regions = divide(sites, options);
+  sites.cells = {}; // each array goes when it has served: the largest sets take all of the memory
   report.seconds.regions = lap(mark);
   std::optional<Reports> reports;
   if (regions.centres.size() > 1)
     reports = triangulate_caps<Space>(sites, regions, report);
+  regions = {};
   if (!reports)
     reports = triangulate_whole<Space>(sites, report);
   report.seconds.triangulate = lap(mark);
 
   Mesh mesh = make_mesh(std::move(sites), std::move(*reports));
+  empty_pools_of_many(mesh.points.cols());
   report.seconds.unite = lap(mark);
   return mesh;
 }
 
 template <class Points>
-Sites sites_of(const Points& points, const DelaunayOptions& options, DelaunayReport& report) {
+Sites sites_of(Points&& points, const DelaunayOptions& options, DelaunayReport& report) {
   Clock::time_point mark = Clock::now();
-  Sites sites = make_sites(points, options.duplicates, options.merge_within);
+  const std::int64_t given = points.cols();
+  Sites sites = make_sites(std::forward<Points>(points), options.duplicates, options.merge_within);
   report = {};
   report.threads = thread_count();
   report.sites = sites.size();
-  report.duplicates = points.cols() - sites.size();
+  report.duplicates = given - sites.size();
   report.seconds.sites = lap(mark);
   return sites;
 }
@@ -277,17 +291,26 @@ PlanarMesh planar(Mesh&& mesh) {
           std::move(mesh.site_of_input)};
 }
 
+template <class Points>
+Mesh triangulate_sphere(Points&& points, const DelaunayOptions& options, DelaunayReport* report) {
+  DelaunayReport unused;
+  DelaunayReport& used = report != nullptr ? *report : unused;
+  Clock::time_point start = Clock::now();
+  Sites sites = sites_of(std::forward<Points>(points), options, used);
+  Mesh mesh = triangulate<Sphere>(std::move(sites), options, used);
+  used.seconds.total = lap(start);
+  return mesh;
+}
+
 } // namespace
 } // namespace detail
 
 Mesh delaunay(const Points3& points, const DelaunayOptions& options, DelaunayReport* report) {
-  DelaunayReport unused;
-  DelaunayReport& used = report != nullptr ? *report : unused;
-  detail::Clock::time_point start = detail::Clock::now();
-  detail::Sites sites = detail::sites_of(points, options, used);
-  Mesh mesh = detail::triangulate<detail::Sphere>(std::move(sites), options, used);
-  used.seconds.total = detail::lap(start);
-  return mesh;
+  return detail::triangulate_sphere(points, options, report);
+}
+
+Mesh delaunay(Points3&& points, const DelaunayOptions& options, DelaunayReport* report) {
+  return detail::triangulate_sphere(std::move(points), options, report);
 }
 
 template <>

@@ -2,7 +2,6 @@
 #include <calotte/density.h>
 
 #include "density_evaluator.h"
-#include "elementary.h"
 #include "predicates.h"
 
 #include <calotte/error.h>
@@ -20,32 +19,20 @@ namespace {
 
 [[noreturn]] void refuse(const std::string& what) { throw Error(ErrorCode::bad_option, what); }
 
-void require(const Bump& bump, std::size_t b) {
+Profile profile_of(const Bump& bump, std::size_t b) {
   const std::string name = "bump " + std::to_string(b) + " of the density: ";
+  Profile profile = profile_without_place(bump, name);
   if (!bump.centre.allFinite() || bump.centre.isZero(0))
     refuse(name + "the centre has no direction; give a finite, non-zero vector");
-  if (!(bump.beta > 0) || !std::isfinite(bump.beta))
-    refuse(name + "beta must be a positive angle");
-  if (!(bump.alpha > 0) || !std::isfinite(bump.alpha))
-    refuse(name + "alpha must be a positive angle");
-  if (!(bump.gamma > 0) || !(bump.gamma < 1))
-    refuse(name + "gamma must lie between 0 and 1");
-  if (!(bump.stretch >= 1) || !std::isfinite(bump.stretch))
-    refuse(name + "stretch must be at least 1");
-}
-
-Profile profile_of(const Bump& bump) {
-  const Vec3 centre = normalised({bump.centre[0], bump.centre[1], bump.centre[2]});
-  Vec3 major{0, 0, 0};
+  profile.centre = normalised({bump.centre[0], bump.centre[1], bump.centre[2]});
   if (bump.stretch > 1) {
     const Vec3 given{bump.major[0], bump.major[1], bump.major[2]};
-    const Vec3 tangent = given - dot(given, centre) * centre;
+    const Vec3 tangent = given - dot(given, profile.centre) * profile.centre;
     if (!(norm(tangent) > 0))
       refuse("the long axis of a stretched bump points along its centre: give another direction");
-    major = normalised(tangent);
+    profile.major = normalised(tangent);
   }
-  return {centre,    major, 1 - 1 / bump.stretch, bump.beta, -2 / bump.alpha, 1 / (1 - bump.gamma),
-          bump.gamma};
+  return profile;
 }
 
 /// The angle between a unit vector and the centre: 2 asin(|x - c|/2) in the near hemisphere and
@@ -64,12 +51,6 @@ template <bool stretched> CALOTTE_INLINE double angle_from(const Profile& bump, 
   const bool beyond = far < near;
   const double arc = 2 * arc_sine_of_root(beyond ? far : near);
   return beyond ? std::numbers::pi - arc : arc;
-}
-
-/// rho = gamma + 1 / ((1 - gamma) (1 + exp(-2 (beta - d)/alpha))), which is the tanh of the header.
-CALOTTE_INLINE double value_at(const Profile& bump, double angle) {
-  return bump.gamma +
-         bump.height / (1 + exponential((bump.beta - angle) * bump.minus_two_over_alpha));
 }
 
 CALOTTE_VECTOR_WIDTHS
@@ -103,13 +84,26 @@ std::vector<Profile> profiles_of(const Density& density) {
     refuse("the density is a callable, but none is given");
   std::vector<Profile> profiles;
   for (std::size_t b = 0; has_bumps && b < density.bumps.size(); ++b) {
-    require(density.bumps[b], b);
-    profiles.push_back(profile_of(density.bumps[b]));
+    profiles.push_back(profile_of(density.bumps[b], b));
   }
   return profiles;
 }
 
 } // namespace
+
+Profile profile_without_place(const Bump& bump, const std::string& name) {
+  if (!(bump.beta > 0) || !std::isfinite(bump.beta))
+    refuse(name + "beta must be positive");
+  if (!(bump.alpha > 0) || !std::isfinite(bump.alpha))
+    refuse(name + "alpha must be positive");
+  if (!(bump.gamma > 0) || !(bump.gamma < 1))
+    refuse(name + "gamma must lie between 0 and 1");
+  if (!(bump.stretch >= 1) || !std::isfinite(bump.stretch))
+    refuse(name + "stretch must be at least 1");
+  return {{0, 0, 0}, {0, 0, 0},       1 - 1 / bump.stretch,
+          bump.beta, -2 / bump.alpha, 1 / (1 - bump.gamma),
+          bump.gamma};
+}
 
 DensityEvaluator::DensityEvaluator(const Density& density)
     : density_(density), profiles_(profiles_of(density)) {}

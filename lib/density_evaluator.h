@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "elementary.h"
 #include "vec3.h"
 
 #include <calotte/density.h>
 
 #include <span>
+#include <string>
 #include <vector>
 
 namespace calotte::detail {
@@ -16,6 +18,16 @@ struct Profile {
   double shrink;      ///< 1 - 1/stretch, by which offsets along major are reduced
   double beta, minus_two_over_alpha, height, gamma;
 };
+
+/// rho = gamma + 1 / ((1 - gamma) (1 + exp(-2 (beta - d)/alpha))), which is the tanh of Bump.
+CALOTTE_INLINE double value_at(const Profile& bump, double distance) {
+  return bump.gamma +
+         bump.height / (1 + exponential((bump.beta - distance) * bump.minus_two_over_alpha));
+}
+
+/// All of a bump but its centre and its axis. \param name in messages.
+/// \throws Error bad_option, where a number is out of range.
+Profile profile_without_place(const Bump& bump, const std::string& name);
 
 /// A density made ready to be evaluated many times.
 class DensityEvaluator {

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <span>
 #include <utility>
 
@@ -23,9 +22,7 @@ constexpr double rounding = 1e-13;   ///< of the energy, over itself
 constexpr int laplacian_lasts = 60;  ///< evaluations, once edges have flipped
 constexpr double near_enough = 0.05; ///< rms distance from the centroids over h: for the Laplacian
 
-double scaled_l2(const CvtIteration& iteration) {
-  return iteration.l2 / std::sqrt(4 * std::numbers::pi / static_cast<double>(iteration.cells));
-}
+double scaled_l2(const CvtIteration& iteration) { return iteration.l2 / iteration.spacing; }
 
 /// The largest of value(i) >= 0.
 template <class Value> double largest(std::int64_t n, const Value& value) {
@@ -70,7 +67,7 @@ void Descent::begin() {
   const bool final_rule = state_.report.iterations.back().rule == options_.final_rule;
   functional_.evaluate(state_.points, final_rule, options_.method != Method::lloyd, here_);
   if (state_.memory.laplacian_at.cols() > 0)
-    laplacian_.emplace(graph_laplacian(state_.memory.laplacian_at, options_.density));
+    laplacian_.emplace(functional_.laplacian(state_.memory.laplacian_at));
 }
 
 void Descent::step() {
@@ -102,7 +99,7 @@ void Descent::lloyd_step() {
 
 void Descent::relaxed_step() {
   const Points3 move = difference(here_.centroids, state_.points);
-  step_or_lloyd(retract(state_.points, options_.relaxation, move));
+  step_or_lloyd(functional_.retract(state_.points, options_.relaxation, move));
 }
 
 /// Goes to the points, unless they are higher: then by Lloyd's step. False for the latter.
@@ -133,7 +130,7 @@ void Descent::nesterov_step() {
     share = onward ? (memory.momentum - 1) / momentum : 0;
     memory.momentum = onward ? momentum : 1;
     if (share > 0)
-      next = retract(next, share, move);
+      next = functional_.retract(next, share, move);
   }
   memory.before = here_.centroids;
   if (share == 0)
@@ -142,8 +139,8 @@ void Descent::nesterov_step() {
     memory.momentum = 1;
 }
 
-// ---- L-BFGS (Nocedal, 1980; Liu and Nocedal, 1989) on the sphere: ambient vectors, projected to
-// the tangent planes where they are used
+// ---- L-BFGS (Nocedal, 1980; Liu and Nocedal, 1989); on the sphere of ambient vectors, projected
+// to the tangent planes where they are used
 
 void Descent::forget() {
   CvtMemory& memory = state_.memory;
@@ -159,7 +156,7 @@ void Descent::make_laplacian() {
   memory.laplacian_at = state_.points;
   memory.since_laplacian = 0;
   memory.flipped = false;
-  laplacian_.emplace(graph_laplacian(memory.laplacian_at, options_.density));
+  laplacian_.emplace(functional_.laplacian(memory.laplacian_at));
   forget();
 }
 
@@ -183,7 +180,7 @@ void Descent::apply_initial_inverse(Points3& vectors) const {
   if (memory.steps.empty())
     return;
   Points3 change = memory.changes.back();
-  make_tangential(change, state_.points);
+  functional_.make_tangential(change, state_.points);
   precondition(change);
   multiply(vectors, memory.curvatures.back() / inner(memory.changes.back(), change));
 }
@@ -198,12 +195,12 @@ Points3 Descent::direction() const {
     shares[k] = inner(memory.steps[k], d) / memory.curvatures[k];
     add(d, -shares[k], memory.changes[k]);
   }
-  make_tangential(d, state_.points);
+  functional_.make_tangential(d, state_.points);
   apply_initial_inverse(d);
-  make_tangential(d, state_.points);
+  functional_.make_tangential(d, state_.points);
   for (std::size_t k = 0; k < pairs; ++k)
     add(d, shares[k] - inner(memory.changes[k], d) / memory.curvatures[k], memory.steps[k]);
-  make_tangential(d, state_.points);
+  functional_.make_tangential(d, state_.points);
   multiply(d, -1);
   return d;
 }
@@ -241,11 +238,11 @@ double Descent::longest_step(const Points3& direction) const {
 bool Descent::search(const Points3& direction, double slope, Points3& points) {
   double step = std::min(1.0, longest_step(direction)), at = 0;
   for (int trial = 0; trial < most_trials; ++trial) {
-    points = retract(state_.points, step, direction);
+    points = functional_.retract(state_.points, step, direction);
     functional_.moved(std::abs(step - std::exchange(at, step)) * longest(direction));
     evaluate(points, there_);
     Points3 onward = direction;
-    make_tangential(onward, points);
+    functional_.make_tangential(onward, points);
     const double slope_there = inner(onward, there_.gradient);
     const double rise = there_.iteration.energy / here_.iteration.energy - 1;
     const bool lower =
@@ -264,7 +261,7 @@ bool Descent::search(const Points3& direction, double slope, Points3& points) {
 /// Takes in the step from the state's points to others, which have been evaluated.
 void Descent::remember(const Points3& points) {
   Points3 before = here_.gradient;
-  make_tangential(before, points);
+  functional_.make_tangential(before, points);
   Points3 step = difference(points, state_.points), change = difference(there_.gradient, before);
   const double curvature = inner(step, change);
   if (!(curvature > 1e-14 * std::sqrt(inner(step, step) * inner(change, change)))) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "density_evaluator.h"
 #include "functional.h"
 #include "multigrid.h"
 

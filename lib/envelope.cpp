@@ -27,28 +27,19 @@ double least_square(const Box& box) {
   return x * x + y * y;
 }
 
-void add_quarters(const Box& box, std::vector<Box>& out) {
-  const double half = 0.5 * box.side;
-  for (const double y : {box.y, box.y + half})
-    for (const double x : {box.x, box.x + half}) {
-      const Box quarter{x, y, half, box.south, {}};
-      if (least_square(quarter) < 1)
-        out.push_back(quarter);
+/// Whether an edge passes through a box whose own box it meets: not all corners lie beyond it. May
+/// say so wrongly where that is close.
+bool crosses(const Outline::Edge& edge, const Box2& box) {
+  const double dx = edge.to.x - edge.from.x, dy = edge.to.y - edge.from.y;
+  int left = 0, right = 0;
+  for (const double x : {box.low.x, box.high.x})
+    for (const double y : {box.low.y, box.high.y}) {
+      const double along = dx * (y - edge.from.y), across = dy * (x - edge.from.x);
+      const double error = 1e-14 * (std::abs(along) + std::abs(across));
+      left += along - across > error;
+      right += along - across < -error;
     }
-}
-
-/// The place in the disc that is nearest to (x, y).
-std::array<double, 2> into_disc(double x, double y) {
-  const double length = std::sqrt(x * x + y * y);
-  return length > 1 ? std::array{x / length, y / length} : std::array{x, y};
-}
-
-/// The disc is convex: what lies in it and in the box is no farther from the box's middle, when
-/// that is moved into the disc, than half a diagonal.
-Bounds certain_bounds(const DensityEvaluator& density, const Box& box) {
-  const auto [x, y] = into_disc(box.x + 0.5 * box.side, box.y + 0.5 * box.side);
-  const double half_chord = std::min(1.0, std::sqrt(0.5) * box.side);
-  return density.bounds(on_sphere(x, y, box.south), 2 * arc_sine(half_chord));
+  return left < 4 && right < 4;
 }
 
 bool holds(const Box& box, const Witness& witness) {
@@ -63,17 +54,80 @@ Vec3 on_sphere(double x, double y, bool south) {
   return {x * scale, y * scale, south ? square - 1 : 1 - square};
 }
 
-Envelope::Envelope(const Density& density)
-    : density_(density), sampled_(density.kind == Density::Kind::callable) {
+Shown Hemispheres::shown(const Box& box) {
+  return least_square(box) < 1 ? Shown::whole : Shown::none;
+}
+
+std::array<double, 2> Hemispheres::nearest(double x, double y) {
+  const double length = std::sqrt(x * x + y * y);
+  return length > 1 ? std::array{x / length, y / length} : std::array{x, y};
+}
+
+/// The disc is convex: what lies in it and in the box is no farther from the box's middle, when
+/// that is moved into the disc, than half a diagonal.
+Bounds Hemispheres::bounds(const DensityEvaluator& density, const Box& box) {
+  const auto [x, y] = nearest(box.x + 0.5 * box.side, box.y + 0.5 * box.side);
+  const double half_chord = std::min(1.0, std::sqrt(0.5) * box.side);
+  return density.bounds(on_sphere(x, y, box.south), 2 * arc_sine(half_chord));
+}
+
+PlanarMap::PlanarMap(const PlanarDomain& domain)
+    : outline_(domain.periodic() ? rectangle({0, 0}, domain.period) : domain),
+      periodic_(domain.periodic()) {
+  const auto& [low, high] = outline_.box();
+  half_extent_ = {(high.x - low.x) / 2, (high.y - low.y) / 2};
+  middle_ = {low.x + half_extent_.x, low.y + half_extent_.y};
+  half_ = std::max(half_extent_.x, half_extent_.y);
+}
+
+Shown PlanarMap::shown(const Box& box) const {
+  const Vec3 low = place(box.x, box.y, false),
+             high = place(box.x + box.side, box.y + box.side, false);
+  const Box2 own{{low.x, low.y}, {high.x, high.y}};
+  bool crossed = false;
+  outline_.for_each_edge_near(
+      own, [&](const Outline::Edge& edge) { crossed = crossed || crosses(edge, own); });
+  if (crossed)
+    return Shown::part;
+  return outline_.side(own.low) == Side::outside ? Shown::none : Shown::whole;
+}
+
+bool PlanarMap::holds(double, double, const Vec3& place) const {
+  const Side side = outline_.side({place.x, place.y});
+  const Box2& box = outline_.box();
+  return side == Side::inside ||
+         (periodic_ && side == Side::boundary && place.x < box.high.x && place.y < box.high.y);
+}
+
+std::array<double, 2> PlanarMap::nearest(double x, double y) const {
+  const double u = half_extent_.x / half_, v = half_extent_.y / half_;
+  return {std::clamp(x, -u, u), std::clamp(y, -v, v)};
+}
+
+template <class Map>
+void EnvelopeOf<Map>::add_quarters(const Box& box, std::vector<Box>& out) const {
+  const double half = 0.5 * box.side;
+  for (const double y : {box.y, box.y + half})
+    for (const double x : {box.x, box.x + half}) {
+      const Box quarter{x, y, half, box.south, {}};
+      if (map_.shown(quarter) != Shown::none)
+        out.push_back(quarter);
+    }
+}
+
+template <class Map>
+EnvelopeOf<Map>::EnvelopeOf(const Density& density, Map map)
+    : map_(std::move(map)), density_(density),
+      sampled_(density.kind == Density::Kind::callable || !map_.is_certain(density)) {
   const auto is_zero = [](const Box& box) { return !(box.bounds.greatest > 0); };
   int depth = sampled_ ? first_depth : 0;
   cover(depth);
   while (std::all_of(boxes_.begin(), boxes_.end(), is_zero)) {
     if (depth++ == last_depth)
-      throw Error(ErrorCode::bad_option,
-                  "the density is zero at each of " +
-                      std::to_string(boxes_.size() * lattice * lattice) +
-                      " points spread over the sphere: make it positive somewhere");
+      throw Error(ErrorCode::bad_option, "the density is zero at each of " +
+                                             std::to_string(boxes_.size() * lattice * lattice) +
+                                             " points spread over the " + Map::name +
+                                             ": make it positive somewhere");
     cover(depth);
   }
   refine();
@@ -81,8 +135,8 @@ Envelope::Envelope(const Density& density)
 }
 
 /// Starts from both hemispheres, halved so often.
-void Envelope::cover(int depth) {
-  boxes_ = {Box{}, Box{-1, -1, 2, true, {}}};
+template <class Map> void EnvelopeOf<Map>::cover(int depth) {
+  boxes_ = map_.squares();
   for (; depth > 0; --depth) {
     std::vector<Box> quarters;
     for (const Box& box : boxes_)
@@ -94,7 +148,7 @@ void Envelope::cover(int depth) {
 
 /// Halves the boxes that matter until the bounds are close to each other on the whole, or there are
 /// too many boxes: then a long thin ridge costs more proposals.
-void Envelope::refine() {
+template <class Map> void EnvelopeOf<Map>::refine() {
   const std::size_t most = boxes_.size() + (1 << 16);
   while (boxes_.size() < most) {
     double least = 0, greatest = 0;
@@ -119,7 +173,7 @@ void Envelope::refine() {
   }
 }
 
-void Envelope::finish() {
+template <class Map> void EnvelopeOf<Map>::finish() {
   double mass = 0, area = 0;
   for (const Box& box : boxes_) {
     mass += box.bounds.greatest * box.area();
@@ -134,13 +188,13 @@ void Envelope::finish() {
   }
 }
 
-std::int64_t Envelope::choose(double unit) const {
+template <class Map> std::int64_t EnvelopeOf<Map>::choose(double unit) const {
   const auto found =
       std::upper_bound(mass_before_.begin(), mass_before_.end() - 1, unit * mass_before_.back());
   return found - mass_before_.begin();
 }
 
-void Envelope::raise(const std::vector<Witness>& witnesses) {
+template <class Map> void EnvelopeOf<Map>::raise(const std::vector<Witness>& witnesses) {
   constexpr int halvings = 4;
   std::vector<Box> siblings;
   for (const Witness& witness : witnesses) {
@@ -164,28 +218,30 @@ void Envelope::raise(const std::vector<Witness>& witnesses) {
   finish();
 }
 
-void Envelope::bound(std::vector<Box>& boxes) const {
+template <class Map> void EnvelopeOf<Map>::bound(std::vector<Box>& boxes) const {
   const auto n = std::ssize(boxes);
   constexpr std::int64_t batch = 64; // boxes of a task
   for_each_task((n + batch - 1) / batch, [&](std::int64_t task) {
     for (std::int64_t b = task * batch; b < std::min(n, (task + 1) * batch); ++b) {
       Box& box = boxes[static_cast<std::size_t>(b)];
-      box.bounds = sampled_ ? sampled_bounds(box) : certain_bounds(density_, box);
+      box.bounds = sampled_ ? sampled_bounds(box) : map_.bounds(density_, box);
+      if (map_.shown(box) == Shown::part)
+        box.bounds.least = 0;
     }
   });
 }
 
 /// From values in the box and a quarter of a side around it, with a margin.
-Bounds Envelope::sampled_bounds(const Box& box) const {
+template <class Map> Bounds EnvelopeOf<Map>::sampled_bounds(const Box& box) const {
   constexpr double step = 1.5 / lattice, margin = 1.25;
   std::array<std::array<double, lattice * lattice>, 4> rows;
   auto& [x, y, z, rho] = rows;
   for (std::size_t i = 0; i < rho.size(); ++i) {
     const std::size_t row = i / lattice, column = i % lattice;
     const auto [u, v] =
-        into_disc(box.x + box.side * (step * (static_cast<double>(column) + 0.5) - 0.25),
-                  box.y + box.side * (step * (static_cast<double>(row) + 0.5) - 0.25));
-    const Vec3 p = on_sphere(u, v, box.south);
+        map_.nearest(box.x + box.side * (step * (static_cast<double>(column) + 0.5) - 0.25),
+                     box.y + box.side * (step * (static_cast<double>(row) + 0.5) - 0.25));
+    const Vec3 p = map_.place(u, v, box.south);
     x[i] = p.x;
     y[i] = p.y;
     z[i] = p.z;
@@ -194,5 +250,8 @@ Bounds Envelope::sampled_bounds(const Box& box) const {
   const auto [least, greatest] = std::minmax_element(rho.begin(), rho.end());
   return {*least, margin * *greatest};
 }
+
+template class EnvelopeOf<Hemispheres>;
+template class EnvelopeOf<PlanarMap>;
 
 } // namespace calotte::detail

@@ -3,12 +3,16 @@
 
 #include "clock.h"
 #include "parallel.h"
+#include "planar_cells.h"
 #include "points.h"
+#include "spherical_cells.h"
+#include "tessellation.h"
 
 #include <calotte/error.h>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace calotte::detail {
 namespace {
@@ -39,21 +43,21 @@ void add_sums(const Array<SiteTerms>& terms, CvtIteration& iteration) {
   iteration.gradient = std::sqrt(total.slope);
 }
 
-/// Evaluates one generator; where its cell has no centroid, the energy is NaN.
+/// Evaluates one generator; where its cell has no mass, the energy is NaN.
+template <class Cells>
 void evaluate_site(const Vec3& x, const CellMoments& cell, std::int32_t site, bool with_gradient,
                    Evaluation& out) {
-  const double length = norm(cell.first);
-  if (!(length > 0) || !std::isfinite(length)) {
+  const typename Cells::Pull pull = Cells::pull(x, cell);
+  if (!(pull.mass > 0) || !std::isfinite(pull.mass)) {
     out.terms[site] = {std::nan(""), 0, 0};
     return;
   }
-  const Vec3 centroid = (1 / length) * cell.first;
-  const Vec3 apart = centroid - x, tangent = cell.first - dot(cell.first, x) * x;
-  set_column(out.centroids, site, centroid);
-  out.terms[site] = {cell.energy, dot(apart, apart), 4 * dot(tangent, tangent)};
+  const Vec3 apart = pull.centroid - x;
+  set_column(out.centroids, site, pull.centroid);
+  out.terms[site] = {cell.energy, dot(apart, apart), dot(pull.gradient, pull.gradient)};
   if (with_gradient) {
-    set_column(out.gradient, site, -2 * tangent);
-    out.mass[site] = length;
+    set_column(out.gradient, site, pull.gradient);
+    out.mass[site] = pull.mass;
   }
 }
 
@@ -68,28 +72,55 @@ void make_room(Evaluation& out, Eigen::Index n, bool with_gradient) {
   }
 }
 
-} // namespace
+template <class Cells> class FunctionalOver final : public Functional {
+public:
+  FunctionalOver(Cells cells, const Points3& points, const CvtOptions& options)
+      : tessellation_(std::move(cells), points, options.partition), density_(options.density),
+        coarse_(make_integrand(options.density, options.rule, options.triangle_divisions)),
+        fine_(make_integrand(options.density, options.final_rule, options.triangle_divisions)),
+        rule_(options.density.uniform() ? 0 : options.rule),
+        final_rule_(options.density.uniform() ? 0 : options.final_rule) {}
 
-Functional::Functional(const Points3& points, const CvtOptions& options)
-    : tessellation_(points, options.partition),
-      coarse_(make_integrand(options.density, options.rule, options.triangle_divisions)),
-      fine_(make_integrand(options.density, options.final_rule, options.triangle_divisions)),
-      rule_(options.density.uniform() ? 0 : options.rule),
-      final_rule_(options.density.uniform() ? 0 : options.final_rule) {}
+  void evaluate(const Points3& points, bool final_rule, bool with_gradient,
+                Evaluation& out) override;
 
-void Functional::evaluate(const Points3& points, bool final_rule, bool with_gradient,
-                          Evaluation& out) {
+  void moved(double farthest) override { tessellation_.moved(farthest); }
+  std::vector<CvtRegion> regions() const override { return tessellation_.regions(); }
+  Points3 retract(const Points3& x, double step, const Points3& d) const override {
+    return tessellation_.cells().retract(x, step, d);
+  }
+  void make_tangential(Points3& vectors, const Points3& x) const override {
+    tessellation_.cells().make_tangential(vectors, x);
+  }
+  SparseMatrix laplacian(const Points3& points) const override {
+    return tessellation_.cells().laplacian(points, density_);
+  }
+
+private:
+  Tessellation<Cells> tessellation_;
+  Density density_;
+  Integrand coarse_, fine_;
+  int rule_, final_rule_; ///< their numbers of points, 0 where none is used
+};
+
+template <class Cells>
+void FunctionalOver<Cells>::evaluate(const Points3& points, bool final_rule, bool with_gradient,
+                                     Evaluation& out) {
   Clock::time_point mark = Clock::now();
-  make_room(out, points.cols(), with_gradient);
-  const Tessellation::Effort effort = tessellation_.evaluate(
+  const typename Tessellation<Cells>::Room room{
+      [&] { make_room(out, points.cols(), with_gradient); }, [&] { out = {}; }};
+  const auto effort = tessellation_.evaluate(
       points, final_rule ? fine_ : coarse_,
-      [&](const Patch& patch, const Array<Vec3>& x, const Array<CellMoments>& moments) {
+      [&](const Patch& patch, const Array<Vec3>&, const Array<CellMoments>& moments) {
         for (std::int32_t i = 0; i < patch.owned; ++i)
-          evaluate_site(x[i], moments[i], patch.sites[static_cast<std::size_t>(i)], with_gradient,
-                        out);
-      });
+          if (const std::int32_t site = patch.sites[static_cast<std::size_t>(i)];
+              site < points.cols()) // the others hold a plane's hull
+            evaluate_site<Cells>(column(points, site), moments[i], site, with_gradient, out);
+      },
+      room);
   CvtIteration& iteration = out.iteration = {};
   iteration.cells = points.cols();
+  iteration.spacing = tessellation_.cells().spacing();
   iteration.rule = final_rule ? final_rule_ : rule_;
   iteration.flips = effort.flips;
   iteration.rebuilt = effort.rebuilt;
@@ -101,6 +132,17 @@ void Functional::evaluate(const Points3& points, bool final_rule, bool with_grad
     throw Error(ErrorCode::bad_option, "the density is zero over a whole cell, or beyond 1e150: "
                                        "make it positive everywhere, and smaller");
   iteration.seconds = lap(mark);
+}
+
+} // namespace
+
+std::unique_ptr<Functional> make_functional(const Points3& points, const CvtOptions& options) {
+  return std::make_unique<FunctionalOver<SphericalCells>>(SphericalCells(), points, options);
+}
+
+std::unique_ptr<Functional> make_functional(const Points3& points, const PlanarDomain& domain,
+                                            const CvtOptions& options) {
+  return std::make_unique<FunctionalOver<PlanarCells>>(PlanarCells(domain), points, options);
 }
 
 } // namespace calotte::detail

@@ -3,7 +3,9 @@
 
 #include "circle.h"
 #include "counts.h"
+#include "mesh_edges.h"
 #include "points.h"
+#include "room.h"
 #include "sampling.h"
 #include "split_mix.h"
 #include "vec3.h"
@@ -220,7 +222,8 @@ void set_hexagons_triangles(std::int64_t columns, std::int64_t rows, PlanarMesh&
 
 Points3 random_sphere(std::int64_t n, std::uint64_t seed) {
   require_count(n, 1, "the number of points");
-  Points3 points(3, n);
+  Points3 points;
+  detail::make_room(points, 3, n);
   SplitMix random(seed);
   for (std::int64_t i = 0; i < n; ++i) {
     double u, v, s;
@@ -343,32 +346,13 @@ Points3 cubed_sphere(std::int64_t m) {
 }
 
 Points3 bisect(const Mesh& mesh) {
-  const std::int64_t n = mesh.points.cols(), triangles = mesh.triangles.cols();
-  require(mesh.neighbours.cols() == triangles,
-          "the mesh has " + std::to_string(triangles) + " triangles but neighbours of " +
-              std::to_string(mesh.neighbours.cols()) + "; give a mesh with both");
-  const auto is_first = [&](std::int64_t t, int i) {
-    return mesh.neighbours(i, t) < 0 || mesh.neighbours(i, t) > t;
-  };
-  std::int64_t edges = 0;
-  for (std::int64_t t = 0; t < triangles; ++t)
-    for (int i = 0; i < 3; ++i)
-      edges += is_first(t, i);
-  require(n + edges <= most_points,
-          "bisection gives more than " + std::to_string(most_points) + " points; give fewer");
-  Points3 points(3, n + edges);
+  const std::int64_t n = mesh.points.cols();
+  Points3 points(3, n + detail::count_edges(mesh));
   points.leftCols(n) = mesh.points;
   std::int64_t next = n;
-  for (std::int64_t t = 0; t < triangles; ++t) {
-    for (int i = 0; i < 3; ++i) {
-      if (!is_first(t, i))
-        continue;
-      const std::int32_t a = mesh.triangles((i + 1) % 3, t), b = mesh.triangles((i + 2) % 3, t);
-      require(std::min(a, b) >= 0 && std::max(a, b) < n,
-              "triangle " + std::to_string(t) + " has a vertex outside the mesh's points");
-      put(points, next++, midpoint(get(points, a), get(points, b)));
-    }
-  }
+  detail::for_each_edge(mesh, [&](std::int32_t a, std::int32_t b) {
+    put(points, next++, midpoint(get(points, a), get(points, b)));
+  });
   return points;
 }
 

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "memory.h"
+#include "outline.h"
+#include "vec3.h"
+
 #include <calotte/density.h>
 #include <calotte/types.h>
 
@@ -17,10 +21,26 @@ using SparseMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor, std::int32_t>;
 /// the integral over the Voronoi edge of rho (x - x_i)(x - x_j)^T/l. Weights below a thousandth of
 /// an equilateral triangle's are raised to that.
 ///
-/// To it is added rho times the square of the cell's area on the diagonal: a motion of all
-/// generators in one direction, which costs the Laplacian nothing, is no symmetry of the sphere.
+/// To it is added rho times the square of the cell's area, over a 4 pi-th of the sphere's or the
+/// domain's, on the diagonal: a motion of all generators in one direction, which costs the
+/// Laplacian nothing, is no symmetry of the sphere, nor of a clipped or refined plane.
 ///
 /// \param points 3 x n unit columns that span the sphere.
 SparseMatrix graph_laplacian(const Points3& points, const Density& density);
+
+/// A domain of the plane, with generators in it.
+struct PlanarSites {
+  const Array<Vec3>& places; ///< as PlaneSigns takes them
+  std::int64_t generators;   ///< the first of them
+  Vec2 period;
+  const Outline* outline; ///< or none, of a periodic box
+  double area;            ///< of the domain
+};
+
+/// The same in the plane. Voronoi edges beside the hull's places lie outside of the domain, and
+/// count for nothing. A cell that the domain clips has on the diagonal 2 rho times the area between
+/// its generator and the shore: half of the trace of what the second derivative, 2 m less the
+/// integrals over Voronoi edges, is when all generators move as one.
+SparseMatrix graph_laplacian(const PlanarSites& sites, const Density& density);
 
 } // namespace calotte::detail

@@ -13,6 +13,9 @@
 #ifdef __linux__
 #include <sys/mman.h>
 #endif
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define CALOTTE_POOLED false // the sanitizers see what malloc gives
@@ -75,5 +78,15 @@ private:
   std::int64_t size_ = 0;
   Data data_;
 };
+
+/// Gives back to the system what oneTBB and the C library keep for arrays to come.
+inline void empty_pools() {
+#if CALOTTE_POOLED
+  scalable_allocation_command(TBBMALLOC_CLEAN_ALL_BUFFERS, nullptr);
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+#endif
+}
 
 } // namespace calotte::detail

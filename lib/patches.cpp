@@ -44,16 +44,19 @@ void for_each_owner(const Triple& sites, const Array<std::int32_t>& owner, const
     body(c);
 }
 
-/// The numbers of each region's triangles, ascending: counted by blocks, then written to places
-/// that no other block writes.
+/// The numbers of each region's triangles, ascending: counted by parts of the mesh, then written to
+/// places that no other part writes. The parts are few: each counts for all regions.
 std::vector<std::vector<std::int32_t>> triangles_by_region(const Triangles& triangles,
                                                            const Ownership& ownership) {
   const std::size_t regions = ownership.owned.size();
-  const auto blocks = static_cast<std::size_t>(block_count(triangles.cols()));
-  std::vector<std::vector<std::int32_t>> place(blocks, std::vector<std::int32_t>(regions, 0));
+  const std::int64_t parts = std::min<std::int64_t>(block_count(triangles.cols()), 256);
+  std::vector<std::vector<std::int32_t>> place(static_cast<std::size_t>(parts),
+                                               std::vector<std::int32_t>(regions, 0));
   const auto visit = [&](const auto& body) {
-    for_each_block(triangles.cols(), [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
-      std::vector<std::int32_t>& here = place[static_cast<std::size_t>(block)];
+    for_each_task(parts, [&](std::int64_t part) {
+      std::vector<std::int32_t>& here = place[static_cast<std::size_t>(part)];
+      const std::int64_t begin = triangles.cols() * part / parts,
+                         end = triangles.cols() * (part + 1) / parts;
       for (auto t = static_cast<std::int32_t>(begin); t != end; ++t)
         for_each_owner(sites_of(triangles, t), ownership.owner, [&](std::int32_t k) {
           body(t, static_cast<std::size_t>(k), here[static_cast<std::size_t>(k)]++);
@@ -93,7 +96,9 @@ void number_sites(Patch& patch, const Triangles& triangles, const Ownership& own
   std::sort(halo.begin(), halo.end());
   halo.erase(std::unique(halo.begin(), halo.end()), halo.end());
   patch.owned = static_cast<std::int32_t>(own.size());
-  patch.sites = own;
+  patch.sites.clear();
+  patch.sites.reserve(own.size() + halo.size());
+  patch.sites.insert(patch.sites.end(), own.begin(), own.end());
   patch.sites.insert(patch.sites.end(), halo.begin(), halo.end());
   const auto local = [&](std::int32_t site) {
     if (is_own(site))
@@ -128,12 +133,16 @@ Ownership make_ownership(Array<std::int32_t>&& owner, std::int32_t regions) {
   Ownership result{std::move(owner), {}, {}};
   const std::int64_t n = result.owner.size();
   result.place = Array<std::int32_t>(n);
-  result.owned.resize(static_cast<std::size_t>(regions));
-  for (std::int64_t i = 0; i < n; ++i) {
-    std::vector<std::int32_t>& own = result.owned[static_cast<std::size_t>(result.owner[i])];
-    result.place[i] = static_cast<std::int32_t>(own.size());
-    own.push_back(static_cast<std::int32_t>(i));
-  }
+  std::vector<std::int32_t> count(static_cast<std::size_t>(regions), 0);
+  for (std::int64_t i = 0; i < n; ++i)
+    result.place[i] = count[static_cast<std::size_t>(result.owner[i])]++;
+  for (const std::int32_t own : count)
+    result.owned.emplace_back(static_cast<std::size_t>(own));
+  for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i != end; ++i)
+      result.owned[static_cast<std::size_t>(result.owner[i])]
+                  [static_cast<std::size_t>(result.place[i])] = static_cast<std::int32_t>(i);
+  });
   return result;
 }
 

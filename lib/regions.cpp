@@ -112,7 +112,24 @@ Array<std::int32_t> owners(const CellTree& tree, const Array<Vec3>& unit,
 struct Sample {
   Array<Vec3> unit;
   CellTree cells;
+  Array<double> density; ///< of samples around each, but for a factor
 };
+
+/// From the mean step along the curve between a few samples before each and a few after it.
+Array<double> densities(const Array<Vec3>& unit) {
+  constexpr std::int64_t reach = 8;
+  Array<double> density(unit.size());
+  for (std::int64_t s = 0; s < unit.size(); ++s) {
+    const std::int64_t begin = std::max<std::int64_t>(0, s - reach);
+    const std::int64_t end = std::min(unit.size() - 1, s + reach);
+    double length = 1e-15; // some of the samples may differ by less than rounding
+    for (std::int64_t t = begin; t < end; ++t)
+      length += norm(unit[t + 1] - unit[t]);
+    const double inverse = static_cast<double>(end - begin) / length;
+    density[s] = inverse * inverse;
+  }
+  return density;
+}
 
 Sample take_sample(const Sites& sites, std::int64_t count) {
   count = std::min(count, sites.size());
@@ -123,22 +140,25 @@ Sample take_sample(const Sites& sites, std::int64_t count) {
     unit[s] = sites.unit[rank];
     keys[s] = sites.cells.keys()[rank];
   }
-  return {std::move(unit), CellTree(std::move(keys), sites.frame.has_value())};
+  Array<double> density = densities(unit);
+  return {std::move(unit), CellTree(std::move(keys), sites.frame.has_value()), std::move(density)};
 }
 
 /// Moves each centre to the mean of the samples it owns, on the sphere to its direction; one that
-/// owns none, or whose mean has no direction, stays.
+/// owns none, or whose mean has no direction, stays. Each sample weighs as much as the density
+/// there: a CVT's centres are distributed as the square root of what it integrates (Gersho, IEEE
+/// Trans. Inf. Theory 25, 1979), samples times weights, so as the sites are.
 void move_to_means(const Sample& sample, const Array<std::int32_t>& owner, bool planar,
                    std::vector<Vec3>& centres) {
   std::vector<Vec3> sum(centres.size(), Vec3{0, 0, 0});
-  std::vector<double> count(centres.size(), 0);
+  std::vector<double> weight(centres.size(), 0);
   for (std::int64_t s = 0; s < owner.size(); ++s) {
     const auto k = static_cast<std::size_t>(owner[s]);
-    sum[k] = sum[k] + sample.unit[s];
-    ++count[k];
+    sum[k] = sum[k] + sample.density[s] * sample.unit[s];
+    weight[k] += sample.density[s];
   }
   for (std::size_t k = 0; k < centres.size(); ++k)
-    if (const double length = planar ? count[k] : norm(sum[k]); length > 1e-9)
+    if (const double length = planar ? weight[k] : norm(sum[k]); length > 1e-9 * weight[k])
       centres[k] = (1 / length) * sum[k];
 }
 
@@ -154,11 +174,10 @@ std::vector<Vec3> plane_lattice(const Frame& frame, int regions) {
   return centres;
 }
 
-/// A coarse CVT of a sample. It starts from equal parts of the curve, so that the regions hold
-/// equal numbers of sites, and takes few steps, which round the cells before they could even out
-/// the density.
+/// A coarse CVT of a sample, whose regions hold about equal numbers of sites: it starts from equal
+/// parts of the curve, and a few steps round the cells.
 std::vector<Vec3> sampled_centres(const Sites& sites, int regions) {
-  const Sample sample = take_sample(sites, std::int64_t{64} * regions);
+  const Sample sample = take_sample(sites, std::int64_t{128} * regions);
   std::vector<Vec3> centres(static_cast<std::size_t>(regions), sample.unit[0]);
   Array<std::int32_t> owner(sample.unit.size());
   for (std::int64_t s = 0; s < owner.size(); ++s)

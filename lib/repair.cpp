@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "repair.h"
 
-#include "points.h"
-#include "predicates.h"
 #include "triangle.h"
-
-#include <calotte/delaunay.h>
-#include <calotte/error.h>
 
 #include <optional>
 #include <utility>
@@ -14,8 +9,8 @@
 namespace calotte::detail {
 namespace {
 
-const Vec3& corner(const Connectivity& mesh, const Points3& points, std::int32_t t, int v) {
-  return column(points, mesh.triangles(v, t));
+Corners corners_of(const Connectivity& mesh, std::int32_t t) {
+  return {mesh.triangles(0, t), mesh.triangles(1, t), mesh.triangles(2, t)};
 }
 
 /// Index in a triangle of the vertex across from its neighbour.
@@ -25,23 +20,11 @@ int index_of(const Connectivity& mesh, std::int32_t triangle, std::int32_t neigh
                                                      : 2;
 }
 
-bool is_overturned(const Connectivity& mesh, const Points3& points, std::int32_t t) {
-  return orientation(corner(mesh, points, t, 0), corner(mesh, points, t, 1),
-                     corner(mesh, points, t, 2)) <= 0;
-}
-
-/// Up to rounding, which 1e-14 exceeds for unit vectors.
-bool is_clearly_acute(const Connectivity& mesh, const Points3& points, std::int32_t t, int v) {
-  const Vec3& here = corner(mesh, points, t, v);
-  return dot(corner(mesh, points, t, next_vertex(v)) - here,
-             corner(mesh, points, t, previous_vertex(v)) - here) > 1e-14;
-}
-
-bool is_delaunay(const Connectivity& mesh, const Points3& points, const TriangleEdge& edge) {
+template <class Signs>
+bool is_delaunay(const Connectivity& mesh, const Signs& signs, const TriangleEdge& edge) {
   const std::int32_t t = edge.triangle, beyond = mesh.neighbours(edge.across, t);
-  return in_circle_resolved(View{}, corner(mesh, points, t, 0), corner(mesh, points, t, 1),
-                            corner(mesh, points, t, 2),
-                            corner(mesh, points, beyond, index_of(mesh, beyond, t))) <= 0;
+  return beyond < 0 || !signs.circle_holds(corners_of(mesh, t), edge.across,
+                                           mesh.triangles(index_of(mesh, beyond, t), beyond));
 }
 
 /// Replaces the edge bc of the triangles abc and dcb by ad: they become abd and dca. The four outer
@@ -60,21 +43,24 @@ void flip(Connectivity& mesh, const TriangleEdge& edge, std::vector<TriangleEdge
   mesh.neighbours.col(t) << beyond_bd, u, across_c;
   mesh.triangles.col(u) << d, c, a;
   mesh.neighbours.col(u) << across_b, t, beyond_dc;
-  mesh.neighbours(index_of(mesh, beyond_bd, u), beyond_bd) = t;
-  mesh.neighbours(index_of(mesh, across_b, t), across_b) = u;
+  if (beyond_bd >= 0)
+    mesh.neighbours(index_of(mesh, beyond_bd, u), beyond_bd) = t;
+  if (across_b >= 0)
+    mesh.neighbours(index_of(mesh, across_b, t), across_b) = u;
   for (const TriangleEdge& outer :
        {TriangleEdge{t, 0}, TriangleEdge{t, 2}, TriangleEdge{u, 0}, TriangleEdge{u, 2}})
     pending.push_back(outer);
 }
 
 /// Flips until all edges are Delaunay; empty when that takes more than `most` flips.
-std::optional<Repair> flip_all(Connectivity& mesh, const Points3& points,
+template <class Signs>
+std::optional<Repair> flip_all(Connectivity& mesh, const Signs& signs,
                                std::vector<TriangleEdge> pending, std::int64_t most) {
   Repair result;
   while (!pending.empty()) {
     const TriangleEdge edge = pending.back();
     pending.pop_back();
-    if (is_delaunay(mesh, points, edge))
+    if (is_delaunay(mesh, signs, edge))
       continue;
     if (++result.flips > most)
       return std::nullopt;
@@ -87,33 +73,28 @@ std::optional<Repair> flip_all(Connectivity& mesh, const Points3& points,
 
 } // namespace
 
-Connectivity triangulate_closed(const Points3& points) {
-  Mesh mesh = delaunay(points);
-  if (mesh.points.cols() != points.cols() || !mesh.closed())
-    throw Error(ErrorCode::too_few_sites,
-                "the generators lie within a hemisphere, or two of them have met: spread the start "
-                "over the sphere, or take a smoother density");
-  return {std::move(mesh.triangles), std::move(mesh.neighbours)};
-}
-
-void add_faults(const Connectivity& mesh, const Points3& points, std::int32_t triangle,
+template <class Signs>
+void add_faults(const Connectivity& mesh, const Signs& signs, std::int32_t triangle,
                 Faults& faults) {
-  faults.overturned = faults.overturned || is_overturned(mesh, points, triangle);
+  const Corners corners = corners_of(mesh, triangle);
+  faults.overturned = faults.overturned || !signs.is_counter_clockwise(corners);
   for (int v = 0; v < 3; ++v)
-    if (!is_clearly_acute(mesh, points, triangle, v) && !is_delaunay(mesh, points, {triangle, v}))
+    if (!signs.is_clearly_acute(corners, v) && !is_delaunay(mesh, signs, {triangle, v}))
       faults.edges.push_back({triangle, v});
 }
 
-Repair repair(Connectivity& mesh, const Points3& points, const Faults& faults) {
+template <class Signs>
+std::optional<Repair> repair(Connectivity& mesh, const Signs& signs, const Faults& faults) {
   // A flip costs about as much as three sites of a new triangulation, which is parallel.
-  const std::int64_t most = points.cols() / 16;
-  if (!faults.overturned)
-    if (std::optional<Repair> flipped = flip_all(mesh, points, faults.edges, most))
-      return *std::move(flipped);
-  mesh = triangulate_closed(points);
-  Repair result;
-  result.rebuilt = true;
-  return result;
+  const std::int64_t most = signs.sites() / 16;
+  if (faults.overturned)
+    return std::nullopt;
+  return flip_all(mesh, signs, faults.edges, most);
 }
+
+template void add_faults(const Connectivity&, const SphereSigns&, std::int32_t, Faults&);
+template void add_faults(const Connectivity&, const PlaneSigns&, std::int32_t, Faults&);
+template std::optional<Repair> repair(Connectivity&, const SphereSigns&, const Faults&);
+template std::optional<Repair> repair(Connectivity&, const PlaneSigns&, const Faults&);
 
 } // namespace calotte::detail

@@ -28,20 +28,20 @@ struct Drawn {
 
 struct Batch {
   std::array<std::int64_t, batch> box;
-  std::array<double, batch> u, v; ///< in the map of the hemisphere
+  std::array<double, batch> u, v; ///< in the map
   std::array<double, batch> x, y, z, rho;
   std::array<double, batch> level; ///< of the envelope, at random from 0 to it
 };
 
 /// Every proposal takes four numbers of the stream.
-void propose(const Envelope& envelope, SplitMix& random, Batch& out) {
+template <class Map> void propose(const EnvelopeOf<Map>& envelope, SplitMix& random, Batch& out) {
   for (std::size_t i = 0; i < batch; ++i) {
     out.box[i] = envelope.choose(random.unit());
     const Box& box = envelope.boxes()[static_cast<std::size_t>(out.box[i])];
     out.u[i] = box.x + box.side * random.unit();
     out.v[i] = box.y + box.side * random.unit();
     out.level[i] = box.bounds.greatest * random.unit();
-    const Vec3 p = on_sphere(out.u[i], out.v[i], box.south);
+    const Vec3 p = envelope.map().place(out.u[i], out.v[i], box.south);
     out.x[i] = p.x;
     out.y[i] = p.y;
     out.z[i] = p.z;
@@ -49,19 +49,22 @@ void propose(const Envelope& envelope, SplitMix& random, Batch& out) {
   envelope.density()(out.x, out.y, out.z, out.rho);
 }
 
-void accept(const Envelope& envelope, const Batch& proposals, Drawn& drawn) {
+template <class Map>
+void accept(const EnvelopeOf<Map>& envelope, const Batch& proposals, Drawn& drawn) {
   for (std::size_t i = 0; i < batch; ++i) {
     const double u = proposals.u[i], v = proposals.v[i], rho = proposals.rho[i];
-    if (u * u + v * v >= 1) // a box sticks out of its hemisphere
+    const Vec3 place{proposals.x[i], proposals.y[i], proposals.z[i]};
+    if (!envelope.map().holds(u, v, place)) // a box may stick out
       continue;
     if (rho > envelope.boxes()[static_cast<std::size_t>(proposals.box[i])].bounds.greatest)
       drawn.above.push_back({proposals.box[i], u, v, rho});
     if (proposals.level[i] < rho)
-      drawn.accepted.push_back({proposals.x[i], proposals.y[i], proposals.z[i]});
+      drawn.accepted.push_back(place);
   }
 }
 
-Drawn draw_task(const Envelope& envelope, std::uint64_t seed, std::uint64_t first) {
+template <class Map>
+Drawn draw_task(const EnvelopeOf<Map>& envelope, std::uint64_t seed, std::uint64_t first) {
   Drawn drawn;
   drawn.accepted.reserve(proposals_of_task);
   SplitMix random(seed, 4 * first);
@@ -115,7 +118,8 @@ constexpr std::int64_t most_in_vain = 1 << 24, acceptable = 1 << 14;
 
 /// Fills the points; or returns the witnesses that speak against the envelope.
 /// \param stream of the seed's streams, which are 2^56 numbers apart.
-std::vector<Witness> fill(const Envelope& envelope, std::uint64_t seed, std::uint64_t stream,
+template <class Map>
+std::vector<Witness> fill(const EnvelopeOf<Map>& envelope, std::uint64_t seed, std::uint64_t stream,
                           Points3& points) {
   std::int64_t filled = 0, proposed = 0;
   while (filled < points.cols()) {
@@ -138,10 +142,8 @@ std::vector<Witness> fill(const Envelope& envelope, std::uint64_t seed, std::uin
   return {};
 }
 
-} // namespace
-
-Points3 draw(std::int64_t n, const Density& density, std::uint64_t seed) {
-  Envelope envelope(density);
+template <class Map>
+Points3 draw_from(EnvelopeOf<Map> envelope, std::int64_t n, std::uint64_t seed) {
   Points3 points(3, n);
   constexpr std::uint64_t most_attempts = 64;
   constexpr std::size_t most_boxes = 1 << 20; // sound densities need fewer
@@ -154,6 +156,18 @@ Points3 draw(std::int64_t n, const Density& density, std::uint64_t seed) {
   }
   throw Error(ErrorCode::bad_option, "the density grows without bound, or from call to call: give "
                                      "one with a greatest value");
+}
+
+} // namespace
+
+Points3 draw(std::int64_t n, const Density& density, std::uint64_t seed) {
+  return draw_from(Envelope(density), n, seed);
+}
+
+Points2 draw(std::int64_t n, const Density& density, const PlanarDomain& domain,
+             std::uint64_t seed) {
+  const EnvelopeOf<PlanarMap> envelope(density, PlanarMap(domain));
+  return draw_from(envelope, n, seed).topRows<2>();
 }
 
 } // namespace calotte::detail

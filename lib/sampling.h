@@ -2,6 +2,7 @@
 #pragma once
 
 #include <calotte/density.h>
+#include <calotte/domain.h>
 #include <calotte/types.h>
 
 #include <cstdint>
@@ -18,5 +19,10 @@ namespace calotte::detail {
 ///
 /// \throws Error bad_option as random_sphere(n, density, seed).
 Points3 draw(std::int64_t n, const Density& density, std::uint64_t seed);
+
+/// The same in a domain of the plane. \param density uniform, or a callable of places (x, y, 0).
+/// \throws Error bad_option as random_places(n, domain, density, seed).
+Points2 draw(std::int64_t n, const Density& density, const PlanarDomain& domain,
+             std::uint64_t seed);
 
 } // namespace calotte::detail

@@ -5,12 +5,14 @@
 #include "order.h"
 #include "plane_predicates.h"
 #include "predicates.h"
+#include "room.h"
 
 #include <calotte/error.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <string>
 #include <type_traits>
 #include <unordered_map>
@@ -311,16 +313,23 @@ void keep_distinct(const Input& input, const std::vector<std::int32_t>& lowest,
   entries = std::move(distinct);
 }
 
-template <class Input> void copy_all(const Input& input, Sites& sites) {
+template <class Input> Points3 copy_of(const Input& input) {
   const std::int64_t n = input.points.cols();
-  sites.points.resize(3, n);
-  prefer_huge_pages(sites.points.data(), 24 * static_cast<std::size_t>(n));
+  Points3 points;
+  make_room(points, 3, n);
   for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-    for (std::int64_t i = begin; i != end; ++i) {
-      set_column(sites.points, i, input.at(i));
-      sites.site_of_input[static_cast<std::size_t>(i)] = static_cast<std::int32_t>(i);
-    }
+    for (std::int64_t i = begin; i != end; ++i)
+      set_column(points, i, input.at(i));
   });
+  return points;
+}
+
+void number_all(std::vector<std::int32_t>& site_of_input) {
+  for_each_block(std::ssize(site_of_input),
+                 [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+                   std::iota(site_of_input.begin() + begin, site_of_input.begin() + end,
+                             static_cast<std::int32_t>(begin));
+                 });
 }
 
 template <class Input> void require_count(std::int64_t n, const char* kind) {
@@ -333,8 +342,10 @@ template <class Input> void require_count(std::int64_t n, const char* kind) {
                                            " points: 32-bit triangle ids allow 2^30 at most");
 }
 
-template <class Input>
-Sites make_sites_of(const Input& input, Duplicates duplicates, double merge_within) {
+/// \param all_points the input's points as Sites holds them; called at most once, last of all.
+template <class Input, class AllPoints>
+Sites make_sites_of(const Input& input, Duplicates duplicates, double merge_within,
+                    const AllPoints& all_points) {
   require_count<Input>(input.points.cols(), "points");
   Array<KeyedIndex> entries = make_entries(input);
   sort_by_key(entries);
@@ -344,10 +355,12 @@ Sites make_sites_of(const Input& input, Duplicates duplicates, double merge_with
 
   Sites sites;
   sites.site_of_input.resize(static_cast<std::size_t>(input.points.cols()));
-  if (lowest.empty())
-    copy_all(input, sites);
-  else
+  if (lowest.empty()) {
+    sites.points = all_points();
+    number_all(sites.site_of_input);
+  } else {
     keep_distinct(input, lowest, entries, sites);
+  }
   const std::int64_t n = entries.size();
   require_count<Input>(n, Input::distinct);
   sites.id = Array<std::int32_t>(n);
@@ -360,6 +373,7 @@ Sites make_sites_of(const Input& input, Duplicates duplicates, double merge_with
       sites.unit[rank] = input.unit(sites.given(entries[rank].index));
     }
   });
+  entries = {};
   sites.cells = CellTree(std::move(keys), !std::is_same_v<Input, Directions>);
   sites.boxes = SiteBoxes(sites.unit);
   return sites;
@@ -380,13 +394,21 @@ Vec2 place_of(const Image& image, const Vec2& period) {
 
 Sites make_sites(const Points3& points, Duplicates duplicates, double merge_within) {
   require_distance(merge_within, "angle", " radians");
-  return make_sites_of(Directions{points}, duplicates, merge_within);
+  const Directions input{points};
+  return make_sites_of(input, duplicates, merge_within, [&] { return copy_of(input); });
+}
+
+Sites make_sites(Points3&& points, Duplicates duplicates, double merge_within) {
+  require_distance(merge_within, "angle", " radians");
+  return make_sites_of(Directions{points}, duplicates, merge_within,
+                       [&] { return std::move(points); });
 }
 
 Sites make_sites(const Points2& points, Duplicates duplicates, double merge_within) {
   require_distance(merge_within, "distance", "");
   const Frame frame = frame_of(points);
-  Sites sites = make_sites_of(Places{points, frame}, duplicates, merge_within);
+  const Places input{points, frame};
+  Sites sites = make_sites_of(input, duplicates, merge_within, [&] { return copy_of(input); });
   sites.frame = frame;
   return sites;
 }
@@ -399,7 +421,8 @@ Sites make_sites(std::vector<Image> images, const Vec2& period) {
   }
   Frame frame = frame_of(points);
   frame.period = period;
-  Sites sites = make_sites_of(Images{{points, frame}}, Duplicates::merge, 0);
+  const Images input{{points, frame}};
+  Sites sites = make_sites_of(input, Duplicates::merge, 0, [&] { return copy_of(input); });
   sites.frame = frame;
   sites.images = std::move(images);
   return sites;

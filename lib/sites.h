@@ -50,6 +50,9 @@ struct Sites {
 /// bad_option.
 Sites make_sites(const Points3& points, Duplicates duplicates, double merge_within);
 
+/// The same; where no points are merged, they become the sites' points and are not copied.
+Sites make_sites(Points3&& points, Duplicates duplicates, double merge_within);
+
 /// Of a plane: equal places are duplicates, `merge_within` is a distance. \throws Error as above,
 /// but for zero_vector.
 Sites make_sites(const Points2& points, Duplicates duplicates, double merge_within);

@@ -62,9 +62,10 @@ Sphere::Place Sphere::place(std::int64_t rank) {
 }
 
 int Sphere::orientation_beyond_filter(const Place& a, const Place& b, const Place& c) {
-  if (view_.from_centre)
-    if (const int sign = orientation_filter(a.unit, b.unit, c.unit))
-      return sign;
+  const int sign = view_.from_centre ? orientation_filter(a.unit, b.unit, c.unit)
+                                     : -in_circle_filter(a.unit, b.unit, c.unit, view_.focus);
+  if (sign != 0)
+    return sign;
   return detail::orientation(view_, given(a), given(b), given(c));
 }
 

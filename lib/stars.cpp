@@ -8,31 +8,38 @@
 namespace calotte::detail {
 namespace {
 
+/// A mesh without its points.
+struct Links {
+  const Triangles& triangles;
+  const Triangles& neighbours;
+};
+
 /// The corner at the same site in the triangle that follows counter-clockwise.
-Corner next_around(const Mesh& mesh, Corner corner) {
+Corner next_around(const Links& mesh, Corner corner) {
   const std::int32_t t = triangle_of(corner);
   const int v = vertex_of(corner);
   const std::int32_t beyond = mesh.neighbours(next_vertex(v), t), site = mesh.triangles(v, t);
   const int there = mesh.triangles(0, beyond) == site   ? 0
                     : mesh.triangles(1, beyond) == site ? 1
                                                         : 2;
-  return 4 * beyond + there;
+  return 4 * Corner{beyond} + there;
 }
 
-/// For each site some corner at it: which one may vary, as the stars' order does not depend on it.
-Array<Corner> some_corners(const Mesh& mesh) {
-  Array<Corner> corner(mesh.points.cols());
+/// For each of the first sites some corner at it: which one may vary, as the stars' order does not
+/// depend on it.
+Array<Corner> some_corners(const Links& mesh, std::int64_t sites) {
+  Array<Corner> corner(sites);
   for_each_block(mesh.triangles.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t t = begin; t != end; ++t)
       for (int v = 0; v < 3; ++v)
-        std::atomic_ref(corner[mesh.triangles(v, t)])
-            .store(static_cast<Corner>(4 * t + v), std::memory_order_relaxed);
+        if (const std::int32_t site = mesh.triangles(v, t); site < sites)
+          std::atomic_ref(corner[site]).store(4 * t + v, std::memory_order_relaxed);
   });
   return corner;
 }
 
 template <class Body>
-void for_each_corner_around(const Mesh& mesh, Corner first, const Body& body) {
+void for_each_corner_around(const Links& mesh, Corner first, const Body& body) {
   Corner corner = first;
   do {
     body(corner);
@@ -40,19 +47,24 @@ void for_each_corner_around(const Mesh& mesh, Corner first, const Body& body) {
   } while (corner != first);
 }
 
-std::int32_t following_site(const Mesh& mesh, Corner corner) {
+std::int32_t following_site(const Links& mesh, Corner corner) {
   return mesh.triangles(next_vertex(vertex_of(corner)), triangle_of(corner));
 }
 
 } // namespace
 
 Stars make_stars(const Mesh& mesh) {
-  const std::int64_t n = mesh.points.cols();
-  Array<Corner> first = some_corners(mesh);
-  Stars stars{Array<std::int32_t>(n + 1), Array<Corner>(3 * mesh.triangles.cols())};
+  return make_stars(mesh.triangles, mesh.neighbours, mesh.points.cols());
+}
+
+Stars make_stars(const Triangles& triangles, const Triangles& neighbours, std::int64_t sites) {
+  const Links mesh{triangles, neighbours};
+  const std::int64_t n = sites;
+  Array<Corner> first = some_corners(mesh, n);
+  Stars stars{Array<std::int64_t>(n + 1), {}};
   for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i) {
-      std::int32_t count = 0;
+      std::int64_t count = 0;
       Corner lowest = first[i];
       for_each_corner_around(mesh, first[i], [&](Corner corner) {
         ++count;
@@ -65,6 +77,7 @@ Stars make_stars(const Mesh& mesh) {
   });
   stars.begin[n] = 0;
   exclusive_scan(std::span(stars.begin.begin(), stars.begin.end()));
+  stars.corners = Array<Corner>(stars.begin[n]);
   for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i) {
       std::int64_t place = stars.begin[i];

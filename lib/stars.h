@@ -10,18 +10,22 @@
 
 namespace calotte::detail {
 
-/// A vertex of a triangle: 4 t + v.
-using Corner = std::int32_t;
-inline std::int32_t triangle_of(Corner corner) { return corner >> 2; }
-inline int vertex_of(Corner corner) { return corner & 3; }
+/// A vertex of a triangle: 4 t + v; 2^31 triangles have more of them than an int32 counts.
+using Corner = std::int64_t;
+inline std::int32_t triangle_of(Corner corner) { return static_cast<std::int32_t>(corner >> 2); }
+inline int vertex_of(Corner corner) { return static_cast<int>(corner & 3); }
 
 /// The corners at each site of a closed mesh, counter-clockwise, from the one whose next vertex is
 /// the lowest neighbour on: an order that the triangulation alone determines, whatever its history.
 struct Stars {
-  Array<std::int32_t> begin; ///< those of site i are at begin[i] to begin[i + 1]
+  Array<std::int64_t> begin; ///< those of site i are at begin[i] to begin[i + 1]
   Array<Corner> corners;
 };
 
 Stars make_stars(const Mesh& mesh);
+
+/// Of the first `sites` of a mesh alone, whose stars are closed, whatever the others' are.
+/// \param neighbours as Mesh's.
+Stars make_stars(const Triangles& triangles, const Triangles& neighbours, std::int64_t sites);
 
 } // namespace calotte::detail

@@ -4,6 +4,7 @@
 #include "moments.h"
 #include "patches.h"
 #include "repair.h"
+#include "sites.h"
 
 #include <calotte/cvt.h>
 #include <calotte/delaunay.h>
@@ -11,6 +12,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace calotte::detail {
@@ -18,15 +20,24 @@ namespace calotte::detail {
 /// The Voronoi cells of points that move, divided into regions, each with a task of its own. The
 /// mesh is kept between evaluations and mended where points have moved out of it; the regions are
 /// chosen anew when points have drifted.
-class Tessellation {
+///
+/// \tparam Cells SphericalCells, or PlanarCells: what the cells are in their space.
+template <class Cells> class Tessellation {
 public:
-  /// \param points 3 x n unit columns.
-  /// \throws Error as triangulate_closed().
-  Tessellation(const Points3& points, const DelaunayOptions& partition);
+  /// \param points 3 x n.
+  /// \throws Error as Cells::Signs::triangulate().
+  Tessellation(Cells cells, const Points3& points, const DelaunayOptions& partition);
 
   /// What a region's task hands over: moments by local number, whole for the patch's own sites.
   using Receiver = std::function<void(const Patch& patch, const Array<Vec3>& x,
                                       const Array<CellMoments>& moments)>;
+
+  /// Where the receiver writes: `take` is called before the regions' tasks; `give_up` before points
+  /// are sorted or triangulated anew, which takes more memory than all else, and what has been
+  /// received is worthless then.
+  struct Room {
+    std::function<void()> take, give_up;
+  };
 
   /// What an evaluation took; seconds as CvtIteration's.
   struct Effort {
@@ -40,8 +51,11 @@ public:
   /// The receiver is called in each region's task. Where a region only then turns out to be no
   /// longer Delaunay, all are called again: what it writes must be slots that a later call
   /// overwrites.
-  /// \throws Error too_few_sites as repair().
-  Effort evaluate(const Points3& points, const Integrand& integrand, const Receiver& receive);
+  /// \throws Error as Cells::Signs::triangulate().
+  Effort evaluate(const Points3& points, const Integrand& integrand, const Receiver& receive,
+                  const Room& room);
+
+  const Cells& cells() const { return cells_; }
 
   /// Tells how far any point may have moved since the last evaluation.
   void moved(double farthest) { drift_ += farthest; }
@@ -50,22 +64,30 @@ public:
   std::vector<CvtRegion> regions() const;
 
 private:
-  /// A region's data between evaluations.
+  /// What a region's task found and took. Positions and moments live no longer than the task: the
+  /// threads' few stay in cache, where those of all regions would be a third of the memory.
   struct Work {
-    Array<Vec3> x;
-    Array<CellMoments> moments;
     std::vector<std::int32_t> suspects;
     Faults faults;
     Effort effort;
     CvtRegion report;
   };
 
-  void divide(const Points3& points);
-  void exchange(const Patch& patch, const Points3& points, Work& work) const;
-  void find_faults(const Patch& patch, const Points3& points, Work& work) const;
-  template <class Task> Faults run_tasks(const Task& task, Effort& effort);
-  void mend(const Points3& points, const Faults& faults, Effort& effort);
+  /// Who owns each place of the mesh, and what each region would exchange.
+  struct Division {
+    Array<std::int32_t> owner;
+    std::vector<CvtRegion> reports;
+  };
 
+  std::optional<Division> divided() const;
+  void divide();
+  Array<Vec3> exchange(const Patch& patch) const;
+  void find_faults(const Patch& patch, Work& work) const;
+  template <class Task> Faults run_tasks(const Task& task, Effort& effort);
+  void mend(const Faults& faults, const Room& room, Effort& effort);
+
+  Cells cells_;
+  std::int64_t generators_;
   DelaunayOptions partition_;
   Connectivity mesh_;
   Ownership ownership_;

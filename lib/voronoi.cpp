@@ -8,6 +8,7 @@
 #include "points.h"
 #include "predicates.h"
 #include "room.h"
+#include "voronoi_at.h"
 #include "voronoi_geometry.h"
 
 #include <calotte/error.h>
@@ -23,7 +24,13 @@ namespace {
 /// ones err by 5 units of roundoff, their squares by twice that and 3 of their own.
 Vec3 unit_column(const Vec3& x) { return std::abs(dot(x, x) - 1) <= 0x1p-49 ? x : normalised(x); }
 
-void set_cells(const Mesh& mesh, Voronoi& out) {
+/// A mesh of the sphere, whose sites may have moved.
+struct MeshAt {
+  const Points3& points;
+  const Triangles &triangles, &neighbours;
+};
+
+void set_cells(const MeshAt& mesh, Voronoi& out) {
   make_room(out.cells, 3, mesh.points.cols());
   FirstFault fault;
   for_each_block(mesh.points.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
@@ -67,16 +74,19 @@ template <class AnyMesh> void tessellate(const AnyMesh& mesh, Voronoi& out) {
 }
 
 } // namespace
-} // namespace detail
 
-Voronoi voronoi(const Mesh& mesh) {
-  detail::require(mesh.closed(),
-                  "the mesh is open, as all its sites lie in a hemisphere, and its Voronoi cells "
-                  "do not tessellate the sphere: give sites all around");
+Voronoi voronoi_at(const Points3& points, const Mesh& mesh) {
+  require(mesh.closed(),
+          "the mesh is open, as all its sites lie in a hemisphere, and its Voronoi cells do not "
+          "tessellate the sphere: give sites all around");
   Voronoi out;
-  detail::tessellate(mesh, out);
+  tessellate(MeshAt{points, mesh.triangles, mesh.neighbours}, out);
   return out;
 }
+
+} // namespace detail
+
+Voronoi voronoi(const Mesh& mesh) { return detail::voronoi_at(mesh.points, mesh); }
 
 Voronoi voronoi(const PlanarMesh& mesh) {
   // Areas' products and quotients must stay among the doubles.

@@ -14,7 +14,8 @@ struct Check {
   std::int64_t sites = 0;
   std::int64_t triangles = 0;
   std::int64_t boundary_edges = 0;
-  double area = 0; ///< sum of the triangles' areas on the unit sphere, steradians
+  double area = 0;  ///< sum of the triangles' areas: steradians on the unit sphere, or of the plane
+  double whole = 0; ///< what it should be: 4 pi (0 for an open mesh); of the plane's hull or box
 
   bool passed() const { return failure.empty(); }
 };
@@ -26,5 +27,11 @@ struct Check {
 /// by the library's rule; a boundary that is convex; areas that sum to 4 pi when closed. Local
 /// properties imply the global one (Delaunay, 1934), so the cost is linear.
 Check check(const Mesh& mesh);
+
+/// The same in the plane: Euler's characteristic 1, and areas that sum to that of the boundary's
+/// polygon; in a periodic box no boundary, Euler's characteristic 0, and areas that sum to the
+/// box's. There a triangle wider than half of the box counts as a failure, as delaunay() makes
+/// none.
+Check check(const PlanarMesh& mesh);
 
 } // namespace calotte

@@ -3,6 +3,7 @@
 
 #include <calotte/delaunay.h>
 #include <calotte/density.h>
+#include <calotte/domain.h>
 #include <calotte/types.h>
 
 #include <cstdint>
@@ -11,15 +12,15 @@
 
 namespace calotte {
 
-/// What is compared with the tolerance, for n generators x on the unit sphere whose centroids, to
-/// which Lloyd's step would move them, are x'. The first two are as printed by Jacobsen et al.,
+/// What is compared with the tolerance, for n generators x whose centroids, to which Lloyd's step
+/// would move them, are x'. The first two are as printed by Jacobsen et al.,
 /// 2013, Sect. 2.2; MPI-SCVT divides outside the root.
 enum class Norm {
   l2,          ///< sqrt( (1/n) sum |x - x'|^2 )
   linf,        ///< max |x - x'|
-  l2_scaled,   ///< l2 over h = sqrt(4 pi / n)
+  l2_scaled,   ///< l2 over h = sqrt(4 pi / n), in the plane sqrt(area / n)
   linf_scaled, ///< linf over h
-  gradient,    ///< sqrt( sum |g|^2 ), g = dE/dx = -2 (M - (M.x) x) of the energy, before the move
+  gradient,    ///< sqrt( sum |g|^2 ), g = dE/dx of the energy, before the move
   none,        ///< nothing is: the run ends, converged, after max_iterations
 };
 
@@ -58,6 +59,7 @@ struct CvtOptions {
 /// One evaluation of the energy and its centroids; an iteration of Lloyd's method.
 struct CvtIteration {
   std::int64_t cells = 0;
+  double spacing = 0;      ///< h of so many cells: the root of the area of one
   int rule = 0;            ///< quadrature points on each half kite, 0 for the exact moments
   double l2 = 0, linf = 0; ///< on the unit sphere, not scaled
   double gradient = 0;     ///< see Norm
@@ -105,7 +107,7 @@ struct CvtMemory {
 
 /// All that a run needs to go on with the same bits: what a checkpoint holds.
 struct CvtState {
-  Points3 points;                          ///< unit generators, along a space-filling curve
+  Points3 points; ///< unit generators, along a space-filling curve; in the plane with z = 0
   std::vector<std::int32_t> id;            ///< of each: its column in the result
   std::vector<std::int32_t> site_of_input; ///< as Mesh's; of the start, or empty after a bisection
   int bisections_left = 0;
@@ -136,16 +138,40 @@ using CvtStop = std::function<bool(const CvtState&)>;
 /// within max_iterations is reported, not an error.
 ///
 /// \param start 3 x n directions, 12 distinct at least, not within a hemisphere; equal ones merge.
+///        Moved here, they take no memory beside the run's own.
 ///
 /// \throws Error as delaunay(); too_few_sites for fewer than 12 generators, or when they leave a
 /// hemisphere empty or meet; bad_option for an option out of range, or a density that is
 /// ill-formed, negative or NaN somewhere, or zero over a whole cell.
-Cvt cvt(const Points3& start, const CvtOptions& options = {}, const CvtStop& stop = {});
+Cvt cvt(Points3 start, const CvtOptions& options = {}, const CvtStop& stop = {});
 
 /// Goes on from a state to the bits that the run would have reached without the interruption,
 /// provided that the options are the same. \throws Error as above; bad_option for a state that is
 /// not whole.
 Cvt cvt(CvtState state, const CvtOptions& options, const CvtStop& stop = {});
+
+/// A centroidal Voronoi tessellation of a planar domain.
+struct PlanarCvt {
+  PlanarMesh mesh; ///< Delaunay triangulation of the generators, in the order of the start; in a
+                   ///< periodic box where that is
+  CvtReport report;
+};
+
+/// The same in a domain of the plane, whose boundary clips the cells. The centroid M/m of a cell
+/// that reaches around a corner of the domain may lie outside: its generator then goes to the
+/// nearest place inside, and rests there. A bisection adds the midpoints of the edges that lie
+/// inside; lengths of the report are in the domain's unit.
+///
+/// \param start 2 x n places inside the domain, 3 distinct at least, not on one line; in a periodic
+///        box as delaunay(start, period) asks for.
+/// \throws Error as above; bad_option as require_domain(), or with the index of a generator outside
+///         of the domain.
+PlanarCvt cvt(const Points2& start, const PlanarDomain& domain, const CvtOptions& options = {},
+              const CvtStop& stop = {});
+
+/// \throws Error as above.
+PlanarCvt cvt(CvtState state, const PlanarDomain& domain, const CvtOptions& options,
+              const CvtStop& stop = {});
 
 /// Where a continuation to a number of cells starts: n cells with bisections b reach it when
 /// cells = 4^b (n - 2) + 2.

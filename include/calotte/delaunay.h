@@ -85,6 +85,11 @@ struct DelaunayReport {
 Mesh delaunay(const Points3& points, const DelaunayOptions& options = {},
               DelaunayReport* report = nullptr);
 
+/// The same of points that the caller hands over: unless some are merged they become the mesh's,
+/// and are never copied.
+Mesh delaunay(Points3&& points, const DelaunayOptions& options = {},
+              DelaunayReport* report = nullptr);
+
 /// The Delaunay triangulation of sites in the plane: that of their convex hull. Their doubles are
 /// taken as exact, whatever their size; all that is said above holds for it, of places instead of
 /// directions. Of the options' centres z counts for nothing, and merge_within is a distance.

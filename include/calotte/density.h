@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <calotte/domain.h>
 #include <calotte/types.h>
 
 #include <functional>
@@ -12,6 +13,9 @@ namespace calotte {
 /// rho(x) = (tanh((beta - d)/alpha) + 1) / (2 (1 - gamma)) + gamma, d the angle between x and the
 /// centre. About 1 within beta of the centre, gamma far away, changing over a width alpha. Spacings
 /// differ by gamma^(-1/4): (1/8)^4 is the paper's x8.
+///
+/// In the plane the centre is a place (x, y, any z), d a distance, in a periodic box the least to a
+/// copy of the centre; beta and alpha are lengths.
 struct Bump {
   Eigen::Vector3d centre{0, 0, 1};  ///< a direction
   double beta = 0.5235987755982988; ///< > 0
@@ -24,12 +28,14 @@ struct Bump {
   Eigen::Vector3d major{1, 0, 0};
 };
 
-/// A density on the unit sphere: uniform, bumps, or a callable.
+/// A density on the unit sphere or in the plane: uniform, bumps, or a callable.
 struct Density {
   enum class Kind { uniform, maximum, sum, callable };
   /// Fills rho(j) with the density at column j of x, unit columns: from 1e-150 to 1e150 where it is
   /// not 0, and of that column alone. It is called from many threads at once with blocks of a few
-  /// dozen columns, the last of which may be repeats.
+  /// dozen columns, the last of which may be repeats. In the plane columns are (x, y, 0): of a
+  /// periodic box inside it; of another domain inside it or, beside its boundary, within a cell's
+  /// width of it.
   using Callable =
       std::function<void(const Eigen::Ref<const Points3>& x, Eigen::Ref<Eigen::VectorXd> rho)>;
 
@@ -49,10 +55,16 @@ Density tanh_bump(const Eigen::Vector3d& centre, double beta, double alpha, doub
 /// from that. \throws Error bad_option, when the density is ill-formed.
 Density site_density(const Density& density);
 
+/// The same of a density in a planar domain; what it gives knows of a box's period.
+Density site_density(const Density& density, const PlanarDomain& domain);
+
 /// The density at each of n unit columns.
 /// \param x 3 x n.
 /// \throws Error bad_option, when the density is ill-formed, or a callable's value negative,
 /// infinite or NaN.
 Eigen::VectorXd evaluate(const Density& density, const Points3& x);
+
+/// The same at n places of a planar domain, 2 x n.
+Eigen::VectorXd evaluate(const Density& density, const PlanarDomain& domain, const Points2& places);
 
 } // namespace calotte

@@ -2,15 +2,16 @@
 #pragma once
 
 #include <calotte/density.h>
+#include <calotte/domain.h>
 #include <calotte/types.h>
 
 #include <cstdint>
 
 namespace calotte {
 
-/// All generators return 3 x n unit columns (to the last bits), Cartesian, and the same bits on
-/// every machine. They throw Error bad_option on a count out of range; none makes more than 2^30
-/// points.
+/// All generators of the sphere return 3 x n unit columns (to the last bits), Cartesian, and the
+/// same bits on every machine. They throw Error bad_option on a count out of range; none makes more
+/// than 2^30 points.
 
 /// n >= 1 points, independent and uniform on the sphere; the same seed gives the same points, fewer
 /// of them the first ones. Marsaglia's rejection (Ann. Math. Stat. 43, 1972) from SplitMix64.
@@ -57,5 +58,38 @@ Points3 bisect(const Mesh& mesh);
 /// \throws Error bad_option, for fewer than 3 columns, or 4 rows, or an odd number of these; for a
 /// spacing that is not positive and finite.
 PlanarMesh periodic_hexagons(std::int64_t columns, std::int64_t rows, double spacing);
+
+// ---- The plane: 2 x n places inside a domain. They throw as require_domain(), too.
+
+/// n >= 1 places, independent and uniform; the same seed gives the same places for any number of
+/// threads, fewer of them the first ones.
+Points2 random_places(std::int64_t n, const PlanarDomain& domain, std::uint64_t seed = 1);
+
+/// The same, distributed as the density (of columns x, y, 0; bumps as cvt() has them in a plane):
+/// as random_sphere(n, density, seed) for a callable, so that what is narrower than 1/500 of the
+/// domain's longer extent can go unseen, but for the places that would fall there. \throws Error
+/// bad_option, as that.
+Points2 random_places(std::int64_t n, const PlanarDomain& domain, const Density& density,
+                      std::uint64_t seed = 1);
+
+/// A regular hexagonal lattice, rows along x from the bottom up. n >= 1.
+///
+/// Of a polygon, the places inside it of the lattice whose spacing s, bisected from
+/// sqrt(2 area / (sqrt(3) n)), makes them nearest to n, which they may miss by about half a row:
+/// those at x_0 + (i + 1/4) s, i + 3/4 in every second row, and y_0 + (j + 1/2) s sqrt(3)/2, with
+/// (x_0, y_0) the lower left corner of the least box around it. A rectangle of whole rows and
+/// columns is filled evenly.
+///
+/// Of a periodic box, at least 3 columns and an even number of rows, at least 4, stretched to fit:
+/// those for which the sum of how much the number misses n and how much the rows' distance misses
+/// sqrt(3)/2 of the columns', relative both, is least. A box of periodic_hexagons() has its points.
+/// \throws Error bad_option also for n < 12 in a periodic box, and where no place is inside.
+Points2 hexagonal_lattice(std::int64_t n, const PlanarDomain& domain);
+
+/// The points of a mesh, as they are, followed by those midpoints of its edges that are inside the
+/// domain or on its boundary, in the order of bisect(mesh). Of a periodic box: all midpoints
+/// between nearest copies, in the box (n -> 4n).
+/// \throws Error bad_option where an id is outside the mesh, or its period is not the domain's.
+Points2 bisect(const PlanarMesh& mesh, const PlanarDomain& domain);
 
 } // namespace calotte

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <calotte/cvt.h>
+#include <calotte/domain.h>
 #include <calotte/types.h>
 
 #include <cstdint>
@@ -41,10 +42,25 @@ Points2 read_planar_points(std::istream& in, const std::string& name,
                            std::vector<std::int64_t>* lines = nullptr);
 Points2 read_planar_points(const std::string& path, std::vector<std::int64_t>* lines = nullptr);
 
-/// x y z a line, with the fewest digits (17 at most) that read back to the same bits.
-/// \throws Error file.
+/// A domain of the plane, ready for require_domain(), by the file's name:
+///
+/// .geojson, .json: Polygon and MultiPolygon geometries, alone or in features or collections, all
+/// of them one domain. Positions are taken as x and y, in any unit; a third coordinate is ignored.
+///
+/// Else text: a corner x y a line, in the order of the ring, as read_planar_points has lines; a
+/// blank line, or one that starts with `>` (as in GMT's files of many segments), ends a ring.
+///
+/// A ring may repeat its first corner at its end.
+/// \throws Error parse, naming the line, or the feature and its ring; as require_domain(), with
+///         the file's name; file.
+PlanarDomain read_domain(const std::string& path);
+
+/// x y z a line, or x y of places in a plane, with the fewest digits (17 at most) that read back to
+/// the same bits. \throws Error file.
 void write_points(const std::string& path, const Points3& points);
 void write_points(std::ostream& out, const Points3& points);
+void write_points(const std::string& path, const Points2& points);
+void write_points(std::ostream& out, const Points2& points);
 
 enum class Format {
   by_name,         ///< of the path, see write
@@ -121,6 +137,9 @@ Format format_of(const std::string& path, Format option = Format::by_name);
 /// Whether the format's files hold Voronoi cells, so that it needs a closed mesh.
 bool holds_cells(Format format);
 
+/// \throws Error bad_option when `write` has no planar mesh, or no periodic one, of that format.
+void require_planar_format(const std::string& path, bool periodic, Format format);
+
 /// \throws Error bad_option when `write` does not know the path's suffix.
 void require_mesh_suffix(const std::string& path);
 
@@ -135,7 +154,8 @@ void require_mesh_suffix(const std::string& path);
 /// \param points the columns that a .txt/.tri file refers to; not used otherwise. A column in no
 ///        triangle is the duplicate of one that has the same direction, or else stays as a site
 ///        without triangles.
-/// \throws Error bad_option, parse, file; of a planar mesh bad_option; of sites that delaunay()
+/// \throws Error bad_option, parse, file; of a planar mesh (all z are 0) bad_option; of sites that
+/// delaunay()
 ///         refuses, its code.
 Mesh read_mesh(const std::string& path, const Points3* points = nullptr);
 
@@ -146,8 +166,12 @@ Mesh read_mesh(const std::string& path, const Points3* points = nullptr);
 /// \throws Error as read_mesh.
 Points3 read_sites(const std::string& path);
 
-/// A periodic plane of an MPAS file. \throws Error as read_mesh; bad_option of a sphere's mesh.
-PlanarMesh read_planar_mesh(const std::string& path);
+/// A mesh of the plane: a periodic one from an MPAS file (.nc); others from all that
+/// write(path, PlanarMesh) writes, and JIGSAW's of NDIMS=2. Without triangles, the points are
+/// triangulated.
+/// \param points as read_mesh's. \throws Error as read_mesh; bad_option of a sphere's mesh, one
+/// with a z that is not 0.
+PlanarMesh read_planar_mesh(const std::string& path, const Points2* points = nullptr);
 
 /// A variable of a NetCDF file with one number for each cell.
 struct CellField {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <calotte/density.h>
+#include <calotte/domain.h>
 #include <calotte/types.h>
 
 #include <cstdint>
@@ -61,5 +62,15 @@ struct Quality {
 ///         tessellate the sphere; for a density that is ill-formed, negative, infinite or NaN
 ///         somewhere, or zero over a whole cell.
 Quality quality(const Mesh& mesh, const Density& density = {});
+
+/// Measures a mesh of generators in a domain of the plane. Lengths and areas are in the domain's
+/// unit, h = sqrt(area / n), and cells_area is over the domain's area; triangles_area is 0. Cells
+/// are clipped by the domain: cell_area, residual and energy are of all; sigma, cell_quality and
+/// degrees of the cells that the domain holds whole; triangles those with the circumcentre in it,
+/// and edges theirs.
+///
+/// \param mesh the Delaunay triangulation of its points; of a periodic box, as that is.
+/// \throws Error as above; bad_option as require_domain(), or for a generator outside.
+Quality quality(const PlanarMesh& mesh, const PlanarDomain& domain, const Density& density = {});
 
 } // namespace calotte

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "assemble.h"
 
+#include "../plane_predicates.h"
 #include "../predicates.h"
 
 #include <algorithm>
@@ -62,18 +63,27 @@ void link(const Triangles& triangles, std::int64_t h, Meeting& edge, Triangles& 
   }
 }
 
-Vec3 column(const Points3& points, std::int32_t i) {
-  return {points(0, i), points(1, i), points(2, i)};
+/// The order of sites; 0 for equal ones.
+int compare_columns(const Points3& points, std::int32_t a, std::int32_t b) {
+  const auto column = [&](std::int32_t i) {
+    return Vec3{points(0, i), points(1, i), points(2, i)};
+  };
+  return compare_directions(column(a), column(b));
 }
 
-/// For each column the one that stands for its direction: a column in a triangle for itself, any
-/// other for the lowest equal one in a triangle, or if there is none the lowest equal one.
-std::vector<std::int32_t> stands_for(const Points3& columns, const std::vector<bool>& in_triangle) {
+int compare_columns(const Points2& points, std::int32_t a, std::int32_t b) {
+  return compare(Vec2{points(0, a), points(1, a)}, Vec2{points(0, b), points(1, b)});
+}
+
+/// For each column the one that stands for its site: a column in a triangle for itself, any other
+/// for the lowest equal one in a triangle, or if there is none the lowest equal one.
+template <class Points>
+std::vector<std::int32_t> stands_for(const Points& columns, const std::vector<bool>& in_triangle) {
   std::vector<std::int32_t> order(static_cast<std::size_t>(columns.cols()));
   std::iota(order.begin(), order.end(), 0);
   std::vector<std::int32_t> result = order;
   std::sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) {
-    const int sign = compare_directions(column(columns, a), column(columns, b));
+    const int sign = compare_columns(columns, a, b);
     if (sign != 0)
       return sign < 0;
     const bool a_in = in_triangle[static_cast<std::size_t>(a)];
@@ -82,7 +92,7 @@ std::vector<std::int32_t> stands_for(const Points3& columns, const std::vector<b
   });
   for (std::size_t k = 1; k < order.size(); ++k)
     if (!in_triangle[static_cast<std::size_t>(order[k])] &&
-        same_direction(column(columns, order[k - 1]), column(columns, order[k])))
+        compare_columns(columns, order[k - 1], order[k]) == 0)
       result[static_cast<std::size_t>(order[k])] = result[static_cast<std::size_t>(order[k - 1])];
   return result;
 }
@@ -107,13 +117,19 @@ Triangles neighbours_of(const Triangles& triangles, std::int64_t points) {
   return neighbours;
 }
 
-Mesh mesh_of_columns(const Points3& columns, const Triangles& triangles) {
+namespace {
+
+template <class AnyMesh, class Points>
+AnyMesh mesh_of(const Points& columns, const Triangles& triangles) {
   const auto count = static_cast<std::size_t>(columns.cols());
   std::vector<bool> in_triangle(count);
   for (const std::int32_t id : triangles.reshaped())
     in_triangle[static_cast<std::size_t>(id)] = true;
 
-  Mesh mesh{columns, triangles, {}, std::vector<std::int32_t>(count)};
+  AnyMesh mesh;
+  mesh.points = columns;
+  mesh.triangles = triangles;
+  mesh.site_of_input.resize(count);
   std::iota(mesh.site_of_input.begin(), mesh.site_of_input.end(), 0);
   if (std::find(in_triangle.begin(), in_triangle.end(), false) != in_triangle.end()) {
     const std::vector<std::int32_t> stands = stands_for(columns, in_triangle);
@@ -126,12 +142,22 @@ Mesh mesh_of_columns(const Points3& columns, const Triangles& triangles) {
       }
     for (std::size_t i = 0; i < count; ++i)
       mesh.site_of_input[i] = site[static_cast<std::size_t>(stands[i])];
-    mesh.points.conservativeResize(3, sites);
+    mesh.points.conservativeResize(Eigen::NoChange, sites);
     for (std::int32_t& id : mesh.triangles.reshaped())
       id = site[static_cast<std::size_t>(id)];
   }
   mesh.neighbours = neighbours_of(mesh.triangles, mesh.points.cols());
   return mesh;
+}
+
+} // namespace
+
+Mesh mesh_of_columns(const Points3& columns, const Triangles& triangles) {
+  return mesh_of<Mesh>(columns, triangles);
+}
+
+PlanarMesh mesh_of_columns(const Points2& columns, const Triangles& triangles) {
+  return mesh_of<PlanarMesh>(columns, triangles);
 }
 
 } // namespace calotte::detail

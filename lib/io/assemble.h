@@ -14,5 +14,7 @@ Triangles neighbours_of(const Triangles& triangles, std::int64_t points);
 /// direction as one in a triangle is its duplicate; the others stay as sites. \pre as
 /// neighbours_of.
 Mesh mesh_of_columns(const Points3& columns, const Triangles& triangles);
+/// The same with places.
+PlanarMesh mesh_of_columns(const Points2& columns, const Triangles& triangles);
 
 } // namespace calotte::detail

@@ -2,13 +2,13 @@
 #include "cell_width_file.h"
 
 #include "file.h"
+#include "file_names.h"
 
 #include <calotte/error.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 
 namespace calotte {
 namespace detail {
@@ -92,8 +92,6 @@ void drop_repeated(Raster& raster, const std::string& name) {
   raster.longitudes.pop_back();
   raster.widths.conservativeResize(last, Eigen::NoChange);
 }
-
-std::string suffix_of(const std::string& path) { return std::filesystem::path(path).extension(); }
 
 } // namespace
 

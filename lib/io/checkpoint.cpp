@@ -22,12 +22,13 @@ using namespace detail;
 constexpr std::string_view format = "calotte checkpoint ";
 
 std::string head() {
-  return std::string(format) + "2, " + (little_endian ? "little" : "big") + "-endian\n";
+  return std::string(format) + "3, " + (little_endian ? "little" : "big") + "-endian\n";
 }
 
 /// One list of fields serves writing and reading.
 template <class Iteration, class Visit> void visit_iteration(Iteration& i, const Visit& visit) {
-  visit(i.cells), visit(i.rule), visit(i.l2), visit(i.linf), visit(i.gradient), visit(i.energy);
+  visit(i.cells), visit(i.spacing), visit(i.rule), visit(i.l2), visit(i.linf), visit(i.gradient),
+      visit(i.energy);
   visit(i.accepted), visit(i.flips), visit(i.rebuilt), visit(i.seconds);
   visit(i.seconds_exchange), visit(i.seconds_repair), visit(i.seconds_moments);
   visit(i.seconds_solver);

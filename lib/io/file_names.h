@@ -17,6 +17,9 @@ inline constexpr std::string_view density_name = "SaveDensity";
 inline constexpr std::string_view centres_name = "RegionList";
 inline constexpr std::string_view centre_triangles_name = "RegionTriangulation";
 
+/// ".nc" of NAME.NC: in lower case, or nothing.
+std::string suffix_of(const std::string& path);
+
 bool is_netcdf(Format format);
 
 /// The format of a mesh file's name, if it says one.

@@ -25,13 +25,6 @@ constexpr std::array suffixes{Suffix{".nc", Format::mpas},        Suffix{".vtp",
                               Suffix{".txt", Format::triangles},  Suffix{".tri", Format::triangles},
                               Suffix{".geojson", Format::geojson}};
 
-std::string suffix_of(const std::string& path) {
-  std::string suffix = std::filesystem::path(path).extension();
-  std::transform(suffix.begin(), suffix.end(), suffix.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return suffix;
-}
-
 /// The format that stands for those of one suffix.
 Format of_suffix(Format format) {
   switch (format) {
@@ -53,6 +46,13 @@ Format of_suffix(Format format) {
 std::string name_of(const std::string& path) { return std::filesystem::path(path).filename(); }
 
 } // namespace
+
+std::string suffix_of(const std::string& path) {
+  std::string suffix = std::filesystem::path(path).extension();
+  std::transform(suffix.begin(), suffix.end(), suffix.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return suffix;
+}
 
 bool is_netcdf(Format format) { return of_suffix(format) == Format::mpas; }
 

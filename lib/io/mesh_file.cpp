@@ -110,18 +110,6 @@ void write_numbered(const std::string& path, const Mesh& mesh, const WriteOption
   }
 }
 
-void require_planar_format(const std::string& path, bool periodic, Format format) {
-  const bool mpas = format == Format::mpas || format == Format::mpas_minimal;
-  const bool places = format == Format::vtp || format == Format::vtu || format == Format::off ||
-                      format == Format::ply || format == Format::msh;
-  if (format == Format::triangles || (periodic ? mpas : places))
-    return;
-  refuse(path, periodic ? "a periodic plane is written as MPAS or as triangles alone; give a name "
-                          "that ends in .nc, .txt or .tri"
-                        : "a plane is written as triangles, .vtp, .vtu, .off, .ply or .msh; give a "
-                          "name that ends so");
-}
-
 /// At z = 0.
 Mesh in_space(const PlanarMesh& mesh) {
   Mesh out{Points3::Zero(3, mesh.points.cols()), mesh.triangles, mesh.neighbours,
@@ -131,6 +119,14 @@ Mesh in_space(const PlanarMesh& mesh) {
 }
 
 // ---- Reading
+
+/// All sites on one great circle have no mesh of the sphere: more likely they are a plane's.
+void require_sphere(const std::string& name, const Points3& points) {
+  if (points.cols() >= 3 && (points.row(2).array() == 0).all())
+    throw Error(ErrorCode::bad_option,
+                name + ": z is 0 at all points, which makes a mesh of the plane; read it as such "
+                       "(--plane)");
+}
 
 void require_directions(const std::string& name, const Points3& points) {
   for (Eigen::Index i = 0; i < points.cols(); ++i)
@@ -152,7 +148,8 @@ void require_ids(const std::string& name, const Triangles& triangles, std::int64
                     t);
 }
 
-Mesh triangulated(const std::string& name, const Points3& sites) {
+/// Either kind of points.
+auto triangulated(const std::string& name, const auto& sites) {
   try {
     return delaunay(sites);
   } catch (const Error& error) {
@@ -161,6 +158,7 @@ Mesh triangulated(const std::string& name, const Points3& sites) {
 }
 
 Mesh mesh_of(const std::string& name, Soup soup) {
+  require_sphere(name, soup.points);
   require_directions(name, soup.points);
   if (soup.triangles.cols() == 0)
     return triangulated(name, soup.points);
@@ -169,6 +167,32 @@ Mesh mesh_of(const std::string& name, Soup soup) {
   mesh.neighbours = neighbours_of(mesh.triangles, mesh.points.cols());
   mesh.site_of_input = themselves(mesh.points.cols());
   return mesh;
+}
+
+void require_places(const std::string& name, const Points3& points) {
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    if (!points.col(i).allFinite())
+      throw Error(ErrorCode::parse,
+                  name + ": point " + std::to_string(i) +
+                      " has no place (NaN or infinite); make the file again",
+                  i);
+    if (points(2, i) != 0)
+      throw Error(ErrorCode::bad_option,
+                  name + ": z is not 0 at point " + std::to_string(i) +
+                      ", which makes no mesh of the plane; read it as one of the sphere (without "
+                      "--plane)",
+                  i);
+  }
+}
+
+PlanarMesh planar_mesh_of(const std::string& name, const Soup& soup) {
+  require_places(name, soup.points);
+  const Points2 places = soup.points.topRows<2>();
+  if (soup.triangles.cols() == 0)
+    return triangulated(name, places);
+  require_ids(name, soup.triangles, places.cols());
+  return {places, soup.triangles, neighbours_of(soup.triangles, places.cols()),
+          themselves(places.cols())};
 }
 
 Soup read_netcdf(const std::string& path) {
@@ -236,6 +260,11 @@ bool holds_netcdf(const std::string& path) {
   return !format || is_netcdf(*format);
 }
 
+[[noreturn]] void refuse_triangles_alone(const std::string& path) {
+  throw Error(ErrorCode::bad_option,
+              path + " holds triangles only; give the points they refer to (--points FILE)");
+}
+
 /// Of all formats that hold points.
 Soup read_soup(const std::string& path) {
   if (std::optional<Soup> centres = read_centres(path))
@@ -244,8 +273,7 @@ Soup read_soup(const std::string& path) {
     return read_netcdf(path);
   const std::optional<Format> format = format_of_name(path);
   if (*format == Format::triangles)
-    throw Error(ErrorCode::bad_option,
-                path + " holds triangles only; give the points they refer to (--points FILE)");
+    refuse_triangles_alone(path);
   return *format == Format::mpi_scvt ? read_mpi_scvt(path) : read_stream(path, *format);
 }
 
@@ -274,6 +302,18 @@ void write(const std::string& path, const Mesh& mesh, const WriteOptions& option
     write_numbered(path, mesh, resolved);
 }
 
+void require_planar_format(const std::string& path, bool periodic, Format format) {
+  const bool mpas = format == Format::mpas || format == Format::mpas_minimal;
+  const bool places = format == Format::vtp || format == Format::vtu || format == Format::off ||
+                      format == Format::ply || format == Format::msh;
+  if (format == Format::triangles || (periodic ? mpas : places))
+    return;
+  refuse(path, periodic ? "a periodic plane is written as MPAS or as triangles alone; give a name "
+                          "that ends in .nc, .txt or .tri"
+                        : "a plane is written as triangles, .vtp, .vtu, .off, .ply or .msh; give a "
+                          "name that ends so");
+}
+
 void write(const std::string& path, const PlanarMesh& mesh, const WriteOptions& options) {
   WriteOptions resolved = options;
   resolved.format = format_of(path, options.format);
@@ -299,17 +339,26 @@ Mesh read_mesh(const std::string& path, const Points3* points) {
 
 Points3 read_sites(const std::string& path) {
   Points3 sites = sites_of(path);
+  require_sphere(path, sites);
   require_directions(path, sites);
   return sites;
 }
 
-PlanarMesh read_planar_mesh(const std::string& path) {
-  if (!holds_netcdf(path))
-    refuse(path, "a periodic plane is read from MPAS's NetCDF files alone");
-  const NetcdfReader file(path);
-  if (!is_mpas(file))
-    file.fail("no MPAS mesh, which alone holds a periodic plane");
-  return read_planar_mpas(file);
+PlanarMesh read_planar_mesh(const std::string& path, const Points2* points) {
+  if (holds_netcdf(path)) {
+    const NetcdfReader file(path);
+    if (!is_mpas(file))
+      file.fail("no MPAS mesh, which alone of NetCDF's holds a plane");
+    return read_planar_mpas(file);
+  }
+  const Format format = *format_of_name(path);
+  require_planar_format(path, false, format);
+  if (format != Format::triangles)
+    return planar_mesh_of(path, read_stream(path, format));
+  if (!points)
+    refuse_triangles_alone(path);
+  std::ifstream in = open_input(path);
+  return mesh_of_columns(*points, get_triangles_text(in, path, points->cols()));
 }
 
 } // namespace calotte

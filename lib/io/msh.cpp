@@ -29,6 +29,11 @@ Soup get_msh(std::istream& in, const std::string& name) {
   if (file.points.cols() == 0)
     throw Error(ErrorCode::parse,
                 name + ": no POINT section; give a mesh of the sphere, with points");
+  if (file.dimensions == 2 && file.kind == "euclidean-mesh") { // of the plane
+    Points3 places = Points3::Zero(3, file.points.cols());
+    places.topRows<2>() = file.points;
+    return {std::move(places), file.triangles};
+  }
   return {directions_of(file, name), file.triangles};
 }
 

@@ -117,23 +117,39 @@ std::vector<double> read_rows(std::istream& in, const std::string& name, const R
   return coordinates;
 }
 
-} // namespace
+// ---- Writing
 
-namespace detail {
-
-void put_points(const Sink& sink, const Points3& points) {
-  Writer out(sink);
+/// x y (z) a line, of either kind of points.
+template <class Points> void put_points(const detail::Sink& sink, const Points& points) {
+  detail::Writer out(sink);
   for (Eigen::Index i = 0; i < points.cols(); ++i)
-    out.number(points(0, i))
-        .text(" ")
-        .number(points(1, i))
-        .text(" ")
-        .number(points(2, i))
-        .text("\n");
+    for (Eigen::Index j = 0; j < points.rows(); ++j)
+      out.number(points(j, i)).text(j + 1 == points.rows() ? "\n" : " ");
   out.flush();
 }
 
-} // namespace detail
+template <class Points> void write_rows(const std::string& path, const Points& points) {
+  detail::OutputFile file(path);
+  put_points([&](std::string_view bytes) { file.append(bytes); }, points);
+  file.commit();
+}
+
+template <class Points> void write_rows(std::ostream& out, const Points& points) {
+  put_points(
+      [&](std::string_view bytes) {
+        out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+      },
+      points);
+  if (!out.flush())
+    throw Error(ErrorCode::file, "cannot write the points: the stream failed; make room or write "
+                                 "elsewhere");
+}
+
+} // namespace
+
+void detail::put_points(const Sink& sink, const Points3& points) {
+  calotte::put_points(sink, points);
+}
 
 Points3 read_points(std::istream& in, const std::string& name, Columns columns,
                     std::vector<std::int64_t>* lines) {
@@ -159,21 +175,9 @@ Points3 read_points(const std::string& path, Columns columns, std::vector<std::i
   return read_points(in, path, columns, lines);
 }
 
-void write_points(const std::string& path, const Points3& points) {
-  detail::OutputFile file(path);
-  detail::put_points([&](std::string_view bytes) { file.append(bytes); }, points);
-  file.commit();
-}
-
-void write_points(std::ostream& out, const Points3& points) {
-  detail::put_points(
-      [&](std::string_view bytes) {
-        out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-      },
-      points);
-  if (!out.flush())
-    throw Error(ErrorCode::file, "cannot write the points: the stream failed; make room or write "
-                                 "elsewhere");
-}
+void write_points(const std::string& path, const Points3& points) { write_rows(path, points); }
+void write_points(std::ostream& out, const Points3& points) { write_rows(out, points); }
+void write_points(const std::string& path, const Points2& points) { write_rows(path, points); }
+void write_points(std::ostream& out, const Points2& points) { write_rows(out, points); }
 
 } // namespace calotte
