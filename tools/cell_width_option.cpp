@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cell_width_option.h"
 
-#include <calotte/error.h>
+#include "commands.h"
 
-#include <boost/crc.hpp>
+#include <calotte/error.h>
 
 #include <array>
 #include <cerrno>
@@ -55,23 +55,6 @@ CLI::Validator kilometres() {
 bool is_geojson(const std::string& path) {
   const std::string suffix = std::filesystem::path(path).extension();
   return suffix == ".geojson" || suffix == ".json";
-}
-
-/// Of a file's bytes, and how many they are.
-std::string checksum_of(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  boost::crc_32_type checksum;
-  std::int64_t size = 0;
-  std::array<char, 1 << 16> bytes;
-  while (in.read(bytes.data(), bytes.size()) || in.gcount() > 0) {
-    checksum.process_bytes(bytes.data(), static_cast<std::size_t>(in.gcount()));
-    size += in.gcount();
-  }
-  if (in.bad() || !in.eof())
-    throw Error(ErrorCode::file, "cannot read " + path + ": " +
-                                     std::generic_category().message(errno) +
-                                     "; check its name and its permissions");
-  return std::to_string(size) + " bytes with checksum " + std::to_string(checksum.checksum());
 }
 
 } // namespace

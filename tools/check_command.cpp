@@ -7,6 +7,8 @@
 #include <iomanip>
 #include <iostream>
 #include <numbers>
+#include <sstream>
+#include <string>
 
 namespace calotte::tools {
 namespace {
@@ -14,9 +16,21 @@ namespace {
 Check read_and_check(const MeshSource& source) {
   Progress progress;
   progress.stage("reading " + source.path);
-  const Mesh mesh = read_mesh(source);
-  progress.stage("checking " + source.path);
-  return check(mesh);
+  const auto checked = [&](const auto& mesh) {
+    progress.stage("checking " + source.path);
+    return check(mesh);
+  };
+  return source.plane ? checked(read_planar_mesh(source)) : checked(read_mesh(source));
+}
+
+/// What the areas are compared with.
+std::string area_line(const Check& result, bool plane) {
+  std::ostringstream line;
+  line << (plane && result.boundary_edges > 0 ? "area / hull     "
+           : plane                            ? "area / box      "
+                                              : "area / 4 pi     ")
+       << std::setprecision(15) << result.area / (plane ? result.whole : 4 * std::numbers::pi);
+  return line.str();
 }
 
 void run(const MeshSource& source) {
@@ -24,8 +38,7 @@ void run(const MeshSource& source) {
   std::cout << "sites           " << result.sites << "\n"
             << "triangles       " << result.triangles << "\n"
             << "boundary edges  " << result.boundary_edges << "\n"
-            << "area / 4 pi     " << std::setprecision(15) << result.area / (4 * std::numbers::pi)
-            << "\n"
+            << area_line(result, source.plane) << "\n"
             << "Delaunay        " << (result.passed() ? "yes, all checks passed" : "no") << "\n";
   if (result.passed())
     return;
@@ -41,6 +54,7 @@ void add_check(CLI::App& app) {
       "check",
       "Prove in exact arithmetic that a mesh is the Delaunay triangulation of its points.");
   auto source = add_mesh_source(*command);
+  add_plane(*command, *source);
   command->callback([source] { run(*source); });
 }
 

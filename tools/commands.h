@@ -58,6 +58,10 @@ struct Output {
 /// \throws Error file, bad_option.
 void require_outputs(const std::vector<Output>& outputs, const std::vector<std::string>& inputs);
 
+/// What tells a file's bytes from others', for configurations: a checksum and their number.
+/// \throws Error file.
+std::string checksum_of(const std::string& path);
+
 /// With the fewest digits that read back to the same bits.
 std::string shortest(double value);
 
@@ -105,12 +109,17 @@ struct MeshSource {
   std::string path;
   std::string points;
   bool lonlat = false;
+  bool plane = false; ///< a mesh of the plane, read by read_planar_mesh
 };
 
 /// Adds the positional MESH, or of another name, and the options --points and --lonlat.
 std::shared_ptr<MeshSource> add_mesh_source(CLI::App& command, const std::string& names = "MESH");
 
+/// Adds --plane. \returns the option.
+CLI::Option* add_plane(CLI::App& command, MeshSource& source);
+
 /// \throws Error as read_mesh and read_points do.
 Mesh read_mesh(const MeshSource& source);
+PlanarMesh read_planar_mesh(const MeshSource& source);
 
 } // namespace calotte::tools

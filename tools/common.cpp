@@ -6,11 +6,16 @@
 #include <calotte/error.h>
 #include <calotte/io.h>
 
+#include <boost/crc.hpp>
+
+#include <array>
 #include <cerrno>
 #include <charconv>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <limits>
+#include <string_view>
 #include <system_error>
 
 #include <unistd.h>
@@ -56,6 +61,22 @@ void require_outputs(const std::vector<Output>& outputs, const std::vector<std::
                                                output->what + "; give the " + output->what +
                                                " another name");
   }
+}
+
+std::string checksum_of(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  boost::crc_32_type checksum;
+  std::int64_t size = 0;
+  std::array<char, 1 << 16> bytes;
+  while (in.read(bytes.data(), bytes.size()) || in.gcount() > 0) {
+    checksum.process_bytes(bytes.data(), static_cast<std::size_t>(in.gcount()));
+    size += in.gcount();
+  }
+  if (in.bad() || !in.eof())
+    throw Error(ErrorCode::file, "cannot read " + path + ": " +
+                                     std::generic_category().message(errno) +
+                                     "; check its name and its permissions");
+  return std::to_string(size) + " bytes with checksum " + std::to_string(checksum.checksum());
 }
 
 std::string shortest(double value) {
@@ -109,7 +130,10 @@ void rethrow_with_line(const Error& error, const std::string& name,
                        const std::vector<std::int64_t>& lines) {
   const bool of_input = error.code() == ErrorCode::not_finite ||
                         error.code() == ErrorCode::zero_vector ||
-                        error.code() == ErrorCode::duplicate;
+                        error.code() == ErrorCode::duplicate ||
+                        // outside of a domain; other options' indices are of other things
+                        (error.code() == ErrorCode::bad_option &&
+                         std::string_view(error.what()).starts_with("point "));
   if (!of_input || error.index() < 0 || error.index() >= static_cast<std::int64_t>(lines.size()))
     throw error;
   const std::int64_t line = lines[static_cast<std::size_t>(error.index())];
@@ -136,6 +160,21 @@ Mesh read_mesh(const MeshSource& source) {
     return calotte::read_mesh(source.path);
   const Points3 points = read_point_file(source.points, source.lonlat).points;
   return calotte::read_mesh(source.path, &points);
+}
+
+CLI::Option* add_plane(CLI::App& command, MeshSource& source) {
+  return command
+      .add_flag("--plane", source.plane,
+                "the mesh is one of the plane: .vtp, .vtu, .off, .ply or .msh with z = 0, periodic "
+                "MPAS, or .txt and .tri with --points, x y a line")
+      ->excludes(command.get_option("--lonlat"));
+}
+
+PlanarMesh read_planar_mesh(const MeshSource& source) {
+  if (source.points.empty())
+    return calotte::read_planar_mesh(source.path);
+  const Points2 points = read_planar_point_file(source.points).points;
+  return calotte::read_planar_mesh(source.path, &points);
 }
 
 } // namespace calotte::tools

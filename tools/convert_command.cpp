@@ -42,15 +42,17 @@ void require_request(const Request& request) {
                                            "mesh with calotte delaunay");
 }
 
-/// A mesh of the sphere, or else of a periodic plane.
+/// A mesh of the sphere, or else of the plane.
 AnyMesh read(const MeshSource& source) {
+  if (source.plane)
+    return read_planar_mesh(source);
   try {
     return read_mesh(source);
   } catch (const Error& error) {
     if (error.code() != ErrorCode::bad_option)
       throw;
     try {
-      return read_planar_mesh(source.path);
+      return calotte::read_planar_mesh(source.path);
     } catch (const Error& other) {
       throw other.code() == ErrorCode::bad_option ? error : other;
     }
@@ -86,7 +88,7 @@ std::string describe(const Mesh& mesh) {
 
 std::string describe(const PlanarMesh& mesh) {
   return std::to_string(mesh.points.cols()) + " sites, " + std::to_string(mesh.triangles.cols()) +
-         " triangles, a periodic plane";
+         " triangles, a " + (mesh.period.minCoeff() > 0 ? "periodic plane" : "plane");
 }
 
 void run(const Request& request) {
@@ -112,6 +114,7 @@ void add_convert(CLI::App& app) {
       "convert", "Write a mesh in another format; its points and triangles stay what they are.");
   auto request = std::make_shared<Request>();
   request->source = add_mesh_source(*command, "IN,--input");
+  add_plane(*command, *request->source);
   command->add_option("OUT,-o,--output", request->output, help_of_output())
       ->type_name("FILE")
       ->required();

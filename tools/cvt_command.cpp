@@ -17,6 +17,7 @@
 #include <chrono>
 #include <cmath>
 #include <iostream>
+#include <numbers>
 #include <optional>
 
 namespace calotte::tools {
@@ -30,6 +31,17 @@ void require_positive(const std::string& option, double value, const std::string
                 option + " " + shortest(value) + " is not a positive number; give " + remedy);
 }
 
+/// What a run in the plane has none of.
+void require_plane(const CvtRequest& request, const WriteOptions& options) {
+  require_planar_format(request.mesh, request.domain->periodic.has_value(),
+                        format_of(request.mesh, options.format));
+  if (request.format->sphere_radius)
+    throw Error(ErrorCode::bad_option, "--sphere-radius is not for a plane; leave it out");
+  if (!request.density->widths.file.empty())
+    throw Error(ErrorCode::bad_option,
+                "--cell-width is for the sphere; give --density or --density-raster");
+}
+
 /// All that can be known to fail from the options alone.
 void require_request(const CvtRequest& request) {
   require_positive("--tolerance", request.tolerance, "one such as 1e-6");
@@ -37,10 +49,14 @@ void require_request(const CvtRequest& request) {
   if (request.relaxation != 1 && request.method != "lloyd")
     throw Error(ErrorCode::bad_option, "--relaxation is for --method lloyd only; leave it out");
   require_start(request);
-  options_of(*request.format, request.mesh); // throws for a file that could not be written
+  const WriteOptions options = // throws for a file that could not be written
+      options_of(*request.format, request.mesh);
+  if (planar(request))
+    require_plane(request, options);
   const WidthWords& widths = request.density->widths;
-  const std::vector<std::string> inputs{request.points, centres_file(*request.partition),
-                                        widths.file, widths.raster, *request.config};
+  const std::vector<std::string> inputs{
+      request.points, centres_file(*request.partition),  widths.file,
+      widths.raster,  request.domain->file.value_or(""), *request.config};
   require_outputs(
       {{"mesh", request.mesh}, {"report", request.report}, {"checkpoint", request.checkpoint}},
       inputs);
@@ -80,7 +96,11 @@ private:
 };
 
 struct Outcome {
-  Cvt result;
+  CvtReport report;
+  Mesh mesh;        ///< on the sphere
+  PlanarMesh plane; ///< or in the plane
+  std::int64_t cells = 0;
+  double area = 0;        ///< of the sphere or the domain
   int signal = 0;         ///< that ended it early
   std::size_t before = 0; ///< iterations of the parts that it resumed
   int threads = 0;
@@ -109,6 +129,7 @@ bool after_iteration(const CvtState& state, const CvtRequest& request, const Cvt
 /// All that a run needs.
 struct Plan {
   CvtOptions options;
+  std::optional<PlanarDomain> domain; ///< of a plane
   CvtStart start;
   std::string configuration;
   std::optional<CvtState> state; ///< where it goes on
@@ -118,8 +139,9 @@ struct Plan {
 Plan prepare(CvtRequest& request, Progress& progress) {
   Plan plan;
   plan.options = options_of(request);
+  plan.domain = domain_of(*request.domain);
   progress.stage("reading the density");
-  Resolution resolution = resolution_of(*request.density);
+  Resolution resolution = resolution_of(*request.density, planar(request));
   plan.options.density = std::move(resolution.density);
   const std::vector<std::string> notes = settle_cells(request, resolution.widths);
   progress.stage("making the start");
@@ -131,11 +153,31 @@ Plan prepare(CvtRequest& request, Progress& progress) {
   }
   for (const std::string& note : notes)
     progress.say("calotte: " + note);
-  generate_points(request, plan.options.density, plan.start);
+  generate_points(request, plan.options.density, plan.domain, plan.start);
   plan.options.bisections = plan.start.bisections;
   if (!plan.start.note.empty())
     progress.say("calotte: " + plan.start.note);
   return plan;
+}
+
+/// Its mesh is one of the two.
+void run_plan(Plan& plan, const CvtStop& stop, Outcome& outcome) {
+  const CvtOptions& options = plan.options;
+  if (plan.domain) {
+    PlanarCvt result = plan.state ? cvt(std::move(*plan.state), *plan.domain, options, stop)
+                                  : cvt(plan.start.places, *plan.domain, options, stop);
+    outcome.plane = std::move(result.mesh);
+    outcome.report = std::move(result.report);
+    outcome.cells = outcome.plane.points.cols();
+    outcome.area = area(*plan.domain);
+  } else {
+    Cvt result = plan.state ? cvt(std::move(*plan.state), options, stop)
+                            : cvt(plan.start.points, options, stop);
+    outcome.mesh = std::move(result.mesh);
+    outcome.report = std::move(result.report);
+    outcome.cells = outcome.mesh.points.cols();
+    outcome.area = 4 * std::numbers::pi;
+  }
 }
 
 /// \param plan gives its state away.
@@ -150,11 +192,10 @@ Outcome tessellate(const CvtRequest& request, Plan& plan, Progress& progress) {
   try {
     with_threads(request.partition->threads, [&] {
       outcome.threads = tbb::this_task_arena::max_concurrency();
-      outcome.result = plan.state ? cvt(std::move(*plan.state), plan.options, stop)
-                                  : cvt(plan.start.file.points, plan.options, stop);
+      run_plan(plan, stop, outcome);
     });
   } catch (const Error& error) {
-    rethrow_with_line(error, plan.start.file.name, plan.start.file.lines);
+    rethrow_with_line(error, plan.start.file, plan.start.lines);
   }
   return outcome;
 }
@@ -163,7 +204,7 @@ Outcome tessellate(const CvtRequest& request, Plan& plan, Progress& progress) {
 
 /// Says where a signal ended the run and how to go on.
 [[noreturn]] void finish_interrupted(const CvtRequest& request, const Outcome& outcome) {
-  const std::vector<CvtIteration>& iterations = outcome.result.report.iterations;
+  const std::vector<CvtIteration>& iterations = outcome.report.iterations;
   std::cerr << std::string("calotte: stopped by ") +
                    (outcome.signal == SIGINT ? "SIGINT" : "SIGTERM") + " after iteration " +
                    std::to_string(iterations.size()) + ", at " +
@@ -187,11 +228,16 @@ void write_result(const CvtRequest& request, const Plan& plan, const Outcome& ou
                   Progress& progress) {
   progress.stage("writing " + request.mesh);
   WriteOptions options = options_of(*request.format, request.mesh);
-  options.density = plan.options.density;
+  if (!plan.domain)
+    options.density = plan.options.density;
   options.history = history_of(plan.configuration);
-  write(request.mesh, outcome.result.mesh, options);
+  if (plan.domain)
+    write(request.mesh, outcome.plane, options);
+  else
+    write(request.mesh, outcome.mesh, options);
   if (!request.report.empty())
-    write_file(request.report, to_json(request, outcome.result, outcome.threads));
+    write_file(request.report,
+               to_json(request, outcome.report, outcome.cells, outcome.area, outcome.threads));
 }
 
 /// From the first iteration to the end of writing a signal ends the run in order.
@@ -210,17 +256,21 @@ void run(CvtRequest request) {
   const Outcome outcome = tessellate_and_write(request);
   if (outcome.signal != 0)
     finish_interrupted(request, outcome);
-  std::cout << summary(request, outcome.result, static_cast<std::int64_t>(outcome.before)) + "\n";
-  if (!outcome.result.report.converged)
-    finish_not_converged(request, outcome.result.report);
+  std::cout << summary(request, outcome.report, outcome.cells, planar(request) ? outcome.area : 1,
+                       static_cast<std::int64_t>(outcome.before)) +
+                   "\n";
+  if (!outcome.report.converged)
+    finish_not_converged(request, outcome.report);
 }
 
 } // namespace
 
 void add_cvt(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
-      "cvt", "Converge a centroidal Voronoi tessellation of the sphere for a density; the mesh is "
-             "the same bits for any threads and regions, and after any interruption.");
+      "cvt",
+      "Converge a centroidal Voronoi tessellation of the sphere, or of a domain of the plane, "
+      "for a density; the mesh is the same bits for any threads and regions, and after any "
+      "interruption.");
   const std::shared_ptr<CvtRequest> request = add_cvt_options(*command);
   command->callback([request] { run(*request); });
 }

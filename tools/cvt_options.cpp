@@ -30,14 +30,15 @@ void add_cells(CLI::App& command, CvtRequest& request) {
     if (!request.cells_of_widths)
       request.cells = std::stoi(text);
   };
-  const CLI::Validator number = whole_number(12, 1 << 30);
+  const CLI::Validator number = whole_number(3, 1 << 30);
   const auto check = [number](std::string& text) {
     return text == "auto" ? std::string() : number(text);
   };
   command
       .add_option_function<std::string>(
           "--cells", set,
-          "the number of cells of the result, or auto: as many as the cell widths ask for")
+          "the number of cells of the result (after bisections of a domain with a boundary, "
+          "about so many), or auto: as many as the cell widths ask for")
       ->transform(CLI::Validator(check, ""))
       ->type_name("N|auto");
 }
@@ -45,8 +46,8 @@ void add_cells(CLI::App& command, CvtRequest& request) {
 void add_start(CLI::App& command, CvtRequest& request) {
   command
       .add_option("START,--points", request.points,
-                  "where to start: text, x y z a line; - is standard input; or the points of a "
-                  "mesh, " +
+                  "where to start: text, x y z a line (in the plane x y); - is standard input; or "
+                  "the points of a mesh, " +
                       std::string(mesh_suffixes) + "; or give --cells")
       ->type_name("FILE");
   command.add_flag("--lonlat", request.lonlat,
@@ -57,9 +58,9 @@ void add_start(CLI::App& command, CvtRequest& request) {
                   "where to start without a file: continuation (the default: from a coarse grid, "
                   "converged and bisected in turn), random, density (drawn from its root, as the "
                   "cells of an optimal grid lie), fibonacci, "
-                  "spiral or icosahedron")
-      ->check(CLI::IsMember(
-          {"continuation", "random", "density", "fibonacci", "spiral", "icosahedron"}));
+                  "spiral or icosahedron; in the plane density (the default), random or hexagonal")
+      ->check(CLI::IsMember({"continuation", "random", "density", "fibonacci", "spiral",
+                             "icosahedron", "hexagonal"}));
   command.add_option("--seed", request.seed, "of random points; default 1")
       ->transform(whole_number(0, std::numeric_limits<std::uint64_t>::max()));
   command
@@ -89,8 +90,8 @@ void add_end(CLI::App& command, CvtRequest& request) {
       command
           .add_option("--norm", request.norm,
                       "what is compared with the tolerance: the generators' move in the mean or "
-                      "at most, by itself or over the spacing sqrt(4 pi/n), or the energy's "
-                      "gradient")
+                      "at most, by itself or over the spacing, the root of the mean area "
+                      "of a cell, or the energy's gradient")
           ->check(CLI::IsMember({"l2", "linf", "l2-scaled", "linf-scaled", "gradient"}))
           ->capture_default_str();
   CLI::Option* tolerance =
@@ -170,13 +171,14 @@ CvtOptions options_of(const CvtRequest& request) {
   options.rule = request.rule;
   options.final_rule = request.final_rule;
   options.triangle_divisions = request.triangle_divisions;
-  options.partition = options_of(*request.partition);
+  options.partition = options_of(*request.partition, planar(request));
   return options;
 }
 
 std::shared_ptr<CvtRequest> add_cvt_options(CLI::App& command) {
   auto request = std::make_shared<CvtRequest>();
   add_start(command, *request);
+  request->domain = add_domain(command);
   request->density = add_density(command);
   add_method(command, *request);
   add_end(command, *request);

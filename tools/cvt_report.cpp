@@ -13,6 +13,7 @@ using Json = nlohmann::ordered_json;
 
 Json to_json(const CvtIteration& iteration) {
   return {{"cells", iteration.cells},
+          {"spacing", iteration.spacing},
           {"rule", iteration.rule},
           {"l2", iteration.l2},
           {"linf", iteration.linf},
@@ -50,8 +51,8 @@ std::string formatted(const char* format, double value) {
 
 } // namespace
 
-std::string to_json(const CvtRequest& request, const Cvt& result, int threads) {
-  const CvtReport& report = result.report;
+std::string to_json(const CvtRequest& request, const CvtReport& report, std::int64_t cells,
+                    double area, int threads) {
   Json json;
   json["calotte"] = CALOTTE_VERSION;
   json["density"] = density_names(*request.density);
@@ -60,7 +61,8 @@ std::string to_json(const CvtRequest& request, const Cvt& result, int threads) {
   json["tolerance"] = request.tolerance;
   json["converged"] = report.converged;
   json["residual"] = report.residual;
-  json["cells"] = result.mesh.points.cols();
+  json["cells"] = cells;
+  json["area"] = area;
   json["threads"] = threads;
   json["seconds"] = report.seconds;
   json["iterations"] = array_of(report.iterations);
@@ -72,10 +74,10 @@ std::string residual_words(const CvtRequest& request, const CvtReport& report) {
   return request.iterations ? "" : request.norm + " " + formatted("%.3g", report.residual);
 }
 
-std::string summary(const CvtRequest& request, const Cvt& result, std::int64_t before) {
-  const CvtReport& report = result.report;
+std::string summary(const CvtRequest& request, const CvtReport& report, std::int64_t cells,
+                    double area, std::int64_t before) {
   const auto iterations = std::ssize(report.iterations);
-  std::string line = request.mesh + ": " + std::to_string(result.mesh.points.cols()) + " cells, ";
+  std::string line = request.mesh + ": " + std::to_string(cells) + " cells, ";
   if (!request.iterations)
     line += report.converged ? "converged, " : "not converged, ";
   line += std::to_string(iterations) + (iterations == 1 ? " iteration" : " iterations");
@@ -85,7 +87,8 @@ std::string summary(const CvtRequest& request, const Cvt& result, std::int64_t b
     line += ", " + residual;
   if (iterations > 0) {
     const CvtIteration& last = report.iterations.back();
-    line += ", energy x cells " + formatted("%.7g", last.energy * static_cast<double>(last.cells));
+    line += std::string(", energy x cells ") + (planar(request) ? "/ area^2 " : "") +
+            formatted("%.7g", last.energy * static_cast<double>(last.cells) / (area * area));
   }
   return line + ", " + formatted("%.2f", report.seconds) + " s";
 }

@@ -11,10 +11,14 @@ namespace calotte::tools {
 
 /// What is told of a run that ended.
 /// \param threads that it had.
-std::string to_json(const CvtRequest& request, const Cvt& result, int threads);
+/// \param area of the sphere or the domain.
+std::string to_json(const CvtRequest& request, const CvtReport& report, std::int64_t cells,
+                    double area, int threads);
 
 /// One line without its ending. \param before iterations of the parts that the run resumed.
-std::string summary(const CvtRequest& request, const Cvt& result, std::int64_t before);
+/// \param area of a planar domain, over whose square the energy is told; 1 of the sphere.
+std::string summary(const CvtRequest& request, const CvtReport& report, std::int64_t cells,
+                    double area, std::int64_t before);
 
 /// "l2-scaled 1.2e-05", or "" for a run of a number of iterations.
 std::string residual_words(const CvtRequest& request, const CvtReport& report);

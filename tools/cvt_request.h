@@ -2,6 +2,7 @@
 #pragma once
 
 #include "density_option.h"
+#include "domain_option.h"
 #include "format_options.h"
 #include "partition_options.h"
 
@@ -18,9 +19,10 @@ namespace calotte::tools {
 struct CvtRequest {
   std::string points; ///< the file of the start, or none
   bool lonlat = false;
-  std::optional<int> cells;         ///< of the result
-  bool cells_of_widths = false;     ///< --cells auto: those that the cell widths ask for
-  std::optional<std::string> start; ///< default continuation
+  std::shared_ptr<DomainWords> domain; ///< of a plane, where one is given
+  std::optional<int> cells;            ///< of the result
+  bool cells_of_widths = false;        ///< --cells auto: those that the cell widths ask for
+  std::optional<std::string> start;    ///< default continuation, in the plane density
   std::optional<std::uint64_t> seed;
   std::optional<int> bisections;
 
@@ -42,6 +44,9 @@ struct CvtRequest {
   double checkpoint_minutes = 10;
   std::shared_ptr<std::string> config;
 };
+
+/// Whether it is a run in the plane.
+inline bool planar(const CvtRequest& request) { return request.domain->given(); }
 
 /// The word of --norm, "none" for a run of --iterations.
 std::string norm_word(const CvtRequest& request);

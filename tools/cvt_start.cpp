@@ -3,11 +3,13 @@
 
 #include <calotte/error.h>
 #include <calotte/generators.h>
+#include <calotte/io.h>
 
 #include <boost/crc.hpp>
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace calotte::tools {
 namespace {
@@ -19,7 +21,8 @@ constexpr std::int64_t fewest = 12; ///< cells of a CVT
 }
 
 std::string kind_of(const CvtRequest& request) {
-  return request.points.empty() ? request.start.value_or("continuation") : "points";
+  const char* const usual = planar(request) ? "density" : "continuation";
+  return request.points.empty() ? request.start.value_or(usual) : "points";
 }
 
 bool seeded(const std::string& kind) {
@@ -71,8 +74,32 @@ void require_icosahedral(std::int64_t cells, int bisections) {
          nearest(below, bisected(fewest, level), fewest));
 }
 
+/// In a periodic box n cells become 4n; elsewhere the midpoints outside of the domain are left out.
+void require_planar_cells(const CvtRequest& request) {
+  const std::int64_t cells = *request.cells,
+                     divisor = std::int64_t{1} << (2 * request.bisections.value_or(0));
+  const std::string bisections = "--bisections " + std::to_string(request.bisections.value_or(0));
+  if (cells / divisor < 3)
+    refuse(bisections + " to " + std::to_string(cells) +
+           " cells would start from fewer than 3; give more cells or fewer bisections");
+  if (request.domain->periodic && cells % divisor != 0)
+    refuse(bisections + " does not lead to " + std::to_string(cells) + " cells; " +
+           nearest(cells / divisor * divisor, (cells / divisor + 1) * divisor, 3 * divisor));
+}
+
+/// What a run in the plane has none of, and what it alone has.
+void require_kind(const CvtRequest& request) {
+  const std::string kind = kind_of(request);
+  const bool both = kind == "random" || kind == "density", plane = planar(request);
+  if (plane && !both && kind != "hexagonal")
+    refuse("--start " + kind + " is for the sphere; give density, random or hexagonal");
+  if (!plane && kind == "hexagonal")
+    refuse("--start hexagonal is for the plane; give --domain, --rectangle or --periodic");
+}
+
 void require_cells(const CvtRequest& request) {
   const std::string kind = kind_of(request);
+  require_kind(request);
   if (request.cells_of_widths && request.density->widths.file.empty())
     refuse("--cells auto is for cell widths; give --cell-width FILE, or a number of cells");
   if (!request.cells && !request.cells_of_widths)
@@ -85,7 +112,12 @@ void require_cells(const CvtRequest& request) {
     refuse("--start continuation chooses the bisections; leave --bisections out");
   if (!request.cells) // see settle_cells
     return;
-  if (kind == "icosahedron")
+  if (planar(request))
+    require_planar_cells(request);
+  else if (*request.cells < fewest)
+    refuse("--cells " + std::to_string(*request.cells) + " are too few; give " +
+           std::to_string(fewest) + " at least");
+  else if (kind == "icosahedron")
     require_icosahedral(*request.cells, request.bisections.value_or(0));
   else if (kind != "continuation")
     require_bisected(*request.cells, request.bisections.value_or(0));
@@ -99,6 +131,8 @@ void require_file(const CvtRequest& request) {
   exclude(request.cells.has_value() || request.cells_of_widths, "--cells");
   exclude(request.start.has_value(), "--start");
   exclude(request.seed.has_value(), "--seed");
+  if (planar(request) && request.lonlat)
+    refuse("--lonlat is for the sphere; leave it out");
 }
 
 /// Says what a continuation to a count that no bisected icosahedron has starts from.
@@ -128,7 +162,21 @@ Points3 generate(const std::string& kind, std::int64_t count, const Density& den
   return bisected_icosahedron(level_of(count));
 }
 
+Points2 generate(const std::string& kind, std::int64_t count, const PlanarDomain& domain,
+                 const Density& density, std::uint64_t seed) {
+  if (kind == "hexagonal")
+    return hexagonal_lattice(count, domain);
+  if (kind == "random")
+    return random_places(count, domain, seed);
+  return random_places(count, domain, site_density(density, domain), seed);
+}
+
 std::uint64_t seed_of(const CvtRequest& request) { return request.seed.value_or(1); }
+
+/// The points of a mesh of the plane.
+PlanarPointFile planar_points_of(const std::string& path) {
+  return {path, calotte::read_planar_mesh(path).points, {}};
+}
 
 CvtStart announce(const CvtRequest& request) {
   const std::string kind = kind_of(request);
@@ -138,14 +186,26 @@ CvtStart announce(const CvtRequest& request) {
   return start;
 }
 
+/// \param file of either kind of points. \returns them.
+template <class File> auto take(File&& file, CvtStart& start) {
+  start.file = std::move(file.name);
+  start.lines = std::move(file.lines);
+  boost::crc_32_type checksum;
+  checksum.process_bytes(file.points.data(),
+                         sizeof(double) * static_cast<std::size_t>(file.points.size()));
+  start.configuration = "start points\npoints " + std::to_string(file.points.cols()) +
+                        " with checksum " + std::to_string(checksum.checksum()) + "\n";
+  return std::move(file.points);
+}
+
 CvtStart read(const CvtRequest& request) {
   CvtStart start;
-  start.file = read_point_file(request.points, request.lonlat);
-  const Points3& points = start.file.points;
-  boost::crc_32_type checksum;
-  checksum.process_bytes(points.data(), sizeof(double) * static_cast<std::size_t>(points.size()));
-  start.configuration = "start points\npoints " + std::to_string(points.cols()) +
-                        " with checksum " + std::to_string(checksum.checksum()) + "\n";
+  if (planar(request))
+    start.places = take(holds_points(request.points) ? planar_points_of(request.points)
+                                                     : read_planar_point_file(request.points),
+                        start);
+  else
+    start.points = take(read_point_file(request.points, request.lonlat), start);
   return start;
 }
 
@@ -174,23 +234,30 @@ CvtStart open_start(const CvtRequest& request) {
   start.bisections = request.bisections.value_or(0);
   if (kind_of(request) != "continuation") // whose bisections follow from cells and density
     start.configuration += "bisections " + std::to_string(start.bisections) + "\n";
+  if (planar(request))
+    start.configuration += domain_configuration(*request.domain);
   return start;
 }
 
-void generate_points(const CvtRequest& request, const Density& density, CvtStart& start) {
+void generate_points(const CvtRequest& request, const Density& density,
+                     const std::optional<PlanarDomain>& domain, CvtStart& start) {
   if (!request.points.empty())
     return;
   const std::string kind = kind_of(request);
   const std::int64_t cells = *request.cells;
+  if (domain) {
+    start.places =
+        generate(kind, cells >> (2 * start.bisections), *domain, density, seed_of(request));
+    return;
+  }
   if (kind != "continuation") {
-    start.file.points =
-        generate(kind, start_count(cells, start.bisections), density, seed_of(request));
+    start.points = generate(kind, start_count(cells, start.bisections), density, seed_of(request));
     return;
   }
   Continuation from = continuation(cells, density, seed_of(request));
   start.note = note_on(from, cells, density);
   start.bisections = from.bisections;
-  start.file.points = std::move(from.start);
+  start.points = std::move(from.start);
 }
 
 } // namespace calotte::tools

@@ -12,7 +12,10 @@ namespace calotte::tools {
 
 /// Where a run starts.
 struct CvtStart {
-  PointFile file; ///< the points; name and lines when they come from a file
+  std::string file;                ///< that the points come from, or ""
+  std::vector<std::int64_t> lines; ///< of it, where they stand
+  Points3 points;                  ///< on the sphere
+  Points2 places;                  ///< or in the plane
   int bisections = 0;
   std::string note; ///< what the user ought to know of it, or ""
   /// What determines it, for the run's configuration: lines "name value".
@@ -32,7 +35,8 @@ std::vector<std::string> settle_cells(CvtRequest& request, const std::optional<C
 CvtStart open_start(const CvtRequest& request);
 
 /// Makes the points, unless they come from a file; a continuation's bisections and note, too.
-/// \throws Error bad_option.
-void generate_points(const CvtRequest& request, const Density& density, CvtStart& start);
+/// \param domain of a plane. \throws Error bad_option.
+void generate_points(const CvtRequest& request, const Density& density,
+                     const std::optional<PlanarDomain>& domain, CvtStart& start);
 
 } // namespace calotte::tools

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands.h"
 #include "config_option.h"
+#include "domain_option.h"
 #include "format_options.h"
 #include "partition_options.h"
 #include "progress.h"
@@ -11,7 +12,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <charconv>
 #include <iostream>
 #include <optional>
 
@@ -21,7 +21,7 @@ namespace {
 struct Request {
   std::string points, mesh, report;
   bool lonlat = false, plane = false;
-  std::optional<Eigen::Vector2d> period; ///< of a periodic plane
+  std::optional<std::string> periodic;
   std::shared_ptr<PartitionWords> partition;
   std::shared_ptr<FormatWords> format;
   std::shared_ptr<std::string> config;
@@ -32,20 +32,6 @@ template <class AnyMesh> struct Result {
   DelaunayReport report;
 };
 
-/// Two positive lengths and a comma. \throws Error bad_option.
-Eigen::Vector2d period_of(const std::string& text) {
-  Eigen::Vector2d period{0, 0};
-  const char* const end = text.data() + text.size();
-  const auto [comma, problem] = std::from_chars(text.data(), end, period.x());
-  const bool pair = problem == std::errc() && comma != end && *comma == ',';
-  if (const auto [stop, other] = std::from_chars(pair ? comma + 1 : end, end, period.y());
-      !pair || other != std::errc() || stop != end || !(period.minCoeff() > 0))
-    throw Error(ErrorCode::bad_option, "--periodic " + text +
-                                           " is no box; give two positive lengths, as in "
-                                           "--periodic 1000,866.025");
-  return period;
-}
-
 /// Everything about the options that can be known to fail, before any work.
 void require_request(const Request& request) {
   if (request.plane && request.format->sphere_radius)
@@ -53,6 +39,7 @@ void require_request(const Request& request) {
   if (request.plane && holds_points(request.points))
     throw Error(ErrorCode::bad_option,
                 request.points + ": --plane takes text, x y a line; leave it out for a mesh");
+  period_of(request.periodic);               // throws for one that is no box
   options_of(*request.format, request.mesh); // throws for a file that could not be written
   require_outputs({{"mesh", request.mesh}, {"report", request.report}},
                   {request.points, centres_file(*request.partition), *request.config});
@@ -64,8 +51,8 @@ Mesh mesh_of(const Points3& points, const Request& request, DelaunayReport& repo
 
 PlanarMesh mesh_of(const Points2& points, const Request& request, DelaunayReport& report) {
   const DelaunayOptions options = options_of(*request.partition, true);
-  return request.period ? delaunay(points, *request.period, options, &report)
-                        : delaunay(points, options, &report);
+  const std::optional<Eigen::Vector2d> period = period_of(request.periodic);
+  return period ? delaunay(points, *period, options, &report) : delaunay(points, options, &report);
 }
 
 template <class AnyMesh, class File>
@@ -199,14 +186,7 @@ void add_delaunay(CLI::App& app) {
                      "triangulate in the plane: the points are text, x y a line; the mesh is .vtp, "
                      ".vtu, .off, .ply, .msh or triangles alone")
           ->excludes(lonlat);
-  command
-      ->add_option_function<std::string>(
-          "--periodic", [request](const std::string& text) { request->period = period_of(text); },
-          "the plane repeats itself every WIDTH in x and HEIGHT in y, and all points lie in the "
-          "box "
-          "from 0 0 on; the mesh is .nc (MPAS) or triangles alone")
-      ->type_name("WIDTH,HEIGHT")
-      ->needs(plane);
+  add_periodic(*command, request->periodic)->needs(plane);
   request->partition = add_partition(*command);
   request->format = add_format(*command);
   command->add_option("--report", request->report, "a JSON file of times and counts")

@@ -3,6 +3,7 @@
 
 #include <calotte/error.h>
 #include <calotte/io.h>
+#include <calotte/planar_raster.h>
 
 #include <array>
 #include <charconv>
@@ -16,9 +17,19 @@
 namespace calotte::tools {
 namespace {
 
+/// How a bump is written on the sphere, or in the plane.
+struct Grammar {
+  const char* example;
+  std::array<const char*, 5> needed;
+  std::array<const char*, 2> further; ///< of an ellipse: both or none
+};
+
 constexpr const char* example = "tanh:lon=270,lat=30,beta=30deg,alpha=0.20,gamma=x8";
-constexpr std::array needed{"lon", "lat", "beta", "alpha", "gamma"};
-constexpr std::array further{"stretch", "azimuth"};
+constexpr Grammar on_sphere{
+    example, {"lon", "lat", "beta", "alpha", "gamma"}, {"stretch", "azimuth"}};
+constexpr Grammar in_plane{"tanh:x=3,y=4,beta=1.5,alpha=0.5,gamma=x8",
+                           {"x", "y", "beta", "alpha", "gamma"},
+                           {"stretch", "angle"}};
 
 /// The words of one bump: its text, for messages, and the values by their keys.
 struct BumpWords {
@@ -35,10 +46,11 @@ struct BumpWords {
   refuse(words.text, key + " \"" + words.values.at(key) + "\" " + remedy);
 }
 
-void require_known(const std::string& text, const std::string& key) {
+void require_known(const std::string& text, const std::string& key, const Grammar& grammar) {
   std::string known;
-  for (const auto& keys : {std::vector<std::string>(needed.begin(), needed.end()),
-                           std::vector<std::string>(further.begin(), further.end())})
+  for (const auto& keys :
+       {std::vector<std::string>(grammar.needed.begin(), grammar.needed.end()),
+        std::vector<std::string>(grammar.further.begin(), grammar.further.end())})
     for (const std::string& name : keys) {
       if (key == name)
         return;
@@ -47,26 +59,28 @@ void require_known(const std::string& text, const std::string& key) {
   refuse(text, "unknown key \"" + key + "\"; the keys are " + known);
 }
 
-BumpWords split(const std::string& text) {
+BumpWords split(const std::string& text, const Grammar& grammar) {
   constexpr std::string_view kind = "tanh:";
   if (!text.starts_with(kind))
-    refuse(text, std::string("no density; give uniform or, for instance, ") + example);
+    refuse(text, std::string("no density; give uniform or, for instance, ") + grammar.example);
   BumpWords words{text, {}};
   std::istringstream rest(text.substr(kind.size()));
   for (std::string word; std::getline(rest, word, ',');) {
     const std::size_t equals = word.find('=');
     if (equals == std::string::npos)
-      refuse(text, "\"" + word + "\" is not key=value; write it as " + example);
+      refuse(text, "\"" + word + "\" is not key=value; write it as " + grammar.example);
     const std::string key = word.substr(0, equals);
-    require_known(text, key);
+    require_known(text, key, grammar);
     if (!words.values.emplace(key, word.substr(equals + 1)).second)
       refuse(text, key + " is given twice; leave one of them out");
   }
-  for (const char* key : needed)
+  for (const char* key : grammar.needed)
     if (!words.values.contains(key))
-      refuse(text, std::string(key) + " is missing; write it as " + example);
-  if (words.values.contains("stretch") != words.values.contains("azimuth"))
-    refuse(text, "stretch and azimuth make an ellipse together; give both or none");
+      refuse(text, std::string(key) + " is missing; write it as " + grammar.example);
+  const auto [stretch, turn] = grammar.further;
+  if (words.values.contains(stretch) != words.values.contains(turn))
+    refuse(text,
+           std::string("stretch and ") + turn + " make an ellipse together; give both or none");
   return words;
 }
 
@@ -141,7 +155,7 @@ Eigen::Vector3d heading(double longitude, double latitude, double azimuth) {
 }
 
 Bump bump_of(const std::string& text) {
-  const BumpWords words = split(text);
+  const BumpWords words = split(text, on_sphere);
   const double longitude = degrees_of(words, "lon"), latitude = degrees_of(words, "lat");
   if (std::abs(latitude) > 90)
     refuse_value(words, "lat", "is outside -90 to 90; give degrees north");
@@ -157,11 +171,39 @@ Bump bump_of(const std::string& text) {
   return bump;
 }
 
-Density bumps_of(const DensityWords& words) {
+double number_of(const BumpWords& words, const std::string& key) {
+  const auto value = number(words.values.at(key));
+  if (!value)
+    refuse_value(words, key, "is no number; give one in the unit of the domain");
+  return *value;
+}
+
+double length_of(const BumpWords& words, const std::string& key) {
+  const double value = number_of(words, key);
+  if (!(value > 0))
+    refuse_value(words, key, "is no positive length; give one in the unit of the domain");
+  return value;
+}
+
+Bump planar_bump_of(const std::string& text) {
+  const BumpWords words = split(text, in_plane);
+  Bump bump;
+  bump.centre = {number_of(words, "x"), number_of(words, "y"), 0};
+  bump.beta = length_of(words, "beta");
+  bump.alpha = length_of(words, "alpha");
+  bump.gamma = contrast(words);
+  if (words.values.contains("stretch")) {
+    bump.stretch = stretch_of(words);
+    bump.major = place(degrees_of(words, "angle"), 0); // its cosine and sine
+  }
+  return bump;
+}
+
+Density bumps_of(const DensityWords& words, bool planar) {
   Density density;
   for (const std::string& text : words.densities) {
     if (text != "uniform")
-      density.bumps.push_back(bump_of(text));
+      density.bumps.push_back(planar ? planar_bump_of(text) : bump_of(text));
     else if (words.densities.size() > 1)
       refuse(text, "it cannot be joined with others; leave it or them out");
   }
@@ -182,8 +224,10 @@ std::shared_ptr<DensityWords> add_density(CLI::App& command) {
                   ": about 1 within beta of its centre and gamma far away, changing over "
                   "alpha; lon and lat in degrees, beta and alpha in radians or as 30deg, gamma "
                   "a number below 1 or x8 for spacings of 8:1; stretch=2,azimuth=45 makes it "
-                  "an ellipse with its long axis 45 degrees clockwise from north. May be given "
-                  "several times")
+                  "an ellipse with its long axis 45 degrees clockwise from north. In the plane " +
+                  in_plane.example +
+                  ", lengths in its unit, and stretch=2,angle=45 counter-"
+                  "clockwise from x. May be given several times")
           ->allow_extra_args(false);
   command.add_option("--join", words->join, "what several bumps make together")
       ->check(CLI::IsMember({"maximum", "sum"}))
@@ -192,9 +236,11 @@ std::shared_ptr<DensityWords> add_density(CLI::App& command) {
   return words;
 }
 
-Resolution resolution_of(const DensityWords& words) {
+Resolution resolution_of(const DensityWords& words, bool planar) {
   if (!words.widths.given())
-    return {bumps_of(words), {}};
+    return {bumps_of(words, planar), {}};
+  if (planar)
+    return {calotte::density_of(read_planar_raster(words.widths.raster)), {}};
   CellWidth widths = read_widths(words.widths);
   Density density = calotte::density_of(widths);
   if (words.widths.file.empty()) // a density raster's widths have no unit
@@ -202,7 +248,9 @@ Resolution resolution_of(const DensityWords& words) {
   return {std::move(density), std::move(widths)};
 }
 
-Density density_of(const DensityWords& words) { return resolution_of(words).density; }
+Density density_of(const DensityWords& words, bool planar) {
+  return resolution_of(words, planar).density;
+}
 
 std::vector<std::string> density_names(const DensityWords& words) {
   if (!words.widths.file.empty())

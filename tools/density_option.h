@@ -33,9 +33,12 @@ struct Resolution {
 };
 
 /// Reads the file, if there is one.
+/// \param planar a bump's centre and lengths are in the plane: x and y, beta and alpha without a
+///        unit; a raster is one of x and y.
 /// \throws Error bad_option naming the word and the remedy; as read_cell_width.
-Resolution resolution_of(const DensityWords& words);
-Density density_of(const DensityWords& words); ///< the same, without the widths
+Resolution resolution_of(const DensityWords& words, bool planar = false);
+/// The same, without the widths.
+Density density_of(const DensityWords& words, bool planar = false);
 
 /// What reports and pictures call it, a part each: "uniform", a bump's words, a file.
 std::vector<std::string> density_names(const DensityWords& words);

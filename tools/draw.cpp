@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "draw.h"
 
+#include "draw_legend_of.h"
 #include "draw_page.h"
 #include "draw_painting.h"
 #include "draw_picture.h"
@@ -49,13 +50,13 @@ std::string field_caption(const DrawOptions& options) {
 }
 
 /// \param mean of the values.
-std::string caption_of(const DrawOptions& options, double mean) {
+std::string caption_of(const DrawOptions& options, double mean, bool plane) {
   const bool cells = options.shapes != Shapes::triangles;
   const std::string corners = cells ? "" : ", mean of the corners";
   switch (options.colouring) {
   case Colouring::spacing:
     return std::string(cells ? "mean distance to the neighbours" : "mean side of the triangle") +
-           ", degrees (1\u00b0 = 0.01745 radians)";
+           (plane ? "" : ", degrees (1\u00b0 = 0.01745 radians)");
   case Colouring::angle:
     return cells ? "smallest angle around the site, degrees"
                  : "smallest angle of the triangle, degrees";
@@ -64,7 +65,7 @@ std::string caption_of(const DrawOptions& options, double mean) {
                  : "neighbours of the corner furthest from 6: triangles of each kind";
   case Colouring::area:
     return std::string("area of the ") + (cells ? "cell" : "triangle") + " over the mean, " +
-           in_powers(mean) + " steradians";
+           in_powers(mean) + (plane ? "" : " steradians");
   case Colouring::quality:
     return cells ? "shortest over longest side of the cell"
                  : "quality of the triangle: 1 when equilateral";
@@ -78,15 +79,50 @@ std::string caption_of(const DrawOptions& options, double mean) {
   return {};
 }
 
+double mean_of(const std::vector<double>& values) {
+  double sum = 0;
+  double count = 0;
+  for (const double value : values) {
+    if (!std::isnan(value)) {
+      sum += value;
+      ++count;
+    }
+  }
+  return sum / std::max(count, 1.0);
+}
+
+std::vector<ValenceClass> classes_of(const Painting& painting) {
+  return painting.scale.colouring == Colouring::valence ? valence_classes(painting.values)
+                                                        : std::vector<ValenceClass>();
+}
+
+} // namespace
+
+Legend make_legend(Painting& painting, const DrawOptions& options) {
+  const double mean = mean_of(painting.values);
+  if (options.colouring == Colouring::area) {
+    std::for_each(painting.values.begin(), painting.values.end(), [mean](double& v) { v /= mean; });
+  }
+  painting.scale = make_scale(painting.values, options.colouring);
+  painting.scale.lengths = painting.scene.flat;
+  return {painting.scale, classes_of(painting), caption_of(options, mean, painting.scene.flat)};
+}
+
+void require_field(const DrawOptions& options, std::int64_t sites) {
+  if (options.field.values.size() != sites) {
+    throw Error(ErrorCode::bad_option, options.field_name + " has " +
+                                           std::to_string(options.field.values.size()) +
+                                           " values for " + std::to_string(sites) +
+                                           " sites; give a field of the mesh's cells");
+  }
+}
+
+namespace {
+
 /// What is given by site, of the colourings that are.
 Eigen::VectorXd by_site(const Mesh& mesh, const DrawOptions& options) {
   if (options.colouring == Colouring::field) {
-    if (options.field.values.size() != mesh.points.cols()) {
-      throw Error(ErrorCode::bad_option, options.field_name + " has " +
-                                             std::to_string(options.field.values.size()) +
-                                             " values for " + std::to_string(mesh.points.cols()) +
-                                             " sites; give a field of the mesh's cells");
-    }
+    require_field(options, mesh.points.cols());
     return options.field.values;
   }
   if (options.colouring != Colouring::density) {
@@ -103,18 +139,6 @@ Eigen::VectorXd by_site(const Mesh& mesh, const DrawOptions& options) {
                 "the density is zero at every site; give one that is positive somewhere");
   }
   return rho / greatest;
-}
-
-double mean_of(const std::vector<double>& values) {
-  double sum = 0;
-  double count = 0;
-  for (const double value : values) {
-    if (!std::isnan(value)) {
-      sum += value;
-      ++count;
-    }
-  }
-  return sum / std::max(count, 1.0);
 }
 
 /// With the view that the defaults leave open.
@@ -143,11 +167,6 @@ Painting make_painting(const Mesh& mesh, const DrawOptions& options, const LonLa
   return painting;
 }
 
-std::vector<ValenceClass> classes_of(const Painting& painting) {
-  return painting.scale.colouring == Colouring::valence ? valence_classes(painting.values)
-                                                        : std::vector<ValenceClass>();
-}
-
 /// In a vector file an image is printed at any size: give it twice the pixels.
 MapSize image_size(cairo_t* context, const MapSize& map) {
   const bool raster_page =
@@ -171,12 +190,7 @@ void draw(const std::string& path, const Mesh& mesh, const DrawOptions& options)
   require_picture(path, options.look.size);
   const Look look = seen(options.look, mesh);
   Painting painting = make_painting(mesh, options, *look.view);
-  const double mean = mean_of(painting.values);
-  if (options.colouring == Colouring::area) {
-    std::for_each(painting.values.begin(), painting.values.end(), [mean](double& v) { v /= mean; });
-  }
-  painting.scale = make_scale(painting.values, options.colouring);
-  const Legend legend = {painting.scale, classes_of(painting), caption_of(options, mean)};
+  const Legend legend = make_legend(painting, options);
   const Page page = page_of(look, options.colouring != Colouring::none);
   const bool paths = picture_format(path) != PictureFormat::png &&
                      visible_shapes(painting, look.projection) <= most_paths;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <calotte/density.h>
+#include <calotte/domain.h>
 #include <calotte/io.h>
 #include <calotte/types.h>
 
@@ -66,6 +67,14 @@ struct DrawOptions {
 /// \throws Error bad_option, also for cells' area or quality of an open mesh, and for a density or
 ///         field that does not fit; file.
 void draw(const std::string& path, const Mesh& mesh, const DrawOptions& options = {});
+
+/// Draws a mesh of the plane, of the look its size alone. Cells are cut off at the domain, or else
+/// at a box a little wider than the sites; triangles are not. Of a periodic mesh the box is drawn,
+/// with its sites' own Delaunay triangles.
+/// \throws Error bad_option, also for cells' area or quality of a mesh that is not periodic, for
+///         a density that is ill-formed, and for a periodic domain that is not the mesh's; file.
+void draw(const std::string& path, const PlanarMesh& mesh,
+          const std::optional<PlanarDomain>& domain, const DrawOptions& options = {});
 
 /// What is known everywhere on the sphere.
 struct SphereField {

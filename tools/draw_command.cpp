@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands.h"
 #include "density_option.h"
+#include "domain_option.h"
 #include "draw.h"
 #include "draw_history.h"
 #include "draw_picture.h"
@@ -30,6 +31,7 @@ struct DrawArguments {
   DrawOptions options;
   std::vector<std::string> reports; ///< to be drawn instead of a mesh
   bool spacing_law = false;
+  std::shared_ptr<DomainWords> domain; ///< with --plane
 
   bool has_density() const { return !density->densities.empty() || density->widths.given(); }
 };
@@ -175,6 +177,18 @@ void add_plots(CLI::App& command, DrawArguments& arguments) {
   }
 }
 
+/// --plane, the domain, and what they do without.
+void add_plane_options(CLI::App& command, DrawArguments& arguments) {
+  CLI::Option* plane = add_plane(command, *arguments.source);
+  arguments.domain = add_domain(command);
+  for (const char* name : {"--domain", "--rectangle", "--periodic"}) {
+    command.get_option(name)->needs(plane);
+  }
+  for (const char* name : {"--projection", "--view", "--graticule", "--spacing-law", "--history"}) {
+    plane->excludes(command.get_option(name));
+  }
+}
+
 void draw_reports(const DrawArguments& arguments) {
   std::vector<History> histories;
   for (const std::string& report : arguments.reports) {
@@ -202,7 +216,8 @@ void require_density(const DrawArguments& arguments) {
 }
 
 /// The values of the mesh's sites: a cell whose site is a duplicate goes by the first.
-CellField read_field(const std::string& path, const std::string& name, const Mesh& mesh) {
+template <class AnyMesh>
+CellField read_field(const std::string& path, const std::string& name, const AnyMesh& mesh) {
   const auto cells = mesh.site_of_input.empty()
                          ? static_cast<std::int64_t>(mesh.points.cols())
                          : static_cast<std::int64_t>(mesh.site_of_input.size());
@@ -217,10 +232,27 @@ CellField read_field(const std::string& path, const std::string& name, const Mes
   return field;
 }
 
+void draw_planar_mesh(const DrawArguments& arguments) {
+  const std::optional<PlanarDomain> domain = domain_of(*arguments.domain);
+  DrawOptions options = arguments.options;
+  options.density = density_of(*arguments.density, true);
+  const PlanarMesh mesh = read_planar_mesh(*arguments.source);
+  if (options.colouring == Colouring::field) {
+    options.field = read_field(arguments.source->path, options.field_name, mesh);
+  }
+  draw(arguments.output, mesh, domain, options);
+  std::cout << arguments.output << ": picture of " << mesh.points.cols() << " sites, "
+            << mesh.triangles.cols() << " triangles\n";
+}
+
 void draw_mesh(const DrawArguments& arguments) {
   require_distinct(arguments.output, arguments.source->path);
   require_distinct(arguments.output, arguments.source->points);
   require_density(arguments);
+  if (arguments.source->plane) {
+    draw_planar_mesh(arguments);
+    return;
+  }
   DrawOptions options = arguments.options;
   options.density = density_of(*arguments.density);
   const Mesh mesh = read_mesh(*arguments.source);
@@ -308,6 +340,7 @@ void add_draw(CLI::App& app) {
   add_look(*command, *arguments);
   add_density_options(*command, *arguments);
   add_plots(*command, *arguments);
+  add_plane_options(*command, *arguments);
   command->callback([arguments] { run(*arguments); });
 }
 

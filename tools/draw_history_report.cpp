@@ -120,6 +120,9 @@ std::string method_of(const Part& report) {
 CvtIteration iteration_of(const Part& part) {
   CvtIteration iteration;
   iteration.cells = part.at("cells").count(1);
+  iteration.spacing = part.value.contains("spacing") // older reports are of the sphere
+                          ? part.at("spacing").number()
+                          : std::sqrt(4 * std::numbers::pi / static_cast<double>(iteration.cells));
   iteration.rule = static_cast<int>(std::min<std::int64_t>(part.at("rule").count(0), 1000));
   iteration.l2 = part.at("l2").number();
   iteration.linf = part.at("linf").number();
@@ -137,15 +140,11 @@ CvtIteration iteration_of(const Part& part) {
 
 constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
 
-double spacing(const CvtIteration& iteration) {
-  return std::sqrt(4 * std::numbers::pi / static_cast<double>(iteration.cells));
-}
-
 std::vector<double> scaled(const History& history, double CvtIteration::*norm) {
   std::vector<double> values;
   values.reserve(history.iterations.size());
   for (const CvtIteration& iteration : history.iterations) {
-    values.push_back(iteration.accepted ? iteration.*norm / spacing(iteration) : nowhere);
+    values.push_back(iteration.accepted ? iteration.*norm / iteration.spacing : nowhere);
   }
   return values;
 }
@@ -260,7 +259,7 @@ std::vector<double> scaled_tolerance(const History& history) {
     switch (history.norm) {
     case Norm::l2:
     case Norm::linf:
-      values.push_back(history.tolerance / spacing(iteration));
+      values.push_back(history.tolerance / iteration.spacing);
       break;
     case Norm::l2_scaled:
     case Norm::linf_scaled:

@@ -11,10 +11,9 @@ namespace calotte::tools {
 
 namespace {
 
-constexpr Rgb border_colour = {0.45, 0.48, 0.52};
-
-bool is_angle(Colouring colouring) {
-  return colouring == Colouring::spacing || colouring == Colouring::angle;
+bool is_angle(const Scale& scale) {
+  return (scale.colouring == Colouring::spacing && !scale.lengths) ||
+         scale.colouring == Colouring::angle;
 }
 
 /// The power of ten that labels would be too long without.
@@ -60,7 +59,7 @@ void fill_bar(cairo_t* context, const Scale& scale, const Bar& bar) {
   cairo_set_source(context, pattern);
   cairo_fill_preserve(context);
   cairo_pattern_destroy(pattern);
-  set_colour(context, border_colour);
+  set_colour(context, map_border_colour);
   cairo_set_line_width(context, bar.height / 15);
   cairo_stroke(context);
 }
@@ -117,7 +116,7 @@ void class_legend(cairo_t* context, const std::vector<ValenceClass>& classes, do
     cairo_rectangle(context, x, baseline - 0.85 * text, 0.95 * text, 0.95 * text);
     set_colour(context, classes[i].colour);
     cairo_fill_preserve(context);
-    set_colour(context, border_colour);
+    set_colour(context, map_border_colour);
     cairo_set_line_width(context, 0.06 * text);
     cairo_stroke(context);
     set_colour(context, text_colour);
@@ -130,7 +129,7 @@ void class_legend(cairo_t* context, const std::vector<ValenceClass>& classes, do
 } // namespace
 
 BarTicks bar_ticks(const Scale& scale, int most) {
-  const double unit = is_angle(scale.colouring) ? std::numbers::pi / 180 : 1;
+  const double unit = is_angle(scale) ? std::numbers::pi / 180 : 1;
   Axis axis = {scale.low / unit, scale.high / unit, scale.logarithmic};
   BarTicks bar;
   bar.exponent = common_exponent(axis);
@@ -139,7 +138,7 @@ BarTicks bar_ticks(const Scale& scale, int most) {
   axis.high /= power;
   bar.ticks = ticks_of(axis, most);
   for (Tick& tick : bar.ticks.labelled) {
-    tick.label += is_angle(scale.colouring) ? "\u00b0" : "";
+    tick.label += is_angle(scale) ? "\u00b0" : "";
   }
   return bar;
 }

@@ -11,6 +11,8 @@
 
 namespace calotte::tools {
 
+inline constexpr Rgb map_border_colour = {0.45, 0.48, 0.52}; ///< and the legend's
+
 /// What the colours mean.
 struct Legend {
   Scale scale;

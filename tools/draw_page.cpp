@@ -12,7 +12,6 @@ namespace calotte::tools {
 
 namespace {
 
-constexpr Rgb border_colour = {0.45, 0.48, 0.52};
 constexpr double label_letters = 0.8; ///< of degrees, of the other letters
 
 std::string longitude_label(int longitude) {
@@ -95,7 +94,7 @@ void globe_labels(cairo_t* context, const Page& page, const Look& look,
 
 void draw_border(cairo_t* context, const Page& page, Projection projection) {
   add_border(context, projection, page.map.width);
-  set_colour(context, border_colour);
+  set_colour(context, map_border_colour);
   cairo_set_line_width(context, std::max(0.8, 0.05 * page.text));
   cairo_stroke(context);
 }
@@ -114,6 +113,16 @@ void draw_surroundings_of_map(cairo_t* context, const Page& page, const Surround
   }
 }
 
+/// Puts title, map and legend beneath each other. \param below the map: labels.
+void arrange(Page& page, double below, bool with_legend) {
+  const double middle = 2.6 * page.text + page.map.height / 2.0;
+  const double bottom = middle + page.map.height / 2.0 + below;
+  page.middle_x = std::floor(page.width / 2.0);
+  page.middle_y = std::floor(middle);
+  page.legend_top = bottom + 1.6 * page.text;
+  page.height = static_cast<int>(std::ceil(bottom + (with_legend ? 6.0 : 1.2) * page.text));
+}
+
 } // namespace
 
 Page page_of(const Look& look, bool with_legend) {
@@ -125,29 +134,42 @@ Page page_of(const Look& look, bool with_legend) {
   const double margin = globe ? 0.035 * look.size : page.labelled ? 3.2 * page.text : page.text;
   page.map = globe ? map_size(look.projection, 2 * static_cast<int>(0.465 * look.size))
                    : map_size(look.projection, static_cast<int>(look.size - 2 * margin));
-  const double below = globe || !page.labelled ? 0 : 1.2 * page.text;
-  const double middle = 2.6 * page.text + page.map.height / 2.0;
-  const double bottom = middle + page.map.height / 2.0 + below;
-  page.middle_x = std::floor(page.width / 2.0);
-  page.middle_y = std::floor(middle);
-  page.legend_top = bottom + 1.6 * page.text;
-  page.height = static_cast<int>(std::ceil(bottom + (with_legend ? 6.0 : 1.2) * page.text));
+  arrange(page, globe || !page.labelled ? 0 : 1.2 * page.text, with_legend);
   return page;
 }
 
-void draw_page(cairo_t* context, const Page& page, const Surroundings& surroundings,
+Page page_of_plane(int size, double aspect, bool with_legend) {
+  constexpr double tallest = 1.4; // of the page's width
+  Page page;
+  page.width = size;
+  page.text = std::clamp(size / 46.0, 7.0, 40.0);
+  const double room = 0.93 * size;
+  const double width = std::min(room, tallest * room / aspect);
+  page.map = {std::max(2, static_cast<int>(width)), std::max(2, static_cast<int>(width * aspect))};
+  arrange(page, 0, with_legend);
+  return page;
+}
+
+void draw_page(cairo_t* context, const Page& page, const std::string& title, const Legend& legend,
                const std::function<void()>& paint) {
   cairo_save(context);
   cairo_translate(context, page.middle_x, page.middle_y);
   paint();
-  draw_surroundings_of_map(context, page, surroundings);
   cairo_restore(context);
   set_colour(context, text_colour);
-  fitted_text(context, page.width / 2.0, 1.65 * page.text, surroundings.title, 1.1 * page.text,
+  fitted_text(context, page.width / 2.0, 1.65 * page.text, title, 1.1 * page.text,
               0.97 * page.width);
-  if (surroundings.legend.scale.colouring != Colouring::none) {
-    draw_legend(context, surroundings.legend, page.width, page.legend_top, page.text);
+  if (legend.scale.colouring != Colouring::none) {
+    draw_legend(context, legend, page.width, page.legend_top, page.text);
   }
+}
+
+void draw_page(cairo_t* context, const Page& page, const Surroundings& surroundings,
+               const std::function<void()>& paint) {
+  draw_page(context, page, surroundings.title, surroundings.legend, [&] {
+    paint();
+    draw_surroundings_of_map(context, page, surroundings);
+  });
 }
 
 void paint_image(cairo_t* context, const MapSize& map, cairo_surface_t* image) {

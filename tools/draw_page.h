@@ -11,8 +11,8 @@
 
 namespace calotte::tools {
 
-/// Where things stand in a picture of the sphere, in pixels: a title, the map, a legend, from top
-/// to bottom.
+/// Where things stand in a picture of the sphere or of a plane, in pixels: a title, the map, a
+/// legend, from top to bottom.
 struct Page {
   int width = 0, height = 0;
   double text = 0; ///< size of the letters
@@ -24,6 +24,9 @@ struct Page {
 
 Page page_of(const Look& look, bool with_legend);
 
+/// Of a plane. \param aspect the map's height over its width.
+Page page_of_plane(int size, double aspect, bool with_legend);
+
 /// What stands around the map.
 struct Surroundings {
   Look look;
@@ -33,6 +36,10 @@ struct Surroundings {
 };
 
 /// Draws the page. paint() draws the map around the origin, in pixels.
+void draw_page(cairo_t* context, const Page& page, const std::string& title, const Legend& legend,
+               const std::function<void()>& paint);
+
+/// The same with what stands around a map of the sphere.
 void draw_page(cairo_t* context, const Page& page, const Surroundings& surroundings,
                const std::function<void()>& paint);
 

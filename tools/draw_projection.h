@@ -129,6 +129,19 @@ struct PlateCarree {
   };
 };
 
+/// The plane as it is, for what draws paths: lines are straight, and what is seen of it is left to
+/// the clip path.
+struct Flat {
+  static constexpr double half_width = std::numeric_limits<double>::infinity();
+  static constexpr double half_height = half_width;
+  static constexpr double period = 0;
+
+  static Place place(const Vector3d& p) { return {p.x(), p.y()}; }
+  static bool shows_some(const std::vector<Vector3d>& corners) { return !corners.empty(); }
+  static double height(const std::vector<Vector3d>&) { return 1; }
+  static std::vector<Vector3d> clipped(const std::vector<Vector3d>& polygon) { return polygon; }
+};
+
 /// Has a projection's policy do what `act` does.
 template <class Act> auto with_map(Projection projection, Act act) {
   return projection == Projection::globe ? act.template operator()<Orthographic>()

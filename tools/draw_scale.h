@@ -19,6 +19,7 @@ struct Scale {
   Colouring colouring = Colouring::none;
   double low = 0, high = 1; ///< the values at the colour bar's ends
   bool logarithmic = false;
+  bool lengths = false;              ///< spacings are a plane's, not arcs in radians
   bool below = false, above = false; ///< whether values beyond an end were given the end's colour
 
   /// Where a value stands on the bar, 0 to 1.

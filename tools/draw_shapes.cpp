@@ -17,27 +17,73 @@ double arc(const Vector3d& a, const Vector3d& b) {
   return 2 * std::atan2((a - b).norm(), (a + b).norm());
 }
 
+double flat_angle(const Vector3d& u, const Vector3d& v) {
+  return std::atan2(u.cross(v).norm(), u.dot(v));
+}
+
 /// The angle at `a` of the spherical triangle abc.
 double angle_at(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
   const Vector3d u = a.cross(b);
   const Vector3d v = a.cross(c);
-  return std::atan2(u.cross(v).norm(), u.dot(v));
+  return flat_angle(u, v);
+}
+
+/// The centre of the circle through a triangle's corners.
+Vector3d flat_circumcentre(const Corners& c) {
+  const Vector3d p = c.at[1] - c.at[0];
+  const Vector3d q = c.at[2] - c.at[0];
+  const Vector3d across = p.squaredNorm() * q - q.squaredNorm() * p;
+  return c.at[0] + Vector3d(across.y(), -across.x(), 0) / (2 * p.cross(q).z());
+}
+
+/// What follows from the sites' places: a triangle of each, and the circumcentres.
+void link(Scene& scene) {
+  const Mesh& mesh = *scene.mesh;
+  scene.triangle_of.assign(static_cast<std::size_t>(scene.sites.cols()), -1);
+  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
+    for (const std::int32_t site : mesh.triangles.col(t)) {
+      scene.triangle_of[static_cast<std::size_t>(site)] = static_cast<std::int32_t>(t);
+    }
+  }
+  if (scene.shapes != Shapes::cells) {
+    return;
+  }
+  scene.circumcentres.resize(3, mesh.triangles.cols());
+  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
+    const Corners c(scene, t);
+    scene.circumcentres.col(t) =
+        scene.flat ? flat_circumcentre(c)
+                   : direction_of(Vector3d((c.at[1] - c.at[0]).cross(c.at[2] - c.at[0])));
+  }
 }
 
 } // namespace
 
 Corners::Corners(const Scene& scene, Eigen::Index triangle)
     : id(scene.mesh->triangles.col(triangle)), at{scene.sites.col(id[0]), scene.sites.col(id[1]),
-                                                  scene.sites.col(id[2])} {}
+                                                  scene.sites.col(id[2])},
+      flat(scene.flat) {}
 
-double Corners::side(int i) const { return arc(at[i], at[(i + 1) % 3]); }
+double Corners::side(int i) const {
+  const Vector3d& a = at[i];
+  const Vector3d& b = at[(i + 1) % 3];
+  return flat ? (a - b).norm() : arc(a, b);
+}
 
 double Corners::smallest_angle() const {
-  return std::min({angle_at(at[0], at[1], at[2]), angle_at(at[1], at[2], at[0]),
-                   angle_at(at[2], at[0], at[1])});
+  const auto angle = [&](int i) {
+    const Vector3d& a = at[i];
+    const Vector3d& b = at[(i + 1) % 3];
+    const Vector3d& c = at[(i + 2) % 3];
+    return flat ? flat_angle(b - a, c - a) : angle_at(a, b, c);
+  };
+  return std::min({angle(0), angle(1), angle(2)});
 }
 
 double Corners::area() const {
+  if (flat) {
+    return (at[1] - at[0]).cross(at[2] - at[0]).norm() / 2;
+  }
   const double volume = at[0].dot((at[1] - at[0]).cross(at[2] - at[0]));
   return 2 * std::atan2(volume, 1 + at[0].dot(at[1]) + at[1].dot(at[2]) + at[2].dot(at[0]));
 }
@@ -97,20 +143,18 @@ Scene make_scene(const Mesh& mesh, Shapes shapes, const LonLat& view) {
   for (Eigen::Index i = 0; i < mesh.points.cols(); ++i) {
     scene.sites.col(i) = scene.frame * direction_of(Vector3d(mesh.points.col(i)));
   }
-  scene.triangle_of.assign(static_cast<std::size_t>(mesh.points.cols()), -1);
-  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
-    for (const std::int32_t site : mesh.triangles.col(t)) {
-      scene.triangle_of[static_cast<std::size_t>(site)] = static_cast<std::int32_t>(t);
-    }
-  }
-  if (scene.shapes == Shapes::cells) {
-    scene.circumcentres.resize(3, mesh.triangles.cols());
-    for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
-      const Corners c(scene, t);
-      const Vector3d normal = (c.at[1] - c.at[0]).cross(c.at[2] - c.at[0]);
-      scene.circumcentres.col(t) = direction_of(normal);
-    }
-  }
+  link(scene);
+  return scene;
+}
+
+Scene make_flat_scene(const Mesh& mesh, Shapes shapes, const Points2& places) {
+  Scene scene;
+  scene.flat = true;
+  scene.mesh = &mesh;
+  scene.shapes = shapes == Shapes::triangles ? Shapes::triangles : Shapes::cells;
+  scene.sites = Points3::Zero(3, places.cols());
+  scene.sites.topRows<2>() = places;
+  link(scene);
   return scene;
 }
 

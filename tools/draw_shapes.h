@@ -10,8 +10,10 @@
 
 namespace calotte::tools {
 
-/// A mesh as it is seen: all points on the unit sphere, x to the right, y up, z to the viewer.
+/// A mesh as it is seen: all points on the unit sphere, x to the right, y up, z to the viewer. Or
+/// all on a plane, z = 0.
 struct Scene {
+  bool flat = false;
   Points3 sites;
   Points3 circumcentres;                 ///< of the triangles, where there are cells
   std::vector<std::int32_t> triangle_of; ///< for each site one of its triangles, or -1
@@ -26,6 +28,9 @@ struct Scene {
 
 /// The mesh turned so that `view` comes to the middle, north up. Rounded: for pictures only.
 Scene make_scene(const Mesh& mesh, Shapes shapes, const LonLat& view);
+
+/// The same of a plane. \param mesh its triangles and neighbours; \param places of its sites.
+Scene make_flat_scene(const Mesh& mesh, Shapes shapes, const Points2& places);
 
 /// Its rows are the viewer's right, up and towards.
 Eigen::Matrix3d frame_of(const LonLat& view);
@@ -52,11 +57,12 @@ struct Corners {
   double side(int i) const; ///< from corner i to the next
   double smallest_angle() const;
   double mean_side() const { return (side(0) + side(1) + side(2)) / 3; }
-  double area() const;    ///< steradians
+  double area() const;    ///< steradians; of a plane, its units squared
   double quality() const; ///< as Quality::triangle_quality
 
   Eigen::Vector3i id;
   Eigen::Vector3d at[3];
+  bool flat;
 };
 
 /// The triangles around a site, counter-clockwise, one call each; false when the star is open.

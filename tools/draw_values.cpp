@@ -23,11 +23,18 @@ std::vector<bool> closed_stars(const Scene& scene) {
   return closed;
 }
 
+/// Of a plane's open stars, too.
 std::vector<int> valences(const Scene& scene) {
   std::vector<int> count(static_cast<std::size_t>(scene.sites.cols()));
   for (Eigen::Index t = 0; t < scene.mesh->triangles.cols(); ++t) {
     for (const std::int32_t site : scene.mesh->triangles.col(t)) {
       ++count[static_cast<std::size_t>(site)];
+    }
+  }
+  if (scene.flat) {
+    const std::vector<bool> closed = closed_stars(scene);
+    for (std::size_t i = 0; i < count.size(); ++i) {
+      count[i] += closed[i] ? 0 : 1;
     }
   }
   return count;
@@ -64,18 +71,24 @@ double triangle_value(const Corners& corners, Colouring colouring, const std::ve
   return oddest_valence(corners, valence);
 }
 
-/// The mean distance to the neighbours: around a closed star each is the next corner of one
-/// triangle.
-std::vector<double> mean_distances(const Scene& scene, const std::vector<int>& valence) {
-  std::vector<double> values(valence.size());
+/// The mean distance to the neighbours: an edge is met in two triangles, or counts twice.
+std::vector<double> mean_distances(const Scene& scene) {
+  std::vector<double> sums(static_cast<std::size_t>(scene.sites.cols()));
+  std::vector<double> counts(sums.size());
   for (Eigen::Index t = 0; t < scene.mesh->triangles.cols(); ++t) {
     const Corners corners(scene, t);
     for (int i = 0; i < 3; ++i) {
-      const auto site = static_cast<std::size_t>(corners.id[i]);
-      values[site] += corners.side(i) / valence[site];
+      const double weight = scene.mesh->neighbours((i + 2) % 3, t) < 0 ? 2 : 1;
+      for (const int end : {corners.id[i], corners.id[(i + 1) % 3]}) {
+        sums[static_cast<std::size_t>(end)] += weight * corners.side(i);
+        counts[static_cast<std::size_t>(end)] += weight;
+      }
     }
   }
-  return values;
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    sums[i] /= counts[i];
+  }
+  return sums;
 }
 
 std::vector<double> smallest_angles(const Scene& scene) {
@@ -110,7 +123,7 @@ std::vector<double> cell_values(const Scene& scene, Colouring colouring,
                                 const std::vector<int>& valence, const Eigen::VectorXd& by_site) {
   switch (colouring) {
   case Colouring::spacing:
-    return mean_distances(scene, valence);
+    return mean_distances(scene);
   case Colouring::angle:
     return smallest_angles(scene);
   case Colouring::area:
@@ -133,6 +146,9 @@ std::vector<double> values_of(const Scene& scene, Colouring colouring,
   const std::vector<int> valence = valences(scene);
   if (scene.shapes == Shapes::cells) {
     std::vector<double> values = cell_values(scene, colouring, valence, by_site);
+    if (scene.flat) {
+      return values;
+    }
     const std::vector<bool> closed = closed_stars(scene);
     for (std::size_t i = 0; i < values.size(); ++i) {
       values[i] = closed[i] ? values[i] : nothing;

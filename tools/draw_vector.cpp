@@ -54,6 +54,12 @@ template <class Map> Way way_around(const std::vector<Vector3d>& polygon, double
   if (!polygon.empty()) {
     way.push_back(Map::place(polygon.front()));
   }
+  if constexpr (std::is_same_v<Map, Flat>) {
+    for (std::size_t i = 1; i < polygon.size(); ++i) {
+      way.push_back(Map::place(polygon[i]));
+    }
+    return way;
+  }
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     add_arc<Map>(way, polygon[i], polygon[(i + 1) % polygon.size()], scale);
   }
@@ -221,6 +227,13 @@ void vector_map(cairo_t* context, const Painting& painting, Projection projectio
   with_map(projection, [&]<class Map>() {
     draw_layers<Map>(context, painting, width / (2 * Map::half_width));
   });
+  cairo_restore(context);
+}
+
+void flat_map(cairo_t* context, const Painting& painting, double scale) {
+  cairo_save(context);
+  cairo_set_line_join(context, CAIRO_LINE_JOIN_ROUND);
+  draw_layers<Flat>(context, painting, scale);
   cairo_restore(context);
 }
 

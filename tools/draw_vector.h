@@ -17,6 +17,9 @@ void add_border(cairo_t* context, Projection projection, double width);
 /// but for a translation.
 void vector_map(cairo_t* context, const Painting& painting, Projection projection, double width);
 
+/// A flat scene in paths, so many pixels in its unit, around the origin, within the clip path.
+void flat_map(cairo_t* context, const Painting& painting, double scale);
+
 inline constexpr int graticule_step = 30; ///< degrees
 
 /// Faint meridians and parallels.

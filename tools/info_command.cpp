@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands.h"
 #include "density_option.h"
+#include "domain_option.h"
 #include "progress.h"
 
 #include <calotte/io.h>
@@ -10,6 +11,7 @@
 
 #include <iomanip>
 #include <iostream>
+#include <optional>
 #include <sstream>
 
 namespace calotte::tools {
@@ -18,7 +20,14 @@ namespace {
 struct Request {
   std::shared_ptr<MeshSource> source;
   std::shared_ptr<DensityWords> density;
+  std::shared_ptr<DomainWords> domain; ///< of a mesh of the plane
   std::string report;
+};
+
+/// What was measured, and where.
+struct Measured {
+  Quality quality;
+  std::optional<double> domain_area; ///< of a plane
 };
 
 double ratio(const Range& range) { return range.max / range.min; }
@@ -27,7 +36,8 @@ nlohmann::ordered_json to_json(const Range& range) {
   return {{"min", range.min}, {"mean", range.mean}, {"max", range.max}};
 }
 
-std::string to_json(const Quality& quality) {
+std::string to_json(const Measured& measured) {
+  const Quality& quality = measured.quality;
   nlohmann::ordered_json json;
   json["cells"] = quality.cells;
   json["triangles"] = quality.triangles;
@@ -48,7 +58,10 @@ std::string to_json(const Quality& quality) {
   json["energy"] = quality.energy;
   json["energy_times_cells"] = quality.energy * static_cast<double>(quality.cells);
   json["cells_area"] = quality.cells_area;
-  json["triangles_area"] = quality.triangles_area;
+  if (measured.domain_area)
+    json["domain_area"] = *measured.domain_area;
+  else
+    json["triangles_area"] = quality.triangles_area;
   return json.dump(2) + "\n";
 }
 
@@ -81,16 +94,19 @@ private:
   std::ostringstream out_;
 };
 
-std::string table(const Quality& quality) {
+std::string table(const Measured& measured) {
+  const Quality& quality = measured.quality;
+  const bool plane = measured.domain_area.has_value();
+  const double area = measured.domain_area.value_or(1);
   Table table;
   table.row("cells", quality.cells);
   table.row("triangles", quality.triangles);
   table.row("degree: cells", degrees(quality));
   table.row<std::string>("", "min", "mean", "max");
-  table.row("spacing, radians", quality.spacing);
+  table.row(plane ? "spacing" : "spacing, radians", quality.spacing);
   table.row("sigma", quality.sigma);
   table.row("cell quality", quality.cell_quality);
-  table.row("cell area, steradians", quality.cell_area);
+  table.row(plane ? "cell area" : "cell area, steradians", quality.cell_area);
   table.row("triangle quality", quality.triangle_quality);
   table.row("angles, degrees", quality.angles);
   table.row("off-centring", quality.off_centring);
@@ -98,9 +114,11 @@ std::string table(const Quality& quality) {
   table.row("obtuse triangles", quality.obtuse);
   table.row("residual / h", quality.residual);
   table.row("energy", quality.energy, 7);
-  table.row("energy * cells", quality.energy * static_cast<double>(quality.cells), 7);
-  table.row("cells / 4 pi", quality.cells_area, 15);
-  table.row("triangles / 4 pi", quality.triangles_area, 15);
+  table.row(plane ? "energy * cells / A^2" : "energy * cells",
+            quality.energy * static_cast<double>(quality.cells) / (area * area), 7);
+  table.row(plane ? "cells / domain" : "cells / 4 pi", quality.cells_area, 15);
+  if (!plane)
+    table.row("triangles / 4 pi", quality.triangles_area, 15);
   return table.text();
 }
 
@@ -112,30 +130,55 @@ void require_outputs(const Request& request) {
   require_distinct(request.report, request.source->points);
 }
 
-Quality read_and_measure(const Request& request, const Density& density) {
+/// The domain that is given, or the box of the mesh.
+PlanarDomain domain_of(const Request& request, const PlanarMesh& mesh) {
+  if (const std::optional<PlanarDomain> given = domain_of(*request.domain))
+    return *given;
+  if (mesh.period.minCoeff() > 0)
+    return periodic_box(mesh.period);
+  throw Error(ErrorCode::bad_option, request.source->path +
+                                         ": the domain of a mesh of the plane clips its cells; "
+                                         "give --domain, --rectangle or --periodic");
+}
+
+Measured read_and_measure(const Request& request) {
+  const bool plane = request.source->plane;
+  const Density density = density_of(*request.density, plane);
   Progress progress;
   progress.stage("reading " + request.source->path);
+  if (plane) {
+    const PlanarMesh mesh = read_planar_mesh(*request.source);
+    const PlanarDomain domain = domain_of(request, mesh);
+    progress.stage("measuring " + request.source->path);
+    return {quality(mesh, domain, density), area(domain)};
+  }
   const Mesh mesh = read_mesh(*request.source);
   progress.stage("measuring " + request.source->path);
-  return quality(mesh, density);
+  return {quality(mesh, density), {}};
 }
 
 void run(const Request& request) {
+  if (request.domain->given() && !request.source->plane)
+    throw Error(ErrorCode::bad_option,
+                "a domain is one of the plane; give --plane, too, or leave it out");
   require_outputs(request);
-  const Quality quality = read_and_measure(request, density_of(*request.density));
+  const Measured measured = read_and_measure(request);
   if (!request.report.empty())
-    write_file(request.report, to_json(quality));
-  std::cout << table(quality);
+    write_file(request.report, to_json(measured));
+  std::cout << table(measured);
 }
 
 } // namespace
 
 void add_info(CLI::App& app) {
-  CLI::App* command = app.add_subcommand(
-      "info", "Measure a closed mesh as a grid: spacing, shapes of cells and triangles, distance "
-              "from a centroidal tessellation.");
+  CLI::App* command =
+      app.add_subcommand("info", "Measure a closed mesh, or one of the plane, as a grid: spacing, "
+                                 "shapes of cells and triangles, distance "
+                                 "from a centroidal tessellation.");
   auto request = std::make_shared<Request>();
   request->source = add_mesh_source(*command);
+  add_plane(*command, *request->source);
+  request->domain = add_domain(*command);
   request->density = add_density(*command);
   command->add_option("--report", request->report, "a JSON file of the same");
   command->callback([request] { run(*request); });

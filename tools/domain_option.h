@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <calotte/domain.h>
+
+#include <CLI/CLI.hpp>
+
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace calotte::tools {
+
+/// What the options say about a part of the plane: one of these at most.
+struct DomainWords {
+  std::optional<std::string> file;      ///< of polygons
+  std::optional<std::string> rectangle; ///< "X0,Y0,X1,Y1"
+  std::optional<std::string> periodic;  ///< "WIDTH,HEIGHT" of a box from 0 0 on
+
+  bool given() const { return file || rectangle || periodic; }
+};
+
+/// Adds --domain, --rectangle and --periodic.
+std::shared_ptr<DomainWords> add_domain(CLI::App& command);
+
+/// What they ask for; nothing where none is given. Reads the file, if there is one.
+/// \throws Error bad_option naming the word and the remedy; as read_domain.
+std::optional<PlanarDomain> domain_of(const DomainWords& words);
+
+/// What determines it, a line "name value" for a run's configuration: of a file, its contents.
+/// \pre words.given(). \throws Error file.
+std::string domain_configuration(const DomainWords& words);
+
+/// --periodic alone. \param word receives what is given.
+CLI::Option* add_periodic(CLI::App& command, std::optional<std::string>& word);
+
+/// Of --periodic, where it is given. \throws Error bad_option.
+std::optional<Eigen::Vector2d> period_of(const std::optional<std::string>& word);
+
+} // namespace calotte::tools
