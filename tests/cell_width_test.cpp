@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <calotte/cell_width.h>
+#include <calotte/planar_raster.h>
 
 #include "io/lonlat.h"
 #include "io/netcdf.h"
@@ -98,7 +99,7 @@ private:
 struct Raster {
   std::vector<double> lon, lat, values; ///< values lat by lon
   std::string variable = "cellWidth";
-  std::string lat_name = "lat";
+  std::string lat_name = "lat", lon_name = "lon";
   bool transposed = false;
   detail::NetcdfAttributes attributes = {};
 };
@@ -126,7 +127,7 @@ std::string written(const Folder& folder, const Raster& raster) {
             lon = file.dimension("lon", static_cast<std::int64_t>(raster.lon.size()));
   const auto type = detail::NetcdfType::float64;
   const int lats = file.variable(raster.lat_name, type, {lat}),
-            lons = file.variable("lon", type, {lon});
+            lons = file.variable(raster.lon_name, type, {lon});
   const std::vector<int> dimensions =
       raster.transposed ? std::vector{lon, lat} : std::vector{lat, lon};
   const int widths = file.variable(raster.variable, type, dimensions, raster.attributes);
@@ -405,6 +406,38 @@ TEST_CASE("a density raster gives widths whose density it is") {
   for (Eigen::Index k = 0; k < width.widths.size(); ++k)
     CHECK(std::pow(width.widths.data()[k], -4) ==
           doctest::Approx(raster.values[static_cast<std::size_t>(k)] / most).epsilon(1e-13));
+}
+
+TEST_CASE("a raster of the plane: in any direction of its axes, and what is none") {
+  const Folder folder;
+  Raster raster{{0, 1, 3}, {2, 0}, {8, 7, 6, 5, 4, 3}, "density", "y", "x"};
+  const PlanarRaster read = read_planar_raster(written(folder, raster));
+  CHECK(read.x == Eigen::Vector3d(0, 1, 3));
+  CHECK(read.y == Eigen::Vector2d(0, 2));
+  CHECK(read.density(2, 0) == 3);
+  CHECK(read.density(0, 1) == 8);
+  const auto refused = [&](const std::function<void(Raster&)>& spoil) -> std::string {
+    Raster spoilt = raster;
+    spoil(spoilt);
+    const std::string path = written(folder, spoilt);
+    try {
+      read_planar_raster(path);
+    } catch (const Error& error) {
+      CHECK(error.code() == ErrorCode::parse);
+      return std::string(error.what()).substr(path.size());
+    }
+    return "";
+  };
+  CHECK(refused([](Raster& r) { r.values[4] = -1; }) ==
+        ": density[1][1] is negative, infinite or NaN; correct it");
+  CHECK(refused([](Raster& r) { r.lon[1] = 3; }) ==
+        ": x[2] is not finite and beyond the one before; sort the raster");
+  CHECK(refused([](Raster& r) { r.variable = std::string("rho"); }) ==
+        ": no variable density; give density(y, x)");
+  CHECK(refused([](Raster& r) { r.lon_name = std::string("lon"); }) ==
+        ": no coordinate variable x; give x(x)");
+  CHECK(refused([](Raster& r) { r.transposed = true; }) ==
+        ": density is not density(lat, lon); give it these dimensions, in this order");
 }
 
 TEST_CASE("NetCDF rasters that are none end in one line that names what is wrong") {
@@ -711,10 +744,11 @@ TEST_CASE("GeoJSON that gives no widths ends in one line that names the feature"
   CHECK(refused(R"({"type":"FeatureCollection","features":[{"type":"Feature","geometry":)" +
                 polygon(square) + R"(,"properties":{"cellWidth":-3}}]})") ==
         ": feature 0: its property \"cellWidth\" is no positive number; give km");
-  CHECK(refused(polygon("[[0,0],[1,0],[0,0]]")) == ": a ring of fewer than 3 places; leave it out");
+  CHECK(refused(polygon("[[0,0],[1,0],[0,0]]")) ==
+        ": ring 0 has fewer than 3 places; leave it out");
   CHECK(refused(polygon("[[0,0],[1,95],[2,0],[0,0]]"))
-            .starts_with(": position 1 of a ring is [1, 95]"));
-  CHECK(refused(polygon("[[0,0],[1],[2,0],[0,0]]")).starts_with(": position 1 of a ring is no "));
+            .starts_with(": position 1 of ring 0 is [1.0, 95.0]"));
+  CHECK(refused(polygon("[[0,0],[1],[2,0],[0,0]]")).starts_with(": position 1 of ring 0 is no "));
   CHECK(refused(polygon("")) == ": a polygon without rings; give its outer one");
   CHECK(refused(R"({"type":"Polygon"})").starts_with(": no array \"coordinates\""));
   PolygonWidths widths = coastal;

@@ -3,11 +3,14 @@
 #include "support/laws.h"
 
 #include <calotte/check.h>
+#include <calotte/delaunay.h>
+#include <calotte/generators.h>
 
 #include <doctest/doctest.h>
 
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 using namespace calotte;
@@ -273,5 +276,213 @@ TEST_CASE("arrays of nonsense do not crash") {
       exchange_sites(wrong.points, random.integer(0, 19), random.integer(0, 19));
     const Check result = check(wrong);
     CHECK((!result.passed() || wrong.points == mesh.points));
+  }
+}
+
+// ---- The plane
+
+namespace {
+
+bool fails_with(const PlanarMesh& mesh, const std::string& words) {
+  const Check result = check(mesh);
+  INFO("failure: ", result.failure);
+  CHECK_FALSE(result.passed());
+  CHECK(result.failure.find('\n') == std::string::npos);
+  const bool found = result.failure.find(words) != std::string::npos;
+  CHECK(found);
+  return found;
+}
+
+Points2 scatter(int n, std::uint64_t seed) {
+  Random random(seed);
+  Points2 points(2, n);
+  for (Eigen::Index i = 0; i < 2 * n; ++i)
+    points.data()[i] = random.real(0, 1);
+  return points;
+}
+
+Points2 square_lattice(int side) {
+  Points2 points(2, side * side);
+  for (int i = 0; i < side * side; ++i)
+    points.col(i) << i % side, i / side; // NOLINT(bugprone-integer-division)
+  return points;
+}
+
+/// Canonical again after its triangles were changed.
+PlanarMesh planar_mesh_of(const PlanarMesh& mesh, std::vector<Triple> triangles) {
+  PlanarMesh out = mesh;
+  const Mesh whole =
+      oracle::mesh_of(Points3::Constant(3, mesh.points.cols(), 1), std::move(triangles));
+  out.triangles = whole.triangles;
+  out.neighbours = whole.neighbours;
+  return out;
+}
+
+/// With the edge across from vertex i of triangle t flipped.
+PlanarMesh flipped(const PlanarMesh& mesh, std::int64_t t, int i) {
+  std::vector<Triple> triangles;
+  for (std::int64_t u = 0; u < mesh.triangles.cols(); ++u)
+    triangles.push_back({mesh.triangles(0, u), mesh.triangles(1, u), mesh.triangles(2, u)});
+  const std::int32_t other = mesh.neighbours(i, t);
+  const std::int32_t a = mesh.triangles(i, t), b = mesh.triangles((i + 1) % 3, t),
+                     c = mesh.triangles((i + 2) % 3, t);
+  std::int32_t d = -1;
+  for (int j = 0; j < 3; ++j)
+    if (mesh.neighbours(j, other) == t)
+      d = mesh.triangles(j, other);
+  triangles[static_cast<std::size_t>(t)] = {a, b, d};
+  triangles[static_cast<std::size_t>(other)] = {a, d, c};
+  return planar_mesh_of(mesh, triangles);
+}
+
+std::vector<PlanarMesh> planar_meshes() {
+  std::vector<PlanarMesh> meshes;
+  for (const double scale : {1.0, 1e-150, 1e150})
+    meshes.push_back(delaunay(Points2(scale * scatter(60, 8))));
+  meshes.push_back(delaunay(square_lattice(6)));
+  Points2 thin = scatter(80, 9); // long triangles along the hull
+  thin.row(1) *= 1e-9;
+  meshes.push_back(delaunay(thin));
+  for (const std::uint64_t seed : {1, 2, 3})
+    meshes.push_back(delaunay(scatter(100, seed), Eigen::Vector2d(1, 1)));
+  Points2 wide = scatter(300, 4);
+  wide.row(0) *= 7e100;
+  wide.row(1) *= 3e100;
+  meshes.push_back(delaunay(wide, Eigen::Vector2d(7e100, 3e100)));
+  meshes.push_back(delaunay(square_lattice(8), Eigen::Vector2d(8, 8)));
+  meshes.push_back(
+      delaunay(periodic_hexagons(8, 10, 1).points, periodic_hexagons(8, 10, 1).period));
+  return meshes;
+}
+
+} // namespace
+
+TEST_CASE("planar meshes pass, open and periodic, and their areas are known") {
+  for (const PlanarMesh& mesh : planar_meshes()) {
+    CAPTURE(mesh.points.cols());
+    const Check result = check(mesh);
+    CHECK(result.failure == "");
+    CHECK(result.sites == mesh.points.cols());
+    CHECK(result.area == doctest::Approx(result.whole).epsilon(1e-12));
+    if (mesh.period.x() > 0) {
+      CHECK(result.whole == doctest::Approx(mesh.period.prod()));
+      CHECK(result.boundary_edges == 0);
+    }
+  }
+  CHECK(check(delaunay(square_lattice(6))).area == 25);
+}
+
+TEST_CASE("every flipped edge of a planar mesh is found, ties and copies too") {
+  for (const PlanarMesh& mesh : planar_meshes())
+    for (std::int64_t t = 0; t < mesh.triangles.cols(); ++t)
+      for (int i = 0; i < 3; ++i)
+        if (mesh.neighbours(i, t) > t) {
+          CAPTURE(t);
+          CHECK_FALSE(check(flipped(mesh, t, i)).passed());
+        }
+}
+
+TEST_CASE("arrays and sites of a planar mesh that are wrong are named") {
+  const PlanarMesh open = delaunay(scatter(30, 5)),
+                   box = delaunay(scatter(60, 6), Eigen::Vector2d(1, 1));
+  fails_with(PlanarMesh{}, "no triangle");
+  for (const PlanarMesh& mesh : {open, box}) {
+    PlanarMesh wrong = mesh;
+    wrong.points(1, 4) = std::numeric_limits<double>::quiet_NaN();
+    fails_with(wrong, "site 4 is not a place");
+    wrong = mesh;
+    wrong.points.resize(2, 0);
+    wrong.site_of_input.clear();
+    fails_with(wrong, "vertex outside");
+    wrong = mesh;
+    wrong.triangles(2, 5) = 1 << 30;
+    fails_with(wrong, "triangle 5 ");
+    wrong = mesh;
+    wrong.triangles.col(3).swap(wrong.triangles.col(4));
+    fails_with(wrong, "triangle 4 ");
+    wrong = mesh;
+    wrong.neighbours(0, 2) = 2;
+    fails_with(wrong, "triangle 2 ");
+    wrong = mesh;
+    wrong.points.col(0).swap(wrong.points.col(1));
+    CHECK_FALSE(check(wrong).passed());
+    wrong = mesh;
+    wrong.points.conservativeResize(2, mesh.points.cols() + 1);
+    wrong.points.rightCols<1>() << 0.5, 0.5;
+    fails_with(wrong, "is no vertex");
+  }
+  PlanarMesh wrong = box;
+  wrong.points(0, 3) = 1;
+  fails_with(wrong, "site 3 is outside the periodic box");
+  wrong = box;
+  wrong.period *= 2; // what the meshes' triangles bridge is not there
+  CHECK_FALSE(check(wrong).passed());
+  wrong = box;
+  wrong.period.setZero();
+  CHECK_FALSE(check(wrong).passed());
+}
+
+TEST_CASE("a planar boundary that is not convex, and a torus with a hole") {
+  const PlanarMesh open = delaunay(scatter(30, 5)),
+                   box = delaunay(scatter(60, 6), Eigen::Vector2d(1, 1));
+  for (const PlanarMesh& mesh : {open, box}) {
+    std::vector<Triple> triangles;
+    for (std::int64_t u = 0; u < mesh.triangles.cols(); ++u)
+      if (u != 7)
+        triangles.push_back({mesh.triangles(0, u), mesh.triangles(1, u), mesh.triangles(2, u)});
+    CHECK_FALSE(check(planar_mesh_of(mesh, triangles)).passed());
+  }
+}
+
+TEST_CASE("two sheets over a periodic box are not one") {
+  const PlanarMesh one = delaunay(scatter(60, 6), Eigen::Vector2d(1, 1));
+  PlanarMesh two = one;
+  two.points.resize(2, 120);
+  two.points << one.points, one.points;
+  std::vector<Triple> triangles;
+  for (const std::int32_t shift : {0, 60})
+    for (std::int64_t u = 0; u < one.triangles.cols(); ++u)
+      triangles.push_back(
+          {one.triangles(0, u) + shift, one.triangles(1, u) + shift, one.triangles(2, u) + shift});
+  two.site_of_input.clear();
+  fails_with(planar_mesh_of(two, triangles), "the areas sum to 2");
+}
+
+/// Of a closed mesh.
+template <class AnyMesh> void check_neighbours_exchanged(AnyMesh mesh) {
+  REQUIRE(check(mesh).passed());
+  const auto triangles = static_cast<int>(mesh.triangles.cols());
+  Random random(48);
+  for (int round = 0; round < 40; ++round) {
+    const int i = random.integer(0, 2), t = random.integer(0, triangles - 1);
+    const std::int32_t good =
+        std::exchange(mesh.neighbours(i, t), random.integer(0, triangles - 1));
+    CHECK(check(mesh).passed() == (mesh.neighbours(i, t) == good));
+    mesh.neighbours(i, t) = good;
+  }
+}
+
+TEST_CASE("any neighbour that is another is found, in a mesh of several blocks") {
+  check_neighbours_exchanged(calotte::delaunay(calotte::random_sphere(20000, 5)));
+  check_neighbours_exchanged(delaunay(scatter(20000, 5), Eigen::Vector2d(1, 1)));
+}
+
+TEST_CASE("planar arrays of nonsense do not crash") {
+  Random random(53);
+  for (int round = 0; round < 3000; ++round) {
+    const int n = random.integer(0, 6), m = random.integer(0, 8);
+    PlanarMesh mesh;
+    mesh.points.resize(2, n);
+    for (Eigen::Index i = 0; i < mesh.points.size(); ++i)
+      mesh.points.data()[i] = random.integer(-1, 1);
+    mesh.triangles.resize(3, m);
+    mesh.neighbours.resize(3, m);
+    for (Eigen::Index i = 0; i < mesh.triangles.size(); ++i) {
+      mesh.triangles.data()[i] = random.integer(0, n);
+      mesh.neighbours.data()[i] = random.integer(-1, m);
+    }
+    if (round % 2 == 0)
+      mesh.period = {random.integer(-1, 2), random.integer(-1, 2)};
+    CHECK_FALSE(check(mesh).passed());
   }
 }

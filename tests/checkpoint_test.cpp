@@ -280,7 +280,7 @@ TEST_CASE("what is no checkpoint of this version is refused") {
   const Scratch scratch;
   write_checkpoint(scratch.path, some_state(), configuration);
   std::string other = scratch.bytes();
-  other[other.find('2')] = '1';
+  other[other.find('3')] = '2';
   scratch.put(other);
   CHECK(says(refusal(scratch), "run.checkpoint: a checkpoint of another version"));
   scratch.put("1 0 0\n0 1 0\n");

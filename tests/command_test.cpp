@@ -342,6 +342,52 @@ TEST_CASE("a plane is triangulated, open or periodic, and read and written as su
         calotte::read_planar_mesh(bench.folder() / "again.nc").triangles);
 }
 
+TEST_CASE("planar points in a domain, and the proof that their mesh is Delaunay") {
+  const Bench bench;
+  bench.file("lake.txt", "0 0\n4 0\n4 3\n0 3\n\n1 1\n2 1\n1 2\n");
+  CHECK(bench.run("points random-plane 500 --domain lake.txt --seed 3 -o lake.points").code == 0);
+  CHECK(bench.run("points hexagonal 120 --rectangle=-1,-1,1,1 -o square.points").code == 0);
+  CHECK(bench.run("points hexagonal 120 --periodic 10,10.392304845413264 -o box.points").out ==
+        "box.points: 120 points\n");
+  CHECK(bench.run("delaunay --plane lake.points -o lake.vtp").code == 0);
+  CHECK(bench.run("delaunay --plane square.points -o square.tri").code == 0);
+  CHECK(bench.run("delaunay --plane --periodic 10,10.392304845413264 box.points -o box.nc").code ==
+        0);
+  CHECK(bench.run("check --plane lake.vtp").out.find("Delaunay        yes") != std::string::npos);
+  const Outcome square = bench.run("check --plane square.tri --points square.points");
+  CHECK(square.out.find("area / hull     ") != std::string::npos);
+  CHECK(square.out.find("Delaunay        yes") != std::string::npos);
+  CHECK(bench.run("check --plane box.nc").out.find("boundary edges  0\narea / box") !=
+        std::string::npos);
+  CHECK(bench.run("convert lake.vtp lake.off").out.ends_with(", a plane\n"));
+  CHECK(bench.run("convert --plane square.tri --points square.points square.ply").code == 0);
+  bench.file("bent.off", "OFF\n4 2 0\n0 0 0\n4 0 0\n2 1 0\n2 -1 0\n3 0 1 2\n3 0 3 1\n");
+  const Outcome bent = bench.run("check --plane bent.off");
+  CHECK(bent.code == 1);
+  CHECK(bent.err.find("is not Delaunay") != std::string::npos);
+}
+
+TEST_CASE("domains and planar points that cannot be are refused in one line") {
+  const Bench bench;
+  bench.file("bow.txt", "0 0\n4 4\n4 0\n0 4\n");
+  check_refusal_naming(bench, "points hexagonal 50 -o x.txt", 2, "--domain");
+  check_refusal_naming(bench, "points fibonacci 50 --rectangle 0,0,1,1 -o x.txt", 2, "sphere");
+  check_refusal_naming(bench, "points hexagonal 50 --seed 1 --rectangle 0,0,1,1 -o x.txt", 2,
+                       "--seed");
+  check_refusal_naming(bench, "points random-plane 50 --domain bow.txt -o x.txt", 2, "meet");
+  check_refusal_naming(bench, "points random-plane 50 --domain absent.txt -o x.txt", 3,
+                       "absent.txt");
+  for (const std::string word :
+       {"1,2,3", "0,0,1", "0,0,0,1", "1,0,0,1", "0,0,1,nan", "0,0,1,1,", "a"})
+    check_refusal_naming(bench, "points random-plane 50 --rectangle " + word + " -o x.txt", 2,
+                         "--rectangle " + word + " is no rectangle");
+  for (const std::string word : {"1", "1,0", "-1,1", "1,1,1", "1,x"})
+    check_refusal_naming(bench, "points random-plane 50 --periodic " + word + " -o x.txt", 2,
+                         "--periodic " + word + " is no box");
+  check_refusal_naming(bench, "points random-plane 9 --periodic 1,1 --rectangle 0,0,1,1 -o x.txt",
+                       2, "excludes");
+}
+
 TEST_CASE("what a plane cannot be is refused, naming line or option") {
   const Bench bench;
   bench.file("points.txt", "0 0\n1 0\n0.5 1\n0.7 0.2\n");

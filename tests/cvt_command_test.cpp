@@ -5,6 +5,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <functional>
@@ -231,9 +232,10 @@ TEST_CASE("bad usage is refused before any work") {
   check_usage("never --cells 12" + out, "the start is the file never; leave --cells out");
   check_usage("never --start random" + out, "the start is the file never; leave --start out");
   check_usage("never --seed 2" + out, "the start is the file never; leave --seed out");
-  for (const std::string cells : {"11", "0", "-12", "2e3", "many"})
+  for (const std::string cells : {"2", "0", "-12", "2e3", "many"})
     check_usage("--cells=" + cells + out,
-                "--cells: \"" + cells + "\" is not a whole number from 12 to 1073741824" + see);
+                "--cells: \"" + cells + "\" is not a whole number from 3 to 1073741824" + see);
+  check_usage("--cells 11" + out, "--cells 11 are too few; give 12 at least");
   check_usage("--cells 12 --lonlat" + out, "--lonlat is for a file of points; leave it out");
   check_usage("--cells 12 --start fibonacci --seed 2" + out,
               "--seed is for the starts continuation, random and density; leave it out");
@@ -251,7 +253,8 @@ TEST_CASE("bad usage is refused before any work") {
   check_usage("--cells 30 --start random --bisections 1" + out,
               "--bisections 1 does not lead to 30 cells; the nearest count is 42");
   check_usage("--cells 12 --start there" + out,
-              "--start: there not in {continuation,random,density,fibonacci,spiral,icosahedron}" +
+              "--start: there not in {continuation,random,density,fibonacci,spiral,icosahedron,"
+              "hexagonal}" +
                   see);
   for (const std::string tolerance : {"0", "-1e-06", "nan", "inf"})
     check_usage("never --tolerance=" + tolerance + out,
@@ -353,7 +356,7 @@ TEST_CASE("options from a file: the command line wins, and what is unknown is re
   check_file("cells = 12\ntolerence = 3\n", 2,
              "unknown option \"tolerence\"; did you mean tolerance? See" + see);
   check_file("config = \"bad.toml\"\n", 1, "unknown option \"config\"; see" + see);
-  check_file("cells = 11\n", 1, "--cells: \"11\" is not a whole number from 12 to 1073741824");
+  check_file("cells = 2\n", 1, "--cells: \"2\" is not a whole number from 3 to 1073741824");
   check_file("tolerance = 'small'\n", 1, "Could not convert: --tolerance = small");
   check_file("[a]\nlonlat = 1\n", 2, "lonlat takes true or false");
   check_refusal(bench, "cvt --config absent.toml -o mesh.tri", 3,
@@ -370,17 +373,18 @@ TEST_CASE("the examples run, from anywhere, and write beside themselves") {
   for (const auto& entry : fs::directory_iterator(bench.folder() / "examples"))
     if (entry.path().extension() == ".toml")
       runs.insert(entry.path().stem());
-  CHECK(runs == std::set<std::string>{"coastal", "uniform-120km", "x8"});
+  CHECK(runs == std::set<std::string>{"coastal", "lake", "uniform-120km", "x8"});
   for (const std::string& run : runs) {
     CAPTURE(run);
-    const std::string mesh = "examples/" + run + ".nc";
+    const bool plane = run == "lake";
+    const std::string mesh = "examples/" + run + (plane ? ".vtp" : ".nc");
     const Outcome made =
         bench.run("cvt --config examples/" + run + ".toml --cells 162 --max-iterations 30");
     CAPTURE(made.err);
     CHECK((made.code == 0 || has(made.err, "raise --max-iterations")));
     CHECK(!has(made.err, "warning"));
     CHECK(made.out.starts_with(mesh + ": 162 cells, "));
-    CHECK(bench.run("check " + mesh).code == 0);
+    CHECK(bench.run((plane ? "check --plane " : "check ") + mesh).code == 0);
   }
   CHECK(fs::exists(bench.folder() / "examples/x8.json"));
   CHECK(has(bench.file("examples/x8.nc"),
@@ -707,4 +711,74 @@ TEST_CASE("a checkpoint that is cut short, damaged, something else or missing is
   check_refusal(bench, resume, 3,
                 "cannot read run.checkpoint: No such file or directory; check its name and its "
                 "permissions");
+}
+
+// ---- In the plane
+
+TEST_CASE("a lake with an island: the mesh, its report, its quality, its picture, and resuming") {
+  const Bench bench;
+  bench.file("lake.txt", "0 0\n8 0\n9 4\n5 3\n0 5\n>\n2 1\n4 1\n3 2\n"); // its shore is not convex
+  const std::string run = "cvt --domain lake.txt --cells 300 --density "
+                          "tanh:x=7,y=1,beta=1,alpha=1,gamma=x2 --tolerance 1e-3";
+  const Outcome done = bench.run(run + " -o lake.vtp --report lake.json");
+  CHECK(done.code == 0);
+  CHECK(has(done.out, "lake.vtp: 300 cells, converged"));
+  CHECK(has(done.out, "energy x cells / area^2"));
+  CHECK(has(bench.file("lake.json"), quoted("spacing")));
+  CHECK(bench.run("check --plane lake.vtp").code == 0);
+  const Outcome info = bench.run("info --plane lake.vtp --domain lake.txt --report info.json");
+  CHECK(info.code == 0);
+  CHECK(has(bench.file("info.json"), quoted("domain_area") + "31"));
+  CHECK(bench.run("draw --plane lake.vtp --domain lake.txt --what cells -o lake.png").code == 0);
+  CHECK(bench.run("draw --history lake.json -o history.png").code == 0);
+
+  const Outcome stopped = bench.run(run + " --max-iterations 9 --checkpoint c --checkpoint-every 4 "
+                                          "-o other.vtp");
+  CHECK(stopped.code == 1);                                     // not converged
+  CHECK(bench.run(run + " --resume c -o other.vtp").code == 2); // another limit of iterations
+  CHECK(bench.run("cvt --domain lake.txt --cells 300 --resume c -o other.vtp").code == 2);
+  const Outcome whole = bench.run(run + " --checkpoint d --checkpoint-every 5 -o again.vtp");
+  CHECK(whole.code == 0);
+  CHECK(bench.run(run + " --resume d --threads 1 --regions 7 -o resumed.vtp").code == 0);
+  CHECK(bench.file("resumed.vtp") == bench.file("lake.vtp"));
+  CHECK(bench.run("cvt lake.vtp --domain lake.txt --iterations 2 -o more.off").code == 0);
+}
+
+TEST_CASE("a periodic box: MPAS's file, bisections, hexagons at rest") {
+  const Bench bench;
+  const Outcome hexagons = bench.run("cvt --periodic 24,20.784609690826528 --start hexagonal "
+                                     "--cells 576 -o hexagons.nc");
+  CHECK(hexagons.code == 0);
+  CHECK(has(hexagons.out, "1 iteration,"));
+  CHECK(has(hexagons.out, "area^2 0.1603751"));
+  CHECK(
+      bench.run("cvt --periodic 2,1 --cells 3200 --bisections 2 --tolerance 1e-2 -o box.nc").code ==
+      0);
+  CHECK(bench.run("check --plane box.nc").code == 0);
+  CHECK(bench.run("info --plane box.nc").code == 0);
+}
+
+TEST_CASE("what does not go with the plane is refused before any work, in one line") {
+  const Bench bench;
+  bench.file("points.txt", "0.5 0.5\n0.1 0.2\n3 3\n0.9 0.1\n");
+  const auto refused = [&](const std::string& arguments, const std::string& words) {
+    CAPTURE(arguments);
+    const Outcome outcome = bench.run("cvt " + arguments);
+    CHECK(outcome.code == 2);
+    CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
+    CHECK(has(outcome.err, words));
+    CHECK_FALSE(fs::exists(bench.folder() / "m.vtp"));
+  };
+  const std::string square = "--rectangle 0,0,1,1 ";
+  refused(square + "points.txt -o m.vtp", "line 3: point 2 is outside of the domain");
+  refused(square + "--cells 100 -o m.nc", ".vtp");
+  refused("--periodic 1,1 --cells 100 -o m.vtp", ".nc");
+  refused("--periodic 1,1 --cells 102 --bisections 1 -o m.nc", "100 and 104");
+  refused(square + "--cells 100 --start fibonacci -o m.vtp", "for the sphere");
+  refused("--cells 100 --start hexagonal -o m.vtp", "for the plane");
+  refused("--rectangle 1,0,0,1 --cells 100 -o m.vtp", "no rectangle");
+  refused(square + "--cells 100 --density tanh:lon=0,lat=0,beta=1,alpha=1,gamma=x8 -o m.vtp",
+          "unknown key \"lon\"; the keys are x, y");
+  refused(square + "--cells 100 --cell-width w.nc -o m.vtp", "--cell-width is for the sphere");
+  refused("--cells 5 -o m.vtp", "12 at least");
 }

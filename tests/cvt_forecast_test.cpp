@@ -18,6 +18,7 @@ CvtState decaying(int iterations, double factor) {
   for (int k = 0; k < iterations; ++k) {
     CvtIteration iteration;
     iteration.cells = 12;
+    iteration.spacing = std::sqrt(4 * std::numbers::pi / 12);
     iteration.l2 = iteration.linf = iteration.gradient = std::pow(factor, k);
     iteration.seconds = 2;
     state.report.iterations.push_back(iteration);
@@ -102,8 +103,9 @@ TEST_CASE("what has converged takes no more time") {
 TEST_CASE("the norms are those of the report") {
   CvtIteration iteration;
   iteration.cells = 400;
+  iteration.spacing = std::sqrt(4 * std::numbers::pi / 400);
   iteration.l2 = 1, iteration.linf = 2, iteration.gradient = 3;
-  const double h = std::sqrt(4 * std::numbers::pi / 400);
+  const double h = iteration.spacing;
   CHECK(norm_of(iteration, Norm::l2) == 1);
   CHECK(norm_of(iteration, Norm::linf) == 2);
   CHECK(norm_of(iteration, Norm::gradient) == 3);

@@ -342,6 +342,23 @@ TEST_CASE("duplicates: the lowest index stays, and the map says where each went"
   }
 }
 
+TEST_CASE("points that are handed over give the same mesh, and are not copied") {
+  for (const bool twins : {false, true}) {
+    CAPTURE(twins);
+    Points3 points = 3 * random_sphere(5000, 12);
+    if (twins)
+      points.col(4000) = points.col(7);
+    const Mesh expected = delaunay(points);
+    const double* data = points.data();
+    const Mesh mesh = delaunay(std::move(points));
+    CHECK((mesh.points.data() == data) == !twins);
+    CHECK(mesh.points == expected.points);
+    CHECK(mesh.triangles == expected.triangles);
+    CHECK(mesh.neighbours == expected.neighbours);
+    CHECK(mesh.site_of_input == expected.site_of_input);
+  }
+}
+
 TEST_CASE("duplicates refused, and merge_within") {
   const Points3 points = joined(octahedron(), columns({{0, 3, 0}, {1, 1e-4, 0}}));
   DelaunayOptions refuse;

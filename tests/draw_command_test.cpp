@@ -147,3 +147,25 @@ TEST_CASE("what is no report is named, and nothing is written") {
   check_refusal(bench, "draw --history a.png -o a.png", 2,
                 "a.png is both input and output; give the output another name");
 }
+
+TEST_CASE("a mesh of the plane becomes a picture, with its domain") {
+  const Bench bench;
+  bench.file("lake.txt", "0 0\n4 0\n4 3\n0 3\n\n1 1\n2 1\n1 2\n");
+  CHECK(bench.run("points random-plane 100 --domain lake.txt -o points.txt").code == 0);
+  CHECK(bench.run("delaunay --plane points.txt -o mesh.vtp").code == 0);
+  const Outcome lake =
+      bench.run("draw --plane mesh.vtp --domain lake.txt --what cells -o lake.png");
+  CHECK(lake.out.starts_with("lake.png: picture of 100 sites, "));
+  CHECK(bench.file("lake.png").starts_with("\x89PNG"));
+  CHECK(bench.run("draw --plane mesh.vtp -o triangles.svg --size 300").code == 0);
+  CHECK(bench.run("points hexagonal 64 --periodic 1,1 -o box.txt").code == 0);
+  CHECK(bench.run("delaunay --plane --periodic 1,1 box.txt -o box.nc").code == 0);
+  CHECK(bench.run("draw --plane box.nc --what both --colour quality -o box.pdf").code == 0);
+  check_refusal_naming(bench, "draw --plane box.nc --periodic 1,2 -o a.png", 2,
+                       "the domain is not the one");
+  check_refusal_naming(bench, "draw --plane box.nc --rectangle 0,0,1,1 -o a.png", 2,
+                       "the domain is not the one");
+  check_refusal_naming(bench, "draw mesh.vtp -o a.png", 2, "(--plane)");
+  check_refusal_naming(bench, "draw mesh.vtp --domain lake.txt -o a.png", 2, "--plane");
+  check_refusal_naming(bench, "draw --plane mesh.vtp --view 1,2 -o a.png", 2, "excludes");
+}

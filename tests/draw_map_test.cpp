@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "../tools/draw_page.h"
 #include "../tools/draw_raster.h"
 #include "../tools/draw_values.h"
 #include "../tools/draw_vector.h"
@@ -7,6 +8,7 @@
 #include "support/pictures.h"
 
 #include <calotte/delaunay.h>
+#include <calotte/domain.h>
 #include <calotte/generators.h>
 #include <calotte/io.h>
 
@@ -405,4 +407,143 @@ TEST_CASE("a field's values are those of the cells that show them, and none is b
   options.field_name = "index";
   draw(folder.file("a.png"), mesh, options);
   CHECK(folder.count() == 2);
+}
+
+// ---- The plane
+
+namespace {
+
+/// A rectangle of 2 x 1 with a hole.
+PlanarDomain holed() {
+  PlanarDomain domain = rectangle({0, 0}, {2, 1});
+  Points2 hole(2, 4);
+  hole << 0.8, 1.2, 1.2, 0.8, 0.4, 0.4, 0.6, 0.6;
+  domain.rings.push_back(hole);
+  return domain;
+}
+
+struct PlaneCase {
+  PlanarMesh mesh;
+  PlanarDomain domain;
+  double margin; ///< of the window around the domain
+};
+
+std::vector<PlaneCase> plane_cases() {
+  return {{delaunay(random_places(80, holed(), 2)), holed(), 0.02},
+          {delaunay(random_places(80, periodic_box({2, 1}), 3), Eigen::Vector2d(2, 1)),
+           periodic_box({2, 1}), 0}};
+}
+
+DrawOptions coloured_by_number(const PlanarMesh& mesh, Shapes shapes) {
+  DrawOptions options;
+  options.look.size = 600;
+  options.shapes = shapes;
+  options.colouring = Colouring::field;
+  options.field.values = Eigen::VectorXd::LinSpaced(mesh.points.cols(), 1, 2);
+  options.field_name = "number";
+  return options;
+}
+
+/// The same colour, but for what rounding to bytes takes.
+bool alike(std::uint32_t a, std::uint32_t b) {
+  const auto channel = [](std::uint32_t rgb, int shift) { return int(rgb >> shift & 0xff); };
+  return std::abs(channel(a, 16) - channel(b, 16)) <= 1 &&
+         std::abs(channel(a, 8) - channel(b, 8)) <= 1 &&
+         std::abs(channel(a, 0) - channel(b, 0)) <= 1;
+}
+
+/// The site nearest to a place, and how much farther the next one is.
+struct Nearest {
+  Eigen::Index site;
+  double lead;
+};
+
+Nearest nearest(const PlaneCase& c, const Eigen::Vector2d& place) {
+  Eigen::VectorXd distances(c.mesh.points.cols());
+  for (Eigen::Index i = 0; i < distances.size(); ++i) {
+    Eigen::Vector2d way = c.mesh.points.col(i) - place;
+    for (int k = 0; k < 2 && c.domain.periodic(); ++k)
+      way[k] = std::remainder(way[k], c.mesh.period[k]);
+    distances[i] = way.norm();
+  }
+  Eigen::Index site = 0;
+  const double least = distances.minCoeff(&site);
+  distances[site] = 1e9;
+  return {site, distances.minCoeff() - least};
+}
+
+} // namespace
+
+TEST_CASE("a plane's cells are those of the nearest sites, cut off at the domain") {
+  const Folder folder;
+  for (const PlaneCase& c : plane_cases()) {
+    const DrawOptions options = coloured_by_number(c.mesh, Shapes::cells);
+    draw(folder.file("plane.png"), c.mesh, c.domain, options);
+    const Picture picture(folder.file("plane.png"));
+    const double width = 2 + 2 * c.margin, height = 1 + 2 * c.margin;
+    const Page page = page_of_plane(600, height / width, true);
+    REQUIRE(picture.width() == page.width);
+    REQUIRE(picture.height() == page.height);
+    const Eigen::VectorXd& values = options.field.values;
+    const Scale scale =
+        make_scale({values.data(), values.data() + values.size()}, Colouring::field);
+    const double unit = page.map.width / width; // pixels
+    int seen = 0, beyond = 0;
+    for (int y = 0; y < page.map.height; y += 3)
+      for (int x = 0; x < page.map.width; x += 3) {
+        const Eigen::Vector2d place((x + 0.5) / unit - c.margin, 1 + c.margin - (y + 0.5) / unit);
+        const int px = static_cast<int>(page.middle_x - page.map.width / 2.0) + x,
+                  py = static_cast<int>(page.middle_y - page.map.height / 2.0) + y;
+        const auto inside = [&](double dx, double dy) {
+          return contains(c.domain, place + Eigen::Vector2d(dx, dy) / unit);
+        };
+        const int around = inside(3, 3) + inside(-3, 3) + inside(3, -3) + inside(-3, -3);
+        if (around == 0) {
+          ++beyond;
+          CHECK(picture.at(px, py) == 0xffffff);
+        } else if (const Nearest near = nearest(c, place); around == 4 && near.lead > 6 / unit) {
+          ++seen;
+          CHECK(alike(picture.at(px, py), packed(scale.colour(values[near.site]))));
+        }
+      }
+    CHECK(seen > 5000);
+    CHECK((beyond > 50) == !c.domain.periodic());
+  }
+}
+
+TEST_CASE("a plane's pictures are written in every format, shape and colouring") {
+  const Folder folder;
+  for (const PlaneCase& c : plane_cases())
+    for (const Shapes shapes : {Shapes::triangles, Shapes::cells, Shapes::both})
+      for (const Colouring colouring :
+           {Colouring::spacing, Colouring::angle, Colouring::valence, Colouring::area,
+            Colouring::quality, Colouring::density, Colouring::field, Colouring::none}) {
+        DrawOptions options = coloured_by_number(c.mesh, shapes);
+        options.colouring = colouring;
+        options.density = tanh_bump({0.5, 0.5, 0}, 0.3, 0.2, 0.1);
+        options.look.size = 200;
+        const bool of_cells = colouring == Colouring::area || colouring == Colouring::quality;
+        if (of_cells && shapes != Shapes::triangles && !c.domain.periodic()) {
+          const Error error =
+              error_of([&] { draw(folder.file("a.png"), c.mesh, c.domain, options); });
+          CHECK(std::string(error.what()).find("open boundary") != std::string::npos);
+          continue;
+        }
+        for (const std::string name : {"a.png", "a.svg", "a.pdf"}) {
+          draw(folder.file(name), c.mesh, std::nullopt, options);
+          CHECK(bytes_of(folder.file(name)).size() > 1000);
+        }
+      }
+  const std::vector<PlaneCase> cases = plane_cases();
+  DrawOptions options = coloured_by_number(cases[0].mesh, Shapes::cells);
+  CHECK(code_of([&] { draw(folder.file("b.png"), cases[0].mesh, cases[1].domain, options); }) ==
+        ErrorCode::bad_option);
+  options.field.values.resize(3);
+  CHECK(code_of([&] { draw(folder.file("b.png"), cases[0].mesh, cases[0].domain, options); }) ==
+        ErrorCode::bad_option);
+  options.colouring = Colouring::density;
+  options.density.kind = Density::Kind::maximum; // of no bumps
+  CHECK(code_of([&] { draw(folder.file("b.png"), cases[0].mesh, cases[0].domain, options); }) ==
+        ErrorCode::bad_option);
+  CHECK(!fs::exists(folder.file("b.png")));
 }

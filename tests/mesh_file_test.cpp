@@ -220,8 +220,12 @@ TEST_CASE("points without triangles are triangulated, and equal directions merge
   CHECK(calotte::read_sites(scratch / "mesh.off").cols() == 5);
   write_text(scratch / "mesh.off", "OFF\n4 0 0\n1 0 0\n0 1 0\n-1 0 0\n-1 -1 0\n");
   const calotte::Error flat = error_of([&] { calotte::read_mesh(scratch / "mesh.off"); });
-  CHECK(flat.code() == ErrorCode::degenerate);
-  CHECK(std::string(flat.what()).starts_with(scratch / "mesh.off: "));
+  CHECK(flat.code() == ErrorCode::bad_option);
+  CHECK(std::string(flat.what()).starts_with(scratch / "mesh.off: z is 0 at all points"));
+  write_text(scratch / "mesh.off", "OFF\n4 0 0\n1 0 1\n0 1 0\n-1 0 -1\n-1 -1 -1\n");
+  const calotte::Error tilted = error_of([&] { calotte::read_mesh(scratch / "mesh.off"); });
+  CHECK(tilted.code() == ErrorCode::degenerate);
+  CHECK(std::string(tilted.what()).starts_with(scratch / "mesh.off: "));
 }
 
 TEST_CASE("region centres: RegionList, and RegionTriangulation by the list beside it") {
@@ -303,9 +307,9 @@ TEST_CASE("a plane that does not repeat itself is written with z = 0, but not as
     write();
     if (kind.format == Format::triangles)
       continue;
-    const Mesh read = calotte::read_mesh(path);
+    const calotte::PlanarMesh read = calotte::read_planar_mesh(path);
     CHECK(equal_bits(read.triangles, plane.triangles));
-    CHECK(calotte::Points2(read.points.topRows<2>()) == points);
-    CHECK((read.points.row(2).array() == 0).all());
+    CHECK(read.points == points);
+    CHECK(error_of([&] { calotte::read_mesh(path); }).code() == ErrorCode::bad_option);
   }
 }

@@ -7,18 +7,25 @@
 
 #include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Periodic_2_Delaunay_triangulation_2.h>
+#include <CGAL/Periodic_2_Delaunay_triangulation_traits_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
 #include <doctest/doctest.h>
 
 #include <tbb/task_arena.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <random>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 using namespace calotte;
@@ -373,6 +380,38 @@ TEST_CASE("a periodic box is tiled by the same triangles for any regions") {
     require_periodic(mesh);
     for (const int regions : {2, 9, 64})
       CHECK(identical(delaunay(points, period, with_regions(regions)), mesh));
+  }
+}
+
+TEST_CASE("a periodic box has the triangles of CGAL's periodic triangulation") {
+  using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+  using Periodic = CGAL::Periodic_2_Delaunay_triangulation_2<
+      CGAL::Periodic_2_Delaunay_triangulation_traits_2<Kernel>>;
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const Points2 points = random_box(3000, 1, 1, seed);
+    std::map<std::pair<double, double>, std::int32_t> id;
+    std::vector<Kernel::Point_2> places;
+    for (std::int32_t i = 0; i < points.cols(); ++i) {
+      id[{points(0, i), points(1, i)}] = i;
+      places.emplace_back(points(0, i), points(1, i));
+    }
+    const Periodic periodic(places.begin(), places.end(), {0, 0, 1, 1});
+    REQUIRE(periodic.is_1_cover());
+    std::set<std::array<std::int32_t, 3>> theirs, ours;
+    for (auto face = periodic.faces_begin(); face != periodic.faces_end(); ++face) {
+      std::array<std::int32_t, 3> triangle{};
+      for (int v = 0; v < 3; ++v)
+        triangle[static_cast<std::size_t>(v)] =
+            id.at({face->vertex(v)->point().x(), face->vertex(v)->point().y()});
+      std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()),
+                  triangle.end());
+      theirs.insert(triangle);
+    }
+    const PlanarMesh mesh = delaunay(points, Eigen::Vector2d(1, 1));
+    for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
+      ours.insert({mesh.triangles(0, t), mesh.triangles(1, t), mesh.triangles(2, t)});
+    CHECK(ours.size() == 6000);
+    CHECK(ours == theirs);
   }
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <calotte/density.h>
+#include <calotte/domain.h>
 #include <calotte/error.h>
 #include <calotte/generators.h>
 
@@ -316,4 +317,99 @@ TEST_CASE("a callable is refused that has no greatest value, or grows from call 
     rho.setConstant(std::exp2(1e-4 * ++calls));
   };
   CHECK_THROWS_WITH_AS(random_sphere(100000, density), doctest::Contains("without bound"), Error);
+}
+
+// ---- The plane
+
+namespace {
+
+/// A long thin tilted ring: a parallelogram with one in it.
+PlanarDomain frame() {
+  Points2 outer(2, 4), inner(2, 4);
+  outer << 0, 100, 103, 3, 0, 50, 51, 1;
+  inner = (0.5 * outer).colwise() + Eigen::Vector2d(0.25 * 103, 0.25 * 51);
+  return {{outer, inner}, {0, 0}};
+}
+
+/// Of the parallelogram: how far along and across it a place lies, both from 0 to 1.
+Eigen::Vector2d in_frame(const Eigen::Vector2d& p) {
+  Eigen::Matrix2d sides;
+  sides << 100, 3, 50, 1;
+  return sides.inverse() * p;
+}
+
+Density of_x(const std::function<double(double)>& rho) {
+  Density density;
+  density.kind = Density::Kind::callable;
+  density.callable = [rho](const Eigen::Ref<const Points3>& p, Eigen::Ref<Eigen::VectorXd> out) {
+    for (Eigen::Index i = 0; i < p.cols(); ++i)
+      out[i] = rho(p(0, i));
+  };
+  return density;
+}
+
+} // namespace
+
+TEST_CASE("places of a domain are uniform, inside, and the first ones of more") {
+  const Points2 places = random_places(100000, frame(), 7);
+  REQUIRE(places.cols() == 100000);
+  std::vector<std::int64_t> count(16, 0);
+  for (const auto& place : places.colwise()) {
+    REQUIRE(contains(frame(), place));
+    const Eigen::Vector2d at = 4 * in_frame(place);
+    ++count[static_cast<std::size_t>(std::floor(at.x()) + 4 * std::floor(at.y()))];
+  }
+  std::vector<double> share(16, 1.0 / 12);
+  for (const std::size_t inner : {5U, 6U, 9U, 10U}) {
+    CHECK(count[inner] == 0);
+    share[inner] = 0;
+  }
+  std::vector<double> of_cells;
+  std::vector<std::int64_t> in_cells;
+  for (std::size_t i = 0; i < 16; ++i)
+    if (share[i] > 0) {
+      of_cells.push_back(share[i]);
+      in_cells.push_back(count[i]);
+    }
+  CHECK(fits(of_cells, in_cells));
+  CHECK(random_places(1000, frame(), 7) == places.leftCols(1000));
+  CHECK(random_places(1000, frame(), 8) != places.leftCols(1000));
+
+  const Points2 box = random_places(50000, periodic_box({3, 0.01}), 1);
+  std::vector<std::int64_t> quarters(4, 0);
+  for (const auto& place : box.colwise()) {
+    REQUIRE(contains(periodic_box({3, 0.01}), place));
+    ++quarters[(place.x() < 1.5 ? 0U : 1U) + (place.y() < 0.005 ? 0U : 2U)];
+  }
+  CHECK(fits({0.25, 0.25, 0.25, 0.25}, quarters));
+}
+
+TEST_CASE("places of a domain follow a density, for any number of threads") {
+  const PlanarDomain square = rectangle({2, -1}, {3, 0});
+  // rho = x^4 on a unit square from 2 to 3.
+  const Density density = of_x([](double x) { return x * x * x * x; });
+  const auto draw = [&] {
+    const Points2 places = random_places(60000, square, density, 4);
+    Points3 out = Points3::Zero(3, places.cols());
+    out.topRows<2>() = places;
+    return out;
+  };
+  const Points3 places = with_threads(1, draw);
+  CHECK(with_threads(4, draw) == places);
+  std::vector<double> share;
+  std::vector<std::int64_t> count(10, 0);
+  for (int i = 0; i < 10; ++i)
+    share.push_back((std::pow(2 + 0.1 * (i + 1), 5) - std::pow(2 + 0.1 * i, 5)) /
+                    (std::pow(3, 5) - std::pow(2, 5)));
+  for (const auto& place : places.colwise())
+    ++count[static_cast<std::size_t>(std::min(9.0, 10 * (place.x() - 2)))];
+  CHECK(fits(share, count));
+  // All mass in a strip of a hundredth of the square.
+  const Points2 strip = random_places(
+      1000, square, of_x([](double x) { return x > 2.4 && x < 2.41 ? 1.0 : 0.0; }), 4);
+  CHECK(strip.row(0).minCoeff() > 2.4);
+  CHECK(strip.row(0).maxCoeff() < 2.41);
+  CHECK_THROWS_WITH_AS(random_places(10, square, of_x([](double) { return 0.0; })),
+                       doctest::Contains("over the domain: make it positive"), Error);
+  CHECK_THROWS_AS(random_places(10, square, of_x([](double x) { return 2.5 - x; })), Error);
 }

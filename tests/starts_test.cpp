@@ -2,13 +2,19 @@
 #include "support/densities.h"
 
 #include <calotte/cvt.h>
+#include <calotte/delaunay.h>
+#include <calotte/domain.h>
 #include <calotte/error.h>
 #include <calotte/generators.h>
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string>
+#include <tuple>
+#include <vector>
 
 using namespace calotte;
 
@@ -99,4 +105,137 @@ TEST_CASE("drawn starts of a peaked density span the sphere, and converge") {
     CHECK(grid.report.converged);
     CHECK(grid.mesh.points.cols() == cells);
   }
+}
+
+// ---- The plane
+
+namespace {
+
+PlanarDomain polygon(const std::vector<std::vector<Eigen::Vector2d>>& rings) {
+  PlanarDomain domain;
+  for (const auto& corners : rings) {
+    Points2 ring(2, static_cast<Eigen::Index>(corners.size()));
+    for (std::size_t i = 0; i < corners.size(); ++i)
+      ring.col(static_cast<Eigen::Index>(i)) = corners[i];
+    domain.rings.push_back(ring);
+  }
+  return domain;
+}
+
+/// An L with a hole, and a triangle beside it.
+PlanarDomain islands() {
+  return polygon({{{0, 0}, {4, 0}, {4, 1}, {1, 1}, {1, 3}, {0, 3}},
+                  {{0.3, 0.4}, {0.7, 0.4}, {0.6, 2}},
+                  {{2, 2}, {3, 2}, {2.5, 2.9}}});
+}
+
+void check_inside(const Points2& places, const PlanarDomain& domain) {
+  for (const auto& place : places.colwise())
+    REQUIRE(contains(domain, place));
+}
+
+std::string error_of(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const Error& error) {
+    CHECK(error.code() == ErrorCode::bad_option);
+    return error.what();
+  }
+  return "";
+}
+
+} // namespace
+
+TEST_CASE("hexagonal lattices: as near to n as the spacing allows, inside, at equal distances") {
+  for (const PlanarDomain& domain : {rectangle({-1, 2}, {0, 3}), rectangle({0, 0}, {0.1, 1}),
+                                     islands(), polygon({{{0, 0}, {1e8, 1e7}, {1.1e8, 3e7}}})})
+    for (const std::int64_t n : {100, 1000, 20000}) {
+      CAPTURE(n);
+      const Points2 places = hexagonal_lattice(n, domain);
+      CHECK(std::abs(places.cols() - n) <= std::sqrt(static_cast<double>(n)));
+      check_inside(places, domain);
+    }
+  // Whole rows and columns fill a rectangle evenly.
+  const double rise = std::sqrt(3.0) / 2;
+  const Points2 even = hexagonal_lattice(60, rectangle({0, 0}, {10, 6 * rise}));
+  REQUIRE(even.cols() == 60);
+  CHECK((even.col(0) - Eigen::Vector2d(0.25, rise / 2)).norm() < 1e-12);
+  CHECK((even.col(59) - Eigen::Vector2d(9.75, 5.5 * rise)).norm() < 1e-12);
+  CHECK(hexagonal_lattice(1, rectangle({0, 0}, {1, 1})).cols() == 1);
+}
+
+TEST_CASE("hexagonal lattices of periodic boxes: periodic_hexagons where these fit") {
+  for (const auto& [columns, rows, spacing] :
+       {std::tuple{3, 4, 1.0}, {10, 12, 1.0}, {8, 6, 0.1}, {100, 116, 30000.0}, {7, 40, 1.0 / 3}}) {
+    CAPTURE(columns);
+    const PlanarMesh mesh = periodic_hexagons(columns, rows, spacing);
+    const Points2 places = hexagonal_lattice(columns * rows, periodic_box(mesh.period));
+    REQUIRE(places.cols() == mesh.points.cols());
+    CHECK((places - mesh.points).cwiseAbs().maxCoeff() <= 1e-15 * mesh.period.maxCoeff());
+    if (spacing == 1)
+      CHECK(places == mesh.points);
+  }
+  for (const Eigen::Vector2d& period :
+       {Eigen::Vector2d(1, 1), Eigen::Vector2d(2, 1), Eigen::Vector2d(1e9, 3e9)})
+    for (const std::int64_t n : {12, 100, 1000, 9973}) {
+      const Points2 places = hexagonal_lattice(n, periodic_box(period));
+      check_inside(places, periodic_box(period));
+      CHECK(std::abs(places.cols() - n) <= std::max<double>(12, 0.05 * static_cast<double>(n)));
+      if (n >= 100) {
+        const PlanarMesh mesh = delaunay(places, period);
+        CHECK(mesh.triangles.cols() == 2 * places.cols());
+      }
+    }
+}
+
+TEST_CASE("bisection in the plane: midpoints inside the domain, in a box all of them") {
+  const PlanarDomain domain = islands();
+  const PlanarMesh mesh = delaunay(random_places(300, domain, 3));
+  const Points2 finer = bisect(mesh, domain);
+  CHECK(finer.leftCols(300) == mesh.points);
+  CHECK(finer.cols() > 900);
+  CHECK(finer.cols() < 300 + 3 * 300);
+  check_inside(finer, domain);
+  std::int64_t inside = 0;
+  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
+    for (int i = 0; i < 3; ++i)
+      if (mesh.neighbours(i, t) < t || mesh.neighbours(i, t) < 0)
+        inside += contains(domain, (mesh.points.col(mesh.triangles((i + 1) % 3, t)) +
+                                    mesh.points.col(mesh.triangles((i + 2) % 3, t))) /
+                                       2);
+  CHECK(finer.cols() == 300 + inside);
+
+  const PlanarMesh hexagons = periodic_hexagons(6, 8, 1);
+  const Points2 fine = bisect(hexagons, periodic_box(hexagons.period));
+  REQUIRE(fine.cols() == 4 * 48);
+  check_inside(fine, periodic_box(hexagons.period));
+  // They are hexagons of half the spacing.
+  const PlanarMesh half = delaunay(fine, hexagons.period);
+  for (Eigen::Index t = 0; t < half.triangles.cols(); ++t) {
+    Eigen::Vector2d way =
+        half.points.col(half.triangles(1, t)) - half.points.col(half.triangles(0, t));
+    for (int i = 0; i < 2; ++i)
+      way[i] = std::remainder(way[i], half.period[i]);
+    CHECK(way.norm() == doctest::Approx(0.5).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("starts in the plane refuse what they cannot make in one line") {
+  const PlanarDomain square = rectangle({0, 0}, {1, 1}), box = periodic_box({1, 1});
+  for (const std::int64_t n : {std::int64_t{0}, std::int64_t{-5}, (std::int64_t{1} << 30) + 1}) {
+    CHECK(error_of([&] { hexagonal_lattice(n, square); }).find("number of points") !=
+          std::string::npos);
+    CHECK(error_of([&] { random_places(n, box); }).find("number of points") != std::string::npos);
+  }
+  CHECK(error_of([&] { hexagonal_lattice(11, box); }).find("from 12") != std::string::npos);
+  const PlanarDomain nothing;
+  CHECK(error_of([&] { random_places(10, nothing); }) != "");
+  CHECK(error_of([&] { hexagonal_lattice(100, nothing); }) != "");
+  const PlanarMesh hexagons = periodic_hexagons(6, 8, 1);
+  CHECK(error_of([&] { bisect(hexagons, square); }).find("periodic box") != std::string::npos);
+  CHECK(error_of([&] { bisect(hexagons, box); }).find("periodic box") != std::string::npos);
+  PlanarMesh wrong = hexagons;
+  wrong.triangles.setConstant(48);
+  CHECK(error_of([&] { bisect(wrong, periodic_box(hexagons.period)); }).find("outside the mesh") !=
+        std::string::npos);
 }

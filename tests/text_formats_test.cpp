@@ -2,7 +2,9 @@
 #include "support/files.h"
 #include "support/meshes.h"
 
+#include <calotte/delaunay.h>
 #include <calotte/density.h>
+#include <calotte/domain.h>
 #include <calotte/io.h>
 #include <calotte/voronoi.h>
 
@@ -15,6 +17,8 @@
 using calotte::Error;
 using calotte::ErrorCode;
 using calotte::Mesh;
+using calotte::PlanarDomain;
+using calotte::PlanarMesh;
 using calotte::Points3;
 using calotte::oracle::Triple;
 using nlohmann::json;
@@ -146,7 +150,8 @@ TEST_CASE("JIGSAW: what is wrong is named") {
   CHECK(error(head + "POINT=4\n1;0;0;0\n0;1;x;0\n").index() == 5);
   CHECK(error(head + "POINT=99999999999\n1;0;0;0\n").code() == ErrorCode::parse);
   CHECK(error(head + replaced(points, "1;0;0;0", "0;0;0;0")).index() == 0);
-  CHECK(error("MSHID=3;EUCLIDEAN-MESH\nNDIMS=2\nPOINT=1\n1;0;0\n").code() == ErrorCode::parse);
+  CHECK(error("MSHID=3;EUCLIDEAN-MESH\nNDIMS=2\nPOINT=3\n1;0;0\n0;1;0\n2;2;0\n").code() ==
+        ErrorCode::bad_option);
   CHECK(error("MSHID=3;ELLIPSOID-GRID\nNDIMS=2\nCOORD=1;2\n0\n1\n").code() == ErrorCode::parse);
   CHECK(std::string(error(head + points).what()).find("at least 4") != std::string::npos);
 }
@@ -429,4 +434,149 @@ TEST_CASE("GeoJSON: what is wrong is named") {
   }
   CHECK(error(collection(good)).code() == ErrorCode::too_few_sites);
   CHECK(error(collection(R"({"type":"Feature","properties":{"x":0,"y":0,"z":0}})")).index() == 0);
+}
+
+// ---- The plane
+
+namespace {
+
+/// Five sites in general position, one of them at the origin.
+PlanarMesh planar_mesh() {
+  calotte::Points2 points(2, 5);
+  points << 0, 3, 2, -1, 1, 0, 0.1, 2.5, 2, 1.25;
+  return calotte::delaunay(points);
+}
+
+void check_same(const PlanarMesh& a, const PlanarMesh& b) {
+  CHECK(equal_bits(a.points, b.points));
+  CHECK(equal_bits(a.triangles, b.triangles));
+  CHECK(equal_bits(a.neighbours, b.neighbours));
+}
+
+bool names(const Error& error, const std::string& words) {
+  const std::string text = error.what();
+  CAPTURE(text);
+  const bool found = text.find(words) != std::string::npos;
+  CHECK(found);
+  return found;
+}
+
+} // namespace
+
+TEST_CASE("a planar mesh comes back bit for bit from all that writes one") {
+  const Scratch scratch;
+  const PlanarMesh mesh = planar_mesh();
+  for (const std::string name : {"a.vtp", "a.vtu", "a.off", "a.ply", "a.msh"}) {
+    CAPTURE(name);
+    calotte::write(scratch / name, mesh);
+    check_same(calotte::read_planar_mesh(scratch / name), mesh);
+    const Error error = error_of([&] { calotte::read_mesh(scratch / name); });
+    CHECK(error.code() == ErrorCode::bad_option);
+    names(error, "z is 0 at all points");
+    CHECK_THROWS_AS(calotte::read_sites(scratch / name), Error);
+  }
+  calotte::write(scratch / "a.tri", mesh);
+  check_same(calotte::read_planar_mesh(scratch / "a.tri", &mesh.points), mesh);
+  names(error_of([&] { calotte::read_planar_mesh(scratch / "a.tri"); }), "--points");
+  // Triangles refer to the columns that were triangulated: one that is there twice is one site.
+  calotte::Points2 twice(2, 6);
+  twice << mesh.points, mesh.points.col(2);
+  const PlanarMesh merged = calotte::read_planar_mesh(scratch / "a.tri", &twice);
+  check_same(merged, mesh);
+  CHECK(merged.site_of_input == std::vector<std::int32_t>{0, 1, 2, 3, 4, 2});
+}
+
+TEST_CASE("a file of the sphere, or of no place, is no planar mesh") {
+  const Scratch scratch;
+  calotte::write(scratch / "s.off", calotte::delaunay(octahedron()));
+  names(error_of([&] { calotte::read_planar_mesh(scratch / "s.off"); }), "z is not 0 at point");
+  calotte::write(scratch / "s.geojson", calotte::delaunay(octahedron()));
+  names(error_of([&] { calotte::read_planar_mesh(scratch / "s.geojson"); }), ".vtp");
+  calotte::write(scratch / "s.nc", calotte::delaunay(octahedron()));
+  names(error_of([&] { calotte::read_planar_mesh(scratch / "s.nc"); }), "sphere");
+  write_text(scratch / "x.off", "OFF\n3 1 0\n0 0 0\n1 inf 0\n0 1 0\n3 0 1 2\n");
+  names(error_of([&] { calotte::read_planar_mesh(scratch / "x.off"); }), "point 1 has no place");
+  write_text(scratch / "flat.msh",
+             "MSHID=3;EUCLIDEAN-MESH\nNDIMS=2\nPOINT=3\n0;0;0\n1;0;0\n0;1;0\n");
+  CHECK(calotte::read_planar_mesh(scratch / "flat.msh").triangles.cols() == 1);
+}
+
+TEST_CASE("domains: text and GeoJSON say the same rings") {
+  const Scratch scratch;
+  const auto text = [&](const std::string& words) {
+    write_text(scratch / "d.txt", words);
+    return calotte::read_domain(scratch / "d.txt");
+  };
+  const PlanarDomain plain = text("x y\n0 0\n4 0\n4 3 # a corner\n# no end of the ring\n0 3\n0 0\n"
+                                  "\n\n1 1\n2 1\n1,2\n");
+  REQUIRE(plain.rings.size() == 2);
+  CHECK(plain.rings[0].cols() == 4);
+  CHECK(plain.rings[1].cols() == 3);
+  CHECK(calotte::area(plain) == 11.5);
+  const auto same = [&](const PlanarDomain& other) {
+    REQUIRE(other.rings.size() == 2);
+    CHECK(equal_bits(other.rings[0], plain.rings[0]));
+    CHECK(equal_bits(other.rings[1], plain.rings[1]));
+  };
+  same(text("> outer\r\n0\t0\r\n4\t0\r\n4 3\r\n0 3\r\n >\r\n1 1\r\n2 1\r\n1 2\r\n1 1"));
+  const std::string outer = "[[0,0],[4,0],[4,3],[0,3],[0,0]]",
+                    hole = "[[1,1,9],[2,1],[1,2],[1,1,7]]";
+  const std::string polygon = R"({"type":"Polygon","coordinates":[)" + outer + "," + hole + "]}";
+  const std::string feature = R"({"type":"Feature","properties":null,"geometry":)";
+  for (const std::string& geojson :
+       {polygon, feature + polygon + "}",
+        R"({"type":"MultiPolygon","coordinates":[[)" + outer + "],[" + hole + "]]}",
+        R"({"type":"FeatureCollection","features":[)" + feature + "null}," + feature + polygon +
+            "}]}",
+        R"({"type":"GeometryCollection","geometries":[)" + polygon + "]}"}) {
+    CAPTURE(geojson);
+    write_text(scratch / "d.JSON", geojson);
+    same(calotte::read_domain(scratch / "d.JSON"));
+  }
+}
+
+TEST_CASE("domains: what is wrong is named, in one line") {
+  const Scratch scratch;
+  const auto refused = [&](const std::string& file, const std::string& words) {
+    write_text(scratch / file, words);
+    return error_of([&] { calotte::read_domain(scratch / file); });
+  };
+  names(error_of([&] { calotte::read_domain(scratch / "absent.txt"); }), "absent.txt");
+  names(refused("d.txt", ""), "no corners");
+  names(refused("d.txt", "\n\n# nothing\n>\n"), "no corners");
+  CHECK(refused("d.txt", "0 0\n1 0\nfar away\n").index() == 3);
+  names(refused("d.txt", "0 0\n1\n0 1\n"), "line 2: 1 column only");
+  names(refused("d.txt", "0 0\n1 0\n1e999 1\n"), "line 3");
+  names(refused("d.txt", "0 0\n1 0\nnan 1\n"), "ring 0, corner 2 is not finite");
+  names(refused("d.txt", "0 0\n4 0\n4 4\n\n1 1\n2 1\n1 1\n"), "ring 1 has 2 corners");
+  names(refused("d.txt", "0 0\n4 0\n4 4\n\n1 1\n2 1\n2 1\n"), "(ring 1 begins in line 5)");
+  names(refused("d.txt", "0 0\n4 4\n4 0\n0 4\n"), "meet"); // a bow tie
+  names(refused("d.txt", "0 0\n4 0\n4 4\n\n3 1\n9 1\n9 2\n"), "meet");
+  const auto collection = [](const std::string& rings) {
+    return R"({"type":"FeatureCollection","features":[{"type":"Feature","geometry":)"
+           R"({"type":"Polygon","coordinates":)" +
+           rings + "}}]}";
+  };
+  for (const std::string& geojson :
+       {std::string(), std::string("[]"), std::string("7"), std::string("{}"),
+        std::string(R"({"type":"Polygon"})"), std::string(R"({"type":"Po\nint"})"),
+        std::string(R"({"type":"Polygon","coordinates":{}})"), std::string(20'000, '['),
+        std::string(R"({"type":"Polygon","coordinates":[[[0,0],[1,0],[1e999,1]]]})"),
+        collection("[]"), collection("[[]]"), collection("[[[0,0],[1,0]]]"), collection("[7]"),
+        collection("[[[0,0],[1,0],7]]"), collection(R"([[[0,0],[1,0],["1",1]]])")}) {
+    CAPTURE(geojson);
+    CHECK(refused("d.json", geojson).code() == ErrorCode::parse);
+  }
+  names(refused("d.json", collection("[[[0,0],[1,0],[1,1]],[[0,0],[1],[2,0]]]")),
+        "feature 0: position 1 of ring 1 is no [x, y]");
+  names(refused("d.json", collection("[[[0,0],[1,0],[1,1]],[[0.5,0.1],[0.5,0.1],[2,0]]]")),
+        "(ring 1 is in the file: feature 0: ring 1)");
+}
+
+TEST_CASE("domains: a file cut short gives a smaller domain, or is refused") {
+  const Scratch scratch;
+  write_text(scratch / "d.txt", "0 0\n40 0\n40 30\n0 30\n\n10 10\n20 10\n10 20\n");
+  CHECK(done_when_cut(scratch / "d.txt", [&] { calotte::read_domain(scratch / "d.txt"); }) > 0);
+  write_text(scratch / "d.json", R"({"type":"Polygon","coordinates":[[[0,0],[4,0],[4,3],[0,3]]]})");
+  CHECK(done_when_cut(scratch / "d.json", [&] { calotte::read_domain(scratch / "d.json"); }) == 0);
 }
