@@ -3,6 +3,8 @@
 
 #include <calotte/generators.h>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -83,6 +85,46 @@ Points3 cloud(const std::string& name, std::int64_t n) {
     return x8(n);
   }
   throw std::invalid_argument("no set of sites is called " + name);
+}
+
+const std::vector<std::int64_t>& bisected_sizes() {
+  static const std::vector<std::int64_t> sizes = [] {
+    std::vector<std::int64_t> result;
+    for (int level = 1; level <= 12; ++level) {
+      result.push_back(10 * (std::int64_t{1} << (2 * level)) + 2);
+    }
+    return result;
+  }();
+  return sizes;
+}
+
+Points3 natural_bisection(std::int64_t n) {
+  const auto at = std::find(bisected_sizes().begin(), bisected_sizes().end(), n);
+  Points3 points = bisected_icosahedron(static_cast<int>(at - bisected_sizes().begin()) + 1);
+  const Eigen::Vector3d normal =
+      Eigen::Vector3d(points.col(0)).cross(Eigen::Vector3d(points.col(1)));
+  Eigen::Index third = 2;
+  while (std::abs(normal.dot(points.col(third))) < 0.1) {
+    ++third;
+  }
+  points.col(2).swap(points.col(third));
+  return points;
+}
+
+Density x8_density() {
+  const double latitude = std::numbers::pi / 6; // and longitude 270 degrees
+  return tanh_bump({0, -std::cos(latitude), std::sin(latitude)}, std::numbers::pi / 6, 0.2,
+                   1.0 / 4096);
+}
+
+Density named_density(const std::string& name) {
+  if (name == "uniform") {
+    return {};
+  }
+  if (name == "x8") {
+    return x8_density();
+  }
+  throw std::invalid_argument("no density is called " + name);
 }
 
 } // namespace calotte::bench

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <calotte/density.h>
 #include <calotte/types.h>
 
 #include <cstdint>
@@ -22,5 +23,18 @@ const std::vector<std::string>& cloud_names();
 ///              spacing goes with rho^(-1/4), so sites with rho^(1/2)).
 /// Seeded: the same call gives the same sites.
 Points3 cloud(const std::string& name, std::int64_t n);
+
+/// Numbers of sites of bisected icosahedra: 42, 162 ... 10 * 4^level + 2.
+const std::vector<std::int64_t>& bisected_sizes();
+
+/// The bisected icosahedron of n sites in its natural order, coarse levels first, but for two
+/// sites: TRMESH refuses three first ones on one great circle. \pre n is one of bisected_sizes().
+Points3 natural_bisection(std::int64_t n);
+
+/// The paper's bump with spacings 8 times finer inside (Jacobsen et al., 2013, Sect. 4.3).
+Density x8_density();
+
+/// The density of a set of that name: uniform, or the x8 bump.
+Density named_density(const std::string& name);
 
 } // namespace calotte::bench

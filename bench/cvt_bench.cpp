@@ -8,19 +8,16 @@
 #include "cvt_tables.h"
 #include "density_cost.h"
 #include "lloyd.h"
+#include "program.h"
 #include "report.h"
 #include "stripack.h"
 
 #include <calotte/cvt.h>
-#include <calotte/generators.h>
 
-#include <CLI/CLI.hpp>
-#include <Eigen/Geometry>
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <iostream>
 #include <memory>
 #include <numbers>
@@ -38,25 +35,17 @@ double tolerance(std::int64_t n) {
   return std::max(1e-13, 8 * 0x1p-53 / h);
 }
 
-struct Options {
+struct Options : RoundOptions {
   std::vector<std::string> sets = {"uniform", "x8"};
   std::vector<std::int64_t> sizes = {163842};
   std::vector<std::string> rows = {"calotte", "one-thread", "stripack"};
   std::string order = "natural";
-  int rounds = 7;
-  int threads = 2;
+  std::vector<int> sweep;
   int iterations = 12;
   int rule = 3;
   std::int64_t stripack_limit = 200000;
   int density_samples = 101;
 };
-
-/// The paper's bump with spacings 8 times finer inside (Jacobsen et al., 2013, Sect. 4.3).
-Density x8_density() {
-  const double latitude = std::numbers::pi / 6; // and longitude 270 degrees
-  return tanh_bump({0, -std::cos(latitude), std::sin(latitude)}, std::numbers::pi / 6, 0.2,
-                   1.0 / 4096);
-}
 
 /// One set of sites and what it is iterated with; made when first needed.
 struct Workload {
@@ -69,36 +58,12 @@ struct Workload {
 };
 
 std::shared_ptr<Workload> make_workload(const std::string& set, std::int64_t n, int rule) {
-  Workload work{set, n, {set == "x8" ? x8_density() : Density{}, rule}, {}, {}, {}, {}};
+  Workload work{set, n, {named_density(set), rule}, {}, {}, {}, {}};
   return std::make_shared<Workload>(std::move(work));
 }
 
-/// Numbers of sites of bisected icosahedra, by level.
-const std::vector<std::int64_t>& bisected_sizes() {
-  static const std::vector<std::int64_t> sizes = [] {
-    std::vector<std::int64_t> result;
-    for (int level = 1; level <= 12; ++level)
-      result.push_back(10 * (std::int64_t{1} << (2 * level)) + 2);
-    return result;
-  }();
-  return sizes;
-}
-
-/// In its natural order, but for two sites: TRMESH refuses three first ones on one great circle.
-Points3 natural_start(std::int64_t n) {
-  const auto at = std::find(bisected_sizes().begin(), bisected_sizes().end(), n);
-  Points3 points = bisected_icosahedron(static_cast<int>(at - bisected_sizes().begin()) + 1);
-  const Eigen::Vector3d normal =
-      Eigen::Vector3d(points.col(0)).cross(Eigen::Vector3d(points.col(1)));
-  Eigen::Index third = 2;
-  while (std::abs(normal.dot(points.col(third))) < 0.1)
-    ++third;
-  points.col(2).swap(points.col(third));
-  return points;
-}
-
 Points3 bisected_start(std::int64_t n, const std::string& order) {
-  return order == "shuffled" ? cloud("bisection", n) : natural_start(n);
+  return order == "shuffled" ? cloud("bisection", n) : natural_bisection(n);
 }
 
 void report(benchmark::State& state, const Iterated& outcome) {
@@ -153,11 +118,13 @@ std::vector<RoundRow> make_rows(const Options& options, const std::shared_ptr<Wo
     return [=](benchmark::State& state) { run_library(state, *work, options, threads); };
   };
   std::vector<RoundRow> rows;
+  for (const int threads : options.sweep)
+    rows.push_back({threads_row(threads), library(threads)});
   for (const std::string& name : options.rows)
     if (name == "calotte")
       rows.push_back({"calotte", library(options.threads)});
     else if (name == "one-thread")
-      rows.push_back({"calotte 1 thread", library(1)});
+      rows.push_back({threads_row(1), library(1)});
     else if (name == "stripack" && has_stripack())
       rows.push_back({"STRIPACK", [=](auto& state) { run_serial(state, *work, options); },
                       options.stripack_limit});
@@ -199,12 +166,10 @@ void add_run_options(CLI::App& app, Options& options) {
       ->delimiter(',')
       ->check(CLI::IsMember({"calotte", "one-thread", "stripack", "none"}))
       ->capture_default_str();
-  app.add_option("--rounds", options.rounds, "how often every row runs")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  app.add_option("--threads", options.threads, "threads of the row calotte")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
+  add_round_options(app, options);
+  app.add_option("--sweep", options.sweep, "also time the library on these numbers of threads")
+      ->delimiter(',')
+      ->check(CLI::PositiveNumber);
   app.add_option("--iterations", options.iterations,
                  "of each of the library's runs; the first " + std::to_string(warm_up) +
                      " are left out, and the median of the others counts")
@@ -217,67 +182,54 @@ void add_run_options(CLI::App& app, Options& options) {
                  "how often the evaluation of the x8 bump is timed; 0 for not at all")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
-  app.allow_extras();
-  app.footer("Google Benchmark's own options work too: --benchmark_filter, --benchmark_out, "
-             "--benchmark_list_tests.\nExit codes: 0 done, 1 a result was wrong, 2 bad usage.");
 }
 
-void print_head(const Options& options) {
+void print_head(std::ostream& out, const Options& options) {
   const bool natural = options.order == "natural";
-  std::cout << "# One iteration of a centroidal Voronoi tessellation: seconds and paired ratios\n\n"
-            << "calotte on " << options.threads << " threads of "
-            << std::thread::hardware_concurrency() << ", STRIPACK on one; compiler " << __VERSION__
-            << "; " << options.rounds << " rounds, each runs every row once.\n"
-            << "The start is a bisected icosahedron "
-            << (natural
-                    ? "in its own order, coarse levels first: STRIPACK is faster so than on a "
-                      "shuffled one.\n"
-                    : "in random order, as STRIPACK's documentation asks for; it is faster in the "
-                      "natural one.\n")
-            << "calotte's seconds are the median of its iterations " << warm_up + 1 << " to "
-            << options.iterations << ", STRIPACK's those of iteration " << warm_up + 1
-            << " alone: triangulation, lists, moments and step,\nx8 by the rule of " << options.rule
-            << " points in both. The generators after that iteration must agree to 1e-13, or where "
-               "rounding is larger to 8 roundoffs\nover h = sqrt(4 pi / n).\nA ratio is the row's "
-               "seconds over calotte's of the same round. Where CPU seconds of a "
-               "row with one thread are less than its seconds, the machine was busy.\n";
+  out << "# One iteration of a centroidal Voronoi tessellation: seconds and paired ratios\n\n"
+      << "calotte on " << options.threads << " threads of " << std::thread::hardware_concurrency()
+      << ", STRIPACK on one; compiler " << __VERSION__ << "; " << options.rounds
+      << " rounds, each runs every row once.\n"
+      << "The start is a bisected icosahedron "
+      << (natural ? "in its own order, coarse levels first: STRIPACK is faster so than on a "
+                    "shuffled one.\n"
+                  : "in random order, as STRIPACK's documentation asks for; it is faster in the "
+                    "natural one.\n")
+      << "calotte's seconds are the median of its iterations " << warm_up + 1 << " to "
+      << options.iterations << ", STRIPACK's those of iteration " << warm_up + 1
+      << " alone: triangulation, lists, moments and step,\nx8 by the rule of " << options.rule
+      << " points in both. The generators after that iteration must agree to 1e-13, or where "
+         "rounding is larger to 8 roundoffs\nover h = sqrt(4 pi / n).\nA ratio is the row's "
+         "seconds over calotte's of the same round. Where CPU seconds of a "
+         "row with one thread are less than its seconds, the machine was busy.\n";
   if (!has_stripack())
-    std::cout << "STRIPACK is left out: this program was built without libncarg-dev.\n";
+    out << "STRIPACK is left out: this program was built without libncarg-dev.\n";
+}
+
+void print_results(std::ostream& out, const std::vector<SetResults>& results,
+                   const Options& options) {
+  print_iterations(out, results, "calotte");
+  if (options.density_samples > 0)
+    print_density_costs(out, density_costs(x8_density(), {32, 512}, options.density_samples));
 }
 
 } // namespace
 
-int bench_main(int argc, char** argv) {
-  Options options;
-  CLI::App app{"Times one iteration of a centroidal Voronoi tessellation, interleaved with one of "
-               "a serial program around STRIPACK."};
-  add_set_options(app, options);
-  add_run_options(app, options);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
-  if (!start_google_benchmark(argv[0], app.remaining()))
-    return 2;
-  register_all(options);
-  RoundReporter reporter;
-  print_head(options);
-  benchmark::RunSpecifiedBenchmarks(&reporter);
-  benchmark::Shutdown();
-  print_iterations(std::cout, reporter.results(), "calotte");
-  if (options.density_samples > 0)
-    print_density_costs(std::cout, density_costs(x8_density(), {32, 512}, options.density_samples));
-  return reporter.failed() ? 1 : 0;
-}
-
 } // namespace calotte::bench
 
 int main(int argc, char** argv) {
-  try {
-    return calotte::bench::bench_main(argc, argv);
-  } catch (const std::exception& error) {
-    std::cerr << "cvt_bench: " << error.what() << '\n';
-    return 1;
-  }
+  using namespace calotte::bench;
+  Options options;
+  return run_program(
+      argc, argv,
+      {"Times one iteration of a centroidal Voronoi tessellation, interleaved with one of a serial "
+       "program around STRIPACK.",
+       {},
+       [&](CLI::App& app) {
+         add_set_options(app, options);
+         add_run_options(app, options);
+       },
+       [&] { register_all(options); },
+       [&](std::ostream& out) { print_head(out, options); },
+       [&](std::ostream& out, const auto& results) { print_results(out, results, options); }});
 }

@@ -5,14 +5,13 @@
 
 #include "clouds.h"
 #include "peers.h"
+#include "program.h"
 #include "report.h"
 #include "stripack.h"
 
 #include <CGAL/version.h>
-#include <CLI/CLI.hpp>
 #include <benchmark/benchmark.h>
 
-#include <exception>
 #include <functional>
 #include <iostream>
 #include <limits>
@@ -24,14 +23,14 @@ namespace calotte::bench {
 
 namespace {
 
-struct Options {
+struct Options : RoundOptions {
   std::vector<std::string> sets = {"random"};
   std::vector<std::int64_t> sizes = {163842, 2621442};
   std::vector<std::string> rows = {"calotte", "one-thread", "one-region", "cgal", "stripack"};
   std::vector<int> regions;
-  int rounds = 7;
-  int threads = 2;
-  std::int64_t stripack_limit = 200000;
+  std::vector<int> sweep;
+  std::int64_t stripack_limit = 200000, qhull_limit = 200000;
+  bool warm = false;
 };
 
 /// The sites of one set, made when first needed, and what the first run of all made of them.
@@ -48,7 +47,16 @@ struct Row {
   Run run;
   bool peer = false;
   std::int64_t limit = std::numeric_limits<std::int64_t>::max(); ///< sites
+  std::string only_set = {}; ///< where it is not for all of them
 };
+
+const std::vector<std::string> row_names = {"calotte",  "one-thread",       "one-region", "cgal",
+                                            "stripack", "stripack-natural", "qhull",      "none"};
+
+/// TRMESH on the sites of the set bisection, coarse levels first.
+Outcome run_stripack_natural(const Points3& shuffled) {
+  return run_stripack(natural_bisection(shuffled.cols()));
+}
 
 Row library_row(std::string name, int threads, std::optional<int> regions = {}) {
   return {std::move(name), [=](const Points3& points) {
@@ -64,14 +72,22 @@ std::vector<Row> make_rows(const Options& options) {
     if (name == "calotte") {
       rows.push_back(library_row("calotte", options.threads));
     } else if (name == "one-thread") {
-      rows.push_back(library_row("calotte 1 thread", 1));
+      rows.push_back(library_row(threads_row(1), 1));
     } else if (name == "one-region") {
       rows.push_back(library_row("calotte one region", 1, 1));
     } else if (name == "cgal") {
       rows.push_back({"CGAL", run_cgal, true});
     } else if (name == "stripack" && has_stripack()) {
       rows.push_back({"STRIPACK", run_stripack, true, options.stripack_limit});
+    } else if (name == "stripack-natural" && has_stripack()) {
+      rows.push_back({"STRIPACK, natural order", run_stripack_natural, true, options.stripack_limit,
+                      "bisection"});
+    } else if (name == "qhull" && has_qhull()) {
+      rows.push_back({"Qhull", run_qhull, true, options.qhull_limit});
     }
+  }
+  for (const int threads : options.sweep) {
+    rows.push_back(library_row(threads_row(threads), threads));
   }
   for (const int regions : options.regions) {
     rows.push_back(library_row("calotte " + std::to_string(regions) + " regions", 1, regions));
@@ -115,9 +131,13 @@ void add_counters(benchmark::State& state, const Outcome& outcome) {
   state.counters["exact"] = static_cast<double>(report.exact_predicates);
 }
 
-void run_row(benchmark::State& state, Workload& work, std::int64_t n, const Row& row) {
+/// \param warm after a run that is not timed.
+void run_row(benchmark::State& state, Workload& work, std::int64_t n, const Row& row, bool warm) {
   if (work.points.cols() == 0) {
     work.points = cloud(work.set, n);
+  }
+  if (warm) {
+    row.run(work.points);
   }
   for (auto _ : state) {
     const Outcome outcome = row.run(work.points);
@@ -134,10 +154,15 @@ void run_row(benchmark::State& state, Workload& work, std::int64_t n, const Row&
 }
 
 std::vector<RoundRow> rows_of(const std::vector<Row>& rows, const std::shared_ptr<Workload>& work,
-                              std::int64_t n) {
+                              std::int64_t n, bool warm) {
   std::vector<RoundRow> result;
   for (const Row& row : rows) {
-    const auto run = [work, n, row](benchmark::State& state) { run_row(state, *work, n, row); };
+    if (!row.only_set.empty() && row.only_set != work->set) {
+      continue;
+    }
+    const auto run = [work, n, row, first = warm && !row.peer](benchmark::State& state) {
+      run_row(state, *work, n, row, first);
+    };
     result.push_back({row.name, run, row.limit});
   }
   return result;
@@ -154,7 +179,7 @@ void register_all(const Options& options) {
     }
     for (int round = 0; round < options.rounds; ++round) {
       for (const auto& work : works) {
-        register_round(work->set, n, round, rows_of(rows, work, n));
+        register_round(work->set, n, round, rows_of(rows, work, n, options.warm));
       }
     }
   }
@@ -169,31 +194,36 @@ void add_options(CLI::App& app, Options& options) {
       ->delimiter(',')
       ->check(CLI::Range(4, 300000000))
       ->capture_default_str();
-  app.add_option("--rows", options.rows,
-                 "what to time: calotte, one-thread, one-region, cgal, stripack, or none")
+  app.add_option("--rows", options.rows, "what to time: " + CLI::detail::join(row_names, ", "))
       ->delimiter(',')
-      ->check(CLI::IsMember({"calotte", "one-thread", "one-region", "cgal", "stripack", "none"}))
+      ->check(CLI::IsMember(row_names))
       ->capture_default_str();
   app.add_option("--regions", options.regions, "also time these numbers of regions on one thread")
       ->delimiter(',')
       ->check(CLI::PositiveNumber);
-  app.add_option("--rounds", options.rounds, "how often every row runs")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  app.add_option("--threads", options.threads, "threads of the row calotte")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
+  app.add_option("--sweep", options.sweep, "also time the library on these numbers of threads")
+      ->delimiter(',')
+      ->check(CLI::PositiveNumber);
+  add_round_options(app, options);
   app.add_option("--stripack-limit", options.stripack_limit,
                  "most sites that STRIPACK is given; it is slow beyond")
       ->capture_default_str();
-  app.allow_extras();
-  app.footer("Google Benchmark's own options work too: --benchmark_filter, --benchmark_out, "
-             "--benchmark_list_tests.\nExit codes: 0 done, 1 a result was wrong, 2 bad usage.");
+  app.add_option("--qhull-limit", options.qhull_limit, "the same for Qhull")->capture_default_str();
+  app.add_flag("--warm", options.warm,
+               "before each of the library's runs, one that is not timed: beside peers that take "
+               "half a minute, whose arrays are touched before their clock starts");
 }
 
-void print_head(const Options& options) {
-  std::cout
-      << "# Delaunay triangulations of the sphere: seconds and paired ratios\n\n"
+std::map<std::string, std::string> peers() {
+  std::map<std::string, std::string> versions = {{"CGAL", CGAL_VERSION_STR}};
+  if (has_qhull()) {
+    versions["Qhull"] = qhull_version();
+  }
+  return versions;
+}
+
+void print_head(std::ostream& out, const Options& options) {
+  out << "# Delaunay triangulations of the sphere: seconds and paired ratios\n\n"
       << "calotte on " << options.threads << " threads of " << std::thread::hardware_concurrency()
       << ", peers on one; CGAL " << CGAL_VERSION_STR << "; compiler " << __VERSION__ << "; "
       << options.rounds
@@ -201,41 +231,23 @@ void print_head(const Options& options) {
          "calotte's of the same round. Where CPU seconds of a row with one thread are "
          "less than its seconds, the machine was busy.\n";
   if (!has_stripack()) {
-    std::cout << "STRIPACK is left out: this program was built without libncarg-dev.\n";
+    out << "STRIPACK is left out: this program was built without libncarg-dev.\n";
+  }
+  if (!has_qhull()) {
+    out << "Qhull is left out: this program was built without libqhull-dev.\n";
   }
 }
 
 } // namespace
-
-int bench_main(int argc, char** argv) {
-  Options options;
-  CLI::App app{
-      "Times the library's Delaunay triangulation of the sphere and its peers, interleaved."};
-  add_options(app, options);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
-  if (!start_google_benchmark(argv[0], app.remaining())) {
-    return 2;
-  }
-  register_all(options);
-  RoundReporter reporter;
-  print_head(options);
-  benchmark::RunSpecifiedBenchmarks(&reporter);
-  benchmark::Shutdown();
-  print_tables(std::cout, reporter.results(), "calotte");
-  return reporter.failed() ? 1 : 0;
-}
-
 } // namespace calotte::bench
 
 int main(int argc, char** argv) {
-  try {
-    return calotte::bench::bench_main(argc, argv);
-  } catch (const std::exception& error) {
-    std::cerr << "delaunay_bench: " << error.what() << '\n';
-    return 1;
-  }
+  using namespace calotte::bench;
+  Options options;
+  return run_program(
+      argc, argv,
+      {"Times the library's Delaunay triangulation of the sphere and its peers, interleaved.",
+       peers(), [&](CLI::App& app) { add_options(app, options); }, [&] { register_all(options); },
+       [&](std::ostream& out) { print_head(out, options); },
+       [](std::ostream& out, const auto& results) { print_tables(out, results, "calotte"); }});
 }

@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Times what a full MPAS mesh costs beside the triangulation that it is of, in rounds: the
-// triangulation, the connectivity alone, and the file, connectivity included, on the disk.
+// triangulation, the connectivity alone, the file, connectivity included, on the disk, and as many
+// bytes written the same way without computing them: what the disk allows.
 
+#include "io/file.h"
+#include "parallel.h"
+#include "program.h"
 #include "report.h"
+#include "stopwatch.h"
 
 #include <calotte/delaunay.h>
 #include <calotte/generators.h>
@@ -13,91 +18,147 @@
 #include <benchmark/benchmark.h>
 #include <tbb/global_control.h>
 
-#include <chrono>
-#include <ctime>
-#include <exception>
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <functional>
-#include <iostream>
-#include <memory>
+#include <optional>
+#include <ostream>
+#include <random>
+#include <string>
+#include <system_error>
+#include <vector>
 
 namespace calotte::bench {
 namespace {
 
-struct Options {
-  int level = 9, rounds = 5, threads = 2;
+struct Options : RoundOptions {
+  int level = 9; ///< of the bisected icosahedron
   std::string folder = ".";
 };
 
-/// A row that times a body once a round.
-RoundRow row_of(const std::string& name, const std::function<void()>& body) {
+using Body = std::function<void()>;
+
+/// A row that times a body once a round, after a preparation that it does not time.
+RoundRow row_of(
+    const std::string& name, const Body& body, const Body& prepare = [] {}) {
   return {name, [=](benchmark::State& state) {
             for (auto _ : state) {
-              const std::clock_t cpu = std::clock();
-              const auto start = std::chrono::steady_clock::now();
+              prepare();
+              const Stopwatch watch;
               body();
-              const std::chrono::duration<double> s = std::chrono::steady_clock::now() - start;
-              state.SetIterationTime(s.count());
-              state.counters["cpu"] = static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC;
+              Timed timed;
+              watch.stop(timed);
+              state.SetIterationTime(timed.seconds);
+              state.counters["cpu"] = timed.cpu_seconds;
             }
           }};
 }
 
-void register_all(const Options& options, const Mesh& mesh, const std::filesystem::path& file) {
-  for (int round = 0; round < options.rounds; ++round)
-    register_round("bisection", mesh.points.cols(), round,
-                   {row_of("delaunay", [&mesh] { delaunay(mesh.points); }),
-                    row_of("voronoi", [&mesh] { voronoi(mesh); }), row_of("write", [&mesh, file] {
-                      write(file, mesh, {.sphere_radius = 6371229});
-                    })});
+/// The files of the mesh; another one of as many bytes.
+struct Files {
+  Files() = default;
+  explicit Files(const std::filesystem::path& folder)
+      : mesh(folder / "files_bench.nc"), graph(folder / "files_bench.graph.info"),
+        other(folder / "files_bench.bytes") {}
+
+  /// A file that is replaced would cost its removal as well.
+  void remove() const {
+    std::error_code absent;
+    for (const std::filesystem::path& file : {mesh, graph, other})
+      std::filesystem::remove(file, absent);
+  }
+
+  std::filesystem::path mesh, graph, other;
+  std::int64_t bytes = 0; ///< of mesh and graph
+};
+
+/// What is written, and where; made when the options are known.
+struct Workload {
+  Workload() = default;
+  Workload(const Workload&) = delete;
+  Workload& operator=(const Workload&) = delete;
+  ~Workload() { files.remove(); }
+
+  std::optional<tbb::global_control> limit;
+  Mesh mesh;
+  Files files;
+};
+
+void write_mesh(Files& files, const Mesh& mesh) {
+  write(files.mesh, mesh, {.sphere_radius = 6371229});
+  files.bytes = static_cast<std::int64_t>(std::filesystem::file_size(files.mesh) +
+                                          std::filesystem::file_size(files.graph));
 }
 
-int bench_main(int argc, char** argv) {
-  Options options;
-  CLI::App app{"Times writing a full MPAS mesh beside the triangulation it is of."};
+/// The same pseudo-random bytes in every block, but for its number: no disk takes them for zeros.
+void write_bytes(const Files& files) {
+  static const std::vector<std::uint32_t> pattern = [] {
+    std::vector<std::uint32_t> words(1 << 20);
+    std::generate(words.begin(), words.end(), std::minstd_rand());
+    return words;
+  }();
+  const auto block_bytes = static_cast<std::int64_t>(pattern.size() * sizeof(pattern[0]));
+  detail::OutputFile file(files.other);
+  detail::for_each_task((files.bytes + block_bytes - 1) / block_bytes, [&](std::int64_t k) {
+    const std::int64_t offset = k * block_bytes;
+    detail::OutputBlock block(offset, std::min(block_bytes, files.bytes - offset));
+    std::memcpy(block.begin(), pattern.data(), static_cast<std::size_t>(block.size()));
+    std::memcpy(block.begin(), &k, std::min(sizeof k, static_cast<std::size_t>(block.size())));
+    file.put(std::move(block));
+  });
+  file.commit();
+}
+
+void register_all(const Options& options, Workload& work) {
+  work.limit.emplace(tbb::global_control::max_allowed_parallelism,
+                     static_cast<std::size_t>(options.threads));
+  work.mesh = renumbered(delaunay(bisected_icosahedron(options.level)), Numbering::curve);
+  work.files = Files(options.folder);
+  write_mesh(work.files, work.mesh); // tells how many bytes
+  const auto remove = [&work] { work.files.remove(); };
+  const std::vector<RoundRow> rows = {
+      row_of("delaunay", [&work] { delaunay(work.mesh.points); }),
+      row_of("voronoi", [&work] { voronoi(work.mesh); }),
+      row_of(
+          "write", [&work] { write_mesh(work.files, work.mesh); }, remove),
+      row_of(
+          "the same bytes", [&work] { write_bytes(work.files); }, remove)};
+  for (int round = 0; round < options.rounds; ++round)
+    register_round("bisection", work.mesh.points.cols(), round, rows);
+}
+
+void add_options(CLI::App& app, Options& options) {
   app.add_option("--level", options.level, "of the bisected icosahedron: 10 x 4^level + 2 cells")
       ->check(CLI::Range(0, 12))
       ->capture_default_str();
   app.add_option("--folder", options.folder, "where the file is written, and removed at the end")
       ->check(CLI::ExistingDirectory)
       ->capture_default_str();
-  app.add_option("--rounds", options.rounds, "how often every row runs")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  app.add_option("--threads", options.threads, "of all rows")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
-  if (!start_google_benchmark(argv[0], {}))
-    return 2;
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                  static_cast<std::size_t>(options.threads));
-  const Mesh mesh = renumbered(delaunay(bisected_icosahedron(options.level)), Numbering::curve);
-  const auto file = std::filesystem::path(options.folder) / "files_bench.nc";
-  register_all(options, mesh, file);
-  std::cout << "# A full MPAS mesh: seconds and ratios to its triangulation, " << options.threads
-            << " threads\n";
-  RoundReporter reporter;
-  benchmark::RunSpecifiedBenchmarks(&reporter);
-  benchmark::Shutdown();
-  std::filesystem::remove(file);
-  std::filesystem::remove(std::filesystem::path(file).replace_extension(".graph.info"));
-  print_times(std::cout, reporter.results().front(), "delaunay");
-  return reporter.failed() ? 1 : 0;
+  add_round_options(app, options);
 }
 
 } // namespace
 } // namespace calotte::bench
 
 int main(int argc, char** argv) {
-  try {
-    return calotte::bench::bench_main(argc, argv);
-  } catch (const std::exception& error) {
-    std::cerr << "files_bench: " << error.what() << '\n';
-    return 1;
-  }
+  using namespace calotte::bench;
+  Options options;
+  options.rounds = 5;
+  Workload work;
+  return run_program(argc, argv,
+                     {"Times writing a full MPAS mesh beside the triangulation it is of.",
+                      {},
+                      [&](CLI::App& app) { add_options(app, options); },
+                      [&] { register_all(options, work); },
+                      [&](std::ostream& out) {
+                        out << "# A full MPAS mesh: " << work.files.bytes
+                            << " bytes; seconds and ratios to its triangulation, "
+                            << options.threads << " threads\n";
+                      },
+                      [&](std::ostream& out, const auto& results) {
+                        for (const SetResults& set : results)
+                          print_times(out, set, "delaunay");
+                      }});
 }

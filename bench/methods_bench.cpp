@@ -2,35 +2,34 @@
 // Counts the evaluations that each method takes to bring the rms distance of generators from their
 // centroids below 1e-6, 1e-8 and 1e-10, from the bisected optimum of the next coarser level.
 
+#include "clouds.h"
+#include "program.h"
+#include "report.h"
+
 #include <calotte/cvt.h>
 #include <calotte/delaunay.h>
 #include <calotte/generators.h>
 
-#include <CLI/CLI.hpp>
-
+#include <algorithm>
 #include <array>
-#include <cmath>
-#include <cstdio>
-#include <exception>
-#include <iostream>
-#include <numbers>
+#include <memory>
+#include <ostream>
 #include <string>
-#include <vector>
 
 namespace calotte::bench {
 
 namespace {
 
-struct Named {
-  const char* name;
-  Method method;
-};
+const std::map<std::string, Method> methods = {{"lloyd", Method::lloyd},
+                                               {"nesterov", Method::nesterov},
+                                               {"lbfgs", Method::lbfgs},
+                                               {"lbfgs-laplacian", Method::lbfgs_laplacian}};
 
-constexpr std::array<Named, 4> all_methods{{{"lloyd", Method::lloyd},
-                                            {"nesterov", Method::nesterov},
-                                            {"lbfgs", Method::lbfgs},
-                                            {"lbfgs-laplacian", Method::lbfgs_laplacian}}};
-constexpr std::array<double, 3> goals{1e-6, 1e-8, 1e-10};
+struct Goal {
+  const char* name;
+  double l2;
+};
+constexpr std::array<Goal, 3> goals{{{"1e-6", 1e-6}, {"1e-8", 1e-8}, {"1e-10", 1e-10}}};
 
 struct Options {
   std::vector<std::int64_t> sizes = {2562, 10242};
@@ -39,21 +38,12 @@ struct Options {
   int limit = 3000;
 };
 
-/// The paper's x8 bump (Jacobsen et al., 2013, Sect. 4.3), or uniform.
-Density density_of(const std::string& set) {
-  if (set == "uniform") {
-    return {};
-  }
-  constexpr double pi = std::numbers::pi;
-  return tanh_bump({0, -std::cos(pi / 6), std::sin(pi / 6)}, pi / 6, 0.2, 1.0 / 4096);
-}
-
 CvtOptions options_of(const Density& density, Method method, int limit) {
   CvtOptions options;
   options.density = density;
   options.method = method;
   options.norm = Norm::l2;
-  options.tolerance = goals.back();
+  options.tolerance = goals.back().l2;
   options.max_iterations = limit;
   options.rule = options.final_rule = 6;
   return options;
@@ -68,84 +58,98 @@ Points3 start_of(std::int64_t cells, const Density& density) {
   return bisect(cvt(from.start, options).mesh);
 }
 
-void print_row(const std::string& set, const Named& named, const Cvt& grid) {
-  const auto cells = static_cast<double>(grid.mesh.points.cols());
-  std::printf("| %s %.0f | %s |", set.c_str(), cells, named.name);
-  for (const double goal : goals) {
-    double seconds = 0;
-    std::size_t k = 0;
-    const std::vector<CvtIteration>& all = grid.report.iterations;
-    for (; k < all.size(); ++k) {
-      seconds += all[k].seconds + all[k].seconds_solver;
-      if (all[k].accepted && all[k].l2 <= goal) {
-        break;
-      }
-    }
-    if (k < all.size()) {
-      std::printf(" %zu (%.2f s) |", k + 1, seconds);
-    } else {
-      std::printf(" - |");
+/// For each goal that was reached, the evaluations and seconds that it took.
+void add_counters(benchmark::State& state, const CvtReport& report) {
+  double seconds = 0, flips = 0, evaluations = 0;
+  std::size_t next = 0;
+  for (const CvtIteration& iteration : report.iterations) {
+    ++evaluations;
+    seconds += iteration.seconds + iteration.seconds_solver;
+    flips += static_cast<double>(iteration.flips);
+    for (; next < goals.size() && iteration.accepted && iteration.l2 <= goals[next].l2; ++next) {
+      state.counters[std::string("evaluations ") + goals[next].name] = evaluations;
+      state.counters[std::string("seconds ") + goals[next].name] = seconds;
     }
   }
-  std::int64_t flips = 0;
-  for (const CvtIteration& iteration : grid.report.iterations) {
-    flips += iteration.flips;
-  }
-  const CvtIteration& last = grid.report.iterations.back();
-  std::printf(" %.9f | %lld |\n", last.energy * cells, static_cast<long long>(flips));
-  std::fflush(stdout);
+  const CvtIteration& last = report.iterations.back();
+  state.counters["energy x cells"] = last.energy * static_cast<double>(last.cells);
+  state.counters["flips"] = flips;
 }
 
-void run(const Options& options) {
-  std::printf(
-      "Evaluations (and seconds) to an rms distance of generators from their centroids, from "
-      "the bisected optimum of the coarser level; at most %d.\n\n"
-      "| start | method | 1e-6 | 1e-8 | 1e-10 | energy x cells | flips |\n"
-      "| --- | --- | --: | --: | --: | --: | --: |\n",
-      options.limit);
-  for (const std::string& set : options.sets) {
+void register_all(const Options& options) {
+  for (const std::string& set : options.sets)
     for (const std::int64_t cells : options.sizes) {
-      const Density density = density_of(set);
-      const Points3 start = start_of(cells, density);
-      for (const Named& named : all_methods) {
-        if (std::find(options.methods.begin(), options.methods.end(), named.name) !=
-            options.methods.end()) {
-          print_row(set, named, cvt(start, options_of(density, named.method, options.limit)));
-        }
-      }
+      const auto start = std::make_shared<Points3>();
+      std::vector<RoundRow> rows;
+      for (const std::string& name : options.methods)
+        rows.push_back({name, [=, limit = options.limit](benchmark::State& state) {
+                          if (start->cols() == 0)
+                            *start = start_of(cells, named_density(set));
+                          const CvtOptions cvt_options =
+                              options_of(named_density(set), methods.at(name), limit);
+                          for (auto _ : state) {
+                            const CvtReport report = cvt(*start, cvt_options).report;
+                            state.SetIterationTime(report.seconds);
+                            add_counters(state, report);
+                          }
+                        }});
+      register_round(set, cells, 0, rows);
     }
-  }
 }
 
-} // namespace
-
-int bench_main(int argc, char** argv) {
-  Options options;
-  CLI::App app{"Counts the evaluations that each method of the CVT takes."};
-  app.add_option("--sizes", options.sizes, "numbers of cells, 10 * 4^k + 2")->delimiter(',');
+void add_options(CLI::App& app, Options& options) {
+  app.add_option("--sizes", options.sizes, "numbers of cells, 10 * 4^k + 2")
+      ->delimiter(',')
+      ->check(CLI::IsMember(bisected_sizes()));
   app.add_option("--sets", options.sets, "uniform, x8")
       ->delimiter(',')
       ->check(CLI::IsMember({"uniform", "x8"}));
   app.add_option("--methods", options.methods, "lloyd, nesterov, lbfgs, lbfgs-laplacian")
       ->delimiter(',')
-      ->check(CLI::IsMember({"lloyd", "nesterov", "lbfgs", "lbfgs-laplacian"}));
+      ->check(CLI::IsMember(methods));
   app.add_option("--limit", options.limit, "most evaluations")->check(CLI::PositiveNumber);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
-  run(options);
-  return 0;
 }
+
+void print_head(std::ostream& out, const Options& options) {
+  out << "Evaluations (and seconds) to an rms distance of generators from their centroids, from "
+         "the bisected optimum of the coarser level; at most "
+      << options.limit
+      << ".\n\n"
+         "| start | method | 1e-6 | 1e-8 | 1e-10 | energy x cells | flips |\n"
+         "| --- | --- | --: | --: | --: | --: | --: |\n";
+}
+
+void print_results(std::ostream& out, const std::vector<SetResults>& results) {
+  for (const SetResults& set : results)
+    for (const std::string& name : set.order) {
+      const auto& counters = set.rows.at(name).counters;
+      const auto value = [&](const std::string& counter) { return counters.at(counter).front(); };
+      out << "| " << set.set << ' ' << set.sites << " | " << name << " |";
+      for (const Goal& goal : goals) {
+        const std::string evaluations = std::string("evaluations ") + goal.name;
+        if (counters.contains(evaluations))
+          out << ' ' << fixed(value(evaluations), 0) << " ("
+              << fixed(value(std::string("seconds ") + goal.name), 2) << " s) |";
+        else
+          out << " - |";
+      }
+      out << ' ' << fixed(value("energy x cells"), 9) << " | " << fixed(value("flips"), 0)
+          << " |\n";
+    }
+}
+
+} // namespace
 
 } // namespace calotte::bench
 
 int main(int argc, char** argv) {
-  try {
-    return calotte::bench::bench_main(argc, argv);
-  } catch (const std::exception& error) {
-    std::cerr << "methods_bench: " << error.what() << '\n';
-    return 1;
-  }
+  using namespace calotte::bench;
+  Options options;
+  return run_program(argc, argv,
+                     {"Counts the evaluations that each method of the CVT takes.",
+                      {},
+                      [&](CLI::App& app) { add_options(app, options); },
+                      [&] { register_all(options); },
+                      [&](std::ostream& out) { print_head(out, options); },
+                      [](std::ostream& out, const auto& results) { print_results(out, results); }});
 }

@@ -12,8 +12,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <chrono>
-#include <ctime>
 #include <tuple>
 #include <unordered_map>
 #include <vector>
@@ -21,20 +19,6 @@
 namespace calotte::bench {
 
 namespace {
-
-/// Measures from its construction.
-class Stopwatch {
-public:
-  void stop(Outcome& outcome) const {
-    outcome.seconds = std::chrono::duration<double>(Clock::now() - start_).count();
-    outcome.cpu_seconds = static_cast<double>(std::clock() - cpu_start_) / CLOCKS_PER_SEC;
-  }
-
-private:
-  using Clock = std::chrono::steady_clock;
-  std::clock_t cpu_start_ = std::clock();
-  Clock::time_point start_ = Clock::now();
-};
 
 /// The finaliser of SplitMix64 (Steele, Lea, Flood, 2014).
 std::uint64_t mix(std::uint64_t x) {

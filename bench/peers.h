@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "stopwatch.h"
+
 #include <calotte/delaunay.h>
 
 #include <cstdint>
@@ -19,10 +21,8 @@ private:
   std::uint64_t sum_ = 0;
 };
 
-/// What one timed run made.
-struct Outcome {
-  double seconds = 0;     ///< wall-clock, of the triangulation alone
-  double cpu_seconds = 0; ///< of all threads in that time
+/// What one timed run made; timed is the triangulation alone.
+struct Outcome : Timed {
   std::int64_t sites = 0; ///< vertices of the result
   std::int64_t triangles = 0;
   std::uint64_t digest = 0; ///< Digest of the triangles in the ids of the input
@@ -41,5 +41,14 @@ Outcome run_cgal(const Points3& points);
 /// STRIPACK's TRMESH, with its arrays allocated and touched before the clock starts; its linked
 /// lists are its result. \pre has_stripack().
 Outcome run_stripack(const Points3& points);
+
+/// Qhull's convex hull of the points, whose facets are the triangles (Barber, Dobkin, Huhdanpaa,
+/// ACM TOMS 22(4), 1996): with option Qt, which cuts the facets that it had to merge into
+/// triangles. \pre has_qhull().
+Outcome run_qhull(const Points3& points);
+
+/// Whether this program was built with Qhull, and with which.
+bool has_qhull();
+std::string qhull_version();
 
 } // namespace calotte::bench

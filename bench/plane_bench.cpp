@@ -3,6 +3,7 @@
 // rounds as delaunay_bench does. The triangles of both are compared in every round.
 
 #include "peers.h"
+#include "program.h"
 #include "report.h"
 
 #include <calotte/delaunay.h>
@@ -11,14 +12,10 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 #include <CGAL/version.h>
-#include <CLI/CLI.hpp>
 #include <benchmark/benchmark.h>
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
-#include <chrono>
-#include <ctime>
-#include <exception>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -53,22 +50,15 @@ Points2 plane_cloud(const std::string& set, std::int64_t n) {
   return points;
 }
 
-/// Runs and times a body once.
-template <class Body> void time(Outcome& outcome, const Body& body) {
-  const std::clock_t cpu = std::clock();
-  const auto start = std::chrono::steady_clock::now();
-  body();
-  outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  outcome.cpu_seconds = static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC;
-}
-
 Outcome run_library(const Points2& points, int threads) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(threads));
   tbb::task_arena arena(threads);
   Outcome outcome;
   PlanarMesh mesh;
-  time(outcome, [&] { arena.execute([&] { mesh = delaunay(points, {}, &outcome.report); }); });
+  const Stopwatch watch;
+  arena.execute([&] { mesh = delaunay(points, {}, &outcome.report); });
+  watch.stop(outcome);
   outcome.triangles = mesh.triangles.cols();
   Digest digest;
   for (const auto& t : mesh.triangles.colwise())
@@ -88,7 +78,9 @@ Outcome run_cgal_plane(const Points2& points) {
     range.emplace_back(Kernel::Point_2(points(0, i), points(1, i)), static_cast<std::int32_t>(i));
   Outcome outcome;
   CGAL::Delaunay_triangulation_2<Kernel, Store> triangulation;
-  time(outcome, [&] { triangulation.insert(range.begin(), range.end()); });
+  const Stopwatch watch;
+  triangulation.insert(range.begin(), range.end());
+  watch.stop(outcome);
   outcome.triangles = static_cast<std::int64_t>(triangulation.number_of_faces());
   Digest digest;
   for (auto face = triangulation.finite_faces_begin(); face != triangulation.finite_faces_end();
@@ -98,10 +90,9 @@ Outcome run_cgal_plane(const Points2& points) {
   return outcome;
 }
 
-struct Options {
+struct Options : RoundOptions {
   std::vector<std::string> sets = {"uniform", "clusters", "line"};
   std::int64_t size = 1000000;
-  int rounds = 7, threads = 2;
 };
 
 /// The places of a set, made when first needed, and the digest of the first run.
@@ -140,14 +131,12 @@ void register_all(const Options& options) {
       };
       register_round(set, n, round,
                      {row_of("calotte", set, n, works[s], library(options.threads)),
-                      row_of("calotte 1 thread", set, n, works[s], library(1)),
+                      row_of(threads_row(1), set, n, works[s], library(1)),
                       row_of("CGAL", set, n, works[s], run_cgal_plane)});
     }
 }
 
-int bench_main(int argc, char** argv) {
-  Options options;
-  CLI::App app{"Times the library's Delaunay triangulation of the plane beside CGAL's."};
+void add_options(CLI::App& app, Options& options) {
   app.add_option("--sets", options.sets, "uniform, clusters, line")
       ->delimiter(',')
       ->check(CLI::IsMember({"uniform", "clusters", "line"}))
@@ -155,39 +144,27 @@ int bench_main(int argc, char** argv) {
   app.add_option("--size", options.size, "number of sites")
       ->check(CLI::Range(3, 300000000))
       ->capture_default_str();
-  app.add_option("--rounds", options.rounds, "how often every row runs")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  app.add_option("--threads", options.threads, "threads of the row calotte")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  app.allow_extras();
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
-  if (!start_google_benchmark(argv[0], app.remaining()))
-    return 2;
-  register_all(options);
-  std::cout << "# Delaunay triangulations of the plane: seconds and paired ratios\n\n"
-            << "calotte on " << options.threads << " threads, CGAL " << CGAL_VERSION_STR
-            << " on one; " << options.rounds << " rounds; compiler " << __VERSION__ << ".\n";
-  RoundReporter reporter;
-  benchmark::RunSpecifiedBenchmarks(&reporter);
-  benchmark::Shutdown();
-  print_tables(std::cout, reporter.results(), "calotte");
-  return reporter.failed() ? 1 : 0;
+  add_round_options(app, options);
+}
+
+void print_head(std::ostream& out, const Options& options) {
+  out << "# Delaunay triangulations of the plane: seconds and paired ratios\n\n"
+      << "calotte on " << options.threads << " threads, CGAL " << CGAL_VERSION_STR << " on one; "
+      << options.rounds << " rounds; compiler " << __VERSION__ << ".\n";
 }
 
 } // namespace
 } // namespace calotte::bench
 
 int main(int argc, char** argv) {
-  try {
-    return calotte::bench::bench_main(argc, argv);
-  } catch (const std::exception& error) {
-    std::cerr << "plane_bench: " << error.what() << '\n';
-    return 1;
-  }
+  using namespace calotte::bench;
+  Options options;
+  return run_program(
+      argc, argv,
+      {"Times the library's Delaunay triangulation of the plane beside CGAL's.",
+       {{"CGAL", CGAL_VERSION_STR}},
+       [&](CLI::App& app) { add_options(app, options); },
+       [&] { register_all(options); },
+       [&](std::ostream& out) { print_head(out, options); },
+       [](std::ostream& out, const auto& results) { print_tables(out, results, "calotte"); }});
 }

@@ -7,6 +7,7 @@
 #include <iostream>
 #include <optional>
 #include <ostream>
+#include <utility>
 
 namespace calotte::bench {
 
@@ -183,15 +184,22 @@ void print_sets(std::ostream& out, const std::vector<SetResults>& results,
 
 } // namespace
 
-bool start_google_benchmark(char* program, std::vector<std::string> arguments) {
-  std::vector<char*> argv = {program};
-  for (std::string& argument : arguments) {
-    argv.push_back(argument.data());
-  }
-  int argc = static_cast<int>(argv.size());
-  argv.push_back(nullptr);
-  benchmark::Initialize(&argc, argv.data());
-  return !benchmark::ReportUnrecognizedArguments(argc, argv.data());
+namespace {
+
+/// Of the run that is under way; runs come one at a time.
+std::map<std::string, std::vector<double>>& pending_lists() {
+  static std::map<std::string, std::vector<double>> lists;
+  return lists;
+}
+
+} // namespace
+
+void add_list(const std::string& name, std::vector<double> values) {
+  pending_lists()[name] = std::move(values);
+}
+
+std::string threads_row(int threads) {
+  return "calotte " + std::to_string(threads) + (threads == 1 ? " thread" : " threads");
 }
 
 void register_round(const std::string& set, std::int64_t n, int round,
@@ -232,9 +240,10 @@ Series& RoundReporter::series(const std::string& name, int& round) {
 void RoundReporter::ReportRuns(const std::vector<Run>& runs) {
   for (const Run& run : runs) {
     const std::string name = run.benchmark_name();
+    const auto lists = std::exchange(pending_lists(), {});
     if (run.error_occurred) {
-      failed_ = true;
-      std::cerr << name << ": " << run.error_message << '\n';
+      failures_.push_back(name + ": " + run.error_message);
+      std::cerr << failures_.back() << '\n';
       continue;
     }
     int round = 0;
@@ -243,6 +252,9 @@ void RoundReporter::ReportRuns(const std::vector<Run>& runs) {
     row.seconds[round] = seconds;
     for (const auto& [counter, value] : run.counters) {
       row.counters[counter].push_back(value.value);
+    }
+    for (const auto& [list, values] : lists) {
+      row.lists[list].push_back(values);
     }
     std::cerr << name.substr(0, name.find("/iterations")) << ": " << seconds_text(seconds)
               << " s\n";

@@ -17,6 +17,8 @@ namespace calotte::bench {
 struct Series {
   std::map<int, double> seconds;                       ///< by round
   std::map<std::string, std::vector<double>> counters; ///< by name: one value a round
+  /// By name: one list a round, as of the regions.
+  std::map<std::string, std::vector<std::vector<double>>> lists;
 };
 
 /// All series of one set of sites, by row, in the order of their first run.
@@ -48,9 +50,8 @@ std::string range_text(const std::vector<double>& values, double from, double to
 /// The set's name and its number of sites.
 std::string title(const SetResults& set);
 
-/// Hands the arguments that a program does not know to Google Benchmark; false when it does not
-/// either.
-bool start_google_benchmark(char* program, std::vector<std::string> arguments);
+/// The name of the library's row on so many threads.
+std::string threads_row(int threads);
 
 /// What is timed in every round, in sets of up to a number of sites.
 struct RoundRow {
@@ -58,6 +59,9 @@ struct RoundRow {
   std::function<void(benchmark::State&)> run; ///< once a round; sets the iteration's time
   std::int64_t limit = std::numeric_limits<std::int64_t>::max(); ///< sites
 };
+
+/// Adds a list to the run that is under way, which has room for single numbers alone.
+void add_list(const std::string& name, std::vector<double> values);
 
 /// Registers one round over one set: every row once, starting with the row of the round's number.
 void register_round(const std::string& set, std::int64_t n, int round,
@@ -70,12 +74,13 @@ public:
   bool ReportContext(const Context& context) override;
   void ReportRuns(const std::vector<Run>& runs) override;
   const std::vector<SetResults>& results() const { return results_; }
-  bool failed() const { return failed_; }
+  /// One line for each run that went wrong.
+  const std::vector<std::string>& failures() const { return failures_; }
 
 private:
   Series& series(const std::string& name, int& round);
   std::vector<SetResults> results_;
-  bool failed_ = false;
+  std::vector<std::string> failures_;
 };
 
 /// Markdown: a set's rows' seconds, and their ratios to `base`, paired by round. Rows have a

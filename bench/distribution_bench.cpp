@@ -1,0 +1,337 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Measures what each region of a decomposition takes: of an iteration of the CVT, or of a
+// triangulation; and the bytes of positions that it would exchange. All on one thread, so that no
+// region is disturbed by another. From that, bench/report works out what distributed runs would
+// take.
+
+#include "clouds.h"
+#include "program.h"
+#include "report.h"
+#include "stopwatch.h"
+
+#include "functional.h"
+
+#include <calotte/cvt.h>
+#include <calotte/delaunay.h>
+#include <calotte/generators.h>
+
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <numeric>
+#include <optional>
+#include <ostream>
+#include <stdexcept>
+
+namespace calotte::bench {
+
+namespace {
+
+const std::vector<std::string> decompositions = {"default", "fibonacci", "uniform", "x8"};
+const std::map<std::string, Sort> sorts = {
+    {"halo", Sort::halo}, {"distance", Sort::distance}, {"voronoi", Sort::voronoi}};
+
+struct Options : RoundOptions {
+  std::vector<std::string> sets = {"uniform", "x8"};
+  std::vector<std::int64_t> sizes = {163842};
+  std::vector<std::string> works = {"iteration", "triangulation"};
+  std::vector<int> regions = {0, 96};
+  std::vector<std::string> sorts = {"halo"};
+  std::vector<std::string> decompositions = {"default"};
+  int iterations = 9;
+};
+
+struct Workload {
+  std::string set;
+  std::int64_t n = 0;
+  Points3 points; ///< made when first needed
+};
+
+/// What one row measures.
+struct Cut {
+  std::string work, sort, decomposition;
+  int regions = 0; ///< 0 for the library's own number
+};
+
+std::string name_of(const Cut& cut) {
+  const std::string regions = cut.regions == 0 ? "default" : std::to_string(cut.regions);
+  return cut.work + ", " + regions + " regions, " + cut.sort + " sort, " + cut.decomposition +
+         " decomposition";
+}
+
+/// Cells of a nearly converged CVT: a coarse one, bisected.
+Points3 generators(const std::string& set, std::int64_t n) {
+  const Density density = named_density(set);
+  const std::int64_t coarse = std::min<std::int64_t>(n, 10242);
+  const Continuation from = continuation(coarse, density);
+  CvtOptions options;
+  options.density = density;
+  options.bisections = from.bisections;
+  options.tolerance = 1e-3;
+  options.max_iterations = 300;
+  Points3 points = cvt(from.start, options).mesh.points;
+  while (points.cols() < n)
+    points = bisect(delaunay(points));
+  options.bisections = 0;
+  options.norm = Norm::none;
+  options.method = Method::lloyd;
+  options.max_iterations = 3;
+  return cvt(points, options).mesh.points;
+}
+
+/// Centres of the paper's decompositions: bisected icosahedra, and a coarse CVT of the x8 density.
+Points3 centres_of(const std::string& decomposition, int regions) {
+  const auto& sizes = bisected_sizes();
+  const auto at = std::find(sizes.begin(), sizes.end(), regions);
+  if (decomposition == "uniform") {
+    if (at == sizes.end())
+      throw std::invalid_argument("a uniform decomposition has 42, 162 ... regions");
+    return bisected_icosahedron(static_cast<int>(at - sizes.begin()) + 1);
+  }
+  CvtOptions options;
+  options.density = x8_density();
+  options.tolerance = 1e-3;
+  return cvt(random_sphere(regions, site_density(x8_density())), options).mesh.points;
+}
+
+DelaunayOptions partition_of(const Cut& cut) {
+  DelaunayOptions options;
+  options.sort = sorts.at(cut.sort);
+  if (cut.regions > 0)
+    options.regions = cut.regions;
+  if (cut.decomposition == "fibonacci")
+    options.centres = Centres::fibonacci;
+  else if (cut.decomposition != "default")
+    options.given_centres = centres_of(cut.decomposition, cut.regions);
+  return options;
+}
+
+/// Lists, by region: seconds, owned, halo (sites), received and sent (bytes).
+struct Lists {
+  std::vector<double> seconds, owned, halo, received, sent;
+};
+
+constexpr double position_bytes = 3 * sizeof(double);
+
+void add_lists(Lists lists) {
+  for (const double halo : lists.halo)
+    lists.received.push_back(position_bytes * halo);
+  add_list("seconds", std::move(lists.seconds));
+  add_list("owned", std::move(lists.owned));
+  add_list("halo", std::move(lists.halo));
+  add_list("received", std::move(lists.received));
+  if (!lists.sent.empty())
+    add_list("sent", std::move(lists.sent));
+}
+
+/// Iterations of Lloyd's method. A region's seconds are the median of its own over all but the
+/// first two, which look at the start's mesh twice and find their memory new.
+class Iterations {
+public:
+  Iterations(const Workload& work, const Cut& cut)
+      : points_(work.points),
+        functional_(detail::make_functional(work.points, options_of(work, cut))) {}
+
+  /// \returns the wall-clock seconds of this iteration.
+  double step() {
+    const std::vector<CvtRegion> before = functional_->regions();
+    const Stopwatch watch;
+    functional_->evaluate(points_, false, false, evaluation_);
+    Timed timed;
+    watch.stop(timed);
+    regions_ = functional_->regions();
+    seconds_.resize(regions_.size());
+    for (std::size_t k = 0; k < regions_.size(); ++k)
+      seconds_[k].push_back(regions_[k].seconds - before.at(k).seconds);
+    points_.swap(evaluation_.centroids);
+    functional_->moved(evaluation_.iteration.linf);
+    flips_ += static_cast<double>(evaluation_.iteration.flips);
+    return timed.seconds;
+  }
+
+  Lists lists() const {
+    Lists lists;
+    for (std::size_t k = 0; k < regions_.size(); ++k) {
+      lists.seconds.push_back(median({seconds_[k].begin() + warm_up, seconds_[k].end()}));
+      lists.owned.push_back(static_cast<double>(regions_[k].sites));
+      lists.halo.push_back(static_cast<double>(regions_[k].halo));
+      lists.sent.push_back(static_cast<double>(regions_[k].halo_bytes));
+    }
+    return lists;
+  }
+
+  double flips() const { return flips_; }
+
+  static constexpr int warm_up = 2;
+
+private:
+  static CvtOptions options_of(const Workload& work, const Cut& cut) {
+    CvtOptions options;
+    options.density = named_density(work.set);
+    options.partition = partition_of(cut);
+    return options;
+  }
+
+  Points3 points_;
+  std::unique_ptr<detail::Functional> functional_;
+  detail::Evaluation evaluation_;
+  std::vector<CvtRegion> regions_;
+  std::vector<std::vector<double>> seconds_; ///< by region, of each iteration
+  double flips_ = 0;
+};
+
+void run_iterations(benchmark::State& state, const Workload& work, const Cut& cut, int count) {
+  Iterations iterations(work, cut);
+  std::vector<double> seconds;
+  for (int i = 0; i < count; ++i)
+    seconds.push_back(iterations.step());
+  state.SetIterationTime(median({seconds.begin() + Iterations::warm_up, seconds.end()}));
+  state.counters["flips"] = iterations.flips();
+  add_lists(iterations.lists());
+}
+
+/// A region's seconds: gather, project, triangulate, cull and certify.
+void run_triangulation(benchmark::State& state, const Workload& work, const Cut& cut) {
+  DelaunayReport report;
+  const Mesh mesh = delaunay(work.points, partition_of(cut), &report);
+  state.SetIterationTime(report.seconds.total);
+  state.counters["triangulate"] = report.seconds.triangulate;
+  state.counters["overlap"] = report.overlap;
+  state.counters["certified by query"] = static_cast<double>(report.certified_by_query);
+  state.counters["halo insertions"] = static_cast<double>(report.halo_insertions);
+  Lists lists;
+  lists.seconds = report.seconds_per_region;
+  if (report.one_region)
+    lists.seconds = {report.seconds.triangulate};
+  for (std::size_t k = 0; k < report.owned_per_region.size(); ++k) {
+    const auto owned = static_cast<double>(report.owned_per_region[k]);
+    lists.owned.push_back(owned);
+    lists.halo.push_back(static_cast<double>(report.sites_per_region[k]) - owned);
+  }
+  add_lists(std::move(lists));
+}
+
+void run_cut(benchmark::State& state, Workload& work, const Cut& cut, int iterations) {
+  if (work.points.cols() == 0)
+    work.points = generators(work.set, work.n);
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
+  tbb::task_arena arena(1);
+  for (auto _ : state)
+    arena.execute([&] {
+      if (cut.work == "iteration")
+        run_iterations(state, work, cut, iterations);
+      else
+        run_triangulation(state, work, cut);
+    });
+}
+
+std::vector<RoundRow> make_rows(const Options& options, const std::shared_ptr<Workload>& work) {
+  std::vector<RoundRow> rows;
+  for (const std::string& kind : options.works)
+    for (const std::string& decomposition : options.decompositions)
+      for (const std::string& sort : options.sorts)
+        for (const int regions : options.regions) {
+          const Cut cut{kind, sort, decomposition, regions};
+          const auto run = [work, cut, count = options.iterations](benchmark::State& state) {
+            run_cut(state, *work, cut, count);
+          };
+          rows.push_back({name_of(cut), run});
+        }
+  return rows;
+}
+
+void register_all(const Options& options) {
+  std::vector<std::shared_ptr<Workload>> works;
+  for (const std::int64_t n : options.sizes)
+    for (const std::string& set : options.sets)
+      works.push_back(std::make_shared<Workload>(Workload{set, n, {}}));
+  for (int round = 0; round < options.rounds; ++round)
+    for (const auto& work : works)
+      register_round(work->set, work->n, round, make_rows(options, work));
+}
+
+void add_options(CLI::App& app, Options& options) {
+  app.add_option("--sets", options.sets, "densities: uniform, x8")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"uniform", "x8"}))
+      ->capture_default_str();
+  app.add_option("--sizes", options.sizes, "numbers of cells: 42, 162 ... 10 * 4^level + 2")
+      ->delimiter(',')
+      ->check(CLI::IsMember(bisected_sizes()))
+      ->capture_default_str();
+  app.add_option("--works", options.works, "iteration, triangulation")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"iteration", "triangulation"}))
+      ->capture_default_str();
+  app.add_option("--regions", options.regions, "numbers of regions; 0 for the library's own")
+      ->delimiter(',')
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  app.add_option("--sorts", options.sorts, "halo, distance, voronoi")
+      ->delimiter(',')
+      ->check(CLI::IsMember(sorts))
+      ->capture_default_str();
+  app.add_option("--decompositions", options.decompositions,
+                 "centres: default, fibonacci, uniform (42, 162 ... regions), x8")
+      ->delimiter(',')
+      ->check(CLI::IsMember(decompositions))
+      ->capture_default_str();
+  app.add_option("--iterations", options.iterations, "of each run; the first two count for nothing")
+      ->check(CLI::Range(Iterations::warm_up + 1, 10000))
+      ->capture_default_str();
+  app.add_option("--rounds", options.rounds, "how often every row runs")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+}
+
+/// Over the rounds: the median of each region's.
+std::vector<double> medians(const std::vector<std::vector<double>>& rounds) {
+  std::vector<double> result;
+  for (std::size_t k = 0; k < rounds.front().size(); ++k) {
+    std::vector<double> values;
+    for (const std::vector<double>& round : rounds)
+      values.push_back(round.at(k));
+    result.push_back(median(values));
+  }
+  return result;
+}
+
+void print_results(std::ostream& out, const std::vector<SetResults>& results) {
+  out << "| set | run | regions | sum s | longest s | longest / mean | halo sites / sites |\n"
+      << "| --- | --- | --: | --: | --: | --: | --: |\n";
+  for (const SetResults& set : results)
+    for (const std::string& name : set.order) {
+      const Series& row = set.rows.at(name);
+      const std::vector<double> seconds = medians(row.lists.at("seconds"));
+      const std::vector<double>& halo = row.lists.at("halo").front();
+      const double sum = std::accumulate(seconds.begin(), seconds.end(), 0.0);
+      const double longest = *std::max_element(seconds.begin(), seconds.end());
+      const double halos = std::accumulate(halo.begin(), halo.end(), 0.0);
+      out << "| " << title(set) << " | " << name << " | " << seconds.size() << " | "
+          << seconds_text(sum) << " | " << seconds_text(longest) << " | "
+          << fixed(longest / sum * static_cast<double>(seconds.size()), 3) << " | "
+          << fixed(halos / static_cast<double>(set.sites), 3) << " |\n";
+    }
+}
+
+} // namespace
+
+} // namespace calotte::bench
+
+int main(int argc, char** argv) {
+  using namespace calotte::bench;
+  Options options;
+  options.rounds = 3;
+  return run_program(argc, argv,
+                     {"Measures what each region of a decomposition takes, on one thread.",
+                      {},
+                      [&](CLI::App& app) { add_options(app, options); },
+                      [&] { register_all(options); },
+                      [](std::ostream& out) {
+                        out << "# Regions one by one, one thread: medians of the rounds\n\n";
+                      },
+                      [](std::ostream& out, const auto& results) { print_results(out, results); }});
+}

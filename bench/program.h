@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "report.h"
+
+#include <CLI/CLI.hpp>
+
+#include <functional>
+#include <iosfwd>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace calotte::bench {
+
+/// What every program that runs in rounds is told.
+struct RoundOptions {
+  int rounds = 7;
+  int threads = 2; ///< of the library's rows
+};
+
+void add_round_options(CLI::App& app, RoundOptions& options);
+
+/// A program that times rows in rounds.
+struct Program {
+  std::string purpose;                      ///< one line, for --help
+  std::map<std::string, std::string> peers; ///< versions of what it is compared with, by name
+  std::function<void(CLI::App&)> add_options;
+  std::function<void()> register_rows; ///< once the options are read
+  /// Markdown: what is timed and how, before; the tables, afterwards.
+  std::function<void(std::ostream&)> print_head;
+  std::function<void(std::ostream&, const std::vector<SetResults>&)> print_results;
+};
+
+/// All of main: reads the options, hands those that the program does not know to Google Benchmark,
+/// runs the rows and prints their tables; with --json FILE, writes the samples of every round.
+/// Its value is the exit code: 0 done, 1 a result was wrong or something failed, 2 bad usage.
+int run_program(int argc, char** argv, const Program& program);
+
+} // namespace calotte::bench

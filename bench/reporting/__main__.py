@@ -1,0 +1,127 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Runs the steps, keeps their samples, and composes the report from what is kept."""
+
+import argparse
+import json
+import shutil
+import subprocess
+import sys
+import time
+from datetime import datetime, timezone
+from pathlib import Path
+
+from reporting import document, machine, plan
+from reporting.makespan import Network
+from reporting.samples import MOST_OTHERS, Results
+
+PROJECT = Path(__file__).resolve().parents[2]
+
+
+def say(line):
+    print(f"report: {line}", file=sys.stderr, flush=True)
+
+
+def is_done(file, step, commit):
+    """Whether this very step was run on this very commit."""
+    if not file.exists() or commit.endswith("+"):
+        return False
+    kept = json.loads(file.read_text())
+    return kept["commit"] == commit and kept["command"] == step.command
+
+
+def run(step, programs, file):
+    """Runs one step; its samples go to the file when it is over."""
+    watch, date = machine.Watch(), datetime.now(timezone.utc).strftime("%Y-%m-%d %H:%M")
+    raw, log = file.with_suffix(".part"), file.with_suffix(".log")
+    with open(log, "w", encoding="utf-8") as out:
+        done = subprocess.run(
+            [programs / f"{step.program}_bench", *step.arguments, "--json", raw],
+            stdout=out,
+            stderr=subprocess.STDOUT,
+            check=False,
+        )
+    if not raw.exists():
+        sys.exit(f"report: {step.command} failed, see {log}")
+    if done.returncode != 0:
+        say(f"{step.name}: a result was wrong, see {log}; its rows are left out")
+    others = watch.others()
+    if others > MOST_OTHERS:
+        say(f"{step.name}: disturbed, others took {others:.0%} of all cores")
+    kept = {
+        "name": step.name,
+        "section": step.section,
+        "command": step.command,
+        "commit": machine.commit(),
+        "date": date,
+        "seconds": watch.seconds(),
+        "others": others,
+        "output": json.loads(raw.read_text()),
+    }
+    file.write_text(json.dumps(kept, indent=1))
+    raw.unlink()
+
+
+def run_all(options, raw):
+    """The steps' samples, those that were there already included where that was asked for."""
+    commit = machine.commit()
+    if options.sections == tuple(plan.SECTIONS) and not options.resume:
+        for old in raw.glob("*.json"):
+            old.unlink()
+    todo = plan.steps(machine.threads(), options.quick, options.sections)
+    started = time.monotonic()
+    for number, step in enumerate(todo, 1):
+        file = raw / f"{step.name}.json"
+        if options.resume and is_done(file, step, commit):
+            say(f"{number}/{len(todo)} {step.name}: kept")
+            continue
+        say(f"{number}/{len(todo)} {step.name} ({time.monotonic() - started:.0f} s so far)")
+        run(step, options.programs, file)
+    say(f"{len(todo)} steps in {time.monotonic() - started:.0f} s")
+
+
+def parse(arguments):
+    parser = argparse.ArgumentParser(
+        prog="bench/report", description="Runs the benchmarks and writes their report."
+    )
+    parser.add_argument("--quick", action="store_true", help="few rounds, no large sets")
+    parser.add_argument(
+        "--sections",
+        type=lambda text: tuple(text.split(",")),
+        default=tuple(plan.SECTIONS),
+        help="only these, with commas: " + ", ".join(plan.SECTIONS),
+    )
+    parser.add_argument("--resume", action="store_true", help="keep what this commit has run")
+    parser.add_argument("--tables", action="store_true", help="run nothing, compose what is kept")
+    parser.add_argument("--publish", action="store_true", help="copy the report to bench/")
+    parser.add_argument("--out", type=Path, help="folder; bench-report, or bench-report/quick")
+    parser.add_argument("--latency", type=float, default=2e-6, help="of the modelled network, s")
+    parser.add_argument("--bandwidth", type=float, default=10e9, help="of the same, bytes/s")
+    parser.add_argument("--programs", type=Path, default=PROJECT / "build/bench/bench")
+    options = parser.parse_args(arguments)
+    unknown = [name for name in options.sections if name not in plan.SECTIONS]
+    if unknown:
+        parser.error(f"there is no section {unknown[0]}")
+    options.out = options.out or PROJECT / "bench-report" / ("quick" if options.quick else "")
+    return options
+
+
+def main(arguments):
+    options = parse(arguments)
+    raw = options.out / "raw"
+    raw.mkdir(parents=True, exist_ok=True)
+    if not options.tables:
+        run_all(options, raw)
+    results = Results.load(raw)
+    network = Network(options.latency, options.bandwidth)
+    document.write(results, network, options.out)
+    say(f"{options.out / 'RESULTS.md'}")
+    if options.publish:
+        shutil.copy(options.out / "RESULTS.md", PROJECT / "bench")
+        shutil.copytree(options.out / "plots", PROJECT / "bench/plots", dirs_exist_ok=True)
+    for failure in results.failures():
+        say(f"WRONG: {failure}")
+    return 1 if results.failures() else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

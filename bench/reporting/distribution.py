@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Measured decompositions of one grid, and what they would take on some workers."""
+
+from dataclasses import dataclass
+
+from reporting.makespan import Network, efficiency, imbalance, makespan
+from reporting.samples import Row, is_disturbed
+
+WORKERS = (1, 2, 4, 8, 16, 32, 64, 96, 128, 192, 256, 384, 512, 1024)
+# A triangulation alone ends without a sum over all workers.
+REDUCTIONS = {"iteration": 1, "triangulation": 0}
+
+
+@dataclass(frozen=True)
+class Decomposition:
+    """Regions one by one."""
+
+    row: Row
+    seconds: list
+    sent: list  # bytes, or those received where these are more
+    owned: list
+    halo: list
+
+    @staticmethod
+    def of(row):
+        received = row.by_region("received")
+        sent = row.by_region("sent") if "sent" in row.lists else received
+        bytes_each = [max(pair) for pair in zip(sent, received, strict=True)]
+        return Decomposition(
+            row, row.by_region("seconds"), bytes_each, row.by_region("owned"), row.by_region("halo")
+        )
+
+    @property
+    def count(self):
+        return len(self.seconds)
+
+    @property
+    def total(self):
+        return sum(self.seconds)
+
+    @property
+    def imbalance(self):
+        return imbalance(self.seconds)
+
+    @property
+    def disturbed(self):
+        return is_disturbed([sum(seconds) for seconds in self.row.lists["seconds"]], [self.row])
+
+
+class Grid:
+    """All decompositions by the library's own centres and sort of one set of sites, for one kind of
+    work: iteration or triangulation."""
+
+    def __init__(self, results, work, set_name, sites, network):
+        sections = ("distribution", "fine")
+        rows = [row for name in sections for row in results.find(name, set=set_name, sites=sites)]
+        mine = [row for row in rows if row.name.startswith(work + ", ")]
+        self.by_count, self.default = {}, None
+        for row in mine:
+            found = Decomposition.of(row)
+            self.by_count.setdefault(found.count, found)
+            if ", default regions" in row.name:
+                self.default = found
+        self.network = Network(network.latency, network.bandwidth, REDUCTIONS[work])
+
+    def __bool__(self):
+        return bool(self.by_count)
+
+    @property
+    def serial(self):
+        """Seconds of the best serial run: of the decomposition with the least sum."""
+        return min(found.total for found in self.by_count.values())
+
+    def one_each(self, workers):
+        """Seconds with exactly a region a worker; None where that was not measured."""
+        found = self.by_count.get(workers)
+        return found and makespan(found.seconds, found.sent, workers, self.network)
+
+    def scheduled(self, workers):
+        """Least seconds of list scheduling, and the number of regions that it takes."""
+        times = [
+            (makespan(found.seconds, found.sent, workers, self.network), count)
+            for count, found in self.by_count.items()
+            if count >= workers
+        ]
+        return min(times, default=(None, None))
+
+    def efficiency(self, workers):
+        """Of list scheduling, and the number of regions."""
+        seconds, count = self.scheduled(workers)
+        return seconds and efficiency(self.serial, workers, seconds), count

@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How far one machine's memory goes: a triangulation of many random sites, a proof of it, and some
+// iterations of a CVT from there, with the peak of memory of each and the time of every stage.
+// Before each number of sites a small set is triangulated, too, to compare the time a site with.
+
+#include <calotte/check.h>
+#include <calotte/cvt.h>
+#include <calotte/delaunay.h>
+#include <calotte/generators.h>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+#include <sys/resource.h>
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <cstdio>
+#include <exception>
+#include <fstream>
+#include <iostream>
+#include <new>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace calotte::bench {
+
+namespace {
+
+constexpr double gib = 1024.0 * 1024 * 1024;
+constexpr std::uint64_t seed = 20130923;
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  std::vector<std::int64_t> sizes = {10000000, 30000000, 100000000};
+  std::int64_t base = 2621442;
+  int base_runs = 3;
+  int iterations = 3;
+  int threads = 2;
+  double limit = 24; ///< GiB
+  std::string json;
+};
+
+/// The process's peak of resident memory since reset_peak(), bytes.
+std::int64_t peak() {
+  std::ifstream status("/proc/self/status");
+  for (std::string word; status >> word;) {
+    if (std::int64_t kib = 0; word == "VmHWM:" && status >> kib) {
+      return kib * 1024;
+    }
+  }
+  return 0;
+}
+
+/// Where the system refuses, peaks are those since the start: no less, as the sizes ascend.
+void reset_peak() { std::ofstream("/proc/self/clear_refs") << '5'; }
+
+/// What a stage took.
+struct Cost {
+  double seconds = 0;
+  std::int64_t peak = 0; ///< bytes
+};
+
+template <class Stage> Cost cost_of(const Stage& stage) {
+  using Clock = std::chrono::steady_clock;
+  reset_peak();
+  const Clock::time_point start = Clock::now();
+  stage();
+  const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  return {seconds, peak()};
+}
+
+double ns_a_site(double seconds, std::int64_t sites) {
+  return 1e9 * seconds / static_cast<double>(sites);
+}
+
+Json to_json(const Cost& cost, std::int64_t sites) {
+  return {{"seconds", cost.seconds},
+          {"ns_a_site", ns_a_site(cost.seconds, sites)},
+          {"peak_bytes", cost.peak},
+          {"bytes_a_site", static_cast<double>(cost.peak) / static_cast<double>(sites)}};
+}
+
+void print(const char* stage, const Cost& cost, std::int64_t sites) {
+  std::printf("| %s | %.2f | %.0f | %.2f | %.0f |\n", stage, cost.seconds,
+              ns_a_site(cost.seconds, sites), static_cast<double>(cost.peak) / gib,
+              static_cast<double>(cost.peak) / static_cast<double>(sites));
+  std::fflush(stdout);
+}
+
+void print_part(const char* stage, double seconds, std::int64_t sites) {
+  std::printf("| - %s | %.2f | %.0f | | |\n", stage, seconds, ns_a_site(seconds, sites));
+}
+
+/// The median seconds of some triangulations of the small set.
+double base_seconds(const Options& options) {
+  const Points3 points = random_sphere(options.base, seed);
+  std::vector<double> seconds;
+  delaunay(points); // the first one faults memory in
+  for (int run = 0; run < options.base_runs; ++run) {
+    Points3 handed_over = points;
+    seconds.push_back(cost_of([&] { delaunay(std::move(handed_over)); }).seconds);
+  }
+  const auto middle = seconds.begin() + std::ssize(seconds) / 2;
+  std::nth_element(seconds.begin(), middle, seconds.end());
+  return *middle;
+}
+
+Json stages(const DelaunayReport& report, std::int64_t n) {
+  const DelaunayReport::Seconds& seconds = report.seconds;
+  const std::vector<std::pair<const char*, double>> parts{{"sites", seconds.sites},
+                                                          {"regions", seconds.regions},
+                                                          {"triangulate", seconds.triangulate},
+                                                          {"unite", seconds.unite}};
+  Json json;
+  for (const auto& [name, value] : parts) {
+    print_part(name, value, n);
+    json[name] = value;
+  }
+  return json;
+}
+
+/// The laws hold, and every point is a site.
+std::string fault(const Check& check, std::int64_t n) {
+  if (!check.passed()) {
+    return check.failure;
+  }
+  if (check.sites != n || check.boundary_edges != 0) {
+    return "the mesh is not a closed one of all points";
+  }
+  return {};
+}
+
+/// Checks a mesh and reports what that took; false when a law is broken.
+bool prove(const Mesh& mesh, std::int64_t n, const char* name, Json& json) {
+  Check check;
+  const Cost cost = cost_of([&] { check = calotte::check(mesh); });
+  print(name, cost, n);
+  const std::string failure = fault(check, n);
+  json["check"] = to_json(cost, n);
+  json["check"]["failure"] = failure;
+  json["check"]["triangles"] = check.triangles;
+  json["check"]["area"] = check.area;
+  if (!failure.empty()) {
+    std::cerr << "scale_bench: " << n << " sites, " << name << ": " << failure << '\n';
+  }
+  return failure.empty();
+}
+
+bool triangulate(std::int64_t n, const Options& options, Json& json) {
+  const double base = ns_a_site(base_seconds(options), options.base);
+  Points3 points = random_sphere(n, seed);
+  Mesh mesh;
+  DelaunayReport report;
+  const Cost cost = cost_of([&] { mesh = delaunay(std::move(points), {}, &report); });
+  print("triangulation", cost, n);
+  Json& out = json["triangulation"] = to_json(cost, n);
+  out["stages"] = stages(report, n);
+  out["regions"] = report.regions;
+  out["overlap"] = report.overlap;
+  out["base"] = {{"sites", options.base}, {"ns_a_site", base}};
+  out["relative"] = ns_a_site(cost.seconds, n) / base;
+  const bool good = prove(mesh, n, "its check", out);
+  std::printf(
+      "\n%.2f times the %.0f ns a site of %lld sites, measured just before; %.1f s with the "
+      "check\n",
+      out["relative"].get<double>(), base, static_cast<long long>(options.base),
+      cost.seconds + out["check"]["seconds"].get<double>());
+  return good;
+}
+
+bool iterate(std::int64_t n, const Options& options, Json& json) {
+  std::printf(
+      "\n| stage | s | ns a site | peak GiB | bytes a site |\n| --- | --: | --: | --: | --: "
+      "|\n");
+  Points3 points = random_sphere(n, seed);
+  Cvt grid;
+  const Cost cost = cost_of([&] {
+    grid = cvt(std::move(points),
+               {.method = Method::lloyd, .norm = Norm::none, .max_iterations = options.iterations});
+  });
+  print("CVT, with two triangulations", cost, n);
+  Json& out = json["cvt"] = to_json(cost, n);
+  for (const CvtIteration& iteration : grid.report.iterations) {
+    print_part("an evaluation", iteration.seconds, n);
+    out["iterations"].push_back({{"seconds", iteration.seconds},
+                                 {"seconds_repair", iteration.seconds_repair},
+                                 {"seconds_moments", iteration.seconds_moments},
+                                 {"flips", iteration.flips},
+                                 {"rebuilt", iteration.rebuilt},
+                                 {"energy", iteration.energy}});
+  }
+  return prove(grid.mesh, n, "its check", out);
+}
+
+/// One number of sites; false when a law is broken.
+bool run(std::int64_t n, const Options& options, Json& json) {
+  std::printf("\n## %lld random sites, %d threads\n\n| stage | s | ns a site | peak GiB | bytes a "
+              "site |\n| --- | --: | --: | --: | --: |\n",
+              static_cast<long long>(n), options.threads);
+  json = {{"sites", n}, {"threads", options.threads}};
+  bool good = triangulate(n, options, json);
+  if (options.iterations > 0) {
+    good = iterate(n, options, json) && good;
+  }
+  return good;
+}
+
+/// Ends in bad_alloc what would take more, before the system has to end it.
+void limit_memory(double limit) {
+  const auto bytes = static_cast<rlim_t>(limit * gib);
+  const rlimit data{bytes, bytes};
+  setrlimit(RLIMIT_DATA, &data);
+}
+
+void add_options(CLI::App& app, Options& options) {
+  app.add_option("sites", options.sizes, "numbers of sites")
+      ->check(CLI::Range(std::int64_t{12}, std::int64_t{1} << 30))
+      ->capture_default_str();
+  app.add_option("--iterations", options.iterations, "of Lloyd's method; 0 for none")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  app.add_option("--base", options.base, "sites of the set that times a site are compared with")
+      ->check(CLI::Range(4, 1 << 30))
+      ->capture_default_str();
+  app.add_option("--threads", options.threads, "threads")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--limit", options.limit, "GiB of memory that may be taken")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--json", options.json, "write the numbers to this file, too");
+  app.footer("Exit codes: 0 done, 1 a law was broken or memory too small, 2 bad usage.");
+}
+
+} // namespace
+
+int scale_main(int argc, char** argv) {
+  Options options;
+  CLI::App app{"Triangulates, checks and iterates over many random sites: time and memory."};
+  add_options(app, options);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  limit_memory(options.limit);
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                  static_cast<std::size_t>(options.threads));
+  tbb::task_arena arena(options.threads);
+  std::sort(options.sizes.begin(), options.sizes.end());
+  bool good = true;
+  Json all = Json::array();
+  for (const std::int64_t n : options.sizes) {
+    all.emplace_back();
+    good = arena.execute([&] { return run(n, options, all.back()); }) && good;
+    if (!options.json.empty()) {
+      std::ofstream(options.json) << all.dump(2) << '\n';
+    }
+  }
+  return good ? 0 : 1;
+}
+
+} // namespace calotte::bench
+
+int main(int argc, char** argv) {
+  try {
+    return calotte::bench::scale_main(argc, argv);
+  } catch (const std::bad_alloc&) {
+    std::cerr << "scale_bench: the memory that --limit allows is too small\n";
+  } catch (const std::exception& error) {
+    std::cerr << "scale_bench: " << error.what() << '\n';
+  }
+  return 1;
+}
