@@ -228,11 +228,13 @@ private:
 };
 
 /// Sites of the whole set in conflict with a face, found from the nearest cells on: at most a few,
-/// since each changes the triangulation around it.
+/// since each changes the triangulation around it. None is a member of the region, as these are in
+/// no face's circle: where the circle holds members' boxes alone, nothing is looked at.
 template <class Space> class ConflictQuery {
 public:
-  ConflictQuery(Triangulation<Space>& triangulation, const Sites& sites)
-      : triangulation_(triangulation), sites_(sites) {}
+  ConflictQuery(Triangulation<Space>& triangulation, const Sites& sites,
+                const std::vector<Run>& members)
+      : triangulation_(triangulation), sites_(sites), members_(members) {}
 
   /// Boxes and sites looked at so far.
   std::int64_t looks() const { return looks_; }
@@ -257,7 +259,7 @@ private:
     looks_ += end - begin;
     for (std::int64_t i = begin; i != end; ++i) {
       const SiteBox& box = boxes.box(level, i);
-      if (zone.is_outside(box))
+      if (zone.is_outside(box) || are_members(level, i))
         continue;
       const std::pair<double, std::int64_t> entry{square_distance(box, near_), i};
       std::size_t c = count++;
@@ -273,6 +275,18 @@ private:
       else
         descend(level - 1, first, std::min(last, boxes.nodes(level - 1)), zone);
     }
+  }
+
+  /// Whether all sites of a node are.
+  bool are_members(int level, std::int64_t i) const {
+    std::int64_t sites = SiteBoxes::width;
+    for (int l = 0; l < level; ++l)
+      sites *= SiteBoxes::width;
+    const std::int64_t begin = i * sites, end = std::min(begin + sites, sites_.size());
+    const auto beyond =
+        std::upper_bound(members_.begin(), members_.end(), begin,
+                         [](std::int64_t rank, const Run& run) { return rank < run.begin; });
+    return beyond != members_.begin() && end <= beyond[-1].end;
   }
 
   void look_at(std::int64_t begin, std::int64_t end) {
@@ -292,34 +306,54 @@ private:
 
   Triangulation<Space>& triangulation_;
   const Sites& sites_;
+  const std::vector<Run>& members_; ///< ascending
   FaceOf<Space> face_;
   Vec3 near_{};
   std::vector<std::int32_t> found_;
   std::int64_t looks_ = 0;
 };
 
-/// Faces with an owned vertex that the cull test does not certify.
+/// Certifies a face by the cull test. \return whether it still has to be: it has an owned vertex.
 template <class Space>
-std::vector<FaceOf<Space>> uncertified_faces(Triangulation<Space>& triangulation,
-                                             const std::vector<HalfSpace>& covered,
-                                             CullCounts& counts) {
-  using Face = FaceOf<Space>;
-  std::vector<Face> uncertified;
-  triangulation.for_each_face([&](Face face) {
-    if (face->certified || !has_owned_vertex(face))
-      return;
-    if (triangulation.is_infinite(face)) {
-      uncertified.push_back(face);
-      return;
-    }
-    if (is_within_depth(face) || is_covered(face, covered)) {
-      face->certified = true;
-      ++counts.by_cull;
-    } else {
-      uncertified.push_back(face);
-    }
+bool is_open(FaceOf<Space> face, const std::vector<HalfSpace>& covered, CullCounts& counts) {
+  if (face->certified || !has_owned_vertex(face))
+    return false;
+  if (Triangulation<Space>::is_infinite(face) ||
+      !(is_within_depth(face) || is_covered(face, covered)))
+    return true;
+  face->certified = true;
+  ++counts.by_cull;
+  return false;
+}
+
+/// Those of all faces.
+template <class Space>
+std::vector<FaceOf<Space>> open_faces(Triangulation<Space>& triangulation,
+                                      const std::vector<HalfSpace>& covered, CullCounts& counts) {
+  std::vector<FaceOf<Space>> open;
+  triangulation.for_each_face([&](FaceOf<Space> face) {
+    if (is_open<Space>(face, covered, counts))
+      open.push_back(face);
   });
-  return uncertified;
+  return open;
+}
+
+/// Inserts sites. \return those of the faces around them, the only new ones, that are open.
+template <class Space>
+std::vector<FaceOf<Space>> insert_all(const std::vector<std::int32_t>& ranks,
+                                      Triangulation<Space>& triangulation,
+                                      const std::vector<HalfSpace>& covered, CullCounts& counts) {
+  std::vector<FaceOf<Space>> around;
+  for (const std::int32_t rank : ranks) {
+    triangulation.insert({rank, 0, false});
+    const auto star = triangulation.last_star();
+    around.insert(around.end(), star.begin(), star.end());
+  }
+  counts.inserted += std::ssize(ranks);
+  std::sort(around.begin(), around.end()); // a later star may have taken a face of an earlier one
+  around.erase(std::unique(around.begin(), around.end()), around.end());
+  std::erase_if(around, [&](FaceOf<Space> face) { return !is_open<Space>(face, covered, counts); });
+  return around;
 }
 
 /// Whether the triangle is one of a closed mesh: finite, and its circumcap below a hemisphere.
@@ -369,11 +403,12 @@ template <class Space>
 bool certify(Triangulation<Space>& triangulation, const Sites& sites, const Regions& regions,
              std::int32_t k, CullCounts& counts) {
   const std::vector<HalfSpace>& covered = regions.covered[static_cast<std::size_t>(k)];
-  ConflictQuery<Space> query(triangulation, sites);
+  ConflictQuery<Space> query(triangulation, sites, regions.members[static_cast<std::size_t>(k)]);
   const std::int64_t patience = effort * (std::ssize(triangulation.members()) + 1000);
-  for (;;) {
+  std::vector<FaceOf<Space>> open = open_faces(triangulation, covered, counts);
+  while (!open.empty()) {
     std::vector<std::int32_t> missing;
-    for (const FaceOf<Space> face : uncertified_faces(triangulation, covered, counts)) {
+    for (const FaceOf<Space> face : open) {
       const std::vector<std::int32_t>& found = query.run(face);
       if (counts.inserted + triangulation.space().counts().filtered +
               query.looks() / looks_an_effort >
@@ -387,14 +422,11 @@ bool certify(Triangulation<Space>& triangulation, const Sites& sites, const Regi
       face->certified = true;
       counts.by_query += !triangulation.is_infinite(face);
     }
-    if (missing.empty())
-      return true;
     std::sort(missing.begin(), missing.end());
     missing.erase(std::unique(missing.begin(), missing.end()), missing.end());
-    for (const std::int32_t rank : missing)
-      triangulation.insert({rank, 0, false});
-    counts.inserted += std::ssize(missing);
+    open = insert_all(missing, triangulation, covered, counts); // what they found is gone
   }
+  return true;
 }
 
 template <class Space> void certify_all(Triangulation<Space>& triangulation) {

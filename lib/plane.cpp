@@ -6,9 +6,6 @@
 namespace calotte::detail {
 namespace {
 
-/// What underflow of the scaled coordinates and their products may add, with room to spare.
-constexpr double least_error = 0x1p-900;
-
 /// Bounds the scaled coordinates.
 double largest(const Frame& frame) {
   return std::max(std::abs(frame.centre.x), std::abs(frame.centre.y)) + frame.half;
@@ -67,22 +64,7 @@ int Plane::exact_orientation(const Place& a, const Place& b, const Place& c) con
                     : detail::orientation(given(a), given(b), given(c));
 }
 
-int Plane::in_circle_beyond_static(const Place& a, const Place& b, const Place& c, const Place& d) {
-  const Circle lifted = circle(a, b, c);
-  const auto square = [&](const Place& p) {
-    return (p.x - a.x) * (p.x - a.x) + (p.y - a.y) * (p.y - a.y);
-  };
-  const double size2 = std::max(square(b), square(c)), s2 = square(d),
-               s = std::abs(d.x - a.x) + std::abs(d.y - a.y); // no root: s2 may underflow
-  const double value =
-      -(lifted.normal.x * (d.x - a.x) + lifted.normal.y * (d.y - a.y) + lifted.normal.z * s2);
-  const double size = std::sqrt(size2) + s;
-  const double error = 81 * roundoff * size2 * s * size +
-                       50 * image_error_ * (size + image_error_) * size * size + least_error;
-  if (value > error)
-    return 1;
-  if (value < -error)
-    return -1;
+int Plane::in_circle_beyond_local(const Place& a, const Place& b, const Place& c, const Place& d) {
   ++counts_.filtered;
   if (periodic())
     return in_circle_of_images(a, b, c, d);

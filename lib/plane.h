@@ -5,6 +5,7 @@
 #include "predicates.h"
 #include "sites.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace calotte::detail {
@@ -39,6 +40,9 @@ public:
   }
 
   static bool has_place(std::int64_t) { return true; }
+
+  /// Fetches what the place of a site will need: the given coordinates stand in the input's order.
+  void expect(std::int64_t rank) const { __builtin_prefetch(&sites_->given(sites_->id[rank])); }
 
   /// The place of a site; bounds that it outgrows are widened.
   Place place(std::int64_t rank);
@@ -76,10 +80,28 @@ public:
       return 1;
     if (value < -in_circle_error_)
       return -1;
-    return in_circle_beyond_static(a, b, c, d);
+    // The bound of widen() by this triangle's size L and the offset's s: where sites are far denser
+    // along a region than across it, the static bound decides nothing. (L + s)^2 is at most
+    // 2 (L^2 + s^2), and s (L + s) at most 3/4 of that, which needs no roots.
+    const double size2 = std::max(square_distance(a, b), square_distance(a, c)),
+                 both2 = 2 * (size2 + square_distance(a, d));
+    double error = 61 * roundoff * size2 * both2 + least_error;
+    if (image_error_ > 0)
+      error += 50 * image_error_ * (std::sqrt(both2) + image_error_) * both2;
+    if (value > error)
+      return 1;
+    if (value < -error)
+      return -1;
+    return in_circle_beyond_local(a, b, c, d);
   }
 
 private:
+  /// What underflow of the scaled coordinates and their products may add, with room to spare.
+  static constexpr double least_error = 0x1p-900;
+
+  static double square_distance(const Place& a, const Place& b) {
+    return (b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y);
+  }
   Vec2 given(const Place& a) const {
     const Vec3& p = sites_->given(a.site);
     return {p.x, p.y};
@@ -91,7 +113,7 @@ private:
   int exact_orientation(const Place& a, const Place& b, const Place& c) const;
   void widen(double reach);
   int orientation_beyond_static(const Place& a, const Place& b, const Place& c);
-  int in_circle_beyond_static(const Place& a, const Place& b, const Place& c, const Place& d);
+  int in_circle_beyond_local(const Place& a, const Place& b, const Place& c, const Place& d);
   int in_circle_of_images(const Place& a, const Place& b, const Place& c, const Place& d);
 
   const Sites* sites_;

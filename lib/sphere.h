@@ -47,6 +47,9 @@ public:
   /// Whether a site has a place: all but one at the focus itself.
   bool has_place(std::int64_t rank) const;
 
+  /// What follows needs that place: nothing to fetch, ranks follow each other in memory.
+  static void expect(std::int64_t) {}
+
   /// The place of a site; bounds that it outgrows are widened.
   Place place(std::int64_t rank);
 

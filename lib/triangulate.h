@@ -78,6 +78,9 @@ public:
   /// Inserts one more site, which is no member yet.
   void insert(const Member& member);
 
+  /// The faces around the site that was inserted last.
+  std::span<const Face> last_star() const { return {conflicting_.data(), rim_size_}; }
+
   Space& space() { return space_; }
   std::span<const Member> members() const { return members_; }
   static bool is_infinite(Face face) { return face->infinite >= 0; }
@@ -188,6 +191,8 @@ template <class Space> bool Triangulation<Space>::build(std::span<const Member> 
     for (std::int64_t i = 0; i < n; i += strides[round]) {
       if (round > 0 && i % strides[round - 1] == 0)
         continue;
+      if (const std::int64_t ahead = i + 8 * strides[round]; ahead < n)
+        space_.expect(members[static_cast<std::size_t>(ahead)].rank);
       if (i != first[0] && i != first[1] && i != first[2])
         insert(members[static_cast<std::size_t>(i)]);
     }
