@@ -2,6 +2,7 @@
 #include "regions.h"
 
 #include "cells.h"
+#include "predicates.h"
 
 #include <calotte/error.h>
 #include <calotte/generators.h>
@@ -162,20 +163,50 @@ void move_to_means(const Sample& sample, const Array<std::int32_t>& owner, bool 
       centres[k] = (1 / length) * sum[k];
 }
 
+/// Moves each centre towards those neighbours that own more samples than it does, and away from
+/// those that own fewer: a region shrinks as its neighbours' centres come nearer. Neighbours are
+/// those between whom the curve passes, as often as it does.
+void move_to_load(const Sample& sample, const Array<std::int32_t>& owner, bool planar,
+                  std::vector<Vec3>& centres) {
+  std::vector<double> load(centres.size(), 0), passages(centres.size(), 0); // load 1 is the mean
+  for (const std::int32_t k : owner)
+    load[static_cast<std::size_t>(k)] +=
+        static_cast<double>(centres.size()) / static_cast<double>(sample.unit.size());
+  std::vector<Vec3> way(centres.size(), Vec3{0, 0, 0});
+  for (std::int64_t s = 0; s + 1 < owner.size(); ++s) {
+    const auto k = static_cast<std::size_t>(owner[s]), m = static_cast<std::size_t>(owner[s + 1]);
+    if (k == m)
+      continue;
+    const double excess = std::clamp(load[m] - load[k], -0.25, 0.25);
+    const Vec3 pull = excess * (centres[m] - centres[k]);
+    for (const std::size_t both : {k, m}) {
+      way[both] = way[both] + pull;
+      ++passages[both];
+    }
+  }
+  // Were all six neighbours pulled by the same excess alone, this factor would be 3.
+  constexpr double rate = 1.5;
+  for (std::size_t k = 0; k < centres.size(); ++k)
+    if (passages[k] > 0) {
+      const Vec3 moved = centres[k] + (rate / passages[k]) * way[k];
+      centres[k] = planar ? moved : normalised(moved);
+    }
+}
+
 /// A Fibonacci lattice over the box of the sites: even, whatever their density.
 std::vector<Vec3> plane_lattice(const Frame& frame, int regions) {
   constexpr double golden = 0.6180339887498949;
   std::vector<Vec3> centres;
   for (int k = 0; k < regions; ++k) {
     const double turns = k * golden;
-    centres.push_back({frame.width * (2 * (turns - std::floor(turns)) - 1),
-                       frame.height * ((2 * k + 1.0) / regions - 1), 0});
+    centres.push_back({std::lerp(frame.low.x, frame.high.x, turns - std::floor(turns)),
+                       std::lerp(frame.low.y, frame.high.y, (k + 0.5) / regions), 0});
   }
   return centres;
 }
 
 /// A coarse CVT of a sample, whose regions hold about equal numbers of sites: it starts from equal
-/// parts of the curve, and a few steps round the cells.
+/// parts of the curve, a few steps round the cells, and a few more even out what they hold.
 std::vector<Vec3> sampled_centres(const Sites& sites, int regions) {
   const Sample sample = take_sample(sites, std::int64_t{128} * regions);
   std::vector<Vec3> centres(static_cast<std::size_t>(regions), sample.unit[0]);
@@ -185,10 +216,11 @@ std::vector<Vec3> sampled_centres(const Sites& sites, int regions) {
   const bool planar = sites.frame.has_value();
   move_to_means(sample, owner, planar, centres);
   constexpr int steps = 4;
-  for (int step = 0; step < steps; ++step) {
-    owner = owners(sample.cells, sample.unit, centres);
-    move_to_means(sample, owner, planar, centres);
-  }
+  for (const auto move : {move_to_means, move_to_load})
+    for (int step = 0; step < steps; ++step) {
+      owner = owners(sample.cells, sample.unit, centres);
+      move(sample, owner, planar, centres);
+    }
   return centres;
 }
 

@@ -120,12 +120,20 @@ Frame frame_of(const Points2& points) {
       high = high.max(scaled);
     }
   if (largest > 0) {
-    const Eigen::Array2d centre = (low + high) / 2,
-                         half = (high - centre).max(centre - low); // the centre is rounded
+    Eigen::Array2d centre = (low + high) / 2;
+    // The curve passes the middle line of its square twice. Sites along it, in a narrow box, would
+    // be in two halves, so such a box lies beside it.
+    const Eigen::Array2d extent = high - low;
+    for (const int across : {0, 1})
+      if (2 * extent[across] <= extent[1 - across])
+        centre[across] = low[across];
+    const Eigen::Array2d half = (high - centre).max(centre - low); // the centre is rounded
     frame.centre = {centre.x(), centre.y(), 0};
     frame.half = half.maxCoeff() > 0 ? half.maxCoeff() : 1;
-    frame.width = half.x() / frame.half;
-    frame.height = half.y() / frame.half;
+    low = (low - centre) / frame.half;
+    high = (high - centre) / frame.half;
+    frame.low = {low.x(), low.y()};
+    frame.high = {high.x(), high.y()};
   }
   return frame;
 }

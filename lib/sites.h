@@ -23,7 +23,7 @@ struct Frame {
   Vec3 centre{0, 0, 0};
   double half = 1;
   Vec2 period{0, 0};            ///< of a doubly periodic box, in the points' coordinates
-  double width = 1, height = 1; ///< half extents of the sites in the frame; the larger is 1
+  Vec2 low{-1, -1}, high{1, 1}; ///< corners of the sites' box, in the frame
   Vec3 operator()(double x, double y) const {
     return {(scale * x - centre.x) / half, (scale * y - centre.y) / half, 0};
   }
