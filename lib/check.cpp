@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "check_laws.h"
 
+#include "points.h"
+
+#include <atomic>
 #include <cmath>
 #include <numbers>
 
@@ -44,15 +47,34 @@ Array<Vec3> unit_vectors(const Points3& points) {
   return unit;
 }
 
+/// Whether all points are as good as normalised ones, within 5 roundoffs: their squares are then
+/// within 10, and known to 3.
+bool are_unit_vectors(const Points3& points) {
+  std::atomic<bool> are{true};
+  detail::for_each_block(points.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    bool good = true;
+    for (std::int64_t i = begin; i != end; ++i) {
+      const Vec3& x = detail::column(points, i);
+      good = good && std::abs(dot(x, x) - 1) <= 6 * detail::roundoff;
+    }
+    if (!good)
+      are = false;
+  });
+  return are;
+}
+
 /// A mesh with its unit vectors, which the predicates' filters work on.
 struct OnSphere : detail::Faces {
   static constexpr const char* circle = "cap";
 
   const Mesh& mesh;
-  Array<Vec3> unit;
+  Array<Vec3> normalised; ///< of points that are not: a copy is as large as they are
+  const Vec3* unit;
 
   explicit OnSphere(const Mesh& given)
-      : Faces(detail::faces_of(given)), mesh(given), unit(unit_vectors(given.points)) {}
+      : Faces(detail::faces_of(given)), mesh(given),
+        normalised(are_unit_vectors(given.points) ? Array<Vec3>() : unit_vectors(given.points)),
+        unit(normalised.size() > 0 ? normalised.begin() : &detail::column(given.points, 0)) {}
 
   Vec3 given(std::int32_t site) const {
     return {mesh.points(0, site), mesh.points(1, site), mesh.points(2, site)};
