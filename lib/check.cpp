@@ -74,7 +74,8 @@ struct OnSphere : detail::Faces {
   explicit OnSphere(const Mesh& given)
       : Faces(detail::faces_of(given)), mesh(given),
         normalised(are_unit_vectors(given.points) ? Array<Vec3>() : unit_vectors(given.points)),
-        unit(normalised.size() > 0 ? normalised.begin() : &detail::column(given.points, 0)) {}
+        unit(normalised.size() > 0 ? normalised.begin()
+                                   : reinterpret_cast<const Vec3*>(given.points.data())) {}
 
   Vec3 given(std::int32_t site) const {
     return {mesh.points(0, site), mesh.points(1, site), mesh.points(2, site)};
