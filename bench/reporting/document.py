@@ -15,7 +15,9 @@ the next round starts with the next row. A ratio is of two rows' seconds of the 
 medians of the rounds are told, with quartiles in brackets. Every run's triangles are compared with
 those of the library's first run (a digest of the oriented triangles; on bisected icosahedra, where
 sites are cocircular but for rounding, peers' triangles are counted), and every iteration's
-generators with the library's: a wrong answer fails, and is in no table.
+generators with the library's: a wrong answer fails, and is in no table. What is freed stays with
+the process, for the next row's use: where a virtual machine's host takes free memory back, to fault
+it in again may cost more than to triangulate in it.
 
 **Disturbed** is what is said of a row when the quartiles of its ratios (or of its regions' sums)
 lie further apart than {spread:.0%} of their median, when a serial run had less than {core:.0%}
