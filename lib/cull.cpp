@@ -277,7 +277,7 @@ private:
     }
   }
 
-  /// Whether all sites of a node are.
+  /// Whether all sites of a node are members of the region.
   bool are_members(int level, std::int64_t i) const {
     std::int64_t sites = SiteBoxes::width;
     for (int l = 0; l < level; ++l)
@@ -326,7 +326,7 @@ bool is_open(FaceOf<Space> face, const std::vector<HalfSpace>& covered, CullCoun
   return false;
 }
 
-/// Those of all faces.
+/// The faces that have to be certified yet.
 template <class Space>
 std::vector<FaceOf<Space>> open_faces(Triangulation<Space>& triangulation,
                                       const std::vector<HalfSpace>& covered, CullCounts& counts) {
@@ -350,10 +350,18 @@ std::vector<FaceOf<Space>> insert_all(const std::vector<std::int32_t>& ranks,
     around.insert(around.end(), star.begin(), star.end());
   }
   counts.inserted += std::ssize(ranks);
-  std::sort(around.begin(), around.end()); // a later star may have taken a face of an earlier one
-  around.erase(std::unique(around.begin(), around.end()), around.end());
-  std::erase_if(around, [&](FaceOf<Space> face) { return !is_open<Space>(face, covered, counts); });
-  return around;
+  // A later star may have taken a face of an earlier one. The order is that of the insertions: by
+  // address, the counts of predicates would differ from run to run.
+  std::vector<FaceOf<Space>> open;
+  constexpr std::int32_t listed = 0, unlisted = -1;
+  for (const FaceOf<Space> face : around)
+    if (face->number == unlisted && is_open<Space>(face, covered, counts)) {
+      face->number = listed;
+      open.push_back(face);
+    }
+  for (const FaceOf<Space> face : open)
+    face->number = unlisted;
+  return open;
 }
 
 /// Whether the triangle is one of a closed mesh: finite, and its circumcap below a hemisphere.

@@ -12,9 +12,10 @@ namespace calotte::detail {
 /// The sphere as the stages see it: the first instance of what they call a Space.
 ///
 /// A Space looks at its domain from one region. It supplies `Place`, the coordinates that the
-/// triangulation keeps in a vertex; `place`, to make one of a site; and the exact signs
-/// `orientation`, `between` and `in_circle` of three or four places, ties resolved. `in_circle` is
-/// never 0 for a triangle of the triangulation and another site.
+/// triangulation keeps in a vertex; `place`, to make one of a site that `has_place`, and `expect`,
+/// to fetch ahead what that reads; `circle`, what in-circle tests of a triangle share; and the
+/// signs `orientation`, `between` and `in_circle` of three or four places, ties resolved.
+/// `in_circle` is never 0 for a triangle of the triangulation and another site.
 ///
 /// On the sphere the view is stereographic from the focus opposite to a cap's centre (Jacobsen et
 /// al., 2013, Eq. 5), or central for a whole set. The projected doubles of a place filter

@@ -78,7 +78,7 @@ public:
   /// Inserts one more site, which is no member yet.
   void insert(const Member& member);
 
-  /// The faces around the site that was inserted last.
+  /// The faces around the site that was inserted last; valid until the next insertion.
   std::span<const Face> last_star() const { return {conflicting_.data(), rim_size_}; }
 
   Space& space() { return space_; }
