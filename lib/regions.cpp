@@ -184,7 +184,9 @@ void move_to_load(const Sample& sample, const Array<std::int32_t>& owner, bool p
       ++passages[both];
     }
   }
-  // Were all six neighbours pulled by the same excess alone, this factor would be 3.
+  // A cell of a hexagonal lattice loses its excess when its six neighbours move by half of it, in
+  // units of their distance; each sees it in a sixth of its passages, so the factor were 3. Half of
+  // that does not overshoot where neighbours have excesses, too.
   constexpr double rate = 1.5;
   for (std::size_t k = 0; k < centres.size(); ++k)
     if (passages[k] > 0) {

@@ -121,12 +121,14 @@ Frame frame_of(const Points2& points) {
     }
   if (largest > 0) {
     Eigen::Array2d centre = (low + high) / 2;
-    // The curve passes the middle line of its square twice. Sites along it, in a narrow box, would
-    // be in two halves, so such a box lies beside it.
+    // The curve passes the middle lines of its square twice: a narrow box around one would be in
+    // two halves. It passes once above the horizontal one and along the left edge, so they lie
+    // there.
     const Eigen::Array2d extent = high - low;
-    for (const int across : {0, 1})
-      if (2 * extent[across] <= extent[1 - across])
-        centre[across] = low[across];
+    if (2 * extent.y() <= extent.x())
+      centre.y() = low.y();
+    else if (2 * extent.x() <= extent.y())
+      centre.x() = low.x() + extent.y() / 2;
     const Eigen::Array2d half = (high - centre).max(centre - low); // the centre is rounded
     frame.centre = {centre.x(), centre.y(), 0};
     frame.half = half.maxCoeff() > 0 ? half.maxCoeff() : 1;

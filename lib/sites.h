@@ -20,9 +20,9 @@ namespace calotte::detail {
 /// which keeps products of coordinates from overflow and underflow.
 struct Frame {
   double scale = 1;
-  Vec3 centre{0, 0, 0};
-  double half = 1;
-  Vec2 period{0, 0};            ///< of a doubly periodic box, in the points' coordinates
+  Vec3 centre{0, 0, 0}; ///< the frame's origin: of the sites' box, but that a narrow one is moved
+  double half = 1;      ///< the frame's unit: half of the longer side
+  Vec2 period{0, 0};    ///< of a doubly periodic box, in the points' coordinates
   Vec2 low{-1, -1}, high{1, 1}; ///< corners of the sites' box, in the frame
   Vec3 operator()(double x, double y) const {
     return {(scale * x - centre.x) / half, (scale * y - centre.y) / half, 0};

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "plane.h"
 #include "support/plane_laws.h"
 #include "support/random.h"
 
@@ -92,6 +93,8 @@ std::vector<Cloud> clouds() {
   out.push_back({"10 random", random_box(10, 1, 1, 2)});
   out.push_back({"2000 random", random_box(2000, 1, 1, 3)});
   out.push_back({"a long box", random_box(2000, 1000, 1, 4)});
+  out.push_back({"a narrow box", random_box(2000, 1, 1e-6, 16)});
+  out.push_back({"a narrow upright box", random_box(2000, 1e-6, 1, 17)});
   out.push_back({"square lattice", lattice(40, 30, {1, 0}, {0, 1}), true});
   out.push_back(
       {"hexagonal lattice", lattice(30, 30, {1, 0}, {half, half * std::sqrt(3.0)}), true});
@@ -192,6 +195,45 @@ TEST_CASE("a planar triangulation is exact and whole") {
     require_whole(mesh);
     if (!cloud.degenerate)
       CHECK(triangles_of(mesh) == reference(cloud.points));
+  }
+}
+
+TEST_CASE("in-circle signs are exact, whatever the sizes of triangle and offset") {
+  // Sites of one set are near each other or far, on circles or not; three are the triangle.
+  Points2 sizes = random_box(40, 1, 1, 18);
+  for (const double size : {1e-3, 1e-6, 1e-9, 1e-13}) {
+    sizes = joined(sizes, random_box(40, size, size, 19));
+    sizes = joined(sizes, circle(40, size));
+  }
+  for (const Points2& points : {sizes, random_box(400, 1, 1e-6, 20), Points2(1e-150 * sizes)}) {
+    const detail::Sites sites = detail::make_sites(points, Duplicates::merge, 0);
+    detail::Plane plane(sites);
+    std::mt19937_64 engine(21);
+    std::uniform_int_distribution<std::int64_t> any(0, sites.size() - 1), near(0, 40);
+    std::int64_t wrong = 0, decided = 0;
+    for (int trial = 0; trial < 200000; ++trial) {
+      const std::int64_t r = any(engine);
+      std::array<std::int64_t, 4> rank{r, 0, 0, 0};
+      for (std::size_t i = 1; i < 4; ++i)
+        rank[i] = engine() % 4 == 0 ? any(engine) : std::min(r + near(engine), sites.size() - 1);
+      std::array<detail::Plane::Place, 4> p;
+      std::array<detail::Vec2, 4> x;
+      for (std::size_t i = 0; i < 4; ++i) {
+        p[i] = plane.place(rank[i]);
+        const detail::Vec3& given = sites.given(p[i].site);
+        x[i] = {given.x, given.y};
+      }
+      if (detail::orientation(x[0], x[1], x[2]) <= 0)
+        continue;
+      const int exact = detail::in_circle(x[0], x[1], x[2], x[3]);
+      if (exact == 0) // a tie, or a corner
+        continue;
+      ++decided;
+      wrong +=
+          plane.in_circle(detail::Plane::circle(p[0], p[1], p[2]), p[0], p[1], p[2], p[3]) != exact;
+    }
+    CHECK(wrong == 0);
+    CHECK(decided > 50000);
   }
 }
 
