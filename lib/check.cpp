@@ -47,8 +47,8 @@ Array<Vec3> unit_vectors(const Points3& points) {
   return unit;
 }
 
-/// Whether all points are as good as normalised ones, within 5 roundoffs: their squares are then
-/// within 10, and known to 3.
+/// Whether all points are as good as normalised ones, within 5 roundoffs: squares within 6, and
+/// known to 3, are within 10.
 bool are_unit_vectors(const Points3& points) {
   std::atomic<bool> are{true};
   detail::for_each_block(points.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {

@@ -78,6 +78,17 @@ TEST_CASE("meshes made by the definition pass, closed and open") {
   }
 }
 
+TEST_CASE("points of any norm pass, unit vectors but for rounding too") {
+  Mesh mesh = delaunay(random_sphere(3000, 5));
+  for (const double factor : {1.0, 1 + 0x1p-52, 1 - 0x1p-53, 1 + 0x1p-50, 1 - 0x1p-50, 3e100}) {
+    Mesh scaled = mesh;
+    scaled.points *= factor;
+    CHECK(check(scaled).failure == "");
+    scaled.triangles.col(7).reverseInPlace();
+    CHECK(check(scaled).failure != "");
+  }
+}
+
 TEST_CASE("an empty mesh, and sizes that do not match") {
   fails_with(Mesh{}, "no triangle");
   Mesh mesh = good_mesh();
