@@ -77,7 +77,8 @@ void write_json(const std::string& file, const std::vector<std::string>& argumen
 
 /// Keeps what is freed for the next round, of the peers and of the library alike. A system takes
 /// large arrays back at once, and where the host of a virtual machine takes free memory back from
-/// the system, to fault it in again was seen to cost 3 s a GiB: more than to triangulate in it.
+/// the system, to fault it in again was seen to cost 3 s a GiB: more than to triangulate in it. The
+/// library itself gives back what more than 2^23 sites leave.
 void keep_memory() {
 #ifdef __GLIBC__
   mallopt(M_MMAP_MAX, 0);
