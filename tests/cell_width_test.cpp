@@ -6,6 +6,7 @@
 #include "io/netcdf.h"
 #include "predicates.h"
 #include "spherical_angles.h"
+#include "support/files.h"
 #include "support/random.h"
 
 #include <calotte/cvt.h>
@@ -19,15 +20,12 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <limits>
 #include <numbers>
 #include <sstream>
 #include <string>
 #include <vector>
-
-#include <unistd.h>
 
 using namespace calotte;
 using calotte::test::Random;
@@ -77,22 +75,14 @@ double smooth(double longitude, double latitude) {
 /// A folder that goes when the test ends.
 class Folder {
 public:
-  Folder() {
-    std::string name = std::filesystem::temp_directory_path() / "calotte-widths-XXXXXX";
-    path_ = ::mkdtemp(name.data());
-  }
-  ~Folder() { std::filesystem::remove_all(path_); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-
-  std::string operator()(const std::string& name) const { return path_ / name; }
+  std::string operator()(const std::string& name) const { return scratch_ / name; }
   std::string operator()(const std::string& name, const std::string& text) const {
-    std::ofstream((*this)(name), std::ios::binary) << text;
+    test::write_text((*this)(name), text);
     return (*this)(name);
   }
 
 private:
-  std::filesystem::path path_;
+  test::Scratch scratch_;
 };
 
 /// What a NetCDF raster holds.

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/files.h"
+
 #include <calotte/cvt.h>
 #include <calotte/error.h>
 #include <calotte/generators.h>
@@ -9,13 +11,10 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <set>
 #include <string>
 #include <vector>
-
-#include <unistd.h>
 
 using namespace calotte;
 
@@ -26,23 +25,11 @@ namespace {
 const std::string configuration = "start random\ncells 30\ntolerance 1e-06\n";
 
 /// A file name that goes when the test ends.
-struct Scratch {
-  Scratch() {
-    std::string name = fs::temp_directory_path() / "calotte-checkpoint-XXXXXX";
-    folder = ::mkdtemp(name.data());
-    path = folder / "run.checkpoint";
-  }
-  ~Scratch() { fs::remove_all(folder); }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
+struct Scratch : test::Scratch {
+  std::string bytes() const { return test::read_file(path); }
+  void put(const std::string& content) const { test::write_text(path, content); }
 
-  std::string bytes() const {
-    std::ifstream in(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
-  void put(const std::string& content) const { std::ofstream(path, std::ios::binary) << content; }
-
-  fs::path folder, path;
+  std::string path = *this / "run.checkpoint";
 };
 
 /// A state in which every field has a value of its own.
@@ -179,7 +166,7 @@ TEST_CASE("a state comes back with every field, bit for bit") {
   }
   write_checkpoint(scratch.path, {}, "");
   check_equal(read_checkpoint(scratch.path, ""), CvtState{});
-  CHECK(std::distance(fs::directory_iterator(scratch.folder), {}) == 1);
+  CHECK(scratch.files() == 1);
 }
 
 TEST_CASE("a run goes on from its checkpoint to the same bits, on every level") {

@@ -2,15 +2,13 @@
 #include "../tools/config_option.h"
 
 #include "../tools/config_names.h"
+#include "support/files.h"
 
 #include <calotte/error.h>
 
 #include <doctest/doctest.h>
 
 #include <cstdint>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <limits>
 #include <string>
 #include <vector>
@@ -18,16 +16,12 @@
 using namespace calotte;
 using namespace calotte::tools;
 
-namespace fs = std::filesystem;
-
 namespace {
 
 /// A command with options of every kind, and the folder of its file of options.
 class Parser {
 public:
   Parser() {
-    std::string name = fs::temp_directory_path() / "calotte-config-XXXXXX";
-    folder_ = ::mkdtemp(name.data());
     app_.add_option("POINTS,--points", points)->type_name("FILE");
     app_.add_option("--centres", centres)->type_name("sample|fibonacci|FILE");
     app_.add_option("--density", densities)->allow_extra_args(false);
@@ -46,7 +40,6 @@ public:
     app_.add_flag("--lonlat", lonlat);
     config_ = add_config(app_);
   }
-  ~Parser() { fs::remove_all(folder_); }
   Parser(const Parser&) = delete;
   Parser& operator=(const Parser&) = delete;
 
@@ -54,7 +47,7 @@ public:
 
   /// Parses a file of this text, and what the command line has beside it.
   void parse(const std::string& text, const std::string& arguments = "") {
-    std::ofstream(path(), std::ios::binary) << text;
+    test::write_text(path(), text);
     app_.parse(arguments + " --config " + path());
     CHECK(*config_ == path());
   }
@@ -70,7 +63,7 @@ public:
 
 private:
   CLI::App app_{"", "test"};
-  fs::path folder_;
+  test::Scratch folder_;
   std::shared_ptr<std::string> config_;
 };
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/files.h"
+
 #include <calotte/error.h>
 #include <calotte/io.h>
 
@@ -25,38 +27,16 @@ using calotte::ErrorCode;
 using calotte::Mesh;
 using calotte::Points3;
 using calotte::Triangles;
+using calotte::test::error_of;
+using calotte::test::read_file;
+using calotte::test::Scratch;
 
 namespace {
-
-/// A folder that goes when the test ends.
-struct Scratch {
-  fs::path folder;
-  Scratch() {
-    std::string name = fs::temp_directory_path() / "calotte-io-XXXXXX";
-    folder = ::mkdtemp(name.data());
-  }
-  ~Scratch() { fs::remove_all(folder); }
-  std::string operator/(const std::string& name) const { return folder / name; }
-  std::ptrdiff_t files() const {
-    return std::distance(fs::directory_iterator(folder), fs::directory_iterator());
-  }
-};
 
 /// Points from text; the test names the columns only where it must.
 Points3 points_of(const std::string& text, Columns columns = Columns::xyz) {
   std::istringstream in(text);
   return calotte::read_points(in, "points", columns);
-}
-
-template <class Work> Error error_of(Work work) {
-  try {
-    work();
-  } catch (const Error& error) {
-    CHECK(std::string(error.what()).find('\n') == std::string::npos);
-    return error;
-  }
-  FAIL("no error");
-  std::abort();
 }
 
 void check_bad(const std::string& text, std::int64_t line, const std::string& message,
@@ -109,11 +89,6 @@ Mesh open_octahedron() {
     if (t == 7)
       t = -1;
   return mesh;
-}
-
-std::string read_file(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 void write_text(const std::string& path, const std::string& text) {

@@ -2,6 +2,7 @@
 #include "io/assemble.h"
 #include "io/formats.h"
 #include "io/netcdf.h"
+#include "support/files.h"
 #include "vec3.h"
 
 #include <calotte/cvt.h>
@@ -26,10 +27,12 @@
 #include <sstream>
 
 #include <sys/resource.h>
-#include <unistd.h>
 
 namespace fs = std::filesystem;
 using namespace calotte;
+using calotte::test::error_of;
+using calotte::test::read_file;
+using calotte::test::Scratch;
 using detail::NetcdfReader;
 using detail::NetcdfType;
 using detail::NetcdfWriter;
@@ -39,38 +42,6 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr double epsilon = 0x1p-52;
-
-/// A folder that goes when the test ends.
-struct Scratch {
-  fs::path folder;
-  Scratch() {
-    std::string name = fs::temp_directory_path() / "calotte-mpas-XXXXXX";
-    folder = ::mkdtemp(name.data());
-  }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-  ~Scratch() { fs::remove_all(folder); }
-  std::string operator/(const std::string& name) const { return folder / name; }
-  std::ptrdiff_t files() const {
-    return std::distance(fs::directory_iterator(folder), fs::directory_iterator());
-  }
-};
-
-std::string read_file(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-template <class Work> Error error_of(Work work) {
-  try {
-    work();
-  } catch (const Error& error) {
-    CHECK(std::string(error.what()).find('\n') == std::string::npos);
-    return error;
-  }
-  FAIL("no error");
-  std::abort();
-}
 
 // ---- A file as a model reads it
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/netcdf.h"
 #include "io/netcdf_header.h"
+#include "support/files.h"
 #include "support/full_disk.h"
 #include "support/random.h"
 
@@ -28,40 +29,11 @@ using calotte::ErrorCode;
 using calotte::detail::NetcdfReader;
 using calotte::detail::NetcdfType;
 using calotte::detail::NetcdfWriter;
+using calotte::test::error_of;
+using calotte::test::read_file;
+using calotte::test::Scratch;
 
 namespace {
-
-/// A folder that goes when the test ends.
-struct Scratch {
-  fs::path folder;
-  Scratch() {
-    std::string name = fs::temp_directory_path() / "calotte-netcdf-XXXXXX";
-    folder = ::mkdtemp(name.data());
-  }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-  ~Scratch() { fs::remove_all(folder); }
-  std::string operator/(const std::string& name) const { return folder / name; }
-  std::ptrdiff_t files() const {
-    return std::distance(fs::directory_iterator(folder), fs::directory_iterator());
-  }
-};
-
-std::string read_file(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-template <class Work> Error error_of(Work work) {
-  try {
-    work();
-  } catch (const Error& error) {
-    CHECK(std::string(error.what()).find('\n') == std::string::npos);
-    return error;
-  }
-  FAIL("no error");
-  std::abort();
-}
 
 double value_at(std::int64_t i) { return i % 7 == 0 ? -0.0 : 1.0 / static_cast<double>(i); }
 

@@ -2,6 +2,7 @@
 #include "io/file.h"
 #include "io/output_queue.h"
 #include "parallel.h"
+#include "support/files.h"
 #include "support/full_disk.h"
 
 #include <calotte/error.h>
@@ -14,14 +15,11 @@
 #include <cerrno>
 #include <csignal>
 #include <filesystem>
-#include <fstream>
 #include <functional>
-#include <iterator>
 #include <string>
 #include <vector>
 
 #include <sys/resource.h>
-#include <unistd.h>
 
 namespace fs = std::filesystem;
 using calotte::Error;
@@ -29,24 +27,10 @@ using calotte::ErrorCode;
 using calotte::detail::OutputBlock;
 using calotte::detail::OutputFile;
 using calotte::detail::OutputQueue;
+using calotte::test::read_file;
+using calotte::test::Scratch;
 
 namespace {
-
-/// A folder that goes when the test ends.
-struct Scratch {
-  fs::path folder;
-  explicit Scratch(const fs::path& parent) {
-    std::string name = parent / "calotte-output-XXXXXX";
-    folder = ::mkdtemp(name.data());
-  }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-  ~Scratch() { fs::remove_all(folder); }
-  std::string operator/(const std::string& name) const { return folder / name; }
-  std::ptrdiff_t files() const {
-    return std::distance(fs::directory_iterator(folder), fs::directory_iterator());
-  }
-};
 
 /// On a disk, and on a file system in memory, which may have a page cache alone.
 std::vector<fs::path> parents() {
@@ -54,11 +38,6 @@ std::vector<fs::path> parents() {
   if (fs::is_directory("/dev/shm"))
     all.emplace_back("/dev/shm");
   return all;
-}
-
-std::string read_file(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 char byte_at(std::int64_t i) { return static_cast<char>(i * 2654435761 >> 13); }

@@ -21,8 +21,8 @@ namespace calotte::test {
 /// A folder that goes when the test ends.
 struct Scratch {
   std::filesystem::path folder;
-  Scratch() {
-    std::string name = std::filesystem::temp_directory_path() / "calotte-test-XXXXXX";
+  explicit Scratch(const std::filesystem::path& parent = std::filesystem::temp_directory_path()) {
+    std::string name = parent / "calotte-test-XXXXXX";
     folder = ::mkdtemp(name.data());
   }
   Scratch(const Scratch&) = delete;
