@@ -254,14 +254,7 @@ void register_all(const Options& options) {
 }
 
 void add_options(CLI::App& app, Options& options) {
-  app.add_option("--sets", options.sets, "densities: uniform, x8")
-      ->delimiter(',')
-      ->check(CLI::IsMember({"uniform", "x8"}))
-      ->capture_default_str();
-  app.add_option("--sizes", options.sizes, "numbers of cells: 42, 162 ... 10 * 4^level + 2")
-      ->delimiter(',')
-      ->check(CLI::IsMember(bisected_sizes()))
-      ->capture_default_str();
+  add_grid_options(app, options.sets, options.sizes);
   app.add_option("--works", options.works, "iteration, triangulation")
       ->delimiter(',')
       ->check(CLI::IsMember({"iteration", "triangulation"}))

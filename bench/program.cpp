@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "program.h"
 
+#include "clouds.h"
 #include "stripack.h"
 
 #include <benchmark/benchmark.h>
@@ -123,6 +124,18 @@ void add_round_options(CLI::App& app, RoundOptions& options) {
       ->capture_default_str();
   app.add_option("--threads", options.threads, "threads of the library's rows")
       ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+}
+
+void add_grid_options(CLI::App& app, std::vector<std::string>& sets,
+                      std::vector<std::int64_t>& sizes) {
+  app.add_option("--sets", sets, "densities: uniform, x8")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"uniform", "x8"}))
+      ->capture_default_str();
+  app.add_option("--sizes", sizes, "numbers of cells: 42, 162 ... 10 * 4^level + 2")
+      ->delimiter(',')
+      ->check(CLI::IsMember(bisected_sizes()))
       ->capture_default_str();
 }
 

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <cstdint>
 #include <functional>
 #include <iosfwd>
 #include <map>
@@ -20,6 +21,10 @@ struct RoundOptions {
 };
 
 void add_round_options(CLI::App& app, RoundOptions& options);
+
+/// --sets, names of densities, and --sizes, of bisected icosahedra.
+void add_grid_options(CLI::App& app, std::vector<std::string>& sets,
+                      std::vector<std::int64_t>& sizes);
 
 /// A program that times rows in rounds.
 struct Program {
