@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <calotte/delaunay.h>
 
+#include "centres.h"
 #include "clock.h"
 #include "cull.h"
 #include "divide.h"

@@ -30,14 +30,6 @@ struct Regions {
   std::vector<std::vector<HalfSpace>> covered;
 };
 
-/// Regions' number by default: a function of the number of sites alone, such that a region's
-/// triangulation stays in cache and its halo is a small part of it.
-int default_region_count(std::int64_t sites);
-
-/// Centres: those given, or as many as regions are asked for, but no more than sites.
-/// \throws Error bad_option (fewer than one region, centres without a direction).
-std::vector<Vec3> make_centres(const Sites& sites, const DelaunayOptions& options);
-
 /// Owners of the sites, by rank, and members by the options' sort.
 /// \param adjacent for each region its neighbours: regions whose coarse Voronoi cells meet its own.
 ///        Too many of them cost time, too few make halos larger than need be.

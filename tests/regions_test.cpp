@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "centres.h"
 #include "regions.h"
 
 #include <calotte/error.h>
