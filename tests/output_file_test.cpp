@@ -49,12 +49,14 @@ std::string bytes_to(std::int64_t size) {
   return bytes;
 }
 
-/// Puts the bytes between consecutive cuts, each a task of its own, the last first.
-void put_pieces(OutputFile& file, const std::vector<std::int64_t>& cuts) {
+/// Puts the bytes between consecutive cuts, each a task of its own, the last first. Blocks are
+/// fresh or may stand where others stood.
+void put_pieces(OutputFile& file, const std::vector<std::int64_t>& cuts, bool fresh = false) {
   const auto pieces = static_cast<std::int64_t>(cuts.size()) - 1;
   calotte::detail::for_each_task(pieces, [&](std::int64_t k) {
     const auto piece = static_cast<std::size_t>(pieces - 1 - k);
-    OutputBlock block(cuts[piece], cuts[piece + 1] - cuts[piece]);
+    const std::int64_t size = cuts[piece + 1] - cuts[piece];
+    OutputBlock block = fresh ? OutputBlock(cuts[piece], size) : file.block(cuts[piece], size);
     for (std::int64_t i = 0; i < block.size(); ++i)
       block.begin()[i] = byte_at(block.offset() + i);
     file.put(std::move(block));
@@ -106,6 +108,36 @@ TEST_CASE("blocks of any size, put in any order from any thread, become one file
       CHECK(scratch.files() == 1);
       CHECK((read_file(scratch / "a") == expected));
     }
+}
+
+TEST_CASE("room that is reserved, and memory of blocks that are written, change no byte") {
+  const std::vector<std::int64_t> cuts = uneven_cuts();
+  const std::string expected = bytes_to(cuts.back());
+  for (const fs::path& parent : parents())
+    for (const bool fresh : {false, true}) {
+      CAPTURE(parent.string());
+      const Scratch scratch(parent);
+      OutputFile file(scratch / "a");
+      file.reserve(cuts.back());
+      put_pieces(file, cuts, fresh);
+      file.commit();
+      CHECK((read_file(scratch / "a") == expected));
+    }
+  OutputFile device("/dev/null");
+  device.reserve(1 << 20); // has no room to reserve
+}
+
+TEST_CASE("room that the disk does not have is refused before anything is written") {
+  for (const fs::path& parent : parents()) {
+    CAPTURE(parent.string());
+    const Scratch scratch(parent);
+    {
+      OutputFile file(scratch / "a");
+      CHECK(message_of([&] { file.reserve(std::int64_t{1} << 60); }).find("make room") !=
+            std::string::npos);
+    }
+    CHECK(scratch.files() == 0);
+  }
 }
 
 TEST_CASE("what is appended in pieces of any size stands in order") {

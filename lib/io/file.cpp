@@ -67,6 +67,8 @@ int pwrite_all(int descriptor, std::int64_t offset, std::string_view bytes) {
 
 /// Smaller blocks gain nothing by waiting for the disk one by one.
 constexpr std::int64_t least_direct = 1 << 18;
+/// More blocks than wait for the disk and are filled meanwhile.
+constexpr std::size_t most_spare = 64;
 /// Of an appended block.
 constexpr std::int64_t tail_bytes = 1 << 22;
 
@@ -74,8 +76,9 @@ std::int64_t page_before(std::int64_t offset) { return offset & -OutputBlock::pa
 
 } // namespace
 
-OutputBlock::OutputBlock(std::int64_t offset, std::int64_t size)
-    : memory_(size + 2 * page), offset_(offset), size_(size) {
+OutputBlock::OutputBlock(std::int64_t offset, std::int64_t size, Array<char> memory)
+    : memory_(memory.size() < size + 2 * page ? Array<char>(size + 2 * page) : std::move(memory)),
+      offset_(offset), size_(size) {
   const std::int64_t start = reinterpret_cast<std::intptr_t>(memory_.begin());
   begin_ =
       memory_.begin() + (page_before(start + page - 1) - start) + (offset - page_before(offset));
@@ -127,23 +130,51 @@ void OutputFile::append(std::string_view bytes) {
   }
 }
 
+void OutputFile::reserve([[maybe_unused]] std::int64_t size) {
+#ifdef __linux__
+  // Many file systems cannot: blocks then get their places when they are written.
+  if (!temporary_.empty() && ::fallocate(descriptor_, 0, 0, size) != 0 &&
+      (errno == ENOSPC || errno == EDQUOT || errno == EFBIG))
+    fail(errno);
+#endif
+}
+
 /// Begins the next.
 void OutputFile::put_tail() {
   const std::int64_t next = tail_.offset() + tail_size_;
   tail_.shorten(tail_size_);
   if (tail_size_ > 0)
     put(std::move(tail_));
-  tail_ = OutputBlock(next, tail_bytes);
+  tail_ = block(next, tail_bytes);
   tail_size_ = 0;
 }
 
 void OutputFile::start_queue() {
 #ifdef O_DIRECT
   direct_ = ::open(temporary_.c_str(), O_WRONLY | O_CLOEXEC | O_DIRECT);
+  spare_.reserve(most_spare);
   if (direct_ >= 0)
-    queue_ = std::make_unique<OutputQueue>(
-        [this](const OutputBlock& block) { return write_direct(block); });
+    queue_ = std::make_unique<OutputQueue>([this](OutputBlock block) {
+      const int error = write_direct(block);
+      keep(block.take_memory());
+      return error;
+    });
 #endif
+}
+
+void OutputFile::keep(Array<char> memory) {
+  const std::lock_guard lock(spare_mutex_);
+  if (spare_.size() < most_spare) // where there is room, so that nothing is thrown
+    spare_.push_back(std::move(memory));
+}
+
+OutputBlock OutputFile::block(std::int64_t offset, std::int64_t size) {
+  Array<char> memory;
+  if (const std::lock_guard lock(spare_mutex_); size >= least_direct && !spare_.empty()) {
+    memory = std::move(spare_.back());
+    spare_.pop_back();
+  }
+  return {offset, size, std::move(memory)};
 }
 
 void OutputFile::put(OutputBlock block) {

@@ -9,6 +9,8 @@
 #include <mutex>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace calotte::detail {
 
@@ -19,8 +21,9 @@ public:
   static constexpr std::int64_t page = 4096; ///< of the system, and at least a sector of any disk
 
   OutputBlock() = default;
-  /// The bytes are not initialised. \param offset of the first one in the file.
-  OutputBlock(std::int64_t offset, std::int64_t size);
+  /// The bytes are not initialised. \param offset of the first one in the file. \param memory is
+  /// used where it is large enough.
+  OutputBlock(std::int64_t offset, std::int64_t size, Array<char> memory = {});
 
   std::int64_t offset() const { return offset_; }
   std::int64_t size() const { return size_; }
@@ -28,6 +31,8 @@ public:
   std::string_view bytes() const { return {begin_, static_cast<std::size_t>(size_)}; }
   /// \pre size <= size()
   void shorten(std::int64_t size) { size_ = size; }
+  /// For another block; this one is no more.
+  Array<char> take_memory() { return std::move(memory_); }
 
 private:
   Array<char> memory_;
@@ -51,6 +56,14 @@ public:
   /// \throws Error file, at once or from commit().
   void append(std::string_view bytes);
 
+  /// Tells how large the file will be, where it is not written in place. A full disk is found now,
+  /// and the blocks lie side by side. \throws Error file.
+  void reserve(std::int64_t size);
+
+  /// A block to put, from any thread. It may stand where one stood that is written: the system's
+  /// memory for a fresh one would cost more than the disk takes to write it.
+  OutputBlock block(std::int64_t offset, std::int64_t size);
+
   /// Writes a block, from any thread. A large one goes from its memory to the disk where the file
   /// system can do that, while the caller goes on. \pre temporary() is not empty; nothing is
   /// appended. \throws Error file, at once, from a later call or from commit().
@@ -69,6 +82,7 @@ public:
 
 private:
   void start_queue();
+  void keep(Array<char> memory);
   int write_direct(const OutputBlock& block);
   int write_through_cache(std::int64_t offset, std::string_view bytes) const;
   void put_tail();
@@ -80,6 +94,8 @@ private:
   int direct_ = -1;  ///< writes past the page cache; -1 where the file system cannot
   OutputBlock tail_; ///< what is appended and not yet put
   std::int64_t tail_size_ = 0;
+  std::mutex spare_mutex_;
+  std::vector<Array<char>> spare_; ///< of large blocks that are written
   std::once_flag queue_started_;
   std::unique_ptr<OutputQueue> queue_; ///< of blocks for direct_; null where it is -1
 };

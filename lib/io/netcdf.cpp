@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "netcdf.h"
 
+#include "../elementary.h"
 #include "../parallel.h"
 #include "netcdf_header.h"
 
@@ -73,22 +74,36 @@ int put_attribute(int id, int variable, const NetcdfAttribute& attribute) {
                           std::get_if<std::int8_t>(&attribute.value));
 }
 
+CALOTTE_VECTOR_WIDTHS
+void reverse_each_8(const char* values, std::int64_t count, char* out) {
+  for (std::int64_t i = 0; i < count; ++i) {
+    std::uint64_t bits;
+    std::memcpy(&bits, values + 8 * i, 8);
+    bits = __builtin_bswap64(bits);
+    std::memcpy(out + 8 * i, &bits, 8);
+  }
+}
+
+CALOTTE_VECTOR_WIDTHS
+void reverse_each_4(const char* values, std::int64_t count, char* out) {
+  for (std::int64_t i = 0; i < count; ++i) {
+    std::uint32_t bits;
+    std::memcpy(&bits, values + 4 * i, 4);
+    bits = __builtin_bswap32(bits);
+    std::memcpy(out + 4 * i, &bits, 4);
+  }
+}
+
 /// The classic formats hold numbers with the most significant byte first. \param out need not be
 /// aligned.
 template <class T> void to_big_endian(const T* values, std::int64_t count, char* out) {
-  using Bits = std::conditional_t<sizeof(T) == 8, std::uint64_t, std::uint32_t>;
-  if constexpr (sizeof(T) == 1 || std::endian::native == std::endian::big) {
-    std::memcpy(out, values, static_cast<std::size_t>(count) * sizeof(T));
-  } else {
-    for (std::int64_t i = 0; i < count; ++i) {
-      Bits bits = std::bit_cast<Bits>(values[i]);
-      if constexpr (sizeof(T) == 8)
-        bits = __builtin_bswap64(bits);
-      else
-        bits = __builtin_bswap32(bits);
-      std::memcpy(out + i * std::int64_t{sizeof(T)}, &bits, sizeof(T));
-    }
-  }
+  const auto* const bytes = reinterpret_cast<const char*>(values);
+  if constexpr (sizeof(T) == 1 || std::endian::native == std::endian::big)
+    std::memcpy(out, bytes, static_cast<std::size_t>(count) * sizeof(T));
+  else if constexpr (sizeof(T) == 8)
+    reverse_each_8(bytes, count, out);
+  else
+    reverse_each_4(bytes, count, out);
 }
 
 /// body(begin, end) for consecutive ranges of [first, last) of rows of so many bytes each.
@@ -100,10 +115,12 @@ void for_each_rows(std::int64_t first, std::int64_t last, std::int64_t row_bytes
     body(begin, std::min(last, begin + rows));
 }
 
-/// The same for all rows, in blocks that the disk likes, each a task.
+/// The same for all rows, in blocks that the disk likes, the larger the better, and that are enough
+/// for all threads; each a task.
 template <class Body>
 void for_each_block_of_rows(std::int64_t rows, std::int64_t row_bytes, const Body& body) {
-  constexpr std::int64_t block_bytes = 1 << 22;
+  const std::int64_t block_bytes =
+      std::clamp<std::int64_t>(rows * row_bytes / 8, std::int64_t{1} << 20, std::int64_t{1} << 24);
   const std::int64_t block_rows = std::max<std::int64_t>(block_bytes / row_bytes, 1);
   for_each_task((rows + block_rows - 1) / block_rows, [&](std::int64_t block) {
     body(block * block_rows, std::min(rows, (block + 1) * block_rows));
@@ -138,9 +155,9 @@ struct NetcdfWriter::State {
 
   /// Some rows of a variable on their way to the file.
   template <class T> struct RowBlock {
-    RowBlock(const Variable& of, std::int64_t begin, std::int64_t end)
+    RowBlock(OutputFile& file, const Variable& of, std::int64_t begin, std::int64_t end)
         : first(begin), row_values(of.row_values),
-          bytes(of.offset + begin * of.row_bytes(), (end - begin) * of.row_bytes()) {}
+          bytes(file.block(of.offset + begin * of.row_bytes(), (end - begin) * of.row_bytes())) {}
 
     /// For the values of rows begin to end - 1.
     T* room(std::int64_t begin, std::int64_t end) {
@@ -213,7 +230,7 @@ template <class T> NetcdfWriter::State::Variable& NetcdfWriter::State::start(int
 template <class T> void NetcdfWriter::State::put(int variable, const Fill<T>& fill) {
   const Variable& of = start<T>(variable);
   for_each_block_of_rows(of.rows, of.row_bytes(), [&](std::int64_t first, std::int64_t last) {
-    RowBlock<T> block(of, first, last);
+    RowBlock<T> block(file, of, first, last);
     for_each_rows(first, last, of.row_bytes(), fill_bytes,
                   [&](std::int64_t begin, std::int64_t end) {
                     fill(begin, end, block.room(begin, end));
@@ -226,17 +243,19 @@ template <class T> void NetcdfWriter::State::put(int variable, const Fill<T>& fi
 void NetcdfWriter::State::put(int ints, int doubles, const PairFill& fill) {
   const Variable &of_ints = start<std::int32_t>(ints), &of_doubles = start<double>(doubles);
   const std::int64_t row_bytes = of_ints.row_bytes() + of_doubles.row_bytes();
-  for_each_block_of_rows(of_ints.rows, row_bytes, [&](std::int64_t first, std::int64_t last) {
-    RowBlock<std::int32_t> one(of_ints, first, last);
-    RowBlock<double> other(of_doubles, first, last);
-    for_each_rows(first, last, row_bytes, fill_bytes, [&](std::int64_t begin, std::int64_t end) {
-      fill(begin, end, one.room(begin, end), other.room(begin, end));
-      one.convert(begin, end);
-      other.convert(begin, end);
-    });
-    file.put(std::move(one.bytes));
-    file.put(std::move(other.bytes));
-  });
+  for_each_block_of_rows(
+      of_ints.rows, of_doubles.row_bytes(), [&](std::int64_t first, std::int64_t last) {
+        RowBlock<std::int32_t> one(file, of_ints, first, last);
+        RowBlock<double> other(file, of_doubles, first, last);
+        for_each_rows(first, last, row_bytes, fill_bytes,
+                      [&](std::int64_t begin, std::int64_t end) {
+                        fill(begin, end, one.room(begin, end), other.room(begin, end));
+                        one.convert(begin, end);
+                        other.convert(begin, end);
+                      });
+        file.put(std::move(one.bytes));
+        file.put(std::move(other.bytes));
+      });
 }
 
 NetcdfWriter::NetcdfWriter(const std::string& path) {
@@ -285,8 +304,13 @@ void NetcdfWriter::begin() {
   }
   const NetcdfLayout layout = classic_layout(id, path);
   state_->require(nc_close(id));
-  for (std::size_t v = 0; v < layout.variables.size(); ++v)
-    state_->variables[v].offset = layout.variables[v].begin;
+  std::int64_t size = layout.header;
+  for (std::size_t v = 0; v < layout.variables.size(); ++v) {
+    State::Variable& variable = state_->variables[v];
+    variable.offset = layout.variables[v].begin;
+    size = std::max(size, variable.offset + variable.bytes());
+  }
+  state_->file.reserve(size);
 }
 
 void NetcdfWriter::put(int variable, const Fill<double>& fill) { state_->put(variable, fill); }

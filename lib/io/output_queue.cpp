@@ -28,7 +28,7 @@ OutputQueue::~OutputQueue() {
 
 int OutputQueue::push(OutputBlock block) {
   if (threads_.empty())
-    return write_(block);
+    return write_(std::move(block));
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [this] { return waiting_.size() < most_waiting || error_ != 0; });
   if (error_ == 0)
@@ -49,12 +49,12 @@ void OutputQueue::run() {
     changed_.wait(lock, [this] { return !waiting_.empty() || ended_; });
     if (ended_)
       return;
-    const OutputBlock block = std::move(waiting_.front());
+    OutputBlock block = std::move(waiting_.front());
     waiting_.pop_front();
     ++writing_;
     changed_.notify_all();
     lock.unlock();
-    const int error = write_(block);
+    const int error = write_(std::move(block));
     lock.lock();
     --writing_;
     if (error != 0 && error_ == 0) {

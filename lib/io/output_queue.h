@@ -18,7 +18,7 @@ namespace calotte::detail {
 class OutputQueue {
 public:
   /// Called from several threads at once. \returns 0, or the errno of what failed.
-  using Write = std::function<int(const OutputBlock&)>;
+  using Write = std::function<int(OutputBlock)>;
 
   explicit OutputQueue(Write write);
   OutputQueue(const OutputQueue&) = delete;
