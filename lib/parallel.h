@@ -10,6 +10,7 @@
 #include "handover.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -48,6 +49,16 @@ template <class Body> void for_each_block(std::int64_t n, const Body& body) {
   for_each_task(blocks, [&](std::int64_t block) {
     body(block, n * block / blocks, n * (block + 1) / blocks);
   });
+}
+
+/// Whether holds(begin, end) for all blocks of [0, n).
+template <class Holds> bool holds_for_blocks(std::int64_t n, const Holds& holds) {
+  std::atomic<bool> all = true;
+  for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    if (all.load(std::memory_order_relaxed) && !holds(begin, end))
+      all.store(false, std::memory_order_relaxed);
+  });
+  return all;
 }
 
 /// Replaces each value by the sum of those before it; returns the sum of all.

@@ -2,6 +2,7 @@
 #include "renumber.h"
 
 #include "curve.h"
+#include "ids.h"
 #include "order.h"
 #include "parallel.h"
 #include "points.h"
@@ -25,20 +26,34 @@ namespace calotte {
 namespace detail {
 namespace {
 
-/// At least 0 and below the bound, or -1 where `or_none`.
-bool in_range(const Triangles& ids, std::int64_t bound, bool or_none = false) {
-  return ids.size() == 0 || (ids.minCoeff() >= (or_none ? -1 : 0) && ids.maxCoeff() < bound);
+bool is_zero(const Vec3& p) { return p.x == 0 && p.y == 0 && p.z == 0; }
+bool is_finite(const Vec3& p) {
+  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
+
+bool are_directions(const Points3& points) {
+  return holds_for_blocks(points.cols(), [&](std::int64_t begin, std::int64_t end) {
+    while (begin != end && is_finite(column(points, begin)) && !is_zero(column(points, begin)))
+      ++begin;
+    return begin == end;
+  });
 }
 
 void require_directions(const Points3& points) {
+  if (are_directions(points))
+    return;
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
     const Vec3& p = column(points, i);
-    if (p.x == 0 && p.y == 0 && p.z == 0)
+    if (is_zero(p))
       throw Error(ErrorCode::zero_vector, "point " + std::to_string(i) + " is the zero vector", i);
-    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+    if (!is_finite(p))
       throw Error(ErrorCode::not_finite,
                   "point " + std::to_string(i) + " has a coordinate that is NaN or infinite", i);
   }
+}
+
+std::uint64_t curve_key_of(const Points3& points, std::int64_t i) {
+  return curve_key(to_cube(column(points, i)));
 }
 
 /// For each site its place in the order.
@@ -157,12 +172,9 @@ std::vector<std::pair<std::int32_t, std::int32_t>> half_edges(const Mesh& mesh) 
 }
 
 void require_ids(const Mesh& mesh) {
-  const bool fit = in_range(mesh.triangles, mesh.points.cols()) &&
-                   mesh.neighbours.cols() == mesh.triangles.cols() &&
-                   in_range(mesh.neighbours, mesh.triangles.cols(), true) &&
-                   std::all_of(mesh.site_of_input.begin(), mesh.site_of_input.end(),
-                               [&](std::int32_t s) { return 0 <= s && s < mesh.points.cols(); });
-  if (!fit)
+  const std::int64_t sites = mesh.points.cols(), triangles = mesh.triangles.cols();
+  if (!are_ids(mesh.triangles, sites) || mesh.neighbours.cols() != triangles ||
+      !are_ids(mesh.neighbours, triangles, -1) || !are_ids(mesh.site_of_input, sites))
     throw Error(ErrorCode::bad_option, "the mesh to renumber has an id out of range, or not the "
                                        "neighbours of its triangles; give one as delaunay() or "
                                        "read_mesh() makes it");
@@ -175,7 +187,7 @@ Array<std::int32_t> curve_order(const Points3& points) {
   Array<KeyedIndex> entries(points.cols());
   for_each_block(entries.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i)
-      entries[i] = {curve_key(to_cube(column(points, i))), static_cast<std::int32_t>(i)};
+      entries[i] = {curve_key_of(points, i), static_cast<std::int32_t>(i)};
   });
   sort_by_key(entries);
   Array<std::int32_t> order(entries.size());
@@ -184,6 +196,34 @@ Array<std::int32_t> curve_order(const Points3& points) {
       order[i] = entries[i].index;
   });
   return order;
+}
+
+bool is_in_curve_order(const Mesh& mesh) {
+  const auto triangle = [&](std::int64_t t) {
+    return Triple{mesh.triangles(0, t), mesh.triangles(1, t), mesh.triangles(2, t)};
+  };
+  const auto sites_ascend = [&](std::int64_t begin, std::int64_t end) {
+    std::uint64_t before = curve_key_of(mesh.points, std::max<std::int64_t>(begin - 1, 0));
+    for (std::int64_t i = begin; i != end; ++i) {
+      const std::uint64_t key = curve_key_of(mesh.points, i);
+      if (key < before)
+        return false;
+      before = key;
+    }
+    return true;
+  };
+  const auto triangles_ascend = [&](std::int64_t begin, std::int64_t end) {
+    Triple before = triangle(std::max<std::int64_t>(begin - 1, 0));
+    for (std::int64_t t = begin; t != end; ++t) {
+      const Triple ids = triangle(t);
+      if (first_vertex(ids) != 0 || ids < before)
+        return false;
+      before = ids;
+    }
+    return true;
+  };
+  return are_directions(mesh.points) && holds_for_blocks(mesh.points.cols(), sites_ascend) &&
+         holds_for_blocks(mesh.triangles.cols(), triangles_ascend);
 }
 
 Array<std::int32_t> reverse_cuthill_mckee_order(const Mesh& mesh) {

@@ -15,6 +15,10 @@ namespace calotte::detail {
 /// \throws Error not_finite, zero_vector.
 Array<std::int32_t> curve_order(const Points3& points);
 
+/// Whether in_order(mesh, curve_order(mesh.points)) would be the same mesh. \pre a mesh's ids are
+/// in range. Where a point has no direction it says no.
+bool is_in_curve_order(const Mesh& mesh);
+
 /// Reverse Cuthill-McKee (Cuthill and McKee, Proc. 24th ACM Conference, 1969): breadth first from
 /// the far end of the mesh, those of few neighbours first, then backwards. \pre a mesh's ids are in
 /// range.

@@ -113,6 +113,36 @@ TEST_CASE("input keeps a mesh, and one along the curve stays as it is") {
   }
 }
 
+TEST_CASE("a mesh is told to be in the curve's order where renumbering would change nothing") {
+  Random random(7);
+  const auto check = [](const Mesh& mesh) {
+    CHECK(calotte::detail::is_in_curve_order(mesh) ==
+          identical(calotte::renumbered(mesh, Numbering::curve), mesh));
+  };
+  std::vector<Cloud> sets = clouds();
+  sets.push_back({"of three blocks", calotte::random_sphere(40'000, 8)});
+  for (const auto& [name, points, closed, ties, sites] : sets) {
+    CAPTURE(name);
+    const Mesh mesh = calotte::delaunay(points);
+    check(mesh);
+    const Mesh ordered = calotte::renumbered(mesh, Numbering::curve);
+    CHECK(calotte::detail::is_in_curve_order(ordered));
+    Mesh other = ordered;
+    shuffle_triangles(other, random);
+    check(other);
+    other = ordered; // only its last two triangles change places
+    const Eigen::Index last = other.triangles.cols() - 1;
+    other.triangles.col(last).swap(other.triangles.col(last - 1));
+    check(other);
+    for (const Eigen::Index i : {Eigen::Index{0}, ordered.points.cols() / 2}) {
+      other = ordered; // two sites change places
+      other.points.col(i).swap(other.points.col(i + 1));
+      check(other);
+    }
+  }
+  check({});
+}
+
 TEST_CASE("the order of the triangles in a mesh is forgotten") {
   Random random(5);
   for (const auto& [name, points, closed, ties, sites] : clouds())
@@ -226,8 +256,10 @@ TEST_CASE("ids out of range and points without a direction are refused") {
   CHECK(code(bad) == calotte::ErrorCode::bad_option);
   bad = mesh;
   bad.points.col(2).setZero();
+  CHECK(!calotte::detail::is_in_curve_order(bad));
   CHECK(code(bad) == calotte::ErrorCode::zero_vector);
   bad.points(1, 2) = std::nan("");
+  CHECK(!calotte::detail::is_in_curve_order(bad));
   CHECK(code(bad) == calotte::ErrorCode::not_finite);
   CHECK(calotte::renumbered({}, Numbering::rcm).points.cols() == 0);
 }

@@ -5,7 +5,9 @@
 #include "formats.h"
 #include "netcdf.h"
 
+#include "../ids.h"
 #include "../points.h"
+#include "../renumber.h"
 
 #include <calotte/delaunay.h>
 #include <calotte/error.h>
@@ -33,16 +35,10 @@ void require_options(const std::string& path, const WriteOptions& options) {
   evaluate(options.density, Points3(3, 0)); // throws where it is ill-formed
 }
 
-bool are_ids(const Triangles& ids, std::int64_t bound) {
-  return ids.size() == 0 || (ids.minCoeff() >= 0 && ids.maxCoeff() < bound);
-}
-
 /// Of either kind of mesh.
 template <class AnyMesh> void require_ids(const std::string& path, const AnyMesh& mesh) {
   const std::int64_t sites = mesh.points.cols();
-  if (!are_ids(mesh.triangles, sites) ||
-      !std::all_of(mesh.site_of_input.begin(), mesh.site_of_input.end(),
-                   [&](std::int32_t site) { return 0 <= site && site < sites; }))
+  if (!are_ids(mesh.triangles, sites) || !are_ids(mesh.site_of_input, sites))
     refuse(path, "the mesh has an id that is not one of its " + std::to_string(sites) + " points");
 }
 
@@ -296,10 +292,13 @@ void write(const std::string& path, const Mesh& mesh, const WriteOptions& option
   resolved.format = format_of(path, options.format);
   require_options(path, resolved);
   require_mesh(path, mesh, resolved.format);
-  if (const Numbering numbering = numbering_of(resolved); numbering != Numbering::input)
-    write_numbered(path, renumbered(mesh, numbering), resolved);
-  else
+  const Numbering numbering = numbering_of(resolved);
+  const bool stays =
+      numbering == Numbering::input || (numbering == Numbering::curve && is_in_curve_order(mesh));
+  if (stays)
     write_numbered(path, mesh, resolved);
+  else
+    write_numbered(path, renumbered(mesh, numbering), resolved);
 }
 
 void require_planar_format(const std::string& path, bool periodic, Format format) {
