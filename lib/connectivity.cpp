@@ -92,13 +92,8 @@ Array<std::int32_t> some_triangles(const Surface& surface) {
   return some;
 }
 
-struct Rings {
-  Array<std::int32_t> first;      ///< of each site: the triangle that follows its lowest neighbour
-  Array<std::int32_t> first_edge; ///< of the edges of which the site is the lower cell
-};
-
-/// Besides, sets the tessellation's begin.
-Rings find_rings(const Surface& surface, Voronoi& out) {
+/// Instead of where lists begin, it sets how long they are: begin, and in the rings first_edge.
+Rings count_rings(const Surface& surface, Voronoi& out) {
   Rings rings{some_triangles(surface), Array<std::int32_t>(surface.sites)};
   make_room(out.begin, surface.sites + 1, 1);
   FirstFault lonely, unfit;
@@ -223,15 +218,20 @@ void copy_triangles(const Surface& surface, Voronoi& out) {
 
 } // namespace
 
-void connect(const Surface& surface, Voronoi& out) {
-  Rings rings = find_rings(surface, out);
+Rings find_rings(const Surface& surface, Voronoi& out) {
+  Rings rings = count_rings(surface, out);
   out.begin[surface.sites] = 0;
-  const std::int64_t corners = surface.triangles.size(), edges = corners / 2;
   const std::int64_t found =
       exclusive_scan(std::span(out.begin.data(), static_cast<std::size_t>(out.begin.size())));
-  if (found != corners)
+  if (found != surface.triangles.size())
     refuse_second_ring(surface, out);
   exclusive_scan(std::span(rings.first_edge.begin(), rings.first_edge.end()));
+  copy_triangles(surface, out);
+  return rings;
+}
+
+void connect(const Surface& surface, const Rings& rings, Voronoi& out) {
+  const std::int64_t corners = surface.triangles.size(), edges = corners / 2;
   make_room(out.edges_on_cell, corners, 1);
   make_room(out.vertices_on_cell, corners, 1);
   make_room(out.cells_on_cell, corners, 1);
@@ -240,7 +240,6 @@ void connect(const Surface& surface, Voronoi& out) {
   make_room(out.vertices_on_edge, 2, edges);
   set_cells_and_edges(surface, rings, out);
   set_edges_of_higher_cells(surface, out);
-  copy_triangles(surface, out);
 }
 
 } // namespace calotte::detail

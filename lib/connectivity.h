@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "memory.h"
+
 #include <calotte/types.h>
 #include <calotte/voronoi.h>
 
@@ -15,11 +17,21 @@ struct Surface {
   const Triangles& neighbours; ///< the one across from each vertex
 };
 
-/// Sets all ids of the tessellation that is dual to a surface: lists, pairs and triples.
-/// \pre as many neighbours as triangles; at most 2^29 sites.
-/// \throws Error bad_option, where ids are out of range, the neighbours do not fit the triangles,
-///         the triangles at a site do not form one ring, or two cells share two edges.
-void connect(const Surface& surface, Voronoi& out);
+/// Where each site's list of triangles begins.
+struct Rings {
+  Array<std::int32_t> first;      ///< of each site: the triangle that follows its lowest neighbour
+  Array<std::int32_t> first_edge; ///< of those of which the site is the lower cell
+};
+
+/// The first of two stages that set the ids of the tessellation that is dual to a surface: begin
+/// and cells_on_vertex. \pre as many neighbours as triangles; at most 2^29 sites. \throws Error
+/// bad_option, where ids are out of range, the neighbours do not fit the triangles, or
+///         the triangles at a site do not form one ring.
+Rings find_rings(const Surface& surface, Voronoi& out);
+
+/// Sets the other lists, pairs and triples. \throws Error bad_option, where two cells share two
+/// edges.
+void connect(const Surface& surface, const Rings& rings, Voronoi& out);
 
 /// Which vertex of a triangle a site is. \pre it is one.
 inline int vertex_at(const Triangles& triangles, std::int64_t t, std::int32_t site) {

@@ -15,6 +15,7 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
 
 namespace calotte {
 namespace detail {
@@ -58,8 +59,12 @@ void set_cells(const PlanarMesh& mesh, Voronoi& out) {
   fault.refuse("site", "lies outside the periodic box: give the copy of it that is inside");
 }
 
-/// Sets all but the kind of the space.
-template <class AnyMesh> void tessellate(const AnyMesh& mesh, Voronoi& out) {
+template <class AnyMesh> Surface surface_of(const AnyMesh& mesh) {
+  return {mesh.points.cols(), mesh.triangles, mesh.neighbours};
+}
+
+/// Sets all that begun() does but for the kind of the space.
+template <class AnyMesh> void begin(const AnyMesh& mesh, BegunVoronoi& out) {
   constexpr std::int64_t most_cells = std::int64_t{1} << 29;
   require(mesh.points.cols() <= most_cells,
           "the mesh has " + std::to_string(mesh.points.cols()) +
@@ -68,42 +73,60 @@ template <class AnyMesh> void tessellate(const AnyMesh& mesh, Voronoi& out) {
           "the mesh has " + std::to_string(mesh.triangles.cols()) +
               " triangles but neighbours of " + std::to_string(mesh.neighbours.cols()) +
               ": give a mesh with both");
-  connect({mesh.points.cols(), mesh.triangles, mesh.neighbours}, out);
-  set_cells(mesh, out);
-  measure(out);
+  out.rings = find_rings(surface_of(mesh), out.voronoi);
+  set_cells(mesh, out.voronoi);
 }
 
 } // namespace
 
-Voronoi voronoi_at(const Points3& points, const Mesh& mesh) {
+BegunVoronoi begun(const Points3& points, const Mesh& mesh) {
   require(mesh.closed(),
           "the mesh is open, as all its sites lie in a hemisphere, and its Voronoi cells do not "
           "tessellate the sphere: give sites all around");
-  Voronoi out;
-  tessellate(MeshAt{points, mesh.triangles, mesh.neighbours}, out);
+  BegunVoronoi out;
+  begin(MeshAt{points, mesh.triangles, mesh.neighbours}, out);
   return out;
 }
 
+BegunVoronoi begun(const PlanarMesh& mesh) {
+  // Areas' products and quotients must stay among the doubles.
+  require(mesh.period.minCoeff() > 1e-30 && mesh.period.maxCoeff() < 1e30,
+          "the box of the plane is " + std::to_string(mesh.period[0]) + " x " +
+              std::to_string(mesh.period[1]) +
+              ": give two positive periods between 1e-30 and 1e30");
+  require(mesh.triangles.cols() == 2 * mesh.points.cols(),
+          "the mesh of " + std::to_string(mesh.points.cols()) + " sites has " +
+              std::to_string(mesh.triangles.cols()) +
+              " triangles, and one that covers a periodic box has two for each site: give "
+              "such a mesh");
+  BegunVoronoi out;
+  out.voronoi.on_sphere = false;
+  out.voronoi.period = mesh.period;
+  begin(mesh, out);
+  return out;
+}
+
+void connect(const Mesh& mesh, BegunVoronoi& out) {
+  connect(surface_of(mesh), out.rings, out.voronoi);
+}
+
+void connect(const PlanarMesh& mesh, BegunVoronoi& out) {
+  connect(surface_of(mesh), out.rings, out.voronoi);
+}
+
+namespace {
+
+template <class AnyMesh> Voronoi ended(const AnyMesh& mesh, BegunVoronoi begun) {
+  connect(mesh, begun);
+  measure(begun.voronoi);
+  return std::move(begun.voronoi);
+}
+
+} // namespace
 } // namespace detail
 
-Voronoi voronoi(const Mesh& mesh) { return detail::voronoi_at(mesh.points, mesh); }
+Voronoi voronoi(const Mesh& mesh) { return detail::ended(mesh, detail::begun(mesh.points, mesh)); }
 
-Voronoi voronoi(const PlanarMesh& mesh) {
-  // Areas' products and quotients must stay among the doubles.
-  detail::require(mesh.period.minCoeff() > 1e-30 && mesh.period.maxCoeff() < 1e30,
-                  "the box of the plane is " + std::to_string(mesh.period[0]) + " x " +
-                      std::to_string(mesh.period[1]) +
-                      ": give two positive periods between 1e-30 and 1e30");
-  detail::require(mesh.triangles.cols() == 2 * mesh.points.cols(),
-                  "the mesh of " + std::to_string(mesh.points.cols()) + " sites has " +
-                      std::to_string(mesh.triangles.cols()) +
-                      " triangles, and one that covers a periodic box has two for each site: give "
-                      "such a mesh");
-  Voronoi out;
-  out.on_sphere = false;
-  out.period = mesh.period;
-  detail::tessellate(mesh, out);
-  return out;
-}
+Voronoi voronoi(const PlanarMesh& mesh) { return detail::ended(mesh, detail::begun(mesh)); }
 
 } // namespace calotte

@@ -1,12 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "connectivity.h"
+
 #include <calotte/voronoi.h>
 
+/// voronoi() in stages, for those who use a stage's results while the next is made: begun(),
+/// connect(), then measure().
 namespace calotte::detail {
 
-/// The tessellation of a mesh whose sites stand at other points, without a copy of the mesh; else
-/// as voronoi(mesh). \param points as many as the mesh's.
-Voronoi voronoi_at(const Points3& points, const Mesh& mesh);
+struct BegunVoronoi {
+  Voronoi voronoi; ///< cells, begin and cells_on_vertex
+  Rings rings;
+};
+
+/// The sites stand at these points, without a copy of the mesh. \param points as many as the
+/// mesh's. \throws Error bad_option, as voronoi(mesh).
+BegunVoronoi begun(const Points3& points, const Mesh& mesh);
+BegunVoronoi begun(const PlanarMesh& mesh);
+
+/// Sets all other ids. \param mesh that it was begun with. \throws Error bad_option, where two
+/// cells share two edges.
+void connect(const Mesh& mesh, BegunVoronoi& out);
+void connect(const PlanarMesh& mesh, BegunVoronoi& out);
 
 } // namespace calotte::detail

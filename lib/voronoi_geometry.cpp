@@ -347,28 +347,37 @@ Array<double> surplus_of(const Points3& cells) {
   return surplus;
 }
 
-template <class Space> void measure_in(const Space& space, Voronoi& out) {
-  set_vertices(space, out);
-  set_edges(space, out);
-  set_cell_areas(out);
+/// body(space) of the tessellation's.
+template <class Body> void in_space(const Voronoi& of, const Body& body) {
+  if (of.on_sphere)
+    body(Sphere{surplus_of(of.cells)});
+  else
+    body(Plane{of.period[0], of.period[1]});
 }
 
 } // namespace
 
-void measure(Voronoi& out) {
+void measure_vertices(Voronoi& out) {
   const std::int64_t edges = out.cells_on_edge.cols(), vertices = out.cells_on_vertex.cols();
-  make_room(out.edges, 3, edges);
   make_room(out.vertices, 3, vertices);
-  make_room(out.dc, edges, 1);
-  make_room(out.dv, edges, 1);
-  make_room(out.angle, edges, 1);
-  make_room(out.cell_area, out.cells.cols(), 1);
   make_room(out.vertex_area, vertices, 1);
   make_room(out.kites, 3, vertices);
-  if (out.on_sphere)
-    measure_in(Sphere{surplus_of(out.cells)}, out);
-  else
-    measure_in(Plane{out.period[0], out.period[1]}, out);
+  make_room(out.dv, edges, 1);
+  make_room(out.angle, edges, 1);
+  in_space(out, [&](const auto& space) { set_vertices(space, out); });
+}
+
+void measure_edges_and_cells(Voronoi& out) {
+  make_room(out.edges, 3, out.cells_on_edge.cols());
+  make_room(out.dc, out.cells_on_edge.cols(), 1);
+  make_room(out.cell_area, out.cells.cols(), 1);
+  in_space(out, [&](const auto& space) { set_edges(space, out); });
+  set_cell_areas(out);
+}
+
+void measure(Voronoi& out) {
+  measure_vertices(out);
+  measure_edges_and_cells(out);
 }
 
 } // namespace calotte::detail

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace calotte::detail {
 namespace {
@@ -106,10 +107,21 @@ GridFile::GridFile(const std::string& path, const WriteOptions& options,
     file_.attribute({"history", options.history});
 }
 
+void GridFile::after(std::function<void()> computation) {
+  stages_.push_back({std::move(computation), {}});
+}
+
 void GridFile::commit() {
   file_.begin();
-  for (const auto& put : puts_)
-    put();
+  stages_.push_back({[] {}, {}});
+  for (std::size_t k = 1; k < stages_.size(); ++k)
+    for_each_task(2, [&](std::int64_t task) {
+      if (task == 0)
+        stages_[k].computation();
+      else
+        for (const Step& put : stages_[k - 1].puts)
+          put();
+    });
   file_.commit();
 }
 

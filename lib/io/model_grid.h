@@ -67,7 +67,7 @@ public:
   void variable(const std::string& name, NetcdfType type, const std::vector<int>& dimensions,
                 const NetcdfAttributes& attributes, const NetcdfWriter::Fill<T>& contents) {
     const int id = file_.variable(name, type, dimensions, attributes);
-    puts_.emplace_back([this, id, contents] { file_.put(id, contents); });
+    stages_.back().puts.emplace_back([this, id, contents] { file_.put(id, contents); });
   }
   void doubles(const std::string& name, const std::vector<int>& dimensions,
                const NetcdfAttributes& attributes, const NetcdfWriter::Fill<double>& contents) {
@@ -89,15 +89,26 @@ public:
         file_.variable(ints.name, NetcdfType::int32, ints.dimensions, ints.attributes);
     const int of_doubles =
         file_.variable(doubles.name, NetcdfType::float64, doubles.dimensions, doubles.attributes);
-    puts_.emplace_back(
+    stages_.back().puts.emplace_back(
         [this, of_ints, of_doubles, contents] { file_.put(of_ints, of_doubles, contents); });
   }
-  /// \throws Error file.
+  /// What is announced from here on has contents that such a computation makes. It runs in
+  /// commit(), after those before it, and beside the writing of what was announced before, so that
+  /// the disk need not wait for it.
+  void after(std::function<void()> computation);
+  /// \throws Error file; what contents and computation throw.
   void commit();
 
 private:
+  using Step = std::function<void()>;
+  /// A computation, and the writing that needs it and those before.
+  struct Stage {
+    Step computation;
+    std::vector<Step> puts;
+  };
+
   NetcdfWriter file_;
-  std::vector<std::function<void()>> puts_;
+  std::vector<Stage> stages_ = {{[] {}, {}}};
 };
 
 // ---- Reading

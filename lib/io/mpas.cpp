@@ -6,31 +6,29 @@
 #include <bit>
 #include <charconv>
 #include <filesystem>
+#include <numeric>
 
 namespace calotte::detail {
 namespace {
 
-/// One word after another, in a way that their order counts (the finaliser of SplitMix64).
-std::uint64_t mixed(std::uint64_t state, std::uint64_t word) {
-  std::uint64_t z = (state ^ word) + 0x9e3779b97f4a7c15;
+/// The finaliser of SplitMix64, in which every bit of a word counts.
+std::uint64_t mixed(std::uint64_t word) {
+  std::uint64_t z = word + 0x9e3779b97f4a7c15;
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
   z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
   return z ^ (z >> 31);
 }
 
-/// Of word(i), 0 <= i < n; the same for any number of threads.
+/// Of word(i), 0 <= i < n, and of their order; the same for any number of threads.
 template <class Word> std::uint64_t mixed_words(std::int64_t n, const Word& word) {
   std::vector<std::uint64_t> of_block(static_cast<std::size_t>(block_count(n)));
   for_each_block(n, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
-    std::uint64_t state = 0;
+    std::uint64_t sum = 0; // no word waits for the one before
     for (std::int64_t i = begin; i != end; ++i)
-      state = mixed(state, word(i));
-    of_block[static_cast<std::size_t>(block)] = state;
+      sum += mixed(word(i) ^ mixed(static_cast<std::uint64_t>(i)));
+    of_block[static_cast<std::size_t>(block)] = sum;
   });
-  std::uint64_t state = static_cast<std::uint64_t>(n);
-  for (const std::uint64_t of : of_block)
-    state = mixed(state, of);
-  return state;
+  return std::accumulate(of_block.begin(), of_block.end(), static_cast<std::uint64_t>(n));
 }
 
 std::string hexadecimal(std::uint64_t number) {
@@ -110,7 +108,7 @@ std::string fingerprint(const MpasMesh& mesh) {
   const std::uint64_t triangles =
       mixed_words(mesh.voronoi.cells_on_vertex.size(),
                   [=](std::int64_t i) { return static_cast<std::uint64_t>(ids[i]); });
-  return hexadecimal(mixed(places, triangles));
+  return hexadecimal(mixed(places ^ mixed(triangles)));
 }
 
 std::string graph_path(const std::string& path) {

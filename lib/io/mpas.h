@@ -7,17 +7,19 @@
 #include <calotte/io.h>
 #include <calotte/voronoi.h>
 
+#include <functional>
 #include <string>
 
 /// What the full and the minimal MPAS file have in common.
 namespace calotte::detail {
 
-/// A mesh as a file shall hold it.
+/// A mesh as a file shall hold it. All but its cells is made while the file is written.
 struct MpasMesh {
-  const Voronoi& voronoi;
+  Voronoi& voronoi;      ///< begun
   const Points3& places; ///< 3 x n: of the cells, radius times the unit vectors; in a plane, z = 0
   double radius;         ///< of the sphere; 1 in a plane
-  const CellFields& fields; ///< of voronoi
+  CellFields& fields;    ///< of voronoi, when that is measured
+  std::function<void()> connect; ///< voronoi
 };
 
 /// One of the three kinds of places.

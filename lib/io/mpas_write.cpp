@@ -6,6 +6,7 @@
 #include "../points.h"
 #include "../spherical_angles.h"
 #include "../voronoi_at.h"
+#include "../voronoi_geometry.h"
 
 #include <algorithm>
 #include <array>
@@ -22,8 +23,9 @@ struct Dimensions {
 Dimensions full_dimensions(NetcdfWriter& file, const Voronoi& voronoi) {
   const std::int64_t most = most_corners(voronoi);
   const Dimensions dimensions{.cells = file.dimension("nCells", voronoi.cells.cols()),
-                              .edges = file.dimension("nEdges", voronoi.edges.cols()),
-                              .vertices = file.dimension("nVertices", voronoi.vertices.cols()),
+                              .edges = file.dimension("nEdges", voronoi.cells_on_vertex.size() / 2),
+                              .vertices =
+                                  file.dimension("nVertices", voronoi.cells_on_vertex.cols()),
                               .max_edges = file.dimension("maxEdges", most),
                               .max_edges2 = file.dimension("maxEdges2", 2 * most),
                               .two = file.dimension("TWO", 2),
@@ -90,8 +92,10 @@ NetcdfWriter::Fill<std::int32_t> cell_lists(const Voronoi& voronoi, const Ids& l
   return [&voronoi, &lists, width](std::int64_t begin, std::int64_t end, std::int32_t* out) {
     for (std::int64_t i = begin; i < end; ++i) {
       const std::int64_t first = voronoi.begin[i], count = voronoi.begin[i + 1] - first;
-      for (std::int64_t k = 0; k < width; ++k)
-        *out++ = k < count ? lists[first + k] + 1 : 0;
+      for (std::int64_t k = 0; k < count; ++k)
+        out[k] = lists[first + k] + 1;
+      std::fill(out + count, out + width, 0);
+      out += width;
     }
   };
 }
@@ -105,13 +109,23 @@ template <class Matrix> NetcdfWriter::Fill<std::int32_t> id_columns(const Matrix
   };
 }
 
-void put_cell_ids(MpasFile& file, const Dimensions& dimensions, const MpasMesh& mesh) {
-  const Voronoi& voronoi = mesh.voronoi;
+/// That are known before the others.
+void put_begun_ids(MpasFile& file, const Dimensions& dimensions, const Voronoi& voronoi) {
+  file.ints("nEdgesOnCell", {dimensions.cells}, described("1", "number of edges of each cell"),
+            table<std::int32_t>(1, [&voronoi](std::int64_t i, std::int64_t) {
+              return static_cast<std::int32_t>(voronoi.begin[i + 1] - voronoi.begin[i]);
+            }));
+  file.ints("cellsOnVertex", {dimensions.vertices, dimensions.vertex_degree},
+            described("1", "cells around each vertex, counter-clockwise: cell j lies between edges "
+                           "j and j + 1 of edgesOnVertex"),
+            id_columns(voronoi.cells_on_vertex));
+  file.ints("boundaryVertex", {dimensions.vertices},
+            described("1", "1 where a vertex lies on the boundary of the mesh"), constant(0));
+}
+
+void put_cell_ids(MpasFile& file, const Dimensions& dimensions, const Voronoi& voronoi) {
   const std::int64_t width = most_corners(voronoi);
   const std::vector<int> shape{dimensions.cells, dimensions.max_edges};
-  file.ints("nEdgesOnCell", {dimensions.cells}, described("1", "number of edges of each cell"),
-            table<std::int32_t>(
-                1, [&mesh](std::int64_t i, std::int64_t) { return mesh.fields.degree[i]; }));
   file.ints("edgesOnCell", shape,
             described("1", "edges of each cell, counter-clockwise: edge k lies between vertices "
                            "k - 1 and k of verticesOnCell"),
@@ -136,15 +150,9 @@ void put_edge_ids(MpasFile& file, const Dimensions& dimensions, const Voronoi& v
 }
 
 void put_vertex_ids(MpasFile& file, const Dimensions& dimensions, const Voronoi& voronoi) {
-  const std::vector<int> shape{dimensions.vertices, dimensions.vertex_degree};
-  file.ints("cellsOnVertex", shape,
-            described("1", "cells around each vertex, counter-clockwise: cell j lies between edges "
-                           "j and j + 1 of edgesOnVertex"),
-            id_columns(voronoi.cells_on_vertex));
-  file.ints("edgesOnVertex", shape, described("1", "edges at each vertex, counter-clockwise"),
+  file.ints("edgesOnVertex", {dimensions.vertices, dimensions.vertex_degree},
+            described("1", "edges at each vertex, counter-clockwise"),
             id_columns(voronoi.edges_on_vertex));
-  file.ints("boundaryVertex", {dimensions.vertices},
-            described("1", "1 where a vertex lies on the boundary of the mesh"), constant(0));
 }
 
 // ---- Lengths, areas and angles
@@ -154,22 +162,9 @@ NetcdfWriter::Fill<double> scaled(const Eigen::VectorXd& values, double factor) 
       1, [&values, factor](std::int64_t i, std::int64_t) { return factor * values[i]; });
 }
 
-void put_measures(MpasFile& file, const Dimensions& dimensions, const MpasMesh& mesh) {
+void put_vertex_measures(MpasFile& file, const Dimensions& dimensions, const MpasMesh& mesh) {
   const Voronoi& voronoi = mesh.voronoi;
-  const double length = mesh.radius, area = mesh.radius * mesh.radius;
-  file.doubles("dcEdge", {dimensions.edges},
-               described("m", "distance of the generators of the cells on each edge"),
-               scaled(voronoi.dc, length));
-  file.doubles("dvEdge", {dimensions.edges},
-               described("m", "distance of the vertices at the ends of each edge"),
-               scaled(voronoi.dv, length));
-  file.doubles("angleEdge", {dimensions.edges},
-               described("radians", voronoi.on_sphere
-                                        ? "angle of the normal of each edge from east"
-                                        : "angle of the normal of each edge from the x axis"),
-               scaled(voronoi.angle, 1));
-  file.doubles("areaCell", {dimensions.cells}, described("m2", "area of each cell", "cell_area"),
-               scaled(voronoi.cell_area, area));
+  const double area = mesh.radius * mesh.radius;
   file.doubles("areaTriangle", {dimensions.vertices},
                described("m2", "area of the triangle of generators around each vertex"),
                scaled(voronoi.vertex_area, area));
@@ -178,6 +173,21 @@ void put_measures(MpasFile& file, const Dimensions& dimensions, const MpasMesh& 
                table<double>(3, [&voronoi, area](std::int64_t v, std::int64_t j) {
                  return area * voronoi.kites(j, v);
                }));
+}
+
+void put_edge_measures(MpasFile& file, const Dimensions& dimensions, const MpasMesh& mesh) {
+  const Voronoi& voronoi = mesh.voronoi;
+  file.doubles("dcEdge", {dimensions.edges},
+               described("m", "distance of the generators of the cells on each edge"),
+               scaled(voronoi.dc, mesh.radius));
+  file.doubles("dvEdge", {dimensions.edges},
+               described("m", "distance of the vertices at the ends of each edge"),
+               scaled(voronoi.dv, mesh.radius));
+  file.doubles("angleEdge", {dimensions.edges},
+               described("radians", voronoi.on_sphere
+                                        ? "angle of the normal of each edge from east"
+                                        : "angle of the normal of each edge from the x axis"),
+               scaled(voronoi.angle, 1));
 }
 
 // ---- The tangential velocity
@@ -196,10 +206,13 @@ void fill_weights(const Voronoi& voronoi, std::int64_t begin, std::int64_t end, 
   const TangentialWeights of = tangential_weights(voronoi, begin, end);
   for (std::int64_t e = 0; e < end - begin; ++e) {
     const std::int64_t first = of.begin[e], count = of.begin[e + 1] - first;
-    for (std::int64_t k = 0; k < width; ++k) {
-      *edges++ = k < count ? of.edges[first + k] + 1 : 0;
-      *weights++ = k < count ? of.weights[first + k] : 0;
+    for (std::int64_t k = 0; k < count; ++k) {
+      edges[k] = of.edges[first + k] + 1;
+      weights[k] = of.weights[first + k];
     }
+    std::fill(edges + count, edges + width, 0);
+    std::fill(weights + count, weights + width, 0.0);
+    edges += width, weights += width;
   }
 }
 
@@ -227,13 +240,16 @@ void put_weights(MpasFile& file, const Dimensions& dimensions, const Voronoi& vo
 
 void put_fields(MpasFile& file, const Dimensions& dimensions, const MpasMesh& mesh) {
   const CellFields& fields = mesh.fields;
+  file.doubles("areaCell", {dimensions.cells}, described("m2", "area of each cell", "cell_area"),
+               scaled(fields.area, mesh.radius * mesh.radius));
   file.doubles("meshDensity", {dimensions.cells},
                described("1", "density that the mesh was made for, over its maximum"),
                scaled(fields.density, 1));
-  const double nominal = mesh.radius * nominal_spacing(fields);
   file.doubles("nominalMinDc", {},
                described("m", "nominal distance of neighbouring generators where meshDensity is 1"),
-               table<double>(1, [nominal](std::int64_t, std::int64_t) { return nominal; }));
+               table<double>(1, [&mesh](std::int64_t, std::int64_t) {
+                 return mesh.radius * nominal_spacing(mesh.fields);
+               }));
   file.doubles("cellQuality", {dimensions.cells},
                described("1", "shortest over longest edge of each cell"),
                scaled(fields.quality, 1));
@@ -332,19 +348,26 @@ void put_triangle_quality(MpasFile& file, const Dimensions& dimensions, const Vo
 void write_full(const std::string& path, const MpasMesh& mesh, const WriteOptions& options) {
   const Voronoi& voronoi = mesh.voronoi;
   OutputFile graph(graph_path(path));
-  put_graph([&](std::string_view text) { graph.append(text); }, voronoi);
-
   MpasFile file(path, mesh, options);
   const Dimensions dimensions = full_dimensions(file.netcdf(), voronoi);
   const bool on_sphere = voronoi.on_sphere;
   put_kind(file, mpas_cell, dimensions.cells, voronoi.cells, mesh.places, 1, on_sphere);
-  put_kind(file, mpas_edge, dimensions.edges, voronoi.edges, voronoi.edges, mesh.radius, on_sphere);
-  put_kind(file, mpas_vertex, dimensions.vertices, voronoi.vertices, voronoi.vertices, mesh.radius,
-           on_sphere);
-  put_cell_ids(file, dimensions, mesh);
+  put_begun_ids(file, dimensions, voronoi);
+  file.after(mesh.connect);
+  put_cell_ids(file, dimensions, voronoi);
   put_edge_ids(file, dimensions, voronoi);
   put_vertex_ids(file, dimensions, voronoi);
-  put_measures(file, dimensions, mesh);
+  file.after([&] { measure_vertices(mesh.voronoi); });
+  put_kind(file, mpas_vertex, dimensions.vertices, voronoi.vertices, voronoi.vertices, mesh.radius,
+           on_sphere);
+  put_vertex_measures(file, dimensions, mesh);
+  file.after([&] {
+    measure_edges_and_cells(mesh.voronoi);
+    mesh.fields = cell_fields(voronoi, options.density);
+    put_graph([&](std::string_view text) { graph.append(text); }, voronoi);
+  });
+  put_kind(file, mpas_edge, dimensions.edges, voronoi.edges, voronoi.edges, mesh.radius, on_sphere);
+  put_edge_measures(file, dimensions, mesh);
   put_weights(file, dimensions, voronoi);
   put_fields(file, dimensions, mesh);
   put_triangle_quality(file, dimensions, voronoi);
@@ -357,10 +380,15 @@ void write_minimal(const std::string& path, const MpasMesh& mesh, const WriteOpt
   MpasFile file(path, mesh, options);
   NetcdfWriter& netcdf = file.netcdf();
   const int cells = netcdf.dimension("nCells", voronoi.cells.cols());
-  const int vertices = netcdf.dimension("nVertices", voronoi.vertices.cols());
+  const int vertices = netcdf.dimension("nVertices", voronoi.cells_on_vertex.cols());
   const int degree = netcdf.dimension("vertexDegree", 3);
   netcdf.dimension("Time", 0);
   file.places(mpas_cell, cells, mesh.places, 1);
+  file.after([&] {
+    mesh.connect();
+    measure(mesh.voronoi);
+    mesh.fields = cell_fields(voronoi, options.density);
+  });
   file.places(mpas_vertex, vertices, voronoi.vertices, mesh.radius);
   file.ints("cellsOnVertex", {vertices, degree},
             described("1", "cells around each vertex, counter-clockwise"),
@@ -377,16 +405,19 @@ using Writer = void (*)(const std::string&, const MpasMesh&, const WriteOptions&
 void write_sphere(const std::string& path, const Mesh& mesh, const WriteOptions& options,
                   Writer writer) {
   const Points3 places = on_sphere(mesh.points, options.sphere_radius);
-  const Voronoi cells = voronoi_at(places, mesh);
-  const CellFields fields = cell_fields(cells, options.density);
-  writer(path, {cells, places, options.sphere_radius, fields}, options);
+  BegunVoronoi cells = begun(places, mesh);
+  CellFields fields;
+  writer(path,
+         {cells.voronoi, places, options.sphere_radius, fields, [&] { connect(mesh, cells); }},
+         options);
 }
 
 void write_plane(const std::string& path, const PlanarMesh& mesh, const WriteOptions& options,
                  Writer writer) {
-  const Voronoi cells = voronoi(mesh);
-  const CellFields fields = cell_fields(cells, options.density);
-  writer(path, {cells, cells.cells, 1, fields}, options);
+  BegunVoronoi cells = begun(mesh);
+  CellFields fields;
+  writer(path, {cells.voronoi, cells.voronoi.cells, 1, fields, [&] { connect(mesh, cells); }},
+         options);
 }
 
 } // namespace
