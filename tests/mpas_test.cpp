@@ -762,6 +762,25 @@ TEST_CASE("a full disk leaves the old mesh and its graph") {
   }
 }
 
+TEST_CASE("what is refused while a file is written leaves the old mesh and its graph") {
+  const Scratch scratch;
+  const Mesh mesh = delaunay(bisected_icosahedron(5)); // of several blocks
+  detail::write_mpas(scratch / "a.nc", delaunay(bisected_icosahedron(1)), {});
+  const std::string before = read_file(scratch / "a.nc"),
+                    graph = read_file(scratch / "a.graph.info");
+  WriteOptions options;
+  options.density.kind = Density::Kind::callable;
+  options.density.callable = [](const auto&, Eigen::Ref<Eigen::VectorXd> rho) { rho.setZero(); };
+  using Write = void (*)(const std::string&, const Mesh&, const WriteOptions&);
+  for (const Write write : {Write{detail::write_mpas}, Write{detail::write_mpas_minimal}}) {
+    CHECK_THROWS_WITH_AS(write(scratch / "a.nc", mesh, options),
+                         doctest::Contains("zero at every cell"), Error);
+    CHECK(scratch.files() == 2);
+    CHECK(read_file(scratch / "a.nc") == before);
+    CHECK(read_file(scratch / "a.graph.info") == graph);
+  }
+}
+
 TEST_CASE("meshes that make no such file are refused") {
   const Scratch scratch;
   Points3 half = random_sphere(50, 1);
