@@ -24,9 +24,10 @@ struct Rings {
 };
 
 /// The first of two stages that set the ids of the tessellation that is dual to a surface: begin
-/// and cells_on_vertex. \pre as many neighbours as triangles; at most 2^29 sites. \throws Error
-/// bad_option, where ids are out of range, the neighbours do not fit the triangles, or
-///         the triangles at a site do not form one ring.
+/// and cells_on_vertex.
+/// \pre as many neighbours as triangles; at most 2^29 sites.
+/// \throws Error bad_option, where ids are out of range, the neighbours do not fit the triangles,
+///         or the triangles at a site do not form one ring.
 Rings find_rings(const Surface& surface, Voronoi& out);
 
 /// Sets the other lists, pairs and triples. \throws Error bad_option, where two cells share two

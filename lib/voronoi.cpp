@@ -8,8 +8,8 @@
 #include "points.h"
 #include "predicates.h"
 #include "room.h"
-#include "voronoi_at.h"
 #include "voronoi_geometry.h"
+#include "voronoi_stages.h"
 
 #include <calotte/error.h>
 

@@ -5,8 +5,8 @@
 #include "../elementary.h"
 #include "../points.h"
 #include "../spherical_angles.h"
-#include "../voronoi_at.h"
 #include "../voronoi_geometry.h"
+#include "../voronoi_stages.h"
 
 #include <algorithm>
 #include <array>

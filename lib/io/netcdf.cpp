@@ -74,24 +74,29 @@ int put_attribute(int id, int variable, const NetcdfAttribute& attribute) {
                           std::get_if<std::int8_t>(&attribute.value));
 }
 
-CALOTTE_VECTOR_WIDTHS
-void reverse_each_8(const char* values, std::int64_t count, char* out) {
+/// Of words of 4 or 8 bytes.
+template <class Word>
+CALOTTE_INLINE void reverse_words(const char* values, std::int64_t count, char* out) {
+  constexpr std::int64_t size = sizeof(Word);
   for (std::int64_t i = 0; i < count; ++i) {
-    std::uint64_t bits;
-    std::memcpy(&bits, values + 8 * i, 8);
-    bits = __builtin_bswap64(bits);
-    std::memcpy(out + 8 * i, &bits, 8);
+    Word word;
+    std::memcpy(&word, values + size * i, size);
+    if constexpr (size == 8)
+      word = __builtin_bswap64(word);
+    else
+      word = __builtin_bswap32(word);
+    std::memcpy(out + size * i, &word, size);
   }
 }
 
 CALOTTE_VECTOR_WIDTHS
+void reverse_each_8(const char* values, std::int64_t count, char* out) {
+  reverse_words<std::uint64_t>(values, count, out);
+}
+
+CALOTTE_VECTOR_WIDTHS
 void reverse_each_4(const char* values, std::int64_t count, char* out) {
-  for (std::int64_t i = 0; i < count; ++i) {
-    std::uint32_t bits;
-    std::memcpy(&bits, values + 4 * i, 4);
-    bits = __builtin_bswap32(bits);
-    std::memcpy(out + 4 * i, &bits, 4);
-  }
+  reverse_words<std::uint32_t>(values, count, out);
 }
 
 /// The classic formats hold numbers with the most significant byte first. \param out need not be
