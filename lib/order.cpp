@@ -40,31 +40,15 @@ void sort_run(KeyedIndex* begin, KeyedIndex* end, KeyedIndex* buffer, int shift)
 void sort_by_key(Array<KeyedIndex>& entries) {
   constexpr int shift = key_bits - first_digit;
   constexpr std::int64_t buckets = std::int64_t{1} << first_digit;
-  const std::int64_t n = entries.size(), blocks = block_count(n);
-  Array<KeyedIndex> sorted(n);
-  // first[bucket, block]: where the block's entries of that bucket go.
-  std::vector<std::int32_t> first(static_cast<std::size_t>(buckets * blocks));
-  const auto slot = [&](std::uint64_t key, std::int64_t block) {
-    return static_cast<std::size_t>(static_cast<std::int64_t>(key >> shift) * blocks + block);
-  };
-  for_each_block(n, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
-    for (std::int64_t i = begin; i != end; ++i)
-      ++first[slot(entries[i].key, block)];
-  });
-  exclusive_scan(std::span(first));
-  std::vector<std::int32_t> bucket_begin(static_cast<std::size_t>(buckets + 1),
-                                         static_cast<std::int32_t>(n));
-  for (std::int64_t b = 0; b < buckets && blocks > 0; ++b)
-    bucket_begin[static_cast<std::size_t>(b)] = first[static_cast<std::size_t>(b * blocks)];
-  for_each_block(n, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
-    for (std::int64_t i = begin; i != end; ++i)
-      sorted[first[slot(entries[i].key, block)]++] = entries[i];
-  });
+  Array<KeyedIndex> sorted(entries.size());
+  const std::vector<std::int32_t> first = distribute(
+      entries.size(), buckets, [&](std::int64_t i) { return entries[i].key >> shift; },
+      [&](std::int64_t i, std::int32_t place) { sorted[place] = entries[i]; });
   for_each_task(buckets / 16, [&](std::int64_t group) {
     for (auto b = static_cast<std::size_t>(16 * group);
          b < static_cast<std::size_t>(16 * group + 16); ++b)
-      sort_run(sorted.begin() + bucket_begin[b], sorted.begin() + bucket_begin[b + 1],
-               entries.begin() + bucket_begin[b], shift);
+      sort_run(sorted.begin() + first[b], sorted.begin() + first[b + 1], entries.begin() + first[b],
+               shift);
   });
   entries = std::move(sorted);
 }
