@@ -40,19 +40,39 @@ unsigned cell_index(double u) {
   return static_cast<unsigned>(std::clamp((u + 1) * half, 0.0, 2 * half - 1));
 }
 
-} // namespace
+/// The key of a point, level by level: each step waits for the turn that the one before it left.
+struct KeyDescent {
+  unsigned i, j, turn;
+  std::uint64_t key;
 
-std::uint64_t curve_key(const CubePoint& c) {
-  const unsigned i = cell_index(c.u), j = cell_index(c.v);
-  auto key = static_cast<std::uint64_t>(c.face);
-  unsigned turn = face_turn(c.face);
-  for (int level = curve_levels - step; level >= 0; level -= step) {
+  explicit KeyDescent(const CubePoint& c)
+      : i(cell_index(c.u)), j(cell_index(c.v)), turn(face_turn(c.face)),
+        key(static_cast<std::uint64_t>(c.face)) {}
+
+  void go_to(int level) {
     const unsigned cell = (i >> level & 31U) << step | (j >> level & 31U);
     const unsigned entry = tables.key_and_turn[turn * cells + cell];
     key = key << (2 * step) | entry >> 2;
     turn = entry & 3U;
   }
-  return key;
+};
+
+} // namespace
+
+std::uint64_t curve_key(const CubePoint& c) {
+  KeyDescent descent(c);
+  for (int level = curve_levels - step; level >= 0; level -= step)
+    descent.go_to(level);
+  return descent.key;
+}
+
+std::array<std::uint64_t, 4> curve_keys(const std::array<CubePoint, 4>& points) {
+  std::array<KeyDescent, 4> descents{KeyDescent(points[0]), KeyDescent(points[1]),
+                                     KeyDescent(points[2]), KeyDescent(points[3])};
+  for (int level = curve_levels - step; level >= 0; level -= step)
+    for (KeyDescent& descent : descents) // the steps of one overlap with those of the others
+      descent.go_to(level);
+  return {descents[0].key, descents[1].key, descents[2].key, descents[3].key};
 }
 
 } // namespace calotte::detail

@@ -22,13 +22,22 @@ struct CubePoint {
 };
 
 inline CubePoint to_cube(const Vec3& p) {
-  const double x = std::abs(p.x), y = std::abs(p.y), z = std::abs(p.z);
-  if (x >= y && x >= z) // the faces' axes make the curve continuous from each face to the next
-    return p.x > 0 ? CubePoint{0, p.y / p.x, p.z / p.x} : CubePoint{3, p.z / p.x, p.y / p.x};
-  if (y >= z)
-    return p.y > 0 ? CubePoint{1, -(p.x / p.y), p.z / p.y} : CubePoint{4, p.z / p.y, -(p.x / p.y)};
-  return p.z > 0 ? CubePoint{2, -(p.x / p.z), -(p.y / p.z)}
-                 : CubePoint{5, -(p.y / p.z), -(p.x / p.z)};
+  // The faces' axes make the curve continuous from each face to the next. Without branches, which
+  // would be mispredicted: sites in no order are on any face.
+  struct Axes {
+    std::uint8_t u, v;
+    double sign_u, sign_v;
+  };
+  constexpr std::array<Axes, 6> axes{
+      {{1, 2, 1, 1}, {0, 2, -1, 1}, {0, 1, -1, -1}, {2, 1, 1, 1}, {2, 0, 1, -1}, {1, 0, -1, -1}}};
+  const std::array<double, 3> x{p.x, p.y, p.z};
+  const double along_x = std::abs(p.x), along_y = std::abs(p.y), along_z = std::abs(p.z);
+  const int not_x = !(along_x >= along_y) | !(along_x >= along_z), not_y = !(along_y >= along_z);
+  const auto largest = static_cast<std::size_t>(not_x + (not_x & not_y));
+  const auto face = largest + 3 * static_cast<std::size_t>(!(x[largest] > 0));
+  const Axes& a = axes[face];
+  return {static_cast<int>(face), a.sign_u * (x[a.u] / x[largest]),
+          a.sign_v * (x[a.v] / x[largest])};
 }
 
 /// The point of the cube's surface; inverse of to_cube up to scale.
@@ -75,5 +84,22 @@ constexpr CurveTurn face_turn(int face) { return face & 1; }
 
 /// Key of the finest cell: 3 bits of face, then two bits a level.
 std::uint64_t curve_key(const CubePoint& c);
+
+/// The keys of four points, in little more time than that of one.
+std::array<std::uint64_t, 4> curve_keys(const std::array<CubePoint, 4>& points);
+
+/// body(i, key of square(i)) for begin <= i < end.
+template <class Square, class Body>
+void for_each_curve_key(std::int64_t begin, std::int64_t end, const Square& square,
+                        const Body& body) {
+  for (; end - begin >= 4; begin += 4) {
+    const std::array<std::uint64_t, 4> keys =
+        curve_keys({square(begin), square(begin + 1), square(begin + 2), square(begin + 3)});
+    for (std::int64_t k = 0; k < 4; ++k)
+      body(begin + k, keys[static_cast<std::size_t>(k)]);
+  }
+  for (; begin != end; ++begin)
+    body(begin, curve_key(square(begin)));
+}
 
 } // namespace calotte::detail

@@ -186,8 +186,11 @@ Array<std::int32_t> curve_order(const Points3& points) {
   require_directions(points);
   Array<KeyedIndex> entries(points.cols());
   for_each_block(entries.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-    for (std::int64_t i = begin; i != end; ++i)
-      entries[i] = {curve_key_of(points, i), static_cast<std::int32_t>(i)};
+    for_each_curve_key(
+        begin, end, [&](std::int64_t i) { return to_cube(column(points, i)); },
+        [&](std::int64_t i, std::uint64_t key) {
+          entries[i] = {key, static_cast<std::int32_t>(i)};
+        });
   });
   sort_by_key(entries);
   Array<std::int32_t> order(entries.size());

@@ -153,13 +153,16 @@ template <class Input> Array<KeyedIndex> make_entries(const Input& input) {
   Array<KeyedIndex> entries(n);
   std::vector<std::int64_t> offending(static_cast<std::size_t>(block_count(n)), none);
   for_each_block(n, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
-    for (std::int64_t i = end - 1; i >= begin; --i) {
-      if (!input.is_valid(i)) {
-        offending[static_cast<std::size_t>(block)] = i;
-        continue;
-      }
-      entries[i] = {curve_key(input.square(i)), static_cast<std::int32_t>(i)};
-    }
+    std::int64_t& first = offending[static_cast<std::size_t>(block)];
+    const auto square = [&](std::int64_t i) {
+      if (input.is_valid(i))
+        return input.square(i);
+      first = std::min(first, i);
+      return CubePoint{0, 0, 0};
+    };
+    for_each_curve_key(begin, end, square, [&](std::int64_t i, std::uint64_t key) {
+      entries[i] = {key, static_cast<std::int32_t>(i)};
+    });
   });
   const auto first = std::min_element(offending.begin(), offending.end());
   if (first != offending.end() && *first != none)
@@ -376,8 +379,11 @@ Sites make_sites_of(const Input& input, Duplicates duplicates, double merge_with
   sites.id = Array<std::int32_t>(n);
   sites.unit = Array<Vec3>(n);
   Array<std::uint64_t> keys(n);
+  constexpr std::int64_t ahead = 24;
   for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t rank = begin; rank != end; ++rank) {
+      if (rank + ahead < end) // in the input's order they are anywhere
+        __builtin_prefetch(&sites.given(entries[rank + ahead].index));
       sites.id[rank] = entries[rank].index;
       keys[rank] = entries[rank].key;
       sites.unit[rank] = input.unit(sites.given(entries[rank].index));

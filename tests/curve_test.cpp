@@ -56,6 +56,22 @@ TEST_CASE("multiples of one direction have one key and the same bits on the cube
   }
 }
 
+TEST_CASE("keys are the same side by side") {
+  const std::vector<Vec3> points = directions(50);
+  for (std::int64_t begin = 0; begin < 9; ++begin)
+    for (std::int64_t end = begin; end < std::ssize(points); ++end) {
+      std::int64_t next = begin;
+      const auto square = [&](std::int64_t i) {
+        return to_cube(points[static_cast<std::size_t>(i)]);
+      };
+      for_each_curve_key(begin, end, square, [&](std::int64_t i, std::uint64_t key) {
+        CHECK(i == next++);
+        CHECK(key == curve_key(square(i)));
+      });
+      CHECK(next == end);
+    }
+}
+
 TEST_CASE("steps of the curve go to neighbouring cells, from face to face too") {
   // All cells of a coarse level in the order of the curve, by their middle points.
   constexpr int level = 5, cells = 1 << level;
