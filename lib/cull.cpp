@@ -10,7 +10,7 @@ namespace {
 template <class Space> using FaceOf = typename Triangulation<Space>::Face;
 
 template <class Face> bool has_owned_vertex(Face face) {
-  return face->vertex(0)->owned || face->vertex(1)->owned || face->vertex(2)->owned;
+  return face->vertex(0)->owned() || face->vertex(1)->owned() || face->vertex(2)->owned();
 }
 
 /// Radius of a ball around the centre that the region covers, at most that of the domain.
@@ -78,7 +78,7 @@ template <class Face> Circumcircle circumcircle(Face face) {
 /// it by less than the 2% set aside.
 template <class Face> bool is_within_depth(Face face) {
   const auto a = face->vertex(0), b = face->vertex(1), c = face->vertex(2);
-  const float depth = std::max({a->depth, b->depth, c->depth}); // 0 where not owned
+  const float depth = std::max({a->depth, b->depth, c->depth}); // of one that is owned
   const Vec3 ab = b->place.unit - a->place.unit, ac = c->place.unit - a->place.unit,
              bc = c->place.unit - b->place.unit;
   const double ab2 = dot(ab, ab), ac2 = dot(ac, ac), bc2 = dot(bc, bc);
@@ -345,7 +345,7 @@ std::vector<FaceOf<Space>> insert_all(const std::vector<std::int32_t>& ranks,
                                       const std::vector<HalfSpace>& covered, CullCounts& counts) {
   std::vector<FaceOf<Space>> around;
   for (const std::int32_t rank : ranks) {
-    triangulation.insert({rank, 0, false});
+    triangulation.insert({rank, Member::not_owned});
     const auto star = triangulation.last_star();
     around.insert(around.end(), star.begin(), star.end());
   }
@@ -398,11 +398,13 @@ std::vector<Member> gather(const Sites& sites, const Regions& regions, std::int3
   members.reserve(count);
   for (const Run& run : regions.members[region])
     for (std::int32_t r = run.begin; r != run.end; ++r) {
-      const bool owned = regions.owner[r] == k;
-      const double depth =
-          owned ? depth_of(sites.unit[r], centre, inner, covered, Space::diameter) : 0;
+      if (regions.owner[r] != k) {
+        members.push_back({r, Member::not_owned});
+        continue;
+      }
+      const double depth = depth_of(sites.unit[r], centre, inner, covered, Space::diameter);
       // Rounded down, by more than the rounding of half-spaces: 1e-14.
-      members.push_back({r, static_cast<float>(std::max(0.999999 * depth - 1e-14, 0.0)), owned});
+      members.push_back({r, static_cast<float>(std::max(0.999999 * depth - 1e-14, 0.0))});
     }
   return members;
 }

@@ -44,7 +44,7 @@ void add(DelaunayReport& report, const PredicateCounts& counts) {
 template <class Space> Reports triangulate_whole(const Sites& sites, DelaunayReport& report) {
   std::vector<Member> members(static_cast<std::size_t>(sites.size()));
   for (std::size_t r = 0; r < members.size(); ++r)
-    members[r] = {static_cast<std::int32_t>(r), 0, true};
+    members[r] = {static_cast<std::int32_t>(r), 0};
   Triangulation<Space> triangulation{Space(sites)};
   if (!triangulation.build(members))
     refuse_degenerate(sites);
@@ -76,7 +76,8 @@ Triangulation<Space> build_with_sample(const Space& space, std::int64_t sites,
                                        std::vector<Member> members) {
   constexpr std::int64_t sample = 64;
   for (std::int64_t s = 0; s < std::min(sample, sites); ++s)
-    members.push_back({static_cast<std::int32_t>(s * sites / std::min(sample, sites)), 0, false});
+    members.push_back(
+        {static_cast<std::int32_t>(s * sites / std::min(sample, sites)), Member::not_owned});
   const auto by_rank = [](const Member& a, const Member& b) { return a.rank < b.rank; };
   const auto same_rank = [](const Member& a, const Member& b) { return a.rank == b.rank; };
   std::stable_sort(members.begin(), members.end(), by_rank); // a member stays before its double
@@ -95,7 +96,7 @@ std::optional<CapResult> triangulate_cap(const Sites& sites, const Regions& regi
   Clock::time_point start = Clock::now();
   std::vector<Member> members = gather<Space>(sites, regions, k);
   const auto count_owned = [&] {
-    return std::count_if(members.begin(), members.end(), [](const Member& m) { return m.owned; });
+    return std::count_if(members.begin(), members.end(), [](const Member& m) { return m.owned(); });
   };
   CapResult result;
   result.owned = count_owned();

@@ -22,9 +22,12 @@ namespace calotte::detail {
 
 /// A site that a region triangulates.
 struct Member {
+  static constexpr float not_owned = -1;
+
   std::int32_t rank;
   float depth; ///< of an owned site: the region covers every ball of that chord around it
-  bool owned;
+
+  bool owned() const { return depth != not_owned; }
 };
 
 /// CGAL's vertex with what the inner loops read of a site: one cache line.
@@ -33,8 +36,9 @@ struct RegionVertex : CGAL::Triangulation_ds_vertex_base_2<Tds> {
   template <class OtherTds> struct Rebind_TDS { using Other = RegionVertex<Place, OtherTds>; };
   Place place{};
   std::int32_t local = -1; ///< place in Triangulation::members(); -1 at infinity
-  float depth = 0;
-  bool owned = false;
+  float depth = Member::not_owned;
+
+  bool owned() const { return depth != Member::not_owned; }
 };
 
 /// CGAL's face with its circle and marks of its own.
@@ -43,11 +47,12 @@ struct RegionFace : CGAL::Triangulation_ds_face_base_2<Tds> {
   using Base = CGAL::Triangulation_ds_face_base_2<Tds>;
   using Base::Base;
   template <class OtherTds> struct Rebind_TDS { using Other = RegionFace<Circle, OtherTds>; };
-  Circle circle;             ///< of a finite face
-  std::int32_t number = -1;  ///< free for a later stage; -1 in a new face
+  // The small ones first: they fit into the base's padding.
   std::int8_t infinite = -1; ///< index of the vertex at infinity, -1 in a finite face
   bool in_conflict = false;  ///< during an insertion
   bool certified = false;    ///< free for a later stage; false in a new face
+  std::int32_t number = -1;  ///< free for a later stage; -1 in a new face
+  Circle circle;             ///< of a finite face
 };
 
 /// The Delaunay triangulation of places of a Space (see sphere.h), by incremental insertion,
@@ -131,7 +136,6 @@ template <class Space> auto Triangulation<Space>::make_vertex(const Member& memb
   vertex->place = space_.place(member.rank);
   vertex->local = static_cast<std::int32_t>(members_.size());
   vertex->depth = member.depth;
-  vertex->owned = member.owned;
   members_.push_back(member);
   return vertex;
 }

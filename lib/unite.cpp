@@ -42,7 +42,7 @@ template <class Vertices> std::int8_t own_edges(const Vertices& v) {
     const auto a = v[static_cast<std::size_t>(next_vertex(i))],
                b = v[static_cast<std::size_t>(previous_vertex(i))];
     const auto lower = a->place.site < b->place.site ? a : b;
-    bits |= static_cast<int>(lower->owned) << i;
+    bits |= static_cast<int>(lower->owned()) << i;
   }
   return static_cast<std::int8_t>(bits);
 }
@@ -96,14 +96,14 @@ RegionTriangles report_triangles(Triangulation<Space>& triangulation, const Site
     const auto [v, neighbours] = turned<Space>(face);
     out.sites[t] = {v[0]->place.site, v[1]->place.site, v[2]->place.site};
     out.neighbours[t] = neighbours;
-    if (v[0]->owned) {
+    if (v[0]->owned()) {
       const auto lowest = static_cast<std::size_t>(v[0]->local);
       out.rank[t] = std::exchange(last[lowest], t);
       ++length[lowest];
     } else {
       out.rank[t] = -1;
     }
-    if (v[0]->owned && v[1]->owned && v[2]->owned)
+    if (v[0]->owned() && v[1]->owned() && v[2]->owned())
       return;
     const std::int32_t a = owner_of(v[0]), b = owner_of(v[1]), c = owner_of(v[2]);
     out.seams.push_back(t);
@@ -112,7 +112,7 @@ RegionTriangles report_triangles(Triangulation<Space>& triangulation, const Site
   });
   rank_lists(last, out);
   for (std::size_t v = 0; v < locals; ++v)
-    if (const Member& member = triangulation.members()[v]; member.owned)
+    if (const Member& member = triangulation.members()[v]; member.owned())
       triangles_of[sites.id[member.rank]] = length[v];
   return out;
 }

@@ -23,7 +23,7 @@ using Triple = std::array<std::int32_t, 3>;
 std::vector<Member> all_members(const Sites& sites) {
   std::vector<Member> members(static_cast<std::size_t>(sites.size()));
   for (std::size_t r = 0; r < members.size(); ++r)
-    members[r] = {static_cast<std::int32_t>(r), 0, true};
+    members[r] = {static_cast<std::int32_t>(r), 0};
   return members;
 }
 
