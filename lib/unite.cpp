@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <atomic>
 #include <bit>
+#include <limits>
 #include <string>
 
 namespace calotte::detail {
@@ -24,13 +25,10 @@ template <class Space> struct Turned {
 };
 
 template <class Space> Turned<Space> turned(typename Triangulation<Space>::Face face) {
-  std::int32_t lowest = face->vertex(0)->place.site;
-  int i = 0; // found without branches, which would be mispredicted
-  for (const int j : {1, 2}) {
-    const std::int32_t site = face->vertex(j)->place.site;
-    i = site < lowest ? j : i;
-    lowest = std::min(lowest, site);
-  }
+  const std::int32_t a = face->vertex(0)->place.site, b = face->vertex(1)->place.site,
+                     c = face->vertex(2)->place.site;
+  // Without branches, which would be mispredicted.
+  const int i = ((b < a) & (b < c)) + 2 * ((c < a) & (c < b));
   const int j = next_vertex(i), k = previous_vertex(i);
   return {{face->vertex(i), face->vertex(j), face->vertex(k)},
           {face->neighbor(i)->number, face->neighbor(j)->number, face->neighbor(k)->number}};
@@ -47,27 +45,67 @@ template <class Vertices> std::int8_t own_edges(const Vertices& v) {
   return static_cast<std::int8_t>(bits);
 }
 
-/// Replaces lists of the triangles of one lowest vertex by ranks: each triangle's rank by second
-/// site. Most lists have a few members; a hub's may have any number.
-/// \param last by local vertex: a triangle, or -1; out.rank leads to the one before, or to -1.
-void rank_lists(const std::vector<std::int32_t>& last, RegionTriangles& out) {
-  std::vector<std::int32_t> list;
-  const auto second = [&](std::int32_t t) { return out.sites[t][1]; };
-  for (std::int32_t t : last) {
-    list.clear();
-    for (; t >= 0; t = out.rank[t])
-      list.push_back(t);
-    if (list.size() == 2) {
-      if (second(list[0]) > second(list[1]))
-        std::swap(list[0], list[1]);
-    } else if (list.size() > 2) {
-      std::sort(list.begin(), list.end(),
-                [&](std::int32_t a, std::int32_t b) { return second(a) < second(b); });
-    }
-    for (std::size_t r = 0; r < list.size(); ++r)
-      out.rank[list[r]] = static_cast<std::int32_t>(r);
+/// Turns lists of the triangles of one lowest vertex into ranks: of each triangle by second site.
+/// A list ends in a triangle that does not exist, with a second site beyond all.
+class Lists {
+public:
+  Lists(std::int32_t triangles, std::size_t vertices)
+      : end_(triangles), last_(vertices, end_), second_(triangles + 1), next_(triangles + 1) {
+    second_[end_] = std::numeric_limits<std::int32_t>::max();
+    next_[end_] = end_;
   }
-}
+
+  void add(std::int32_t triangle, std::int32_t lowest, std::int32_t second) {
+    second_[triangle] = second;
+    next_[triangle] = std::exchange(last_[static_cast<std::size_t>(lowest)], triangle);
+  }
+
+  /// For a triangle in no list.
+  void leave_out(std::int32_t triangle) { next_[triangle] = -1; }
+
+  /// The ranks by triangle, -1 of those left out; one more than triangles, at the end.
+  Array<std::int32_t> ranks() && {
+    for (const std::int32_t t : last_)
+      rank(t);
+    return std::move(next_);
+  }
+
+private:
+  /// Most lists have up to four members, and their number cannot be foreseen: ends are ranked as
+  /// members are, without branches that would be mispredicted.
+  void rank(std::int32_t t0) {
+    const std::int32_t t1 = next_[t0], t2 = next_[t1], t3 = next_[t2];
+    if (next_[t3] != end_) {
+      rank_many(t0);
+      return;
+    }
+    const std::int32_t s0 = second_[t0], s1 = second_[t1], s2 = second_[t2], s3 = second_[t3];
+    const int after01 = s0 > s1, after02 = s0 > s2, after03 = s0 > s3, after12 = s1 > s2,
+              after13 = s1 > s3, after23 = s2 > s3;
+    next_[t3] = 3 - after03 - after13 - after23;
+    next_[t2] = 2 - after02 - after12 + after23;
+    next_[t1] = 1 - after01 + after12 + after13;
+    next_[t0] = after01 + after02 + after03;
+    next_[end_] = end_;
+  }
+
+  /// Of a hub there may be any number.
+  void rank_many(std::int32_t t) {
+    many_.clear();
+    for (; t != end_; t = next_[t])
+      many_.push_back(t);
+    std::sort(many_.begin(), many_.end(),
+              [&](std::int32_t a, std::int32_t b) { return second_[a] < second_[b]; });
+    for (std::size_t r = 0; r < many_.size(); ++r)
+      next_[many_[r]] = static_cast<std::int32_t>(r);
+  }
+
+  std::int32_t end_;
+  std::vector<std::int32_t> last_; ///< by vertex: the triangle added last
+  Array<std::int32_t> second_;     ///< by triangle: its second site
+  Array<std::int32_t> next_;       ///< by triangle: the one added before, then its rank
+  std::vector<std::int32_t> many_;
+};
 
 } // namespace
 
@@ -82,10 +120,10 @@ RegionTriangles report_triangles(Triangulation<Space>& triangulation, const Site
     if (face->certified && !triangulation.is_infinite(face))
       face->number = count++;
   });
-  RegionTriangles out{
-      Array<Triple>(count), Array<Triple>(count), Array<std::int32_t>(count), {}, {}, {}};
+  RegionTriangles out{Array<Triple>(count), Array<Triple>(count), {}, {}, {}, {}};
   const std::size_t locals = triangulation.members().size();
-  std::vector<std::int32_t> last(locals, -1), length(locals, 0);
+  std::vector<std::int32_t> length(locals, 0);
+  Lists lists(count, locals);
   const auto owner_of = [&](Vertex v) {
     return owner[triangulation.members()[static_cast<std::size_t>(v->local)].rank];
   };
@@ -97,11 +135,10 @@ RegionTriangles report_triangles(Triangulation<Space>& triangulation, const Site
     out.sites[t] = {v[0]->place.site, v[1]->place.site, v[2]->place.site};
     out.neighbours[t] = neighbours;
     if (v[0]->owned()) {
-      const auto lowest = static_cast<std::size_t>(v[0]->local);
-      out.rank[t] = std::exchange(last[lowest], t);
-      ++length[lowest];
+      lists.add(t, v[0]->local, v[1]->place.site);
+      ++length[static_cast<std::size_t>(v[0]->local)];
     } else {
-      out.rank[t] = -1;
+      lists.leave_out(t);
     }
     if (v[0]->owned() && v[1]->owned() && v[2]->owned())
       return;
@@ -110,7 +147,7 @@ RegionTriangles report_triangles(Triangulation<Space>& triangulation, const Site
     out.reporters.push_back(static_cast<std::int8_t>(1 + (b != a) + (c != a && c != b)));
     out.own_edges.push_back(own_edges(v));
   });
-  rank_lists(last, out);
+  out.rank = std::move(lists).ranks();
   for (std::size_t v = 0; v < locals; ++v)
     if (const Member& member = triangulation.members()[v]; member.owned())
       triangles_of[sites.id[member.rank]] = length[v];
@@ -197,14 +234,14 @@ constexpr std::int64_t ahead = 32;
 Array<std::int32_t> place_own(Array<std::int32_t>&& rank, const Array<Triple>& sites,
                               const Array<std::int32_t>& first_of, Triangles& out) {
   Array<std::int32_t> place = std::move(rank);
-  for (std::int64_t t = 0; t < place.size(); ++t) {
-    if (t + ahead < place.size())
+  for (std::int64_t t = 0; t < sites.size(); ++t) {
+    if (t + ahead < sites.size())
       __builtin_prefetch(&first_of[sites[t + ahead][0]]);
     if (place[t] >= 0)
       place[t] += first_of[sites[t][0]];
   }
-  for (std::int64_t t = 0; t < place.size(); ++t) {
-    if (t + ahead < place.size() && place[t + ahead] >= 0)
+  for (std::int64_t t = 0; t < sites.size(); ++t) {
+    if (t + ahead < sites.size() && place[t + ahead] >= 0)
       __builtin_prefetch(&out(0, place[t + ahead]), 1);
     if (place[t] < 0)
       continue;
@@ -220,7 +257,7 @@ void write_neighbours(const RegionTriangles& report, const Array<std::int32_t>& 
                       Triangles& out) {
   const auto write = [&](std::int64_t t, int bits) {
     const Triple& neighbours = report.neighbours[t];
-    if (t + ahead < place.size())
+    if (t + ahead < report.sites.size())
       __builtin_prefetch(&out(0, place[t + ahead]), 1);
     for (int i = 0; i < 3; ++i)
       if (bits >> i & 1) {
