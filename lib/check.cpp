@@ -94,6 +94,9 @@ struct OnSphere : detail::Faces {
 
   const void* stored(std::int32_t site) const { return &unit[site]; }
 
+  static constexpr int cube_faces = 6;
+  detail::CubePoint square(std::int32_t site) const { return detail::to_cube(unit[site]); }
+
   static std::string own_failure(std::int64_t) { return {}; }
   static std::int64_t euler(std::int64_t boundary_edges) { return boundary_edges == 0 ? 2 : 1; }
 

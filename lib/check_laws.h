@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "itinerary.h"
 #include "parallel.h"
 #include "predicates.h"
 
@@ -17,6 +18,7 @@
 ///   orientation(a, b, c)       of three sites near a
 ///   in_circle(a, b, c, d)      of four sites near a, ties resolved
 ///   stored(site)               address of the coordinates that the predicates read first
+///   cube_faces, square(site)   where it is, for an Itinerary
 ///   own_failure(t)             of a triangle, what only this kind of surface demands
 ///   euler(boundary edges)      the characteristic that it must have
 ///   area(t)                    of a triangle known to be counter-clockwise
@@ -289,13 +291,17 @@ struct Tally {
 
 /// Asks for what the laws of a triangle will read: without that, each read from far away in a large
 /// mesh would wait for the one before it.
+inline void fetch_triangle(const Faces& s, std::int64_t t) {
+  __builtin_prefetch(&s.triangle_ids(0, t));
+  __builtin_prefetch(&s.neighbour_ids(0, t));
+}
+
+/// The same for its vertices and the neighbours that it looks at.
 template <class Surface> void fetch_neighbours(const Surface& s, std::int64_t t) {
   for (int i = 0; i < 3; ++i) {
     __builtin_prefetch(s.stored(s.vertex(t, i)));
-    if (const std::int32_t other = s.neighbour(t, i); other > t) {
-      __builtin_prefetch(&s.triangle_ids(0, other));
-      __builtin_prefetch(&s.neighbour_ids(0, other));
-    }
+    if (const std::int32_t other = s.neighbour(t, i); other > t)
+      fetch_triangle(s, other);
   }
 }
 
@@ -327,17 +333,27 @@ template <class Surface> bool tally(const Surface& s, std::int64_t t, Tally& tal
   return true;
 }
 
-template <class Surface> Tally tally_block(const Surface& s, std::int64_t begin, std::int64_t end) {
+template <class Surface>
+Tally tally_block(const Surface& s, const Itinerary& way, std::int64_t begin, std::int64_t end) {
   constexpr std::int64_t ahead = 16;
   Tally out;
-  for (std::int64_t t = begin; t != end && out.good; ++t) {
-    if (t + 2 * ahead < end)
-      fetch_neighbours(s, t + 2 * ahead);
-    if (t + ahead < end)
-      fetch_across(s, t + ahead);
-    out.good = tally(s, t, out);
+  for (std::int64_t i = begin; i != end && out.good; ++i) {
+    if (i + 3 * ahead < end)
+      fetch_triangle(s, way[i + 3 * ahead]);
+    if (i + 2 * ahead < end)
+      fetch_neighbours(s, way[i + 2 * ahead]);
+    if (i + ahead < end)
+      fetch_across(s, way[i + ahead]);
+    out.good = tally(s, way[i], out);
   }
   return out;
+}
+
+template <class Surface> Itinerary itinerary(const Surface& s) {
+  if (!are_scattered(s.neighbour_ids))
+    return Itinerary(s.triangles());
+  return {s.triangles(), s.sites(), Surface::cube_faces,
+          [&](std::int64_t t) { return s.square(s.vertex(t, 0)); }};
 }
 
 /// Whether all laws hold of a closed mesh, whose ids are in range. \param result its areas are set
@@ -356,8 +372,9 @@ template <class Surface> Tally tally_block(const Surface& s, std::int64_t begin,
 /// whole within its error, and this is small.
 template <class Surface> bool is_proven_closed(const Surface& s, Check& result) {
   std::vector<Tally> tallies(static_cast<std::size_t>(block_count(s.triangles())));
+  const Itinerary way = itinerary(s);
   for_each_block(s.triangles(), [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
-    tallies[static_cast<std::size_t>(block)] = tally_block(s, begin, end);
+    tallies[static_cast<std::size_t>(block)] = tally_block(s, way, begin, end);
   });
   Tally all;
   std::vector<AreaSum> sums;

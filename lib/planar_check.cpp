@@ -49,13 +49,20 @@ struct InPlane : detail::Faces {
   static constexpr const char* circle = "circle";
 
   const PlanarMesh& mesh;
-  Vec2 period{0, 0}; ///< 0 of a plane without
-  int scale;         ///< exponent, for areas
+  Vec2 period{0, 0};          ///< 0 of a plane without
+  int scale;                  ///< exponent, for areas
+  Vec2 low{0, 0}, high{0, 0}; ///< corners of the sites' box, scaled
 
   explicit InPlane(const PlanarMesh& given)
       : Faces(detail::faces_of(given)), mesh(given), scale(scale_of(given)) {
     if (is_periodic(given))
       period = {given.period.x(), given.period.y()};
+    if (given.points.cols() > 0) {
+      const Eigen::Vector2d least = given.points.rowwise().minCoeff(),
+                            most = given.points.rowwise().maxCoeff();
+      low = {scaled(least.x()), scaled(least.y())};
+      high = {scaled(most.x()), scaled(most.y())};
+    }
   }
 
   bool periodic() const { return period.x > 0; }
@@ -93,6 +100,15 @@ struct InPlane : detail::Faces {
   }
 
   const void* stored(std::int32_t site) const { return &mesh.points(0, site); }
+
+  static constexpr int cube_faces = 1;
+  detail::CubePoint square(std::int32_t site) const {
+    const auto along = [](double x, double least, double most) {
+      return most > least ? 2 * (x - least) / (most - least) - 1 : 0;
+    };
+    const Vec2 p = given(site);
+    return {0, along(scaled(p.x), low.x, high.x), along(scaled(p.y), low.y, high.y)};
+  }
 
   /// From corner to corner to corner, nearest copies lead back to the first.
   std::string own_failure(std::int64_t t) const {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "itinerary.h"
+#include "renumber.h"
 #include "support/clouds.h"
 #include "support/laws.h"
 
@@ -460,11 +462,11 @@ TEST_CASE("two sheets over a periodic box are not one") {
 }
 
 /// Of a closed mesh.
-template <class AnyMesh> void check_neighbours_exchanged(AnyMesh mesh) {
+template <class AnyMesh> void check_neighbours_exchanged(AnyMesh mesh, int rounds = 40) {
   REQUIRE(check(mesh).passed());
   const auto triangles = static_cast<int>(mesh.triangles.cols());
   Random random(48);
-  for (int round = 0; round < 40; ++round) {
+  for (int round = 0; round < rounds; ++round) {
     const int i = random.integer(0, 2), t = random.integer(0, triangles - 1);
     const std::int32_t good =
         std::exchange(mesh.neighbours(i, t), random.integer(0, triangles - 1));
@@ -476,6 +478,33 @@ template <class AnyMesh> void check_neighbours_exchanged(AnyMesh mesh) {
 TEST_CASE("any neighbour that is another is found, in a mesh of several blocks") {
   check_neighbours_exchanged(calotte::delaunay(calotte::random_sphere(20000, 5)));
   check_neighbours_exchanged(delaunay(scatter(20000, 5), Eigen::Vector2d(1, 1)));
+}
+
+/// The areas of one mesh, summed in two orders.
+template <class AnyMesh>
+void check_same_in_any_order(const AnyMesh& scattered, const AnyMesh& along) {
+  REQUIRE(detail::are_scattered(scattered.neighbours));
+  REQUIRE_FALSE(detail::are_scattered(along.neighbours));
+  const Check one = check(scattered), other = check(along);
+  CHECK(one.passed());
+  CHECK(other.passed());
+  CHECK(one.area == doctest::Approx(other.area).epsilon(1e-13));
+}
+
+TEST_CASE("large meshes are checked patch by patch where their sites come in no order [slow]") {
+  const Points3 sites = random_sphere(550000, 6);
+  const Mesh mesh = calotte::delaunay(sites);
+  check_same_in_any_order(mesh, detail::in_order(mesh, detail::curve_order(mesh.points)));
+  check_neighbours_exchanged(mesh, 8);
+
+  for (const double scale : {1e-300, 1.0, 1e300}) {
+    const PlanarMesh open = delaunay(Points2(scale * scatter(550000, 5)));
+    REQUIRE(detail::are_scattered(open.neighbours));
+    CHECK(check(open).passed());
+  }
+  const PlanarMesh box = delaunay(scatter(550000, 5), Eigen::Vector2d(1, 1));
+  REQUIRE(detail::are_scattered(box.neighbours));
+  check_neighbours_exchanged(box, 8);
 }
 
 TEST_CASE("planar arrays of nonsense do not crash") {
