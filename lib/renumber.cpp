@@ -52,8 +52,11 @@ void require_directions(const Points3& points) {
   }
 }
 
-std::uint64_t curve_key_of(const Points3& points, std::int64_t i) {
-  return curve_key(to_cube(column(points, i)));
+/// body(i, curve key of point i) for begin <= i < end.
+template <class Body>
+void for_each_key(const Points3& points, std::int64_t begin, std::int64_t end, const Body& body) {
+  for_each_curve_key(
+      begin, end, [&](std::int64_t i) { return to_cube(column(points, i)); }, body);
 }
 
 /// For each site its place in the order.
@@ -186,11 +189,9 @@ Array<std::int32_t> curve_order(const Points3& points) {
   require_directions(points);
   Array<KeyedIndex> entries(points.cols());
   for_each_block(entries.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-    for_each_curve_key(
-        begin, end, [&](std::int64_t i) { return to_cube(column(points, i)); },
-        [&](std::int64_t i, std::uint64_t key) {
-          entries[i] = {key, static_cast<std::int32_t>(i)};
-        });
+    for_each_key(points, begin, end, [&](std::int64_t i, std::uint64_t key) {
+      entries[i] = {key, static_cast<std::int32_t>(i)};
+    });
   });
   sort_by_key(entries);
   Array<std::int32_t> order(entries.size());
@@ -206,14 +207,14 @@ bool is_in_curve_order(const Mesh& mesh) {
     return Triple{mesh.triangles(0, t), mesh.triangles(1, t), mesh.triangles(2, t)};
   };
   const auto sites_ascend = [&](std::int64_t begin, std::int64_t end) {
-    std::uint64_t before = curve_key_of(mesh.points, std::max<std::int64_t>(begin - 1, 0));
-    for (std::int64_t i = begin; i != end; ++i) {
-      const std::uint64_t key = curve_key_of(mesh.points, i);
-      if (key < before)
-        return false;
-      before = key;
-    }
-    return true;
+    std::uint64_t before = 0;
+    bool ascend = true;
+    for_each_key(mesh.points, std::max<std::int64_t>(begin - 1, 0), end,
+                 [&](std::int64_t, std::uint64_t key) {
+                   ascend = ascend && before <= key;
+                   before = key;
+                 });
+    return ascend;
   };
   const auto triangles_ascend = [&](std::int64_t begin, std::int64_t end) {
     Triple before = triangle(std::max<std::int64_t>(begin - 1, 0));

@@ -5,6 +5,7 @@
 #include "../elementary.h"
 #include "../points.h"
 #include "../spherical_angles.h"
+#include "../tangential_weights.h"
 #include "../voronoi_geometry.h"
 #include "../voronoi_stages.h"
 
@@ -192,24 +193,13 @@ void put_edge_measures(MpasFile& file, const Dimensions& dimensions, const MpasM
 
 // ---- The tangential velocity
 
-std::int32_t edges_on_edge(const Voronoi& voronoi, std::int64_t e) {
-  std::int64_t count = -2;
-  for (int side = 0; side < 2; ++side) {
-    const std::int32_t cell = voronoi.cells_on_edge(side, e);
-    count += voronoi.begin[cell + 1] - voronoi.begin[cell];
-  }
-  return static_cast<std::int32_t>(count);
-}
-
 void fill_weights(const Voronoi& voronoi, std::int64_t begin, std::int64_t end, std::int64_t width,
                   std::int32_t* edges, double* weights) {
-  const TangentialWeights of = tangential_weights(voronoi, begin, end);
-  for (std::int64_t e = 0; e < end - begin; ++e) {
-    const std::int64_t first = of.begin[e], count = of.begin[e + 1] - first;
-    for (std::int64_t k = 0; k < count; ++k) {
-      edges[k] = of.edges[first + k] + 1;
-      weights[k] = of.weights[first + k];
-    }
+  for (std::int64_t e = begin; e < end; ++e) {
+    const std::int64_t count = weight_count(voronoi, e);
+    set_weights(voronoi, static_cast<std::int32_t>(e), edges, weights);
+    for (std::int64_t k = 0; k < count; ++k)
+      ++edges[k];
     std::fill(edges + count, edges + width, 0);
     std::fill(weights + count, weights + width, 0.0);
     edges += width, weights += width;
@@ -221,8 +211,9 @@ void put_weights(MpasFile& file, const Dimensions& dimensions, const Voronoi& vo
   const std::vector<int> shape{dimensions.edges, dimensions.max_edges2};
   file.ints("nEdgesOnEdge", {dimensions.edges},
             described("1", "number of other edges of the cells on each edge"),
-            table<std::int32_t>(
-                1, [&voronoi](std::int64_t e, std::int64_t) { return edges_on_edge(voronoi, e); }));
+            table<std::int32_t>(1, [&voronoi](std::int64_t e, std::int64_t) {
+              return static_cast<std::int32_t>(weight_count(voronoi, e));
+            }));
   file.ints_and_doubles(
       {"edgesOnEdge", shape,
        described("1", "other edges of the cells on each edge: those of the first cell, "
