@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "check_laws.h"
 
+#include "curve.h"
 #include "points.h"
 
 #include <atomic>

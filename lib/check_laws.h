@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -89,6 +90,9 @@ template <class Law> std::string first_edge_failure(std::int64_t triangles, cons
 template <class AnyMesh> std::string shape_failure(const AnyMesh& mesh) {
   if (mesh.triangles.cols() == 0)
     return "the mesh has no triangle";
+  if (mesh.triangles.cols() > std::numeric_limits<std::int32_t>::max())
+    return "the mesh has " + std::to_string(mesh.triangles.cols()) +
+           " triangles: 32-bit neighbours allow 2^31 - 1 at most";
   if (mesh.neighbours.cols() != mesh.triangles.cols())
     return "the mesh has " + std::to_string(mesh.triangles.cols()) +
            " triangles but neighbours of " + std::to_string(mesh.neighbours.cols());
@@ -351,13 +355,16 @@ Tally tally_block(const Surface& s, const Itinerary& way, std::int64_t begin, st
 
 template <class Surface> Itinerary itinerary(const Surface& s) {
   if (!are_scattered(s.neighbour_ids))
-    return Itinerary(s.triangles());
+    return {};
   return {s.triangles(), s.sites(), Surface::cube_faces,
           [&](std::int64_t t) { return s.square(s.vertex(t, 0)); }};
 }
 
 /// Whether all laws hold of a closed mesh, whose ids are in range. \param result its areas are set
 /// if they do.
+///
+/// Each triangle is visited once, in any order: its laws read it, the one numbered before it and
+/// its neighbours; the rest are counts and sums.
 ///
 /// An edge is looked at from one side alone. Each side that points to a higher number is known to
 /// be answered by one that points back; no two are answered by the same; so where as many point to

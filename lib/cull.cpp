@@ -2,6 +2,7 @@
 #include "cull.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace calotte::detail {
@@ -75,10 +76,11 @@ template <class Face> Circumcircle circumcircle(Face face) {
 /// Whether a ball around an owned vertex that holds the circumcap is covered. Its radius is the
 /// chord of the cap's diameter, 2 sin r, and sin r = |ab||ac||bc| / (2 |q|), q = ab x ac. Most
 /// triangles pass, so it is written without roots or quotients; a relative error of 1e-3 in q moves
-/// it by less than the 2% set aside.
+/// it by less than the 2% set aside. \pre one of its vertices is owned.
 template <class Face> bool is_within_depth(Face face) {
   const auto a = face->vertex(0), b = face->vertex(1), c = face->vertex(2);
-  const float depth = std::max({a->depth, b->depth, c->depth}); // of one that is owned
+  const float depth = std::max({a->depth, b->depth, c->depth});
+  assert(depth >= 0);
   const Vec3 ab = b->place.unit - a->place.unit, ac = c->place.unit - a->place.unit,
              bc = c->place.unit - b->place.unit;
   const double ab2 = dot(ab, ab), ac2 = dot(ac, ac), bc2 = dot(bc, bc);

@@ -28,7 +28,7 @@ inline CubePoint to_cube(const Vec3& p) {
     std::uint8_t u, v;
     double sign_u, sign_v;
   };
-  constexpr std::array<Axes, 6> axes{
+  static constexpr std::array<Axes, 6> axes{
       {{1, 2, 1, 1}, {0, 2, -1, 1}, {0, 1, -1, -1}, {2, 1, 1, 1}, {2, 0, 1, -1}, {1, 0, -1, -1}}};
   const std::array<double, 3> x{p.x, p.y, p.z};
   const double along_x = std::abs(p.x), along_y = std::abs(p.y), along_z = std::abs(p.z);

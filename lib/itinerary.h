@@ -22,19 +22,19 @@ namespace calotte::detail {
 class Itinerary {
 public:
   /// As they are numbered.
-  explicit Itinerary(std::int64_t triangles) : size_(triangles) {}
+  Itinerary() = default;
 
-  /// By patches of some thousand sites, which are cells of a grid.
-  /// \param square(t) where triangle t is, on the cube or on its first face.
-  /// \param faces of the cube that are used.
+  /// By patches of some thousand sites, which are cells of a grid on each face.
+  /// \param square(t) where triangle t is: a face, below `faces`, and u and v in [-1, 1].
+  /// \pre fewer than 2^31 triangles.
   template <class Square>
   Itinerary(std::int64_t triangles, std::int64_t sites, int faces, const Square& square)
-      : size_(triangles), triangles_(triangles) {
+      : triangles_(triangles) {
     const auto side = static_cast<std::int64_t>(
         std::ceil(std::sqrt(static_cast<double>(sites) / (faces * patch))));
+    const auto cells = static_cast<double>(side);
     const auto cell = [&](double u) {
-      return std::clamp(static_cast<std::int64_t>((u + 1) / 2 * static_cast<double>(side)),
-                        std::int64_t{0}, side - 1);
+      return static_cast<std::int64_t>(std::clamp((u + 1) / 2 * cells, 0.0, cells - 1));
     };
     distribute(
         triangles, faces * side * side,
@@ -47,7 +47,7 @@ public:
         });
   }
 
-  std::int64_t size() const { return size_; }
+  /// The i-th triangle visited.
   std::int64_t operator[](std::int64_t i) const {
     return triangles_.size() > 0 ? triangles_[i] : i;
   }
@@ -55,13 +55,14 @@ public:
 private:
   static constexpr double patch = 4096; ///< sites
 
-  std::int64_t size_;
   Array<std::int32_t> triangles_; ///< empty: as they are numbered
 };
 
-/// Whether most triangles of a mesh that is too large for caches have their neighbours far away:
-/// those across from their lowest sites, as those around these are beside them in any order.
+/// Whether the triangles of a large mesh are so far from their neighbours in memory that a pass
+/// gains from visiting them by patches. Looks at the neighbour across from each lowest site: the
+/// other two share that site, so they are numbered beside the triangle in any order.
 inline bool are_scattered(const Triangles& neighbours) {
+  // Below a million triangles, an itinerary costs what it saves. A sample tells.
   constexpr std::int64_t fewest = 1 << 20, far = 1 << 15, stride = 61;
   if (neighbours.cols() < fewest)
     return false;

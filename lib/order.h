@@ -14,6 +14,7 @@ namespace calotte::detail {
 
 /// Puts items into buckets in parallel, in linear time: bucket by bucket, and the items of a bucket
 /// in the order that they had.
+/// \pre n < 2^31.
 /// \param bucket_of(i) of item i, below `buckets`; asked for twice.
 /// \param put(i, place) is told each item's place.
 /// \return where each bucket begins, and the number of items.

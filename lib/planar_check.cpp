@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "check_laws.h"
+#include "curve.h"
 #include "plane_predicates.h"
 
 #include <algorithm>
@@ -49,20 +50,13 @@ struct InPlane : detail::Faces {
   static constexpr const char* circle = "circle";
 
   const PlanarMesh& mesh;
-  Vec2 period{0, 0};          ///< 0 of a plane without
-  int scale;                  ///< exponent, for areas
-  Vec2 low{0, 0}, high{0, 0}; ///< corners of the sites' box, scaled
+  Vec2 period{0, 0}; ///< 0 of a plane without
+  int scale;         ///< exponent, for areas
 
   explicit InPlane(const PlanarMesh& given)
       : Faces(detail::faces_of(given)), mesh(given), scale(scale_of(given)) {
     if (is_periodic(given))
       period = {given.period.x(), given.period.y()};
-    if (given.points.cols() > 0) {
-      const Eigen::Vector2d least = given.points.rowwise().minCoeff(),
-                            most = given.points.rowwise().maxCoeff();
-      low = {scaled(least.x()), scaled(least.y())};
-      high = {scaled(most.x()), scaled(most.y())};
-    }
   }
 
   bool periodic() const { return period.x > 0; }
@@ -101,13 +95,12 @@ struct InPlane : detail::Faces {
 
   const void* stored(std::int32_t site) const { return &mesh.points(0, site); }
 
+  /// Of a periodic box: an open mesh is not visited by an itinerary.
   static constexpr int cube_faces = 1;
   detail::CubePoint square(std::int32_t site) const {
-    const auto along = [](double x, double least, double most) {
-      return most > least ? 2 * (x - least) / (most - least) - 1 : 0;
-    };
     const Vec2 p = given(site);
-    return {0, along(scaled(p.x), low.x, high.x), along(scaled(p.y), low.y, high.y)};
+    const double u = periodic() ? p.x / period.x : 0, v = periodic() ? p.y / period.y : 0;
+    return {0, 2 * u - 1, 2 * v - 1};
   }
 
   /// From corner to corner to corner, nearest copies lead back to the first.

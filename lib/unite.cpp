@@ -12,6 +12,7 @@
 #include <bit>
 #include <limits>
 #include <string>
+#include <utility>
 
 namespace calotte::detail {
 namespace {
@@ -47,9 +48,9 @@ template <class Vertices> std::int8_t own_edges(const Vertices& v) {
 
 /// Turns lists of the triangles of one lowest vertex into ranks: of each triangle by second site.
 /// A list ends in a triangle that does not exist, with a second site beyond all.
-class Lists {
+class RankLists {
 public:
-  Lists(std::int32_t triangles, std::size_t vertices)
+  RankLists(std::int32_t triangles, std::size_t vertices)
       : end_(triangles), last_(vertices, end_), second_(triangles + 1), next_(triangles + 1) {
     second_[end_] = std::numeric_limits<std::int32_t>::max();
     next_[end_] = end_;
@@ -63,7 +64,7 @@ public:
   /// For a triangle in no list.
   void leave_out(std::int32_t triangle) { next_[triangle] = -1; }
 
-  /// The ranks by triangle, -1 of those left out; one more than triangles, at the end.
+  /// The ranks by triangle, -1 of those left out, and one of the list's end.
   Array<std::int32_t> ranks() && {
     for (const std::int32_t t : last_)
       rank(t);
@@ -123,7 +124,7 @@ RegionTriangles report_triangles(Triangulation<Space>& triangulation, const Site
   RegionTriangles out{Array<Triple>(count), Array<Triple>(count), {}, {}, {}, {}};
   const std::size_t locals = triangulation.members().size();
   std::vector<std::int32_t> length(locals, 0);
-  Lists lists(count, locals);
+  RankLists lists(count, locals);
   const auto owner_of = [&](Vertex v) {
     return owner[triangulation.members()[static_cast<std::size_t>(v->local)].rank];
   };

@@ -21,7 +21,7 @@ struct RegionTriangles {
   Array<Triple> sites;      ///< counter-clockwise
   Array<Triple> neighbours; ///< across from each vertex, as places in these arrays; -1 if not here
   Array<std::int32_t> rank; ///< by second site among those of one lowest site; -1 if that is not
-                            ///< owned; one more at the end, which means nothing
+                            ///< owned; at least as many as triangles
   std::vector<std::int32_t> seams;    ///< triangles whose vertices have different owners, ascending
   std::vector<std::int8_t> reporters; ///< by seam: the number of owners
   std::vector<std::int8_t> own_edges; ///< by seam: bit i set where this region owns the lower site

@@ -480,31 +480,23 @@ TEST_CASE("any neighbour that is another is found, in a mesh of several blocks")
   check_neighbours_exchanged(delaunay(scatter(20000, 5), Eigen::Vector2d(1, 1)));
 }
 
-/// The areas of one mesh, summed in two orders.
-template <class AnyMesh>
-void check_same_in_any_order(const AnyMesh& scattered, const AnyMesh& along) {
-  REQUIRE(detail::are_scattered(scattered.neighbours));
+TEST_CASE("large meshes are checked patch by patch where their sites come in no order") {
+  const Mesh mesh = calotte::delaunay(random_sphere(530000, 6));
+  const Mesh along = detail::in_order(mesh, detail::curve_order(mesh.points));
+  REQUIRE(detail::are_scattered(mesh.neighbours));
   REQUIRE_FALSE(detail::are_scattered(along.neighbours));
-  const Check one = check(scattered), other = check(along);
-  CHECK(one.passed());
-  CHECK(other.passed());
-  CHECK(one.area == doctest::Approx(other.area).epsilon(1e-13));
+  CHECK(check(along).passed());
+  CHECK(check(mesh).area == doctest::Approx(check(along).area).epsilon(1e-13));
+  check_neighbours_exchanged(mesh, 4);
 }
 
-TEST_CASE("large meshes are checked patch by patch where their sites come in no order [slow]") {
-  const Points3 sites = random_sphere(550000, 6);
-  const Mesh mesh = calotte::delaunay(sites);
-  check_same_in_any_order(mesh, detail::in_order(mesh, detail::curve_order(mesh.points)));
-  check_neighbours_exchanged(mesh, 8);
-
-  for (const double scale : {1e-300, 1.0, 1e300}) {
-    const PlanarMesh open = delaunay(Points2(scale * scatter(550000, 5)));
-    REQUIRE(detail::are_scattered(open.neighbours));
-    CHECK(check(open).passed());
+TEST_CASE("the same of periodic boxes of any size [slow]") {
+  for (const double scale : {1e-140, 1.0, 1e140}) {
+    const PlanarMesh box =
+        delaunay(Points2(scale * scatter(530000, 5)), Eigen::Vector2d(scale, scale));
+    REQUIRE(detail::are_scattered(box.neighbours));
+    check_neighbours_exchanged(box, 4);
   }
-  const PlanarMesh box = delaunay(scatter(550000, 5), Eigen::Vector2d(1, 1));
-  REQUIRE(detail::are_scattered(box.neighbours));
-  check_neighbours_exchanged(box, 8);
 }
 
 TEST_CASE("planar arrays of nonsense do not crash") {
