@@ -129,7 +129,7 @@ def fine(threads, quick):
     regions = (0, 1, 2, 4, 8, 16, 32, 64, 96, 128, 192, 256, 512, 1024, 2048)
     for work in ("iteration", "triangulation"):
         yield "distribution", work, options(
-            sizes=FINE, works=work, regions=regions, rounds=2, iterations=6
+            sizes=FINE, works=work, regions=regions, rounds=3, iterations=6
         )
 
 
