@@ -197,8 +197,8 @@ void run_iterations(benchmark::State& state, const Workload& work, const Cut& cu
 void run_triangulation(benchmark::State& state, const Workload& work, const Cut& cut) {
   DelaunayReport report;
   const DelaunayOptions partition = partition_of(cut);
-  delaunay(work.points,
-           partition); // or the first region would fault in the memory of those after it
+  // Without a triangulation before, the first region would fault in the memory of all.
+  delaunay(work.points, partition);
   const Mesh mesh = delaunay(work.points, partition, &report);
   state.SetIterationTime(report.seconds.total);
   state.counters["triangulate"] = report.seconds.triangulate;
