@@ -96,8 +96,7 @@ void print_part(const char* stage, double seconds, std::int64_t sites) {
 }
 
 /// The small set, which the time a site of a large one is compared with. Its first triangulation
-/// faults its memory in, as that of a large set does (and starts the threads, which takes less than
-/// a hundredth); later ones do not.
+/// faults its memory in, as that of a large set does, and starts the threads; later ones do not.
 class Base {
 public:
   explicit Base(const Options& options)

@@ -72,7 +72,8 @@ public:
   using Place = typename Space::Place;
   using Store =
       CGAL::Triangulation_data_structure_2<RegionVertex<Place>, RegionFace<typename Space::Circle>>;
-  static_assert(sizeof(typename Store::Vertex) <= 64, "a region is to fit into the cache");
+  static_assert(sizeof(typename Store::Vertex) <= 64 && sizeof(typename Store::Face) <= 80,
+                "a region is to fit into the cache");
   using Vertex = typename Store::Vertex_handle;
   using Face = typename Store::Face_handle;
 
