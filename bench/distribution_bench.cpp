@@ -9,6 +9,7 @@
 #include "report.h"
 #include "stopwatch.h"
 
+#include "centres.h"
 #include "functional.h"
 
 #include <calotte/cvt.h>
@@ -41,7 +42,7 @@ struct Options : RoundOptions {
   std::vector<int> regions = {0, 96};
   std::vector<std::string> sorts = {"halo"};
   std::vector<std::string> decompositions = {"default"};
-  int iterations = 9;
+  int iterations = 9, triangulations = 3;
 };
 
 struct Workload {
@@ -127,6 +128,18 @@ void add_lists(Lists lists) {
     add_list("sent", std::move(lists.sent));
 }
 
+/// Of lists of one value a region: the median of each region's, but for the first lists.
+std::vector<double> medians(const std::vector<std::vector<double>>& lists, int without) {
+  std::vector<double> result;
+  for (std::size_t k = 0; k < lists.front().size(); ++k) {
+    std::vector<double> values;
+    for (auto list = lists.begin() + without; list != lists.end(); ++list)
+      values.push_back(list->at(k));
+    result.push_back(median(values));
+  }
+  return result;
+}
+
 /// Iterations of Lloyd's method. A region's seconds are the median of its own over all but the
 /// first two, which look at the start's mesh twice and find their memory new.
 class Iterations {
@@ -143,9 +156,9 @@ public:
     Timed timed;
     watch.stop(timed);
     regions_ = functional_->regions();
-    seconds_.resize(regions_.size());
+    std::vector<double>& seconds = seconds_.emplace_back();
     for (std::size_t k = 0; k < regions_.size(); ++k)
-      seconds_[k].push_back(regions_[k].seconds - before.at(k).seconds);
+      seconds.push_back(regions_[k].seconds - before.at(k).seconds);
     points_.swap(evaluation_.centroids);
     functional_->moved(evaluation_.iteration.linf);
     flips_ += static_cast<double>(evaluation_.iteration.flips);
@@ -154,11 +167,11 @@ public:
 
   Lists lists() const {
     Lists lists;
-    for (std::size_t k = 0; k < regions_.size(); ++k) {
-      lists.seconds.push_back(median({seconds_[k].begin() + warm_up, seconds_[k].end()}));
-      lists.owned.push_back(static_cast<double>(regions_[k].sites));
-      lists.halo.push_back(static_cast<double>(regions_[k].halo));
-      lists.sent.push_back(static_cast<double>(regions_[k].halo_bytes));
+    lists.seconds = medians(seconds_, warm_up);
+    for (const CvtRegion& region : regions_) {
+      lists.owned.push_back(static_cast<double>(region.sites));
+      lists.halo.push_back(static_cast<double>(region.halo));
+      lists.sent.push_back(static_cast<double>(region.halo_bytes));
     }
     return lists;
   }
@@ -179,7 +192,7 @@ private:
   std::unique_ptr<detail::Functional> functional_;
   detail::Evaluation evaluation_;
   std::vector<CvtRegion> regions_;
-  std::vector<std::vector<double>> seconds_; ///< by region, of each iteration
+  std::vector<std::vector<double>> seconds_; ///< of each iteration, by region
   double flips_ = 0;
 };
 
@@ -193,22 +206,68 @@ void run_iterations(benchmark::State& state, const Workload& work, const Cut& cu
   add_lists(iterations.lists());
 }
 
-/// A region's seconds: gather, project, triangulate, cull and certify.
-void run_triangulation(benchmark::State& state, const Workload& work, const Cut& cut) {
+/// Triangulations. A region's seconds (gather, project, triangulate, cull and certify) are the
+/// median of its own over all but the first, which finds its memory new. Each begins with another
+/// region, as the one that comes first finds the caches cold.
+class Triangulations {
+public:
+  Triangulations(const Workload& work, const Cut& cut)
+      : points_(work.points), partition_(partition_of(cut)),
+        centres_(detail::make_centres(
+            detail::make_sites(work.points, partition_.duplicates, partition_.merge_within),
+            partition_)) {}
+
+  /// The regions in turn, from the first-th on.
+  DelaunayReport step(std::size_t first) {
+    Points3& centres = partition_.given_centres.emplace(3, centres_.size());
+    const std::size_t count = centres_.size();
+    for (std::size_t k = 0; k < count; ++k)
+      detail::set_column(centres, static_cast<std::int64_t>(k), centres_[(first + k) % count]);
+    DelaunayReport report;
+    delaunay(points_, partition_, &report);
+    if (report.one_region) {
+      report.seconds_per_region = {report.seconds.triangulate};
+      return report;
+    }
+    const auto in_place = [&](auto& list) {
+      std::rotate(list.begin(), list.end() - static_cast<std::ptrdiff_t>(first), list.end());
+    };
+    in_place(report.seconds_per_region);
+    in_place(report.owned_per_region);
+    in_place(report.sites_per_region);
+    return report;
+  }
+
+  std::size_t regions() const { return centres_.size(); }
+
+  static constexpr int warm_up = 1;
+
+private:
+  const Points3& points_;
+  DelaunayOptions partition_;
+  std::vector<detail::Vec3> centres_;
+};
+
+void run_triangulations(benchmark::State& state, const Workload& work, const Cut& cut, int count) {
+  Triangulations triangulations(work, cut);
   DelaunayReport report;
-  const DelaunayOptions partition = partition_of(cut);
-  // Without a triangulation before, the first region would fault in the memory of all.
-  delaunay(work.points, partition);
-  const Mesh mesh = delaunay(work.points, partition, &report);
-  state.SetIterationTime(report.seconds.total);
-  state.counters["triangulate"] = report.seconds.triangulate;
+  std::vector<double> total, triangulate;
+  std::vector<std::vector<double>> seconds;
+  for (int i = 0; i < count; ++i) {
+    const auto turn = static_cast<std::size_t>(i);
+    report = triangulations.step(turn * triangulations.regions() / static_cast<std::size_t>(count));
+    total.push_back(report.seconds.total);
+    triangulate.push_back(report.seconds.triangulate);
+    seconds.push_back(report.seconds_per_region);
+  }
+  const int without = Triangulations::warm_up;
+  state.SetIterationTime(median({total.begin() + without, total.end()}));
+  state.counters["triangulate"] = median({triangulate.begin() + without, triangulate.end()});
   state.counters["overlap"] = report.overlap;
   state.counters["certified by query"] = static_cast<double>(report.certified_by_query);
   state.counters["halo insertions"] = static_cast<double>(report.halo_insertions);
   Lists lists;
-  lists.seconds = report.seconds_per_region;
-  if (report.one_region)
-    lists.seconds = {report.seconds.triangulate};
+  lists.seconds = medians(seconds, without);
   for (std::size_t k = 0; k < report.owned_per_region.size(); ++k) {
     const auto owned = static_cast<double>(report.owned_per_region[k]);
     lists.owned.push_back(owned);
@@ -217,7 +276,7 @@ void run_triangulation(benchmark::State& state, const Workload& work, const Cut&
   add_lists(std::move(lists));
 }
 
-void run_cut(benchmark::State& state, Workload& work, const Cut& cut, int iterations) {
+void run_cut(benchmark::State& state, Workload& work, const Cut& cut, const Options& options) {
   if (work.points.cols() == 0)
     work.points = generators(work.set, work.n);
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
@@ -225,9 +284,9 @@ void run_cut(benchmark::State& state, Workload& work, const Cut& cut, int iterat
   for (auto _ : state)
     arena.execute([&] {
       if (cut.work == "iteration")
-        run_iterations(state, work, cut, iterations);
+        run_iterations(state, work, cut, options.iterations);
       else
-        run_triangulation(state, work, cut);
+        run_triangulations(state, work, cut, options.triangulations);
     });
 }
 
@@ -238,8 +297,8 @@ std::vector<RoundRow> make_rows(const Options& options, const std::shared_ptr<Wo
       for (const std::string& sort : options.sorts)
         for (const int regions : options.regions) {
           const Cut cut{kind, sort, decomposition, regions};
-          const auto run = [work, cut, count = options.iterations](benchmark::State& state) {
-            run_cut(state, *work, cut, count);
+          const auto run = [work, cut, &options](benchmark::State& state) {
+            run_cut(state, *work, cut, options);
           };
           rows.push_back({name_of(cut), run});
         }
@@ -278,21 +337,13 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--iterations", options.iterations, "of each run; the first two count for nothing")
       ->check(CLI::Range(Iterations::warm_up + 1, 10000))
       ->capture_default_str();
+  app.add_option("--triangulations", options.triangulations,
+                 "of each run, each beginning with another region; the first counts for nothing")
+      ->check(CLI::Range(Triangulations::warm_up + 1, 10000))
+      ->capture_default_str();
   app.add_option("--rounds", options.rounds, "how often every row runs")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-}
-
-/// Over the rounds: the median of each region's.
-std::vector<double> medians(const std::vector<std::vector<double>>& rounds) {
-  std::vector<double> result;
-  for (std::size_t k = 0; k < rounds.front().size(); ++k) {
-    std::vector<double> values;
-    for (const std::vector<double>& round : rounds)
-      values.push_back(round.at(k));
-    result.push_back(median(values));
-  }
-  return result;
 }
 
 void print_results(std::ostream& out, const std::vector<SetResults>& results) {
@@ -301,7 +352,7 @@ void print_results(std::ostream& out, const std::vector<SetResults>& results) {
   for (const SetResults& set : results)
     for (const std::string& name : set.order) {
       const Series& row = set.rows.at(name);
-      const std::vector<double> seconds = medians(row.lists.at("seconds"));
+      const std::vector<double> seconds = medians(row.lists.at("seconds"), 0);
       const std::vector<double>& halo = row.lists.at("halo").front();
       const double sum = std::accumulate(seconds.begin(), seconds.end(), 0.0);
       const double longest = *std::max_element(seconds.begin(), seconds.end());

@@ -126,11 +126,16 @@ def distribution(threads, quick):
 def fine(threads, quick):
     if quick:
         return
-    regions = (0, 1, 2, 4, 8, 16, 32, 64, 96, 128, 192, 256, 512, 1024, 2048)
-    for work in ("iteration", "triangulation"):
-        yield "distribution", work, options(
-            sizes=FINE, works=work, regions=regions, rounds=3, iterations=6
-        )
+    default, regions = 0, (1, 2, 4, 8, 16, 32, 64, 96, 128, 192, 256, 512, 1024, 2048)
+    yield "distribution", "iteration", options(
+        sizes=FINE, works="iteration", regions=(default, *regions), rounds=3, iterations=6
+    )
+    common = options(sizes=FINE, works="triangulation")
+    yield "distribution", "triangulation", common + options(regions=regions, rounds=3)
+    # The longest of 160 regions of a few milliseconds each: more runs until its median is quiet.
+    yield "distribution", "default", common + options(
+        regions=default, rounds=5, triangulations=7
+    )
 
 
 def others(threads, quick):
