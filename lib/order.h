@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "curve.h"
 #include "parallel.h"
 
 #include <algorithm>
@@ -64,7 +65,7 @@ std::vector<std::int32_t> distribute(std::int64_t n, std::int64_t buckets,
   return first;
 }
 
-/// A curve key and the input it belongs to.
+/// A key and the item it belongs to.
 struct KeyedIndex {
   std::uint64_t key;
   std::int32_t index;
@@ -74,8 +75,18 @@ inline bool precedes(const KeyedIndex& a, const KeyedIndex& b) {
   return a.key != b.key ? a.key < b.key : a.index < b.index;
 }
 
-/// Sorts by key, equal keys by index. Radix sort from the leading bits: linear time, and as many
-/// passes as the keys' crowding needs.
-void sort_by_key(Array<KeyedIndex>& entries);
+/// Items in ascending order of their keys, equal keys by index.
+struct Order {
+  Array<std::uint64_t> keys;
+  Array<std::int32_t> items;
+
+  std::int64_t size() const { return keys.size(); }
+};
+
+inline constexpr int key_bits = 3 + 2 * curve_levels;
+
+/// Radix sort from the leading bits: linear time, and as many passes as the keys' crowding needs.
+/// \param keys by item, below 6 * 2^(2 curve_levels); fewer than 2^31.
+Order order_by_key(Array<std::uint64_t> keys);
 
 } // namespace calotte::detail

@@ -97,54 +97,49 @@ Triple turned(const Triple& ids) { return turned(ids, first_vertex(ids)); }
 
 /// Sorts runs of equal keys by their third vertex: there are none in a manifold, where no two
 /// triangles leave a vertex along one edge.
-void sort_by_third(const Triangles& triangles, const Array<std::int32_t>& place,
-                   Array<KeyedIndex>& entries) {
-  const auto same = [](const KeyedIndex& a, const KeyedIndex& b) { return a.key == b.key; };
-  const auto third = [&](const KeyedIndex& e) {
-    return turned(new_ids(triangles, e.index, place))[2];
-  };
-  for (KeyedIndex* run = std::adjacent_find(entries.begin(), entries.end(), same);
-       run != entries.end();) {
-    KeyedIndex* const end =
-        std::find_if(run, entries.end(), [&](const KeyedIndex& e) { return e.key != run->key; });
-    std::stable_sort(run, end,
-                     [&](const KeyedIndex& a, const KeyedIndex& b) { return third(a) < third(b); });
-    run = std::adjacent_find(end, entries.end(), same);
+void sort_by_third(const Triangles& triangles, const Array<std::int32_t>& place, Order& order) {
+  const auto third = [&](std::int32_t t) { return turned(new_ids(triangles, t, place))[2]; };
+  const std::uint64_t* const end = order.keys.end();
+  for (const std::uint64_t* run = std::adjacent_find(order.keys.begin(), order.keys.end());
+       run != end;) {
+    const std::uint64_t* const last = std::find_if(run, end, [&](auto key) { return key != *run; });
+    std::int32_t* const items = order.items.begin();
+    std::stable_sort(items + (run - order.keys.begin()), items + (last - order.keys.begin()),
+                     [&](std::int32_t a, std::int32_t b) { return third(a) < third(b); });
+    run = std::adjacent_find(last, end);
   }
 }
 
 /// The triangles in canonical order. Keys are the first two vertices, from the highest bits on.
-Array<KeyedIndex> canonical_order(const Triangles& triangles, const Array<std::int32_t>& place) {
+Array<std::int32_t> canonical_order(const Triangles& triangles, const Array<std::int32_t>& place) {
   const int bits = std::bit_width(static_cast<std::uint64_t>(place.size()));
-  constexpr int key_bits = 3 + 2 * curve_levels; // of which sort_by_key takes the highest first
-  Array<KeyedIndex> entries(triangles.cols());
-  for_each_block(entries.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+  Array<std::uint64_t> keys(triangles.cols());
+  for_each_block(keys.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t t = begin; t != end; ++t) {
       const Triple ids = turned(new_ids(triangles, t, place));
       const auto first = static_cast<std::uint64_t>(ids[0]);
-      entries[t] = {(first << bits | static_cast<std::uint64_t>(ids[1])) << (key_bits - 2 * bits),
-                    static_cast<std::int32_t>(t)};
+      keys[t] = (first << bits | static_cast<std::uint64_t>(ids[1])) << (key_bits - 2 * bits);
     }
   });
-  sort_by_key(entries);
-  sort_by_third(triangles, place, entries);
-  return entries;
+  Order order = order_by_key(std::move(keys));
+  sort_by_third(triangles, place, order);
+  return std::move(order.items);
 }
 
 /// Triangles and neighbours of `mesh` to `out`, in that order.
 void move_triangles(const Mesh& mesh, const Array<std::int32_t>& place,
-                    const Array<KeyedIndex>& order, Mesh& out) {
+                    const Array<std::int32_t>& order, Mesh& out) {
   const std::int64_t count = order.size();
   Array<std::int32_t> new_triangle(count);
   for_each_block(count, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t k = begin; k != end; ++k)
-      new_triangle[order[k].index] = static_cast<std::int32_t>(k);
+      new_triangle[order[k]] = static_cast<std::int32_t>(k);
   });
   make_room(out.triangles, 3, count);
   make_room(out.neighbours, 3, count);
   for_each_block(count, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t k = begin; k != end; ++k) {
-      const std::int64_t t = order[k].index;
+      const std::int64_t t = order[k];
       const Triple ids = new_ids(mesh.triangles, t, place);
       const int first = first_vertex(ids);
       const Triple vertices = turned(ids, first);
@@ -187,19 +182,11 @@ void require_ids(const Mesh& mesh) {
 
 Array<std::int32_t> curve_order(const Points3& points) {
   require_directions(points);
-  Array<KeyedIndex> entries(points.cols());
-  for_each_block(entries.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-    for_each_key(points, begin, end, [&](std::int64_t i, std::uint64_t key) {
-      entries[i] = {key, static_cast<std::int32_t>(i)};
-    });
+  Array<std::uint64_t> keys(points.cols());
+  for_each_block(keys.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for_each_key(points, begin, end, [&](std::int64_t i, std::uint64_t key) { keys[i] = key; });
   });
-  sort_by_key(entries);
-  Array<std::int32_t> order(entries.size());
-  for_each_block(order.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-    for (std::int64_t i = begin; i != end; ++i)
-      order[i] = entries[i].index;
-  });
-  return order;
+  return order_by_key(std::move(keys)).items;
 }
 
 bool is_in_curve_order(const Mesh& mesh) {

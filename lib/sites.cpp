@@ -13,6 +13,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <span>
 #include <string>
 #include <type_traits>
 #include <unordered_map>
@@ -148,9 +149,9 @@ struct Images : Places {
 // ---- Stages
 
 /// Curve keys of all inputs, which it checks.
-template <class Input> Array<KeyedIndex> make_entries(const Input& input) {
+template <class Input> Array<std::uint64_t> make_keys(const Input& input) {
   const std::int64_t n = input.points.cols();
-  Array<KeyedIndex> entries(n);
+  Array<std::uint64_t> keys(n);
   std::vector<std::int64_t> offending(static_cast<std::size_t>(block_count(n)), none);
   for_each_block(n, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
     std::int64_t& first = offending[static_cast<std::size_t>(block)];
@@ -160,62 +161,61 @@ template <class Input> Array<KeyedIndex> make_entries(const Input& input) {
       first = std::min(first, i);
       return CubePoint{0, 0, 0};
     };
-    for_each_curve_key(begin, end, square, [&](std::int64_t i, std::uint64_t key) {
-      entries[i] = {key, static_cast<std::int32_t>(i)};
-    });
+    for_each_curve_key(begin, end, square,
+                       [&](std::int64_t i, std::uint64_t key) { keys[i] = key; });
   });
   const auto first = std::min_element(offending.begin(), offending.end());
   if (first != offending.end() && *first != none)
     input.refuse(*first);
-  return entries;
+  return keys;
 }
 
-/// Orders a run of equal keys: along a curve over the square that its cube points fill, and so on
-/// where those keys are equal too. A cluster narrower than a finest cell is a curve like any other
-/// then, where walks from site to site are short. Equal cube points end up side by side, ordered by
-/// direction, then index.
-template <class Input> void order_finely(const Input& input, KeyedIndex* begin, KeyedIndex* end) {
-  const auto cube_point = [&](const KeyedIndex& e) { return input.square(e.index); };
-  CubePoint low = cube_point(*begin), high = low;
-  for (const KeyedIndex* e = begin; e != end; ++e) {
-    const CubePoint p = cube_point(*e);
+/// Orders a run of inputs of equal keys: along a curve over the square that their cube points fill,
+/// and so on where those keys are equal too. A cluster narrower than a finest cell is a curve like
+/// any other then, where walks from site to site are short. Equal cube points end up side by side,
+/// ordered by direction, then index.
+template <class Input> void order_finely(const Input& input, std::span<std::int32_t> run) {
+  CubePoint low = input.square(run.front()), high = low;
+  for (const std::int32_t i : run) {
+    const CubePoint p = input.square(i);
     low = {p.face, std::min(low.u, p.u), std::min(low.v, p.v)};
     high = {p.face, std::max(high.u, p.u), std::max(high.v, p.v)};
   }
   const double width = std::max(high.u - low.u, high.v - low.v);
   if (width == 0) {
-    std::sort(begin, end, [&](const KeyedIndex& a, const KeyedIndex& b) {
-      const int order = input.compare(a.index, b.index);
-      return order != 0 ? order < 0 : a.index < b.index;
+    std::sort(run.begin(), run.end(), [&](std::int32_t a, std::int32_t b) {
+      const int order = input.compare(a, b);
+      return order != 0 ? order < 0 : a < b;
     });
     return;
   }
-  std::vector<KeyedIndex> finer(begin, end);
-  for (KeyedIndex& e : finer) {
-    const CubePoint p = cube_point(e);
+  std::vector<KeyedIndex> finer;
+  finer.reserve(run.size());
+  for (const std::int32_t i : run) {
+    const CubePoint p = input.square(i);
     const double u = (p.u - low.u) / width, v = (p.v - low.v) / width;
-    e.key = curve_key({p.face, 2 * u - 1, 2 * v - 1});
+    finer.push_back({curve_key({p.face, 2 * u - 1, 2 * v - 1}), i});
   }
   std::sort(finer.begin(), finer.end(), precedes);
   for (std::size_t i = 0; i < finer.size(); ++i)
-    begin[i].index = finer[i].index;
+    run[i] = finer[i].index;
   for (std::size_t i = 0, last = 0; i < finer.size(); i = last) {
     while (last < finer.size() && finer[last].key == finer[i].key)
       ++last;
     if (last - i > 1)
-      order_finely(input, begin + i, begin + last);
+      order_finely(input, run.subspan(i, last - i));
   }
 }
 
 /// For each input the lowest index of the same direction. Equal directions have the same bits on
 /// the cube, hence the same key, and stand side by side in a run of equal keys that is in order.
 template <class Input>
-void link_duplicates(const Input& input, KeyedIndex* begin, KeyedIndex* end,
+void link_duplicates(const Input& input, std::span<std::int32_t> run,
                      std::vector<std::int32_t>& lowest) {
-  order_finely(input, begin, end);
-  for (KeyedIndex* e = begin + 1; e < end; ++e)
-    if (input.same(e[-1].index, e->index))
-      lowest[static_cast<std::size_t>(e->index)] = lowest[static_cast<std::size_t>(e[-1].index)];
+  order_finely(input, run);
+  for (std::size_t i = 1; i < run.size(); ++i)
+    if (input.same(run[i - 1], run[i]))
+      lowest[static_cast<std::size_t>(run[i])] = lowest[static_cast<std::size_t>(run[i - 1])];
 }
 
 /// Merges each input into an earlier one that stays and is nearer than `within`, if there is one:
@@ -261,20 +261,20 @@ void link_near(const Input& input, double within, std::vector<std::int32_t>& low
 
 /// For each input the one that stands for it; empty when each stands for itself.
 template <class Input>
-std::vector<std::int32_t> link_inputs(const Input& input, Array<KeyedIndex>& entries,
-                                      double merge_within) {
-  const std::int64_t n = entries.size();
+std::vector<std::int32_t> link_inputs(const Input& input, Order& order, double merge_within) {
+  const std::int64_t n = order.size();
+  const Array<std::uint64_t>& keys = order.keys;
   std::vector<std::pair<std::int64_t, std::int64_t>> runs; // of equal keys
   std::vector<std::vector<std::pair<std::int64_t, std::int64_t>>> found(
       static_cast<std::size_t>(block_count(n)));
   for_each_block(n, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i) {
-      if (i + 1 == n || entries[i].key != entries[i + 1].key)
+      if (i + 1 == n || keys[i] != keys[i + 1])
         continue;
-      if (i > 0 && entries[i - 1].key == entries[i].key)
+      if (i > 0 && keys[i - 1] == keys[i])
         continue;
       std::int64_t last = i + 2;
-      while (last != n && entries[last].key == entries[i].key)
+      while (last != n && keys[last] == keys[i])
         ++last;
       found[static_cast<std::size_t>(block)].emplace_back(i, last);
     }
@@ -289,7 +289,7 @@ std::vector<std::int32_t> link_inputs(const Input& input, Array<KeyedIndex>& ent
     lowest[i] = static_cast<std::int32_t>(i);
   for_each_task(static_cast<std::int64_t>(runs.size()), [&](std::int64_t r) {
     const auto [begin, end] = runs[static_cast<std::size_t>(r)];
-    link_duplicates(input, entries.begin() + begin, entries.begin() + end, lowest);
+    link_duplicates(input, {order.items.begin() + begin, order.items.begin() + end}, lowest);
   });
   if (merge_within > 0)
     link_near(input, merge_within, lowest);
@@ -305,10 +305,10 @@ void refuse_duplicates(const std::vector<std::int32_t>& lowest, const char* twin
                   static_cast<std::int64_t>(i));
 }
 
-/// Keeps the entries that stand for themselves and numbers them in the order of the input.
+/// Keeps the inputs that stand for themselves and numbers them in the order of the input.
 template <class Input>
-void keep_distinct(const Input& input, const std::vector<std::int32_t>& lowest,
-                   Array<KeyedIndex>& entries, Sites& sites) {
+void keep_distinct(const Input& input, const std::vector<std::int32_t>& lowest, Order& order,
+                   Sites& sites) {
   std::int32_t kept = 0;
   for (std::size_t i = 0; i < lowest.size(); ++i)
     sites.site_of_input[i] = static_cast<std::size_t>(lowest[i]) == i
@@ -318,12 +318,16 @@ void keep_distinct(const Input& input, const std::vector<std::int32_t>& lowest,
   for (std::size_t i = 0; i < lowest.size(); ++i)
     if (static_cast<std::size_t>(lowest[i]) == i)
       set_column(sites.points, sites.site_of_input[i], input.at(static_cast<std::int64_t>(i)));
-  Array<KeyedIndex> distinct(kept);
+  Order distinct{Array<std::uint64_t>(kept), Array<std::int32_t>(kept)};
   std::int64_t next = 0;
-  for (const KeyedIndex& e : entries)
-    if (lowest[static_cast<std::size_t>(e.index)] == e.index)
-      distinct[next++] = {e.key, sites.site_of_input[static_cast<std::size_t>(e.index)]};
-  entries = std::move(distinct);
+  for (std::int64_t k = 0; k < order.size(); ++k) {
+    const auto i = static_cast<std::size_t>(order.items[k]);
+    if (lowest[i] != order.items[k])
+      continue;
+    distinct.keys[next] = order.keys[k];
+    distinct.items[next++] = sites.site_of_input[i];
+  }
+  order = std::move(distinct);
 }
 
 template <class Input> Points3 copy_of(const Input& input) {
@@ -360,9 +364,8 @@ template <class Input, class AllPoints>
 Sites make_sites_of(const Input& input, Duplicates duplicates, double merge_within,
                     const AllPoints& all_points) {
   require_count<Input>(input.points.cols(), "points");
-  Array<KeyedIndex> entries = make_entries(input);
-  sort_by_key(entries);
-  const std::vector<std::int32_t> lowest = link_inputs(input, entries, merge_within);
+  Order order = order_by_key(make_keys(input));
+  const std::vector<std::int32_t> lowest = link_inputs(input, order, merge_within);
   if (duplicates == Duplicates::refuse)
     refuse_duplicates(lowest, Input::twin);
 
@@ -372,25 +375,21 @@ Sites make_sites_of(const Input& input, Duplicates duplicates, double merge_with
     sites.points = all_points();
     number_all(sites.site_of_input);
   } else {
-    keep_distinct(input, lowest, entries, sites);
+    keep_distinct(input, lowest, order, sites);
   }
-  const std::int64_t n = entries.size();
+  const std::int64_t n = order.size();
   require_count<Input>(n, Input::distinct);
-  sites.id = Array<std::int32_t>(n);
+  sites.id = std::move(order.items);
   sites.unit = Array<Vec3>(n);
-  Array<std::uint64_t> keys(n);
   constexpr std::int64_t ahead = 24;
   for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t rank = begin; rank != end; ++rank) {
       if (rank + ahead < end) // in the input's order they are anywhere
-        __builtin_prefetch(&sites.given(entries[rank + ahead].index));
-      sites.id[rank] = entries[rank].index;
-      keys[rank] = entries[rank].key;
-      sites.unit[rank] = input.unit(sites.given(entries[rank].index));
+        __builtin_prefetch(&sites.given(sites.id[rank + ahead]));
+      sites.unit[rank] = input.unit(sites.given(sites.id[rank]));
     }
   });
-  entries = {};
-  sites.cells = CellTree(std::move(keys), !std::is_same_v<Input, Directions>);
+  sites.cells = CellTree(std::move(order.keys), !std::is_same_v<Input, Directions>);
   sites.boxes = SiteBoxes(sites.unit);
   return sites;
 }

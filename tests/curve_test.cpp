@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cells.h"
 #include "curve.h"
-#include "order.h"
 #include "predicates.h"
 
 #include <calotte/generators.h>
@@ -86,29 +85,6 @@ TEST_CASE("steps of the curve go to neighbouring cells, from face to face too") 
             [](const auto& a, const auto& b) { return a.first < b.first; });
   for (std::size_t m = 1; m < middles.size(); ++m)
     CHECK(norm(middles[m].second - middles[m - 1].second) < 2.0 / cells + 1e-12);
-}
-
-TEST_CASE("sorting by key is that of std::sort, for spread, crowded and equal keys") {
-  std::mt19937_64 random(5);
-  for (const std::int64_t n : {0, 1, 2, 100, 70000})
-    for (const int bits : {63, 40, 7, 0}) {
-      Array<KeyedIndex> entries(n);
-      for (std::int64_t i = 0; i < n; ++i) {
-        const std::uint64_t low = bits == 0 ? 0 : random() >> (64 - bits);
-        entries[i] = {
-            std::min<std::uint64_t>(low + (std::uint64_t{5} << 50), (std::uint64_t{6} << 60) - 1),
-            static_cast<std::int32_t>(n - i)};
-      }
-      std::vector<KeyedIndex> expected(entries.begin(), entries.end());
-      std::sort(expected.begin(), expected.end(), [](const KeyedIndex& a, const KeyedIndex& b) {
-        return a.key != b.key ? a.key < b.key : a.index < b.index;
-      });
-      sort_by_key(entries);
-      CHECK(std::equal(entries.begin(), entries.end(), expected.begin(), expected.end(),
-                       [](const KeyedIndex& a, const KeyedIndex& b) {
-                         return a.key == b.key && a.index == b.index;
-                       }));
-    }
 }
 
 TEST_CASE("the cells of each level part the sites, and their balls hold them") {
