@@ -134,8 +134,8 @@ void summarise(const std::vector<CapResult>& caps, std::int64_t sites, DelaunayR
     report.certified_by_cull += cap.cull.by_cull;
     report.certified_by_query += cap.cull.by_query;
     report.halo_insertions += cap.cull.inserted;
-    for (const std::int32_t t : cap.triangles.seams)
-      report.seam_triangles += cap.triangles.rank[t] >= 0;
+    for (const Seam& seam : cap.triangles.seams)
+      report.seam_triangles += cap.triangles.rank[seam.triangle] >= 0;
     add(report, cap.predicates);
   }
   report.regions = static_cast<int>(caps.size());
@@ -246,10 +246,8 @@ Regions divide(const Sites& sites, const DelaunayOptions& options) {
 
 namespace {
 
-/// What small arrays have left in the pools is kept for the next triangulation, but for a large one
-/// it is too much: reports of 2^23 sites take half a gigabyte.
 void empty_pools_of_many(std::int64_t sites) {
-  if (sites > 1 << 23)
+  if (sites > most_sites_kept)
     empty_pools();
 }
 

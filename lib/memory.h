@@ -12,6 +12,7 @@
 
 #ifdef __linux__
 #include <sys/mman.h>
+#include <unistd.h>
 #endif
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -25,16 +26,22 @@
 
 namespace calotte::detail {
 
+#ifdef __linux__
+/// Tells the system something of the whole pages of a block. Advice: a refusal changes nothing.
+inline void advise(void* begin, std::size_t bytes, std::size_t page, int advice) {
+  const auto address = reinterpret_cast<std::uintptr_t>(begin);
+  const std::uintptr_t first = (address + page - 1) / page * page,
+                       last = (address + bytes) / page * page;
+  if (first < last)
+    madvise(reinterpret_cast<void*>(first), last - first, advice);
+}
+#endif
+
 /// Asks the system to back fresh memory by huge pages where it lets programs choose. Large arrays
 /// that are read and written at random then miss the TLB seldom, and fault in 512 times less often.
 inline void prefer_huge_pages([[maybe_unused]] void* begin, [[maybe_unused]] std::size_t bytes) {
-#ifdef MADV_HUGEPAGE
-  constexpr std::uintptr_t huge = 1 << 21;
-  const auto address = reinterpret_cast<std::uintptr_t>(begin);
-  const std::uintptr_t first = (address + huge - 1) / huge * huge,
-                       last = (address + bytes) / huge * huge;
-  if (first < last) // advice: a refusal changes nothing
-    madvise(reinterpret_cast<void*>(first), last - first, MADV_HUGEPAGE);
+#ifdef __linux__
+  advise(begin, bytes, std::size_t{1} << 21, MADV_HUGEPAGE);
 #endif
 }
 
@@ -79,6 +86,10 @@ private:
   Data data_;
 };
 
+/// What the pools keep saves the next triangulation time, but of more sites than these it is too
+/// much: reports of 2^23 sites take half a gigabyte.
+inline constexpr std::int64_t most_sites_kept = 1 << 23;
+
 /// Gives back to the system what oneTBB and the C library keep for arrays to come.
 inline void empty_pools() {
 #if CALOTTE_POOLED
@@ -87,6 +98,16 @@ inline void empty_pools() {
   malloc_trim(0);
 #endif
 #endif
+}
+
+/// Frees an array, and gives its pages back to the system, also those of a block in a pool that
+/// other arrays keep from going back.
+template <class T> void give_back(Array<T>& array) {
+#ifdef __linux__
+  advise(array.begin(), static_cast<std::size_t>(array.size()) * sizeof(T),
+         static_cast<std::size_t>(sysconf(_SC_PAGESIZE)), MADV_DONTNEED);
+#endif
+  array = {};
 }
 
 } // namespace calotte::detail

@@ -121,7 +121,7 @@ RegionTriangles report_triangles(Triangulation<Space>& triangulation, const Site
     if (face->certified && !triangulation.is_infinite(face))
       face->number = count++;
   });
-  RegionTriangles out{Array<Triple>(count), Array<Triple>(count), {}, {}, {}, {}};
+  RegionTriangles out{Array<Triple>(count), Array<Triple>(count), {}, {}};
   const std::size_t locals = triangulation.members().size();
   std::vector<std::int32_t> length(locals, 0);
   RankLists lists(count, locals);
@@ -144,9 +144,9 @@ RegionTriangles report_triangles(Triangulation<Space>& triangulation, const Site
     if (v[0]->owned() && v[1]->owned() && v[2]->owned())
       return;
     const std::int32_t a = owner_of(v[0]), b = owner_of(v[1]), c = owner_of(v[2]);
-    out.seams.push_back(t);
-    out.reporters.push_back(static_cast<std::int8_t>(1 + (b != a) + (c != a && c != b)));
-    out.own_edges.push_back(own_edges(v));
+    out.seams.push_back({out.sites[t], t,
+                         static_cast<std::int8_t>(1 + (b != a) + (c != a && c != b)),
+                         own_edges(v)});
   });
   out.rank = std::move(lists).ranks();
   for (std::size_t v = 0; v < locals; ++v)
@@ -258,7 +258,7 @@ void write_neighbours(const RegionTriangles& report, const Array<std::int32_t>& 
                       Triangles& out) {
   const auto write = [&](std::int64_t t, int bits) {
     const Triple& neighbours = report.neighbours[t];
-    if (t + ahead < report.sites.size())
+    if (t + ahead < report.neighbours.size())
       __builtin_prefetch(&out(0, place[t + ahead]), 1);
     for (int i = 0; i < 3; ++i)
       if (bits >> i & 1) {
@@ -267,12 +267,12 @@ void write_neighbours(const RegionTriangles& report, const Array<std::int32_t>& 
       }
   };
   std::int64_t t = 0;
-  for (std::size_t s = 0; s < report.seams.size(); ++s) {
-    for (; t < report.seams[s]; ++t)
+  for (const Seam& seam : report.seams) {
+    for (; t < seam.triangle; ++t)
       write(t, 7);
-    write(t++, report.own_edges[s]);
+    write(t++, seam.own_edges);
   }
-  for (; t < report.sites.size(); ++t)
+  for (; t < report.neighbours.size(); ++t)
     write(t, 7);
 }
 
@@ -295,27 +295,26 @@ void unite(std::vector<RegionTriangles>&& reports, Array<std::int32_t>&& triangl
     RegionTriangles& report = reports[static_cast<std::size_t>(k)];
     Array<std::int32_t>& own = place[static_cast<std::size_t>(k)];
     own = place_own(std::move(report.rank), report.sites, triangles_of, mesh.triangles);
-    for (const std::int32_t t : report.seams)
-      if (own[t] >= 0)
-        table.enter(report.sites[t], own[t]);
+    for (const Seam& seam : report.seams)
+      if (own[seam.triangle] >= 0)
+        table.enter(seam.sites, own[seam.triangle]);
+    if (mesh.points.cols() > most_sites_kept) // the mesh's neighbours take their room
+      give_back(report.sites);
   });
   for_each_task(regions, [&](std::int64_t k) {
-    const RegionTriangles& report = reports[static_cast<std::size_t>(k)];
-    for (const std::int32_t t : report.seams) {
-      std::int32_t& here = place[static_cast<std::size_t>(k)][t];
+    for (const Seam& seam : reports[static_cast<std::size_t>(k)].seams) {
+      std::int32_t& here = place[static_cast<std::size_t>(k)][seam.triangle];
       if (here < 0)
-        here = table.count(report.sites[t]);
+        here = table.count(seam.sites);
       if (here < 0)
-        disagree(report.sites[t]);
+        disagree(seam.sites);
     }
   });
   for_each_task(regions, [&](std::int64_t k) {
     RegionTriangles& report = reports[static_cast<std::size_t>(k)];
-    for (std::size_t s = 0; s < report.seams.size(); ++s) {
-      const Triple& sites = report.sites[report.seams[s]];
-      if (table.reports(sites) != report.reporters[s])
-        disagree(sites);
-    }
+    for (const Seam& seam : report.seams)
+      if (table.reports(seam.sites) != seam.reporters)
+        disagree(seam.sites);
     write_neighbours(report, place[static_cast<std::size_t>(k)], mesh.neighbours);
     report = {}; // freed here, by all threads
     place[static_cast<std::size_t>(k)] = {};

@@ -15,6 +15,15 @@ namespace calotte::detail {
 
 using Triple = std::array<std::int32_t, 3>;
 
+/// A triangle whose vertices have different owners, each of whom reports it.
+struct Seam {
+  Triple sites;
+  std::int32_t triangle; ///< its place in the report
+  std::int8_t reporters; ///< the number of owners
+  std::int8_t own_edges; ///< bit i set where this region owns the lower site of the edge across
+                         ///< from vertex i
+};
+
 /// What one region reports: its triangles with an owned vertex, in no order, each from its lowest
 /// site on.
 struct RegionTriangles {
@@ -22,10 +31,7 @@ struct RegionTriangles {
   Array<Triple> neighbours; ///< across from each vertex, as places in these arrays; -1 if not here
   Array<std::int32_t> rank; ///< by second site among those of one lowest site; -1 if that is not
                             ///< owned; at least as many as triangles
-  std::vector<std::int32_t> seams;    ///< triangles whose vertices have different owners, ascending
-  std::vector<std::int8_t> reporters; ///< by seam: the number of owners
-  std::vector<std::int8_t> own_edges; ///< by seam: bit i set where this region owns the lower site
-                                      ///< of the edge across from vertex i
+  std::vector<Seam> seams;  ///< ascending by triangle
 };
 
 /// Reports the certified finite faces of a triangulation.

@@ -16,8 +16,7 @@ const std::array<Triple, 4> faces{{{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}}};
 /// The first faces of a tetrahedron as reported by the owner of sites 0 and 1, or of 2 and 3. All
 /// have their lowest site in the first region and are seams of both.
 RegionTriangles report_of(bool first, std::int32_t count = 4) {
-  RegionTriangles out{
-      Array<Triple>(count), Array<Triple>(count), Array<std::int32_t>(count), {}, {}, {}};
+  RegionTriangles out{Array<Triple>(count), Array<Triple>(count), Array<std::int32_t>(count), {}};
   const std::array<Triple, 4> neighbours{{{3, 1, 2}, {3, 2, 0}, {3, 0, 1}, {1, 0, 2}}};
   for (std::int32_t t = 0; t < count; ++t) {
     const auto face = static_cast<std::size_t>(t);
@@ -27,14 +26,12 @@ RegionTriangles report_of(bool first, std::int32_t count = 4) {
       across = across < count ? across : -1;
     // By second site: 0 1 2, 0 2 3, 0 3 1, and 1 3 2 alone.
     out.rank[t] = !first ? -1 : t == 3 ? 0 : t;
-    out.seams.push_back(t);
-    out.reporters.push_back(2);
     int bits = 0;
     for (std::size_t i = 0; i < 3; ++i) {
       const bool lower_is_first = std::min(faces[face][(i + 1) % 3], faces[face][(i + 2) % 3]) < 2;
       bits |= static_cast<int>(lower_is_first == first) << i;
     }
-    out.own_edges.push_back(static_cast<std::int8_t>(bits));
+    out.seams.push_back({faces[face], t, 2, static_cast<std::int8_t>(bits)});
   }
   return out;
 }
@@ -73,9 +70,9 @@ TEST_CASE("two regions' reports of one tetrahedron unite to its mesh") {
 TEST_CASE("regions that disagree are an error, never a mesh") {
   CHECK(is_internal_error(report_of(true), report_of(false, 3))); // one report too few
   RegionTriangles other = report_of(false);
-  other.sites[2] = {0, 3, 2}; // a triangle that nobody else knows
+  other.seams[2].sites = {0, 3, 2}; // a triangle that nobody else knows
   CHECK(is_internal_error(report_of(true), std::move(other)));
   RegionTriangles sure = report_of(true);
-  sure.reporters[1] = 3; // says three owners, of which two report
+  sure.seams[1].reporters = 3; // says three owners, of which two report
   CHECK(is_internal_error(std::move(sure), report_of(false)));
 }
