@@ -50,8 +50,9 @@ struct Row {
   std::string only_set = {}; ///< where it is not for all of them
 };
 
-const std::vector<std::string> row_names = {"calotte",  "one-thread",       "one-region", "cgal",
-                                            "stripack", "stripack-natural", "qhull",      "none"};
+const std::vector<std::string> row_names = {"calotte",          "one-thread", "one-region",
+                                            "side-by-side",     "cgal",       "stripack",
+                                            "stripack-natural", "qhull",      "none"};
 
 /// TRMESH on the sites of the set bisection, coarse levels first.
 Outcome run_stripack_natural(const Points3& shuffled) {
@@ -75,6 +76,10 @@ std::vector<Row> make_rows(const Options& options) {
       rows.push_back(library_row(threads_row(1), 1));
     } else if (name == "one-region") {
       rows.push_back(library_row("calotte one region", 1, 1));
+    } else if (name == "side-by-side") {
+      rows.push_back({"calotte side by side", [threads = options.threads](const Points3& points) {
+                        return run_side_by_side(points, threads);
+                      }});
     } else if (name == "cgal") {
       rows.push_back({"CGAL", run_cgal, true});
     } else if (name == "stripack" && has_stripack()) {

@@ -11,7 +11,9 @@
 
 #include <algorithm>
 #include <array>
+#include <barrier>
 #include <bit>
+#include <thread>
 #include <tuple>
 #include <unordered_map>
 #include <vector>
@@ -59,6 +61,21 @@ Outcome run_calotte(const Points3& points, int threads, const DelaunayOptions& o
   }
   outcome.digest = digest.value();
   return outcome;
+}
+
+Outcome run_side_by_side(const Points3& points, int threads) {
+  std::vector<Outcome> outcomes(static_cast<std::size_t>(threads));
+  std::barrier start(threads);
+  std::vector<std::jthread> runs;
+  for (Outcome& outcome : outcomes) {
+    runs.emplace_back([&] {
+      start.arrive_and_wait();
+      outcome = run_calotte(points, 1);
+    });
+  }
+  runs.clear(); // joins them
+  const auto slower = [](const Outcome& a, const Outcome& b) { return a.seconds < b.seconds; };
+  return *std::max_element(outcomes.begin(), outcomes.end(), slower);
 }
 
 namespace {

@@ -34,6 +34,10 @@ struct Outcome : Timed {
 /// timed.
 Outcome run_calotte(const Points3& points, int threads, const DelaunayOptions& options = {});
 
+/// As many of them as threads, each on a thread of its own, at once; the seconds of the slowest.
+/// They share nothing but the points: what they take longer than one alone is the machine's doing.
+Outcome run_side_by_side(const Points3& points, int threads);
+
 /// CGAL::Delaunay_triangulation_on_sphere_2 with exact predicates and inexact constructions: the
 /// insertion of a range of points of CGAL's own type, which CGAL sorts along a space-filling curve.
 Outcome run_cgal(const Points3& points);

@@ -64,10 +64,12 @@ def run(step, programs, file):
 def run_all(options, raw):
     """The steps' samples, those that were there already included where that was asked for."""
     commit = machine.commit()
-    if options.sections == tuple(plan.SECTIONS) and not options.resume:
+    todo = plan.steps(machine.threads(), options.quick, options.sections)
+    if options.steps:
+        todo = [step for step in todo if step.name in options.steps]
+    elif options.sections == tuple(plan.SECTIONS) and not options.resume:
         for old in raw.glob("*.json"):
             old.unlink()
-    todo = plan.steps(machine.threads(), options.quick, options.sections)
     started = time.monotonic()
     for number, step in enumerate(todo, 1):
         file = raw / f"{step.name}.json"
@@ -79,6 +81,10 @@ def run_all(options, raw):
     say(f"{len(todo)} steps in {time.monotonic() - started:.0f} s")
 
 
+def names(text):
+    return tuple(text.split(","))
+
+
 def parse(arguments):
     parser = argparse.ArgumentParser(
         prog="bench/report", description="Runs the benchmarks and writes their report."
@@ -86,9 +92,12 @@ def parse(arguments):
     parser.add_argument("--quick", action="store_true", help="few rounds, no large sets")
     parser.add_argument(
         "--sections",
-        type=lambda text: tuple(text.split(",")),
+        type=names,
         default=tuple(plan.SECTIONS),
         help="only these, with commas: " + ", ".join(plan.SECTIONS),
+    )
+    parser.add_argument(
+        "--steps", type=names, default=(), help="only these, by their names in the report's tables"
     )
     parser.add_argument("--resume", action="store_true", help="keep what this commit has run")
     parser.add_argument("--tables", action="store_true", help="run nothing, compose what is kept")
@@ -101,6 +110,10 @@ def parse(arguments):
     unknown = [name for name in options.sections if name not in plan.SECTIONS]
     if unknown:
         parser.error(f"there is no section {unknown[0]}")
+    known = [step.name for step in plan.steps(machine.threads(), options.quick, options.sections)]
+    unknown = [name for name in options.steps if name not in known]
+    if unknown:
+        parser.error(f"there is no step {unknown[0]}; there are {', '.join(known)}")
     options.out = options.out or PROJECT / "bench-report" / ("quick" if options.quick else "")
     return options
 

@@ -46,7 +46,7 @@ def on_threads(threads):
 def triangulation(threads, quick):
     everyone = ("calotte", "one-thread", "one-region", "cgal", "stripack", "qhull")
     yield "delaunay", "medium", options(
-        rows=everyone, sizes=MEDIUM, rounds=3 if quick else 21
+        rows=everyone + ("side-by-side",), sizes=MEDIUM, rounds=3 if quick else 21
     ) + on_threads(threads)
     orders = ("calotte", "cgal", "stripack", "stripack-natural", "qhull")
     yield "delaunay", "orders", options(
@@ -66,7 +66,7 @@ def triangulation(threads, quick):
 def large(threads, quick):
     if quick:
         return
-    ours = ("calotte", "one-thread", "one-region", "cgal")
+    ours = ("calotte", "one-thread", "one-region", "side-by-side", "cgal")
     yield "delaunay", "cgal", options(rows=ours, sizes=FINE, rounds=11) + on_threads(threads)
     # Apart, and warm: after these peers the library's fresh memory was seen to take 0.36 s more to
     # fault in, while STRIPACK's arrays are touched before its clock starts.

@@ -56,6 +56,23 @@ def speed(results):
     return lines
 
 
+def side_by_side(results, ours, alone, threads):
+    """What the machine gives runs that share nothing, and the library's efficiency beside that."""
+    place = {"step": ours.step, "set": ours.set, "sites": ours.sites}
+    apart = results.one(ours.step.split("-")[0], name="calotte side by side", **place)
+    if not apart:
+        return []
+    given = alone.ratios(apart)
+    relative = [ratio / threads for ratio in apart.ratios(ours)]
+    met = verdict(median(relative), EFFICIENCY, None, is_disturbed(relative, (apart, ours)))
+    return [
+        [f"- {threads} runs on 1 thread each, side by side, share nothing and reach"]
+        + [values_cell(given, (apart, alone), 3), NONE, NONE, NONE, ours.step],
+        ["- parallel efficiency over what those reach", values_cell(relative, (apart, ours), 3)]
+        + [f">= {EFFICIENCY}", NONE, met, ours.step],
+    ]
+
+
 def parallel(results):
     """1 thread over all threads, over their number."""
     lines = []
@@ -76,6 +93,7 @@ def parallel(results):
         lines.append(
             [what, values_cell(values, (alone, ours), 3), f">= {EFFICIENCY}", NONE, met, ours.step]
         )
+        lines += side_by_side(results, ours, alone, threads)
     return lines
 
 
