@@ -13,7 +13,7 @@ from reporting.cells import (
 )
 from reporting.distribution import WORKERS, Decomposition, Grid
 from reporting.makespan import imbalance
-from reporting.plan import COARSE, EVERY_SIZE, FINE, MEDIUM
+from reporting.plan import COARSE, EVERY_SIZE, FINE, MEDIUM, SIDE_BY_SIDE
 
 GRIDS = (COARSE, MEDIUM, FINE)
 SETS = ("uniform", "x8")
@@ -53,8 +53,13 @@ def step_rows(results, step):
     return [row for row in results.rows if row.step == step]
 
 
+def single(rows):
+    """Those of one triangulation."""
+    return [row for row in rows if row.name != SIDE_BY_SIDE]
+
+
 def table_2(results):
-    rows = results.find("triangulation", set="random", sites=MEDIUM)
+    rows = single(results.find("triangulation", set="random", sites=MEDIUM))
     stripack = by_name(rows).get("STRIPACK")
     text = table(
         ["run", "median s", "STRIPACK's seconds over its own", "the paper's (96)", "step"],
@@ -76,7 +81,7 @@ def table_2(results):
             "order, coarse levels first:\n\n" + compared(orders)
         )
     for step in LARGE:
-        rows = step_rows(results, step)
+        rows = single(step_rows(results, step))
         if rows:
             warm = "" if step == "large-cgal" else "; before each of the library's, one untimed run"
             text += f"\nThe fine grid's size, {sites_text(FINE)} random sites{warm}:\n\n"

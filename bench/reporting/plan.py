@@ -6,6 +6,7 @@ from dataclasses import dataclass
 COARSE, MEDIUM, FINE = 40962, 163842, 2621442  # the paper's grids
 EVERY_SIZE = (2562, 10242, 40962, 163842, 655362, 2621442)
 EVERY_SITE = "3000000"  # a limit above all sizes
+SIDE_BY_SIDE = "calotte side by side"  # a row of as many triangulations as threads
 
 
 @dataclass(frozen=True)

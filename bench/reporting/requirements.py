@@ -3,7 +3,7 @@
 
 from reporting.cells import NONE, percent, sites_text, table, values_cell
 from reporting.distribution import Grid
-from reporting.plan import FINE, MEDIUM
+from reporting.plan import FINE, MEDIUM, SIDE_BY_SIDE
 from reporting.samples import is_disturbed, median
 
 WORKERS = 96
@@ -59,7 +59,7 @@ def speed(results):
 def side_by_side(results, ours, alone, threads):
     """What the machine gives runs that share nothing, and the library's efficiency beside that."""
     place = {"step": ours.step, "set": ours.set, "sites": ours.sites}
-    apart = results.one(ours.step.split("-")[0], name="calotte side by side", **place)
+    apart = results.one(ours.step.split("-")[0], name=SIDE_BY_SIDE, **place)
     if not apart:
         return []
     given = alone.ratios(apart)
