@@ -13,6 +13,7 @@
 namespace calotte::detail {
 
 inline constexpr int curve_levels = 30; ///< bisections of a face; a cell is then 2^-29 wide
+inline constexpr int key_bits = 3 + 2 * curve_levels; ///< the face, then two bits a level
 
 /// A direction by central projection onto the cube [-1,1]^3. The quotients are rounded functions of
 /// the exact ratios: multiples of one direction give the same bits.
@@ -82,7 +83,7 @@ constexpr CurveTurn curve_turn(CurveTurn turn, int position) {
 /// On odd faces the axes are exchanged, so that the curve passes from face to face without a jump.
 constexpr CurveTurn face_turn(int face) { return face & 1; }
 
-/// Key of the finest cell: 3 bits of face, then two bits a level.
+/// Key of the finest cell, of key_bits bits.
 std::uint64_t curve_key(const CubePoint& c);
 
 /// The keys of four points, in little more time than that of one.

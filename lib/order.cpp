@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "order.h"
 
+#include "curve.h"
+
 #include <algorithm>
+#include <span>
 
 namespace calotte::detail {
 namespace {
 
 constexpr int first_digit = 12, digit = 8;
-/// Comparison sorts mispredict in their inner loops, a digit pass does not: runs up to this length
-/// alone are compared.
+/// Comparison sorts mispredict in their inner loops, a digit pass does not: only runs up to this
+/// length are compared.
 constexpr std::int64_t short_run = 24;
 
 /// Sorts [begin, end), whose keys agree above bit `shift`, with `buffer` of the same length to
 /// spare.
-void sort_run(KeyedIndex* begin, KeyedIndex* end, KeyedIndex* buffer, int shift) {
+void sort_run(KeyedItem* begin, KeyedItem* end, KeyedItem* buffer, int shift) {
   if (end - begin <= short_run || shift <= 0) {
     std::sort(begin, end, precedes);
     return;
@@ -21,12 +24,12 @@ void sort_run(KeyedIndex* begin, KeyedIndex* end, KeyedIndex* buffer, int shift)
   const int down = std::max(shift - digit, 0);
   constexpr std::uint64_t mask = (1U << digit) - 1;
   std::array<std::int32_t, mask + 2> first{};
-  for (const KeyedIndex* e = begin; e != end; ++e)
+  for (const KeyedItem* e = begin; e != end; ++e)
     ++first[(e->key >> down & mask) + 1];
   for (std::size_t d = 1; d < first.size(); ++d)
     first[d] += first[d - 1];
   std::array<std::int32_t, mask + 2> place = first;
-  for (const KeyedIndex* e = begin; e != end; ++e)
+  for (const KeyedItem* e = begin; e != end; ++e)
     buffer[place[static_cast<std::size_t>(e->key >> down & mask)]++] = *e;
   std::copy(buffer, buffer + (end - begin), begin);
   for (std::size_t d = 0; d <= mask; ++d)
@@ -34,39 +37,35 @@ void sort_run(KeyedIndex* begin, KeyedIndex* end, KeyedIndex* buffer, int shift)
       sort_run(begin + first[d], begin + first[d + 1], buffer, down);
 }
 
-/// Sorts a bucket's keys together with its items, in memory that the next bucket uses again.
-class BucketSorter {
-public:
-  explicit BucketSorter(std::int64_t largest) : run_(largest), buffer_(largest) {}
-
-  void sort(std::uint64_t* keys, std::int32_t* items, std::int64_t count) {
-    for (std::int64_t i = 0; i < count; ++i)
-      run_[i] = {keys[i], items[i]};
-    sort_run(run_.begin(), run_.begin() + count, buffer_.begin(), key_bits - first_digit);
-    for (std::int64_t i = 0; i < count; ++i) {
-      keys[i] = run_[i].key;
-      items[i] = run_[i].index;
-    }
+/// Sorts keys together with their items; `run` and `buffer` have room for them.
+void sort_bucket(std::span<std::uint64_t> keys, std::int32_t* items, KeyedItem* run,
+                 KeyedItem* buffer) {
+  for (std::size_t i = 0; i < keys.size(); ++i)
+    run[i] = {keys[i], items[i]};
+  sort_run(run, run + keys.size(), buffer, key_bits - first_digit);
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    keys[i] = run[i].key;
+    items[i] = run[i].item;
   }
+}
 
-private:
-  Array<KeyedIndex> run_, buffer_;
-};
-
-/// Sorts the buckets of the first digit, each in cache.
-void sort_buckets(const std::vector<std::int32_t>& first, Order& order) {
+/// Sorts the buckets of the first digit. A task sorts several, one after another in the same
+/// memory, which buckets of well spread keys leave in cache.
+void sort_buckets(std::span<const std::int32_t> first, Order& order) {
   constexpr std::size_t group = 16;
-  const std::size_t buckets = first.size() - 1;
-  for_each_task(static_cast<std::int64_t>(buckets / group), [&](std::int64_t g) {
+  static_assert((1 << first_digit) % group == 0);
+  for_each_task((1 << first_digit) / group, [&](std::int64_t g) {
     const std::size_t begin = static_cast<std::size_t>(g) * group;
     const auto size = [&](std::size_t b) { return first[b + 1] - first[b]; };
-    std::int64_t largest = 0;
+    std::int32_t largest = 0;
     for (std::size_t b = begin; b != begin + group; ++b)
-      largest = std::max<std::int64_t>(largest, size(b));
-    BucketSorter sorter(largest);
+      largest = std::max(largest, size(b));
+    if (largest < 2)
+      return;
+    Array<KeyedItem> run(largest), buffer(largest);
     for (std::size_t b = begin; b != begin + group; ++b)
-      if (size(b) > 1)
-        sorter.sort(order.keys.begin() + first[b], order.items.begin() + first[b], size(b));
+      sort_bucket({order.keys.begin() + first[b], static_cast<std::size_t>(size(b))},
+                  order.items.begin() + first[b], run.begin(), buffer.begin());
   });
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "curve.h"
 #include "parallel.h"
 
 #include <algorithm>
@@ -65,17 +64,16 @@ std::vector<std::int32_t> distribute(std::int64_t n, std::int64_t buckets,
   return first;
 }
 
-/// A key and the item it belongs to.
-struct KeyedIndex {
+struct KeyedItem {
   std::uint64_t key;
-  std::int32_t index;
+  std::int32_t item;
 };
 
-inline bool precedes(const KeyedIndex& a, const KeyedIndex& b) {
-  return a.key != b.key ? a.key < b.key : a.index < b.index;
+inline bool precedes(const KeyedItem& a, const KeyedItem& b) {
+  return a.key != b.key ? a.key < b.key : a.item < b.item;
 }
 
-/// Items in ascending order of their keys, equal keys by index.
+/// Items in ascending order of their keys, those of equal keys in the order that they had.
 struct Order {
   Array<std::uint64_t> keys;
   Array<std::int32_t> items;
@@ -83,10 +81,8 @@ struct Order {
   std::int64_t size() const { return keys.size(); }
 };
 
-inline constexpr int key_bits = 3 + 2 * curve_levels;
-
 /// Radix sort from the leading bits: linear time, and as many passes as the keys' crowding needs.
-/// \param keys by item, below 6 * 2^(2 curve_levels); fewer than 2^31.
+/// \param keys by item, below 2^key_bits; fewer than 2^31.
 Order order_by_key(Array<std::uint64_t> keys);
 
 } // namespace calotte::detail

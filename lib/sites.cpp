@@ -189,7 +189,7 @@ template <class Input> void order_finely(const Input& input, std::span<std::int3
     });
     return;
   }
-  std::vector<KeyedIndex> finer;
+  std::vector<KeyedItem> finer;
   finer.reserve(run.size());
   for (const std::int32_t i : run) {
     const CubePoint p = input.square(i);
@@ -198,7 +198,7 @@ template <class Input> void order_finely(const Input& input, std::span<std::int3
   }
   std::sort(finer.begin(), finer.end(), precedes);
   for (std::size_t i = 0; i < finer.size(); ++i)
-    run[i] = finer[i].index;
+    run[i] = finer[i].item;
   for (std::size_t i = 0, last = 0; i < finer.size(); i = last) {
     while (last < finer.size() && finer[last].key == finer[i].key)
       ++last;

@@ -55,13 +55,13 @@ TEST_CASE("distribute() sorts by bucket and keeps the order within each") {
 }
 
 TEST_CASE("order_by_key() sorts by key, then item, keys crowded, equal or far apart") {
-  constexpr std::uint64_t values = std::uint64_t{6} << 18;
+  constexpr std::uint64_t values = std::uint64_t{1} << 21;
   for (const std::int64_t n : {0, 1, 2, 30, 5000, 70000, 300000})
     for (const int shift : {0, 20, 42}) // the last bits alone, those amid, the first
       for (const std::uint64_t step : {std::uint64_t{1}, values / 100, values}) {
         INFO(n, " items, keys shifted by ", shift, ", multiples of ", step);
         Array<std::uint64_t> key(n);
-        std::vector<KeyedIndex> expected;
+        std::vector<KeyedItem> expected;
         const std::vector<std::uint64_t> drawn = keys(n, values, 8);
         for (std::int64_t i = 0; i < n; ++i) {
           key[i] = drawn[static_cast<std::size_t>(i)] / step * step << shift;
@@ -71,9 +71,9 @@ TEST_CASE("order_by_key() sorts by key, then item, keys crowded, equal or far ap
         const Order order = order_by_key(std::move(key));
         REQUIRE(order.size() == n);
         for (std::int64_t k = 0; k < n; ++k) {
-          const KeyedIndex& e = expected[static_cast<std::size_t>(k)];
-          if (order.keys[k] != e.key || order.items[k] != e.index)
-            FAIL("place ", k, " holds item ", order.items[k], " instead of ", e.index);
+          const KeyedItem& e = expected[static_cast<std::size_t>(k)];
+          if (order.keys[k] != e.key || order.items[k] != e.item)
+            FAIL("place ", k, " holds item ", order.items[k], " instead of ", e.item);
         }
       }
 }
