@@ -9,6 +9,7 @@
 #include <memory>
 #include <new>
 #include <type_traits>
+#include <utility>
 
 #ifdef __linux__
 #include <sys/mman.h>
@@ -27,7 +28,8 @@
 namespace calotte::detail {
 
 #ifdef __linux__
-/// Tells the system something of the whole pages of a block. Advice: a refusal changes nothing.
+/// Gives the system madvise()'s advice on the whole pages of a block, of that many bytes each. A
+/// refusal changes nothing.
 inline void advise(void* begin, std::size_t bytes, std::size_t page, int advice) {
   const auto address = reinterpret_cast<std::uintptr_t>(begin);
   const std::uintptr_t first = (address + page - 1) / page * page,
@@ -56,6 +58,13 @@ public:
   Array() = default;
   explicit Array(std::int64_t n)
       : size_(n), data_(allocate(static_cast<std::size_t>(n) * sizeof(T))) {}
+  Array(Array&& other) noexcept
+      : size_(std::exchange(other.size_, 0)), data_(std::move(other.data_)) {}
+  Array& operator=(Array&& other) noexcept {
+    size_ = std::exchange(other.size_, 0);
+    data_ = std::move(other.data_);
+    return *this;
+  }
   T& operator[](std::int64_t i) { return data_[static_cast<std::size_t>(i)]; }
   const T& operator[](std::int64_t i) const { return data_[static_cast<std::size_t>(i)]; }
   std::int64_t size() const { return size_; }
@@ -86,8 +95,8 @@ private:
   Data data_;
 };
 
-/// What the pools keep saves the next triangulation time, but of more sites than these it is too
-/// much: reports of 2^23 sites take half a gigabyte.
+/// The pools keep what a triangulation of up to so many sites leaves, for the next one; that of
+/// more, half a gigabyte of reports alone, goes back to the system.
 inline constexpr std::int64_t most_sites_kept = 1 << 23;
 
 /// Gives back to the system what oneTBB and the C library keep for arrays to come.

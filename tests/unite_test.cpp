@@ -36,7 +36,8 @@ RegionTriangles report_of(bool first, std::int32_t count = 4) {
   return out;
 }
 
-Mesh united(RegionTriangles first, RegionTriangles second) {
+/// \param points of the mesh, which are not looked at: their number alone counts.
+Mesh united(RegionTriangles first, RegionTriangles second, std::int64_t points = 4) {
   std::vector<RegionTriangles> reports;
   reports.push_back(std::move(first));
   reports.push_back(std::move(second));
@@ -44,6 +45,7 @@ Mesh united(RegionTriangles first, RegionTriangles second) {
   for (std::int32_t s = 0; s < 4; ++s)
     triangles_of[s] = s == 0 ? 3 : s == 1 ? 1 : 0;
   Mesh mesh;
+  mesh.points.resize(3, points);
   unite(std::move(reports), std::move(triangles_of), mesh);
   return mesh;
 }
@@ -60,11 +62,14 @@ bool is_internal_error(RegionTriangles first, RegionTriangles second) {
 } // namespace
 
 TEST_CASE("two regions' reports of one tetrahedron unite to its mesh") {
-  Mesh mesh = united(report_of(true), report_of(false));
-  mesh.points.resize(3, 4);
-  mesh.points << 1, -1, -1, 1, 1, 1, -1, -1, 1, -1, 1, -1;
-  mesh.site_of_input = {0, 1, 2, 3};
-  CHECK(check(mesh).failure == "");
+  for (const std::int64_t points :
+       {std::int64_t{4}, most_sites_kept + 1}) { // many: memory goes back
+    Mesh mesh = united(report_of(true), report_of(false), points);
+    mesh.points.resize(3, 4);
+    mesh.points << 1, -1, -1, 1, 1, 1, -1, -1, 1, -1, 1, -1;
+    mesh.site_of_input = {0, 1, 2, 3};
+    CHECK(check(mesh).failure == "");
+  }
 }
 
 TEST_CASE("regions that disagree are an error, never a mesh") {
