@@ -11,11 +11,11 @@
 
 #include <algorithm>
 #include <array>
-#include <barrier>
 #include <bit>
-#include <thread>
+#include <future>
 #include <tuple>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace calotte::bench {
@@ -64,18 +64,20 @@ Outcome run_calotte(const Points3& points, int threads, const DelaunayOptions& o
 }
 
 Outcome run_side_by_side(const Points3& points, int threads) {
-  std::vector<Outcome> outcomes(static_cast<std::size_t>(threads));
-  std::barrier start(threads);
-  std::vector<std::jthread> runs;
-  for (Outcome& outcome : outcomes) {
-    runs.emplace_back([&] {
-      start.arrive_and_wait();
-      outcome = run_calotte(points, 1);
-    });
+  std::vector<std::future<Outcome>> runs;
+  for (int t = 0; t < threads; ++t)
+    runs.push_back(std::async(std::launch::async, [&] { return run_calotte(points, 1); }));
+  Outcome slowest = runs.front().get();
+  for (auto run = runs.begin() + 1; run != runs.end(); ++run) {
+    Outcome outcome = run->get();
+    if (outcome.seconds > slowest.seconds)
+      std::swap(outcome, slowest);
+    if (slowest.failure.empty() && outcome.digest != slowest.digest)
+      slowest.failure = "two runs at once made different triangles";
+    if (slowest.failure.empty())
+      slowest.failure = outcome.failure;
   }
-  runs.clear(); // joins them
-  const auto slower = [](const Outcome& a, const Outcome& b) { return a.seconds < b.seconds; };
-  return *std::max_element(outcomes.begin(), outcomes.end(), slower);
+  return slowest;
 }
 
 namespace {

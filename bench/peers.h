@@ -35,7 +35,9 @@ struct Outcome : Timed {
 Outcome run_calotte(const Points3& points, int threads, const DelaunayOptions& options = {});
 
 /// As many of them as threads, each on a thread of its own, at once; the seconds of the slowest.
-/// They share nothing but the points: what they take longer than one alone is the machine's doing.
+/// They share the points and the process's memory management, and wait for one another nowhere:
+/// what they take longer than one alone is mostly the machine's doing. Together they hold as many
+/// times the memory of one.
 Outcome run_side_by_side(const Points3& points, int threads);
 
 /// CGAL::Delaunay_triangulation_on_sphere_2 with exact predicates and inexact constructions: the

@@ -84,6 +84,7 @@ void keep_memory() {
 #ifdef __GLIBC__
   mallopt(M_MMAP_MAX, 0);
   mallopt(M_TRIM_THRESHOLD, -1);
+  mallopt(M_ARENA_MAX, 1); // the two above do not reach the arenas of other threads
 #endif
 }
 

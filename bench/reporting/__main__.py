@@ -29,10 +29,12 @@ def is_done(file, step, commit):
     return kept["commit"] == commit and kept["command"] == step.command
 
 
-def run(step, programs, file):
-    """Runs one step; its samples go to the file when it is over."""
+def run(step, programs, commit, file):
+    """Runs one step of programs of that commit; its samples go to the file when it is over."""
     watch, date = machine.Watch(), datetime.now(timezone.utc).strftime("%Y-%m-%d %H:%M")
     raw, log = file.with_suffix(".part"), file.with_suffix(".log")
+    raw.unlink(missing_ok=True)  # of a report that was interrupted
+    runs = json.loads(file.read_text()).get("runs", 1) if file.exists() else 0
     with open(log, "w", encoding="utf-8") as out:
         done = subprocess.run(
             [programs / f"{step.program}_bench", *step.arguments, "--json", raw],
@@ -51,8 +53,9 @@ def run(step, programs, file):
         "name": step.name,
         "section": step.section,
         "command": step.command,
-        "commit": machine.commit(),
+        "commit": commit,
         "date": date,
+        "runs": runs + 1,
         "seconds": watch.seconds(),
         "others": others,
         "output": json.loads(raw.read_text()),
@@ -64,21 +67,19 @@ def run(step, programs, file):
 def run_all(options, raw):
     """The steps' samples, those that were there already included where that was asked for."""
     commit = machine.commit()
-    todo = plan.steps(machine.threads(), options.quick, options.sections)
-    if options.steps:
-        todo = [step for step in todo if step.name in options.steps]
-    elif options.sections == tuple(plan.SECTIONS) and not options.resume:
+    everything = options.sections == tuple(plan.SECTIONS) and not options.steps
+    if everything and not options.resume:
         for old in raw.glob("*.json"):
             old.unlink()
     started = time.monotonic()
-    for number, step in enumerate(todo, 1):
+    for number, step in enumerate(options.todo, 1):
         file = raw / f"{step.name}.json"
         if options.resume and is_done(file, step, commit):
-            say(f"{number}/{len(todo)} {step.name}: kept")
+            say(f"{number}/{len(options.todo)} {step.name}: kept")
             continue
-        say(f"{number}/{len(todo)} {step.name} ({time.monotonic() - started:.0f} s so far)")
-        run(step, options.programs, file)
-    say(f"{len(todo)} steps in {time.monotonic() - started:.0f} s")
+        say(f"{number}/{len(options.todo)} {step.name} ({time.monotonic() - started:.0f} s so far)")
+        run(step, options.programs, commit, file)
+    say(f"{len(options.todo)} steps in {time.monotonic() - started:.0f} s")
 
 
 def names(text):
@@ -107,13 +108,12 @@ def parse(arguments):
     parser.add_argument("--bandwidth", type=float, default=10e9, help="of the same, bytes/s")
     parser.add_argument("--programs", type=Path, default=PROJECT / "build/bench/bench")
     options = parser.parse_args(arguments)
-    unknown = [name for name in options.sections if name not in plan.SECTIONS]
-    if unknown:
-        parser.error(f"there is no section {unknown[0]}")
-    known = [step.name for step in plan.steps(machine.threads(), options.quick, options.sections)]
-    unknown = [name for name in options.steps if name not in known]
-    if unknown:
-        parser.error(f"there is no step {unknown[0]}; there are {', '.join(known)}")
+    try:
+        options.todo = plan.steps(
+            machine.threads(), options.quick, options.sections, options.steps
+        )
+    except LookupError as error:
+        parser.error(error.args[0])
     options.out = options.out or PROJECT / "bench-report" / ("quick" if options.quick else "")
     return options
 

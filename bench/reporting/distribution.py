@@ -60,7 +60,7 @@ class Grid:
             found = Decomposition.of(row)
             self.by_count.setdefault(found.count, found)
             if ", default regions" in row.name:
-                self.default = found
+                self.default = self.default or found
         self.network = Network(network.latency, network.bandwidth, REDUCTIONS[work])
 
     def __bool__(self):

@@ -68,14 +68,16 @@ workers several regions, longest first, each to the worker that is free first, f
 decomposition that serves P best; *one region a worker* is the paper's way. The library's own number
 of regions follows from the number of sites alone and is too small for many workers: a distributed
 run would choose it, `options.partition.regions`, by P, as is done here. Efficiency is against the
-best serial run: the decomposition with the least sum of seconds. Left out: what is outside the
+best serial run: the decomposition with the least sum of seconds. Repeated triangulations begin with
+regions far apart, as the one that comes first finds the caches cold. Left out: what is outside the
 regions' tasks (the choice of regions, the union, sums), contention for memory or network, noise.
 """
 
 
 COMMANDS = """\
 A step's rows are made again by its command. *Others* is the part of all cores that other programs
-and the host took meanwhile.
+and the host took meanwhile. Steps of disturbed rows may be run again (`bench/report --steps`):
+*runs* is how often they ran, and the last one counts.
 """
 
 
@@ -99,10 +101,10 @@ def machine_table(results):
 def commands_table(results):
     lines = [
         [step.name, f"`{step.command}`", f"{step.seconds:.0f}", percent(step.others)]
-        + [step.commit, step.date]
+        + [str(step.runs), step.commit, step.date]
         for step in results.steps.values()
     ]
-    return table(["step", "command", "seconds", "others", "commit", "UTC"], lines)
+    return table(["step", "command", "seconds", "others", "runs", "commit", "UTC"], lines)
 
 
 def parts(results, network):

@@ -54,9 +54,10 @@ class Watch:
 
 
 def commit():
-    """Of the sources, with a + where they were changed."""
+    """Of the sources, with a + where they were changed; a published report is none of them."""
     short = output_of("git", "rev-parse", "--short=12", "HEAD") or "unknown"
-    tracked = output_of("git", "status", "--porcelain", "--untracked-files=no")
+    sources = (".", ":!bench/RESULTS.md", ":!bench/plots")
+    tracked = output_of("git", "status", "--porcelain", "--untracked-files=no", "--", *sources)
     return short + ("+" if tracked else "")
 
 

@@ -153,10 +153,18 @@ SECTIONS = {
 }
 
 
-def steps(threads, quick, sections=tuple(SECTIONS)):
-    """The steps of these sections, in order."""
-    return [
-        Step(f"{section}-{name}", section, program, arguments)
+def steps(threads, quick, sections=tuple(SECTIONS), names=()):
+    """The steps of these sections, in order; where names are given, only those.
+    LookupError: there is no section or step of a name."""
+    for section in sections:
+        if section not in SECTIONS:
+            raise LookupError(f"there is no section {section}; there are {', '.join(SECTIONS)}")
+    found = {
+        f"{section}-{name}": Step(f"{section}-{name}", section, program, arguments)
         for section in sections
         for program, name, arguments in SECTIONS[section](threads, quick)
-    ]
+    }
+    for name in names:
+        if name not in found:
+            raise LookupError(f"there is no step {name}; there are {', '.join(found)}")
+    return [step for name, step in found.items() if not names or name in names]

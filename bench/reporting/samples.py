@@ -94,6 +94,7 @@ class Step:
     seconds: float
     others: float  # the part of all cores that other programs took, or the host
     output: dict
+    runs: int = 1  # how often it ran since the last whole report: the samples are the last run's
 
     @property
     def threads(self):
