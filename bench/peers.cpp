@@ -9,7 +9,6 @@
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <future>

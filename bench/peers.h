@@ -35,9 +35,9 @@ struct Outcome : Timed {
 Outcome run_calotte(const Points3& points, int threads, const DelaunayOptions& options = {});
 
 /// As many of them as threads, each on a thread of its own, at once; the seconds of the slowest.
-/// They share the points and the process's memory management, and wait for one another nowhere:
-/// what they take longer than one alone is mostly the machine's doing. Together they hold as many
-/// times the memory of one.
+/// They share the points, the process's memory management and the machine's caches, with as many
+/// times the memory of one: how much longer than one alone they take is a yardstick of the machine,
+/// no bound of what several threads on one set can reach.
 Outcome run_side_by_side(const Points3& points, int threads);
 
 /// CGAL::Delaunay_triangulation_on_sphere_2 with exact predicates and inexact constructions: the

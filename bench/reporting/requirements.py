@@ -57,8 +57,8 @@ def speed(results):
 
 
 def side_by_side(results, section, ours, alone, threads):
-    """The same of runs that do not wait for one another, and the library's beside theirs: what of a
-    loss is the machine's. A yardstick, not a requirement: they use as many times the memory."""
+    """The same of runs that do not wait for one another, and the library's beside theirs: a
+    yardstick of the machine, no bound, as they use as many times the memory."""
     apart = results.one(
         section, set=ours.set, sites=ours.sites, name=SIDE_BY_SIDE, step=ours.step
     )
