@@ -5,12 +5,13 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 
 namespace calotte::detail {
 namespace {
 
 std::int32_t nearest(const Vec3& x, const std::vector<Vec3>& centres,
-                     const std::vector<std::int32_t>& candidates) {
+                     std::span<const std::int32_t> candidates) {
   std::int32_t best = candidates.front();
   double least = std::numeric_limits<double>::infinity();
   for (const std::int32_t k : candidates) { // ascending: a tie stays with the lowest
@@ -23,42 +24,63 @@ std::int32_t nearest(const Vec3& x, const std::vector<Vec3>& centres,
   return best;
 }
 
-/// Those candidates that may be nearest to a direction in the ball.
-std::vector<std::int32_t> possible_owners(const Ball& ball, const std::vector<Vec3>& centres,
-                                          const std::vector<std::int32_t>& candidates) {
-  std::vector<double> distance(candidates.size());
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t c = 0; c < candidates.size(); ++c) {
-    distance[c] = norm(ball.centre - centres[static_cast<std::size_t>(candidates[c])]);
-    least = std::min(least, distance[c]);
-  }
-  std::vector<std::int32_t> possible;
-  for (std::size_t c = 0; c < candidates.size(); ++c)
-    if (distance[c] <= least + 2 * ball.radius + 1e-14)
-      possible.push_back(candidates[c]);
-  return possible;
-}
+/// Descends the cells of some sites, together with the centres that may be nearest to some of a
+/// cell's. These stand in a stack, those of a cell above those of the cell around it: a descent
+/// that allocates in every cell has threads wait for each other.
+class OwnerDescent {
+public:
+  OwnerDescent(const CellTree& tree, const Vec3* unit, const std::vector<Vec3>& centres,
+               std::int32_t* owner)
+      : tree_(tree), unit_(unit), centres_(centres), owner_(owner), candidates_(all_of(centres)) {}
 
-void own(const Cell& cell, const CellTree& tree, const Vec3* unit, const std::vector<Vec3>& centres,
-         const std::vector<std::int32_t>& candidates, std::int32_t* owner) {
-  const std::vector<std::int32_t> possible =
-      possible_owners(bounding_ball(cell), centres, candidates);
-  if (possible.size() == 1) {
-    std::fill(owner + cell.begin, owner + cell.end, possible.front());
-  } else if (cell.size() <= leaf_size || !cell.divisible()) {
-    for (std::int64_t r = cell.begin; r != cell.end; ++r)
-      owner[r] = nearest(unit[r], centres, possible);
-  } else {
-    for (const Cell& child : tree.children(cell))
-      if (child.size() > 0)
-        own(child, tree, unit, centres, possible, owner);
+  void run(const Cell& cell) { own(cell, 0); }
+
+private:
+  /// The candidates are those from `first` on.
+  void own(const Cell& cell, std::size_t first) {
+    const std::size_t end = candidates_.size();
+    push_possible(bounding_ball(cell), first);
+    const std::span possible = std::span(candidates_).subspan(end);
+    if (possible.size() == 1) {
+      std::fill(owner_ + cell.begin, owner_ + cell.end, possible.front());
+    } else if (cell.size() <= leaf_size || !cell.divisible()) {
+      for (std::int64_t r = cell.begin; r != cell.end; ++r)
+        owner_[r] = nearest(unit_[r], centres_, possible);
+    } else {
+      for (const Cell& child : tree_.children(cell))
+        if (child.size() > 0)
+          own(child, end);
+    }
+    candidates_.resize(end);
   }
-}
+
+  /// Pushes those candidates that may be nearest to a direction in the ball.
+  void push_possible(const Ball& ball, std::size_t first) {
+    const std::size_t end = candidates_.size();
+    distance_.clear();
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t c = first; c != end; ++c) {
+      distance_.push_back(norm(ball.centre - centres_[static_cast<std::size_t>(candidates_[c])]));
+      least = std::min(least, distance_.back());
+    }
+    for (std::size_t c = first; c != end; ++c)
+      if (distance_[c - first] <= least + 2 * ball.radius + 1e-14)
+        candidates_.push_back(candidates_[c]);
+  }
+
+  const CellTree& tree_;
+  const Vec3* unit_;
+  const std::vector<Vec3>& centres_;
+  std::int32_t* owner_;
+  std::vector<std::int32_t> candidates_;
+  std::vector<double> distance_; ///< of one cell's candidates
+};
 
 } // namespace
 
 std::vector<Cell> task_cells(const CellTree& tree) {
-  const std::int64_t enough = tree.size() / 128 + leaf_size;
+  constexpr std::int64_t parts = 128, least = 256; // of fewer sites a task is not worth a thread
+  const std::int64_t enough = std::max(tree.size() / parts, least);
   std::vector<Cell> cells, pending;
   const auto push_reversed = [&](const auto& group) {
     for (auto it = group.rbegin(); it != group.rend(); ++it)
@@ -88,9 +110,9 @@ Array<std::int32_t> owners(const CellTree& tree, const Array<Vec3>& unit,
                            const std::vector<Vec3>& centres) {
   Array<std::int32_t> owner(unit.size());
   const std::vector<Cell> cells = task_cells(tree);
-  const std::vector<std::int32_t> all = all_of(centres);
   for_each_task(std::ssize(cells), [&](std::int64_t c) {
-    own(cells[static_cast<std::size_t>(c)], tree, unit.begin(), centres, all, owner.begin());
+    OwnerDescent(tree, unit.begin(), centres, owner.begin())
+        .run(cells[static_cast<std::size_t>(c)]);
   });
   return owner;
 }

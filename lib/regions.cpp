@@ -159,34 +159,62 @@ Side side(const Ball& ball, const std::vector<HalfSpace>& half_spaces) {
   return result;
 }
 
-/// Emits, along the curve, the runs of the cell that lie in the candidates' half-spaces.
-void collect(const Cell& cell, const CellTree& tree, const Vec3* unit,
-             const std::vector<std::vector<HalfSpace>>& covered,
-             const std::vector<std::int32_t>& candidates, std::vector<RegionRun>& out) {
-  const Ball ball = bounding_ball(cell);
-  const auto begin = static_cast<std::int32_t>(cell.begin),
-             end = static_cast<std::int32_t>(cell.end);
-  std::vector<std::int32_t> across;
-  for (const std::int32_t k : candidates) {
-    const Side s = side(ball, covered[static_cast<std::size_t>(k)]);
-    if (s == Side::inside)
-      out.push_back({k, {begin, end}});
-    if (s == Side::across)
-      across.push_back(k);
+/// Descends the cells of some sites, together with the regions whose half-spaces may hold some of a
+/// cell's and not others; these stand in a stack, as in a descent to owners.
+class MemberDescent {
+public:
+  MemberDescent(const Sites& sites, const std::vector<std::vector<HalfSpace>>& covered,
+                std::vector<std::int32_t> candidates)
+      : sites_(sites), covered_(covered), candidates_(std::move(candidates)) {}
+
+  /// The runs of the cell that lie in regions, along the curve in each.
+  std::vector<RegionRun> run(const Cell& cell) {
+    collect(cell, 0);
+    return std::move(runs_);
   }
-  if (across.empty())
-    return;
-  if (cell.size() <= leaf_size || !cell.divisible()) {
-    for (const std::int32_t k : across)
-      for (std::int32_t r = begin; r != end; ++r)
-        if (inside(unit[r], covered[static_cast<std::size_t>(k)]))
-          out.push_back({k, {r, r + 1}});
-    return;
+
+private:
+  /// The candidates are those from `first` on.
+  void collect(const Cell& cell, std::size_t first) {
+    const std::size_t end = candidates_.size();
+    const Ball ball = bounding_ball(cell);
+    const auto cell_begin = static_cast<std::int32_t>(cell.begin),
+               cell_end = static_cast<std::int32_t>(cell.end);
+    for (std::size_t c = first; c != end; ++c) {
+      const std::int32_t k = candidates_[c];
+      const Side s = side(ball, covered_[static_cast<std::size_t>(k)]);
+      if (s == Side::inside)
+        runs_.push_back({k, {cell_begin, cell_end}});
+      if (s == Side::across)
+        candidates_.push_back(k);
+    }
+    if (cell.size() <= leaf_size || !cell.divisible()) {
+      for (std::size_t c = end; c != candidates_.size(); ++c)
+        collect_sites(cell_begin, cell_end, candidates_[c]);
+    } else if (candidates_.size() > end) {
+      for (const Cell& child : sites_.cells.children(cell))
+        if (child.size() > 0)
+          collect(child, end);
+    }
+    candidates_.resize(end);
   }
-  for (const Cell& child : tree.children(cell))
-    if (child.size() > 0)
-      collect(child, tree, unit, covered, across, out);
-}
+
+  void collect_sites(std::int32_t begin, std::int32_t end, std::int32_t k) {
+    for (std::int32_t r = begin; r != end; ++r) {
+      if (!inside(sites_.unit[r], covered_[static_cast<std::size_t>(k)]))
+        continue;
+      if (!runs_.empty() && runs_.back().region == k && runs_.back().run.end == r)
+        ++runs_.back().run.end;
+      else
+        runs_.push_back({k, {r, r + 1}});
+    }
+  }
+
+  const Sites& sites_;
+  const std::vector<std::vector<HalfSpace>>& covered_;
+  std::vector<std::int32_t> candidates_;
+  std::vector<RegionRun> runs_;
+};
 
 std::vector<std::vector<Run>> members_inside(const Sites& sites,
                                              const std::vector<std::vector<HalfSpace>>& covered,
@@ -195,7 +223,7 @@ std::vector<std::vector<Run>> members_inside(const Sites& sites,
   std::vector<std::vector<RegionRun>> found(cells.size());
   for_each_task(std::ssize(cells), [&](std::int64_t c) {
     const auto index = static_cast<std::size_t>(c);
-    collect(cells[index], sites.cells, sites.unit.begin(), covered, all, found[index]);
+    found[index] = MemberDescent(sites, covered, all).run(cells[index]);
   });
   std::vector<std::vector<Run>> members(covered.size());
   for (const auto& list : found)
