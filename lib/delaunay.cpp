@@ -65,7 +65,7 @@ struct CapResult {
   RegionTriangles triangles;
   CullCounts cull;
   PredicateCounts predicates;
-  std::int64_t members = 0, owned = 0;
+  std::int64_t members = 0, owned = 0, seams = 0;
   double seconds = 0;
 };
 
@@ -120,6 +120,7 @@ std::optional<CapResult> triangulate_cap(const Sites& sites, const Regions& regi
   result.triangles = report_triangles(triangulation, sites, regions.owner, triangles_of);
   result.predicates = triangulation.space().counts();
   result.members = std::ssize(triangulation.members());
+  result.seams = seams_at(k, result.triangles.seams);
   result.seconds = lap(start);
   return result;
 }
@@ -134,8 +135,7 @@ void summarise(const std::vector<CapResult>& caps, std::int64_t sites, DelaunayR
     report.certified_by_cull += cap.cull.by_cull;
     report.certified_by_query += cap.cull.by_query;
     report.halo_insertions += cap.cull.inserted;
-    for (const Seam& seam : cap.triangles.seams)
-      report.seam_triangles += cap.triangles.rank[seam.triangle] >= 0;
+    report.seam_triangles += cap.seams;
     add(report, cap.predicates);
   }
   report.regions = static_cast<int>(caps.size());

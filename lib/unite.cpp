@@ -2,6 +2,7 @@
 #include "unite.h"
 
 #include "plane.h"
+#include "room.h"
 #include "sphere.h"
 #include "triangle.h"
 
@@ -9,7 +10,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <bit>
 #include <limits>
 #include <string>
 #include <utility>
@@ -110,6 +110,11 @@ private:
 
 } // namespace
 
+std::int64_t seams_at(std::int64_t home, const std::vector<Seam>& seams) {
+  return std::count_if(seams.begin(), seams.end(),
+                       [&](const Seam& seam) { return seam.home == home; });
+}
+
 template <class Space>
 RegionTriangles report_triangles(Triangulation<Space>& triangulation, const Sites& sites,
                                  const Array<std::int32_t>& owner,
@@ -144,7 +149,7 @@ RegionTriangles report_triangles(Triangulation<Space>& triangulation, const Site
     if (v[0]->owned() && v[1]->owned() && v[2]->owned())
       return;
     const std::int32_t a = owner_of(v[0]), b = owner_of(v[1]), c = owner_of(v[2]);
-    out.seams.push_back({out.sites[t], t,
+    out.seams.push_back({out.sites[t], t, a,
                          static_cast<std::int8_t>(1 + (b != a) + (c != a && c != b)),
                          own_edges(v)});
   });
@@ -162,69 +167,69 @@ template RegionTriangles report_triangles(Triangulation<Plane>&, const Sites&,
 
 namespace {
 
-/// The seam triangles by their sites, open addressing. Triangles stand in the mesh already when
-/// they are entered, so that a slot holds but a place there and a count.
-class SeamTable {
-public:
-  SeamTable(std::int64_t triangles, const Triangles& mesh)
-      : mesh_(mesh), slots_(std::bit_ceil(static_cast<std::size_t>(2 * triangles + 1))) {}
-
-  /// Enters a triangle at its place, reported once.
-  void enter(const Triple& sites, std::int32_t place) {
-    for (std::size_t s = hash(sites);; ++s) {
-      std::int32_t empty = -1;
-      if (slot(s).place.compare_exchange_strong(empty, place, std::memory_order_acq_rel)) {
-        slot(s).reports.fetch_add(1, std::memory_order_relaxed);
-        return;
-      }
-    }
-  }
-
-  /// Counts one more report of a triangle; its place, or -1 if nobody entered it.
-  std::int32_t count(const Triple& sites) {
-    Slot* found = find(sites);
-    if (found == nullptr)
-      return -1;
-    found->reports.fetch_add(1, std::memory_order_relaxed);
-    return found->place.load(std::memory_order_relaxed);
-  }
-
-  int reports(const Triple& sites) { return find(sites)->reports.load(std::memory_order_relaxed); }
-
-private:
-  struct Slot {
-    std::atomic<std::int32_t> place{-1}, reports{0};
-  };
-
-  Slot& slot(std::size_t s) { return slots_[s & (slots_.size() - 1)]; }
-
-  static std::size_t hash(const Triple& sites) {
-    std::uint64_t h = 0;
-    for (const std::int32_t s : sites)
-      h = (h ^ static_cast<std::uint64_t>(s)) * 0x9E3779B97F4A7C15U; // Fibonacci hashing
-    return h ^ h >> 32;
-  }
-
-  Slot* find(const Triple& sites) {
-    for (std::size_t s = hash(sites);; ++s) {
-      const std::int32_t place = slot(s).place.load(std::memory_order_acquire);
-      if (place < 0)
-        return nullptr;
-      if (mesh_(0, place) == sites[0] && mesh_(1, place) == sites[1] && mesh_(2, place) == sites[2])
-        return &slot(s);
-    }
-  }
-
-  const Triangles& mesh_;
-  std::vector<Slot> slots_;
-};
-
 [[noreturn]] void disagree(const Triple& sites) {
   throw Error(ErrorCode::internal, "regions disagree on the triangle of sites " +
                                        std::to_string(sites[0]) + ", " + std::to_string(sites[1]) +
                                        " and " + std::to_string(sites[2]) +
                                        ": please report this input as a bug");
 }
+
+/// The seam triangles whose lowest site one region owns, by their sites: open addressing. The table
+/// of all would be as large as a cache, and met at random; that of a region and those of its
+/// neighbours, where alone its seams stand, are small.
+class SeamTable {
+public:
+  SeamTable() = default;
+  /// With room for so many.
+  explicit SeamTable(std::int64_t triangles)
+      : slots_(static_cast<std::size_t>(triangles + triangles / 2 + 1)) {}
+
+  /// Enters a triangle and its place in the mesh, reported once. By one thread, before others look.
+  void enter(const Seam& seam, std::int32_t place) {
+    Slot& slot = find(seam.sites);
+    slot.sites = seam.sites;
+    slot.place = place;
+    slot.reporters = seam.reporters;
+    slot.reports.fetch_add(1, std::memory_order_relaxed);
+  }
+
+  /// Counts one more report of a triangle, by any thread; its place in the mesh.
+  std::int32_t count(const Seam& seam) {
+    Slot& slot = find(seam.sites);
+    if (slot.place < 0 || slot.reporters != seam.reporters)
+      disagree(seam.sites);
+    slot.reports.fetch_add(1, std::memory_order_relaxed);
+    return slot.place;
+  }
+
+  /// Each triangle was reported by all of its owners.
+  void require_agreement() const {
+    for (const Slot& slot : slots_)
+      if (slot.reports.load(std::memory_order_relaxed) != slot.reporters)
+        disagree(slot.sites);
+  }
+
+private:
+  struct Slot {
+    Triple sites{};
+    std::int32_t place = -1;
+    std::int8_t reporters = 0;
+    std::atomic<std::int8_t> reports{0};
+  };
+
+  /// The slot of a triangle, or an empty one.
+  Slot& find(const Triple& sites) {
+    std::uint64_t h = 0;
+    for (const std::int32_t s : sites)
+      h = (h ^ h >> 32 ^ static_cast<std::uint64_t>(s)) * 0x9E3779B97F4A7C15U; // Fibonacci hashing
+    std::size_t s = (h >> 32) * slots_.size() >> 32;
+    while (slots_[s].place >= 0 && slots_[s].sites != sites)
+      s = s + 1 < slots_.size() ? s + 1 : 0;
+    return slots_[s];
+  }
+
+  std::vector<Slot> slots_;
+};
 
 /// Triangles ahead of the one in hand whose memory is fetched: ids in the input's order scatter a
 /// region's triangles all over the mesh.
@@ -280,41 +285,32 @@ void write_neighbours(const RegionTriangles& report, const Array<std::int32_t>& 
 
 void unite(std::vector<RegionTriangles>&& reports, Array<std::int32_t>&& triangles_of, Mesh& mesh) {
   const std::int32_t count = exclusive_scan(std::span(triangles_of.begin(), triangles_of.end()));
-  mesh.triangles.resize(3, count);
-  mesh.neighbours.resize(3, count);
-  prefer_huge_pages(mesh.triangles.data(), 12 * static_cast<std::size_t>(count));
-  prefer_huge_pages(mesh.neighbours.data(), 12 * static_cast<std::size_t>(count));
-  std::int64_t seams = 0;
-  for (const RegionTriangles& report : reports)
-    seams += std::ssize(report.seams);
-  SeamTable table(seams, mesh.triangles);
-  std::vector<Array<std::int32_t>> place(reports.size());
+  make_room(mesh.triangles, 3, count);
+  make_room(mesh.neighbours, 3, count);
   const std::int64_t regions = std::ssize(reports);
+  std::vector<SeamTable> tables(reports.size());
+  std::vector<Array<std::int32_t>> place(reports.size());
 
   for_each_task(regions, [&](std::int64_t k) {
     RegionTriangles& report = reports[static_cast<std::size_t>(k)];
     Array<std::int32_t>& own = place[static_cast<std::size_t>(k)];
     own = place_own(std::move(report.rank), report.sites, triangles_of, mesh.triangles);
+    tables[static_cast<std::size_t>(k)] = SeamTable(seams_at(k, report.seams));
     for (const Seam& seam : report.seams)
-      if (own[seam.triangle] >= 0)
-        table.enter(seam.sites, own[seam.triangle]);
+      if (seam.home == k)
+        tables[static_cast<std::size_t>(k)].enter(seam, own[seam.triangle]);
     if (mesh.points.cols() > most_sites_kept) // the mesh's neighbours take their room
       give_back(report.sites);
   });
   for_each_task(regions, [&](std::int64_t k) {
-    for (const Seam& seam : reports[static_cast<std::size_t>(k)].seams) {
-      std::int32_t& here = place[static_cast<std::size_t>(k)][seam.triangle];
-      if (here < 0)
-        here = table.count(seam.sites);
-      if (here < 0)
-        disagree(seam.sites);
-    }
+    for (const Seam& seam : reports[static_cast<std::size_t>(k)].seams)
+      if (seam.home != k)
+        place[static_cast<std::size_t>(k)][seam.triangle] =
+            tables[static_cast<std::size_t>(seam.home)].count(seam);
   });
   for_each_task(regions, [&](std::int64_t k) {
     RegionTriangles& report = reports[static_cast<std::size_t>(k)];
-    for (const Seam& seam : report.seams)
-      if (table.reports(seam.sites) != seam.reporters)
-        disagree(seam.sites);
+    tables[static_cast<std::size_t>(k)].require_agreement();
     write_neighbours(report, place[static_cast<std::size_t>(k)], mesh.neighbours);
     report = {}; // freed here, by all threads
     place[static_cast<std::size_t>(k)] = {};

@@ -19,6 +19,7 @@ using Triple = std::array<std::int32_t, 3>;
 struct Seam {
   Triple sites;
   std::int32_t triangle; ///< its place in the report
+  std::int32_t home;     ///< the region that owns its lowest site
   std::int8_t reporters; ///< the number of owners
   std::int8_t own_edges; ///< bit i set where this region owns the lower site of the edge across
                          ///< from vertex i
@@ -34,6 +35,9 @@ struct RegionTriangles {
   std::vector<Seam> seams;  ///< ascending by triangle
 };
 
+/// The number of those whose lowest site that region owns: of all regions together, each once.
+std::int64_t seams_at(std::int64_t home, const std::vector<Seam>& seams);
+
 /// Reports the certified finite faces of a triangulation.
 /// \param owner by rank, to count a seam's owners.
 /// \param triangles_of by site: set, for the owned sites, to the number of triangles with that
@@ -44,8 +48,8 @@ RegionTriangles report_triangles(Triangulation<Space>& triangulation, const Site
                                  Array<std::int32_t>& triangles_of);
 
 /// Unites the regions' reports to triangles and neighbours in canonical order. Triangles with one
-/// owner go straight to their place. Seam triangles meet in a concurrent hash table, which counts
-/// who reported each.
+/// owner go straight to their place. Seam triangles meet in a concurrent hash table, a part for
+/// each region, which counts who reported each.
 /// \param triangles_of by site, as report_triangles left it; used up, as the reports are.
 /// \throws Error internal, when a seam triangle was not reported by exactly its vertices' owners.
 void unite(std::vector<RegionTriangles>&& reports, Array<std::int32_t>&& triangles_of, Mesh& mesh);

@@ -31,7 +31,7 @@ RegionTriangles report_of(bool first, std::int32_t count = 4) {
       const bool lower_is_first = std::min(faces[face][(i + 1) % 3], faces[face][(i + 2) % 3]) < 2;
       bits |= static_cast<int>(lower_is_first == first) << i;
     }
-    out.seams.push_back({faces[face], t, 2, static_cast<std::int8_t>(bits)});
+    out.seams.push_back({faces[face], t, 0, 2, static_cast<std::int8_t>(bits)});
   }
   return out;
 }
@@ -80,4 +80,11 @@ TEST_CASE("regions that disagree are an error, never a mesh") {
   RegionTriangles sure = report_of(true);
   sure.seams[1].reporters = 3; // says three owners, of which two report
   CHECK(is_internal_error(std::move(sure), report_of(false)));
+  sure = report_of(false);
+  sure.seams[1].reporters = 3;
+  CHECK(is_internal_error(report_of(true), std::move(sure)));
+  std::array<RegionTriangles, 2> both{report_of(true), report_of(false)};
+  for (RegionTriangles& report : both)
+    report.seams[1].reporters = 3;
+  CHECK(is_internal_error(std::move(both[0]), std::move(both[1])));
 }
