@@ -3,7 +3,7 @@
 #include <calotte/planar_raster.h>
 
 #include "io/lonlat.h"
-#include "io/netcdf.h"
+#include "io/netcdf_writer.h"
 #include "predicates.h"
 #include "spherical_angles.h"
 #include "support/files.h"

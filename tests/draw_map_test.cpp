@@ -3,7 +3,7 @@
 #include "../tools/draw_raster.h"
 #include "../tools/draw_values.h"
 #include "../tools/draw_vector.h"
-#include "io/netcdf.h"
+#include "io/netcdf_writer.h"
 #include "support/clouds.h"
 #include "support/pictures.h"
 

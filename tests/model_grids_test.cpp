@@ -6,7 +6,8 @@
 
 #include "io/formats.h"
 #include "io/lonlat.h"
-#include "io/netcdf.h"
+#include "io/netcdf_reader.h"
+#include "io/netcdf_writer.h"
 
 #include <calotte/delaunay.h>
 #include <calotte/error.h>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/assemble.h"
 #include "io/formats.h"
-#include "io/netcdf.h"
+#include "io/netcdf_reader.h"
+#include "io/netcdf_writer.h"
 #include "support/files.h"
 #include "vec3.h"
 

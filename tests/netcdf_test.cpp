@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/netcdf.h"
 #include "io/netcdf_header.h"
+#include "io/netcdf_reader.h"
+#include "io/netcdf_writer.h"
 #include "support/files.h"
 #include "support/full_disk.h"
 #include "support/random.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "netcdf.h"
+#include "netcdf_reader.h"
 
 #include <calotte/error.h>
 #include <calotte/io.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cell_width_file.h"
-#include "netcdf.h"
+#include "netcdf_reader.h"
 
 #include <cmath>
 #include <limits>

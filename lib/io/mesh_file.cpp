@@ -3,7 +3,7 @@
 #include "file.h"
 #include "file_names.h"
 #include "formats.h"
-#include "netcdf.h"
+#include "netcdf_reader.h"
 
 #include "../ids.h"
 #include "../points.h"

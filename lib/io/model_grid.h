@@ -2,7 +2,8 @@
 #pragma once
 
 #include "../vec3.h"
-#include "netcdf.h"
+#include "netcdf_reader.h"
+#include "netcdf_writer.h"
 
 #include <calotte/io.h>
 #include <calotte/types.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "assemble.h"
 #include "formats.h"
-#include "netcdf.h"
+#include "netcdf_reader.h"
 
 #include "../points.h"
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "file.h"
 #include "formats.h"
 #include "mpas.h"
 

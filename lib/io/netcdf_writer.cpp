@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "netcdf.h"
+#include "netcdf_writer.h"
 
 #include "../elementary.h"
 #include "../parallel.h"
+#include "file.h"
 #include "netcdf_header.h"
+#include "netcdf_library.h"
 
 #include <calotte/error.h>
 
@@ -11,29 +13,13 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <cstring>
-#include <filesystem>
-#include <limits>
 #include <mutex>
 #include <type_traits>
+#include <utility>
 
 namespace calotte::detail {
 namespace {
-
-/// The C library keeps tables without locks: whoever calls it holds this.
-std::mutex& library() {
-  static std::mutex mutex;
-  return mutex;
-}
-
-/// The C library takes names like http://... for addresses, and skips leading blanks.
-std::string as_path(const std::string& path) {
-  std::string plain = path.starts_with('/') ? path : "./" + path;
-  const auto doubled = [](char a, char b) { return a == '/' && b == '/'; };
-  plain.erase(std::unique(plain.begin(), plain.end(), doubled), plain.end());
-  return plain;
-}
 
 nc_type type_of(NetcdfType type) {
   switch (type) {
@@ -136,8 +122,6 @@ void for_each_block_of_rows(std::int64_t rows, std::int64_t row_bytes, const Bod
 constexpr std::int64_t fill_bytes = 1 << 17;
 
 } // namespace
-
-// ---- Writing
 
 /// The C library writes the header. The values are converted and written by tasks of our own: by
 /// the library, one thread after the other, a large mesh would take thrice as long.
@@ -296,10 +280,10 @@ void NetcdfWriter::begin() {
     bytes.push_back(variable.bytes());
   const int format = needs_cdf5(bytes) ? NC_64BIT_DATA : NC_64BIT_OFFSET;
 
-  const std::lock_guard lock(library());
+  const std::lock_guard lock(netcdf_library());
   const std::string& path = state_->file.temporary();
   int id = -1;
-  state_->require(nc_create(as_path(path).c_str(), NC_CLOBBER | format, &id));
+  state_->require(nc_create(netcdf_path(path).c_str(), NC_CLOBBER | format, &id));
   try {
     state_->define(id);
     state_->require(nc_sync(id));
@@ -333,224 +317,6 @@ void NetcdfWriter::commit() {
     if (!variable.is_put)
       throw Error(ErrorCode::internal, variable.name + " is not put");
   state_->file.commit();
-}
-
-// ---- Reading
-
-namespace {
-
-std::string shape_in_words(const std::vector<std::int64_t>& shape) {
-  std::string words = "(";
-  for (std::size_t d = 0; d < shape.size(); ++d)
-    words += (d > 0 ? ", " : "") + (shape[d] < 0 ? "any" : std::to_string(shape[d]));
-  return words + ")";
-}
-
-bool matches(const std::vector<std::int64_t>& shape, const std::vector<std::int64_t>& wanted) {
-  return std::equal(shape.begin(), shape.end(), wanted.begin(), wanted.end(),
-                    [](std::int64_t size, std::int64_t want) { return want < 0 || size == want; });
-}
-
-std::string name_of(int id, int variable) {
-  char name[NC_MAX_NAME + 1] = "";
-  nc_inq_varname(id, variable, name);
-  return name;
-}
-
-/// The library reads zeros where a classic file ends early. \pre nobody else calls it.
-/// \returns what the file does not hold as a whole, "" where it holds all.
-std::string first_cut(int id, const std::string& path) {
-  int format = 0;
-  if (nc_inq_format(id, &format) != NC_NOERR ||
-      (format != NC_FORMAT_CLASSIC && format != NC_FORMAT_64BIT_OFFSET &&
-       format != NC_FORMAT_64BIT_DATA))
-    return "";
-  const NetcdfLayout layout = classic_layout(id, path);
-  std::error_code error; // a size of -1
-  const auto size = static_cast<std::int64_t>(std::filesystem::file_size(path, error));
-  if (layout.header > size)
-    return "its header";
-  for (int v = 0; v < std::ssize(layout.variables); ++v) {
-    const NetcdfExtent extent = layout.variables[static_cast<std::size_t>(v)];
-    if (extent.begin < layout.header || extent.end > size)
-      return name_of(id, v);
-  }
-  return "";
-}
-
-int get_all(int id, int variable, double* values) {
-  return nc_get_var_double(id, variable, values);
-}
-int get_all(int id, int variable, std::int32_t* values) {
-  return nc_get_var_int(id, variable, values);
-}
-
-/// All values of a variable whose shape is that. \throws Error parse.
-template <class T>
-std::vector<T> get_values(const NetcdfReader& file, int id, const std::string& name,
-                          const std::vector<std::int64_t>& shape) {
-  std::int64_t count = 1;
-  for (const std::int64_t size : shape)
-    if (__builtin_mul_overflow(count, size, &count))
-      file.fail(name + " is too large; make the file again");
-  std::vector<T> values;
-  try {
-    values.resize(static_cast<std::size_t>(count));
-  } catch (const std::exception&) {
-    file.fail(name + " is too large for this machine's memory; read it on a larger one");
-  }
-  const std::lock_guard lock(library());
-  int variable = -1;
-  nc_inq_varid(id, name.c_str(), &variable);
-  const int code = get_all(id, variable, values.data());
-  if (code == NC_ECHAR)
-    file.fail(name + " is text, not numbers; make the file again");
-  if (code == NC_ERANGE)
-    file.fail(name + " has a number out of range; make the file again");
-  if (code != NC_NOERR)
-    file.fail(name + " cannot be read (" + nc_strerror(code) + "); make the file again");
-  return values;
-}
-
-std::int32_t to_int(const NetcdfReader& file, const std::string& name, double value) {
-  using Limits = std::numeric_limits<std::int32_t>;
-  if (!(value >= Limits::min() && value <= Limits::max()) || value != std::floor(value))
-    file.fail(name + " has a number that is no 32-bit integer; make the file again");
-  return static_cast<std::int32_t>(value);
-}
-
-} // namespace
-
-NetcdfReader::NetcdfReader(const std::string& path) : path_(path) {
-  open_input(path); // says why it cannot be read
-  const std::lock_guard lock(library());
-  if (nc_open(as_path(path).c_str(), NC_NOWRITE, &id_) != NC_NOERR)
-    fail("it is no NetCDF file, or is cut short; give another or make it again");
-  const std::string cut = first_cut(id_, path);
-  if (cut.empty())
-    return;
-  nc_close(id_);
-  fail("it is cut short: " + cut + " is not whole; make it again");
-}
-
-NetcdfReader::~NetcdfReader() {
-  const std::lock_guard lock(library());
-  nc_close(id_);
-}
-
-bool NetcdfReader::has_variable(const std::string& name) const {
-  const std::lock_guard lock(library());
-  int variable;
-  return nc_inq_varid(id_, name.c_str(), &variable) == NC_NOERR;
-}
-
-std::vector<std::string> NetcdfReader::variables() const {
-  const std::lock_guard lock(library());
-  int count = 0;
-  nc_inq_nvars(id_, &count);
-  std::vector<std::string> names;
-  for (int v = 0; v < count; ++v)
-    names.push_back(name_of(id_, v));
-  return names;
-}
-
-std::vector<std::string> NetcdfReader::dimensions_of(const std::string& variable) const {
-  const std::lock_guard lock(library());
-  int v, count = 0, ids[NC_MAX_VAR_DIMS];
-  if (nc_inq_varid(id_, variable.c_str(), &v) != NC_NOERR)
-    fail("it has no variable " + variable + "; give a file that has");
-  nc_inq_var(id_, v, nullptr, nullptr, &count, ids, nullptr);
-  std::vector<std::string> names;
-  for (int d = 0; d < count; ++d) {
-    char name[NC_MAX_NAME + 1] = "";
-    nc_inq_dimname(id_, ids[d], name);
-    names.emplace_back(name);
-  }
-  return names;
-}
-
-std::vector<std::int64_t> NetcdfReader::shape_of(const std::string& variable) const {
-  std::vector<std::int64_t> shape;
-  for (const std::string& name : dimensions_of(variable))
-    shape.push_back(dimension(name));
-  return shape;
-}
-
-std::int64_t NetcdfReader::dimension(const std::string& name) const {
-  const std::lock_guard lock(library());
-  int d;
-  std::size_t size = 0;
-  if (nc_inq_dimid(id_, name.c_str(), &d) != NC_NOERR)
-    return -1;
-  nc_inq_dimlen(id_, d, &size);
-  return static_cast<std::int64_t>(size);
-}
-
-std::string NetcdfReader::text(const std::string& variable, const std::string& attribute) const {
-  const std::lock_guard lock(library());
-  int v = NC_GLOBAL;
-  nc_type type = NC_CHAR;
-  std::size_t length = 0;
-  if ((!variable.empty() && nc_inq_varid(id_, variable.c_str(), &v) != NC_NOERR) ||
-      nc_inq_att(id_, v, attribute.c_str(), &type, &length) != NC_NOERR)
-    return "";
-  std::string text;
-  if (type == NC_CHAR) {
-    text.resize(length);
-    nc_get_att_text(id_, v, attribute.c_str(), text.data());
-  } else if (type == NC_STRING && length == 1) {
-    char* string = nullptr;
-    if (nc_get_att_string(id_, v, attribute.c_str(), &string) == NC_NOERR && string != nullptr)
-      text = string;
-    nc_free_string(1, &string);
-  }
-  return text.substr(0, text.find('\0'));
-}
-
-double NetcdfReader::number(const std::string& variable, const std::string& attribute,
-                            double fallback) const {
-  const std::lock_guard lock(library());
-  int v = NC_GLOBAL;
-  std::size_t length = 0;
-  double value = fallback;
-  if ((!variable.empty() && nc_inq_varid(id_, variable.c_str(), &v) != NC_NOERR) ||
-      nc_inq_attlen(id_, v, attribute.c_str(), &length) != NC_NOERR || length != 1 ||
-      nc_get_att_double(id_, v, attribute.c_str(), &value) != NC_NOERR)
-    return fallback;
-  return value;
-}
-
-std::vector<double> NetcdfReader::doubles(const std::string& variable,
-                                          const std::vector<std::int64_t>& shape) const {
-  const std::vector<std::int64_t> has = shape_of(variable);
-  if (!matches(has, shape))
-    fail(variable + " has the shape " + shape_in_words(has) + " instead of " +
-         shape_in_words(shape) + "; make the file again");
-  return get_values<double>(*this, id_, variable, has);
-}
-
-std::vector<std::int32_t> NetcdfReader::ints(const std::string& variable,
-                                             const std::vector<std::int64_t>& shape) const {
-  const std::vector<std::int64_t> has = shape_of(variable);
-  nc_type type = NC_INT;
-  {
-    const std::lock_guard lock(library());
-    int v = -1;
-    nc_inq_varid(id_, variable.c_str(), &v);
-    nc_inq_vartype(id_, v, &type);
-  }
-  // The library would cut off fractions, and knows no integer for NaN.
-  if (matches(has, shape) && type != NC_FLOAT && type != NC_DOUBLE)
-    return get_values<std::int32_t>(*this, id_, variable, has);
-  const std::vector<double> values = doubles(variable, shape);
-  std::vector<std::int32_t> ints(values.size());
-  std::transform(values.begin(), values.end(), ints.begin(),
-                 [&](double value) { return to_int(*this, variable, value); });
-  return ints;
-}
-
-void NetcdfReader::fail(const std::string& problem) const {
-  throw Error(ErrorCode::parse, path_ + ": " + problem);
 }
 
 } // namespace calotte::detail

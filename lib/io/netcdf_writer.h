@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "file.h"
-
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -10,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-/// NetCDF files through the C library, whose codes become this library's errors.
+/// NetCDF files written through the C library, whose codes become this library's errors.
 namespace calotte::detail {
 
 enum class NetcdfType { int8, int32, float64 };
@@ -59,40 +57,6 @@ public:
 private:
   struct State;
   std::unique_ptr<State> state_;
-};
-
-/// An open NetCDF file of any kind. Names are the file's; messages name path and variable.
-/// Every method \throws Error parse, file.
-class NetcdfReader {
-public:
-  explicit NetcdfReader(const std::string& path);
-  NetcdfReader(const NetcdfReader&) = delete;
-  NetcdfReader& operator=(const NetcdfReader&) = delete;
-  ~NetcdfReader();
-
-  bool has_variable(const std::string& name) const;
-  std::vector<std::string> variables() const;
-  std::vector<std::string> dimensions_of(const std::string& variable) const;
-  std::vector<std::int64_t> shape_of(const std::string& variable) const;
-  /// The size of a dimension, -1 where the file has none of that name.
-  std::int64_t dimension(const std::string& name) const;
-  /// A text attribute of a variable, or with "" of the file; "" where there is none.
-  std::string text(const std::string& variable, const std::string& attribute) const;
-  /// A number attribute of the same, else the fallback.
-  double number(const std::string& variable, const std::string& attribute, double fallback) const;
-
-  /// All of a variable, converted. Its shape must be the one given (-1: any size).
-  std::vector<double> doubles(const std::string& variable,
-                              const std::vector<std::int64_t>& shape) const;
-  std::vector<std::int32_t> ints(const std::string& variable,
-                                 const std::vector<std::int64_t>& shape) const;
-
-  const std::string& path() const { return path_; }
-  [[noreturn]] void fail(const std::string& problem) const; ///< parse, "PATH: problem"
-
-private:
-  std::string path_;
-  int id_ = -1;
 };
 
 } // namespace calotte::detail
