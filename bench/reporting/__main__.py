@@ -121,10 +121,12 @@ def parse(arguments):
 def main(arguments):
     options = parse(arguments)
     raw = options.out / "raw"
-    raw.mkdir(parents=True, exist_ok=True)
     if not options.tables:
+        raw.mkdir(parents=True, exist_ok=True)
         run_all(options, raw)
     results = Results.load(raw)
+    if not results.steps:
+        sys.exit(f"report: there are no samples in {raw}: run bench/report without --tables")
     network = Network(options.latency, options.bandwidth)
     document.write(results, network, options.out)
     say(f"{options.out / 'RESULTS.md'}")

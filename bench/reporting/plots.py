@@ -21,7 +21,9 @@ def axes(count, **options):
 
 
 def finish(figure, places, file):
-    """Writes the figure where anything was drawn in it."""
+    """Writes the figure where anything was drawn in it; rows that were not run leave empty lines."""
+    for line in [line for place in places for line in place.lines if not len(line.get_xdata())]:
+        line.remove()
     drawn = any(place.lines for place in places)
     if drawn:
         for place in places:
@@ -144,7 +146,8 @@ def figure_10(results, network, file):
     for place, set_name in zip(places, SETS):
         for size, grid in grids(results, network, "iteration", set_name).items():
             modelled_lines(place, grid, size, lambda grid, workers, seconds: grid.serial / seconds)
-        place.plot(WORKERS, WORKERS, "k--", linewidth=0.8, label="ideal")
+        if place.lines:
+            place.plot(WORKERS, WORKERS, "k--", linewidth=0.8, label="ideal")
         title = f"iteration, {set_name}: modelled speed-up"
         place.set(title=title, xlabel="workers", ylabel="times the best serial run")
         place.set(xscale="log", yscale="log")
