@@ -54,6 +54,7 @@ def run(step, programs, commit, file):
         "section": step.section,
         "command": step.command,
         "commit": commit,
+        "machine": machine.describe(),
         "date": date,
         "runs": runs + 1,
         "seconds": watch.seconds(),

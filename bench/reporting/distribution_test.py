@@ -20,7 +20,7 @@ def make_results(**rows_of_steps):
     steps = []
     for name, rows in rows_of_steps.items():
         output = {"failures": [], "sets": [{"set": "x8", "sites": 10, "rows": rows}]}
-        steps.append(Step(name, "fine", "run", "c", "d", 1.0, 0.0, output))
+        steps.append(Step(name, "fine", "run", "c", {}, "d", 1.0, 0.0, output))
     return Results(steps)
 
 

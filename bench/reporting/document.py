@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """RESULTS.md, of samples alone."""
 
-from reporting import items, machine, plots
+from reporting import items, plots
 from reporting.cells import percent, table
 from reporting.requirements import requirements
 from reporting.samples import LEAST_CORE, MOST_OTHERS, WIDEST_SPREAD
@@ -82,19 +82,20 @@ and the host took meanwhile. Steps of disturbed rows may be run again (`bench/re
 
 
 def machine_table(results):
-    lines = [[name, text] for name, text in machine.describe().items()]
+    machines = [step.machine for step in results.steps.values()]
     outputs = [step.output for step in results.steps.values()]
     peers = {}
     for output in outputs:
         peers.update(output["peers"])
-    texts = {
+    texts = {name: {machine[name] for machine in machines} for name in machines[0]}
+    texts |= {
         "compiler": {f"g++ {output['compiler']}, -O3" for output in outputs},
         "commits": {step.commit for step in results.steps.values()},
         "dates": {step.date[:10] for step in results.steps.values()},
         "peers": {f"{name} {version}" for name, version in peers.items()}
         | {"STRIPACK" if output["stripack"] else "no STRIPACK" for output in outputs},
     }
-    lines += [[name, ", ".join(sorted(found))] for name, found in texts.items()]
+    lines = [[name, ", ".join(sorted(found))] for name, found in texts.items()]
     return table(["", "here"], lines)
 
 

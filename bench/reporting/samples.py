@@ -90,6 +90,7 @@ class Step:
     section: str
     command: str
     commit: str
+    machine: dict  # what it ran on: one line by name
     date: str
     seconds: float
     others: float  # the part of all cores that other programs took, or the host

@@ -68,7 +68,7 @@ class Laws(unittest.TestCase):
                 }
             ],
         }
-        results = Results([Step("s", "sizes", "run", "c", "d", 1.0, 0.3, output)])
+        results = Results([Step("s", "sizes", "run", "c", {}, "d", 1.0, 0.3, output)])
         self.assertEqual(results.one("sizes", name="CGAL").name, "CGAL")
         self.assertTrue(results.one("sizes", name="CGAL").starved)
         self.assertIsNone(results.one("sizes", name="CGAL", sites=11))
