@@ -5,7 +5,7 @@
 
 namespace calotte::detail {
 
-std::mutex& netcdf_library() {
+std::mutex& netcdf_mutex() {
   static std::mutex mutex;
   return mutex;
 }

@@ -8,7 +8,7 @@
 namespace calotte::detail {
 
 /// The C library keeps tables without locks: whoever calls it holds this.
-std::mutex& netcdf_library();
+std::mutex& netcdf_mutex();
 
 /// A path as the C library wants it: it takes names like http://... for addresses, and skips
 /// leading blanks.

@@ -11,9 +11,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <filesystem>
 #include <limits>
 #include <mutex>
+#include <system_error>
 
 namespace calotte::detail {
 namespace {
@@ -78,7 +80,7 @@ std::vector<T> get_values(const NetcdfReader& file, int id, const std::string& n
   } catch (const std::exception&) {
     file.fail(name + " is too large for this machine's memory; read it on a larger one");
   }
-  const std::lock_guard lock(netcdf_library());
+  const std::lock_guard lock(netcdf_mutex());
   int variable = -1;
   nc_inq_varid(id, name.c_str(), &variable);
   const int code = get_all(id, variable, values.data());
@@ -102,7 +104,7 @@ std::int32_t to_int(const NetcdfReader& file, const std::string& name, double va
 
 NetcdfReader::NetcdfReader(const std::string& path) : path_(path) {
   open_input(path); // says why it cannot be read
-  const std::lock_guard lock(netcdf_library());
+  const std::lock_guard lock(netcdf_mutex());
   if (nc_open(netcdf_path(path).c_str(), NC_NOWRITE, &id_) != NC_NOERR)
     fail("it is no NetCDF file, or is cut short; give another or make it again");
   const std::string cut = first_cut(id_, path);
@@ -113,18 +115,18 @@ NetcdfReader::NetcdfReader(const std::string& path) : path_(path) {
 }
 
 NetcdfReader::~NetcdfReader() {
-  const std::lock_guard lock(netcdf_library());
+  const std::lock_guard lock(netcdf_mutex());
   nc_close(id_);
 }
 
 bool NetcdfReader::has_variable(const std::string& name) const {
-  const std::lock_guard lock(netcdf_library());
+  const std::lock_guard lock(netcdf_mutex());
   int variable;
   return nc_inq_varid(id_, name.c_str(), &variable) == NC_NOERR;
 }
 
 std::vector<std::string> NetcdfReader::variables() const {
-  const std::lock_guard lock(netcdf_library());
+  const std::lock_guard lock(netcdf_mutex());
   int count = 0;
   nc_inq_nvars(id_, &count);
   std::vector<std::string> names;
@@ -134,7 +136,7 @@ std::vector<std::string> NetcdfReader::variables() const {
 }
 
 std::vector<std::string> NetcdfReader::dimensions_of(const std::string& variable) const {
-  const std::lock_guard lock(netcdf_library());
+  const std::lock_guard lock(netcdf_mutex());
   int v, count = 0, ids[NC_MAX_VAR_DIMS];
   if (nc_inq_varid(id_, variable.c_str(), &v) != NC_NOERR)
     fail("it has no variable " + variable + "; give a file that has");
@@ -156,7 +158,7 @@ std::vector<std::int64_t> NetcdfReader::shape_of(const std::string& variable) co
 }
 
 std::int64_t NetcdfReader::dimension(const std::string& name) const {
-  const std::lock_guard lock(netcdf_library());
+  const std::lock_guard lock(netcdf_mutex());
   int d;
   std::size_t size = 0;
   if (nc_inq_dimid(id_, name.c_str(), &d) != NC_NOERR)
@@ -166,7 +168,7 @@ std::int64_t NetcdfReader::dimension(const std::string& name) const {
 }
 
 std::string NetcdfReader::text(const std::string& variable, const std::string& attribute) const {
-  const std::lock_guard lock(netcdf_library());
+  const std::lock_guard lock(netcdf_mutex());
   int v = NC_GLOBAL;
   nc_type type = NC_CHAR;
   std::size_t length = 0;
@@ -188,7 +190,7 @@ std::string NetcdfReader::text(const std::string& variable, const std::string& a
 
 double NetcdfReader::number(const std::string& variable, const std::string& attribute,
                             double fallback) const {
-  const std::lock_guard lock(netcdf_library());
+  const std::lock_guard lock(netcdf_mutex());
   int v = NC_GLOBAL;
   std::size_t length = 0;
   double value = fallback;
@@ -213,7 +215,7 @@ std::vector<std::int32_t> NetcdfReader::ints(const std::string& variable,
   const std::vector<std::int64_t> has = shape_of(variable);
   nc_type type = NC_INT;
   {
-    const std::lock_guard lock(netcdf_library());
+    const std::lock_guard lock(netcdf_mutex());
     int v = -1;
     nc_inq_varid(id_, variable.c_str(), &v);
     nc_inq_vartype(id_, v, &type);

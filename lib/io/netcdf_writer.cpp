@@ -280,7 +280,7 @@ void NetcdfWriter::begin() {
     bytes.push_back(variable.bytes());
   const int format = needs_cdf5(bytes) ? NC_64BIT_DATA : NC_64BIT_OFFSET;
 
-  const std::lock_guard lock(netcdf_library());
+  const std::lock_guard lock(netcdf_mutex());
   const std::string& path = state_->file.temporary();
   int id = -1;
   state_->require(nc_create(netcdf_path(path).c_str(), NC_CLOBBER | format, &id));
