@@ -163,12 +163,11 @@ Side side(const Ball& ball, const std::vector<HalfSpace>& half_spaces) {
 /// cell's and not others; these stand in a stack, as in a descent to owners.
 class MemberDescent {
 public:
-  MemberDescent(const Sites& sites, const std::vector<std::vector<HalfSpace>>& covered,
-                std::vector<std::int32_t> candidates)
-      : sites_(sites), covered_(covered), candidates_(std::move(candidates)) {}
+  MemberDescent(const Sites& sites, const Regions& regions)
+      : sites_(sites), covered_(regions.covered), candidates_(all_of(regions.centres)) {}
 
   /// The runs of the cell that lie in regions, along the curve in each.
-  std::vector<RegionRun> run(const Cell& cell) {
+  std::vector<RegionRun> run(const Cell& cell) && {
     collect(cell, 0);
     return std::move(runs_);
   }
@@ -216,16 +215,14 @@ private:
   std::vector<RegionRun> runs_;
 };
 
-std::vector<std::vector<Run>> members_inside(const Sites& sites,
-                                             const std::vector<std::vector<HalfSpace>>& covered,
-                                             const std::vector<std::int32_t>& all) {
+std::vector<std::vector<Run>> members_inside(const Sites& sites, const Regions& regions) {
   const std::vector<Cell> cells = task_cells(sites.cells);
   std::vector<std::vector<RegionRun>> found(cells.size());
   for_each_task(std::ssize(cells), [&](std::int64_t c) {
     const auto index = static_cast<std::size_t>(c);
-    found[index] = MemberDescent(sites, covered, all).run(cells[index]);
+    found[index] = MemberDescent(sites, regions).run(cells[index]);
   });
-  std::vector<std::vector<Run>> members(covered.size());
+  std::vector<std::vector<Run>> members(regions.centres.size());
   for (const auto& list : found)
     for (const RegionRun& r : list)
       append(members[static_cast<std::size_t>(r.region)], r.run);
@@ -261,9 +258,8 @@ Regions make_regions(const Sites& sites, std::vector<Vec3> centres,
     regions.covered = distance_half_spaces(sites, regions, adjacent);
   if (sort == Sort::voronoi)
     regions.covered = voronoi_half_spaces(regions, adjacent);
-  regions.members = sort == Sort::voronoi
-                        ? members_of_neighbours(regions, adjacent)
-                        : members_inside(sites, regions.covered, all_of(regions.centres));
+  regions.members = sort == Sort::voronoi ? members_of_neighbours(regions, adjacent)
+                                          : members_inside(sites, regions);
   return regions;
 }
 

@@ -314,6 +314,7 @@ void unite(std::vector<RegionTriangles>&& reports, Array<std::int32_t>&& triangl
     write_neighbours(report, place[static_cast<std::size_t>(k)], mesh.neighbours);
     report = {}; // freed here, by all threads
     place[static_cast<std::size_t>(k)] = {};
+    tables[static_cast<std::size_t>(k)] = {};
   });
 }
 

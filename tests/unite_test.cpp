@@ -13,9 +13,12 @@ namespace {
 
 const std::array<Triple, 4> faces{{{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}}};
 
-/// The first faces of a tetrahedron as reported by the owner of sites 0 and 1, or of 2 and 3. All
-/// have their lowest site in the first region and are seams of both.
-RegionTriangles report_of(bool first, std::int32_t count = 4) {
+/// Of sites 0 and 2 the first, of 1 and 3 the second.
+std::int32_t owner_of(std::int32_t site) { return site % 2; }
+
+/// The first faces of a tetrahedron as one of two regions reports them. All are seams of both;
+/// three have their lowest site in the first region, one in the second.
+RegionTriangles report_of(std::int32_t region, std::int32_t count = 4) {
   RegionTriangles out{Array<Triple>(count), Array<Triple>(count), Array<std::int32_t>(count), {}};
   const std::array<Triple, 4> neighbours{{{3, 1, 2}, {3, 2, 0}, {3, 0, 1}, {1, 0, 2}}};
   for (std::int32_t t = 0; t < count; ++t) {
@@ -24,14 +27,15 @@ RegionTriangles report_of(bool first, std::int32_t count = 4) {
     out.neighbours[t] = neighbours[face];
     for (std::int32_t& across : out.neighbours[t])
       across = across < count ? across : -1;
+    const std::int32_t home = owner_of(faces[face][0]);
     // By second site: 0 1 2, 0 2 3, 0 3 1, and 1 3 2 alone.
-    out.rank[t] = !first ? -1 : t == 3 ? 0 : t;
+    out.rank[t] = home != region ? -1 : t == 3 ? 0 : t;
     int bits = 0;
     for (std::size_t i = 0; i < 3; ++i) {
-      const bool lower_is_first = std::min(faces[face][(i + 1) % 3], faces[face][(i + 2) % 3]) < 2;
-      bits |= static_cast<int>(lower_is_first == first) << i;
+      const std::int32_t lower = std::min(faces[face][(i + 1) % 3], faces[face][(i + 2) % 3]);
+      bits |= static_cast<int>(owner_of(lower) == region) << i;
     }
-    out.seams.push_back({faces[face], t, 0, 2, static_cast<std::int8_t>(bits)});
+    out.seams.push_back({faces[face], t, home, 2, static_cast<std::int8_t>(bits)});
   }
   return out;
 }
@@ -64,7 +68,7 @@ bool is_internal_error(RegionTriangles first, RegionTriangles second) {
 TEST_CASE("two regions' reports of one tetrahedron unite to its mesh") {
   for (const std::int64_t points :
        {std::int64_t{4}, most_sites_kept + 1}) { // many: memory goes back
-    Mesh mesh = united(report_of(true), report_of(false), points);
+    Mesh mesh = united(report_of(0), report_of(1), points);
     mesh.points.resize(3, 4);
     mesh.points << 1, -1, -1, 1, 1, 1, -1, -1, 1, -1, 1, -1;
     mesh.site_of_input = {0, 1, 2, 3};
@@ -73,17 +77,18 @@ TEST_CASE("two regions' reports of one tetrahedron unite to its mesh") {
 }
 
 TEST_CASE("regions that disagree are an error, never a mesh") {
-  CHECK(is_internal_error(report_of(true), report_of(false, 3))); // one report too few
-  RegionTriangles other = report_of(false);
+  CHECK(is_internal_error(report_of(0), report_of(1, 3))); // one report too few: of its home
+  CHECK(is_internal_error(report_of(0, 3), report_of(1))); // of the other
+  RegionTriangles other = report_of(1);
   other.seams[2].sites = {0, 3, 2}; // a triangle that nobody else knows
-  CHECK(is_internal_error(report_of(true), std::move(other)));
-  RegionTriangles sure = report_of(true);
+  CHECK(is_internal_error(report_of(0), std::move(other)));
+  RegionTriangles sure = report_of(0);
   sure.seams[1].reporters = 3; // says three owners, of which two report
-  CHECK(is_internal_error(std::move(sure), report_of(false)));
-  sure = report_of(false);
+  CHECK(is_internal_error(std::move(sure), report_of(1)));
+  sure = report_of(1);
   sure.seams[1].reporters = 3;
-  CHECK(is_internal_error(report_of(true), std::move(sure)));
-  std::array<RegionTriangles, 2> both{report_of(true), report_of(false)};
+  CHECK(is_internal_error(report_of(0), std::move(sure)));
+  std::array<RegionTriangles, 2> both{report_of(0), report_of(1)};
   for (RegionTriangles& report : both)
     report.seams[1].reporters = 3;
   CHECK(is_internal_error(std::move(both[0]), std::move(both[1])));
