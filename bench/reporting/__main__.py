@@ -12,7 +12,7 @@ from pathlib import Path
 
 from reporting import document, machine, plan
 from reporting.makespan import Network
-from reporting.samples import MOST_OTHERS, Results
+from reporting.samples import MOST_OTHERS, BadSamples, Results
 
 PROJECT = Path(__file__).resolve().parents[2]
 
@@ -21,20 +21,22 @@ def say(line):
     print(f"report: {line}", file=sys.stderr, flush=True)
 
 
-def is_done(file, step, commit):
-    """Whether this very step was run on this very commit."""
-    if not file.exists() or commit.endswith("+"):
+def is_done(kept, step, commit):
+    """Whether this very step was run on this very commit and machine."""
+    if kept is None or commit.endswith("+"):
         return False
-    kept = json.loads(file.read_text())
-    return kept["commit"] == commit and kept["command"] == step.command
+    made = (kept.commit, kept.command, kept.machine)
+    return made == (commit, step.command, machine.describe())
 
 
-def run(step, programs, commit, file):
-    """Runs one step of programs of that commit; its samples go to the file when it is over."""
+def run(step, programs, commit, file, runs):
+    """Runs one step of programs of that commit; its samples go to the file when it is over.
+
+    runs: those before.
+    """
     watch, date = machine.Watch(), datetime.now(timezone.utc).strftime("%Y-%m-%d %H:%M")
     raw, log = file.with_suffix(".part"), file.with_suffix(".log")
     raw.unlink(missing_ok=True)  # of a report that was interrupted
-    runs = json.loads(file.read_text()).get("runs", 1) if file.exists() else 0
     with open(log, "w", encoding="utf-8") as out:
         done = subprocess.run(
             [programs / f"{step.program}_bench", *step.arguments, "--json", raw],
@@ -61,8 +63,8 @@ def run(step, programs, commit, file):
         "others": others,
         "output": json.loads(raw.read_text()),
     }
-    file.write_text(json.dumps(kept, indent=1))
-    raw.unlink()
+    raw.write_text(json.dumps(kept, indent=1))
+    raw.replace(file)
 
 
 def run_all(options, raw):
@@ -72,14 +74,16 @@ def run_all(options, raw):
     if everything and not options.resume:
         for old in raw.glob("*.json"):
             old.unlink()
+    kept = Results.load(raw).steps
     started = time.monotonic()
     for number, step in enumerate(options.todo, 1):
         file = raw / f"{step.name}.json"
-        if options.resume and is_done(file, step, commit):
+        before = kept.get(step.name)
+        if options.resume and is_done(before, step, commit):
             say(f"{number}/{len(options.todo)} {step.name}: kept")
             continue
         say(f"{number}/{len(options.todo)} {step.name} ({time.monotonic() - started:.0f} s so far)")
-        run(step, options.programs, commit, file)
+        run(step, options.programs, commit, file, before.runs if before else 0)
     say(f"{len(options.todo)} steps in {time.monotonic() - started:.0f} s")
 
 
@@ -122,10 +126,13 @@ def parse(arguments):
 def main(arguments):
     options = parse(arguments)
     raw = options.out / "raw"
-    if not options.tables:
-        raw.mkdir(parents=True, exist_ok=True)
-        run_all(options, raw)
-    results = Results.load(raw)
+    try:
+        if not options.tables:
+            raw.mkdir(parents=True, exist_ok=True)
+            run_all(options, raw)
+        results = Results.load(raw)
+    except BadSamples as error:
+        sys.exit(f"report: {error}")
     if not results.steps:
         sys.exit(f"report: there are no samples in {raw}: run bench/report without --tables")
     network = Network(options.latency, options.bandwidth)
@@ -133,7 +140,8 @@ def main(arguments):
     say(f"{options.out / 'RESULTS.md'}")
     if options.publish:
         shutil.copy(options.out / "RESULTS.md", PROJECT / "bench")
-        shutil.copytree(options.out / "plots", PROJECT / "bench/plots", dirs_exist_ok=True)
+        shutil.rmtree(PROJECT / "bench/plots", ignore_errors=True)
+        shutil.copytree(options.out / "plots", PROJECT / "bench/plots")
     for failure in results.failures():
         say(f"WRONG: {failure}")
     return 1 if results.failures() else 0

@@ -95,7 +95,7 @@ def machine_table(results):
         "peers": {f"{name} {version}" for name, version in peers.items()}
         | {"STRIPACK" if output["stripack"] else "no STRIPACK" for output in outputs},
     }
-    lines = [[name, ", ".join(sorted(found))] for name, found in texts.items()]
+    lines = [[name, "; ".join(sorted(found))] for name, found in texts.items()]
     return table(["", "here"], lines)
 
 
@@ -136,7 +136,10 @@ def is_empty(text):
 
 def compose(results, network, figures):
     head = HEAD.format(spread=WIDEST_SPREAD, core=LEAST_CORE, others=MOST_OTHERS)
-    text = [head, machine_table(results), "## What is required", requirements(results, network)]
+    text = [head, machine_table(results)]
+    required = requirements(results, network)
+    if not is_empty(required):
+        text += ["## What is required", required]
     for title, body, figure in parts(results, network):
         if is_empty(body):
             continue

@@ -61,19 +61,21 @@ def single(rows):
 def table_2(results):
     rows = single(results.find("triangulation", set="random", sites=MEDIUM))
     stripack = by_name(rows).get("STRIPACK")
-    text = table(
-        ["run", "median s", "STRIPACK's seconds over its own", "the paper's (96)", "step"],
-        [
+    text = ""
+    if rows:
+        text = table(
+            ["run", "median s", "STRIPACK's seconds over its own", "the paper's (96)", "step"],
             [
-                row.name,
-                seconds_cell(row),
-                "1" if row is stripack else ratio_cell(stripack, row),
-                PAPER_TRIANGULATION if row.name == "calotte" else NONE,
-                row.step,
-            ]
-            for row in rows
-        ],
-    )
+                [
+                    row.name,
+                    seconds_cell(row),
+                    "1" if row is stripack else ratio_cell(stripack, row),
+                    PAPER_TRIANGULATION if row.name == "calotte" else NONE,
+                    row.step,
+                ]
+                for row in rows
+            ],
+        )
     orders = step_rows(results, "triangulation-orders")
     if orders:
         text += (

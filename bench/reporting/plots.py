@@ -21,7 +21,8 @@ def axes(count, **options):
 
 
 def finish(figure, places, file):
-    """Writes the figure where anything was drawn in it; rows that were not run leave empty lines."""
+    """Writes the figure where anything was drawn in it, or takes an older one away."""
+    # Rows that were not run leave empty lines.
     for line in [line for place in places for line in place.lines if not len(line.get_xdata())]:
         line.remove()
     drawn = any(place.lines for place in places)
@@ -32,6 +33,8 @@ def finish(figure, places, file):
                 place.legend(fontsize=7)
         figure.tight_layout()
         figure.savefig(file, dpi=110)
+    else:
+        file.unlink(missing_ok=True)
     pyplot.close(figure)
     return drawn
 

@@ -106,6 +106,17 @@ class Step:
         return self.output["hardware_threads"]
 
 
+class BadSamples(Exception):
+    """A file holds no samples, or those of an older bench/report."""
+
+
+def load_step(file):
+    try:
+        return Step(**json.loads(file.read_text()))
+    except (TypeError, ValueError):
+        raise BadSamples(f"{file} is cut short, or of another bench/report: remove it") from None
+
+
 class Results:
     """All that was run: steps by name, and their rows."""
 
@@ -129,8 +140,8 @@ class Results:
 
     @staticmethod
     def load(folder):
-        files = sorted(Path(folder).glob("*.json"))
-        return Results([Step(**json.loads(file.read_text())) for file in files])
+        """Of all files of a folder. Raises BadSamples."""
+        return Results([load_step(file) for file in sorted(Path(folder).glob("*.json"))])
 
     def find(self, section, **wanted):
         """The rows of a section with these values of step, set, sites or name."""

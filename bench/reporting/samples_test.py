@@ -2,9 +2,11 @@
 """What is said of samples: python3 -m unittest reporting.samples_test (in bench/)."""
 
 import random
+import tempfile
 import unittest
+from pathlib import Path
 
-from reporting.samples import Results, Row, Step, is_disturbed, median, quantile, spread
+from reporting.samples import BadSamples, Results, Row, Step, is_disturbed, median, quantile, spread
 
 
 def make_row(name, seconds, cpu=None, lists=None, others=0.0):
@@ -73,6 +75,14 @@ class Laws(unittest.TestCase):
         self.assertTrue(results.one("sizes", name="CGAL").starved)
         self.assertIsNone(results.one("sizes", name="CGAL", sites=11))
         self.assertEqual(results.find("others"), [])
+
+    def test_a_file_that_holds_no_samples_is_named(self):
+        with tempfile.TemporaryDirectory() as folder:
+            self.assertEqual(Results.load(folder).steps, {})
+            for text in ('{"name": "s", "section"', "{}", "[1]"):
+                Path(folder, "cut.json").write_text(text)
+                with self.assertRaisesRegex(BadSamples, "cut.json"):
+                    Results.load(folder)
 
 
 if __name__ == "__main__":
