@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How far one machine's memory goes: a triangulation of many random sites, a proof of it, and some
 // iterations of a CVT from there, with the peak of memory of each and the time of every stage.
-// First a small set is triangulated, too, to compare the time a site with: the first triangulation
-// of the process, whose memory is new, with the first of the many sites; later ones with a second.
+// First a small set is triangulated, too, to compare the time a site with: its first triangulation
+// with the first of the many sites, both in memory that is mostly new to the process; later ones
+// with a second.
 
 #include <calotte/check.h>
 #include <calotte/cvt.h>
@@ -21,9 +22,12 @@
 #include <cstdio>
 #include <exception>
 #include <fstream>
+#include <functional>
 #include <iostream>
 #include <new>
+#include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -102,7 +106,7 @@ Cost triangulation(Points3 points, Mesh& mesh, DelaunayReport* report = nullptr)
 }
 
 /// The small set, which the time a site of a large one is compared with. Its first triangulation
-/// faults its memory in, as that of a large set does, and starts the threads; later ones do not.
+/// faults its memory in, as that of a larger set does, and starts the threads; later ones do not.
 class Base {
 public:
   explicit Base(const Options& options)
@@ -173,10 +177,20 @@ bool prove(const Mesh& mesh, std::int64_t n, const char* name, Json& json) {
   return failure.empty();
 }
 
+/// Of what the library computes of a mesh: a mesh of the same points has the same.
+std::size_t fingerprint(const Mesh& mesh) {
+  const auto bytes = [](const auto& matrix) {
+    return std::string_view(reinterpret_cast<const char*>(matrix.data()),
+                            static_cast<std::size_t>(matrix.size()) * sizeof(*matrix.data()));
+  };
+  const std::hash<std::string_view> hash;
+  return hash(bytes(mesh.triangles)) + 3 * hash(bytes(mesh.neighbours));
+}
+
 /// Compares the time a site with the small set's: first with first, again with later.
 void compare(std::int64_t n, double first, double again, const Base& base, double later,
              Json& json) {
-  std::printf("\n| ns a site | first, in new memory | again |\n| --- | --: | --: |\n"
+  std::printf("\n| ns a site | the first time | again |\n| --- | --: | --: |\n"
               "| %lld sites | %.0f | %.0f |\n| %lld sites | %.0f | %.0f |\n"
               "| times as long | %.2f | %.2f |\n",
               static_cast<long long>(base.sites()), base.first(), later, static_cast<long long>(n),
@@ -196,14 +210,19 @@ bool triangulate(std::int64_t n, const Base& base, Json& json) {
   out["stages"] = stages(report, n);
   out["regions"] = report.regions;
   out["overlap"] = report.overlap;
-  const bool good = prove(mesh, n, "its check", out);
+  bool good = prove(mesh, n, "its check", out);
   print_part("both", first.seconds + out["check"]["seconds"].get<double>(), n);
   // A virtual machine's host may take what is free for some seconds: so the mesh is freed last.
   Points3 points = random_sphere(n, seed);
+  const std::size_t proved = fingerprint(mesh);
   const double later = base.later();
   mesh = Mesh();
   const Cost again = triangulation(std::move(points), mesh);
   print("the same triangulation again", again, n);
+  if (fingerprint(mesh) != proved) {
+    std::cerr << "scale_bench: " << n << " sites: the same points gave another mesh\n";
+    good = false;
+  }
   out["again"] = to_json(again, n);
   compare(n, ns_a_site(first.seconds, n), ns_a_site(again.seconds, n), base, later, out);
   return good;
@@ -289,15 +308,18 @@ int scale_main(int argc, char** argv) {
                                   static_cast<std::size_t>(options.threads));
   tbb::task_arena arena(options.threads);
   std::sort(options.sizes.begin(), options.sizes.end());
+  const auto keep = [&](const Json& all) {
+    if (!options.json.empty() && !(std::ofstream(options.json) << all.dump(2) << std::endl))
+      throw std::runtime_error(options.json + " cannot be written: give --json another place");
+  };
   bool good = true;
   Json all = Json::array();
+  keep(all); // a place that does not serve is known before the work
   const Base base = arena.execute([&] { return Base(options); });
   for (const std::int64_t n : options.sizes) {
     all.emplace_back();
     good = arena.execute([&] { return run(n, options, base, all.back()); }) && good;
-    if (!options.json.empty()) {
-      std::ofstream(options.json) << all.dump(2) << '\n';
-    }
+    keep(all);
   }
   return good ? 0 : 1;
 }
