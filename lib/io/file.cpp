@@ -152,7 +152,10 @@ void OutputFile::put_tail() {
 void OutputFile::start_queue() {
 #ifdef O_DIRECT
   direct_ = ::open(temporary_.c_str(), O_WRONLY | O_CLOEXEC | O_DIRECT);
-  spare_.reserve(most_spare);
+  {
+    const std::lock_guard lock(spare_mutex_); // block() looks there meanwhile
+    spare_.reserve(most_spare);
+  }
   if (direct_ >= 0)
     queue_ = std::make_unique<OutputQueue>([this](OutputBlock block) {
       const int error = write_direct(block);
