@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "density_cost.h"
 
-#include "clock.h"
-#include "density_evaluator.h"
+#include "base/clock.h"
+#include "density/density_evaluator.h"
 
 #include <calotte/generators.h>
 
@@ -33,7 +33,8 @@ Sample make_sample() {
   return sample;
 }
 
-void evaluate_rows(const detail::DensityEvaluator& density, std::size_t row, Sample& sample) {
+void evaluate_rows(const density_detail::DensityEvaluator& density, std::size_t row,
+                   Sample& sample) {
   for (std::size_t first = 0; first < points; first += row) {
     const std::size_t count = std::min(row, points - first);
     const auto part = [&](const auto& values) { return std::span(values).subspan(first, count); };
@@ -47,20 +48,20 @@ void evaluate_rows(const detail::DensityEvaluator& density, std::size_t row, Sam
 std::vector<DensityCost> density_costs(const Density& density, const std::vector<std::size_t>& rows,
                                        int samples) {
   constexpr int repeats = 200; // some half a millisecond, far above the clock's grain
-  const detail::DensityEvaluator evaluator(density);
+  const density_detail::DensityEvaluator evaluator(density);
   Sample sample = make_sample();
   std::vector<DensityCost> costs;
   for (const std::size_t row : rows)
     costs.push_back({row, {}});
   for (int s = 0; s < samples; ++s)
     for (DensityCost& cost : costs) {
-      detail::Clock::time_point mark = detail::Clock::now();
+      base_detail::Clock::time_point mark = base_detail::Clock::now();
       for (int r = 0; r < repeats; ++r) {
         evaluate_rows(evaluator, cost.row, sample);
         benchmark::DoNotOptimize(sample.rho.data());
         benchmark::ClobberMemory();
       }
-      cost.nanoseconds.push_back(1e9 * detail::lap(mark) / (repeats * points));
+      cost.nanoseconds.push_back(1e9 * base_detail::lap(mark) / (repeats * points));
     }
   return costs;
 }

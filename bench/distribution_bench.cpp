@@ -9,8 +9,8 @@
 #include "report.h"
 #include "stopwatch.h"
 
-#include "centres.h"
-#include "functional.h"
+#include "cvt/functional.h"
+#include "delaunay/centres.h"
 
 #include <calotte/cvt.h>
 #include <calotte/delaunay.h>
@@ -146,7 +146,7 @@ class Iterations {
 public:
   Iterations(const Workload& work, const Cut& cut)
       : points_(work.points),
-        functional_(detail::make_functional(work.points, options_of(work, cut))) {}
+        functional_(cvt_detail::make_functional(work.points, options_of(work, cut))) {}
 
   /// \returns the wall-clock seconds of this iteration.
   double step() {
@@ -189,8 +189,8 @@ private:
   }
 
   Points3 points_;
-  std::unique_ptr<detail::Functional> functional_;
-  detail::Evaluation evaluation_;
+  std::unique_ptr<cvt_detail::Functional> functional_;
+  cvt_detail::Evaluation evaluation_;
   std::vector<CvtRegion> regions_;
   std::vector<std::vector<double>> seconds_; ///< of each iteration, by region
   double flips_ = 0;
@@ -214,16 +214,17 @@ class Triangulations {
 public:
   Triangulations(const Workload& work, const Cut& cut)
       : points_(work.points), partition_(partition_of(cut)),
-        centres_(detail::make_centres(
-            detail::make_sites(work.points, partition_.duplicates, partition_.merge_within),
-            partition_)) {}
+        centres_(delaunay_detail::make_centres(delaunay_detail::make_sites(work.points,
+                                                                           partition_.duplicates,
+                                                                           partition_.merge_within),
+                                               partition_)) {}
 
   /// The regions in turn, from the first-th on.
   DelaunayReport step(std::size_t first) {
     Points3& centres = partition_.given_centres.emplace(3, centres_.size());
     const std::size_t count = centres_.size();
     for (std::size_t k = 0; k < count; ++k)
-      detail::set_column(centres, static_cast<std::int64_t>(k), centres_[(first + k) % count]);
+      base_detail::set_column(centres, static_cast<std::int64_t>(k), centres_[(first + k) % count]);
     DelaunayReport report;
     delaunay(points_, partition_, &report);
     if (report.one_region) {
@@ -246,7 +247,7 @@ public:
 private:
   const Points3& points_;
   DelaunayOptions partition_;
-  std::vector<detail::Vec3> centres_;
+  std::vector<base_detail::Vec3> centres_;
 };
 
 void run_triangulations(benchmark::State& state, const Workload& work, const Cut& cut, int count) {

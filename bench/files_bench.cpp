@@ -4,8 +4,8 @@
 // numbered, connectivity included, on the disk, and as many bytes written the same way without
 // computing them: what the disk allows.
 
+#include "base/parallel.h"
 #include "io/file.h"
-#include "parallel.h"
 #include "program.h"
 #include "report.h"
 #include "stopwatch.h"
@@ -101,11 +101,11 @@ void write_bytes(const Files& files) {
     return words;
   }();
   const auto block_bytes = static_cast<std::int64_t>(pattern.size() * sizeof(pattern[0]));
-  detail::OutputFile file(files.other);
+  io_detail::OutputFile file(files.other);
   file.reserve(files.bytes);
-  detail::for_each_task((files.bytes + block_bytes - 1) / block_bytes, [&](std::int64_t k) {
+  base_detail::for_each_task((files.bytes + block_bytes - 1) / block_bytes, [&](std::int64_t k) {
     const std::int64_t offset = k * block_bytes;
-    detail::OutputBlock block = file.block(offset, std::min(block_bytes, files.bytes - offset));
+    io_detail::OutputBlock block = file.block(offset, std::min(block_bytes, files.bytes - offset));
     std::memcpy(block.begin(), pattern.data(), static_cast<std::size_t>(block.size()));
     std::memcpy(block.begin(), &k, std::min(sizeof k, static_cast<std::size_t>(block.size())));
     file.put(std::move(block));

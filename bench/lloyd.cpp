@@ -4,9 +4,9 @@
 #include "report.h"
 #include "stripack.h"
 
-#include "clock.h"
-#include "moments.h"
-#include "points.h"
+#include "base/clock.h"
+#include "base/points.h"
+#include "integrals/moments.h"
 
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
@@ -66,24 +66,25 @@ void measure(const std::vector<CvtIteration>& iterations, const std::vector<doub
 /// What a serial program keeps between iterations.
 struct Serial {
   explicit Serial(std::int64_t n) : mesh(n), x(n), moments(n) {
-    std::fill(x.begin(), x.end(), detail::Vec3{0, 0, 0});
-    std::fill(moments.begin(), moments.end(), detail::CellMoments{{0, 0, 0}, 0});
+    std::fill(x.begin(), x.end(), base_detail::Vec3{0, 0, 0});
+    std::fill(moments.begin(), moments.end(), integrals_detail::CellMoments{{0, 0, 0}, 0});
     cells.owned = static_cast<std::int32_t>(n);
     cells.corners.resize(static_cast<std::size_t>(2 * n));
     suspects.reserve(static_cast<std::size_t>(2 * n));
   }
 
   Stripack mesh;
-  detail::Array<detail::Vec3> x;
-  detail::Array<detail::CellMoments> moments;
-  detail::Patch cells; ///< the one region that owns all sites: its local numbers are the sites'
+  base_detail::Array<base_detail::Vec3> x;
+  base_detail::Array<integrals_detail::CellMoments> moments;
+  integrals_detail::Patch
+      cells; ///< the one region that owns all sites: its local numbers are the sites'
   std::vector<std::int32_t> suspects;
 };
 
 void set_points(Serial& serial, const Points3& points) {
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
     const auto at = static_cast<std::size_t>(i);
-    const detail::Vec3& point = detail::column(points, i);
+    const base_detail::Vec3& point = base_detail::column(points, i);
     serial.x[i] = point;
     serial.mesh.x[at] = point.x;
     serial.mesh.y[at] = point.y;
@@ -100,12 +101,13 @@ void read_triangles(Serial& serial) {
 }
 
 /// Lloyd's step: to M/|M|, M the integral of rho x over the cell.
-void step(Serial& serial, const detail::Integrand& integrand, Points3& next) {
+void step(Serial& serial, const integrals_detail::Integrand& integrand, Points3& next) {
   serial.suspects.clear();
-  detail::integrate(integrand, serial.cells, serial.x, serial.moments, nullptr, serial.suspects);
+  integrals_detail::integrate(integrand, serial.cells, serial.x, serial.moments, nullptr,
+                              serial.suspects);
   for (Eigen::Index i = 0; i < next.cols(); ++i) {
-    const detail::Vec3& first = serial.moments[i].first;
-    const detail::Vec3 centroid = (1 / detail::norm(first)) * first;
+    const base_detail::Vec3& first = serial.moments[i].first;
+    const base_detail::Vec3 centroid = (1 / domain_detail::norm(first)) * first;
     next.col(i) << centroid.x, centroid.y, centroid.z;
   }
 }
@@ -146,23 +148,24 @@ Iterated run_cvt(const Points3& start, const Target& target, int iterations, int
 
 Iterated run_stripack_iteration(const Points3& points, const Target& target) {
   const std::int64_t n = points.cols();
-  const detail::Integrand integrand = detail::make_integrand(target.density, target.rule, 1);
+  const integrals_detail::Integrand integrand =
+      integrals_detail::make_integrand(target.density, target.rule, 1);
   Serial serial(n);
   Iterated out;
   out.points = Points3::Zero(3, n);
   const double cpu = cpu_now();
-  detail::Clock::time_point mark = detail::Clock::now();
+  base_detail::Clock::time_point mark = base_detail::Clock::now();
   set_points(serial, points);
   const int error = serial.mesh.triangulate();
-  const double triangulate = detail::lap(mark);
+  const double triangulate = base_detail::lap(mark);
   if (error != 0) {
     out.failure = "TRMESH gave up with IER = " + std::to_string(error);
     return out;
   }
   read_triangles(serial);
-  const double lists = detail::lap(mark);
+  const double lists = base_detail::lap(mark);
   step(serial, integrand, out.points);
-  const double moments = detail::lap(mark);
+  const double moments = base_detail::lap(mark);
   out.seconds = triangulate + lists + moments;
   out.counters = {{"cpu", cpu_now() - cpu},
                   {"median ns", 1e9 * out.seconds / static_cast<double>(n)},

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands.h"
 
-#include "format_options.h"
+#include "options/format_options.h"
 
 #include <calotte/error.h>
 #include <calotte/io.h>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands.h"
-#include "config_option.h"
-#include "density_option.h"
-#include "format_options.h"
-#include "progress.h"
+#include "options/config_option.h"
+#include "options/density_option.h"
+#include "options/format_options.h"
+#include "run/progress.h"
 
 #include <calotte/error.h>
 #include <calotte/io.h>

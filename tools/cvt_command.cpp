@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands.h"
-#include "cvt_configuration.h"
-#include "cvt_forecast.h"
-#include "cvt_options.h"
-#include "cvt_report.h"
-#include "cvt_request.h"
-#include "cvt_start.h"
-#include "interruption.h"
-#include "progress.h"
+#include "options/cvt_configuration.h"
+#include "options/cvt_options.h"
+#include "options/cvt_request.h"
+#include "run/cvt_forecast.h"
+#include "run/cvt_report.h"
+#include "run/cvt_start.h"
+#include "run/interruption.h"
+#include "run/progress.h"
 
 #include <calotte/error.h>
 #include <calotte/io.h>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands.h"
-#include "config_option.h"
-#include "domain_option.h"
-#include "format_options.h"
-#include "partition_options.h"
-#include "progress.h"
+#include "options/config_option.h"
+#include "options/domain_option.h"
+#include "options/format_options.h"
+#include "options/partition_options.h"
+#include "run/progress.h"
 
 #include <calotte/delaunay.h>
 #include <calotte/error.h>

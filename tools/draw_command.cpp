@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands.h"
-#include "density_option.h"
-#include "domain_option.h"
-#include "draw.h"
-#include "draw_history.h"
-#include "draw_picture.h"
-#include "draw_spacing_law.h"
+#include "draw/draw.h"
+#include "draw/history.h"
+#include "draw/picture.h"
+#include "draw/spacing_law.h"
+#include "options/density_option.h"
+#include "options/domain_option.h"
 
 #include <calotte/error.h>
 

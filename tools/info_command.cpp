@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands.h"
-#include "density_option.h"
-#include "domain_option.h"
-#include "progress.h"
+#include "options/density_option.h"
+#include "options/domain_option.h"
+#include "run/progress.h"
 
 #include <calotte/io.h>
 #include <calotte/quality.h>

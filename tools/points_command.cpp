@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands.h"
-#include "domain_option.h"
-#include "format_options.h"
+#include "options/domain_option.h"
+#include "options/format_options.h"
 
 #include <calotte/error.h>
 #include <calotte/generators.h>

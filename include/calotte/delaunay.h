@@ -73,7 +73,7 @@ struct DelaunayReport {
 /// The result depends on the set of directions alone: it is the same to the last bit for any number
 /// of threads and regions, any `sort` and any centres; a permuted input permutes the ids.
 /// Cocircular sites are resolved by one symbolic rule (design of the in-circle predicate in
-/// lib/predicates.h). It runs in the caller's task arena.
+/// lib/exact/predicates.h). It runs in the caller's task arena.
 ///
 /// \param points 3 x n directions of any norm from 1e-200 to 1e200.
 /// \param report if not null, filled.

@@ -3,6 +3,7 @@
 
 #include <calotte/cvt.h>
 #include <calotte/domain.h>
+#include <calotte/renumber.h>
 #include <calotte/types.h>
 
 #include <cstdint>
@@ -82,14 +83,6 @@ enum class Format {
   geojson,         ///< the cells as polygons with their CellFields
 };
 
-/// How the cells of a file are numbered.
-enum class Numbering {
-  by_format, ///< curve where the cells are numbered anew for a model (NetCDF), else input
-  curve,     ///< along a space-filling curve
-  rcm,       ///< reverse Cuthill-McKee: small differences between neighbours
-  input,     ///< as the mesh's sites
-};
-
 struct WriteOptions {
   Format format = Format::by_name;
   Numbering numbering = Numbering::by_format;
@@ -120,13 +113,6 @@ void write(const std::string& path, const Mesh& mesh, const WriteOptions& option
 /// A plane, numbered as it is. Periodic: mpas, mpas_minimal and triangles. Not periodic: triangles,
 /// and the streams vtp, vtu, off, ply and msh with z = 0.
 void write(const std::string& path, const PlanarMesh& mesh, const WriteOptions& options = {});
-
-/// The same mesh with its sites in another order, and its triangles in the canonical order of
-/// these: the mesh that delaunay() makes of the permuted points, where it is Delaunay.
-/// site_of_input tells where the sites went. A mesh that is along the curve stays as it is;
-/// by_format and input change nothing. Any mesh that read_mesh returns will do. Linear time.
-/// \throws Error bad_option, for ids out of range; not_finite, zero_vector.
-Mesh renumbered(const Mesh& mesh, Numbering numbering);
 
 /// The format that `write` gives a path: the option's, or else that of its name.
 /// \throws Error bad_option for a name that says none; for an option that is not that of the name's

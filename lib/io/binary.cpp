@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "binary.h"
+#include "io/binary.h"
 
 #include <calotte/error.h>
 
 #include <charconv>
 
-namespace calotte::detail {
+namespace calotte::io_detail {
 
 std::optional<std::int64_t> count_after(std::string_view text, std::string_view key) {
   constexpr std::int64_t largest = std::int64_t{1} << 31;
@@ -41,4 +41,4 @@ void Bytes::fail(const std::string& problem) const {
   throw Error(ErrorCode::parse, name_ + ": " + problem);
 }
 
-} // namespace calotte::detail
+} // namespace calotte::io_detail

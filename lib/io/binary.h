@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "io/room.h"
+
 #include <bit>
 #include <cstdint>
 #include <cstring>
@@ -8,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-namespace calotte::detail {
+namespace calotte::io_detail {
 
 inline constexpr bool little_endian = std::endian::native == std::endian::little;
 
@@ -42,4 +44,4 @@ template <class T> T load(const char* place) {
   return value;
 }
 
-} // namespace calotte::detail
+} // namespace calotte::io_detail

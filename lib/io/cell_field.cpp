@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "netcdf_reader.h"
+#include "io/netcdf_reader.h"
 
 #include <calotte/error.h>
 #include <calotte/io.h>
@@ -11,13 +11,14 @@ namespace calotte {
 namespace {
 
 /// One value for each of so many cells.
-bool is_cell_field(const detail::NetcdfReader& file, const std::string& name, std::int64_t cells) {
+bool is_cell_field(const io_detail::NetcdfReader& file, const std::string& name,
+                   std::int64_t cells) {
   const std::vector<std::int64_t> shape = file.shape_of(name);
   return !shape.empty() && shape.back() == cells &&
          std::all_of(shape.begin(), shape.end() - 1, [](std::int64_t size) { return size == 1; });
 }
 
-std::string names_of_cell_fields(const detail::NetcdfReader& file, std::int64_t cells) {
+std::string names_of_cell_fields(const io_detail::NetcdfReader& file, std::int64_t cells) {
   std::string names;
   for (const std::string& name : file.variables())
     if (is_cell_field(file, name, cells))
@@ -25,7 +26,7 @@ std::string names_of_cell_fields(const detail::NetcdfReader& file, std::int64_t 
   return names;
 }
 
-[[noreturn]] void refuse(const detail::NetcdfReader& file, const std::string& problem,
+[[noreturn]] void refuse(const io_detail::NetcdfReader& file, const std::string& problem,
                          std::int64_t cells) {
   const std::string names = names_of_cell_fields(file, cells);
   throw Error(ErrorCode::bad_option,
@@ -36,7 +37,7 @@ std::string names_of_cell_fields(const detail::NetcdfReader& file, std::int64_t 
 } // namespace
 
 CellField read_cell_field(const std::string& path, const std::string& name, std::int64_t cells) {
-  const detail::NetcdfReader file(path);
+  const io_detail::NetcdfReader file(path);
   if (!file.has_variable(name))
     refuse(file, "no variable " + name, cells);
   if (!is_cell_field(file, name, cells))

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cell_outline.h"
+#include "io/cell_outline.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
 
-namespace calotte::detail {
+namespace calotte::io_detail {
 namespace {
 
 constexpr double degrees = 180 / std::numbers::pi;
@@ -146,4 +146,4 @@ std::vector<std::vector<MapPlace>> outline_of(const std::vector<Vec3>& corners) 
   return rings;
 }
 
-} // namespace calotte::detail
+} // namespace calotte::io_detail

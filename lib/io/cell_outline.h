@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "../vec3.h"
+#include "base/vec3.h"
+#include "io/room.h"
 
 #include <vector>
 
-namespace calotte::detail {
+namespace calotte::io_detail {
 
 /// Degrees: longitude -180 to 180, latitude -90 to 90.
 struct MapPlace {
@@ -21,4 +22,4 @@ struct MapPlace {
 ///        stand at it; equal ones count once. \returns no ring for fewer than three places.
 std::vector<std::vector<MapPlace>> outline_of(const std::vector<Vec3>& corners);
 
-} // namespace calotte::detail
+} // namespace calotte::io_detail

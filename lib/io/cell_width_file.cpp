@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cell_width_file.h"
+#include "io/cell_width_file.h"
 
-#include "file.h"
-#include "file_names.h"
+#include "io/file.h"
+#include "io/file_names.h"
 
 #include <calotte/error.h>
 
@@ -11,7 +11,7 @@
 #include <cstdio>
 
 namespace calotte {
-namespace detail {
+namespace io_detail {
 namespace {
 
 /// Degrees that rounding in a file may take.
@@ -125,22 +125,22 @@ CellWidth checked(Raster raster, const std::string& name) {
   return {vector(raster.longitudes), vector(raster.latitudes), std::move(raster.widths)};
 }
 
-} // namespace detail
+} // namespace io_detail
 
 CellWidth read_cell_width(const std::string& path, const PolygonWidths& polygons) {
-  const std::string suffix = detail::suffix_of(path);
+  const std::string suffix = io_detail::suffix_of(path);
   if (suffix == ".nc")
-    return detail::read_cell_width_netcdf(path, "cellWidth");
+    return io_detail::read_cell_width_netcdf(path, "cellWidth");
   if (suffix != ".msh" && suffix != ".geojson" && suffix != ".json")
     throw Error(ErrorCode::bad_option, path + ": no cell widths by its suffix; give .nc, .msh or "
                                               ".geojson");
-  std::ifstream in = detail::open_input(path);
-  return suffix == ".msh" ? detail::read_cell_width_msh(in, path)
-                          : detail::read_cell_width_geojson(in, path, polygons);
+  std::ifstream in = io_detail::open_input(path);
+  return suffix == ".msh" ? io_detail::read_cell_width_msh(in, path)
+                          : io_detail::read_cell_width_geojson(in, path, polygons);
 }
 
 CellWidth read_density_raster(const std::string& path) {
-  CellWidth raster = detail::read_cell_width_netcdf(path, "density");
+  CellWidth raster = io_detail::read_cell_width_netcdf(path, "density");
   const auto width_of = [](double density) { return 1 / std::sqrt(std::sqrt(density)); };
   raster.widths = raster.widths.unaryExpr(width_of).eval();
   raster.widths /= raster.widths.minCoeff();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "io/room.h"
+
 #include <calotte/cell_width.h>
 
 #include <iosfwd>
@@ -8,7 +10,7 @@
 #include <vector>
 
 /// Cell widths from files, one function a format; see read_cell_width.
-namespace calotte::detail {
+namespace calotte::io_detail {
 
 /// A raster as a file has it, and what its parts are called there.
 struct Raster {
@@ -28,4 +30,4 @@ CellWidth read_cell_width_msh(std::istream& in, const std::string& name);
 CellWidth read_cell_width_geojson(std::istream& in, const std::string& name,
                                   const PolygonWidths& widths);
 
-} // namespace calotte::detail
+} // namespace calotte::io_detail

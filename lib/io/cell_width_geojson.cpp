@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "../cell_width_polygons.h"
-#include "cell_width_file.h"
-#include "geojson_polygons.h"
+#include "density/cell_width_polygons.h"
+#include "io/cell_width_file.h"
+#include "io/geojson_polygons.h"
 
 #include <calotte/error.h>
 
@@ -10,7 +10,7 @@
 #include <cmath>
 #include <set>
 
-namespace calotte::detail {
+namespace calotte::io_detail {
 namespace {
 
 using Json = nlohmann::json;
@@ -119,4 +119,4 @@ CellWidth read_cell_width_geojson(std::istream& in, const std::string& name,
   return Collector(name, widths).read(read_geojson(in, name));
 }
 
-} // namespace calotte::detail
+} // namespace calotte::io_detail

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "../cell_width_mesh.h"
-#include "cell_width_file.h"
-#include "jigsaw.h"
+#include "io/cell_width_file.h"
+#include "io/cell_width_mesh.h"
+#include "io/jigsaw.h"
 
 #include <calotte/error.h>
 
 #include <numbers>
 
-namespace calotte::detail {
+namespace calotte::io_detail {
 namespace {
 
 constexpr double degrees = 180 / std::numbers::pi;
@@ -68,4 +68,4 @@ CellWidth read_cell_width_msh(std::istream& in, const std::string& name) {
                    "\"; give ellipsoid-grid, ellipsoid-mesh or euclidean-mesh");
 }
 
-} // namespace calotte::detail
+} // namespace calotte::io_detail

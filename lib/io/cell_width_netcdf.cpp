@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cell_width_file.h"
-#include "netcdf_reader.h"
+#include "io/cell_width_file.h"
+#include "io/netcdf_reader.h"
 
 #include <cmath>
 #include <limits>
 
-namespace calotte::detail {
+namespace calotte::io_detail {
 namespace {
 
 /// The first of the names that the file has as a variable of one dimension.
@@ -60,4 +60,4 @@ CellWidth read_cell_width_netcdf(const std::string& path, const std::string& var
   return checked(std::move(raster), path);
 }
 
-} // namespace calotte::detail
+} // namespace calotte::io_detail

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "binary.h"
-#include "file.h"
-#include "formats.h"
+#include "io/binary.h"
+#include "io/file.h"
+#include "io/formats.h"
 
 #include <calotte/error.h>
 #include <calotte/io.h>
@@ -17,7 +17,7 @@
 namespace calotte {
 namespace {
 
-using namespace detail;
+using namespace io_detail;
 
 constexpr std::string_view format = "calotte checkpoint ";
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "file.h"
-#include "file_names.h"
-#include "geojson_polygons.h"
-#include "text.h"
+#include "io/file.h"
+#include "io/file_names.h"
+#include "io/geojson_polygons.h"
+#include "io/text.h"
 
 #include <calotte/error.h>
 #include <calotte/io.h>
@@ -13,7 +13,7 @@
 namespace calotte {
 namespace {
 
-using namespace detail;
+using namespace io_detail;
 
 /// Rings as they are read, each with where it came from, for messages.
 struct Rings {

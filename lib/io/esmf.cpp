@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "../points.h"
-#include "formats.h"
-#include "model_grid.h"
+#include "base/points.h"
+#include "io/formats.h"
+#include "io/model_grid.h"
 
 #include <limits>
 
 // The unstructured grid file of the Earth System Modeling Framework (its reference manual,
 // "ESMF Unstructured Grid File Format"): elements are the cells, nodes their corners.
 
-namespace calotte::detail {
+namespace calotte::io_detail {
 namespace {
 
 /// The corners of each element, 1-based.
@@ -92,4 +92,4 @@ Soup read_esmf(const NetcdfReader& file) {
   return {from_lonlats(file, name, longitudes, latitudes), {}};
 }
 
-} // namespace calotte::detail
+} // namespace calotte::io_detail

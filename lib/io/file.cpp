@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "file.h"
+#include "io/file.h"
 
-#include "output_queue.h"
+#include "io/output_queue.h"
 
 #include <calotte/error.h>
 #include <calotte/io.h>
@@ -16,7 +16,7 @@
 #include <unistd.h>
 
 namespace calotte {
-namespace detail {
+namespace io_detail {
 namespace {
 
 namespace fs = std::filesystem;
@@ -271,10 +271,10 @@ std::string read_all(std::istream& in, const std::string& name) {
   return bytes;
 }
 
-} // namespace detail
+} // namespace io_detail
 
 void write_file(const std::string& path, std::string_view bytes) {
-  detail::OutputFile file(path);
+  io_detail::OutputFile file(path);
   file.append(bytes);
   file.commit();
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "../memory.h"
+#include "base/memory.h"
+#include "io/room.h"
 
 #include <cstdint>
 #include <fstream>
@@ -12,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace calotte::detail {
+namespace calotte::io_detail {
 
 /// Consecutive bytes of a file in the making. They stand in memory as they stand in the file's
 /// pages, so that the disk can fetch them from there.
@@ -109,4 +110,4 @@ std::ifstream open_input(const std::string& path);
 /// The rest of a stream. \throws Error file.
 std::string read_all(std::istream& in, const std::string& name);
 
-} // namespace calotte::detail
+} // namespace calotte::io_detail

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "io/room.h"
+
 #include <calotte/io.h>
 
 #include <optional>
@@ -8,7 +10,7 @@
 #include <string_view>
 
 /// What the names of files say.
-namespace calotte::detail {
+namespace calotte::io_detail {
 
 // MPI-SCVT's names; what follows them, as in RegionList.12, is common to files that go together.
 inline constexpr std::string_view vertices_name = "SaveVertices";
@@ -32,4 +34,4 @@ std::optional<std::string> sibling(const std::string& path, std::string_view ste
 /// \throws Error bad_option, always: names that say a format.
 [[noreturn]] void refuse_name(const std::string& path);
 
-} // namespace calotte::detail
+} // namespace calotte::io_detail

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "file_names.h"
-#include "text.h"
+#include "io/file_names.h"
+#include "io/text.h"
 
 #include <calotte/error.h>
 #include <calotte/io.h>
@@ -11,7 +11,7 @@
 #include <filesystem>
 
 namespace calotte {
-namespace detail {
+namespace io_detail {
 namespace {
 
 struct Suffix {
@@ -84,9 +84,9 @@ void refuse_name(const std::string& path) {
                   ".tri, or is named SaveVertices");
 }
 
-} // namespace detail
+} // namespace io_detail
 
-using namespace detail;
+using namespace io_detail;
 
 Format format_of(const std::string& path, Format option) {
   const std::optional<Format> named = format_of_name(path);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "text.h"
+#include "io/room.h"
+#include "io/text.h"
 
 #include <calotte/io.h>
 #include <calotte/types.h>
@@ -11,7 +12,7 @@
 
 /// The formats. A writer's mesh is numbered as its file shall be; a reader checks that the file is
 /// whole and leaves the rest to read_mesh.
-namespace calotte::detail {
+namespace calotte::io_detail {
 
 /// Points and triangles as a file holds them; no triangles where the sites are to be triangulated.
 struct Soup {
@@ -81,4 +82,4 @@ template <class T> std::string_view bytes_of(const T* data, Eigen::Index count) 
   return {reinterpret_cast<const char*>(data), sizeof(T) * static_cast<std::size_t>(count)};
 }
 
-} // namespace calotte::detail
+} // namespace calotte::io_detail

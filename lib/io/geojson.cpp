@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cell_outline.h"
-#include "formats.h"
-#include "lonlat.h"
+#include "base/lonlat.h"
+#include "io/cell_outline.h"
+#include "io/formats.h"
 
-#include "../points.h"
+#include "base/points.h"
 
 #include <calotte/error.h>
 #include <calotte/voronoi.h>
@@ -19,7 +19,7 @@
 // GeoJSON (Butler et al., RFC 7946, 2016): a feature a cell. As a polygon does not tell its site,
 // the site's coordinates are properties.
 
-namespace calotte::detail {
+namespace calotte::io_detail {
 namespace {
 
 using nlohmann::json;
@@ -187,4 +187,4 @@ Soup get_geojson(std::istream& in, const std::string& name) {
           {}};
 }
 
-} // namespace calotte::detail
+} // namespace calotte::io_detail

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "geojson_polygons.h"
+#include "io/geojson_polygons.h"
 
-#include "file.h"
-#include "text.h"
+#include "io/file.h"
+#include "io/text.h"
 
 #include <calotte/error.h>
 
-namespace calotte::detail {
+namespace calotte::io_detail {
 namespace {
 
 using Json = nlohmann::json;
@@ -148,4 +148,4 @@ std::vector<GeoGeometry> geojson_polygons(const Json& root, const std::string& n
   return Collector(name, pair).collect(root);
 }
 
-} // namespace calotte::detail
+} // namespace calotte::io_detail

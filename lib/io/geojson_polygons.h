@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "io/room.h"
+
 #include <nlohmann/json.hpp>
 
 #include <array>
@@ -9,7 +11,7 @@
 #include <vector>
 
 /// Polygons of GeoJSON (RFC 7946), for whatever they stand for.
-namespace calotte::detail {
+namespace calotte::io_detail {
 
 using GeoPosition = std::array<double, 2>;
 using GeoRing = std::vector<GeoPosition>; ///< its first position is not repeated at the end
@@ -37,4 +39,4 @@ nlohmann::json read_geojson(std::istream& in, const std::string& name);
 std::vector<GeoGeometry> geojson_polygons(const nlohmann::json& root, const std::string& name,
                                           const GeoPair& pair);
 
-} // namespace calotte::detail
+} // namespace calotte::io_detail

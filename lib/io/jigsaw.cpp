@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "jigsaw.h"
+#include "io/jigsaw.h"
 
-#include "formats.h"
-#include "lonlat.h"
-#include "text.h"
+#include "base/lonlat.h"
+#include "io/formats.h"
+#include "io/text.h"
 
 #include <calotte/error.h>
 
@@ -14,7 +14,7 @@
 #include <numbers>
 #include <set>
 
-namespace calotte::detail {
+namespace calotte::io_detail {
 namespace {
 
 std::string trimmed_lower(std::string_view text) {
@@ -188,4 +188,4 @@ Points3 directions_of(const JigsawFile& file, const std::string& name) {
   return points;
 }
 
-} // namespace calotte::detail
+} // namespace calotte::io_detail

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "io/room.h"
+
 #include <calotte/types.h>
 
 #include <iosfwd>
 #include <string>
 #include <vector>
 
-namespace calotte::detail {
+namespace calotte::io_detail {
 
 /// What a JIGSAW .msh file says, in its own units. Sections that are absent are empty; those of
 /// other names (EDGE2, POWER, ...) are passed over.
@@ -31,4 +33,4 @@ JigsawFile read_jigsaw(std::istream& in, const std::string& name);
 /// for a mesh of the plane, and for a latitude beyond a pole.
 Points3 directions_of(const JigsawFile& file, const std::string& name);
 
-} // namespace calotte::detail
+} // namespace calotte::io_detail

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "assemble.h"
-#include "file.h"
-#include "file_names.h"
-#include "formats.h"
-#include "netcdf_reader.h"
+#include "io/file.h"
+#include "io/file_names.h"
+#include "io/formats.h"
+#include "io/netcdf_reader.h"
+#include "mesh/adjacency.h"
 
-#include "../ids.h"
-#include "../points.h"
-#include "../renumber.h"
+#include "base/ids.h"
+#include "base/points.h"
+#include "mesh/renumber.h"
 
 #include <calotte/delaunay.h>
 #include <calotte/error.h>
@@ -20,7 +20,7 @@
 namespace calotte {
 namespace {
 
-using namespace detail;
+using namespace io_detail;
 
 // ---- Writing
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "model_grid.h"
+#include "io/model_grid.h"
 
-#include "../parallel.h"
-#include "../points.h"
-#include "../spherical_angles.h"
-#include "lonlat.h"
-#include "text.h"
+#include "base/lonlat.h"
+#include "base/parallel.h"
+#include "base/points.h"
+#include "base/spherical_angles.h"
+#include "io/text.h"
 
 #include <calotte/error.h>
 
@@ -14,7 +14,7 @@
 #include <numbers>
 #include <utility>
 
-namespace calotte::detail {
+namespace calotte::io_detail {
 namespace {
 
 constexpr double degrees_per_radian = 180 / std::numbers::pi;
@@ -165,4 +165,4 @@ Points3 read_lonlats(const NetcdfReader& file, const std::string& longitude,
   return from_lonlats(file, longitude + " and " + latitude, east, north);
 }
 
-} // namespace calotte::detail
+} // namespace calotte::io_detail

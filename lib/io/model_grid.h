@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "../vec3.h"
-#include "netcdf_reader.h"
-#include "netcdf_writer.h"
+#include "base/vec3.h"
+#include "io/netcdf_reader.h"
+#include "io/netcdf_writer.h"
+#include "io/room.h"
 
 #include <calotte/io.h>
 #include <calotte/types.h>
@@ -16,7 +17,7 @@
 
 /// What NetCDF files of grids as polygons on longitudes and latitudes have in common (UGRID, SCRIP,
 /// ESMF).
-namespace calotte::detail {
+namespace calotte::io_detail {
 
 // ---- Writing
 
@@ -129,4 +130,4 @@ Points3 from_lonlats(const NetcdfReader& file, const std::string& variables,
 Points3 read_lonlats(const NetcdfReader& file, const std::string& longitude,
                      const std::string& latitude);
 
-} // namespace calotte::detail
+} // namespace calotte::io_detail

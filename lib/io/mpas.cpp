@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "mpas.h"
+#include "io/mpas.h"
 
-#include "../parallel.h"
+#include "base/parallel.h"
 
 #include <bit>
 #include <charconv>
 #include <filesystem>
 #include <numeric>
 
-namespace calotte::detail {
+namespace calotte::io_detail {
 namespace {
 
 /// The finaliser of SplitMix64, in which every bit of a word counts.
@@ -132,4 +132,4 @@ void put_graph(const Sink& sink, const Voronoi& voronoi) {
   }
 }
 
-} // namespace calotte::detail
+} // namespace calotte::io_detail

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "model_grid.h"
-#include "text.h"
+#include "io/model_grid.h"
+#include "io/room.h"
+#include "io/text.h"
 
 #include <calotte/io.h>
 #include <calotte/voronoi.h>
@@ -11,7 +12,7 @@
 #include <string>
 
 /// What the full and the minimal MPAS file have in common.
-namespace calotte::detail {
+namespace calotte::io_detail {
 
 /// A mesh as a file shall hold it. All but its cells is made while the file is written.
 struct MpasMesh {
@@ -57,4 +58,4 @@ std::string graph_path(const std::string& path);
 /// line of each cell's neighbours, 1-based. It comes in pieces.
 void put_graph(const Sink& sink, const Voronoi& voronoi);
 
-} // namespace calotte::detail
+} // namespace calotte::io_detail

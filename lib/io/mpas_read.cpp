@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "assemble.h"
-#include "formats.h"
-#include "netcdf_reader.h"
+#include "io/formats.h"
+#include "io/netcdf_reader.h"
+#include "mesh/adjacency.h"
 
-#include "../points.h"
+#include "base/points.h"
 
 #include <calotte/error.h>
 
 #include <algorithm>
 #include <cmath>
 
-namespace calotte::detail {
+namespace calotte::io_detail {
 namespace {
 
 bool on_plane(const NetcdfReader& file) { return file.text("", "on_a_sphere").starts_with("NO"); }
@@ -94,4 +94,4 @@ PlanarMesh read_planar_mpas(const NetcdfReader& file) {
   return mesh;
 }
 
-} // namespace calotte::detail
+} // namespace calotte::io_detail

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "file.h"
-#include "formats.h"
-#include "mpas.h"
+#include "io/file.h"
+#include "io/formats.h"
+#include "io/mpas.h"
 
-#include "../elementary.h"
-#include "../points.h"
-#include "../spherical_angles.h"
-#include "../tangential_weights.h"
-#include "../voronoi_geometry.h"
-#include "../voronoi_stages.h"
+#include "base/elementary.h"
+#include "base/points.h"
+#include "base/spherical_angles.h"
+#include "voronoi/geometry.h"
+#include "voronoi/stages.h"
+#include "voronoi/tangential_weights.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
-namespace calotte::detail {
+namespace calotte::io_detail {
 namespace {
 
 struct Dimensions {
@@ -431,4 +431,4 @@ void write_mpas_minimal(const std::string& path, const PlanarMesh& mesh,
   write_plane(path, mesh, options, write_minimal);
 }
 
-} // namespace calotte::detail
+} // namespace calotte::io_detail

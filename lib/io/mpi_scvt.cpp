@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "assemble.h"
-#include "file.h"
-#include "file_names.h"
-#include "formats.h"
+#include "io/file.h"
+#include "io/file_names.h"
+#include "io/formats.h"
+#include "mesh/adjacency.h"
 
-#include "../points.h"
-#include "../predicates.h"
+#include "base/points.h"
+#include "exact/predicates.h"
 
 #include <calotte/density.h>
 #include <calotte/error.h>
@@ -17,7 +17,7 @@
 // x y z a line, SaveTriangles three generators a line, counted from 0 and in no order of turning,
 // SaveDensity the density at each generator.
 
-namespace calotte::detail {
+namespace calotte::io_detail {
 namespace {
 
 std::string beside(const std::string& path, std::string_view name) {
@@ -95,4 +95,4 @@ Soup read_mpi_scvt(const std::string& path) {
   return soup;
 }
 
-} // namespace calotte::detail
+} // namespace calotte::io_detail

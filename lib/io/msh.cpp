@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "formats.h"
-#include "jigsaw.h"
+#include "io/formats.h"
+#include "io/jigsaw.h"
 
 #include <calotte/error.h>
 
-namespace calotte::detail {
+namespace calotte::io_detail {
 
 void put_msh(const Sink& sink, const Mesh& mesh) {
   Writer out(sink);
@@ -37,4 +37,4 @@ Soup get_msh(std::istream& in, const std::string& name) {
   return {directions_of(file, name), file.triangles};
 }
 
-} // namespace calotte::detail
+} // namespace calotte::io_detail

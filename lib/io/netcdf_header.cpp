@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "netcdf_header.h"
+#include "io/netcdf_header.h"
 
 #include <netcdf.h>
 
@@ -7,7 +7,7 @@
 #include <cstring>
 #include <fstream>
 
-namespace calotte::detail {
+namespace calotte::io_detail {
 namespace {
 
 std::int64_t padded(std::int64_t bytes) { return (bytes + 3) / 4 * 4; }
@@ -165,4 +165,4 @@ bool needs_cdf5(const std::vector<std::int64_t>& variable_bytes) {
                      [](std::int64_t bytes) { return bytes >= most; });
 }
 
-} // namespace calotte::detail
+} // namespace calotte::io_detail

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "io/room.h"
+
 #include <cstdint>
 #include <string>
 #include <vector>
 
 /// What the C library does not tell of the classic formats: where a variable's values stand.
-namespace calotte::detail {
+namespace calotte::io_detail {
 
 /// A classic file's variable: value 0 stands at byte `begin`, the last one ends before byte `end`.
 struct NetcdfExtent {
@@ -26,4 +28,4 @@ NetcdfLayout classic_layout(int id, const std::string& path);
 /// Whether one of the variables, of so many bytes each, is too large for the 64-bit offset format.
 bool needs_cdf5(const std::vector<std::int64_t>& variable_bytes);
 
-} // namespace calotte::detail
+} // namespace calotte::io_detail

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "netcdf_library.h"
+#include "io/netcdf_library.h"
 
 #include <algorithm>
 
-namespace calotte::detail {
+namespace calotte::io_detail {
 
 std::mutex& netcdf_mutex() {
   static std::mutex mutex;
@@ -17,4 +17,4 @@ std::string netcdf_path(const std::string& path) {
   return plain;
 }
 
-} // namespace calotte::detail
+} // namespace calotte::io_detail

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "io/room.h"
+
 #include <mutex>
 #include <string>
 
 /// What whoever calls the NetCDF C library has to know.
-namespace calotte::detail {
+namespace calotte::io_detail {
 
 /// The C library keeps tables without locks: whoever calls it holds this.
 std::mutex& netcdf_mutex();
@@ -14,4 +16,4 @@ std::mutex& netcdf_mutex();
 /// leading blanks.
 std::string netcdf_path(const std::string& path);
 
-} // namespace calotte::detail
+} // namespace calotte::io_detail

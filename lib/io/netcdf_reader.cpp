@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "netcdf_reader.h"
+#include "io/netcdf_reader.h"
 
-#include "file.h"
-#include "netcdf_header.h"
-#include "netcdf_library.h"
+#include "io/file.h"
+#include "io/netcdf_header.h"
+#include "io/netcdf_library.h"
 
 #include <calotte/error.h>
 
@@ -17,7 +17,7 @@
 #include <mutex>
 #include <system_error>
 
-namespace calotte::detail {
+namespace calotte::io_detail {
 namespace {
 
 std::string shape_in_words(const std::vector<std::int64_t>& shape) {
@@ -234,4 +234,4 @@ void NetcdfReader::fail(const std::string& problem) const {
   throw Error(ErrorCode::parse, path_ + ": " + problem);
 }
 
-} // namespace calotte::detail
+} // namespace calotte::io_detail

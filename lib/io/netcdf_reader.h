@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "io/room.h"
+
 #include <cstdint>
 #include <string>
 #include <vector>
 
 /// NetCDF files read through the C library, whose codes become this library's errors.
-namespace calotte::detail {
+namespace calotte::io_detail {
 
 /// An open NetCDF file of any kind. Names are the file's; messages name path and variable.
 /// Every method \throws Error parse, file.
@@ -42,4 +44,4 @@ private:
   int id_ = -1;
 };
 
-} // namespace calotte::detail
+} // namespace calotte::io_detail

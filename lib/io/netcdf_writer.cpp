@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "netcdf_writer.h"
+#include "io/netcdf_writer.h"
 
-#include "../elementary.h"
-#include "../parallel.h"
-#include "file.h"
-#include "netcdf_header.h"
-#include "netcdf_library.h"
+#include "base/elementary.h"
+#include "base/parallel.h"
+#include "io/file.h"
+#include "io/netcdf_header.h"
+#include "io/netcdf_library.h"
 
 #include <calotte/error.h>
 
@@ -18,7 +18,7 @@
 #include <type_traits>
 #include <utility>
 
-namespace calotte::detail {
+namespace calotte::io_detail {
 namespace {
 
 nc_type type_of(NetcdfType type) {
@@ -319,4 +319,4 @@ void NetcdfWriter::commit() {
   state_->file.commit();
 }
 
-} // namespace calotte::detail
+} // namespace calotte::io_detail

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "io/room.h"
+
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -9,7 +11,7 @@
 #include <vector>
 
 /// NetCDF files written through the C library, whose codes become this library's errors.
-namespace calotte::detail {
+namespace calotte::io_detail {
 
 enum class NetcdfType { int8, int32, float64 };
 
@@ -59,4 +61,4 @@ private:
   std::unique_ptr<State> state_;
 };
 
-} // namespace calotte::detail
+} // namespace calotte::io_detail

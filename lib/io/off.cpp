@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "formats.h"
+#include "io/formats.h"
 
 #include <calotte/error.h>
 
 // The Object File Format of Geomview: "OFF", the counts of points, faces and edges, a point a line,
 // then a face a line with its number of corners first.
 
-namespace calotte::detail {
+namespace calotte::io_detail {
 namespace {
 
 /// The next line with its first `count` columns in `values`.
@@ -75,4 +75,4 @@ Soup get_off(std::istream& in, const std::string& name) {
           Eigen::Map<const Triangles>(triangles.data(), 3, Eigen::Index(triangles.size() / 3))};
 }
 
-} // namespace calotte::detail
+} // namespace calotte::io_detail

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "output_queue.h"
+#include "io/output_queue.h"
 
 #include <system_error>
 #include <utility>
 
-namespace calotte::detail {
+namespace calotte::io_detail {
 
 OutputQueue::OutputQueue(Write write) : write_(std::move(write)) {
   constexpr int threads = 2; // while one is woken, the disk is busy with the other's block
@@ -65,4 +65,4 @@ void OutputQueue::run() {
   }
 }
 
-} // namespace calotte::detail
+} // namespace calotte::io_detail

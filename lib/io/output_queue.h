@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "file.h"
+#include "io/file.h"
+#include "io/room.h"
 
 #include <condition_variable>
 #include <cstddef>
@@ -11,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-namespace calotte::detail {
+namespace calotte::io_detail {
 
 /// Blocks that wait for the disk, and threads that wait with them: these take next to no time of
 /// the processors, which the tasks that fill the next blocks have meanwhile.
@@ -46,4 +47,4 @@ private:
   std::vector<std::thread> threads_;
 };
 
-} // namespace calotte::detail
+} // namespace calotte::io_detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "netcdf_reader.h"
+#include "io/netcdf_reader.h"
 
 #include <calotte/planar_raster.h>
 
@@ -10,7 +10,7 @@
 namespace calotte {
 namespace {
 
-using detail::NetcdfReader;
+using io_detail::NetcdfReader;
 
 Eigen::VectorXd coordinate(const NetcdfReader& file, const std::string& name) {
   if (!file.has_variable(name) || file.shape_of(name).size() != 1)

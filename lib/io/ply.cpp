@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "binary.h"
-#include "file.h"
-#include "formats.h"
+#include "io/binary.h"
+#include "io/file.h"
+#include "io/formats.h"
 
 #include <calotte/error.h>
 
@@ -9,7 +9,7 @@
 
 // The Stanford polygon format (Turk, 1994), binary in this machine's order of bytes.
 
-namespace calotte::detail {
+namespace calotte::io_detail {
 namespace {
 
 constexpr std::int64_t face_size = 1 + 3 * sizeof(std::int32_t);
@@ -58,4 +58,4 @@ Soup get_ply(std::istream& in, const std::string& name) {
   return soup;
 }
 
-} // namespace calotte::detail
+} // namespace calotte::io_detail

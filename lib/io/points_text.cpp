@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "file.h"
-#include "formats.h"
-#include "lonlat.h"
+#include "base/lonlat.h"
+#include "io/file.h"
+#include "io/formats.h"
 
 #include <calotte/error.h>
 #include <calotte/io.h>
@@ -13,9 +13,9 @@
 namespace calotte {
 namespace {
 
-using detail::Columned;
-using detail::LineReader;
-using detail::Outcome;
+using io_detail::Columned;
+using io_detail::LineReader;
+using io_detail::Outcome;
 
 /// What a line holds.
 struct Row {
@@ -42,7 +42,7 @@ void require_latitude(const LineReader& reader, const double* values) {
 }
 
 void append_lonlat(std::vector<double>& coordinates, const double* values) {
-  const detail::Vec3 p = detail::from_lonlat(values[0], values[1]);
+  const base_detail::Vec3 p = base_detail::from_lonlat(values[0], values[1]);
   coordinates.insert(coordinates.end(), {p.x, p.y, p.z});
 }
 
@@ -95,9 +95,9 @@ std::vector<double> read_rows(std::istream& in, const std::string& name, const R
   bool header = false;
   for (std::string_view line; reader.next_content(line);) {
     double values[3];
-    const Columned read = detail::parse_columns(line, row.columns, values);
+    const Columned read = io_detail::parse_columns(line, row.columns, values);
     if (read.outcome != Outcome::ok) {
-      if (header || !coordinates.empty() || detail::holds_number(line))
+      if (header || !coordinates.empty() || io_detail::holds_number(line))
         refuse(reader, read, row);
       header = true;
       continue;
@@ -120,8 +120,8 @@ std::vector<double> read_rows(std::istream& in, const std::string& name, const R
 // ---- Writing
 
 /// x y (z) a line, of either kind of points.
-template <class Points> void put_points(const detail::Sink& sink, const Points& points) {
-  detail::Writer out(sink);
+template <class Points> void put_points(const io_detail::Sink& sink, const Points& points) {
+  io_detail::Writer out(sink);
   for (Eigen::Index i = 0; i < points.cols(); ++i)
     for (Eigen::Index j = 0; j < points.rows(); ++j)
       out.number(points(j, i)).text(j + 1 == points.rows() ? "\n" : " ");
@@ -129,7 +129,7 @@ template <class Points> void put_points(const detail::Sink& sink, const Points& 
 }
 
 template <class Points> void write_rows(const std::string& path, const Points& points) {
-  detail::OutputFile file(path);
+  io_detail::OutputFile file(path);
   put_points([&](std::string_view bytes) { file.append(bytes); }, points);
   file.commit();
 }
@@ -147,7 +147,7 @@ template <class Points> void write_rows(std::ostream& out, const Points& points)
 
 } // namespace
 
-void detail::put_points(const Sink& sink, const Points3& points) {
+void io_detail::put_points(const Sink& sink, const Points3& points) {
   calotte::put_points(sink, points);
 }
 
@@ -166,12 +166,12 @@ Points2 read_planar_points(std::istream& in, const std::string& name,
 }
 
 Points2 read_planar_points(const std::string& path, std::vector<std::int64_t>* lines) {
-  std::ifstream in = detail::open_input(path);
+  std::ifstream in = io_detail::open_input(path);
   return read_planar_points(in, path, lines);
 }
 
 Points3 read_points(const std::string& path, Columns columns, std::vector<std::int64_t>* lines) {
-  std::ifstream in = detail::open_input(path);
+  std::ifstream in = io_detail::open_input(path);
   return read_points(in, path, columns, lines);
 }
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "../points.h"
-#include "formats.h"
-#include "model_grid.h"
+#include "base/points.h"
+#include "io/formats.h"
+#include "io/model_grid.h"
 
 // The grid file of SCRIP, a package for conservative remapping (Jones, Mon. Weather Rev. 127,
 // 1999), which CDO, ESMF, NCO and TempestRemap read, too: each cell has copies of its corners.
 // Bounds and coordinates make it a file of the CF conventions.
 
-namespace calotte::detail {
+namespace calotte::io_detail {
 namespace {
 
 /// A longitude or latitude.
@@ -73,4 +73,4 @@ Soup read_scrip(const NetcdfReader& file) {
   return {read_lonlats(file, "grid_center_lon", "grid_center_lat"), {}};
 }
 
-} // namespace calotte::detail
+} // namespace calotte::io_detail

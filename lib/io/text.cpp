@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "text.h"
+#include "io/text.h"
 
 #include <calotte/error.h>
 
@@ -8,7 +8,7 @@
 #include <cstring>
 #include <istream>
 
-namespace calotte::detail {
+namespace calotte::io_detail {
 namespace {
 
 constexpr std::size_t chunk = std::size_t{1} << 20;
@@ -190,4 +190,4 @@ void Writer::flush() {
   buffer_.clear();
 }
 
-} // namespace calotte::detail
+} // namespace calotte::io_detail

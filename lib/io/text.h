@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "io/room.h"
+
 #include <cstdint>
 #include <functional>
 #include <iosfwd>
@@ -8,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-namespace calotte::detail {
+namespace calotte::io_detail {
 
 // ---- Reading
 
@@ -95,4 +97,4 @@ private:
   std::string buffer_;
 };
 
-} // namespace calotte::detail
+} // namespace calotte::io_detail

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "formats.h"
+#include "io/formats.h"
 
 #include <calotte/error.h>
 
 #include <numeric>
 
-namespace calotte::detail {
+namespace calotte::io_detail {
 namespace {
 
 /// For each site its lowest input column, or itself where the mesh does not say.
@@ -70,4 +70,4 @@ Triangles get_triangles_text(std::istream& in, const std::string& name, std::int
                                      static_cast<Eigen::Index>(triangles.size() / 3));
 }
 
-} // namespace calotte::detail
+} // namespace calotte::io_detail

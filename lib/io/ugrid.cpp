@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "formats.h"
-#include "model_grid.h"
+#include "io/formats.h"
+#include "io/model_grid.h"
 
 #include <algorithm>
 #include <array>
@@ -13,7 +13,7 @@
 // along, and the mesh variable's attribute site_coordinates, which is ours, names them. By it the
 // reader knows a file of ours, and by their dimension whether sites are faces or nodes.
 
-namespace calotte::detail {
+namespace calotte::io_detail {
 namespace {
 
 const std::string mesh_name = "mesh", node_name = "mesh_node", face_name = "mesh_face",
@@ -307,4 +307,4 @@ Soup read_ugrid(const NetcdfReader& file) {
   return {std::move(points), all_triangles(faces) ? Triangles(faces.topRows(3)) : Triangles()};
 }
 
-} // namespace calotte::detail
+} // namespace calotte::io_detail

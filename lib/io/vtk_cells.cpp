@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "vtk_xml.h"
+#include "io/vtk_xml.h"
 
-#include "binary.h"
+#include "io/binary.h"
 
-namespace calotte::detail {
+namespace calotte::io_detail {
 namespace {
 
 constexpr std::uint8_t polygon_type = 7;
@@ -58,4 +58,4 @@ std::optional<Soup> vtk_cells(std::string_view content, const std::string& name,
   return soup;
 }
 
-} // namespace calotte::detail
+} // namespace calotte::io_detail

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "vtk_xml.h"
+#include "io/vtk_xml.h"
 
-#include "binary.h"
-#include "file.h"
+#include "io/binary.h"
+#include "io/file.h"
 
 #include <utility>
 
-namespace calotte::detail {
+namespace calotte::io_detail {
 namespace {
 
 constexpr std::string_view tail = "\n  </AppendedData>\n</VTKFile>\n";
@@ -127,4 +127,4 @@ Soup get_vtk(std::istream& in, const std::string& name, const VtkFlavour& flavou
             " file of triangles or cells which calotte wrote; convert it to .off");
 }
 
-} // namespace calotte::detail
+} // namespace calotte::io_detail

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "formats.h"
+#include "io/formats.h"
+#include "io/room.h"
 
 #include <calotte/voronoi.h>
 
@@ -9,7 +10,7 @@
 
 /// VTK's XML files with appended raw blocks, each after its length as UInt64: what PolyData (.vtp)
 /// and UnstructuredGrid (.vtu) have in common.
-namespace calotte::detail {
+namespace calotte::io_detail {
 
 /// In what the two differ.
 struct VtkFlavour {
@@ -76,4 +77,4 @@ std::optional<Soup> vtk_cells(std::string_view content, const std::string& name,
 /// file.
 Soup get_vtk(std::istream& in, const std::string& name, const VtkFlavour& flavour);
 
-} // namespace calotte::detail
+} // namespace calotte::io_detail

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "vtk_xml.h"
+#include "io/vtk_xml.h"
 
-namespace calotte::detail {
+namespace calotte::io_detail {
 namespace {
 
 const VtkFlavour poly_data{
@@ -22,4 +22,4 @@ void put_vtp_cells(const Sink& sink, const Mesh& mesh, const WriteOptions& optio
 
 Soup get_vtp(std::istream& in, const std::string& name) { return get_vtk(in, name, poly_data); }
 
-} // namespace calotte::detail
+} // namespace calotte::io_detail

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "vtk_xml.h"
+#include "io/vtk_xml.h"
 
-namespace calotte::detail {
+namespace calotte::io_detail {
 namespace {
 
 const VtkFlavour unstructured_grid{.data_set = "UnstructuredGrid",
@@ -23,4 +23,4 @@ Soup get_vtu(std::istream& in, const std::string& name) {
   return get_vtk(in, name, unstructured_grid);
 }
 
-} // namespace calotte::detail
+} // namespace calotte::io_detail

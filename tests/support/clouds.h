@@ -20,7 +20,7 @@
 /// The point sets on which the laws are tested.
 namespace calotte::test {
 
-using detail::Vec3;
+using base_detail::Vec3;
 
 constexpr std::int64_t unknown_sites = -2;
 
@@ -57,7 +57,7 @@ inline bool is_closed(const Points3& points) {
         continue;
       bool left = true;
       for (Eigen::Index k = 0; k < n && left; ++k)
-        left = detail::orientation(a, b, oracle::site(points, k)) >= 0;
+        left = exact_detail::orientation(a, b, oracle::site(points, k)) >= 0;
       if (left)
         return false;
     }
@@ -230,7 +230,7 @@ inline Points3 with_duplicates(const Points3& points, std::uint64_t seed) {
 
 /// A cluster that surrounds `centre`: five fixed sites and n random ones.
 inline Points3 surrounding_cluster(const Vec3& centre, double width, int n, std::uint64_t seed) {
-  const Vec3 u = detail::normalised(cross(centre, {0.3, -0.5, 0.2})), v = cross(centre, u);
+  const Vec3 u = exact_detail::normalised(cross(centre, {0.3, -0.5, 0.2})), v = cross(centre, u);
   return joined(columns({centre, centre + width * u, centre - width * u, centre + width * v,
                          centre - width * v}),
                 random_in_cap(centre, width, n, seed));
@@ -321,7 +321,7 @@ inline std::vector<Cloud> small_clouds() {
 
 /// Sets of some hundred to some thousand sites.
 inline std::vector<Cloud> large_clouds() {
-  const Vec3 place = detail::normalised({0.4, -0.7, 0.5});
+  const Vec3 place = exact_detail::normalised({0.4, -0.7, 0.5});
   std::vector<Cloud> out{
       {"random 300", random_sphere(300, 21)},
       {"random 2000", random_sphere(2000, 22)},
@@ -373,7 +373,7 @@ inline std::vector<Cloud> large_clouds() {
 
 /// Sets for the slow tests.
 inline std::vector<Cloud> slow_clouds(const std::string& fixtures) {
-  const Vec3 place = detail::normalised({0.4, -0.7, 0.5});
+  const Vec3 place = exact_detail::normalised({0.4, -0.7, 0.5});
   return {{"icosahedral level 5", bisected_icosahedron(5), true, true},
           {"icosahedral level 6", bisected_icosahedron(6), true, true},
           {"10 000 within 1e-6 and 6 elsewhere",

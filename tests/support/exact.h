@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "predicates.h"
+#include "exact/predicates.h"
 
 #include <gmpxx.h>
 
 #include <algorithm>
 #include <array>
 
-/// The predicates again, without error and without a line in common with lib/predicates.cpp: slow,
+/// The predicates again, without error and without a line in common with lib/exact/predicates.cpp: slow,
 /// for the tests alone. Directions become integer vectors; the signs of sums of square roots come
 /// from integer square roots of enough digits, where "enough" is a proven bound.
 namespace calotte::exact {
 
-using detail::Vec3;
-using detail::View;
+using base_detail::Vec3;
+using exact_detail::View;
 
 struct Integers {
   mpz_class x, y, z;

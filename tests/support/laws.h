@@ -172,7 +172,7 @@ inline std::vector<Triple> cgal_triangles(const Points3& points) {
       Traits(Kernel::Point_3(0, 0, 0), 1));
   std::map<Kernel::Point_3, std::int32_t> ids;
   for (std::int32_t i = 0; i < points.cols(); ++i) {
-    const detail::Vec3 p = detail::normalised(site(points, i));
+    const base_detail::Vec3 p = exact_detail::normalised(site(points, i));
     const Kernel::Point_3 point(p.x, p.y, p.z);
     ids[point] = i;
     triangulation.insert(point);

@@ -18,7 +18,7 @@ namespace calotte::oracle {
 
 using Triple = std::array<std::int32_t, 3>;
 
-inline detail::Vec3 site(const Points3& points, std::int64_t i) {
+inline base_detail::Vec3 site(const Points3& points, std::int64_t i) {
   return {points(0, i), points(1, i), points(2, i)};
 }
 

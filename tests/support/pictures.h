@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "../../tools/draw_scale.h"
+#include "draw/scale.h"
 
 #include <calotte/error.h>
 

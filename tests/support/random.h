@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "vec3.h"
+#include "base/vec3.h"
 
 #include <cmath>
 #include <cstdint>
@@ -27,9 +27,9 @@ public:
   }
 
   /// Uniform on the unit sphere.
-  detail::Vec3 direction() {
+  base_detail::Vec3 direction() {
     for (;;) {
-      const detail::Vec3 p{real(-1, 1), real(-1, 1), real(-1, 1)};
+      const base_detail::Vec3 p{real(-1, 1), real(-1, 1), real(-1, 1)};
       const double square = dot(p, p);
       if (square > 1e-4 && square < 1)
         return (1 / std::sqrt(square)) * p;

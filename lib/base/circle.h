@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <utility>
+
+namespace calotte::base_detail {
+
+/// A point of the unit circle.
+struct CosSin {
+  double cos, sin;
+};
+
+/// The cosine and sine of (octant + part) pi/4; of an odd octant, `part` is measured from its far
+/// end. Points of equal part are mirror images to the last bit: lattices come out as symmetric as
+/// the circle, and multiples of pi/2 exact. Only + - * round, each once, so that every machine gets
+/// the same bits: sin and cos of a C library differ from one build of it to the next.
+/// \param octant 0 to 7.
+/// \param part 0 to 1.
+inline CosSin cos_sin_of_octant(int octant, double part) {
+  CosSin p{0x1.6a09e667f3bcdp-1,
+           0x1.6a09e667f3bcdp-1}; // at 1: equal, whatever the series rounds to
+  if (part != 1) {
+    const double x = part * 0x1.921fb54442d18p-1, y = x * x;
+    double cosine = 1, sine = 1; // Taylor's series: the next term is below 2^-60
+    for (int k = 18; k >= 2; k -= 2) {
+      cosine = 1 - y * (1.0 / (k * (k - 1))) * cosine;
+      sine = 1 - y * (1.0 / (k * (k + 1))) * sine;
+    }
+    p = {cosine, x * sine};
+  }
+  if (octant % 2 == 1)
+    std::swap(p.cos, p.sin);
+  if (octant / 2 % 2 == 1)
+    p = {-p.sin, p.cos};
+  return octant >= 4 ? CosSin{-p.cos, -p.sin} : p;
+}
+
+} // namespace calotte::base_detail

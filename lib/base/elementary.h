@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+/// Elementary functions as fixed sequences of + - * / and sqrt, without branches: the compiler
+/// turns loops over them into vector code, and every machine and vector width gives the same bits.
+namespace calotte::base_detail {
+
+/// Compiled for several vector widths, of which the widest that the machine has is chosen when the
+/// program starts. Not under sanitizers, whose runtime is not ready by then.
+#if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__SANITIZE_ADDRESS__) &&             \
+    !defined(__SANITIZE_THREAD__) && !defined(__clang__)
+#define CALOTTE_VECTOR_WIDTHS __attribute__((target_clones("default", "avx2", "avx512f")))
+#else
+#define CALOTTE_VECTOR_WIDTHS
+#endif
+
+/// A call would end the vector code of the loop around it.
+#ifdef __GNUC__
+#define CALOTTE_INLINE inline __attribute__((always_inline))
+#else
+#define CALOTTE_INLINE inline
+#endif
+
+/// asin(x) for |x| <= 1, to 2 units in the last place: the rational approximation of asin(s)/s - 1
+/// on s^2 <= 1/4 (Sun Microsystems, fdlibm, 1993) and asin(x) = pi/2 - 2 asin(sqrt((1-x)/2))
+/// beyond.
+CALOTTE_INLINE double arc_sine(double x) {
+  const double magnitude = std::abs(x);
+  const bool beyond = magnitude > 0.5;
+  const double z = beyond ? 0.5 * (1 - magnitude) : x * x;
+  const double s = beyond ? std::sqrt(z) : magnitude;
+  const double p =
+      z * (1.66666666666666657415e-01 +
+           z * (-3.25565818622400915405e-01 +
+                z * (2.01212532134862925881e-01 +
+                     z * (-4.00555345006794114027e-02 +
+                          z * (7.91534994289814532176e-04 + z * 3.47933107596021167570e-05)))));
+  const double q =
+      1 + z * (-2.40339491173441421878e+00 +
+               z * (2.02094576023350569471e+00 +
+                    z * (-6.88283971605453293030e-01 + z * 7.70381505559019352791e-02)));
+  const double small = s + s * (p / q);
+  return std::copysign(beyond ? 1.57079632679489661923 - 2 * small : small, x);
+}
+
+/// asin(sqrt(w)) for 0 <= w <= 1/2, to 2 units in the last place, with one root and one division:
+/// asin(s)/s = 1 + w r(w), r the minimax rational function of degrees 5 and 5 (error 5e-16). Pairs
+/// of terms are summed first: the shorter chains of operations overlap.
+CALOTTE_INLINE double arc_sine_of_root(double w) {
+  const double w2 = w * w, w4 = w2 * w2;
+  const double p = (1.6666666666666710591e-01 + w * -4.0650049149064120382e-01) +
+                   w2 * (3.4709210999334143028e-01 + w * -1.2021426044832278859e-01) +
+                   w4 * (1.3912251074160607350e-02 + w * -1.0755358390271482850e-04);
+  const double q = (1 + w * -2.8890029489429388604e+00) +
+                   w2 * (3.1147468440742365545e+00 + w * -1.5313732323671677577e+00) +
+                   w4 * (3.3069246457023822769e-01 + w * -2.3377158029900356191e-02);
+  const double s = std::sqrt(w);
+  return s + s * (w * (p / q));
+}
+
+/// atan(x) for |x| <= 1; beyond, it loses digits.
+CALOTTE_INLINE double arc_tangent(double x) { return arc_sine(x / std::sqrt(1 + x * x)); }
+
+/// exp(x) for |x| <= 700, to 2 units in the last place; beyond, that of the nearest bound.
+CALOTTE_INLINE double exponential(double x) {
+  constexpr double log2_e = 1.4426950408889634, ln2_high = 6.93147180369123816490e-01,
+                   ln2_low = 1.90821492927058770002e-10;
+  constexpr double shifter =
+      0x1.8p52; // adding it rounds to an integer, which stands in the last bits
+  x = x < -700 ? -700 : x;
+  x = x > 700 ? 700 : x;
+  const double shifted = x * log2_e + shifter, k = shifted - shifter;
+  // exp(r) = 1 + r + r^2 p(r) for |r| <= ln(2)/2, p the minimax polynomial of degree 9 (error
+  // 1e-16), summed in pairs as above.
+  const double r = (x - k * ln2_high) - k * ln2_low, r2 = r * r, r4 = r2 * r2;
+  const double low =
+      (0.5 + r * 0.16666666666666674) + r2 * (0.04166666666662416 + r * 0.008333333333322215);
+  const double middle = (0.0013888888917198635 + r * 0.00019841269886566315) +
+                        r2 * (2.480152131978267e-05 + r * 2.7557242364924073e-06);
+  const double high = 2.7620076970288274e-07 + r * 2.5110039159935742e-08;
+  const double sum = 1 + (r + r2 * (low + r4 * (middle + r4 * high)));
+  const auto exponent = std::bit_cast<std::uint64_t>(shifted) << 52;
+  return std::bit_cast<double>(std::bit_cast<std::uint64_t>(sum) + exponent);
+}
+
+} // namespace calotte::base_detail

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "base/parallel.h"
+
+#include <calotte/types.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+namespace calotte::base_detail {
+
+inline bool are_ids(const std::int32_t* ids, std::int64_t count, std::int64_t bound,
+                    std::int32_t least) {
+  return holds_for_blocks(count, [=](std::int64_t begin, std::int64_t end) {
+    std::int32_t low = ids[begin], high = low;
+    for (std::int64_t k = begin; k != end; ++k) {
+      low = std::min(low, ids[k]);
+      high = std::max(high, ids[k]);
+    }
+    return low >= least && high < bound;
+  });
+}
+
+/// Whether all are at least `least` and below the bound.
+inline bool are_ids(const Triangles& ids, std::int64_t bound, std::int32_t least = 0) {
+  return are_ids(ids.data(), ids.size(), bound, least);
+}
+inline bool are_ids(const std::vector<std::int32_t>& ids, std::int64_t bound,
+                    std::int32_t least = 0) {
+  return are_ids(ids.data(), std::ssize(ids), bound, least);
+}
+
+} // namespace calotte::base_detail

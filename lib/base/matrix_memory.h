@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "base/memory.h"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace calotte::base_detail {
+
+/// Sizes an Eigen matrix like an Array: not initialised, so that the thread that first writes a
+/// page also faults it in.
+template <class Matrix> void make_room(Matrix& matrix, std::int64_t rows, std::int64_t columns) {
+  matrix.resize(rows, columns);
+  prefer_huge_pages(matrix.data(),
+                    static_cast<std::size_t>(matrix.size()) * sizeof(typename Matrix::Scalar));
+}
+
+} // namespace calotte::base_detail

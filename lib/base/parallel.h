@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "base/memory.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include "base/handover.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+/// The only file with oneTBB's loops. They run in the caller's task arena; every body writes slots
+/// of its own, so that no result depends on the number of threads.
+namespace calotte::base_detail {
+
+/// body(i) for 0 <= i < n, each a task of its own.
+template <class Body> void for_each_task(std::int64_t n, const Body& body) {
+  Handover handover;
+  handover.fork();
+  tbb::parallel_for(
+      tbb::blocked_range<std::int64_t>(0, n, 1),
+      [&](const tbb::blocked_range<std::int64_t>& range) CALOTTE_UNSEEN {
+        handover.enter();
+        for (std::int64_t i = range.begin(); i != range.end(); ++i)
+          body(i);
+        handover.leave();
+      },
+      tbb::simple_partitioner());
+  handover.join();
+}
+
+/// The number of blocks that for_each_block and exclusive_scan cut n items into: a function of n
+/// alone.
+inline std::int64_t block_count(std::int64_t n) {
+  constexpr std::int64_t block = 1 << 14;
+  return (n + block - 1) / block;
+}
+
+/// body(block, begin, end) for consecutive blocks of [0, n).
+template <class Body> void for_each_block(std::int64_t n, const Body& body) {
+  const std::int64_t blocks = block_count(n);
+  for_each_task(blocks, [&](std::int64_t block) {
+    body(block, n * block / blocks, n * (block + 1) / blocks);
+  });
+}
+
+/// Whether holds(begin, end) for all blocks of [0, n).
+template <class Holds> bool holds_for_blocks(std::int64_t n, const Holds& holds) {
+  std::atomic<bool> all = true;
+  for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    if (all.load(std::memory_order_relaxed) && !holds(begin, end))
+      all.store(false, std::memory_order_relaxed);
+  });
+  return all;
+}
+
+/// Replaces each value by the sum of those before it; returns the sum of all.
+template <class T> T exclusive_scan(std::span<T> values) {
+  const auto n = static_cast<std::int64_t>(values.size());
+  std::vector<T> before(static_cast<std::size_t>(block_count(n)));
+  for_each_block(n, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
+    T sum = 0;
+    for (std::int64_t i = begin; i != end; ++i)
+      sum += values[static_cast<std::size_t>(i)];
+    before[static_cast<std::size_t>(block)] = sum;
+  });
+  T total = 0;
+  for (T& sum : before)
+    total += std::exchange(sum, total);
+  for_each_block(n, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
+    T sum = before[static_cast<std::size_t>(block)];
+    for (std::int64_t i = begin; i != end; ++i)
+      sum += std::exchange(values[static_cast<std::size_t>(i)], sum);
+  });
+  return total;
+}
+
+inline int thread_count() { return tbb::this_task_arena::max_concurrency(); }
+
+} // namespace calotte::base_detail

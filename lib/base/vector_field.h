@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <calotte/types.h>
+
+namespace calotte::base_detail {
+
+/// Vectors at n places, 3 x n. What is summed over the places is summed by blocks in their order:
+/// the same bits for any number of threads.
+
+double inner(const Points3& a, const Points3& b);
+
+/// y + a x.
+void add(Points3& y, double a, const Points3& x);
+
+void multiply(Points3& y, double a);
+
+/// Takes from each vector its part along x, unit columns.
+void make_tangential(Points3& vectors, const Points3& x);
+
+/// x + step d, normalised.
+Points3 retract(const Points3& x, double step, const Points3& d);
+
+/// a - b.
+Points3 difference(const Points3& a, const Points3& b);
+
+} // namespace calotte::base_detail

@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cvt/descent.h"
+
+#include "base/clock.h"
+#include "base/parallel.h"
+#include "base/points.h"
+#include "base/vector_field.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <utility>
+
+namespace calotte::cvt_detail {
+namespace {
+
+constexpr std::size_t most_pairs = 10;
+constexpr int most_trials = 3;
+constexpr double rule_error = 1e-7;  ///< of the energy by quadrature: below it slopes decide
+constexpr double rounding = 1e-13;   ///< of the energy, over itself
+constexpr int laplacian_lasts = 60;  ///< evaluations, once edges have flipped
+constexpr double near_enough = 0.05; ///< rms distance from the centroids over h: for the Laplacian
+
+double scaled_l2(const CvtIteration& iteration) { return iteration.l2 / iteration.spacing; }
+
+/// The largest of value(i) >= 0.
+template <class Value> double largest(std::int64_t n, const Value& value) {
+  std::vector<double> most(static_cast<std::size_t>(block_count(n)), 0);
+  for_each_block(n, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
+    double& here = most[static_cast<std::size_t>(block)];
+    for (std::int64_t i = begin; i != end; ++i)
+      here = std::max(here, value(i));
+  });
+  return *std::max_element(most.begin(), most.end());
+}
+
+double longest(const Points3& vectors) {
+  return largest(vectors.cols(), [&](std::int64_t i) { return norm(column(vectors, i)); });
+}
+
+} // namespace
+
+Descent::Descent(CvtState& state, const CvtOptions& options, Functional& functional)
+    : state_(state), options_(options), functional_(functional), density_(options.density) {}
+
+/// Far from an optimum edges flip all the time, and no Laplacian lasts.
+Method Descent::method() const {
+  if (options_.method != Method::automatic)
+    return options_.method;
+  return scaled_l2(here_.iteration) > near_enough ? Method::lbfgs : Method::lbfgs_laplacian;
+}
+
+void Descent::evaluate(const Points3& points, Evaluation& out) {
+  functional_.evaluate(points, state_.final_rule, options_.method != Method::lloyd, out);
+  state_.report.iterations.push_back(out.iteration);
+  ++state_.iterations_of_level;
+  ++state_.memory.since_laplacian;
+  state_.memory.flipped = state_.memory.flipped || out.iteration.flips > 0 || out.iteration.rebuilt;
+}
+
+void Descent::begin() {
+  if (state_.iterations_of_level == 0) {
+    evaluate(state_.points, here_);
+    return;
+  }
+  const bool final_rule = state_.report.iterations.back().rule == options_.final_rule;
+  functional_.evaluate(state_.points, final_rule, options_.method != Method::lloyd, here_);
+  if (state_.memory.laplacian_at.cols() > 0)
+    laplacian_.emplace(functional_.laplacian(state_.memory.laplacian_at));
+}
+
+void Descent::step() {
+  const bool other_rule = !options_.density.uniform() && state_.final_rule &&
+                          here_.iteration.rule != options_.final_rule;
+  if (options_.method == Method::lloyd && options_.relaxation == 1)
+    lloyd_step();
+  else if (other_rule) // another functional: its energies are not to be compared
+    evaluate(state_.points, here_);
+  else if (options_.method == Method::lloyd)
+    relaxed_step();
+  else if (options_.method == Method::nesterov)
+    nesterov_step();
+  else
+    quasi_newton_step();
+}
+
+/// Goes to the points that have been evaluated last.
+void Descent::accept(Points3&& points) {
+  state_.points = std::move(points);
+  std::swap(here_, there_);
+}
+
+void Descent::lloyd_step() {
+  functional_.moved(here_.iteration.linf);
+  std::swap(state_.points, here_.centroids);
+  evaluate(state_.points, here_);
+}
+
+void Descent::relaxed_step() {
+  const Points3 move = difference(here_.centroids, state_.points);
+  step_or_lloyd(functional_.retract(state_.points, options_.relaxation, move));
+}
+
+/// Goes to the points, unless they are higher: then by Lloyd's step. False for the latter.
+bool Descent::step_or_lloyd(Points3&& next) {
+  functional_.moved(longest(difference(next, state_.points)));
+  evaluate(next, there_);
+  const bool lower = there_.iteration.energy <= here_.iteration.energy * (1 + rounding);
+  if (!lower) {
+    state_.report.iterations.back().accepted = false;
+    functional_.moved(longest(difference(next, here_.centroids)));
+    next = here_.centroids;
+    evaluate(next, there_);
+  }
+  accept(std::move(next));
+  return lower;
+}
+
+/// Nesterov's sequence (1983) over Lloyd's map, which restarts where it turns back (O'Donoghue and
+/// Candes, 2015) or climbs.
+void Descent::nesterov_step() {
+  CvtMemory& memory = state_.memory;
+  Points3 next = here_.centroids;
+  double share = 0;
+  if (memory.before.cols() == next.cols()) {
+    const double momentum = (1 + std::sqrt(1 + 4 * memory.momentum * memory.momentum)) / 2;
+    const Points3 move = difference(next, memory.before);
+    const bool onward = inner(difference(next, state_.points), move) >= 0;
+    share = onward ? (memory.momentum - 1) / momentum : 0;
+    memory.momentum = onward ? momentum : 1;
+    if (share > 0)
+      next = functional_.retract(next, share, move);
+  }
+  memory.before = here_.centroids;
+  if (share == 0)
+    lloyd_step();
+  else if (!step_or_lloyd(std::move(next)))
+    memory.momentum = 1;
+}
+
+// ---- L-BFGS (Nocedal, 1980; Liu and Nocedal, 1989); on the sphere of ambient vectors, projected
+// to the tangent planes where they are used
+
+void Descent::forget() {
+  CvtMemory& memory = state_.memory;
+  memory.steps.clear();
+  memory.changes.clear();
+  memory.curvatures.clear();
+}
+
+void Descent::make_laplacian() {
+  CvtMemory& memory = state_.memory;
+  if (laplacian_ && !(memory.since_laplacian >= laplacian_lasts && memory.flipped))
+    return;
+  memory.laplacian_at = state_.points;
+  memory.since_laplacian = 0;
+  memory.flipped = false;
+  laplacian_.emplace(functional_.laplacian(memory.laplacian_at));
+  forget();
+}
+
+/// Multiplies by B^-1, B the graph Laplacian or twice the masses.
+void Descent::precondition(Points3& vectors) const {
+  if (method() == Method::lbfgs_laplacian) {
+    vectors = laplacian_->solve(vectors);
+    return;
+  }
+  for_each_block(vectors.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i != end; ++i)
+      set_column(vectors, i, (0.5 / here_.mass[i]) * column(vectors, i));
+  });
+}
+
+/// Multiplies by gamma B^-1; gamma is such that this, as the inverse of the second derivative,
+/// agrees with the last step and the change of the gradient along it.
+void Descent::apply_initial_inverse(Points3& vectors) const {
+  precondition(vectors);
+  const CvtMemory& memory = state_.memory;
+  if (memory.steps.empty())
+    return;
+  Points3 change = memory.changes.back();
+  functional_.make_tangential(change, state_.points);
+  precondition(change);
+  multiply(vectors, memory.curvatures.back() / inner(memory.changes.back(), change));
+}
+
+/// Minus the inverse of the approximate second derivative, times the gradient.
+Points3 Descent::direction() const {
+  const CvtMemory& memory = state_.memory;
+  const std::size_t pairs = memory.steps.size();
+  Points3 d = here_.gradient;
+  std::vector<double> shares(pairs);
+  for (std::size_t k = pairs; k-- > 0;) {
+    shares[k] = inner(memory.steps[k], d) / memory.curvatures[k];
+    add(d, -shares[k], memory.changes[k]);
+  }
+  functional_.make_tangential(d, state_.points);
+  apply_initial_inverse(d);
+  functional_.make_tangential(d, state_.points);
+  for (std::size_t k = 0; k < pairs; ++k)
+    add(d, shares[k] - inner(memory.changes[k], d) / memory.curvatures[k], memory.steps[k]);
+  functional_.make_tangential(d, state_.points);
+  multiply(d, -1);
+  return d;
+}
+
+/// So that no generator moves farther than half of its cell's width, the root of mass over density.
+double Descent::longest_step(const Points3& direction) const {
+  std::vector<double> most(static_cast<std::size_t>(block_count(direction.cols())), 0);
+  for_each_block(direction.cols(), [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
+    constexpr std::int64_t batch = 64;
+    std::array<std::array<double, batch>, 3> x;
+    std::array<double, batch> rho;
+    double& here = most[static_cast<std::size_t>(block)];
+    for (std::int64_t first = begin; first < end; first += batch) {
+      const auto count = static_cast<std::size_t>(std::min(batch, end - first));
+      for (std::size_t j = 0; j < count; ++j)
+        for (std::size_t c = 0; c < 3; ++c)
+          x[c][j] =
+              state_.points(static_cast<Eigen::Index>(c), first + static_cast<std::int64_t>(j));
+      const auto row = [&](auto& values) { return std::span(values).first(count); };
+      density_(row(x[0]), row(x[1]), row(x[2]), row(rho));
+      for (std::size_t j = 0; j < count; ++j) {
+        const std::int64_t i = first + static_cast<std::int64_t>(j);
+        const Vec3& d = column(direction, i);
+        here = std::max(here, dot(d, d) * rho[j] / here_.mass[i]);
+      }
+    }
+  });
+  return 0.5 / std::sqrt(*std::max_element(most.begin(), most.end()));
+}
+
+/// Trials along a direction until one is lower and not far beyond the lowest, or until the slopes
+/// say so where the energies differ by less than quadrature resolves (in the way of Hager and
+/// Zhang's approximate Wolfe conditions, 2005); each next one by the secant of the slopes. False
+/// when none is. \param points set to the accepted ones.
+bool Descent::search(const Points3& direction, double slope, Points3& points) {
+  double step = std::min(1.0, longest_step(direction)), at = 0;
+  for (int trial = 0; trial < most_trials; ++trial) {
+    points = functional_.retract(state_.points, step, direction);
+    functional_.moved(std::abs(step - std::exchange(at, step)) * longest(direction));
+    evaluate(points, there_);
+    Points3 onward = direction;
+    functional_.make_tangential(onward, points);
+    const double slope_there = inner(onward, there_.gradient);
+    const double rise = there_.iteration.energy / here_.iteration.energy - 1;
+    const bool lower =
+        rise <= rounding && (slope_there <= -0.9 * slope || trial + 1 == most_trials);
+    const bool below_rule = !options_.density.uniform() && std::abs(rise) <= rule_error &&
+                            std::abs(slope_there) <= -0.5 * slope;
+    if (lower || below_rule)
+      return true;
+    state_.report.iterations.back().accepted = false;
+    const double secant = step * slope / (slope - slope_there);
+    step = secant > 0.1 * step ? std::min(secant, 4 * step) : 0.1 * step;
+  }
+  return false;
+}
+
+/// Takes in the step from the state's points to others, which have been evaluated.
+void Descent::remember(const Points3& points) {
+  Points3 before = here_.gradient;
+  functional_.make_tangential(before, points);
+  Points3 step = difference(points, state_.points), change = difference(there_.gradient, before);
+  const double curvature = inner(step, change);
+  if (!(curvature > 1e-14 * std::sqrt(inner(step, step) * inner(change, change)))) {
+    forget();
+    return;
+  }
+  CvtMemory& memory = state_.memory;
+  if (memory.steps.size() == most_pairs) {
+    memory.steps.erase(memory.steps.begin());
+    memory.changes.erase(memory.changes.begin());
+    memory.curvatures.erase(memory.curvatures.begin());
+  }
+  memory.steps.push_back(std::move(step));
+  memory.changes.push_back(std::move(change));
+  memory.curvatures.push_back(curvature);
+}
+
+void Descent::quasi_newton_step() {
+  Clock::time_point mark = Clock::now();
+  if (method() == Method::lbfgs_laplacian)
+    make_laplacian();
+  const Points3 d = direction();
+  const double slope = inner(d, here_.gradient), seconds = lap(mark);
+  const std::size_t first = state_.report.iterations.size();
+  Points3 points;
+  if (slope < 0 && search(d, slope, points)) {
+    remember(points);
+  } else { // Lloyd's step always descends; and the coarser rule's energy may have misled the search
+    forget();
+    state_.final_rule = state_.final_rule || options_.norm != Norm::none;
+    points = here_.centroids;
+    functional_.moved(here_.iteration.linf);
+    evaluate(points, there_);
+  }
+  state_.report.iterations[first].seconds_solver = seconds;
+  accept(std::move(points));
+}
+
+} // namespace calotte::cvt_detail

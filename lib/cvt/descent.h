@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "cvt/functional.h"
+#include "cvt/multigrid.h"
+#include "cvt/room.h"
+#include "density/density_evaluator.h"
+
+#include <calotte/cvt.h>
+
+#include <optional>
+
+namespace calotte::cvt_detail {
+
+/// The methods of CvtOptions over the functional: each step goes from generators that have been
+/// evaluated to others of no higher energy, but for rounding. Every evaluation is recorded in the
+/// state's report, and what the method remembers stands in the state.
+class Descent {
+public:
+  Descent(CvtState& state, const CvtOptions& options, Functional& functional);
+
+  /// Evaluates the state's points: recorded, unless the state has been evaluated there before.
+  void begin();
+
+  /// One step; the state's points are the new ones, evaluated.
+  void step();
+
+  /// The evaluation at the state's points.
+  const Evaluation& here() const { return here_; }
+
+private:
+  Method method() const;
+  void evaluate(const Points3& points, Evaluation& out);
+  void accept(Points3&& points);
+  void lloyd_step();
+  void relaxed_step();
+  bool step_or_lloyd(Points3&& next);
+  void nesterov_step();
+  void quasi_newton_step();
+  Points3 direction() const;
+  void precondition(Points3& vectors) const;
+  void apply_initial_inverse(Points3& vectors) const;
+  void make_laplacian();
+  void remember(const Points3& points);
+  void forget();
+  double longest_step(const Points3& direction) const;
+  bool search(const Points3& direction, double slope, Points3& points);
+
+  CvtState& state_;
+  const CvtOptions& options_;
+  Functional& functional_;
+  DensityEvaluator density_;
+  Evaluation here_, there_; ///< at the state's points, and at a trial's
+  std::optional<Multigrid> laplacian_;
+};
+
+} // namespace calotte::cvt_detail

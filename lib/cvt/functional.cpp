@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cvt/functional.h"
+
+#include "base/clock.h"
+#include "base/parallel.h"
+#include "base/points.h"
+#include "cvt/planar_cells.h"
+#include "cvt/spherical_cells.h"
+#include "cvt/tessellation.h"
+
+#include <calotte/error.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace calotte::cvt_detail {
+namespace {
+
+/// Sums of blocks of sites, added in the order of the blocks: the same for any number of threads.
+void add_sums(const Array<SiteTerms>& terms, CvtIteration& iteration) {
+  const std::int64_t n = terms.size();
+  std::vector<SiteTerms> sums(static_cast<std::size_t>(block_count(n)));
+  std::vector<double> largest(sums.size(), 0);
+  for_each_block(n, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
+    SiteTerms sum{0, 0, 0};
+    double most = 0;
+    for (std::int64_t i = begin; i != end; ++i) {
+      sum.energy += terms[i].energy;
+      sum.square += terms[i].square;
+      sum.slope += terms[i].slope;
+      most = std::max(most, terms[i].square);
+    }
+    sums[static_cast<std::size_t>(block)] = sum;
+    largest[static_cast<std::size_t>(block)] = most;
+  });
+  SiteTerms total{0, 0, 0};
+  for (const SiteTerms& sum : sums)
+    total = {total.energy + sum.energy, total.square + sum.square, total.slope + sum.slope};
+  iteration.energy = total.energy;
+  iteration.l2 = std::sqrt(total.square / static_cast<double>(n));
+  iteration.linf = std::sqrt(*std::max_element(largest.begin(), largest.end()));
+  iteration.gradient = std::sqrt(total.slope);
+}
+
+/// Evaluates one generator; where its cell has no mass, the energy is NaN.
+template <class Cells>
+void evaluate_site(const Vec3& x, const CellMoments& cell, std::int32_t site, bool with_gradient,
+                   Evaluation& out) {
+  const typename Cells::Pull pull = Cells::pull(x, cell);
+  if (!(pull.mass > 0) || !std::isfinite(pull.mass)) {
+    out.terms[site] = {std::nan(""), 0, 0};
+    return;
+  }
+  const Vec3 apart = pull.centroid - x;
+  set_column(out.centroids, site, pull.centroid);
+  out.terms[site] = {cell.energy, dot(apart, apart), dot(pull.gradient, pull.gradient)};
+  if (with_gradient) {
+    set_column(out.gradient, site, pull.gradient);
+    out.mass[site] = pull.mass;
+  }
+}
+
+void make_room(Evaluation& out, Eigen::Index n, bool with_gradient) {
+  if (out.terms.size() != n) {
+    out.centroids.resize(3, n);
+    out.terms = Array<SiteTerms>(n);
+  }
+  if (with_gradient && out.mass.size() != n) {
+    out.gradient.resize(3, n);
+    out.mass = Array<double>(n);
+  }
+}
+
+template <class Cells> class FunctionalOver final : public Functional {
+public:
+  FunctionalOver(Cells cells, const Points3& points, const CvtOptions& options)
+      : tessellation_(std::move(cells), points, options.partition), density_(options.density),
+        coarse_(make_integrand(options.density, options.rule, options.triangle_divisions)),
+        fine_(make_integrand(options.density, options.final_rule, options.triangle_divisions)),
+        rule_(options.density.uniform() ? 0 : options.rule),
+        final_rule_(options.density.uniform() ? 0 : options.final_rule) {}
+
+  void evaluate(const Points3& points, bool final_rule, bool with_gradient,
+                Evaluation& out) override;
+
+  void moved(double farthest) override { tessellation_.moved(farthest); }
+  std::vector<CvtRegion> regions() const override { return tessellation_.regions(); }
+  Points3 retract(const Points3& x, double step, const Points3& d) const override {
+    return tessellation_.cells().retract(x, step, d);
+  }
+  void make_tangential(Points3& vectors, const Points3& x) const override {
+    tessellation_.cells().make_tangential(vectors, x);
+  }
+  SparseMatrix laplacian(const Points3& points) const override {
+    return tessellation_.cells().laplacian(points, density_);
+  }
+
+private:
+  Tessellation<Cells> tessellation_;
+  Density density_;
+  Integrand coarse_, fine_;
+  int rule_, final_rule_; ///< their numbers of points, 0 where none is used
+};
+
+template <class Cells>
+void FunctionalOver<Cells>::evaluate(const Points3& points, bool final_rule, bool with_gradient,
+                                     Evaluation& out) {
+  Clock::time_point mark = Clock::now();
+  const typename Tessellation<Cells>::Room room{
+      [&] { make_room(out, points.cols(), with_gradient); }, [&] { out = {}; }};
+  const auto effort = tessellation_.evaluate(
+      points, final_rule ? fine_ : coarse_,
+      [&](const Patch& patch, const Array<Vec3>&, const Array<CellMoments>& moments) {
+        for (std::int32_t i = 0; i < patch.owned; ++i)
+          if (const std::int32_t site = patch.sites[static_cast<std::size_t>(i)];
+              site < points.cols()) // the others hold a plane's hull
+            evaluate_site<Cells>(column(points, site), moments[i], site, with_gradient, out);
+      },
+      room);
+  CvtIteration& iteration = out.iteration = {};
+  iteration.cells = points.cols();
+  iteration.spacing = tessellation_.cells().spacing();
+  iteration.rule = final_rule ? final_rule_ : rule_;
+  iteration.flips = effort.flips;
+  iteration.rebuilt = effort.rebuilt;
+  iteration.seconds_exchange = effort.seconds_exchange;
+  iteration.seconds_repair = effort.seconds_repair;
+  iteration.seconds_moments = effort.seconds_moments;
+  add_sums(out.terms, iteration);
+  if (!std::isfinite(iteration.energy))
+    throw Error(ErrorCode::bad_option, "the density is zero over a whole cell, or beyond 1e150: "
+                                       "make it positive everywhere, and smaller");
+  iteration.seconds = lap(mark);
+}
+
+} // namespace
+
+std::unique_ptr<Functional> make_functional(const Points3& points, const CvtOptions& options) {
+  return std::make_unique<FunctionalOver<SphericalCells>>(SphericalCells(), points, options);
+}
+
+std::unique_ptr<Functional> make_functional(const Points3& points, const PlanarDomain& domain,
+                                            const CvtOptions& options) {
+  return std::make_unique<FunctionalOver<PlanarCells>>(PlanarCells(domain), points, options);
+}
+
+} // namespace calotte::cvt_detail

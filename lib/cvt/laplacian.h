@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "base/memory.h"
+#include "base/vec3.h"
+#include "cvt/room.h"
+#include "domain/outline.h"
+
+#include <calotte/density.h>
+#include <calotte/types.h>
+
+#include <Eigen/SparseCore>
+
+namespace calotte::cvt_detail {
+
+using SparseMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor, std::int32_t>;
+
+/// The graph Laplacian that approximates the second derivative of the CVT energy E, n x n, for each
+/// coordinate of the generators: sum over edges of 2 w (e_i - e_j)(e_i - e_j)^T, w = rho times the
+/// sum over both sides of (l^2 delta/4 - delta^3/3)/l, l the edge's length, delta the signed arc
+/// from its midpoint to the circumcentre. That is half of the trace of E's mixed derivative, twice
+/// the integral over the Voronoi edge of rho (x - x_i)(x - x_j)^T/l. Weights below a thousandth of
+/// an equilateral triangle's are raised to that.
+///
+/// To it is added rho times the square of the cell's area, over a 4 pi-th of the sphere's or the
+/// domain's, on the diagonal: a motion of all generators in one direction, which costs the
+/// Laplacian nothing, is no symmetry of the sphere, nor of a clipped or refined plane.
+///
+/// \param points 3 x n unit columns that span the sphere.
+SparseMatrix graph_laplacian(const Points3& points, const Density& density);
+
+/// A domain of the plane, with generators in it.
+struct PlanarSites {
+  const Array<Vec3>& places; ///< as PlaneSigns takes them
+  std::int64_t generators;   ///< the first of them
+  Vec2 period;
+  const Outline* outline; ///< or none, of a periodic box
+  double area;            ///< of the domain
+};
+
+/// The same in the plane. Voronoi edges beside the hull's places lie outside of the domain, and
+/// count for nothing. A cell that the domain clips has on the diagonal 2 rho times the area between
+/// its generator and the shore: half of the trace of what the second derivative, 2 m less the
+/// integrals over Voronoi edges, is when all generators move as one.
+SparseMatrix graph_laplacian(const PlanarSites& sites, const Density& density);
+
+} // namespace calotte::cvt_detail

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "cvt/laplacian.h"
+#include "cvt/room.h"
+#include "cvt/signs.h"
+#include "delaunay/sites.h"
+#include "domain/outline.h"
+#include "integrals/integrand.h"
+#include "integrals/moments.h"
+#include "integrals/patches.h"
+
+#include <calotte/domain.h>
+#include <calotte/types.h>
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace calotte::cvt_detail {
+
+/// \throws Error bad_option, naming the first place that is outside of the domain.
+void require_inside(const Points2& places, const PlanarDomain& domain);
+
+/// The cells of generators in a planar domain: see SphericalCells, whose functions these are.
+///
+/// Generators are columns with z = 0. Those of a periodic box may leave it: the places of the mesh
+/// are the copies inside. Those of another domain are followed by three places so far away that
+/// their cells do not reach it: the hull, which never moves. All generators have closed stars then,
+/// and their cells are what a domain clips.
+class PlanarCells {
+public:
+  using Signs = PlaneSigns;
+
+  /// \throws Error as require_domain().
+  explicit PlanarCells(const PlanarDomain& domain);
+
+  void move(const Points3& points);
+
+  std::int64_t places() const { return places_.size(); }
+  const Vec3& place(std::int32_t site) const { return places_[site]; }
+  Signs signs() const { return Signs(places_, period_); }
+  Sites sites() const;
+  double spacing() const;
+
+  /// See planar_moments.h.
+  void integrate(const Integrand& integrand, const Patch& patch, const Array<Vec3>& x,
+                 Array<CellMoments>& moments, std::vector<std::int32_t>& suspects) const;
+  void find_suspects(const Patch& patch, const Array<Vec3>& x,
+                     std::vector<std::int32_t>& suspects) const;
+
+  struct Pull {
+    Vec3 centroid;
+    Vec3 gradient;
+    double mass;
+  };
+  static Pull pull(const Vec3& x, const CellMoments& cell);
+
+  /// Generators that would leave the domain go to the nearest place inside.
+  Points3 retract(const Points3& x, double step, const Points3& d) const;
+  static void make_tangential(Points3&, const Points3&) {} ///< all motions are
+  SparseMatrix laplacian(const Points3& points, const Density& density) const;
+
+private:
+  Array<Vec3> places_of(const Points3& points) const;
+
+  std::shared_ptr<const Outline> outline_; ///< none of a periodic box
+  Vec2 period_;
+  double area_;
+  std::array<Vec3, 3> hull_;
+  std::int64_t generators_ = 0;
+  Array<Vec3> places_;
+};
+
+} // namespace calotte::cvt_detail

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cvt/repair.h"
+
+#include "base/triangle.h"
+
+#include <optional>
+#include <utility>
+
+namespace calotte::cvt_detail {
+namespace {
+
+Corners corners_of(const Connectivity& mesh, std::int32_t t) {
+  return {mesh.triangles(0, t), mesh.triangles(1, t), mesh.triangles(2, t)};
+}
+
+/// Index in a triangle of the vertex across from its neighbour.
+int index_of(const Connectivity& mesh, std::int32_t triangle, std::int32_t neighbour) {
+  return mesh.neighbours(0, triangle) == neighbour   ? 0
+         : mesh.neighbours(1, triangle) == neighbour ? 1
+                                                     : 2;
+}
+
+template <class Signs>
+bool is_delaunay(const Connectivity& mesh, const Signs& signs, const TriangleEdge& edge) {
+  const std::int32_t t = edge.triangle, beyond = mesh.neighbours(edge.across, t);
+  return beyond < 0 || !signs.circle_holds(corners_of(mesh, t), edge.across,
+                                           mesh.triangles(index_of(mesh, beyond, t), beyond));
+}
+
+/// Replaces the edge bc of the triangles abc and dcb by ad: they become abd and dca. The four outer
+/// edges are to be looked at again.
+void flip(Connectivity& mesh, const TriangleEdge& edge, std::vector<TriangleEdge>& pending) {
+  const std::int32_t t = edge.triangle, u = mesh.neighbours(edge.across, t);
+  const int at = edge.across, ut = index_of(mesh, u, t);
+  const std::int32_t a = mesh.triangles(at, t), b = mesh.triangles(next_vertex(at), t),
+                     c = mesh.triangles(previous_vertex(at), t), d = mesh.triangles(ut, u);
+  const std::int32_t across_b = mesh.neighbours(next_vertex(at), t),
+                     across_c = mesh.neighbours(previous_vertex(at), t),
+                     beyond_bd = mesh.neighbours(next_vertex(ut), u),
+                     beyond_dc = mesh.neighbours(previous_vertex(ut), u);
+  // u is d c b: across from c lies bd, across from b lies dc.
+  mesh.triangles.col(t) << a, b, d;
+  mesh.neighbours.col(t) << beyond_bd, u, across_c;
+  mesh.triangles.col(u) << d, c, a;
+  mesh.neighbours.col(u) << across_b, t, beyond_dc;
+  if (beyond_bd >= 0)
+    mesh.neighbours(index_of(mesh, beyond_bd, u), beyond_bd) = t;
+  if (across_b >= 0)
+    mesh.neighbours(index_of(mesh, across_b, t), across_b) = u;
+  for (const TriangleEdge& outer :
+       {TriangleEdge{t, 0}, TriangleEdge{t, 2}, TriangleEdge{u, 0}, TriangleEdge{u, 2}})
+    pending.push_back(outer);
+}
+
+/// Flips until all edges are Delaunay; empty when that takes more than `most` flips.
+template <class Signs>
+std::optional<Repair> flip_all(Connectivity& mesh, const Signs& signs,
+                               std::vector<TriangleEdge> pending, std::int64_t most) {
+  Repair result;
+  while (!pending.empty()) {
+    const TriangleEdge edge = pending.back();
+    pending.pop_back();
+    if (is_delaunay(mesh, signs, edge))
+      continue;
+    if (++result.flips > most)
+      return std::nullopt;
+    result.changed.push_back(edge.triangle);
+    result.changed.push_back(mesh.neighbours(edge.across, edge.triangle));
+    flip(mesh, edge, pending);
+  }
+  return result;
+}
+
+} // namespace
+
+template <class Signs>
+void add_faults(const Connectivity& mesh, const Signs& signs, std::int32_t triangle,
+                Faults& faults) {
+  const Corners corners = corners_of(mesh, triangle);
+  faults.overturned = faults.overturned || !signs.is_counter_clockwise(corners);
+  for (int v = 0; v < 3; ++v)
+    if (!signs.is_clearly_acute(corners, v) && !is_delaunay(mesh, signs, {triangle, v}))
+      faults.edges.push_back({triangle, v});
+}
+
+template <class Signs>
+std::optional<Repair> repair(Connectivity& mesh, const Signs& signs, const Faults& faults) {
+  // A flip costs about as much as three sites of a new triangulation, which is parallel.
+  const std::int64_t most = signs.sites() / 16;
+  if (faults.overturned)
+    return std::nullopt;
+  return flip_all(mesh, signs, faults.edges, most);
+}
+
+template void add_faults(const Connectivity&, const SphereSigns&, std::int32_t, Faults&);
+template void add_faults(const Connectivity&, const PlaneSigns&, std::int32_t, Faults&);
+template std::optional<Repair> repair(Connectivity&, const SphereSigns&, const Faults&);
+template std::optional<Repair> repair(Connectivity&, const PlaneSigns&, const Faults&);
+
+} // namespace calotte::cvt_detail

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "cvt/room.h"
+#include "cvt/signs.h"
+
+#include <calotte/types.h>
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace calotte::cvt_detail {
+
+/// The edge across from a vertex of a triangle.
+struct TriangleEdge {
+  std::int32_t triangle;
+  int across;
+};
+
+/// What keeps a mesh from being the Delaunay triangulation of its points. A mesh without overturned
+/// triangles whose edges are all Delaunay is (Delaunay, 1934).
+struct Faults {
+  std::vector<TriangleEdge> edges; ///< that are not Delaunay, by the exact predicate
+  bool overturned = false;         ///< some triangle is
+  bool none() const { return edges.empty() && !overturned; }
+};
+
+/// Adds the faults of one triangle, and of its edges across from corners that are not clearly
+/// acute. Signs are SphereSigns or PlaneSigns.
+template <class Signs>
+void add_faults(const Connectivity& mesh, const Signs& signs, std::int32_t triangle,
+                Faults& faults);
+
+struct Repair {
+  std::int64_t flips = 0;
+  std::vector<std::int32_t> changed; ///< triangles that flips made others; may repeat
+};
+
+/// Makes the mesh Delaunay by flips from the faulty edges on. Empty where a triangle is overturned
+/// or flips would take longer than a new triangulation: what is left of the mesh is then of no use.
+template <class Signs>
+std::optional<Repair> repair(Connectivity& mesh, const Signs& signs, const Faults& faults);
+
+} // namespace calotte::cvt_detail

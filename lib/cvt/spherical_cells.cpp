@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cvt/spherical_cells.h"
+
+#include "base/vector_field.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace calotte::cvt_detail {
+
+double SphericalCells::spacing() const {
+  return std::sqrt(4 * std::numbers::pi / static_cast<double>(points_->cols()));
+}
+
+/// Lloyd's map M/|M| and dE/dx = -2 (M - (M.x) x).
+SphericalCells::Pull SphericalCells::pull(const Vec3& x, const CellMoments& cell) {
+  const double length = norm(cell.first);
+  const Vec3 tangent = cell.first - dot(cell.first, x) * x;
+  return {(1 / length) * cell.first, -2 * tangent, length};
+}
+
+Points3 SphericalCells::retract(const Points3& x, double step, const Points3& d) {
+  return base_detail::retract(x, step, d);
+}
+
+void SphericalCells::make_tangential(Points3& vectors, const Points3& x) {
+  base_detail::make_tangential(vectors, x);
+}
+
+} // namespace calotte::cvt_detail

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "cvt/laplacian.h"
+#include "cvt/room.h"
+#include "cvt/signs.h"
+#include "delaunay/sites.h"
+#include "integrals/integrand.h"
+#include "integrals/moments.h"
+#include "integrals/patches.h"
+
+#include <calotte/types.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace calotte::cvt_detail {
+
+/// What a Tessellation and a Functional need to know of the sphere. PlanarCells is its like for the
+/// plane, and says the same of each function.
+class SphericalCells {
+public:
+  using Signs = SphereSigns;
+
+  /// The generators where they are now: unit columns that stay there until the next call.
+  void move(const Points3& points) { points_ = &points; }
+
+  std::int64_t places() const { return points_->cols(); } ///< of the mesh: generators come first
+  const Vec3& place(std::int32_t site) const { return column(*points_, site); }
+  Signs signs() const { return Signs(*points_); }
+  Sites sites() const { return make_sites(*points_, Duplicates::merge, 0); } ///< equal ones merged
+  double spacing() const; ///< h of so many generators
+
+  /// See moments.h.
+  static void integrate(const Integrand& integrand, const Patch& patch, const Array<Vec3>& x,
+                        Array<CellMoments>& moments, std::vector<std::int32_t>& suspects) {
+    integrals_detail::integrate(integrand, patch, x, moments, nullptr, suspects);
+  }
+  static void find_suspects(const Patch& patch, const Array<Vec3>& x,
+                            std::vector<std::int32_t>& suspects) {
+    integrals_detail::find_suspects(patch, x, suspects);
+  }
+
+  /// What a generator's cell makes of it.
+  struct Pull {
+    Vec3 centroid; ///< where Lloyd's step leads
+    Vec3 gradient; ///< of the energy; a motion that the generator can make
+    double mass;   ///< of the cell, but for h^2; not a number of a cell without mass
+  };
+  static Pull pull(const Vec3& x, const CellMoments& cell);
+
+  // ---- How generators move
+
+  static Points3 retract(const Points3& x, double step, const Points3& d);
+  static void make_tangential(Points3& vectors, const Points3& x);
+  static SparseMatrix laplacian(const Points3& points, const Density& density) {
+    return graph_laplacian(points, density);
+  }
+
+private:
+  const Points3* points_ = nullptr;
+};
+
+} // namespace calotte::cvt_detail

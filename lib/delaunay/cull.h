@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "delaunay/plane.h"
+#include "delaunay/regions.h"
+#include "delaunay/room.h"
+#include "delaunay/sphere.h"
+#include "delaunay/triangulate.h"
+
+/// For the Spaces Sphere and Plane.
+namespace calotte::delaunay_detail {
+
+struct CullCounts {
+  std::int64_t by_cull = 0, by_query = 0, inserted = 0;
+};
+
+/// The members of region k.
+template <class Space>
+std::vector<Member> gather(const Sites& sites, const Regions& regions, std::int32_t k);
+
+/// Certifies every triangle with an owned vertex: by the paper's cull test (Jacobsen et al., 2013,
+/// Eq. 1 and Sect. 3.2) that its circumcap lies where the region holds all sites; else by asking
+/// for sites in the circumcap, inserting those found, and repeating.
+///
+/// Those faces, and no others, are marked as certified. In the plane an infinite face at an owned
+/// site is certified, too: no site lies beyond its edge of the hull.
+///
+/// \return whether all owned sites have closed stars now, within reasonable effort. They have not
+///         when the focus lies in one of their circumcaps, as with a few sites, or when all sites
+///         are in a hemisphere. In the plane only effort may fail.
+template <class Space>
+bool certify(Triangulation<Space>& triangulation, const Sites& sites, const Regions& regions,
+             std::int32_t k, CullCounts& counts);
+
+/// Marks every finite face as certified: for a set as a whole, of which nothing is left out.
+template <class Space> void certify_all(Triangulation<Space>& triangulation);
+
+} // namespace calotte::delaunay_detail

@@ -1,0 +1,352 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <calotte/delaunay.h>
+
+#include "base/clock.h"
+#include "delaunay/centres.h"
+#include "delaunay/cull.h"
+#include "delaunay/divide.h"
+#include "delaunay/periodic.h"
+#include "delaunay/regions.h"
+#include "delaunay/unite.h"
+
+#include <calotte/error.h>
+
+#include <algorithm>
+#include <atomic>
+#include <optional>
+#include <type_traits>
+#include <utility>
+
+namespace calotte {
+namespace delaunay_detail {
+namespace {
+
+/// The values that the stages of a triangulation by regions leave for the union.
+struct Reports {
+  std::vector<RegionTriangles> regions;
+  Array<std::int32_t> triangles_of; ///< by site, see report_triangles
+};
+
+void add(DelaunayReport& report, const PredicateCounts& counts) {
+  report.filtered_predicates += counts.filtered;
+  report.exact_predicates += counts.exact;
+}
+
+/// What sites that span no triangle all stand on.
+[[noreturn]] void refuse_degenerate(const Sites& sites) {
+  throw Error(ErrorCode::degenerate,
+              sites.frame
+                  ? "all sites lie on one line: add a site off it, they span no triangle"
+                  : "all sites lie on one great circle: add a site off it, they span no triangle");
+}
+
+/// The whole set as one region, on the sphere seen from its centre: nothing is left to certify.
+template <class Space> Reports triangulate_whole(const Sites& sites, DelaunayReport& report) {
+  std::vector<Member> members(static_cast<std::size_t>(sites.size()));
+  for (std::size_t r = 0; r < members.size(); ++r)
+    members[r] = {static_cast<std::int32_t>(r), 0};
+  Triangulation<Space> triangulation{Space(sites)};
+  if (!triangulation.build(members))
+    refuse_degenerate(sites);
+  certify_all(triangulation);
+  Reports reports;
+  reports.triangles_of = Array<std::int32_t>(sites.size());
+  reports.regions.push_back(
+      report_triangles(triangulation, sites, Array<std::int32_t>(), reports.triangles_of));
+  add(report, triangulation.space().counts());
+  report.one_region = true;
+  report.regions = 1;
+  report.overlap = 1;
+  report.sites_per_region = report.owned_per_region = {sites.size()};
+  return reports;
+}
+
+struct CapResult {
+  RegionTriangles triangles;
+  CullCounts cull;
+  PredicateCounts predicates;
+  std::int64_t members = 0, owned = 0, seams = 0;
+  double seconds = 0;
+};
+
+/// The members together with some sites from all over the set; empty when they, too, span no
+/// triangle.
+template <class Space>
+Triangulation<Space> build_with_sample(const Space& space, std::int64_t sites,
+                                       std::vector<Member> members) {
+  constexpr std::int64_t sample = 64;
+  for (std::int64_t s = 0; s < std::min(sample, sites); ++s)
+    members.push_back(
+        {static_cast<std::int32_t>(s * sites / std::min(sample, sites)), Member::not_owned});
+  const auto by_rank = [](const Member& a, const Member& b) { return a.rank < b.rank; };
+  const auto same_rank = [](const Member& a, const Member& b) { return a.rank == b.rank; };
+  std::stable_sort(members.begin(), members.end(), by_rank); // a member stays before its double
+  members.erase(std::unique(members.begin(), members.end(), same_rank), members.end());
+  std::erase_if(members, [&](const Member& m) { return !space.has_place(m.rank); });
+  Triangulation<Space> triangulation(space);
+  triangulation.build(members);
+  return triangulation;
+}
+
+/// One region: gather, project, triangulate, cull and certify. Empty when its cap cannot certify
+/// its sites.
+template <class Space>
+std::optional<CapResult> triangulate_cap(const Sites& sites, const Regions& regions, std::int32_t k,
+                                         Array<std::int32_t>& triangles_of) {
+  Clock::time_point start = Clock::now();
+  std::vector<Member> members = gather<Space>(sites, regions, k);
+  const auto count_owned = [&] {
+    return std::count_if(members.begin(), members.end(), [](const Member& m) { return m.owned(); });
+  };
+  CapResult result;
+  result.owned = count_owned();
+  if (result.owned == 0)
+    return result;
+  const Vec3& centre = regions.centres[static_cast<std::size_t>(k)];
+  double reach = 0;
+  for (const Member& m : members) {
+    const Vec3 apart = sites.unit[m.rank] - centre;
+    reach = std::max(reach, dot(apart, apart));
+  }
+  const Space space(sites, centre, 1.000001 * std::sqrt(reach));
+  std::erase_if(members, [&](const Member& m) { return !space.has_place(m.rank); });
+  if (count_owned() != result.owned) // its own focus is a site of its own
+    return std::nullopt;
+  Triangulation<Space> triangulation(space);
+  if (!triangulation.build(members)) // too few, or on one line: some from afar make a triangle
+    triangulation = build_with_sample<Space>(space, sites.size(), members);
+  if (triangulation.members().empty() || !certify(triangulation, sites, regions, k, result.cull))
+    return std::nullopt;
+  result.triangles = report_triangles(triangulation, sites, regions.owner, triangles_of);
+  result.predicates = triangulation.space().counts();
+  result.members = std::ssize(triangulation.members());
+  result.seams = seams_at(k, result.triangles.seams);
+  result.seconds = lap(start);
+  return result;
+}
+
+void summarise(const std::vector<CapResult>& caps, std::int64_t sites, DelaunayReport& report) {
+  std::int64_t members = 0;
+  for (const CapResult& cap : caps) {
+    members += cap.members;
+    report.sites_per_region.push_back(cap.members);
+    report.owned_per_region.push_back(cap.owned);
+    report.seconds_per_region.push_back(cap.seconds);
+    report.certified_by_cull += cap.cull.by_cull;
+    report.certified_by_query += cap.cull.by_query;
+    report.halo_insertions += cap.cull.inserted;
+    report.seam_triangles += cap.seams;
+    add(report, cap.predicates);
+  }
+  report.regions = static_cast<int>(caps.size());
+  report.overlap = static_cast<double>(members) / static_cast<double>(sites);
+}
+
+/// All regions, a task each; empty when one of them cannot certify its sites, or when a rounded
+/// bisector has cost one a site that it owns.
+template <class Space>
+std::optional<Reports> triangulate_caps(const Sites& sites, const Regions& regions,
+                                        DelaunayReport& report) {
+  Reports reports;
+  reports.triangles_of = Array<std::int32_t>(sites.size());
+  std::vector<CapResult> caps(regions.centres.size());
+  std::atomic<bool> failed = false;
+  for_each_task(std::ssize(caps), [&](std::int64_t k) {
+    if (failed.load(std::memory_order_relaxed))
+      return;
+    std::optional<CapResult> cap =
+        triangulate_cap<Space>(sites, regions, static_cast<std::int32_t>(k), reports.triangles_of);
+    if (cap)
+      caps[static_cast<std::size_t>(k)] = std::move(*cap);
+    else
+      failed.store(true, std::memory_order_relaxed);
+  });
+  std::int64_t owned = 0;
+  for (const CapResult& cap : caps)
+    owned += cap.owned;
+  if (failed || owned != sites.size())
+    return std::nullopt;
+  summarise(caps, sites.size(), report);
+  for (CapResult& cap : caps)
+    reports.regions.push_back(std::move(cap.triangles));
+  return reports;
+}
+
+Mesh make_mesh(Sites&& sites, Reports&& reports) {
+  Mesh mesh;
+  mesh.points = std::move(sites.points);
+  mesh.site_of_input = std::move(sites.site_of_input);
+  sites = {}; // the mesh's triangles take the room of what is left of them
+  unite(std::move(reports.regions), std::move(reports.triangles_of), mesh);
+  return mesh;
+}
+
+/// Both ends of each edge learn of each other.
+std::vector<std::vector<std::int32_t>> neighbours_in(const Triangles& triangles,
+                                                     std::size_t count) {
+  std::vector<std::vector<std::int32_t>> adjacent(count);
+  for (Eigen::Index t = 0; t < triangles.cols(); ++t)
+    for (int i = 0; i < 3; ++i) {
+      const std::int32_t a = triangles(i, t), b = triangles((i + 1) % 3, t);
+      adjacent[static_cast<std::size_t>(a)].push_back(b);
+      adjacent[static_cast<std::size_t>(b)].push_back(a);
+    }
+  for (std::vector<std::int32_t>& list : adjacent) {
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+  }
+  return adjacent;
+}
+
+/// The triangles of some centres, or none when they are too few, meet, or lie on one line, or on
+/// the sphere in a hemisphere.
+template <class Space, class Points> Triangles triangles_of(const Points& points) {
+  try {
+    Sites sites = make_sites(points, Duplicates::merge, 0);
+    DelaunayReport unused;
+    Reports reports = triangulate_whole<Space>(sites, unused);
+    const Mesh mesh = make_mesh(std::move(sites), std::move(reports));
+    if (mesh.points.cols() == points.cols() && (std::is_same_v<Space, Plane> || mesh.closed()))
+      return mesh.triangles;
+  } catch (const Error&) {
+  }
+  return Triangles(3, 0);
+}
+
+/// For each centre those whose coarse Voronoi cells meet its own: its neighbours in the Delaunay
+/// triangulation of the centres, or all others where there is none.
+std::vector<std::vector<std::int32_t>> adjacent_centres(const std::vector<Vec3>& centres,
+                                                        bool planar) {
+  const std::size_t count = centres.size();
+  Points3 points(3, static_cast<Eigen::Index>(count));
+  for (std::size_t k = 0; k < count; ++k)
+    set_column(points, static_cast<std::int64_t>(k), centres[k]);
+  const Triangles triangles =
+      planar ? triangles_of<Plane>(Points2(points.topRows<2>())) : triangles_of<Sphere>(points);
+  if (triangles.cols() > 0)
+    return neighbours_in(triangles, count);
+  std::vector<std::vector<std::int32_t>> adjacent(count);
+  for (std::size_t k = 0; k < count; ++k)
+    for (std::size_t m = 0; m < count; ++m)
+      if (m != k)
+        adjacent[k].push_back(static_cast<std::int32_t>(m));
+  return adjacent;
+}
+
+} // namespace
+
+Regions divide(const Sites& sites, const DelaunayOptions& options) {
+  std::vector<Vec3> centres = make_centres(sites, options);
+  if (centres.size() == 1)
+    return {std::move(centres), {}, {}, {}};
+  const std::vector<std::vector<std::int32_t>> adjacent =
+      adjacent_centres(centres, sites.frame.has_value());
+  return make_regions(sites, std::move(centres), adjacent, options.sort);
+}
+
+namespace {
+
+void empty_pools_of_many(std::int64_t sites) {
+  if (sites > most_sites_kept)
+    empty_pools();
+}
+
+/// From the sites to the mesh, whose points in a plane have z = 0.
+template <class Space>
+Mesh triangulate(Sites&& sites, const DelaunayOptions& options, DelaunayReport& report) {
+  Clock::time_point mark = Clock::now();
+  empty_pools_of_many(sites.size());
+  Regions regions = divide(sites, options);
+  sites.cells = {}; // each array goes when it has served: the largest sets take all of the memory
+  report.seconds.regions = lap(mark);
+  std::optional<Reports> reports;
+  if (regions.centres.size() > 1)
+    reports = triangulate_caps<Space>(sites, regions, report);
+  regions = {};
+  if (!reports)
+    reports = triangulate_whole<Space>(sites, report);
+  report.seconds.triangulate = lap(mark);
+
+  Mesh mesh = make_mesh(std::move(sites), std::move(*reports));
+  empty_pools_of_many(mesh.points.cols());
+  report.seconds.unite = lap(mark);
+  return mesh;
+}
+
+template <class Points>
+Sites sites_of(Points&& points, const DelaunayOptions& options, DelaunayReport& report) {
+  Clock::time_point mark = Clock::now();
+  const std::int64_t given = points.cols();
+  Sites sites = make_sites(std::forward<Points>(points), options.duplicates, options.merge_within);
+  report = {};
+  report.threads = thread_count();
+  report.sites = sites.size();
+  report.duplicates = given - sites.size();
+  report.seconds.sites = lap(mark);
+  return sites;
+}
+
+PlanarMesh planar(Mesh&& mesh) {
+  return {mesh.points.topRows<2>(), std::move(mesh.triangles), std::move(mesh.neighbours),
+          std::move(mesh.site_of_input)};
+}
+
+template <class Points>
+Mesh triangulate_sphere(Points&& points, const DelaunayOptions& options, DelaunayReport* report) {
+  DelaunayReport unused;
+  DelaunayReport& used = report != nullptr ? *report : unused;
+  Clock::time_point start = Clock::now();
+  Sites sites = sites_of(std::forward<Points>(points), options, used);
+  Mesh mesh = triangulate<Sphere>(std::move(sites), options, used);
+  used.seconds.total = lap(start);
+  return mesh;
+}
+
+} // namespace
+} // namespace delaunay_detail
+
+Mesh delaunay(const Points3& points, const DelaunayOptions& options, DelaunayReport* report) {
+  return delaunay_detail::triangulate_sphere(points, options, report);
+}
+
+Mesh delaunay(Points3&& points, const DelaunayOptions& options, DelaunayReport* report) {
+  return delaunay_detail::triangulate_sphere(std::move(points), options, report);
+}
+
+template <>
+PlanarMesh delaunay(const Points2& points, const DelaunayOptions& options, DelaunayReport* report) {
+  DelaunayReport unused;
+  DelaunayReport& used = report != nullptr ? *report : unused;
+  base_detail::Clock::time_point start = base_detail::Clock::now();
+  delaunay_detail::Sites sites = delaunay_detail::sites_of(points, options, used);
+  PlanarMesh mesh = delaunay_detail::planar(
+      delaunay_detail::triangulate<delaunay_detail::Plane>(std::move(sites), options, used));
+  used.seconds.total = base_detail::lap(start);
+  return mesh;
+}
+
+template <>
+PlanarMesh delaunay(const Points2& points, const Eigen::Vector2d& period,
+                    const DelaunayOptions& options, DelaunayReport* report) {
+  DelaunayReport unused;
+  DelaunayReport& used = report != nullptr ? *report : unused;
+  base_detail::Clock::time_point start = base_detail::Clock::now();
+  delaunay_detail::require_in_box(points, period);
+  delaunay_detail::Sites sites = delaunay_detail::sites_of(points, options, used);
+  const Points2 distinct = sites.points.topRows<2>();
+  const auto triangulate = [&](std::vector<exact_detail::Image> images,
+                               const exact_detail::Vec2& box) {
+    delaunay_detail::Sites copies = delaunay_detail::make_sites(std::move(images), box);
+    used.sites_per_region.clear();
+    used.owned_per_region.clear();
+    used.seconds_per_region.clear();
+    return delaunay_detail::planar(
+        delaunay_detail::triangulate<delaunay_detail::Plane>(std::move(copies), options, used));
+  };
+  PlanarMesh mesh = delaunay_detail::triangulate_periodic(distinct, period, triangulate);
+  mesh.site_of_input = std::move(sites.site_of_input);
+  used.seconds.total = base_detail::lap(start);
+  return mesh;
+}
+
+} // namespace calotte

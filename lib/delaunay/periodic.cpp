@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "delaunay/periodic.h"
+
+#include "base/require.h"
+
+#include "mesh/adjacency.h"
+
+#include <calotte/error.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace calotte::delaunay_detail {
+namespace {
+
+/// A box's sites, id by id, then copies of them.
+struct Copies {
+  std::vector<Image> images;
+  std::vector<std::int32_t> site; ///< of each image
+};
+
+/// The copies up to `margin` around the box, at most half of it: those of the boxes around are
+/// enough.
+Copies copies_within(const Points2& sites, const Eigen::Vector2d& period, double margin) {
+  Copies copies;
+  for (std::int32_t s = 0; s < sites.cols(); ++s) {
+    copies.images.push_back({{sites(0, s), sites(1, s)}, 0, 0});
+    copies.site.push_back(s);
+  }
+  const auto near = [&](double x, double length, int i) {
+    const double place = x + i * length;
+    return place >= -margin && place <= length + margin;
+  };
+  for (std::int32_t s = 0; s < sites.cols(); ++s)
+    for (const int i : {-1, 0, 1})
+      for (const int j : {-1, 0, 1})
+        if ((i != 0 || j != 0) && near(sites(0, s), period.x(), i) &&
+            near(sites(1, s), period.y(), j)) {
+          copies.images.push_back({{sites(0, s), sites(1, s)}, i, j});
+          copies.site.push_back(s);
+        }
+  return copies;
+}
+
+/// A circumcircle, in units of the longer period.
+struct Circle {
+  Eigen::Vector2d centre;
+  double radius;
+};
+
+/// From the corner across from the longest side. Differences of sites come first, so that copies of
+/// one shift are as far apart as their sites, to the last digits.
+Circle circle_of(const std::array<Image, 3>& corner, const Eigen::Vector2d& period) {
+  const double unit = period.maxCoeff();
+  const auto side = [&](std::size_t from, std::size_t to) {
+    const Image &a = corner[from % 3], &b = corner[to % 3];
+    return Eigen::Vector2d((b.site.x - a.site.x) / unit + (b.i - a.i) * (period.x() / unit),
+                           (b.site.y - a.site.y) / unit + (b.j - a.j) * (period.y() / unit));
+  };
+  std::size_t best = 0;
+  for (const std::size_t k : {1U, 2U})
+    if (side(k + 1, k + 2).squaredNorm() > side(best + 1, best + 2).squaredNorm())
+      best = k;
+  const Image& a = corner[best];
+  const Eigen::Vector2d p = side(best, best + 1), q = side(best, best + 2);
+  const double twice_area = p.x() * q.y() - p.y() * q.x();
+  const Eigen::Vector2d across = p.squaredNorm() * q - q.squaredNorm() * p;
+  const Eigen::Vector2d offset = Eigen::Vector2d(across.y(), -across.x()) / (2 * twice_area);
+  const Eigen::Vector2d place(a.site.x / unit + a.i * (period.x() / unit),
+                              a.site.y / unit + a.j * (period.y() / unit));
+  return {place + offset, offset.norm()};
+}
+
+enum class Found { all, need_more_margin, too_few };
+
+/// Whether the circles of the triangles at the box's sites are narrower than half of the box, and
+/// lie within the margin. In doubles, with room for their rounding: a circle that is wrongly said
+/// to be too wide costs time, or a set that is sparse to the last digits.
+Found judge(const PlanarMesh& mesh, const Copies& copies, std::int64_t sites,
+            const Eigen::Vector2d& period, double margin) {
+  constexpr double room = 1e-6;
+  const double unit = period.maxCoeff(), rim = margin / unit;
+  const Eigen::Vector2d box = period / unit;
+  Found found = Found::all;
+  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
+    if (mesh.triangles.col(t).minCoeff() >= sites)
+      continue;
+    if (mesh.neighbours.col(t).minCoeff() < 0)
+      return margin < unit / 2 ? Found::need_more_margin : Found::too_few;
+    const auto image = [&](int v) {
+      return copies.images[static_cast<std::size_t>(mesh.triangles(v, t))];
+    };
+    const Circle circle = circle_of({image(0), image(1), image(2)}, period);
+    const double radius = circle.radius * (1 + room);
+    const bool within = (circle.centre.array() - radius >= -rim).all() &&
+                        (circle.centre.array() + radius <= box.array() + rim).all();
+    if (!within)
+      found = Found::need_more_margin;
+    if (!(radius < box.minCoeff() / 4) && within)
+      return Found::too_few;
+  }
+  return found;
+}
+
+/// Of each triangle the copy whose lowest site stands in the box, in canonical order.
+Triangles one_copy_each(const PlanarMesh& mesh, std::int64_t sites,
+                        const std::vector<std::int32_t>& site) {
+  using Triple = std::array<std::int32_t, 3>;
+  std::vector<Triple> kept;
+  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
+    Triple ids{};
+    for (int v = 0; v < 3; ++v)
+      ids[static_cast<std::size_t>(v)] = site[static_cast<std::size_t>(mesh.triangles(v, t))];
+    const auto lowest = std::min_element(ids.begin(), ids.end());
+    if (mesh.triangles(static_cast<int>(lowest - ids.begin()), t) >= sites)
+      continue;
+    std::rotate(ids.begin(), lowest, ids.end());
+    kept.push_back(ids);
+  }
+  std::sort(kept.begin(), kept.end());
+  Triangles triangles(3, std::ssize(kept));
+  for (std::size_t t = 0; t < kept.size(); ++t)
+    for (int v = 0; v < 3; ++v)
+      triangles(v, static_cast<Eigen::Index>(t)) = kept[t][static_cast<std::size_t>(v)];
+  return triangles;
+}
+
+[[noreturn]] void refuse_few(std::int64_t sites) {
+  throw Error(ErrorCode::too_few_sites,
+              "a circle wider than half of the periodic box holds none of the " +
+                  std::to_string(sites) +
+                  " sites: add sites, or put several copies of the box beside each other");
+}
+
+/// The mesh of the box's sites, of which `whole` holds copies.
+PlanarMesh folded(const PlanarMesh& whole, const Copies& copies, const Points2& sites,
+                  const Eigen::Vector2d& period) {
+  PlanarMesh mesh;
+  mesh.points = sites;
+  mesh.triangles = one_copy_each(whole, sites.cols(), copies.site);
+  mesh.neighbours = neighbours_of(mesh.triangles, sites.cols());
+  mesh.period = period;
+  if (mesh.triangles.cols() != 2 * sites.cols())
+    throw Error(ErrorCode::internal, "a periodic box of " + std::to_string(sites.cols()) +
+                                         " sites has " + std::to_string(mesh.triangles.cols()) +
+                                         " triangles: please report this input as a bug");
+  return mesh;
+}
+
+} // namespace
+
+void require_in_box(const Points2& points, const Eigen::Vector2d& period) {
+  constexpr double longest = 1e300; // the box's copies must be doubles, too
+  require((period.array() > 0).all() && (period.array() <= longest).all(),
+          "the periodic box is " + std::to_string(period.x()) + " x " + std::to_string(period.y()) +
+              "; give two positive lengths up to 1e300");
+  for (Eigen::Index i = 0; i < points.cols(); ++i)
+    if (points.col(i).allFinite() &&
+        ((points.col(i).array() < 0).any() || (points.col(i).array() >= period.array()).any()))
+      throw Error(ErrorCode::bad_option,
+                  "point " + std::to_string(i) +
+                      " is outside the periodic box, which starts at 0 0: add or subtract "
+                      "periods",
+                  i);
+}
+
+PlanarMesh triangulate_periodic(const Points2& sites, const Eigen::Vector2d& period,
+                                const TriangulateImages& triangulate) {
+  const double most = period.maxCoeff() / 2, spacing = std::sqrt(period.x()) *
+                                                       std::sqrt(period.y()) /
+                                                       std::sqrt(static_cast<double>(sites.cols()));
+  double margin = std::clamp(6 * spacing, most * 0x1p-20, most);
+  for (;; margin = std::min(most, 2 * margin)) {
+    const Copies copies = copies_within(sites, period, margin);
+    const PlanarMesh whole = triangulate(copies.images, {period.x(), period.y()});
+    const Found found = judge(whole, copies, sites.cols(), period, margin);
+    if (found == Found::all)
+      return folded(whole, copies, sites, period);
+    if (found == Found::too_few || margin == most)
+      refuse_few(sites.cols());
+  }
+}
+
+} // namespace calotte::delaunay_detail

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "delaunay/room.h"
+#include "delaunay/sites.h"
+
+#include <calotte/delaunay.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace calotte::delaunay_detail {
+
+/// The sites x with x.normal <= offset; normals are unit vectors.
+struct HalfSpace {
+  Vec3 normal;
+  double offset;
+};
+
+/// Ranks begin <= r < end.
+struct Run {
+  std::int32_t begin, end;
+};
+
+/// The decomposition: who owns each site, and which sites each region triangulates.
+struct Regions {
+  std::vector<Vec3> centres; ///< t_k, unit vectors; in a plane places in its frame
+  Array<std::int32_t> owner; ///< by rank: the region with the nearest centre, ties to the lowest
+  std::vector<std::vector<Run>> members; ///< by region, ascending: its own sites and its halo
+  /// By region: every site in all of these is a member.
+  std::vector<std::vector<HalfSpace>> covered;
+};
+
+/// Owners of the sites, by rank, and members by the options' sort.
+/// \param adjacent for each region its neighbours: regions whose coarse Voronoi cells meet its own.
+///        Too many of them cost time, too few make halos larger than need be.
+Regions make_regions(const Sites& sites, std::vector<Vec3> centres,
+                     const std::vector<std::vector<std::int32_t>>& adjacent, Sort sort);
+
+} // namespace calotte::delaunay_detail

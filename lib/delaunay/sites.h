@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "base/parallel.h"
+#include "base/points.h"
+#include "base/vec3.h"
+#include "curve/quadtree.h"
+#include "delaunay/room.h"
+#include "delaunay/site_boxes.h"
+#include "exact/plane_predicates.h"
+
+#include <calotte/delaunay.h>
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace calotte::delaunay_detail {
+
+/// From a plane's coordinates to [-1,1]^2: (scale x - centre) / half. The scale is a power of two,
+/// which keeps products of coordinates from overflow and underflow.
+struct Frame {
+  double scale = 1;
+  Vec3 centre{0, 0, 0}; ///< the frame's origin: of the sites' box, but that a narrow one is moved
+  double half = 1;      ///< the frame's unit: half of the longer side
+  Vec2 period{0, 0};    ///< of a doubly periodic box, in the points' coordinates
+  Vec2 low{-1, -1}, high{1, 1}; ///< corners of the sites' box, in the frame
+  Vec3 operator()(double x, double y) const {
+    return {(scale * x - centre.x) / half, (scale * y - centre.y) / half, 0};
+  }
+};
+
+/// The distinct directions of an input, or the distinct places of a plane's, in two orders: by
+/// *id*, the order of the input, and by *rank*, along the space-filling curve. Stages work by rank,
+/// where neighbours in memory are neighbours in space; the mesh speaks of ids.
+struct Sites {
+  Points3 points;                          ///< by id: as given, of any norm; in a plane with z = 0
+  std::vector<std::int32_t> site_of_input; ///< id for each input column
+  Array<std::int32_t> id;                  ///< by rank
+  Array<Vec3> unit;           ///< by rank: normalised to 5 roundoffs; in a plane the frame's, to 3
+  Quadtree cells;             ///< over the ranks: what stands where
+  SiteBoxes boxes;            ///< over the ranks, too
+  std::optional<Frame> frame; ///< of a plane
+  std::vector<Image> images;  ///< by id: of sites of a periodic box and their copies, else none
+
+  std::int64_t size() const { return id.size(); }
+  const Vec3& given(std::int32_t site) const { return column(points, site); }
+};
+
+/// \throws Error not_finite, zero_vector, duplicate, too_few_sites (for more than 2^30 points too),
+/// bad_option.
+Sites make_sites(const Points3& points, Duplicates duplicates, double merge_within);
+
+/// The same; where no points are merged, they become the sites' points and are not copied.
+Sites make_sites(Points3&& points, Duplicates duplicates, double merge_within);
+
+/// Of a plane: equal places are duplicates, `merge_within` is a distance. \throws Error as above,
+/// but for zero_vector.
+Sites make_sites(const Points2& points, Duplicates duplicates, double merge_within);
+
+/// Sites of a periodic box together with copies of them: `points` are the images, each coordinate
+/// rounded once. \pre the images are distinct.
+Sites make_sites(std::vector<Image> images, const Vec2& period);
+
+} // namespace calotte::delaunay_detail

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "delaunay/room.h"
+#include "delaunay/sites.h"
+#include "exact/predicates.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace calotte::delaunay_detail {
+
+/// The sphere as the stages see it: the first instance of what they call a Space.
+///
+/// A Space looks at its domain from one region. It supplies `Place`, the coordinates that the
+/// triangulation keeps in a vertex; `place`, to make one of a site that `has_place`, and `expect`,
+/// to fetch ahead what that reads; `circle`, what in-circle tests of a triangle share; and the
+/// signs `orientation`, `between` and `in_circle` of three or four places, ties resolved.
+/// `in_circle` is never 0 for a triangle of the triangulation and another site.
+///
+/// On the sphere the view is stereographic from the focus opposite to a cap's centre (Jacobsen et
+/// al., 2013, Eq. 5), or central for a whole set. The projected doubles of a place filter
+/// orientations only; the unit vector filters in-circle signs; both leave what they cannot decide
+/// to the exact predicates on the given directions.
+class Sphere {
+public:
+  struct Place {
+    Vec3 unit;
+    double x, y; ///< stereographic, from the focus
+    std::int32_t site;
+  };
+
+  /// What is the same for all in-circle tests of one triangle: the flat triangle's normal
+  /// (b - a) x (c - a), so that the determinant is its product with d - a.
+  struct Circle {
+    Vec3 normal;
+  };
+
+  /// The greatest chord.
+  static constexpr double diameter = 2;
+
+  /// The whole sphere from its centre.
+  explicit Sphere(const Sites& sites) : sites_(&sites) { widen(2); }
+
+  /// A cap from the focus -centre; `reach` bounds the chord from the centre (a unit vector) to its
+  /// sites.
+  Sphere(const Sites& sites, const Vec3& centre, double reach);
+
+  /// Whether a site has a place: all but one at the focus itself.
+  bool has_place(std::int64_t rank) const;
+
+  /// What follows needs that place: nothing to fetch, ranks follow each other in memory.
+  static void expect(std::int64_t) {}
+
+  /// The place of a site; bounds that it outgrows are widened.
+  Place place(std::int64_t rank);
+
+  const View& view() const { return view_; }
+  const PredicateCounts& counts() const { return counts_; }
+
+  int orientation(const Place& a, const Place& b, const Place& c) {
+    if (projected_) {
+      const double value = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+      if (value > orientation_error_)
+        return 1;
+      if (value < -orientation_error_)
+        return -1;
+    }
+    return orientation_beyond_filter(a, b, c);
+  }
+
+  bool between(const Place& a, const Place& p, const Place& b) const {
+    return exact_detail::between(view_, given(a), given(p), given(b));
+  }
+
+  static Circle circle(const Place& a, const Place& b, const Place& c) {
+    return {cross(b.unit - a.unit, c.unit - a.unit)};
+  }
+
+  /// \param circle that of a, b, c.
+  int in_circle(const Circle& circle, const Place& a, const Place& b, const Place& c,
+                const Place& d) {
+    const double value = dot(circle.normal, d.unit - a.unit);
+    if (value > in_circle_error_)
+      return 1;
+    if (value < -in_circle_error_)
+      return -1;
+    return in_circle_beyond_static(a, b, c, d);
+  }
+
+private:
+  const Vec3& given(const Place& a) const { return sites_->given(a.site); }
+  void widen(double reach);
+  int orientation_beyond_filter(const Place& a, const Place& b, const Place& c);
+  int in_circle_beyond_static(const Place& a, const Place& b, const Place& c, const Place& d);
+
+  const Sites* sites_;
+  View view_;
+  Vec3 centre_{0, 0, 0}, east_{0, 0, 0}, north_{0, 0, 0};
+  double reach_ = 0;
+  bool projected_ = false; ///< all places so far have projections within the error bound
+  double in_circle_error_ = 0, orientation_error_ = 0;
+  PredicateCounts counts_;
+};
+
+} // namespace calotte::delaunay_detail

@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "base/memory.h"
+#include "base/triangle.h"
+#include "delaunay/room.h"
+
+// CGAL's containers take their memory through this macro: for the same reason as Array, from
+// oneTBB.
+#if CALOTTE_POOLED
+#define CGAL_ALLOCATOR(T) tbb::scalable_allocator<T>
+#endif
+#include <CGAL/Triangulation_data_structure_2.h>
+
+#include <array>
+#include <cassert>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace calotte::delaunay_detail {
+
+/// A site that a region triangulates.
+struct Member {
+  static constexpr float not_owned = -1;
+
+  std::int32_t rank;
+  float depth; ///< of an owned site: the region covers every ball of that chord around it
+
+  bool owned() const { return depth != not_owned; }
+};
+
+/// CGAL's vertex with what the inner loops read of a site: one cache line.
+template <class Place, class Tds = void>
+struct RegionVertex : CGAL::Triangulation_ds_vertex_base_2<Tds> {
+  template <class OtherTds> struct Rebind_TDS { using Other = RegionVertex<Place, OtherTds>; };
+  Place place{};
+  std::int32_t local = -1; ///< place in Triangulation::members(); -1 at infinity
+  float depth = Member::not_owned;
+
+  bool owned() const { return depth != Member::not_owned; }
+};
+
+/// CGAL's face with its circle and marks of its own.
+template <class Circle, class Tds = void>
+struct RegionFace : CGAL::Triangulation_ds_face_base_2<Tds> {
+  using Base = CGAL::Triangulation_ds_face_base_2<Tds>;
+  using Base::Base;
+  template <class OtherTds> struct Rebind_TDS { using Other = RegionFace<Circle, OtherTds>; };
+  // The small ones first: they fit into the base's padding.
+  std::int8_t infinite = -1; ///< index of the vertex at infinity, -1 in a finite face
+  bool in_conflict = false;  ///< during an insertion
+  bool certified = false;    ///< free for a later stage; false in a new face
+  std::int32_t number = -1;  ///< free for a later stage; -1 in a new face
+  Circle circle;             ///< of a finite face
+};
+
+/// The Delaunay triangulation of places of a Space (see sphere.h), by incremental insertion,
+/// completed by one vertex at infinity that is joined to the hull.
+///
+/// CGAL's Triangulation_data_structure_2 holds vertices and faces. The insertion over it is
+/// Bowyer's and Watson's (1981): the faces in conflict with the new site are found from the one
+/// that holds it and become the site's star, so that each is written once. (CGAL's own insertion
+/// writes a star of three and flips; with its planar predicates, on 20 000 sites in the same order,
+/// it took 1.6 times as long.)
+///
+/// Invariant after `build`: a Delaunay triangulation, ties as the Space resolves them. From the
+/// sphere's centre the vertex at infinity stands for the centre, and vanishes once the sites
+/// surround it.
+template <class Space> class Triangulation {
+public:
+  using Place = typename Space::Place;
+  using Store =
+      CGAL::Triangulation_data_structure_2<RegionVertex<Place>, RegionFace<typename Space::Circle>>;
+  static_assert(sizeof(typename Store::Vertex) <= 64 && sizeof(typename Store::Face) <= 80,
+                "a region is to fit into the cache");
+  using Vertex = typename Store::Vertex_handle;
+  using Face = typename Store::Face_handle;
+
+  explicit Triangulation(Space space) : space_(std::move(space)) { store_.set_dimension(2); }
+
+  /// Inserts all members, which lie along a curve; false when they lie on one line of the view.
+  bool build(std::span<const Member> members);
+
+  /// Inserts one more site, which is no member yet.
+  void insert(const Member& member);
+
+  /// The faces around the site that was inserted last; valid until the next insertion.
+  std::span<const Face> last_star() const { return {conflicting_.data(), rim_size_}; }
+
+  Space& space() { return space_; }
+  std::span<const Member> members() const { return members_; }
+  static bool is_infinite(Face face) { return face->infinite >= 0; }
+
+  template <class Body> void for_each_face(const Body& body) {
+    for (auto face = store_.faces_begin(); face != store_.faces_end(); ++face)
+      body(Face(face));
+  }
+
+  /// Whether a place lies inside the circumcap of a face; of an infinite face, beyond the hull's
+  /// edge.
+  bool conflicts(Face face, const Place& p);
+
+private:
+  /// Whether p lies beyond the hull's edge of an infinite face, or on it.
+  bool is_beyond(Face face, const Place& p);
+
+  /// An edge as seen from one of its faces.
+  struct Edge {
+    Face face;
+    int index; ///< of the vertex across from the edge
+  };
+  /// Index in a face of its neighbour; without branches, which would be mispredicted.
+  static int index_of(Face face, Face neighbour) {
+    return (face->neighbor(1) == neighbour) + 2 * (face->neighbor(2) == neighbour);
+  }
+
+  Vertex make_vertex(const Member& member);
+  std::array<std::int64_t, 3> first_triangle(std::span<const Member> members);
+  Face locate(const Place& p);
+  void find_conflicts(Face start, const Place& p);
+  void grow();
+  void make_star(Vertex centre);
+
+  Space space_;
+  Store store_;
+  Vertex infinity_;
+  Face hint_;
+  std::vector<Member> members_;
+  // Of one insertion; kept for their memory, whose size is never 0.
+  std::vector<Edge> inner_edges_ = std::vector<Edge>(64), rim_ = std::vector<Edge>(64);
+  std::vector<Face> conflicting_ = std::vector<Face>(64);
+  std::size_t conflicts_ = 0, rim_size_ = 0;
+};
+
+template <class Space> auto Triangulation<Space>::make_vertex(const Member& member) -> Vertex {
+  Vertex vertex = store_.create_vertex();
+  vertex->place = space_.place(member.rank);
+  vertex->local = static_cast<std::int32_t>(members_.size());
+  vertex->depth = member.depth;
+  members_.push_back(member);
+  return vertex;
+}
+
+/// Three members not on one line of the view, counter-clockwise; the first is -1 when there are
+/// none. From the centre an antipodal pair is on a line with every site, hence a second pair.
+template <class Space>
+std::array<std::int64_t, 3> Triangulation<Space>::first_triangle(std::span<const Member> members) {
+  const std::int64_t n = std::ssize(members);
+  if (n < 3)
+    return {-1, -1, -1};
+  const auto place = [&](std::int64_t i) {
+    return space_.place(members[static_cast<std::size_t>(i)].rank);
+  };
+  const Place a = place(0);
+  for (const std::int64_t second : {1, 2})
+    for (std::int64_t third = 1; third < n; ++third) {
+      if (third == second)
+        continue;
+      const int way = space_.orientation(a, place(second), place(third));
+      if (way > 0)
+        return {0, second, third};
+      if (way < 0)
+        return {0, third, second};
+    }
+  return {-1, -1, -1};
+}
+
+template <class Space> bool Triangulation<Space>::build(std::span<const Member> members) {
+  const std::array<std::int64_t, 3> first = first_triangle(members);
+  if (first[0] < 0)
+    return false;
+  members_.reserve(members.size() + members.size() / 16 + 16);
+  std::array<Vertex, 3> corner;
+  for (std::size_t i = 0; i < 3; ++i)
+    corner[i] = make_vertex(members[static_cast<std::size_t>(first[i])]);
+  const auto [a, b, c] = corner;
+  infinity_ = store_.create_vertex();
+  const Face abc = store_.create_face(a, b, c);
+  const std::array<Face, 3> outer{store_.create_face(infinity_, c, b),
+                                  store_.create_face(infinity_, a, c),
+                                  store_.create_face(infinity_, b, a)};
+  abc->set_neighbors(outer[0], outer[1], outer[2]);
+  outer[0]->set_neighbors(abc, outer[2], outer[1]);
+  outer[1]->set_neighbors(abc, outer[0], outer[2]);
+  outer[2]->set_neighbors(abc, outer[1], outer[0]);
+  for (const Face face : outer)
+    face->infinite = 0;
+  abc->circle = space_.circle(a->place, b->place, c->place);
+  hint_ = abc;
+
+  // Along the curve, the steps of a walk are few; in rounds from coarse to fine, the hull is soon
+  // complete and stars stay small.
+  const std::int64_t n = std::ssize(members);
+  constexpr std::array<std::int64_t, 4> strides{512, 64, 8, 1};
+  for (std::size_t round = 0; round < strides.size(); ++round)
+    for (std::int64_t i = 0; i < n; i += strides[round]) {
+      if (round > 0 && i % strides[round - 1] == 0)
+        continue;
+      if (const std::int64_t ahead = i + 8 * strides[round]; ahead < n)
+        space_.expect(members[static_cast<std::size_t>(ahead)].rank);
+      if (i != first[0] && i != first[1] && i != first[2])
+        insert(members[static_cast<std::size_t>(i)]);
+    }
+  return true;
+}
+
+template <class Space> void Triangulation<Space>::insert(const Member& member) {
+  const Vertex vertex = make_vertex(member);
+  find_conflicts(locate(vertex->place), vertex->place);
+  make_star(vertex);
+}
+
+/// The face that holds p, by a visibility walk; an infinite face when p lies beyond the hull. It
+/// ends in a Delaunay triangulation, whose faces seen from any point are ordered without a cycle.
+/// Both edges ahead are tested before either answer is needed: the processor overlaps them.
+template <class Space> auto Triangulation<Space>::locate(const Place& p) -> Face {
+  Face face = is_infinite(hint_) ? hint_->neighbor(hint_->infinite) : hint_;
+  int back = 0; // index of the vertex across from the edge behind
+  for (int i = 0; i < 3; ++i)
+    if (space_.orientation(face->vertex(next_vertex(i))->place,
+                           face->vertex(previous_vertex(i))->place, p) < 0) {
+      const Face beyond = face->neighbor(i);
+      back = index_of(beyond, std::exchange(face, beyond));
+      break;
+    } else if (i == 2) {
+      return face;
+    }
+  while (!is_infinite(face)) {
+    const int left = next_vertex(back), right = previous_vertex(back);
+    const Place& apex = face->vertex(back)->place;
+    const bool beyond_left = space_.orientation(face->vertex(right)->place, apex, p) < 0;
+    const bool beyond_right = space_.orientation(apex, face->vertex(left)->place, p) < 0;
+    if (!beyond_left && !beyond_right)
+      return face;
+    const Face beyond = face->neighbor(beyond_left ? left : right);
+    back = index_of(beyond, std::exchange(face, beyond));
+  }
+  return face;
+}
+
+template <class Space> inline bool Triangulation<Space>::conflicts(Face face, const Place& p) {
+  if (!is_infinite(face)) [[likely]]
+    return space_.in_circle(face->circle, face->vertex(0)->place, face->vertex(1)->place,
+                            face->vertex(2)->place, p) > 0;
+  return is_beyond(face, p);
+}
+
+template <class Space> bool Triangulation<Space>::is_beyond(Face face, const Place& p) {
+  const Place& a = face->vertex(next_vertex(face->infinite))->place;
+  const Place& b = face->vertex(previous_vertex(face->infinite))->place;
+  const int way = space_.orientation(a, b, p);
+  return way != 0 ? way > 0 : space_.between(a, p, b);
+}
+
+/// The conflicting faces, which hang together, and their rim, breadth first: the next edges are
+/// known before the last answer is, and the processor overlaps their tests.
+template <class Space> void Triangulation<Space>::find_conflicts(Face start, const Place& p) {
+  start->in_conflict = true;
+  conflicting_[0] = start;
+  for (int i = 0; i < 3; ++i)
+    inner_edges_[static_cast<std::size_t>(i)] = {start, i};
+  std::size_t edges = 3;
+  conflicts_ = 1;
+  rim_size_ = 0;
+  for (std::size_t e = 0; e < edges; ++e) {
+    if (edges + 2 > inner_edges_.size())
+      grow();
+    const Edge inner = inner_edges_[e];
+    const Face face = inner.face->neighbor(inner.index);
+    const int back = index_of(face, inner.face);
+    if (face->in_conflict) // reached around a vertex that vanishes
+      continue;
+    if (!conflicts(face, p)) {
+      rim_[rim_size_++] = {face, back};
+      continue;
+    }
+    face->in_conflict = true;
+    conflicting_[conflicts_++] = face;
+    inner_edges_[edges++] = {face, next_vertex(back)};
+    inner_edges_[edges++] = {face, previous_vertex(back)};
+  }
+}
+
+template <class Space> void Triangulation<Space>::grow() {
+  inner_edges_.resize(2 * inner_edges_.size());
+  rim_.resize(inner_edges_.size());
+  conflicting_.resize(inner_edges_.size());
+}
+
+/// Replaces the conflicting faces by the star of a vertex over their rim. The rim's vertices tell,
+/// by the face that they point to, which faces of the star are neighbours.
+template <class Space> void Triangulation<Space>::make_star(Vertex centre) {
+  for (; conflicts_ < rim_size_; ++conflicts_)
+    conflicting_[conflicts_] = store_.create_face();
+  assert(conflicts_ == rim_size_);
+  for (std::size_t e = 0; e < rim_size_; ++e) {
+    const auto [outer, index] = rim_[e];
+    const Face face = conflicting_[e];
+    const Vertex a = outer->vertex(previous_vertex(index)), b = outer->vertex(next_vertex(index));
+    face->set_vertices(centre, a, b);
+    face->set_neighbor(0, outer);
+    outer->set_neighbor(index, face);
+    a->set_face(face);
+    face->infinite = a == infinity_   ? std::int8_t{1}
+                     : b == infinity_ ? std::int8_t{2}
+                                      : std::int8_t{-1};
+    face->in_conflict = false;
+    face->certified = false;
+    if (face->infinite < 0)
+      face->circle = space_.circle(centre->place, a->place, b->place);
+  }
+  for (std::size_t e = 0; e < rim_size_; ++e) {
+    const Face face = conflicting_[e], following = face->vertex(2)->face();
+    face->set_neighbor(1, following);
+    following->set_neighbor(2, face);
+  }
+  hint_ = conflicting_[0];
+  centre->set_face(hint_);
+}
+
+} // namespace calotte::delaunay_detail

@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "delaunay/unite.h"
+
+#include "base/matrix_memory.h"
+#include "base/triangle.h"
+#include "delaunay/plane.h"
+#include "delaunay/sphere.h"
+
+#include <calotte/error.h>
+
+#include <algorithm>
+#include <atomic>
+#include <limits>
+#include <string>
+#include <utility>
+
+namespace calotte::delaunay_detail {
+namespace {
+
+template <class Space> using Vertices = std::array<typename Triangulation<Space>::Vertex, 3>;
+
+/// A face's vertices and neighbours from its lowest site on.
+template <class Space> struct Turned {
+  Vertices<Space> vertex;
+  Triple neighbours;
+};
+
+template <class Space> Turned<Space> turned(typename Triangulation<Space>::Face face) {
+  const std::int32_t a = face->vertex(0)->place.site, b = face->vertex(1)->place.site,
+                     c = face->vertex(2)->place.site;
+  // Without branches, which would be mispredicted.
+  const int i = ((b < a) & (b < c)) + 2 * ((c < a) & (c < b));
+  const int j = next_vertex(i), k = previous_vertex(i);
+  return {{face->vertex(i), face->vertex(j), face->vertex(k)},
+          {face->neighbor(i)->number, face->neighbor(j)->number, face->neighbor(k)->number}};
+}
+
+template <class Vertices> std::int8_t own_edges(const Vertices& v) {
+  int bits = 0;
+  for (int i = 0; i < 3; ++i) {
+    const auto a = v[static_cast<std::size_t>(next_vertex(i))],
+               b = v[static_cast<std::size_t>(previous_vertex(i))];
+    const auto lower = a->place.site < b->place.site ? a : b;
+    bits |= static_cast<int>(lower->owned()) << i;
+  }
+  return static_cast<std::int8_t>(bits);
+}
+
+/// Turns lists of the triangles of one lowest vertex into ranks: of each triangle by second site.
+/// A list ends in a triangle that does not exist, with a second site beyond all.
+class RankLists {
+public:
+  RankLists(std::int32_t triangles, std::size_t vertices)
+      : end_(triangles), last_(vertices, end_), second_(triangles + 1), next_(triangles + 1) {
+    second_[end_] = std::numeric_limits<std::int32_t>::max();
+    next_[end_] = end_;
+  }
+
+  void add(std::int32_t triangle, std::int32_t lowest, std::int32_t second) {
+    second_[triangle] = second;
+    next_[triangle] = std::exchange(last_[static_cast<std::size_t>(lowest)], triangle);
+  }
+
+  /// For a triangle in no list.
+  void leave_out(std::int32_t triangle) { next_[triangle] = -1; }
+
+  /// The ranks by triangle, -1 of those left out, and one of the list's end.
+  Array<std::int32_t> ranks() && {
+    for (const std::int32_t t : last_)
+      rank(t);
+    return std::move(next_);
+  }
+
+private:
+  /// Most lists have up to four members, and their number cannot be foreseen: ends are ranked as
+  /// members are, without branches that would be mispredicted.
+  void rank(std::int32_t t0) {
+    const std::int32_t t1 = next_[t0], t2 = next_[t1], t3 = next_[t2];
+    if (next_[t3] != end_) {
+      rank_many(t0);
+      return;
+    }
+    const std::int32_t s0 = second_[t0], s1 = second_[t1], s2 = second_[t2], s3 = second_[t3];
+    const int after01 = s0 > s1, after02 = s0 > s2, after03 = s0 > s3, after12 = s1 > s2,
+              after13 = s1 > s3, after23 = s2 > s3;
+    next_[t3] = 3 - after03 - after13 - after23;
+    next_[t2] = 2 - after02 - after12 + after23;
+    next_[t1] = 1 - after01 + after12 + after13;
+    next_[t0] = after01 + after02 + after03;
+    next_[end_] = end_;
+  }
+
+  /// Of a hub there may be any number.
+  void rank_many(std::int32_t t) {
+    many_.clear();
+    for (; t != end_; t = next_[t])
+      many_.push_back(t);
+    std::sort(many_.begin(), many_.end(),
+              [&](std::int32_t a, std::int32_t b) { return second_[a] < second_[b]; });
+    for (std::size_t r = 0; r < many_.size(); ++r)
+      next_[many_[r]] = static_cast<std::int32_t>(r);
+  }
+
+  std::int32_t end_;
+  std::vector<std::int32_t> last_; ///< by vertex: the triangle added last
+  Array<std::int32_t> second_;     ///< by triangle: its second site
+  Array<std::int32_t> next_;       ///< by triangle: the one added before, then its rank
+  std::vector<std::int32_t> many_;
+};
+
+} // namespace
+
+std::int64_t seams_at(std::int64_t home, const std::vector<Seam>& seams) {
+  return std::count_if(seams.begin(), seams.end(),
+                       [&](const Seam& seam) { return seam.home == home; });
+}
+
+template <class Space>
+RegionTriangles report_triangles(Triangulation<Space>& triangulation, const Sites& sites,
+                                 const Array<std::int32_t>& owner,
+                                 Array<std::int32_t>& triangles_of) {
+  using Face = typename Triangulation<Space>::Face;
+  using Vertex = typename Triangulation<Space>::Vertex;
+  std::int32_t count = 0;
+  triangulation.for_each_face([&](Face face) {
+    if (face->certified && !triangulation.is_infinite(face))
+      face->number = count++;
+  });
+  RegionTriangles out{Array<Triple>(count), Array<Triple>(count), {}, {}};
+  const std::size_t locals = triangulation.members().size();
+  std::vector<std::int32_t> length(locals, 0);
+  RankLists lists(count, locals);
+  const auto owner_of = [&](Vertex v) {
+    return owner[triangulation.members()[static_cast<std::size_t>(v->local)].rank];
+  };
+  triangulation.for_each_face([&](Face face) {
+    const std::int32_t t = face->number;
+    if (t < 0)
+      return;
+    const auto [v, neighbours] = turned<Space>(face);
+    out.sites[t] = {v[0]->place.site, v[1]->place.site, v[2]->place.site};
+    out.neighbours[t] = neighbours;
+    if (v[0]->owned()) {
+      lists.add(t, v[0]->local, v[1]->place.site);
+      ++length[static_cast<std::size_t>(v[0]->local)];
+    } else {
+      lists.leave_out(t);
+    }
+    if (v[0]->owned() && v[1]->owned() && v[2]->owned())
+      return;
+    const std::int32_t a = owner_of(v[0]), b = owner_of(v[1]), c = owner_of(v[2]);
+    out.seams.push_back({out.sites[t], t, a,
+                         static_cast<std::int8_t>(1 + (b != a) + (c != a && c != b)),
+                         own_edges(v)});
+  });
+  out.rank = std::move(lists).ranks();
+  for (std::size_t v = 0; v < locals; ++v)
+    if (const Member& member = triangulation.members()[v]; member.owned())
+      triangles_of[sites.id[member.rank]] = length[v];
+  return out;
+}
+
+template RegionTriangles report_triangles(Triangulation<Sphere>&, const Sites&,
+                                          const Array<std::int32_t>&, Array<std::int32_t>&);
+template RegionTriangles report_triangles(Triangulation<Plane>&, const Sites&,
+                                          const Array<std::int32_t>&, Array<std::int32_t>&);
+
+namespace {
+
+[[noreturn]] void disagree(const Triple& sites) {
+  throw Error(ErrorCode::internal, "regions disagree on the triangle of sites " +
+                                       std::to_string(sites[0]) + ", " + std::to_string(sites[1]) +
+                                       " and " + std::to_string(sites[2]) +
+                                       ": please report this input as a bug");
+}
+
+/// The seam triangles whose lowest site one region owns, by their sites: open addressing. The table
+/// of all would be as large as a cache, and met at random; that of a region and those of its
+/// neighbours, where alone its seams stand, are small.
+class SeamTable {
+public:
+  SeamTable() = default;
+  /// With room for so many.
+  explicit SeamTable(std::int64_t triangles)
+      : slots_(static_cast<std::size_t>(triangles + triangles / 2 + 1)) {}
+
+  /// Enters a triangle and its place in the mesh, reported once. By one thread, before others look.
+  void enter(const Seam& seam, std::int32_t place) {
+    Slot& slot = find(seam.sites);
+    slot.sites = seam.sites;
+    slot.place = place;
+    slot.reporters = seam.reporters;
+    slot.reports.fetch_add(1, std::memory_order_relaxed);
+  }
+
+  /// Counts one more report of a triangle, by any thread; its place in the mesh.
+  std::int32_t count(const Seam& seam) {
+    Slot& slot = find(seam.sites);
+    if (slot.place < 0 || slot.reporters != seam.reporters)
+      disagree(seam.sites);
+    slot.reports.fetch_add(1, std::memory_order_relaxed);
+    return slot.place;
+  }
+
+  /// Each triangle was reported by all of its owners.
+  void require_agreement() const {
+    for (const Slot& slot : slots_)
+      if (slot.reports.load(std::memory_order_relaxed) != slot.reporters)
+        disagree(slot.sites);
+  }
+
+private:
+  struct Slot {
+    Triple sites{};
+    std::int32_t place = -1;
+    std::int8_t reporters = 0;
+    std::atomic<std::int8_t> reports{0};
+  };
+
+  /// The slot of a triangle, or an empty one.
+  Slot& find(const Triple& sites) {
+    std::uint64_t h = 0;
+    for (const std::int32_t s : sites)
+      h = (h ^ h >> 32 ^ static_cast<std::uint64_t>(s)) * 0x9E3779B97F4A7C15U; // Fibonacci hashing
+    std::size_t s = (h >> 32) * slots_.size() >> 32;
+    while (slots_[s].place >= 0 && slots_[s].sites != sites)
+      s = s + 1 < slots_.size() ? s + 1 : 0;
+    return slots_[s];
+  }
+
+  std::vector<Slot> slots_;
+};
+
+/// Triangles ahead of the one in hand whose memory is fetched: ids in the input's order scatter a
+/// region's triangles all over the mesh.
+constexpr std::int64_t ahead = 32;
+
+/// Turns the ranks of the triangles whose lowest site the region owns into their places in the
+/// mesh, where it writes them.
+Array<std::int32_t> place_own(Array<std::int32_t>&& rank, const Array<Triple>& sites,
+                              const Array<std::int32_t>& first_of, Triangles& out) {
+  Array<std::int32_t> place = std::move(rank);
+  for (std::int64_t t = 0; t < sites.size(); ++t) {
+    if (t + ahead < sites.size())
+      __builtin_prefetch(&first_of[sites[t + ahead][0]]);
+    if (place[t] >= 0)
+      place[t] += first_of[sites[t][0]];
+  }
+  for (std::int64_t t = 0; t < sites.size(); ++t) {
+    if (t + ahead < sites.size() && place[t + ahead] >= 0)
+      __builtin_prefetch(&out(0, place[t + ahead]), 1);
+    if (place[t] < 0)
+      continue;
+    for (int i = 0; i < 3; ++i)
+      out(i, place[t]) = sites[t][static_cast<std::size_t>(i)];
+  }
+  return place;
+}
+
+/// Neighbours across the edges that the region answers for: all of a triangle with one owner, those
+/// of a seam triangle whose lower site it owns.
+void write_neighbours(const RegionTriangles& report, const Array<std::int32_t>& place,
+                      Triangles& out) {
+  const auto write = [&](std::int64_t t, int bits) {
+    const Triple& neighbours = report.neighbours[t];
+    if (t + ahead < report.neighbours.size())
+      __builtin_prefetch(&out(0, place[t + ahead]), 1);
+    for (int i = 0; i < 3; ++i)
+      if (bits >> i & 1) {
+        const std::int32_t across = neighbours[static_cast<std::size_t>(i)];
+        out(i, place[t]) = across < 0 ? -1 : place[across];
+      }
+  };
+  std::int64_t t = 0;
+  for (const Seam& seam : report.seams) {
+    for (; t < seam.triangle; ++t)
+      write(t, 7);
+    write(t++, seam.own_edges);
+  }
+  for (; t < report.neighbours.size(); ++t)
+    write(t, 7);
+}
+
+} // namespace
+
+void unite(std::vector<RegionTriangles>&& reports, Array<std::int32_t>&& triangles_of, Mesh& mesh) {
+  const std::int32_t count = exclusive_scan(std::span(triangles_of.begin(), triangles_of.end()));
+  make_room(mesh.triangles, 3, count);
+  make_room(mesh.neighbours, 3, count);
+  const std::int64_t regions = std::ssize(reports);
+  std::vector<SeamTable> tables(reports.size());
+  std::vector<Array<std::int32_t>> place(reports.size());
+
+  for_each_task(regions, [&](std::int64_t k) {
+    RegionTriangles& report = reports[static_cast<std::size_t>(k)];
+    Array<std::int32_t>& own = place[static_cast<std::size_t>(k)];
+    own = place_own(std::move(report.rank), report.sites, triangles_of, mesh.triangles);
+    tables[static_cast<std::size_t>(k)] = SeamTable(seams_at(k, report.seams));
+    for (const Seam& seam : report.seams)
+      if (seam.home == k)
+        tables[static_cast<std::size_t>(k)].enter(seam, own[seam.triangle]);
+    if (mesh.points.cols() > most_sites_kept) // the mesh's neighbours take their room
+      give_back(report.sites);
+  });
+  for_each_task(regions, [&](std::int64_t k) {
+    for (const Seam& seam : reports[static_cast<std::size_t>(k)].seams)
+      if (seam.home != k)
+        place[static_cast<std::size_t>(k)][seam.triangle] =
+            tables[static_cast<std::size_t>(seam.home)].count(seam);
+  });
+  for_each_task(regions, [&](std::int64_t k) {
+    RegionTriangles& report = reports[static_cast<std::size_t>(k)];
+    tables[static_cast<std::size_t>(k)].require_agreement();
+    write_neighbours(report, place[static_cast<std::size_t>(k)], mesh.neighbours);
+    report = {}; // freed here, by all threads
+    place[static_cast<std::size_t>(k)] = {};
+    tables[static_cast<std::size_t>(k)] = {};
+  });
+}
+
+} // namespace calotte::delaunay_detail

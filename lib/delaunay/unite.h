@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "base/parallel.h"
+#include "delaunay/room.h"
+#include "delaunay/sites.h"
+#include "delaunay/triangulate.h"
+
+#include <calotte/types.h>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace calotte::delaunay_detail {
+
+using Triple = std::array<std::int32_t, 3>;
+
+/// A triangle whose vertices have different owners, each of whom reports it.
+struct Seam {
+  Triple sites;
+  std::int32_t triangle; ///< its place in the report
+  std::int32_t home;     ///< the region that owns its lowest site
+  std::int8_t reporters; ///< the number of owners
+  std::int8_t own_edges; ///< bit i set where this region owns the lower site of the edge across
+                         ///< from vertex i
+};
+
+/// What one region reports: its triangles with an owned vertex, in no order, each from its lowest
+/// site on.
+struct RegionTriangles {
+  Array<Triple> sites;      ///< counter-clockwise
+  Array<Triple> neighbours; ///< across from each vertex, as places in these arrays; -1 if not here
+  Array<std::int32_t> rank; ///< by second site among those of one lowest site; -1 if that is not
+                            ///< owned; at least as many as triangles
+  std::vector<Seam> seams;  ///< ascending by triangle
+};
+
+/// The number of those whose lowest site that region owns: of all regions together, each once.
+std::int64_t seams_at(std::int64_t home, const std::vector<Seam>& seams);
+
+/// Reports the certified finite faces of a triangulation.
+/// \param owner by rank, to count a seam's owners.
+/// \param triangles_of by site: set, for the owned sites, to the number of triangles with that
+/// lowest site.
+template <class Space>
+RegionTriangles report_triangles(Triangulation<Space>& triangulation, const Sites& sites,
+                                 const Array<std::int32_t>& owner,
+                                 Array<std::int32_t>& triangles_of);
+
+/// Unites the regions' reports to triangles and neighbours in canonical order. Triangles with one
+/// owner go straight to their place. Seam triangles meet in a concurrent hash table, a part for
+/// each region, which counts who reported each.
+/// \param triangles_of by site, as report_triangles left it; used up, as the reports are.
+/// \throws Error internal, when a seam triangle was not reported by exactly its vertices' owners.
+void unite(std::vector<RegionTriangles>&& reports, Array<std::int32_t>&& triangles_of, Mesh& mesh);
+
+} // namespace calotte::delaunay_detail

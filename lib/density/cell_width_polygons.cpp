@@ -1,0 +1,375 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "density/cell_width_polygons.h"
+
+#include "base/elementary.h"
+#include "base/lonlat.h"
+#include "base/parallel.h"
+#include "base/vec3.h"
+#include "curve/hilbert.h"
+#include "density/cell_width_field.h"
+
+#include <calotte/error.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <utility>
+
+namespace calotte::density_detail {
+namespace {
+
+// ---- Inside or outside
+
+/// Longitudes are whole numbers of 1e-9 degrees, so that turns by 360 degrees are exact and every
+/// meridian crosses a ring as often as topology has it.
+using Longitude = std::int64_t;
+constexpr double units = 1e9; ///< in a degree
+constexpr Longitude turn = 360'000'000'000;
+
+Longitude to_units(double degrees) { return std::llround(std::remainder(degrees, 360) * units); }
+
+/// From 0 to below one turn.
+Longitude wrapped(Longitude longitude) {
+  const Longitude rest = longitude % turn;
+  return rest < 0 ? rest + turn : rest;
+}
+
+/// A straight line in longitude and latitude, which begins at `west` and runs east.
+struct Edge {
+  Longitude west, span; ///< 0 <= span <= turn
+  double west_latitude, east_latitude;
+  std::int32_t polygon, ring;
+};
+
+/// How far east it is from one place to the next: the shorter way, but a written difference of 360
+/// degrees is kept.
+Longitude eastward(const Place& from, const Place& to) {
+  const double written = to.longitude - from.longitude;
+  if (std::abs(written) == 360)
+    return written > 0 ? turn : -turn;
+  const Longitude way = wrapped(to_units(to.longitude) - to_units(from.longitude));
+  return way < turn / 2 || (way == turn / 2 && written > 0) ? way : way - turn;
+}
+
+/// Adds a ring's edges; true where the north pole is inside it.
+bool add_edges(const Ring& ring, std::int32_t polygon, std::int32_t number,
+               std::vector<Edge>& edges) {
+  Longitude round = 0;
+  double northern = 0; // area to the north of a ring that runs east, in units of longitude
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Place &from = ring[i], &to = ring[(i + 1) % ring.size()];
+    const Longitude span = eastward(from, to), start = to_units(from.longitude);
+    round += span;
+    northern +=
+        static_cast<double>(span) * (1 - from_lonlat(0, 0.5 * (from.latitude + to.latitude)).z);
+    if (span >= 0)
+      edges.push_back({wrapped(start), span, from.latitude, to.latitude, polygon, number});
+    else
+      edges.push_back({wrapped(start + span), -span, to.latitude, from.latitude, polygon, number});
+  }
+  if (std::abs(round) > turn)
+    throw Error(ErrorCode::bad_option,
+                "polygon " + std::to_string(polygon) +
+                    " of a width runs round the Earth more than once; cut it in parts");
+  return round != 0 && std::abs(northern) <= static_cast<double>(turn); // a sphere has twice that
+}
+
+/// Tells whether a place lies inside polygons: from there, every ring is crossed on the way along
+/// the meridian to the north pole.
+class Inside {
+public:
+  explicit Inside(const std::vector<Polygon>& polygons) : bins_(bin_count) {
+    for (std::size_t p = 0; p < polygons.size(); ++p) {
+      bool pole = false;
+      for (std::size_t r = 0; r < polygons[p].size(); ++r)
+        pole ^= add_edges(polygons[p][r], static_cast<std::int32_t>(p),
+                          static_cast<std::int32_t>(r), edges_);
+      pole_.push_back(pole);
+    }
+    for (std::size_t e = 0; e < edges_.size(); ++e)
+      for (Longitude bin = edges_[e].west / bin_width;
+           bin <= (edges_[e].west + edges_[e].span) / bin_width &&
+           bin < edges_[e].west / bin_width + bin_count;
+           ++bin)
+        bins_[static_cast<std::size_t>(bin % bin_count)].push_back(static_cast<std::int32_t>(e));
+  }
+
+  const std::vector<Edge>& edges() const { return edges_; }
+
+  bool operator()(Longitude longitude, double latitude) const {
+    // A pole lies inside as what is just beside it.
+    constexpr double highest = 90 - 1e-9;
+    latitude = std::clamp(latitude, -highest, highest);
+    const Longitude meridian = wrapped(longitude);
+    const std::vector<std::int32_t>& bin = bins_[static_cast<std::size_t>(meridian / bin_width)];
+    auto next = bin.begin(); // edges stand polygon by polygon
+    for (std::size_t p = 0; p < pole_.size(); ++p) {
+      bool inside = pole_[p];
+      for (; next != bin.end() && edge(*next).polygon == static_cast<std::int32_t>(p); ++next)
+        inside ^= crosses(edge(*next), meridian, latitude);
+      if (inside)
+        return true;
+    }
+    return false;
+  }
+
+private:
+  static constexpr Longitude bin_count = 7200, bin_width = turn / bin_count;
+
+  const Edge& edge(std::int32_t e) const { return edges_[static_cast<std::size_t>(e)]; }
+
+  /// Whether the meridian meets the edge to the north of the latitude.
+  static bool crosses(const Edge& edge, Longitude meridian, double latitude) {
+    const Longitude offset = wrapped(meridian - edge.west);
+    if (offset >= edge.span)
+      return false;
+    const double part = static_cast<double>(offset) / static_cast<double>(edge.span);
+    return edge.west_latitude + part * (edge.east_latitude - edge.west_latitude) > latitude;
+  }
+
+  std::vector<Edge> edges_;
+  std::vector<char> pole_;                      ///< by polygon: the north pole is inside
+  std::vector<std::vector<std::int32_t>> bins_; ///< by longitude: edges, ascending
+};
+
+// ---- Distance
+
+/// A short arc of a great circle.
+struct Arc {
+  Vec3 from, to;
+  Vec3 normal;                ///< of the great circle, a unit vector
+  Vec3 after_from, before_to; ///< a point that is on the inner side of both is nearest to within
+};
+
+Arc arc_between(const Vec3& from, const Vec3& to) {
+  const Vec3 across = cross(from + to, to - from); // twice from x to, without cancellation
+  const Vec3 normal = (1 / norm(across)) * across;
+  return {from, to, normal, cross(normal, from), cross(to, normal)};
+}
+
+/// The square of the chord between a unit vector and the nearest point of an arc.
+double square_from(const Arc& arc, const Vec3& p) {
+  if (dot(arc.after_from, p) >= 0 && dot(arc.before_to, p) >= 0) {
+    const double sine = dot(arc.normal, p), square = std::min(1.0, sine * sine);
+    return 2 * square / (1 + std::sqrt(1 - square));
+  }
+  const Vec3 a = p - arc.from, b = p - arc.to;
+  return std::min(dot(a, a), dot(b, b));
+}
+
+/// Whether an edge's part from `start` to `end` (0 to 1) has polygons on one side only.
+bool is_boundary(const Inside& inside, const Edge& edge, double start, double end) {
+  constexpr double aside = 1e-6; // degrees: a tenth of a metre
+  const double middle = 0.5 * (start + end),
+               latitude = edge.west_latitude + middle * (edge.east_latitude - edge.west_latitude),
+               cosine = std::max(1e-6, from_lonlat(0, latitude).x);
+  const double east = static_cast<double>(edge.span) / units * cosine,
+               north = edge.east_latitude - edge.west_latitude,
+               scale = aside / std::sqrt(east * east + north * north);
+  const Longitude meridian = edge.west + std::llround(middle * static_cast<double>(edge.span)),
+                  shift = std::llround(scale * north / cosine * units);
+  return inside(meridian - shift, latitude + scale * east) !=
+         inside(meridian + shift, latitude - scale * east);
+}
+
+/// The arcs of an edge that belong to the boundary. An edge is straight in longitude and latitude;
+/// parts of half a degree leave it by 30 m at most.
+void add_arcs(const Inside& inside, const Edge& edge, std::vector<Arc>& arcs) {
+  constexpr double longest = 0.5;
+  const double north = edge.east_latitude - edge.west_latitude,
+               east = static_cast<double>(edge.span) / units;
+  const int parts =
+      static_cast<int>(std::ceil(std::max({1.0, std::abs(north) / longest, east / longest})));
+  const auto at = [&](int part) {
+    const double fraction = static_cast<double>(part) / parts;
+    return from_lonlat(static_cast<double>(edge.west) / units + fraction * east,
+                       part == parts ? edge.east_latitude : edge.west_latitude + fraction * north);
+  };
+  for (int part = 0; part < parts; ++part) {
+    const Vec3 from = at(part), to = at(part + 1), apart = to - from;
+    const bool is_point = !(dot(apart, apart) > 1e-24); // at a pole, or repeated
+    if (!is_point && is_boundary(inside, edge, static_cast<double>(part) / parts,
+                                 static_cast<double>(part + 1) / parts))
+      arcs.push_back(arc_between(from, to));
+  }
+}
+
+struct Box {
+  Vec3 low, high;
+};
+
+Box joined(const Box& a, const Box& b) {
+  return {
+      {std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y), std::min(a.low.z, b.low.z)},
+      {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y), std::max(a.high.z, b.high.z)}};
+}
+
+/// An arc bulges beyond its chord by at most an eighth of the chord's square.
+Box box_of(const Arc& arc) {
+  const Vec3 chord = arc.to - arc.from;
+  const double bulge = 0.2 * dot(chord, chord) + 1e-15;
+  const Vec3 margin{bulge, bulge, bulge};
+  const Box ends = joined({arc.from, arc.from}, {arc.to, arc.to});
+  return {ends.low - margin, ends.high + margin};
+}
+
+double square_from(const Box& box, const Vec3& p) {
+  const Vec3 beyond{std::max({0.0, box.low.x - p.x, p.x - box.high.x}),
+                    std::max({0.0, box.low.y - p.y, p.y - box.high.y}),
+                    std::max({0.0, box.low.z - p.z, p.z - box.high.z})};
+  return dot(beyond, beyond);
+}
+
+std::vector<Arc> boundary_arcs(const Inside& inside) {
+  const auto count = static_cast<std::int64_t>(inside.edges().size());
+  std::vector<std::vector<Arc>> of_block(static_cast<std::size_t>(block_count(count)));
+  for_each_block(count, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t e = begin; e != end; ++e)
+      add_arcs(inside, inside.edges()[static_cast<std::size_t>(e)],
+               of_block[static_cast<std::size_t>(block)]);
+  });
+  std::vector<Arc> arcs;
+  for (const std::vector<Arc>& some : of_block)
+    arcs.insert(arcs.end(), some.begin(), some.end());
+  return arcs;
+}
+
+/// Distances to polygons' boundary. Its arcs stand along a space-filling curve, below a binary tree
+/// of boxes: node k has the children 2k and 2k + 1.
+class Boundary {
+public:
+  explicit Boundary(const Inside& inside) {
+    std::vector<std::pair<std::uint64_t, Arc>> keyed;
+    for (const Arc& arc : boundary_arcs(inside))
+      keyed.emplace_back(curve_key(to_cube(arc.from)), arc);
+    std::stable_sort(keyed.begin(), keyed.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    for (const auto& [key, arc] : keyed)
+      arcs_.push_back(arc);
+    while (leaves_ * arcs_of_leaf < arcs_.size())
+      leaves_ *= 2;
+    boxes_.resize(2 * leaves_, {{4, 4, 4}, {-4, -4, -4}}); // of nothing
+    for (std::size_t leaf = 0; leaf < leaves_; ++leaf)
+      for (std::size_t a = first_of(leaf); a < first_of(leaf + 1); ++a)
+        boxes_[leaves_ + leaf] = joined(boxes_[leaves_ + leaf], box_of(arcs_[a]));
+    for (std::size_t node = leaves_ - 1; node > 0; --node)
+      boxes_[node] = joined(boxes_[2 * node], boxes_[2 * node + 1]);
+  }
+
+  /// The square of the chord from a unit vector, or `far` where it is not below that.
+  double square(const Vec3& p, double far) const {
+    visit(1, p, far);
+    return far;
+  }
+
+private:
+  static constexpr std::size_t arcs_of_leaf = 4;
+
+  std::size_t first_of(std::size_t leaf) const { return leaf * arcs_.size() / leaves_; }
+
+  void visit(std::size_t node, const Vec3& p, double& nearest) const {
+    if (square_from(boxes_[node], p) >= nearest)
+      return;
+    if (node >= leaves_) {
+      const std::size_t leaf = node - leaves_;
+      for (std::size_t a = first_of(leaf); a < first_of(leaf + 1); ++a)
+        nearest = std::min(nearest, square_from(arcs_[a], p));
+      return;
+    }
+    const std::size_t child = 2 * node;
+    const bool first = square_from(boxes_[child], p) <= square_from(boxes_[child + 1], p);
+    visit(first ? child : child + 1, p, nearest);
+    visit(first ? child + 1 : child, p, nearest);
+  }
+
+  std::vector<Arc> arcs_;
+  std::vector<Box> boxes_;
+  std::size_t leaves_ = 1;
+};
+
+// ---- Widths
+
+/// Regions of equal width are one: borders between them are no boundary.
+std::vector<WidthRegion> merged(const std::vector<WidthRegion>& regions) {
+  std::vector<WidthRegion> all;
+  for (const WidthRegion& region : regions) {
+    const auto same = std::find_if(all.begin(), all.end(), [&](const WidthRegion& other) {
+      return other.inside == region.inside;
+    });
+    if (same == all.end())
+      all.push_back(region);
+    else
+      same->polygons.insert(same->polygons.end(), region.polygons.begin(), region.polygons.end());
+  }
+  return all;
+}
+
+struct Region {
+  explicit Region(const WidthRegion& region)
+      : width(region.inside), inside(region.polygons), boundary(inside) {}
+
+  double width;
+  Inside inside;
+  Boundary boundary;
+};
+
+/// The outside's part in the width at a place: 0 inside, 1 beyond the transition.
+double outside_weight(const Region& region, const PolygonWidths& widths, double longitude,
+                      double latitude) {
+  if (region.inside(to_units(longitude), latitude))
+    return 0;
+  const double width = widths.transition / widths.radius, // as an angle
+      square = region.boundary.square(from_lonlat(longitude, latitude),
+                                      std::min(4.0, width * width)), // chords are shorter
+      angle = 2 * arc_sine(std::min(1.0, 0.5 * std::sqrt(square))),
+               t = std::min(1.0, angle / width);
+  return t * t * (3 - 2 * t);
+}
+
+double width_at(const Region& region, const PolygonWidths& widths, double longitude,
+                double latitude) {
+  const double weight = outside_weight(region, widths, longitude, latitude);
+  return (1 - weight) * region.width + weight * widths.outside;
+}
+
+/// Degrees between the samples.
+double step_for(const PolygonWidths& widths) {
+  constexpr double finest = 0.05, coarsest = 1;
+  constexpr double samples = 16, fewest_samples = 4; ///< of a transition
+  const double degrees = widths.transition / widths.radius * 180 / std::numbers::pi;
+  if (degrees < fewest_samples * finest) {
+    const double least = widths.transition * fewest_samples * finest / degrees;
+    char text[128];
+    std::snprintf(text, sizeof text,
+                  "a transition of %g km is too narrow for the finest raster, of %g degrees; give "
+                  "at least %.3g km",
+                  widths.transition, finest, 1.005 * least);
+    throw Error(ErrorCode::bad_option, text);
+  }
+  return std::clamp(degrees / samples, finest, coarsest);
+}
+
+} // namespace
+
+CellWidth cell_width_of(const std::vector<WidthRegion>& regions, const PolygonWidths& widths) {
+  CellWidth grid = regular_grid(step_for(widths));
+  std::vector<std::unique_ptr<const Region>> parts;
+  for (const WidthRegion& region : merged(regions))
+    parts.push_back(std::make_unique<const Region>(region));
+  for_each_task(grid.latitudes.size(), [&](std::int64_t j) {
+    for (Eigen::Index i = 0; i < grid.longitudes.size(); ++i) {
+      double least = parts.empty() ? widths.outside : std::numeric_limits<double>::infinity();
+      for (const auto& part : parts)
+        least = std::min(least, width_at(*part, widths, grid.longitudes[i], grid.latitudes[j]));
+      grid.widths(i, j) = least;
+    }
+  });
+  return grid;
+}
+
+} // namespace calotte::density_detail

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <calotte/density.h>
+
+#include "density/density_evaluator.h"
+#include "exact/predicates.h"
+
+#include <calotte/error.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <string>
+
+namespace calotte {
+namespace density_detail {
+namespace {
+
+[[noreturn]] void refuse(const std::string& what) { throw Error(ErrorCode::bad_option, what); }
+
+Profile profile_of(const Bump& bump, std::size_t b) {
+  const std::string name = "bump " + std::to_string(b) + " of the density: ";
+  Profile profile = profile_without_place(bump, name);
+  if (!bump.centre.allFinite() || bump.centre.isZero(0))
+    refuse(name + "the centre has no direction; give a finite, non-zero vector");
+  profile.centre = normalised({bump.centre[0], bump.centre[1], bump.centre[2]});
+  if (bump.stretch > 1) {
+    const Vec3 given{bump.major[0], bump.major[1], bump.major[2]};
+    const Vec3 tangent = given - dot(given, profile.centre) * profile.centre;
+    if (!(norm(tangent) > 0))
+      refuse("the long axis of a stretched bump points along its centre: give another direction");
+    profile.major = normalised(tangent);
+  }
+  return profile;
+}
+
+/// The angle between a unit vector and the centre: 2 asin(|x - c|/2) in the near hemisphere and
+/// pi - 2 asin(|x + c|/2) in the far one. acos(x.c) would lose half of the digits near the centre,
+/// and the first form in the far hemisphere. Of a stretched bump, |x - c| is the reduced length.
+template <bool stretched> CALOTTE_INLINE double angle_from(const Profile& bump, const Vec3& x) {
+  Vec3 apart = x - bump.centre;
+  const Vec3 sum = x + bump.centre;
+  double sum_square = dot(sum, sum);
+  if constexpr (stretched) {
+    const double along = dot(x, bump.major), squeeze = bump.shrink * along;
+    apart = apart - squeeze * bump.major;
+    sum_square += (2 - bump.shrink) * squeeze * along;
+  }
+  const double near = 0.25 * dot(apart, apart), far = 0.25 * sum_square;
+  const bool beyond = far < near;
+  const double arc = 2 * arc_sine_of_root(beyond ? far : near);
+  return beyond ? std::numbers::pi - arc : arc;
+}
+
+CALOTTE_VECTOR_WIDTHS
+void bump_values(const Profile& profile, const double* x, const double* y, const double* z,
+                 std::size_t count, double* rho) {
+  const Profile bump = profile; // writing to rho cannot change it
+  if (bump.shrink > 0) {        // two loops: a choice inside would keep them from being vectorised
+#pragma GCC ivdep
+    for (std::size_t j = 0; j < count; ++j)
+      rho[j] = value_at(bump, angle_from<true>(bump, {x[j], y[j], z[j]}));
+  } else {
+#pragma GCC ivdep
+    for (std::size_t j = 0; j < count; ++j)
+      rho[j] = value_at(bump, angle_from<false>(bump, {x[j], y[j], z[j]}));
+  }
+}
+
+void join(const double* values, std::size_t count, bool maximum, double* rho) {
+  for (std::size_t j = 0; j < count; ++j)
+    rho[j] = maximum ? std::max(rho[j], values[j]) : rho[j] + values[j];
+}
+
+std::vector<Profile> profiles_of(const Density& density) {
+  const bool has_bumps =
+      density.kind == Density::Kind::maximum || density.kind == Density::Kind::sum;
+  if (!has_bumps && !density.uniform() && density.kind != Density::Kind::callable)
+    refuse("the density is of an unknown kind; give one of Density::Kind");
+  if (has_bumps && density.bumps.empty())
+    refuse("the density has no bump: give one, or make it uniform");
+  if (density.kind == Density::Kind::callable && !density.callable)
+    refuse("the density is a callable, but none is given");
+  std::vector<Profile> profiles;
+  for (std::size_t b = 0; has_bumps && b < density.bumps.size(); ++b) {
+    profiles.push_back(profile_of(density.bumps[b], b));
+  }
+  return profiles;
+}
+
+} // namespace
+
+Profile profile_without_place(const Bump& bump, const std::string& name) {
+  if (!(bump.beta > 0) || !std::isfinite(bump.beta))
+    refuse(name + "beta must be positive");
+  if (!(bump.alpha > 0) || !std::isfinite(bump.alpha))
+    refuse(name + "alpha must be positive");
+  if (!(bump.gamma > 0) || !(bump.gamma < 1))
+    refuse(name + "gamma must lie between 0 and 1");
+  if (!(bump.stretch >= 1) || !std::isfinite(bump.stretch))
+    refuse(name + "stretch must be at least 1");
+  return {{0, 0, 0}, {0, 0, 0},       1 - 1 / bump.stretch,
+          bump.beta, -2 / bump.alpha, 1 / (1 - bump.gamma),
+          bump.gamma};
+}
+
+DensityEvaluator::DensityEvaluator(const Density& density)
+    : density_(density), profiles_(profiles_of(density)) {}
+
+void DensityEvaluator::operator()(std::span<const double> x, std::span<const double> y,
+                                  std::span<const double> z, std::span<double> rho) const {
+  if (density_.kind == Density::Kind::callable) {
+    call(x, y, z, rho);
+    return;
+  }
+  if (density_.uniform())
+    std::fill(rho.begin(), rho.end(), 1.0);
+  constexpr std::size_t most = 512;
+  std::array<double, most> values;
+  for (std::size_t begin = 0; begin < rho.size(); begin += most) {
+    const std::size_t count = std::min(most, rho.size() - begin);
+    for (std::size_t b = 0; b < profiles_.size(); ++b) {
+      double* const out = b == 0 ? rho.data() + begin : values.data();
+      bump_values(profiles_[b], x.data() + begin, y.data() + begin, z.data() + begin, count, out);
+      if (b > 0)
+        join(out, count, density_.kind == Density::Kind::maximum, rho.data() + begin);
+    }
+  }
+}
+
+DensityEvaluator::Bounds DensityEvaluator::bounds(const Vec3& middle, double reach) const {
+  constexpr double slack = 1e-14; // of an angle, and of a value: more than rounding takes
+  Bounds bounds;
+  for (const Profile& profile : profiles_) {
+    const double change = reach * (profile.shrink > 0 ? std::numbers::sqrt2 : 1) + slack;
+    const double angle = angle_from<true>(profile, middle);
+    const double least = value_at(profile, std::min(std::numbers::pi, angle + change)),
+                 greatest = value_at(profile, std::max(0.0, angle - change)) * (1 + slack);
+    const bool sum = density_.kind == Density::Kind::sum;
+    bounds.least = sum ? bounds.least + least : std::max(bounds.least, least);
+    bounds.greatest = sum ? bounds.greatest + greatest : std::max(bounds.greatest, greatest);
+  }
+  return bounds;
+}
+
+void DensityEvaluator::call(std::span<const double> x, std::span<const double> y,
+                            std::span<const double> z, std::span<double> rho) const {
+  Points3 columns(3, static_cast<Eigen::Index>(x.size()));
+  for (std::size_t j = 0; j < x.size(); ++j)
+    columns.col(static_cast<Eigen::Index>(j)) << x[j], y[j], z[j];
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(columns.cols());
+  density_.callable(columns, values);
+  if (values.size() != columns.cols() || !(values.array() >= 0).all() || // NaN included
+      !values.allFinite())
+    refuse("the density is negative, infinite or NaN somewhere: make it positive everywhere");
+  std::copy(values.begin(), values.end(), rho.begin());
+}
+
+} // namespace density_detail
+
+Density tanh_bump(const Eigen::Vector3d& centre, double beta, double alpha, double gamma) {
+  Density density;
+  density.kind = Density::Kind::maximum;
+  density.bumps.push_back({centre, beta, alpha, gamma});
+  return density;
+}
+
+Density site_density(const Density& density) {
+  if (density.uniform())
+    return density;
+  Density root;
+  root.kind = Density::Kind::callable;
+  root.callable = [evaluator = std::make_shared<const density_detail::DensityEvaluator>(density)](
+                      const Eigen::Ref<const Points3>& points, Eigen::Ref<Eigen::VectorXd> rho) {
+    const Eigen::VectorXd x = points.row(0), y = points.row(1), z = points.row(2);
+    Eigen::VectorXd values(x.size());
+    (*evaluator)({x.data(), static_cast<std::size_t>(x.size())},
+                 {y.data(), static_cast<std::size_t>(y.size())},
+                 {z.data(), static_cast<std::size_t>(z.size())},
+                 {values.data(), static_cast<std::size_t>(values.size())});
+    rho = values.cwiseSqrt();
+  };
+  return root;
+}
+
+Eigen::VectorXd evaluate(const Density& density, const Points3& x) {
+  const density_detail::DensityEvaluator evaluator(density);
+  constexpr Eigen::Index batch = 512;
+  Eigen::VectorXd rho(x.cols());
+  std::array<std::array<double, batch>, 3> rows{};
+  for (Eigen::Index begin = 0; begin < x.cols(); begin += batch) {
+    const auto count = static_cast<std::size_t>(std::min(batch, x.cols() - begin));
+    for (std::size_t j = 0; j < count; ++j)
+      for (std::size_t i = 0; i < 3; ++i)
+        rows[i][j] = x(static_cast<Eigen::Index>(i), begin + static_cast<Eigen::Index>(j));
+    const auto row = [&](std::size_t i) { return std::span(rows[i]).first(count); };
+    evaluator(row(0), row(1), row(2), std::span(rho.data() + begin, count));
+  }
+  return rho;
+}
+
+} // namespace calotte

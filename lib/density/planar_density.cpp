@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "density/planar_density.h"
+
+#include "base/points.h"
+#include "base/require.h"
+#include "cvt/signs.h"
+#include "density/density_evaluator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace calotte::density_detail {
+namespace {
+
+/// \pre bumps.
+std::vector<Profile> profiles_of(const Density& density) {
+  require(!density.bumps.empty(), "the density has no bump: give one, or make it uniform");
+  std::vector<Profile> profiles;
+  for (std::size_t b = 0; b < density.bumps.size(); ++b) {
+    const Bump& bump = density.bumps[b];
+    const std::string name = "bump " + std::to_string(b) + " of the density: ";
+    Profile profile = profile_without_place(bump, name);
+    require(bump.centre.head<2>().allFinite(), name + "the centre is not finite; give a place");
+    profile.centre = {bump.centre.x(), bump.centre.y(), 0};
+    const double length = bump.major.head<2>().norm();
+    require(bump.stretch == 1 || (length > 0 && std::isfinite(length)),
+            name + "the long axis has no direction in the plane; give one");
+    if (bump.stretch > 1)
+      profile.major = {bump.major.x() / length, bump.major.y() / length, 0};
+    profiles.push_back(profile);
+  }
+  return profiles;
+}
+
+double distance_from(const Profile& bump, const Vec3& x, const Vec2& period) {
+  const Vec2 apart = nearest_offset(bump.centre, x, period);
+  const double squeeze = bump.shrink * (apart.x * bump.major.x + apart.y * bump.major.y);
+  const Vec2 reduced{apart.x - squeeze * bump.major.x, apart.y - squeeze * bump.major.y};
+  return std::sqrt(reduced.x * reduced.x + reduced.y * reduced.y);
+}
+
+Density::Callable bump_values(const Density& density, const Vec2& period) {
+  return [profiles = profiles_of(density), period, sum = density.kind == Density::Kind::sum](
+             const Eigen::Ref<const Points3>& x, Eigen::Ref<Eigen::VectorXd> rho) {
+    for (Eigen::Index i = 0; i < x.cols(); ++i) {
+      const Vec3 place{x(0, i), x(1, i), 0};
+      double value = 0;
+      for (const Profile& bump : profiles) {
+        const double here = value_at(bump, distance_from(bump, place, period));
+        value = sum ? value + here : std::max(value, here);
+      }
+      rho[i] = value;
+    }
+  };
+}
+
+/// Asks a callable for places in the box.
+Density::Callable in_box(Density::Callable callable, const Eigen::Vector2d& period) {
+  return [callable = std::move(callable), period](const Eigen::Ref<const Points3>& x,
+                                                  Eigen::Ref<Eigen::VectorXd> rho) {
+    Points3 inside = x;
+    for (Eigen::Index i = 0; i < inside.cols(); ++i)
+      for (int k = 0; k < 2; ++k)
+        inside(k, i) = wrapped(inside(k, i), period[k]);
+    callable(inside, rho);
+  };
+}
+
+} // namespace
+
+Density planar_density(const Density& density, const PlanarDomain& domain) {
+  const Vec2 period = domain.periodic() ? Vec2{domain.period.x(), domain.period.y()} : Vec2{0, 0};
+  Density planar;
+  if (density.uniform())
+    return planar;
+  planar.kind = Density::Kind::callable;
+  if (density.kind != Density::Kind::callable)
+    planar.callable = bump_values(density, period);
+  else if (!density.callable) // refused where it is used
+    return density;
+  else
+    planar.callable =
+        domain.periodic() ? in_box(density.callable, domain.period) : density.callable;
+  return planar;
+}
+
+} // namespace calotte::density_detail
+
+namespace calotte {
+
+Eigen::VectorXd evaluate(const Density& density, const PlanarDomain& domain,
+                         const Points2& places) {
+  Points3 x = Points3::Zero(3, places.cols());
+  x.topRows<2>() = places;
+  return evaluate(density_detail::planar_density(density, domain), x);
+}
+
+Density site_density(const Density& density, const PlanarDomain& domain) {
+  return site_density(density_detail::planar_density(density, domain));
+}
+
+} // namespace calotte

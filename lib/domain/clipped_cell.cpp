@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "domain/clipped_cell.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace calotte::domain_detail {
+namespace {
+
+/// A convex polygon's part where normal.x <= offset. The new side has no generator beyond it.
+std::vector<CellCorner> cut(const std::vector<CellCorner>& polygon, const Vec2& normal,
+                            double offset) {
+  constexpr Vec2 none{0, 0};
+  std::vector<CellCorner> part;
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const CellCorner &a = polygon[k], &b = polygon[k + 1 == polygon.size() ? 0 : k + 1];
+    const double over_a = dot(normal, a.place) - offset, over_b = dot(normal, b.place) - offset;
+    if (over_a <= 0)
+      part.push_back({a.place, over_a == 0 && over_b > 0 ? none : a.beyond});
+    if ((over_a < 0) != (over_b < 0) && over_a != 0 && over_b != 0)
+      part.push_back({a.place + (over_a / (over_a - over_b)) * (b.place - a.place),
+                      over_b > 0 ? none : a.beyond});
+  }
+  return part;
+}
+
+/// Cells along the hull reach far beyond the domain: what is left lies a little beyond it at most.
+std::vector<CellCorner> cut_to_box(std::vector<CellCorner> cell, const Box2& box,
+                                   const Vec2& site) {
+  const Vec2 margin = 0.01 * (box.high - box.low), low = box.low - site - margin,
+             high = box.high - site + margin;
+  cell = cut(cell, {1, 0}, high.x);
+  cell = cut(cell, {-1, 0}, -low.x);
+  cell = cut(cell, {0, 1}, high.y);
+  return cut(cell, {0, -1}, -low.y);
+}
+
+/// The box around a polygon, wider by more than rounding, and than Part looks inward.
+Box2 box_around(const std::vector<CellCorner>& polygon, const Vec2& site) {
+  Vec2 low = polygon.front().place, high = low;
+  for (const CellCorner& corner : polygon) {
+    low = {std::min(low.x, corner.place.x), std::min(low.y, corner.place.y)};
+    high = {std::max(high.x, corner.place.x), std::max(high.y, corner.place.y)};
+  }
+  const double wider =
+      1e-7 * (high.x - low.x + high.y - low.y) + 1e-12 * (std::abs(site.x) + std::abs(site.y));
+  const Vec2 margin{wider, wider};
+  return {low - margin + site, high + margin + site};
+}
+
+std::vector<Outline::Edge> shore_near(const Outline& outline, const Box2& box) {
+  std::vector<Outline::Edge> shore;
+  outline.for_each_edge_near(box, [&](const Outline::Edge& edge) { shore.push_back(edge); });
+  return shore;
+}
+
+/// The line half-way to a generator beyond, seen from the cell's: what decides about the boundary's
+/// edges, on both sides of each cell's, so that a boundary along that line is told of alike.
+struct Bisector {
+  Vec2 beyond;
+
+  bool none() const { return beyond.x == 0 && beyond.y == 0; }
+  /// Positive on the cell's side: the distance, times that of the generators.
+  double over(const Vec2& p) const { return dot(beyond, 0.5 * beyond - p); }
+  /// How far along the cell's side, counter-clockwise, times the distance of the generators.
+  double along(const Vec2& p) const { return cross(beyond, p); }
+};
+
+/// The part of a boundary's edge inside a cell (Cyrus and Beck, 1978).
+void add_shore(const std::vector<CellCorner>& cell, const Vec2& from, const Vec2& to,
+               std::vector<CellSide>& sides) {
+  double first = 0, last = 1;
+  for (const CellCorner& corner : cell) {
+    const Bisector bisector{corner.beyond};
+    const double start = bisector.over(from), end = bisector.over(to);
+    if (start < 0 && end < 0)
+      return;
+    if (start < 0)
+      first = std::max(first, start / (start - end));
+    else if (end < 0)
+      last = std::min(last, start / (start - end));
+  }
+  if (first < last)
+    sides.push_back({from + first * (to - from), last == 1 ? to : from + last * (to - from), true});
+}
+
+/// Where a side of a cell meets the boundary.
+struct Crossing {
+  double along;
+  Vec2 place;
+};
+
+/// A side of a cell between two crossings.
+class Part {
+public:
+  Part(const Bisector& bisector, const Crossing& from, const Crossing& to)
+      : bisector_(bisector), middle_(0.5 * (from.place + to.place)),
+        along_(from.along + (to.along - from.along) / 2),
+        noise_(1e-9 * (norm(from.place) + norm(to.place))) {}
+
+  /// Whether the domain holds it: its middle decides. Where the boundary passes by so closely that
+  /// rounding might move it across, a place farther in does, and the edges between the two, which
+  /// are those that add_shore() takes to be the cell's.
+  bool inside(const Outline& outline, const Vec2& site,
+              const std::vector<Outline::Edge>& shore) const {
+    const double noise =
+        noise_ + 1e-14 * std::max(std::abs(site.x) + std::abs(site.y), norm(middle_));
+    std::vector<double> depths;
+    bool close = false;
+    for (const Outline::Edge& edge : shore)
+      if (const std::optional<double> depth = depth_of(edge.from - site, edge.to - site)) {
+        depths.push_back(*depth);
+        close = close || std::abs(*depth) <= noise;
+      }
+    if (!close)
+      return outline.side(site + middle_) == Side::inside;
+    std::sort(depths.begin(), depths.end());
+    double inward = 2 * noise;
+    for (const double depth : depths)
+      if (std::abs(depth - inward) < noise)
+        inward = depth + 2 * noise;
+    const auto between =
+        std::count_if(depths.begin(), depths.end(), [&](double d) { return d >= 0 && d < inward; });
+    const Vec2 place = middle_ - (inward / norm(bisector_.beyond)) * bisector_.beyond;
+    return (outline.side(site + place) == Side::inside) == (between % 2 == 0);
+  }
+
+private:
+  /// The distance to an edge on the cell's side, straight on from the middle.
+  std::optional<double> depth_of(const Vec2& from, const Vec2& to) const {
+    const double a = bisector_.along(from), b = bisector_.along(to);
+    if ((a <= along_) == (b <= along_))
+      return std::nullopt;
+    const double start = bisector_.over(from), end = bisector_.over(to);
+    return (start + (along_ - a) / (b - a) * (end - start)) / norm(bisector_.beyond);
+  }
+
+  Bisector bisector_;
+  Vec2 middle_;
+  double along_;
+  double noise_; ///< of cells' corners
+};
+
+/// The parts of a cell's side that are inside the domain. They end in the places where add_shore()
+/// ends the edges that cross it.
+void add_inner(const Outline& outline, const Vec2& site, const std::vector<Outline::Edge>& shore,
+               const CellCorner& corner, const Vec2& to, std::vector<Crossing>& crossings,
+               std::vector<CellSide>& sides) {
+  const Bisector bisector{corner.beyond};
+  const Crossing begin{bisector.along(corner.place), corner.place}, end{bisector.along(to), to};
+  if (bisector.none() || !(begin.along < end.along)) // along the box, or of no length
+    return;
+  crossings.assign({begin, end});
+  for (const Outline::Edge& edge : shore) {
+    const Vec2 a = edge.from - site, b = edge.to - site;
+    const double start = bisector.over(a), share = start / (start - bisector.over(b));
+    // What rounding adds here divides a part in two.
+    if (!(share > -1e-9 && share < 1 + 1e-9))
+      continue;
+    const Vec2 place = a + share * (b - a);
+    if (const double at = bisector.along(place); at > begin.along && at < end.along)
+      crossings.push_back({at, place});
+  }
+  std::sort(crossings.begin(), crossings.end(),
+            [](const Crossing& a, const Crossing& b) { return a.along < b.along; });
+  for (std::size_t k = 0; k + 1 < crossings.size(); ++k)
+    if (const Crossing& p = crossings[k], &q = crossings[k + 1];
+        p.along < q.along && Part(bisector, p, q).inside(outline, site, shore))
+      sides.push_back({p.place, q.place, false});
+}
+
+/// Looks for the place of segments that is nearest to a given one.
+class Nearest {
+public:
+  explicit Nearest(const Vec2& to) : to_(to) {}
+
+  void look_at(const Vec2& p, const Vec2& q) {
+    const Vec2 way = q - p;
+    const double length2 = dot(way, way);
+    const Vec2 place =
+        length2 > 0 ? p + std::clamp(dot(to_ - p, way) / length2, 0.0, 1.0) * way : p;
+    if (const double square = dot(place - to_, place - to_); square < least_) {
+      least_ = square;
+      place_ = place;
+    }
+  }
+
+  /// Straight on from there is inward, of an edge and of a corner that juts into the cell.
+  std::optional<Vec2> inside(const Outline& outline, const Vec2& site) const {
+    const Vec2 onward = place_ - to_;
+    const double length = norm(onward), reach = norm(place_) + length;
+    for (double share = 1e-9; share < 0.1 && length > 0 && std::isfinite(least_); share *= 8) {
+      const Vec2 place = place_ + (share * reach / length) * onward;
+      if (outline.side(site + place) == Side::inside)
+        return place;
+    }
+    return std::nullopt;
+  }
+
+private:
+  Vec2 to_, place_{0, 0};
+  double least_ = std::numeric_limits<double>::infinity();
+};
+
+} // namespace
+
+bool near_shore(const Outline& outline, const Vec2& site, double reach) {
+  const Box2& box = outline.box();
+  if (!(reach < box.high.x - box.low.x)) // infinite or not a number, too
+    return true;
+  const Vec2 corner = 1.000001 * Vec2{reach, reach};
+  bool found = false;
+  outline.for_each_edge_near({site - corner, site + corner},
+                             [&](const Outline::Edge&) { found = true; });
+  return found;
+}
+
+bool near_shore(const Outline& outline, const Vec2& site, const std::vector<CellCorner>& cell) {
+  double reach2 = 0;
+  for (const CellCorner& corner : cell)
+    reach2 = std::max(reach2, dot(corner.place, corner.place));
+  return near_shore(outline, site, std::sqrt(reach2));
+}
+
+std::vector<CellSide> clipped_cell(const Outline& outline, const Vec2& site,
+                                   std::vector<CellCorner> cell) {
+  cell = cut_to_box(std::move(cell), outline.box(), site);
+  std::vector<CellSide> sides;
+  if (cell.empty())
+    return sides;
+  const std::vector<Outline::Edge> shore = shore_near(outline, box_around(cell, site));
+  for (const Outline::Edge& edge : shore)
+    add_shore(cell, edge.from - site, edge.to - site, sides);
+  std::vector<Crossing> crossings;
+  for (std::size_t k = 0; k < cell.size(); ++k)
+    add_inner(outline, site, shore, cell[k], cell[k + 1 == cell.size() ? 0 : k + 1].place,
+              crossings, sides);
+  return sides;
+}
+
+std::vector<CellSide> parts_inside(const Outline& outline, const Vec2& site,
+                                   const CellCorner& corner, const Vec2& to) {
+  std::vector<Crossing> crossings;
+  std::vector<CellSide> parts;
+  add_inner(outline, site, shore_near(outline, box_around({corner, {to, {}}}, site)), corner, to,
+            crossings, parts);
+  return parts;
+}
+
+std::optional<Vec2> nearest_inside(const Outline& outline, const Vec2& site,
+                                   const std::vector<CellSide>& sides, const Vec2& outside) {
+  Nearest nearest(outside);
+  for (const CellSide& side : sides)
+    if (side.shore)
+      nearest.look_at(side.p, side.q);
+  return nearest.inside(outline, site);
+}
+
+std::optional<Vec2> nearest_inside(const Outline& outline, const Vec2& site, const Vec2& outside) {
+  Nearest nearest(outside);
+  const double radius = norm(outside);
+  const Vec2 corner{radius, radius}, there = site + outside;
+  outline.for_each_edge_near({there - corner, there + corner}, [&](const Outline::Edge& edge) {
+    nearest.look_at(edge.from - site, edge.to - site);
+  });
+  return nearest.inside(outline, site);
+}
+
+} // namespace calotte::domain_detail

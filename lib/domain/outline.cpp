@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "domain/outline.h"
+
+#include <calotte/error.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace calotte::domain_detail {
+namespace {
+
+constexpr double largest_coordinate = 1e30, least_extent = 1e-30;
+
+[[noreturn]] void refuse(const std::string& what, std::int64_t index = -1) {
+  throw Error(ErrorCode::bad_option, "the domain: " + what, index);
+}
+
+/// Which ring an edge belongs to, and which of its edges it is: from that corner on.
+struct Name {
+  std::int64_t ring, corner;
+  std::string words() const {
+    return "ring " + std::to_string(ring) + ", corner " + std::to_string(corner);
+  }
+};
+
+void require_ring(const Points2& ring, std::int64_t r) {
+  const std::string name = "ring " + std::to_string(r);
+  if (ring.cols() < 3)
+    refuse(name + " has " + std::to_string(ring.cols()) +
+           " corners and encloses nothing; give three at least");
+  for (Eigen::Index i = 0; i < ring.cols(); ++i) {
+    const Name corner{r, i};
+    if (!(ring.col(i).cwiseAbs().maxCoeff() <= largest_coordinate)) // NaN included
+      refuse(corner.words() + " is not finite, or beyond 1e30; give numbers within", r);
+    if (ring.col(i) == ring.col((i + 1) % ring.cols()))
+      refuse(corner.words() + " and the next are one place; leave one of them out", r);
+  }
+}
+
+/// Whether a place stands on an edge, its ends included.
+bool on_edge(const Outline::Edge& edge, const Vec2& p) {
+  return orientation(edge.from, edge.to, p) == 0 &&
+         compare(edge.from, p) * compare(p, edge.to) >= 0;
+}
+
+/// Whether two edges have a place in common.
+bool meet(const Outline::Edge& a, const Outline::Edge& b) {
+  const int b_from = orientation(a.from, a.to, b.from), b_to = orientation(a.from, a.to, b.to),
+            a_from = orientation(b.from, b.to, a.from), a_to = orientation(b.from, b.to, a.to);
+  if (b_from * b_to < 0 && a_from * a_to < 0)
+    return true;
+  return on_edge(a, b.from) || on_edge(a, b.to) || on_edge(b, a.from) || on_edge(b, a.to);
+}
+
+/// Whether two edges that follow each other in a ring have more in common than the corner between.
+bool fold(const Outline::Edge& a, const Outline::Edge& b) {
+  return on_edge(a, b.to) || on_edge(b, a.from);
+}
+
+/// Whether the ray from p to the right crosses the edge; edges hold their lower end only, so that a
+/// ray through a corner is counted once. \pre p is not on the edge.
+bool crosses_ray(const Outline::Edge& edge, const Vec2& p) {
+  const bool from_below = edge.from.y <= p.y, to_below = edge.to.y <= p.y;
+  if (from_below == to_below)
+    return false;
+  return orientation(edge.from, edge.to, p) == (from_below ? 1 : -1);
+}
+
+} // namespace
+
+std::int64_t Outline::strip(double y) const {
+  const double place = (y - box_.low.y) / (box_.high.y - box_.low.y) * static_cast<double>(strips_);
+  return static_cast<std::int64_t>(std::clamp(place, 0.0, static_cast<double>(strips_ - 1)));
+}
+
+/// Lists the edges of each strip: about as many strips as edges, unless long edges pass through so
+/// many of them that the lists would be long.
+void Outline::make_strips() {
+  const auto edges = std::ssize(edges_);
+  constexpr std::int64_t most_strips = 1 << 16, listings = 64;
+  std::int64_t total = 0;
+  for (strips_ = std::min(edges, most_strips);; strips_ /= 2) {
+    total = 0;
+    for (const Edge& edge : edges_)
+      total += strip(box_of(edge).high.y) - strip(box_of(edge).low.y) + 1;
+    if (strips_ == 1 || total <= listings * edges)
+      break;
+  }
+  begin_.assign(static_cast<std::size_t>(strips_) + 1, 0);
+  const auto for_each_listing = [&](const auto& body) {
+    for (std::int64_t e = 0; e < edges; ++e) {
+      const Box2 own = box_of(edges_[static_cast<std::size_t>(e)]);
+      for (std::int64_t s = strip(own.low.y); s <= strip(own.high.y); ++s)
+        body(static_cast<std::size_t>(s), static_cast<std::int32_t>(e));
+    }
+  };
+  for_each_listing([&](std::size_t s, std::int32_t) { ++begin_[s + 1]; });
+  for (std::size_t s = 1; s < begin_.size(); ++s)
+    begin_[s] += begin_[s - 1];
+  listed_.resize(static_cast<std::size_t>(total));
+  std::vector<std::int64_t> next = begin_;
+  for_each_listing(
+      [&](std::size_t s, std::int32_t e) { listed_[static_cast<std::size_t>(next[s]++)] = e; });
+}
+
+void Outline::require_simple() const {
+  for (std::size_t r = 0; r + 1 < ring_begin_.size(); ++r)
+    for (std::int32_t e = ring_begin_[r]; e != ring_begin_[r + 1]; ++e) {
+      const Edge& edge = edges_[static_cast<std::size_t>(e)];
+      const std::int32_t last = ring_begin_[r + 1] - 1,
+                         following = e == last ? ring_begin_[r] : e + 1;
+      for_each_listed_near(box_of(edge), [&](std::int32_t f) {
+        const Edge& other = edges_[static_cast<std::size_t>(f)];
+        const std::int32_t after_f = ring_of(f) == r ? (f == last ? ring_begin_[r] : f + 1) : -1;
+        const bool bad = f == e           ? false
+                         : f == following ? fold(edge, other)
+                         : after_f == e   ? fold(other, edge)
+                                          : meet(edge, other);
+        if (bad)
+          refuse("the edges from " + name_of(e) + " and from " + name_of(f) +
+                     " meet; rings may neither cross nor touch themselves or each other",
+                 static_cast<std::int64_t>(r));
+      });
+    }
+}
+
+std::size_t Outline::ring_of(std::int32_t edge) const {
+  return static_cast<std::size_t>(std::upper_bound(ring_begin_.begin(), ring_begin_.end(), edge) -
+                                  ring_begin_.begin() - 1);
+}
+
+std::string Outline::name_of(std::int32_t edge) const {
+  const std::size_t ring = ring_of(edge);
+  return Name{static_cast<std::int64_t>(ring), edge - ring_begin_[ring]}.words();
+}
+
+/// Turns the edges of rings that have the domain to their right.
+void Outline::orient() {
+  for (std::size_t r = 0; r + 1 < ring_begin_.size(); ++r) {
+    const auto begin = edges_.begin() + ring_begin_[r], end = edges_.begin() + ring_begin_[r + 1];
+    const Vec2 corner = begin->from;
+    int around = 0; // rings that enclose this one, but for pairs of them
+    for_each_listed_near({corner, {box_.high.x, corner.y}}, [&](std::int32_t e) {
+      around += ring_of(e) != r && crosses_ray(edges_[static_cast<std::size_t>(e)], corner);
+    });
+    double twice_area = 0;
+    for (auto edge = begin; edge != end; ++edge)
+      twice_area += (edge->from.x - corner.x) * (edge->to.y - corner.y) -
+                    (edge->from.y - corner.y) * (edge->to.x - corner.x);
+    const bool outer = around % 2 == 0;
+    if ((twice_area > 0) != outer)
+      for (auto edge = begin; edge != end; ++edge)
+        std::swap(edge->from, edge->to);
+    area_ += (outer ? 1 : -1) * std::abs(twice_area) / 2;
+  }
+}
+
+Outline::Outline(const PlanarDomain& domain) {
+  ring_begin_.push_back(0);
+  for (std::size_t r = 0; r < domain.rings.size(); ++r) {
+    const Points2& ring = domain.rings[r];
+    require_ring(ring, static_cast<std::int64_t>(r));
+    for (Eigen::Index i = 0; i < ring.cols(); ++i) {
+      const Eigen::Vector2d from = ring.col(i), to = ring.col((i + 1) % ring.cols());
+      edges_.push_back({{from.x(), from.y()}, {to.x(), to.y()}});
+    }
+    ring_begin_.push_back(static_cast<std::int32_t>(edges_.size()));
+  }
+  box_ = box_of(edges_.front());
+  for (const Edge& edge : edges_) {
+    const Box2 own = box_of(edge);
+    box_ = {{std::min(box_.low.x, own.low.x), std::min(box_.low.y, own.low.y)},
+            {std::max(box_.high.x, own.high.x), std::max(box_.high.y, own.high.y)}};
+  }
+  if (!(std::min(box_.high.x - box_.low.x, box_.high.y - box_.low.y) >= least_extent))
+    refuse("it is narrower than 1e-30; give it in a smaller unit of length");
+  make_strips();
+  require_simple();
+  orient();
+}
+
+Side Outline::side(const Vec2& place) const {
+  if (!(place.x >= box_.low.x && place.x <= box_.high.x && place.y >= box_.low.y &&
+        place.y <= box_.high.y))
+    return Side::outside;
+  bool boundary = false, inside = false;
+  for_each_edge_near({place, {box_.high.x, place.y}}, [&](const Edge& edge) {
+    if (boundary || on_edge(edge, place))
+      boundary = true;
+    else if (crosses_ray(edge, place))
+      inside = !inside;
+  });
+  return boundary ? Side::boundary : inside ? Side::inside : Side::outside;
+}
+
+} // namespace calotte::domain_detail

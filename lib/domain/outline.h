@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "domain/room.h"
+#include "exact/plane_predicates.h"
+
+#include <calotte/domain.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace calotte::domain_detail {
+
+/// x from `low.x` to `high.x`, y likewise.
+struct Box2 {
+  Vec2 low, high;
+};
+
+enum class Side { outside, boundary, inside };
+
+/// The boundary of a domain, made ready for many questions: horizontal strips list the edges that
+/// pass through them.
+class Outline {
+public:
+  /// The domain lies to the left of an edge.
+  struct Edge {
+    Vec2 from, to;
+  };
+
+  /// \pre the domain is not periodic. \throws Error as require_domain().
+  explicit Outline(const PlanarDomain& domain);
+
+  const Box2& box() const { return box_; } ///< the least one around it
+  double area() const { return area_; }
+  const std::vector<Edge>& edges() const { return edges_; } ///< ring by ring
+
+  /// Exact.
+  Side side(const Vec2& place) const;
+
+  /// body(edge) for each edge whose own box meets a box, once.
+  template <class Body> void for_each_edge_near(const Box2& box, const Body& body) const {
+    for_each_listed_near(box, [&](std::int32_t e) { body(edges_[static_cast<std::size_t>(e)]); });
+  }
+
+private:
+  template <class Body> void for_each_listed_near(const Box2& box, const Body& body) const {
+    const std::int64_t first = strip(box.low.y), last = strip(box.high.y);
+    for (std::int64_t s = first; s <= last; ++s)
+      for (auto k = begin_[static_cast<std::size_t>(s)];
+           k != begin_[static_cast<std::size_t>(s + 1)]; ++k) {
+        const std::int32_t e = listed_[static_cast<std::size_t>(k)];
+        const Box2 own = box_of(edges_[static_cast<std::size_t>(e)]);
+        // An edge is told of in the first strip that it shares with the box.
+        if (own.low.x <= box.high.x && own.high.x >= box.low.x && own.low.y <= box.high.y &&
+            own.high.y >= box.low.y && s == std::max(first, strip(own.low.y)))
+          body(e);
+      }
+  }
+  static Box2 box_of(const Edge& edge) {
+    return {{std::min(edge.from.x, edge.to.x), std::min(edge.from.y, edge.to.y)},
+            {std::max(edge.from.x, edge.to.x), std::max(edge.from.y, edge.to.y)}};
+  }
+  std::int64_t strip(double y) const; ///< clamped to those there are
+  std::size_t ring_of(std::int32_t edge) const;
+  std::string name_of(std::int32_t edge) const;
+  void make_strips();
+  void require_simple() const;
+  void orient();
+
+  std::vector<Edge> edges_;
+  std::vector<std::int32_t> ring_begin_; ///< of edges; at the end their number
+  Box2 box_{{0, 0}, {0, 0}};
+  double area_ = 0;
+  std::int64_t strips_ = 1;
+  std::vector<std::int64_t> begin_;
+  std::vector<std::int32_t> listed_;
+};
+
+} // namespace calotte::domain_detail

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "mesh/room.h"
+
+/// Domains of the plane: polygons with holes and doubly periodic boxes, exact tests of inside and
+/// outside, and Voronoi cells clipped by the boundary.
+///
+/// In: rings of corners and a period. Out: outlines with a search grid, and clipped cells.
+namespace calotte::domain_detail {
+using namespace mesh_detail; // and the rooms below it
+}

@@ -1,0 +1,383 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <calotte/generators.h>
+
+#include "base/circle.h"
+#include "base/matrix_memory.h"
+#include "base/points.h"
+#include "base/require.h"
+#include "base/split_mix.h"
+#include "base/vec3.h"
+#include "density/sampling.h"
+#include "generators/room.h"
+#include "mesh/edges.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <string>
+#include <vector>
+
+// Only + - * / and sqrt, each rounded once, so that every machine gets the same bits: sin and cos
+// of a C library differ from one build of it to the next.
+
+namespace calotte {
+namespace {
+
+using base_detail::cos_sin_of_octant;
+using base_detail::CosSin;
+using base_detail::require;
+using base_detail::require_count;
+using base_detail::SplitMix;
+using base_detail::Vec3;
+using generators_detail::most_points;
+
+void put(Points3& points, std::int64_t column, const Vec3& p) {
+  points.col(column) << p.x, p.y, p.z;
+}
+
+Vec3 get(const Points3& points, std::int64_t column) {
+  return {points(0, column), points(1, column), points(2, column)};
+}
+
+// ---- Angles
+
+/// Of k/n turns, 0 <= k < n <= 2^58.
+CosSin cos_sin(std::int64_t k, std::int64_t n) {
+  const int octant = static_cast<int>(8 * k / n);
+  const std::int64_t rest = 8 * k % n;
+  const std::int64_t part = octant % 2 == 0 ? rest : n - rest;
+  return cos_sin_of_octant(octant, static_cast<double>(part) / static_cast<double>(n));
+}
+
+/// Of an angle in units of 2^-64 turns: additions of such angles wrap around without error.
+CosSin cos_sin(std::uint64_t turns) {
+  constexpr std::uint64_t eighth = std::uint64_t{1} << 61;
+  const int octant = static_cast<int>(turns / eighth);
+  const std::uint64_t rest = turns % eighth;
+  const std::uint64_t part = octant % 2 == 0 ? rest : eighth - rest;
+  return cos_sin_of_octant(octant, static_cast<double>(part) * 0x1p-61);
+}
+
+// ---- Midpoints
+
+/// Adds the smaller two first: the sum is the same for any order of the coordinates.
+double symmetric_sum(double a, double b, double c) {
+  const double largest = std::max({a, b, c});
+  if (largest == a)
+    return (b + c) + a;
+  return largest == b ? (a + c) + b : (a + b) + c;
+}
+
+/// The direction of a vector whose square neither overflows nor underflows.
+Vec3 unit(const Vec3& a) {
+  const double length = std::sqrt(symmetric_sum(a.x * a.x, a.y * a.y, a.z * a.z));
+  return {a.x / length, a.y / length, a.z / length};
+}
+
+Vec3 unit_of_any_norm(const Vec3& a) {
+  const double largest = std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)});
+  if (largest > 0x1p-400 && largest < 0x1p400)
+    return unit(a);
+  const double scale = largest < 1 ? 0x1p600 : 0x1p-600;
+  return unit(scale * a);
+}
+
+/// The midpoint of the shorter arc, the same bits from a to b as from b to a.
+Vec3 midpoint(const Vec3& a, const Vec3& b) {
+  return unit(unit_of_any_norm(a) + unit_of_any_norm(b));
+}
+
+// ---- The bisected icosahedron
+
+using Triple = std::array<std::int32_t, 3>;
+
+/// A triangulation with its edges numbered: edge i of a triangle lies across from its vertex i.
+struct EdgeMesh {
+  std::vector<std::array<std::int32_t, 2>> edges; ///< vertex ids
+  std::vector<Triple> triangles;                  ///< vertex ids
+  std::vector<Triple> triangle_edges;
+};
+
+/// The vertices are (0, +-1, +-phi) and their cyclic shifts, normalised.
+constexpr std::array<Vec3, 12> icosahedron_points() {
+  constexpr double s = 0x1.0d2ca0da1530dp-1, t = 0x1.b38880b4603e4p-1;
+  return {Vec3{0, s, t}, {0, -s, t},  {0, s, -t}, {0, -s, -t}, {s, t, 0},  {-s, t, 0},
+          {s, -t, 0},    {-s, -t, 0}, {t, 0, s},  {t, 0, -s},  {-t, 0, s}, {-t, 0, -s}};
+}
+
+EdgeMesh icosahedron() {
+  EdgeMesh mesh;
+  mesh.triangles = {{0, 1, 8},  {0, 10, 1}, {0, 8, 4},   {0, 4, 5},  {0, 5, 10},
+                    {1, 10, 7}, {1, 7, 6},  {1, 6, 8},   {2, 3, 11}, {2, 9, 3},
+                    {2, 11, 5}, {2, 5, 4},  {2, 4, 9},   {3, 9, 6},  {3, 6, 7},
+                    {3, 7, 11}, {4, 8, 9},  {5, 11, 10}, {6, 9, 8},  {7, 10, 11}};
+  for (const Triple& triangle : mesh.triangles) {
+    Triple edges{};
+    for (int i = 0; i < 3; ++i) {
+      const auto [a, b] = std::minmax(triangle[(i + 1) % 3], triangle[(i + 2) % 3]);
+      const std::array<std::int32_t, 2> edge{a, b};
+      const auto found = std::find(mesh.edges.begin(), mesh.edges.end(), edge);
+      edges[i] = static_cast<std::int32_t>(found - mesh.edges.begin());
+      if (found == mesh.edges.end())
+        mesh.edges.push_back(edge);
+    }
+    mesh.triangle_edges.push_back(edges);
+  }
+  return mesh;
+}
+
+/// Splits every triangle in four. The midpoint of edge e is vertex `vertices` + e; e becomes the
+/// edges 2e, at its first vertex, and 2e + 1; the edges inside the triangles follow.
+EdgeMesh refine(const EdgeMesh& coarse, std::int32_t vertices) {
+  EdgeMesh fine;
+  const std::size_t edge_count = coarse.edges.size(), triangle_count = coarse.triangles.size();
+  fine.edges.resize(2 * edge_count + 3 * triangle_count);
+  fine.triangles.resize(4 * triangle_count);
+  fine.triangle_edges.resize(4 * triangle_count);
+  for (std::size_t e = 0; e < edge_count; ++e) {
+    const std::int32_t middle = vertices + static_cast<std::int32_t>(e);
+    fine.edges[2 * e] = {coarse.edges[e][0], middle};
+    fine.edges[2 * e + 1] = {middle, coarse.edges[e][1]};
+  }
+  const auto half_at = [&](std::int32_t side, std::int32_t corner) {
+    return 2 * side + (coarse.edges[static_cast<std::size_t>(side)][0] == corner ? 0 : 1);
+  };
+  for (std::size_t t = 0; t < triangle_count; ++t) {
+    const Triple &corners = coarse.triangles[t], &sides = coarse.triangle_edges[t];
+    const Triple middles{vertices + sides[0], vertices + sides[1], vertices + sides[2]};
+    const std::size_t first = 2 * edge_count + 3 * t;
+    const auto inner = static_cast<std::int32_t>(first);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+      fine.edges[first + i] = {middles[j], middles[k]};
+      fine.triangles[4 * t + i] = {corners[i], middles[k], middles[j]};
+      fine.triangle_edges[4 * t + i] = {inner + static_cast<std::int32_t>(i),
+                                        half_at(sides[j], corners[i]),
+                                        half_at(sides[k], corners[i])};
+    }
+    fine.triangles[4 * t + 3] = middles;
+    fine.triangle_edges[4 * t + 3] = {inner, inner + 1, inner + 2};
+  }
+  return fine;
+}
+
+// ---- Hexagons
+
+/// A triangle's vertices, from the lowest on, and the triangles across from them.
+struct LinkedTriangle {
+  Triple vertices, neighbours;
+};
+
+LinkedTriangle from_lowest(const Triple& v, const Triple& across) {
+  const auto first = static_cast<std::size_t>(std::min_element(v.begin(), v.end()) - v.begin());
+  const std::size_t second = (first + 1) % 3, third = (first + 2) % 3;
+  return {{v[first], v[second], v[third]}, {across[first], across[second], across[third]}};
+}
+
+/// Two triangles stand on each site of the hexagons: 2i on the way to the next one in its row, 2i +
+/// 1 on its tip.
+std::vector<LinkedTriangle> hexagons_triangles(std::int64_t columns, std::int64_t rows) {
+  std::vector<LinkedTriangle> out;
+  out.reserve(static_cast<std::size_t>(2 * columns * rows));
+  const auto site = [&](std::int64_t row, std::int64_t column) {
+    return static_cast<std::int32_t>((row + rows) % rows * columns + (column + columns) % columns);
+  };
+  for (std::int64_t r = 0; r < rows; ++r)
+    for (std::int64_t c = 0; c < columns; ++c) {
+      const std::int64_t odd = r % 2;
+      const std::int32_t i = site(r, c), left = site(r, c - 1), right = site(r, c + 1),
+                         above_left = site(r + 1, c + odd - 1), above = site(r + 1, c + odd),
+                         below = site(r - 1, c + odd);
+      out.push_back(from_lowest({i, right, above}, {2 * right + 1, 2 * i + 1, 2 * below + 1}));
+      out.push_back(from_lowest({i, above, above_left}, {2 * above_left, 2 * left, 2 * i}));
+    }
+  return out;
+}
+
+/// Sorted by their vertices.
+void set_hexagons_triangles(std::int64_t columns, std::int64_t rows, PlanarMesh& mesh) {
+  const std::vector<LinkedTriangle> triangles = hexagons_triangles(columns, rows);
+  std::vector<std::int32_t> order(triangles.size()), place(triangles.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto triangle = [&](std::int32_t t) { return triangles[static_cast<std::size_t>(t)]; };
+  std::sort(order.begin(), order.end(), [&](std::int32_t s, std::int32_t t) {
+    return triangle(s).vertices < triangle(t).vertices;
+  });
+  for (std::size_t t = 0; t < order.size(); ++t)
+    place[static_cast<std::size_t>(order[t])] = static_cast<std::int32_t>(t);
+  mesh.triangles.resize(3, std::ssize(triangles));
+  mesh.neighbours.resize(3, std::ssize(triangles));
+  for (std::size_t t = 0; t < order.size(); ++t) {
+    const LinkedTriangle from = triangle(order[t]);
+    for (std::size_t v = 0; v < 3; ++v) {
+      const auto row = static_cast<Eigen::Index>(v), column = static_cast<Eigen::Index>(t);
+      mesh.triangles(row, column) = from.vertices[v];
+      mesh.neighbours(row, column) = place[static_cast<std::size_t>(from.neighbours[v])];
+    }
+  }
+}
+
+} // namespace
+
+Points3 random_sphere(std::int64_t n, std::uint64_t seed) {
+  require_count(n, 1, "the number of points");
+  Points3 points;
+  base_detail::make_room(points, 3, n);
+  SplitMix random(seed);
+  for (std::int64_t i = 0; i < n; ++i) {
+    double u, v, s;
+    do {
+      u = random.signed_unit();
+      v = random.signed_unit();
+      s = u * u + v * v;
+    } while (s >= 1);
+    const double scale = 2 * std::sqrt(1 - s);
+    put(points, i, {scale * u, scale * v, 1 - 2 * s});
+  }
+  return points;
+}
+
+Points3 random_sphere(std::int64_t n, const Density& density, std::uint64_t seed) {
+  require_count(n, 1, "the number of points");
+  return density.uniform() ? random_sphere(n, seed) : density_detail::draw(n, density, seed);
+}
+
+Points3 fibonacci_sphere(std::int64_t n) {
+  require_count(n, 1, "the number of points");
+  // (3 - sqrt 5)/2 turns, to 128 bits.
+  constexpr std::uint64_t golden_high = 0x61c8864680b583ea, golden_next = 0x0c633f9fa31237cb;
+  Points3 points(3, n);
+  for (std::int64_t i = 0; i < n; ++i) {
+    // The lower half is worth i * golden_next / 2^64 < 2^30 units: the top 32 bits of it suffice.
+    const auto count = static_cast<std::uint64_t>(i);
+    const CosSin longitude = cos_sin(count * golden_high + ((count * (golden_next >> 32)) >> 32));
+    const double z = static_cast<double>(n - (2 * i + 1)) / static_cast<double>(n);
+    const double across = static_cast<double>((2 * i + 1) * (2 * n - (2 * i + 1)));
+    const double radius = std::sqrt(across) / static_cast<double>(n);
+    put(points, i, {radius * longitude.cos, radius * longitude.sin, z});
+  }
+  return points;
+}
+
+Points3 spiral_sphere(std::int64_t n) {
+  require_count(n, 2, "the number of points");
+  constexpr double step = 0x1.255ab960267a9p-1; // 3.6 / (2 pi)
+  const double last = static_cast<double>(n - 1), root = std::sqrt(static_cast<double>(n));
+  Points3 points(3, n);
+  put(points, 0, {0, 0, -1});
+  put(points, n - 1, {0, 0, 1});
+  std::uint64_t turns = 0;
+  for (std::int64_t i = 1; i < n - 1; ++i) {
+    const double z = static_cast<double>(2 * i - (n - 1)) / last;
+    const double radius = 2 * std::sqrt(static_cast<double>(i * (n - 1 - i))) / last;
+    turns += static_cast<std::uint64_t>(step / (root * radius) * 0x1p64);
+    const CosSin longitude = cos_sin(turns);
+    put(points, i, {radius * longitude.cos, radius * longitude.sin, z});
+  }
+  return points;
+}
+
+Points3 bisected_icosahedron(int level) {
+  require(level >= 0 && level <= 13,
+          "the level is " + std::to_string(level) + "; give a number from 0 to 13");
+  std::int32_t count = 12;
+  Points3 points(3, 10 * (std::int64_t{1} << (2 * level)) + 2);
+  const std::array<Vec3, 12> corners = icosahedron_points();
+  for (std::int32_t i = 0; i < count; ++i)
+    put(points, i, corners[i]);
+  EdgeMesh mesh = icosahedron();
+  for (int l = 0; l < level; ++l) {
+    if (l > 0)
+      mesh = refine(mesh, count - static_cast<std::int32_t>(mesh.edges.size()));
+    for (const auto& [a, b] : mesh.edges)
+      put(points, count++, midpoint(get(points, a), get(points, b)));
+  }
+  return points;
+}
+
+Points3 lat_lon_sphere(std::int64_t latitudes, std::int64_t longitudes, bool poles) {
+  require_count(latitudes, 1, "the number of latitudes");
+  require_count(longitudes, 3, "the number of longitudes");
+  require(latitudes <= most_points / longitudes,
+          "the grid has more than " + std::to_string(most_points) + " points; give fewer rows");
+  const std::int64_t n = latitudes * longitudes;
+  Points3 points(3, n + (poles ? 2 : 0));
+  for (std::int64_t j = 0; j < latitudes; ++j) {
+    const std::int64_t north = 2 * j + 1 - latitudes; // of 4 * latitudes in a turn
+    const CosSin latitude = cos_sin(std::abs(north), 4 * latitudes);
+    const double z = north < 0 ? -latitude.sin : latitude.sin;
+    for (std::int64_t i = 0; i < longitudes; ++i) {
+      const CosSin longitude = cos_sin(i, longitudes);
+      put(points, j * longitudes + i,
+          {latitude.cos * longitude.cos, latitude.cos * longitude.sin, z});
+    }
+  }
+  if (poles) {
+    put(points, n, {0, 0, -1});
+    put(points, n + 1, {0, 0, 1});
+  }
+  return points;
+}
+
+Points3 cubed_sphere(std::int64_t m) {
+  require_count(m, 1, "the number of cells along an edge");
+  require(m <= 13377, "the grid has more than " + std::to_string(most_points) +
+                          " points; give at most 13377 cells along an edge");
+  std::vector<double> tangents(m);
+  for (std::int64_t i = 0; i < m; ++i) {
+    const std::int64_t right = 2 * i + 1 - m; // of 8 m in a turn
+    const CosSin angle = cos_sin(std::abs(right), 8 * m);
+    tangents[i] = (right < 0 ? -angle.sin : angle.sin) / angle.cos;
+  }
+  Points3 points(3, 6 * m * m);
+  for (std::int64_t j = 0; j < m; ++j) {
+    for (std::int64_t i = 0; i < m; ++i) {
+      const double u = tangents[i], v = tangents[j];
+      const double length = std::sqrt(1 + (u * u + v * v));
+      const double a = 1 / length, b = u / length, c = v / length;
+      const std::array<Vec3, 6> faces{Vec3{a, b, c}, {-b, a, c}, {-a, -b, c},
+                                      {b, -a, c},    {-c, b, a}, {c, b, -a}};
+      for (std::int64_t face = 0; face < 6; ++face)
+        put(points, (face * m + j) * m + i, faces[face]);
+    }
+  }
+  return points;
+}
+
+Points3 bisect(const Mesh& mesh) {
+  const std::int64_t n = mesh.points.cols();
+  Points3 points(3, n + mesh_detail::count_edges(mesh));
+  points.leftCols(n) = mesh.points;
+  std::int64_t next = n;
+  mesh_detail::for_each_edge(mesh, [&](std::int32_t a, std::int32_t b) {
+    put(points, next++, midpoint(get(points, a), get(points, b)));
+  });
+  return points;
+}
+
+PlanarMesh periodic_hexagons(std::int64_t columns, std::int64_t rows, double spacing) {
+  require_count(columns, 3, "the number of columns");
+  require_count(rows, 4, "the number of rows");
+  require(rows % 2 == 0, "the number of rows is " + std::to_string(rows) +
+                             "; give an even one, as every second row is shifted");
+  require(rows <= most_points / columns,
+          "the plane has more than " + std::to_string(most_points) + " cells; give fewer rows");
+  const double rise = spacing * (std::numbers::sqrt3 / 2);
+  PlanarMesh mesh;
+  mesh.period = {static_cast<double>(columns) * spacing, static_cast<double>(rows) * rise};
+  require(rise > 0 && mesh.period.allFinite(),
+          "the spacing is " + std::to_string(spacing) + "; give a positive number");
+  mesh.points.resize(2, columns * rows);
+  for (std::int64_t r = 0; r < rows; ++r)
+    for (std::int64_t c = 0; c < columns; ++c)
+      mesh.points.col(r * columns + c)
+          << (static_cast<double>(c) + (r % 2 == 0 ? 0 : 0.5)) * spacing,
+          static_cast<double>(r) * rise;
+  set_hexagons_triangles(columns, rows, mesh);
+  mesh.site_of_input = base_detail::themselves(mesh.points.cols());
+  return mesh;
+}
+
+} // namespace calotte

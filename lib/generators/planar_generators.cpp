@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <calotte/generators.h>
+
+#include "base/parallel.h"
+#include "base/require.h"
+#include "density/planar_density.h"
+#include "density/sampling.h"
+#include "domain/outline.h"
+#include "generators/room.h"
+#include "mesh/edges.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+namespace calotte {
+namespace {
+
+using base_detail::require;
+using base_detail::require_count;
+using domain_detail::Outline;
+using domain_detail::Side;
+using exact_detail::Vec2;
+using generators_detail::most_points;
+
+constexpr double rise = std::numbers::sqrt3 / 2; ///< of rows, over the spacing
+
+// ---- The lattice of a polygon
+
+struct Lattice {
+  Vec2 corner; ///< x_0, y_0
+  double spacing;
+  std::int64_t rows, columns; ///< that reach beyond the box
+
+  Lattice(const Outline& outline, double of_spacing)
+      : corner(outline.box().low), spacing(of_spacing),
+        rows(count(outline.box().high.y - corner.y, rise * spacing)),
+        columns(count(outline.box().high.x - corner.x, spacing)) {}
+
+  Vec2 place(std::int64_t row, std::int64_t column) const {
+    const double shift = row % 2 == 0 ? 0.25 : 0.75;
+    return {corner.x + (static_cast<double>(column) + shift) * spacing,
+            corner.y + (static_cast<double>(row) + 0.5) * (rise * spacing)};
+  }
+
+private:
+  /// Held to what a box of most_points places has in a row, were it as narrow as the spacing.
+  static std::int64_t count(double extent, double step) {
+    return static_cast<std::int64_t>(std::min(extent / step + 1, double(8 * most_points)));
+  }
+};
+
+/// body(row, column) for the places of some rows that are inside.
+template <class Body>
+void for_each_inside(const Outline& outline, const Lattice& lattice, std::int64_t row,
+                     const Body& body) {
+  for (std::int64_t column = 0; column < lattice.columns; ++column)
+    if (const Vec2 place = lattice.place(row, column); outline.side(place) == Side::inside)
+      body(place);
+}
+
+/// How many places of each row are inside.
+std::vector<std::int64_t> count_rows(const Outline& outline, const Lattice& lattice) {
+  std::vector<std::int64_t> counts(static_cast<std::size_t>(lattice.rows));
+  base_detail::for_each_task(lattice.rows, [&](std::int64_t row) {
+    for_each_inside(outline, lattice, row,
+                    [&](const Vec2&) { ++counts[static_cast<std::size_t>(row)]; });
+  });
+  return counts;
+}
+
+std::int64_t count_inside(const Outline& outline, double spacing) {
+  const std::vector<std::int64_t> counts = count_rows(outline, Lattice(outline, spacing));
+  std::int64_t sum = 0;
+  for (const std::int64_t count : counts)
+    sum += count;
+  return sum;
+}
+
+/// The spacing, of those that bisection meets, whose number is nearest to n. A wider spacing gives
+/// fewer places on the whole, not from step to step.
+double spacing_for(std::int64_t n, const Outline& outline) {
+  const double first = std::sqrt(outline.area() / (rise * static_cast<double>(n)));
+  std::int64_t best_miss = std::numeric_limits<std::int64_t>::max();
+  double best = first;
+  const auto misses = [&](double spacing) {
+    const std::int64_t miss = count_inside(outline, spacing) - n;
+    if (std::abs(miss) < best_miss) {
+      best_miss = std::abs(miss);
+      best = spacing;
+    }
+    return miss;
+  };
+  // A boundary is as long as it likes; a factor of 2 makes 4 times as many places.
+  double low = first, high = first;
+  constexpr int most_steps = 24;
+  const std::int64_t miss = misses(first);
+  for (int step = 0; step < 6 && miss < 0 && misses(low /= 1 + std::ldexp(1, step - 6)) < 0; ++step)
+    high = low;
+  for (int step = 0; step < 6 && miss > 0 && misses(high *= 1 + std::ldexp(1, step - 6)) > 0;
+       ++step)
+    low = high;
+  for (int step = 0; step < most_steps && best_miss > 0; ++step) {
+    const double middle = low + (high - low) / 2;
+    (misses(middle) > 0 ? low : high) = middle;
+  }
+  return best;
+}
+
+Points2 lattice_inside(std::int64_t n, const Outline& outline) {
+  const Lattice lattice(outline, spacing_for(n, outline));
+  std::vector<std::int64_t> begin = count_rows(outline, lattice);
+  const std::int64_t total = base_detail::exclusive_scan(std::span(begin));
+  require(total > 0, "no place of a lattice of " + std::to_string(n) +
+                         " places is inside the domain; ask for more");
+  Points2 places(2, total);
+  base_detail::for_each_task(lattice.rows, [&](std::int64_t row) {
+    std::int64_t next = begin[static_cast<std::size_t>(row)];
+    for_each_inside(outline, lattice, row, [&](const Vec2& p) { places.col(next++) << p.x, p.y; });
+  });
+  return places;
+}
+
+// ---- The lattice of a periodic box
+
+struct Grid {
+  std::int64_t columns = 0, rows = 0;
+};
+
+/// The sum of the relative misses, see the header.
+double miss_of(const Grid& grid, std::int64_t n, const Eigen::Vector2d& period) {
+  const auto columns = static_cast<double>(grid.columns), rows = static_cast<double>(grid.rows);
+  const double shape = (period.y() / rows) / (period.x() / columns) / rise;
+  const double number = columns * rows / static_cast<double>(n);
+  return std::max(shape, 1 / shape) + std::max(number, 1 / number) - 2;
+}
+
+Grid grid_for(std::int64_t n, const Eigen::Vector2d& period) {
+  const double ideal = std::sqrt(static_cast<double>(n) * (period.y() / period.x()) / rise);
+  constexpr std::int64_t least_columns = 3, least_rows = 4, around = 8;
+  const std::int64_t most_rows = n / least_columns / 2 * 2;
+  const std::int64_t middle =
+      std::clamp(2 * static_cast<std::int64_t>(std::min(ideal / 2, double(most_points))),
+                 least_rows, std::max(most_rows, least_rows));
+  Grid best;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::int64_t rows = std::max(least_rows, middle - around); rows <= middle + around;
+       rows += 2) {
+    const double by_number = static_cast<double>(n) / static_cast<double>(rows),
+                 by_shape = period.x() / period.y() * static_cast<double>(rows) * rise;
+    for (const double columns : {by_number, by_number + 1, by_shape, by_shape + 1}) {
+      const Grid grid{std::clamp(static_cast<std::int64_t>(std::min(columns, double(most_points))),
+                                 least_columns, most_points / rows),
+                      rows};
+      if (const double miss = miss_of(grid, n, period); miss < least) {
+        least = miss;
+        best = grid;
+      }
+    }
+  }
+  return best;
+}
+
+/// The spacing of periodic_hexagons() that gives this box to the last bit, if there is one.
+std::optional<double> regular_spacing(const Grid& grid, const Eigen::Vector2d& period) {
+  const double near = period.x() / static_cast<double>(grid.columns);
+  for (const double spacing : {near, std::nextafter(near, 0.0), std::nextafter(near, 2 * near)})
+    if (static_cast<double>(grid.columns) * spacing == period.x() &&
+        static_cast<double>(grid.rows) * (spacing * rise) == period.y())
+      return spacing;
+  return std::nullopt;
+}
+
+Points2 lattice_of_box(std::int64_t n, const Eigen::Vector2d& period) {
+  const Grid grid = grid_for(n, period);
+  if (const std::optional<double> spacing = regular_spacing(grid, period))
+    return periodic_hexagons(grid.columns, grid.rows, *spacing).points;
+  const double across = period.x() / static_cast<double>(grid.columns),
+               up = period.y() / static_cast<double>(grid.rows);
+  Points2 places(2, grid.columns * grid.rows);
+  for (std::int64_t row = 0; row < grid.rows; ++row)
+    for (std::int64_t column = 0; column < grid.columns; ++column)
+      places.col(row * grid.columns + column)
+          << (static_cast<double>(column) + (row % 2 == 0 ? 0 : 0.5)) * across,
+          static_cast<double>(row) * up;
+  return places;
+}
+
+// ---- Bisection
+
+/// The middle of the shorter way from one place in a box to another, in the box.
+double middle_in_box(double a, double b, double length) {
+  const double middle = a / 2 + b / 2;
+  if (std::abs(a - b) <= length / 2)
+    return middle;
+  const double across = middle < length / 2 ? middle + length / 2 : middle - length / 2;
+  return across < length ? across : 0;
+}
+
+Points2 bisected_box(const PlanarMesh& mesh) {
+  const std::int64_t n = mesh.points.cols();
+  Points2 places(2, n + mesh_detail::count_edges(mesh));
+  places.leftCols(n) = mesh.points;
+  std::int64_t next = n;
+  mesh_detail::for_each_edge(mesh, [&](std::int32_t a, std::int32_t b) {
+    for (int i = 0; i < 2; ++i)
+      places(i, next) = middle_in_box(mesh.points(i, a), mesh.points(i, b), mesh.period[i]);
+    ++next;
+  });
+  return places;
+}
+
+Points2 bisected_inside(const PlanarMesh& mesh, const Outline& outline) {
+  const std::int64_t n = mesh.points.cols();
+  Points2 places(2, n + mesh_detail::count_edges(mesh));
+  places.leftCols(n) = mesh.points;
+  std::int64_t next = n;
+  mesh_detail::for_each_edge(mesh, [&](std::int32_t a, std::int32_t b) {
+    const Eigen::Vector2d middle = mesh.points.col(a) / 2 + mesh.points.col(b) / 2;
+    if (outline.side({middle.x(), middle.y()}) != Side::outside)
+      places.col(next++) = middle;
+  });
+  places.conservativeResize(Eigen::NoChange, next);
+  return places;
+}
+
+} // namespace
+
+Points2 random_places(std::int64_t n, const PlanarDomain& domain, std::uint64_t seed) {
+  return random_places(n, domain, Density{}, seed);
+}
+
+Points2 random_places(std::int64_t n, const PlanarDomain& domain, const Density& density,
+                      std::uint64_t seed) {
+  require_count(n, 1, "the number of points");
+  return density_detail::draw(n, density_detail::planar_density(density, domain), domain, seed);
+}
+
+Points2 hexagonal_lattice(std::int64_t n, const PlanarDomain& domain) {
+  require_count(n, domain.periodic() ? 12 : 1, "the number of points");
+  if (!domain.periodic())
+    return lattice_inside(n, Outline(domain));
+  require_domain(domain);
+  return lattice_of_box(n, domain.period);
+}
+
+Points2 bisect(const PlanarMesh& mesh, const PlanarDomain& domain) {
+  const bool periodic = mesh.period.minCoeff() > 0;
+  require(periodic == domain.periodic() && (!periodic || mesh.period == domain.period),
+          "the mesh and the domain are not both of one periodic box, or neither; give the domain "
+          "that the mesh was made for");
+  return periodic ? bisected_box(mesh) : bisected_inside(mesh, Outline(domain));
+}
+
+} // namespace calotte

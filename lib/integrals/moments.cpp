@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "integrals/moments.h"
+
+#include "base/elementary.h"
+#include "base/parallel.h"
+#include "base/points.h"
+#include "integrals/rows.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace calotte::integrals_detail {
+namespace {
+
+/// The rows of a batch; triangles that are not clear are added to the suspects.
+void checked_rows(const Batch& batch, std::size_t first, TriangleRows& rows,
+                  std::vector<std::int32_t>& suspects) {
+  if (triangle_rows(batch, rows))
+    return;
+  for (std::size_t lane = 0; lane < batch.count; ++lane)
+    if (!(rows.clearance[lane] > 0))
+      suspects.push_back(static_cast<std::int32_t>(first + lane));
+}
+
+using Quad = double __attribute__((vector_size(32))); ///< four doubles that are added at once
+
+/// Adds each triangle's terms to its sites, in the order of the triangles.
+CALOTTE_VECTOR_WIDTHS
+void scatter(const Batch& batch, const VertexTerms& terms, CellMoments* moments) {
+  static_assert(sizeof(Quad) == sizeof(CellMoments));
+  for (std::size_t lane = 0; lane < batch.count; ++lane)
+    for (std::size_t v = 0; v < 3; ++v) {
+      const Rows3& first = terms.first[v];
+      const Quad term{first[0][lane], first[1][lane], first[2][lane], terms.energy[v][lane]};
+      CellMoments& cell = moments[batch.locals[lane][v]];
+      Quad sum;
+      std::memcpy(&sum, &cell, sizeof sum);
+      sum += term;
+      std::memcpy(&cell, &sum, sizeof sum);
+    }
+}
+
+void scatter_mass(const Batch& batch, const VertexTerms& terms, Array<double>& mass) {
+  for (std::size_t lane = 0; lane < batch.count; ++lane)
+    for (std::size_t v = 0; v < 3; ++v)
+      mass[batch.locals[lane][v]] += terms.mass[v][lane];
+}
+
+} // namespace
+
+void integrate(const Integrand& integrand, const Patch& patch, const Array<Vec3>& x,
+               Array<CellMoments>& moments, Array<double>* mass,
+               std::vector<std::int32_t>& suspects) {
+  std::fill(moments.begin(), moments.end(), CellMoments{{0, 0, 0}, 0});
+  if (mass != nullptr)
+    std::fill(mass->begin(), mass->end(), 0.0);
+  TriangleRows rows;
+  VertexTerms terms;
+  for (std::size_t first = 0; first < patch.corners.size(); first += lanes) {
+    const Batch batch = gather(patch, x, first);
+    checked_rows(batch, first, rows, suspects);
+    if (integrand.uniform)
+      uniform_terms(batch, rows, mass != nullptr, terms);
+    else
+      kite_terms(batch, rows, integrand, terms);
+    scatter(batch, terms, moments.begin());
+    if (mass != nullptr)
+      scatter_mass(batch, terms, *mass);
+  }
+}
+
+void find_suspects(const Patch& patch, const Array<Vec3>& x, std::vector<std::int32_t>& suspects) {
+  TriangleRows rows;
+  for (std::size_t first = 0; first < patch.corners.size(); first += lanes) {
+    const Batch batch = gather(patch, x, first);
+    checked_rows(batch, first, rows, suspects);
+  }
+}
+
+Moments mesh_moments(const Mesh& mesh, const Density& density, int rule, int divisions) {
+  const Integrand integrand = make_integrand(density, rule, divisions);
+  const std::int64_t n = mesh.points.cols();
+  Array<std::int32_t> owner(n);
+  for_each_block(n, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
+    std::fill(owner.begin() + begin, owner.begin() + end, static_cast<std::int32_t>(block));
+  });
+  const Ownership ownership =
+      make_ownership(std::move(owner), static_cast<std::int32_t>(block_count(n)));
+  const std::vector<Patch> patches = make_patches(mesh.triangles, ownership);
+  Moments result{Array<double>(n), Array<Vec3>(n), Array<double>(n)};
+  for_each_task(std::ssize(patches), [&](std::int64_t k) {
+    const Patch& patch = patches[static_cast<std::size_t>(k)];
+    const std::int64_t count = std::ssize(patch.sites);
+    Array<Vec3> x(count);
+    for (std::int64_t i = 0; i < count; ++i)
+      x[i] = column(mesh.points, patch.sites[static_cast<std::size_t>(i)]);
+    Array<CellMoments> moments(count);
+    Array<double> mass(count);
+    std::vector<std::int32_t> unused;
+    integrate(integrand, patch, x, moments, &mass, unused);
+    for (std::int32_t i = 0; i < patch.owned; ++i) {
+      const std::int32_t site = patch.sites[static_cast<std::size_t>(i)];
+      result.mass[site] = mass[i];
+      result.first[site] = moments[i].first;
+      result.energy[site] = moments[i].energy;
+    }
+  });
+  return result;
+}
+
+} // namespace calotte::integrals_detail

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "base/memory.h"
+#include "base/vec3.h"
+#include "integrals/integrand.h"
+#include "integrals/patches.h"
+#include "integrals/room.h"
+
+#include <calotte/density.h>
+#include <calotte/types.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace calotte::integrals_detail {
+
+/// Moments of the Voronoi cell of a site x_i.
+struct CellMoments {
+  Vec3 first;    ///< integral of rho x
+  double energy; ///< integral of rho |x - x_i|^2
+};
+
+/// Moments of the cells of a patch's sites, by local number; those of its halo are not whole. Each
+/// is summed over the site's triangles in the patch's order: the same bits for any partition.
+///
+/// Uniform density: half a kite is a right spherical triangle, from a site a to the midpoint of an
+/// edge ab, an arc theta/2, and on to the circumcentre, a signed arc delta with sin(delta) =
+/// |a-b|/|a+b| cot(C), C the angle across. Its first moment's part that does not cancel is delta/2
+/// (a-b)/|a-b|, its area 2 atan(tan(theta/4) tan(delta/2)), its energy twice that less delta
+/// sin(theta/2). Obtuse triangles contribute signed arcs.
+///
+/// Other densities: on the flat triangle, whose plane is at the distance D from the centre and
+/// touches the sphere of radius D in the circumcentre, integral f = D integral of f(p/|p|)/|p|^3
+/// over the half kite, which central projection makes exact but for the rule: good where cells are
+/// small beside the density's changes and their circumcaps beside a hemisphere.
+///
+/// \param x by local number: unit vectors.
+/// \param mass if not null, by local number: set to the integral of rho.
+/// \param suspects triangles of the patch, by place in its list, that are not clearly acute and
+///        counter-clockwise, are added. Where none is, the mesh is Delaunay: the angles across
+///        each edge sum to less than two right ones.
+void integrate(const Integrand& integrand, const Patch& patch, const Array<Vec3>& x,
+               Array<CellMoments>& moments, Array<double>* mass,
+               std::vector<std::int32_t>& suspects);
+
+/// The suspects alone.
+void find_suspects(const Patch& patch, const Array<Vec3>& x, std::vector<std::int32_t>& suspects);
+
+/// Moments of all cells of a mesh, by site.
+struct Moments {
+  Array<double> mass;   ///< integral of rho over the cell
+  Array<Vec3> first;    ///< integral of rho x
+  Array<double> energy; ///< integral of rho |x - x_i|^2
+};
+
+/// \param mesh closed, of unit columns.
+Moments mesh_moments(const Mesh& mesh, const Density& density, int rule = 6, int divisions = 1);
+
+} // namespace calotte::integrals_detail

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "base/memory.h"
+#include "integrals/room.h"
+
+#include <calotte/types.h>
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace calotte::integrals_detail {
+
+/// Which region owns each site.
+struct Ownership {
+  Array<std::int32_t> owner;                    ///< by site
+  Array<std::int32_t> place;                    ///< by site: its place among those of its owner
+  std::vector<std::vector<std::int32_t>> owned; ///< by region: its sites, ascending
+};
+
+/// \param owner by site: a region from 0 to regions - 1.
+Ownership make_ownership(Array<std::int32_t>&& owner, std::int32_t regions);
+
+/// What a region's task sees of a closed mesh: the triangles with a site of its own, and the sites
+/// of these. It holds no positions: these are taken over anew when they have changed.
+struct Patch {
+  std::int32_t region = 0;
+  std::vector<std::int32_t>
+      sites; ///< by local number: those it owns, then its halo; each ascending
+  std::int32_t owned = 0;
+  /// Numbers in the mesh, ordered by the triangles' lowest site and the one that follows it there:
+  /// an order that the triangulation alone determines, whatever the partition and the history.
+  std::vector<std::int32_t> triangles;
+  /// Of these, from their lowest site on, as local numbers.
+  std::vector<std::array<std::int32_t, 3>> corners;
+};
+
+/// \param triangles counter-clockwise, in any order.
+std::vector<Patch> make_patches(const Triangles& triangles, const Ownership& ownership);
+
+/// Makes the patches right again after some triangles of the mesh have become others.
+/// \param changed their numbers; may repeat.
+void renew_patches(std::vector<Patch>& patches, const Triangles& triangles,
+                   const Ownership& ownership, std::span<const std::int32_t> changed);
+
+} // namespace calotte::integrals_detail

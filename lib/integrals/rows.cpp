@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "integrals/rows.h"
+
+#include "base/elementary.h"
+#include "base/triangle.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace calotte::integrals_detail {
+
+Batch gather(const Patch& patch, const Array<Vec3>& x, std::size_t first) {
+  Batch batch;
+  batch.count = std::min(lanes, patch.corners.size() - first);
+  batch.locals = patch.corners.data() + first;
+  for (std::size_t lane = 0; lane < lanes; ++lane)
+    for (std::size_t v = 0; v < 3; ++v)
+      put(x[batch.locals[std::min(lane, batch.count - 1)][v]], batch.corner[v], lane);
+  return batch;
+}
+
+// Of a corner's two sides the product is positive when its angle is acute. It errs by some 8
+// roundoffs of itself, and stored vectors differ from unit ones by 5: 1e-14 exceeds both, for sides
+// as long as can be. The same bounds the normal's product.
+CALOTTE_VECTOR_WIDTHS
+bool triangle_rows(const Batch& batch, TriangleRows& out) {
+  constexpr double margin = 1e-14;
+  std::int64_t unclear = 0;
+#pragma GCC ivdep
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    const Vec3 a = at(batch.corner[0], lane), b = at(batch.corner[1], lane),
+               c = at(batch.corner[2], lane);
+    const Vec3 ab = b - a, bc = c - b, ca = a - c;
+    const Vec3 normal = cross(ab, bc);
+    const double scale = 1 / std::sqrt(dot(normal, normal));
+    const double at_a = -dot(ca, ab), at_b = -dot(ab, bc), at_c = -dot(bc, ca);
+    out.quarter[0][lane] = 0.25 * dot(bc, bc);
+    out.quarter[1][lane] = 0.25 * dot(ca, ca);
+    out.quarter[2][lane] = 0.25 * dot(ab, ab);
+    out.cotangent[0][lane] = at_a * scale;
+    out.cotangent[1][lane] = at_b * scale;
+    out.cotangent[2][lane] = at_c * scale;
+    put(normal, out.normal, lane);
+    out.scale[lane] = scale;
+    const double height = dot(normal, a);
+    out.height[lane] = height;
+    const double ab_least = at_a < at_b ? at_a : at_b, c_least = at_c < height ? at_c : height;
+    const double clearance = (ab_least < c_least ? ab_least : c_least) - margin;
+    out.clearance[lane] = clearance;
+    unclear |= clearance > 0 ? 0 : 1;
+  }
+  return unclear == 0;
+}
+
+namespace {
+
+/// What each edge, named by the vertex across, gives to both of its ends.
+struct alignas(64) EdgeRows {
+  Rows3 pull; ///< delta / (2 |a-b|): the first moment's part is that times (a - b) for a
+  Rows3 energy, area;
+};
+
+// With s = |a-b|/2 the sine of half of the edge's arc, S = s^2, u = s cot(C)/sqrt(1-S) the sine of
+// delta and w = u^2, series in S and w give all: the first that is left out is 2^-53 of the
+// leading one below this.
+constexpr double small = 0x1p-12;
+
+CALOTTE_INLINE double inverse_root_series(double z) { // (1 - z)^(-1/2)
+  return 1 + z * (1.0 / 2 + z * (3.0 / 8 + z * (5.0 / 16 + z * (35.0 / 128))));
+}
+
+CALOTTE_INLINE double arc_sine_series(double z) { // asin(sqrt(z))/sqrt(z)
+  return 1 + z * (1.0 / 6 + z * (3.0 / 40 + z * (5.0 / 112 + z * (35.0 / 1152))));
+}
+
+/// (4 atan(p q) - delta s)/(s u), p and q the tangents of half of both arcs: the energy of half a
+/// kite over s u. Its terms without S or w cancel.
+CALOTTE_INLINE double energy_series(double s, double w) {
+  const double w1 = 1.0 / 12 + w * (1.0 / 20 + w * (15.0 / 448 + w * (7.0 / 288)));
+  const double s1 = 1.0 / 4 + w * (1.0 / 24 + w * (1.0 / 64 + w * (1.0 / 128)));
+  const double s2 = 1.0 / 8 + w * (1.0 / 64 + w * (3.0 / 640));
+  const double s3 = 5.0 / 64 + w * (1.0 / 128);
+  return w * w1 + s * (s1 + s * (s2 + s * (s3 + s * (7.0 / 128))));
+}
+
+/// Pull and energy by their series. True where these hold for all lanes.
+CALOTTE_VECTOR_WIDTHS
+bool small_edges(const Row& quarter, const Row& cotangent, Row& pull, Row& energy) {
+  std::int64_t beyond = 0;
+#pragma GCC ivdep
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    const double s = quarter[lane], tilt = cotangent[lane] * inverse_root_series(s);
+    const double w = s * tilt * tilt;
+    pull[lane] = 0.25 * tilt * arc_sine_series(w);
+    energy[lane] = s * tilt * energy_series(s, w);
+    const double larger = s > w ? s : w;
+    beyond |= larger <= small ? 0 : 1;
+  }
+  return beyond == 0;
+}
+
+/// An edge's half, from its end to its middle, and the signed arc from there to the circumcentre.
+struct HalfEdge {
+  double sine, cosine; ///< of half of the edge's arc
+  double arc, sine_of_arc;
+};
+
+CALOTTE_INLINE HalfEdge half_edge(double quarter, double cotangent) {
+  const double sine = std::sqrt(quarter), cosine = std::sqrt(1 - quarter);
+  // Rounding can pass 1 where the circumcap is a hemisphere.
+  const double raw = sine / cosine * cotangent, low = raw < -1 ? -1 : raw;
+  const double sine_of_arc = low > 1 ? 1 : low;
+  return {sine, cosine, arc_sine(sine_of_arc), sine_of_arc};
+}
+
+/// atan(sqrt(z))/sqrt(z) - 1 for 0 <= z <= 1/16, by its series.
+CALOTTE_INLINE double arc_tangent_excess(double z) {
+  return -z *
+         (1.0 / 3 -
+          z * (1.0 / 5 -
+               z * (1.0 / 7 -
+                    z * (1.0 / 9 -
+                         z * (1.0 / 11 -
+                              z * (1.0 / 13 -
+                                   z * (1.0 / 15 -
+                                        z * (1.0 / 17 -
+                                             z * (1.0 / 19 -
+                                                  z * (1.0 / 21 -
+                                                       z * (1.0 / 23 - z * (1.0 / 25))))))))))));
+}
+
+/// Energy of half a kite: with c = 1/(1 + p^2), s = 2 p c. Where the arc is small, the series of
+/// atan(p q) and atan(q) are subtracted term by term.
+CALOTTE_INLINE double half_energy(const HalfEdge& half) {
+  const double p = half.sine / (1 + half.cosine);
+  const double q = half.sine_of_arc / (1 + std::sqrt(1 - half.sine_of_arc * half.sine_of_arc));
+  const double c = 1 / (1 + p * p);
+  const bool low = q * q < 1.0 / 16;
+  const double z = low ? q * q : 0;
+  const double by_series =
+      p * q * (p * p * c + arc_tangent_excess(z * p * p) - c * arc_tangent_excess(z));
+  const double direct = arc_tangent(p * q) - 0.5 * half.arc * p * c;
+  return 4 * (low ? by_series : direct);
+}
+
+/// Replaces what small_edges() gave by the closed forms where the series do not hold. Which one a
+/// lane gets depends on that lane alone.
+CALOTTE_VECTOR_WIDTHS
+void large_edges(const Row& quarter, const Row& cotangent, Row& pull, Row& energy) {
+#pragma GCC ivdep
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    const double s = quarter[lane], tilt = cotangent[lane] * inverse_root_series(s);
+    const HalfEdge half = half_edge(s, cotangent[lane]);
+    const double direct = 0.25 * half.arc / half.sine, direct_energy = half_energy(half);
+    const double w = s * tilt * tilt, larger = s > w ? s : w;
+    const bool beyond = !(larger <= small);
+    pull[lane] = beyond ? direct : pull[lane];
+    energy[lane] = beyond ? direct_energy : energy[lane];
+  }
+}
+
+CALOTTE_VECTOR_WIDTHS
+void half_areas(const Row& quarter, const Row& cotangent, Row& area) {
+#pragma GCC ivdep
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    const HalfEdge half = half_edge(quarter[lane], cotangent[lane]);
+    const double tangent =
+        half.sine_of_arc / (1 + std::sqrt(1 - half.sine_of_arc * half.sine_of_arc));
+    area[lane] = 2 * arc_tangent(half.sine / (1 + half.cosine) * tangent);
+  }
+}
+
+/// A vertex is an end of the two edges that are named by the others.
+CALOTTE_VECTOR_WIDTHS
+void terms_of_edges(const Batch& batch, const EdgeRows& edges, VertexTerms& terms) {
+#pragma GCC ivdep
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    const Vec3 a = at(batch.corner[0], lane), b = at(batch.corner[1], lane),
+               c = at(batch.corner[2], lane);
+    const Vec3 of_a = edges.pull[0][lane] * (b - c), of_b = edges.pull[1][lane] * (c - a),
+               of_c = edges.pull[2][lane] * (a - b);
+    put(of_c - of_b, terms.first[0], lane);
+    put(of_a - of_c, terms.first[1], lane);
+    put(of_b - of_a, terms.first[2], lane);
+    const double ea = edges.energy[0][lane], eb = edges.energy[1][lane], ec = edges.energy[2][lane];
+    terms.energy[0][lane] = eb + ec;
+    terms.energy[1][lane] = ec + ea;
+    terms.energy[2][lane] = ea + eb;
+  }
+}
+
+} // namespace
+
+void uniform_terms(const Batch& batch, const TriangleRows& rows, bool with_mass,
+                   VertexTerms& terms) {
+  EdgeRows edges;
+  for (std::size_t e = 0; e < 3; ++e)
+    if (!small_edges(rows.quarter[e], rows.cotangent[e], edges.pull[e], edges.energy[e]))
+      large_edges(rows.quarter[e], rows.cotangent[e], edges.pull[e], edges.energy[e]);
+  terms_of_edges(batch, edges, terms);
+  if (!with_mass)
+    return;
+  for (std::size_t e = 0; e < 3; ++e)
+    half_areas(rows.quarter[e], rows.cotangent[e], edges.area[e]);
+  for (std::size_t v = 0; v < 3; ++v)
+    for (std::size_t lane = 0; lane < lanes; ++lane)
+      terms.mass[v][lane] = edges.area[(v + 1) % 3][lane] + edges.area[(v + 2) % 3][lane];
+}
+
+namespace {
+
+/// A node on one of the two half kites of each edge.
+struct alignas(64) HalfRows {
+  Rows3 x; ///< on the sphere
+  Row rho;
+};
+
+/// A node on both: mirror images, at the same distance from the centre.
+struct alignas(64) NodeRows {
+  std::array<HalfRows, 2> half; ///< that of the edge's first end, that of the second
+  Row weight;                   ///< of the integral over the sphere
+  Row square;                   ///< of the distance to the end, on the sphere
+};
+
+/// The circumcentre of the flat triangle, and the plane's distance from the sphere's centre.
+struct alignas(64) PlaneRows {
+  Rows3 centre;
+  Row distance;
+};
+
+CALOTTE_VECTOR_WIDTHS
+void plane_rows(const TriangleRows& rows, PlaneRows& plane) {
+#pragma GCC ivdep
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    const double scale = rows.scale[lane], distance = rows.height[lane] * scale;
+    plane.distance[lane] = distance;
+    put((distance * scale) * at(rows.normal, lane), plane.centre, lane);
+  }
+}
+
+/// Edge ab with the half chord s, K = cot^2 of the angle across. The node p = (node.a a + node.b m
+/// + node.c C) has |p|^2 = 1 - s^2 (1 - node.a^2) - s^2 K (1 - (1 - node.c)^2), by Pythagoras from
+/// the circumcentre C, and |p - a|^2 = s^2 ((1 - node.a)^2 + node.c^2 K).
+CALOTTE_VECTOR_WIDTHS
+void node_rows(const QuadratureRule::Node& node, const Rows3& first, const Rows3& second,
+               const PlaneRows& plane, const Row& quarter, const Row& cotangent, NodeRows& out) {
+  const double along = 1 - node.a * node.a, across = 1 - (1 - node.c) * (1 - node.c);
+  const double along_a = (1 - node.a) * (1 - node.a), across_a = node.c * node.c;
+  const double near = node.a + 0.5 * node.b, far = 0.5 * node.b, centre = node.c;
+  const double share = 0.5 * node.weight;
+#pragma GCC ivdep
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    const double s = quarter[lane], cot = cotangent[lane], k = cot * cot;
+    const double length = std::sqrt(1 - s * (along + across * k)), scale = 1 / length;
+    const double sunk = 1 - length;
+    out.weight[lane] = share * s * cot * plane.distance[lane] * (scale * scale * scale);
+    out.square[lane] = scale * (s * (along_a + across_a * k) - sunk * sunk);
+    const Vec3 a = at(first, lane), b = at(second, lane), c = centre * at(plane.centre, lane);
+    put(scale * (near * a + far * b + c), out.half[0].x, lane);
+    put(scale * (far * a + near * b + c), out.half[1].x, lane);
+  }
+}
+
+/// Adds a node's terms on the half kite of one end to those of that vertex.
+CALOTTE_VECTOR_WIDTHS
+void add_node(const NodeRows& node, const HalfRows& half, Rows3& first, Row& energy, Row& mass) {
+#pragma GCC ivdep
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    const double weight = node.weight[lane] * half.rho[lane];
+    mass[lane] += weight;
+    energy[lane] += weight * node.square[lane];
+    put(at(first, lane) + weight * at(half.x, lane), first, lane);
+  }
+}
+
+} // namespace
+
+void kite_terms(const Batch& batch, const TriangleRows& rows, const Integrand& integrand,
+                VertexTerms& terms) {
+  terms = {};
+  PlaneRows plane;
+  NodeRows at_node;
+  plane_rows(rows, plane);
+  for (std::size_t e = 0; e < 3; ++e) {
+    const std::array<std::size_t, 2> ends{(e + 1) % 3, (e + 2) % 3};
+    for (const QuadratureRule::Node& node : integrand.nodes) {
+      node_rows(node, batch.corner[ends[0]], batch.corner[ends[1]], plane, rows.quarter[e],
+                rows.cotangent[e], at_node);
+      for (std::size_t h = 0; h < 2; ++h) {
+        HalfRows& half = at_node.half[h];
+        const std::size_t v = ends[h];
+        integrand.density(half.x[0], half.x[1], half.x[2], half.rho);
+        add_node(at_node, half, terms.first[v], terms.energy[v], terms.mass[v]);
+      }
+    }
+  }
+}
+
+} // namespace calotte::integrals_detail

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "base/memory.h"
+#include "base/vec3.h"
+#include "integrals/integrand.h"
+#include "integrals/patches.h"
+#include "integrals/room.h"
+
+#include <array>
+#include <cstddef>
+
+namespace calotte::integrals_detail {
+
+/// Triangles are worked on so many at a time, each quantity in a row: loops over the lanes of rows
+/// become vector code, and the rows stay in the first cache.
+constexpr std::size_t lanes = 32;
+
+using Row = std::array<double, lanes>;
+using Rows3 = std::array<Row, 3>;
+
+inline Vec3 at(const Rows3& rows, std::size_t lane) {
+  return {rows[0][lane], rows[1][lane], rows[2][lane]};
+}
+
+inline void put(const Vec3& value, Rows3& rows, std::size_t lane) {
+  rows[0][lane] = value.x;
+  rows[1][lane] = value.y;
+  rows[2][lane] = value.z;
+}
+
+/// Up to `lanes` consecutive triangles of a patch; the last fills the lanes that are left.
+struct alignas(64) Batch {
+  std::array<Rows3, 3> corner; ///< [vertex][x, y, z]
+  std::size_t count;
+  const std::array<std::int32_t, 3>* locals; ///< of the first: local numbers of its corners
+};
+
+/// What follows from the corners, per edge or corner named by the vertex that is across or there.
+struct alignas(64) TriangleRows {
+  Rows3 quarter;   ///< |a-b|^2/4 of the edge across
+  Rows3 cotangent; ///< of the flat triangle's angle
+  Rows3 normal;    ///< (b - a) x (c - a), [x, y, z]
+  Row scale;       ///< 1/|normal|
+  Row height;      ///< normal times a: positive when counter-clockwise
+  /// Positive only where the triangle is certainly acute and counter-clockwise.
+  Row clearance;
+};
+
+/// Terms of each vertex, [vertex][x, y, z] and [vertex].
+struct alignas(64) VertexTerms {
+  std::array<Rows3, 3> first;
+  Rows3 energy, mass;
+};
+
+Batch gather(const Patch& patch, const Array<Vec3>& x, std::size_t first);
+
+/// True when the clearance of all lanes is positive.
+bool triangle_rows(const Batch& batch, TriangleRows& out);
+
+/// Terms for rho = 1. \param with_mass otherwise terms.mass is not set.
+void uniform_terms(const Batch& batch, const TriangleRows& rows, bool with_mass,
+                   VertexTerms& terms);
+
+/// Terms for any density, by the integrand's nodes.
+void kite_terms(const Batch& batch, const TriangleRows& rows, const Integrand& integrand,
+                VertexTerms& terms);
+
+} // namespace calotte::integrals_detail

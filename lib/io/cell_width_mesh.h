@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "io/room.h"
+
+#include <calotte/cell_width.h>
+#include <calotte/types.h>
+
+namespace calotte::io_detail {
+
+/// Widths at points of the sphere, linear on the flat triangles between them, on a grid of
+/// longitudes and latitudes: see read_cell_width.
+/// \param points 3 x n directions. \param widths n.
+/// \throws Error as delaunay(); bad_option where the points leave a hemisphere empty.
+CellWidth resampled(const Points3& points, const Eigen::VectorXd& widths);
+
+} // namespace calotte::io_detail

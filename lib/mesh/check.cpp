@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/check_laws.h"
+
+#include "base/points.h"
+#include "curve/hilbert.h"
+
+#include <atomic>
+#include <cmath>
+#include <numbers>
+
+namespace calotte {
+namespace {
+
+using base_detail::Array;
+using base_detail::Vec3;
+using mesh_detail::Area;
+
+std::string direction_failure(const Mesh& mesh, std::int64_t site) {
+  const auto p = mesh.points.col(site);
+  const bool good = std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]) &&
+                    (p[0] != 0 || p[1] != 0 || p[2] != 0);
+  return good ? std::string() : "site " + std::to_string(site) + " is not a direction";
+}
+
+/// The area of a triangle known to be counter-clockwise, 2 atan2(det, s) with det = a . (b-a) x
+/// (c-a) and s = 1 + a.b + b.c + c.a (Oosterom and Strackee, 1983), and a bound on its error.
+///
+/// The unit vectors' lengths are good to 5 roundoffs u (their directions are free: any move of the
+/// sites leaves the sum of the areas as it is). So det errs by 15u and, in its evaluation, by (6
+/// sqrt 3 + 2)u times |b-a| |c-a|; s by 60u for the lengths and 21u in its evaluation; the angle by
+/// (|s| err(det) + det err(s)) / (det^2 + s^2).
+Area triangle_area(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 p = b - a, q = c - a;
+  const double det = std::max(dot(a, cross(p, q)), 0.0);
+  const double s = 1 + dot(a, b) + dot(b, c) + dot(c, a);
+  const double det_error = 32 * exact_detail::roundoff * std::sqrt(dot(p, p) * dot(q, q));
+  const double s_error = 96 * exact_detail::roundoff;
+  const double angle_error = (std::abs(s) * det_error + det * s_error) / (det * det + s * s);
+  return {2 * std::atan2(det, s), 2 * std::min(std::numbers::pi, angle_error)};
+}
+
+Array<Vec3> unit_vectors(const Points3& points) {
+  Array<Vec3> unit(points.cols());
+  base_detail::for_each_block(
+      points.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+        for (std::int64_t i = begin; i != end; ++i)
+          unit[i] = exact_detail::normalised({points(0, i), points(1, i), points(2, i)});
+      });
+  return unit;
+}
+
+/// Whether all points are as good as normalised ones, within 5 roundoffs: squares within 6, and
+/// known to 3, are within 10.
+bool are_unit_vectors(const Points3& points) {
+  std::atomic<bool> are{true};
+  base_detail::for_each_block(
+      points.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+        bool good = true;
+        for (std::int64_t i = begin; i != end; ++i) {
+          const Vec3& x = base_detail::column(points, i);
+          good = good && std::abs(dot(x, x) - 1) <= 6 * exact_detail::roundoff;
+        }
+        if (!good)
+          are = false;
+      });
+  return are;
+}
+
+/// A mesh with its unit vectors, which the predicates' filters work on.
+struct OnSphere : mesh_detail::Faces {
+  static constexpr const char* circle = "cap";
+
+  const Mesh& mesh;
+  Array<Vec3> normalised; ///< of points that are not: a copy is as large as they are
+  const Vec3* unit;
+
+  explicit OnSphere(const Mesh& given)
+      : Faces(mesh_detail::faces_of(given)), mesh(given),
+        normalised(are_unit_vectors(given.points) ? Array<Vec3>() : unit_vectors(given.points)),
+        unit(normalised.size() > 0 ? normalised.begin()
+                                   : reinterpret_cast<const Vec3*>(given.points.data())) {}
+
+  Vec3 given(std::int32_t site) const {
+    return {mesh.points(0, site), mesh.points(1, site), mesh.points(2, site)};
+  }
+
+  int orientation(std::int32_t a, std::int32_t b, std::int32_t c) const {
+    const int sign = exact_detail::orientation_filter(unit[a], unit[b], unit[c]);
+    return sign != 0 ? sign : exact_detail::orientation(given(a), given(b), given(c));
+  }
+
+  int in_circle(std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t d) const {
+    const int sign = exact_detail::in_circle_filter(unit[a], unit[b], unit[c], unit[d]);
+    return sign != 0 ? sign
+                     : exact_detail::in_circle_resolved({}, given(a), given(b), given(c), given(d));
+  }
+
+  const void* stored(std::int32_t site) const { return &unit[site]; }
+
+  static constexpr int cube_faces = 6;
+  curve_detail::CubePoint square(std::int32_t site) const {
+    return curve_detail::to_cube(unit[site]);
+  }
+
+  static std::string own_failure(std::int64_t) { return {}; }
+  static std::int64_t euler(std::int64_t boundary_edges) { return boundary_edges == 0 ? 2 : 1; }
+
+  Area area(std::int64_t t) const {
+    return triangle_area(unit[vertex(t, 0)], unit[vertex(t, 1)], unit[vertex(t, 2)]);
+  }
+
+  static void set_area(double sum, Check& result) {
+    result.area = sum;
+    result.whole = result.boundary_edges == 0 ? 4 * std::numbers::pi : 0;
+  }
+
+  static std::string area_failure(const Area& area, const Check& result) {
+    if (result.boundary_edges > 0 || std::abs(result.whole - area.value) <= 2 * area.error)
+      return {};
+    return "the areas sum to " + std::to_string(area.value) + " instead of 4 pi";
+  }
+};
+
+} // namespace
+
+// Why local laws are enough. The triangles are counter-clockwise and turn around each inner site
+// once, so the mesh covers the sphere without folds or branch points. Closed, it is a covering of
+// the sphere, which is simply connected: each of its parts is one sheet, and Euler's characteristic
+// 2 allows one part. Open, it bends at its boundary to the left alone: by Gauss and Bonnet each
+// part has the characteristic 1, so there is one; and two places in it over one direction would be
+// joined by a shortest path, which is not longer than pi and runs along a great circle: they are
+// one place. Such a mesh with Delaunay edges is Delaunay.
+Check check(const Mesh& mesh) {
+  return mesh_detail::check_laws(
+      mesh, [&](std::int64_t site) { return direction_failure(mesh, site); },
+      [&] { return OnSphere(mesh); });
+}
+
+} // namespace calotte

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "curve/hilbert.h"
+#include "exact/plane_predicates.h"
+#include "mesh/check_laws.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace calotte {
+namespace {
+
+using exact_detail::Image;
+using exact_detail::roundoff;
+using exact_detail::Vec2;
+using mesh_detail::Area;
+
+bool is_periodic(const PlanarMesh& mesh) { return mesh.period.minCoeff() > 0; }
+
+std::string place_failure(const PlanarMesh& mesh, std::int64_t site) {
+  const auto p = mesh.points.col(site);
+  if (!p.allFinite())
+    return "site " + std::to_string(site) + " is not a place";
+  const bool outside = (p.array() < 0).any() || (p.array() >= mesh.period.array()).any();
+  return is_periodic(mesh) && outside
+             ? "site " + std::to_string(site) + " is outside the periodic box"
+             : std::string();
+}
+
+/// The power of two that brings the largest of the coordinates and periods to between 1/2 and 1.
+int scale_of(const PlanarMesh& mesh) {
+  const double largest = mesh.points.size() > 0 ? mesh.points.cwiseAbs().maxCoeff() : 0;
+  int exponent = 0;
+  std::frexp(std::max(largest, is_periodic(mesh) ? mesh.period.maxCoeff() : 0.0), &exponent);
+  return -exponent;
+}
+
+/// (b - a) x (c - a) / 2 of coordinates that err by `off` each.
+///
+/// With d the largest difference, a product of two errs by 2 d off + off^2 and by u d^2 in its
+/// evaluation, as does their difference by 2 u d^2.
+Area half_cross(const Vec2& p, const Vec2& q, double off) {
+  const double largest = std::max({std::abs(p.x), std::abs(p.y), std::abs(q.x), std::abs(q.y)});
+  return {(p.x * q.y - p.y * q.x) / 2,
+          2 * largest * off + off * off + 2 * roundoff * largest * largest};
+}
+
+/// A mesh in the plane or in a periodic box. Sites near a site are its nearest copies: how many
+/// boxes away the copy of b near a is, is the opposite of what it is for a near b.
+struct InPlane : mesh_detail::Faces {
+  static constexpr const char* circle = "circle";
+
+  const PlanarMesh& mesh;
+  Vec2 period{0, 0}; ///< 0 of a plane without
+  int scale;         ///< exponent, for areas
+
+  explicit InPlane(const PlanarMesh& given)
+      : Faces(mesh_detail::faces_of(given)), mesh(given), scale(scale_of(given)) {
+    if (is_periodic(given))
+      period = {given.period.x(), given.period.y()};
+  }
+
+  bool periodic() const { return period.x > 0; }
+  Vec2 given(std::int32_t site) const { return {mesh.points(0, site), mesh.points(1, site)}; }
+
+  static int boxes_to(double from, double to, double length) {
+    const double way = to - from;
+    return way > length / 2 ? -1 : way < -length / 2 ? 1 : 0;
+  }
+
+  Image image(std::int32_t site, std::int32_t near) const {
+    const Vec2 p = given(site), q = given(near);
+    if (!periodic())
+      return {p, 0, 0};
+    return {p, boxes_to(q.x, p.x, period.x), boxes_to(q.y, p.y, period.y)};
+  }
+
+  static bool in_box(const Image& a) { return a.i == 0 && a.j == 0; }
+
+  int orientation(std::int32_t a, std::int32_t b, std::int32_t c) const {
+    const Image p = image(a, a), q = image(b, a), r = image(c, a);
+    return in_box(q) && in_box(r) ? exact_detail::orientation(p.site, q.site, r.site)
+                                  : exact_detail::orientation(period, p, q, r);
+  }
+
+  int in_circle(std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t d) const {
+    const Image p = image(a, a), q = image(b, a), r = image(c, a), s = image(d, a);
+    const bool plain = in_box(q) && in_box(r) && in_box(s);
+    const int sign = plain ? exact_detail::in_circle(p.site, q.site, r.site, s.site)
+                           : exact_detail::in_circle(period, p, q, r, s);
+    if (sign != 0)
+      return sign;
+    return periodic() ? exact_detail::in_circle_tie(period, p, q, r, s)
+                      : exact_detail::in_circle_tie(p.site, q.site, r.site, s.site);
+  }
+
+  const void* stored(std::int32_t site) const { return &mesh.points(0, site); }
+
+  /// Of a periodic box: an open mesh is not visited by a traversal.
+  static constexpr int cube_faces = 1;
+  curve_detail::CubePoint square(std::int32_t site) const {
+    const Vec2 p = given(site);
+    const double u = periodic() ? p.x / period.x : 0, v = periodic() ? p.y / period.y : 0;
+    return {0, 2 * u - 1, 2 * v - 1};
+  }
+
+  /// From corner to corner to corner, nearest copies lead back to the first.
+  std::string own_failure(std::int64_t t) const {
+    int i = 0, j = 0;
+    for (int k = 0; k < 3; ++k) {
+      const Image next = image(vertex(t, k + 1), vertex(t, k));
+      i += next.i;
+      j += next.j;
+    }
+    return i == 0 && j == 0 ? std::string()
+                            : triangle_name(*this, t) + " is wider than half of the periodic box";
+  }
+
+  std::int64_t euler(std::int64_t) const { return periodic() ? 0 : 1; }
+
+  double scaled(double x) const { return std::ldexp(x, scale); }
+
+  /// From a site to another's nearest copy, scaled. It errs by two roundings of at most 2.
+  Vec2 way(std::int32_t from, std::int32_t to) const {
+    const Vec2 a = given(from);
+    const Image b = image(to, from);
+    return {scaled(b.site.x) - scaled(a.x) + b.i * scaled(period.x),
+            scaled(b.site.y) - scaled(a.y) + b.j * scaled(period.y)};
+  }
+
+  /// Of the way's coordinates: rounding, and what scaling may take from subnormal numbers.
+  double error_of_way(const Vec2& p) const {
+    return periodic() ? 4 * roundoff
+                      : roundoff * std::max(std::abs(p.x), std::abs(p.y)) + 0x1p-1073;
+  }
+
+  Area scaled_area(std::int32_t a, std::int32_t b, std::int32_t c) const {
+    const Vec2 p = way(a, b), q = way(a, c);
+    return half_cross(p, q, std::max(error_of_way(p), error_of_way(q)));
+  }
+
+  Area area(std::int64_t t) const { return scaled_area(vertex(t, 0), vertex(t, 1), vertex(t, 2)); }
+
+  /// Of the box, or of the polygon that the boundary is.
+  Area whole() const {
+    if (periodic()) {
+      const double box = scaled(period.x) * scaled(period.y);
+      return {box, roundoff * box};
+    }
+    Area sum;
+    std::int32_t corner = -1;
+    std::int64_t edges = 0;
+    for (std::int64_t t = 0; t < triangles(); ++t)
+      for (int i = 0; i < 3; ++i)
+        if (neighbour(t, i) < 0) {
+          corner = corner < 0 ? vertex(t, i + 1) : corner;
+          const Area part = scaled_area(corner, vertex(t, i + 1), vertex(t, i + 2));
+          sum.value += part.value;
+          sum.error += part.error;
+          ++edges;
+        }
+    sum.error += static_cast<double>(edges) * roundoff * sum.value;
+    return sum;
+  }
+
+  void set_area(double sum, Check& result) const {
+    result.area = std::ldexp(sum, -2 * scale);
+    result.whole = std::ldexp(whole().value, -2 * scale);
+  }
+
+  std::string area_failure(const Area& area, const Check&) const {
+    const Area all = whole();
+    if (std::abs(all.value - area.value) <= 2 * (area.error + all.error))
+      return {};
+    return "the areas sum to " + std::to_string(area.value / all.value) + " of the area of the " +
+           (periodic() ? "periodic box" : "hull");
+  }
+};
+
+} // namespace
+
+// Why local laws are enough. As on the sphere, the triangles cover without folds or branch points.
+// In the plane the mesh bends at its boundary to the left alone: by Gauss and Bonnet each part has
+// the characteristic 1, so there is one; and it is a convex one-sheeted polygon, as its boundary
+// turns around once. In a periodic box each part covers the torus by as many sheets as the box goes
+// into its area, so areas that sum to the box's leave one part of one sheet. Triangles narrower
+// than half of the box lie in the plane without overlap, which is what in_circle() works in. Such a
+// mesh with Delaunay edges is Delaunay.
+Check check(const PlanarMesh& mesh) {
+  return mesh_detail::check_laws(
+      mesh, [&](std::int64_t site) { return place_failure(mesh, site); },
+      [&] { return InPlane(mesh); });
+}
+
+} // namespace calotte

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "base/memory.h"
+#include "base/triangle.h"
+#include "mesh/room.h"
+
+#include <calotte/types.h>
+
+#include <cstdint>
+
+namespace calotte::mesh_detail {
+
+/// A vertex of a triangle: 4 t + v; 2^31 triangles have more of them than an int32 counts.
+using Corner = std::int64_t;
+inline std::int32_t triangle_of(Corner corner) { return static_cast<std::int32_t>(corner >> 2); }
+inline int vertex_of(Corner corner) { return static_cast<int>(corner & 3); }
+
+/// The corners at each site of a closed mesh, counter-clockwise, from the one whose next vertex is
+/// the lowest neighbour on: an order that the triangulation alone determines, whatever its history.
+struct VertexRings {
+  Array<std::int64_t> begin; ///< those of site i are at begin[i] to begin[i + 1]
+  Array<Corner> corners;
+};
+
+VertexRings make_vertex_rings(const Mesh& mesh);
+
+/// Of the first `sites` of a mesh alone, whose rings are closed, whatever the others' are.
+/// \param neighbours as Mesh's.
+VertexRings make_vertex_rings(const Triangles& triangles, const Triangles& neighbours,
+                              std::int64_t sites);
+
+} // namespace calotte::mesh_detail

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "base/memory.h"
+#include "base/parallel.h"
+#include "base/triangle.h"
+#include "mesh/vertex_rings.h"
+#include "quality/room.h"
+
+#include <calotte/quality.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+/// What is measured of a mesh from the shapes of its triangles, on the sphere and in the plane.
+namespace calotte::quality_detail {
+
+/// What lattices make exactly 0 or 90 degrees comes out within this of it.
+inline constexpr double rounding_of_lattices = 1e-9;
+
+/// A Range in the making.
+struct Tally {
+  double min = std::numeric_limits<double>::infinity(), max = -min, sum = 0;
+  std::int64_t count = 0;
+
+  void add(double value) {
+    min = std::min(min, value);
+    max = std::max(max, value);
+    sum += value;
+    ++count;
+  }
+  void join(const Tally& other) {
+    min = std::min(min, other.min);
+    max = std::max(max, other.max);
+    sum += other.sum;
+    count += other.count;
+  }
+  Range range(double scale = 1) const {
+    if (count == 0)
+      return {};
+    return {scale * min, scale * sum / static_cast<double>(count), scale * max};
+  }
+};
+
+/// A triangle; [v] is of vertex v, or of the side across from it.
+struct Shape {
+  std::array<double, 3> angle; ///< flat
+  std::array<double, 3> side;  ///< on the sphere an arc
+  std::array<double, 3>
+      delta; ///< signed distance from the side's midpoint to the circumcentre, an arc there
+};
+
+using Shapes = Array<Shape>;
+
+/// What is measured, with all that its parts need.
+struct Subject {
+  const Triangles& triangles;
+  const Triangles& neighbours;
+  VertexRings rings; ///< of the sites with cells
+  Shapes shapes;
+  Array<std::uint8_t>
+      inside;                ///< by triangle: whether it is one of the domain's; of all others none
+  Array<std::uint8_t> whole; ///< by site: whether the domain holds its cell; of all others none
+
+  bool has(std::int64_t triangle) const { return inside.size() == 0 || inside[triangle] != 0; }
+  bool has_whole(std::int64_t site) const { return whole.size() == 0 || whole[site] != 0; }
+};
+
+/// The Delaunay edge across from a triangle's vertex, and its Voronoi edge.
+struct Edge {
+  double arc = 0;
+  double voronoi = 0; ///< length; 0 where no more than rounding is left of it
+  double offset = 0;  ///< of the Voronoi edge's midpoint from the Delaunay edge's
+};
+
+/// \param other the triangle across from vertex v of t, and its vertex across from t.
+inline Edge edge_of(const Shapes& shapes, std::int64_t t, int v, std::int64_t other, int w) {
+  const double arc = shapes[t].side[static_cast<std::size_t>(v)];
+  const double here = shapes[t].delta[static_cast<std::size_t>(v)],
+               there = shapes[other].delta[static_cast<std::size_t>(w)];
+  const double length = here + there;
+  return {arc, length < rounding_of_lattices * arc ? 0 : length, 0.5 * std::abs(here - there)};
+}
+
+/// body(part, i) for 0 <= i < n, each block of them on a part of its own; the parts are joined in
+/// the order of the blocks, so that sums are the same for any number of threads.
+template <class Part, class Body> Part join_blocks(std::int64_t n, const Body& body) {
+  std::vector<Part> parts(static_cast<std::size_t>(block_count(n)));
+  for_each_block(n, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
+    Part part;
+    for (std::int64_t i = begin; i != end; ++i)
+      body(part, i);
+    parts[static_cast<std::size_t>(block)] = std::move(part);
+  });
+  Part whole;
+  for (const Part& part : parts)
+    whole.join(part);
+  return whole;
+}
+
+// ---- Triangles
+
+struct TrianglePart {
+  Tally quality, angles;
+  std::int64_t obtuse = 0;
+
+  void join(const TrianglePart& other) {
+    quality.join(other.quality);
+    angles.join(other.angles);
+    obtuse += other.obtuse;
+  }
+};
+
+inline void add_triangle(TrianglePart& part, const Shape& shape) {
+  const auto& [a, b, c] = shape.side;
+  part.quality.add((b + c - a) * (c + a - b) * (a + b - c) / (a * b * c));
+  for (const double angle : shape.angle)
+    part.angles.add(angle);
+  part.obtuse += *std::max_element(shape.angle.begin(), shape.angle.end()) >
+                 std::numbers::pi / 2 + rounding_of_lattices;
+}
+
+// ---- Edges
+
+struct EdgePart {
+  Tally spacing, off_centring;
+
+  void join(const EdgePart& other) {
+    spacing.join(other.spacing);
+    off_centring.join(other.off_centring);
+  }
+};
+
+/// Those that triangle t shares with a later one.
+inline void add_edges(EdgePart& part, const Subject& subject, std::int64_t t) {
+  const Triangles& neighbours = subject.neighbours;
+  for (int v = 0; v < 3; ++v) {
+    const std::int32_t other = neighbours(v, t);
+    if (other < t || !(subject.has(t) || subject.has(other)))
+      continue;
+    const int w = neighbours(0, other) == t ? 0 : neighbours(1, other) == t ? 1 : 2;
+    const Edge edge = edge_of(subject.shapes, t, v, other, w);
+    part.spacing.add(edge.arc);
+    if (edge.voronoi > 0 && subject.has(t) && subject.has(other))
+      part.off_centring.add(edge.offset / edge.voronoi);
+  }
+}
+
+// ---- Cells
+
+struct CellPart {
+  Tally sigma, quality;
+  std::vector<std::int64_t> degrees;
+
+  void count(std::size_t degree, std::int64_t cells) {
+    if (degrees.size() <= degree)
+      degrees.resize(degree + 1, 0);
+    degrees[degree] += cells;
+  }
+  void join(const CellPart& other) {
+    sigma.join(other.sigma);
+    quality.join(other.quality);
+    for (std::size_t degree = 0; degree < other.degrees.size(); ++degree)
+      count(degree, other.degrees[degree]);
+  }
+};
+
+inline void add_cell(CellPart& part, const Subject& subject, std::int64_t site) {
+  const VertexRings& rings = subject.rings;
+  const std::int64_t begin = rings.begin[site], end = rings.begin[site + 1];
+  Tally arcs, voronoi;
+  Corner before = rings.corners[end - 1];
+  for (std::int64_t s = begin; s != end; ++s) {
+    const Corner corner = rings.corners[s];
+    const Edge edge =
+        edge_of(subject.shapes, triangle_of(corner), previous_vertex(vertex_of(corner)),
+                triangle_of(before), next_vertex(vertex_of(before)));
+    arcs.add(edge.arc);
+    voronoi.add(edge.voronoi);
+    before = corner;
+  }
+  part.sigma.add(arcs.min / arcs.max);
+  part.quality.add(voronoi.min / voronoi.max);
+  part.count(static_cast<std::size_t>(end - begin), 1);
+}
+
+/// All but residual, energy and areas.
+inline Quality measure_shapes(const Subject& subject, std::int64_t cells) {
+  const std::int64_t m = subject.shapes.size();
+  const auto triangles = join_blocks<TrianglePart>(m, [&](TrianglePart& part, std::int64_t t) {
+    if (subject.has(t))
+      add_triangle(part, subject.shapes[t]);
+  });
+  const auto edges = join_blocks<EdgePart>(
+      m, [&](EdgePart& part, std::int64_t t) { add_edges(part, subject, t); });
+  auto of_cells = join_blocks<CellPart>(cells, [&](CellPart& part, std::int64_t i) {
+    if (subject.has_whole(i))
+      add_cell(part, subject, i);
+  });
+  Quality result;
+  result.cells = cells;
+  result.triangles = triangles.quality.count;
+  result.degrees = std::move(of_cells.degrees);
+  result.spacing = edges.spacing.range();
+  result.sigma = of_cells.sigma.range();
+  result.cell_quality = of_cells.quality.range();
+  result.triangle_quality = triangles.quality.range();
+  result.angles = triangles.angles.range(180 / std::numbers::pi);
+  result.obtuse = triangles.obtuse;
+  result.off_centring = edges.off_centring.range();
+  return result;
+}
+
+} // namespace calotte::quality_detail

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <calotte/quality.h>
+
+#include "cvt/functional.h"
+#include "cvt/planar_cells.h"
+#include "density/planar_density.h"
+#include "domain/clipped_cell.h"
+#include "quality/parts.h"
+
+#include <calotte/check.h>
+#include <calotte/error.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace calotte {
+namespace quality_detail {
+namespace {
+
+/// Lengths from each corner, in a box to the nearest copies.
+Shape shape_of(const std::array<Vec3, 3>& p, const Vec2& period) {
+  Shape shape{};
+  for (std::size_t v = 0; v < 3; ++v) {
+    const Vec2 a = nearest_offset(p[v], p[(v + 1) % 3], period),
+               b = nearest_offset(p[v], p[(v + 2) % 3], period);
+    const double twice_area = cross(a, b), product = dot(a, b);
+    shape.angle[v] = std::atan2(twice_area, product);
+    shape.side[v] = norm(a - b);
+    shape.delta[v] = shape.side[v] / 2 * (product / twice_area);
+  }
+  return shape;
+}
+
+/// A domain's triangles have the circumcentre in it, and no corner that is a place of the hull.
+class Insides {
+public:
+  Insides(const PlanarCells& cells, const PlanarDomain& domain, std::int64_t generators)
+      : cells_(&cells), outline_(domain), generators_(generators) {}
+
+  bool triangle(const Triangles& triangles, std::int64_t t) const {
+    if (triangles.col(t).maxCoeff() >= generators_)
+      return false;
+    const Vec2 centre = at(triangles(0, t)) + centre_of(triangles, t, 0);
+    return outline_.side(centre) != Side::outside;
+  }
+  bool whole(const Triangles& triangles, const VertexRings& rings, std::int64_t site) const {
+    double reach = 0;
+    for (std::int64_t s = rings.begin[site]; s != rings.begin[site + 1]; ++s)
+      reach = std::max(reach, norm(centre_of(triangles, triangle_of(rings.corners[s]),
+                                             vertex_of(rings.corners[s]))));
+    return !near_shore(outline_, at(static_cast<std::int32_t>(site)), reach);
+  }
+
+private:
+  Vec2 at(std::int32_t site) const { return {cells_->place(site).x, cells_->place(site).y}; }
+  Vec2 centre_of(const Triangles& triangles, std::int64_t t, int v) const {
+    const Vec2 here = at(triangles(v, t));
+    return circumcentre(at(triangles(next_vertex(v), t)) - here,
+                        at(triangles(previous_vertex(v), t)) - here);
+  }
+
+  const PlanarCells* cells_;
+  Outline outline_;
+  std::int64_t generators_;
+};
+
+Quality measure(const Points3& points, const PlanarDomain& domain) {
+  PlanarCells cells(domain);
+  cells.move(points);
+  const Connectivity mesh = cells.signs().triangulate();
+  const std::int64_t n = points.cols(), m = mesh.triangles.cols();
+  const Vec2 period = domain.periodic() ? Vec2{domain.period.x(), domain.period.y()} : Vec2{0, 0};
+  Subject subject{mesh.triangles,
+                  mesh.neighbours,
+                  make_vertex_rings(mesh.triangles, mesh.neighbours, n),
+                  Shapes(m),
+                  {},
+                  {}};
+  for_each_block(m, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t t = begin; t != end; ++t)
+      subject.shapes[t] =
+          shape_of({cells.place(mesh.triangles(0, t)), cells.place(mesh.triangles(1, t)),
+                    cells.place(mesh.triangles(2, t))},
+                   period);
+  });
+  if (domain.periodic())
+    return measure_shapes(subject, n);
+  const Insides insides(cells, domain, n);
+  subject.inside = Array<std::uint8_t>(m);
+  subject.whole = Array<std::uint8_t>(n);
+  for_each_block(m, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t t = begin; t != end; ++t)
+      subject.inside[t] = insides.triangle(mesh.triangles, t) ? 1 : 0;
+  });
+  for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i != end; ++i)
+      subject.whole[i] = insides.whole(mesh.triangles, subject.rings, i) ? 1 : 0;
+  });
+  return measure_shapes(subject, n);
+}
+
+/// The evaluation of a density with the finer rule.
+Evaluation evaluated(const Points3& points, const PlanarDomain& domain, const Density& density) {
+  CvtOptions options;
+  options.density = density;
+  Evaluation result;
+  make_functional(points, domain, options)->evaluate(points, true, true, result);
+  return result;
+}
+
+} // namespace
+} // namespace quality_detail
+
+Quality quality(const PlanarMesh& mesh, const PlanarDomain& domain, const Density& density) {
+  using namespace quality_detail;
+  require_domain(domain);
+  const Density planar = planar_density(density, domain);
+  if (const Check found = check(mesh); !found.passed())
+    throw Error(ErrorCode::bad_option,
+                "the mesh is not the Delaunay triangulation of its points, so it has no Voronoi "
+                "cells: " +
+                    found.failure + "; triangulate the points anew");
+  Points3 points = Points3::Zero(3, mesh.points.cols());
+  points.topRows<2>() = mesh.points;
+  require_inside(mesh.points, domain);
+  Quality result = measure(points, domain);
+  const Evaluation uniform = evaluated(points, domain, Density{}),
+                   of_density =
+                       density.uniform() ? Evaluation{} : evaluated(points, domain, planar);
+  const CvtIteration& measured = (density.uniform() ? uniform : of_density).iteration;
+  Tally areas;
+  for (const double cell : uniform.mass)
+    areas.add(cell);
+  result.cell_area = areas.range();
+  result.residual = measured.l2 / measured.spacing;
+  result.energy = measured.energy;
+  result.cells_area = areas.sum / area(domain);
+  return result;
+}
+
+} // namespace calotte

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <calotte/quality.h>
+
+#include "base/points.h"
+#include "exact/predicates.h"
+#include "integrals/moments.h"
+#include "quality/parts.h"
+
+#include <calotte/check.h>
+#include <calotte/error.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+
+namespace calotte {
+namespace quality_detail {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// sin(delta) = |a-b|/|a+b| cot(C), as in moments.h.
+Shape shape_of(const std::array<Vec3, 3>& p) {
+  const double twice_area = norm(cross(p[1] - p[0], p[2] - p[0]));
+  Shape shape{};
+  for (std::size_t v = 0; v < 3; ++v) {
+    const Vec3 a = p[(v + 1) % 3], b = p[(v + 2) % 3];
+    const double product = dot(a - p[v], b - p[v]), difference = norm(a - b), sum = norm(a + b);
+    const double sine = difference / sum * (product / twice_area);
+    shape.angle[v] = std::atan2(twice_area, product);
+    shape.side[v] = 2 * std::atan2(difference, sum);
+    shape.delta[v] = std::asin(std::clamp(sine, -1.0, 1.0)); // rounding can pass a hemisphere
+  }
+  return shape;
+}
+
+Shapes make_shapes(const Mesh& mesh) {
+  Shapes shapes(mesh.triangles.cols());
+  for_each_block(shapes.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t t = begin; t != end; ++t)
+      shapes[t] = shape_of({column(mesh.points, mesh.triangles(0, t)),
+                            column(mesh.points, mesh.triangles(1, t)),
+                            column(mesh.points, mesh.triangles(2, t))});
+  });
+  return shapes;
+}
+
+// ---- Moments
+
+struct MomentPart {
+  Tally area;
+  double energy = 0, squares = 0;
+  std::int64_t without_centroid = -1; ///< the first such site
+
+  void join(const MomentPart& other) {
+    area.join(other.area);
+    energy += other.energy;
+    squares += other.squares;
+    if (without_centroid < 0)
+      without_centroid = other.without_centroid;
+  }
+};
+
+MomentPart add_moments(const Mesh& mesh, const Density& density) {
+  const Moments uniform = mesh_moments(mesh, Density{});
+  Moments of_density;
+  if (!density.uniform())
+    of_density = mesh_moments(mesh, density);
+  const Moments& moments = density.uniform() ? uniform : of_density;
+  return join_blocks<MomentPart>(mesh.points.cols(), [&](MomentPart& part, std::int64_t i) {
+    const double length = norm(moments.first[i]);
+    if (part.without_centroid < 0 && !(length > 0 && std::isfinite(length)))
+      part.without_centroid = i;
+    const Vec3 apart = (1 / length) * moments.first[i] - column(mesh.points, i);
+    part.area.add(uniform.mass[i]);
+    part.energy += moments.energy[i];
+    part.squares += dot(apart, apart);
+  });
+}
+
+// ---- The door
+
+Mesh with_unit_columns(Mesh mesh) {
+  for_each_block(mesh.points.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i != end; ++i) {
+      const Vec3 unit = normalised(column(mesh.points, i));
+      mesh.points.col(i) << unit.x, unit.y, unit.z;
+    }
+  });
+  return mesh;
+}
+
+/// \returns the sum of the triangles' areas.
+double require_closed_delaunay(const Mesh& mesh) {
+  const Check found = check(mesh);
+  if (!found.passed())
+    throw Error(ErrorCode::bad_option,
+                "the mesh is not the Delaunay triangulation of its points, so it has no Voronoi "
+                "cells: " +
+                    found.failure + "; triangulate the points anew");
+  if (found.boundary_edges > 0)
+    throw Error(ErrorCode::bad_option,
+                "the mesh is open, as all its sites lie in a hemisphere, and its Voronoi cells do "
+                "not tessellate the sphere: give sites all around");
+  return found.area;
+}
+
+Quality measure(const Mesh& mesh, const Density& density) {
+  Quality result = measure_shapes(
+      {mesh.triangles, mesh.neighbours, make_vertex_rings(mesh), make_shapes(mesh), {}, {}},
+      mesh.points.cols());
+  const MomentPart moments = add_moments(mesh, density);
+  if (const std::int64_t i = moments.without_centroid; i >= 0)
+    throw Error(ErrorCode::bad_option,
+                "the density is zero over the whole cell of site " + std::to_string(i) +
+                    ": make it positive everywhere",
+                i);
+  result.cell_area = moments.area.range();
+  result.residual = std::sqrt(moments.squares / (4 * pi)); // sqrt(squares/n) over sqrt(4 pi/n)
+  result.energy = moments.energy;
+  result.cells_area = moments.area.sum / (4 * pi);
+  return result;
+}
+
+} // namespace
+} // namespace quality_detail
+
+Quality quality(const Mesh& mesh, const Density& density) {
+  evaluate(density, Points3(Eigen::Vector3d::UnitZ())); // says what is wrong with it
+  const double triangles_area = quality_detail::require_closed_delaunay(mesh);
+  Quality result = quality_detail::measure(quality_detail::with_unit_columns(mesh), density);
+  result.triangles_area = triangles_area / (4 * std::numbers::pi);
+  return result;
+}
+
+} // namespace calotte

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "cvt/room.h"
+
+/// What a model judges a grid by: spacings, angles, areas, quality of cells and triangles, distance
+/// from the centroids, energy.
+///
+/// In: a closed mesh, or one in a domain. Out: ranges and counts.
+namespace calotte::quality_detail {
+using namespace cvt_detail; // and the rooms below it
+}

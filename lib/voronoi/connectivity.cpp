@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "voronoi/connectivity.h"
+
+#include "base/first_fault.h"
+#include "base/matrix_memory.h"
+#include "base/memory.h"
+#include "base/parallel.h"
+#include "base/triangle.h"
+
+#include <calotte/error.h>
+
+#include <algorithm>
+#include <atomic>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace calotte::voronoi_detail {
+namespace {
+
+// ---- Rings: the triangles around a site, counter-clockwise
+
+/// A vertex of a triangle.
+struct Corner {
+  std::int32_t triangle;
+  int vertex;
+};
+
+constexpr std::int32_t none = -1;
+
+std::int32_t following_site(const Surface& surface, Corner corner) {
+  return surface.triangles(next_vertex(corner.vertex), corner.triangle);
+}
+
+/// The corner at the same site in the triangle that follows, or `none` where that one does not fit.
+/// As the way back is checked as well, no two corners have the same next one: a walk comes back to
+/// where it began.
+Corner next_around(const Surface& surface, Corner corner) {
+  const auto& [sites, triangles, neighbours] = surface;
+  const std::int32_t t = corner.triangle, site = triangles(corner.vertex, t);
+  const std::int32_t beyond = neighbours(next_vertex(corner.vertex), t);
+  if (beyond < 0 || beyond >= triangles.cols())
+    return {none, 0};
+  const int v = vertex_at(triangles, beyond, site);
+  const bool fits =
+      triangles(v, beyond) == site &&
+      triangles(next_vertex(v), beyond) == triangles(previous_vertex(corner.vertex), t) &&
+      neighbours(previous_vertex(v), beyond) == t;
+  return {fits ? beyond : none, v};
+}
+
+/// body(corner) around a site. \returns the triangle whose next does not fit, or `none`.
+template <class Body>
+std::int32_t walk_ring(const Surface& surface, std::int32_t first, std::int32_t site,
+                       const Body& body) {
+  Corner corner{first, vertex_at(surface.triangles, first, site)};
+  do {
+    body(corner);
+    const Corner next = next_around(surface, corner);
+    if (next.triangle == none)
+      return corner.triangle;
+    corner = next;
+  } while (corner.triangle != first);
+  return none;
+}
+
+/// For each site some triangle at it: which one may vary, as the rings' order does not depend on
+/// it.
+Array<std::int32_t> some_triangles(const Surface& surface) {
+  Array<std::int32_t> some(surface.sites);
+  for_each_block(surface.sites, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    std::fill(some.begin() + begin, some.begin() + end, none);
+  });
+  FirstFault fault;
+  for_each_block(surface.triangles.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t t = begin; t != end; ++t) {
+      const std::int32_t a = surface.triangles(0, t), b = surface.triangles(1, t),
+                         c = surface.triangles(2, t);
+      if (std::min({a, b, c}) < 0 || std::max({a, b, c}) >= surface.sites || a == b || b == c ||
+          c == a) {
+        fault.at(t);
+        continue;
+      }
+      for (const std::int32_t site : {a, b, c})
+        std::atomic_ref(some[site]).store(static_cast<std::int32_t>(t), std::memory_order_relaxed);
+    }
+  });
+  fault.refuse("triangle",
+               "has a vertex outside the mesh's points, or one of them twice: triangulate "
+               "the points anew");
+  return some;
+}
+
+/// Instead of where lists begin, it sets how long they are: begin, and in the rings first_edge.
+Rings count_rings(const Surface& surface, Voronoi& out) {
+  Rings rings{some_triangles(surface), Array<std::int32_t>(surface.sites)};
+  make_room(out.begin, surface.sites + 1, 1);
+  FirstFault lonely, unfit;
+  for_each_block(surface.sites, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (auto i = static_cast<std::int32_t>(begin); i != end; ++i) {
+      std::int32_t degree = 0, higher = 0, lowest = std::numeric_limits<std::int32_t>::max();
+      const std::int32_t some = rings.first[i];
+      if (some == none) {
+        lonely.at(i);
+        continue;
+      }
+      const std::int32_t fault = walk_ring(surface, some, i, [&](Corner corner) {
+        const std::int32_t j = following_site(surface, corner);
+        ++degree;
+        higher += j > i;
+        if (j < lowest) {
+          lowest = j;
+          rings.first[i] = corner.triangle;
+        }
+      });
+      if (fault != none)
+        unfit.at(fault);
+      out.begin[i] = degree;
+      rings.first_edge[i] = higher;
+    }
+  });
+  lonely.refuse("site", "is no vertex of a triangle: triangulate the points anew");
+  unfit.refuse("triangle", "has a neighbour that does not fit it: triangulate the points anew");
+  return rings;
+}
+
+/// Names a site at which triangles form more than the one ring that was found.
+[[noreturn]] void refuse_second_ring(const Surface& surface, const Voronoi& out) {
+  std::vector<std::int64_t> corners(static_cast<std::size_t>(surface.sites));
+  for (const std::int32_t site : surface.triangles.reshaped())
+    ++corners[static_cast<std::size_t>(site)];
+  FirstFault fault;
+  for (std::int64_t i = 0; i != surface.sites; ++i)
+    if (corners[static_cast<std::size_t>(i)] != out.begin[i + 1] - out.begin[i])
+      fault.at(i);
+  fault.refuse("site", "has triangles that do not form one ring around it: triangulate the points "
+                       "anew");
+  throw Error(ErrorCode::internal, "the rings of a mesh were miscounted");
+}
+
+// ---- Edges: numbered by their lower cell, then by their higher one
+
+/// A neighbour of a cell, and the place of its edge in the cell's list.
+struct Neighbour {
+  std::int32_t cell;
+  std::int64_t place;
+};
+
+/// Sets all that belongs to edge e, the `place`-th of the lower cell's list.
+void set_edge(const Surface& surface, std::int32_t e, std::int32_t lower, std::int64_t place,
+              Voronoi& out) {
+  const std::int64_t begin = out.begin[lower], end = out.begin[lower + 1];
+  const std::int32_t left = out.vertices_on_cell[place],
+                     right = out.vertices_on_cell[(place == begin ? end : place) - 1];
+  out.cells_on_edge.col(e) << lower, out.cells_on_cell[place];
+  out.vertices_on_edge.col(e) << right, left;
+  out.edges_on_cell[place] = e;
+  // Edge j of a vertex joins its cells j - 1 and j.
+  out.edges_on_vertex(next_vertex(vertex_at(surface.triangles, left, lower)), left) = e;
+  out.edges_on_vertex(vertex_at(surface.triangles, right, lower), right) = e;
+}
+
+void set_cell(const Surface& surface, const Rings& rings, std::int32_t i,
+              std::vector<Neighbour>& higher, Voronoi& out, FirstFault& twice) {
+  std::int64_t place = out.begin[i];
+  higher.clear();
+  walk_ring(surface, rings.first[i], i, [&](Corner corner) {
+    const std::int32_t j = following_site(surface, corner);
+    out.vertices_on_cell[place] = corner.triangle;
+    out.cells_on_cell[place] = j;
+    if (j > i)
+      higher.push_back({j, place});
+    ++place;
+  });
+  std::sort(higher.begin(), higher.end(),
+            [](const Neighbour& a, const Neighbour& b) { return a.cell < b.cell; });
+  std::int32_t e = rings.first_edge[i];
+  for (std::size_t k = 0; k < higher.size(); ++k) {
+    if (k > 0 && higher[k].cell == higher[k - 1].cell)
+      twice.at(i);
+    set_edge(surface, e++, i, higher[k].place, out);
+  }
+}
+
+void set_cells_and_edges(const Surface& surface, const Rings& rings, Voronoi& out) {
+  FirstFault twice;
+  for_each_block(surface.sites, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    std::vector<Neighbour> higher;
+    for (auto i = static_cast<std::int32_t>(begin); i != end; ++i)
+      set_cell(surface, rings, i, higher, out, twice);
+  });
+  twice.refuse("cell",
+               "shares two edges with one neighbour: give a mesh with more sites, or a wider "
+               "box");
+}
+
+/// Those that the lower cells have numbered.
+void set_edges_of_higher_cells(const Surface& surface, Voronoi& out) {
+  for_each_block(surface.sites, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (auto i = static_cast<std::int32_t>(begin); i != end; ++i)
+      for (std::int64_t place = out.begin[i]; place != out.begin[i + 1]; ++place)
+        if (out.cells_on_cell[place] < i) {
+          const std::int32_t t = out.vertices_on_cell[place];
+          out.edges_on_cell[place] =
+              out.edges_on_vertex(next_vertex(vertex_at(surface.triangles, t, i)), t);
+        }
+  });
+}
+
+void copy_triangles(const Surface& surface, Voronoi& out) {
+  make_room(out.cells_on_vertex, 3, surface.triangles.cols());
+  for_each_block(surface.triangles.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    std::copy(surface.triangles.data() + begin, surface.triangles.data() + end,
+              out.cells_on_vertex.data() + begin);
+  });
+}
+
+} // namespace
+
+Rings find_rings(const Surface& surface, Voronoi& out) {
+  Rings rings = count_rings(surface, out);
+  out.begin[surface.sites] = 0;
+  const std::int64_t found =
+      exclusive_scan(std::span(out.begin.data(), static_cast<std::size_t>(out.begin.size())));
+  if (found != surface.triangles.size())
+    refuse_second_ring(surface, out);
+  exclusive_scan(std::span(rings.first_edge.begin(), rings.first_edge.end()));
+  copy_triangles(surface, out);
+  return rings;
+}
+
+void connect(const Surface& surface, const Rings& rings, Voronoi& out) {
+  const std::int64_t corners = surface.triangles.size(), edges = corners / 2;
+  make_room(out.edges_on_cell, corners, 1);
+  make_room(out.vertices_on_cell, corners, 1);
+  make_room(out.cells_on_cell, corners, 1);
+  make_room(out.edges_on_vertex, 3, surface.triangles.cols());
+  make_room(out.cells_on_edge, 2, edges);
+  make_room(out.vertices_on_edge, 2, edges);
+  set_cells_and_edges(surface, rings, out);
+  set_edges_of_higher_cells(surface, out);
+}
+
+} // namespace calotte::voronoi_detail

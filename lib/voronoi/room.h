@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "delaunay/room.h"
+
+/// The Voronoi tessellation that is dual to a mesh, as a C-grid model staggers it: edges, kites,
+/// lengths, areas, angles, tangential weights, and fields on the cells.
+///
+/// In: a closed mesh. Out: flat arrays of connectivity and measures.
+namespace calotte::voronoi_detail {
+using namespace delaunay_detail; // and the rooms below it
+}

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "voronoi/tangential_weights.h"
+
+#include "base/matrix_memory.h"
+#include "base/parallel.h"
+#include "voronoi/connectivity.h"
+
+#include <cmath>
+#include <span>
+
+namespace calotte {
+namespace voronoi_detail {
+namespace {
+
+/// Sets the weights of a cell's other edges for an edge, counter-clockwise from it on.
+/// \param sign 1 where the edge's normal leaves the cell, -1 where it enters it.
+/// \returns how many.
+std::int64_t set_weights_of_cell(const Voronoi& of, std::int32_t edge, std::int32_t cell,
+                                 double sign, std::int32_t* edges, double* weights) {
+  const std::int64_t begin = of.begin[cell], end = of.begin[cell + 1];
+  std::int64_t place = begin;
+  while (of.edges_on_cell[place] != edge)
+    ++place;
+  const double divisor = of.cell_area[cell] * of.dc[edge], half = 0.5 * of.cell_area[cell];
+  const double scale = std::abs(divisor) > 1e-200 ? 1 / divisor : 0; // no cell is that small
+  double passed = 0;
+  for (std::int64_t k = 0; k + 1 < end - begin; ++k) {
+    const std::int32_t vertex = of.vertices_on_cell[place];
+    passed += of.kites(vertex_at(of.cells_on_vertex, vertex, cell), vertex);
+    place = place + 1 == end ? begin : place + 1;
+    const std::int32_t other = of.edges_on_cell[place];
+    const double side = cell < of.cells_on_cell[place] ? sign : -sign; // out of the lower cell
+    edges[k] = other;
+    weights[k] = side * (half - passed) * scale * of.dv[other];
+  }
+  return end - begin - 1;
+}
+
+} // namespace
+
+void set_weights(const Voronoi& of, std::int32_t edge, std::int32_t* edges, double* weights) {
+  const std::int64_t count =
+      set_weights_of_cell(of, edge, of.cells_on_edge(0, edge), 1, edges, weights);
+  set_weights_of_cell(of, edge, of.cells_on_edge(1, edge), -1, edges + count, weights + count);
+}
+
+} // namespace voronoi_detail
+
+TangentialWeights tangential_weights(const Voronoi& voronoi, std::int64_t first,
+                                     std::int64_t last) {
+  TangentialWeights out;
+  base_detail::make_room(out.begin, last - first + 1, 1);
+  base_detail::for_each_block(last - first,
+                              [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+                                for (std::int64_t k = begin; k != end; ++k)
+                                  out.begin[k] = voronoi_detail::weight_count(voronoi, first + k);
+                              });
+  out.begin[last - first] = 0;
+  const std::int64_t total = base_detail::exclusive_scan(
+      std::span(out.begin.data(), static_cast<std::size_t>(out.begin.size())));
+  base_detail::make_room(out.edges, total, 1);
+  base_detail::make_room(out.weights, total, 1);
+  base_detail::for_each_block(
+      last - first, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+        for (std::int64_t k = begin; k != end; ++k)
+          voronoi_detail::set_weights(voronoi, static_cast<std::int32_t>(first + k),
+                                      out.edges.data() + out.begin[k],
+                                      out.weights.data() + out.begin[k]);
+      });
+  return out;
+}
+
+} // namespace calotte

@@ -1,0 +1,408 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <calotte/cvt.h>
+
+#include "integrals/moments.h"
+#include "support/densities.h"
+
+#include <calotte/check.h>
+#include <calotte/delaunay.h>
+#include <calotte/error.h>
+#include <calotte/generators.h>
+
+#include <doctest/doctest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+using namespace calotte;
+using namespace calotte::integrals_detail;
+using test::x8;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// Accepted steps lower the energy, but for round-off.
+void check_descent(const CvtReport& report) {
+  const CvtIteration* before = nullptr;
+  for (const CvtIteration& iteration : report.iterations) {
+    const bool same =
+        before != nullptr && before->cells == iteration.cells && before->rule == iteration.rule;
+    if (!iteration.accepted)
+      continue;
+    if (same)
+      CHECK(iteration.energy <= before->energy * (1 + 2e-13));
+    before = &iteration;
+  }
+}
+
+constexpr std::array<Method, 5> methods{Method::lloyd, Method::nesterov, Method::lbfgs,
+                                        Method::lbfgs_laplacian, Method::automatic};
+
+/// From a random start, of one method.
+void check_random_start(const Density& density, Method method) {
+  CAPTURE(static_cast<int>(method));
+  CvtOptions options;
+  options.density = density;
+  options.method = method;
+  options.max_iterations = 40;
+  const auto with = [&](std::size_t threads, int regions, Sort sort) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    options.partition.regions = regions;
+    options.partition.sort = sort;
+    return cvt(random_sphere(1700, 4), options);
+  };
+  const Cvt one = with(1, 1, Sort::halo);
+  CHECK(!one.report.converged);
+  CHECK(one.report.iterations.size() >= 40);
+  CHECK(check(one.mesh).failure == "");
+  check_descent(one.report);
+  for (const Cvt& other : {with(4, 12, Sort::halo), with(2, 42, Sort::distance),
+                           with(3, 2, Sort::voronoi), with(2, 300, Sort::halo)}) {
+    CHECK((one.mesh.points == other.mesh.points));
+    CHECK((one.mesh.triangles == other.mesh.triangles));
+    for (std::size_t k = 0; k < one.report.iterations.size(); ++k) {
+      CHECK(one.report.iterations[k].energy == other.report.iterations[k].energy);
+      CHECK(one.report.iterations[k].l2 == other.report.iterations[k].l2);
+      CHECK(one.report.iterations[k].linf == other.report.iterations[k].linf);
+      CHECK(one.report.iterations[k].gradient == other.report.iterations[k].gradient);
+    }
+  }
+}
+
+} // namespace
+
+TEST_CASE("every method takes uniform bisected grids to the known optimum without a flip") {
+  CvtOptions options;
+  options.tolerance = 1e-8;
+  options.max_iterations = 3000;
+  const std::array<double, 2> energies{25.44900, 25.44443}; // E n for n = 2562 and 10 242
+  for (const int level : {4, 5}) {
+    double lowest = 0;
+    for (const Method method : methods) {
+      CAPTURE(static_cast<int>(method));
+      options.method = method;
+      const Cvt grid = cvt(bisected_icosahedron(level), options);
+      const double energy =
+          grid.report.iterations.back().energy * static_cast<double>(grid.mesh.points.cols());
+      CHECK(grid.report.converged);
+      CHECK(energy == doctest::Approx(energies[static_cast<std::size_t>(level - 4)]).epsilon(1e-6));
+      if (method == Method::lloyd)
+        lowest = energy;
+      CHECK(energy == doctest::Approx(lowest).epsilon(1e-10));
+      for (const CvtIteration& iteration : grid.report.iterations)
+        CHECK(iteration.flips + iteration.rebuilt == 0);
+      if (method == Method::lbfgs_laplacian || method == Method::automatic)
+        CHECK(grid.report.iterations.size() < 60); // Lloyd's method takes hundreds
+      check_descent(grid.report);
+      CHECK(check(grid.mesh).failure == "");
+    }
+  }
+}
+
+TEST_CASE("random starts: the energy falls, and threads, regions and sorts do not show") {
+  for (const Method method : methods) {
+    check_random_start(Density{}, method);
+    check_random_start(x8(), method);
+  }
+}
+
+TEST_CASE("over-relaxed Lloyd's steps descend, and need fewer evaluations") {
+  for (const Density& density : {Density{}, x8()}) {
+    CvtOptions options;
+    options.density = density;
+    options.method = Method::lloyd;
+    options.tolerance = 1e-4;
+    options.max_iterations = 5000;
+    const Points3 start = random_sphere(700, 3);
+    const CvtReport plain = cvt(start, options).report;
+    options.relaxation = 1.7;
+    const CvtReport relaxed = cvt(start, options).report;
+    check_descent(relaxed);
+    CHECK(plain.converged);
+    CHECK(relaxed.converged);
+    if (density.uniform()) // defects go other ways where it is not
+      CHECK(relaxed.iterations.size() < plain.iterations.size());
+  }
+}
+
+TEST_CASE("a run goes on from any of its states to the same bits") {
+  for (const Method method : methods) {
+    CAPTURE(static_cast<int>(method));
+    CvtOptions options;
+    options.density = x8();
+    options.method = method;
+    options.max_iterations = 70; // the Laplacian is made anew
+    options.bisections = 1;
+    options.tolerance = 1e-3; // the final rule takes over
+    std::vector<CvtState> states;
+    const Cvt whole = cvt(random_sphere(300, 4), options, [&](const CvtState& state) {
+      states.push_back(state);
+      return false;
+    });
+    CHECK(whole.mesh.points.cols() == 4 * 300 - 6);
+    if (method != Method::lloyd) // which is not as far then
+      CHECK(whole.report.iterations.back().rule == options.final_rule);
+    for (std::size_t k = 0; k < states.size(); k += 9) {
+      const Cvt rest = cvt(states[k], options);
+      CAPTURE(k);
+      CHECK((rest.mesh.points == whole.mesh.points));
+      CHECK((rest.mesh.triangles == whole.mesh.triangles));
+      CHECK(rest.report.iterations.size() == whole.report.iterations.size());
+      CHECK(rest.report.iterations.back().energy == whole.report.iterations.back().energy);
+    }
+  }
+}
+
+TEST_CASE("every machine, compiler option and vector width gives the same bits") {
+  // FNV-1a of the coordinates, as a build without vector code gave them: the sanitizers' builds
+  // have none, the release has that of the machine.
+  const auto hash = [](const Points3& points) {
+    std::uint64_t h = 0xcbf29ce484222325U;
+    for (const double value : points.reshaped())
+      for (int byte = 0; byte < 8; ++byte)
+        h = (h ^ (std::bit_cast<std::uint64_t>(value) >> (8 * byte) & 0xff)) * 0x100000001b3U;
+    return h;
+  };
+  CvtOptions options;
+  options.method = Method::lloyd;
+  options.max_iterations = 30;
+  CHECK(hash(cvt(random_sphere(1500, 6), options).mesh.points) == 2641754437363962629U);
+  options.density = x8();
+  CHECK(hash(cvt(random_sphere(1500, 6), options).mesh.points) == 4397988346090177093U);
+  options.method = Method::lbfgs_laplacian;
+  CHECK(hash(cvt(random_sphere(1500, 6), options).mesh.points) == 6522561348324642743U);
+}
+
+TEST_CASE("a state that no run has left is refused") {
+  CvtOptions options;
+  options.max_iterations = 1;
+  CvtState good;
+  cvt(random_sphere(50), options, [&](const CvtState& state) {
+    good = state;
+    return true;
+  });
+  CHECK_NOTHROW(cvt(good, options));
+  std::vector<CvtState> bad(5, good);
+  bad[0].id[3] = bad[0].id[4];
+  bad[1].id.pop_back();
+  bad[2].points(0, 7) = std::nan("");
+  bad[3].points *= 2;
+  bad[4].site_of_input[0] = 50;
+  for (const CvtState& state : bad)
+    CHECK_THROWS_AS(cvt(state, options), Error);
+}
+
+TEST_CASE("the norms stop as they say") {
+  CvtOptions options;
+  options.max_iterations = 2000;
+  const double h = std::sqrt(4 * pi / 642);
+  for (const Norm norm :
+       {Norm::l2, Norm::linf, Norm::l2_scaled, Norm::linf_scaled, Norm::gradient}) {
+    options.norm = norm;
+    options.tolerance = 1e-5;
+    const Cvt grid = cvt(bisected_icosahedron(3), options);
+    CHECK(grid.report.converged);
+    const auto value = [&](const CvtIteration& it) {
+      return norm == Norm::l2            ? it.l2
+             : norm == Norm::linf        ? it.linf
+             : norm == Norm::l2_scaled   ? it.l2 / h
+             : norm == Norm::linf_scaled ? it.linf / h
+                                         : it.gradient;
+    };
+    for (std::size_t k = 0; k + 1 < grid.report.iterations.size(); ++k)
+      CHECK(value(grid.report.iterations[k]) > 1e-5);
+    CHECK(value(grid.report.iterations.back()) <= 1e-5);
+    CHECK(grid.report.residual == doctest::Approx(value(grid.report.iterations.back())));
+  }
+}
+
+TEST_CASE("the gradient is the energy's slope") {
+  // Along the steepest descent from x the energy falls by |g|^2 for a unit of it.
+  const Points3 x = random_sphere(300, 9);
+  CvtOptions options;
+  options.density = x8();
+  options.rule = options.final_rule = 19; // else the rule's error shows in the energy
+  options.method = Method::lloyd;
+  options.norm = Norm::none;
+  options.max_iterations = 1;
+  const auto energy = [&](const Points3& points) {
+    return cvt(points, options).report.iterations.back().energy;
+  };
+  const Moments moments = mesh_moments(delaunay(x), options.density, 19);
+  Points3 gradient(3, x.cols());
+  for (Eigen::Index i = 0; i < x.cols(); ++i) {
+    const Vec3 first = moments.first[i];
+    const Eigen::Vector3d m(first.x, first.y, first.z);
+    gradient.col(i) = -2 * (m - m.dot(x.col(i)) * x.col(i));
+  }
+  CHECK(cvt(x, options).report.iterations.back().gradient ==
+        doctest::Approx(gradient.norm()).epsilon(1e-12));
+  const double step = 1e-4;
+  const Points3 there = (x - step * gradient).colwise().normalized();
+  const Points3 back = (x + step * gradient).colwise().normalized();
+  const double slope = (energy(back) - energy(there)) / (2 * step);
+  CHECK(slope == doctest::Approx(gradient.squaredNorm()).epsilon(2e-3));
+}
+
+TEST_CASE("the report counts regions, their sites and what they would send") {
+  CvtOptions options;
+  options.max_iterations = 3;
+  options.norm = Norm::none;
+  const Points3 start = bisected_icosahedron(5);
+  std::int64_t halo_bytes = 0;
+  for (const Sort sort : {Sort::halo, Sort::distance, Sort::voronoi}) {
+    options.partition.sort = sort;
+    const CvtReport report = cvt(start, options).report;
+    std::int64_t sites = 0, halos = 0, bytes = 0;
+    for (const CvtRegion& region : report.regions) {
+      sites += region.sites;
+      halos += region.halo;
+      bytes += region.halo_bytes;
+      CHECK(region.seconds > 0);
+    }
+    CHECK(report.converged);
+    CHECK(sites == start.cols());
+    CHECK(bytes == 24 * halos);
+    CHECK(bytes > halo_bytes); // the paper's sorts take more than the strip, Voronoi the most
+    halo_bytes = bytes;
+    for (const CvtIteration& iteration : report.iterations)
+      CHECK(iteration.seconds_exchange + iteration.seconds_moments > 0);
+  }
+}
+
+TEST_CASE("generators stay in the order of the start") {
+  const Points3 start = bisected_icosahedron(3);
+  CvtOptions options;
+  options.max_iterations = 20;
+  const Cvt grid = cvt(start, options);
+  CHECK((grid.mesh.points - start).colwise().norm().maxCoeff() < 0.05);
+}
+
+TEST_CASE("the tanh bump spreads spacings by the fourth root of its contrast [slow]") {
+  CvtOptions options;
+  options.density = x8();
+  options.max_iterations = 1500;
+  options.tolerance = 1e-5;
+  const Cvt grid = cvt(bisected_icosahedron(4), options);
+  check_descent(grid.report);
+  double shortest = 4, longest = 0;
+  for (Eigen::Index t = 0; t < grid.mesh.triangles.cols(); ++t)
+    for (int e = 0; e < 3; ++e) {
+      const double side = (grid.mesh.points.col(grid.mesh.triangles(e, t)) -
+                           grid.mesh.points.col(grid.mesh.triangles((e + 1) % 3, t)))
+                              .norm();
+      shortest = std::min(shortest, side);
+      longest = std::max(longest, side);
+    }
+  CHECK(longest / shortest > 6);
+  CHECK(longest / shortest < 14);
+}
+
+TEST_CASE("the fixed point depends on the rule by the rule's order only [slow]") {
+  // Smooth and without any symmetry, along which generators could turn.
+  CvtOptions options;
+  options.density.kind = Density::Kind::callable;
+  options.density.callable = [](const Eigen::Ref<const Points3>& x,
+                                Eigen::Ref<Eigen::VectorXd> rho) {
+    const auto px = x.row(0).array(), py = x.row(1).array(), pz = x.row(2).array();
+    rho = (pz + 0.7 * px + 2 * py * py - px * pz).exp().matrix().transpose();
+  };
+  options.tolerance = 1e-10;
+  options.max_iterations = 20000;
+  const auto fixed_point = [&](int rule, int divisions) {
+    options.rule = options.final_rule = rule;
+    options.triangle_divisions = divisions;
+    const Cvt grid = cvt(bisected_icosahedron(1), options);
+    CHECK(grid.report.converged);
+    return grid.mesh.points;
+  };
+  const Points3 exact = fixed_point(19, 2);
+  const auto error = [&](int rule, int divisions) {
+    return (fixed_point(rule, divisions) - exact).colwise().norm().maxCoeff();
+  };
+  const double three = error(3, 1), three_halved = error(3, 2), six = error(6, 1),
+               seven = error(7, 1);
+  CHECK(three < 0.02);
+  CHECK(three_halved < three / 3); // its degree is 2
+  CHECK(six < three / 5);
+  CHECK(seven < six);
+  CHECK(error(13, 1) < seven / 3);
+}
+
+TEST_CASE("x8: the default rule's centroids are right to 1e-8 of the spacing [slow]") {
+  CvtOptions options;
+  options.density = x8();
+  options.tolerance = 1e-3;
+  options.bisections = 2;
+  const Cvt grid = cvt(bisected_icosahedron(3), options);
+  const double h = std::sqrt(4 * pi / 10242);
+  CHECK(grid.mesh.points.cols() == 10242);
+  CHECK(grid.report.converged);
+  const Moments rule = mesh_moments(grid.mesh, options.density, CvtOptions{}.final_rule);
+  const Moments exact = mesh_moments(grid.mesh, options.density, 19, 4);
+  double squares = 0;
+  for (std::int64_t i = 0; i < 10242; ++i) {
+    const Vec3 apart =
+        (1 / norm(rule.first[i])) * rule.first[i] - (1 / norm(exact.first[i])) * exact.first[i];
+    squares += dot(apart, apart);
+  }
+  CHECK(std::sqrt(squares / 10242) < 1e-8 * h);
+}
+
+TEST_CASE("bad input is refused in one line") {
+  const Points3 start = random_sphere(100);
+  const auto code = [&](const Points3& points, const CvtOptions& options) {
+    try {
+      cvt(points, options);
+    } catch (const Error& e) {
+      return e.code();
+    }
+    return ErrorCode::internal;
+  };
+  CvtOptions options;
+  CHECK(code(random_sphere(11), options) == ErrorCode::too_few_sites);
+  Points3 half = start;
+  half.row(2) = half.row(2).cwiseAbs();
+  CHECK(code(half, options) == ErrorCode::too_few_sites);
+  options.tolerance = 0;
+  CHECK(code(start, options) == ErrorCode::bad_option);
+  for (const double relaxation : {0.9, 2.0, std::nan("")}) {
+    options = {};
+    options.relaxation = relaxation;
+    CHECK(code(start, options) == ErrorCode::bad_option);
+  }
+  for (const int divisions : {0, 101}) {
+    options = {};
+    options.triangle_divisions = divisions;
+    CHECK(code(start, options) == ErrorCode::bad_option);
+  }
+  for (const int bisections : {-1, 12, 100}) {
+    options = {};
+    options.bisections = bisections;
+    CHECK(code(start, options) == ErrorCode::bad_option);
+  }
+  options = {};
+  options.rule = 5;
+  CHECK(code(start, options) == ErrorCode::bad_option);
+  options = {};
+  options.density = tanh_bump({0, 0, 1}, 0.5, 0.2, 0);
+  CHECK(code(start, options) == ErrorCode::bad_option);
+  options.density.kind = Density::Kind::callable;
+  options.density.callable = [](const Eigen::Ref<const Points3>&, Eigen::Ref<Eigen::VectorXd> rho) {
+    rho.setZero();
+  };
+  CHECK(code(start, options) == ErrorCode::bad_option);
+  options.density.callable = [](const Eigen::Ref<const Points3>&, Eigen::Ref<Eigen::VectorXd> rho) {
+    rho.setConstant(-1);
+  };
+  CHECK(code(start, options) == ErrorCode::bad_option);
+  options.density.callable = [](const Eigen::Ref<const Points3>&, Eigen::Ref<Eigen::VectorXd> rho) {
+    rho.setConstant(std::nan(""));
+  };
+  CHECK(code(start, options) == ErrorCode::bad_option);
+}

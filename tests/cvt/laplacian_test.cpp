@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/vector_field.h"
+#include "cvt/functional.h"
+#include "cvt/laplacian.h"
+#include "cvt/multigrid.h"
+#include "support/densities.h"
+
+#include <calotte/cvt.h>
+#include <calotte/generators.h>
+
+#include <doctest/doctest.h>
+#include <tbb/global_control.h>
+
+#include <cmath>
+#include <numbers>
+
+using namespace calotte;
+using namespace calotte::cvt_detail;
+using test::x8;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// Generators along a space-filling curve, near an optimum of the energy.
+Points3 near_optimum(const Density& density, std::int64_t cells) {
+  const Continuation from = continuation(cells, density);
+  CvtOptions options;
+  options.density = density;
+  options.bisections = from.bisections;
+  options.tolerance = 1e-2;
+  Points3 points;
+  cvt(from.start, options, [&](const CvtState& state) {
+    points = state.points;
+    return false;
+  });
+  return points;
+}
+
+/// A tangential field: smooth ones, and noise.
+Points3 field(const Points3& x, int kind) {
+  Points3 v = kind == 0 ? random_sphere(x.cols(), 5) : Points3(3, x.cols());
+  for (Eigen::Index i = 0; kind > 0 && i < x.cols(); ++i)
+    v.col(i) << std::sin(kind * x(1, i)), x(0, i) * x(2, i), std::cos(kind * x(0, i));
+  make_tangential(v, x);
+  return v;
+}
+
+/// The energy's second derivative along a field, from gradients a little apart.
+double curvature(Functional& functional, const Points3& x, const Points3& v) {
+  const double h = std::sqrt(4 * pi / static_cast<double>(x.cols())), step = 1e-4 * h;
+  const auto slope = [&](double there) {
+    const Points3 points = retract(x, there, v);
+    Evaluation evaluation;
+    functional.evaluate(points, true, true, evaluation);
+    make_tangential(evaluation.gradient, x);
+    return inner(evaluation.gradient, v);
+  };
+  return (slope(step) - slope(-step)) / (2 * step);
+}
+
+} // namespace
+
+TEST_CASE("the graph Laplacian is symmetric, and all but zero on a constant") {
+  for (const Density& density : {Density{}, x8()}) {
+    const SparseMatrix matrix = graph_laplacian(near_optimum(density, 642), density);
+    const SparseMatrix transposed = matrix.transpose();
+    CHECK((matrix - transposed).norm() == 0);
+    const Eigen::VectorXd sums = matrix * Eigen::VectorXd::Ones(matrix.cols());
+    CHECK((sums.array() > 0).all());
+    CHECK((sums.array() < 0.2 * matrix.diagonal().array()).all());
+    for (Eigen::Index i = 0; i < matrix.rows(); ++i)
+      for (SparseMatrix::InnerIterator entry(matrix, i); entry; ++entry)
+        CHECK((entry.col() == i) == (entry.value() > 0));
+  }
+}
+
+TEST_CASE("the graph Laplacian is near the energy's second derivative") {
+  for (const Density& density : {Density{}, x8()}) {
+    const Points3 x = near_optimum(density, 2562);
+    CvtOptions options;
+    options.density = density;
+    const auto functional = make_functional(x, options);
+    const SparseMatrix matrix = graph_laplacian(x, density);
+    for (int kind = 0; kind < 12; kind += 3) {
+      const Points3 v = field(x, kind);
+      const double exact = curvature(*functional, x, v),
+                   approximate = (v * matrix).cwiseProduct(v).sum();
+      CAPTURE(kind);
+      CHECK(exact > 0.2 * approximate);
+      CHECK(exact < 1.2 * approximate);
+    }
+  }
+}
+
+TEST_CASE("the multigrid cycle is symmetric, positive, and contracts whatever the size") {
+  for (const std::int64_t cells : {642, 2562, 10242}) {
+    for (const Density& density : {Density{}, x8()}) {
+      CAPTURE(cells);
+      const Points3 x = near_optimum(density, cells);
+      const Multigrid multigrid(graph_laplacian(x, density));
+      const Points3 a = random_sphere(x.cols(), 1), b = random_sphere(x.cols(), 2);
+      const Points3 from_a = multigrid.solve(a), from_b = multigrid.solve(b);
+      CHECK(inner(a, from_b) == doctest::Approx(inner(b, from_a)).epsilon(1e-9));
+      CHECK(inner(a, from_a) > 0);
+      Points3 solution = Points3::Zero(3, x.cols());
+      double before = 0, after = 0;
+      for (int k = 0; k < 12; ++k) {
+        const Points3 residual = difference(b, multigrid.apply(solution));
+        before = after;
+        after = std::sqrt(inner(residual, residual));
+        add(solution, 1, multigrid.solve(residual));
+      }
+      CHECK(after < 0.7 * before);
+    }
+  }
+}
+
+TEST_CASE("under 300 rows the cycle is exact") {
+  const Points3 x = near_optimum(Density{}, 162), right = random_sphere(162, 3);
+  const Multigrid multigrid(graph_laplacian(x, Density{}));
+  CHECK((multigrid.apply(multigrid.solve(right)) - right).norm() < 1e-9);
+}
+
+TEST_CASE("fields and cycles are the same bits for any number of threads") {
+  const Points3 x = near_optimum(Density{}, 40962);
+  const auto with = [&](std::size_t threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    const Multigrid multigrid(graph_laplacian(x, Density{}));
+    const Points3 solved = multigrid.solve(random_sphere(x.cols(), 1));
+    return std::pair(inner(solved, x), solved);
+  };
+  const auto one = with(1), four = with(4);
+  CHECK(one.first == four.first);
+  CHECK((one.second == four.second));
+}

@@ -1,0 +1,538 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cvt/planar_cells.h"
+#include "density/planar_density.h"
+
+#include "support/random.h"
+
+#include <calotte/cvt.h>
+#include <calotte/delaunay.h>
+#include <calotte/domain.h>
+#include <calotte/error.h>
+#include <calotte/generators.h>
+#include <calotte/planar_raster.h>
+#include <calotte/quality.h>
+
+#include <Eigen/Geometry>
+#include <doctest/doctest.h>
+
+#include <oneapi/tbb/task_arena.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace calotte;
+using namespace calotte::cvt_detail;
+using std::numbers::pi;
+
+/// E n / area^2 of regular hexagons.
+const double hexagons = 5 * std::sqrt(3.0) / 54;
+
+Points2 ring_of(const std::vector<std::array<double, 2>>& corners) {
+  Points2 ring(2, static_cast<Eigen::Index>(corners.size()));
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    ring.col(static_cast<Eigen::Index>(i)) << corners[i][0], corners[i][1];
+  return ring;
+}
+
+/// A closed curve of radius r with waves of many lengths.
+Points2 coast(int corners, double r, Eigen::Vector2d at) {
+  Points2 ring(2, corners);
+  for (int i = 0; i < corners; ++i) {
+    const double angle = 2 * pi * i / corners;
+    const double radius = r * (1 + 0.25 * std::sin(3 * angle + 1) + 0.08 * std::sin(17 * angle) +
+                               0.03 * std::sin(101 * angle));
+    ring.col(i) << at.x() + radius * std::cos(angle), at.y() + radius * std::sin(angle);
+  }
+  return ring;
+}
+
+/// A lake with islands, one of them with a pond: some thousand edges.
+PlanarDomain lake() {
+  return {{coast(3000, 1, {0, 0}), coast(500, 0.2, {0.35, 0.2}), coast(400, 0.15, {-0.4, -0.2}),
+           coast(100, 0.05, {0.35, 0.2})},
+          {0, 0}};
+}
+
+/// A comb: its teeth are narrower than cells.
+PlanarDomain comb() {
+  std::vector<std::array<double, 2>> corners{{0, 0}, {10, 0}, {10, 3}};
+  for (int tooth = 9; tooth > 0; --tooth) {
+    corners.push_back({tooth + 0.02, 3});
+    corners.push_back({tooth + 0.01, 0.5});
+    corners.push_back({tooth - 0.01, 0.5});
+    corners.push_back({tooth - 0.02, 3});
+  }
+  corners.push_back({0, 3});
+  return {{ring_of(corners)}, {0, 0}};
+}
+
+PlanarDomain unit_square() { return rectangle({0, 0}, {1, 1}); }
+
+Points2 random_start(const PlanarDomain& domain, std::int64_t n, std::uint64_t seed) {
+  test::Random random(seed);
+  Points2 points(2, n);
+  if (domain.periodic()) {
+    for (Eigen::Index i = 0; i < n; ++i)
+      points.col(i) << random.real(0, domain.period.x()), random.real(0, domain.period.y());
+    return points;
+  }
+  const Outline outline(domain);
+  for (Eigen::Index i = 0; i < n;) {
+    const Vec2 place{random.real(outline.box().low.x, outline.box().high.x),
+                     random.real(outline.box().low.y, outline.box().high.y)};
+    if (outline.side(place) == Side::inside)
+      points.col(i++) << place.x, place.y;
+  }
+  return points;
+}
+
+/// contains(), with the domain's outline made once.
+std::function<bool(const Eigen::Vector2d&)> containing(const PlanarDomain& domain) {
+  if (domain.periodic())
+    return [domain](const Eigen::Vector2d& place) { return contains(domain, place); };
+  return [outline = std::make_shared<Outline>(domain)](const Eigen::Vector2d& place) {
+    return outline->side({place.x(), place.y()}) != Side::outside;
+  };
+}
+
+/// The generators' moments, one region.
+struct AllMoments {
+  Eigen::VectorXd mass, energy;
+  Points2 first;
+};
+
+AllMoments moments_of(const Points2& points, const PlanarDomain& domain, const Density& density,
+                      int regions = 1, int rule = 6) {
+  Points3 x = Points3::Zero(3, points.cols());
+  x.topRows<2>() = points;
+  PlanarCells cells(domain);
+  cells.move(x);
+  const Connectivity mesh = cells.signs().triangulate();
+  Array<std::int32_t> owner(cells.places());
+  for (std::int64_t i = 0; i < owner.size(); ++i)
+    owner[i] = static_cast<std::int32_t>(i % regions);
+  const std::vector<Patch> patches =
+      make_patches(mesh.triangles, make_ownership(std::move(owner), regions));
+  const Integrand integrand = make_integrand(density, rule, 1);
+  AllMoments all{Eigen::VectorXd(points.cols()), Eigen::VectorXd(points.cols()),
+                 Points2(2, points.cols())};
+  for (const Patch& patch : patches) {
+    Array<Vec3> places(std::ssize(patch.sites));
+    for (std::int64_t i = 0; i < places.size(); ++i)
+      places[i] = cells.place(patch.sites[static_cast<std::size_t>(i)]);
+    Array<CellMoments> moments(places.size());
+    std::vector<std::int32_t> suspects;
+    cells.integrate(integrand, patch, places, moments, suspects);
+    for (std::int32_t i = 0; i < patch.owned; ++i)
+      if (const std::int32_t site = patch.sites[static_cast<std::size_t>(i)];
+          site < points.cols()) {
+        all.mass[site] = moments[i].first.z;
+        all.first.col(site) << moments[i].first.x, moments[i].first.y;
+        all.energy[site] = moments[i].energy;
+      }
+  }
+  return all;
+}
+
+/// Accepted steps never climb, but for rounding.
+void check_descent(const CvtReport& report) {
+  const CvtIteration* before = nullptr;
+  for (const CvtIteration& iteration : report.iterations) {
+    if (!iteration.accepted)
+      continue;
+    if (before != nullptr && before->cells == iteration.cells && before->rule == iteration.rule)
+      CHECK(iteration.energy <= before->energy * (1 + 1e-12));
+    before = &iteration;
+  }
+}
+
+double scaled_energy(const CvtReport& report, double domain_area) {
+  const CvtIteration& last = report.iterations.back();
+  return last.energy * static_cast<double>(last.cells) / (domain_area * domain_area);
+}
+
+CvtOptions with_method(Method method, int regions = 4) {
+  CvtOptions options;
+  options.method = method;
+  options.partition.regions = regions;
+  return options;
+}
+
+constexpr std::array all_methods{Method::lloyd, Method::nesterov, Method::lbfgs,
+                                 Method::lbfgs_laplacian, Method::automatic};
+
+} // namespace
+
+TEST_CASE("areas of clipped cells sum to the domain's, whatever its shape and the generators") {
+  for (const PlanarDomain& domain : {unit_square(), lake(), comb()})
+    for (const std::int64_t n : {1, 2, 3, 10, 100, 3000}) {
+      CAPTURE(n);
+      const Points2 points = random_start(domain, n, static_cast<std::uint64_t>(n));
+      const AllMoments moments = moments_of(points, domain, {});
+      CHECK(moments.mass.sum() == doctest::Approx(area(domain)).epsilon(1e-12));
+      CHECK(moments.mass.minCoeff() > 0);
+      CHECK(moments.energy.minCoeff() > 0);
+    }
+}
+
+TEST_CASE("areas sum where the boundary runs along cells' sides and through their corners") {
+  PlanarDomain straight = rectangle({0, 0}, {4, 3});
+  straight.rings.push_back(ring_of({{1, 0.3}, {1.2, 0.3}, {1.2, 2.7}, {1, 2.7}}));
+  straight.rings.push_back(ring_of({{2, 1}, {2.2, 1}, {2.2, 2}, {2, 2}}));
+  straight.rings.push_back(ring_of({{3, 1}, {3.25, 1.5}, {3, 2}, {2.75, 1.5}}));
+  for (const double angle : {0.0, 0.1, 0.3, 0.5, 0.7, 1.0, 2.0, 3.0})
+    for (const double size : {1.0, 1e-3, 1e25})
+      for (const double place : {0.0, 1e6}) {
+        CAPTURE(angle);
+        CAPTURE(size);
+        CAPTURE(place);
+        const Eigen::Matrix2d turn = Eigen::Rotation2Dd(angle).toRotationMatrix();
+        const auto moved = [&](const Points2& points) {
+          Points2 result = size * turn * points;
+          result.array() += size * place;
+          return result;
+        };
+        if (size * place > 1e30)
+          continue;
+        PlanarDomain domain;
+        for (const Points2& ring : straight.rings)
+          domain.rings.push_back(moved(ring));
+        Points2 lattice(2, 12);
+        for (int i = 0; i < 12; ++i)
+          lattice.col(i) << i % 4 + 0.5, i / 4 + 0.5;
+        const double sum = moments_of(moved(lattice), domain, {}).mass.sum();
+        CHECK(sum == doctest::Approx(area(domain)).epsilon(1e-10));
+      }
+}
+
+TEST_CASE("a cell of one generator has the domain's own moments") {
+  const AllMoments square = moments_of(Eigen::Vector2d(0.25, 0.5), unit_square(), {});
+  CHECK(square.mass[0] == doctest::Approx(1));
+  CHECK(square.first(0, 0) == doctest::Approx(0.25));
+  CHECK(square.first(1, 0) == doctest::Approx(0).epsilon(1e-12));
+  CHECK(square.energy[0] == doctest::Approx(1.0 / 6 + 1.0 / 16));
+}
+
+TEST_CASE("cells agree with brute force by nearest generators") {
+  const PlanarDomain domain = lake();
+  const Outline outline(domain);
+  const Points2 points = random_start(domain, 40, 3);
+  const AllMoments moments = moments_of(points, domain, {});
+  const int side = 1200;
+  const double width = outline.box().high.x - outline.box().low.x,
+               height = outline.box().high.y - outline.box().low.y,
+               pixel = width / side * (height / side);
+  AllMoments counted{Eigen::VectorXd::Zero(40), Eigen::VectorXd::Zero(40), Points2::Zero(2, 40)};
+  for (int i = 0; i < side; ++i)
+    for (int j = 0; j < side; ++j) {
+      const Eigen::Vector2d p(outline.box().low.x + (i + 0.5) * width / side,
+                              outline.box().low.y + (j + 0.5) * height / side);
+      if (outline.side({p.x(), p.y()}) == Side::outside)
+        continue;
+      Eigen::Index nearest = 0;
+      const double square = (points.colwise() - p).colwise().squaredNorm().minCoeff(&nearest);
+      counted.mass[nearest] += pixel;
+      counted.energy[nearest] += pixel * square;
+      counted.first.col(nearest) += pixel * (p - points.col(nearest));
+    }
+  for (Eigen::Index k = 0; k < 40; ++k) {
+    CHECK(moments.mass[k] == doctest::Approx(counted.mass[k]).epsilon(0.02));
+    CHECK(moments.energy[k] == doctest::Approx(counted.energy[k]).epsilon(0.03));
+  }
+}
+
+TEST_CASE("the quadrature is exact for polynomials of its degree") {
+  Density density;
+  density.kind = Density::Kind::callable;
+  density.callable = [](const Eigen::Ref<const Points3>& x, Eigen::Ref<Eigen::VectorXd> rho) {
+    rho = (3 + x.row(0).array() * x.row(1).array() - 2 * x.row(0).array().square()).matrix();
+  };
+  const double exact = 3 + 0.25 - 2.0 / 3;
+  for (const std::int64_t n : {1, 5, 200}) {
+    const Points2 points = random_start(unit_square(), n, 5);
+    for (const int rule : {3, 6, 13})
+      CHECK(moments_of(points, unit_square(), density, 1, rule).mass.sum() ==
+            doctest::Approx(exact).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("moments have the same bits for any partition") {
+  Density bump = tanh_bump({0.3, 0.4, 0}, 0.2, 0.1, 0.01);
+  for (const PlanarDomain& domain : {lake(), periodic_box({2, 1.5})})
+    for (const Density& density : {Density{}, planar_density(bump, domain)}) {
+      const Points2 points = random_start(domain, 2000, 9);
+      const AllMoments one = moments_of(points, domain, density),
+                       many = moments_of(points, domain, density, 17);
+      CHECK(one.mass == many.mass);
+      CHECK(one.energy == many.energy);
+      CHECK(one.first == many.first);
+    }
+}
+
+TEST_CASE("a periodic lattice of regular hexagons is a fixed point, with the hexagons' energy") {
+  const PlanarMesh lattice = periodic_hexagons(24, 28, 0.37);
+  const PlanarDomain box = periodic_box(lattice.period);
+  for (const Method method : all_methods) {
+    const PlanarCvt grid = cvt(lattice.points, box, with_method(method));
+    CHECK(grid.report.converged);
+    CHECK(grid.report.iterations.size() == 1);
+    CHECK(grid.report.iterations.back().flips == 0);
+    CHECK_FALSE(grid.report.iterations.back().rebuilt);
+    CHECK(grid.report.residual < 1e-12);
+    CHECK(scaled_energy(grid.report, area(box)) == doctest::Approx(hexagons).epsilon(1e-12));
+    CHECK(grid.mesh.triangles == lattice.triangles);
+  }
+}
+
+TEST_CASE("every method brings the energy down, in every kind of domain") {
+  for (const PlanarDomain& domain : {unit_square(), lake(), comb(), periodic_box({3, 1})}) {
+    const auto inside = containing(domain);
+    for (const bool refined : {false, true})
+      for (const Method method : all_methods) {
+        CAPTURE(static_cast<int>(method));
+        CvtOptions options = with_method(method);
+        options.max_iterations = 25;
+        if (refined)
+          options.density = tanh_bump({0.4, 0.3, 0}, 0.3, 0.15, 1.0 / 81);
+        const PlanarCvt grid = cvt(random_start(domain, 300, 11), domain, options);
+        check_descent(grid.report);
+        CHECK(grid.report.iterations.back().energy < 0.85 * grid.report.iterations.front().energy);
+        const Points2& x = grid.mesh.points;
+        REQUIRE(x.cols() == 300);
+        for (Eigen::Index i = 0; i < x.cols(); ++i)
+          REQUIRE(inside(x.col(i)));
+        const Points2 places = x;
+        const PlanarMesh again =
+            domain.periodic() ? delaunay(places, domain.period) : delaunay(places);
+        CHECK(grid.mesh.triangles == again.triangles);
+      }
+  }
+}
+
+TEST_CASE("the same bits for any threads and regions, and after any interruption [slow]") {
+  for (const PlanarDomain& domain : {lake(), periodic_box({1, 1})})
+    for (const Method method : {Method::lloyd, Method::automatic}) {
+      const Points2 start = random_start(domain, 800, 21);
+      CvtOptions options = with_method(method, 1);
+      options.max_iterations = 16;
+      options.density = tanh_bump({0.4, 0.3, 0}, 0.3, 0.15, 1.0 / 16);
+      std::vector<CvtState> states;
+      const PlanarCvt reference = cvt(start, domain, options, [&](const CvtState& state) {
+        if (state.report.iterations.size() % 7 == 3)
+          states.push_back(state);
+        return false;
+      });
+      for (const int regions : {2, 9, 50})
+        for (const int threads : {1, 4}) {
+          options.partition.regions = regions;
+          tbb::task_arena arena(threads);
+          const PlanarCvt other = arena.execute([&] { return cvt(start, domain, options); });
+          REQUIRE(other.mesh.points == reference.mesh.points);
+          REQUIRE(other.mesh.triangles == reference.mesh.triangles);
+        }
+      REQUIRE(!states.empty());
+      for (const CvtState& state : states)
+        REQUIRE(cvt(state, domain, options).mesh.points == reference.mesh.points);
+    }
+}
+
+TEST_CASE("a generator of a piece around a corner stays inside, and the run converges there") {
+  // A thin horseshoe: centroids of its cells lie in the bay.
+  const PlanarDomain horseshoe{
+      {ring_of({{0, 0}, {4, 0}, {4, 4}, {3.8, 4}, {3.8, 0.2}, {0.2, 0.2}, {0.2, 4}, {0, 4}})},
+      {0, 0}};
+  for (const std::int64_t n : {3, 4, 9})
+    for (const Method method : {Method::lloyd, Method::lbfgs}) {
+      CvtOptions options = with_method(method, 1);
+      options.tolerance = 1e-4;
+      const PlanarCvt grid = cvt(random_start(horseshoe, n, 2), horseshoe, options);
+      CAPTURE(n);
+      CHECK(grid.report.converged);
+      check_descent(grid.report);
+      for (Eigen::Index i = 0; i < n; ++i)
+        CHECK(contains(horseshoe, grid.mesh.points.col(i)));
+    }
+}
+
+TEST_CASE("in a box a triangle whose nearest copies do not close is none") {
+  Array<Vec3> places(3);
+  const PlaneSigns signs(places, {1, 1});
+  places[0] = {0.5, 0.5, 0};
+  places[1] = {0.9, 0.4, 0};
+  places[2] = {0.6, 0.8, 0};
+  CHECK(signs.is_counter_clockwise({0, 1, 2}));
+  CHECK_FALSE(signs.is_counter_clockwise({0, 2, 1}));
+  places[2] = {0.1, 0.7, 0}; // nearer to the second's copy to its right
+  CHECK_FALSE(signs.is_counter_clockwise({0, 1, 2}));
+  CHECK_FALSE(signs.is_counter_clockwise({0, 2, 1}));
+}
+
+TEST_CASE("bisection: periodic boxes have four times the cells, other domains the edges inside") {
+  CvtOptions options;
+  options.bisections = 2;
+  options.tolerance = 1e-2;
+  const PlanarDomain box = periodic_box({1, 1});
+  const PlanarCvt periodic = cvt(random_start(box, 100, 4), box, options);
+  CHECK(periodic.mesh.points.cols() == 1600);
+  CHECK(periodic.report.converged);
+  const PlanarCvt open = cvt(random_start(lake(), 100, 4), lake(), options);
+  CHECK(open.mesh.points.cols() > 1000);
+  const auto inside = containing(lake());
+  for (Eigen::Index i = 0; i < open.mesh.points.cols(); ++i)
+    REQUIRE(inside(open.mesh.points.col(i)));
+}
+
+TEST_CASE("the graph Laplacian's method takes as many evaluations whatever the number of cells") {
+  std::vector<std::size_t> evaluations;
+  for (const int columns : {16, 32, 64, 128}) {
+    const PlanarMesh lattice = periodic_hexagons(columns, columns, 1.0 / columns);
+    const PlanarDomain box = periodic_box(lattice.period);
+    test::Random random(5);
+    Points2 start = lattice.points;
+    for (Eigen::Index i = 0; i < start.cols(); ++i)
+      for (int k = 0; k < 2; ++k) // smooth, and rough
+        start(k, i) =
+            wrapped(start(k, i) + 0.02 * std::sin(2 * pi * start(1 - k, i) / box.period[1 - k]) +
+                        0.1 / columns * random.real(-1, 1),
+                    box.period[k]);
+    CvtOptions options = with_method(Method::lbfgs_laplacian);
+    options.tolerance = 1e-7;
+    const PlanarCvt grid = cvt(start, box, options);
+    CHECK(grid.report.converged);
+    CHECK(scaled_energy(grid.report, area(box)) == doctest::Approx(hexagons).epsilon(1e-9));
+    evaluations.push_back(grid.report.iterations.size());
+  }
+  MESSAGE(evaluations[0] << " " << evaluations[1] << " " << evaluations[2] << " "
+                         << evaluations[3]);
+  CHECK(evaluations[3] < 1.5 * static_cast<double>(evaluations[0]));
+  CHECK(evaluations[3] < 60);
+}
+
+TEST_CASE("the graph Laplacian is of use where shores turn their backs on generators") {
+  PlanarDomain domain = rectangle({0, 0}, {4, 3});
+  domain.rings.push_back(ring_of({{1, 0.3}, {1.2, 0.3}, {1.2, 2.7}, {1, 2.7}}));
+  domain.rings.push_back(ring_of({{2, 1}, {2.2, 1}, {2.2, 2}, {2, 2}}));
+  Points2 lattice(2, 48);
+  for (int i = 0; i < 48; ++i)
+    lattice.col(i) << i % 8 * 0.5 + 0.25, i / 8 * 0.5 + 0.25;
+  CvtOptions options = with_method(Method::lloyd, 1);
+  options.norm = Norm::none;
+  options.max_iterations = 20;
+  const PlanarCvt by_lloyd = cvt(lattice, domain, options);
+  options.method = Method::lbfgs_laplacian;
+  const PlanarCvt by_laplacian = cvt(lattice, domain, options);
+  CHECK(by_laplacian.mesh.points != by_lloyd.mesh.points); // which is what it falls back to
+}
+
+TEST_CASE("clusters, and domains far from the origin or of any size") {
+  Points2 cluster = random_start(unit_square(), 200, 6);
+  cluster.leftCols(100) = 0.5 + 1e-9 * (cluster.leftCols(100).array() - 0.5);
+  for (const double scale : {1e-20, 1.0, 1e20})
+    for (const double offset : {0.0, 1e6}) {
+      CAPTURE(scale);
+      CAPTURE(offset);
+      const Eigen::Vector2d low(offset * scale, -offset * scale);
+      const PlanarDomain domain = rectangle(low, low + Eigen::Vector2d(scale, scale));
+      const Points2 start =
+          (scale * (offset == 0 ? cluster : random_start(unit_square(), 200, 6))).colwise() + low;
+      CvtOptions options = with_method(Method::automatic);
+      options.tolerance = 1e-4;
+      const PlanarCvt grid = cvt(start, domain, options);
+      CHECK(grid.report.converged);
+      CHECK(scaled_energy(grid.report, area(domain)) == doctest::Approx(hexagons).epsilon(0.08));
+    }
+}
+
+TEST_CASE("quality of hexagons in a box, and of clipped cells") {
+  const PlanarMesh lattice = periodic_hexagons(24, 28, 0.37);
+  const PlanarDomain box = periodic_box(lattice.period);
+  const Quality hexagonal = quality(lattice, box);
+  CHECK(hexagonal.triangles == 2 * 24 * 28);
+  CHECK(hexagonal.degrees[6] == 24 * 28);
+  CHECK(hexagonal.spacing.min == doctest::Approx(0.37));
+  CHECK(hexagonal.spacing.max == doctest::Approx(0.37));
+  CHECK(hexagonal.cell_area.max == doctest::Approx(std::sqrt(3.0) / 2 * 0.37 * 0.37));
+  CHECK(hexagonal.triangle_quality.min == doctest::Approx(1));
+  CHECK(hexagonal.obtuse == 0);
+  CHECK(hexagonal.cells_area == doctest::Approx(1).epsilon(1e-12));
+  CHECK(hexagonal.residual < 1e-12);
+
+  const PlanarCvt grid = cvt(random_start(lake(), 500, 3), lake(), with_method(Method::automatic));
+  const Quality clipped = quality(grid.mesh, lake());
+  CHECK(clipped.cells == 500);
+  CHECK(clipped.cells_area == doctest::Approx(1).epsilon(1e-10));
+  CHECK(clipped.residual < 1e-5);
+  CHECK(clipped.spacing.max < 0.3); // edges across land are not counted
+  std::int64_t whole = 0;
+  for (const std::int64_t cells : clipped.degrees)
+    whole += cells;
+  CHECK(whole > 200);
+  CHECK(whole < 500);
+}
+
+TEST_CASE("a raster is bilinear, and goes on as at its rim") {
+  PlanarRaster raster{Eigen::Vector3d(0, 1, 3), Eigen::Vector2d(0, 2), Eigen::MatrixXd(3, 2)};
+  raster.density << 1, 2, 3, 5, 4, 8;
+  const Density density = density_of(raster);
+  Points3 x(3, 4);
+  x << 0.5, 2, -7, 3, 1, 0, 0, 9, 0, 0, 0, 0;
+  const Eigen::VectorXd values = evaluate(density, x);
+  CHECK(values[0] == doctest::Approx((1 + 3 + 2 + 5) / 4.0));
+  CHECK(values[1] == doctest::Approx(3.5));
+  CHECK(values[2] == doctest::Approx(1));
+  CHECK(values[3] == doctest::Approx(8));
+  raster.density(1, 1) = -1;
+  CHECK_THROWS_AS(density_of(raster), Error);
+  CHECK(evaluate(tanh_bump({0.05, 0.5, 0}, 0.2, 0.1, 0.01), periodic_box({1, 1}),
+                 Points2(Eigen::Vector2d(0.95, 0.5)))[0] > 0.7); // around the edge
+}
+
+TEST_CASE("bad input ends in one clear error") {
+  const auto refusal = [](const Points2& start, const PlanarDomain& domain,
+                          const CvtOptions& options = {}) -> std::pair<ErrorCode, std::string> {
+    try {
+      cvt(start, domain, options);
+    } catch (const Error& error) {
+      return {error.code(), error.what()};
+    }
+    return {ErrorCode::internal, ""};
+  };
+  Points2 start = random_start(unit_square(), 20, 1);
+  start.col(7) << 1.5, 0.5;
+  CHECK(refusal(start, unit_square()).second.find("point 7 is outside of the domain") == 0);
+  start.col(7) << NAN, 0.5;
+  CHECK(refusal(start, unit_square()).first == ErrorCode::not_finite);
+  CHECK(refusal(start, PlanarDomain{}).first == ErrorCode::bad_option);
+  const Points2 line = ring_of({{0.1, 0.5}, {0.5, 0.5}, {0.9, 0.5}});
+  CHECK(refusal(line, unit_square()).first == ErrorCode::degenerate);
+  CHECK(refusal(line.leftCols(2), unit_square()).first == ErrorCode::too_few_sites);
+  Density nothing;
+  nothing.kind = Density::Kind::callable;
+  nothing.callable = [](const Eigen::Ref<const Points3>&, Eigen::Ref<Eigen::VectorXd> rho) {
+    rho.setZero();
+  };
+  CvtOptions options;
+  options.density = nothing;
+  CHECK(refusal(random_start(unit_square(), 20, 1), unit_square(), options).first ==
+        ErrorCode::bad_option);
+}
+
+TEST_CASE("10 000 generators of the unit square come near the hexagons' energy [slow]") {
+  CvtOptions options;
+  options.tolerance = 1e-4;
+  options.max_iterations = 3000;
+  const PlanarCvt grid = cvt(random_start(unit_square(), 10'000, 1), unit_square(), options);
+  const double energy = scaled_energy(grid.report, 1);
+  MESSAGE("E n / area^2 over the hexagons': " << energy / hexagons << ", "
+                                              << grid.report.iterations.size() << " evaluations");
+  CHECK(energy > hexagons);
+  CHECK(energy < 1.015 * hexagons);
+}

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "delaunay/centres.h"
+#include "delaunay/regions.h"
+
+#include <calotte/error.h>
+#include <calotte/generators.h>
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+using namespace calotte;
+using namespace calotte::delaunay_detail;
+
+namespace {
+
+std::vector<std::vector<std::int32_t>> all_pairs(std::size_t count) {
+  std::vector<std::vector<std::int32_t>> adjacent(count);
+  for (std::size_t k = 0; k < count; ++k)
+    for (std::size_t m = 0; m < count; ++m)
+      if (m != k)
+        adjacent[k].push_back(static_cast<std::int32_t>(m));
+  return adjacent;
+}
+
+Regions regions_of(const Sites& sites, int count, Centres centres, Sort sort) {
+  DelaunayOptions options;
+  options.regions = count;
+  options.centres = centres;
+  return make_regions(sites, make_centres(sites, options),
+                      all_pairs(static_cast<std::size_t>(count)), sort);
+}
+
+/// Of the sampled regions the most sites that one owns, over the mean.
+double fullest(const Points3& points, int count) {
+  const Sites sites = make_sites(points, Duplicates::merge, 0);
+  const Regions regions = regions_of(sites, count, Centres::sample, Sort::halo);
+  std::vector<std::int64_t> owned(static_cast<std::size_t>(count), 0);
+  for (const std::int32_t k : regions.owner)
+    ++owned[static_cast<std::size_t>(k)];
+  return static_cast<double>(*std::max_element(owned.begin(), owned.end())) * count /
+         static_cast<double>(sites.size());
+}
+
+/// Half of the sites within a tenth of the sphere.
+Points3 crowded_cap() {
+  const Points3 all = random_sphere(60000, 3);
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index i = 0; i < all.cols(); ++i)
+    if (all(2, i) > 0.8 || i % 9 == 0)
+      kept.push_back(i);
+  return all(Eigen::all, kept);
+}
+
+} // namespace
+
+TEST_CASE("each site is owned by the nearest centre, by brute force") {
+  const Sites sites = make_sites(random_sphere(5000, 8), Duplicates::merge, 0);
+  for (const int count : {2, 12, 100}) {
+    const Regions regions = regions_of(sites, count, Centres::sample, Sort::halo);
+    for (std::int64_t r = 0; r < sites.size(); ++r) {
+      const auto squared = [&](std::int32_t k) {
+        const Vec3 apart = sites.unit[r] - regions.centres[static_cast<std::size_t>(k)];
+        return dot(apart, apart);
+      };
+      for (std::int32_t k = 0; k < count; ++k) {
+        const bool tie_to_lowest = squared(k) == squared(regions.owner[r]) && k >= regions.owner[r];
+        CHECK((squared(k) > squared(regions.owner[r]) || tie_to_lowest));
+      }
+    }
+  }
+}
+
+TEST_CASE("members ascend, hold all owned sites and all sites of the covered part, in every sort") {
+  const Sites sites = make_sites(random_sphere(4000, 9), Duplicates::merge, 0);
+  for (const Sort sort : {Sort::halo, Sort::distance, Sort::voronoi})
+    for (const int count : {2, 12, 60}) {
+      const Regions regions = regions_of(sites, count, Centres::fibonacci, sort);
+      for (std::size_t k = 0; k < regions.members.size(); ++k) {
+        std::vector<bool> member(static_cast<std::size_t>(sites.size()), false);
+        std::int32_t end = 0;
+        for (const Run& run : regions.members[k]) {
+          CHECK(run.begin >= end);
+          CHECK(run.end > run.begin);
+          end = run.end;
+          std::fill(member.begin() + run.begin, member.begin() + run.end, true);
+        }
+        for (std::int64_t r = 0; r < sites.size(); ++r) {
+          bool covered = true;
+          for (const HalfSpace& h : regions.covered[k])
+            covered = covered && dot(sites.unit[r], h.normal) <= h.offset;
+          const bool owned = regions.owner[r] == static_cast<std::int32_t>(k);
+          CHECK((!(covered || owned) || member[static_cast<std::size_t>(r)]));
+        }
+      }
+    }
+}
+
+TEST_CASE(
+    "what the voronoi sort calls covered is, though centres stand too close to tell owners apart") {
+  // Near the centres and across from them, each site is as near to one as to the other, by doubles.
+  Points3 points = random_sphere(20000, 6), centres = random_sphere(40, 7);
+  const Eigen::Vector3d middle = centres.col(0);
+  for (Eigen::Index i = 0; i < points.cols(); ++i)
+    points.col(i) = (i % 2 == 0 ? 1 : -1) * middle + 1e-3 * points.col(i);
+  for (Eigen::Index k = 0; k < centres.cols(); ++k)
+    centres.col(k) = middle + 3e-12 * centres.col(k);
+  const Sites sites = make_sites(points, Duplicates::merge, 0);
+  DelaunayOptions options;
+  options.given_centres = centres;
+  std::vector<std::vector<std::int32_t>> adjacent(40); // none but a few: most owners are no members
+  for (std::int32_t k = 0; k < 40; ++k)
+    adjacent[static_cast<std::size_t>(k)] = {k == 0 ? 39 : k - 1, k == 39 ? 0 : k + 1};
+  const Regions regions =
+      make_regions(sites, make_centres(sites, options), adjacent, Sort::voronoi);
+  for (std::size_t k = 0; k < 40; ++k)
+    for (std::int64_t r = 0; r < sites.size(); ++r) {
+      const auto in = [&](const HalfSpace& h) { return dot(sites.unit[r], h.normal) <= h.offset; };
+      if (!std::all_of(regions.covered[k].begin(), regions.covered[k].end(), in))
+        continue;
+      const std::int32_t owner = regions.owner[r];
+      CHECK((owner == static_cast<std::int32_t>(k) || owner == adjacent[k][0] ||
+             owner == adjacent[k][1]));
+    }
+}
+
+TEST_CASE("there are no more placed centres than sites, and halos stay thin with one each") {
+  const Sites sites = make_sites(random_sphere(1000, 5), Duplicates::merge, 0);
+  DelaunayOptions options;
+  options.regions = 1000000000;
+  CHECK(make_centres(sites, options).size() == 1000);
+  options.centres = Centres::fibonacci;
+  CHECK(make_centres(sites, options).size() == 1000);
+  const Regions regions = regions_of(sites, 1000, Centres::sample, Sort::halo);
+  std::int64_t members = 0;
+  for (const std::vector<Run>& runs : regions.members)
+    for (const Run& run : runs)
+      members += run.end - run.begin;
+  CHECK(members < 100 * sites.size());
+}
+
+TEST_CASE("regions of sampled centres hold nearly equal numbers of sites") {
+  CHECK(fullest(random_sphere(60000, 3), 24) < 1.2);
+  CHECK(fullest(bisected_icosahedron(6), 24) < 1.2);
+  CHECK(fullest(random_sphere(300000, 4), 160) < 1.2);
+  CHECK(fullest(crowded_cap(), 24) < 1.3);
+}
+
+TEST_CASE("centres need a number and directions") {
+  const Sites sites = make_sites(random_sphere(50), Duplicates::merge, 0);
+  DelaunayOptions options;
+  options.regions = 0;
+  CHECK_THROWS_WITH_AS(make_centres(sites, options), "the number of regions is 0: give at least 1",
+                       Error);
+  options.given_centres = Points3::Zero(3, 2);
+  CHECK_THROWS_AS(make_centres(sites, options), Error);
+}

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "delaunay/unite.h"
+
+#include <calotte/check.h>
+#include <calotte/error.h>
+
+#include <doctest/doctest.h>
+
+using namespace calotte;
+using namespace calotte::delaunay_detail;
+
+namespace {
+
+const std::array<Triple, 4> faces{{{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}}};
+
+/// Of sites 0 and 2 the first, of 1 and 3 the second.
+std::int32_t owner_of(std::int32_t site) { return site % 2; }
+
+/// The first faces of a tetrahedron as one of two regions reports them. All are seams of both;
+/// three have their lowest site in the first region, one in the second.
+RegionTriangles report_of(std::int32_t region, std::int32_t count = 4) {
+  RegionTriangles out{Array<Triple>(count), Array<Triple>(count), Array<std::int32_t>(count), {}};
+  const std::array<Triple, 4> neighbours{{{3, 1, 2}, {3, 2, 0}, {3, 0, 1}, {1, 0, 2}}};
+  for (std::int32_t t = 0; t < count; ++t) {
+    const auto face = static_cast<std::size_t>(t);
+    out.sites[t] = faces[face];
+    out.neighbours[t] = neighbours[face];
+    for (std::int32_t& across : out.neighbours[t])
+      across = across < count ? across : -1;
+    const std::int32_t home = owner_of(faces[face][0]);
+    // By second site: 0 1 2, 0 2 3, 0 3 1, and 1 3 2 alone.
+    out.rank[t] = home != region ? -1 : t == 3 ? 0 : t;
+    int bits = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::int32_t lower = std::min(faces[face][(i + 1) % 3], faces[face][(i + 2) % 3]);
+      bits |= static_cast<int>(owner_of(lower) == region) << i;
+    }
+    out.seams.push_back({faces[face], t, home, 2, static_cast<std::int8_t>(bits)});
+  }
+  return out;
+}
+
+/// \param points of the mesh, which are not looked at: their number alone counts.
+Mesh united(RegionTriangles first, RegionTriangles second, std::int64_t points = 4) {
+  std::vector<RegionTriangles> reports;
+  reports.push_back(std::move(first));
+  reports.push_back(std::move(second));
+  Array<std::int32_t> triangles_of(4);
+  for (std::int32_t s = 0; s < 4; ++s)
+    triangles_of[s] = s == 0 ? 3 : s == 1 ? 1 : 0;
+  Mesh mesh;
+  mesh.points.resize(3, points);
+  unite(std::move(reports), std::move(triangles_of), mesh);
+  return mesh;
+}
+
+bool is_internal_error(RegionTriangles first, RegionTriangles second) {
+  try {
+    united(std::move(first), std::move(second));
+  } catch (const Error& e) {
+    return e.code() == ErrorCode::internal;
+  }
+  return false;
+}
+
+} // namespace
+
+TEST_CASE("two regions' reports of one tetrahedron unite to its mesh") {
+  for (const std::int64_t points :
+       {std::int64_t{4}, most_sites_kept + 1}) { // many: memory goes back
+    Mesh mesh = united(report_of(0), report_of(1), points);
+    mesh.points.resize(3, 4);
+    mesh.points << 1, -1, -1, 1, 1, 1, -1, -1, 1, -1, 1, -1;
+    mesh.site_of_input = {0, 1, 2, 3};
+    CHECK(check(mesh).failure == "");
+  }
+}
+
+TEST_CASE("regions that disagree are an error, never a mesh") {
+  CHECK(is_internal_error(report_of(0), report_of(1, 3))); // one report too few: of its home
+  CHECK(is_internal_error(report_of(0, 3), report_of(1))); // of the other
+  RegionTriangles other = report_of(1);
+  other.seams[2].sites = {0, 3, 2}; // a triangle that nobody else knows
+  CHECK(is_internal_error(report_of(0), std::move(other)));
+  RegionTriangles sure = report_of(0);
+  sure.seams[1].reporters = 3; // says three owners, of which two report
+  CHECK(is_internal_error(std::move(sure), report_of(1)));
+  sure = report_of(1);
+  sure.seams[1].reporters = 3;
+  CHECK(is_internal_error(report_of(0), std::move(sure)));
+  std::array<RegionTriangles, 2> both{report_of(0), report_of(1)};
+  for (RegionTriangles& report : both)
+    report.seams[1].reporters = 3;
+  CHECK(is_internal_error(std::move(both[0]), std::move(both[1])));
+}

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "integrals/moments.h"
+
+#include <calotte/delaunay.h>
+#include <calotte/error.h>
+#include <calotte/generators.h>
+
+#include <doctest/doctest.h>
+#include <tbb/global_control.h>
+
+#include <cmath>
+#include <numbers>
+
+using namespace calotte;
+using namespace calotte::integrals_detail;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+struct Case {
+  const char* name;
+  Mesh mesh;
+};
+
+/// Random sets have obtuse triangles in plenty, and the smallest have circumcaps near a hemisphere.
+std::vector<Case> cases() {
+  std::vector<Case> out;
+  out.push_back({"icosahedron", delaunay(bisected_icosahedron(0))});
+  out.push_back({"642 bisected", delaunay(bisected_icosahedron(3))});
+  out.push_back({"lat-lon", delaunay(lat_lon_sphere(10, 20, true))});
+  out.push_back({"random 30", delaunay(random_sphere(30, 5))});
+  out.push_back({"random 3000", delaunay(random_sphere(3000, 5))});
+  out.push_back({"spiral 10000", delaunay(spiral_sphere(10000))});
+  return out;
+}
+
+double sum(const Array<double>& values) {
+  double total = 0;
+  for (const double v : values)
+    total += v;
+  return total;
+}
+
+Vec3 sum(const Array<Vec3>& values) {
+  Vec3 total{0, 0, 0};
+  for (const Vec3& v : values)
+    total = total + v;
+  return total;
+}
+
+/// Uniform, but integrated by quadrature.
+Density ones() {
+  Density density;
+  density.kind = Density::Kind::callable;
+  density.callable = [](const Eigen::Ref<const Points3>&, Eigen::Ref<Eigen::VectorXd> rho) {
+    rho.setOnes();
+  };
+  return density;
+}
+
+double largest_difference(const Moments& a, const Moments& b) {
+  double worst = 0;
+  for (std::int64_t i = 0; i < a.mass.size(); ++i)
+    worst = std::max({worst, std::abs(a.mass[i] - b.mass[i]), norm(a.first[i] - b.first[i]),
+                      std::abs(a.energy[i] - b.energy[i])});
+  return worst;
+}
+
+} // namespace
+
+TEST_CASE("uniform moments: masses sum to 4 pi, first moments to 0, energies follow from both") {
+  for (const Case& c : cases()) {
+    CAPTURE(c.name);
+    const Moments moments = mesh_moments(c.mesh, Density{});
+    CHECK(std::abs(sum(moments.mass) - 4 * pi) < 1e-12);
+    CHECK(norm(sum(moments.first)) < 1e-12);
+    for (std::int64_t i = 0; i < moments.mass.size(); ++i) {
+      CHECK(moments.mass[i] > 0);
+      CHECK(moments.energy[i] > 0);
+      const Vec3 x{c.mesh.points(0, i), c.mesh.points(1, i), c.mesh.points(2, i)};
+      // No digits cancel in the energy itself.
+      CHECK(std::abs(2 * (moments.mass[i] - dot(moments.first[i], x)) - moments.energy[i]) < 1e-14);
+    }
+  }
+}
+
+TEST_CASE("the closed form agrees with quadrature, obtuse triangles included") {
+  for (const Case& c : cases()) {
+    CAPTURE(c.name);
+    const Moments exact = mesh_moments(c.mesh, Density{});
+    const bool coarse = c.mesh.points.cols() < 1000;
+    const Moments fine = mesh_moments(c.mesh, ones(), 19, coarse ? 12 : 2);
+    CHECK(largest_difference(exact, fine) < 1e-11);
+  }
+}
+
+TEST_CASE("every rule converges at its order under division") {
+  const Mesh mesh = delaunay(spiral_sphere(150));
+  // Smooth everywhere, as a bump is not: its distance to the centre has a kink there.
+  Density density;
+  density.kind = Density::Kind::callable;
+  density.callable = [](const Eigen::Ref<const Points3>& x, Eigen::Ref<Eigen::VectorXd> rho) {
+    rho = (2 * x.row(2).array() + x.row(0).array()).exp().matrix().transpose();
+  };
+  const Moments exact = mesh_moments(mesh, density, 19, 8);
+  for (const int points : {1, 3, 6, 7}) {
+    const QuadratureRule& rule = quadrature_rule(points);
+    const double once = largest_difference(mesh_moments(mesh, density, points, 1), exact);
+    const double twice = largest_difference(mesh_moments(mesh, density, points, 2), exact);
+    CAPTURE(points);
+    CHECK(std::log2(once / twice) > rule.degree + 0.5); // degree + 1, but for the next order
+  }
+}
+
+TEST_CASE("moments of a density: mass against its integral in closed form") {
+  // rho depends on the angle d from the pole only: 2 pi times the integral of rho sin(d), by
+  // Simpson.
+  const double beta = pi / 6, alpha = 0.2, gamma = 1.0 / 4096;
+  double integral = 0;
+  constexpr int steps = 20000;
+  for (int s = 0; s <= steps; ++s) {
+    const double d = pi * s / steps;
+    const double rho = (std::tanh((beta - d) / alpha) + 1) / (2 * (1 - gamma)) + gamma;
+    integral += (s == 0 || s == steps ? 1 : s % 2 ? 4 : 2) * rho * std::sin(d);
+  }
+  integral *= 2 * pi * pi / steps / 3;
+  const Mesh mesh = delaunay(bisected_icosahedron(5));
+  const Density density = tanh_bump({0, 0, 2}, beta, alpha, gamma);
+  const Moments moments = mesh_moments(mesh, density, 6);
+  CHECK(std::abs(sum(moments.mass) - integral) < 1e-9);
+}
+
+TEST_CASE("moments are the same bits for any number of threads") {
+  const Mesh mesh = delaunay(random_sphere(40000, 5));
+  const Density density = tanh_bump({1, 2, 3}, 0.6, 0.5, 0.1);
+  const auto with = [&](std::size_t threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    return std::pair(mesh_moments(mesh, Density{}), mesh_moments(mesh, density, 3));
+  };
+  const auto one = with(1), four = with(4);
+  CHECK(largest_difference(one.first, four.first) == 0);
+  CHECK(largest_difference(one.second, four.second) == 0);
+}

@@ -1,0 +1,792 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <calotte/cell_width.h>
+#include <calotte/planar_raster.h>
+
+#include "base/lonlat.h"
+#include "base/spherical_angles.h"
+#include "exact/predicates.h"
+#include "io/netcdf_writer.h"
+#include "support/files.h"
+#include "support/random.h"
+
+#include <calotte/cvt.h>
+#include <calotte/error.h>
+#include <calotte/generators.h>
+
+#include <Eigen/Geometry>
+#include <doctest/doctest.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <sstream>
+#include <string>
+#include <vector>
+
+using namespace calotte;
+using calotte::test::Random;
+
+namespace {
+
+constexpr double pi = std::numbers::pi, degree = pi / 180;
+
+using Field = std::function<double(double longitude, double latitude)>; ///< of degrees
+
+/// A field sampled on columns x rows boxes, from a longitude on; poles included.
+CellWidth sampled(const Field& field, Eigen::Index columns, Eigen::Index rows, double west = -180) {
+  CellWidth width;
+  width.longitudes = west + (Eigen::VectorXd::LinSpaced(columns + 1, 0, 360).head(columns).array());
+  width.latitudes = Eigen::VectorXd::LinSpaced(rows + 1, -90, 90);
+  width.widths.resize(columns, rows + 1);
+  for (Eigen::Index j = 0; j <= rows; ++j)
+    for (Eigen::Index i = 0; i < columns; ++i)
+      width.widths(i, j) = field(width.longitudes[i], width.latitudes[j]);
+  return width;
+}
+
+CellWidth constant(double width) {
+  return sampled([=](double, double) { return width; }, 12, 6);
+}
+
+Points3 points_at(const std::vector<std::pair<double, double>>& places) {
+  Points3 points(3, static_cast<Eigen::Index>(places.size()));
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    const auto& [longitude, latitude] = places[static_cast<std::size_t>(i)];
+    const base_detail::Vec3 p = base_detail::from_lonlat(longitude, latitude);
+    points.col(i) << p.x, p.y, p.z;
+  }
+  return points;
+}
+
+double width_at(const CellWidth& width, double longitude, double latitude) {
+  return evaluate(width, points_at({{longitude, latitude}}))[0];
+}
+
+/// Smooth on the sphere: a function of Cartesian coordinates.
+double smooth(double longitude, double latitude) {
+  const base_detail::Vec3 p = base_detail::from_lonlat(longitude, latitude);
+  return 100 + 30 * p.x * p.y + 20 * p.z * p.z * p.z - 15 * p.y;
+}
+
+/// A folder that goes when the test ends.
+class Folder {
+public:
+  std::string operator()(const std::string& name) const { return scratch_ / name; }
+  std::string operator()(const std::string& name, const std::string& text) const {
+    test::write_text((*this)(name), text);
+    return (*this)(name);
+  }
+
+private:
+  test::Scratch scratch_;
+};
+
+/// What a NetCDF raster holds.
+struct Raster {
+  std::vector<double> lon, lat, values; ///< values lat by lon
+  std::string variable = "cellWidth";
+  std::string lat_name = "lat", lon_name = "lon";
+  bool transposed = false;
+  io_detail::NetcdfAttributes attributes = {};
+};
+
+Raster raster_of(const CellWidth& width) {
+  Raster raster;
+  raster.lon.assign(width.longitudes.begin(), width.longitudes.end());
+  raster.lat.assign(width.latitudes.begin(), width.latitudes.end());
+  raster.values.assign(width.widths.data(), width.widths.data() + width.widths.size());
+  return raster;
+}
+
+void put(io_detail::NetcdfWriter& file, int variable, const std::vector<double>& values,
+         std::size_t row) {
+  file.put(variable, [&](std::int64_t begin, std::int64_t end, double* out) {
+    std::copy(values.begin() + begin * static_cast<std::ptrdiff_t>(row),
+              values.begin() + end * static_cast<std::ptrdiff_t>(row), out);
+  });
+}
+
+std::string written(const Folder& folder, const Raster& raster) {
+  const std::string path = folder("raster.nc");
+  io_detail::NetcdfWriter file(path);
+  const int lat = file.dimension("lat", static_cast<std::int64_t>(raster.lat.size())),
+            lon = file.dimension("lon", static_cast<std::int64_t>(raster.lon.size()));
+  const auto type = io_detail::NetcdfType::float64;
+  const int lats = file.variable(raster.lat_name, type, {lat}),
+            lons = file.variable(raster.lon_name, type, {lon});
+  const std::vector<int> dimensions =
+      raster.transposed ? std::vector{lon, lat} : std::vector{lat, lon};
+  const int widths = file.variable(raster.variable, type, dimensions, raster.attributes);
+  file.begin();
+  put(file, lats, raster.lat, 1);
+  put(file, lons, raster.lon, 1);
+  put(file, widths, raster.values, raster.transposed ? raster.lat.size() : raster.lon.size());
+  file.commit();
+  return path;
+}
+
+/// The message of a refusal, without the path.
+std::string refusal(const std::string& path, const PolygonWidths& widths = {},
+                    ErrorCode code = ErrorCode::parse) {
+  try {
+    read_cell_width(path, widths);
+  } catch (const Error& error) {
+    CHECK(error.code() == code);
+    const std::string message = error.what();
+    CHECK(message.find('\n') == std::string::npos);
+    REQUIRE(message.starts_with(path));
+    return message.substr(path.size());
+  }
+  return "not refused";
+}
+
+void check_equal(const CellWidth& a, const CellWidth& b) {
+  CHECK(a.longitudes == b.longitudes);
+  CHECK(a.latitudes == b.latitudes);
+  CHECK(a.widths == b.widths);
+}
+
+} // namespace
+
+// ---- Angles
+
+TEST_CASE("longitude and latitude agree with the C library's to 1e-15") {
+  Random random(1);
+  double worst = 0;
+  const auto compare = [&](const base_detail::Vec3& p) {
+    worst = std::max({worst, std::abs(base_detail::longitude_of(p.x, p.y) - std::atan2(p.y, p.x)),
+                      std::abs(base_detail::latitude_of(p.x, p.y, p.z) -
+                               std::atan2(p.z, std::hypot(p.x, p.y)))});
+  };
+  for (int i = 0; i < 100000; ++i) {
+    const base_detail::Vec3 p = random.direction();
+    compare(p);
+    const double tiny = std::pow(10, random.real(-30, 0)); // near an axis
+    compare(exact_detail::normalised({p.x, p.y * tiny, p.z}));
+    compare(exact_detail::normalised({p.x * tiny, p.y * tiny, p.z}));
+  }
+  CHECK(worst < 1e-15);
+  for (const double sign : {-1.0, 1.0}) {
+    CHECK(base_detail::longitude_of(-1, sign * 0.0) == sign * pi);
+    CHECK(base_detail::latitude_of(0, 0, sign) == sign * pi / 2);
+  }
+  CHECK(base_detail::longitude_of(0, 0) == 0);
+}
+
+// ---- The field
+
+TEST_CASE(
+    "a constant width is the uniform density and asks for the hexagons that fill the sphere") {
+  for (const double h : {30.0, 120.0, 0.1}) {
+    const CellWidth width = constant(h);
+    const double hexagon = std::sqrt(3) / 2 * h * h;
+    CHECK(implied_cells(width) * hexagon ==
+          doctest::Approx(4 * pi * earth_radius * earth_radius).epsilon(1e-13));
+    CHECK(implied_cells(width, 1) * hexagon == doctest::Approx(4 * pi).epsilon(1e-13));
+    CHECK(largest_gradient(width).slope == 0);
+    CHECK(evaluate(density_of(width), random_sphere(1000)).isOnes(0));
+    CHECK(evaluate(width, random_sphere(1000)).isConstant(h, 0));
+  }
+}
+
+TEST_CASE("the density is (least width / width)^4, in blocks of any size") {
+  const CellWidth width = sampled(smooth, 36, 18);
+  const Points3 points = random_sphere(1000);
+  const Eigen::VectorXd h = evaluate(width, points), rho = evaluate(density_of(width), points);
+  const double least = width.widths.minCoeff();
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    CHECK(rho[i] == doctest::Approx(std::pow(least / h[i], 4)).epsilon(1e-14));
+    Eigen::VectorXd alone(1);
+    density_of(width).callable(points.col(i), alone);
+    CHECK(alone[0] == rho[i]);
+  }
+}
+
+TEST_CASE("nodes keep their widths; fields are continuous over the seam and at the poles") {
+  Random random(2);
+  const auto noise = [&](double, double) { return random.real(10, 100); };
+  for (const double west : {-180.0, 0.0, 0.5, -179.5, 359.0, -725.0}) {
+    CAPTURE(west);
+    const CellWidth width = sampled(noise, 24, 12, west);
+    for (Eigen::Index j = 1; j < 12; ++j)
+      for (Eigen::Index i = 0; i < 24; ++i)
+        CHECK(width_at(width, width.longitudes[i], width.latitudes[j]) ==
+              doctest::Approx(width.widths(i, j)).epsilon(1e-12));
+    for (const double latitude : {-81.3, 0.2, 44.0}) {
+      CHECK(width_at(width, 180 - 1e-9, latitude) ==
+            doctest::Approx(width_at(width, -180 + 1e-9, latitude)).epsilon(1e-8));
+      CHECK(width_at(width, west - 1e-9, latitude) ==
+            doctest::Approx(width_at(width, west + 1e-9, latitude)).epsilon(1e-8));
+    }
+    for (const double pole : {-90.0, 90.0})
+      for (const double longitude : {0.0, 77.0, 200.0})
+        CHECK(width_at(width, longitude, pole * (1 - 1e-10)) ==
+              doctest::Approx(width.widths.col(pole < 0 ? 0 : 12).mean()).epsilon(1e-8));
+  }
+}
+
+TEST_CASE("rows that end short of the poles lead to their mean there") {
+  Random random(3);
+  CellWidth width = sampled([&](double, double) { return random.real(10, 100); }, 24, 12);
+  width.latitudes = width.latitudes * (82.5 / 90);
+  const double mean = width.widths.col(12).mean();
+  CHECK(width_at(width, 30, 90) == doctest::Approx(mean).epsilon(1e-13));
+  CHECK(width_at(width, 30, 86.25) == doctest::Approx(0.5 * (mean + width.widths(14, 12))));
+  CHECK(width_at(width, 30, 82.5) == doctest::Approx(width.widths(14, 12)));
+}
+
+TEST_CASE("irregular grids are interpolated as a search through all nodes has it") {
+  Random random(4);
+  CellWidth width;
+  std::vector<double> longitudes, latitudes;
+  for (int i = 0; i < 40; ++i) {
+    longitudes.push_back(-100 + 355 * std::pow(random.real(0, 1), 4)); // crowded at one end
+    latitudes.push_back(random.real(-85, 85));
+  }
+  std::sort(longitudes.begin(), longitudes.end());
+  std::sort(latitudes.begin(), latitudes.end());
+  width.longitudes = Eigen::Map<Eigen::VectorXd>(longitudes.data(), 40);
+  width.latitudes = Eigen::Map<Eigen::VectorXd>(latitudes.data(), 40);
+  width.widths = Eigen::MatrixXd::NullaryExpr(40, 40, [&] { return random.real(1, 2); });
+  for (int k = 0; k < 1000; ++k) {
+    const double latitude = random.real(latitudes.front(), latitudes.back()),
+                 longitude = random.real(longitudes.front(), longitudes.front() + 360);
+    const auto j =
+        std::upper_bound(latitudes.begin(), latitudes.end() - 1, latitude) - latitudes.begin() - 1;
+    const auto i =
+        std::upper_bound(longitudes.begin(), longitudes.end(), longitude) - longitudes.begin() - 1;
+    const double east = i < 39 ? longitudes[static_cast<std::size_t>(i) + 1] : longitudes[0] + 360;
+    const double u = (longitude - width.longitudes[i]) / (east - width.longitudes[i]),
+                 v = (latitude - width.latitudes[j]) /
+                     (width.latitudes[j + 1] - width.latitudes[j]);
+    const Eigen::Index next = (i + 1) % 40;
+    const double expected = (1 - v) * ((1 - u) * width.widths(i, j) + u * width.widths(next, j)) +
+                            v * ((1 - u) * width.widths(i, j + 1) + u * width.widths(next, j + 1));
+    CHECK(width_at(width, longitude, latitude) == doctest::Approx(expected).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("a raster of a smooth field converges at second order, and so does its number of cells") {
+  const Points3 points = random_sphere(2000);
+  Eigen::VectorXd exact(points.cols());
+  for (Eigen::Index i = 0; i < points.cols(); ++i)
+    exact[i] =
+        100 + 30 * points(0, i) * points(1, i) + 20 * std::pow(points(2, i), 3) - 15 * points(1, i);
+  const auto error = [&](Eigen::Index rows) {
+    return (evaluate(sampled(smooth, 2 * rows, rows), points) - exact).cwiseAbs().maxCoeff();
+  };
+  CHECK(error(36) / error(72) > 3.4);
+  CHECK(error(72) / error(144) > 3.4);
+  // 1/h^2 = 1 + z/2 + x y, whose mean over the sphere is 1.
+  const Field hexagonal = [](double longitude, double latitude) {
+    const base_detail::Vec3 p = base_detail::from_lonlat(longitude, latitude);
+    return 1 / std::sqrt(1 + 0.5 * p.z + p.x * p.y / 2);
+  };
+  const auto excess = [&](Eigen::Index rows) {
+    return implied_cells(sampled(hexagonal, 2 * rows, rows), 1) / (8 * pi / std::sqrt(3)) - 1;
+  };
+  CHECK(std::abs(excess(72)) < 1e-3);
+  CHECK(excess(36) / excess(72) == doctest::Approx(4).epsilon(0.02));
+}
+
+TEST_CASE("the largest gradient is that of the field, where it is") {
+  // Along meridians: 3 km a degree up to 30 N.
+  const Field ramp = [](double, double latitude) {
+    return 100 + 3 * std::clamp(latitude, 0.0, 30.0);
+  };
+  const Gradient up = largest_gradient(sampled(ramp, 36, 36));
+  CHECK(up.slope == doctest::Approx(3 / (degree * earth_radius)).epsilon(1e-12));
+  CHECK(up.latitude >= -1e-9);
+  CHECK(up.latitude <= 30 + 1e-9);
+  // Along a parallel, once: it is steepest where meridians are closest.
+  CellWidth width = constant(100);
+  width.widths(4, 5) = 110; // 60 W 60 N, boxes of 30 degrees
+  const Gradient along = largest_gradient(width, 1);
+  CHECK(along.slope == doctest::Approx(10 / (30 * degree) * std::sqrt(1 + 4)).epsilon(1e-12));
+  CHECK(along.latitude == doctest::Approx(60));
+  CHECK(std::abs(along.longitude + 60) <= 30 + 1e-9);
+  CHECK(largest_gradient(width, 10).slope == doctest::Approx(along.slope / 10));
+  // No two near points differ by more, and some do nearly so much.
+  Random random(5);
+  const CellWidth noise = sampled([&](double, double) { return random.real(1, 2); }, 24, 12);
+  const Gradient most = largest_gradient(noise, 1);
+  const auto slope = [&](double longitude, double latitude) {
+    constexpr double step = 1e-5; // degrees
+    const double east = (width_at(noise, longitude + step, latitude) -
+                         width_at(noise, longitude, latitude)) /
+                        (step * degree * std::cos(latitude * degree)),
+                 north = (width_at(noise, longitude, latitude + step) -
+                          width_at(noise, longitude, latitude)) /
+                         (step * degree);
+    return std::hypot(east, north);
+  };
+  for (int k = 0; k < 2000; ++k)
+    CHECK(slope(random.real(-180, 180), random.real(-89, 89)) < most.slope * (1 + 1e-4));
+  double found = 0;
+  for (const double east : {-1e-4, 1e-4})
+    for (const double north : {-1e-4, 1e-4})
+      found = std::max(found, slope(most.longitude + east, most.latitude + north));
+  CHECK(found == doctest::Approx(most.slope).epsilon(1e-3));
+  // From pole to pole without a row between.
+  CellWidth poles = sampled([](double, double latitude) { return latitude < 0 ? 1 : 2; }, 4, 1);
+  CHECK(largest_gradient(poles, 1).slope == doctest::Approx(1 / pi));
+}
+
+TEST_CASE("grids that are none are refused") {
+  const auto refused = [](const std::function<void(CellWidth&)>& spoil) {
+    CellWidth width = constant(10);
+    spoil(width);
+    CHECK_THROWS_AS(density_of(width), Error);
+    CHECK_THROWS_AS(implied_cells(width), Error);
+  };
+  refused([](CellWidth& width) { width = {}; });
+  refused([](CellWidth& width) { width.widths(3, 2) = 0; });
+  refused([](CellWidth& width) { width.widths(3, 2) = std::nan(""); });
+  refused([](CellWidth& width) { width.widths.conservativeResize(11, 7); });
+  refused([](CellWidth& width) { std::swap(width.latitudes[1], width.latitudes[2]); });
+  refused([](CellWidth& width) { width.longitudes[11] = 180; });
+  refused([](CellWidth& width) { width.latitudes[0] = -91; });
+  CHECK_THROWS_AS(implied_cells(constant(1), 0), Error);
+  CHECK_THROWS_AS(largest_gradient(constant(1), -1), Error);
+}
+
+// ---- NetCDF
+
+TEST_CASE("a NetCDF raster comes in whatever order of meridians and parallels") {
+  const Folder folder;
+  const CellWidth width = sampled(smooth, 24, 12, -180);
+  check_equal(read_cell_width(written(folder, raster_of(width))), width);
+
+  const CellWidth east = sampled(smooth, 24, 12, 0);
+  check_equal(read_cell_width(written(folder, raster_of(east))), east);
+  const Points3 points = random_sphere(200);
+  CHECK((evaluate(east, points) - evaluate(width, points)).cwiseAbs().maxCoeff() < 1e-10);
+
+  Raster repeated = raster_of(width);
+  repeated.lon.push_back(180);
+  for (std::size_t row = 13; row-- > 0;)
+    repeated.values.insert(repeated.values.begin() + static_cast<std::ptrdiff_t>(24 * row + 24),
+                           repeated.values[24 * row]);
+  check_equal(read_cell_width(written(folder, repeated)), width);
+
+  Raster descending = raster_of(width);
+  std::reverse(descending.lat.begin(), descending.lat.end());
+  std::reverse(descending.values.begin(), descending.values.end());
+  for (std::size_t row = 0; row < 13; ++row)
+    std::reverse(descending.values.begin() + static_cast<std::ptrdiff_t>(24 * row),
+                 descending.values.begin() + static_cast<std::ptrdiff_t>(24 * row + 24));
+  check_equal(read_cell_width(written(folder, descending)), width);
+
+  Raster metres = raster_of(width);
+  metres.attributes = {{"units", std::string("m")}};
+  CHECK(read_cell_width(written(folder, metres)).widths.isApprox(width.widths / 1000, 1e-15));
+}
+
+TEST_CASE("a density raster gives widths whose density it is") {
+  const Folder folder;
+  Raster raster = raster_of(sampled(smooth, 24, 12));
+  raster.variable = "density";
+  const CellWidth width = read_density_raster(written(folder, raster));
+  CHECK(width.widths.minCoeff() == 1);
+  const double most = *std::max_element(raster.values.begin(), raster.values.end());
+  for (Eigen::Index k = 0; k < width.widths.size(); ++k)
+    CHECK(std::pow(width.widths.data()[k], -4) ==
+          doctest::Approx(raster.values[static_cast<std::size_t>(k)] / most).epsilon(1e-13));
+}
+
+TEST_CASE("a raster of the plane: in any direction of its axes, and what is none") {
+  const Folder folder;
+  Raster raster{{0, 1, 3}, {2, 0}, {8, 7, 6, 5, 4, 3}, "density", "y", "x"};
+  const PlanarRaster read = read_planar_raster(written(folder, raster));
+  CHECK(read.x == Eigen::Vector3d(0, 1, 3));
+  CHECK(read.y == Eigen::Vector2d(0, 2));
+  CHECK(read.density(2, 0) == 3);
+  CHECK(read.density(0, 1) == 8);
+  const auto refused = [&](const std::function<void(Raster&)>& spoil) -> std::string {
+    Raster spoilt = raster;
+    spoil(spoilt);
+    const std::string path = written(folder, spoilt);
+    try {
+      read_planar_raster(path);
+    } catch (const Error& error) {
+      CHECK(error.code() == ErrorCode::parse);
+      return std::string(error.what()).substr(path.size());
+    }
+    return "";
+  };
+  CHECK(refused([](Raster& r) { r.values[4] = -1; }) ==
+        ": density[1][1] is negative, infinite or NaN; correct it");
+  CHECK(refused([](Raster& r) { r.lon[1] = 3; }) ==
+        ": x[2] is not finite and beyond the one before; sort the raster");
+  CHECK(refused([](Raster& r) { r.variable = std::string("rho"); }) ==
+        ": no variable density; give density(y, x)");
+  CHECK(refused([](Raster& r) { r.lon_name = std::string("lon"); }) ==
+        ": no coordinate variable x; give x(x)");
+  CHECK(refused([](Raster& r) { r.transposed = true; }) ==
+        ": density is not density(lat, lon); give it these dimensions, in this order");
+}
+
+TEST_CASE("NetCDF rasters that are none end in one line that names what is wrong") {
+  const Folder folder;
+  const CellWidth width = sampled(smooth, 24, 12);
+  const auto refused = [&](const std::function<void(Raster&)>& spoil) {
+    Raster raster = raster_of(width);
+    spoil(raster);
+    return refusal(written(folder, raster));
+  };
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  const std::string correct = " is not positive and finite; correct it";
+  CHECK(refused([&](Raster& r) { r.values[24 * 5 + 7] = nan; }) ==
+        ": cellWidth[5][7] = nan" + correct);
+  CHECK(refused([&](Raster& r) { r.values[0] = 0; }) == ": cellWidth[0][0] = 0" + correct);
+  CHECK(refused([&](Raster& r) { r.values[24] = -2; }) == ": cellWidth[1][0] = -2" + correct);
+  CHECK(refused([&](Raster& r) {
+          r.values[25] = 1e20;
+          r.attributes = {{"_FillValue", 1e20}};
+        }) == ": cellWidth[1][1] = nan" + correct);
+  CHECK(refused([&](Raster& r) { r.variable = std::string("width"); }) ==
+        ": no variable cellWidth; give cellWidth(lat, lon)");
+  CHECK(refused([&](Raster& r) { r.lat_name = std::string("y"); }) ==
+        ": no coordinate variable lat; give lat(lat) in degrees");
+  CHECK(refused([&](Raster& r) { r.transposed = true; }) ==
+        ": cellWidth is not cellWidth(lat, lon); give it these dimensions, in this order");
+  CHECK(refused([&](Raster& r) {
+          r.lon = {0};
+          r.values.resize(13);
+        }) == ": lon has fewer than 2 values; give a raster of the whole sphere");
+  CHECK(refused([&](Raster& r) { r.lat[4] = 80; }) ==
+        ": lat[5] = -15 does not follow 80; sort the raster along it");
+  CHECK(refused([&](Raster& r) { r.lon[3] = nan; }) == ": lon[3] is NaN or infinite; correct it");
+  CHECK(refused([&](Raster& r) { r.lat[12] = 100; }) ==
+        ": lat 100 is outside -90 to 90; give degrees");
+  const std::string global = " and leaves part of the sphere out; give a global raster in degrees";
+  CHECK(refused([&](Raster& r) {
+          for (double& latitude : r.lat)
+            latitude *= degree;
+        }) == ": lat runs from -1.5708 to 1.5708" + global);
+  CHECK(refused([&](Raster& r) {
+          for (double& longitude : r.lon)
+            longitude *= 0.5;
+        }) == ": lon runs from -90 to 82.5" + global);
+  CHECK(refused([&](Raster& r) {
+          for (double& longitude : r.lon)
+            longitude *= 2;
+        }) == ": lon spans more than 360 degrees; leave out what is repeated");
+  CHECK(refused([&](Raster& r) { r.lon.back() = 180; }).starts_with(": cellWidth differs at"));
+  CHECK(refusal(folder("text.nc", "cellWidth")) != "not refused");
+  CHECK(refusal(folder("widths.txt"), {}, ErrorCode::bad_option) ==
+        ": no cell widths by its suffix; give .nc, .msh or .geojson");
+  CHECK_THROWS_AS(read_cell_width(folder("absent.nc")), Error);
+  CHECK_THROWS_AS(read_cell_width(folder("absent.msh")), Error);
+
+  const std::string whole = written(folder, raster_of(width));
+  std::filesystem::resize_file(whole, std::filesystem::file_size(whole) - 100);
+  CHECK(refusal(whole) != "not refused");
+}
+
+// ---- JIGSAW
+
+TEST_CASE("a JIGSAW grid is in radians, its values by columns of latitudes") {
+  const Folder folder;
+  const CellWidth width = sampled(smooth, 24, 12);
+  std::ostringstream text;
+  text.precision(17);
+  text << "# made by hand\nMSHID=3;ELLIPSOID-GRID\nRADII=6371;6371;6371\nNDIMS=2\nCOORD=1;25\n";
+  for (int i = 0; i <= 24; ++i)
+    text << (15.0 * i - 180) * degree << "\n";
+  text << "COORD=2;13\n";
+  for (const double latitude : width.latitudes)
+    text << latitude * degree << "\n";
+  text << "VALUE=325; 1\n";
+  for (int i = 0; i <= 24; ++i)
+    for (int j = 0; j <= 12; ++j)
+      text << width.widths(i % 24, j) << "\n";
+  const CellWidth read = read_cell_width(folder("hfun.msh", text.str()));
+  CHECK(read.widths == width.widths);
+  CHECK(read.longitudes.isApprox(width.longitudes, 1e-14));
+  CHECK(read.latitudes.isApprox(width.latitudes, 1e-14));
+
+  const auto spoiled = [&](const std::string& what, const std::string& by) {
+    std::string copy = text.str();
+    copy.replace(copy.find(what), what.size(), by);
+    return refusal(folder("bad.msh", copy));
+  };
+  CHECK(spoiled("VALUE=325", "VALUE=324").find("more or fewer lines") != std::string::npos);
+  CHECK(spoiled("VALUE=325", "VALUE=326").find("cut short") != std::string::npos);
+  CHECK(spoiled("VALUE=325", "VALUE=x").find("no count of lines") != std::string::npos);
+  CHECK(spoiled("GRID", "TREE").find("no cell widths in a file of the kind") != std::string::npos);
+  CHECK(spoiled("COORD=2", "COORD=1").find("comes twice") != std::string::npos);
+  CHECK(spoiled("MSHID", "MESH").find("no count of lines") == std::string::npos);
+  CHECK(refusal(folder("empty.msh", "")).find("no MSHID") != std::string::npos);
+}
+
+TEST_CASE("a JIGSAW mesh is interpolated between its nodes") {
+  const Folder folder;
+  const Points3 points = bisected_icosahedron(3);
+  const auto exact = [](const Eigen::Vector3d& p) { return 100 + 20 * p.x() - 30 * p.y() * p.z(); };
+  for (const bool angles : {false, true}) {
+    std::ostringstream text;
+    text.precision(17);
+    text << "mshid=3;" << (angles ? "ellipsoid-mesh\nndims=2" : "euclidean-mesh\nndims=3")
+         << "\npoint=" << points.cols() << "\n";
+    for (const Eigen::Vector3d& p : points.colwise())
+      if (angles)
+        text << std::atan2(p.y(), p.x()) << ";" << std::asin(p.z()) << ";0\n";
+      else
+        text << 6371 * p.x() << ";" << 6371 * p.y() << ";" << 6371 * p.z() << ";0\n";
+    text << "value=" << points.cols() << ";1\n";
+    for (const Eigen::Vector3d& p : points.colwise())
+      text << exact(p) << "\n";
+    const CellWidth width = read_cell_width(folder("mesh.msh", text.str()));
+    const Points3 others = random_sphere(500);
+    const Eigen::VectorXd found = evaluate(width, others);
+    for (Eigen::Index i = 0; i < others.cols(); ++i)
+      CHECK(found[i] == doctest::Approx(exact(others.col(i))).epsilon(0.01));
+    CHECK(width.latitudes[1] - width.latitudes[0] == doctest::Approx(1)); // edges are 8 degrees
+  }
+  const std::string octahedron = "MSHID=3;EUCLIDEAN-MESH\nNDIMS=3\nPOINT=6\n1;0;0;0\n-1;0;0;0\n"
+                                 "0;1;0;0\n0;-1;0;0\n0;0;1;0\n0;0;-1;0\n";
+  const std::string eight = "VALUE=6;1\n8\n8\n8\n8\n8\n8\n";
+  CHECK(read_cell_width(folder("a.msh", octahedron + eight)).widths.isConstant(8, 1e-14));
+  CHECK(refusal(folder("b.msh", octahedron)).find("VALUE has 0 widths") != std::string::npos);
+  CHECK(refusal(folder("c.msh", octahedron + "VALUE=6;1\n8\n8\n-8\n8\n8\n8\n")) ==
+        ": VALUE of point 2 is not positive; correct it");
+  CHECK(refusal(folder("d.msh", octahedron + eight + "TRIA3=1\n0;1;6;0\n"))
+            .find("has vertex 6, but there are 6 points") != std::string::npos);
+  CHECK(refusal(folder("e.msh", "MSHID=3;EUCLIDEAN-MESH\nNDIMS=3\nPOINT=4\n1;0;1;0\n0;1;1;0\n"
+                                "-1;0;1;0\n0;-1;1;0\nVALUE=4;1\n1\n1\n1\n1\n"),
+                {}, ErrorCode::bad_option)
+            .find("within a hemisphere") != std::string::npos);
+}
+
+// ---- Polygons
+
+namespace {
+
+using Corners = std::vector<std::pair<double, double>>;
+
+std::string ring(const Corners& corners, bool backwards = false) {
+  std::ostringstream text;
+  text.precision(17);
+  Corners order = corners;
+  if (backwards)
+    std::reverse(order.begin(), order.end());
+  order.push_back(order.front());
+  for (const auto& [longitude, latitude] : order)
+    text << (text.tellp() == 0 ? "[[" : ",[") << longitude << "," << latitude << "]";
+  return text.str() + "]";
+}
+
+std::string polygon(const std::string& rings) {
+  return R"({"type":"Polygon","coordinates":[)" + rings + "]}";
+}
+
+/// A circle on the sphere, degrees.
+Corners circle(double longitude, double latitude, double radius, int corners = 200) {
+  const Eigen::Vector3d centre = points_at({{longitude, latitude}}).col(0),
+                        a = centre.unitOrthogonal(), b = centre.cross(a);
+  Corners places;
+  for (int k = 0; k < corners; ++k) {
+    const double turn = 2 * pi * k / corners;
+    const Eigen::Vector3d p = std::cos(radius * degree) * centre +
+                              std::sin(radius * degree) * (std::cos(turn) * a + std::sin(turn) * b);
+    places.emplace_back(std::atan2(p.y(), p.x()) / degree, std::asin(p.z()) / degree);
+  }
+  return places;
+}
+
+constexpr PolygonWidths coastal{.inside = 30, .outside = 130, .transition = 2000};
+
+/// The width at a distance in radians from a boundary, negative inside.
+double across(double distance, const PolygonWidths& widths = coastal) {
+  const double t = std::clamp(distance * widths.radius / widths.transition, 0.0, 1.0);
+  return widths.inside + (widths.outside - widths.inside) * t * t * (3 - 2 * t);
+}
+
+/// Everywhere the width is that of the distance, within a part of the difference of widths.
+void check_widths(const CellWidth& width,
+                  const std::function<double(const Eigen::Vector3d&)>& distance,
+                  double part = 0.01) {
+  const Points3 points = random_sphere(2000);
+  const Eigen::VectorXd found = evaluate(width, points);
+  double worst = 0;
+  for (Eigen::Index i = 0; i < points.cols(); ++i)
+    worst = std::max(worst, std::abs(found[i] - across(distance(points.col(i)))));
+  CHECK(worst < part * (coastal.outside - coastal.inside));
+}
+
+double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+} // namespace
+
+TEST_CASE("a round polygon has the widths of the cap, wherever it lies and however it runs") {
+  const Folder folder;
+  for (const auto& [longitude, latitude] :
+       Corners{{10, 20}, {175, -30}, {-60, 80}, {0, 90}, {33, -90}, {-179, 5}})
+    for (const bool backwards : {false, true}) {
+      CAPTURE(longitude);
+      CAPTURE(latitude);
+      const std::string text = polygon(ring(circle(longitude, latitude, 20), backwards));
+      const Eigen::Vector3d centre = points_at({{longitude, latitude}}).col(0);
+      check_widths(
+          read_cell_width(folder("cap.geojson", text), coastal),
+          [&](const Eigen::Vector3d& p) { return angle_between(p, centre) - 20 * degree; });
+    }
+}
+
+TEST_CASE("holes lie outside, also around a pole; narrow features win") {
+  const Folder folder;
+  for (const auto& [longitude, latitude] : Corners{{170, 20}, {0, 90}}) {
+    const Eigen::Vector3d centre = points_at({{longitude, latitude}}).col(0);
+    const std::string text = polygon(ring(circle(longitude, latitude, 50)) + "," +
+                                     ring(circle(longitude, latitude, 25)));
+    check_widths(read_cell_width(folder("ring.geojson", text), coastal),
+                 [&](const Eigen::Vector3d& p) {
+                   const double angle = angle_between(p, centre) / degree;
+                   return std::max(25 - angle, angle - 50) * degree;
+                 });
+  }
+  const auto feature = [](const std::string& geometry, const std::string& properties) {
+    return R"({"type":"Feature","properties":)" + properties + R"(,"geometry":)" + geometry + "}";
+  };
+  const CellWidth width = read_cell_width(
+      folder("two.geojson",
+             R"({"type":"FeatureCollection","outsideWidth":130,"transition":2000,"features":[)" +
+                 feature(polygon(ring(circle(0, 0, 40))), R"({"cellWidth":30})") + "," +
+                 feature(polygon(ring(circle(0, 0, 15))), R"({"cellWidth":10})") + "," +
+                 feature("null", "null") + "]}"));
+  CHECK(width_at(width, 0, 0) == doctest::Approx(10));
+  CHECK(width_at(width, 27, 0) == doctest::Approx(30).epsilon(0.01));
+  CHECK(width_at(width, 180, 0) == 130);
+}
+
+TEST_CASE("edges are straight in longitude and latitude; cuts are no boundary") {
+  const Folder folder;
+  const auto latitude_of = [](const Eigen::Vector3d& p) { return std::asin(p.z()); };
+  // Antarctica as maps have it: along 60 S, then the map's edge.
+  for (const bool backwards : {false, true})
+    check_widths(
+        read_cell_width(
+            folder("south.json",
+                   polygon(ring({{-180, -60}, {180, -60}, {180, -90}, {-180, -90}}, backwards))),
+            coastal),
+        [&](const Eigen::Vector3d& p) { return latitude_of(p) + 60 * degree; });
+  // A band round the Earth, in two pieces that touch at 180 and 20 degrees.
+  const std::string band =
+      R"({"type":"GeometryCollection","geometries":[{"type":"MultiPolygon","coordinates":[[)" +
+      ring({{20, -30}, {100, -30}, {180, -30}, {180, 30}, {100, 30}, {20, 30}}) + "],[" +
+      ring({{-180, -30}, {-80, -30}, {20, -30}, {20, 30}, {-80, 30}, {-180, 30}}) + "]]}]}";
+  check_widths(read_cell_width(folder("band.geojson", band), coastal),
+               [&](const Eigen::Vector3d& p) { return std::abs(latitude_of(p)) - 30 * degree; });
+  // Across the date line, by numbers beyond 180 or not.
+  const CellWidth beyond = read_cell_width(
+      folder("beyond.json", polygon(ring({{160, -10}, {210, -10}, {210, 10}, {160, 10}}))),
+      coastal);
+  const CellWidth within = read_cell_width(
+      folder("within.json", polygon(ring({{160, -10}, {-150, -10}, {-150, 10}, {160, 10}}))),
+      coastal);
+  CHECK(beyond.widths == within.widths);
+  CHECK(width_at(within, -175, 0) == doctest::Approx(30).epsilon(0.02));
+  CHECK(width_at(within, 0, 0) == 130);
+}
+
+TEST_CASE("the raster resolves the transition and is the same for any number of threads") {
+  const Folder folder;
+  const std::string path = folder("cap.json", polygon(ring(circle(120, -40, 25))));
+  PolygonWidths widths = coastal;
+  widths.transition = 400;
+  const auto read_with = [&](int threads) {
+    tbb::task_arena arena(threads);
+    CellWidth width;
+    arena.execute([&] { width = read_cell_width(path, widths); });
+    return width;
+  };
+  const CellWidth one = read_with(1), two = read_with(2);
+  check_equal(one, two);
+  CHECK((one.latitudes[1] - one.latitudes[0]) * degree * earth_radius <= 400.0 / 16);
+  // A cubic's greatest slope is 3/2 of the mean one.
+  CHECK(largest_gradient(one).slope == doctest::Approx(1.5 * 100 / 400).epsilon(0.02));
+  widths.transition = 10;
+  CHECK(refusal(path, widths, ErrorCode::bad_option) ==
+        ": a transition of 10 km is too narrow for the finest raster, of 0.05 degrees; give at "
+        "least 22.4 km");
+}
+
+TEST_CASE("GeoJSON that gives no widths ends in one line that names the feature") {
+  const Folder folder;
+  const auto refused = [&](const std::string& text, const PolygonWidths& widths = coastal,
+                           ErrorCode code = ErrorCode::parse) {
+    return refusal(folder("bad.geojson", text), widths, code);
+  };
+  const std::string square = ring({{0, 0}, {10, 0}, {10, 10}, {0, 10}});
+  CHECK(refused("{\"type\":") == ": no JSON from byte 9 on; the file was cut short or damaged");
+  CHECK(refused("[1]") == ": no GeoJSON object; give features or a geometry");
+  CHECK(refused(R"({"type":"FeatureCollection","features":[]})") ==
+        ": no polygons; give Polygon or MultiPolygon geometries");
+  CHECK(refused(R"({"type":"Point","coordinates":[0,0]})").find("\"Point\" has no inside") !=
+        std::string::npos);
+  CHECK(refused(R"({"type":"FeatureCollection","features":[{"type":"Feature","geometry":)" +
+                polygon(square) + R"(,"properties":{"cellWidth":-3}}]})") ==
+        ": feature 0: its property \"cellWidth\" is no positive number; give km");
+  CHECK(refused(polygon("[[0,0],[1,0],[0,0]]")) ==
+        ": ring 0 has fewer than 3 places; leave it out");
+  CHECK(refused(polygon("[[0,0],[1,95],[2,0],[0,0]]"))
+            .starts_with(": position 1 of ring 0 is [1.0, 95.0]"));
+  CHECK(refused(polygon("[[0,0],[1],[2,0],[0,0]]")).starts_with(": position 1 of ring 0 is no "));
+  CHECK(refused(polygon("")) == ": a polygon without rings; give its outer one");
+  CHECK(refused(R"({"type":"Polygon"})").starts_with(": no array \"coordinates\""));
+  PolygonWidths widths = coastal;
+  widths.outside = 0;
+  CHECK(refused(polygon(square), widths, ErrorCode::bad_option) ==
+        ": no positive outside width; give it in km as an option or as the file's "
+        "\"outsideWidth\"");
+  widths = coastal;
+  widths.transition = -1;
+  CHECK(refused(polygon(square), widths, ErrorCode::bad_option)
+            .starts_with(": no positive width of the transition"));
+  widths = coastal;
+  widths.inside = 0;
+  CHECK(refused(polygon(square), widths) ==
+        ": no inside width; give it in km as an option or as a property \"cellWidth\"");
+  std::string nested = polygon(square);
+  for (int i = 0; i < 100; ++i)
+    nested = R"({"type":"GeometryCollection","geometries":[)" + nested + "]}";
+  CHECK(refused(nested).find("has no inside") != std::string::npos);
+}
+
+// ---- The grid that it makes
+
+TEST_CASE("the spacings of a CVT follow the widths of a raster") {
+  const Field field = [](double longitude, double latitude) {
+    const base_detail::Vec3 p = base_detail::from_lonlat(longitude, latitude);
+    return 400 - 130 * p.x + 70 * p.z;
+  };
+  const CellWidth width = sampled(field, 90, 45);
+  const double implied = implied_cells(width);
+  const auto cells = static_cast<std::int64_t>(std::llround(implied));
+  REQUIRE(cells > 1500);
+  REQUIRE(cells < 6000);
+  const Density density = density_of(width);
+  const Cvt grid = cvt(random_sphere(cells, site_density(density)),
+                       {.density = density, .tolerance = 1e-2, .rule = 3, .final_rule = 3});
+  std::vector<double> ratios;
+  const Eigen::VectorXd asked = evaluate(width, grid.mesh.points);
+  for (Eigen::Index t = 0; t < grid.mesh.triangles.cols(); ++t)
+    for (int i = 0; i < 3; ++i) {
+      const std::int32_t a = grid.mesh.triangles(i, t), b = grid.mesh.triangles((i + 1) % 3, t);
+      if (a < b)
+        ratios.push_back(earth_radius *
+                         angle_between(grid.mesh.points.col(a), grid.mesh.points.col(b)) /
+                         (0.5 * (asked[a] + asked[b])));
+    }
+  std::sort(ratios.begin(), ratios.end());
+  CHECK(ratios[ratios.size() / 2] == doctest::Approx(1).epsilon(0.03));
+  CHECK(ratios[ratios.size() / 20] > 0.8);
+  CHECK(ratios[ratios.size() - ratios.size() / 20] < 1.2);
+}

@@ -1,0 +1,628 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/clouds.h"
+#include "support/files.h"
+#include "support/laws.h"
+#include "support/meshes.h"
+
+#include "base/lonlat.h"
+#include "io/formats.h"
+#include "io/netcdf_reader.h"
+#include "io/netcdf_writer.h"
+
+#include <calotte/delaunay.h>
+#include <calotte/error.h>
+#include <calotte/io.h>
+
+#include <doctest/doctest.h>
+#include <netcdf.h>
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <string>
+#include <vector>
+
+// UGRID, SCRIP and ESMF: cells as polygons on longitudes and latitudes.
+
+namespace fs = std::filesystem;
+using namespace calotte;
+using calotte::base_detail::Vec3;
+using calotte::io_detail::NetcdfAttributes;
+using calotte::io_detail::NetcdfReader;
+using calotte::io_detail::NetcdfType;
+using calotte::io_detail::NetcdfWriter;
+using calotte::io_detail::Soup;
+using calotte::test::NamedMesh;
+using calotte::test::Scratch;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// Beside those of all formats, with pentagons, spacings that differ, and a cell of more corners
+/// than a byte counts.
+std::vector<NamedMesh> meshes() {
+  std::vector<NamedMesh> all = test::closed_meshes();
+  all.push_back({"bisected", delaunay(bisected_icosahedron(2))});
+  all.push_back({"8:1", delaunay(test::eight_to_one(200, 5))});
+  all.push_back({"many meridians", delaunay(lat_lon_sphere(4, 140, true))});
+  return all;
+}
+
+// ---- The laws of cells as polygons
+
+struct Polygons {
+  Points3 centres;
+  std::vector<std::vector<Vec3>> corners; ///< of each cell, padding left out
+  std::vector<double> areas;              ///< on the unit sphere; none where the file has none
+};
+
+Vec3 centre_of(const Polygons& cells, std::size_t cell) {
+  return oracle::site(cells.centres, static_cast<std::int64_t>(cell));
+}
+
+/// Positive for a counter-clockwise triangle (Eriksson, Math. Mag. 63, 1990).
+double signed_area(const Vec3& a, const Vec3& b, const Vec3& c) {
+  return 2 * std::atan2(dot(a, cross(b - a, c - a)), 1 + dot(a, b) + dot(b, c) + dot(c, a));
+}
+
+/// Seen from its centre, a cell's corners run counter-clockwise: so the centre is inside. Returns
+/// the area. Corners err by some roundings of 360 degrees, 6e-14, as longitudes.
+double require_counter_clockwise(const Polygons& cells, std::size_t cell) {
+  const Vec3 centre = centre_of(cells, cell);
+  const std::vector<Vec3>& corners = cells.corners[cell];
+  double area = 0, turn = 0;
+  REQUIRE(corners.size() >= 3);
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const Vec3 from = corners[k], to = corners[(k + 1) % corners.size()];
+    const double part = signed_area(centre, from, to);
+    REQUIRE(part > -1e-14);
+    area += part;
+    const Vec3 east = cross(centre, from);
+    turn += std::atan2(dot(east, to) / norm(east), dot(cross(east, centre), to) / norm(east));
+  }
+  CHECK(turn == doctest::Approx(2 * pi).epsilon(1e-9));
+  return area;
+}
+
+/// The corners are the sites' circumcentres: three sites are as near as the cell's own, none is
+/// nearer. Those of obtuse triangles err by more than a rounding.
+void require_voronoi(const Polygons& cells) {
+  for (std::size_t cell = 0; cell < cells.corners.size(); ++cell)
+    for (const Vec3& corner : cells.corners[cell]) {
+      const Eigen::Vector3d place(corner.x, corner.y, corner.z);
+      const Eigen::ArrayXd cosines = cells.centres.transpose() * place;
+      const double own = cosines[static_cast<Eigen::Index>(cell)];
+      REQUIRE(cosines.maxCoeff() < own + 1e-12);
+      REQUIRE((cosines > own - 1e-12).count() >= 3);
+    }
+}
+
+void require_tessellation(const Polygons& cells, const Mesh& mesh) {
+  REQUIRE(cells.centres.cols() == mesh.points.cols());
+  REQUIRE(std::ssize(cells.corners) == mesh.points.cols());
+  double sum = 0;
+  for (std::size_t cell = 0; cell < cells.corners.size(); ++cell) {
+    CAPTURE(cell);
+    const auto site = mesh.points.col(static_cast<Eigen::Index>(cell)).stableNormalized();
+    REQUIRE((cells.centres.col(static_cast<Eigen::Index>(cell)) - site).norm() < 1e-14);
+    const double area = require_counter_clockwise(cells, cell);
+    if (!cells.areas.empty())
+      REQUIRE(std::abs(cells.areas[cell] - area) < 1e-12);
+    sum += area;
+  }
+  CHECK(std::abs(sum - 4 * pi) < 1e-11);
+  if (!cells.areas.empty())
+    CHECK(std::abs(std::accumulate(cells.areas.begin(), cells.areas.end(), 0.0) - 4 * pi) < 1e-12);
+  require_voronoi(cells);
+}
+
+// ---- Files as they are
+
+/// Longitudes and latitudes in range, as unit columns.
+Points3 places(const std::vector<double>& longitudes, const std::vector<double>& latitudes) {
+  Points3 points(3, std::ssize(longitudes));
+  for (std::size_t i = 0; i < longitudes.size(); ++i) {
+    REQUIRE((longitudes[i] >= 0 && longitudes[i] < 360 && !std::signbit(longitudes[i])));
+    REQUIRE(std::abs(latitudes[i]) <= 90);
+    const Vec3 p = base_detail::from_lonlat(longitudes[i], latitudes[i]);
+    points.col(static_cast<Eigen::Index>(i)) << p.x, p.y, p.z;
+  }
+  return points;
+}
+
+Points3 places(const NetcdfReader& file, const std::string& longitude,
+               const std::string& latitude) {
+  CHECK(file.text(longitude, "standard_name") == "longitude");
+  CHECK(file.text(latitude, "standard_name") == "latitude");
+  return places(file.doubles(longitude, {-1}), file.doubles(latitude, {-1}));
+}
+
+/// Columns of pairs.
+Points3 places_of_pairs(const NetcdfReader& file, const std::string& name) {
+  CHECK(file.text(name, "units") == "degrees");
+  const std::vector<double> pairs = file.doubles(name, {-1, 2});
+  std::vector<double> longitudes, latitudes;
+  for (std::size_t i = 0; i < pairs.size(); i += 2) {
+    longitudes.push_back(pairs[i]);
+    latitudes.push_back(pairs[i + 1]);
+  }
+  return places(longitudes, latitudes);
+}
+
+void require_attributes(const NetcdfReader& file, double radius, const std::string& history) {
+  CHECK(file.text("", "Conventions").starts_with("CF-1.8"));
+  CHECK(file.number("", "sphere_radius", 0) == radius);
+  CHECK(file.text("", "history") == history);
+  for (const std::string& name : file.variables()) {
+    CAPTURE(name);
+    CHECK(file.text(name, "units") != "");
+    CHECK(file.text(name, "long_name") != "");
+  }
+}
+
+/// The polygons whose corners a table of node ids names; every node is a corner of three.
+std::vector<std::vector<Vec3>> polygons(const NetcdfReader& file, const std::string& name,
+                                        const Points3& nodes) {
+  const int start = static_cast<int>(file.number(name, "start_index", -1));
+  REQUIRE(file.number(name, "_FillValue", 0) == -1);
+  const std::vector<std::int64_t> shape = file.shape_of(name);
+  const std::vector<std::int32_t> ids = file.ints(name, {-1, -1});
+  std::vector<std::vector<Vec3>> result(static_cast<std::size_t>(shape[0]));
+  std::vector<int> uses(static_cast<std::size_t>(nodes.cols()));
+  bool filled = false; // the widest row
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    bool padding = false;
+    for (std::int64_t k = 0; k < shape[1]; ++k) {
+      const std::int32_t id = ids[i * static_cast<std::size_t>(shape[1]) + std::size_t(k)];
+      padding = padding || id == -1;
+      REQUIRE((padding ? id == -1 : id >= start && id < start + nodes.cols()));
+      if (padding)
+        continue;
+      ++uses[static_cast<std::size_t>(id - start)];
+      result[i].push_back(oracle::site(nodes, id - start));
+    }
+    filled = filled || !padding;
+  }
+  CHECK(filled);
+  CHECK(std::all_of(uses.begin(), uses.end(), [](int count) { return count == 3; }));
+  return result;
+}
+
+Polygons ugrid_polygons(const NetcdfReader& file) {
+  const Points3 nodes = places(file, "mesh_node_lon", "mesh_node_lat");
+  return {
+      places(file, "mesh_face_lon", "mesh_face_lat"), polygons(file, "mesh_face_nodes", nodes), {}};
+}
+
+Polygons esmf_polygons(const NetcdfReader& file) {
+  const Points3 nodes = places_of_pairs(file, "nodeCoords");
+  Polygons cells{places_of_pairs(file, "centerCoords"), polygons(file, "elementConn", nodes),
+                 file.doubles("elementArea", {-1})};
+  const std::vector<std::int32_t> counts = file.ints("numElementConn", {std::ssize(cells.corners)});
+  for (std::size_t i = 0; i < counts.size(); ++i)
+    REQUIRE(counts[i] == std::ssize(cells.corners[i]));
+  return cells;
+}
+
+Polygons scrip_polygons(const NetcdfReader& file) {
+  Polygons cells{places(file, "grid_center_lon", "grid_center_lat"),
+                 {},
+                 file.doubles("grid_area", {file.dimension("grid_size")})};
+  const std::int64_t size = file.dimension("grid_size"), most = file.dimension("grid_corners");
+  const Points3 corners = places(file.doubles("grid_corner_lon", {size, most}),
+                                 file.doubles("grid_corner_lat", {size, most}));
+  for (std::int64_t i = 0; i < size; ++i) {
+    std::int64_t count = most; // padding repeats the last corner
+    while (count > 1 && corners.col(i * most + count - 1) == corners.col(i * most + count - 2))
+      --count;
+    cells.corners.emplace_back();
+    for (std::int64_t k = 0; k < count; ++k)
+      cells.corners.back().push_back(oracle::site(corners, i * most + k));
+  }
+  return cells;
+}
+
+// ---- Round trips
+
+using Write = void (*)(const std::string&, const Mesh&, const WriteOptions&);
+using Read = Soup (*)(const NetcdfReader&);
+
+Soup written_and_read(const std::string& path, const Mesh& mesh, Write write, Read read,
+                      const WriteOptions& options = {}) {
+  write(path, mesh, options);
+  return read(NetcdfReader(path));
+}
+
+/// The norms that the file has.
+Points3 on_sphere(const Mesh& mesh, double radius) {
+  Points3 points = mesh.points;
+  points.colwise().normalize();
+  return radius * points;
+}
+
+// ---- Bad files
+
+/// The C library's own hand: what our writer would never write.
+struct Patch {
+  int id = -1;
+  explicit Patch(const std::string& path) { require(nc_open(path.c_str(), NC_WRITE, &id)); }
+  Patch(const Patch&) = delete;
+  Patch& operator=(const Patch&) = delete;
+  ~Patch() { require(nc_close(id)); }
+  static void require(int code) { REQUIRE(code == NC_NOERR); }
+  int variable(const std::string& name) const {
+    int found = -1;
+    require(nc_inq_varid(id, name.c_str(), &found));
+    return found;
+  }
+  void rename(const std::string& name, const std::string& to) const {
+    require(nc_redef(id));
+    require(nc_rename_var(id, variable(name), to.c_str()));
+    require(nc_enddef(id));
+  }
+  void attribute(const std::string& name, const std::string& key, const std::string& text) const {
+    require(nc_redef(id));
+    require(nc_put_att_text(id, variable(name), key.c_str(), text.size(), text.data()));
+    require(nc_enddef(id));
+  }
+  void put(const std::string& name, std::vector<std::size_t> index, double value) const {
+    require(nc_put_var1_double(id, variable(name), index.data(), &value));
+  }
+};
+
+/// One line that starts with the path and holds these words.
+void check_bad(const std::string& path, Read read, const std::string& words) {
+  CAPTURE(words);
+  const Error error = test::error_of([&] { read(NetcdfReader(path)); });
+  const std::string message = error.what();
+  CAPTURE(message);
+  CHECK(error.code() == ErrorCode::parse);
+  CHECK(message.starts_with(path + ": "));
+  CHECK(message.find(words) != std::string::npos);
+}
+
+/// A UGRID file of others: names of their own, no attributes that are ours.
+struct Foreign {
+  std::vector<std::vector<double>> faces; ///< as the file holds them
+  bool faces_last = false, latitude_first = false, radians = false;
+  int start_index = 0;
+  double fill = -1;
+
+  void write(const std::string& path, const Points3& points) const {
+    NetcdfWriter file(path);
+    const auto most = std::ssize(faces[0]);
+    const int node = file.dimension("nodes", points.cols()),
+              face = file.dimension("cells", std::ssize(faces));
+    const int corner = file.dimension("three", most);
+    const std::string unit = radians ? "radians" : "degrees";
+    const int topology = file.variable(
+        "topology", NetcdfType::int32, {},
+        {{"cf_role", std::string("mesh_topology")},
+         {"topology_dimension", std::int32_t{2}},
+         {"node_coordinates", std::string(latitude_first ? "north east" : "east north")},
+         {"face_node_connectivity", std::string("corners")},
+         {"face_dimension", std::string("cells")}});
+    const int east = file.variable("east", NetcdfType::float64, {node},
+                                   {{"units", unit}, {"standard_name", std::string("longitude")}});
+    const int north = file.variable("north", NetcdfType::float64, {node},
+                                    {{"units", unit}, {"standard_name", std::string("latitude")}});
+    const auto order = faces_last ? std::vector{corner, face} : std::vector{face, corner};
+    const int corners =
+        file.variable("corners", NetcdfType::float64, order,
+                      {{"start_index", std::int32_t{start_index}}, {"_FillValue", fill}});
+    file.begin();
+    file.put(topology, [](std::int64_t, std::int64_t, std::int32_t* out) { *out = 0; });
+    const double scale = radians ? 1 : 180 / pi;
+    file.put(east, [&](std::int64_t begin, std::int64_t end, double* out) {
+      for (std::int64_t i = begin; i < end; ++i)
+        *out++ = scale * std::atan2(points(1, i), points(0, i));
+    });
+    file.put(north, [&](std::int64_t begin, std::int64_t end, double* out) {
+      for (std::int64_t i = begin; i < end; ++i)
+        *out++ = scale * std::asin(points(2, i));
+    });
+    file.put(corners, [&](std::int64_t begin, std::int64_t end, double* out) {
+      for (std::int64_t row = begin; row < end; ++row)
+        for (std::size_t k = 0; k < (faces_last ? faces.size() : faces[0].size()); ++k)
+          *out++ = faces_last ? faces[k][std::size_t(row)] : faces[std::size_t(row)][k];
+    });
+    file.commit();
+  }
+};
+
+/// The triangles of a mesh as another's faces.
+std::vector<std::vector<double>> faces_of(const Mesh& mesh, int start_index) {
+  std::vector<std::vector<double>> faces;
+  for (std::int64_t t = 0; t < mesh.triangles.cols(); ++t) {
+    faces.emplace_back();
+    for (int k = 0; k < 3; ++k)
+      faces.back().push_back(mesh.triangles(k, t) + start_index);
+  }
+  return faces;
+}
+
+} // namespace
+
+TEST_CASE("UGRID, SCRIP and ESMF hold the Voronoi tessellation") {
+  const Scratch scratch;
+  const WriteOptions options{.sphere_radius = 6371220, .history = "made by a test\nfrom nothing"};
+  for (const NamedMesh& c : meshes()) {
+    CAPTURE(c.name);
+    io_detail::write_ugrid(scratch / "ugrid.nc", c.mesh, options);
+    io_detail::write_scrip(scratch / "scrip.nc", c.mesh, options);
+    io_detail::write_esmf(scratch / "esmf.nc", c.mesh, options);
+    const NetcdfReader ugrid(scratch / "ugrid.nc"), scrip(scratch / "scrip.nc"),
+        esmf(scratch / "esmf.nc");
+    for (const NetcdfReader* file : {&ugrid, &scrip, &esmf})
+      require_attributes(*file, options.sphere_radius, options.history);
+    require_tessellation(ugrid_polygons(ugrid), c.mesh);
+    require_tessellation(scrip_polygons(scrip), c.mesh);
+    require_tessellation(esmf_polygons(esmf), c.mesh);
+  }
+}
+
+TEST_CASE("UGRID says what its variables are") {
+  const Scratch scratch;
+  const Mesh mesh = delaunay(random_sphere(40));
+  for (const Write write : {io_detail::write_ugrid, io_detail::write_ugrid_triangles}) {
+    write(scratch / "grid.nc", mesh, {});
+    const NetcdfReader file(scratch / "grid.nc");
+    CHECK(file.text("", "Conventions") == "CF-1.8 UGRID-1.0");
+    CHECK(file.text("mesh", "cf_role") == "mesh_topology");
+    CHECK(file.number("mesh", "topology_dimension", 0) == 2);
+    CHECK(file.shape_of("mesh").empty());
+    CHECK(file.text("mesh", "node_coordinates") == "mesh_node_lon mesh_node_lat");
+    CHECK(file.text("mesh", "face_coordinates") == "mesh_face_lon mesh_face_lat");
+    CHECK(file.text("mesh", "face_dimension") == file.dimensions_of("mesh_face_nodes")[0]);
+    CHECK(file.dimensions_of("mesh_face_lat") ==
+          std::vector<std::string>{file.text("mesh", "face_dimension")});
+    CHECK(file.text("mesh_face_nodes", "cf_role") == "face_node_connectivity");
+    CHECK(file.number("mesh_face_nodes", "start_index", -1) == 0);
+    CHECK(file.text("mesh_node_lat", "units") == "degrees_north");
+    CHECK(file.text("mesh_node_lon", "units") == "degrees_east");
+  }
+}
+
+TEST_CASE("UGRID of triangles holds the mesh and its circumcentres") {
+  const Scratch scratch;
+  for (const NamedMesh& c : meshes()) {
+    CAPTURE(c.name);
+    io_detail::write_ugrid_triangles(scratch / "grid.nc", c.mesh, {.history = "a test"});
+    const NetcdfReader file(scratch / "grid.nc");
+    require_attributes(file, 1, "a test");
+    const Points3 sites = places(file, "mesh_node_lon", "mesh_node_lat");
+    const Points3 centres = places(file, "mesh_face_lon", "mesh_face_lat");
+    const std::vector<std::int32_t> ids =
+        file.ints("mesh_face_nodes", {c.mesh.triangles.cols(), 3});
+    for (std::int64_t t = 0; t < c.mesh.triangles.cols(); ++t) {
+      const Vec3 centre = oracle::site(centres, t);
+      Vec3 corners[3];
+      for (std::size_t k = 0; k < 3; ++k)
+        corners[k] = oracle::site(sites, ids[3 * static_cast<std::size_t>(t) + k]);
+      const auto& [a, b, d] = corners;
+      REQUIRE(dot(a, cross(b - a, d - a)) > 0);
+      REQUIRE(dot(centre, cross(b - a, d - a)) > 0);
+      REQUIRE(std::abs(dot(centre, a - b)) < 1e-14);
+      REQUIRE(std::abs(dot(centre, a - d)) < 1e-14);
+    }
+  }
+}
+
+TEST_CASE("SCRIP and ESMF describe their cells") {
+  const Scratch scratch;
+  const Mesh mesh = delaunay(random_sphere(40));
+  io_detail::write_scrip(scratch / "scrip.nc", mesh, {});
+  io_detail::write_esmf(scratch / "esmf.nc", mesh, {});
+  const NetcdfReader scrip(scratch / "scrip.nc"), esmf(scratch / "esmf.nc");
+  CHECK(scrip.dimension("grid_rank") == 1);
+  CHECK(scrip.ints("grid_dims", {1}) == std::vector<std::int32_t>{40});
+  CHECK(scrip.ints("grid_imask", {40}) == std::vector<std::int32_t>(40, 1));
+  for (const std::string name : {"center_lat", "center_lon", "corner_lat", "corner_lon"})
+    CHECK(scrip.text("grid_" + name, "units") == "degrees");
+  CHECK(scrip.text("grid_area", "units") == "radians^2");
+  CHECK(esmf.text("", "gridType") == "unstructured");
+  CHECK(esmf.number("elementConn", "start_index", 0) == 1);
+  CHECK(esmf.ints("elementMask", {40}) == std::vector<std::int32_t>(40, 1));
+  CHECK(esmf.text("elementArea", "units") == "radians^2");
+}
+
+TEST_CASE("UGRID gives the mesh back to the bit") {
+  const Scratch scratch;
+  for (const NamedMesh& c : meshes()) {
+    CAPTURE(c.name);
+    for (const Write write : {io_detail::write_ugrid, io_detail::write_ugrid_triangles}) {
+      // Unit columns stay as they are, whatever their last bits; others come to the radius and
+      // stay.
+      const bool unit = ((c.mesh.points.colwise().norm().array() - 1).abs() < 5e-16).all();
+      Soup soup = written_and_read(scratch / "a.nc", c.mesh, write, io_detail::read_ugrid);
+      CHECK((!unit || test::same_bits(soup.points, c.mesh.points)));
+      CHECK((soup.points - on_sphere(c.mesh, 1)).cwiseAbs().maxCoeff() < 1e-15);
+      CHECK(test::same_bits(soup.triangles, c.mesh.triangles));
+
+      const WriteOptions earth{.sphere_radius = 6371220};
+      soup = written_and_read(scratch / "b.nc", c.mesh, write, io_detail::read_ugrid, earth);
+      CHECK((soup.points - on_sphere(c.mesh, 6371220)).cwiseAbs().maxCoeff() < 6371220e-15);
+      const Mesh again{soup.points, soup.triangles, c.mesh.neighbours, c.mesh.site_of_input};
+      const Soup twice =
+          written_and_read(scratch / "c.nc", again, write, io_detail::read_ugrid, earth);
+      CHECK(test::same_bits(twice.points, soup.points));
+      CHECK(test::same_bits(twice.triangles, c.mesh.triangles));
+    }
+  }
+}
+
+TEST_CASE("SCRIP and ESMF give the sites back, but for rounding") {
+  const Scratch scratch;
+  for (const NamedMesh& c : meshes()) {
+    CAPTURE(c.name);
+    for (const Soup& soup :
+         {written_and_read(scratch / "a.nc", c.mesh, io_detail::write_scrip, io_detail::read_scrip),
+          written_and_read(scratch / "b.nc", c.mesh, io_detail::write_esmf,
+                           io_detail::read_esmf)}) {
+      CHECK(soup.triangles.cols() == 0);
+      REQUIRE(soup.points.cols() == c.mesh.points.cols());
+      CHECK((soup.points - on_sphere(c.mesh, 1)).cwiseAbs().maxCoeff() < 2e-15);
+    }
+  }
+}
+
+TEST_CASE("cells need a closed mesh, triangles do not") {
+  const Scratch scratch;
+  const Mesh open = delaunay(test::upper_half(30, 1));
+  for (const Write write : {io_detail::write_ugrid, io_detail::write_scrip, io_detail::write_esmf})
+    CHECK_THROWS_AS(write(scratch / "a.nc", open, {}), Error);
+  CHECK(scratch.files() == 0);
+  const Soup soup = written_and_read(scratch / "a.nc", open, io_detail::write_ugrid_triangles,
+                                     io_detail::read_ugrid);
+  CHECK(test::same_bits(soup.triangles, open.triangles));
+  CHECK(!NetcdfReader(scratch / "a.nc").has_variable("mesh_face_lon"));
+}
+
+TEST_CASE("each kind is known by its contents") {
+  const Scratch scratch;
+  const Mesh mesh = delaunay(test::octahedron());
+  const auto kinds = [&](Write write) {
+    write(scratch / "a.nc", mesh, {});
+    const NetcdfReader file(scratch / "a.nc");
+    return std::vector<bool>{io_detail::is_ugrid(file), io_detail::is_scrip(file),
+                             io_detail::is_esmf(file)};
+  };
+  CHECK(kinds(io_detail::write_ugrid) == std::vector<bool>{true, false, false});
+  CHECK(kinds(io_detail::write_ugrid_triangles) == std::vector<bool>{true, false, false});
+  CHECK(kinds(io_detail::write_scrip) == std::vector<bool>{false, true, false});
+  CHECK(kinds(io_detail::write_esmf) == std::vector<bool>{false, false, true});
+}
+
+TEST_CASE("UGRID of others") {
+  const Scratch scratch;
+  Mesh mesh = delaunay(random_sphere(30));
+  const std::string path = scratch / "a.nc";
+  const auto check_read = [&](const Foreign& foreign, const Triangles& triangles) {
+    foreign.write(path, mesh.points);
+    const Soup soup = io_detail::read_ugrid(NetcdfReader(path));
+    CHECK((soup.points - mesh.points).cwiseAbs().maxCoeff() < 2e-15);
+    CHECK(test::same_bits(soup.triangles, triangles));
+  };
+  check_read({.faces = faces_of(mesh, 0)}, mesh.triangles);
+  check_read({.faces = faces_of(mesh, 1), .start_index = 1}, mesh.triangles);
+  check_read({.faces = faces_of(mesh, 0), .faces_last = true}, mesh.triangles);
+  check_read({.faces = faces_of(mesh, 0), .latitude_first = true, .radians = true}, mesh.triangles);
+
+  auto padded = faces_of(mesh, 0);
+  for (auto& face : padded)
+    face.push_back(-0x1p63);
+  check_read({.faces = padded, .fill = -0x1p63}, mesh.triangles);
+  for (auto& face : padded)
+    face.back() = std::numeric_limits<double>::quiet_NaN();
+  check_read({.faces = padded}, mesh.triangles);
+  padded[5].back() = 0; // a quadrangle: the nodes are sites to be triangulated
+  check_read({.faces = padded}, Triangles());
+
+  SUBCASE("poles in radians") {
+    mesh = delaunay(test::octahedron());
+    check_read({.faces = faces_of(mesh, 0), .radians = true}, mesh.triangles);
+  }
+}
+
+TEST_CASE("bad UGRID files end in one line") {
+  const Scratch scratch;
+  const Mesh mesh = delaunay(random_sphere(30));
+  const std::string path = scratch / "a.nc";
+  const auto check_patched = [&](const auto& patch, const std::string& words) {
+    io_detail::write_ugrid(path, mesh, {});
+    patch(Patch(path));
+    check_bad(path, io_detail::read_ugrid, words);
+  };
+  const std::string ids = "mesh_face_nodes";
+  check_patched(
+      [&](const Patch& p) {
+        p.put(ids, {7, 1}, 56);
+      },
+      ids + " of face 7 (0-based) has 56, which is not one of the 56 nodes from 0 on");
+  check_patched([&](const Patch& p) { p.put(ids, {7, 1}, -2); }, "face 7 (0-based) has -2");
+  check_patched(
+      [&](const Patch& p) {
+        p.put(ids, {7, 1}, -1);
+      },
+      ids + " of face 7 (0-based) does not start with three or more nodes");
+  check_patched(
+      [&](const Patch& p) {
+        p.put(ids, {7, 0}, (mesh.triangles(0, 0) == 7) ? 1 : 0);
+      },
+      "the faces around node ");
+  check_patched([&](const Patch& p) { p.rename(ids, "others"); }, "no variable " + ids);
+  check_patched([](const Patch& p) { p.rename("mesh_face_y", "others"); },
+                "no variable mesh_face_y");
+  check_patched([](const Patch& p) { p.rename("mesh_node_lon", "others"); },
+                "no variable mesh_node_lon");
+  check_patched([](const Patch& p) { p.attribute("mesh", "node_coordinates", "mesh_node_lon"); },
+                "node_coordinates of the mesh variable mesh are not the names of two variables");
+  check_patched([](const Patch& p) { p.attribute("mesh", "face_node_connectivity", ""); },
+                "names no face_node_connectivity");
+  check_patched(
+      [&](const Patch& p) { p.attribute("mesh", "face_node_connectivity", "mesh_face_x"); },
+      "mesh_face_x has the shape (30)");
+  check_patched([](const Patch& p) { p.attribute("mesh", "site_coordinates", "a b"); },
+                "site_coordinates of the mesh variable mesh are not the names of three");
+
+  Foreign foreign{.faces = faces_of(mesh, 0)};
+  foreign.start_index = 1;
+  foreign.write(path, mesh.points);
+  check_bad(path, io_detail::read_ugrid, "which is not one of the 30 nodes from 1 on");
+  foreign.start_index = 0;
+  foreign.write(path, mesh.points);
+  Patch(path).put("north", {4}, 90.001);
+  check_bad(path, io_detail::read_ugrid,
+            "east and north hold no place on the sphere at index 4 (0-based)");
+  foreign.write(path, mesh.points);
+  Patch(path).put("east", {4}, std::numeric_limits<double>::infinity());
+  check_bad(path, io_detail::read_ugrid, "no place on the sphere at index 4");
+  foreign.write(path, mesh.points);
+  Patch(path).attribute("east", "units", "km");
+  check_bad(path, io_detail::read_ugrid, "the units of east are \"km\"");
+}
+
+TEST_CASE("bad SCRIP and ESMF files end in one line") {
+  const Scratch scratch;
+  const Mesh mesh = delaunay(random_sphere(30));
+  const std::string path = scratch / "a.nc";
+  io_detail::write_scrip(path, mesh, {});
+  Patch(path).put("grid_center_lat", {3}, std::numeric_limits<double>::quiet_NaN());
+  check_bad(path, io_detail::read_scrip, "grid_center_lon and grid_center_lat hold no place");
+  Patch(path).rename("grid_center_lat", "others");
+  CHECK(io_detail::is_scrip(NetcdfReader(path)));
+  check_bad(path, io_detail::read_scrip, "no variable grid_center_lat");
+  Patch(path).rename("grid_corner_lat", "grid_center_lat");
+  check_bad(path, io_detail::read_scrip, "grid_center_lat has the shape (30, ");
+
+  io_detail::write_esmf(path, mesh, {});
+  Patch(path).put("centerCoords", {3, 1}, -91);
+  check_bad(path, io_detail::read_esmf, "centerCoords hold no place on the sphere at index 3");
+  Patch(path).rename("centerCoords", "others");
+  CHECK(io_detail::is_esmf(NetcdfReader(path)));
+  check_bad(path, io_detail::read_esmf, "no variable centerCoords");
+  Patch(path).rename("elementConn", "centerCoords");
+  check_bad(path, io_detail::read_esmf, "centerCoords has the shape (30, ");
+}
+
+TEST_CASE("truncated files end in one line") {
+  const Scratch scratch;
+  const Mesh mesh = delaunay(random_sphere(12));
+  const std::vector<std::pair<Write, Read>> formats{
+      {io_detail::write_ugrid, io_detail::read_ugrid},
+      {io_detail::write_ugrid_triangles, io_detail::read_ugrid},
+      {io_detail::write_scrip, io_detail::read_scrip},
+      {io_detail::write_esmf, io_detail::read_esmf}};
+  for (const auto& [write, read] : formats) {
+    const std::string path = scratch / "a.nc";
+    write(path, mesh, {});
+    for (auto size = fs::file_size(path); size > 0;) {
+      size -= std::min<std::uintmax_t>(size, 97);
+      fs::resize_file(path, size);
+      check_bad(path, read, "cut short");
+    }
+  }
+}

@@ -1,0 +1,427 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/netcdf_header.h"
+#include "io/netcdf_reader.h"
+#include "io/netcdf_writer.h"
+#include "support/files.h"
+#include "support/full_disk.h"
+#include "support/random.h"
+
+#include <calotte/error.h>
+#include <calotte/io.h>
+
+#include <doctest/doctest.h>
+#include <netcdf.h>
+#include <tbb/task_arena.h>
+
+#include <atomic>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <thread>
+
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace fs = std::filesystem;
+using calotte::Error;
+using calotte::ErrorCode;
+using calotte::io_detail::NetcdfReader;
+using calotte::io_detail::NetcdfType;
+using calotte::io_detail::NetcdfWriter;
+using calotte::test::error_of;
+using calotte::test::read_file;
+using calotte::test::Scratch;
+
+namespace {
+
+double value_at(std::int64_t i) { return i % 7 == 0 ? -0.0 : 1.0 / static_cast<double>(i); }
+
+constexpr std::int64_t rows = 50'001;
+
+/// Variables of all types and shapes, more rows than a block holds, odd lengths that need padding.
+void write_sample(const std::string& path) {
+  NetcdfWriter file(path);
+  const int n = file.dimension("n", rows), three = file.dimension("three", 3);
+  file.dimension("Time", 0);
+  file.attribute({"title", std::string("a sample")});
+  file.attribute({"radius", 6371229.0});
+  file.attribute({"empty", std::string()});
+  const int scalar =
+      file.variable("scalar", NetcdfType::int32, {},
+                    {{"cf_role", std::string("mesh_topology")}, {"start", std::int32_t{-1}}});
+  const int bytes = file.variable("bytes", NetcdfType::int8, {n}, {{"fill", std::int8_t{-1}}});
+  const int doubles = file.variable("doubles", NetcdfType::float64, {n},
+                                    {{"units", std::string("m")}, {"factor", 0.1}});
+  const int ids = file.variable("ids", NetcdfType::int32, {n, three});
+  const int cube = file.variable("cube", NetcdfType::float64, {three, three, n});
+  file.begin();
+  file.put(scalar, NetcdfWriter::Fill<std::int32_t>([](auto, auto, auto* out) { *out = -77; }));
+  file.put(bytes, NetcdfWriter::Fill<std::int8_t>([](auto begin, auto end, auto* out) {
+             for (auto i = begin; i < end; ++i)
+               *out++ = static_cast<std::int8_t>(i % 100 - 50);
+           }));
+  file.put(doubles, NetcdfWriter::Fill<double>([](auto begin, auto end, auto* out) {
+             for (auto i = begin; i < end; ++i)
+               *out++ = value_at(i);
+           }));
+  file.put(ids, NetcdfWriter::Fill<std::int32_t>([](auto begin, auto end, auto* out) {
+             for (auto i = 3 * begin; i < 3 * end; ++i)
+               *out++ = static_cast<std::int32_t>(3 * i - rows);
+           }));
+  file.put(cube, NetcdfWriter::Fill<double>([](auto begin, auto end, auto* out) {
+             for (auto i = 3 * rows * begin; i < 3 * rows * end; ++i)
+               *out++ = value_at(i);
+           }));
+  file.commit();
+}
+
+/// What the C library makes of a file.
+struct Opened {
+  explicit Opened(const std::string& path) {
+    REQUIRE(nc_open(path.c_str(), NC_NOWRITE, &id) == NC_NOERR);
+  }
+  Opened(const Opened&) = delete;
+  Opened& operator=(const Opened&) = delete;
+  ~Opened() { nc_close(id); }
+  int variable(const char* name) const {
+    int v = -1;
+    REQUIRE(nc_inq_varid(id, name, &v) == NC_NOERR);
+    return v;
+  }
+  int id = -1;
+};
+
+/// A file as another program makes it: defined by `define`, whose return value is the format.
+template <class Define> std::string foreign(const std::string& path, int format, Define define) {
+  int id = -1;
+  REQUIRE(nc_create(path.c_str(), NC_CLOBBER | format, &id) == NC_NOERR);
+  define(id);
+  REQUIRE(nc_close(id) == NC_NOERR);
+  return path;
+}
+
+} // namespace
+
+TEST_CASE("the C library reads what was written, bit for bit") {
+  const Scratch scratch;
+  write_sample(scratch / "a.nc");
+  CHECK(scratch.files() == 1);
+  CHECK(read_file(scratch / "a.nc").substr(0, 4) == std::string("CDF\2"));
+  const Opened file(scratch / "a.nc");
+
+  int number = 0;
+  CHECK(nc_get_var_int(file.id, file.variable("scalar"), &number) == NC_NOERR);
+  CHECK(number == -77);
+  std::vector<signed char> bytes(rows);
+  CHECK(nc_get_var_schar(file.id, file.variable("bytes"), bytes.data()) == NC_NOERR);
+  std::vector<double> doubles(rows), cube(9 * rows);
+  CHECK(nc_get_var_double(file.id, file.variable("doubles"), doubles.data()) == NC_NOERR);
+  CHECK(nc_get_var_double(file.id, file.variable("cube"), cube.data()) == NC_NOERR);
+  std::vector<int> ids(3 * rows);
+  CHECK(nc_get_var_int(file.id, file.variable("ids"), ids.data()) == NC_NOERR);
+  bool right = true;
+  const auto same = [](double a, double b) { return a == b && std::signbit(a) == std::signbit(b); };
+  for (std::int64_t i = 0; i < 9 * rows; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    right = right && same(cube[k], value_at(i));
+    if (i < rows)
+      right = right && bytes[k] == i % 100 - 50 && same(doubles[k], value_at(i));
+    if (i < 3 * rows)
+      right = right && ids[k] == 3 * i - rows;
+  }
+  CHECK(right);
+
+  int unlimited = -1;
+  char name[NC_MAX_NAME + 1] = "";
+  CHECK(nc_inq_unlimdim(file.id, &unlimited) == NC_NOERR);
+  CHECK(nc_inq_dimname(file.id, unlimited, name) == NC_NOERR);
+  CHECK(std::string(name) == "Time");
+}
+
+TEST_CASE("the reader tells names, shapes, attributes and values") {
+  const Scratch scratch;
+  write_sample(scratch / "a.nc");
+  const NetcdfReader file(scratch / "a.nc");
+  CHECK(file.variables() == std::vector<std::string>{"scalar", "bytes", "doubles", "ids", "cube"});
+  CHECK(file.has_variable("ids"));
+  CHECK(!file.has_variable("id"));
+  CHECK(file.shape_of("scalar").empty());
+  CHECK(file.shape_of("ids") == std::vector<std::int64_t>{rows, 3});
+  CHECK(file.dimensions_of("ids") == std::vector<std::string>{"n", "three"});
+  CHECK(file.dimension("n") == rows);
+  CHECK(file.dimension("Time") == 0);
+  CHECK(file.dimension("m") == -1);
+  CHECK(file.text("", "title") == "a sample");
+  CHECK(file.text("", "empty").empty());
+  CHECK(file.text("", "radius").empty());
+  CHECK(file.text("doubles", "units") == "m");
+  CHECK(file.text("doubles", "unit").empty());
+  CHECK(file.text("nothing", "units").empty());
+  CHECK(file.number("", "radius", 1) == 6371229.0);
+  CHECK(file.number("doubles", "factor", 1) == 0.1);
+  CHECK(file.number("scalar", "start", 1) == -1);
+  CHECK(file.number("bytes", "fill", 1) == -1);
+  CHECK(file.number("doubles", "units", 5) == 5);
+  CHECK(file.number("doubles", "nothing", 5) == 5);
+
+  CHECK(file.ints("scalar", {}) == std::vector<std::int32_t>{-77});
+  CHECK(file.ints("bytes", {rows})[99] == 49);
+  CHECK(file.ints("ids", {-1, 3})[1] == 3 - rows);
+  CHECK(file.doubles("ids", {rows, 3})[2] == 6 - rows);
+  CHECK(file.doubles("doubles", {-1})[3] == value_at(3));
+}
+
+TEST_CASE("the same bytes for any number of threads") {
+  const Scratch scratch;
+  for (const int threads : {1, 2, 5})
+    tbb::task_arena(threads).execute([&] { write_sample(scratch / std::to_string(threads)); });
+  CHECK(read_file(scratch / "1") == read_file(scratch / "2"));
+  CHECK(read_file(scratch / "1") == read_file(scratch / "5"));
+}
+
+TEST_CASE("files are written and read from several threads at a time") {
+  const Scratch scratch;
+  write_sample(scratch / "expected");
+  const std::string expected = read_file(scratch / "expected");
+  std::atomic<int> right = 0;
+  std::vector<std::thread> threads;
+  for (int i = 0; i < 4; ++i)
+    threads.emplace_back([&, i] {
+      const std::string path = scratch / std::to_string(i);
+      for (int round = 0; round < 2; ++round) {
+        write_sample(path);
+        const bool found = NetcdfReader(path).ints("ids", {-1, 3}).size() == 3 * rows;
+        right += found && read_file(path) == expected ? 1 : 0;
+      }
+    });
+  for (std::thread& thread : threads)
+    thread.join();
+  CHECK(right == 8);
+}
+
+TEST_CASE("CDF-5 as soon as a variable takes 4 GiB") {
+  using calotte::io_detail::needs_cdf5;
+  constexpr std::int64_t limit = (std::int64_t{1} << 32) - 4;
+  CHECK(!needs_cdf5({}));
+  CHECK(!needs_cdf5({limit - 1, limit - 4, 0}));
+  CHECK(needs_cdf5({8, limit, 8}));
+  CHECK(needs_cdf5({std::int64_t{1} << 40}));
+
+  // What begin() leaves beside the place, whose values are holes.
+  const Scratch scratch;
+  for (const bool wide : {false, true}) {
+    const std::int64_t size = wide ? std::int64_t{1} << 32 : (std::int64_t{1} << 29) - 1;
+    NetcdfWriter file(scratch / "a.nc");
+    const int n = file.dimension("n", size);
+    file.variable("first", NetcdfType::float64, {n});
+    const int scalar = file.variable("last", NetcdfType::int32, {});
+    file.begin();
+    file.put(scalar, NetcdfWriter::Fill<std::int32_t>([](auto, auto, auto* out) { *out = 42; }));
+    REQUIRE(scratch.files() == 1);
+    const std::string part = fs::directory_iterator(scratch.folder)->path();
+    CHECK(static_cast<std::int64_t>(fs::file_size(part)) > 8 * size);
+    std::ifstream in(part, std::ios::binary);
+    std::string magic(4, ' ');
+    in.read(magic.data(), 4);
+    CHECK(magic == (wide ? "CDF\5" : "CDF\2"));
+    const NetcdfReader reader(part);
+    CHECK(reader.shape_of("first") == std::vector<std::int64_t>{size});
+    CHECK(reader.ints("last", {}) == std::vector<std::int32_t>{42});
+  }
+  CHECK(scratch.files() == 0);
+}
+
+TEST_CASE("a disk that fills up keeps the old file and removes the new one") {
+  const Scratch scratch;
+  for (const rlim_t bytes : {rlim_t{100}, rlim_t{2000}, rlim_t{1'000'000}}) {
+    calotte::write_file(scratch / "a.nc", "old");
+    std::string message;
+    {
+      const calotte::test::FullDisk full(bytes);
+      try {
+        write_sample(scratch / "a.nc");
+      } catch (const Error& error) {
+        message = error.what();
+      }
+    }
+    CHECK(message ==
+          "cannot write " + (scratch / "a.nc") + ": File too large; make room or write elsewhere");
+    CHECK(scratch.files() == 1);
+    CHECK(read_file(scratch / "a.nc") == "old");
+  }
+}
+
+TEST_CASE("a place that no such file can take is refused") {
+  const Scratch scratch;
+  const auto message = [](const std::string& path) {
+    const Error error = error_of([&] { write_sample(path); });
+    CHECK(error.code() == ErrorCode::file);
+    return std::string(error.what());
+  };
+  REQUIRE(::mkfifo((scratch / "pipe").c_str(), 0600) == 0);
+  for (const std::string& path : {scratch / "pipe", std::string("/dev/null")})
+    CHECK(message(path) == "cannot write " + path +
+                               ": it is no regular file, and the format is not written from front "
+                               "to back; give the name of a file");
+  CHECK(message(scratch / "") ==
+        "cannot write " + (scratch / "") + ": it is a folder; give the name of a file");
+  CHECK(message(scratch / "none/a.nc") ==
+        "cannot write " + (scratch / "none/a.nc") + ": its folder does not exist; create it first");
+}
+
+TEST_CASE("a write that fails midway leaves nothing") {
+  const Scratch scratch;
+  CHECK_THROWS_WITH(
+      [&] {
+        NetcdfWriter file(scratch / "a.nc");
+        const int v = file.variable("v", NetcdfType::float64, {file.dimension("n", 1'000'000)});
+        file.begin();
+        file.put(v, NetcdfWriter::Fill<double>([](auto, auto end, auto*) {
+                   if (end == 1'000'000)
+                     throw std::runtime_error("stop");
+                 }));
+      }(),
+      "stop");
+  CHECK(scratch.files() == 0);
+  CHECK(error_of([&] {
+          NetcdfWriter file(scratch / "a.nc");
+          file.variable("v", NetcdfType::float64, {});
+          file.begin();
+          file.commit();
+        }).code() == ErrorCode::internal);
+  CHECK(scratch.files() == 0);
+}
+
+TEST_CASE("a name that looks like an address is a file's") {
+  const Scratch scratch;
+  fs::create_directories(scratch.folder / "http:" / "x");
+  const fs::path before = fs::current_path();
+  fs::current_path(scratch.folder);
+  for (const std::string name : {"http://x/a.nc", " a.nc", "a b#mode=zarr.nc"}) {
+    write_sample(name);
+    CHECK(NetcdfReader(name).ints("scalar", {}).front() == -77);
+  }
+  fs::current_path(before);
+}
+
+TEST_CASE("what is no file, no NetCDF or cut short is refused") {
+  const Scratch scratch;
+  const auto message = [](const std::string& path, ErrorCode code) {
+    const Error error = error_of([&] { NetcdfReader reader(path); });
+    CHECK(error.code() == code);
+    return std::string(error.what());
+  };
+  CHECK(message(scratch / "none", ErrorCode::file) ==
+        "cannot read " + (scratch / "none") +
+            ": No such file or directory; check its name and its permissions");
+  CHECK(message(scratch.folder, ErrorCode::file) ==
+        "cannot read " + scratch.folder.string() + ": it is a folder; give the name of a file");
+  calotte::write_file(scratch / "text", "1 2 3\n4 5 6\n");
+  CHECK(message(scratch / "text", ErrorCode::parse) ==
+        (scratch / "text") +
+            ": it is no NetCDF file, or is cut short; give another or make it again");
+  calotte::write_file(scratch / "empty", "");
+  CHECK(message(scratch / "empty", ErrorCode::parse).find("no NetCDF file") != std::string::npos);
+
+  write_sample(scratch / "a.nc");
+  const std::string whole = read_file(scratch / "a.nc");
+  calotte::write_file(scratch / "cut", whole.substr(0, whole.size() - 1));
+  CHECK(message(scratch / "cut", ErrorCode::parse) ==
+        (scratch / "cut") + ": it is cut short: cube is not whole; make it again");
+  calotte::test::Random random(3);
+  for (int i = 0; i < 200; ++i) {
+    // All lengths within the header, then any.
+    const std::size_t length =
+        i < 150 ? static_cast<std::size_t>(6 * i)
+                : static_cast<std::size_t>(random.integer(0, static_cast<int>(whole.size()) - 1));
+    CAPTURE(length);
+    std::ofstream(scratch / "cut", std::ios::binary) << whole.substr(0, length);
+    message(scratch / "cut", ErrorCode::parse);
+  }
+}
+
+TEST_CASE("files that others wrote: every classic format, padded headers, records") {
+  const Scratch scratch;
+  for (const int format : {0, NC_64BIT_OFFSET, NC_64BIT_DATA})
+    for (const bool records : {false, true})
+      for (const std::size_t free_bytes : {std::size_t{0}, std::size_t{1000}}) {
+        CAPTURE(format);
+        CAPTURE(records);
+        const std::string path = foreign(scratch / "a.nc", format, [&](int id) {
+          int n, time, v, w;
+          nc_def_dim(id, "n", 5, &n);
+          nc_def_dim(id, "Time", NC_UNLIMITED, &time);
+          const int shape[] = {time, n};
+          nc_def_var(id, "v", NC_SHORT, 1, &n, &v);
+          nc_put_att_text(id, v, "name", 5, "short");
+          nc_def_var(id, "w", NC_FLOAT, records ? 2 : 1, records ? shape : &n, &w);
+          nc__enddef(id, free_bytes, 4, 0, 4);
+          const short shorts[] = {1, 2, -3, 4, 5};
+          nc_put_var_short(id, v, shorts);
+          const std::vector<float> floats(15, 2);
+          const std::size_t start[] = {0, 0}, count[] = {3, 5};
+          nc_put_vara_float(id, w, start, records ? count : count + 1, floats.data());
+        });
+        {
+          const NetcdfReader file(path);
+          CHECK(file.ints("v", {5})[2] == -3);
+          CHECK(file.ints("w", file.shape_of("w")).back() == 2);
+          CHECK(file.dimension("Time") == (records ? 3 : 0));
+        }
+        const std::string whole = read_file(path);
+        for (std::size_t cut = 1; cut < 70; cut += 3) {
+          std::ofstream(scratch / "cut", std::ios::binary) << whole.substr(0, whole.size() - cut);
+          error_of([&] { NetcdfReader reader(scratch / "cut"); });
+        }
+      }
+}
+
+TEST_CASE("NetCDF-4 files are read") {
+  const Scratch scratch;
+  const std::string path = foreign(scratch / "a.nc", NC_NETCDF4, [](int id) {
+    int n, v;
+    nc_def_dim(id, "n", 3, &n);
+    nc_def_var(id, "v", NC_INT64, 1, &n, &v);
+    const char* text = "degrees";
+    nc_put_att_string(id, v, "units", 1, &text);
+    const long long values[] = {1, 2, 3};
+    nc_put_var_longlong(id, v, values);
+  });
+  const NetcdfReader file(path);
+  CHECK(file.ints("v", {3}) == std::vector<std::int32_t>{1, 2, 3});
+  CHECK(file.text("v", "units") == "degrees");
+}
+
+TEST_CASE("a variable that is not as it should be is named") {
+  const Scratch scratch;
+  const std::string path = foreign(scratch / "a.nc", NC_64BIT_DATA, [](int id) {
+    int n, large, fraction, text;
+    nc_def_dim(id, "n", 3, &n);
+    nc_def_var(id, "large", NC_INT64, 1, &n, &large);
+    nc_def_var(id, "fraction", NC_DOUBLE, 1, &n, &fraction);
+    nc_def_var(id, "text", NC_CHAR, 1, &n, &text);
+    nc_enddef(id);
+    const long long numbers[] = {1, 1LL << 31, 3};
+    const double fractions[] = {1, 2.5, 3};
+    nc_put_var_longlong(id, large, numbers);
+    nc_put_var_double(id, fraction, fractions);
+    nc_put_var_text(id, text, "abc");
+  });
+  const NetcdfReader file(path);
+  const auto message = [&](const std::string& name, const std::vector<std::int64_t>& shape) {
+    const Error error = error_of([&] { file.ints(name, shape); });
+    CHECK(error.code() == ErrorCode::parse);
+    return std::string(error.what());
+  };
+  CHECK(message("none", {3}) == path + ": it has no variable none; give a file that has");
+  CHECK(message("large", {3, -1}) ==
+        path + ": large has the shape (3) instead of (3, any); make the file again");
+  CHECK(message("large", {4}) ==
+        path + ": large has the shape (3) instead of (4); make the file again");
+  CHECK(message("large", {3}) == path + ": large has a number out of range; make the file again");
+  CHECK(message("fraction", {3}) ==
+        path + ": fraction has a number that is no 32-bit integer; make the file again");
+  CHECK(message("text", {3}) == path + ": text is text, not numbers; make the file again");
+}

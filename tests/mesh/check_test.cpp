@@ -1,0 +1,524 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "curve/traversal.h"
+#include "mesh/renumber.h"
+#include "support/clouds.h"
+#include "support/laws.h"
+
+#include <calotte/check.h>
+#include <calotte/delaunay.h>
+#include <calotte/generators.h>
+
+#include <doctest/doctest.h>
+
+#include <tbb/task_arena.h>
+
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+using namespace calotte;
+using namespace calotte::test;
+
+namespace {
+
+bool fails_with(const Mesh& mesh, const std::string& words) {
+  const Check result = check(mesh);
+  INFO("failure: ", result.failure);
+  CHECK_FALSE(result.passed());
+  CHECK(result.failure.find('\n') == std::string::npos);
+  const bool found = result.failure.find(words) != std::string::npos;
+  CHECK(found);
+  return found;
+}
+
+std::vector<Triple> triangles_of(const Mesh& mesh) {
+  std::vector<Triple> out;
+  for (std::int64_t t = 0; t < mesh.triangles.cols(); ++t)
+    out.push_back(triple(mesh, t));
+  return out;
+}
+
+Mesh good_mesh() { return oracle::delaunay(random_sphere(20, 4)); }
+
+/// With the edge across from vertex 0 of triangle t flipped.
+Mesh flipped(const Mesh& mesh, std::int64_t t) {
+  std::vector<Triple> triangles = triangles_of(mesh);
+  const std::int32_t other = mesh.neighbours(0, t);
+  const Triple own = triple(mesh, t);
+  std::int32_t across = -1;
+  for (int j = 0; j < 3; ++j)
+    if (std::find(own.begin(), own.end(), mesh.triangles(j, other)) == own.end())
+      across = mesh.triangles(j, other);
+  triangles[static_cast<std::size_t>(t)] = {own[0], own[1], across};
+  triangles[static_cast<std::size_t>(other)] = {own[0], across, own[2]};
+  return oracle::mesh_of(mesh.points, triangles);
+}
+
+void exchange_sites(Points3& points, Eigen::Index i, Eigen::Index j) {
+  const Eigen::Vector3d p = points.col(i);
+  points.col(i) = points.col(j);
+  points.col(j) = p;
+}
+
+} // namespace
+
+TEST_CASE("meshes made by the definition pass, closed and open") {
+  for (const Cloud& cloud : small_clouds()) {
+    if (cloud.points.cols() > 25 || cloud.sites >= 0)
+      continue;
+    CAPTURE(cloud.name);
+    const Mesh mesh = oracle::delaunay(cloud.points);
+    const Check result = check(mesh);
+    CHECK(result.failure == "");
+    CHECK(result.sites == mesh.points.cols());
+    CHECK(result.triangles == mesh.triangles.cols());
+    CHECK((result.boundary_edges == 0) == cloud.closed);
+    CHECK(mesh.closed() == cloud.closed);
+    if (cloud.closed)
+      CHECK(result.area == doctest::Approx(4 * std::numbers::pi).epsilon(1e-9));
+    else
+      CHECK(result.area <= 2 * std::numbers::pi * (1 + 1e-12));
+  }
+}
+
+TEST_CASE("points of any norm pass, unit vectors but for rounding too") {
+  Mesh mesh = delaunay(random_sphere(3000, 5));
+  for (const double factor : {1.0, 1 + 0x1p-52, 1 - 0x1p-53, 1 + 0x1p-50, 1 - 0x1p-50, 3e100}) {
+    Mesh scaled = mesh;
+    scaled.points *= factor;
+    CHECK(check(scaled).failure == "");
+    scaled.triangles.col(7).reverseInPlace();
+    CHECK(check(scaled).failure != "");
+  }
+}
+
+TEST_CASE("an empty mesh, and sizes that do not match") {
+  fails_with(Mesh{}, "no triangle");
+  Mesh mesh = good_mesh();
+  mesh.neighbours.conservativeResize(3, mesh.neighbours.cols() - 1);
+  fails_with(mesh, "neighbours");
+  mesh = good_mesh();
+  mesh.points.resize(3, 0);
+  mesh.site_of_input.clear();
+  fails_with(mesh, "vertex outside");
+}
+
+TEST_CASE("sites that are not directions") {
+  for (const double bad :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    Mesh mesh = good_mesh();
+    mesh.points(1, 7) = bad;
+    fails_with(mesh, "site 7 ");
+  }
+  Mesh mesh = good_mesh();
+  mesh.points.col(3).setZero();
+  fails_with(mesh, "site 3 ");
+}
+
+TEST_CASE("ids out of range") {
+  for (const std::int32_t id : {-1, 20, 1 << 30, std::numeric_limits<std::int32_t>::min()}) {
+    Mesh mesh = good_mesh();
+    mesh.triangles(2, 5) = id;
+    fails_with(mesh, "triangle 5 ");
+  }
+  for (const std::int32_t id : {-2, 36, 1 << 30, std::numeric_limits<std::int32_t>::min()}) {
+    Mesh mesh = good_mesh();
+    mesh.neighbours(1, 9) = id;
+    fails_with(mesh, "triangle 9 ");
+  }
+  Mesh mesh = good_mesh();
+  mesh.site_of_input[4] = 20;
+  fails_with(mesh, "input 4 ");
+}
+
+TEST_CASE("order that is not canonical") {
+  Mesh mesh = good_mesh();
+  std::rotate(mesh.triangles.col(6).data(), mesh.triangles.col(6).data() + 1,
+              mesh.triangles.col(6).data() + 3);
+  fails_with(mesh, "triangle 6 ");
+  mesh = good_mesh();
+  mesh.triangles.col(3).swap(mesh.triangles.col(4));
+  fails_with(mesh, "triangle 4 ");
+  mesh = good_mesh();
+  mesh.triangles(1, 8) = mesh.triangles(2, 8);
+  fails_with(mesh, "vertex twice");
+  mesh = good_mesh();
+  mesh.triangles.col(8) = mesh.triangles.col(7);
+  fails_with(mesh, "there twice");
+}
+
+TEST_CASE("neighbours that are wrong") {
+  Mesh mesh = good_mesh();
+  mesh.neighbours(0, 2) = 2;
+  fails_with(mesh, "triangle 2 ");
+  mesh = good_mesh();
+  std::swap(mesh.neighbours(0, 2), mesh.neighbours(1, 2));
+  fails_with(mesh, "triangle 2 ");
+  mesh = good_mesh();
+  mesh.neighbours(0, 2) = -1;
+  fails_with(mesh, "edge");
+  mesh = good_mesh();
+  // Cut along one edge: both sides say that nothing is across.
+  const std::int32_t other = mesh.neighbours(0, 2);
+  for (int j = 0; j < 3; ++j)
+    if (mesh.neighbours(j, other) == 2)
+      mesh.neighbours(j, other) = -1;
+  mesh.neighbours(0, 2) = -1;
+  fails_with(mesh, "site");
+}
+
+TEST_CASE("a triangle missing, there twice, or turned over") {
+  const Mesh mesh = good_mesh();
+  std::vector<Triple> triangles = triangles_of(mesh);
+  triangles.erase(triangles.begin() + 10);
+  fails_with(oracle::mesh_of(mesh.points, triangles), "convex");
+  triangles = triangles_of(mesh);
+  std::swap(triangles[10][0], triangles[10][1]);
+  CHECK_FALSE(check(oracle::mesh_of(mesh.points, triangles)).passed());
+  Mesh twice = mesh;
+  twice.triangles.col(11) = twice.triangles.col(10);
+  CHECK_FALSE(check(twice).passed());
+}
+
+TEST_CASE("every edge flipped is found") {
+  const Mesh mesh = good_mesh();
+  for (std::int64_t t = 0; t < mesh.triangles.cols(); ++t) {
+    CAPTURE(t);
+    CHECK_FALSE(check(flipped(mesh, t)).passed());
+  }
+}
+
+TEST_CASE("a flipped edge of a convex quadrilateral is named") {
+  // A long thin diamond on the equator with its long diagonal.
+  const Points3 points = columns({{1, 0, 0}, {0.6, 0.8, 0}, {1, 0.4, 0.1}, {1, 0.4, -0.1}});
+  fails_with(oracle::mesh_of(points, {{0, 1, 2}, {0, 3, 1}}), "edge (0, 1) of triangle 0");
+  CHECK(check(oracle::mesh_of(points, {{0, 3, 2}, {1, 2, 3}})).failure == "");
+}
+
+TEST_CASE("two sites exchanged") {
+  const Mesh mesh = good_mesh();
+  for (Eigen::Index j = 1; j < 20; ++j) {
+    Mesh wrong = mesh;
+    exchange_sites(wrong.points, 0, j);
+    CAPTURE(j);
+    CHECK_FALSE(check(wrong).passed());
+  }
+}
+
+TEST_CASE("a cube's face with the other diagonal") {
+  const Mesh mesh = oracle::delaunay(signs_of({1, 1, 1}));
+  REQUIRE(check(mesh).failure == "");
+  int tied = 0;
+  for (std::int64_t t = 0; t < mesh.triangles.cols(); ++t) {
+    const Mesh other = flipped(mesh, t);
+    if (exact::orientation(site(other.points, other.triangles(0, t)),
+                           site(other.points, other.triangles(1, t)),
+                           site(other.points, other.triangles(2, t))) <= 0)
+      continue;
+    ++tied;
+    CHECK_FALSE(check(other).passed());
+  }
+  CHECK(tied > 0);
+}
+
+TEST_CASE("a site that is no vertex") {
+  Mesh mesh = good_mesh();
+  mesh.points.conservativeResize(3, 21);
+  mesh.points.col(20) << 1, 2, 3;
+  fails_with(mesh, "site 20 is no vertex");
+}
+
+TEST_CASE("a boundary that is not convex") {
+  const Points3 points = columns({{0, 0, 1}, {1, -1, 2}, {1, 1, 2}, {-1, 1, 2}, {-1, -1, 2}});
+  const Mesh whole = oracle::mesh_of(points, {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}});
+  CHECK(check(whole).failure == "");
+  fails_with(oracle::mesh_of(points, {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}}), "not convex at site 0");
+}
+
+TEST_CASE("one site of two fans") {
+  const Points3 points = columns({{0, 0, 1}, {1, -1, 2}, {1, 1, 2}, {-1, 1, 2}, {-1, -1, 2}});
+  fails_with(oracle::mesh_of(points, {{0, 1, 2}, {0, 3, 4}}),
+             "site 0 are not a single cycle or fan");
+}
+
+TEST_CASE("two sheets over the sphere") {
+  // The octahedron, twice round its axis: every triangle counter-clockwise, every edge in two.
+  std::vector<Vec3> ring;
+  for (int i = 0; i < 8; ++i)
+    ring.push_back({std::cos(i * std::numbers::pi / 2 + 0.01 * i),
+                    std::sin(i * std::numbers::pi / 2 + 0.01 * i), 0});
+  ring.push_back({0, 0, 1});
+  ring.push_back({0, 0, -1});
+  std::vector<Triple> triangles;
+  for (std::int32_t i = 0; i < 8; ++i) {
+    triangles.push_back({i, (i + 1) % 8, 8});
+    triangles.push_back({(i + 1) % 8, i, 9});
+  }
+  fails_with(oracle::mesh_of(columns(ring), triangles), "turn 2 times around site 8");
+}
+
+TEST_CASE("two spheres in one mesh") {
+  const Points3 one = columns({{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}});
+  const Mesh mesh = oracle::delaunay(one);
+  std::vector<Triple> triangles = triangles_of(mesh);
+  for (std::size_t t = 0; t < 4; ++t)
+    triangles.push_back({triangles[t][0] + 4, triangles[t][1] + 4, triangles[t][2] + 4});
+  fails_with(oracle::mesh_of(joined(one, 2 * one), triangles), "Euler");
+}
+
+TEST_CASE("arrays of nonsense do not crash") {
+  Random random(47);
+  for (int round = 0; round < 3000; ++round) {
+    const int n = random.integer(0, 6), m = random.integer(0, 8);
+    Mesh mesh;
+    mesh.points.resize(3, n);
+    for (Eigen::Index i = 0; i < mesh.points.size(); ++i)
+      mesh.points.data()[i] = random.integer(-1, 1);
+    mesh.triangles.resize(3, m);
+    mesh.neighbours.resize(3, m);
+    for (Eigen::Index i = 0; i < mesh.triangles.size(); ++i) {
+      mesh.triangles.data()[i] = random.integer(0, n);
+      mesh.neighbours.data()[i] = random.integer(-1, m);
+    }
+    CHECK_FALSE(check(mesh).passed());
+  }
+  // Good triangles over points that do not fit, neighbours mutual: past the first laws.
+  const Mesh mesh = good_mesh();
+  for (int round = 0; round < 1000; ++round) {
+    Mesh wrong = mesh;
+    for (int k = 0; k < 20; ++k)
+      exchange_sites(wrong.points, random.integer(0, 19), random.integer(0, 19));
+    const Check result = check(wrong);
+    CHECK((!result.passed() || wrong.points == mesh.points));
+  }
+}
+
+// ---- The plane
+
+namespace {
+
+bool fails_with(const PlanarMesh& mesh, const std::string& words) {
+  const Check result = check(mesh);
+  INFO("failure: ", result.failure);
+  CHECK_FALSE(result.passed());
+  CHECK(result.failure.find('\n') == std::string::npos);
+  const bool found = result.failure.find(words) != std::string::npos;
+  CHECK(found);
+  return found;
+}
+
+Points2 scatter(int n, std::uint64_t seed) {
+  Random random(seed);
+  Points2 points(2, n);
+  for (Eigen::Index i = 0; i < 2 * n; ++i)
+    points.data()[i] = random.real(0, 1);
+  return points;
+}
+
+Points2 square_lattice(int side) {
+  Points2 points(2, side * side);
+  for (int i = 0; i < side * side; ++i)
+    points.col(i) << i % side, i / side; // NOLINT(bugprone-integer-division)
+  return points;
+}
+
+/// Canonical again after its triangles were changed.
+PlanarMesh planar_mesh_of(const PlanarMesh& mesh, std::vector<Triple> triangles) {
+  PlanarMesh out = mesh;
+  const Mesh whole =
+      oracle::mesh_of(Points3::Constant(3, mesh.points.cols(), 1), std::move(triangles));
+  out.triangles = whole.triangles;
+  out.neighbours = whole.neighbours;
+  return out;
+}
+
+/// With the edge across from vertex i of triangle t flipped.
+PlanarMesh flipped(const PlanarMesh& mesh, std::int64_t t, int i) {
+  std::vector<Triple> triangles;
+  for (std::int64_t u = 0; u < mesh.triangles.cols(); ++u)
+    triangles.push_back({mesh.triangles(0, u), mesh.triangles(1, u), mesh.triangles(2, u)});
+  const std::int32_t other = mesh.neighbours(i, t);
+  const std::int32_t a = mesh.triangles(i, t), b = mesh.triangles((i + 1) % 3, t),
+                     c = mesh.triangles((i + 2) % 3, t);
+  std::int32_t d = -1;
+  for (int j = 0; j < 3; ++j)
+    if (mesh.neighbours(j, other) == t)
+      d = mesh.triangles(j, other);
+  triangles[static_cast<std::size_t>(t)] = {a, b, d};
+  triangles[static_cast<std::size_t>(other)] = {a, d, c};
+  return planar_mesh_of(mesh, triangles);
+}
+
+std::vector<PlanarMesh> planar_meshes() {
+  std::vector<PlanarMesh> meshes;
+  for (const double scale : {1.0, 1e-150, 1e150})
+    meshes.push_back(delaunay(Points2(scale * scatter(60, 8))));
+  meshes.push_back(delaunay(square_lattice(6)));
+  Points2 thin = scatter(80, 9); // long triangles along the hull
+  thin.row(1) *= 1e-9;
+  meshes.push_back(delaunay(thin));
+  for (const std::uint64_t seed : {1, 2, 3})
+    meshes.push_back(delaunay(scatter(100, seed), Eigen::Vector2d(1, 1)));
+  Points2 wide = scatter(300, 4);
+  wide.row(0) *= 7e100;
+  wide.row(1) *= 3e100;
+  meshes.push_back(delaunay(wide, Eigen::Vector2d(7e100, 3e100)));
+  meshes.push_back(delaunay(square_lattice(8), Eigen::Vector2d(8, 8)));
+  meshes.push_back(
+      delaunay(periodic_hexagons(8, 10, 1).points, periodic_hexagons(8, 10, 1).period));
+  return meshes;
+}
+
+} // namespace
+
+TEST_CASE("planar meshes pass, open and periodic, and their areas are known") {
+  for (const PlanarMesh& mesh : planar_meshes()) {
+    CAPTURE(mesh.points.cols());
+    const Check result = check(mesh);
+    CHECK(result.failure == "");
+    CHECK(result.sites == mesh.points.cols());
+    CHECK(result.area == doctest::Approx(result.whole).epsilon(1e-12));
+    if (mesh.period.x() > 0) {
+      CHECK(result.whole == doctest::Approx(mesh.period.prod()));
+      CHECK(result.boundary_edges == 0);
+    }
+  }
+  CHECK(check(delaunay(square_lattice(6))).area == 25);
+}
+
+TEST_CASE("every flipped edge of a planar mesh is found, ties and copies too") {
+  for (const PlanarMesh& mesh : planar_meshes())
+    for (std::int64_t t = 0; t < mesh.triangles.cols(); ++t)
+      for (int i = 0; i < 3; ++i)
+        if (mesh.neighbours(i, t) > t) {
+          CAPTURE(t);
+          CHECK_FALSE(check(flipped(mesh, t, i)).passed());
+        }
+}
+
+TEST_CASE("arrays and sites of a planar mesh that are wrong are named") {
+  const PlanarMesh open = delaunay(scatter(30, 5)),
+                   box = delaunay(scatter(60, 6), Eigen::Vector2d(1, 1));
+  fails_with(PlanarMesh{}, "no triangle");
+  for (const PlanarMesh& mesh : {open, box}) {
+    PlanarMesh wrong = mesh;
+    wrong.points(1, 4) = std::numeric_limits<double>::quiet_NaN();
+    fails_with(wrong, "site 4 is not a place");
+    wrong = mesh;
+    wrong.points.resize(2, 0);
+    wrong.site_of_input.clear();
+    fails_with(wrong, "vertex outside");
+    wrong = mesh;
+    wrong.triangles(2, 5) = 1 << 30;
+    fails_with(wrong, "triangle 5 ");
+    wrong = mesh;
+    wrong.triangles.col(3).swap(wrong.triangles.col(4));
+    fails_with(wrong, "triangle 4 ");
+    wrong = mesh;
+    wrong.neighbours(0, 2) = 2;
+    fails_with(wrong, "triangle 2 ");
+    wrong = mesh;
+    wrong.points.col(0).swap(wrong.points.col(1));
+    CHECK_FALSE(check(wrong).passed());
+    wrong = mesh;
+    wrong.points.conservativeResize(2, mesh.points.cols() + 1);
+    wrong.points.rightCols<1>() << 0.5, 0.5;
+    fails_with(wrong, "is no vertex");
+  }
+  PlanarMesh wrong = box;
+  wrong.points(0, 3) = 1;
+  fails_with(wrong, "site 3 is outside the periodic box");
+  wrong = box;
+  wrong.period *= 2; // what the meshes' triangles bridge is not there
+  CHECK_FALSE(check(wrong).passed());
+  wrong = box;
+  wrong.period.setZero();
+  CHECK_FALSE(check(wrong).passed());
+}
+
+TEST_CASE("a planar boundary that is not convex, and a torus with a hole") {
+  const PlanarMesh open = delaunay(scatter(30, 5)),
+                   box = delaunay(scatter(60, 6), Eigen::Vector2d(1, 1));
+  for (const PlanarMesh& mesh : {open, box}) {
+    std::vector<Triple> triangles;
+    for (std::int64_t u = 0; u < mesh.triangles.cols(); ++u)
+      if (u != 7)
+        triangles.push_back({mesh.triangles(0, u), mesh.triangles(1, u), mesh.triangles(2, u)});
+    CHECK_FALSE(check(planar_mesh_of(mesh, triangles)).passed());
+  }
+}
+
+TEST_CASE("two sheets over a periodic box are not one") {
+  const PlanarMesh one = delaunay(scatter(60, 6), Eigen::Vector2d(1, 1));
+  PlanarMesh two = one;
+  two.points.resize(2, 120);
+  two.points << one.points, one.points;
+  std::vector<Triple> triangles;
+  for (const std::int32_t shift : {0, 60})
+    for (std::int64_t u = 0; u < one.triangles.cols(); ++u)
+      triangles.push_back(
+          {one.triangles(0, u) + shift, one.triangles(1, u) + shift, one.triangles(2, u) + shift});
+  two.site_of_input.clear();
+  fails_with(planar_mesh_of(two, triangles), "the areas sum to 2");
+}
+
+/// Of a closed mesh.
+template <class AnyMesh> void check_neighbours_exchanged(AnyMesh mesh, int rounds = 40) {
+  REQUIRE(check(mesh).passed());
+  const auto triangles = static_cast<int>(mesh.triangles.cols());
+  Random random(48);
+  for (int round = 0; round < rounds; ++round) {
+    const int i = random.integer(0, 2), t = random.integer(0, triangles - 1);
+    const std::int32_t good =
+        std::exchange(mesh.neighbours(i, t), random.integer(0, triangles - 1));
+    CHECK(check(mesh).passed() == (mesh.neighbours(i, t) == good));
+    mesh.neighbours(i, t) = good;
+  }
+}
+
+TEST_CASE("any neighbour that is another is found, in a mesh of several blocks") {
+  check_neighbours_exchanged(calotte::delaunay(calotte::random_sphere(20000, 5)));
+  check_neighbours_exchanged(delaunay(scatter(20000, 5), Eigen::Vector2d(1, 1)));
+}
+
+TEST_CASE("large meshes are checked patch by patch where their sites come in no order") {
+  const Mesh mesh = calotte::delaunay(random_sphere(530000, 6));
+  const Mesh along = mesh_detail::in_order(mesh, mesh_detail::curve_order(mesh.points));
+  REQUIRE(curve_detail::are_scattered(mesh.neighbours));
+  REQUIRE_FALSE(curve_detail::are_scattered(along.neighbours));
+  CHECK(check(along).passed());
+  const double area = check(mesh).area;
+  CHECK(area == doctest::Approx(check(along).area).epsilon(1e-13));
+  tbb::task_arena(1).execute([&] { CHECK(check(mesh).area == area); }); // bit for bit
+  check_neighbours_exchanged(mesh, 4);
+}
+
+TEST_CASE("the same of periodic boxes of any size [slow]") {
+  for (const double scale : {1e-140, 1.0, 1e140}) {
+    const PlanarMesh box =
+        delaunay(Points2(scale * scatter(530000, 5)), Eigen::Vector2d(scale, scale));
+    REQUIRE(curve_detail::are_scattered(box.neighbours));
+    check_neighbours_exchanged(box, 4);
+  }
+}
+
+TEST_CASE("planar arrays of nonsense do not crash") {
+  Random random(53);
+  for (int round = 0; round < 3000; ++round) {
+    const int n = random.integer(0, 6), m = random.integer(0, 8);
+    PlanarMesh mesh;
+    mesh.points.resize(2, n);
+    for (Eigen::Index i = 0; i < mesh.points.size(); ++i)
+      mesh.points.data()[i] = random.integer(-1, 1);
+    mesh.triangles.resize(3, m);
+    mesh.neighbours.resize(3, m);
+    for (Eigen::Index i = 0; i < mesh.triangles.size(); ++i) {
+      mesh.triangles.data()[i] = random.integer(0, n);
+      mesh.neighbours.data()[i] = random.integer(-1, m);
+    }
+    if (round % 2 == 0)
+      mesh.period = {random.integer(-1, 2), random.integer(-1, 2)};
+    CHECK_FALSE(check(mesh).passed());
+  }
+}

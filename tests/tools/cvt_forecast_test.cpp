@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "run/cvt_forecast.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+
+using namespace calotte;
+using namespace calotte::tools;
+
+namespace {
+
+/// A level of iterations of two seconds each whose norms are factor^k.
+CvtState decaying(int iterations, double factor) {
+  CvtState state;
+  state.iterations_of_level = iterations;
+  for (int k = 0; k < iterations; ++k) {
+    CvtIteration iteration;
+    iteration.cells = 12;
+    iteration.spacing = std::sqrt(4 * std::numbers::pi / 12);
+    iteration.l2 = iteration.linf = iteration.gradient = std::pow(factor, k);
+    iteration.seconds = 2;
+    state.report.iterations.push_back(iteration);
+  }
+  state.report.residual = std::pow(factor, iterations - 1);
+  return state;
+}
+
+} // namespace
+
+TEST_CASE("a norm that decays evenly is foreseen to the iteration") {
+  CvtOptions options;
+  options.tolerance = std::pow(0.9, 300.5); // 0.9^301 is the first below
+  for (const Norm norm : {Norm::l2, Norm::linf, Norm::gradient})
+    for (const int iterations : {10, 11, 100, 290}) {
+      options.norm = norm;
+      const auto end = forecast(decaying(iterations, 0.9), options);
+      REQUIRE(end);
+      CHECK(end->converges);
+      CHECK(end->seconds == doctest::Approx(2 * (301 - (iterations - 1))));
+    }
+}
+
+TEST_CASE("the limit of iterations ends what would take longer, and a run of a number of them") {
+  CvtOptions options;
+  options.tolerance = 1e-9;
+  options.max_iterations = 100;
+  for (const Norm norm : {Norm::l2_scaled, Norm::none}) {
+    options.norm = norm;
+    for (const double factor : {0.99, 1.0, 1.01}) { // a norm that does not fall, too
+      const auto end = forecast(decaying(40, factor), options);
+      REQUIRE(end);
+      CHECK(!end->converges);
+      CHECK(end->seconds == doctest::Approx(2 * 60));
+    }
+  }
+}
+
+TEST_CASE("a last step that went beyond the limit of iterations leaves no time") {
+  CvtOptions options;
+  options.norm = Norm::none;
+  options.max_iterations = 38;
+  CHECK(forecast(decaying(40, 0.9), options)->seconds == 0);
+}
+
+TEST_CASE("nothing is foreseen from few iterations, or those of another level") {
+  CvtOptions options;
+  CHECK(!forecast(decaying(9, 0.9), options));
+  CvtState next = decaying(50, 0.9);
+  next.iterations_of_level = 9;
+  CHECK(!forecast(next, options));
+  next.iterations_of_level = 0;
+  CHECK(!forecast(next, options));
+}
+
+TEST_CASE("trials that were not gone on from take time, and their norms count for nothing") {
+  CvtOptions options;
+  options.norm = Norm::l2;
+  options.tolerance = std::pow(0.9, 300.5);
+  options.max_iterations = 1000;
+  CvtState state = decaying(101, 0.9);
+  for (std::size_t k = 1; k < 101; k += 3) {
+    state.report.iterations[k].accepted = false;
+    state.report.iterations[k].l2 = 1e6 / static_cast<double>(k);
+  }
+  for (CvtIteration& iteration : state.report.iterations)
+    iteration.seconds = 1.5, iteration.seconds_solver = 0.5;
+  const auto end = forecast(state, options);
+  REQUIRE(end);
+  CHECK(end->converges);
+  CHECK(end->seconds == doctest::Approx(2 * (301 - 100)));
+}
+
+TEST_CASE("what has converged takes no more time") {
+  CvtOptions options;
+  options.tolerance = 0.5;
+  const auto end = forecast(decaying(50, 0.9), options);
+  REQUIRE(end);
+  CHECK(end->seconds == 0);
+}
+
+TEST_CASE("the norms are those of the report") {
+  CvtIteration iteration;
+  iteration.cells = 400;
+  iteration.spacing = std::sqrt(4 * std::numbers::pi / 400);
+  iteration.l2 = 1, iteration.linf = 2, iteration.gradient = 3;
+  const double h = iteration.spacing;
+  CHECK(norm_of(iteration, Norm::l2) == 1);
+  CHECK(norm_of(iteration, Norm::linf) == 2);
+  CHECK(norm_of(iteration, Norm::gradient) == 3);
+  CHECK(norm_of(iteration, Norm::none) == 0);
+  CHECK(norm_of(iteration, Norm::l2_scaled) == doctest::Approx(1 / h));
+  CHECK(norm_of(iteration, Norm::linf_scaled) == doctest::Approx(2 / h));
+}
+
+TEST_CASE("progress names the level, the norm and what is to come") {
+  CvtState state = decaying(101, 0.9);
+  state.bisections_left = 2;
+  CvtOptions options;
+  options.norm = Norm::l2;
+  options.tolerance = std::pow(0.9, 110);
+  CHECK(describe(state, options, "l2") ==
+        "12 cells, iteration 101, l2 2.66e-05 of 9e-06, about 20 s to the tolerance, then 2 finer "
+        "levels");
+  options.norm = Norm::none;
+  state.bisections_left = 0;
+  options.max_iterations = 4000;
+  CHECK(describe(state, options, "none") == "12 cells, iteration 101, 2.2 h to the last iteration");
+}

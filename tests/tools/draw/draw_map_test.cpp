@@ -1,0 +1,549 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "draw/page.h"
+#include "draw/raster.h"
+#include "draw/values.h"
+#include "draw/vector.h"
+#include "io/netcdf_writer.h"
+#include "support/clouds.h"
+#include "support/pictures.h"
+
+#include <calotte/delaunay.h>
+#include <calotte/domain.h>
+#include <calotte/generators.h>
+#include <calotte/io.h>
+
+#include <cairo.h>
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+using namespace calotte;
+using namespace calotte::test;
+using namespace calotte::tools;
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+constexpr std::array all_projections = {Projection::globe, Projection::plate_carree};
+
+using Image = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
+
+std::uint32_t pixel(const Image& image, int x, int y) {
+  const auto* row = cairo_image_surface_get_data(image.get()) +
+                    static_cast<std::ptrdiff_t>(y) * cairo_image_surface_get_stride(image.get());
+  return reinterpret_cast<const std::uint32_t*>(row)[x] & 0xffffff;
+}
+
+Vector3d on_earth(double longitude, double latitude) {
+  return {std::cos(latitude) * std::cos(longitude), std::cos(latitude) * std::sin(longitude),
+          std::sin(latitude)};
+}
+
+/// Where on the earth the middle of a pixel is, by the textbook's formulas; none beside the globe,
+/// or so near to its limb that a pixel is wide.
+std::optional<Vector3d> place_of(const MapSize& size, Projection projection, const LonLat& view,
+                                 double x, double y) {
+  const double u = (x + 0.5) / size.width * 2 - 1;
+  const double v = 1 - (y + 0.5) / size.height * 2;
+  const double lon = view.longitude * degree;
+  const double lat = view.latitude * degree;
+  if (projection == Projection::plate_carree) {
+    return on_earth(lon + u * std::numbers::pi, v * std::numbers::pi / 2);
+  }
+  const double r = std::hypot(u, v);
+  if (r > 0.95) {
+    return std::nullopt;
+  }
+  const double c = std::asin(r); // Snyder, Map Projections, 1987, Eqs. 20-14, 20-15
+  const double phi = std::asin(std::cos(c) * std::sin(lat) + v * std::cos(lat));
+  return on_earth(lon + std::atan2(u, std::cos(lat) * std::cos(c) - v * std::sin(lat)), phi);
+}
+
+/// Which shape holds a place, by its definition: the cell of the nearest site, or the triangle all
+/// of whose sides have it to their left; -1 where rounding leaves that open.
+class Locator {
+public:
+  Locator(const Mesh& mesh, Shapes shapes)
+      : sites_(mesh.points.colwise().normalized()), shapes_(shapes) {
+    for (Eigen::Index t = 0; shapes == Shapes::triangles && t < mesh.triangles.cols(); ++t) {
+      const Vector3d a = sites_.col(mesh.triangles(0, t));
+      const Vector3d b = sites_.col(mesh.triangles(1, t));
+      const Vector3d c = sites_.col(mesh.triangles(2, t));
+      sides_.push_back({a.cross(b), b.cross(c), c.cross(a)});
+    }
+  }
+
+  int at(const Vector3d& place) const {
+    if (shapes_ == Shapes::cells) {
+      int nearest = 0;
+      (sites_.transpose() * place).maxCoeff(&nearest);
+      return nearest;
+    }
+    const auto holds = [&](const std::array<Vector3d, 3>& sides) {
+      return sides[0].dot(place) > 0 && sides[1].dot(place) > 0 && sides[2].dot(place) > 0;
+    };
+    const auto found = std::find_if(sides_.begin(), sides_.end(), holds);
+    return found == sides_.end() ? -1 : static_cast<int>(found - sides_.begin());
+  }
+
+private:
+  Points3 sites_;
+  Shapes shapes_;
+  std::vector<std::array<Vector3d, 3>> sides_;
+};
+
+/// A painting in which neighbours differ in colour.
+Painting painting_of(const Mesh& mesh, Shapes shapes, const LonLat& view) {
+  Painting painting;
+  painting.scene = make_scene(mesh, shapes, view);
+  const Eigen::VectorXd numbers = Eigen::VectorXd::LinSpaced(
+      mesh.points.cols(), 0, static_cast<double>(mesh.points.cols() - 1));
+  painting.values = values_of(painting.scene, Colouring::field, numbers);
+  painting.widths = widths_of(painting.scene, painting.scene.shapes);
+  painting.scale = make_scale(painting.values, Colouring::field);
+  if (shapes == Shapes::both) {
+    painting.triangle_widths = widths_of(painting.scene, Shapes::triangles);
+  }
+  return painting;
+}
+
+Image raster(const Painting& painting, Projection projection, const MapSize& size) {
+  return {raster_map(painting, projection, size), cairo_surface_destroy};
+}
+
+Image vector(const Painting& painting, Projection projection, const MapSize& size) {
+  Image image(cairo_image_surface_create(CAIRO_FORMAT_RGB24, size.width, size.height),
+              cairo_surface_destroy);
+  cairo_t* context = cairo_create(image.get());
+  cairo_translate(context, size.width / 2.0, size.height / 2.0);
+  vector_map(context, painting, projection, size.width);
+  cairo_destroy(context);
+  return image;
+}
+
+constexpr int near = 2; ///< pixels that a line may reach
+
+/// The shape at each pixel, or -1; with `near` rows beyond either pole, which are on its far side.
+Eigen::ArrayXXi shapes_at(const Mesh& mesh, Shapes shapes, Projection projection,
+                          const LonLat& view, const MapSize& size) {
+  const Locator locator(mesh, shapes);
+  Eigen::ArrayXXi result = Eigen::ArrayXXi::Constant(size.width, size.height + 2 * near, -1);
+  for (int row = 0; row < result.cols(); ++row) {
+    for (int x = 0; x < size.width; ++x) {
+      if (const auto place = place_of(size, projection, view, x, row - near)) {
+        result(x, row) = locator.at(*place);
+      }
+    }
+  }
+  return result;
+}
+
+/// Visits all pixels that a shape holds with their surroundings, so that no line touches them;
+/// their number.
+template <class Visit>
+int for_each_inner_pixel(const Mesh& mesh, Shapes shapes, Projection projection, const LonLat& view,
+                         const MapSize& size, Visit visit) {
+  const Eigen::ArrayXXi shape = shapes_at(mesh, shapes, projection, view, size);
+  int count = 0;
+  for (int y = 0; y < size.height; ++y) {
+    for (int x = 0; x < size.width; ++x) {
+      const int own = shape(x, y + near);
+      bool inner = own >= 0;
+      for (int dx = -near; inner && dx <= near; ++dx) {
+        const int column = (x + dx + size.width) % size.width; // beyond the seam it goes on
+        inner = (shape.row(column).segment(y, 2 * near + 1) == own).all();
+      }
+      if (inner) {
+        visit(x, y, own);
+        ++count;
+      }
+    }
+  }
+  return count;
+}
+
+Rgb colour_of(const Painting& painting, int shape) {
+  return painting.scale.colour(painting.values[static_cast<std::size_t>(shape)]);
+}
+
+/// Meshes with sites and corners on poles and on the seam, sides along meridians, wide triangles.
+std::vector<Mesh> hard_meshes() {
+  return {delaunay(random_sphere(60, 5)), delaunay(octahedron()),
+          delaunay(lat_lon_sphere(5, 12, true)), delaunay(cubed_sphere(3)),
+          delaunay(bisected_icosahedron(0))};
+}
+
+} // namespace
+
+TEST_CASE("each pixel has the colour of the cell of the nearest site, or of its triangle") {
+  for (const Mesh& mesh : hard_meshes()) {
+    for (const Shapes shapes : {Shapes::triangles, Shapes::cells}) {
+      for (const Projection projection : all_projections) {
+        for (const LonLat& view : {LonLat{0, 0}, LonLat{-77, 0}}) {
+          CAPTURE(mesh.points.cols());
+          CAPTURE(static_cast<int>(shapes));
+          CAPTURE(static_cast<int>(projection));
+          CAPTURE(view.longitude);
+          const MapSize size = map_size(projection, 100);
+          const Painting painting = painting_of(mesh, shapes, view);
+          const Image pixels = raster(painting, projection, size);
+          const Image paths = vector(painting, projection, size);
+          int wrong_pixels = 0;
+          int wrong_paths = 0;
+          const auto look = [&](int x, int y, int shape) {
+            const Rgb colour = colour_of(painting, shape);
+            wrong_pixels += has_colour(pixel(pixels, x, y), colour) ? 0 : 1;
+            wrong_paths += has_colour(pixel(paths, x, y), colour) ? 0 : 1;
+          };
+          CHECK(for_each_inner_pixel(mesh, shapes, projection, view, size, look) > 200);
+          CHECK(wrong_pixels == 0);
+          CHECK(wrong_paths == 0);
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("a tilted globe shows the cells of the nearest sites") {
+  const Mesh mesh = delaunay(random_sphere(60, 5));
+  for (const LonLat& view : {LonLat{15, 25}, LonLat{-120, -60}, LonLat{40, 90}}) {
+    const MapSize size = map_size(Projection::globe, 140);
+    const Painting painting = painting_of(mesh, Shapes::cells, view);
+    const Image pixels = raster(painting, Projection::globe, size);
+    int wrong = 0;
+    const auto look = [&](int x, int y, int shape) {
+      wrong += has_colour(pixel(pixels, x, y), colour_of(painting, shape)) ? 0 : 1;
+    };
+    CHECK(for_each_inner_pixel(mesh, Shapes::cells, Projection::globe, view, size, look) > 1000);
+    CHECK(wrong == 0);
+  }
+}
+
+TEST_CASE("both: the cells' picture, but for lines along the triangles' edges") {
+  const Mesh mesh = delaunay(random_sphere(60, 5));
+  for (const Projection projection : all_projections) {
+    const LonLat view = {33, 0};
+    const MapSize size = map_size(projection, 200);
+    const Image cells = raster(painting_of(mesh, Shapes::cells, view), projection, size);
+    const Image both = raster(painting_of(mesh, Shapes::both, view), projection, size);
+    const auto differs = [&](int x, int y) { return pixel(both, x, y) != pixel(cells, x, y); };
+    int changed_inside = 0;
+    for_each_inner_pixel(mesh, Shapes::triangles, projection, view, size,
+                         [&](int x, int y, int) { changed_inside += differs(x, y) ? 1 : 0; });
+    CHECK(changed_inside == 0);
+    int changed = 0;
+    for (int at = 0; at < size.width * size.height; ++at) {
+      changed += differs(at % size.width, at / size.width) ? 1 : 0;
+    }
+    CHECK(changed > 500);
+  }
+}
+
+TEST_CASE("a field of the sphere has each pixel's own value, on both maps") {
+  // Smooth, and without symmetry.
+  const auto values = [](const Points3& x) -> Eigen::VectorXd {
+    return (x.row(0) + 0.5 * x.row(1) - 0.7 * x.row(2)).transpose();
+  };
+  for (const Projection projection : all_projections) {
+    for (const LonLat& view : {LonLat{0, 0}, LonLat{100, 0}}) {
+      FieldPainting painting = {values, {}, frame_of(view)};
+      painting.scale = make_scale({-1.4, 1.4}, Colouring::density);
+      const MapSize size = map_size(projection, 240);
+      const Image image(raster_map(painting, projection, size), cairo_surface_destroy);
+      int wrong = 0;
+      for (int at = 0; at < size.width * size.height; at += 7) {
+        const int x = at % size.width;
+        const int y = at / size.width;
+        if (const auto place = place_of(size, projection, view, x, y)) {
+          const Rgb colour = painting.scale.colour(values(*place)[0]);
+          wrong += has_colour(pixel(image, x, y), colour) ? 0 : 1;
+        }
+      }
+      CHECK(wrong == 0);
+    }
+  }
+}
+
+TEST_CASE("a picture of a field is written in every format, on both maps") {
+  const Folder folder;
+  const SphereField field = {
+      [](const Points3& x) -> Eigen::VectorXd { return x.row(2).transpose(); }, "title", "caption"};
+  for (const Projection projection : all_projections) {
+    for (const char* name : {"a.png", "a.svg", "a.pdf"}) {
+      draw(folder.file(name), field, {.projection = projection, .graticule = true, .size = 300});
+      CHECK(bytes_of(folder.file(name)).size() > 1000);
+    }
+  }
+  CHECK(folder.count() == 3);
+}
+
+TEST_CASE("a graticule changes the map, and nothing beside it") {
+  const Folder folder;
+  const Mesh mesh = delaunay(random_sphere(60, 5));
+  for (const int size : {100, 300}) {
+    DrawOptions options = {.look = {.projection = Projection::plate_carree, .size = size}};
+    draw(folder.file("a.png"), mesh, options);
+    options.look.graticule = true;
+    draw(folder.file("b.png"), mesh, options);
+    const Picture without(folder.file("a.png"));
+    const Picture with(folder.file("b.png"));
+    REQUIRE(with.height() == without.height());
+    int inside = 0;
+    int beside = 0;
+    for (int y = 0; y < with.height(); ++y) {
+      for (int x = 0; x < with.width(); ++x) {
+        if (with.at(x, y) != without.at(x, y)) {
+          ++inside;
+          beside += without.at(x, y) == 0xffffff ? 1 : 0;
+        }
+      }
+    }
+    CHECK(inside > size);
+    CHECK(beside == 0);
+  }
+}
+
+// ---- Fields of files
+
+namespace {
+
+constexpr int cells = 42;
+
+/// A file with a field of each kind: values 10, 11, ...; -9, 2, 3 ..., where -9 is a fill value;
+/// and such that are none.
+void write_fields(const std::string& path) {
+  using namespace io_detail;
+  NetcdfWriter file(path);
+  const int n = file.dimension("nCells", cells);
+  const int other = file.dimension("nEdges", 120);
+  const int time = file.dimension("Time", 1);
+  const int depth = file.variable("depth", NetcdfType::float64, {n},
+                                  {{"units", "m"}, {"long_name", "depth of the sea"}});
+  const int index = file.variable("index", NetcdfType::int32, {time, n}, {{"_FillValue", -9}});
+  const int edges = file.variable("edges", NetcdfType::float64, {other});
+  const int pairs = file.variable("pairs", NetcdfType::float64, {n, other});
+  file.begin();
+  file.put(depth, [](std::int64_t begin, std::int64_t end, double* out) {
+    for (std::int64_t i = begin; i < end; ++i)
+      *out++ = 10 + static_cast<double>(i);
+  });
+  file.put(index, [](std::int64_t, std::int64_t, std::int32_t* out) {
+    for (int i = 0; i < cells; ++i)
+      out[i] = i == 0 ? -9 : i + 1;
+  });
+  const auto zeros = [](std::int64_t row) {
+    return [row](std::int64_t begin, std::int64_t end, double* out) {
+      std::fill_n(out, (end - begin) * row, 0.0);
+    };
+  };
+  file.put(edges, zeros(1));
+  file.put(pairs, zeros(120));
+  file.commit();
+}
+
+} // namespace
+
+TEST_CASE("a field of a file comes with its values, name and units; a fill value is none") {
+  const Folder folder;
+  write_fields(folder.file("a.nc"));
+  const CellField depth = read_cell_field(folder.file("a.nc"), "depth", cells);
+  CHECK(depth.values == Eigen::VectorXd::LinSpaced(cells, 10, 10 + cells - 1));
+  CHECK(depth.units == "m");
+  CHECK(depth.long_name == "depth of the sea");
+  const CellField index = read_cell_field(folder.file("a.nc"), "index", cells);
+  CHECK(std::isnan(index.values[0]));
+  CHECK(index.values.tail(cells - 1) == Eigen::VectorXd::LinSpaced(cells - 1, 2, cells));
+  CHECK(index.units.empty());
+}
+
+TEST_CASE("a field that the file has not is refused by the names of those that it has") {
+  const Folder folder;
+  const std::string path = folder.file("a.nc");
+  write_fields(path);
+  const auto message = [&](const std::string& name, std::int64_t count) {
+    const Error error = error_of([&] { read_cell_field(path, name, count); });
+    CHECK(error.code() == ErrorCode::bad_option);
+    return std::string(error.what());
+  };
+  CHECK(message("deep", cells) == path + ": no variable deep; there are depth, index");
+  for (const char* name : {"edges", "pairs"}) {
+    CHECK(message(name, cells) == path + ": " + name +
+                                      " has not one value for each of 42 cells; there are depth, "
+                                      "index");
+  }
+  CHECK(message("depth", 41) ==
+        path + ": depth has not one value for each of 41 cells; the file has none: give another");
+}
+
+TEST_CASE("a field's values are those of the cells that show them, and none is bare") {
+  const Folder folder;
+  const Mesh mesh = delaunay(fibonacci_sphere(cells));
+  write_fields(folder.file("a.nc"));
+  const CellField field = read_cell_field(folder.file("a.nc"), "index", cells);
+  const Scene scene = make_scene(mesh, Shapes::cells, {});
+  const std::vector<double> values = values_of(scene, Colouring::field, field.values);
+  CHECK(std::isnan(values[0]));
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    CHECK(values[i] == field.values[static_cast<Eigen::Index>(i)]);
+  }
+  const Scene triangles = make_scene(mesh, Shapes::triangles, {});
+  const std::vector<double> means = values_of(triangles, Colouring::field, field.values);
+  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
+    const auto id = mesh.triangles.col(t);
+    const double mean = (field.values[id[0]] + field.values[id[1]] + field.values[id[2]]) / 3;
+    CHECK((std::isnan(mean) ? std::isnan(means[static_cast<std::size_t>(t)])
+                            : means[static_cast<std::size_t>(t)] == mean));
+  }
+  DrawOptions options = {
+      .look = {.size = 200}, .shapes = Shapes::cells, .colouring = Colouring::field};
+  options.field = field;
+  options.field_name = "index";
+  draw(folder.file("a.png"), mesh, options);
+  CHECK(folder.count() == 2);
+}
+
+// ---- The plane
+
+namespace {
+
+/// A rectangle of 2 x 1 with a hole.
+PlanarDomain holed() {
+  PlanarDomain domain = rectangle({0, 0}, {2, 1});
+  Points2 hole(2, 4);
+  hole << 0.8, 1.2, 1.2, 0.8, 0.4, 0.4, 0.6, 0.6;
+  domain.rings.push_back(hole);
+  return domain;
+}
+
+struct PlaneCase {
+  PlanarMesh mesh;
+  PlanarDomain domain;
+  double margin; ///< of the window around the domain
+};
+
+std::vector<PlaneCase> plane_cases() {
+  return {{delaunay(random_places(80, holed(), 2)), holed(), 0.02},
+          {delaunay(random_places(80, periodic_box({2, 1}), 3), Eigen::Vector2d(2, 1)),
+           periodic_box({2, 1}), 0}};
+}
+
+DrawOptions coloured_by_number(const PlanarMesh& mesh, Shapes shapes) {
+  DrawOptions options;
+  options.look.size = 600;
+  options.shapes = shapes;
+  options.colouring = Colouring::field;
+  options.field.values = Eigen::VectorXd::LinSpaced(mesh.points.cols(), 1, 2);
+  options.field_name = "number";
+  return options;
+}
+
+/// The same colour, but for what rounding to bytes takes.
+bool alike(std::uint32_t a, std::uint32_t b) {
+  const auto channel = [](std::uint32_t rgb, int shift) { return int(rgb >> shift & 0xff); };
+  return std::abs(channel(a, 16) - channel(b, 16)) <= 1 &&
+         std::abs(channel(a, 8) - channel(b, 8)) <= 1 &&
+         std::abs(channel(a, 0) - channel(b, 0)) <= 1;
+}
+
+/// The site nearest to a place, and how much farther the next one is.
+struct Nearest {
+  Eigen::Index site;
+  double lead;
+};
+
+Nearest nearest(const PlaneCase& c, const Eigen::Vector2d& place) {
+  Eigen::VectorXd distances(c.mesh.points.cols());
+  for (Eigen::Index i = 0; i < distances.size(); ++i) {
+    Eigen::Vector2d way = c.mesh.points.col(i) - place;
+    for (int k = 0; k < 2 && c.domain.periodic(); ++k)
+      way[k] = std::remainder(way[k], c.mesh.period[k]);
+    distances[i] = way.norm();
+  }
+  Eigen::Index site = 0;
+  const double least = distances.minCoeff(&site);
+  distances[site] = 1e9;
+  return {site, distances.minCoeff() - least};
+}
+
+} // namespace
+
+TEST_CASE("a plane's cells are those of the nearest sites, cut off at the domain") {
+  const Folder folder;
+  for (const PlaneCase& c : plane_cases()) {
+    const DrawOptions options = coloured_by_number(c.mesh, Shapes::cells);
+    draw(folder.file("plane.png"), c.mesh, c.domain, options);
+    const Picture picture(folder.file("plane.png"));
+    const double width = 2 + 2 * c.margin, height = 1 + 2 * c.margin;
+    const Page page = page_of_plane(600, height / width, true);
+    REQUIRE(picture.width() == page.width);
+    REQUIRE(picture.height() == page.height);
+    const Eigen::VectorXd& values = options.field.values;
+    const Scale scale =
+        make_scale({values.data(), values.data() + values.size()}, Colouring::field);
+    const double unit = page.map.width / width; // pixels
+    int seen = 0, beyond = 0;
+    for (int y = 0; y < page.map.height; y += 3)
+      for (int x = 0; x < page.map.width; x += 3) {
+        const Eigen::Vector2d place((x + 0.5) / unit - c.margin, 1 + c.margin - (y + 0.5) / unit);
+        const int px = static_cast<int>(page.middle_x - page.map.width / 2.0) + x,
+                  py = static_cast<int>(page.middle_y - page.map.height / 2.0) + y;
+        const auto inside = [&](double dx, double dy) {
+          return contains(c.domain, place + Eigen::Vector2d(dx, dy) / unit);
+        };
+        const int around = inside(3, 3) + inside(-3, 3) + inside(3, -3) + inside(-3, -3);
+        if (around == 0) {
+          ++beyond;
+          CHECK(picture.at(px, py) == 0xffffff);
+        } else if (const Nearest near = nearest(c, place); around == 4 && near.lead > 6 / unit) {
+          ++seen;
+          CHECK(alike(picture.at(px, py), packed(scale.colour(values[near.site]))));
+        }
+      }
+    CHECK(seen > 5000);
+    CHECK((beyond > 50) == !c.domain.periodic());
+  }
+}
+
+TEST_CASE("a plane's pictures are written in every format, shape and colouring") {
+  const Folder folder;
+  for (const PlaneCase& c : plane_cases())
+    for (const Shapes shapes : {Shapes::triangles, Shapes::cells, Shapes::both})
+      for (const Colouring colouring :
+           {Colouring::spacing, Colouring::angle, Colouring::valence, Colouring::area,
+            Colouring::quality, Colouring::density, Colouring::field, Colouring::none}) {
+        DrawOptions options = coloured_by_number(c.mesh, shapes);
+        options.colouring = colouring;
+        options.density = tanh_bump({0.5, 0.5, 0}, 0.3, 0.2, 0.1);
+        options.look.size = 200;
+        const bool of_cells = colouring == Colouring::area || colouring == Colouring::quality;
+        if (of_cells && shapes != Shapes::triangles && !c.domain.periodic()) {
+          const Error error =
+              error_of([&] { draw(folder.file("a.png"), c.mesh, c.domain, options); });
+          CHECK(std::string(error.what()).find("open boundary") != std::string::npos);
+          continue;
+        }
+        for (const std::string name : {"a.png", "a.svg", "a.pdf"}) {
+          draw(folder.file(name), c.mesh, std::nullopt, options);
+          CHECK(bytes_of(folder.file(name)).size() > 1000);
+        }
+      }
+  const std::vector<PlaneCase> cases = plane_cases();
+  DrawOptions options = coloured_by_number(cases[0].mesh, Shapes::cells);
+  CHECK(code_of([&] { draw(folder.file("b.png"), cases[0].mesh, cases[1].domain, options); }) ==
+        ErrorCode::bad_option);
+  options.field.values.resize(3);
+  CHECK(code_of([&] { draw(folder.file("b.png"), cases[0].mesh, cases[0].domain, options); }) ==
+        ErrorCode::bad_option);
+  options.colouring = Colouring::density;
+  options.density.kind = Density::Kind::maximum; // of no bumps
+  CHECK(code_of([&] { draw(folder.file("b.png"), cases[0].mesh, cases[0].domain, options); }) ==
+        ErrorCode::bad_option);
+  CHECK(!fs::exists(folder.file("b.png")));
+}

@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "options/density_option.h"
+
+#include <calotte/error.h>
+
+#include <Eigen/Geometry>
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <unistd.h>
+
+using namespace calotte;
+using namespace calotte::tools;
+
+namespace {
+
+Bump bump(const std::string& words) {
+  const Density density = density_of(DensityWords{{"tanh:" + words}});
+  REQUIRE(density.bumps.size() == 1);
+  return density.bumps[0];
+}
+
+/// The message of a refusal without what every one starts with.
+std::string refusal(const std::string& words) {
+  try {
+    density_of(DensityWords{{words}});
+  } catch (const Error& error) {
+    CHECK(error.code() == ErrorCode::bad_option);
+    const std::string message = error.what(), start = "--density \"" + words + "\": ";
+    REQUIRE(message.starts_with(start));
+    return message.substr(start.size());
+  }
+  return "not refused";
+}
+
+} // namespace
+
+TEST_CASE("a bump has the numbers of its words, in any order") {
+  const Bump b = bump("gamma=x8,lon=270,lat=30,alpha=0.20,beta=30deg");
+  CHECK(b.gamma == 1.0 / 4096);
+  CHECK(b.alpha == 0.2);
+  CHECK(b.beta == doctest::Approx(std::numbers::pi / 6).epsilon(1e-15));
+  CHECK(b.stretch == 1);
+  CHECK(b.centre.x() == 0);
+  CHECK(b.centre.y() == doctest::Approx(-std::sqrt(0.75)).epsilon(1e-15));
+  CHECK(b.centre.z() == doctest::Approx(0.5).epsilon(1e-15));
+  CHECK(bump("lon=-90,lat=0,beta=1,alpha=1,gamma=0.25").centre == Eigen::Vector3d(0, -1, 0));
+  CHECK(bump("lon=77,lat=90,beta=1,alpha=1,gamma=0.25").centre == Eigen::Vector3d(0, 0, 1));
+  CHECK(bump("lon=0,lat=0,beta=1,alpha=1,gamma=0.25").gamma == 0.25);
+  CHECK(bump("lon=0,lat=0,beta=0.5,alpha=1e-3,gamma=x2").gamma == 1.0 / 16);
+  CHECK(bump("lon=0,lat=0,beta=0.5,alpha=9deg,gamma=x2").alpha ==
+        doctest::Approx(std::numbers::pi / 20).epsilon(1e-15));
+}
+
+TEST_CASE("the long axis of an ellipse points clockwise from north") {
+  const std::string rest = ",beta=1,alpha=1,gamma=x2,stretch=3,azimuth=";
+  const auto major = [&](const std::string& place, const std::string& azimuth) {
+    return bump(place + rest + azimuth).major;
+  };
+  CHECK(bump("lon=0,lat=0" + rest + "0").stretch == 3);
+  CHECK(major("lon=0,lat=0", "0") == Eigen::Vector3d(0, 0, 1));
+  CHECK(major("lon=0,lat=0", "90") == Eigen::Vector3d(0, 1, 0));
+  CHECK(major("lon=90,lat=0", "90") == Eigen::Vector3d(-1, 0, 0));
+  CHECK(major("lon=0,lat=90", "0") == Eigen::Vector3d(-1, 0, 0)); // where all is south
+  CHECK(major("lon=0,lat=-90", "0") == Eigen::Vector3d(1, 0, 0));
+  for (const std::string place : {"lon=12,lat=34", "lon=200,lat=-56"}) {
+    const Bump b = bump(place + rest + "71");
+    CHECK(b.major.dot(b.centre) == doctest::Approx(0).epsilon(1e-15));
+    CHECK(b.major.norm() == doctest::Approx(1).epsilon(1e-15));
+    // The component towards north is cos 71, and north is where z rises.
+    CHECK(b.major.z() == doctest::Approx(std::cos(71 * std::numbers::pi / 180) *
+                                         std::hypot(b.centre.x(), b.centre.y())));
+    CHECK(b.centre.cross(b.major).z() > 0); // clockwise: to the east of north
+  }
+}
+
+TEST_CASE("several bumps are joined; none is the uniform density") {
+  const std::string one = "tanh:lon=0,lat=0,beta=1,alpha=1,gamma=x2";
+  CHECK(density_of(DensityWords{}).uniform());
+  CHECK(density_of(DensityWords{{"uniform"}}).uniform());
+  CHECK(density_of(DensityWords{{one}}).kind == Density::Kind::maximum);
+  CHECK(density_of(DensityWords{{one, one}, "sum"}).kind == Density::Kind::sum);
+  CHECK(density_of(DensityWords{{one, one}}).bumps.size() == 2);
+}
+
+TEST_CASE("words that make no density are refused with the offending one") {
+  const std::string form = "; write it as tanh:lon=270,lat=30,beta=30deg,alpha=0.20,gamma=x8";
+  const auto with = [](const std::string& changed) {
+    std::string words = "tanh:lon=0,lat=0,beta=1,alpha=1,gamma=x2";
+    const std::string key = changed.substr(0, changed.find('=') + 1);
+    const std::size_t place = words.find(key);
+    return words.replace(place, words.find_first_of(",", place) - place, changed);
+  };
+  CHECK(refusal("gauss") == "no density; give uniform or, for instance, "
+                            "tanh:lon=270,lat=30,beta=30deg,alpha=0.20,gamma=x8");
+  CHECK(refusal("") == refusal("gauss"));
+  CHECK(refusal("tanh:") == "lon is missing" + form);
+  CHECK(refusal("tanh:lon=0,lat=0,beta=1,alpha=1") == "gamma is missing" + form);
+  CHECK(refusal("tanh:lon=0,lon=1") == "lon is given twice; leave one of them out");
+  CHECK(refusal("tanh:lon") == "\"lon\" is not key=value" + form);
+  CHECK(refusal("tanh:lon=0,,lat=0") == "\"\" is not key=value" + form);
+  CHECK(refusal("tanh:width=2") == "unknown key \"width\"; the keys are lon, lat, beta, alpha, "
+                                   "gamma, stretch, azimuth");
+  CHECK(refusal(with("lon=east")) == "lon \"east\" is no number; give degrees");
+  CHECK(refusal(with("lon=inf")) == "lon \"inf\" is no number; give degrees");
+  CHECK(refusal(with("lat=90.5")) == "lat \"90.5\" is outside -90 to 90; give degrees north");
+  for (const std::string beta : {"0", "-1", "nan", "", "1rad", "deg", "0deg"})
+    CHECK(refusal(with("beta=" + beta)) ==
+          "beta \"" + beta + "\" is no positive angle; give radians, or degrees as 30deg");
+  CHECK(refusal(with("alpha=0")).starts_with("alpha \"0\" is no positive angle"));
+  for (const std::string gamma : {"0", "1", "-0.5", "x1", "x0", "x", "x-2x", "nan", "x1e200"})
+    CHECK(refusal(with("gamma=" + gamma)) ==
+          "gamma \"" + gamma +
+              "\" is not between 0 and 1; give such a number, or x8 for spacings of 8:1");
+  CHECK(refusal(with("gamma=x2,stretch=2")) ==
+        "stretch and azimuth make an ellipse together; give both or none");
+  CHECK(refusal(with("gamma=x2,stretch=0.5,azimuth=0")) ==
+        "stretch \"0.5\" is no number from 1; give how much longer the long axis is");
+  CHECK(refusal(with("gamma=x2,stretch=2,azimuth=n")) ==
+        "azimuth \"n\" is no number; give degrees");
+  CHECK_THROWS_AS(density_of(DensityWords{{"uniform", "uniform"}}), Error);
+}
+
+// ---- Cell widths
+
+namespace {
+
+/// A file that goes when the test ends.
+class TextFile {
+public:
+  TextFile(const std::string& suffix, const std::string& text)
+      : path_(std::filesystem::temp_directory_path() /
+              ("calotte-density-" + std::to_string(::getpid()) + suffix)) {
+    write(text);
+  }
+  ~TextFile() { std::filesystem::remove(path_); }
+  TextFile(const TextFile&) = delete;
+  TextFile& operator=(const TextFile&) = delete;
+
+  void write(const std::string& text) const { std::ofstream(path_, std::ios::binary) << text; }
+  std::string path() const { return path_; }
+
+private:
+  std::filesystem::path path_;
+};
+
+/// 100 km wide everywhere but for one place.
+std::string jigsaw_grid(const std::string& elsewhere) {
+  std::string text = "MSHID=3;ELLIPSOID-GRID\nNDIMS=2\nCOORD=1;4\n0\n1.5707963267948966\n"
+                     "3.141592653589793\n4.71238898038469\nCOORD=2;3\n-1.5707963267948966\n0\n"
+                     "1.5707963267948966\nVALUE=12;1\n100\n" +
+                     elsewhere + "\n";
+  for (int i = 0; i < 10; ++i)
+    text += "100\n";
+  return text;
+}
+
+DensityWords parsed(const std::vector<std::string>& arguments) {
+  CLI::App app;
+  const std::shared_ptr<DensityWords> words = add_density(app);
+  app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
+  return *words;
+}
+
+std::string message_of(const DensityWords& words) {
+  try {
+    resolution_of(words);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "not refused";
+}
+
+} // namespace
+
+TEST_CASE("cell widths take the place of a density, and belong to a run by their contents") {
+  const TextFile file(".msh", jigsaw_grid("200"));
+  const DensityWords words = parsed({"--cell-width", file.path()});
+  const Resolution resolution = resolution_of(words);
+  REQUIRE(resolution.widths);
+  CHECK(resolution.widths->widths(0, 1) == 200);
+  CHECK(evaluate(resolution.density, Eigen::Vector3d(-1, 0, 0))[0] == 1);
+  CHECK(evaluate(resolution.density, Eigen::Vector3d(1, 0, 0))[0] == doctest::Approx(1.0 / 16));
+  CHECK(density_names(words) == std::vector<std::string>{"cell widths of " + file.path()});
+
+  const std::string before = density_configuration(words);
+  CHECK(density_configuration(words) == before);
+  file.write(jigsaw_grid("201"));
+  CHECK(density_configuration(words) != before);
+  CHECK(density_configuration(parsed({"--cell-width", file.path(), "--earth-radius", "1000"})) !=
+        density_configuration(words));
+  std::filesystem::remove(file.path());
+  CHECK_THROWS_AS(density_configuration(words), Error);
+  CHECK_THROWS_AS(density_of(words), Error);
+
+  CHECK(density_configuration(DensityWords{}) == "density uniform\n");
+  CHECK(density_configuration(DensityWords{{"a", "b"}, "sum"}) ==
+        "density a\ndensity b\njoin sum\n");
+}
+
+TEST_CASE("the widths' notes tell their range, number and gradient, and warn of a steep one") {
+  const TextFile file(".msh", jigsaw_grid("100"));
+  DensityWords words = parsed({"--cell-width", file.path()});
+  CellWidth widths = *resolution_of(words).widths;
+  const double implied = implied_cells(widths);
+  const std::string cells = std::to_string(std::llround(implied));
+  std::vector<std::string> notes = notes_on(widths, words.widths, {});
+  REQUIRE(notes.size() == 1);
+  CHECK(notes[0] == file.path() + ": cells 100 to 100 km wide, on 4 x 3 nodes, ask for " + cells +
+                        " cells; their width changes by at most 0 km a km");
+  CHECK(cells_for(widths, words.widths, false) == std::llround(implied));
+  const std::int64_t reached = cells_for(widths, words.widths, true);
+  CHECK(static_cast<double>(reached) == doctest::Approx(implied).epsilon(1e-3));
+  CHECK(reached % 64 == 2); // 58 900 are three bisections from 920
+  notes = notes_on(widths, words.widths, std::llround(implied / 4));
+  CHECK(notes[0].find("; with " + std::to_string(std::llround(implied / 4)) +
+                      " they are 2 times as wide;") != std::string::npos);
+  widths.widths(1, 1) = 600; // 500 km over 10 007 km either way
+  notes = notes_on(widths, words.widths, {});
+  REQUIRE(notes.size() == 2);
+  CHECK(notes[1] == "warning: the width of cells changes by 0.071 km a km at 90.0 E 0.0 N, where "
+                    "models want at most 0.03; make the transition wider");
+  widths.widths.setConstant(100000);
+  CHECK_THROWS_AS(cells_for(widths, words.widths, true), Error);
+  widths.widths.setConstant(0.1);
+  CHECK_THROWS_AS(cells_for(widths, words.widths, false), Error);
+}
+
+TEST_CASE("options of widths that do not go together are refused") {
+  const TextFile file(".msh", jigsaw_grid("100"));
+  CHECK(message_of(parsed({"--cell-width", file.path(), "--transition", "100"})) ==
+        file.path() + " holds no polygons; leave --transition out");
+  CHECK(message_of(parsed({"--cell-width", "absent.nc"})) != "not refused");
+  CHECK(message_of(parsed({"--density-raster", "absent.nc"})) != "not refused");
+  const auto check_usage = [](const std::vector<std::string>& arguments) {
+    CHECK_THROWS_AS(parsed(arguments), CLI::ParseError);
+  };
+  check_usage({"--cell-width", "a.nc", "--density", "uniform"});
+  check_usage({"--density-raster", "a.nc", "--density", "uniform"});
+  check_usage({"--density-raster", "a.nc", "--cell-width", "a.nc"});
+  check_usage({"--transition", "100"});
+  for (const std::string width : {"0", "-1", "nan", "inf", "1km", ""})
+    check_usage({"--cell-width", "a.geojson", "--outside-width", width});
+}

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "draw/scale.h"
+
+#include <cairo.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace calotte::tools {
+
+/// From a quantity to places along a side of a frame.
+struct Axis {
+  double low = 0, high = 1; ///< low < high; both > 0 where logarithmic
+  bool logarithmic = false;
+
+  double place(double value) const; ///< 0 at low, 1 at high; beyond them for values beyond
+  bool shows(double value) const;   ///< whether the value has a place: finite, > 0 if logarithmic
+};
+
+/// The axis of the values that it can show, with a margin at both ends that is this part of their
+/// range; from 0 (or 0.1) to 1 where it can show none.
+Axis axis_around(const std::vector<double>& values, bool logarithmic, double margin = 0.04);
+
+struct Tick {
+  double place = 0; ///< on an axis or a colour bar, 0 to 1
+  std::string label;
+};
+
+/// Round values along an axis: those with a label (marked text), and the others' places.
+struct AxisTicks {
+  std::vector<Tick> labelled;
+  std::vector<double> unlabelled;
+};
+
+/// \param most labels at most, >= 2; fewer than two only where the axis holds no more.
+AxisTicks ticks_of(const Axis& axis, int most);
+
+/// A place on the page, y downwards.
+struct PagePoint {
+  double x = 0, y = 0;
+};
+
+/// A rectangle of the page in which data stand.
+struct Frame {
+  double left = 0, top = 0, width = 0, height = 0;
+  Axis across, up;
+
+  double right() const { return left + width; }
+  double bottom() const { return top + height; }
+  PagePoint at(double x, double y) const {
+    return {left + across.place(x) * width, bottom() - up.place(y) * height};
+  }
+};
+
+/// How a frame's axes look.
+struct AxesLook {
+  double text = 12;        ///< size of the letters; lines and ticks go with it
+  std::string across = {}; ///< the axes' names, marked text
+  std::string up = {};
+  int most_across = 8; ///< labels along an axis; 0 for an axis without ticks
+  int most_up = 7;
+  bool across_labels = true; ///< false where the frame below has them
+  double up_labels = 3.2;    ///< least room for the labels of `up`, in letters
+};
+
+/// Faint lines at the labelled ticks: beneath the data.
+void draw_grid(cairo_t* context, const Frame& frame, const AxesLook& look);
+
+/// The border, ticks, labels and names: above the data.
+void draw_axes(cairo_t* context, const Frame& frame, const AxesLook& look);
+
+/// Lets `paint` paint inside of the frame only.
+void inside(cairo_t* context, const Frame& frame, const std::function<void()>& paint);
+
+/// Strokes the line through the points, which has a gap where one cannot be shown; a point between
+/// two gaps becomes a dot. Colour, width and dashes are the context's.
+void draw_curve(cairo_t* context, const Frame& frame, const std::vector<double>& x,
+                const std::vector<double>& y);
+
+} // namespace calotte::tools

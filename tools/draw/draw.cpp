@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "draw/draw.h"
+
+#include "draw/legend_of.h"
+#include "draw/page.h"
+#include "draw/painting.h"
+#include "draw/picture.h"
+#include "draw/raster.h"
+#include "draw/text.h"
+#include "draw/values.h"
+#include "draw/vector.h"
+
+#include <calotte/error.h>
+#include <calotte/generators.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace calotte::tools {
+
+namespace {
+
+constexpr std::int64_t most_paths = 30000;     ///< a vector file of more shapes is slow to open
+constexpr std::int64_t field_samples = 100000; ///< whose extremes are the colour bar's
+
+bool has_boundary(const Mesh& mesh) { return (mesh.neighbours.array() < 0).any(); }
+
+std::string title_of(const Mesh& mesh) {
+  return grouped(mesh.points.cols()) + " sites, " + grouped(mesh.triangles.cols()) + " triangles" +
+         (has_boundary(mesh) ? ", open boundary" : "");
+}
+
+/// A number in marked text.
+std::string in_powers(double value) {
+  const double exponent = std::floor(std::log10(value));
+  char text[64];
+  std::snprintf(text, sizeof text, "%.3g\u2009\u00d7\u200910^{%s%d}",
+                value / std::pow(10, exponent), exponent < 0 ? "\u2212" : "",
+                std::abs(static_cast<int>(exponent)));
+  return text;
+}
+
+std::string field_caption(const DrawOptions& options) {
+  const CellField& field = options.field;
+  const bool has_unit = !field.units.empty() && field.units != "1" && field.units != "-";
+  return unmarked(options.field_name) +
+         (field.long_name.empty() ? "" : ": " + unmarked(field.long_name)) +
+         (has_unit ? ", " + unit_text(field.units) : "");
+}
+
+/// \param mean of the values.
+std::string caption_of(const DrawOptions& options, double mean, bool plane) {
+  const bool cells = options.shapes != Shapes::triangles;
+  const std::string corners = cells ? "" : ", mean of the corners";
+  switch (options.colouring) {
+  case Colouring::spacing:
+    return std::string(cells ? "mean distance to the neighbours" : "mean side of the triangle") +
+           (plane ? "" : ", degrees (1\u00b0 = 0.01745 radians)");
+  case Colouring::angle:
+    return cells ? "smallest angle around the site, degrees"
+                 : "smallest angle of the triangle, degrees";
+  case Colouring::valence:
+    return cells ? "neighbours of the site: cells of each kind"
+                 : "neighbours of the corner furthest from 6: triangles of each kind";
+  case Colouring::area:
+    return std::string("area of the ") + (cells ? "cell" : "triangle") + " over the mean, " +
+           in_powers(mean) + (plane ? "" : " steradians");
+  case Colouring::quality:
+    return cells ? "shortest over longest side of the cell"
+                 : "quality of the triangle: 1 when equilateral";
+  case Colouring::density:
+    return "density over its greatest at a site" + corners;
+  case Colouring::field:
+    return field_caption(options) + corners;
+  case Colouring::none:
+    break;
+  }
+  return {};
+}
+
+double mean_of(const std::vector<double>& values) {
+  double sum = 0;
+  double count = 0;
+  for (const double value : values) {
+    if (!std::isnan(value)) {
+      sum += value;
+      ++count;
+    }
+  }
+  return sum / std::max(count, 1.0);
+}
+
+std::vector<ValenceClass> classes_of(const Painting& painting) {
+  return painting.scale.colouring == Colouring::valence ? valence_classes(painting.values)
+                                                        : std::vector<ValenceClass>();
+}
+
+} // namespace
+
+Legend make_legend(Painting& painting, const DrawOptions& options) {
+  const double mean = mean_of(painting.values);
+  if (options.colouring == Colouring::area) {
+    std::for_each(painting.values.begin(), painting.values.end(), [mean](double& v) { v /= mean; });
+  }
+  painting.scale = make_scale(painting.values, options.colouring);
+  painting.scale.lengths = painting.scene.flat;
+  return {painting.scale, classes_of(painting), caption_of(options, mean, painting.scene.flat)};
+}
+
+void require_field(const DrawOptions& options, std::int64_t sites) {
+  if (options.field.values.size() != sites) {
+    throw Error(ErrorCode::bad_option, options.field_name + " has " +
+                                           std::to_string(options.field.values.size()) +
+                                           " values for " + std::to_string(sites) +
+                                           " sites; give a field of the mesh's cells");
+  }
+}
+
+namespace {
+
+/// What is given by site, of the colourings that are.
+Eigen::VectorXd by_site(const Mesh& mesh, const DrawOptions& options) {
+  if (options.colouring == Colouring::field) {
+    require_field(options, mesh.points.cols());
+    return options.field.values;
+  }
+  if (options.colouring != Colouring::density) {
+    return {};
+  }
+  Points3 sites(3, mesh.points.cols());
+  for (Eigen::Index i = 0; i < sites.cols(); ++i) {
+    sites.col(i) = direction_of(Eigen::Vector3d(mesh.points.col(i)));
+  }
+  const Eigen::VectorXd rho = evaluate(options.density, sites);
+  const double greatest = rho.maxCoeff();
+  if (!(greatest > 0)) {
+    throw Error(ErrorCode::bad_option,
+                "the density is zero at every site; give one that is positive somewhere");
+  }
+  return rho / greatest;
+}
+
+/// With the view that the defaults leave open.
+Look seen(const Look& look, const LonLat& middle) {
+  Look result = look;
+  if (look.projection == Projection::plate_carree) {
+    result.view = {look.view.value_or(LonLat{}).longitude, 0};
+  } else {
+    result.view = look.view.value_or(middle);
+  }
+  return result;
+}
+
+Look seen(const Look& look, const Mesh& mesh) {
+  return seen(look, has_boundary(mesh) ? middle(mesh) : LonLat{15, 25});
+}
+
+Painting make_painting(const Mesh& mesh, const DrawOptions& options, const LonLat& view) {
+  Painting painting;
+  painting.scene = make_scene(mesh, options.shapes, view);
+  painting.values = values_of(painting.scene, options.colouring, by_site(mesh, options));
+  painting.widths = widths_of(painting.scene, painting.scene.shapes);
+  if (options.shapes == Shapes::both) {
+    painting.triangle_widths = widths_of(painting.scene, Shapes::triangles);
+  }
+  return painting;
+}
+
+/// In a vector file an image is printed at any size: give it twice the pixels.
+MapSize image_size(cairo_t* context, const MapSize& map) {
+  const bool raster_page =
+      cairo_surface_get_type(cairo_get_target(context)) == CAIRO_SURFACE_TYPE_IMAGE;
+  const int scale = raster_page || map.width > 8192 ? 1 : 2;
+  return {scale * map.width, scale * map.height};
+}
+
+void paint_mesh(cairo_t* context, const Page& page, const Painting& painting, Projection projection,
+                bool paths) {
+  if (paths) {
+    vector_map(context, painting, projection, page.map.width);
+  } else {
+    paint_image(context, page.map, raster_map(painting, projection, image_size(context, page.map)));
+  }
+}
+
+} // namespace
+
+void draw(const std::string& path, const Mesh& mesh, const DrawOptions& options) {
+  require_picture(path, options.look.size);
+  const Look look = seen(options.look, mesh);
+  Painting painting = make_painting(mesh, options, *look.view);
+  const Legend legend = make_legend(painting, options);
+  const Page page = page_of(look, options.colouring != Colouring::none);
+  const bool paths = picture_format(path) != PictureFormat::png &&
+                     visible_shapes(painting, look.projection) <= most_paths;
+  write_picture(path, page.width, page.height, [&](cairo_t* context) {
+    draw_page(context, page, {look, painting.scene.frame, title_of(mesh), legend},
+              [&] { paint_mesh(context, page, painting, look.projection, paths); });
+  });
+}
+
+void draw(const std::string& path, const SphereField& field, const Look& asked) {
+  require_picture(path, asked.size);
+  const Look look = seen(asked, LonLat{15, 25});
+  const Eigen::VectorXd samples = field.values(fibonacci_sphere(field_samples));
+  const Scale scale =
+      make_scale({samples.data(), samples.data() + samples.size()}, Colouring::density);
+  const FieldPainting painting = {field.values, scale, frame_of(*look.view)};
+  const Page page = page_of(look, true);
+  write_picture(path, page.width, page.height, [&](cairo_t* context) {
+    draw_page(context, page,
+              {look, painting.frame, unmarked(field.title), {scale, {}, field.caption}}, [&] {
+                paint_image(context, page.map,
+                            raster_map(painting, look.projection, image_size(context, page.map)));
+              });
+  });
+}
+
+} // namespace calotte::tools

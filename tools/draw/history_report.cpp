@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "draw/history_report.h"
+
+#include "io/file.h"
+
+#include <calotte/error.h>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+namespace calotte::tools {
+
+namespace {
+
+using nlohmann::json;
+
+/// A part of a report, and its place there for messages.
+struct Part {
+  const json& value;
+  std::string file;
+  std::string place; ///< such as iterations[3].l2; empty for the whole
+
+  [[noreturn]] void fail(const std::string& what) const {
+    throw Error(ErrorCode::parse,
+                file + ": " + place + " " + what + "; give a report of calotte cvt --report");
+  }
+  Part at(const std::string& key) const {
+    const bool present = value.is_object() && value.contains(key);
+    Part part = {present ? value.at(key) : value, file, place.empty() ? key : place + "." + key};
+    if (!present) {
+      part.fail("is missing");
+    }
+    return part;
+  }
+  /// Finite and >= 0.
+  double number() const {
+    if (!value.is_number() || !std::isfinite(value.get<double>()) || value.get<double>() < 0) {
+      fail("is not a number 0 or more");
+    }
+    return value.get<double>();
+  }
+  std::int64_t count(std::int64_t least) const {
+    if (!value.is_number_integer() || value.get<std::int64_t>() < least) {
+      fail("is not a whole number " + std::to_string(least) + " or more");
+    }
+    return value.get<std::int64_t>();
+  }
+  bool truth() const {
+    if (!value.is_boolean()) {
+      fail("is neither true nor false");
+    }
+    return value.get<bool>();
+  }
+};
+
+json parse(const std::string& path) {
+  std::ifstream in = io_detail::open_input(path);
+  const std::string text = io_detail::read_all(in, path);
+  try {
+    return json::parse(text);
+  } catch (const json::parse_error& error) {
+    const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size()));
+    const auto line = 1 + std::count(text.begin(), end, '\n');
+    throw Error(ErrorCode::parse,
+                path + " line " + std::to_string(line) +
+                    ": this is not JSON, or was cut short; give a report of calotte cvt --report",
+                line);
+  } catch (const json::out_of_range&) {
+    throw Error(ErrorCode::parse, path + ": a number in it is too large for a double; give a "
+                                         "report of calotte cvt --report");
+  }
+}
+
+Norm norm_of(const Part& part) {
+  static const std::vector<std::pair<std::string, Norm>> words = {
+      {"l2", Norm::l2},
+      {"linf", Norm::linf},
+      {"l2-scaled", Norm::l2_scaled},
+      {"linf-scaled", Norm::linf_scaled},
+      {"gradient", Norm::gradient},
+      {"none", Norm::none}};
+  for (const auto& [word, norm] : words) {
+    if (part.value == word) {
+      return norm;
+    }
+  }
+  part.fail("is none of l2, linf, l2-scaled, linf-scaled, gradient and none");
+}
+
+std::vector<std::string> density_of(const Part& part) {
+  const auto is_text = [](const json& word) { return word.is_string(); };
+  if (!part.value.is_array() || !std::all_of(part.value.begin(), part.value.end(), is_text)) {
+    part.fail("is not an array of strings");
+  }
+  return part.value.get<std::vector<std::string>>();
+}
+
+/// The reports of versions that had no other method than Lloyd's do not name it.
+std::string method_of(const Part& report) {
+  if (!report.value.contains("method")) {
+    return "";
+  }
+  const Part method = report.at("method");
+  for (const char* word : {"auto", "lloyd", "nesterov", "lbfgs", "lbfgs-laplacian"}) {
+    if (method.value == word) {
+      return word;
+    }
+  }
+  method.fail("is none of auto, lloyd, nesterov, lbfgs and lbfgs-laplacian");
+}
+
+CvtIteration iteration_of(const Part& part) {
+  CvtIteration iteration;
+  iteration.cells = part.at("cells").count(1);
+  iteration.spacing = part.value.contains("spacing") // older reports are of the sphere
+                          ? part.at("spacing").number()
+                          : std::sqrt(4 * std::numbers::pi / static_cast<double>(iteration.cells));
+  iteration.rule = static_cast<int>(std::min<std::int64_t>(part.at("rule").count(0), 1000));
+  iteration.l2 = part.at("l2").number();
+  iteration.linf = part.at("linf").number();
+  iteration.energy = part.at("energy").number();
+  iteration.flips = part.at("flips").count(0);
+  iteration.rebuilt = part.at("rebuilt").truth();
+  iteration.seconds = part.at("seconds").number();
+  // The reports of Lloyd's method alone had neither.
+  iteration.accepted = !part.value.contains("accepted") || part.at("accepted").truth();
+  if (part.value.contains("seconds_solver")) {
+    iteration.seconds_solver = part.at("seconds_solver").number();
+  }
+  return iteration;
+}
+
+constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
+
+std::vector<double> scaled(const History& history, double CvtIteration::*norm) {
+  std::vector<double> values;
+  values.reserve(history.iterations.size());
+  for (const CvtIteration& iteration : history.iterations) {
+    values.push_back(iteration.accepted ? iteration.*norm / iteration.spacing : nowhere);
+  }
+  return values;
+}
+
+/// The evaluations of a level that were accepted.
+std::vector<std::size_t> accepted_between(const History& history, std::size_t first,
+                                          std::size_t last) {
+  std::vector<std::size_t> accepted;
+  for (std::size_t i = first; i < last; ++i) {
+    if (history.iterations[i].accepted) {
+      accepted.push_back(i);
+    }
+  }
+  return accepted;
+}
+
+/// How far the energy falls from the k-th to the next of the evaluations `way` of a level.
+double descent(const History& history, const std::vector<std::size_t>& way, std::size_t k) {
+  const auto at = [&](std::size_t j) -> const CvtIteration& { return history.iterations[way[j]]; };
+  if (at(k).rule == at(k + 1).rule) {
+    return at(k).energy - at(k + 1).energy;
+  }
+  // Two rules' energies do not compare.
+  return k > 0 && at(k - 1).rule == at(k).rule ? at(k - 1).energy - at(k).energy : 0;
+}
+
+/// Runs' levels whose energies compare have the same.
+using Comparable = std::tuple<std::vector<std::string>, std::int64_t, int>;
+
+Comparable comparable(const History& history, std::size_t last) {
+  return {history.density, history.iterations[last].cells, history.iterations[last].rule};
+}
+
+/// Calls with each level of a run: its accepted evaluations, if there are any.
+template <class Visit> void each_level(const History& history, const Visit& visit) {
+  const std::vector<std::size_t> starts = level_starts(history);
+  for (std::size_t level = 0; level + 1 < starts.size(); ++level) {
+    const std::vector<std::size_t> way =
+        accepted_between(history, starts[level], starts[level + 1]);
+    if (!way.empty()) {
+      visit(way);
+    }
+  }
+}
+
+std::map<Comparable, double> least_energies(const std::vector<History>& histories) {
+  std::map<Comparable, double> least;
+  for (const History& history : histories) {
+    each_level(history, [&](const std::vector<std::size_t>& way) {
+      const double end = history.iterations[way.back()].energy;
+      const auto [place, first] = least.try_emplace(comparable(history, way.back()), end);
+      place->second = std::min(place->second, end);
+    });
+  }
+  return least;
+}
+
+} // namespace
+
+History read_history(const std::string& path) {
+  const json document = parse(path);
+  const Part report = {document, path, ""};
+  History history;
+  history.name = path;
+  history.density = density_of(report.at("density"));
+  history.method = method_of(report);
+  history.norm = norm_of(report.at("norm"));
+  history.tolerance = report.at("tolerance").number();
+  history.converged = report.at("converged").truth();
+  history.seconds = report.at("seconds").number();
+  const Part iterations = report.at("iterations");
+  if (!iterations.value.is_array()) {
+    iterations.fail("is not an array");
+  }
+  if (iterations.value.empty()) {
+    iterations.fail("is empty: the run made no iteration");
+  }
+  for (std::size_t i = 0; i < iterations.value.size(); ++i) {
+    history.iterations.push_back(
+        iteration_of({iterations.value[i], path, "iterations[" + std::to_string(i) + "]"}));
+  }
+  return history;
+}
+
+std::vector<double> evaluation_numbers(const History& history) {
+  std::vector<double> numbers(history.iterations.size());
+  std::iota(numbers.begin(), numbers.end(), 1);
+  return numbers;
+}
+
+std::vector<double> elapsed_seconds(const History& history) {
+  std::vector<double> elapsed;
+  elapsed.reserve(history.iterations.size());
+  double sum = 0;
+  for (const CvtIteration& iteration : history.iterations) {
+    sum += iteration.seconds + iteration.seconds_solver;
+    elapsed.push_back(sum);
+  }
+  return elapsed;
+}
+
+std::vector<double> scaled_l2(const History& history) { return scaled(history, &CvtIteration::l2); }
+
+std::vector<double> scaled_linf(const History& history) {
+  return scaled(history, &CvtIteration::linf);
+}
+
+std::vector<double> scaled_tolerance(const History& history) {
+  std::vector<double> values;
+  values.reserve(history.iterations.size());
+  for (const CvtIteration& iteration : history.iterations) {
+    switch (history.norm) {
+    case Norm::l2:
+    case Norm::linf:
+      values.push_back(history.tolerance / iteration.spacing);
+      break;
+    case Norm::l2_scaled:
+    case Norm::linf_scaled:
+      values.push_back(history.tolerance);
+      break;
+    default:
+      values.push_back(nowhere);
+    }
+  }
+  return values;
+}
+
+std::vector<std::size_t> level_starts(const History& history) {
+  std::vector<std::size_t> starts = {0};
+  for (std::size_t i = 1; i < history.iterations.size(); ++i) {
+    if (history.iterations[i].cells != history.iterations[i - 1].cells) {
+      starts.push_back(i);
+    }
+  }
+  starts.push_back(history.iterations.size());
+  return starts;
+}
+
+std::vector<std::vector<double>> energy_excess(const std::vector<History>& histories) {
+  const std::map<Comparable, double> least = least_energies(histories);
+  std::vector<std::vector<double>> excesses;
+  for (const History& history : histories) {
+    std::vector<double>& excess = excesses.emplace_back(history.iterations.size(), nowhere);
+    each_level(history, [&](const std::vector<std::size_t>& way) {
+      const double end = history.iterations[way.back()].energy;
+      const double reference = least.at(comparable(history, way.back()));
+      excess[way.back()] = (end - reference) / reference;
+      for (std::size_t k = way.size() - 1; k-- > 0;) {
+        excess[way[k]] = excess[way[k + 1]] + descent(history, way, k) / reference;
+      }
+    });
+  }
+  return excesses;
+}
+
+} // namespace calotte::tools

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "draw/page.h"
+
+#include "draw/projection.h"
+#include "draw/text.h"
+#include "draw/vector.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace calotte::tools {
+
+namespace {
+
+constexpr double label_letters = 0.8; ///< of degrees, of the other letters
+
+std::string longitude_label(int longitude) {
+  const int east = (longitude % 360 + 540) % 360 - 180; // -180 to 179
+  return std::to_string(std::abs(east)) + "\u00b0" +
+         (east == 0 || east == -180 ? ""
+          : east > 0                ? "E"
+                                    : "W");
+}
+
+std::string latitude_label(int latitude) {
+  return std::to_string(std::abs(latitude)) + "\u00b0" +
+         (latitude == 0  ? ""
+          : latitude > 0 ? "N"
+                         : "S");
+}
+
+/// Along the lower and the left edge of a plate carree.
+void edge_labels(cairo_t* context, const Page& page, const Eigen::Matrix3d& frame) {
+  const double scale = page.map.width / 360.0;
+  const double bottom = page.map.height / 2.0;
+  select_font(context, label_letters * page.text);
+  set_colour(context, text_colour);
+  for (int longitude = -180; longitude < 180; longitude += 60) {
+    const Place place = PlateCarree::place(frame * direction_of(LonLat{1.0 * longitude, 0}));
+    const double x = place.u / std::numbers::pi * page.map.width / 2;
+    centred_text(context, x, bottom + 1.1 * page.text, longitude_label(longitude));
+    if (std::abs(x) > 179.5 * scale) { // at the seam it stands at both ends
+      centred_text(context, -x, bottom + 1.1 * page.text, longitude_label(longitude));
+    }
+  }
+  for (int latitude = -90; latitude <= 90; latitude += 30) {
+    const std::string label = latitude_label(latitude);
+    cairo_move_to(context, -180 * scale - 0.4 * page.text - text_width(context, label),
+                  -scale * latitude + 0.28 * page.text);
+    cairo_show_text(context, label.c_str());
+  }
+}
+
+/// Text on a light ground that fades into what is beneath.
+void haloed_text(cairo_t* context, double x, double baseline, const std::string& text,
+                 double size) {
+  cairo_move_to(context, x - text_width(context, text) / 2, baseline);
+  cairo_text_path(context, text.c_str());
+  cairo_set_source_rgba(context, 1, 1, 1, 0.75);
+  cairo_set_line_width(context, 0.25 * size);
+  cairo_set_line_join(context, CAIRO_LINE_JOIN_ROUND);
+  cairo_stroke_preserve(context);
+  set_colour(context, text_colour);
+  cairo_fill(context);
+}
+
+/// Where a globe's graticule crosses its meridian and its parallel nearest to the middle.
+void globe_labels(cairo_t* context, const Page& page, const Look& look,
+                  const Eigen::Matrix3d& frame) {
+  const double radius = page.map.width / 2.0;
+  const double size = label_letters * page.text;
+  const LonLat view = look.view.value_or(LonLat{});
+  const auto nearest = [](double degrees) {
+    return graticule_step * static_cast<int>(std::lround(degrees / graticule_step));
+  };
+  const int latitude = std::clamp(nearest(view.latitude), -60, 60);
+  const int longitude = nearest(view.longitude);
+  const auto label = [&](int lon, int lat, const std::string& text) {
+    const Eigen::Vector3d p = frame * direction_of(LonLat{1.0 * lon, 1.0 * lat});
+    if (p.z() > 0.25) {
+      haloed_text(context, radius * p.x(), -radius * p.y() + 0.35 * size, text, size);
+    }
+  };
+  select_font(context, size);
+  for (int lon = -180; lon < 180; lon += graticule_step) {
+    if ((lon - longitude) % 360 != 0) {
+      label(lon, latitude, longitude_label(lon));
+    }
+  }
+  for (int lat = -60; lat <= 60; lat += graticule_step) {
+    label(longitude, lat, latitude_label(lat));
+  }
+}
+
+void draw_border(cairo_t* context, const Page& page, Projection projection) {
+  add_border(context, projection, page.map.width);
+  set_colour(context, map_border_colour);
+  cairo_set_line_width(context, std::max(0.8, 0.05 * page.text));
+  cairo_stroke(context);
+}
+
+void draw_surroundings_of_map(cairo_t* context, const Page& page, const Surroundings& around) {
+  const bool globe = around.look.projection == Projection::globe;
+  if (around.look.graticule) {
+    draw_graticule(context, around.frame, around.look.projection, page.map.width,
+                   std::max(0.6, 0.04 * page.text));
+  }
+  draw_border(context, page, around.look.projection);
+  if (!globe && page.labelled) {
+    edge_labels(context, page, around.frame);
+  } else if (globe && around.look.graticule && page.labelled) {
+    globe_labels(context, page, around.look, around.frame);
+  }
+}
+
+/// Puts title, map and legend beneath each other. \param below the map: labels.
+void arrange(Page& page, double below, bool with_legend) {
+  const double middle = 2.6 * page.text + page.map.height / 2.0;
+  const double bottom = middle + page.map.height / 2.0 + below;
+  page.middle_x = std::floor(page.width / 2.0);
+  page.middle_y = std::floor(middle);
+  page.legend_top = bottom + 1.6 * page.text;
+  page.height = static_cast<int>(std::ceil(bottom + (with_legend ? 6.0 : 1.2) * page.text));
+}
+
+} // namespace
+
+Page page_of(const Look& look, bool with_legend) {
+  const bool globe = look.projection == Projection::globe;
+  Page page;
+  page.width = look.size;
+  page.text = std::clamp(look.size / (globe ? 46.0 : 56.0), 7.0, 40.0);
+  page.labelled = look.size >= 280;
+  const double margin = globe ? 0.035 * look.size : page.labelled ? 3.2 * page.text : page.text;
+  page.map = globe ? map_size(look.projection, 2 * static_cast<int>(0.465 * look.size))
+                   : map_size(look.projection, static_cast<int>(look.size - 2 * margin));
+  arrange(page, globe || !page.labelled ? 0 : 1.2 * page.text, with_legend);
+  return page;
+}
+
+Page page_of_plane(int size, double aspect, bool with_legend) {
+  constexpr double tallest = 1.4; // of the page's width
+  Page page;
+  page.width = size;
+  page.text = std::clamp(size / 46.0, 7.0, 40.0);
+  const double room = 0.93 * size;
+  const double width = std::min(room, tallest * room / aspect);
+  page.map = {std::max(2, static_cast<int>(width)), std::max(2, static_cast<int>(width * aspect))};
+  arrange(page, 0, with_legend);
+  return page;
+}
+
+void draw_page(cairo_t* context, const Page& page, const std::string& title, const Legend& legend,
+               const std::function<void()>& paint) {
+  cairo_save(context);
+  cairo_translate(context, page.middle_x, page.middle_y);
+  paint();
+  cairo_restore(context);
+  set_colour(context, text_colour);
+  fitted_text(context, page.width / 2.0, 1.65 * page.text, title, 1.1 * page.text,
+              0.97 * page.width);
+  if (legend.scale.colouring != Colouring::none) {
+    draw_legend(context, legend, page.width, page.legend_top, page.text);
+  }
+}
+
+void draw_page(cairo_t* context, const Page& page, const Surroundings& surroundings,
+               const std::function<void()>& paint) {
+  draw_page(context, page, surroundings.title, surroundings.legend, [&] {
+    paint();
+    draw_surroundings_of_map(context, page, surroundings);
+  });
+}
+
+void paint_image(cairo_t* context, const MapSize& map, cairo_surface_t* image) {
+  const double scale = static_cast<double>(map.width) / cairo_image_surface_get_width(image);
+  cairo_save(context);
+  cairo_translate(context, -map.width / 2.0, -map.height / 2.0);
+  cairo_scale(context, scale, scale);
+  cairo_set_source_surface(context, image, 0, 0);
+  cairo_paint(context);
+  cairo_restore(context);
+  cairo_surface_destroy(image);
+}
+
+} // namespace calotte::tools

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "draw/legend.h"
+#include "draw/raster.h"
+
+#include <cairo.h>
+
+#include <functional>
+#include <string>
+
+namespace calotte::tools {
+
+/// Where things stand in a picture of the sphere or of a plane, in pixels: a title, the map, a
+/// legend, from top to bottom.
+struct Page {
+  int width = 0, height = 0;
+  double text = 0; ///< size of the letters
+  MapSize map;
+  double middle_x = 0, middle_y = 0; ///< of the map, whole pixels
+  double legend_top = 0;
+  bool labelled = false; ///< whether there is room for degrees at the map's edge
+};
+
+Page page_of(const Look& look, bool with_legend);
+
+/// Of a plane. \param aspect the map's height over its width.
+Page page_of_plane(int size, double aspect, bool with_legend);
+
+/// What stands around the map.
+struct Surroundings {
+  Look look;
+  Eigen::Matrix3d frame; ///< from places on the earth to directions of the scene
+  std::string title;
+  Legend legend; ///< none of Colouring::none
+};
+
+/// Draws the page. paint() draws the map around the origin, in pixels.
+void draw_page(cairo_t* context, const Page& page, const std::string& title, const Legend& legend,
+               const std::function<void()>& paint);
+
+/// The same with what stands around a map of the sphere.
+void draw_page(cairo_t* context, const Page& page, const Surroundings& surroundings,
+               const std::function<void()>& paint);
+
+/// Draws an image of the map, of a size that is a multiple of the page's, around the origin. The
+/// image is destroyed.
+void paint_image(cairo_t* context, const MapSize& map, cairo_surface_t* image);
+
+} // namespace calotte::tools

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "draw/scale.h"
+#include "draw/shapes.h"
+
+#include <calotte/density.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace calotte::tools {
+
+/// A scene with what fills its shapes.
+struct Painting {
+  Scene scene;
+  std::vector<double> values;         ///< by shape; NaN: not painted
+  std::vector<float> widths;          ///< by shape, on the unit sphere
+  std::vector<float> triangle_widths; ///< of the triangles drawn over cells; empty where none are
+  Scale scale;
+};
+
+inline constexpr Rgb globe_colour = {0.965, 0.97, 0.975}; ///< where no shape is
+
+/// How a shape's outline is drawn.
+struct Line {
+  Rgb colour;
+  double width = 0; ///< pixels
+  double alpha = 0;
+};
+
+/// What is drawn in one go, later layers over earlier ones.
+struct Layer {
+  Shapes shapes = Shapes::triangles; ///< or cells
+  bool filled = true;
+  const std::vector<float>* widths = nullptr;
+  Rgb line_colour;
+  double line_strength = 0; ///< the lines' alpha where shapes are large
+
+  /// Thin lines that fade as the shapes shrink, and are gone when these are a few pixels wide.
+  /// \param scale pixels in the map's unit.
+  /// \param height of the shape: towards the limb the lines crowd.
+  Line line(std::size_t shape, double scale, double height) const;
+};
+
+std::vector<Layer> layers_of(const Painting& painting);
+
+/// Calls visit(shape, corners) for every painted shape of a layer that is on the map in part.
+template <class Map, class Visit>
+void for_each_visible(const Painting& painting, const Layer& layer, Visit visit) {
+  std::vector<Eigen::Vector3d> corners;
+  for (std::size_t shape = 0; shape < layer.widths->size(); ++shape) {
+    if (layer.filled && std::isnan(painting.values[shape])) {
+      continue;
+    }
+    outline_of(painting.scene, layer.shapes, static_cast<std::int64_t>(shape), corners);
+    if (Map::shows_some(corners)) {
+      visit(shape, corners);
+    }
+  }
+}
+
+} // namespace calotte::tools

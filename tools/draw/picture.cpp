@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "draw/picture.h"
+
+#include "io/file.h"
+
+#include <calotte/error.h>
+
+#include <cairo-pdf.h>
+#include <cairo-svg.h>
+
+#include <algorithm>
+#include <cctype>
+#include <exception>
+#include <memory>
+
+#ifdef __SANITIZE_ADDRESS__
+// Fontconfig loses some of what it keeps for the life of a process.
+extern "C" const char* __lsan_default_suppressions();
+extern "C" const char* __lsan_default_suppressions() { return "leak:libfontconfig"; }
+extern "C" const char* __lsan_default_options();
+extern "C" const char* __lsan_default_options() { return "print_suppressions=0"; }
+#endif
+
+namespace calotte::tools {
+
+namespace {
+
+using Surface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
+using Context = std::unique_ptr<cairo_t, decltype(&cairo_destroy)>;
+
+/// Where Cairo's C code hands over bytes: an exception waits there until it may pass.
+struct Stream {
+  io_detail::OutputFile file;
+  std::exception_ptr failure;
+
+  static cairo_status_t write(void* closure, const unsigned char* data, unsigned int length) {
+    auto& stream = *static_cast<Stream*>(closure);
+    try {
+      stream.file.append({reinterpret_cast<const char*>(data), length});
+      return CAIRO_STATUS_SUCCESS;
+    } catch (...) {
+      stream.failure = std::current_exception();
+      return CAIRO_STATUS_WRITE_ERROR;
+    }
+  }
+  void check(cairo_status_t status, const std::string& path) const {
+    if (failure) {
+      std::rethrow_exception(failure);
+    }
+    if (status != CAIRO_STATUS_SUCCESS) {
+      throw Error(ErrorCode::file, path + ": the picture cannot be made: " +
+                                       cairo_status_to_string(status) + "; try a smaller size");
+    }
+  }
+};
+
+Surface surface_for(PictureFormat format, int width, int height, Stream& stream) {
+  cairo_surface_t* surface = nullptr;
+  if (format == PictureFormat::png) {
+    surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height);
+  } else if (format == PictureFormat::svg) {
+    surface = cairo_svg_surface_create_for_stream(Stream::write, &stream, width, height);
+  } else {
+    surface = cairo_pdf_surface_create_for_stream(Stream::write, &stream, width, height);
+  }
+  return {surface, cairo_surface_destroy};
+}
+
+} // namespace
+
+PictureFormat picture_format(const std::string& path) {
+  const std::size_t dot = path.find_last_of("./");
+  std::string suffix = dot == std::string::npos || path[dot] == '/' ? "" : path.substr(dot);
+  std::transform(suffix.begin(), suffix.end(), suffix.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (suffix == ".png") {
+    return PictureFormat::png;
+  }
+  if (suffix == ".svg") {
+    return PictureFormat::svg;
+  }
+  if (suffix == ".pdf") {
+    return PictureFormat::pdf;
+  }
+  throw Error(ErrorCode::bad_option,
+              path + ": the suffix names no picture format; use .png, .svg or .pdf");
+}
+
+void require_picture(const std::string& path, int width) {
+  picture_format(path);
+  if (width < 64 || width > 16384) {
+    throw Error(ErrorCode::bad_option,
+                "a picture is 64 to 16384 pixels wide, not " + std::to_string(width));
+  }
+}
+
+void write_picture(const std::string& path, int width, int height,
+                   const std::function<void(cairo_t*)>& paint) {
+  require_picture(path, width);
+  const PictureFormat format = picture_format(path);
+  Stream stream{io_detail::OutputFile(path), nullptr};
+  const Surface surface = surface_for(format, width, height, stream);
+  {
+    const Context context(cairo_create(surface.get()), cairo_destroy);
+    cairo_set_source_rgb(context.get(), 1, 1, 1);
+    cairo_paint(context.get());
+    paint(context.get());
+    stream.check(cairo_status(context.get()), path);
+  }
+  cairo_status_t status = CAIRO_STATUS_SUCCESS;
+  if (format == PictureFormat::png) {
+    status = cairo_surface_write_to_png_stream(surface.get(), Stream::write, &stream);
+  } else {
+    cairo_surface_finish(surface.get());
+    status = cairo_surface_status(surface.get());
+  }
+  stream.check(status, path);
+  stream.file.commit();
+}
+
+} // namespace calotte::tools

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "draw/projection.h"
+
+namespace calotte::tools {
+
+namespace {
+
+/// More than rounding moves a place by.
+constexpr double fuzz = 1e-9;
+
+double longitude_step(const Vector3d& from, const Vector3d& to) {
+  return std::remainder(PlateCarree::place(to).u - PlateCarree::place(from).u, PlateCarree::period);
+}
+
+/// The pole is in the facet or on its outline, or so near that no longitude can be trusted.
+bool holds_pole(const Facet& f, double sign) {
+  return std::min({sign * f.a.cross(f.b).y(), sign * f.b.cross(f.c).y(),
+                   sign * f.c.cross(f.a).y()}) > -1e-12;
+}
+
+} // namespace
+
+double Orthographic::height(const std::vector<Vector3d>& corners) {
+  double sum = 0;
+  for (const Vector3d& p : corners) {
+    sum += p.z();
+  }
+  return sum / static_cast<double>(corners.size());
+}
+
+/// The cut runs along the limb.
+std::vector<Vector3d> Orthographic::clipped(const std::vector<Vector3d>& polygon) {
+  std::vector<Vector3d> result;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vector3d& a = polygon[i];
+    const Vector3d& b = polygon[(i + 1) % polygon.size()];
+    if (a.z() >= 0) {
+      result.push_back(a);
+    }
+    if ((a.z() >= 0) != (b.z() >= 0)) {
+      Vector3d crossing = (b.z() * a - a.z() * b) * (b.z() > a.z() ? 1 : -1);
+      crossing.z() = 0;
+      result.emplace_back(crossing.normalized());
+    }
+  }
+  return result;
+}
+
+/// The flat triangle's picture, and what the facet bulges beyond it: 1 - |p| at most.
+Bounds Orthographic::bounds(const Facet& f) {
+  const double bulge = 1 - std::sqrt(std::max(0.0, 1 - f.longest() / 3));
+  const auto [left, right] = std::minmax({f.a.x(), f.b.x(), f.c.x()});
+  const auto [bottom, top] = std::minmax({f.a.y(), f.b.y(), f.c.y()});
+  return {left - bulge, right + bulge, bottom - bulge, top + bulge};
+}
+
+/// Longitude is monotone along a great-circle arc, so its extremes are at corners, unless a pole is
+/// inside. The sine of latitude is p.y/|p| of the flat triangle's points.
+Bounds PlateCarree::bounds(const Facet& f) {
+  const double norm = std::sqrt(std::max(0.0, 1 - f.longest() / 3));
+  const auto latitude = [norm](double y, bool outwards) {
+    return outwards ? std::asin(std::min(1.0, std::abs(y) / std::max(norm, 1e-300)))
+                    : std::asin(std::min(1.0, std::abs(y)));
+  };
+  const auto [least, greatest] = std::minmax({f.a.y(), f.b.y(), f.c.y()});
+  Bounds bounds;
+  bounds.top = greatest > 0 ? latitude(greatest, true) : -latitude(greatest, false);
+  bounds.bottom = least < 0 ? -latitude(least, true) : latitude(least, false);
+  const bool north = holds_pole(f, 1);
+  const bool south = holds_pole(f, -1);
+  if (north || south) {
+    return {-half_width, half_width, south ? -half_height : bounds.bottom,
+            north ? half_height : bounds.top};
+  }
+  const double a = place(f.a).u;
+  const double b = a + longitude_step(f.a, f.b);
+  const double c = b + longitude_step(f.b, f.c);
+  const auto [left, right] = std::minmax({a, b, c});
+  return {left - fuzz, right + fuzz, bounds.bottom - fuzz, bounds.top + fuzz};
+}
+
+PlateCarree::Rays::Rays(int columns, int rows) {
+  for (int column = 0; column < columns; ++column) {
+    const double u = middle_of(column, columns, half_width);
+    columns_.push_back({std::sin(u), std::cos(u)});
+  }
+  for (int row = 0; row < rows; ++row) {
+    const double v = -middle_of(row, rows, half_height);
+    rows_.push_back({std::sin(v), std::cos(v)});
+  }
+}
+
+} // namespace calotte::tools

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "draw/painting.h"
+
+#include <cairo.h>
+
+namespace calotte::tools {
+
+/// Pixels of a map.
+struct MapSize {
+  int width = 0, height = 0;
+};
+
+/// The largest map that is so wide at most, and an even number of pixels wide and high.
+MapSize map_size(Projection projection, int width);
+
+/// The map in an image of this size, whose pixels average 1 to 16 samples each; a sample lies in
+/// exactly one shape, so no seam shows, and the cost hardly depends on the number of shapes.
+/// Transparent beyond the map.
+cairo_surface_t* raster_map(const Painting& painting, Projection projection, const MapSize& size);
+
+/// A field, evaluated at up to four samples a pixel.
+struct FieldPainting {
+  std::function<Eigen::VectorXd(const Points3& x)> values;
+  Scale scale;
+  Eigen::Matrix3d frame; ///< from places on the earth to directions of the scene
+};
+
+cairo_surface_t* raster_map(const FieldPainting& painting, Projection projection,
+                            const MapSize& size);
+
+} // namespace calotte::tools

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "draw/shapes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace calotte::tools {
+
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double degree = std::numbers::pi / 180;
+
+double arc(const Vector3d& a, const Vector3d& b) {
+  return 2 * std::atan2((a - b).norm(), (a + b).norm());
+}
+
+double flat_angle(const Vector3d& u, const Vector3d& v) {
+  return std::atan2(u.cross(v).norm(), u.dot(v));
+}
+
+/// The angle at `a` of the spherical triangle abc.
+double angle_at(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
+  const Vector3d u = a.cross(b);
+  const Vector3d v = a.cross(c);
+  return flat_angle(u, v);
+}
+
+/// The centre of the circle through a triangle's corners.
+Vector3d flat_circumcentre(const Corners& c) {
+  const Vector3d p = c.at[1] - c.at[0];
+  const Vector3d q = c.at[2] - c.at[0];
+  const Vector3d across = p.squaredNorm() * q - q.squaredNorm() * p;
+  return c.at[0] + Vector3d(across.y(), -across.x(), 0) / (2 * p.cross(q).z());
+}
+
+/// What follows from the sites' places: a triangle of each, and the circumcentres.
+void link(Scene& scene) {
+  const Mesh& mesh = *scene.mesh;
+  scene.triangle_of.assign(static_cast<std::size_t>(scene.sites.cols()), -1);
+  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
+    for (const std::int32_t site : mesh.triangles.col(t)) {
+      scene.triangle_of[static_cast<std::size_t>(site)] = static_cast<std::int32_t>(t);
+    }
+  }
+  if (scene.shapes != Shapes::cells) {
+    return;
+  }
+  scene.circumcentres.resize(3, mesh.triangles.cols());
+  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
+    const Corners c(scene, t);
+    scene.circumcentres.col(t) =
+        scene.flat ? flat_circumcentre(c)
+                   : direction_of(Vector3d((c.at[1] - c.at[0]).cross(c.at[2] - c.at[0])));
+  }
+}
+
+} // namespace
+
+Corners::Corners(const Scene& scene, Eigen::Index triangle)
+    : id(scene.mesh->triangles.col(triangle)), at{scene.sites.col(id[0]), scene.sites.col(id[1]),
+                                                  scene.sites.col(id[2])},
+      flat(scene.flat) {}
+
+double Corners::side(int i) const {
+  const Vector3d& a = at[i];
+  const Vector3d& b = at[(i + 1) % 3];
+  return flat ? (a - b).norm() : arc(a, b);
+}
+
+double Corners::smallest_angle() const {
+  const auto angle = [&](int i) {
+    const Vector3d& a = at[i];
+    const Vector3d& b = at[(i + 1) % 3];
+    const Vector3d& c = at[(i + 2) % 3];
+    return flat ? flat_angle(b - a, c - a) : angle_at(a, b, c);
+  };
+  return std::min({angle(0), angle(1), angle(2)});
+}
+
+double Corners::area() const {
+  if (flat) {
+    return (at[1] - at[0]).cross(at[2] - at[0]).norm() / 2;
+  }
+  const double volume = at[0].dot((at[1] - at[0]).cross(at[2] - at[0]));
+  return 2 * std::atan2(volume, 1 + at[0].dot(at[1]) + at[1].dot(at[2]) + at[2].dot(at[0]));
+}
+
+double Corners::quality() const {
+  const double a = side(0);
+  const double b = side(1);
+  const double c = side(2);
+  return (b + c - a) * (c + a - b) * (a + b - c) / (a * b * c);
+}
+
+bool around(const Scene& scene, std::int64_t site, const std::function<void(std::int32_t)>& visit) {
+  const std::int32_t first = scene.triangle_of[static_cast<std::size_t>(site)];
+  std::int32_t t = first;
+  while (t >= 0) {
+    visit(t);
+    int corner = 0;
+    while (scene.mesh->triangles(corner, t) != site) {
+      ++corner;
+    }
+    t = scene.mesh->neighbours((corner + 1) % 3, t);
+    if (t == first) {
+      return true;
+    }
+  }
+  return false;
+}
+
+Vector3d direction_of(const Vector3d& point) {
+  const double largest = point.cwiseAbs().maxCoeff();
+  return largest > 0 && std::isfinite(largest) ? Vector3d((point / largest).normalized())
+                                               : Vector3d(Vector3d::Zero());
+}
+
+Vector3d direction_of(const LonLat& place) {
+  const double lon = place.longitude * degree;
+  const double lat = place.latitude * degree;
+  return {std::cos(lat) * std::cos(lon), std::cos(lat) * std::sin(lon), std::sin(lat)};
+}
+
+Eigen::Matrix3d frame_of(const LonLat& view) {
+  const double lon = view.longitude * degree;
+  const double lat = view.latitude * degree;
+  Eigen::Matrix3d frame;
+  frame.row(0) << -std::sin(lon), std::cos(lon), 0;
+  frame.row(1) << -std::sin(lat) * std::cos(lon), -std::sin(lat) * std::sin(lon), std::cos(lat);
+  frame.row(2) = direction_of(view);
+  return frame;
+}
+
+Scene make_scene(const Mesh& mesh, Shapes shapes, const LonLat& view) {
+  Scene scene;
+  scene.mesh = &mesh;
+  scene.shapes = shapes == Shapes::triangles ? Shapes::triangles : Shapes::cells;
+  scene.frame = frame_of(view);
+  scene.sites.resize(3, mesh.points.cols());
+  for (Eigen::Index i = 0; i < mesh.points.cols(); ++i) {
+    scene.sites.col(i) = scene.frame * direction_of(Vector3d(mesh.points.col(i)));
+  }
+  link(scene);
+  return scene;
+}
+
+Scene make_flat_scene(const Mesh& mesh, Shapes shapes, const Points2& places) {
+  Scene scene;
+  scene.flat = true;
+  scene.mesh = &mesh;
+  scene.shapes = shapes == Shapes::triangles ? Shapes::triangles : Shapes::cells;
+  scene.sites = Points3::Zero(3, places.cols());
+  scene.sites.topRows<2>() = places;
+  link(scene);
+  return scene;
+}
+
+LonLat middle(const Mesh& mesh) {
+  Vector3d sum = Vector3d::Zero();
+  for (Eigen::Index i = 0; i < mesh.points.cols(); ++i) {
+    sum += direction_of(Vector3d(mesh.points.col(i)));
+  }
+  return {std::atan2(sum.y(), sum.x()) / degree,
+          std::atan2(sum.z(), std::hypot(sum.x(), sum.y())) / degree};
+}
+
+void outline_of(const Scene& scene, Shapes shapes, std::int64_t shape,
+                std::vector<Vector3d>& corners) {
+  corners.clear();
+  if (shapes == Shapes::triangles) {
+    for (const std::int32_t site : scene.mesh->triangles.col(shape)) {
+      corners.emplace_back(scene.sites.col(site));
+    }
+    return;
+  }
+  const auto add = [&](std::int32_t t) { corners.emplace_back(scene.circumcentres.col(t)); };
+  if (!around(scene, shape, add)) {
+    corners.clear();
+  }
+}
+
+std::vector<float> widths_of(const Scene& scene, Shapes shapes) {
+  const bool triangles = shapes == Shapes::triangles;
+  std::vector<double> areas(
+      static_cast<std::size_t>(triangles ? scene.mesh->triangles.cols() : scene.sites.cols()));
+  for (Eigen::Index t = 0; t < scene.mesh->triangles.cols(); ++t) {
+    const Corners corners(scene, t);
+    const double area =
+        0.5 * (corners.at[1] - corners.at[0]).cross(corners.at[2] - corners.at[0]).norm();
+    if (triangles) {
+      areas[static_cast<std::size_t>(t)] = area;
+      continue;
+    }
+    for (const int id : corners.id) {
+      areas[static_cast<std::size_t>(id)] += area / 3;
+    }
+  }
+  std::vector<float> widths(areas.size());
+  std::transform(areas.begin(), areas.end(), widths.begin(),
+                 [](double area) { return static_cast<float>(std::sqrt(area)); });
+  return widths;
+}
+
+} // namespace calotte::tools

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "draw/draw.h"
+
+#include <Eigen/Geometry>
+
+#include <functional>
+#include <vector>
+
+namespace calotte::tools {
+
+/// A mesh as it is seen: all points on the unit sphere, x to the right, y up, z to the viewer. Or
+/// all on a plane, z = 0.
+struct Scene {
+  bool flat = false;
+  Points3 sites;
+  Points3 circumcentres;                 ///< of the triangles, where there are cells
+  std::vector<std::int32_t> triangle_of; ///< for each site one of its triangles, or -1
+  const Mesh* mesh = nullptr;
+  Shapes shapes = Shapes::triangles;                   ///< that are filled: triangles or cells
+  Eigen::Matrix3d frame = Eigen::Matrix3d::Identity(); ///< from places on the earth
+
+  std::int64_t count() const { ///< shapes: triangles, or sites
+    return shapes == Shapes::cells ? sites.cols() : mesh->triangles.cols();
+  }
+};
+
+/// The mesh turned so that `view` comes to the middle, north up. Rounded: for pictures only.
+Scene make_scene(const Mesh& mesh, Shapes shapes, const LonLat& view);
+
+/// The same of a plane. \param mesh its triangles and neighbours; \param places of its sites.
+Scene make_flat_scene(const Mesh& mesh, Shapes shapes, const Points2& places);
+
+/// Its rows are the viewer's right, up and towards.
+Eigen::Matrix3d frame_of(const LonLat& view);
+
+/// The unit vector of a place on the earth.
+Eigen::Vector3d direction_of(const LonLat& place);
+
+/// Unit, for norms whose squares under- or overflow, too.
+Eigen::Vector3d direction_of(const Eigen::Vector3d& point);
+
+/// The middle of the sites: where to look at an open mesh from.
+LonLat middle(const Mesh& mesh);
+
+/// The corners of a triangle or, counter-clockwise, of a cell; none of a cell that is not closed.
+void outline_of(const Scene& scene, Shapes shapes, std::int64_t shape,
+                std::vector<Eigen::Vector3d>& corners);
+
+/// For each triangle or cell the side of a square of its area on the unit sphere, roughly.
+std::vector<float> widths_of(const Scene& scene, Shapes shapes);
+
+/// One triangle's corners, and what is measured of it.
+struct Corners {
+  Corners(const Scene& scene, Eigen::Index triangle);
+  double side(int i) const; ///< from corner i to the next
+  double smallest_angle() const;
+  double mean_side() const { return (side(0) + side(1) + side(2)) / 3; }
+  double area() const;    ///< steradians; of a plane, its units squared
+  double quality() const; ///< as Quality::triangle_quality
+
+  Eigen::Vector3i id;
+  Eigen::Vector3d at[3];
+  bool flat;
+};
+
+/// The triangles around a site, counter-clockwise, one call each; false when the star is open.
+bool around(const Scene& scene, std::int64_t site, const std::function<void(std::int32_t)>& visit);
+
+} // namespace calotte::tools

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "draw/scale.h"
+
+#include <cairo.h>
+
+#include <cstdint>
+#include <string>
+
+namespace calotte::tools {
+
+inline constexpr Rgb text_colour = {0.13, 0.15, 0.19};
+
+void set_colour(cairo_t* context, const Rgb& colour);
+
+/// The face of all text, in letters of this size.
+void select_font(cairo_t* context, double size);
+
+double text_width(cairo_t* context, const std::string& text);
+
+/// One line of text whose middle is at x.
+void centred_text(cairo_t* context, double x, double baseline, const std::string& text);
+
+/// One line of text whose middle is at x, in letters of this size or as small as the room needs.
+void fitted_text(cairo_t* context, double x, double baseline, const std::string& text, double size,
+                 double room);
+
+/// 2621442 as 2 621 442.
+std::string grouped(std::int64_t number);
+
+/// Whatever a file says or is called, as text that can be shown.
+std::string shown(const std::string& text);
+
+/// The same as marked text that has no marks.
+std::string unmarked(const std::string& text);
+
+/// Units as files have them in marked text: exponents, as in "m s-1", are raised.
+std::string unit_text(const std::string& units);
+
+/// The length of a line of marked text: `*h*` is in italics, `_{i}` lowered, `^{2}` raised.
+double marked_width(cairo_t* context, const std::string& text);
+
+/// One line of marked text.
+/// \param align the part of it that stands left of x: 0, 0.5 for its middle, 1.
+/// \return where it ends.
+double marked_text(cairo_t* context, double x, double baseline, const std::string& text,
+                   double align = 0);
+
+} // namespace calotte::tools

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "draw/values.h"
+
+#include <calotte/error.h>
+#include <calotte/voronoi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace calotte::tools {
+
+namespace {
+
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
+std::vector<bool> closed_stars(const Scene& scene) {
+  std::vector<bool> closed(static_cast<std::size_t>(scene.sites.cols()));
+  for (std::size_t i = 0; i < closed.size(); ++i) {
+    closed[i] = around(scene, static_cast<std::int64_t>(i), [](std::int32_t) {});
+  }
+  return closed;
+}
+
+/// Of a plane's open stars, too.
+std::vector<int> valences(const Scene& scene) {
+  std::vector<int> count(static_cast<std::size_t>(scene.sites.cols()));
+  for (Eigen::Index t = 0; t < scene.mesh->triangles.cols(); ++t) {
+    for (const std::int32_t site : scene.mesh->triangles.col(t)) {
+      ++count[static_cast<std::size_t>(site)];
+    }
+  }
+  if (scene.flat) {
+    const std::vector<bool> closed = closed_stars(scene);
+    for (std::size_t i = 0; i < count.size(); ++i) {
+      count[i] += closed[i] ? 0 : 1;
+    }
+  }
+  return count;
+}
+
+/// Of those of a triangle's corners, the one furthest from 6.
+int oddest_valence(const Corners& corners, const std::vector<int>& valence) {
+  int furthest = 6;
+  for (const int id : corners.id) {
+    const int v = valence[static_cast<std::size_t>(id)];
+    furthest = std::abs(v - 6) > std::abs(furthest - 6) ? v : furthest;
+  }
+  return furthest;
+}
+
+double triangle_value(const Corners& corners, Colouring colouring, const std::vector<int>& valence,
+                      const Eigen::VectorXd& by_site) {
+  switch (colouring) {
+  case Colouring::spacing:
+    return corners.mean_side();
+  case Colouring::angle:
+    return corners.smallest_angle();
+  case Colouring::area:
+    return corners.area();
+  case Colouring::quality:
+    return corners.quality();
+  case Colouring::density:
+  case Colouring::field:
+    return (by_site[corners.id[0]] + by_site[corners.id[1]] + by_site[corners.id[2]]) / 3;
+  case Colouring::valence:
+  case Colouring::none:
+    break;
+  }
+  return oddest_valence(corners, valence);
+}
+
+/// The mean distance to the neighbours: an edge is met in two triangles, or counts twice.
+std::vector<double> mean_distances(const Scene& scene) {
+  std::vector<double> sums(static_cast<std::size_t>(scene.sites.cols()));
+  std::vector<double> counts(sums.size());
+  for (Eigen::Index t = 0; t < scene.mesh->triangles.cols(); ++t) {
+    const Corners corners(scene, t);
+    for (int i = 0; i < 3; ++i) {
+      const double weight = scene.mesh->neighbours((i + 2) % 3, t) < 0 ? 2 : 1;
+      for (const int end : {corners.id[i], corners.id[(i + 1) % 3]}) {
+        sums[static_cast<std::size_t>(end)] += weight * corners.side(i);
+        counts[static_cast<std::size_t>(end)] += weight;
+      }
+    }
+  }
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    sums[i] /= counts[i];
+  }
+  return sums;
+}
+
+std::vector<double> smallest_angles(const Scene& scene) {
+  std::vector<double> values(static_cast<std::size_t>(scene.sites.cols()), std::numbers::pi);
+  for (Eigen::Index t = 0; t < scene.mesh->triangles.cols(); ++t) {
+    const Corners corners(scene, t);
+    const double smallest = corners.smallest_angle();
+    for (const int id : corners.id) {
+      double& value = values[static_cast<std::size_t>(id)];
+      value = std::min(value, smallest);
+    }
+  }
+  return values;
+}
+
+std::vector<double> as_vector(const Eigen::VectorXd& values) {
+  return {values.data(), values.data() + values.size()};
+}
+
+std::vector<double> tessellation_values(const Scene& scene, Colouring colouring) {
+  const bool area = colouring == Colouring::area;
+  if (!scene.mesh->closed()) {
+    throw Error(ErrorCode::bad_option,
+                std::string("the mesh has an open boundary, so that its cells have no ") +
+                    (area ? "area" : "quality") + "; colour its triangles, or cells by spacing");
+  }
+  const Voronoi tessellation = voronoi(*scene.mesh);
+  return as_vector(area ? tessellation.cell_area : cell_fields(tessellation).quality);
+}
+
+std::vector<double> cell_values(const Scene& scene, Colouring colouring,
+                                const std::vector<int>& valence, const Eigen::VectorXd& by_site) {
+  switch (colouring) {
+  case Colouring::spacing:
+    return mean_distances(scene);
+  case Colouring::angle:
+    return smallest_angles(scene);
+  case Colouring::area:
+  case Colouring::quality:
+    return tessellation_values(scene, colouring);
+  case Colouring::density:
+  case Colouring::field:
+    return as_vector(by_site);
+  case Colouring::valence:
+  case Colouring::none:
+    break;
+  }
+  return {valence.begin(), valence.end()};
+}
+
+} // namespace
+
+std::vector<double> values_of(const Scene& scene, Colouring colouring,
+                              const Eigen::VectorXd& by_site) {
+  const std::vector<int> valence = valences(scene);
+  if (scene.shapes == Shapes::cells) {
+    std::vector<double> values = cell_values(scene, colouring, valence, by_site);
+    if (scene.flat) {
+      return values;
+    }
+    const std::vector<bool> closed = closed_stars(scene);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      values[i] = closed[i] ? values[i] : nothing;
+    }
+    return values;
+  }
+  std::vector<double> values(static_cast<std::size_t>(scene.count()));
+  for (std::size_t t = 0; t < values.size(); ++t) {
+    const Corners corners(scene, static_cast<Eigen::Index>(t));
+    values[t] = triangle_value(corners, colouring, valence, by_site);
+  }
+  return values;
+}
+
+} // namespace calotte::tools

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "draw/shapes.h"
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace calotte::tools {
+
+/// For each shape the quantity that colours it, NaN where there is none (an open cell
+/// of the sphere; a plane's are closed by its domain).
+/// \param by_site for Colouring::density and field: n values.
+/// \throws Error bad_option, for the area or quality of cells of an open mesh.
+std::vector<double> values_of(const Scene& scene, Colouring colouring,
+                              const Eigen::VectorXd& by_site = {});
+
+} // namespace calotte::tools

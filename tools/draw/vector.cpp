@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "draw/vector.h"
+
+#include "draw/projection.h"
+#include "draw/text.h"
+
+namespace calotte::tools {
+
+namespace {
+
+constexpr double tolerance = 0.1; ///< pixels that a chord may be off its arc
+
+/// A line on a map, not broken at the seam: places beyond it stand for those a period away.
+using Way = std::vector<Place>;
+
+/// Of the places that stand for a direction, that nearest to another. Of a pole, and of what
+/// rounding cannot tell from it, all longitudes are one.
+template <class Map> Place place_near(const Vector3d& p, const Place& other) {
+  Place place = Map::place(p);
+  if constexpr (Map::period != 0) {
+    const bool pole = std::hypot(p.x(), p.z()) < 1e-9;
+    place.u = pole ? other.u : other.u + std::remainder(place.u - other.u, Map::period);
+  }
+  return place;
+}
+
+/// Adds the great-circle arc from a, whose place ends the way, to b.
+template <class Map>
+void add_arc(Way& way, const Vector3d& a, const Vector3d& b, double scale, int depth = 0) {
+  const Place from = way.back();
+  const Vector3d sum = a + b;
+  if (sum.norm() < 1e-9) {
+    return;
+  }
+  const Vector3d middle = sum.normalized();
+  const Place halfway = place_near<Map>(middle, from);
+  const Place to = place_near<Map>(b, halfway);
+  const double off = std::hypot((from.u + to.u) / 2 - halfway.u, (from.v + to.v) / 2 - halfway.v);
+  const bool straight = (a - b).squaredNorm() < 0.02 && off * scale < tolerance;
+  if (straight || depth == 12) {
+    if (Map::period != 0 && std::hypot(a.x(), a.z()) < 1e-9) {
+      way.push_back({to.u, from.v}); // along the pole
+    }
+    way.push_back(to);
+    return;
+  }
+  add_arc<Map>(way, a, middle, scale, depth + 1);
+  add_arc<Map>(way, middle, b, scale, depth + 1);
+}
+
+/// Around a polygon, back to its first corner or to a place a period away.
+template <class Map> Way way_around(const std::vector<Vector3d>& polygon, double scale) {
+  Way way;
+  if (!polygon.empty()) {
+    way.push_back(Map::place(polygon.front()));
+  }
+  if constexpr (std::is_same_v<Map, Flat>) {
+    for (std::size_t i = 1; i < polygon.size(); ++i) {
+      way.push_back(Map::place(polygon[i]));
+    }
+    return way;
+  }
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    add_arc<Map>(way, polygon[i], polygon[(i + 1) % polygon.size()], scale);
+  }
+  return way;
+}
+
+/// How often the way runs around the map: 1 counter-clockwise around the north pole.
+template <class Map> int turns_of(const Way& way) {
+  return Map::period == 0 || way.empty()
+             ? 0
+             : static_cast<int>(std::lround((way.back().u - way.front().u) / Map::period));
+}
+
+void add_path(cairo_t* context, const Way& way, double scale, double shift) {
+  cairo_new_sub_path(context);
+  for (const Place& place : way) {
+    cairo_line_to(context, scale * (place.u + shift), -scale * place.v);
+  }
+}
+
+/// Adds the way as often as the map shows it.
+template <class Map> void add_copies(cairo_t* context, const Way& way, double scale, bool close) {
+  const auto by_u = [](const Place& a, const Place& b) { return a.u < b.u; };
+  const auto [left, right] = std::minmax_element(way.begin(), way.end(), by_u);
+  for (const double shift : {-Map::period, 0.0, Map::period}) {
+    if (way.empty() || (Map::period == 0 && shift != 0) || left->u + shift > Map::half_width ||
+        right->u + shift < -Map::half_width) {
+      continue;
+    }
+    add_path(context, way, scale, shift);
+    if (close) {
+      cairo_close_path(context);
+    }
+    if (Map::period == 0) {
+      return;
+    }
+  }
+}
+
+/// What a polygon encloses: around a pole, all between its outline and the map's edge.
+template <class Map>
+void add_inside(cairo_t* context, const std::vector<Vector3d>& polygon, double scale) {
+  Way way = way_around<Map>(Map::clipped(polygon), scale);
+  if (const int turns = turns_of<Map>(way); turns != 0) {
+    const double pole = turns > 0 ? Map::half_height : -Map::half_height;
+    way.push_back({way.back().u, pole});
+    way.push_back({way.front().u, pole});
+  }
+  add_copies<Map>(context, way, scale, true);
+}
+
+template <class Map>
+void add_outline(cairo_t* context, const std::vector<Vector3d>& polygon, double scale) {
+  const Way way = way_around<Map>(Map::clipped(polygon), scale);
+  add_copies<Map>(context, way, scale, turns_of<Map>(way) == 0);
+}
+
+template <class Map>
+void fill_layer(cairo_t* context, const Painting& painting, const Layer& layer, double scale) {
+  for_each_visible<Map>(painting, layer,
+                        [&](std::size_t shape, const std::vector<Vector3d>& corners) {
+                          set_colour(context, painting.scale.colour(painting.values[shape]));
+                          add_inside<Map>(context, corners, scale);
+                          cairo_fill_preserve(context);
+                          // closes the seams that antialiasing leaves between fills
+                          cairo_set_line_width(context, 0.4);
+                          cairo_stroke(context);
+                        });
+}
+
+template <class Map>
+void stroke_layer(cairo_t* context, const Painting& painting, const Layer& layer, double scale) {
+  for_each_visible<Map>(painting, layer,
+                        [&](std::size_t shape, const std::vector<Vector3d>& corners) {
+                          const Line line = layer.line(shape, scale, Map::height(corners));
+                          if (line.alpha > 0) {
+                            add_outline<Map>(context, corners, scale);
+                            // Two shapes draw a shared side, each with half of the strength.
+                            cairo_set_source_rgba(context, line.colour.r, line.colour.g,
+                                                  line.colour.b, 1 - std::sqrt(1 - line.alpha));
+                            cairo_set_line_width(context, line.width);
+                            cairo_stroke(context);
+                          }
+                        });
+}
+
+template <class Map> void draw_layers(cairo_t* context, const Painting& painting, double scale) {
+  for (const Layer& layer : layers_of(painting)) {
+    if (layer.filled) {
+      fill_layer<Map>(context, painting, layer, scale);
+    }
+    stroke_layer<Map>(context, painting, layer, scale);
+  }
+}
+
+template <class Map> std::int64_t count_visible(const Painting& painting) {
+  std::int64_t count = 0;
+  for (const Layer& layer : layers_of(painting)) {
+    for_each_visible<Map>(painting, layer,
+                          [&](std::size_t, const std::vector<Vector3d>&) { ++count; });
+  }
+  return count;
+}
+
+// ---- Graticule
+
+/// The line through places on the earth, where the map shows it.
+template <class Map>
+void add_places(cairo_t* context, const Eigen::Matrix3d& frame, const std::vector<LonLat>& places,
+                double scale) {
+  Way way;
+  const auto flush = [&] {
+    add_copies<Map>(context, way, scale, false);
+    way.clear();
+  };
+  for (const LonLat& lonlat : places) {
+    const Vector3d p = frame * direction_of(lonlat);
+    if (!Map::shows(p)) {
+      flush();
+      continue;
+    }
+    way.push_back(way.empty() ? Map::place(p) : place_near<Map>(p, way.back()));
+  }
+  flush();
+}
+
+template <class Map>
+void add_graticule(cairo_t* context, const Eigen::Matrix3d& frame, double scale) {
+  for (int line = -180; line < 180; line += graticule_step) {
+    std::vector<LonLat> meridian;
+    std::vector<LonLat> parallel;
+    for (int at = -180; at <= 180; ++at) {
+      meridian.push_back({1.0 * line, at / 2.0 * 0.999}); // short of the poles
+      parallel.push_back({1.0 * at, 1.0 * line});
+    }
+    add_places<Map>(context, frame, meridian, scale);
+    if (std::abs(line) < 90) {
+      add_places<Map>(context, frame, parallel, scale);
+    }
+  }
+}
+
+} // namespace
+
+std::int64_t visible_shapes(const Painting& painting, Projection projection) {
+  return with_map(projection, [&]<class Map>() { return count_visible<Map>(painting); });
+}
+
+void add_border(cairo_t* context, Projection projection, double width) {
+  if (projection == Projection::globe) {
+    cairo_new_sub_path(context);
+    cairo_arc(context, 0, 0, width / 2, 0, 2 * std::numbers::pi);
+  } else {
+    cairo_rectangle(context, -width / 2, -width / 4, width, width / 2);
+  }
+}
+
+void vector_map(cairo_t* context, const Painting& painting, Projection projection, double width) {
+  cairo_save(context);
+  cairo_set_line_join(context, CAIRO_LINE_JOIN_ROUND);
+  add_border(context, projection, width);
+  set_colour(context, globe_colour);
+  cairo_fill_preserve(context);
+  cairo_clip(context);
+  with_map(projection, [&]<class Map>() {
+    draw_layers<Map>(context, painting, width / (2 * Map::half_width));
+  });
+  cairo_restore(context);
+}
+
+void flat_map(cairo_t* context, const Painting& painting, double scale) {
+  cairo_save(context);
+  cairo_set_line_join(context, CAIRO_LINE_JOIN_ROUND);
+  draw_layers<Flat>(context, painting, scale);
+  cairo_restore(context);
+}
+
+void draw_graticule(cairo_t* context, const Eigen::Matrix3d& frame, Projection projection,
+                    double width, double line) {
+  cairo_save(context);
+  add_border(context, projection, width);
+  cairo_clip(context);
+  with_map(projection,
+           [&]<class Map>() { add_graticule<Map>(context, frame, width / (2 * Map::half_width)); });
+  // Light about dark, to be seen on any ground.
+  cairo_set_source_rgba(context, 1, 1, 1, 0.2);
+  cairo_set_line_width(context, 2.2 * line);
+  cairo_stroke_preserve(context);
+  cairo_set_source_rgba(context, 0, 0, 0, 0.35);
+  cairo_set_line_width(context, line);
+  cairo_stroke(context);
+  cairo_restore(context);
+}
+
+} // namespace calotte::tools

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "draw/painting.h"
+
+#include <cairo.h>
+
+namespace calotte::tools {
+
+/// Shapes that are on the map at least in part.
+std::int64_t visible_shapes(const Painting& painting, Projection projection);
+
+/// The map's outline as a path around the origin: the limb, or a rectangle.
+void add_border(cairo_t* context, Projection projection, double width);
+
+/// The map in paths, so wide, around the origin; the current transformation must be the identity
+/// but for a translation.
+void vector_map(cairo_t* context, const Painting& painting, Projection projection, double width);
+
+/// A flat scene in paths, so many pixels in its unit, around the origin, within the clip path.
+void flat_map(cairo_t* context, const Painting& painting, double scale);
+
+inline constexpr int graticule_step = 30; ///< degrees
+
+/// Faint meridians and parallels.
+/// \param frame from places on the earth to directions of the scene.
+/// \param line their width in pixels.
+void draw_graticule(cairo_t* context, const Eigen::Matrix3d& frame, Projection projection,
+                    double width, double line);
+
+} // namespace calotte::tools

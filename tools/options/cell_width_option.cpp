@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "options/cell_width_option.h"
+
+#include "commands.h"
+
+#include <calotte/error.h>
+
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <system_error>
+
+namespace calotte::tools {
+namespace {
+
+[[noreturn]] void refuse(const std::string& problem) {
+  throw Error(ErrorCode::bad_option, problem);
+}
+
+std::string formatted(const char* format, double value) {
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), format, value);
+  return text.data();
+}
+
+std::string exactly(double value) {
+  std::array<char, 32> text{};
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
+}
+
+/// "12.5 E 48.2 S".
+std::string place(const Gradient& gradient) {
+  return formatted("%.1f", std::abs(gradient.longitude)) +
+         (gradient.longitude < 0 ? " W " : " E ") + formatted("%.1f", std::abs(gradient.latitude)) +
+         (gradient.latitude < 0 ? " S" : " N");
+}
+
+/// A number of km, for an option's check.
+CLI::Validator kilometres() {
+  return {[](std::string& text) -> std::string {
+            double value = 0;
+            const char* const end = text.data() + text.size();
+            const auto [stop, problem] = std::from_chars(text.data(), end, value);
+            const bool good =
+                problem == std::errc() && stop == end && value > 0 && std::isfinite(value);
+            return good ? "" : "\"" + text + "\" is no positive number; give km";
+          },
+          "KM"};
+}
+
+bool is_geojson(const std::string& path) {
+  const std::string suffix = std::filesystem::path(path).extension();
+  return suffix == ".geojson" || suffix == ".json";
+}
+
+} // namespace
+
+void add_cell_width(CLI::App& command, WidthWords& words, CLI::Option* density) {
+  CLI::Option* const file =
+      command
+          .add_option(
+              "--cell-width", words.file,
+              "instead of a density, how wide cells shall be: a NetCDF raster cellWidth(lat, "
+              "lon) in km (.nc), JIGSAW's spacings (.msh), or polygons (.geojson)")
+          ->type_name("FILE")
+          ->excludes(density);
+  const auto add = [&](const std::string& name, std::optional<double>& value,
+                       const std::string& help) {
+    command.add_option(name, value, help)->check(kilometres())->needs(file);
+  };
+  add("--inside-width", words.inside,
+      "the width within polygons that have no property cellWidth, in km");
+  add("--outside-width", words.outside, "the width outside all polygons, in km");
+  add("--transition", words.transition,
+      "over how many km from a polygon's boundary outwards the width changes");
+  command.add_option("--earth-radius", words.radius, "of the sphere that widths are on, in km")
+      ->check(kilometres())
+      ->needs(file)
+      ->capture_default_str();
+  command
+      .add_option("--density-raster", words.raster,
+                  "instead of --density, a NetCDF raster density(lat, lon)")
+      ->type_name("FILE")
+      ->excludes(density)
+      ->excludes(file);
+}
+
+CellWidth read_widths(const WidthWords& words) {
+  if (!words.raster.empty())
+    return read_density_raster(words.raster);
+  if (!is_geojson(words.file))
+    for (const auto& [value, name] : {std::pair{words.inside, "--inside-width"},
+                                      {words.outside, "--outside-width"},
+                                      {words.transition, "--transition"}})
+      if (value)
+        refuse(words.file + " holds no polygons; leave " + name + " out");
+  return read_cell_width(words.file, {.inside = words.inside.value_or(0),
+                                      .outside = words.outside.value_or(0),
+                                      .transition = words.transition.value_or(0),
+                                      .radius = words.radius});
+}
+
+std::string width_configuration(const WidthWords& words) {
+  if (!words.raster.empty())
+    return "density-raster of " + checksum_of(words.raster) + "\n";
+  std::string text = "cell-width of " + checksum_of(words.file) + "\n";
+  const auto add = [&](const std::string& name, const std::optional<double>& value) {
+    if (value)
+      text += name + " " + exactly(*value) + "\n";
+  };
+  add("inside-width", words.inside);
+  add("outside-width", words.outside);
+  add("transition", words.transition);
+  add("earth-radius", words.radius);
+  return text;
+}
+
+std::vector<std::string> notes_on(const CellWidth& widths, const WidthWords& words,
+                                  std::optional<std::int64_t> cells) {
+  constexpr double steep = 0.03;
+  const double implied = implied_cells(widths, words.radius);
+  std::vector<std::string> notes{
+      words.file + ": cells " + formatted("%.4g", widths.widths.minCoeff()) + " to " +
+      formatted("%.4g", widths.widths.maxCoeff()) + " km wide, on " +
+      std::to_string(widths.longitudes.size()) + " x " + std::to_string(widths.latitudes.size()) +
+      " nodes, ask for " + formatted("%.0f", implied) + " cells"};
+  const double scale = cells ? std::sqrt(implied / static_cast<double>(*cells)) : 1;
+  if (std::abs(scale - 1) > 0.01)
+    notes.front() += "; with " + std::to_string(*cells) + " they are " + formatted("%.3g", scale) +
+                     " times as wide";
+  const Gradient gradient = largest_gradient(widths, words.radius);
+  const std::string slope = formatted("%.2g", gradient.slope);
+  notes.front() += "; their width changes by at most " + slope + " km a km";
+  if (gradient.slope > steep)
+    notes.push_back("warning: the width of cells changes by " + slope + " km a km at " +
+                    place(gradient) +
+                    ", where models want at most 0.03; make the transition wider");
+  return notes;
+}
+
+std::int64_t cells_for(const CellWidth& widths, const WidthWords& words, bool bisected) {
+  constexpr double fewest = 12, most = 1 << 30;
+  constexpr std::int64_t coarsest = 642; // see continuation()
+  const double implied = std::round(implied_cells(widths, words.radius));
+  if (!(implied >= fewest && implied <= most))
+    refuse("--cells auto: " + words.file + " asks for " + formatted("%.4g", implied) +
+           " cells, and a grid has from 12 to 1073741824; are its widths in km?");
+  const auto cells = static_cast<std::int64_t>(implied);
+  std::int64_t parts = 1; // of a coarse grid's cell
+  while (bisected && (cells - 2) / (4 * parts) >= coarsest - 2)
+    parts *= 4;
+  return (cells - 2 + parts / 2) / parts * parts + 2;
+}
+
+} // namespace calotte::tools

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "options/config_file.h"
+
+#include <calotte/error.h>
+
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+namespace calotte::tools {
+namespace {
+
+/// The bytes of a file. \throws Error file.
+std::string read_text(const std::string& path) {
+  if (std::error_code error; std::filesystem::is_directory(path, error))
+    throw Error(ErrorCode::file,
+                "cannot read " + path + ": it is a folder; give the name of a file");
+  std::ifstream in(path, std::ios::binary);
+  if (!in)
+    throw Error(ErrorCode::file, "cannot read " + path + ": " +
+                                     std::generic_category().message(errno) +
+                                     "; check its name and its permissions");
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+[[noreturn]] void refuse(const std::string& path, std::int64_t line, const std::string& problem) {
+  throw Error(ErrorCode::parse, path + " line " + std::to_string(line) + ": " + problem, line);
+}
+
+toml::table parse(const std::string& path) {
+  try {
+    return toml::parse(read_text(path), path);
+  } catch (const toml::parse_error& error) {
+    refuse(path, error.source().begin.line,
+           std::string(error.description()) + "; write key = value, with text in quotes");
+  }
+}
+
+template <class Number> std::string shortest(Number value) {
+  char digits[32];
+  return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
+}
+
+/// Makes settings of a file's nodes.
+class Reader {
+public:
+  explicit Reader(const std::string& path) : path_(path) {}
+
+  std::vector<ConfigSetting> settings(const toml::table& root) {
+    add(root, nullptr);
+    std::stable_sort(settings_.begin(), settings_.end(),
+                     [](const auto& a, const auto& b) { return a.line < b.line; });
+    return std::move(settings_);
+  }
+
+private:
+  /// \param group the name of the table, or none for the whole file.
+  void add(const toml::table& table, const toml::key* group) {
+    for (const auto& [key, node] : table) {
+      const std::int64_t line = key.source().begin.line;
+      const std::string name(key.str());
+      if (const toml::table* inner = node.as_table()) {
+        if (group)
+          refuse(path_, line,
+                 "table " + name + " stands within table " + std::string(group->str()) +
+                     "; tables group keys one deep, leave the inner one out");
+        add(*inner, &key);
+      } else if (const toml::array* array = node.as_array()) {
+        settings_.push_back({name, line, values(name, line, *array)});
+      } else {
+        settings_.push_back({name, line, {value(name, line, node)}});
+      }
+    }
+  }
+
+  std::vector<ConfigValue> values(const std::string& name, std::int64_t line,
+                                  const toml::array& array) const {
+    std::vector<ConfigValue> list;
+    for (const toml::node& node : array)
+      list.push_back(value(name, line, node));
+    if (list.empty())
+      refuse(path_, line, name + " is an empty array; leave it out");
+    return list;
+  }
+
+  ConfigValue value(const std::string& name, std::int64_t line, const toml::node& node) const {
+    using Kind = ConfigValue::Kind;
+    if (const auto* truth = node.as_boolean())
+      return {Kind::truth, truth->get() ? "true" : "false"};
+    if (const auto* integer = node.as_integer())
+      return {Kind::number, shortest(integer->get())};
+    if (const auto* number = node.as_floating_point())
+      return {Kind::number, shortest(number->get())};
+    if (const auto* text = node.as_string())
+      return {Kind::text, text->get()};
+    const std::string what = node.is_table()   ? "a table"
+                             : node.is_array() ? "an array"
+                                               : "a date or time";
+    refuse(path_, line,
+           name + " holds " + what +
+               "; give text in quotes, a number, true or false, "
+               "or an array of texts or numbers");
+  }
+
+  const std::string& path_;
+  std::vector<ConfigSetting> settings_;
+};
+
+} // namespace
+
+std::vector<ConfigSetting> read_config(const std::string& path) {
+  return Reader(path).settings(parse(path));
+}
+
+} // namespace calotte::tools

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "options/config_option.h"
+
+#include "options/config_file.h"
+#include "options/config_names.h"
+
+#include <calotte/error.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <sstream>
+#include <vector>
+
+namespace calotte::tools {
+namespace {
+
+using Kind = ConfigValue::Kind;
+
+// ---- What an option takes
+
+bool is_flag(const CLI::Option& option) { return option.get_expected_min() == 0; }
+
+/// The words of its type without those on its values: FLOAT, FILE, sample|FILE.
+std::string type_of(const CLI::Option& option) {
+  const std::string name = option.get_type_name();
+  return name.substr(0, name.find(':'));
+}
+
+bool takes_file(const CLI::Option& option) { return type_of(option).ends_with("FILE"); }
+
+/// Whether a number in its place is a mistake.
+bool takes_text_alone(const CLI::Option& option) {
+  const std::string name = option.get_type_name();
+  return takes_file(option) || name == "TEXT" || name.starts_with("TEXT:{");
+}
+
+std::string kind_of(const CLI::Option& option) {
+  const std::string type = type_of(option);
+  if (type == "FLOAT")
+    return "a number";
+  if (type == "INT" || type == "UINT")
+    return "a whole number";
+  return takes_text_alone(option) ? "text in quotes" : "a number or text in quotes";
+}
+
+/// What is wrong with the kinds and the number of values that an option is given, "" for nothing.
+std::string mismatch(const CLI::Option& option, const std::vector<ConfigValue>& values) {
+  const auto of_kind = [&](Kind kind) {
+    return std::any_of(values.begin(), values.end(),
+                       [&](const ConfigValue& value) { return value.kind == kind; });
+  };
+  if (is_flag(option))
+    return values.size() == 1 && values[0].kind == Kind::truth ? "" : "takes true or false";
+  if (of_kind(Kind::truth))
+    return "takes " + kind_of(option) + ", not true or false";
+  if (of_kind(Kind::number) && takes_text_alone(option))
+    return "takes text in quotes, not a number";
+  if (values.size() > static_cast<std::size_t>(option.get_items_expected_max()))
+    return "takes one value, and the array has " + std::to_string(values.size()) +
+           "; leave one of them";
+  return "";
+}
+
+/// A word that an option takes in the place of a file.
+bool is_word(const CLI::Option& option, const std::string& value) {
+  std::istringstream words(type_of(option));
+  for (std::string word; std::getline(words, word, '|');)
+    if (word == value)
+      return true;
+  return value == "-";
+}
+
+/// \param folder where files are sought from.
+void give(CLI::Option& option, const std::vector<ConfigValue>& values,
+          const std::filesystem::path& folder) {
+  for (const ConfigValue& value : values) {
+    const bool file = takes_file(option) && !is_word(option, value.text);
+    option.add_result(file ? (folder / value.text).string() : value.text);
+  }
+  option.run_callback();
+}
+
+// ---- Names
+
+/// The option of a name, unless it is none for files.
+CLI::Option* option_of(CLI::App& command, const std::string& name) {
+  CLI::Option* option = command.get_option_no_throw("--" + name);
+  return option && option->get_configurable() ? option : nullptr;
+}
+
+const BorrowedName* borrowed_of(CLI::App& command, const std::string& key) {
+  for (const BorrowedName& borrowed : borrowed_names())
+    if (hyphenated(borrowed.name) == key && option_of(command, borrowed.options.front()))
+      return &borrowed;
+  return nullptr;
+}
+
+std::vector<std::string> known_names(CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options({}))
+    if (option->get_configurable())
+      names.insert(names.end(), option->get_lnames().begin(), option->get_lnames().end());
+  for (const BorrowedName& borrowed : borrowed_names())
+    if (option_of(command, borrowed.options.front()))
+      names.push_back(borrowed.name);
+  return names;
+}
+
+// ---- The file
+
+/// Gives a command's options what a file says of them.
+class Application {
+public:
+  Application(CLI::App& command, const std::string& path)
+      : command_(command), path_(path), folder_(std::filesystem::path(path).parent_path()) {
+    for (CLI::Option* option : command.get_options())
+      if (!option->empty())
+        given_.insert(option);
+  }
+
+  void apply(const ConfigSetting& setting) {
+    const std::string key = hyphenated(setting.key);
+    if (const BorrowedName* borrowed = borrowed_of(command_, key)) {
+      const std::vector<ConfigValue> values = translated(setting, *borrowed);
+      for (const std::string& name : borrowed->options)
+        apply(setting, values, *option_of(command_, name));
+    } else if (CLI::Option* option = option_of(command_, key)) {
+      apply(setting, setting.values, *option);
+    } else {
+      const std::string nearest = nearest_name(key, known_names(command_));
+      refuse(setting, "unknown option \"" + setting.key + "\"; " +
+                          (nearest.empty() ? "see" : "did you mean " + nearest + "? See") +
+                          " calotte " + command_.get_name() + " --help");
+    }
+  }
+
+private:
+  [[noreturn]] void refuse(const ConfigSetting& setting, const std::string& problem) const {
+    throw Error(ErrorCode::bad_option,
+                path_ + " line " + std::to_string(setting.line) + ": " + problem, setting.line);
+  }
+
+  std::vector<ConfigValue> translated(const ConfigSetting& setting,
+                                      const BorrowedName& borrowed) const {
+    std::vector<ConfigValue> values = setting.values;
+    if (borrowed.values.empty())
+      return values;
+    for (ConfigValue& value : values) {
+      const std::string ours = borrowed.ours(value.text);
+      if (ours.empty())
+        refuse(setting, setting.key + " " + value.text + " is not one of " + borrowed.known() +
+                            (borrowed.others.empty() ? "" : "; " + borrowed.others));
+      value = {Kind::text, ours};
+    }
+    return values;
+  }
+
+  bool given(const CLI::Option* option) const { return given_.contains(option); }
+
+  /// Whether the command line has given one that the option excludes.
+  bool excluded(const CLI::Option* option) const {
+    const std::set<CLI::Option*> others = option->get_excludes();
+    return std::any_of(others.begin(), others.end(), [&](auto* other) { return given(other); });
+  }
+
+  /// Whether the command line has given the option, or rules it or one that it needs out.
+  bool overruled(const CLI::Option& option) const {
+    const std::set<CLI::Option*> needed = option.get_needs();
+    return given(&option) || excluded(&option) ||
+           std::any_of(needed.begin(), needed.end(),
+                       [&](auto* other) { return !given(other) && excluded(other); });
+  }
+
+  void apply(const ConfigSetting& setting, const std::vector<ConfigValue>& values,
+             CLI::Option& option) {
+    const auto [earlier, fresh] = lines_.emplace(&option, setting.line);
+    if (!fresh)
+      refuse(setting, option.get_lnames().front() + " is given twice, on line " +
+                          std::to_string(earlier->second) + ", too; leave one of them out");
+    if (const std::string problem = mismatch(option, values); !problem.empty())
+      refuse(setting, setting.key + " " + problem);
+    if (overruled(option) || (is_flag(option) && values[0].text == "false"))
+      return;
+    try {
+      give(option, values, folder_);
+    } catch (const CLI::ParseError& error) {
+      refuse(setting, error.what());
+    }
+  }
+
+  CLI::App& command_;
+  const std::string& path_;
+  std::filesystem::path folder_;
+  std::set<const CLI::Option*> given_;               ///< by the command line
+  std::map<const CLI::Option*, std::int64_t> lines_; ///< of those that the file gives
+};
+
+} // namespace
+
+std::shared_ptr<std::string> add_config(CLI::App& command) {
+  auto path = std::make_shared<std::string>();
+  command
+      .add_option_function<std::string>(
+          "--config",
+          [&command, path](const std::string& file) {
+            *path = file;
+            Application application(command, file);
+            for (const ConfigSetting& setting : read_config(file))
+              application.apply(setting);
+          },
+          "a TOML file of these options by their long names; the command line wins; files are "
+          "sought from its folder")
+      ->type_name("FILE")
+      ->configurable(false);
+  return path;
+}
+
+} // namespace calotte::tools

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "options/cvt_configuration.h"
+
+#include "commands.h"
+
+#include <sstream>
+
+namespace calotte::tools {
+
+std::string configuration_of(const CvtRequest& request, const CvtOptions& options,
+                             const CvtStart& start) {
+  std::string text = "calotte " CALOTTE_VERSION "\n" + start.configuration;
+  const auto add = [&](const std::string& name, const std::string& value) {
+    text += name + " " + value + "\n";
+  };
+  text += density_configuration(*request.density);
+  add("method", request.method);
+  if (options.method == Method::lloyd)
+    add("relaxation", shortest(request.relaxation));
+  if (request.iterations) {
+    add("iterations", std::to_string(*request.iterations));
+  } else {
+    add("norm", request.norm);
+    add("tolerance", shortest(request.tolerance));
+    add("max-iterations", std::to_string(request.max_iterations));
+  }
+  if (!options.density.uniform()) {
+    add("rule", std::to_string(request.rule));
+    add("final-rule", std::to_string(request.final_rule));
+    add("triangle-divisions", std::to_string(request.triangle_divisions));
+  }
+  add("duplicates", request.partition->duplicates);
+  add("merge-within", shortest(request.partition->merge_within));
+  return text;
+}
+
+std::string history_of(const std::string& configuration) {
+  std::istringstream lines(configuration);
+  std::string history, fact;
+  std::getline(lines, history); // "calotte VERSION"
+  history += " cvt";
+  for (const char* separator = ": "; std::getline(lines, fact); separator = "; ")
+    history += separator + fact;
+  return history;
+}
+
+} // namespace calotte::tools

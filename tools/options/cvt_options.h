@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "options/cvt_request.h"
+
+#include <CLI/CLI.hpp>
+
+#include <memory>
+
+namespace calotte::tools {
+
+/// Adds all options of `calotte cvt`.
+std::shared_ptr<CvtRequest> add_cvt_options(CLI::App& command);
+
+} // namespace calotte::tools

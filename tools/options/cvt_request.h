@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "options/density_option.h"
+#include "options/domain_option.h"
+#include "options/format_options.h"
+#include "options/partition_options.h"
+
+#include <calotte/cvt.h>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace calotte::tools {
+
+/// What the options of `calotte cvt` say.
+struct CvtRequest {
+  std::string points; ///< the file of the start, or none
+  bool lonlat = false;
+  std::shared_ptr<DomainWords> domain; ///< of a plane, where one is given
+  std::optional<int> cells;            ///< of the result
+  bool cells_of_widths = false;        ///< --cells auto: those that the cell widths ask for
+  std::optional<std::string> start;    ///< default continuation, in the plane density
+  std::optional<std::uint64_t> seed;
+  std::optional<int> bisections;
+
+  std::shared_ptr<DensityWords> density;
+  std::string method = "auto";
+  double relaxation = 1;
+  std::string norm = "l2-scaled";
+  double tolerance = CvtOptions{}.tolerance;
+  int max_iterations = CvtOptions{}.max_iterations;
+  std::optional<int> iterations;
+  int rule = CvtOptions{}.rule, final_rule = CvtOptions{}.final_rule;
+  int triangle_divisions = CvtOptions{}.triangle_divisions;
+  std::shared_ptr<PartitionWords> partition;
+
+  std::shared_ptr<FormatWords> format;
+  std::string mesh, report;
+  std::string checkpoint, resume;
+  int checkpoint_every = 100;
+  double checkpoint_minutes = 10;
+  std::shared_ptr<std::string> config;
+};
+
+/// Whether it is a run in the plane.
+inline bool planar(const CvtRequest& request) { return request.domain->given(); }
+
+/// The word of --norm, "none" for a run of --iterations.
+std::string norm_word(const CvtRequest& request);
+
+/// All but the bisections, which belong to the start, and the density.
+/// \throws Error bad_option.
+CvtOptions options_of(const CvtRequest& request);
+
+} // namespace calotte::tools

@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "options/density_option.h"
+
+#include <calotte/error.h>
+#include <calotte/io.h>
+#include <calotte/planar_raster.h>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <sstream>
+#include <string_view>
+
+namespace calotte::tools {
+namespace {
+
+/// How a bump is written on the sphere, or in the plane.
+struct Grammar {
+  const char* example;
+  std::array<const char*, 5> needed;
+  std::array<const char*, 2> further; ///< of an ellipse: both or none
+};
+
+constexpr const char* example = "tanh:lon=270,lat=30,beta=30deg,alpha=0.20,gamma=x8";
+constexpr Grammar on_sphere{
+    example, {"lon", "lat", "beta", "alpha", "gamma"}, {"stretch", "azimuth"}};
+constexpr Grammar in_plane{"tanh:x=3,y=4,beta=1.5,alpha=0.5,gamma=x8",
+                           {"x", "y", "beta", "alpha", "gamma"},
+                           {"stretch", "angle"}};
+
+/// The words of one bump: its text, for messages, and the values by their keys.
+struct BumpWords {
+  std::string text;
+  std::map<std::string, std::string> values;
+};
+
+[[noreturn]] void refuse(const std::string& text, const std::string& problem) {
+  throw Error(ErrorCode::bad_option, "--density \"" + text + "\": " + problem);
+}
+
+[[noreturn]] void refuse_value(const BumpWords& words, const std::string& key,
+                               const std::string& remedy) {
+  refuse(words.text, key + " \"" + words.values.at(key) + "\" " + remedy);
+}
+
+void require_known(const std::string& text, const std::string& key, const Grammar& grammar) {
+  std::string known;
+  for (const auto& keys :
+       {std::vector<std::string>(grammar.needed.begin(), grammar.needed.end()),
+        std::vector<std::string>(grammar.further.begin(), grammar.further.end())})
+    for (const std::string& name : keys) {
+      if (key == name)
+        return;
+      known += (known.empty() ? "" : ", ") + name;
+    }
+  refuse(text, "unknown key \"" + key + "\"; the keys are " + known);
+}
+
+BumpWords split(const std::string& text, const Grammar& grammar) {
+  constexpr std::string_view kind = "tanh:";
+  if (!text.starts_with(kind))
+    refuse(text, std::string("no density; give uniform or, for instance, ") + grammar.example);
+  BumpWords words{text, {}};
+  std::istringstream rest(text.substr(kind.size()));
+  for (std::string word; std::getline(rest, word, ',');) {
+    const std::size_t equals = word.find('=');
+    if (equals == std::string::npos)
+      refuse(text, "\"" + word + "\" is not key=value; write it as " + grammar.example);
+    const std::string key = word.substr(0, equals);
+    require_known(text, key, grammar);
+    if (!words.values.emplace(key, word.substr(equals + 1)).second)
+      refuse(text, key + " is given twice; leave one of them out");
+  }
+  for (const char* key : grammar.needed)
+    if (!words.values.contains(key))
+      refuse(text, std::string(key) + " is missing; write it as " + grammar.example);
+  const auto [stretch, turn] = grammar.further;
+  if (words.values.contains(stretch) != words.values.contains(turn))
+    refuse(text,
+           std::string("stretch and ") + turn + " make an ellipse together; give both or none");
+  return words;
+}
+
+std::optional<double> number(std::string_view text) {
+  double value = 0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  return error == std::errc() && stop == end && std::isfinite(value) ? std::optional(value)
+                                                                     : std::nullopt;
+}
+
+double degrees_of(const BumpWords& words, const std::string& key) {
+  const auto value = number(words.values.at(key));
+  if (!value)
+    refuse_value(words, key, "is no number; give degrees");
+  return *value;
+}
+
+/// Radians, or degrees that say so.
+double positive_angle(const BumpWords& words, const std::string& key) {
+  constexpr std::string_view degree = "deg";
+  std::string_view text = words.values.at(key);
+  const bool in_degrees = text.ends_with(degree);
+  if (in_degrees)
+    text.remove_suffix(degree.size());
+  const auto value = number(text);
+  if (!value || *value <= 0)
+    refuse_value(words, key, "is no positive angle; give radians, or degrees as 30deg");
+  return in_degrees ? *value * std::numbers::pi / 180 : *value;
+}
+
+/// A number, or x8 for the density whose spacings differ eightfold.
+double contrast(const BumpWords& words) {
+  std::string_view text = words.values.at("gamma");
+  const bool ratio = text.starts_with('x');
+  if (ratio)
+    text.remove_prefix(1);
+  std::optional<double> value = number(text);
+  if (value && ratio)
+    value = 1 / (*value * *value * *value * *value);
+  if (!value || !(*value > 0) || !(*value < 1))
+    refuse_value(words, "gamma",
+                 "is not between 0 and 1; give such a number, or x8 for spacings of 8:1");
+  return *value;
+}
+
+double stretch_of(const BumpWords& words) {
+  const auto value = number(words.values.at("stretch"));
+  if (!value || *value < 1)
+    refuse_value(words, "stretch", "is no number from 1; give how much longer the long axis is");
+  return *value;
+}
+
+/// The unit vector at a place in degrees, as points in a file become one.
+Eigen::Vector3d place(double longitude, double latitude) {
+  std::array<char, 64> text{};
+  char* const last = text.data() + text.size();
+  char* end = std::to_chars(text.data(), last, longitude).ptr;
+  *end++ = ' ';
+  end = std::to_chars(end, last, latitude).ptr;
+  std::istringstream in(std::string(text.data(), end));
+  return read_points(in, "a place", Columns::lonlat).col(0);
+}
+
+/// The unit tangent at a place that points to so many degrees clockwise from north.
+Eigen::Vector3d heading(double longitude, double latitude, double azimuth) {
+  const Eigen::Vector3d east = place(longitude + 90, 0);
+  const Eigen::Vector3d north =
+      latitude > 0 ? place(longitude + 180, 90 - latitude) : place(longitude, 90 + latitude);
+  const Eigen::Vector3d turn = place(azimuth, 0); // its cosine and sine
+  return turn.x() * north + turn.y() * east;
+}
+
+Bump bump_of(const std::string& text) {
+  const BumpWords words = split(text, on_sphere);
+  const double longitude = degrees_of(words, "lon"), latitude = degrees_of(words, "lat");
+  if (std::abs(latitude) > 90)
+    refuse_value(words, "lat", "is outside -90 to 90; give degrees north");
+  Bump bump;
+  bump.centre = place(longitude, latitude);
+  bump.beta = positive_angle(words, "beta");
+  bump.alpha = positive_angle(words, "alpha");
+  bump.gamma = contrast(words);
+  if (words.values.contains("stretch")) {
+    bump.stretch = stretch_of(words);
+    bump.major = heading(longitude, latitude, degrees_of(words, "azimuth"));
+  }
+  return bump;
+}
+
+double number_of(const BumpWords& words, const std::string& key) {
+  const auto value = number(words.values.at(key));
+  if (!value)
+    refuse_value(words, key, "is no number; give one in the unit of the domain");
+  return *value;
+}
+
+double length_of(const BumpWords& words, const std::string& key) {
+  const double value = number_of(words, key);
+  if (!(value > 0))
+    refuse_value(words, key, "is no positive length; give one in the unit of the domain");
+  return value;
+}
+
+Bump planar_bump_of(const std::string& text) {
+  const BumpWords words = split(text, in_plane);
+  Bump bump;
+  bump.centre = {number_of(words, "x"), number_of(words, "y"), 0};
+  bump.beta = length_of(words, "beta");
+  bump.alpha = length_of(words, "alpha");
+  bump.gamma = contrast(words);
+  if (words.values.contains("stretch")) {
+    bump.stretch = stretch_of(words);
+    bump.major = place(degrees_of(words, "angle"), 0); // its cosine and sine
+  }
+  return bump;
+}
+
+Density bumps_of(const DensityWords& words, bool planar) {
+  Density density;
+  for (const std::string& text : words.densities) {
+    if (text != "uniform")
+      density.bumps.push_back(planar ? planar_bump_of(text) : bump_of(text));
+    else if (words.densities.size() > 1)
+      refuse(text, "it cannot be joined with others; leave it or them out");
+  }
+  if (!density.bumps.empty())
+    density.kind = words.join == "sum" ? Density::Kind::sum : Density::Kind::maximum;
+  return density;
+}
+
+} // namespace
+
+std::shared_ptr<DensityWords> add_density(CLI::App& command) {
+  auto words = std::make_shared<DensityWords>();
+  CLI::Option* const density =
+      command
+          .add_option(
+              "--density", words->densities,
+              "uniform (the default), or a bump such as " + std::string(example) +
+                  ": about 1 within beta of its centre and gamma far away, changing over "
+                  "alpha; lon and lat in degrees, beta and alpha in radians or as 30deg, gamma "
+                  "a number below 1 or x8 for spacings of 8:1; stretch=2,azimuth=45 makes it "
+                  "an ellipse with its long axis 45 degrees clockwise from north. In the plane " +
+                  in_plane.example +
+                  ", lengths in its unit, and stretch=2,angle=45 counter-"
+                  "clockwise from x. May be given several times")
+          ->allow_extra_args(false);
+  command.add_option("--join", words->join, "what several bumps make together")
+      ->check(CLI::IsMember({"maximum", "sum"}))
+      ->capture_default_str();
+  add_cell_width(command, words->widths, density);
+  return words;
+}
+
+Resolution resolution_of(const DensityWords& words, bool planar) {
+  if (!words.widths.given())
+    return {bumps_of(words, planar), {}};
+  if (planar)
+    return {calotte::density_of(read_planar_raster(words.widths.raster)), {}};
+  CellWidth widths = read_widths(words.widths);
+  Density density = calotte::density_of(widths);
+  if (words.widths.file.empty()) // a density raster's widths have no unit
+    return {std::move(density), {}};
+  return {std::move(density), std::move(widths)};
+}
+
+Density density_of(const DensityWords& words, bool planar) {
+  return resolution_of(words, planar).density;
+}
+
+std::vector<std::string> density_names(const DensityWords& words) {
+  if (!words.widths.file.empty())
+    return {"cell widths of " + words.widths.file};
+  if (!words.widths.raster.empty())
+    return {"density of " + words.widths.raster};
+  return words.densities.empty() ? std::vector<std::string>{"uniform"} : words.densities;
+}
+
+std::string density_configuration(const DensityWords& words) {
+  if (words.widths.given())
+    return width_configuration(words.widths);
+  std::string text;
+  for (const std::string& density : density_names(words))
+    text += "density " + density + "\n";
+  return words.densities.size() > 1 ? text + "join " + words.join + "\n" : text;
+}
+
+} // namespace calotte::tools

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "options/cell_width_option.h"
+
+#include <calotte/cell_width.h>
+#include <calotte/density.h>
+
+#include <CLI/CLI.hpp>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace calotte::tools {
+
+/// What the options say about a density.
+struct DensityWords {
+  std::vector<std::string>
+      densities; ///< "uniform", or "tanh:lon=270,lat=30,beta=30deg,alpha=0.20,gamma=x8"
+  std::string join = "maximum"; ///< or "sum": what several bumps make
+  WidthWords widths = {};       ///< or a file instead of all this
+};
+
+/// Adds --density (which may be given several times), --join and what add_cell_width adds.
+std::shared_ptr<DensityWords> add_density(CLI::App& command);
+
+/// What they ask for.
+struct Resolution {
+  Density density;
+  std::optional<CellWidth> widths; ///< in km, where --cell-width gives them
+};
+
+/// Reads the file, if there is one.
+/// \param planar a bump's centre and lengths are in the plane: x and y, beta and alpha without a
+///        unit; a raster is one of x and y.
+/// \throws Error bad_option naming the word and the remedy; as read_cell_width.
+Resolution resolution_of(const DensityWords& words, bool planar = false);
+/// The same, without the widths.
+Density density_of(const DensityWords& words, bool planar = false);
+
+/// What reports and pictures call it, a part each: "uniform", a bump's words, a file.
+std::vector<std::string> density_names(const DensityWords& words);
+
+/// What determines it, lines "name value" for a run's configuration: of a file, its contents.
+/// \throws Error file.
+std::string density_configuration(const DensityWords& words);
+
+} // namespace calotte::tools

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "options/format_options.h"
+
+#include "commands.h"
+
+#include <calotte/error.h>
+
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace calotte::tools {
+namespace {
+
+const std::vector<std::pair<std::string, Format>> formats{
+    {"mpas", Format::mpas},
+    {"mpas-minimal", Format::mpas_minimal},
+    {"ugrid", Format::ugrid},
+    {"ugrid-triangles", Format::ugrid_triangles},
+    {"scrip", Format::scrip},
+    {"esmf", Format::esmf},
+    {"vtp", Format::vtp},
+    {"vtu", Format::vtu},
+    {"vtp-cells", Format::vtp_cells},
+    {"vtu-cells", Format::vtu_cells},
+    {"off", Format::off},
+    {"ply", Format::ply},
+    {"triangles", Format::triangles},
+    {"mpi-scvt", Format::mpi_scvt},
+    {"msh", Format::msh},
+    {"geojson", Format::geojson}};
+
+const std::map<std::string, Numbering> numberings{
+    {"curve", Numbering::curve}, {"rcm", Numbering::rcm}, {"input", Numbering::input}};
+
+Format format_of(const FormatWords& words, const std::string& path) {
+  Format given = Format::by_name;
+  for (const auto& [word, format] : formats)
+    if (words.format == word)
+      given = format;
+  return calotte::format_of(path, given);
+}
+
+/// Nothing for a name that is no mesh's.
+std::optional<Format> format_of_name(const std::string& path) {
+  try {
+    return calotte::format_of(path);
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+}
+
+bool starts_as(const std::string& path, const std::string& start) {
+  return std::filesystem::path(path).filename().string().starts_with(start);
+}
+
+bool is_netcdf(Format format) {
+  switch (format) {
+  case Format::mpas:
+  case Format::mpas_minimal:
+  case Format::ugrid:
+  case Format::ugrid_triangles:
+  case Format::scrip:
+  case Format::esmf:
+    return true;
+  default:
+    return false;
+  }
+}
+
+void require_radius(double radius, Format format, const std::string& path) {
+  const std::string given = "--sphere-radius " + shortest(radius);
+  if (!(radius > 0) || !std::isfinite(radius))
+    throw Error(ErrorCode::bad_option,
+                given + " is not a positive number; give one such as 6371229, in metres");
+  if (radius != 1 && !is_netcdf(format))
+    throw Error(ErrorCode::bad_option, given + " is for NetCDF files, and " + path +
+                                           " holds points as they are; leave it out, or give a "
+                                           "name that ends in .nc");
+}
+
+} // namespace
+
+std::shared_ptr<FormatWords> add_format(CLI::App& command, const std::string& default_radius) {
+  auto words = std::make_shared<FormatWords>();
+  std::vector<std::string> known;
+  for (const auto& [word, format] : formats)
+    known.push_back(word);
+  command
+      .add_option(
+          "--format", words->format,
+          "of the mesh, where its name does not tell: mpas (full), mpas-minimal (for "
+          "MpasMeshConverter.x), ugrid (cells), ugrid-triangles, scrip and esmf are NetCDF; "
+          "vtp-cells and vtu-cells hold the Voronoi cells, vtp and vtu the triangles")
+      ->check(CLI::IsMember(known));
+  command.add_option("--sphere-radius", words->sphere_radius,
+                     "of the sphere in NetCDF files, in metres for MPAS; default " +
+                         default_radius);
+  command
+      .add_option("--order", words->order,
+                  "how the mesh numbers its cells: curve (along a space-filling curve, the default "
+                  "of NetCDF files), rcm (reverse Cuthill-McKee), or input (that of other files)")
+      ->check(CLI::IsMember({"curve", "rcm", "input"}));
+  return words;
+}
+
+bool holds_points(const std::string& path) {
+  if (starts_as(path, "RegionTriangulation"))
+    return true; // RegionList beside it does
+  const std::optional<Format> format = format_of_name(path);
+  return format && *format != Format::triangles && *format != Format::mpi_scvt;
+}
+
+bool holds_triangles(const std::string& path) {
+  return format_of_name(path) == Format::triangles && !starts_as(path, "Region");
+}
+
+std::string help_of_output() {
+  return "the mesh; its name tells the format: .nc (MPAS; or see --format), .vtp, .vtu, .off, "
+         ".ply, .msh (JIGSAW), .geojson (cells), .txt or .tri (triangles alone), or SaveVertices "
+         "(MPI-SCVT)";
+}
+
+WriteOptions options_of(const FormatWords& words, const std::string& path) {
+  WriteOptions options;
+  options.format = format_of(words, path);
+  options.sphere_radius = words.sphere_radius.value_or(options.sphere_radius);
+  require_radius(options.sphere_radius, options.format, path);
+  if (words.order)
+    options.numbering = numberings.at(*words.order);
+  if (words.order && *words.order != "input" && options.format == Format::triangles)
+    throw Error(ErrorCode::bad_option, path + " holds triangles of the points as they were given; "
+                                              "leave --order out");
+  return options;
+}
+
+} // namespace calotte::tools

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "options/partition_options.h"
+
+#include "commands.h"
+
+#include <calotte/error.h>
+
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <filesystem>
+#include <limits>
+#include <map>
+
+namespace calotte::tools {
+namespace {
+
+Points3 read_centres(const PartitionWords& words, bool plane) {
+  if (words.regions)
+    throw Error(ErrorCode::bad_option,
+                "--regions and a file of centres exclude each other; leave one of them out");
+  if (std::error_code absent;
+      words.centres != "-" && !std::filesystem::exists(words.centres, absent))
+    throw Error(ErrorCode::bad_option,
+                "--centres " + words.centres +
+                    " is not a file; give sample, fibonacci or a file of points");
+  if (!plane)
+    return read_point_file(words.centres, false).points;
+  const Points2 places = read_planar_point_file(words.centres).points;
+  Points3 centres = Points3::Zero(3, places.cols());
+  centres.topRows<2>() = places;
+  return centres;
+}
+
+} // namespace
+
+std::shared_ptr<PartitionWords> add_partition(CLI::App& command) {
+  auto words = std::make_shared<PartitionWords>();
+  command.add_option("--threads", words->threads, "threads to use; default all")
+      ->transform(whole_number(1, 4096));
+  command
+      .add_option("--regions", words->regions,
+                  "regions to divide the domain into; default from "
+                  "the number of points")
+      ->transform(whole_number(1, std::numeric_limits<int>::max()));
+  command
+      .add_option("--centres", words->centres,
+                  "the regions' centres: sample (a coarse CVT of the points), fibonacci, or a "
+                  "file of points: text such as MPI-SCVT's RegionList, or a mesh")
+      ->type_name("sample|fibonacci|FILE")
+      ->capture_default_str();
+  command.add_option("--sort", words->sort, "which points a region takes beside its own")
+      ->check(CLI::IsMember({"halo", "distance", "voronoi"}))
+      ->capture_default_str();
+  command.add_option("--duplicates", words->duplicates, "what to do with equal points")
+      ->check(CLI::IsMember({"merge", "refuse"}))
+      ->capture_default_str();
+  command.add_option(
+      "--merge-within", words->merge_within,
+      "merge points nearer than this to an earlier one: radians, in the plane a distance");
+  return words;
+}
+
+std::string centres_file(const PartitionWords& words) {
+  return words.centres == "sample" || words.centres == "fibonacci" ? "" : words.centres;
+}
+
+DelaunayOptions options_of(const PartitionWords& words, bool plane) {
+  static const std::map<std::string, Sort> sorts{
+      {"halo", Sort::halo}, {"distance", Sort::distance}, {"voronoi", Sort::voronoi}};
+  DelaunayOptions options;
+  options.regions = words.regions;
+  options.sort = sorts.at(words.sort);
+  options.duplicates = words.duplicates == "merge" ? Duplicates::merge : Duplicates::refuse;
+  options.merge_within = words.merge_within;
+  if (words.centres == "fibonacci")
+    options.centres = Centres::fibonacci;
+  else if (!centres_file(words).empty())
+    options.given_centres = read_centres(words, plane);
+  return options;
+}
+
+void with_threads(std::optional<int> threads, const std::function<void()>& work) {
+  std::optional<tbb::global_control> control;
+  if (threads)
+    control.emplace(tbb::global_control::max_allowed_parallelism,
+                    static_cast<std::size_t>(*threads));
+  tbb::task_arena arena(threads ? *threads : int{tbb::task_arena::automatic});
+  arena.execute(work);
+}
+
+} // namespace calotte::tools

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "run/cvt_report.h"
+
+#include <nlohmann/json.hpp>
+
+#include <array>
+#include <cstdio>
+
+namespace calotte::tools {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(const CvtIteration& iteration) {
+  return {{"cells", iteration.cells},
+          {"spacing", iteration.spacing},
+          {"rule", iteration.rule},
+          {"l2", iteration.l2},
+          {"linf", iteration.linf},
+          {"gradient", iteration.gradient},
+          {"energy", iteration.energy},
+          {"accepted", iteration.accepted},
+          {"flips", iteration.flips},
+          {"rebuilt", iteration.rebuilt},
+          {"seconds", iteration.seconds},
+          {"seconds_exchange", iteration.seconds_exchange},
+          {"seconds_repair", iteration.seconds_repair},
+          {"seconds_moments", iteration.seconds_moments},
+          {"seconds_solver", iteration.seconds_solver}};
+}
+
+Json to_json(const CvtRegion& region) {
+  return {{"sites", region.sites},
+          {"halo", region.halo},
+          {"halo_bytes", region.halo_bytes},
+          {"seconds", region.seconds}};
+}
+
+template <class List> Json array_of(const List& list) {
+  Json array = Json::array();
+  for (const auto& item : list)
+    array.push_back(to_json(item));
+  return array;
+}
+
+std::string formatted(const char* format, double value) {
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), format, value);
+  return text.data();
+}
+
+} // namespace
+
+std::string to_json(const CvtRequest& request, const CvtReport& report, std::int64_t cells,
+                    double area, int threads) {
+  Json json;
+  json["calotte"] = CALOTTE_VERSION;
+  json["density"] = density_names(*request.density);
+  json["method"] = request.method;
+  json["norm"] = norm_word(request);
+  json["tolerance"] = request.tolerance;
+  json["converged"] = report.converged;
+  json["residual"] = report.residual;
+  json["cells"] = cells;
+  json["area"] = area;
+  json["threads"] = threads;
+  json["seconds"] = report.seconds;
+  json["iterations"] = array_of(report.iterations);
+  json["regions"] = array_of(report.regions);
+  return json.dump(1) + "\n";
+}
+
+std::string residual_words(const CvtRequest& request, const CvtReport& report) {
+  return request.iterations ? "" : request.norm + " " + formatted("%.3g", report.residual);
+}
+
+std::string summary(const CvtRequest& request, const CvtReport& report, std::int64_t cells,
+                    double area, std::int64_t before) {
+  const auto iterations = std::ssize(report.iterations);
+  std::string line = request.mesh + ": " + std::to_string(cells) + " cells, ";
+  if (!request.iterations)
+    line += report.converged ? "converged, " : "not converged, ";
+  line += std::to_string(iterations) + (iterations == 1 ? " iteration" : " iterations");
+  if (before > 0)
+    line += " (" + std::to_string(before) + " before it was resumed)";
+  if (const std::string residual = residual_words(request, report); !residual.empty())
+    line += ", " + residual;
+  if (iterations > 0) {
+    const CvtIteration& last = report.iterations.back();
+    line += std::string(", energy x cells ") + (planar(request) ? "/ area^2 " : "") +
+            formatted("%.7g", last.energy * static_cast<double>(last.cells) / (area * area));
+  }
+  return line + ", " + formatted("%.2f", report.seconds) + " s";
+}
+
+} // namespace calotte::tools

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "options/cvt_request.h"
+
+#include <calotte/cvt.h>
+
+#include <string>
+
+namespace calotte::tools {
+
+/// What is told of a run that ended.
+/// \param threads that it had.
+/// \param area of the sphere or the domain.
+std::string to_json(const CvtRequest& request, const CvtReport& report, std::int64_t cells,
+                    double area, int threads);
+
+/// One line without its ending. \param before iterations of the parts that the run resumed.
+/// \param area of a planar domain, over whose square the energy is told; 1 of the sphere.
+std::string summary(const CvtRequest& request, const CvtReport& report, std::int64_t cells,
+                    double area, std::int64_t before);
+
+/// "l2-scaled 1.2e-05", or "" for a run of a number of iterations.
+std::string residual_words(const CvtRequest& request, const CvtReport& report);
+
+} // namespace calotte::tools

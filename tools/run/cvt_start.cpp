@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "run/cvt_start.h"
+
+#include <calotte/error.h>
+#include <calotte/generators.h>
+#include <calotte/io.h>
+
+#include <boost/crc.hpp>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace calotte::tools {
+namespace {
+
+constexpr std::int64_t fewest = 12; ///< cells of a CVT
+
+[[noreturn]] void refuse(const std::string& problem) {
+  throw Error(ErrorCode::bad_option, problem);
+}
+
+std::string kind_of(const CvtRequest& request) {
+  const char* const usual = planar(request) ? "density" : "continuation";
+  return request.points.empty() ? request.start.value_or(usual) : "points";
+}
+
+bool seeded(const std::string& kind) {
+  return kind == "continuation" || kind == "random" || kind == "density";
+}
+
+/// How many cells n become by so many bisections: n -> 4n - 6.
+std::int64_t bisected(std::int64_t n, int bisections) { return ((n - 2) << (2 * bisections)) + 2; }
+
+/// The count that so many bisections bring to `cells`, 0 where there is none.
+std::int64_t start_count(std::int64_t cells, int bisections) {
+  const std::int64_t count = ((cells - 2) >> (2 * bisections)) + 2;
+  return count >= fewest && bisected(count, bisections) == cells ? count : 0;
+}
+
+/// The level of the bisected icosahedron with so many points, or -1.
+int level_of(std::int64_t count) {
+  int level = 0;
+  while (bisected(fewest, level) < count)
+    ++level;
+  return bisected(fewest, level) == count ? level : -1;
+}
+
+/// "the nearest counts are ...": of `below` and `above` those that a run can have.
+std::string nearest(std::int64_t below, std::int64_t above, std::int64_t least) {
+  return below < least
+             ? "the nearest count is " + std::to_string(std::max(above, least))
+             : "the nearest counts are " + std::to_string(below) + " and " + std::to_string(above);
+}
+
+void require_bisected(std::int64_t cells, int bisections) {
+  if (start_count(cells, bisections) != 0)
+    return;
+  const std::int64_t below = ((cells - 2) >> (2 * bisections)) + 2;
+  refuse("--bisections " + std::to_string(bisections) + " does not lead to " +
+         std::to_string(cells) + " cells; " +
+         nearest(bisected(below, bisections), bisected(below + 1, bisections),
+                 bisected(fewest, bisections)));
+}
+
+void require_icosahedral(std::int64_t cells, int bisections) {
+  if (level_of(cells) >= bisections)
+    return;
+  int level = bisections;
+  while (bisected(fewest, level) < cells)
+    ++level;
+  const std::int64_t below = level == bisections ? 0 : bisected(fewest, level - 1);
+  refuse("--start icosahedron makes 10 x 4^k + 2 cells, not " + std::to_string(cells) + "; " +
+         nearest(below, bisected(fewest, level), fewest));
+}
+
+/// In a periodic box n cells become 4n; elsewhere the midpoints outside of the domain are left out.
+void require_planar_cells(const CvtRequest& request) {
+  const std::int64_t cells = *request.cells,
+                     divisor = std::int64_t{1} << (2 * request.bisections.value_or(0));
+  const std::string bisections = "--bisections " + std::to_string(request.bisections.value_or(0));
+  if (cells / divisor < 3)
+    refuse(bisections + " to " + std::to_string(cells) +
+           " cells would start from fewer than 3; give more cells or fewer bisections");
+  if (request.domain->periodic && cells % divisor != 0)
+    refuse(bisections + " does not lead to " + std::to_string(cells) + " cells; " +
+           nearest(cells / divisor * divisor, (cells / divisor + 1) * divisor, 3 * divisor));
+}
+
+/// What a run in the plane has none of, and what it alone has.
+void require_kind(const CvtRequest& request) {
+  const std::string kind = kind_of(request);
+  const bool both = kind == "random" || kind == "density", plane = planar(request);
+  if (plane && !both && kind != "hexagonal")
+    refuse("--start " + kind + " is for the sphere; give density, random or hexagonal");
+  if (!plane && kind == "hexagonal")
+    refuse("--start hexagonal is for the plane; give --domain, --rectangle or --periodic");
+}
+
+void require_cells(const CvtRequest& request) {
+  const std::string kind = kind_of(request);
+  require_kind(request);
+  if (request.cells_of_widths && request.density->widths.file.empty())
+    refuse("--cells auto is for cell widths; give --cell-width FILE, or a number of cells");
+  if (!request.cells && !request.cells_of_widths)
+    refuse("no start: give a file of points, or the number of cells (--cells N)");
+  if (request.lonlat)
+    refuse("--lonlat is for a file of points; leave it out");
+  if (request.seed && !seeded(kind))
+    refuse("--seed is for the starts continuation, random and density; leave it out");
+  if (request.bisections && kind == "continuation")
+    refuse("--start continuation chooses the bisections; leave --bisections out");
+  if (!request.cells) // see settle_cells
+    return;
+  if (planar(request))
+    require_planar_cells(request);
+  else if (*request.cells < fewest)
+    refuse("--cells " + std::to_string(*request.cells) + " are too few; give " +
+           std::to_string(fewest) + " at least");
+  else if (kind == "icosahedron")
+    require_icosahedral(*request.cells, request.bisections.value_or(0));
+  else if (kind != "continuation")
+    require_bisected(*request.cells, request.bisections.value_or(0));
+}
+
+void require_file(const CvtRequest& request) {
+  const auto exclude = [&](bool given, const std::string& option) {
+    if (given)
+      refuse("the start is the file " + request.points + "; leave " + option + " out");
+  };
+  exclude(request.cells.has_value() || request.cells_of_widths, "--cells");
+  exclude(request.start.has_value(), "--start");
+  exclude(request.seed.has_value(), "--seed");
+  if (planar(request) && request.lonlat)
+    refuse("--lonlat is for the sphere; leave it out");
+}
+
+/// Says what a continuation to a count that no bisected icosahedron has starts from.
+std::string note_on(const Continuation& start, std::int64_t cells, const Density& density) {
+  if (start.icosahedral)
+    return "";
+  const std::string points =
+      std::to_string(start.start.cols()) +
+      (density.uniform() ? " points of a Fibonacci lattice" : " points drawn from the density");
+  const std::string times = start.bisections == 0 ? ""
+                            : start.bisections == 1
+                                ? ", to be bisected once"
+                                : ", to be bisected " + std::to_string(start.bisections) + " times";
+  return std::to_string(cells) + " cells are not 10 x 4^k + 2: starting from " + points + times;
+}
+
+Points3 generate(const std::string& kind, std::int64_t count, const Density& density,
+                 std::uint64_t seed) {
+  if (kind == "random")
+    return random_sphere(count, seed);
+  if (kind == "density")
+    return random_sphere(count, site_density(density), seed);
+  if (kind == "fibonacci")
+    return fibonacci_sphere(count);
+  if (kind == "spiral")
+    return spiral_sphere(count);
+  return bisected_icosahedron(level_of(count));
+}
+
+Points2 generate(const std::string& kind, std::int64_t count, const PlanarDomain& domain,
+                 const Density& density, std::uint64_t seed) {
+  if (kind == "hexagonal")
+    return hexagonal_lattice(count, domain);
+  if (kind == "random")
+    return random_places(count, domain, seed);
+  return random_places(count, domain, site_density(density, domain), seed);
+}
+
+std::uint64_t seed_of(const CvtRequest& request) { return request.seed.value_or(1); }
+
+/// The points of a mesh of the plane.
+PlanarPointFile planar_points_of(const std::string& path) {
+  return {path, calotte::read_planar_mesh(path).points, {}};
+}
+
+CvtStart announce(const CvtRequest& request) {
+  const std::string kind = kind_of(request);
+  CvtStart start;
+  start.configuration = "start " + kind + "\ncells " + std::to_string(*request.cells) + "\n" +
+                        (seeded(kind) ? "seed " + std::to_string(seed_of(request)) + "\n" : "");
+  return start;
+}
+
+/// \param file of either kind of points. \returns them.
+template <class File> auto take(File&& file, CvtStart& start) {
+  start.file = std::move(file.name);
+  start.lines = std::move(file.lines);
+  boost::crc_32_type checksum;
+  checksum.process_bytes(file.points.data(),
+                         sizeof(double) * static_cast<std::size_t>(file.points.size()));
+  start.configuration = "start points\npoints " + std::to_string(file.points.cols()) +
+                        " with checksum " + std::to_string(checksum.checksum()) + "\n";
+  return std::move(file.points);
+}
+
+CvtStart read(const CvtRequest& request) {
+  CvtStart start;
+  if (planar(request))
+    start.places = take(holds_points(request.points) ? planar_points_of(request.points)
+                                                     : read_planar_point_file(request.points),
+                        start);
+  else
+    start.points = take(read_point_file(request.points, request.lonlat), start);
+  return start;
+}
+
+} // namespace
+
+void require_start(const CvtRequest& request) {
+  if (request.points.empty())
+    require_cells(request);
+  else
+    require_file(request);
+}
+
+std::vector<std::string> settle_cells(CvtRequest& request, const std::optional<CellWidth>& widths) {
+  if (!widths)
+    return {};
+  const WidthWords& words = request.density->widths;
+  if (request.cells_of_widths) {
+    request.cells = static_cast<int>(cells_for(*widths, words, kind_of(request) == "continuation"));
+    require_cells(request);
+  }
+  return notes_on(*widths, words, request.cells);
+}
+
+CvtStart open_start(const CvtRequest& request) {
+  CvtStart start = request.points.empty() ? announce(request) : read(request);
+  start.bisections = request.bisections.value_or(0);
+  if (kind_of(request) != "continuation") // whose bisections follow from cells and density
+    start.configuration += "bisections " + std::to_string(start.bisections) + "\n";
+  if (planar(request))
+    start.configuration += domain_configuration(*request.domain);
+  return start;
+}
+
+void generate_points(const CvtRequest& request, const Density& density,
+                     const std::optional<PlanarDomain>& domain, CvtStart& start) {
+  if (!request.points.empty())
+    return;
+  const std::string kind = kind_of(request);
+  const std::int64_t cells = *request.cells;
+  if (domain) {
+    start.places =
+        generate(kind, cells >> (2 * start.bisections), *domain, density, seed_of(request));
+    return;
+  }
+  if (kind != "continuation") {
+    start.points = generate(kind, start_count(cells, start.bisections), density, seed_of(request));
+    return;
+  }
+  Continuation from = continuation(cells, density, seed_of(request));
+  start.note = note_on(from, cells, density);
+  start.bisections = from.bisections;
+  start.points = std::move(from.start);
+}
+
+} // namespace calotte::tools
