@@ -2,12 +2,14 @@
 #pragma once
 
 #include <calotte/density.h>
+#include <calotte/export.h>
 
 #include <Eigen/Core>
 
 #include <cstdint>
 #include <string>
 
+CALOTTE_API_BEGIN
 namespace calotte {
 
 /// How wide cells shall be (the distance of neighbours' centres), on a grid of longitudes and
@@ -91,3 +93,4 @@ CellWidth read_cell_width(const std::string& path, const PolygonWidths& polygons
 CellWidth read_density_raster(const std::string& path);
 
 } // namespace calotte
+CALOTTE_API_END

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <calotte/export.h>
 #include <calotte/types.h>
 
 #include <string>
 
+CALOTTE_API_BEGIN
 namespace calotte {
 
 /// What `check` found. `failure` is one line on the first law that does not hold, naming the
@@ -35,3 +37,4 @@ Check check(const Mesh& mesh);
 Check check(const PlanarMesh& mesh);
 
 } // namespace calotte
+CALOTTE_API_END

@@ -4,12 +4,14 @@
 #include <calotte/delaunay.h>
 #include <calotte/density.h>
 #include <calotte/domain.h>
+#include <calotte/export.h>
 #include <calotte/types.h>
 
 #include <cstdint>
 #include <functional>
 #include <vector>
 
+CALOTTE_API_BEGIN
 namespace calotte {
 
 /// What is compared with the tolerance, for n generators x whose centroids, to which Lloyd's step
@@ -190,3 +192,4 @@ struct Continuation {
 Continuation continuation(std::int64_t cells, const Density& density, std::uint64_t seed = 1);
 
 } // namespace calotte
+CALOTTE_API_END

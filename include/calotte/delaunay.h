@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <calotte/export.h>
 #include <calotte/types.h>
 
 #include <concepts>
@@ -8,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+CALOTTE_API_BEGIN
 namespace calotte {
 
 /// Which sites a region triangulates beside those it owns.
@@ -110,3 +112,4 @@ PlanarMesh delaunay(const Places& points, const Eigen::Vector2d& period,
                     const DelaunayOptions& options = {}, DelaunayReport* report = nullptr);
 
 } // namespace calotte
+CALOTTE_API_END

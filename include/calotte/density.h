@@ -2,11 +2,13 @@
 #pragma once
 
 #include <calotte/domain.h>
+#include <calotte/export.h>
 #include <calotte/types.h>
 
 #include <functional>
 #include <vector>
 
+CALOTTE_API_BEGIN
 namespace calotte {
 
 /// The paper's bump (Jacobsen et al., 2013, Sect. 4.3), with angles in radians:
@@ -68,3 +70,4 @@ Eigen::VectorXd evaluate(const Density& density, const Points3& x);
 Eigen::VectorXd evaluate(const Density& density, const PlanarDomain& domain, const Points2& places);
 
 } // namespace calotte
+CALOTTE_API_END

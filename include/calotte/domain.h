@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <calotte/export.h>
 #include <calotte/types.h>
 
 #include <vector>
 
+CALOTTE_API_BEGIN
 namespace calotte {
 
 /// A part of the plane that cells tessellate: what closed polygons enclose, or a doubly periodic
@@ -39,3 +41,4 @@ double area(const PlanarDomain& domain);
 bool contains(const PlanarDomain& domain, const Eigen::Vector2d& place);
 
 } // namespace calotte
+CALOTTE_API_END

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <calotte/export.h>
+
 #include <cstdint>
 #include <stdexcept>
 #include <string>
 
+CALOTTE_API_BEGIN
 namespace calotte {
 
 enum class ErrorCode {
@@ -35,3 +38,4 @@ private:
 };
 
 } // namespace calotte
+CALOTTE_API_END

@@ -3,10 +3,12 @@
 
 #include <calotte/density.h>
 #include <calotte/domain.h>
+#include <calotte/export.h>
 #include <calotte/types.h>
 
 #include <cstdint>
 
+CALOTTE_API_BEGIN
 namespace calotte {
 
 /// All generators of the sphere return 3 x n unit columns (to the last bits), Cartesian, and the
@@ -93,3 +95,4 @@ Points2 hexagonal_lattice(std::int64_t n, const PlanarDomain& domain);
 Points2 bisect(const PlanarMesh& mesh, const PlanarDomain& domain);
 
 } // namespace calotte
+CALOTTE_API_END

@@ -3,6 +3,7 @@
 
 #include <calotte/cvt.h>
 #include <calotte/domain.h>
+#include <calotte/export.h>
 #include <calotte/renumber.h>
 #include <calotte/types.h>
 
@@ -12,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+CALOTTE_API_BEGIN
 namespace calotte {
 
 /// Every file is written beside its place, brought to the disk, and renamed when whole: it is there
@@ -184,3 +186,4 @@ CvtState read_checkpoint(const std::string& path, const std::string& configurati
 void write_file(const std::string& path, std::string_view bytes);
 
 } // namespace calotte
+CALOTTE_API_END

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <calotte/density.h>
+#include <calotte/export.h>
 
 #include <Eigen/Core>
 
 #include <string>
 
+CALOTTE_API_BEGIN
 namespace calotte {
 
 /// A density of the plane at the nodes of a grid that need not be regular. Between nodes it is
@@ -26,3 +28,4 @@ Density density_of(const PlanarRaster& raster);
 PlanarRaster read_planar_raster(const std::string& path);
 
 } // namespace calotte
+CALOTTE_API_END

@@ -3,11 +3,13 @@
 
 #include <calotte/density.h>
 #include <calotte/domain.h>
+#include <calotte/export.h>
 #include <calotte/types.h>
 
 #include <cstdint>
 #include <vector>
 
+CALOTTE_API_BEGIN
 namespace calotte {
 
 struct Range {
@@ -74,3 +76,4 @@ Quality quality(const Mesh& mesh, const Density& density = {});
 Quality quality(const PlanarMesh& mesh, const PlanarDomain& domain, const Density& density = {});
 
 } // namespace calotte
+CALOTTE_API_END

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <calotte/export.h>
 #include <calotte/types.h>
 
+CALOTTE_API_BEGIN
 namespace calotte {
 
 /// How the cells of a file are numbered.
@@ -21,3 +23,4 @@ enum class Numbering {
 Mesh renumbered(const Mesh& mesh, Numbering numbering);
 
 } // namespace calotte
+CALOTTE_API_END

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <calotte/export.h>
+
 #include <Eigen/Core>
 
 #include <cstdint>
 #include <vector>
 
+CALOTTE_API_BEGIN
 namespace calotte {
 
 /// 3 x n, one Cartesian point a column. On the sphere a column is a *direction*: its norm does not
@@ -47,3 +50,4 @@ struct PlanarMesh {
 };
 
 } // namespace calotte
+CALOTTE_API_END

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <calotte/density.h>
+#include <calotte/export.h>
 #include <calotte/types.h>
 
 #include <cstdint>
 
+CALOTTE_API_BEGIN
 namespace calotte {
 
 /// Ids of cells, edges or vertices.
@@ -104,3 +106,4 @@ CellFields cell_fields(const Voronoi& voronoi, const Density& density = {});
 double nominal_spacing(const CellFields& fields);
 
 } // namespace calotte
+CALOTTE_API_END

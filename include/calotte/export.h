@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+/// What stands between these two in a public header, the shared library exports. All else is
+/// compiled with hidden visibility.
+#ifdef __GNUC__
+#define CALOTTE_API_BEGIN _Pragma("GCC visibility push(default)")
+#define CALOTTE_API_END _Pragma("GCC visibility pop")
+#else
+#define CALOTTE_API_BEGIN
+#define CALOTTE_API_END
+#endif
