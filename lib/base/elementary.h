@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "base/vector_loops.h"
+
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -8,22 +10,6 @@
 /// Elementary functions as fixed sequences of + - * / and sqrt, without branches: the compiler
 /// turns loops over them into vector code, and every machine and vector width gives the same bits.
 namespace calotte::base_detail {
-
-/// Compiled for several vector widths, of which the widest that the machine has is chosen when the
-/// program starts. Not under sanitizers, whose runtime is not ready by then.
-#if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__SANITIZE_ADDRESS__) &&             \
-    !defined(__SANITIZE_THREAD__) && !defined(__clang__)
-#define CALOTTE_VECTOR_WIDTHS __attribute__((target_clones("default", "avx2", "avx512f")))
-#else
-#define CALOTTE_VECTOR_WIDTHS
-#endif
-
-/// A call would end the vector code of the loop around it.
-#ifdef __GNUC__
-#define CALOTTE_INLINE inline __attribute__((always_inline))
-#else
-#define CALOTTE_INLINE inline
-#endif
 
 /// asin(x) for |x| <= 1, to 2 units in the last place: the rational approximation of asin(s)/s - 1
 /// on s^2 <= 1/4 (Sun Microsystems, fdlibm, 1993) and asin(x) = pi/2 - 2 asin(sqrt((1-x)/2))

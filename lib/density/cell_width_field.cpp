@@ -59,7 +59,7 @@ double mean(const CellWidth& cell_width, Eigen::Index row) {
 CALOTTE_VECTOR_WIDTHS
 void to_angles(const double* x, const double* y, const double* z, std::size_t count,
                double* longitudes, double* latitudes) {
-#pragma GCC ivdep
+  CALOTTE_VECTOR_LOOP
   for (std::size_t j = 0; j < count; ++j) {
     longitudes[j] = longitude_of(x[j], y[j]);
     latitudes[j] = latitude_of(x[j], y[j], z[j]);

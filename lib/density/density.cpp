@@ -58,11 +58,11 @@ void bump_values(const Profile& profile, const double* x, const double* y, const
                  std::size_t count, double* rho) {
   const Profile bump = profile; // writing to rho cannot change it
   if (bump.shrink > 0) {        // two loops: a choice inside would keep them from being vectorised
-#pragma GCC ivdep
+    CALOTTE_VECTOR_LOOP
     for (std::size_t j = 0; j < count; ++j)
       rho[j] = value_at(bump, angle_from<true>(bump, {x[j], y[j], z[j]}));
   } else {
-#pragma GCC ivdep
+    CALOTTE_VECTOR_LOOP
     for (std::size_t j = 0; j < count; ++j)
       rho[j] = value_at(bump, angle_from<false>(bump, {x[j], y[j], z[j]}));
   }

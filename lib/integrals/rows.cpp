@@ -26,7 +26,7 @@ CALOTTE_VECTOR_WIDTHS
 bool triangle_rows(const Batch& batch, TriangleRows& out) {
   constexpr double margin = 1e-14;
   std::int64_t unclear = 0;
-#pragma GCC ivdep
+  CALOTTE_VECTOR_LOOP
   for (std::size_t lane = 0; lane < lanes; ++lane) {
     const Vec3 a = at(batch.corner[0], lane), b = at(batch.corner[1], lane),
                c = at(batch.corner[2], lane);
@@ -87,7 +87,7 @@ CALOTTE_INLINE double energy_series(double s, double w) {
 CALOTTE_VECTOR_WIDTHS
 bool small_edges(const Row& quarter, const Row& cotangent, Row& pull, Row& energy) {
   std::int64_t beyond = 0;
-#pragma GCC ivdep
+  CALOTTE_VECTOR_LOOP
   for (std::size_t lane = 0; lane < lanes; ++lane) {
     const double s = quarter[lane], tilt = cotangent[lane] * inverse_root_series(s);
     const double w = s * tilt * tilt;
@@ -147,7 +147,7 @@ CALOTTE_INLINE double half_energy(const HalfEdge& half) {
 /// lane gets depends on that lane alone.
 CALOTTE_VECTOR_WIDTHS
 void large_edges(const Row& quarter, const Row& cotangent, Row& pull, Row& energy) {
-#pragma GCC ivdep
+  CALOTTE_VECTOR_LOOP
   for (std::size_t lane = 0; lane < lanes; ++lane) {
     const double s = quarter[lane], tilt = cotangent[lane] * inverse_root_series(s);
     const HalfEdge half = half_edge(s, cotangent[lane]);
@@ -161,7 +161,7 @@ void large_edges(const Row& quarter, const Row& cotangent, Row& pull, Row& energ
 
 CALOTTE_VECTOR_WIDTHS
 void half_areas(const Row& quarter, const Row& cotangent, Row& area) {
-#pragma GCC ivdep
+  CALOTTE_VECTOR_LOOP
   for (std::size_t lane = 0; lane < lanes; ++lane) {
     const HalfEdge half = half_edge(quarter[lane], cotangent[lane]);
     const double tangent =
@@ -173,7 +173,7 @@ void half_areas(const Row& quarter, const Row& cotangent, Row& area) {
 /// A vertex is an end of the two edges that are named by the others.
 CALOTTE_VECTOR_WIDTHS
 void terms_of_edges(const Batch& batch, const EdgeRows& edges, VertexTerms& terms) {
-#pragma GCC ivdep
+  CALOTTE_VECTOR_LOOP
   for (std::size_t lane = 0; lane < lanes; ++lane) {
     const Vec3 a = at(batch.corner[0], lane), b = at(batch.corner[1], lane),
                c = at(batch.corner[2], lane);
@@ -230,7 +230,7 @@ struct alignas(64) PlaneRows {
 
 CALOTTE_VECTOR_WIDTHS
 void plane_rows(const TriangleRows& rows, PlaneRows& plane) {
-#pragma GCC ivdep
+  CALOTTE_VECTOR_LOOP
   for (std::size_t lane = 0; lane < lanes; ++lane) {
     const double scale = rows.scale[lane], distance = rows.height[lane] * scale;
     plane.distance[lane] = distance;
@@ -248,7 +248,7 @@ void node_rows(const QuadratureRule::Node& node, const Rows3& first, const Rows3
   const double along_a = (1 - node.a) * (1 - node.a), across_a = node.c * node.c;
   const double near = node.a + 0.5 * node.b, far = 0.5 * node.b, centre = node.c;
   const double share = 0.5 * node.weight;
-#pragma GCC ivdep
+  CALOTTE_VECTOR_LOOP
   for (std::size_t lane = 0; lane < lanes; ++lane) {
     const double s = quarter[lane], cot = cotangent[lane], k = cot * cot;
     const double length = std::sqrt(1 - s * (along + across * k)), scale = 1 / length;
@@ -264,7 +264,7 @@ void node_rows(const QuadratureRule::Node& node, const Rows3& first, const Rows3
 /// Adds a node's terms on the half kite of one end to those of that vertex.
 CALOTTE_VECTOR_WIDTHS
 void add_node(const NodeRows& node, const HalfRows& half, Rows3& first, Row& energy, Row& mass) {
-#pragma GCC ivdep
+  CALOTTE_VECTOR_LOOP
   for (std::size_t lane = 0; lane < lanes; ++lane) {
     const double weight = node.weight[lane] * half.rho[lane];
     mass[lane] += weight;

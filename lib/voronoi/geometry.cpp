@@ -193,14 +193,14 @@ CALOTTE_INLINE void measure_triangle(const Space& space, TriangleBatch& batch, s
 
 CALOTTE_VECTOR_WIDTHS
 void measure_triangles(const Sphere& space, TriangleBatch& batch) {
-#pragma GCC ivdep
+  CALOTTE_VECTOR_LOOP
   for (std::size_t lane = 0; lane < lanes; ++lane)
     measure_triangle(space, batch, lane);
 }
 
 CALOTTE_VECTOR_WIDTHS
 void measure_triangles(const Plane& space, TriangleBatch& batch) {
-#pragma GCC ivdep
+  CALOTTE_VECTOR_LOOP
   for (std::size_t lane = 0; lane < lanes; ++lane)
     measure_triangle(space, batch, lane);
 }
@@ -274,14 +274,14 @@ CALOTTE_INLINE void measure_edge(const Space& space, EdgeBatch& batch, std::size
 
 CALOTTE_VECTOR_WIDTHS
 void measure_edges(const Sphere& space, EdgeBatch& batch) {
-#pragma GCC ivdep
+  CALOTTE_VECTOR_LOOP
   for (std::size_t lane = 0; lane < lanes; ++lane)
     measure_edge(space, batch, lane);
 }
 
 CALOTTE_VECTOR_WIDTHS
 void measure_edges(const Plane& space, EdgeBatch& batch) {
-#pragma GCC ivdep
+  CALOTTE_VECTOR_LOOP
   for (std::size_t lane = 0; lane < lanes; ++lane)
     measure_edge(space, batch, lane);
 }
