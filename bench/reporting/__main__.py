@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs the steps, keeps their samples, and composes the report from what is kept."""
+"""Runs the steps, keeps their samples, and composes the report from the kept samples."""
 
 import argparse
 import json
@@ -47,10 +47,10 @@ def run(step, programs, commit, file, runs):
     if not raw.exists():
         sys.exit(f"report: {step.command} failed, see {log}")
     if done.returncode != 0:
-        say(f"{step.name}: a result was wrong, see {log}; its rows are left out")
+        say(f"{step.name}: a result was wrong, see {log}; the report omits its rows")
     others = watch.others()
     if others > MOST_OTHERS:
-        say(f"{step.name}: disturbed, others took {others:.0%} of all cores")
+        say(f"{step.name}: disturbed: other programs took {others:.0%} of all cores")
     kept = {
         "name": step.name,
         "section": step.section,
@@ -100,17 +100,17 @@ def parse(arguments):
         "--sections",
         type=names,
         default=tuple(plan.SECTIONS),
-        help="only these, with commas: " + ", ".join(plan.SECTIONS),
+        help="run only these sections, separated by commas: " + ", ".join(plan.SECTIONS),
     )
     parser.add_argument(
-        "--steps", type=names, default=(), help="only these, by their names in the report's tables"
+        "--steps", type=names, default=(), help="run only these steps, separated by commas; the report names them"
     )
-    parser.add_argument("--resume", action="store_true", help="keep what this commit has run")
-    parser.add_argument("--tables", action="store_true", help="run nothing, compose what is kept")
-    parser.add_argument("--publish", action="store_true", help="copy the report to bench/")
-    parser.add_argument("--out", type=Path, help="folder; bench-report, or bench-report/quick")
-    parser.add_argument("--latency", type=float, default=2e-6, help="of the modelled network, s")
-    parser.add_argument("--bandwidth", type=float, default=10e9, help="of the same, bytes/s")
+    parser.add_argument("--resume", action="store_true", help="keep the samples of steps that this commit has run on this machine")
+    parser.add_argument("--tables", action="store_true", help="run nothing; compose the report from the kept samples")
+    parser.add_argument("--publish", action="store_true", help="copy RESULTS.md and the plots to bench/")
+    parser.add_argument("--out", type=Path, help="output folder; default: bench-report, with --quick bench-report/quick")
+    parser.add_argument("--latency", type=float, default=2e-6, help="latency of the modelled network in s; default: 2e-6")
+    parser.add_argument("--bandwidth", type=float, default=10e9, help="bandwidth of the modelled network in bytes/s; default: 1e10")
     parser.add_argument("--programs", type=Path, default=PROJECT / "build/bench/bench")
     options = parser.parse_args(arguments)
     try:
@@ -134,7 +134,7 @@ def main(arguments):
     except BadSamples as error:
         sys.exit(f"report: {error}")
     if not results.steps:
-        sys.exit(f"report: there are no samples in {raw}: run bench/report without --tables")
+        sys.exit(f"report: {raw} holds no samples; run bench/report without --tables")
     network = Network(options.latency, options.bandwidth)
     document.write(results, network, options.out)
     say(f"{options.out / 'RESULTS.md'}")

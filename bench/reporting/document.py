@@ -1,87 +1,108 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""RESULTS.md, of samples alone."""
+"""RESULTS.md, composed from samples alone."""
 
 from reporting import items, plots
 from reporting.cells import percent, table
-from reporting.requirements import requirements
+from reporting.requirements import required, requirements
 from reporting.samples import LEAST_CORE, MOST_OTHERS, WIDEST_SPREAD
+from reporting.summary import summary
 
 HEAD = """\
-# What bench/report measured
+# Benchmark results
 
-Written by `bench/report` from the samples of every round; no number here has another source.
-Peers run in the library's process, in turns: each round runs every row once on the same sites, and
-the next round starts with the next row. A ratio is of two rows' seconds of the same round; the
-medians of the rounds are told, with quartiles in brackets. Every run's triangles are compared with
-those of the library's first run (a digest of the oriented triangles; on bisected icosahedra, where
-sites are cocircular but for rounding, peers' triangles are counted), and every iteration's
-generators with the library's: a wrong answer fails, and is in no table. What is freed stays with
-the process, for the next row's use: where a virtual machine's host takes free memory back, to fault
-it in again may cost more than to triangulate in it.
+{summary}
 
-**Disturbed** is what is said of a row when the quartiles of its ratios (or of its regions' sums)
-lie further apart than {spread:.0%} of their median, when a serial run had less than {core:.0%}
-of a core in half of its rounds, or when, while the step ran, other programs or a virtual
-machine's host took more than {others:.0%} of all cores: the row is refused, its numbers are shown
-and count for nothing.
+## Method
 
-STRIPACK is NCAR's `trmesh` in doubles; its sites are in random order, as its documentation asks,
-unless the row says otherwise. Qhull (option Qt) gives the convex hull, whose facets are the
-triangles. CGAL is `Delaunay_triangulation_on_sphere_2`, in the plane `Delaunay_triangulation_2`.
-All of these are serial. The paper is Jacobsen et al., Geosci. Model Dev. 6, 1353-1365, 2013; its
-own figures, on 96 processors, stand in columns of theirs, - or none where they are not known here.
+`bench/report` writes this file from the samples of every round. All programs run in one process and
+take turns: each round runs every row once on the same sites, and the next round starts with the next
+row. A ratio divides the times of two rows in the same round. The tables show medians over the rounds,
+with quartiles in brackets.
+
+Every result is checked. The triangles of every run must match those of the library's first run; a
+digest of the oriented triangles decides. On bisected icosahedra, where sites are cocircular up to
+rounding, the number of triangles decides. The generators of every iteration must match the library's.
+A run with a wrong result fails, and no table contains it.
+
+Freed memory stays with the process and serves the next row. On a virtual machine whose host reclaims
+free memory, faulting memory in may cost more than the triangulation.
+
+A row is *disturbed* if
+
+- the quartiles of its ratios, or of the sums over its regions, differ by more than {spread:.0%} of the median,
+- a serial run had less than {core:.0%} of a core in half of its rounds, or
+- other programs or the host of a virtual machine took more than {others:.0%} of all cores during the step.
+
+Tables mark disturbed rows. A disturbed row decides no threshold.
+
+STRIPACK is NCAR's `trmesh` in double precision. Its sites are in random order, as its documentation
+recommends, unless a row states otherwise. Qhull (option Qt) computes the convex hull, whose facets are
+the triangles. CGAL is `Delaunay_triangulation_on_sphere_2`; in the plane it is
+`Delaunay_triangulation_2`. All three are serial. The paper is Jacobsen et al., Geosci. Model Dev. 6,
+1353-1365, 2013. The columns "paper (96)" hold its results on 96 processors, where they are known.
 """
 
 NOTES = {
     "Table 3": """\
-Whole runs to an rms distance of generators from their centroids of 1e-6 on the unit sphere, the
-paper's criterion. *automatic* is the library's default method; *lloyd* ends after 3000 evaluations
-(quick: 1000) on a level. Shares are of threads times seconds on the finest level; the rest are sums
-and waiting.
+Each run stops at an rms distance of 1e-6 between generators and centroids on the unit sphere, the
+paper's criterion. *automatic* is the library's default method. *lloyd* stops after 3000 evaluations per
+level (with --quick: 1000). The columns exchange, triangulation (repair) and integration are shares of
+threads times seconds on the finest level; the remainder is sums and waiting.
 """,
     "Table 4": """\
-A triangulation by the library's sort (halo) and the paper's two, on one thread, region after
-region. The uniform decomposition's centres are a bisected icosahedron, the x8 decomposition's a
-coarse CVT of the x8 density. *Points* are owned and halo.
+Each row triangulates on one thread, region after region. *halo* is the library's sort, *distance* and
+*voronoi* are the paper's. The centres of the uniform decomposition are a bisected icosahedron; those of
+the x8 decomposition are a coarse CVT of the x8 density. *Points* are owned sites and halo sites.
 """,
     "Table 5": """\
-One iteration of Lloyd's method at the medium grid, from a bisected start. STRIPACK triangulates
-anew in each; the library mends the mesh it has. The rest of the library's iteration are sums. In
-step `iteration-shuffled` the start is in random order, which makes STRIPACK slower.
+Each row is one iteration of Lloyd's method on the medium grid, from a bisected start. STRIPACK
+triangulates anew in every iteration; the library repairs its mesh. The remainder of the library's
+iteration is sums. In step `iteration-shuffled` the start is in random order, which is slower for
+STRIPACK.
 """,
-    "Figure 6": "STRIPACK's nodes are in their natural order, in which it is faster.\n",
+    "Figure 6": "STRIPACK's nodes are in their natural order, which is faster for STRIPACK.\n",
     "Figure 8": """\
-Seconds of integration are its share of the iteration, as if spread evenly over the threads; sets of
-less than 4096 sites are one region, which one thread integrates over. STRIPACK-based runs use the
-very same code on one region.
+The integration time is the integration's share of the iteration, divided evenly over the threads. Sets
+of fewer than 4096 sites form one region, which one thread integrates. STRIPACK-based runs use the same
+integration code on one region.
+""",
+    "The plane": """\
+In the table on files, *renumbered* renumbers the mesh along the space-filling curve, *voronoi* computes
+the connectivity, locations, lengths and areas without a file, *write* writes and synchronises the
+complete file, and *the same bytes* writes as many bytes, computed in advance.
 """,
 }
 
 MODEL = """\
-**Measured**: the seconds of each region, one after another on one thread of this machine, so that
-no region disturbs another (medians over iterations and rounds), and how many sites it would
-exchange, 24 bytes each. **Modelled**: all that is said of more workers than there are threads. An
-iteration on P workers takes the longest worker's regions, plus the bytes that these send or receive
-(whichever is more) over {bandwidth:g} GB/s, plus a latency of {latency:g} us; and, for the sum that
-ends a run, ceil(log2 P) more of these (a triangulation has no such sum). *List scheduling* gives
-workers several regions, longest first, each to the worker that is free first, from the measured
-decomposition that serves P best; *one region a worker* is the paper's way. The library's own number
-of regions follows from the number of sites alone and is too small for many workers: a distributed
-run would choose it, `options.partition.regions`, by P, as is done here. Efficiency is against the
-best serial run: the decomposition with the least sum of seconds. Repeated triangulations begin with
-regions far apart, as the one that comes first finds the caches cold. Left out: what is outside the
-regions' tasks (the choice of regions, the union, sums), contention for memory or network, noise.
-"""
+**Measured**: the time of each region, and the number of sites that it would exchange (24 bytes each).
+Regions run one after another on one thread, so that they do not disturb each other. Times are medians
+over iterations and rounds. **Modelled**: all times for more workers than threads. The modelled time of
+an iteration on P workers is the sum of
 
+- the work of the busiest worker's regions,
+- the bytes that these regions send or receive, whichever is more, divided by {bandwidth:g} GB/s,
+- a latency of {latency:g} us, and
+- ceil(log2 P) latencies for the sum that ends an iteration. A triangulation has no such sum.
+
+*List scheduling* assigns several regions to each worker: the longest region first, each to the worker
+that becomes free first. It uses the measured decomposition that is fastest for P. *One region per
+worker* is the paper's method. The library derives its default number of regions from the number of
+sites alone, which is too small for many workers; a distributed run would choose the number for P, as
+the model does. Efficiency is relative to the best serial run, the decomposition with the smallest total
+time. Repeated triangulations start with regions that are far apart, because the first region finds cold
+caches. The model omits work outside the regions' tasks (the choice of regions, the merge, sums),
+contention for memory and network, and noise.
+"""
 
 COMMANDS = """\
-A step's rows are made again by its command. *Others* is the part of all cores that other programs
-and the host took meanwhile. Steps of disturbed rows may be run again (`bench/report --steps`):
-*runs* is how often they ran, and the last one counts.
+The command of a step repeats its rows. *Others* is the share of all cores that other programs and the
+host of a virtual machine took during the step. `bench/report --steps` repeats the steps of disturbed
+rows. *Runs* counts the runs of a step; the tables show the last run.
 """
 
 
-def machine_table(results):
+def machine_facts(results):
+    """What the samples were made on and of: texts by name."""
     machines = [step.machine for step in results.steps.values()]
     outputs = [step.output for step in results.steps.values()]
     peers = {}
@@ -95,8 +116,7 @@ def machine_table(results):
         "peers": {f"{name} {version}" for name, version in peers.items()}
         | {"STRIPACK" if output["stripack"] else "no STRIPACK" for output in outputs},
     }
-    lines = [[name, "; ".join(sorted(found))] for name, found in texts.items()]
-    return table(["", "here"], lines)
+    return {name: "; ".join(sorted(found)) for name, found in texts.items()}
 
 
 def commands_table(results):
@@ -120,7 +140,7 @@ def parts(results, network):
     yield "Figure 9: by threads and size, measured", items.figure_9_measured(results), "figure-9"
     yield "Figure 10: scaling, modelled", items.figure_10(results, network), "figure-10"
     yield "Decompositions", items.decompositions(results, network), None
-    yield "The plane, files, methods", items.others(results), None
+    yield "The plane, files and methods", items.others(results), None
 
 
 def note_of(title, network):
@@ -135,11 +155,16 @@ def is_empty(text):
 
 
 def compose(results, network, figures):
-    head = HEAD.format(spread=WIDEST_SPREAD, core=LEAST_CORE, others=MOST_OTHERS)
-    text = [head, machine_table(results)]
-    required = requirements(results, network)
-    if not is_empty(required):
-        text += ["## What is required", required]
+    facts, lines = machine_facts(results), requirements(results, network)
+    head = HEAD.format(
+        summary=summary(facts, lines),
+        spread=WIDEST_SPREAD,
+        core=LEAST_CORE,
+        others=MOST_OTHERS,
+    )
+    text = [head, table(["", "this report"], facts.items())]
+    if lines:
+        text += ["## Thresholds", required(lines)]
     for title, body, figure in parts(results, network):
         if is_empty(body):
             continue

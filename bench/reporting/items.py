@@ -34,7 +34,7 @@ def compared(rows, base="calotte"):
     """Markdown: rows of one set, and how many times the library's seconds they take."""
     ours = by_name(rows).get(base)
     return table(
-        ["run", "rounds", "median s", "us a site", f"times {base}", "step"],
+        ["run", "rounds", "median s", "us per site", f"time / {base}", "step"],
         [
             [
                 row.name,
@@ -64,7 +64,7 @@ def table_2(results):
     text = ""
     if rows:
         text = table(
-            ["run", "median s", "STRIPACK's seconds over its own", "the paper's (96)", "step"],
+            ["run", "median s", "STRIPACK's time / this time", "paper (96)", "step"],
             [
                 [
                     row.name,
@@ -79,14 +79,14 @@ def table_2(results):
     orders = step_rows(results, "triangulation-orders")
     if orders:
         text += (
-            "\nThe same on a bisected icosahedron, shuffled, and for STRIPACK also in its natural "
-            "order, coarse levels first:\n\n" + compared(orders)
+            "\nA bisected icosahedron in random order; for STRIPACK also in its natural order, coarse "
+            "levels first:\n\n" + compared(orders)
         )
     for step in LARGE:
         rows = single(step_rows(results, step))
         if rows:
-            warm = "" if step == "large-cgal" else "; before each of the library's, one untimed run"
-            text += f"\nThe fine grid's size, {sites_text(FINE)} random sites{warm}:\n\n"
+            warm = "" if step == "large-cgal" else ", with an untimed run before each of the library's"
+            text += f"\nThe size of the fine grid, {sites_text(FINE)} random sites{warm}:\n\n"
             text += compared(rows)
     return text
 
@@ -98,9 +98,9 @@ def shares(row, names):
 def table_3(results):
     rows = results.find("starts")
     return table(
-        ["cells", "start, method", "whole run, s", "evaluations", "on the finest level", "s each"]
-        + ["exchange", "triangulation (repair)", "integration", "rms at the end"]
-        + ["the paper's (96), s", "step"],
+        ["cells", "start, method", "whole run, s", "evaluations", "on the finest level"]
+        + ["s per evaluation", "exchange", "triangulation (repair)", "integration", "final rms"]
+        + ["paper (96), s", "step"],
         [
             [
                 sites_text(row.sites),
@@ -151,7 +151,7 @@ def table_4(results):
             ]
         )
     heads = ["sites", "decomposition", "regions", "sort", "points / sites"]
-    heads += ["points a region: least", "mean", "most", "most / mean"]
+    heads += ["minimum points per region", "mean", "maximum", "maximum / mean"]
     heads += ["all regions, s", "longest, s", "longest / mean", "step"]
     return table(heads, lines)
 
@@ -183,7 +183,7 @@ def table_5(results):
             stripack = by_name(mine).get("STRIPACK")
             lines += [iteration_row(row, stripack, PAPER_ITERATION[name]) for row in mine]
     heads = ["run", "triangulation (repair), s", "integration, s", "iteration, s"]
-    heads += ["STRIPACK-based seconds over its own", "the paper's (96)", "step"]
+    heads += ["STRIPACK-based time / this time", "paper (96)", "step"]
     return table(heads, lines)
 
 
@@ -201,8 +201,8 @@ def figure_6(results):
                 [f"{name}, {sites_text(size)}", *map(seconds_text, parts), seconds_cell(row)]
                 + [ratio_cell(row, ours), f"{row.counters['difference'][0]:.1e}", row.step]
             )
-    heads = ["cells", "triangulation, s", "its lists, s", "integration, s", "iteration, s"]
-    return table(heads + ["times calotte", "generators differ by", "step"], lines)
+    heads = ["cells", "triangulation, s", "adjacency lists, s", "integration, s", "iteration, s"]
+    return table(heads + ["time / calotte", "difference of generators", "step"], lines)
 
 
 def size_rows(results, size):
@@ -232,7 +232,7 @@ def figure_7(results):
             cells.append(ratio_cell(row, ours))
         steps = ", ".join(dict.fromkeys(row.step for row in rows.values()))
         lines.append([sites_text(size), seconds_cell(rows["calotte"]), *cells, steps])
-    heads = ["sites", "calotte, s", *(f"{name}, times that" for name in names), "step"]
+    heads = ["sites", "calotte, s", *(f"{name} / calotte" for name in names), "step"]
     return table(heads, lines)
 
 
@@ -251,9 +251,9 @@ def figure_8(results):
             whole = [seconds_cell(rows.get(run)) for run in ("calotte 1 thread", "calotte")]
             ratio = ratio_cell(rows.get("calotte 1 thread"), rows.get("calotte"))
             lines.append([f"{name}, {sites_text(size)}", *cells, *whole, ratio, step])
-    heads = ["cells", "serial, our moments on STRIPACK's triangles, s", "ours, 1 thread, s"]
-    heads += ["ours, all threads, s", "iteration, 1 thread, s", "iteration, all threads, s"]
-    return table(heads + ["1 thread, times that", "step"], lines)
+    heads = ["cells", "serial, on STRIPACK's triangles, s", "calotte, 1 thread, s"]
+    heads += ["calotte, all threads, s", "iteration, 1 thread, s", "iteration, all threads, s"]
+    return table(heads + ["1 thread / all threads", "step"], lines)
 
 
 def thread_rows(results, section, set_name, size):
@@ -303,7 +303,7 @@ def modelled(results, network, work, set_name):
                 + [", ".join(sorted({found.row.step for found in grid.by_count.values()}))]
             )
     heads = ["sites", "workers", "list scheduling, s", "regions", "efficiency"]
-    return table(heads + ["one region a worker, s", "efficiency", "step"], lines)
+    return table(heads + ["one region per worker, s", "efficiency", "step"], lines)
 
 
 def figure_10(results, network):
@@ -332,15 +332,15 @@ def decompositions(results, network):
                         + [f"{max(cut.sent) / 1000:.1f}", cut.row.step]
                     )
     heads = ["work", "regions", "all regions, s", "longest, s", "longest / mean"]
-    heads += ["most / mean, sites owned", "halo / sites", "most kB exchanged", "step"]
+    heads += ["maximum / mean of owned sites", "halo / sites", "maximum kB exchanged", "step"]
     return table(heads, lines)
 
 
 def others(results):
     text = ""
     for step, title, base in (
-        ("others-plane", "The plane, beside CGAL::Delaunay_triangulation_2", "calotte"),
-        ("others-files", "A full MPAS mesh beside the triangulation it is of", "delaunay"),
+        ("others-plane", "The plane, compared with CGAL::Delaunay_triangulation_2", "calotte"),
+        ("others-files", "A complete MPAS mesh, compared with its triangulation", "delaunay"),
     ):
         rows = step_rows(results, step)
         for set_name in dict.fromkeys(row.set for row in rows):
@@ -365,7 +365,7 @@ def methods(results):
         ]
         lines.append([f"{row.set}, {sites_text(row.sites)}", row.name, *cells, row.step])
     return (
-        "\n**Evaluations (and seconds) to an rms distance of generators from their centroids, from "
-        "the bisected optimum of the coarser level; one run**\n\n"
+        "\n**Evaluations (and seconds) until the rms distance between generators and centroids is "
+        "below a bound; one run from the bisected optimum of the coarser level**\n\n"
         + table(["cells", "method", *goals, "step"], lines)
     )

@@ -114,7 +114,7 @@ def load_step(file):
     try:
         return Step(**json.loads(file.read_text()))
     except (TypeError, ValueError):
-        raise BadSamples(f"{file} is cut short, or of another bench/report: remove it") from None
+        raise BadSamples(f"{file} holds no complete samples of this bench/report; remove it") from None
 
 
 class Results:
