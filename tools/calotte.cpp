@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands.h"
+#include "run/exit_code.h"
 
 #include <calotte/error.h>
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands.h"
+#include "options/mesh_source.h"
+#include "run/exit_code.h"
 #include "run/progress.h"
 
 #include <calotte/check.h>

@@ -2,7 +2,9 @@
 #include "commands.h"
 #include "options/config_option.h"
 #include "options/density_option.h"
+#include "options/files.h"
 #include "options/format_options.h"
+#include "options/mesh_source.h"
 #include "run/progress.h"
 
 #include <calotte/error.h>

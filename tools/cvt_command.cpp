@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands.h"
-#include "options/cvt_configuration.h"
 #include "options/cvt_options.h"
 #include "options/cvt_request.h"
+#include "options/files.h"
+#include "options/numbers.h"
+#include "options/point_file.h"
+#include "run/cvt_configuration.h"
 #include "run/cvt_forecast.h"
 #include "run/cvt_report.h"
 #include "run/cvt_start.h"
+#include "run/exit_code.h"
 #include "run/interruption.h"
 #include "run/progress.h"
 

@@ -2,8 +2,11 @@
 #include "commands.h"
 #include "options/config_option.h"
 #include "options/domain_option.h"
+#include "options/files.h"
 #include "options/format_options.h"
+#include "options/numbers.h"
 #include "options/partition_options.h"
+#include "options/point_file.h"
 #include "run/progress.h"
 
 #include <calotte/delaunay.h>

@@ -6,6 +6,8 @@
 #include "draw/spacing_law.h"
 #include "options/density_option.h"
 #include "options/domain_option.h"
+#include "options/files.h"
+#include "options/mesh_source.h"
 
 #include <calotte/error.h>
 

@@ -2,8 +2,11 @@
 #include "commands.h"
 #include "options/density_option.h"
 #include "options/domain_option.h"
+#include "options/files.h"
+#include "options/mesh_source.h"
 #include "run/progress.h"
 
+#include <calotte/error.h>
 #include <calotte/io.h>
 #include <calotte/quality.h>
 

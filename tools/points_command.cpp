@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands.h"
 #include "options/domain_option.h"
+#include "options/files.h"
 #include "options/format_options.h"
+#include "options/numbers.h"
 
 #include <calotte/error.h>
 #include <calotte/generators.h>

@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "options/cell_width_option.h"
 
-#include "commands.h"
+#include "options/files.h"
+#include "options/numbers.h"
 
 #include <calotte/error.h>
 
-#include <array>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <system_error>
 
 namespace calotte::tools {
@@ -19,17 +16,6 @@ namespace {
 
 [[noreturn]] void refuse(const std::string& problem) {
   throw Error(ErrorCode::bad_option, problem);
-}
-
-std::string formatted(const char* format, double value) {
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), format, value);
-  return text.data();
-}
-
-std::string exactly(double value) {
-  std::array<char, 32> text{};
-  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
 }
 
 /// "12.5 E 48.2 S".
@@ -110,7 +96,7 @@ std::string width_configuration(const WidthWords& words) {
   std::string text = "cell-width of " + checksum_of(words.file) + "\n";
   const auto add = [&](const std::string& name, const std::optional<double>& value) {
     if (value)
-      text += name + " " + exactly(*value) + "\n";
+      text += name + " " + shortest(*value) + "\n";
   };
   add("inside-width", words.inside);
   add("outside-width", words.outside);

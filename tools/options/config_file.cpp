@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "options/config_file.h"
 
+#include "options/numbers.h"
+
 #include <calotte/error.h>
 
 #include <toml++/toml.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -40,11 +41,6 @@ toml::table parse(const std::string& path) {
     refuse(path, error.source().begin.line,
            std::string(error.description()) + "; write key = value, with text in quotes");
   }
-}
-
-template <class Number> std::string shortest(Number value) {
-  char digits[32];
-  return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
 }
 
 /// Makes settings of a file's nodes.
@@ -94,7 +90,7 @@ private:
     if (const auto* truth = node.as_boolean())
       return {Kind::truth, truth->get() ? "true" : "false"};
     if (const auto* integer = node.as_integer())
-      return {Kind::number, shortest(integer->get())};
+      return {Kind::number, std::to_string(integer->get())};
     if (const auto* number = node.as_floating_point())
       return {Kind::number, shortest(number->get())};
     if (const auto* text = node.as_string())

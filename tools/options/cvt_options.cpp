@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "options/cvt_options.h"
 
-#include "commands.h"
 #include "options/config_option.h"
+#include "options/format_options.h"
+#include "options/numbers.h"
 
 #include <limits>
 #include <map>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "options/domain_option.h"
 
-#include "commands.h"
+#include "options/files.h"
 
 #include <calotte/error.h>
 #include <calotte/io.h>

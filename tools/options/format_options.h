@@ -22,6 +22,10 @@ struct FormatWords {
 /// \param default_radius for the help.
 std::shared_ptr<FormatWords> add_format(CLI::App& command, const std::string& default_radius = "1");
 
+/// The suffixes of meshes that hold their points, for help texts.
+inline constexpr const char* mesh_suffixes =
+    ".nc (MPAS, UGRID, SCRIP or ESMF), .vtp, .vtu, .off, .ply, .msh or .geojson";
+
 /// Whether read_sites is for a file of this name: it is a mesh that holds its points, and no text
 /// of them, as MPI-SCVT's SaveVertices and RegionList are.
 bool holds_points(const std::string& path);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "options/partition_options.h"
 
-#include "commands.h"
+#include "options/numbers.h"
+#include "options/point_file.h"
 
 #include <calotte/error.h>
 

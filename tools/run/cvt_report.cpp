@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "run/cvt_report.h"
 
-#include <nlohmann/json.hpp>
+#include "options/numbers.h"
 
-#include <array>
-#include <cstdio>
+#include <nlohmann/json.hpp>
 
 namespace calotte::tools {
 namespace {
@@ -41,12 +40,6 @@ template <class List> Json array_of(const List& list) {
   for (const auto& item : list)
     array.push_back(to_json(item));
   return array;
-}
-
-std::string formatted(const char* format, double value) {
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), format, value);
-  return text.data();
 }
 
 } // namespace

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "run/cvt_start.h"
 
+#include "options/format_options.h"
+#include "options/point_file.h"
+
 #include <calotte/error.h>
 #include <calotte/generators.h>
 #include <calotte/io.h>

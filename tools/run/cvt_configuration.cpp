@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "options/cvt_configuration.h"
+#include "run/cvt_configuration.h"
 
-#include "commands.h"
+#include "options/numbers.h"
 
 #include <sstream>
 

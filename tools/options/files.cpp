@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "options/files.h"
+
+#include <calotte/error.h>
+
+#include <boost/crc.hpp>
+
+#include <array>
+#include <cerrno>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <system_error>
+
+#include <unistd.h>
+
+namespace calotte::tools {
+
+void require_folder(const std::string& path) {
+  const std::filesystem::path parent = std::filesystem::path(path).parent_path();
+  const std::string folder = parent.empty() ? "." : parent.string();
+  if (std::error_code error; std::filesystem::is_directory(path, error))
+    throw Error(ErrorCode::file,
+                "cannot write " + path + ": it is a folder; give the name of a file");
+  if (std::error_code error; !std::filesystem::is_directory(folder, error))
+    throw Error(ErrorCode::file, "cannot write " + path + ": the folder " + folder +
+                                     " does not exist; create it first");
+  if (::access(folder.c_str(), W_OK | X_OK) != 0)
+    throw Error(ErrorCode::file, "cannot write " + path + ": the folder " + folder + ": " +
+                                     std::generic_category().message(errno) + "; write elsewhere");
+}
+
+void require_distinct(const std::string& output, const std::string& input) {
+  std::error_code absent;
+  if (input != "-" && std::filesystem::equivalent(output, input, absent))
+    throw Error(ErrorCode::bad_option, output + " is both input and output; give the output "
+                                                "another name");
+}
+
+void require_outputs(const std::vector<Output>& outputs, const std::vector<std::string>& inputs) {
+  const auto place = [](const Output& output) {
+    return std::filesystem::path(output.path).lexically_normal();
+  };
+  for (auto output = outputs.begin(); output != outputs.end(); ++output) {
+    if (output->path.empty())
+      continue;
+    require_folder(output->path);
+    for (const std::string& input : inputs)
+      require_distinct(output->path, input);
+    for (auto other = outputs.begin(); other != output; ++other)
+      if (place(*other) == place(*output))
+        throw Error(ErrorCode::bad_option, output->path + " is both " + other->what + " and " +
+                                               output->what + "; give the " + output->what +
+                                               " another name");
+  }
+}
+
+std::string checksum_of(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  boost::crc_32_type checksum;
+  std::int64_t size = 0;
+  std::array<char, 1 << 16> bytes;
+  while (in.read(bytes.data(), bytes.size()) || in.gcount() > 0) {
+    checksum.process_bytes(bytes.data(), static_cast<std::size_t>(in.gcount()));
+    size += in.gcount();
+  }
+  if (in.bad() || !in.eof())
+    throw Error(ErrorCode::file, "cannot read " + path + ": " +
+                                     std::generic_category().message(errno) +
+                                     "; check its name and its permissions");
+  return std::to_string(size) + " bytes with checksum " + std::to_string(checksum.checksum());
+}
+
+} // namespace calotte::tools

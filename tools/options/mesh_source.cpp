@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "options/mesh_source.h"
+
+#include "options/format_options.h"
+#include "options/point_file.h"
+
+namespace calotte::tools {
+
+std::shared_ptr<MeshSource> add_mesh_source(CLI::App& command, const std::string& names) {
+  auto source = std::make_shared<MeshSource>();
+  command
+      .add_option(names, source->path,
+                  "the mesh: " + std::string(mesh_suffixes) +
+                      ", SaveVertices (MPI-SCVT), or .txt and .tri with --points")
+      ->type_name("FILE")
+      ->required();
+  command.add_option("--points", source->points, "the points that a .txt or .tri file refers to")
+      ->type_name("FILE");
+  command.add_flag("--lonlat", source->lonlat,
+                   "these points are longitude and latitude in degrees");
+  return source;
+}
+
+Mesh read_mesh(const MeshSource& source) {
+  if (source.points.empty())
+    return calotte::read_mesh(source.path);
+  const Points3 points = read_point_file(source.points, source.lonlat).points;
+  return calotte::read_mesh(source.path, &points);
+}
+
+CLI::Option* add_plane(CLI::App& command, MeshSource& source) {
+  return command
+      .add_flag("--plane", source.plane,
+                "the mesh is one of the plane: .vtp, .vtu, .off, .ply or .msh with z = 0, periodic "
+                "MPAS, or .txt and .tri with --points, x y a line")
+      ->excludes(command.get_option("--lonlat"));
+}
+
+PlanarMesh read_planar_mesh(const MeshSource& source) {
+  if (source.points.empty())
+    return calotte::read_planar_mesh(source.path);
+  const Points2 points = read_planar_point_file(source.points).points;
+  return calotte::read_planar_mesh(source.path, &points);
+}
+
+} // namespace calotte::tools

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <calotte/io.h>
+
+#include <CLI/CLI.hpp>
+
+#include <memory>
+#include <string>
+
+namespace calotte::tools {
+
+/// Where a mesh is read from: the file, and the points that a .txt or .tri file refers to.
+struct MeshSource {
+  std::string path;
+  std::string points;
+  bool lonlat = false;
+  bool plane = false; ///< a mesh of the plane, read by read_planar_mesh
+};
+
+/// Adds the positional MESH, or of another name, and the options --points and --lonlat.
+std::shared_ptr<MeshSource> add_mesh_source(CLI::App& command, const std::string& names = "MESH");
+
+/// Adds --plane. \returns the option.
+CLI::Option* add_plane(CLI::App& command, MeshSource& source);
+
+/// \throws Error as read_mesh and read_points do.
+Mesh read_mesh(const MeshSource& source);
+PlanarMesh read_planar_mesh(const MeshSource& source);
+
+} // namespace calotte::tools

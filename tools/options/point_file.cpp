@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "options/point_file.h"
+
+#include "options/format_options.h"
+
+#include <iostream>
+#include <string_view>
+
+namespace calotte::tools {
+namespace {
+
+/// As read_points; "-" is standard input.
+Points3 points_from(const std::string& path, Columns columns, std::vector<std::int64_t>* lines) {
+  return path == "-" ? read_points(std::cin, "standard input", columns, lines)
+                     : read_points(path, columns, lines);
+}
+
+} // namespace
+
+PointFile read_point_file(const std::string& path, bool lonlat) {
+  if (holds_points(path)) {
+    if (lonlat)
+      throw Error(ErrorCode::bad_option,
+                  path + ": a mesh's points are x y z; leave --lonlat out, or give text");
+    return {path, read_sites(path), {}};
+  }
+  PointFile file;
+  file.name = path == "-" ? "standard input" : path;
+  file.points = points_from(path, lonlat ? Columns::lonlat : Columns::xyz, &file.lines);
+  return file;
+}
+
+PlanarPointFile read_planar_point_file(const std::string& path) {
+  PlanarPointFile file;
+  file.name = path == "-" ? "standard input" : path;
+  file.points = path == "-" ? read_planar_points(std::cin, file.name, &file.lines)
+                            : read_planar_points(path, &file.lines);
+  return file;
+}
+
+void rethrow_with_line(const Error& error, const std::string& name,
+                       const std::vector<std::int64_t>& lines) {
+  const bool of_input = error.code() == ErrorCode::not_finite ||
+                        error.code() == ErrorCode::zero_vector ||
+                        error.code() == ErrorCode::duplicate ||
+                        // outside of a domain; other options' indices are of other things
+                        (error.code() == ErrorCode::bad_option &&
+                         std::string_view(error.what()).starts_with("point "));
+  if (!of_input || error.index() < 0 || error.index() >= static_cast<std::int64_t>(lines.size()))
+    throw error;
+  const std::int64_t line = lines[static_cast<std::size_t>(error.index())];
+  throw Error(error.code(), name + " line " + std::to_string(line) + ": " + error.what(), line);
+}
+
+} // namespace calotte::tools

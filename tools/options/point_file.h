@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <calotte/error.h>
+#include <calotte/io.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace calotte::tools {
+
+/// Points with the lines they stand on, for messages.
+struct PointFile {
+  std::string name;
+  Points3 points;
+  std::vector<std::int64_t> lines;
+};
+
+/// Text (MPI-SCVT's SaveVertices and RegionList are such), or the points of a mesh, see
+/// mesh_suffixes, which have no lines.
+/// \throws Error as points_from and read_sites; bad_option for a mesh in longitude and latitude.
+PointFile read_point_file(const std::string& path, bool lonlat);
+
+/// Places in a plane, likewise.
+struct PlanarPointFile {
+  std::string name;
+  Points2 points;
+  std::vector<std::int64_t> lines;
+};
+
+/// Text, x y a line; "-" is standard input. \throws Error as read_planar_points.
+PlanarPointFile read_planar_point_file(const std::string& path);
+
+/// The library names the column of a bad point; who wrote the file looks for the line.
+/// \param lines of the columns of the file `name`; none where it has none.
+[[noreturn]] void rethrow_with_line(const Error& error, const std::string& name,
+                                    const std::vector<std::int64_t>& lines);
+
+} // namespace calotte::tools

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace calotte::tools {
+
+enum ExitCode {
+  done = 0,
+  check_failed = 1,
+  not_converged = 1,
+  bad_input = 2,
+  file_trouble = 3,
+  internal_error = 4,
+  interrupted = 130, ///< by SIGINT, as a shell has it: 128 and the signal's number
+  terminated = 143,  ///< by SIGTERM
+};
+
+/// Ends the command with an exit code, without a message.
+[[noreturn]] inline void finish(ExitCode code) { throw CLI::RuntimeError(code); }
+
+} // namespace calotte::tools
