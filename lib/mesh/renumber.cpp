@@ -8,6 +8,7 @@
 #include "base/triangle.h"
 #include "curve/hilbert.h"
 #include "curve/radix_sort.h"
+#include "mesh/canonical_order.h"
 
 #include <calotte/error.h>
 #include <calotte/renumber.h>
@@ -17,9 +18,8 @@
 #include <boost/property_map/function_property_map.hpp>
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
+#include <span>
 #include <string>
 
 namespace calotte {
@@ -69,91 +69,6 @@ Array<std::int32_t> inverse(const Array<std::int32_t>& order) {
   return place;
 }
 
-using Triple = std::array<std::int32_t, 3>;
-
-/// A triangle's new ids, from the old ones.
-Triple new_ids(const Triangles& triangles, std::int64_t t, const Array<std::int32_t>& place) {
-  return {place[triangles(0, t)], place[triangles(1, t)], place[triangles(2, t)]};
-}
-
-/// Where a triangle starts. Of vertices that are repeated, as a file may have them, the start is
-/// the one that makes the ids the lowest.
-int first_vertex(const Triple& ids) {
-  const auto vertex = [&](int i) { return ids[static_cast<std::size_t>(i)]; };
-  int best = 0;
-  for (const int i : {1, 2})
-    if (vertex(i) < vertex(best) ||
-        (vertex(i) == vertex(best) && vertex(next_vertex(i)) < vertex(next_vertex(best))))
-      best = i;
-  return best;
-}
-
-Triple turned(const Triple& ids, int first) {
-  const auto vertex = [&](int i) { return ids[static_cast<std::size_t>(i)]; };
-  return {vertex(first), vertex(next_vertex(first)), vertex(previous_vertex(first))};
-}
-
-Triple turned(const Triple& ids) { return turned(ids, first_vertex(ids)); }
-
-/// Sorts runs of equal keys by their third vertex: there are none in a manifold, where no two
-/// triangles leave a vertex along one edge.
-void sort_by_third(const Triangles& triangles, const Array<std::int32_t>& place, Order& order) {
-  const auto third = [&](std::int32_t t) { return turned(new_ids(triangles, t, place))[2]; };
-  const std::uint64_t* const end = order.keys.end();
-  for (const std::uint64_t* run = std::adjacent_find(order.keys.begin(), order.keys.end());
-       run != end;) {
-    const std::uint64_t* const last = std::find_if(run, end, [&](auto key) { return key != *run; });
-    std::int32_t* const items = order.items.begin();
-    std::stable_sort(items + (run - order.keys.begin()), items + (last - order.keys.begin()),
-                     [&](std::int32_t a, std::int32_t b) { return third(a) < third(b); });
-    run = std::adjacent_find(last, end);
-  }
-}
-
-/// The triangles in canonical order. Keys are the first two vertices, from the highest bits on.
-Array<std::int32_t> canonical_order(const Triangles& triangles, const Array<std::int32_t>& place) {
-  const int bits = std::bit_width(static_cast<std::uint64_t>(place.size()));
-  Array<std::uint64_t> keys(triangles.cols());
-  for_each_block(keys.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-    for (std::int64_t t = begin; t != end; ++t) {
-      const Triple ids = turned(new_ids(triangles, t, place));
-      const auto first = static_cast<std::uint64_t>(ids[0]);
-      keys[t] = (first << bits | static_cast<std::uint64_t>(ids[1])) << (key_bits - 2 * bits);
-    }
-  });
-  Order order = order_by_key(std::move(keys));
-  sort_by_third(triangles, place, order);
-  return std::move(order.items);
-}
-
-/// Triangles and neighbours of `mesh` to `out`, in that order.
-void move_triangles(const Mesh& mesh, const Array<std::int32_t>& place,
-                    const Array<std::int32_t>& order, Mesh& out) {
-  const std::int64_t count = order.size();
-  Array<std::int32_t> new_triangle(count);
-  for_each_block(count, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-    for (std::int64_t k = begin; k != end; ++k)
-      new_triangle[order[k]] = static_cast<std::int32_t>(k);
-  });
-  make_room(out.triangles, 3, count);
-  make_room(out.neighbours, 3, count);
-  for_each_block(count, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-    for (std::int64_t k = begin; k != end; ++k) {
-      const std::int64_t t = order[k];
-      const Triple ids = new_ids(mesh.triangles, t, place);
-      const int first = first_vertex(ids);
-      const Triple vertices = turned(ids, first);
-      const Triple across = turned(
-          Triple{mesh.neighbours(0, t), mesh.neighbours(1, t), mesh.neighbours(2, t)}, first);
-      for (int i = 0; i < 3; ++i) {
-        const std::int32_t old = across[static_cast<std::size_t>(i)];
-        out.triangles(i, k) = vertices[static_cast<std::size_t>(i)];
-        out.neighbours(i, k) = old < 0 ? -1 : new_triangle[old];
-      }
-    }
-  });
-}
-
 /// Both half-edges of each edge.
 std::vector<std::pair<std::int32_t, std::int32_t>> half_edges(const Mesh& mesh) {
   std::vector<std::pair<std::int32_t, std::int32_t>> edges;
@@ -190,9 +105,6 @@ Array<std::int32_t> curve_order(const Points3& points) {
 }
 
 bool is_in_curve_order(const Mesh& mesh) {
-  const auto triangle = [&](std::int64_t t) {
-    return Triple{mesh.triangles(0, t), mesh.triangles(1, t), mesh.triangles(2, t)};
-  };
   const auto sites_ascend = [&](std::int64_t begin, std::int64_t end) {
     std::uint64_t before = 0;
     bool ascend = true;
@@ -203,18 +115,8 @@ bool is_in_curve_order(const Mesh& mesh) {
                  });
     return ascend;
   };
-  const auto triangles_ascend = [&](std::int64_t begin, std::int64_t end) {
-    Triple before = triangle(std::max<std::int64_t>(begin - 1, 0));
-    for (std::int64_t t = begin; t != end; ++t) {
-      const Triple ids = triangle(t);
-      if (first_vertex(ids) != 0 || ids < before)
-        return false;
-      before = ids;
-    }
-    return true;
-  };
   return are_directions(mesh.points) && holds_for_blocks(mesh.points.cols(), sites_ascend) &&
-         holds_for_blocks(mesh.triangles.cols(), triangles_ascend);
+         is_canonical(mesh.triangles);
 }
 
 Array<std::int32_t> reverse_cuthill_mckee_order(const Mesh& mesh) {
@@ -246,7 +148,9 @@ Mesh in_order(const Mesh& mesh, const Array<std::int32_t>& order) {
     for (std::int64_t i = begin; i != end; ++i)
       out.points.col(i) = mesh.points.col(order[i]);
   });
-  move_triangles(mesh, place, canonical_order(mesh.triangles, place), out);
+  const CanonicalPlaces places =
+      order_triangles(mesh.triangles, std::span(place.begin(), place.end()), out.triangles);
+  order_neighbours(mesh.neighbours, places, out.neighbours);
   out.site_of_input.resize(mesh.site_of_input.size());
   std::transform(mesh.site_of_input.begin(), mesh.site_of_input.end(), out.site_of_input.begin(),
                  [&](std::int32_t site) { return place[site]; });

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/canonical_order.h"
+
+#include "base/matrix_memory.h"
+#include "base/parallel.h"
+#include "base/triangle.h"
+#include "curve/radix_sort.h"
+
+#include <algorithm>
+#include <array>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace calotte::mesh_detail {
+namespace {
+
+using Triple = std::array<std::int32_t, 3>;
+
+Triple column(const Triangles& matrix, std::int64_t t) {
+  return {matrix(0, t), matrix(1, t), matrix(2, t)};
+}
+
+/// Where a triangle starts. Of vertices that are repeated, as a file may have them, the start is
+/// the one that makes the ids the lowest.
+int first_vertex(const Triple& ids) {
+  const auto vertex = [&](int i) { return ids[static_cast<std::size_t>(i)]; };
+  int best = 0;
+  for (const int i : {1, 2})
+    if (vertex(i) < vertex(best) ||
+        (vertex(i) == vertex(best) && vertex(next_vertex(i)) < vertex(next_vertex(best))))
+      best = i;
+  return best;
+}
+
+Triple turned(const Triple& ids, int first) {
+  const auto vertex = [&](int i) { return ids[static_cast<std::size_t>(i)]; };
+  return {vertex(first), vertex(next_vertex(first)), vertex(previous_vertex(first))};
+}
+
+/// The triangles under their new names.
+struct Renamed {
+  const Triangles& triangles;
+  std::span<const std::int32_t> new_id;
+
+  std::int64_t size() const { return triangles.cols(); }
+  Triple operator[](std::int64_t t) const {
+    Triple ids = column(triangles, t);
+    if (!new_id.empty())
+      for (std::int32_t& id : ids)
+        id = new_id[static_cast<std::size_t>(id)];
+    return ids;
+  }
+};
+
+std::int32_t highest_id(const Triangles& triangles) {
+  std::vector<std::int32_t> highest(static_cast<std::size_t>(block_count(triangles.cols())));
+  for_each_block(triangles.cols(), [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
+    highest[static_cast<std::size_t>(block)] = triangles.middleCols(begin, end - begin).maxCoeff();
+  });
+  return highest.empty() ? 0 : *std::max_element(highest.begin(), highest.end());
+}
+
+/// A triangle from its lowest vertex on, and which one it was.
+struct Moved {
+  Triple ids;
+  std::int32_t from;
+
+  bool operator<(const Moved& other) const {
+    return std::tie(ids, from) < std::tie(other.ids, other.from);
+  }
+};
+
+/// Sorts run after run; most have fewer than four members.
+void sort_runs(Moved* items, const std::vector<std::int32_t>& ends) {
+  std::int32_t begin = 0;
+  for (const std::int32_t end : ends) {
+    if (end - begin > 1)
+      std::sort(items + begin, items + end);
+    begin = end;
+  }
+}
+
+/// Blocks of lowest vertices: the triangles of one stay in cache while they are sorted.
+constexpr int block_bits = 12;
+
+/// The triangles of one block, sorted.
+std::vector<Moved> sorted(std::span<const Moved> block) {
+  constexpr std::int32_t mask = (1 << block_bits) - 1;
+  std::vector<std::int32_t> ends(std::size_t{1} << block_bits);
+  const auto slot = [&](const Moved& triangle) -> std::int32_t& {
+    return ends[static_cast<std::size_t>(triangle.ids[0] & mask)];
+  };
+  for (const Moved& triangle : block)
+    ++slot(triangle);
+  std::int32_t sum = 0;
+  for (std::int32_t& end : ends)
+    sum += std::exchange(end, sum);
+  std::vector<Moved> out(block.size());
+  for (const Moved& triangle : block) // turns where a run begins into where it ends
+    out[static_cast<std::size_t>(slot(triangle)++)] = triangle;
+  sort_runs(out.data(), ends);
+  return out;
+}
+
+} // namespace
+
+CanonicalPlaces order_triangles(const Triangles& triangles, std::span<const std::int32_t> new_id,
+                                Triangles& out) {
+  const Renamed renamed{triangles, new_id};
+  const std::int64_t count = renamed.size();
+  const std::int64_t sites =
+      new_id.empty() ? std::int64_t{highest_id(triangles)} + 1 : std::ssize(new_id);
+  CanonicalPlaces places{Array<std::int32_t>(count), Array<std::int8_t>(count)};
+  Array<Moved> moved(count);
+  const std::int64_t blocks = ((sites - 1) >> block_bits) + 1;
+  const auto block_of = [&](std::int64_t t) {
+    const Triple ids = renamed[t];
+    return std::min({ids[0], ids[1], ids[2]}) >> block_bits;
+  };
+  const auto put = [&](std::int64_t t, std::int32_t place) {
+    const Triple ids = renamed[t];
+    const int first = first_vertex(ids);
+    places.first[t] = static_cast<std::int8_t>(first);
+    moved[place] = {turned(ids, first), static_cast<std::int32_t>(t)};
+  };
+  const std::vector<std::int32_t> begin = distribute(count, blocks, block_of, put);
+  make_room(out, 3, count);
+  for_each_task(blocks, [&](std::int64_t block) {
+    std::int32_t k = begin[static_cast<std::size_t>(block)];
+    const std::int32_t end = begin[static_cast<std::size_t>(block) + 1];
+    for (const Moved& triangle : sorted({moved.begin() + k, moved.begin() + end})) {
+      places.place[triangle.from] = k;
+      for (int i = 0; i < 3; ++i)
+        out(i, k) = triangle.ids[static_cast<std::size_t>(i)];
+      ++k;
+    }
+  });
+  return places;
+}
+
+void order_neighbours(const Triangles& neighbours, const CanonicalPlaces& places, Triangles& out) {
+  constexpr std::int64_t ahead = 16;
+  make_room(out, 3, neighbours.cols());
+  for_each_block(neighbours.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t t = begin; t != end; ++t) {
+      if (t + ahead < end)
+        __builtin_prefetch(&out(0, places.place[t + ahead]), 1);
+      const Triple across = turned(column(neighbours, t), places.first[t]);
+      for (int i = 0; i < 3; ++i) {
+        const std::int32_t old = across[static_cast<std::size_t>(i)];
+        out(i, places.place[t]) = old < 0 ? -1 : places.place[old];
+      }
+    }
+  });
+}
+
+void make_canonical(Triangles& triangles, Triangles& neighbours,
+                    std::span<const std::int32_t> new_id) {
+  Triangles ordered;
+  const CanonicalPlaces places = order_triangles(triangles, new_id, ordered);
+  triangles = std::move(ordered); // the old ones make room for the neighbours
+  if (neighbours.cols() == 0)
+    return;
+  Triangles across;
+  order_neighbours(neighbours, places, across);
+  neighbours = std::move(across);
+}
+
+bool is_canonical(const Triangles& triangles) {
+  return holds_for_blocks(triangles.cols(), [&](std::int64_t begin, std::int64_t end) {
+    Triple before = column(triangles, std::max<std::int64_t>(begin - 1, 0));
+    for (std::int64_t t = begin; t != end; ++t) {
+      const Triple ids = column(triangles, t);
+      if (first_vertex(ids) != 0 || ids < before)
+        return false;
+      before = ids;
+    }
+    return true;
+  });
+}
+
+} // namespace calotte::mesh_detail

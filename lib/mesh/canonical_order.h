@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "base/memory.h"
+#include "mesh/room.h"
+
+#include <calotte/types.h>
+
+#include <cstdint>
+#include <span>
+
+/// The one order of a mesh's triangles: each starts at its lowest vertex, and they are sorted by
+/// their vertices, triangles of equal vertices in the order that they had. Linear time, parallel.
+namespace calotte::mesh_detail {
+
+/// Brings triangles into canonical order, and their neighbours with them.
+/// \param neighbours across from each vertex, -1 where there is none; 3 x 0 if they are not known.
+/// \param new_id by old vertex: renames the vertices first; none keeps their names.
+/// \pre vertices are in [0, new_id.size()), or not negative if there are no new names; neighbours
+/// are in [-1, triangles).
+void make_canonical(Triangles& triangles, Triangles& neighbours,
+                    std::span<const std::int32_t> new_id = {});
+
+/// Where canonical order puts the triangles, for arrays that follow them.
+struct CanonicalPlaces {
+  Array<std::int32_t> place; ///< of each triangle
+  Array<std::int8_t> first;  ///< which of its old vertices comes first
+};
+
+/// The two stages of make_canonical(), from a mesh that stays as it is.
+CanonicalPlaces order_triangles(const Triangles& triangles, std::span<const std::int32_t> new_id,
+                                Triangles& out);
+void order_neighbours(const Triangles& neighbours, const CanonicalPlaces& places, Triangles& out);
+
+/// Whether make_canonical() would leave them as they are.
+bool is_canonical(const Triangles& triangles);
+
+} // namespace calotte::mesh_detail
