@@ -4,6 +4,7 @@
 #include <calotte/export.h>
 #include <calotte/types.h>
 
+#include <functional>
 #include <vector>
 
 CALOTTE_API_BEGIN
@@ -39,6 +40,10 @@ double area(const PlanarDomain& domain);
 /// Whether a place is inside or on the boundary, exactly; of a box, whether it is in the half-open
 /// box. It looks at the whole boundary each time. \pre require_domain().
 bool contains(const PlanarDomain& domain, const Eigen::Vector2d& place);
+
+/// contains() for many places: the boundary is prepared once, and a call looks at the part of it
+/// beside the place. \pre require_domain().
+std::function<bool(const Eigen::Vector2d&)> containing(const PlanarDomain& domain);
 
 } // namespace calotte
 CALOTTE_API_END

@@ -181,6 +181,9 @@ void write_checkpoint(const std::string& path, const CvtState& state,
 /// \throws Error file, parse, bad_option (of another configuration).
 CvtState read_checkpoint(const std::string& path, const std::string& configuration);
 
+/// The bytes of a file. \throws Error file.
+std::string read_file(const std::string& path);
+
 /// Writes bytes in the way of all files here.
 /// \throws Error file.
 void write_file(const std::string& path, std::string_view bytes);

@@ -4,6 +4,7 @@
 #include "base/require.h"
 #include "domain/outline.h"
 
+#include <memory>
 #include <string>
 
 namespace calotte {
@@ -45,10 +46,18 @@ double area(const PlanarDomain& domain) {
 }
 
 bool contains(const PlanarDomain& domain, const Eigen::Vector2d& place) {
+  return containing(domain)(place);
+}
+
+std::function<bool(const Eigen::Vector2d&)> containing(const PlanarDomain& domain) {
   if (domain.periodic())
-    return (place.array() >= 0).all() && (place.array() < domain.period.array()).all();
-  return domain_detail::Outline(domain).side({place.x(), place.y()}) !=
-         domain_detail::Side::outside;
+    return [period = domain.period](const Eigen::Vector2d& place) {
+      return (place.array() >= 0).all() && (place.array() < period.array()).all();
+    };
+  return
+      [outline = std::make_shared<domain_detail::Outline>(domain)](const Eigen::Vector2d& place) {
+        return outline->side({place.x(), place.y()}) != domain_detail::Side::outside;
+      };
 }
 
 } // namespace calotte

@@ -273,6 +273,11 @@ std::string read_all(std::istream& in, const std::string& name) {
 
 } // namespace io_detail
 
+std::string read_file(const std::string& path) {
+  std::ifstream in = io_detail::open_input(path);
+  return io_detail::read_all(in, path);
+}
+
 void write_file(const std::string& path, std::string_view bytes) {
   io_detail::OutputFile file(path);
   file.append(bytes);

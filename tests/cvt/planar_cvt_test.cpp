@@ -94,15 +94,6 @@ Points2 random_start(const PlanarDomain& domain, std::int64_t n, std::uint64_t s
   return points;
 }
 
-/// contains(), with the domain's outline made once.
-std::function<bool(const Eigen::Vector2d&)> containing(const PlanarDomain& domain) {
-  if (domain.periodic())
-    return [domain](const Eigen::Vector2d& place) { return contains(domain, place); };
-  return [outline = std::make_shared<Outline>(domain)](const Eigen::Vector2d& place) {
-    return outline->side({place.x(), place.y()}) != Side::outside;
-  };
-}
-
 /// The generators' moments, one region.
 struct AllMoments {
   Eigen::VectorXd mass, energy;

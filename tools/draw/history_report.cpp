@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "draw/history_report.h"
 
-#include "io/file.h"
-
 #include <calotte/error.h>
+#include <calotte/io.h>
 
 #include <nlohmann/json.hpp>
 
@@ -62,8 +61,7 @@ struct Part {
 };
 
 json parse(const std::string& path) {
-  std::ifstream in = io_detail::open_input(path);
-  const std::string text = io_detail::read_all(in, path);
+  const std::string text = read_file(path);
   try {
     return json::parse(text);
   } catch (const json::parse_error& error) {

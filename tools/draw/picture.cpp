@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "draw/picture.h"
 
-#include "io/file.h"
-
 #include <calotte/error.h>
+#include <calotte/io.h>
 
 #include <cairo-pdf.h>
 #include <cairo-svg.h>
@@ -12,6 +11,7 @@
 #include <cctype>
 #include <exception>
 #include <memory>
+#include <string>
 
 #ifdef __SANITIZE_ADDRESS__
 // Fontconfig loses some of what it keeps for the life of a process.
@@ -30,13 +30,13 @@ using Context = std::unique_ptr<cairo_t, decltype(&cairo_destroy)>;
 
 /// Where Cairo's C code hands over bytes: an exception waits there until it may pass.
 struct Stream {
-  io_detail::OutputFile file;
+  std::string bytes;
   std::exception_ptr failure;
 
   static cairo_status_t write(void* closure, const unsigned char* data, unsigned int length) {
     auto& stream = *static_cast<Stream*>(closure);
     try {
-      stream.file.append({reinterpret_cast<const char*>(data), length});
+      stream.bytes.append(reinterpret_cast<const char*>(data), length);
       return CAIRO_STATUS_SUCCESS;
     } catch (...) {
       stream.failure = std::current_exception();
@@ -98,7 +98,7 @@ void write_picture(const std::string& path, int width, int height,
                    const std::function<void(cairo_t*)>& paint) {
   require_picture(path, width);
   const PictureFormat format = picture_format(path);
-  Stream stream{io_detail::OutputFile(path), nullptr};
+  Stream stream{};
   const Surface surface = surface_for(format, width, height, stream);
   {
     const Context context(cairo_create(surface.get()), cairo_destroy);
@@ -115,7 +115,7 @@ void write_picture(const std::string& path, int width, int height,
     status = cairo_surface_status(surface.get());
   }
   stream.check(status, path);
-  stream.file.commit();
+  write_file(path, stream.bytes);
 }
 
 } // namespace calotte::tools

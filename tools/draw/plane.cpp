@@ -7,15 +7,15 @@
 #include "draw/values.h"
 #include "draw/vector.h"
 
-#include "domain/outline.h"
-
 #include <calotte/delaunay.h>
+#include <calotte/domain.h>
 #include <calotte/error.h>
 #include <calotte/voronoi.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <vector>
@@ -183,19 +183,19 @@ class Meeting {
 public:
   Meeting(const std::optional<PlanarDomain>& domain, const Window& window) : window_(window) {
     if (domain) {
-      outline_.emplace(*domain);
+      inside_ = containing(*domain);
     }
   }
 
   bool operator()(const Vector2d& from, const Vector2d& to) const {
     constexpr int places = 16;
     const auto side = within(window_, from, to);
-    if (!side || !outline_) {
+    if (!side || !inside_) {
       return side.has_value();
     }
     for (int i = 0; i <= places; ++i) {
       const Vector2d place = (*side)[0] + (i / double(places)) * ((*side)[1] - (*side)[0]);
-      if (outline_->side({place.x(), place.y()}) != domain_detail::Side::outside) {
+      if (inside_(place)) {
         return true;
       }
     }
@@ -204,7 +204,7 @@ public:
 
 private:
   Window window_;
-  std::optional<domain_detail::Outline> outline_;
+  std::function<bool(const Vector2d&)> inside_;
 };
 
 /// Of an open mesh: mean distances to the neighbours, or their number, where these are the sites

@@ -4,31 +4,14 @@
 #include "options/numbers.h"
 
 #include <calotte/error.h>
+#include <calotte/io.h>
 
 #include <toml++/toml.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <system_error>
 
 namespace calotte::tools {
 namespace {
-
-/// The bytes of a file. \throws Error file.
-std::string read_text(const std::string& path) {
-  if (std::error_code error; std::filesystem::is_directory(path, error))
-    throw Error(ErrorCode::file,
-                "cannot read " + path + ": it is a folder; give the name of a file");
-  std::ifstream in(path, std::ios::binary);
-  if (!in)
-    throw Error(ErrorCode::file, "cannot read " + path + ": " +
-                                     std::generic_category().message(errno) +
-                                     "; check its name and its permissions");
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 [[noreturn]] void refuse(const std::string& path, std::int64_t line, const std::string& problem) {
   throw Error(ErrorCode::parse, path + " line " + std::to_string(line) + ": " + problem, line);
@@ -36,7 +19,7 @@ std::string read_text(const std::string& path) {
 
 toml::table parse(const std::string& path) {
   try {
-    return toml::parse(read_text(path), path);
+    return toml::parse(read_file(path), path);
   } catch (const toml::parse_error& error) {
     refuse(path, error.source().begin.line,
            std::string(error.description()) + "; write key = value, with text in quotes");
