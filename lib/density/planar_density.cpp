@@ -3,8 +3,8 @@
 
 #include "base/points.h"
 #include "base/require.h"
-#include "cvt/signs.h"
 #include "density/density_evaluator.h"
+#include "domain/periodic_box.h"
 
 #include <algorithm>
 #include <cmath>
