@@ -11,6 +11,7 @@
 
 #include "cvt/functional.h"
 #include "delaunay/centres.h"
+#include "delaunay/divide.h"
 
 #include <calotte/cvt.h>
 #include <calotte/delaunay.h>
@@ -140,12 +141,28 @@ std::vector<double> medians(const std::vector<std::vector<double>>& lists, int w
   return result;
 }
 
+/// Adds the sites that each region would receive in an iteration of a distributed run, and the
+/// bytes that it would send.
+void count_halos(const Points3& points, const DelaunayOptions& partition, Lists& lists) {
+  const delaunay_detail::Sites sites = delaunay_detail::make_sites(points, Duplicates::merge, 0);
+  const delaunay_detail::Regions regions = delaunay_detail::divide(sites, partition);
+  lists.halo.resize(regions.centres.size(), 0);
+  lists.sent.resize(regions.centres.size(), 0);
+  for (std::size_t k = 0; k < regions.members.size(); ++k)
+    for (const delaunay_detail::Run& run : regions.members[k])
+      for (std::int32_t r = run.begin; r != run.end; ++r)
+        if (const auto owner = static_cast<std::size_t>(regions.owner[r]); owner != k) {
+          ++lists.halo[k];
+          lists.sent[owner] += position_bytes;
+        }
+}
+
 /// Iterations of Lloyd's method. A region's seconds are the median of its own over all but the
 /// first two, which look at the start's mesh twice and find their memory new.
 class Iterations {
 public:
   Iterations(const Workload& work, const Cut& cut)
-      : points_(work.points),
+      : points_(work.points), partition_(partition_of(cut)),
         functional_(cvt_detail::make_functional(work.points, options_of(work, cut))) {}
 
   /// \returns the wall-clock seconds of this iteration.
@@ -160,7 +177,6 @@ public:
     for (std::size_t k = 0; k < regions_.size(); ++k)
       seconds.push_back(regions_[k].seconds - before.at(k).seconds);
     points_.swap(evaluation_.centroids);
-    functional_->moved(evaluation_.iteration.linf);
     flips_ += static_cast<double>(evaluation_.iteration.flips);
     return timed.seconds;
   }
@@ -168,11 +184,9 @@ public:
   Lists lists() const {
     Lists lists;
     lists.seconds = medians(seconds_, warm_up);
-    for (const CvtRegion& region : regions_) {
+    for (const CvtRegion& region : regions_)
       lists.owned.push_back(static_cast<double>(region.sites));
-      lists.halo.push_back(static_cast<double>(region.halo));
-      lists.sent.push_back(static_cast<double>(region.halo_bytes));
-    }
+    count_halos(points_, partition_, lists);
     return lists;
   }
 
@@ -189,6 +203,7 @@ private:
   }
 
   Points3 points_;
+  DelaunayOptions partition_;
   std::unique_ptr<cvt_detail::Functional> functional_;
   cvt_detail::Evaluation evaluation_;
   std::vector<CvtRegion> regions_;

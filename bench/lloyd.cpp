@@ -129,7 +129,7 @@ Iterated run_cvt(const Points3& start, const Target& target, int iterations, int
                                   static_cast<std::size_t>(threads));
   tbb::task_arena arena(threads);
   std::vector<double> cpu;
-  const CvtStop note_cpu = [&](const CvtState&) {
+  const CvtCallback note_cpu = [&](const CvtProgress&) {
     cpu.push_back(cpu_now());
     return false;
   };

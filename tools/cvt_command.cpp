@@ -76,17 +76,17 @@ public:
   Keeper(const CvtRequest& request, std::string configuration, std::size_t iterations)
       : request_(request), configuration_(std::move(configuration)), iterations_(iterations) {}
 
-  bool due(const CvtState& state) const {
+  bool due(const CvtReport& report) const {
     const std::chrono::duration<double, std::ratio<60>> minutes = Clock::now() - time_;
     return !request_.checkpoint.empty() &&
-           (state.report.iterations.size() >=
+           (report.iterations.size() >=
                 iterations_ + static_cast<std::size_t>(request_.checkpoint_every) ||
             minutes.count() >= request_.checkpoint_minutes);
   }
 
   /// \throws Error file.
   void keep(const CvtState& state) {
-    iterations_ = state.report.iterations.size();
+    iterations_ = state.report().iterations.size();
     time_ = Clock::now();
     write_checkpoint(request_.checkpoint, state, configuration_);
   }
@@ -111,19 +111,19 @@ struct Outcome {
 };
 
 /// Shows where the run stands, keeps it, and ends it when a signal came.
-bool after_iteration(const CvtState& state, const CvtRequest& request, const CvtOptions& options,
+bool after_iteration(const CvtProgress& now, const CvtRequest& request, const CvtOptions& options,
                      Keeper& keeper, Progress& progress, int& signal) {
-  progress.stage(describe(state, options, norm_word(request)));
+  progress.stage(describe(now, options, norm_word(request)));
   signal = Interruption::signal();
   if (signal != 0) {
     if (!request.checkpoint.empty())
-      keeper.keep(state);
+      keeper.keep(now.state);
     return true;
   }
-  if (!keeper.due(state))
+  if (!keeper.due(now.report))
     return false;
   try {
-    keeper.keep(state);
+    keeper.keep(now.state);
   } catch (const Error& error) { // a full disk may have room again before the run needs it
     progress.say("calotte: " + std::string(error.what()) + " (the run goes on)");
   }
@@ -165,18 +165,18 @@ Plan prepare(CvtRequest& request, Progress& progress) {
 }
 
 /// Its mesh is one of the two.
-void run_plan(Plan& plan, const CvtStop& stop, Outcome& outcome) {
+void run_plan(Plan& plan, const CvtCallback& callback, Outcome& outcome) {
   const CvtOptions& options = plan.options;
   if (plan.domain) {
-    PlanarCvt result = plan.state ? cvt(std::move(*plan.state), *plan.domain, options, stop)
-                                  : cvt(plan.start.places, *plan.domain, options, stop);
+    PlanarCvt result = plan.state ? cvt(std::move(*plan.state), *plan.domain, options, callback)
+                                  : cvt(plan.start.places, *plan.domain, options, callback);
     outcome.plane = std::move(result.mesh);
     outcome.report = std::move(result.report);
     outcome.cells = outcome.plane.points.cols();
     outcome.area = area(*plan.domain);
   } else {
-    Cvt result = plan.state ? cvt(std::move(*plan.state), options, stop)
-                            : cvt(plan.start.points, options, stop);
+    Cvt result = plan.state ? cvt(std::move(*plan.state), options, callback)
+                            : cvt(plan.start.points, options, callback);
     outcome.mesh = std::move(result.mesh);
     outcome.report = std::move(result.report);
     outcome.cells = outcome.mesh.points.cols();
@@ -187,16 +187,16 @@ void run_plan(Plan& plan, const CvtStop& stop, Outcome& outcome) {
 /// \param plan gives its state away.
 Outcome tessellate(const CvtRequest& request, Plan& plan, Progress& progress) {
   Outcome outcome;
-  outcome.before = plan.state ? plan.state->report.iterations.size() : 0;
+  outcome.before = plan.state ? plan.state->report().iterations.size() : 0;
   Keeper keeper(request, plan.configuration, outcome.before);
-  const CvtStop stop = [&](const CvtState& now) {
+  const CvtCallback callback = [&](const CvtProgress& now) {
     return after_iteration(now, request, plan.options, keeper, progress, outcome.signal);
   };
   progress.stage("triangulating the start");
   try {
     with_threads(request.partition->threads, [&] {
       outcome.threads = tbb::this_task_arena::max_concurrency();
-      run_plan(plan, stop, outcome);
+      run_plan(plan, callback, outcome);
     });
   } catch (const Error& error) {
     rethrow_with_line(error, plan.start.file, plan.start.lines);

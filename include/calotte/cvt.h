@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <vector>
 
 CALOTTE_API_BEGIN
@@ -79,10 +80,7 @@ struct CvtIteration {
 /// A region at the end of the run.
 struct CvtRegion {
   std::int64_t sites = 0; ///< that it owns
-  std::int64_t halo = 0;  ///< others that it would have to know, by the options' sort
-  /// Of positions that it would send to others in an iteration of a distributed run.
-  std::int64_t halo_bytes = 0;
-  double seconds = 0; ///< of its tasks since the sites were last sorted to regions
+  double seconds = 0;     ///< of its tasks since the sites were last sorted to regions
 };
 
 /// The value that CvtOptions::tolerance is compared with; 0 for Norm::none.
@@ -96,28 +94,43 @@ struct CvtReport {
   double seconds = 0; ///< wall-clock time of the run; of all its parts when it was resumed
 };
 
-/// What a method remembers of its way.
-struct CvtMemory {
-  std::vector<Points3> steps, changes; ///< of generators, and of the gradient then; oldest first
-  std::vector<double> curvatures;      ///< their inner products
-  Points3 laplacian_at;                ///< generators that the graph Laplacian was made for
-  int since_laplacian = 0;             ///< evaluations
-  bool flipped = false;                ///< edges, since then
-  Points3 before;                      ///< Nesterov's: the centroids before
-  double momentum = 1;
+/// All that a run needs to go on to the same bits. write_checkpoint() saves it, read_checkpoint()
+/// loads it.
+class CvtState {
+public:
+  CvtState(); ///< of no generators
+  CvtState(const CvtState& other);
+  CvtState(CvtState&& other) noexcept; ///< the other may only be assigned to or destroyed then
+  CvtState& operator=(CvtState other) noexcept;
+  ~CvtState();
+
+  /// The generators: 3 x n unit columns, in a plane with z = 0, in the order of the result.
+  Points3 points() const;
+
+  const CvtReport& report() const; ///< of the run so far
+
+  /// For the library alone.
+  struct Data;
+  explicit CvtState(Data data);
+  const Data& data() const { return *data_; }
+  Data& data() { return *data_; }
+
+private:
+  std::unique_ptr<Data> data_;
 };
 
-/// All that a run needs to go on with the same bits: what a checkpoint holds.
-struct CvtState {
-  Points3 points; ///< unit generators, along a space-filling curve; in the plane with z = 0
-  std::vector<std::int32_t> id;            ///< of each: its column in the result
-  std::vector<std::int32_t> site_of_input; ///< as Mesh's; of the start, or empty after a bisection
-  int bisections_left = 0;
-  int iterations_of_level = 0;
-  bool final_rule = false; ///< it has taken over
-  CvtMemory memory;
-  CvtReport report;
+/// Where a run stands after an accepted iteration. Valid during the call that it is passed to.
+struct CvtProgress {
+  const CvtReport& report;     ///< so far; residual and seconds are those of now
+  int iterations_of_level = 0; ///< evaluations of the current level, trials included
+  int bisections_left = 0;     ///< levels that follow the current one
+  const CvtState& state;       ///< what a checkpoint holds
 };
+
+/// Called after each accepted iteration; return true to stop the run there. The result is then the
+/// mesh of the generators as they are, marked not converged. An exception that it throws ends the
+/// run and reaches the caller, as does one that a callable density throws.
+using CvtCallback = std::function<bool(const CvtProgress&)>;
 
 /// A centroidal Voronoi tessellation: generators that are the centroids of their Voronoi cells.
 struct Cvt {
@@ -125,10 +138,6 @@ struct Cvt {
              ///< (after bisections, the midpoints follow)
   CvtReport report;
 };
-
-/// Asked after each iteration that was gone on from; true ends the run there. It may throw: what it
-/// throws ends the run and passes through, as what a callable density throws does.
-using CvtStop = std::function<bool(const CvtState&)>;
 
 /// A centroidal Voronoi tessellation of the unit sphere: the generators are moved until they are
 /// the constrained centroids M/|M| of their cells, M the integral of rho x (Jacobsen et al., 2013,
@@ -145,12 +154,12 @@ using CvtStop = std::function<bool(const CvtState&)>;
 /// \throws Error as delaunay(); too_few_sites for fewer than 12 generators, or when they leave a
 /// hemisphere empty or meet; bad_option for an option out of range, or a density that is
 /// ill-formed, negative or NaN somewhere, or zero over a whole cell.
-Cvt cvt(Points3 start, const CvtOptions& options = {}, const CvtStop& stop = {});
+Cvt cvt(Points3 start, const CvtOptions& options = {}, const CvtCallback& callback = {});
 
 /// Goes on from a state to the bits that the run would have reached without the interruption,
 /// provided that the options are the same. \throws Error as above; bad_option for a state that is
 /// not whole.
-Cvt cvt(CvtState state, const CvtOptions& options, const CvtStop& stop = {});
+Cvt cvt(CvtState state, const CvtOptions& options, const CvtCallback& callback = {});
 
 /// A centroidal Voronoi tessellation of a planar domain.
 struct PlanarCvt {
@@ -169,11 +178,11 @@ struct PlanarCvt {
 /// \throws Error as above; bad_option as require_domain(), or with the index of a generator outside
 ///         of the domain.
 PlanarCvt cvt(const Points2& start, const PlanarDomain& domain, const CvtOptions& options = {},
-              const CvtStop& stop = {});
+              const CvtCallback& callback = {});
 
 /// \throws Error as above.
 PlanarCvt cvt(CvtState state, const PlanarDomain& domain, const CvtOptions& options,
-              const CvtStop& stop = {});
+              const CvtCallback& callback = {});
 
 /// Where a continuation to a number of cells starts: n cells with bisections b reach it when
 /// cells = 4^b (n - 2) + 2.

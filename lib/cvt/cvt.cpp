@@ -2,23 +2,19 @@
 #include <calotte/cvt.h>
 
 #include "base/clock.h"
-#include "base/points.h"
 #include "base/require.h"
 #include "cvt/descent.h"
-#include "cvt/functional.h"
 #include "cvt/planar_cells.h"
-#include "cvt/signs.h"
-#include "delaunay/periodic.h"
-#include "delaunay/sites.h"
-#include "density/planar_density.h"
+#include "cvt/state.h"
+#include "cvt/worlds.h"
 #include "integrals/quadrature.h"
+#include "mesh/canonical_order.h"
 
-#include <calotte/delaunay.h>
 #include <calotte/error.h>
-#include <calotte/generators.h>
 
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -47,15 +43,8 @@ void require_options(const CvtOptions& options) {
   quadrature_rule(options.final_rule);
 }
 
-[[noreturn]] void refuse_state() {
-  throw Error(
-      ErrorCode::bad_option,
-      "the state is not one that a run has left: its points must be unit vectors, or places "
-      "in the domain, and its ids a permutation");
-}
-
 /// Refuses a state that no run has left, whatever its space.
-void require_state(const CvtState& state) {
+void require_state(const State& state) {
   const auto n = static_cast<std::size_t>(state.points.cols());
   std::vector<std::uint8_t> seen(n, 0);
   bool good = n >= 1 && state.id.size() == n && state.bisections_left >= 0 &&
@@ -64,7 +53,7 @@ void require_state(const CvtState& state) {
     const std::int32_t id = state.id[i];
     good = id >= 0 && static_cast<std::size_t>(id) < n && seen[static_cast<std::size_t>(id)]++ == 0;
   }
-  const CvtMemory& memory = state.memory;
+  const Memory& memory = state.memory;
   for (const std::vector<Points3>* list : {&memory.steps, &memory.changes})
     for (const Points3& points : *list)
       good = good && points.cols() == state.points.cols();
@@ -79,7 +68,7 @@ void require_state(const CvtState& state) {
 }
 
 /// Takes the evaluation at the state's points into the state: its norm, and what follows from it.
-void conclude(CvtState& state, const CvtOptions& options, const CvtIteration& iteration) {
+void conclude(State& state, const CvtOptions& options, const CvtIteration& iteration) {
   CvtReport& report = state.report;
   const bool by_final_rule = options.density.uniform() || iteration.rule == options.final_rule;
   report.residual = norm_of(iteration, options.norm);
@@ -92,20 +81,29 @@ void conclude(CvtState& state, const CvtOptions& options, const CvtIteration& it
   }
 }
 
-bool level_ended(const CvtState& state, const CvtOptions& options) {
+bool level_ended(const State& state, const CvtOptions& options) {
   return state.report.converged || state.iterations_of_level >= options.max_iterations;
 }
 
-/// The descent of one level; true when `stop` ended it.
+/// How a level ended.
+struct Ending {
+  bool stopped = false;
+  std::optional<Connectivity> mesh; ///< of the state's points; else they are to be triangulated
+};
+
+/// The descent of one level.
 template <class World>
-bool iterate(const World& world, CvtState& state, const CvtOptions& options, const CvtStop& stop) {
+Ending iterate(const World& world, CvtState& whole, Level&& level, const CvtOptions& options,
+               const CvtCallback& callback) {
+  State& state = whole.data();
   if (level_ended(state, options)) {
     state.report.converged = state.report.converged || options.norm == Norm::none;
-    return false;
+    return {};
   }
   const double before = state.report.seconds;
   const Clock::time_point start = Clock::now();
-  const std::unique_ptr<Functional> functional = world.functional(state.points, options);
+  const std::unique_ptr<Functional> functional =
+      world.functional(state.points, options, std::move(level));
   Descent descent(state, options, *functional);
   const bool resumed = state.iterations_of_level > 0;
   descent.begin();
@@ -118,119 +116,17 @@ bool iterate(const World& world, CvtState& state, const CvtOptions& options, con
       state.points = descent.here().centroids;
     Clock::time_point now = start;
     state.report.seconds = before + lap(now);
-    const bool stopped = stop && stop(state);
+    const bool stopped = callback && callback({state.report, state.iterations_of_level,
+                                               state.bisections_left, whole});
     if (ended || stopped) {
       state.report.regions = functional->regions();
-      return stopped;
+      return {stopped, functional->take_mesh(state.points)};
     }
   }
 }
-
-/// The order of the start.
-Points3 in_order(const CvtState& state) {
-  Points3 points(3, state.points.cols());
-  for (Eigen::Index r = 0; r < points.cols(); ++r)
-    points.col(state.id[static_cast<std::size_t>(r)]) = state.points.col(r);
-  return points;
-}
-
-/// \param sites their given points are those of the state: unit columns.
-void set_points(CvtState& state, const Sites& sites, const Array<Vec3>& points) {
-  const std::int64_t n = sites.size();
-  state.points.resize(3, n);
-  state.id.resize(static_cast<std::size_t>(n));
-  for (std::int64_t r = 0; r < n; ++r) {
-    set_column(state.points, r, points[r]);
-    state.id[static_cast<std::size_t>(r)] = sites.id[r];
-  }
-}
-
-/// What a run needs to know of the space that its generators live in.
-class OnSphere {
-public:
-  using Result = Cvt;
-
-  static Density density(const Density& density) {
-    evaluate(density, Points3(Eigen::Vector3d::UnitZ())); // says what is wrong with it
-    return density;
-  }
-  static void require_points(const CvtState& state) {
-    if (state.points.cols() < 12 ||
-        !((state.points.colwise().squaredNorm().array() - 1).abs() < 1e-12).all())
-      refuse_state();
-  }
-  static std::unique_ptr<Functional> functional(const Points3& points, const CvtOptions& options) {
-    return make_functional(points, options);
-  }
-  /// The generators that a bisection leaves of n: n -> 4n - 6.
-  static std::int64_t bisected(std::int64_t n) { return 4 * n - 6; }
-  static Mesh mesh(Points3&& points) { return delaunay(std::move(points)); }
-  static void set_bisected(CvtState& state, Points3&& points) {
-    const Sites sites = make_sites(bisect(mesh(std::move(points))), Duplicates::refuse, 0);
-    set_points(state, sites, sites.unit);
-  }
-};
-
-/// The same of a domain in the plane.
-class InPlane {
-public:
-  using Result = PlanarCvt;
-
-  explicit InPlane(const PlanarDomain& domain) : domain_(domain) { require_domain(domain); }
-
-  Density density(const Density& density) const {
-    const Density planar = planar_density(density, domain_);
-    const Eigen::Vector2d some =
-        domain_.periodic() ? Eigen::Vector2d(0, 0) : Eigen::Vector2d(domain_.rings[0].col(0));
-    evaluate(planar, Points3(Eigen::Vector3d(some.x(), some.y(), 0)));
-    return planar;
-  }
-  void require_points(const CvtState& state) const {
-    if (!state.points.allFinite() || !state.points.row(2).isZero(0) || !all_inside(state.points))
-      refuse_state();
-  }
-  std::unique_ptr<Functional> functional(const Points3& points, const CvtOptions& options) const {
-    return make_functional(points, domain_, options);
-  }
-  /// At most: some midpoints may be outside.
-  static std::int64_t bisected(std::int64_t n) { return 4 * n; }
-  PlanarMesh mesh(const Points3& points) const {
-    const Points2 places = in_domain(points);
-    return domain_.periodic() ? delaunay(places, domain_.period) : delaunay(places);
-  }
-  void set_bisected(CvtState& state, const Points3& points) const {
-    set_places(state, make_sites(bisect(mesh(points), domain_), Duplicates::refuse, 0));
-  }
-  static void set_places(CvtState& state, const Sites& sites) {
-    Array<Vec3> points(sites.size());
-    for (std::int64_t r = 0; r < sites.size(); ++r)
-      points[r] = sites.given(sites.id[r]);
-    set_points(state, sites, points);
-  }
-
-private:
-  bool all_inside(const Points3& points) const {
-    try {
-      if (!domain_.periodic())
-        require_inside(points.topRows<2>(), domain_);
-    } catch (const Error&) {
-      return false;
-    }
-    return true;
-  }
-  Points2 in_domain(const Points3& points) const {
-    Points2 places = points.topRows<2>();
-    for (Eigen::Index i = 0; domain_.periodic() && i < places.cols(); ++i)
-      for (int k = 0; k < 2; ++k)
-        places(k, i) = wrapped(places(k, i), domain_.period[k]);
-    return places;
-  }
-
-  PlanarDomain domain_;
-};
 
 /// Refuses bisections to more generators than a mesh can hold, before any work.
-template <class World> void require_room(const World& world, const CvtState& state) {
+template <class World> void require_room(const World& world, const State& state) {
   const std::int64_t n = state.points.cols();
   int most = 0;
   for (std::int64_t cells = world.bisected(n); cells <= most_points; cells = world.bisected(cells))
@@ -241,53 +137,30 @@ template <class World> void require_room(const World& world, const CvtState& sta
                     " generators are too many; give at most " + std::to_string(most));
 }
 
-CvtState begin(Points3&& start, const CvtOptions& options) {
-  Sites sites =
-      make_sites(std::move(start), options.partition.duplicates, options.partition.merge_within);
-  if (sites.size() < 12)
-    throw Error(ErrorCode::too_few_sites, "there are " + std::to_string(sites.size()) +
-                                              " distinct generators: give at least 12");
-  CvtState state;
-  set_points(state, sites, sites.unit);
-  state.site_of_input = std::move(sites.site_of_input);
-  state.bisections_left = options.bisections;
-  return state;
-}
-
-/// Cells of generators on one line would do, but no mesh of them.
-void require_triangle(const Sites& sites) {
-  const auto given = [&](std::int32_t id) { return Vec2{sites.given(id).x, sites.given(id).y}; };
-  for (std::int32_t id = 2; id < sites.size(); ++id)
-    if (orientation(given(0), given(1), given(id)) != 0)
-      return;
-  throw Error(ErrorCode::degenerate,
-              "all generators lie on one line: add one off it, they span no triangle");
-}
-
-CvtState begin(const Points2& start, const CvtOptions& options) {
-  Sites sites = make_sites(start, options.partition.duplicates, options.partition.merge_within);
-  require_triangle(sites);
-  CvtState state;
-  InPlane::set_places(state, sites);
-  state.site_of_input = std::move(sites.site_of_input);
-  state.bisections_left = options.bisections;
-  return state;
+/// The mesh of the state's points, in the order of the start.
+template <class World> auto mesh_of(const World& world, const State& state, Ending&& ending) {
+  if (!ending.mesh)
+    return world.triangulated(in_order(state));
+  make_canonical(ending.mesh->triangles, ending.mesh->neighbours, state.id);
+  return world.mesh(in_order(state), std::move(*ending.mesh));
 }
 
 /// The next level's start.
-template <class World> void refine(const World& world, CvtState& state) {
-  world.set_bisected(state, in_order(state));
+template <class World> Level refine(const World& world, State& state, Ending&& ending) {
+  state.memory = {};
+  Level level = world.set_bisected(state, mesh_of(world, state, std::move(ending)));
   state.site_of_input.clear();
   --state.bisections_left;
   state.iterations_of_level = 0;
   state.final_rule = false;
-  state.memory = {};
   state.report.converged = false;
+  return level;
 }
 
 template <class World>
-typename World::Result run(const World& world, CvtState state, CvtOptions options,
-                           const CvtStop& stop) {
+typename World::Result run(const World& world, CvtState whole, CvtOptions options,
+                           const CvtCallback& callback) {
+  State& state = whole.data();
   require_options(options);
   options.density = world.density(options.density);
   require_state(state);
@@ -295,13 +168,14 @@ typename World::Result run(const World& world, CvtState state, CvtOptions option
   require_room(world, state);
   Clock::time_point mark = Clock::now();
   const double before = state.report.seconds;
-  bool stopped = iterate(world, state, options, stop);
-  while (!stopped && state.bisections_left > 0) {
-    refine(world, state);
-    stopped = iterate(world, state, options, stop);
+  Ending ending = iterate(world, whole, {}, options, callback);
+  while (!ending.stopped && state.bisections_left > 0) {
+    Level level = refine(world, state, std::move(ending));
+    ending = iterate(world, whole, std::move(level), options, callback);
   }
+  state.memory = {};
   typename World::Result result;
-  result.mesh = world.mesh(in_order(state));
+  result.mesh = mesh_of(world, state, std::move(ending));
   if (!state.site_of_input.empty())
     result.mesh.site_of_input = std::move(state.site_of_input);
   result.report = std::move(state.report);
@@ -330,28 +204,29 @@ double norm_of(const CvtIteration& iteration, Norm norm) {
   }
 }
 
-Cvt cvt(CvtState state, const CvtOptions& options, const CvtStop& stop) {
-  return cvt_detail::run(cvt_detail::OnSphere(), std::move(state), options, stop);
+Cvt cvt(CvtState state, const CvtOptions& options, const CvtCallback& callback) {
+  return cvt_detail::run(cvt_detail::SphericalWorld(), std::move(state), options, callback);
 }
 
-Cvt cvt(Points3 start, const CvtOptions& options, const CvtStop& stop) {
+Cvt cvt(Points3 start, const CvtOptions& options, const CvtCallback& callback) {
   cvt_detail::require_options(options);
-  cvt_detail::OnSphere::density(options.density);
-  return cvt(cvt_detail::begin(std::move(start), options), options, stop);
+  cvt_detail::SphericalWorld::density(options.density);
+  return cvt(CvtState(cvt_detail::SphericalWorld::begin(std::move(start), options)), options,
+             callback);
 }
 
 PlanarCvt cvt(CvtState state, const PlanarDomain& domain, const CvtOptions& options,
-              const CvtStop& stop) {
-  return cvt_detail::run(cvt_detail::InPlane(domain), std::move(state), options, stop);
+              const CvtCallback& callback) {
+  return cvt_detail::run(cvt_detail::PlanarWorld(domain), std::move(state), options, callback);
 }
 
 PlanarCvt cvt(const Points2& start, const PlanarDomain& domain, const CvtOptions& options,
-              const CvtStop& stop) {
+              const CvtCallback& callback) {
   cvt_detail::require_options(options);
-  const cvt_detail::InPlane plane(domain);
+  const cvt_detail::PlanarWorld plane(domain);
   plane.density(options.density);
   cvt_detail::require_inside(start, domain);
-  return cvt(cvt_detail::begin(start, options), domain, options, stop);
+  return cvt(CvtState(cvt_detail::PlanarWorld::begin(start, options)), domain, options, callback);
 }
 
 } // namespace calotte

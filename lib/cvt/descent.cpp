@@ -24,24 +24,9 @@ constexpr double near_enough = 0.05; ///< rms distance from the centroids over h
 
 double scaled_l2(const CvtIteration& iteration) { return iteration.l2 / iteration.spacing; }
 
-/// The largest of value(i) >= 0.
-template <class Value> double largest(std::int64_t n, const Value& value) {
-  std::vector<double> most(static_cast<std::size_t>(block_count(n)), 0);
-  for_each_block(n, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
-    double& here = most[static_cast<std::size_t>(block)];
-    for (std::int64_t i = begin; i != end; ++i)
-      here = std::max(here, value(i));
-  });
-  return *std::max_element(most.begin(), most.end());
-}
-
-double longest(const Points3& vectors) {
-  return largest(vectors.cols(), [&](std::int64_t i) { return norm(column(vectors, i)); });
-}
-
 } // namespace
 
-Descent::Descent(CvtState& state, const CvtOptions& options, Functional& functional)
+Descent::Descent(State& state, const CvtOptions& options, Functional& functional)
     : state_(state), options_(options), functional_(functional), density_(options.density) {}
 
 /// Far from an optimum edges flip all the time, and no Laplacian lasts.
@@ -92,7 +77,6 @@ void Descent::accept(Points3&& points) {
 }
 
 void Descent::lloyd_step() {
-  functional_.moved(here_.iteration.linf);
   std::swap(state_.points, here_.centroids);
   evaluate(state_.points, here_);
 }
@@ -104,12 +88,10 @@ void Descent::relaxed_step() {
 
 /// Goes to the points, unless they are higher: then by Lloyd's step. False for the latter.
 bool Descent::step_or_lloyd(Points3&& next) {
-  functional_.moved(longest(difference(next, state_.points)));
   evaluate(next, there_);
   const bool lower = there_.iteration.energy <= here_.iteration.energy * (1 + rounding);
   if (!lower) {
     state_.report.iterations.back().accepted = false;
-    functional_.moved(longest(difference(next, here_.centroids)));
     next = here_.centroids;
     evaluate(next, there_);
   }
@@ -120,7 +102,7 @@ bool Descent::step_or_lloyd(Points3&& next) {
 /// Nesterov's sequence (1983) over Lloyd's map, which restarts where it turns back (O'Donoghue and
 /// Candes, 2015) or climbs.
 void Descent::nesterov_step() {
-  CvtMemory& memory = state_.memory;
+  Memory& memory = state_.memory;
   Points3 next = here_.centroids;
   double share = 0;
   if (memory.before.cols() == next.cols()) {
@@ -143,14 +125,14 @@ void Descent::nesterov_step() {
 // to the tangent planes where they are used
 
 void Descent::forget() {
-  CvtMemory& memory = state_.memory;
+  Memory& memory = state_.memory;
   memory.steps.clear();
   memory.changes.clear();
   memory.curvatures.clear();
 }
 
 void Descent::make_laplacian() {
-  CvtMemory& memory = state_.memory;
+  Memory& memory = state_.memory;
   if (laplacian_ && !(memory.since_laplacian >= laplacian_lasts && memory.flipped))
     return;
   memory.laplacian_at = state_.points;
@@ -176,7 +158,7 @@ void Descent::precondition(Points3& vectors) const {
 /// agrees with the last step and the change of the gradient along it.
 void Descent::apply_initial_inverse(Points3& vectors) const {
   precondition(vectors);
-  const CvtMemory& memory = state_.memory;
+  const Memory& memory = state_.memory;
   if (memory.steps.empty())
     return;
   Points3 change = memory.changes.back();
@@ -187,7 +169,7 @@ void Descent::apply_initial_inverse(Points3& vectors) const {
 
 /// Minus the inverse of the approximate second derivative, times the gradient.
 Points3 Descent::direction() const {
-  const CvtMemory& memory = state_.memory;
+  const Memory& memory = state_.memory;
   const std::size_t pairs = memory.steps.size();
   Points3 d = here_.gradient;
   std::vector<double> shares(pairs);
@@ -236,10 +218,9 @@ double Descent::longest_step(const Points3& direction) const {
 /// Zhang's approximate Wolfe conditions, 2005); each next one by the secant of the slopes. False
 /// when none is. \param points set to the accepted ones.
 bool Descent::search(const Points3& direction, double slope, Points3& points) {
-  double step = std::min(1.0, longest_step(direction)), at = 0;
+  double step = std::min(1.0, longest_step(direction));
   for (int trial = 0; trial < most_trials; ++trial) {
     points = functional_.retract(state_.points, step, direction);
-    functional_.moved(std::abs(step - std::exchange(at, step)) * longest(direction));
     evaluate(points, there_);
     Points3 onward = direction;
     functional_.make_tangential(onward, points);
@@ -268,7 +249,7 @@ void Descent::remember(const Points3& points) {
     forget();
     return;
   }
-  CvtMemory& memory = state_.memory;
+  Memory& memory = state_.memory;
   if (memory.steps.size() == most_pairs) {
     memory.steps.erase(memory.steps.begin());
     memory.changes.erase(memory.changes.begin());
@@ -293,7 +274,6 @@ void Descent::quasi_newton_step() {
     forget();
     state_.final_rule = state_.final_rule || options_.norm != Norm::none;
     points = here_.centroids;
-    functional_.moved(here_.iteration.linf);
     evaluate(points, there_);
   }
   state_.report.iterations[first].seconds_solver = seconds;

@@ -4,6 +4,7 @@
 #include "cvt/functional.h"
 #include "cvt/multigrid.h"
 #include "cvt/room.h"
+#include "cvt/state.h"
 #include "density/density_evaluator.h"
 
 #include <calotte/cvt.h>
@@ -17,7 +18,7 @@ namespace calotte::cvt_detail {
 /// state's report, and what the method remembers stands in the state.
 class Descent {
 public:
-  Descent(CvtState& state, const CvtOptions& options, Functional& functional);
+  Descent(State& state, const CvtOptions& options, Functional& functional);
 
   /// Evaluates the state's points: recorded, unless the state has been evaluated there before.
   void begin();
@@ -46,7 +47,7 @@ private:
   double longest_step(const Points3& direction) const;
   bool search(const Points3& direction, double slope, Points3& points);
 
-  CvtState& state_;
+  State& state_;
   const CvtOptions& options_;
   Functional& functional_;
   DensityEvaluator density_;

@@ -74,8 +74,9 @@ void make_room(Evaluation& out, Eigen::Index n, bool with_gradient) {
 
 template <class Cells> class FunctionalOver final : public Functional {
 public:
-  FunctionalOver(Cells cells, const Points3& points, const CvtOptions& options)
-      : tessellation_(std::move(cells), points, options.partition), density_(options.density),
+  FunctionalOver(Cells cells, const Points3& points, const CvtOptions& options, Level&& level)
+      : tessellation_(std::move(cells), points, options.partition, std::move(level)),
+        density_(options.density),
         coarse_(make_integrand(options.density, options.rule, options.triangle_divisions)),
         fine_(make_integrand(options.density, options.final_rule, options.triangle_divisions)),
         rule_(options.density.uniform() ? 0 : options.rule),
@@ -84,7 +85,6 @@ public:
   void evaluate(const Points3& points, bool final_rule, bool with_gradient,
                 Evaluation& out) override;
 
-  void moved(double farthest) override { tessellation_.moved(farthest); }
   std::vector<CvtRegion> regions() const override { return tessellation_.regions(); }
   Points3 retract(const Points3& x, double step, const Points3& d) const override {
     return tessellation_.cells().retract(x, step, d);
@@ -92,32 +92,60 @@ public:
   void make_tangential(Points3& vectors, const Points3& x) const override {
     tessellation_.cells().make_tangential(vectors, x);
   }
-  SparseMatrix laplacian(const Points3& points) const override {
-    return tessellation_.cells().laplacian(points, density_);
-  }
+  SparseMatrix laplacian(const Points3& points) override;
+  std::optional<Connectivity> take_mesh(const Points3& points) override;
 
 private:
+  Effort integrate(const Points3& points, const Integrand& integrand, bool with_gradient,
+                   Evaluation& out);
+
   Tessellation<Cells> tessellation_;
   Density density_;
   Integrand coarse_, fine_;
   int rule_, final_rule_; ///< their numbers of points, 0 where none is used
 };
 
+/// What is in `out` gives way to sorting and triangulating, which take more memory than all else.
+template <class Cells>
+Effort FunctionalOver<Cells>::integrate(const Points3& points, const Integrand& integrand,
+                                        bool with_gradient, Evaluation& out) {
+  Effort effort;
+  tessellation_.move(points);
+  if (tessellation_.drifted()) {
+    out = {};
+    tessellation_.divide();
+  }
+  const auto mend = [&](const Faults& faults) {
+    if (faults.none() || tessellation_.mend(faults, effort))
+      return;
+    out = {};
+    tessellation_.rebuild(effort);
+  };
+  const auto receive = [&](const Patch& patch, const Array<Vec3>&,
+                           const Array<CellMoments>& moments) {
+    for (std::int32_t i = 0; i < patch.owned; ++i)
+      if (const std::int32_t site = patch.sites[static_cast<std::size_t>(i)];
+          site < points.cols()) // the others hold a plane's hull
+        evaluate_site<Cells>(column(points, site), moments[i], site, with_gradient, out);
+  };
+  const auto integrate_all = [&] {
+    make_room(out, points.cols(), with_gradient);
+    return tessellation_.integrate(integrand, receive, effort);
+  };
+  if (tessellation_.restless())
+    mend(tessellation_.find_faults(effort));
+  // After a mending nothing is left to mend: twice is the most that this takes.
+  for (Faults faults = integrate_all(); !faults.none(); faults = integrate_all())
+    mend(faults);
+  tessellation_.settle(effort);
+  return effort;
+}
+
 template <class Cells>
 void FunctionalOver<Cells>::evaluate(const Points3& points, bool final_rule, bool with_gradient,
                                      Evaluation& out) {
   Clock::time_point mark = Clock::now();
-  const typename Tessellation<Cells>::Room room{
-      [&] { make_room(out, points.cols(), with_gradient); }, [&] { out = {}; }};
-  const auto effort = tessellation_.evaluate(
-      points, final_rule ? fine_ : coarse_,
-      [&](const Patch& patch, const Array<Vec3>&, const Array<CellMoments>& moments) {
-        for (std::int32_t i = 0; i < patch.owned; ++i)
-          if (const std::int32_t site = patch.sites[static_cast<std::size_t>(i)];
-              site < points.cols()) // the others hold a plane's hull
-            evaluate_site<Cells>(column(points, site), moments[i], site, with_gradient, out);
-      },
-      room);
+  const Effort effort = integrate(points, final_rule ? fine_ : coarse_, with_gradient, out);
   CvtIteration& iteration = out.iteration = {};
   iteration.cells = points.cols();
   iteration.spacing = tessellation_.cells().spacing();
@@ -134,15 +162,34 @@ void FunctionalOver<Cells>::evaluate(const Points3& points, bool final_rule, boo
   iteration.seconds = lap(mark);
 }
 
+/// The mesh is that of the last evaluation: at other points it may not be Delaunay.
+template <class Cells> SparseMatrix FunctionalOver<Cells>::laplacian(const Points3& points) {
+  Effort unused;
+  tessellation_.move(points);
+  const Cells& cells = tessellation_.cells();
+  if (tessellation_.find_faults(unused).none())
+    return cells.laplacian(tessellation_.mesh(), density_);
+  return cells.laplacian(cells.signs().triangulate(), density_);
+}
+
+template <class Cells>
+std::optional<Connectivity> FunctionalOver<Cells>::take_mesh(const Points3& points) {
+  std::optional<Connectivity> mesh = tessellation_.take_mesh(points);
+  return tessellation_.cells().has_hull() ? std::nullopt : std::move(mesh);
+}
+
 } // namespace
 
-std::unique_ptr<Functional> make_functional(const Points3& points, const CvtOptions& options) {
-  return std::make_unique<FunctionalOver<SphericalCells>>(SphericalCells(), points, options);
+std::unique_ptr<Functional> make_functional(const Points3& points, const CvtOptions& options,
+                                            Level&& level) {
+  return std::make_unique<FunctionalOver<SphericalCells>>(SphericalCells(), points, options,
+                                                          std::move(level));
 }
 
 std::unique_ptr<Functional> make_functional(const Points3& points, const PlanarDomain& domain,
-                                            const CvtOptions& options) {
-  return std::make_unique<FunctionalOver<PlanarCells>>(PlanarCells(domain), points, options);
+                                            const CvtOptions& options, Level&& level) {
+  return std::make_unique<FunctionalOver<PlanarCells>>(PlanarCells(domain), points, options,
+                                                       std::move(level));
 }
 
 } // namespace calotte::cvt_detail

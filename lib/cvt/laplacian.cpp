@@ -163,7 +163,7 @@ private:
 
 /// What a matrix is made of.
 struct Source {
-  Triangles triangles;
+  const Triangles& triangles;
   VertexRings rings; ///< of the sites that have rows; those from there on have none
   Eigen::VectorXd rho;
 
@@ -246,23 +246,24 @@ void require_countable(std::int64_t generators) {
 
 } // namespace
 
-SparseMatrix graph_laplacian(const Points3& points, const Density& density) {
+SparseMatrix graph_laplacian(const Points3& points, const Connectivity& mesh,
+                             const Density& density) {
   require_countable(points.cols());
-  Mesh mesh = delaunay(points);
-  VertexRings rings = make_vertex_rings(mesh);
-  const Source source{std::move(mesh.triangles), std::move(rings), evaluate(density, points)};
-  return make_matrix(source, SphericalEdges(mesh.points));
+  const Source source{mesh.triangles,
+                      make_vertex_rings(mesh.triangles, mesh.neighbours, points.cols()),
+                      evaluate(density, points)};
+  return make_matrix(source, SphericalEdges(points));
 }
 
-SparseMatrix graph_laplacian(const PlanarSites& sites, const Density& density) {
+SparseMatrix graph_laplacian(const PlanarSites& sites, const Connectivity& mesh,
+                             const Density& density) {
   require_countable(sites.generators);
-  Connectivity mesh = PlaneSigns(sites.places, sites.period).triangulate();
   VertexRings rings = make_vertex_rings(mesh.triangles, mesh.neighbours, sites.generators);
   Points3 points(3, sites.generators);
   for (std::int64_t i = 0; i < sites.generators; ++i)
     set_column(points, i, sites.places[i]);
   const PlanarEdges edges(sites, mesh.triangles, rings);
-  const Source source{std::move(mesh.triangles), std::move(rings), evaluate(density, points)};
+  const Source source{mesh.triangles, std::move(rings), evaluate(density, points)};
   return make_matrix(source, edges);
 }
 

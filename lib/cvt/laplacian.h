@@ -5,6 +5,7 @@
 #include "base/vec3.h"
 #include "cvt/room.h"
 #include "domain/outline.h"
+#include "mesh/connectivity.h"
 
 #include <calotte/density.h>
 #include <calotte/types.h>
@@ -27,7 +28,9 @@ using SparseMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor, std::int32_t>;
 /// Laplacian nothing, is no symmetry of the sphere, nor of a clipped or refined plane.
 ///
 /// \param points 3 x n unit columns that span the sphere.
-SparseMatrix graph_laplacian(const Points3& points, const Density& density);
+/// \param mesh their Delaunay triangulation.
+SparseMatrix graph_laplacian(const Points3& points, const Connectivity& mesh,
+                             const Density& density);
 
 /// A domain of the plane, with generators in it.
 struct PlanarSites {
@@ -42,6 +45,7 @@ struct PlanarSites {
 /// count for nothing. A cell that the domain clips has on the diagonal 2 rho times the area between
 /// its generator and the shore: half of the trace of what the second derivative, 2 m less the
 /// integrals over Voronoi edges, is when all generators move as one.
-SparseMatrix graph_laplacian(const PlanarSites& sites, const Density& density);
+SparseMatrix graph_laplacian(const PlanarSites& sites, const Connectivity& mesh,
+                             const Density& density);
 
 } // namespace calotte::cvt_detail

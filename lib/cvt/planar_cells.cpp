@@ -119,9 +119,8 @@ Points3 PlanarCells::retract(const Points3& x, double step, const Points3& d) co
   return result;
 }
 
-SparseMatrix PlanarCells::laplacian(const Points3& points, const Density& density) const {
-  const Array<Vec3> places = places_of(points);
-  return graph_laplacian({places, points.cols(), period_, outline_.get(), area_}, density);
+SparseMatrix PlanarCells::laplacian(const Connectivity& mesh, const Density& density) const {
+  return graph_laplacian({places_, generators_, period_, outline_.get(), area_}, mesh, density);
 }
 
 } // namespace calotte::cvt_detail

@@ -39,7 +39,12 @@ public:
   void move(const Points3& points);
 
   std::int64_t places() const { return places_.size(); }
+  Vec3 offset(const Vec3& from, const Vec3& to) const {
+    const Vec2 way = nearest_offset(from, to, period_);
+    return {way.x, way.y, 0};
+  }
   const Vec3& place(std::int32_t site) const { return places_[site]; }
+  bool has_hull() const { return outline_ != nullptr; }
   Signs signs() const { return Signs(places_, period_); }
   Sites sites() const;
   double spacing() const;
@@ -60,7 +65,7 @@ public:
   /// Generators that would leave the domain go to the nearest place inside.
   Points3 retract(const Points3& x, double step, const Points3& d) const;
   static void make_tangential(Points3&, const Points3&) {} ///< all motions are
-  SparseMatrix laplacian(const Points3& points, const Density& density) const;
+  SparseMatrix laplacian(const Connectivity& mesh, const Density& density) const;
 
 private:
   Array<Vec3> places_of(const Points3& points) const;

@@ -6,6 +6,7 @@
 #include "cvt/room.h"
 #include "domain/periodic_box.h"
 #include "exact/plane_predicates.h"
+#include "mesh/connectivity.h"
 
 #include <calotte/types.h>
 
@@ -13,13 +14,6 @@
 #include <cstdint>
 
 namespace calotte::cvt_detail {
-
-/// A mesh without its points, which move.
-struct Connectivity {
-  Triangles triangles; ///< counter-clockwise, in any order
-  Triangles
-      neighbours; ///< as Mesh's; -1 only where no movement can make an edge other than Delaunay
-};
 
 /// The signs by which a mesh of moving points is judged, by the numbers of its sites. There is one
 /// such class for each kind of mesh.

@@ -26,7 +26,9 @@ public:
   void move(const Points3& points) { points_ = &points; }
 
   std::int64_t places() const { return points_->cols(); } ///< of the mesh: generators come first
+  static Vec3 offset(const Vec3& from, const Vec3& to) { return to - from; }
   const Vec3& place(std::int32_t site) const { return column(*points_, site); }
+  static bool has_hull() { return false; } ///< places of the mesh that are no generators
   Signs signs() const { return Signs(*points_); }
   Sites sites() const { return make_sites(*points_, Duplicates::merge, 0); } ///< equal ones merged
   double spacing() const; ///< h of so many generators
@@ -53,8 +55,8 @@ public:
 
   static Points3 retract(const Points3& x, double step, const Points3& d);
   static void make_tangential(Points3& vectors, const Points3& x);
-  static SparseMatrix laplacian(const Points3& points, const Density& density) {
-    return graph_laplacian(points, density);
+  SparseMatrix laplacian(const Connectivity& mesh, const Density& density) const {
+    return graph_laplacian(*points_, mesh, density);
   }
 
 private:

@@ -14,66 +14,73 @@
 namespace calotte::cvt_detail {
 namespace {
 
-/// Bytes of positions that each region would send: three doubles for each of its sites that is in
-/// another one's halo.
-void count_halos(const Regions& regions, std::vector<CvtRegion>& out) {
-  for (std::size_t k = 0; k < regions.members.size(); ++k)
-    for (const Run& run : regions.members[k])
-      for (std::int32_t r = run.begin; r != run.end; ++r) {
-        const auto owner = static_cast<std::size_t>(regions.owner[r]);
-        if (owner == k)
-          continue;
-        ++out[k].halo;
-        out[owner].halo_bytes += static_cast<std::int64_t>(3 * sizeof(double));
-      }
-}
+constexpr std::int64_t sampled = 64; ///< one point of so many stands for all, for how far they move
 
 } // namespace
 
 template <class Cells>
 Tessellation<Cells>::Tessellation(Cells cells, const Points3& points,
-                                  const DelaunayOptions& partition)
+                                  const DelaunayOptions& partition, Level&& level)
     : cells_(std::move(cells)), generators_(points.cols()), partition_(partition) {
   cells_.move(points);
-  mesh_ = cells_.signs().triangulate();
-  divide();
+  const bool known = level.mesh.has_value();
+  mesh_ = known ? std::move(*level.mesh) : cells_.signs().triangulate();
+  divide(std::move(level.sites));
+  Effort unused;
+  if (!known)
+    return;
+  if (const Faults faults = find_faults(unused); !faults.none() && !mend(faults, unused))
+    rebuild(unused);
 }
 
-/// The decomposition's own arrays are gone before the patches are made.
+template <class Cells> bool Tessellation<Cells>::drifted() const {
+  const double spacing = cells_.spacing();
+  for (std::int64_t k = 0; k < sample_.size(); ++k) {
+    const Vec3 way =
+        cells_.offset(sample_[k], cells_.place(static_cast<std::int32_t>(k * sampled)));
+    if (dot(way, way) > spacing * spacing)
+      return true;
+  }
+  return false;
+}
+
+template <class Cells> void Tessellation<Cells>::note_sample() {
+  sample_ = Array<Vec3>((generators_ + sampled - 1) / sampled);
+  for (std::int64_t k = 0; k < sample_.size(); ++k)
+    sample_[k] = cells_.place(static_cast<std::int32_t>(k * sampled));
+}
+
+template <class Cells> void Tessellation<Cells>::divide() { divide(std::nullopt); }
+
+template <class Cells> void Tessellation<Cells>::divide(std::optional<Sites>&& known) {
+  patches_.clear(); // sorting takes as much memory
+  // Where two points have met, the old regions do: a new triangulation will say it.
+  if (std::optional<Owners> owners = owners_of(std::move(known))) {
+    ownership_ = make_ownership(std::move(owners->owner), owners->regions);
+    work_ = std::vector<Work>(static_cast<std::size_t>(owners->regions));
+  }
+  patches_ = make_patches(mesh_.triangles, ownership_);
+  for (std::size_t k = 0; k < patches_.size(); ++k)
+    work_[k].report.sites = patches_[k].owned;
+  note_sample();
+}
+
+/// Empty where two points have met.
 template <class Cells>
-std::optional<typename Tessellation<Cells>::Division> Tessellation<Cells>::divided() const {
-  const Sites sites = cells_.sites();
+std::optional<typename Tessellation<Cells>::Owners>
+Tessellation<Cells>::owners_of(std::optional<Sites>&& known) const {
+  const Sites sites = known ? std::move(*known) : cells_.sites();
   if (sites.size() != generators_)
     return std::nullopt;
   const Regions regions = delaunay_detail::divide(sites, partition_);
-  const std::size_t count = regions.centres.size();
-  Division result{Array<std::int32_t>(cells_.places()), std::vector<CvtRegion>(count)};
-  std::fill(result.owner.begin() + generators_, result.owner.end(), 0);
+  const auto count = static_cast<std::int32_t>(regions.centres.size());
+  Owners owners{Array<std::int32_t>(cells_.places()), count};
+  std::fill(owners.owner.begin() + generators_, owners.owner.end(), 0);
   for_each_block(generators_, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t r = begin; r != end; ++r)
-      result.owner[sites.id[r]] = count > 1 ? regions.owner[r] : 0;
+      owners.owner[sites.id[r]] = count > 1 ? regions.owner[r] : 0;
   });
-  if (count > 1)
-    count_halos(regions, result.reports);
-  return result;
-}
-
-template <class Cells> void Tessellation<Cells>::divide() {
-  patches_.clear(); // sorting takes as much memory
-  std::optional<Division> division = divided();
-  if (!division) { // two have met: the old regions do, a new triangulation will say it
-    patches_ = make_patches(mesh_.triangles, ownership_);
-    return;
-  }
-  const std::size_t count = division->reports.size();
-  ownership_ = make_ownership(std::move(division->owner), static_cast<std::int32_t>(count));
-  patches_ = make_patches(mesh_.triangles, ownership_);
-  work_ = std::vector<Work>(count);
-  for (std::size_t k = 0; k < count; ++k) {
-    work_[k].report = division->reports[k];
-    work_[k].report.sites = patches_[k].owned;
-  }
-  drift_ = 0;
+  return owners;
 }
 
 /// Positions of a patch's sites, by local number.
@@ -114,69 +121,69 @@ Faults Tessellation<Cells>::run_tasks(const Task& task, Effort& effort) {
   return all;
 }
 
-template <class Cells>
-void Tessellation<Cells>::mend(const Faults& faults, const Room& room, Effort& effort) {
+template <class Cells> Faults Tessellation<Cells>::find_faults(Effort& effort) {
+  return run_tasks(
+      [&](const Patch& patch, Work& work) {
+        Clock::time_point mark = Clock::now();
+        const Array<Vec3> x = exchange(patch);
+        work.effort.seconds_exchange = lap(mark);
+        cells_.find_suspects(patch, x, work.suspects);
+        find_faults(patch, work);
+        work.effort.seconds_repair = lap(mark);
+      },
+      effort);
+}
+
+template <class Cells> bool Tessellation<Cells>::mend(const Faults& faults, Effort& effort) {
   Clock::time_point start = Clock::now();
-  if (const std::optional<Repair> repaired = repair(mesh_, cells_.signs(), faults)) {
+  const std::optional<Repair> repaired = repair(mesh_, cells_.signs(), faults);
+  if (repaired) {
     renew_patches(patches_, mesh_.triangles, ownership_, repaired->changed);
     effort.flips += repaired->flips;
-  } else {
-    room.give_up();
-    patches_.clear();
-    mesh_ = {};
-    mesh_ = cells_.signs().triangulate();
-    patches_ = make_patches(mesh_.triangles, ownership_);
-    effort.rebuilt = true;
   }
+  effort.seconds_repair += lap(start);
+  return repaired.has_value();
+}
+
+template <class Cells> void Tessellation<Cells>::rebuild(Effort& effort) {
+  Clock::time_point start = Clock::now();
+  patches_.clear();
+  mesh_ = {};
+  mesh_ = cells_.signs().triangulate();
+  patches_ = make_patches(mesh_.triangles, ownership_);
+  effort.rebuilt = true;
   effort.seconds_repair += lap(start);
 }
 
 template <class Cells>
-typename Tessellation<Cells>::Effort
-Tessellation<Cells>::evaluate(const Points3& points, const Integrand& integrand,
-                              const Receiver& receive, const Room& room) {
-  Effort effort;
-  cells_.move(points);
-  if (drift_ > cells_.spacing()) {
-    room.give_up();
-    divide();
-  }
-  if (restless_) {
-    const Faults faults = run_tasks(
-        [&](const Patch& patch, Work& work) {
-          Clock::time_point mark = Clock::now();
-          const Array<Vec3> x = exchange(patch);
-          work.effort.seconds_exchange = lap(mark);
-          cells_.find_suspects(patch, x, work.suspects);
-          find_faults(patch, work);
-          work.effort.seconds_repair = lap(mark);
-        },
-        effort);
-    if (!faults.none())
-      mend(faults, room, effort);
-  }
-  const auto integrate_region = [&](const Patch& patch, Work& work) {
-    Clock::time_point mark = Clock::now();
-    const Array<Vec3> x = exchange(patch);
-    Array<CellMoments> moments(x.size());
-    work.effort.seconds_exchange = lap(mark);
-    cells_.integrate(integrand, patch, x, moments, work.suspects);
-    work.effort.seconds_moments = lap(mark);
-    find_faults(patch, work);
-    work.effort.seconds_repair = lap(mark);
-    if (work.faults.none())
-      receive(patch, x, moments);
-    work.effort.seconds_moments += lap(mark);
-  };
-  const auto integrate_all = [&] {
-    room.take();
-    return run_tasks(integrate_region, effort);
-  };
-  // After a mending nothing is left to mend: twice is the most that this takes.
-  for (Faults faults = integrate_all(); !faults.none(); faults = integrate_all())
-    mend(faults, room, effort);
-  restless_ = effort.flips > 0 || effort.rebuilt;
-  return effort;
+Faults Tessellation<Cells>::integrate(const Integrand& integrand, const Receiver& receive,
+                                      Effort& effort) {
+  return run_tasks(
+      [&](const Patch& patch, Work& work) {
+        Clock::time_point mark = Clock::now();
+        const Array<Vec3> x = exchange(patch);
+        Array<CellMoments> moments(x.size());
+        work.effort.seconds_exchange = lap(mark);
+        cells_.integrate(integrand, patch, x, moments, work.suspects);
+        work.effort.seconds_moments = lap(mark);
+        find_faults(patch, work);
+        work.effort.seconds_repair = lap(mark);
+        if (work.faults.none())
+          receive(patch, x, moments);
+        work.effort.seconds_moments += lap(mark);
+      },
+      effort);
+}
+
+template <class Cells>
+std::optional<Connectivity> Tessellation<Cells>::take_mesh(const Points3& points) {
+  move(points);
+  Effort unused;
+  const Faults faults = find_faults(unused);
+  patches_.clear();
+  if (!faults.none() && !repair(mesh_, cells_.signs(), faults))
+    return std::nullopt;
+  return std::move(mesh_);
 }
 
 template <class Cells> std::vector<CvtRegion> Tessellation<Cells>::regions() const {

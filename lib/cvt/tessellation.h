@@ -18,48 +18,76 @@
 
 namespace calotte::cvt_detail {
 
+/// What a level of a continuation knows of its points from the level before.
+struct Level {
+  std::optional<Sites> sites; ///< whose ids and ranks are the points' columns
+  /// Of the points, Delaunay but for a few edges.
+  std::optional<Connectivity> mesh;
+};
+
+/// What evaluations took; seconds as CvtIteration's.
+struct Effort {
+  std::int64_t flips = 0;
+  bool rebuilt = false;
+  double seconds_exchange = 0, seconds_repair = 0, seconds_moments = 0;
+};
+
 /// The Voronoi cells of points that move, divided into regions, each with a task of its own. The
 /// mesh is kept between evaluations and mended where points have moved out of it; the regions are
 /// chosen anew when points have drifted.
+///
+/// An evaluation at new points is
+///
+///     move -> [ drifted? divide ] -> [ restless? find_faults ]
+///          -> [ faults? mend, or else rebuild ] -> integrate, until it finds no faults
+///
+/// divide() and rebuild() sort or triangulate the points, which takes more memory than all else.
 ///
 /// \tparam Cells SphericalCells, or PlanarCells: what the cells are in their space.
 template <class Cells> class Tessellation {
 public:
   /// \param points 3 x n.
   /// \throws Error as Cells::Signs::triangulate().
-  Tessellation(Cells cells, const Points3& points, const DelaunayOptions& partition);
+  Tessellation(Cells cells, const Points3& points, const DelaunayOptions& partition, Level&& level);
+
+  /// The points are there now.
+  void move(const Points3& points) { cells_.move(points); }
+
+  /// Whether points have moved so far since the regions were chosen that others would do better.
+  bool drifted() const;
+
+  /// Chooses the regions anew.
+  void divide();
+
+  /// Whether the mesh did not hold last time: then a look before integrating is worth it.
+  bool restless() const { return restless_; }
+
+  /// The faults of the mesh at the points.
+  Faults find_faults(Effort& effort);
+
+  /// Makes the mesh Delaunay by flips. False where these do not do: the mesh is lost.
+  bool mend(const Faults& faults, Effort& effort);
+
+  /// Triangulates the points anew. \throws Error as Cells::Signs::triangulate().
+  void rebuild(Effort& effort);
 
   /// What a region's task hands over: moments by local number, whole for the patch's own sites.
   using Receiver = std::function<void(const Patch& patch, const Array<Vec3>& x,
                                       const Array<CellMoments>& moments)>;
 
-  /// Where the receiver writes: `take` is called before the regions' tasks; `give_up` before points
-  /// are sorted or triangulated anew, which takes more memory than all else, and what has been
-  /// received is worthless then.
-  struct Room {
-    std::function<void()> take, give_up;
-  };
+  /// Integrates over the cells; the receiver is called in each region's task. Where it returns
+  /// faults, the mesh is to be mended and all is to be integrated again: what the receiver writes
+  /// must be slots that a later call overwrites.
+  Faults integrate(const Integrand& integrand, const Receiver& receive, Effort& effort);
 
-  /// What an evaluation took; seconds as CvtIteration's.
-  struct Effort {
-    std::int64_t flips = 0;
-    bool rebuilt = false;
-    double seconds_exchange = 0, seconds_repair = 0, seconds_moments = 0;
-  };
+  /// Ends an evaluation.
+  void settle(const Effort& effort) { restless_ = effort.flips > 0 || effort.rebuilt; }
 
-  /// Mends the mesh for the points where they are now, and integrates over the cells.
-  ///
-  /// The receiver is called in each region's task. Where a region only then turns out to be no
-  /// longer Delaunay, all are called again: what it writes must be slots that a later call
-  /// overwrites.
-  /// \throws Error as Cells::Signs::triangulate().
-  Effort evaluate(const Points3& points, const Integrand& integrand, const Receiver& receive,
-                  const Room& room);
+  /// The mesh, gone from here, made Delaunay at the points; empty where flips do not do.
+  std::optional<Connectivity> take_mesh(const Points3& points);
 
   const Cells& cells() const { return cells_; }
-
-  /// Tells how far any point may have moved since the last evaluation.
-  void moved(double farthest) { drift_ += farthest; }
+  const Connectivity& mesh() const { return mesh_; }
 
   /// The regions, with their seconds since they were chosen.
   std::vector<CvtRegion> regions() const;
@@ -74,18 +102,18 @@ private:
     CvtRegion report;
   };
 
-  /// Who owns each place of the mesh, and what each region would exchange.
-  struct Division {
+  /// Who owns each place of the mesh.
+  struct Owners {
     Array<std::int32_t> owner;
-    std::vector<CvtRegion> reports;
+    std::int32_t regions;
   };
 
-  std::optional<Division> divided() const;
-  void divide();
+  void divide(std::optional<Sites>&& known);
+  std::optional<Owners> owners_of(std::optional<Sites>&& known) const;
+  void note_sample();
   Array<Vec3> exchange(const Patch& patch) const;
   void find_faults(const Patch& patch, Work& work) const;
   template <class Task> Faults run_tasks(const Task& task, Effort& effort);
-  void mend(const Faults& faults, const Room& room, Effort& effort);
 
   Cells cells_;
   std::int64_t generators_;
@@ -94,8 +122,8 @@ private:
   Ownership ownership_;
   std::vector<Patch> patches_;
   std::vector<Work> work_;
-  double drift_ = 0;     ///< bound of how far points have moved since the regions were chosen
-  bool restless_ = true; ///< the mesh did not hold last time: look before integrating
+  Array<Vec3> sample_; ///< every so many-th point, as it was when the regions were chosen
+  bool restless_ = true;
 };
 
 } // namespace calotte::cvt_detail

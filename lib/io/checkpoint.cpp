@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "cvt/state.h"
 #include "io/binary.h"
 #include "io/file.h"
 #include "io/formats.h"
@@ -12,17 +13,19 @@
 #include <type_traits>
 
 // The head, which names format, version and order of bytes; the configuration; the fields of
-// CvtState as they stand, each array after its length as Int64; and the CRC-32 of all that.
+// CvtState::Data as they stand, each array after its length as Int64; and the CRC-32 of all
+// that.
 
 namespace calotte {
 namespace {
 
 using namespace io_detail;
+using cvt_detail::State;
 
 constexpr std::string_view format = "calotte checkpoint ";
 
 std::string head() {
-  return std::string(format) + "3, " + (little_endian ? "little" : "big") + "-endian\n";
+  return std::string(format) + "4, " + (little_endian ? "little" : "big") + "-endian\n";
 }
 
 /// One list of fields serves writing and reading.
@@ -35,7 +38,7 @@ template <class Iteration, class Visit> void visit_iteration(Iteration& i, const
 }
 
 template <class Region, class Visit> void visit_region(Region& r, const Visit& visit) {
-  visit(r.sites), visit(r.halo), visit(r.halo_bytes), visit(r.seconds);
+  visit(r.sites), visit(r.seconds);
 }
 
 template <class State, class Visit> void visit_scalars(State& s, const Visit& visit) {
@@ -69,7 +72,7 @@ struct Put {
   }
 };
 
-void put_checkpoint(const Sink& sink, const CvtState& state, const std::string& configuration) {
+void put_checkpoint(const Sink& sink, const State& state, const std::string& configuration) {
   Writer out(sink);
   const auto raw = [&](const auto& value) { out.raw(value); };
   out.text(head());
@@ -128,8 +131,8 @@ struct TakeArray {
   }
 };
 
-CvtState take_state(Bytes& bytes) {
-  CvtState state;
+State take_state(Bytes& bytes) {
+  State state;
   visit_arrays(state, TakeArray{&bytes});
   const Take take{&bytes};
   visit_scalars(state, take);
@@ -195,7 +198,7 @@ void write_checkpoint(const std::string& path, const CvtState& state,
     checksum.process_bytes(bytes.data(), bytes.size());
     file.append(bytes);
   };
-  put_checkpoint(sink, state, configuration);
+  put_checkpoint(sink, state.data(), configuration);
   const auto sum = checksum.checksum();
   file.append({reinterpret_cast<const char*>(&sum), sizeof sum});
   file.commit();
@@ -207,7 +210,7 @@ CvtState read_checkpoint(const std::string& path, const std::string& configurati
   Bytes bytes(body_of(path, content), path);
   const std::int64_t words = take_count(bytes);
   require_same(path, bytes.take(words), configuration);
-  return take_state(bytes);
+  return CvtState(take_state(bytes));
 }
 
 } // namespace calotte

@@ -3,6 +3,8 @@
 #include "cvt/functional.h"
 #include "cvt/laplacian.h"
 #include "cvt/multigrid.h"
+#include "cvt/signs.h"
+#include "cvt/state.h"
 #include "support/densities.h"
 
 #include <calotte/cvt.h>
@@ -30,11 +32,15 @@ Points3 near_optimum(const Density& density, std::int64_t cells) {
   options.bisections = from.bisections;
   options.tolerance = 1e-2;
   Points3 points;
-  cvt(from.start, options, [&](const CvtState& state) {
-    points = state.points;
+  cvt(from.start, options, [&](const CvtProgress& now) {
+    points = now.state.data().points;
     return false;
   });
   return points;
+}
+
+SparseMatrix laplacian_of(const Points3& points, const Density& density) {
+  return graph_laplacian(points, SphereSigns(points).triangulate(), density);
 }
 
 /// A tangential field: smooth ones, and noise.
@@ -63,7 +69,7 @@ double curvature(Functional& functional, const Points3& x, const Points3& v) {
 
 TEST_CASE("the graph Laplacian is symmetric, and all but zero on a constant") {
   for (const Density& density : {Density{}, x8()}) {
-    const SparseMatrix matrix = graph_laplacian(near_optimum(density, 642), density);
+    const SparseMatrix matrix = laplacian_of(near_optimum(density, 642), density);
     const SparseMatrix transposed = matrix.transpose();
     CHECK((matrix - transposed).norm() == 0);
     const Eigen::VectorXd sums = matrix * Eigen::VectorXd::Ones(matrix.cols());
@@ -81,7 +87,7 @@ TEST_CASE("the graph Laplacian is near the energy's second derivative") {
     CvtOptions options;
     options.density = density;
     const auto functional = make_functional(x, options);
-    const SparseMatrix matrix = graph_laplacian(x, density);
+    const SparseMatrix matrix = laplacian_of(x, density);
     for (int kind = 0; kind < 12; kind += 3) {
       const Points3 v = field(x, kind);
       const double exact = curvature(*functional, x, v),
@@ -98,7 +104,7 @@ TEST_CASE("the multigrid cycle is symmetric, positive, and contracts whatever th
     for (const Density& density : {Density{}, x8()}) {
       CAPTURE(cells);
       const Points3 x = near_optimum(density, cells);
-      const Multigrid multigrid(graph_laplacian(x, density));
+      const Multigrid multigrid(laplacian_of(x, density));
       const Points3 a = random_sphere(x.cols(), 1), b = random_sphere(x.cols(), 2);
       const Points3 from_a = multigrid.solve(a), from_b = multigrid.solve(b);
       CHECK(inner(a, from_b) == doctest::Approx(inner(b, from_a)).epsilon(1e-9));
@@ -118,7 +124,7 @@ TEST_CASE("the multigrid cycle is symmetric, positive, and contracts whatever th
 
 TEST_CASE("under 300 rows the cycle is exact") {
   const Points3 x = near_optimum(Density{}, 162), right = random_sphere(162, 3);
-  const Multigrid multigrid(graph_laplacian(x, Density{}));
+  const Multigrid multigrid(laplacian_of(x, Density{}));
   CHECK((multigrid.apply(multigrid.solve(right)) - right).norm() < 1e-9);
 }
 
@@ -126,7 +132,7 @@ TEST_CASE("fields and cycles are the same bits for any number of threads") {
   const Points3 x = near_optimum(Density{}, 40962);
   const auto with = [&](std::size_t threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    const Multigrid multigrid(graph_laplacian(x, Density{}));
+    const Multigrid multigrid(laplacian_of(x, Density{}));
     const Points3 solved = multigrid.solve(random_sphere(x.cols(), 1));
     return std::pair(inner(solved, x), solved);
   };

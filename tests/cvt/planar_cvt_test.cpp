@@ -316,9 +316,9 @@ TEST_CASE("the same bits for any threads and regions, and after any interruption
       options.max_iterations = 16;
       options.density = tanh_bump({0.4, 0.3, 0}, 0.3, 0.15, 1.0 / 16);
       std::vector<CvtState> states;
-      const PlanarCvt reference = cvt(start, domain, options, [&](const CvtState& state) {
-        if (state.report.iterations.size() % 7 == 3)
-          states.push_back(state);
+      const PlanarCvt reference = cvt(start, domain, options, [&](const CvtProgress& now) {
+        if (now.report.iterations.size() % 7 == 3)
+          states.push_back(now.state);
         return false;
       });
       for (const int regions : {2, 9, 50})

@@ -517,9 +517,7 @@ TEST_CASE("the report holds what it promises") {
                           "seconds_repair",
                           "seconds_moments",
                           "seconds_solver",
-                          "sites",
-                          "halo",
-                          "halo_bytes"}) {
+                          "sites"}) {
     CAPTURE(key);
     CHECK(has(report, quoted(key)));
   }

@@ -11,9 +11,18 @@ using namespace calotte::tools;
 
 namespace {
 
-/// A level of iterations of two seconds each whose norms are factor^k.
-CvtState decaying(int iterations, double factor) {
+/// Where a run stands, with a report of its own.
+struct Standing {
+  CvtReport report;
+  int iterations_of_level = 0, bisections_left = 0;
   CvtState state;
+
+  operator CvtProgress() const { return {report, iterations_of_level, bisections_left, state}; }
+};
+
+/// A level of iterations of two seconds each whose norms are factor^k.
+Standing decaying(int iterations, double factor) {
+  Standing state;
   state.iterations_of_level = iterations;
   for (int k = 0; k < iterations; ++k) {
     CvtIteration iteration;
@@ -67,7 +76,7 @@ TEST_CASE("a last step that went beyond the limit of iterations leaves no time")
 TEST_CASE("nothing is foreseen from few iterations, or those of another level") {
   CvtOptions options;
   CHECK(!forecast(decaying(9, 0.9), options));
-  CvtState next = decaying(50, 0.9);
+  Standing next = decaying(50, 0.9);
   next.iterations_of_level = 9;
   CHECK(!forecast(next, options));
   next.iterations_of_level = 0;
@@ -79,7 +88,7 @@ TEST_CASE("trials that were not gone on from take time, and their norms count fo
   options.norm = Norm::l2;
   options.tolerance = std::pow(0.9, 300.5);
   options.max_iterations = 1000;
-  CvtState state = decaying(101, 0.9);
+  Standing state = decaying(101, 0.9);
   for (std::size_t k = 1; k < 101; k += 3) {
     state.report.iterations[k].accepted = false;
     state.report.iterations[k].l2 = 1e6 / static_cast<double>(k);
@@ -115,7 +124,7 @@ TEST_CASE("the norms are those of the report") {
 }
 
 TEST_CASE("progress names the level, the norm and what is to come") {
-  CvtState state = decaying(101, 0.9);
+  Standing state = decaying(101, 0.9);
   state.bisections_left = 2;
   CvtOptions options;
   options.norm = Norm::l2;

@@ -13,9 +13,9 @@ namespace {
 constexpr std::size_t fewest = 10, most = 500;
 
 /// The last iterations of the current level, none where they are too few.
-std::span<const CvtIteration> recent(const CvtState& state) {
-  const std::span all(state.report.iterations);
-  const auto level = std::min(all.size(), static_cast<std::size_t>(state.iterations_of_level));
+std::span<const CvtIteration> recent(const CvtProgress& progress) {
+  const std::span all(progress.report.iterations);
+  const auto level = std::min(all.size(), static_cast<std::size_t>(progress.iterations_of_level));
   return level < fewest ? all.last(0) : all.last(std::clamp(level / 2, fewest, most));
 }
 
@@ -64,8 +64,8 @@ std::string duration(double seconds) {
 
 } // namespace
 
-std::optional<Forecast> forecast(const CvtState& state, const CvtOptions& options) {
-  const std::span<const CvtIteration> iterations = recent(state);
+std::optional<Forecast> forecast(const CvtProgress& progress, const CvtOptions& options) {
+  const std::span<const CvtIteration> iterations = recent(progress);
   if (iterations.empty())
     return std::nullopt;
   double seconds = 0;
@@ -73,7 +73,7 @@ std::optional<Forecast> forecast(const CvtState& state, const CvtOptions& option
     seconds +=
         (iteration.seconds + iteration.seconds_solver) / static_cast<double>(iterations.size());
   // The last step's trials may go beyond the limit.
-  const double to_limit = std::max(options.max_iterations - state.iterations_of_level, 0);
+  const double to_limit = std::max(options.max_iterations - progress.iterations_of_level, 0);
   if (options.norm == Norm::none)
     return Forecast{seconds * to_limit, false};
   const Decay decay = fit(iterations, options.norm);
@@ -84,22 +84,23 @@ std::optional<Forecast> forecast(const CvtState& state, const CvtOptions& option
   return Forecast{seconds * std::min(to_tolerance, to_limit), to_tolerance <= to_limit};
 }
 
-std::string describe(const CvtState& state, const CvtOptions& options, const std::string& norm) {
-  const CvtIteration& last = state.report.iterations.back();
-  std::string text =
-      std::to_string(last.cells) + " cells, iteration " + std::to_string(state.iterations_of_level);
+std::string describe(const CvtProgress& progress, const CvtOptions& options,
+                     const std::string& norm) {
+  const CvtIteration& last = progress.report.iterations.back();
+  std::string text = std::to_string(last.cells) + " cells, iteration " +
+                     std::to_string(progress.iterations_of_level);
   std::array<char, 64> number{};
   if (options.norm != Norm::none) {
-    std::snprintf(number.data(), number.size(), " %.2e of %.0e", state.report.residual,
+    std::snprintf(number.data(), number.size(), " %.2e of %.0e", progress.report.residual,
                   options.tolerance);
     text += ", " + norm + number.data();
   }
-  if (const auto end = forecast(state, options))
+  if (const auto end = forecast(progress, options))
     text += (end->converges ? ", about " : ", ") + duration(end->seconds) + " to the " +
             (end->converges ? "tolerance" : "last iteration");
-  if (state.bisections_left > 0)
-    text += ", then " + std::to_string(state.bisections_left) +
-            (state.bisections_left == 1 ? " finer level" : " finer levels");
+  if (progress.bisections_left > 0)
+    text += ", then " + std::to_string(progress.bisections_left) +
+            (progress.bisections_left == 1 ? " finer level" : " finer levels");
   return text;
 }
 

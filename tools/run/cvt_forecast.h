@@ -18,9 +18,10 @@ struct Forecast {
 /// through its logarithms where they were accepted, and the mean of the seconds of all, which the
 /// trials take part in. While the norm does not fall, the limit is foreseen; nothing before there
 /// are 10 iterations.
-std::optional<Forecast> forecast(const CvtState& state, const CvtOptions& options);
+std::optional<Forecast> forecast(const CvtProgress& progress, const CvtOptions& options);
 
 /// Where a run stands: the line that progress shows.
-std::string describe(const CvtState& state, const CvtOptions& options, const std::string& norm);
+std::string describe(const CvtProgress& progress, const CvtOptions& options,
+                     const std::string& norm);
 
 } // namespace calotte::tools

@@ -29,10 +29,7 @@ Json to_json(const CvtIteration& iteration) {
 }
 
 Json to_json(const CvtRegion& region) {
-  return {{"sites", region.sites},
-          {"halo", region.halo},
-          {"halo_bytes", region.halo_bytes},
-          {"seconds", region.seconds}};
+  return {{"sites", region.sites}, {"seconds", region.seconds}};
 }
 
 template <class List> Json array_of(const List& list) {

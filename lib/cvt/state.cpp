@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cvt/state.h"
+
+#include "base/parallel.h"
+
+#include <utility>
+
+namespace calotte {
+namespace cvt_detail {
+
+Points3 in_order(const State& state) {
+  Points3 points(3, state.points.cols());
+  for_each_block(points.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t r = begin; r != end; ++r)
+      points.col(state.id[static_cast<std::size_t>(r)]) = state.points.col(r);
+  });
+  return points;
+}
+
+} // namespace cvt_detail
+
+CvtState::CvtState() : CvtState(Data()) {}
+CvtState::CvtState(Data data) : data_(std::make_unique<Data>(std::move(data))) {}
+CvtState::CvtState(const CvtState& other) : CvtState(*other.data_) {}
+CvtState::CvtState(CvtState&& other) noexcept = default;
+CvtState& CvtState::operator=(CvtState other) noexcept {
+  data_.swap(other.data_);
+  return *this;
+}
+CvtState::~CvtState() = default;
+
+Points3 CvtState::points() const { return cvt_detail::in_order(*data_); }
+const CvtReport& CvtState::report() const { return data_->report; }
+
+} // namespace calotte

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "cvt/room.h"
+
+#include <calotte/cvt.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace calotte::cvt_detail {
+
+/// What a method remembers of its way.
+struct Memory {
+  std::vector<Points3> steps, changes; ///< of generators, and of the gradient then; oldest first
+  std::vector<double> curvatures;      ///< their inner products
+  Points3 laplacian_at;                ///< generators that the graph Laplacian was made for
+  int since_laplacian = 0;             ///< evaluations
+  bool flipped = false;                ///< edges, since then
+  Points3 before;                      ///< Nesterov's: the centroids before
+  double momentum = 1;
+};
+
+} // namespace calotte::cvt_detail
+
+namespace calotte {
+
+/// All that a run needs to go on to the same bits.
+struct CvtState::Data {
+  Points3 points; ///< unit generators, along a space-filling curve; in the plane with z = 0
+  std::vector<std::int32_t> id;            ///< of each: its column in the result
+  std::vector<std::int32_t> site_of_input; ///< as Mesh's; of the start, or empty after a bisection
+  int bisections_left = 0;
+  int iterations_of_level = 0;
+  bool final_rule = false; ///< it has taken over
+  cvt_detail::Memory memory;
+  CvtReport report;
+};
+
+} // namespace calotte
+
+namespace calotte::cvt_detail {
+
+using State = CvtState::Data;
+
+/// The generators in the order of the result.
+Points3 in_order(const State& state);
+
+} // namespace calotte::cvt_detail

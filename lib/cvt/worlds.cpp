@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cvt/worlds.h"
+
+#include "base/parallel.h"
+#include "base/points.h"
+#include "cvt/planar_cells.h"
+#include "delaunay/sites.h"
+#include "density/planar_density.h"
+#include "domain/periodic_box.h"
+#include "mesh/canonical_order.h"
+#include "mesh/subdivide.h"
+
+#include <calotte/delaunay.h>
+#include <calotte/error.h>
+#include <calotte/generators.h>
+
+#include <numeric>
+#include <string>
+#include <utility>
+
+namespace calotte::cvt_detail {
+namespace {
+
+/// \param sites their given points are those of the state: unit columns.
+void set_points(State& state, const Sites& sites, const Array<Vec3>& points) {
+  const std::int64_t n = sites.size();
+  state.points.resize(3, n);
+  state.id.resize(static_cast<std::size_t>(n));
+  for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t r = begin; r != end; ++r) {
+      set_column(state.points, r, points[r]);
+      state.id[static_cast<std::size_t>(r)] = sites.id[r];
+    }
+  });
+}
+
+/// The sites by rank alone, as the state has them.
+Sites by_rank(Sites&& sites) {
+  sites.points = {};
+  sites.site_of_input = {};
+  std::iota(sites.id.begin(), sites.id.end(), 0);
+  return std::move(sites);
+}
+
+/// A bisection's triangles, renamed from ids to ranks.
+Connectivity bisected_mesh(const Triangles& triangles, const Triangles& neighbours,
+                           std::int64_t points, const Sites& sites) {
+  Connectivity mesh = subdivided(triangles, neighbours, points);
+  std::vector<std::int32_t> rank(static_cast<std::size_t>(sites.size()));
+  for_each_block(sites.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t r = begin; r != end; ++r)
+      rank[static_cast<std::size_t>(sites.id[r])] = static_cast<std::int32_t>(r);
+  });
+  make_canonical(mesh.triangles, mesh.neighbours, rank);
+  return mesh;
+}
+
+/// \param sites of places, by id as the domain has them.
+void set_places(State& state, const Sites& sites) {
+  Array<Vec3> points(sites.size());
+  for (std::int64_t r = 0; r < sites.size(); ++r)
+    points[r] = sites.given(sites.id[r]);
+  set_points(state, sites, points);
+}
+
+/// Cells of generators on one line would do, but no mesh of them.
+void require_triangle(const Sites& sites) {
+  const auto given = [&](std::int32_t id) { return Vec2{sites.given(id).x, sites.given(id).y}; };
+  for (std::int32_t id = 2; id < sites.size(); ++id)
+    if (orientation(given(0), given(1), given(id)) != 0)
+      return;
+  throw Error(ErrorCode::degenerate,
+              "all generators lie on one line: add one off it, they span no triangle");
+}
+
+} // namespace
+
+void refuse_state() {
+  throw Error(
+      ErrorCode::bad_option,
+      "the state is not one that a run has left: its points must be unit vectors, or places "
+      "in the domain, and its ids a permutation");
+}
+
+// ---- The sphere
+
+State SphericalWorld::begin(Points3&& start, const CvtOptions& options) {
+  Sites sites =
+      make_sites(std::move(start), options.partition.duplicates, options.partition.merge_within);
+  if (sites.size() < 12)
+    throw Error(ErrorCode::too_few_sites, "there are " + std::to_string(sites.size()) +
+                                              " distinct generators: give at least 12");
+  State state;
+  set_points(state, sites, sites.unit);
+  state.site_of_input = std::move(sites.site_of_input);
+  state.bisections_left = options.bisections;
+  return state;
+}
+
+Density SphericalWorld::density(const Density& density) {
+  evaluate(density, Points3(Eigen::Vector3d::UnitZ())); // says what is wrong with it
+  return density;
+}
+
+void SphericalWorld::require_points(const State& state) {
+  if (state.points.cols() < 12 ||
+      !((state.points.colwise().squaredNorm().array() - 1).abs() < 1e-12).all())
+    refuse_state();
+}
+
+Mesh SphericalWorld::triangulated(Points3&& points) { return delaunay(std::move(points)); }
+
+Mesh SphericalWorld::mesh(Points3&& points, Connectivity&& canonical) {
+  std::vector<std::int32_t> sites = themselves(points.cols());
+  return {std::move(points), std::move(canonical.triangles), std::move(canonical.neighbours),
+          std::move(sites)};
+}
+
+Level SphericalWorld::set_bisected(State& state, const Mesh& coarse) {
+  Sites sites = make_sites(bisect(coarse), Duplicates::refuse, 0);
+  set_points(state, sites, sites.unit);
+  Connectivity mesh =
+      bisected_mesh(coarse.triangles, coarse.neighbours, coarse.points.cols(), sites);
+  return {by_rank(std::move(sites)), std::move(mesh)};
+}
+
+// ---- The plane
+
+PlanarWorld::PlanarWorld(const PlanarDomain& domain) : domain_(domain) { require_domain(domain); }
+
+State PlanarWorld::begin(const Points2& start, const CvtOptions& options) {
+  Sites sites = make_sites(start, options.partition.duplicates, options.partition.merge_within);
+  require_triangle(sites);
+  State state;
+  set_places(state, sites);
+  state.site_of_input = std::move(sites.site_of_input);
+  state.bisections_left = options.bisections;
+  return state;
+}
+
+Density PlanarWorld::density(const Density& density) const {
+  const Density planar = planar_density(density, domain_);
+  const Eigen::Vector2d some =
+      domain_.periodic() ? Eigen::Vector2d(0, 0) : Eigen::Vector2d(domain_.rings[0].col(0));
+  evaluate(planar, Points3(Eigen::Vector3d(some.x(), some.y(), 0)));
+  return planar;
+}
+
+void PlanarWorld::require_points(const State& state) const {
+  if (!state.points.allFinite() || !state.points.row(2).isZero(0) || !all_inside(state.points))
+    refuse_state();
+}
+
+PlanarMesh PlanarWorld::triangulated(const Points3& points) const {
+  const Points2 places = in_domain(points);
+  return domain_.periodic() ? delaunay(places, domain_.period) : delaunay(places);
+}
+
+PlanarMesh PlanarWorld::mesh(const Points3& points, Connectivity&& canonical) const {
+  return {in_domain(points), std::move(canonical.triangles), std::move(canonical.neighbours),
+          themselves(points.cols()), domain_.period};
+}
+
+Level PlanarWorld::set_bisected(State& state, const PlanarMesh& coarse) const {
+  const Sites sites = make_sites(bisect(coarse, domain_), Duplicates::refuse, 0);
+  set_places(state, sites);
+  if (!domain_.periodic()) // a part of the midpoints
+    return {};
+  return {std::nullopt,
+          bisected_mesh(coarse.triangles, coarse.neighbours, coarse.points.cols(), sites)};
+}
+
+bool PlanarWorld::all_inside(const Points3& points) const {
+  try {
+    if (!domain_.periodic())
+      require_inside(points.topRows<2>(), domain_);
+  } catch (const Error&) {
+    return false;
+  }
+  return true;
+}
+
+Points2 PlanarWorld::in_domain(const Points3& points) const {
+  Points2 places = points.topRows<2>();
+  for (Eigen::Index i = 0; domain_.periodic() && i < places.cols(); ++i)
+    for (int k = 0; k < 2; ++k)
+      places(k, i) = wrapped(places(k, i), domain_.period[k]);
+  return places;
+}
+
+} // namespace calotte::cvt_detail

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "cvt/functional.h"
+#include "cvt/state.h"
+#include "cvt/tessellation.h"
+#include "mesh/connectivity.h"
+
+#include <calotte/cvt.h>
+#include <calotte/domain.h>
+
+#include <cstdint>
+#include <memory>
+
+namespace calotte::cvt_detail {
+
+/// \throws Error bad_option: no run has left this state.
+[[noreturn]] void refuse_state();
+
+/// What a run needs to know of the space that its generators live in: the sphere. PlanarWorld is
+/// its like for the plane, and says the same of each function.
+class SphericalWorld {
+public:
+  using Result = Cvt;
+
+  /// The state of a start. \throws Error as make_sites(); too_few_sites.
+  static State begin(Points3&& start, const CvtOptions& options);
+
+  /// The density as the functional takes it. \throws Error bad_option where it is ill-formed.
+  static Density density(const Density& density);
+
+  /// Refuses a state whose points are not unit vectors, or too few.
+  static void require_points(const State& state);
+
+  static std::unique_ptr<Functional> functional(const Points3& points, const CvtOptions& options,
+                                                Level&& level) {
+    return make_functional(points, options, std::move(level));
+  }
+
+  /// The most generators that a bisection leaves of n.
+  static std::int64_t bisected(std::int64_t n) { return 4 * n - 6; }
+
+  /// The Delaunay triangulation of generators, by a new triangulation.
+  static Mesh triangulated(Points3&& points);
+
+  /// The same from its connectivity in canonical order.
+  static Mesh mesh(Points3&& points, Connectivity&& canonical);
+
+  /// Gives a state the generators of a bisected mesh, along the curve; returns what is known of
+  /// them.
+  static Level set_bisected(State& state, const Mesh& coarse);
+};
+
+/// The same of a domain in the plane.
+class PlanarWorld {
+public:
+  using Result = PlanarCvt;
+
+  /// \throws Error as require_domain().
+  explicit PlanarWorld(const PlanarDomain& domain);
+
+  static State begin(const Points2& start, const CvtOptions& options);
+  Density density(const Density& density) const;
+  void require_points(const State& state) const;
+  std::unique_ptr<Functional> functional(const Points3& points, const CvtOptions& options,
+                                         Level&& level) const {
+    return make_functional(points, domain_, options, std::move(level));
+  }
+  static std::int64_t bisected(std::int64_t n) { return 4 * n; } // some midpoints may be outside
+  PlanarMesh triangulated(const Points3& points) const;
+  PlanarMesh mesh(const Points3& points, Connectivity&& canonical) const; ///< of a periodic box
+  Level set_bisected(State& state, const PlanarMesh& coarse) const;
+
+private:
+  bool all_inside(const Points3& points) const;
+  Points2 in_domain(const Points3& points) const;
+
+  PlanarDomain domain_;
+};
+
+} // namespace calotte::cvt_detail
