@@ -214,9 +214,8 @@ TEST_CASE("whatever a method remembers, a run goes on from its checkpoint to the
       return false;
     });
     REQUIRE(states.size() > 10);
-    const auto ruled = std::find_if(states.begin(), states.end(), [](const CvtState& state) {
-      return state.data().final_rule;
-    });
+    const auto ruled = std::find_if(states.begin(), states.end(),
+                                    [](const CvtState& state) { return state.data().final_rule; });
     std::set<std::ptrdiff_t> places{
         0, 1, 2, ruled - states.begin() - 1, ruled - states.begin(), ruled - states.begin() + 1};
     for (std::ptrdiff_t place = 5; place < std::ssize(states); place += 11)
@@ -269,7 +268,7 @@ TEST_CASE("what is no checkpoint of this version is refused") {
   const Scratch scratch;
   write_checkpoint(scratch.path, CvtState(some_state()), configuration);
   std::string other = scratch.bytes();
-  other[other.find('3')] = '2';
+  other[other.find("checkpoint ") + 11] = '3'; // an older version
   scratch.put(other);
   CHECK(says(refusal(scratch), "run.checkpoint: a checkpoint of another version"));
   scratch.put("1 0 0\n0 1 0\n");
