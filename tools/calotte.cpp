@@ -15,14 +15,14 @@ namespace {
 
 constexpr const char* footer =
     R"(Results go to standard output, messages to standard error. Exit codes:
-  0  done
-  1  the mesh failed a check, or did not converge (it is written)
-  2  bad usage or input
-  3  file trouble: one cannot be opened, read or written
+  0  success
+  1  the mesh failed its check, or the run did not converge (the mesh is written)
+  2  invalid options or input
+  3  a file cannot be opened, read or written
   4  internal error
-  130, 143  stopped by SIGINT or SIGTERM; a run with --checkpoint can be resumed)";
+  130, 143  stopped by SIGINT or SIGTERM; --resume continues a run with --checkpoint)";
 
-/// How to ask for the help that the arguments call for.
+/// The command line that prints the help for the given arguments.
 std::string help_of(const CLI::App& app) {
   const auto commands = app.get_subcommands();
   return "calotte " + (commands.empty() ? "" : commands.back()->get_name() + " ") + "--help";
@@ -97,12 +97,12 @@ int main(int argc, char** argv) try {
   // A file larger than allowed is an error like a full disk, not a reason to die.
   std::signal(SIGXFSZ, SIG_IGN);
   std::ios::sync_with_stdio(false);
-  CLI::App app("Exact Delaunay triangulations and centroidal Voronoi tessellations of the sphere, "
-               "in parallel.",
+  CLI::App app("Computes exact Delaunay triangulations and centroidal Voronoi tessellations (CVTs) "
+               "of the sphere and the plane, in parallel.",
                "calotte");
   const ExitCode code = guarded_run(app, argc, argv);
   if (code == done && !std::cout.flush()) {
-    complain("cannot write standard output; make room or send it elsewhere");
+    complain("cannot write standard output; free disk space or redirect it");
     return file_trouble;
   }
   return code;

@@ -54,7 +54,7 @@ void run(const MeshSource& source) {
 void add_check(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "check",
-      "Prove in exact arithmetic that a mesh is the Delaunay triangulation of its points.");
+      "Proves in exact arithmetic that a mesh is the Delaunay triangulation of its points.");
   auto source = add_mesh_source(*command);
   add_plane(*command, *source);
   command->callback([source] { run(*source); });

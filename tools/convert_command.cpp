@@ -38,10 +38,10 @@ void require_request(const Request& request) {
   require_outputs({{"mesh", request.output}},
                   {source.path, source.points, widths.file, widths.raster, *request.config});
   if (source.points.empty() && (source.path == "-" || holds_triangles(source.path)))
-    throw Error(ErrorCode::bad_option, source.path +
-                                           " holds triangles only, give the points they refer to "
-                                           "(--points FILE); or, if it holds points, make their "
-                                           "mesh with calotte delaunay");
+    throw Error(ErrorCode::bad_option,
+                source.path +
+                    " holds triangles without points; give the points with --points FILE, or, if "
+                    "the file holds points, triangulate them with calotte delaunay");
 }
 
 /// A mesh of the sphere, or else of the plane.
@@ -113,14 +113,15 @@ void run(const Request& request) {
 
 void add_convert(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
-      "convert", "Write a mesh in another format; its points and triangles stay what they are.");
+      "convert", "Converts a mesh to another format. Points and triangles do not change.");
   auto request = std::make_shared<Request>();
   request->source = add_mesh_source(*command, "IN,--input");
   add_plane(*command, *request->source);
   command->add_option("OUT,-o,--output", request->output, help_of_output())
       ->type_name("FILE")
       ->required();
-  request->format = add_format(*command, "that of the points where they stand on a sphere, or 1");
+  request->format =
+      add_format(*command, "the radius of the points if all lie on one sphere, else 1");
   request->density = add_density(*command);
   request->config = add_config(*command);
   command->callback([request] { run(*request); });

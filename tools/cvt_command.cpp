@@ -40,10 +40,10 @@ void require_plane(const CvtRequest& request, const WriteOptions& options) {
   require_planar_format(request.mesh, request.domain->periodic.has_value(),
                         format_of(request.mesh, options.format));
   if (request.format->sphere_radius)
-    throw Error(ErrorCode::bad_option, "--sphere-radius is not for a plane; leave it out");
+    throw Error(ErrorCode::bad_option, "--sphere-radius does not apply to the plane; leave it out");
   if (!request.density->widths.file.empty())
     throw Error(ErrorCode::bad_option,
-                "--cell-width is for the sphere; give --density or --density-raster");
+                "--cell-width applies to the sphere only; give --density or --density-raster");
 }
 
 /// All that can be known to fail from the options alone.
@@ -51,7 +51,7 @@ void require_request(const CvtRequest& request) {
   require_positive("--tolerance", request.tolerance, "one such as 1e-6");
   require_positive("--checkpoint-minutes", request.checkpoint_minutes, "one such as 10");
   if (request.relaxation != 1 && request.method != "lloyd")
-    throw Error(ErrorCode::bad_option, "--relaxation is for --method lloyd only; leave it out");
+    throw Error(ErrorCode::bad_option, "--relaxation applies to --method lloyd only; leave it out");
   require_start(request);
   const WriteOptions options = // throws for a file that could not be written
       options_of(*request.format, request.mesh);
@@ -125,7 +125,7 @@ bool after_iteration(const CvtProgress& now, const CvtRequest& request, const Cv
   try {
     keeper.keep(now.state);
   } catch (const Error& error) { // a full disk may have room again before the run needs it
-    progress.say("calotte: " + std::string(error.what()) + " (the run goes on)");
+    progress.say("calotte: " + std::string(error.what()) + " (the run continues)");
   }
   return false;
 }
@@ -209,13 +209,13 @@ Outcome tessellate(const CvtRequest& request, Plan& plan, Progress& progress) {
 /// Says where a signal ended the run and how to go on.
 [[noreturn]] void finish_interrupted(const CvtRequest& request, const Outcome& outcome) {
   const std::vector<CvtIteration>& iterations = outcome.report.iterations;
-  std::cerr << std::string("calotte: stopped by ") +
-                   (outcome.signal == SIGINT ? "SIGINT" : "SIGTERM") + " after iteration " +
-                   std::to_string(iterations.size()) + ", at " +
-                   std::to_string(iterations.back().cells) + " cells; " +
-                   (request.checkpoint.empty()
-                        ? "nothing is kept, give --checkpoint FILE to be able to go on\n"
-                        : "to go on, give the same command --resume " + request.checkpoint + "\n");
+  std::cerr
+      << std::string("calotte: stopped by ") + (outcome.signal == SIGINT ? "SIGINT" : "SIGTERM") +
+             " after iteration " + std::to_string(iterations.size()) + ", at " +
+             std::to_string(iterations.back().cells) + " cells; " +
+             (request.checkpoint.empty()
+                  ? "the state is not saved; run with --checkpoint FILE to be able to resume\n"
+                  : "to continue, repeat the command with --resume " + request.checkpoint + "\n");
   finish(outcome.signal == SIGINT ? interrupted : terminated);
 }
 
@@ -224,7 +224,7 @@ Outcome tessellate(const CvtRequest& request, Plan& plan, Progress& progress) {
   std::cerr << "calotte: not converged: " + residual_words(request, report) +
                    " is above the tolerance " + shortest(request.tolerance) + " after " +
                    std::to_string(request.max_iterations) +
-                   " iterations; the mesh is written, raise --max-iterations\n";
+                   " iterations; the mesh is written; increase --max-iterations\n";
   finish(not_converged);
 }
 
@@ -271,10 +271,9 @@ void run(CvtRequest request) {
 
 void add_cvt(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
-      "cvt",
-      "Converge a centroidal Voronoi tessellation of the sphere, or of a domain of the plane, "
-      "for a density; the mesh is the same bits for any threads and regions, and after any "
-      "interruption.");
+      "cvt", "Computes a centroidal Voronoi tessellation of the sphere or of a planar domain for a "
+             "density. The mesh has the same bits for any number of threads and regions. A resumed "
+             "run gives the same bits as an uninterrupted one.");
   const std::shared_ptr<CvtRequest> request = add_cvt_options(*command);
   command->callback([request] { run(*request); });
 }

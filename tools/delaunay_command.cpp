@@ -38,10 +38,11 @@ template <class AnyMesh> struct Result {
 /// Everything about the options that can be known to fail, before any work.
 void require_request(const Request& request) {
   if (request.plane && request.format->sphere_radius)
-    throw Error(ErrorCode::bad_option, "--sphere-radius is not for --plane; leave it out");
+    throw Error(ErrorCode::bad_option, "--sphere-radius does not apply with --plane; leave it out");
   if (request.plane && holds_points(request.points))
     throw Error(ErrorCode::bad_option,
-                request.points + ": --plane takes text, x y a line; leave it out for a mesh");
+                request.points +
+                    ": --plane requires text with x y on each line; leave --plane out for a mesh");
   period_of(request.periodic);               // throws for one that is no box
   options_of(*request.format, request.mesh); // throws for a file that could not be written
   require_outputs({{"mesh", request.mesh}, {"report", request.report}},
@@ -166,33 +167,32 @@ void run(const Request& request) {
 } // namespace
 
 void add_delaunay(CLI::App& app) {
-  CLI::App* command = app.add_subcommand(
-      "delaunay",
-      "Triangulate points on the sphere, or in the plane; the mesh is the same for any threads and "
-      "regions.");
+  CLI::App* command =
+      app.add_subcommand("delaunay", "Triangulates points on the sphere or in the plane. The mesh "
+                                     "has the same bits for any number of threads and regions.");
   auto request = std::make_shared<Request>();
   command
       ->add_option("POINTS,--points", request->points,
-                   "text, x y z a line (directions of any norm); - is standard input; or the "
-                   "points of a mesh, " +
+                   "Input points: text with x y z on each line (vectors of any length), - for "
+                   "standard input, or the points of a mesh: " +
                        std::string(mesh_suffixes))
       ->type_name("FILE")
       ->required();
   command->add_option("-o,--output", request->mesh, help_of_output())
       ->type_name("FILE")
       ->required();
-  CLI::Option* lonlat = command->add_flag(
-      "--lonlat", request->lonlat, "the text's points are longitude and latitude in degrees");
+  CLI::Option* lonlat = command->add_flag("--lonlat", request->lonlat,
+                                          "The points are longitude and latitude in degrees");
   CLI::Option* plane =
       command
           ->add_flag("--plane", request->plane,
-                     "triangulate in the plane: the points are text, x y a line; the mesh is .vtp, "
-                     ".vtu, .off, .ply, .msh or triangles alone")
+                     "Triangulate in the plane. The points are text with x y on each line; the "
+                     "mesh is .vtp, .vtu, .off, .ply, .msh, .txt or .tri")
           ->excludes(lonlat);
   add_periodic(*command, request->periodic)->needs(plane);
   request->partition = add_partition(*command);
   request->format = add_format(*command);
-  command->add_option("--report", request->report, "a JSON file of times and counts")
+  command->add_option("--report", request->report, "Write times and counts to this JSON file")
       ->type_name("FILE");
   request->config = add_config(*command);
   command->callback([request] { run(*request); });

@@ -55,9 +55,10 @@ LonLat parse_view(std::string_view text) {
            std::abs(view.longitude) <= 360;
   }
   if (!good) {
-    throw Error(ErrorCode::bad_option,
-                "--view " + std::string(text) +
-                    " is no place; give longitude and latitude in degrees, as in --view 15,-30");
+    throw Error(
+        ErrorCode::bad_option,
+        "--view " + std::string(text) +
+            " is not a location; give longitude and latitude in degrees, as in --view 15,-30");
   }
   return view;
 }
@@ -95,8 +96,8 @@ void add_colour(CLI::App& command, DrawArguments& arguments) {
     return field || words.contains(text)
                ? ""
                : "\"" + text +
-                     "\" is none of spacing, angle, valence (or degree), area, quality, "
-                     "density, field:NAME, none";
+                     "\" is not one of spacing, angle, valence (or degree), "
+                     "area, quality, density, field:NAME, none";
   };
   DrawOptions& options = arguments.options;
   const auto choose = [&options](const std::string& text) {
@@ -109,10 +110,11 @@ void add_colour(CLI::App& command, DrawArguments& arguments) {
       command
           .add_option_function<std::string>(
               "--colour,--color", choose,
-              "by what to colour: spacing (mean distance of neighbours), angle (the smallest), "
-              "valence or degree (number of neighbours), area, quality (shortest over longest "
-              "side of a cell; of a triangle 1 when equilateral), density (of --density), none, "
-              "or field:NAME, a variable of a NetCDF mesh with one number for each cell")
+              "Quantity that determines the colour: spacing (mean distance to the neighbours), "
+              "angle (smallest angle), valence or degree (number of neighbours), area, quality (of "
+              "a cell: shortest side over longest; of a triangle: 1 if equilateral), density (of "
+              "--density), none, or field:NAME (a variable of a NetCDF mesh with one number for "
+              "each cell)")
           ->check(check)
           ->type_name("WORD")
           ->default_str("spacing");
@@ -120,26 +122,27 @@ void add_colour(CLI::App& command, DrawArguments& arguments) {
 
 void add_look(CLI::App& command, DrawArguments& arguments) {
   Look& look = arguments.options.look;
-  add_choice<Projection>(
-      command, "--projection", look.projection,
-      {{"globe", Projection::globe}, {"plate-carree", Projection::plate_carree}},
-      "the near half of the sphere, or all of it with longitude and latitude as x and y");
+  add_choice<Projection>(command, "--projection", look.projection,
+                         {{"globe", Projection::globe}, {"plate-carree", Projection::plate_carree}},
+                         "Map projection: globe (the visible hemisphere) or plate-carree (the "
+                         "whole sphere, longitude and latitude as x and y)");
   const auto look_from = [&look](const std::string& text) { look.view = parse_view(text); };
   command
       .add_option_function<std::string>(
           "--view", look_from,
-          "the middle of the globe (default: 15,25, or the middle of an open mesh); of plate "
-          "carree the longitude alone counts (default: 0)")
+          "Centre of the map in degrees; latitude from -90 to 90. Default of globe: 15,25, or the "
+          "centre of an open mesh. plate-carree uses only the longitude; default: 0")
       ->type_name("LON,LAT");
-  command.add_flag("--graticule", look.graticule, "meridians and parallels every 30 degrees");
-  command.add_option("--size", look.size, "width in pixels (points in SVG and PDF)")
+  command.add_flag("--graticule", look.graticule, "Draw meridians and parallels every 30 degrees");
+  command.add_option("--size", look.size, "Width in pixels (points in SVG and PDF)")
       ->check(CLI::Range(64, 16384))
       ->capture_default_str();
   DrawOptions& options = arguments.options;
   add_choice<Shapes>(
       command, "--what", options.shapes,
       {{"triangles", Shapes::triangles}, {"cells", Shapes::cells}, {"both", Shapes::both}},
-      "the Delaunay triangles, the Voronoi cells, or the triangles' edges over the cells");
+      "Shapes: triangles (Delaunay), cells (Voronoi), or both (edges of the triangles on the "
+      "cells)");
   arguments.what = command.get_option("--what");
   add_colour(command, arguments);
 }
@@ -156,17 +159,15 @@ void add_density_options(CLI::App& command, DrawArguments& arguments) {
 
 /// The pictures that are no map, and which options they do without.
 void add_plots(CLI::App& command, DrawArguments& arguments) {
-  CLI::Option* history =
-      command
-          .add_option(
-              "--history", arguments.reports,
-              "instead of a mesh, draw how runs converged, against evaluations and seconds: "
-              "reports of calotte cvt --report")
-          ->type_name("REPORT ...")
-          ->expected(1, static_cast<int>(most_histories));
+  CLI::Option* history = command
+                             .add_option("--history", arguments.reports,
+                                         "Draw the convergence of runs against evaluations and "
+                                         "seconds, from reports of calotte cvt --report; no MESH")
+                             ->type_name("REPORT ...")
+                             ->expected(1, static_cast<int>(most_histories));
   CLI::Option* law = command.add_flag(
       "--spacing-law", arguments.spacing_law,
-      "instead of a map, draw the cells' spacings against those that --density asks for");
+      "Draw the spacings of the cells against those that --density prescribes, instead of a map");
   for (const char* name : {"--projection", "--view", "--graticule", "--what", "--colour"}) {
     law->excludes(command.get_option(name));
     history->excludes(command.get_option(name));
@@ -202,18 +203,18 @@ void draw_reports(const DrawArguments& arguments) {
             << (histories.size() == 1 ? " run\n" : " runs\n");
 }
 
-/// A density that is not wanted is a mistake, and so is one that is missing.
+/// Throws for a density that no option uses, and for one that is missing.
 void require_density(const DrawArguments& arguments) {
   const bool wanted = arguments.spacing_law || arguments.options.colouring == Colouring::density;
   if (wanted && !arguments.has_density()) {
     throw Error(ErrorCode::bad_option,
                 std::string(arguments.spacing_law ? "--spacing-law" : "--colour density") +
-                    " needs a density; give --density or --cell-width");
+                    " requires a density; give --density or --cell-width");
   }
   if (!wanted && arguments.has_density()) {
     throw Error(ErrorCode::bad_option,
-                "with a mesh a density is for --colour density or --spacing-law; give one of "
-                "these, or no MESH for a picture of the density itself");
+                "a mesh with a density requires --colour density or --spacing-law; give one of "
+                "these, or leave MESH out to draw the density");
   }
 }
 
@@ -307,8 +308,9 @@ void draw_density(const DrawArguments& arguments) {
     throw CLI::RequiredError("--what: MESH");
   }
   if (colouring != Colouring::density && colouring != Colouring::spacing) {
-    throw Error(ErrorCode::bad_option, "without MESH a density is coloured by density or spacing; "
-                                       "give one of these, or a mesh");
+    throw Error(
+        ErrorCode::bad_option,
+        "a picture of a density is coloured by density or spacing; give one of these, or a mesh");
   }
   draw(arguments.output, field_of(arguments), arguments.options.look);
   std::cout << arguments.output << ": picture of a density\n";
@@ -331,12 +333,12 @@ void run(const DrawArguments& arguments) {
 } // namespace
 
 void add_draw(CLI::App& app) {
-  CLI::App* command = app.add_subcommand(
-      "draw", "Draw a mesh or a density on a map, a mesh's spacing law, or how a CVT converged.");
+  CLI::App* command = app.add_subcommand("draw", "Draws a mesh or a density on a map, the spacing "
+                                                 "law of a mesh, or the convergence of CVT runs.");
   auto arguments = std::make_shared<DrawArguments>();
   arguments->source = add_mesh_source(*command);
   command->get_option("MESH")->required(false); // a density or a report takes its place
-  command->add_option("-o,--output", arguments->output, "the picture: .png, .svg or .pdf")
+  command->add_option("-o,--output", arguments->output, "Output picture: .png, .svg or .pdf")
       ->required()
       ->type_name("FILE");
   add_look(*command, *arguments);

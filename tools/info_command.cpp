@@ -140,7 +140,7 @@ PlanarDomain domain_of(const Request& request, const PlanarMesh& mesh) {
   if (mesh.period.minCoeff() > 0)
     return periodic_box(mesh.period);
   throw Error(ErrorCode::bad_option, request.source->path +
-                                         ": the domain of a mesh of the plane clips its cells; "
+                                         ": a planar mesh needs its domain, which clips the cells; "
                                          "give --domain, --rectangle or --periodic");
 }
 
@@ -163,7 +163,7 @@ Measured read_and_measure(const Request& request) {
 void run(const Request& request) {
   if (request.domain->given() && !request.source->plane)
     throw Error(ErrorCode::bad_option,
-                "a domain is one of the plane; give --plane, too, or leave it out");
+                "a domain requires --plane; add --plane, or leave the domain out");
   require_outputs(request);
   const Measured measured = read_and_measure(request);
   if (!request.report.empty())
@@ -175,15 +175,14 @@ void run(const Request& request) {
 
 void add_info(CLI::App& app) {
   CLI::App* command =
-      app.add_subcommand("info", "Measure a closed mesh, or one of the plane, as a grid: spacing, "
-                                 "shapes of cells and triangles, distance "
-                                 "from a centroidal tessellation.");
+      app.add_subcommand("info", "Measures a closed mesh or a planar mesh: spacing, quality of "
+                                 "cells and triangles, and distance from a CVT.");
   auto request = std::make_shared<Request>();
   request->source = add_mesh_source(*command);
   add_plane(*command, *request->source);
   request->domain = add_domain(*command);
   request->density = add_density(*command);
-  command->add_option("--report", request->report, "a JSON file of the same");
+  command->add_option("--report", request->report, "Write the same quantities to this JSON file");
   command->callback([request] { run(*request); });
 }
 

@@ -29,24 +29,25 @@ struct Request {
 
 void require_options(const Request& request) {
   if (request.seed && request.kind != "random" && request.kind != "random-plane")
-    throw Error(ErrorCode::bad_option, "--seed is for random points only; leave it out");
+    throw Error(ErrorCode::bad_option, "--seed applies to random points only; leave it out");
   if (request.planar() && !request.domain->given())
     throw Error(ErrorCode::bad_option,
-                request.kind + " points are those of a domain of the plane; give it (--domain, "
-                               "--rectangle or --periodic)");
+                request.kind +
+                    " points need a planar domain; give --domain, --rectangle or --periodic");
   if (!request.planar() && request.domain->given())
-    throw Error(ErrorCode::bad_option, request.kind + " points are on the sphere, which has no "
-                                                      "other domain; leave it out, or ask for "
-                                                      "random-plane or hexagonal points");
+    throw Error(
+        ErrorCode::bad_option,
+        request.kind +
+            " points lie on the sphere; leave the domain out, or give random-plane or hexagonal");
   if (request.poles && request.kind != "latlon")
-    throw Error(ErrorCode::bad_option, "--poles is for latlon points only; leave it out");
+    throw Error(ErrorCode::bad_option, "--poles applies to latlon points only; leave it out");
   if (request.output == "-")
     return;
   if (holds_points(request.output) || std::filesystem::path(request.output).extension() == ".tri")
-    throw Error(ErrorCode::bad_option, request.output + ": points are text, " +
-                                           (request.planar() ? "x y" : "x y z") +
-                                           " a line; give a name such as "
-                                           "points.txt, and make a mesh with calotte delaunay");
+    throw Error(
+        ErrorCode::bad_option,
+        request.output + ": points are text with " + (request.planar() ? "x y" : "x y z") +
+            " on each line; give a name such as points.txt; calotte delaunay makes a mesh of them");
   require_folder(request.output);
 }
 
@@ -98,26 +99,27 @@ void run(const Request& request) {
 
 void add_points(CLI::App& app) {
   CLI::App* command =
-      app.add_subcommand("points", "Write a set of points, x y z a line; of a plane, x y.");
+      app.add_subcommand("points", "Writes points as text: x y z on each line, in the plane x y.");
   auto request = std::make_shared<Request>();
   command
       ->add_option(
           "KIND", request->kind,
-          "random, fibonacci, spiral, icosahedron, latlon or cubed (an equiangular cube) on "
-          "the sphere; random-plane or hexagonal in a domain of the plane")
+          "Points on the sphere: random, fibonacci, spiral, icosahedron (bisected), latlon or "
+          "cubed (equiangular cubed sphere). Points in a planar domain: random-plane or hexagonal")
       ->required()
       ->check(CLI::IsMember({"random", "fibonacci", "spiral", "icosahedron", "latlon", "cubed",
                              "random-plane", "hexagonal"}));
   command
-      ->add_option(
-          "N", request->count,
-          "the number of points; of bisections for icosahedron, of rows for latlon (with 2N "
-          "columns), of cells along an edge for cubed; for hexagonal about that many")
+      ->add_option("N", request->count,
+                   "Number of points. For icosahedron the number of bisections, for latlon the "
+                   "number of rows (with 2N columns), for cubed the number of cells along an edge; "
+                   "for hexagonal an approximate number")
       ->required();
-  command->add_option("-o,--output", request->output, "the file; - is standard output")->required();
-  command->add_option("--seed", request->seed, "of random points; default 1")
+  command->add_option("-o,--output", request->output, "Output file; - for standard output")
+      ->required();
+  command->add_option("--seed", request->seed, "Seed of random points, >= 0; default: 1")
       ->transform(whole_number(0, std::numeric_limits<std::uint64_t>::max()));
-  command->add_flag("--poles", request->poles, "add both poles to latlon");
+  command->add_flag("--poles", request->poles, "Add both poles to latlon");
   request->domain = add_domain(*command);
   command->callback([request] { run(*request); });
 }

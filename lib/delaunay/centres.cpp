@@ -165,7 +165,7 @@ int default_region_count(std::int64_t sites) {
 std::vector<Vec3> make_centres(const Sites& sites, const DelaunayOptions& options) {
   if (options.given_centres) {
     if (options.given_centres->cols() == 0)
-      throw Error(ErrorCode::bad_option, "there is no region centre: give at least 1");
+      throw Error(ErrorCode::bad_option, "no region centre is given; give at least one");
     return columns(*options.given_centres, sites.frame);
   }
   const int regions = options.regions.value_or(default_region_count(sites.size()));

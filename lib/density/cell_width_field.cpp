@@ -33,7 +33,7 @@ void require(const CellWidth& cell_width) {
   require_ascending(longitudes, "longitudes");
   require_ascending(latitudes, "latitudes");
   if (!(longitudes[longitudes.size() - 1] < longitudes[0] + 360))
-    refuse("the last longitude is not below the first + 360; leave out what is repeated");
+    refuse("the last longitude is not below the first + 360; remove the repeated longitudes");
   if (latitudes[0] < -90 || latitudes[latitudes.size() - 1] > 90)
     refuse("latitudes outside -90 to 90; give degrees north");
   if (cell_width.widths.rows() != longitudes.size() || cell_width.widths.cols() != latitudes.size())

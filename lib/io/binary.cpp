@@ -20,7 +20,7 @@ std::optional<std::int64_t> count_after(std::string_view text, std::string_view 
 
 std::string_view Bytes::take(std::int64_t size) {
   if (static_cast<std::uint64_t>(size) > rest_.size())
-    fail("the file ends early; it is not whole, make it again");
+    fail("the file ends early; it is incomplete; make it again");
   const std::string_view taken = rest_.substr(0, static_cast<std::size_t>(size));
   rest_.remove_prefix(taken.size());
   return taken;

@@ -76,8 +76,8 @@ void require_widths(const Raster& raster, const std::string& name) {
 void drop_repeated(Raster& raster, const std::string& name) {
   const double around = raster.longitudes.back() - raster.longitudes.front() - 360;
   if (around > slack)
-    refuse(name, raster.longitude_name + " spans more than 360 degrees; leave out what is "
-                                         "repeated");
+    refuse(name,
+           raster.longitude_name + " spans more than 360 degrees; remove the repeated longitudes");
   if (around < -slack)
     return;
   const Eigen::Index last = raster.widths.rows() - 1;
@@ -132,8 +132,9 @@ CellWidth read_cell_width(const std::string& path, const PolygonWidths& polygons
   if (suffix == ".nc")
     return io_detail::read_cell_width_netcdf(path, "cellWidth");
   if (suffix != ".msh" && suffix != ".geojson" && suffix != ".json")
-    throw Error(ErrorCode::bad_option, path + ": no cell widths by its suffix; give .nc, .msh or "
-                                              ".geojson");
+    throw Error(ErrorCode::bad_option,
+                path + ": unknown suffix of a file of cell widths; give .nc, .msh or "
+                       ".geojson");
   std::ifstream in = io_detail::open_input(path);
   return suffix == ".msh" ? io_detail::read_cell_width_msh(in, path)
                           : io_detail::read_cell_width_geojson(in, path, polygons);

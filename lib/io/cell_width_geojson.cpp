@@ -46,7 +46,7 @@ private:
 
   double positive(const Json& value, const std::string& what) const {
     if (!value.is_number() || !(value.get<double>() > 0) || !std::isfinite(value.get<double>()))
-      fail(what + " is no positive number; give km");
+      fail(what + " is not a positive number; give km");
     return value.get<double>();
   }
 

@@ -43,7 +43,7 @@ GeoPosition corner_of(const LineReader& reader, std::string_view line) {
   const Columned read = parse_columns(line, 2, corner.data());
   if (read.outcome != Outcome::ok)
     reader.fail((read.outcome == Outcome::too_few ? "1 column only" : describe(read)) +
-                "; write two numbers x y a line, and a blank line between rings");
+                "; write two numbers x y on each line, and a blank line between rings");
   return corner;
 }
 
@@ -75,7 +75,7 @@ Rings rings_of_text(std::istream& in, const std::string& name) {
   rings.close();
   if (rings.corners.empty())
     throw Error(ErrorCode::parse, name + ": no corners in " + std::to_string(reader.number()) +
-                                      " lines; write two numbers x y a line");
+                                      " lines; write two numbers x y on each line");
   return rings;
 }
 

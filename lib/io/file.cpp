@@ -237,9 +237,10 @@ void OutputFile::fail(int error) const {
 
 void require_regular_output(const std::string& path) {
   if (!renameable(path) && !fs::is_directory(path))
-    throw Error(ErrorCode::file, "cannot write " + path +
-                                     ": it is no regular file, and the format is not written from "
-                                     "front to back; give the name of a file");
+    throw Error(ErrorCode::file,
+                "cannot write " + path +
+                    ": it is not a regular file, and the format is not written from "
+                    "front to back; give the name of a file");
 }
 
 std::ifstream open_input(const std::string& path) {

@@ -100,9 +100,9 @@ Format format_of(const std::string& path, Format option) {
                                            std::string(vertices_name) +
                                            " and so on; give such a name");
   if (named && of_suffix(option) != *named)
-    throw Error(ErrorCode::bad_option,
-                path + ": its name is that of another format than the one asked for; change one "
-                       "of them");
+    throw Error(
+        ErrorCode::bad_option,
+        path + ": its name belongs to another format than the selected one; change one of them");
   return option;
 }
 

@@ -129,7 +129,7 @@ Points3 site_of(const json& feature, const std::string& name, std::int64_t index
   }
   throw Error(ErrorCode::parse,
               name + ": feature " + std::to_string(index) +
-                  " is no point, and does not tell its cell's site; give it numbers x, y and z as "
+                  " is not a point that is the site of its cell; give it numbers x, y and z as "
                   "properties",
               index);
 }
@@ -149,7 +149,7 @@ json parse(std::istream& in, const std::string& name,
   try {
     return json::parse(in, keep);
   } catch (const json::parse_error& error) {
-    throw Error(ErrorCode::parse, name + ": no JSON, or not whole, at byte " +
+    throw Error(ErrorCode::parse, name + ": invalid or incomplete JSON at byte " +
                                       std::to_string(error.byte) + "; make the file again");
   } catch (const json::exception&) {
     throw Error(ErrorCode::parse, name + ": a number is out of range; make the file again");
@@ -181,8 +181,8 @@ Soup get_geojson(std::istream& in, const std::string& name) {
     throw Error(ErrorCode::parse, name + ": no GeoJSON FeatureCollection; give one of the cells");
   const json features = rest.value("features", json());
   if (sites.empty() || !features.is_array() || !features.empty())
-    throw Error(ErrorCode::parse,
-                name + ": its features are none, or no objects; give one for each cell");
+    throw Error(ErrorCode::parse, name + ": \"features\" is empty or holds other values than "
+                                         "objects; give one feature for each cell");
   return {Eigen::Map<const Points3>(sites.data(), 3, static_cast<Eigen::Index>(sites.size() / 3)),
           {}};
 }

@@ -98,7 +98,7 @@ private:
 
   GeoRing ring(const Json& positions) const {
     if (!positions.is_array())
-      fail(ring_name() + " is no array of positions; give GeoJSON as RFC 7946 has it");
+      fail(ring_name() + " is not an array of positions; give GeoJSON as RFC 7946 has it");
     GeoRing ring;
     for (const Json& position : positions)
       ring.push_back(place(position, ring.size()));
@@ -112,8 +112,8 @@ private:
   GeoPosition place(const Json& position, std::size_t index) const {
     if (!position.is_array() || position.size() < 2 || !position[0].is_number() ||
         !position[1].is_number())
-      fail("position " + std::to_string(index) + " of " + ring_name() + " is no " + pair_.form +
-           "; " + pair_.remedy);
+      fail("position " + std::to_string(index) + " of " + ring_name() + " is not a position " +
+           pair_.form + "; " + pair_.remedy);
     return {position[0].get<double>(), position[1].get<double>()};
   }
 

@@ -48,8 +48,9 @@ private:
   void section(std::string_view line) {
     const std::size_t equals = line.find('=');
     if (equals == std::string_view::npos)
-      reader_.fail(in_quotes(line) + " is no line NAME=...; a section has more or fewer lines than "
-                                     "it announces");
+      reader_.fail(in_quotes(line) +
+                   " is not a line NAME=...; a section has more or fewer lines than "
+                   "it announces");
     const std::string name = trimmed_lower(line.substr(0, equals));
     const std::string what(line.substr(equals + 1));
     if (name != "coord" && !seen_.insert(name).second)
@@ -75,7 +76,7 @@ private:
     std::array<std::int64_t, count> values{};
     const Columned read = parse_columns(text, count, values.data());
     if (read.outcome != Outcome::ok || *std::min_element(values.begin(), values.end()) < 0)
-      reader_.fail(in_quotes(text) + " is no count of lines");
+      reader_.fail(in_quotes(text) + " is not a count of lines");
     return values;
   }
 
@@ -111,7 +112,7 @@ private:
 
   void grid(const std::array<std::int64_t, 2>& head) {
     if (head[0] != 1 && head[0] != 2)
-      reader_.fail("COORD=" + std::to_string(head[0]) + " is no axis of a grid; give 1 and 2");
+      reader_.fail("COORD=" + std::to_string(head[0]) + " is not an axis of a grid; give 1 and 2");
     std::vector<double>& axis = head[0] == 1 ? file_.x_grid : file_.y_grid;
     if (!axis.empty())
       reader_.fail("COORD=" + std::to_string(head[0]) + " comes twice; leave one of them out");
@@ -180,7 +181,7 @@ Points3 directions_of(const JigsawFile& file, const std::string& name) {
     if (std::abs(latitude) > 90.001)
       throw Error(ErrorCode::parse,
                   name + ": latitude " + std::to_string(file.points(1, i)) + " of point " +
-                      std::to_string(i) + " is no angle in radians from -pi/2 to pi/2",
+                      std::to_string(i) + " is not an angle in radians from -pi/2 to pi/2",
                   i);
     const Vec3 p = from_lonlat(file.points(0, i) * degrees, std::clamp(latitude, -90.0, 90.0));
     points.col(i) << p.x, p.y, p.z;

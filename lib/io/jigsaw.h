@@ -25,7 +25,7 @@ struct JigsawFile {
 };
 
 /// \param name stands for the stream in messages.
-/// \throws Error parse that names the line: text that is no number, or not finite; a section of
+/// \throws Error parse that names the line: text that is not a number, or not finite; a section of
 ///         fewer lines than it announces, or given twice; a vertex of a triangle that is no point.
 JigsawFile read_jigsaw(std::istream& in, const std::string& name);
 

@@ -175,7 +175,7 @@ void require_places(const std::string& name, const Points3& points) {
     if (points(2, i) != 0)
       throw Error(ErrorCode::bad_option,
                   name + ": z is not 0 at point " + std::to_string(i) +
-                      ", which makes no mesh of the plane; read it as one of the sphere (without "
+                      ", so it is not a planar mesh; read it as one of the sphere (without "
                       "--plane)",
                   i);
   }
@@ -319,7 +319,7 @@ void write(const std::string& path, const PlanarMesh& mesh, const WriteOptions& 
   require_options(path, resolved);
   require_planar_format(path, mesh.period.minCoeff() > 0, resolved.format);
   if (options.numbering == Numbering::curve || options.numbering == Numbering::rcm)
-    refuse(path, "the cells of a plane keep their numbers; leave the order out");
+    refuse(path, "the cells of a planar mesh keep their numbers; leave the order out");
   require_ids(path, mesh);
   if (resolved.format == Format::mpas)
     write_mpas(path, mesh, resolved);
@@ -347,7 +347,7 @@ PlanarMesh read_planar_mesh(const std::string& path, const Points2* points) {
   if (holds_netcdf(path)) {
     const NetcdfReader file(path);
     if (!is_mpas(file))
-      file.fail("no MPAS mesh, which alone of NetCDF's holds a plane");
+      file.fail("not an MPAS mesh, the only NetCDF format of planar meshes");
     return read_planar_mpas(file);
   }
   const Format format = *format_of_name(path);

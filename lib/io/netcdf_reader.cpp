@@ -96,7 +96,7 @@ std::vector<T> get_values(const NetcdfReader& file, int id, const std::string& n
 std::int32_t to_int(const NetcdfReader& file, const std::string& name, double value) {
   using Limits = std::numeric_limits<std::int32_t>;
   if (!(value >= Limits::min() && value <= Limits::max()) || value != std::floor(value))
-    file.fail(name + " has a number that is no 32-bit integer; make the file again");
+    file.fail(name + " has a number that is not a 32-bit integer; make the file again");
   return static_cast<std::int32_t>(value);
 }
 
@@ -106,12 +106,12 @@ NetcdfReader::NetcdfReader(const std::string& path) : path_(path) {
   open_input(path); // says why it cannot be read
   const std::lock_guard lock(netcdf_mutex());
   if (nc_open(netcdf_path(path).c_str(), NC_NOWRITE, &id_) != NC_NOERR)
-    fail("it is no NetCDF file, or is cut short; give another or make it again");
+    fail("it is not a NetCDF file, or is cut short; give another or make it again");
   const std::string cut = first_cut(id_, path);
   if (cut.empty())
     return;
   nc_close(id_);
-  fail("it is cut short: " + cut + " is not whole; make it again");
+  fail("it is cut short: " + cut + " is incomplete; make it again");
 }
 
 NetcdfReader::~NetcdfReader() {

@@ -13,7 +13,7 @@ namespace {
 template <class T> void take(LineReader& reader, int count, T* values, const std::string& awaited) {
   std::string_view line;
   if (!reader.next_content(line))
-    reader.fail("the file ends before " + awaited + "; it is not whole, make it again");
+    reader.fail("the file ends before " + awaited + "; it is incomplete; make it again");
   const Columned read = parse_columns(line, count, values);
   if (read.outcome != Outcome::ok)
     reader.fail((read.outcome == Outcome::too_few ? "too few columns" : describe(read)) +

@@ -52,7 +52,7 @@ Soup get_ply(std::istream& in, const std::string& name) {
   for (std::int64_t t = 0; t < *triangles; ++t) {
     const char* const face = faces.data() + face_size * t;
     if (*face != 3)
-      bytes.fail("face " + std::to_string(t) + " is no triangle; only triangles are read");
+      bytes.fail("face " + std::to_string(t) + " is not a triangle; only triangles are read");
     std::memcpy(soup.triangles.col(t).data(), face + 1, 3 * sizeof(std::int32_t));
   }
   return soup;

@@ -53,13 +53,13 @@ template <int count> void append(std::vector<double>& coordinates, const double*
 Row row_of(Columns columns) {
   if (columns == Columns::lonlat)
     return {2,
-            "write longitude and latitude in degrees a line",
+            "write longitude and latitude in degrees on each line",
             "",
             "direction",
             require_latitude,
             append_lonlat};
   return {3,
-          "write three numbers x y z a line",
+          "write three numbers x y z on each line",
           ", or read them as longitude and latitude (--lonlat) or places in a plane (--plane)",
           "direction",
           require_direction,
@@ -67,7 +67,7 @@ Row row_of(Columns columns) {
 }
 
 Row planar_row() {
-  return {2,       "write two numbers x y a line",          "",
+  return {2,       "write two numbers x y on each line",    "",
           "place", [](const LineReader&, const double*) {}, append<2>};
 }
 

@@ -158,7 +158,7 @@ std::string in_quotes(std::string_view text) {
 std::string describe(const Columned& read) {
   if (read.outcome == Outcome::out_of_range)
     return in_quotes(read.text) + " is out of range";
-  return read.text.empty() ? "a column is empty" : in_quotes(read.text) + " is no number";
+  return read.text.empty() ? "a column is empty" : in_quotes(read.text) + " is not a number";
 }
 
 Writer::Writer(Sink sink) : sink_(std::move(sink)) { buffer_.reserve(chunk + 64); }

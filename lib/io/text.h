@@ -49,7 +49,7 @@ private:
 enum class Outcome {
   ok,
   too_few,      ///< the line ends before `count` columns
-  no_number,    ///< a column is no number, or empty
+  no_number,    ///< a column is not a number, or empty
   out_of_range, ///< a column is a number that the type cannot hold
 };
 
@@ -71,7 +71,7 @@ bool holds_number(std::string_view line);
 /// Text from a file as one short printable line within quotes.
 std::string in_quotes(std::string_view text);
 
-/// "`abc` is no number" and the like, without the remedy. \pre the outcome is not ok or too_few.
+/// "`abc` is not a number" and the like, without the remedy. \pre the outcome is not ok or too_few.
 std::string describe(const Columned& read);
 
 // ---- Writing

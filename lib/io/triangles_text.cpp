@@ -61,11 +61,11 @@ Triangles get_triangles_text(std::istream& in, const std::string& name, std::int
     const Columned read = parse_columns(line, 3, ids);
     if (read.outcome != Outcome::ok)
       reader.fail((read.outcome == Outcome::too_few ? "too few columns" : describe(read)) +
-                  "; write three ids i j k a line, counted from 0");
+                  "; write three ids i j k on each line, counted from 0");
     parse_ids(reader, ids, points, triangles);
   }
   if (triangles.empty())
-    throw Error(ErrorCode::parse, name + ": no triangles; write three ids i j k a line");
+    throw Error(ErrorCode::parse, name + ": no triangles; write three ids i j k on each line");
   return Eigen::Map<const Triangles>(triangles.data(), 3,
                                      static_cast<Eigen::Index>(triangles.size() / 3));
 }

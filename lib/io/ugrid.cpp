@@ -296,7 +296,7 @@ Soup read_ugrid(const NetcdfReader& file) {
   const Topology topology = topology_of(file);
   const std::vector<std::int64_t> nodes = file.shape_of(topology.nodes[0]);
   if (nodes.size() != 1)
-    file.fail(topology.nodes[0] + " is no list of nodes; make the file again");
+    file.fail(topology.nodes[0] + " is not a list of nodes; make the file again");
   const FaceNodes faces = face_nodes_of(file, topology, nodes[0]);
 
   const std::vector<std::string>& sites = topology.sites;

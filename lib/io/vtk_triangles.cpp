@@ -40,7 +40,7 @@ void require_triangles(const std::string& name, std::string_view offsets, std::s
     if (load<std::int64_t>(offsets.data() + 8 * t) != static_cast<std::int64_t>(3 * (t + 1)) ||
         (!types.empty() && types[t] != triangle_type))
       Bytes(offsets, name)
-          .fail("cell " + std::to_string(t) + " is no triangle; only triangles are read");
+          .fail("cell " + std::to_string(t) + " is not a triangle; only triangles are read");
 }
 
 } // namespace

@@ -182,7 +182,7 @@ std::string star_failure(const Surface& s, const Stars& stars, std::int32_t site
   const std::int32_t start = stars.first[static_cast<std::size_t>(site)];
   const std::int32_t size = stars.size[static_cast<std::size_t>(site)];
   if (start < 0)
-    return name + " is no vertex of a triangle";
+    return name + " is not a vertex of any triangle";
   const std::int32_t ahead = s.vertex(start, slot_of(s, start, site) + 1);
   std::int32_t t = start, walked = 0, turns = 0;
   int way = 1;

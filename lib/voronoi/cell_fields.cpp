@@ -17,7 +17,7 @@ namespace {
 /// Empty where it is 1 at all cells. \throws Error bad_option.
 Eigen::VectorXd relative_density(const Voronoi& voronoi, const Density& density) {
   base_detail::require(density.uniform() || voronoi.on_sphere,
-                       "a periodic plane has uniform density alone: give no other");
+                       "a periodic plane supports uniform density only");
   if (density.uniform())
     return {};
   Eigen::VectorXd rho = evaluate(density, voronoi.cells);

@@ -120,7 +120,7 @@ Rings count_rings(const Surface& surface, Voronoi& out) {
       rings.first_edge[i] = higher;
     }
   });
-  lonely.refuse("site", "is no vertex of a triangle: triangulate the points anew");
+  lonely.refuse("site", "is not a vertex of any triangle: triangulate the points anew");
   unfit.refuse("triangle", "has a neighbour that does not fit it: triangulate the points anew");
   return rings;
 }

@@ -475,11 +475,11 @@ TEST_CASE("NetCDF rasters that are none end in one line that names what is wrong
   CHECK(refused([&](Raster& r) {
           for (double& longitude : r.lon)
             longitude *= 2;
-        }) == ": lon spans more than 360 degrees; leave out what is repeated");
+        }) == ": lon spans more than 360 degrees; remove the repeated longitudes");
   CHECK(refused([&](Raster& r) { r.lon.back() = 180; }).starts_with(": cellWidth differs at"));
   CHECK(refusal(folder("text.nc", "cellWidth")) != "not refused");
   CHECK(refusal(folder("widths.txt"), {}, ErrorCode::bad_option) ==
-        ": no cell widths by its suffix; give .nc, .msh or .geojson");
+        ": unknown suffix of a file of cell widths; give .nc, .msh or .geojson");
   CHECK_THROWS_AS(read_cell_width(folder("absent.nc")), Error);
   CHECK_THROWS_AS(read_cell_width(folder("absent.msh")), Error);
 
@@ -733,12 +733,13 @@ TEST_CASE("GeoJSON that gives no widths ends in one line that names the feature"
         std::string::npos);
   CHECK(refused(R"({"type":"FeatureCollection","features":[{"type":"Feature","geometry":)" +
                 polygon(square) + R"(,"properties":{"cellWidth":-3}}]})") ==
-        ": feature 0: its property \"cellWidth\" is no positive number; give km");
+        ": feature 0: its property \"cellWidth\" is not a positive number; give km");
   CHECK(refused(polygon("[[0,0],[1,0],[0,0]]")) ==
         ": ring 0 has fewer than 3 places; leave it out");
   CHECK(refused(polygon("[[0,0],[1,95],[2,0],[0,0]]"))
             .starts_with(": position 1 of ring 0 is [1.0, 95.0]"));
-  CHECK(refused(polygon("[[0,0],[1],[2,0],[0,0]]")).starts_with(": position 1 of ring 0 is no "));
+  CHECK(refused(polygon("[[0,0],[1],[2,0],[0,0]]"))
+            .starts_with(": position 1 of ring 0 is not a position "));
   CHECK(refused(polygon("")) == ": a polygon without rings; give its outer one");
   CHECK(refused(R"({"type":"Polygon"})").starts_with(": no array \"coordinates\""));
   PolygonWidths widths = coastal;

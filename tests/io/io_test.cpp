@@ -145,17 +145,17 @@ TEST_CASE("a file longer than the reader's buffer loses nothing, whatever ends i
 }
 
 TEST_CASE("points that are none end in one line that names the file's line and the remedy") {
-  const std::string xyz = "; write three numbers x y z a line";
-  check_bad("1 2 3\n4 abc 6\n", 2, "points line 2: \"abc\" is no number" + xyz);
-  check_bad("1 2 3\n\n# c\n4 5 6x\n", 4, "points line 4: \"6x\" is no number" + xyz);
-  check_bad("1 2 3\r\n4 5 0x6\r\n", 2, "points line 2: \"0x6\" is no number" + xyz);
-  check_bad("x y z\nu v w\n1 2 3\n", 2, "points line 2: \"u\" is no number" + xyz);
-  check_bad("1 x 3\n", 1, "points line 1: \"x\" is no number" + xyz);
-  check_bad("1 2 3\nx y z\n", 2, "points line 2: \"x\" is no number" + xyz);
+  const std::string xyz = "; write three numbers x y z on each line";
+  check_bad("1 2 3\n4 abc 6\n", 2, "points line 2: \"abc\" is not a number" + xyz);
+  check_bad("1 2 3\n\n# c\n4 5 6x\n", 4, "points line 4: \"6x\" is not a number" + xyz);
+  check_bad("1 2 3\r\n4 5 0x6\r\n", 2, "points line 2: \"0x6\" is not a number" + xyz);
+  check_bad("x y z\nu v w\n1 2 3\n", 2, "points line 2: \"u\" is not a number" + xyz);
+  check_bad("1 x 3\n", 1, "points line 1: \"x\" is not a number" + xyz);
+  check_bad("1 2 3\nx y z\n", 2, "points line 2: \"x\" is not a number" + xyz);
   check_bad("1,2,3\n4,,6\n", 2, "points line 2: a column is empty" + xyz);
   check_bad("1,2,3\n,4,5,6\n", 2, "points line 2: a column is empty" + xyz);
-  check_bad("1 2 3\n--1 2 3\n", 2, "points line 2: \"--1\" is no number" + xyz);
-  check_bad("1 2 3\n+-1 2 3\n", 2, "points line 2: \"+-1\" is no number" + xyz);
+  check_bad("1 2 3\n--1 2 3\n", 2, "points line 2: \"--1\" is not a number" + xyz);
+  check_bad("1 2 3\n+-1 2 3\n", 2, "points line 2: \"+-1\" is not a number" + xyz);
   check_bad("1 2 3\n1e400 2 3\n", 2, "points line 2: \"1e400\" is out of range" + xyz);
   check_bad("1 2 3\n4 5", 2,
             "points line 2: 2 columns only" + xyz +
@@ -167,9 +167,9 @@ TEST_CASE("points that are none end in one line that names the file's line and t
                 ", or read them as longitude and latitude (--lonlat) or places in "
                 "a plane (--plane)");
   check_bad("1 2 3\n4 # 5 6\n", 2, "points line 2: 1 column only" + xyz);
-  check_bad("1 2 3\n\x01\x02garbage\n", 2, "points line 2: \"??garbage\" is no number" + xyz);
+  check_bad("1 2 3\n\x01\x02garbage\n", 2, "points line 2: \"??garbage\" is not a number" + xyz);
   check_bad("1 2 3\n" + std::string(99, 'a'), 2,
-            "points line 2: \"" + std::string(40, 'a') + "...\" is no number" + xyz);
+            "points line 2: \"" + std::string(40, 'a') + "...\" is not a number" + xyz);
   for (const char* nan : {"nan", "NaN", "-nan", "NAN"})
     check_bad("1 2 3\n4 " + std::string(nan) + " 6\n", 2,
               "points line 2: NaN gives no direction; remove the point or correct it");
@@ -193,7 +193,7 @@ TEST_CASE("longitude and latitude out of range, or too few, name their line") {
       "latitude 90.5 is outside -90 to 90; write longitude first, then latitude, in degrees");
   bad("0 0\n0 -91\n",
       "latitude -91 is outside -90 to 90; write longitude first, then latitude, in degrees");
-  bad("0 0\n7\n", "1 column only; write longitude and latitude in degrees a line");
+  bad("0 0\n7\n", "1 column only; write longitude and latitude in degrees on each line");
   bad("0 0\nnan 7\n", "NaN gives no direction; remove the point or correct it");
   CHECK(points_of("lon,lat\n1e300,-90\n", Columns::lonlat) == Eigen::Vector3d(0, 0, -1));
 }
@@ -367,10 +367,9 @@ TEST_CASE("mesh files that are none, or not whole, end in one clear error") {
   CHECK(error("mesh.off").index() == 3);
   write_text(scratch / "mesh.tri", "0 1 2\n0 1 x\n");
   const Points3 points = octahedron().points;
-  CHECK(
-      std::string(error("mesh.tri", &points).what())
-          .ends_with(
-              "mesh.tri line 2: \"x\" is no number; write three ids i j k a line, counted from 0"));
+  CHECK(std::string(error("mesh.tri", &points).what())
+            .ends_with("mesh.tri line 2: \"x\" is not a number; write three ids i j k on each "
+                       "line, counted from 0"));
   write_text(scratch / "mesh.tri", "0 1 2\n0 1 -1\n");
   CHECK(error("mesh.tri", &points).index() == 2);
   CHECK(error("mesh.tri").code() == ErrorCode::bad_option);
@@ -455,7 +454,7 @@ TEST_CASE("the weather stations are read as they are") {
 TEST_CASE("places in a plane are read as they stand, with their lines") {
   std::istringstream in("# two\nx;y\n1e-300;-2\n\n0x;0\n");
   CHECK_THROWS_WITH_AS(calotte::read_planar_points(in, "points"),
-                       "points line 5: \"0x\" is no number; write two numbers x y a line",
+                       "points line 5: \"0x\" is not a number; write two numbers x y on each line",
                        calotte::Error);
   std::istringstream good("x y\n1e-300 -2 7\n0 0\n");
   std::vector<std::int64_t> lines;

@@ -262,9 +262,10 @@ TEST_CASE("a place that no such file can take is refused") {
   };
   REQUIRE(::mkfifo((scratch / "pipe").c_str(), 0600) == 0);
   for (const std::string& path : {scratch / "pipe", std::string("/dev/null")})
-    CHECK(message(path) == "cannot write " + path +
-                               ": it is no regular file, and the format is not written from front "
-                               "to back; give the name of a file");
+    CHECK(message(path) ==
+          "cannot write " + path +
+              ": it is not a regular file, and the format is not written from front "
+              "to back; give the name of a file");
   CHECK(message(scratch / "") ==
         "cannot write " + (scratch / "") + ": it is a folder; give the name of a file");
   CHECK(message(scratch / "none/a.nc") ==
@@ -321,7 +322,7 @@ TEST_CASE("what is no file, no NetCDF or cut short is refused") {
   calotte::write_file(scratch / "text", "1 2 3\n4 5 6\n");
   CHECK(message(scratch / "text", ErrorCode::parse) ==
         (scratch / "text") +
-            ": it is no NetCDF file, or is cut short; give another or make it again");
+            ": it is not a NetCDF file, or is cut short; give another or make it again");
   calotte::write_file(scratch / "empty", "");
   CHECK(message(scratch / "empty", ErrorCode::parse).find("no NetCDF file") != std::string::npos);
 
@@ -329,7 +330,7 @@ TEST_CASE("what is no file, no NetCDF or cut short is refused") {
   const std::string whole = read_file(scratch / "a.nc");
   calotte::write_file(scratch / "cut", whole.substr(0, whole.size() - 1));
   CHECK(message(scratch / "cut", ErrorCode::parse) ==
-        (scratch / "cut") + ": it is cut short: cube is not whole; make it again");
+        (scratch / "cut") + ": it is cut short: cube is incomplete; make it again");
   calotte::test::Random random(3);
   for (int i = 0; i < 200; ++i) {
     // All lengths within the header, then any.
@@ -422,6 +423,6 @@ TEST_CASE("a variable that is not as it should be is named") {
         path + ": large has the shape (3) instead of (4); make the file again");
   CHECK(message("large", {3}) == path + ": large has a number out of range; make the file again");
   CHECK(message("fraction", {3}) ==
-        path + ": fraction has a number that is no 32-bit integer; make the file again");
+        path + ": fraction has a number that is not a 32-bit integer; make the file again");
   CHECK(message("text", {3}) == path + ": text is text, not numbers; make the file again");
 }

@@ -568,7 +568,7 @@ TEST_CASE("domains: what is wrong is named, in one line") {
     CHECK(refused("d.json", geojson).code() == ErrorCode::parse);
   }
   names(refused("d.json", collection("[[[0,0],[1,0],[1,1]],[[0,0],[1],[2,0]]]")),
-        "feature 0: position 1 of ring 1 is no [x, y]");
+        "feature 0: position 1 of ring 1 is not a position [x, y]");
   names(refused("d.json", collection("[[[0,0],[1,0],[1,1]],[[0.5,0.1],[0.5,0.1],[2,0]]]")),
         "(ring 1 is in the file: feature 0: ring 1)");
 }

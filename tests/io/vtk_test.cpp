@@ -239,5 +239,5 @@ TEST_CASE("VTK: counts that are none, other cells and ids out of range are refus
                             text[std::size_t(block_of(text, "types").data() - text.data()) + 3] = 7;
                           })
                         .what())
-            .ends_with("cell 3 is no triangle; only triangles are read"));
+            .ends_with("cell 3 is not a triangle; only triangles are read"));
 }

@@ -226,7 +226,7 @@ TEST_CASE("a site that is no vertex") {
   Mesh mesh = good_mesh();
   mesh.points.conservativeResize(3, 21);
   mesh.points.col(20) << 1, 2, 3;
-  fails_with(mesh, "site 20 is no vertex");
+  fails_with(mesh, "site 20 is not a vertex");
 }
 
 TEST_CASE("a boundary that is not convex") {
@@ -424,7 +424,7 @@ TEST_CASE("arrays and sites of a planar mesh that are wrong are named") {
     wrong = mesh;
     wrong.points.conservativeResize(2, mesh.points.cols() + 1);
     wrong.points.rightCols<1>() << 0.5, 0.5;
-    fails_with(wrong, "is no vertex");
+    fails_with(wrong, "is not a vertex");
   }
   PlanarMesh wrong = box;
   wrong.points(0, 3) = 1;

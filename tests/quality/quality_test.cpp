@@ -406,7 +406,7 @@ TEST_CASE(
   Mesh lonely = good;
   lonely.points.conservativeResize(3, 51);
   lonely.points.col(50) << 1, 2, 3;
-  check_refused(lonely, {}, "site 50 is no vertex");
+  check_refused(lonely, {}, "site 50 is not a vertex");
   Mesh moved = good;
   moved.points.col(7) = -moved.points.col(7);
   check_refused(moved, {}, "not the Delaunay triangulation");

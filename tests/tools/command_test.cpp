@@ -31,7 +31,7 @@ TEST_CASE("points that are none: the message names the line, and nothing is writ
     check_refusal(bench, "delaunay points.txt -o mesh.vtp --report report.json" + options, 2,
                   message);
   };
-  const std::string xyz = "; write three numbers x y z a line";
+  const std::string xyz = "; write three numbers x y z on each line";
   const std::string start = octahedron; // lines 1 to 6
   check_bad(start + "nan 0 1\n",
             "points.txt line 7: NaN gives no direction; remove the point or correct it");
@@ -40,7 +40,7 @@ TEST_CASE("points that are none: the message names the line, and nothing is writ
             "it");
   check_bad("# a comment\n" + start + "0 0 0\n",
             "points.txt line 8: the zero vector has no direction; remove the point or correct it");
-  check_bad(start + "\n1 two 3\n", "points.txt line 8: \"two\" is no number" + xyz);
+  check_bad(start + "\n1 two 3\n", "points.txt line 8: \"two\" is not a number" + xyz);
   check_bad("x,y,z\n" + start + "1,2\n",
             "points.txt line 8: 2 columns only" + xyz +
                 ", or read them as longitude and latitude (--lonlat) or places in "
@@ -85,11 +85,11 @@ TEST_CASE("bad usage is refused before any work") {
   check_usage("delaunay never -o mesh.stl", "mesh.stl: unknown suffix \".stl\"" + suffixes);
   check_usage("delaunay never -o mesh", "mesh: no suffix" + suffixes);
   check_usage("delaunay never -o mesh.vtp --regions 0",
-              "--regions: \"0\" is not a whole number 1 or more; see calotte delaunay --help");
+              "--regions: \"0\" is not an integer >= 1; see calotte delaunay --help");
   check_usage("delaunay never -o mesh.vtp --regions many",
-              "--regions: \"many\" is not a whole number 1 or more; see calotte delaunay --help");
+              "--regions: \"many\" is not an integer >= 1; see calotte delaunay --help");
   check_usage("delaunay never -o mesh.vtp --threads 0",
-              "--threads: \"0\" is not a whole number from 1 to 4096; see calotte delaunay --help");
+              "--threads: \"0\" is not an integer from 1 to 4096; see calotte delaunay --help");
   check_usage("delaunay never -o mesh.vtp --sort any",
               "--sort: any not in {halo,distance,voronoi}; see calotte delaunay --help");
   check_usage("delaunay never -o mesh.vtp --fast",
@@ -110,12 +110,12 @@ TEST_CASE("bad usage is refused before any work") {
               "mesh.tri holds triangles only; give the points they refer to (--points FILE)");
   for (const std::string mesh : {"points.vtp", "points.nc", "points.msh", "points.tri"})
     check_usage("points random 9 -o " + mesh,
-                mesh + ": points are text, x y z a line; give a name such as points.txt, and make "
-                       "a mesh with calotte delaunay");
+                mesh + ": points are text with x y z on each line; give a name such as points.txt; "
+                       "calotte delaunay makes a mesh of them");
   check_usage("points fibonacci 9 --seed 3 -o points.txt",
-              "--seed is for random points only; leave it out");
+              "--seed applies to random points only; leave it out");
   check_usage("points spiral 9 --poles -o points.txt",
-              "--poles is for latlon points only; leave it out");
+              "--poles applies to latlon points only; leave it out");
   bench.file("points.txt", octahedron);
   check_usage("delaunay points.txt -o points.txt",
               "points.txt is both input and output; give the output another name");
@@ -263,7 +263,7 @@ TEST_CASE("help names the exit codes, for the command and for each of its parts"
   for (const char* part : {"", "delaunay", "cvt", "points", "check", "info", "draw", "convert"}) {
     const Outcome help = bench.run(std::string(part) + " --help");
     CHECK(help.code == 0);
-    CHECK(help.out.find("1  the mesh failed a check") != std::string::npos);
+    CHECK(help.out.find("1  the mesh failed its check") != std::string::npos);
     CHECK(help.err.empty());
   }
 }
@@ -380,10 +380,10 @@ TEST_CASE("domains and planar points that cannot be are refused in one line") {
   for (const std::string word :
        {"1,2,3", "0,0,1", "0,0,0,1", "1,0,0,1", "0,0,1,nan", "0,0,1,1,", "a"})
     check_refusal_naming(bench, "points random-plane 50 --rectangle " + word + " -o x.txt", 2,
-                         "--rectangle " + word + " is no rectangle");
+                         "--rectangle " + word + " is not a rectangle");
   for (const std::string word : {"1", "1,0", "-1,1", "1,1,1", "1,x"})
     check_refusal_naming(bench, "points random-plane 50 --periodic " + word + " -o x.txt", 2,
-                         "--periodic " + word + " is no box");
+                         "--periodic " + word + " is not a box");
   check_refusal_naming(bench, "points random-plane 9 --periodic 1,1 --rectangle 0,0,1,1 -o x.txt",
                        2, "excludes");
 }
@@ -403,9 +403,9 @@ TEST_CASE("what a plane cannot be is refused, naming line or option") {
   check_refusal_naming(bench, "delaunay --plane points.txt -o mesh.nc --periodic 0.5,2", 2,
                        "point 1 is outside the periodic box");
   check_refusal_naming(bench, "delaunay --plane points.txt -o mesh.nc --periodic 5", 2,
-                       "--periodic 5 is no box");
+                       "--periodic 5 is not a box");
   check_refusal_naming(bench, "delaunay points.txt -o mesh.nc --periodic 5,5", 2, "--plane");
   CHECK(bench.run("delaunay --plane points.txt -o good.off --centres points.txt").code == 0);
-  check_refusal_naming(bench, "delaunay --plane good.off -o mesh.vtp", 2, "--plane takes text");
+  check_refusal_naming(bench, "delaunay --plane good.off -o mesh.vtp", 2, "--plane requires text");
   check_refusal_naming(bench, "delaunay --plane --lonlat points.txt -o mesh.vtp", 2, "excludes");
 }

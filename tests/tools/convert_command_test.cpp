@@ -164,13 +164,13 @@ TEST_CASE("triangles alone go with their points") {
   CHECK((back.points == start.points));
   CHECK((back.triangles == start.triangles));
   const auto neither = [](const std::string& name) {
-    return name + " holds triangles only, give the points they refer to (--points FILE); or, if "
-                  "it holds points, make their mesh with calotte delaunay";
+    return name + " holds triangles without points; give the points with --points FILE, or, if the "
+                  "file holds points, triangulate them with calotte delaunay";
   };
   check_refusal(bench, "convert points.txt mesh.nc", 2, neither("points.txt"));
   check_refusal(bench, "convert mesh.tri mesh.nc", 2, neither("mesh.tri"));
   check_refusal(bench, "convert start.vtp mesh.tri --order rcm", 2,
-                "mesh.tri holds triangles of the points as they were given; leave --order out");
+                "mesh.tri holds triangles that refer to the input points; leave --order out");
 }
 
 TEST_CASE("MPI-SCVT's files are a mesh, a start, points and centres") {
@@ -241,8 +241,8 @@ TEST_CASE("what cannot be is refused before anything is read") {
                   "--sphere-radius " + radius +
                       " is not a positive number; give one such as 6371229, in metres");
   check_refusal(bench, "convert never.vtp other.off --sphere-radius 6371229", 2,
-                "--sphere-radius 6371229 is for NetCDF files, and other.off holds points as they "
-                "are; leave it out, or give a name that ends in .nc");
+                "--sphere-radius 6371229 applies to NetCDF files only, not to other.off; "
+                "leave it out, or give a name that ends in .nc");
   check_refusal(bench, "convert never.vtp mesh.nc --order random", 2,
                 "--order: random not in {curve,rcm,input}" + see);
   check_refusal(bench, "convert mesh.vtp ./mesh.vtp", 2,

@@ -112,10 +112,10 @@ TEST_CASE("every start leads to the cells that were asked for") {
   check_start("--cells 162", 162, "");
   check_start("--cells 162 --density " + bump, 162, "");
   check_start("--cells 150 --start continuation", 150,
-              "calotte: 150 cells are not 10 x 4^k + 2: starting from 39 points of a Fibonacci "
-              "lattice, to be bisected once\n");
+              "calotte: 150 cells is not 10 x 4^k + 2: the start is 39 points of a Fibonacci "
+              "lattice, bisected once\n");
   check_start("--cells 100 --seed 4 --density " + bump, 100,
-              "calotte: 100 cells are not 10 x 4^k + 2: starting from 100 points drawn from the "
+              "calotte: 100 cells is not 10 x 4^k + 2: the start is 100 points drawn from the "
               "density\n");
   check_start("--cells 100 --start random", 100, "");
   check_start("--cells 100 --start random --seed 7", 100, "");
@@ -155,7 +155,7 @@ TEST_CASE("a run goes on from the mesh that another left, in any format") {
     CHECK(calotte::read_mesh(bench.folder() / "same.vtp").triangles.cols() == 116);
     for (const std::string command : {"cvt ", "delaunay "})
       check_refusal(bench, command + grid + " --lonlat -o mesh.tri", 2,
-                    grid + ": a mesh's points are x y z; leave --lonlat out, or give text");
+                    grid + ": the points of a mesh are x y z; leave --lonlat out, or give text");
   }
   bench.file("text.vtp", bench.file("points.txt"));
   check_refusal_naming(bench, "cvt text.vtp -o mesh.tri", 2, "text.vtp");
@@ -196,7 +196,7 @@ TEST_CASE("seeds are whole numbers below 2^64, in decimal") {
     for (const std::string seed : {"-1", "18446744073709551616", "", "0x10", "1.5", "1e3", "+1"})
       check_refusal(bench, command + "mesh.txt --seed '" + seed + "'", 2,
                     "--seed: \"" + seed +
-                        "\" is not a whole number from 0 to 18446744073709551615; see calotte " +
+                        "\" is not an integer from 0 to 18446744073709551615; see calotte " +
                         command.substr(0, command.find(' ')) + " --help");
   }
 }
@@ -226,7 +226,7 @@ TEST_CASE("bad usage is refused before any work") {
               "mesh.stl: unknown suffix \".stl\"; a mesh file ends in .nc, .vtp, .vtu, .off, .ply, "
               ".msh, .geojson, .txt or .tri, or is named SaveVertices");
   check_usage("never -o mesh.vtp --sphere-radius 6371229",
-              "--sphere-radius 6371229 is for NetCDF files, and mesh.vtp holds points as they are; "
+              "--sphere-radius 6371229 applies to NetCDF files only, not to mesh.vtp; "
               "leave it out, or give a name that ends in .nc");
   check_usage(out, "no start: give a file of points, or the number of cells (--cells N)");
   check_usage("never --cells 12" + out, "the start is the file never; leave --cells out");
@@ -234,11 +234,12 @@ TEST_CASE("bad usage is refused before any work") {
   check_usage("never --seed 2" + out, "the start is the file never; leave --seed out");
   for (const std::string cells : {"2", "0", "-12", "2e3", "many"})
     check_usage("--cells=" + cells + out,
-                "--cells: \"" + cells + "\" is not a whole number from 3 to 1073741824" + see);
-  check_usage("--cells 11" + out, "--cells 11 are too few; give 12 at least");
-  check_usage("--cells 12 --lonlat" + out, "--lonlat is for a file of points; leave it out");
+                "--cells: \"" + cells + "\" is not an integer from 3 to 1073741824" + see);
+  check_usage("--cells 11" + out, "--cells 11 is too few; give at least 12");
+  check_usage("--cells 12 --lonlat" + out,
+              "--lonlat applies to a file of points only; leave it out");
   check_usage("--cells 12 --start fibonacci --seed 2" + out,
-              "--seed is for the starts continuation, random and density; leave it out");
+              "--seed applies to the starts continuation, random and density only; leave it out");
   check_usage("--cells 42 --bisections 1" + out,
               "--start continuation chooses the bisections; leave --bisections out");
   const std::string icosahedral = "--start icosahedron makes 10 x 4^k + 2 cells, not ";
@@ -262,8 +263,7 @@ TEST_CASE("bad usage is refused before any work") {
   check_usage("never --norm l3" + out,
               "--norm: l3 not in {l2,linf,l2-scaled,linf-scaled,gradient}" + see);
   for (const std::string limit : {"--max-iterations", "--iterations", "--checkpoint-every"})
-    check_usage("never " + limit + " 0" + out,
-                limit + ": \"0\" is not a whole number 1 or more" + see);
+    check_usage("never " + limit + " 0" + out, limit + ": \"0\" is not an integer >= 1" + see);
   for (const std::string other : {"--norm l2", "--tolerance 1", "--max-iterations 9"})
     check_usage("never --iterations 9 " + other + out,
                 other.substr(0, other.find(' ')) + " excludes --iterations" + see);
@@ -271,14 +271,13 @@ TEST_CASE("bad usage is refused before any work") {
               "--method: newton not in {auto,lloyd,nesterov,lbfgs,lbfgs-laplacian}" + see);
   check_usage("never --rule 5" + out, "--rule: 5 not in {1,3,6,7,13,19}" + see);
   check_usage("never --triangle-divisions 0" + out,
-              "--triangle-divisions: \"0\" is not a whole number from 1 to 100" + see);
+              "--triangle-divisions: \"0\" is not an integer from 1 to 100" + see);
   check_usage("never --checkpoint-minutes 0" + out,
               "--checkpoint-minutes 0 is not a positive number; give one such as 10");
   check_usage("never --density tanh:lon=0,lat=0,beta=1,alpha=1,gamma=0" + out,
               "--density \"tanh:lon=0,lat=0,beta=1,alpha=1,gamma=0\": gamma \"0\" is not between 0 "
               "and 1; give such a number, or x8 for spacings of 8:1");
-  check_usage("never --threads 0" + out,
-              "--threads: \"0\" is not a whole number from 1 to 4096" + see);
+  check_usage("never --threads 0" + out, "--threads: \"0\" is not an integer from 1 to 4096" + see);
   check_usage("never never" + out, "The following argument was not expected: never" + see);
 }
 
@@ -356,7 +355,7 @@ TEST_CASE("options from a file: the command line wins, and what is unknown is re
   check_file("cells = 12\ntolerence = 3\n", 2,
              "unknown option \"tolerence\"; did you mean tolerance? See" + see);
   check_file("config = \"bad.toml\"\n", 1, "unknown option \"config\"; see" + see);
-  check_file("cells = 2\n", 1, "--cells: \"2\" is not a whole number from 3 to 1073741824");
+  check_file("cells = 2\n", 1, "--cells: \"2\" is not an integer from 3 to 1073741824");
   check_file("tolerance = 'small'\n", 1, "Could not convert: --tolerance = small");
   check_file("[a]\nlonlat = 1\n", 2, "lonlat takes true or false");
   check_refusal(bench, "cvt --config absent.toml -o mesh.tri", 3,
@@ -381,7 +380,7 @@ TEST_CASE("the examples run, from anywhere, and write beside themselves") {
     const Outcome made =
         bench.run("cvt --config examples/" + run + ".toml --cells 162 --max-iterations 30");
     CAPTURE(made.err);
-    CHECK((made.code == 0 || has(made.err, "raise --max-iterations")));
+    CHECK((made.code == 0 || has(made.err, "increase --max-iterations")));
     CHECK(!has(made.err, "warning"));
     CHECK(made.out.starts_with(mesh + ": 162 cells, "));
     CHECK(bench.run((plane ? "check --plane " : "check ") + mesh).code == 0);
@@ -406,17 +405,16 @@ TEST_CASE("cell widths say how many cells, warn, and belong to a checkpoint") {
   CAPTURE(outcome.err);
   CHECK(outcome.code == 0);
   CHECK(outcome.out.starts_with("mesh.vtp: 262 cells, ")); // 4 pi R^2 / (sqrt(3)/2 h^2) = 261.8
-  CHECK(outcome.err.starts_with("calotte: widths.msh: cells 1500 to 1500 km wide, on 2 x 3 nodes, "
-                                "ask for 262 cells; "));
+  CHECK(outcome.err.starts_with(
+      "calotte: widths.msh: cells 1500 to 1500 km wide, on 2 x 3 nodes, require 262 cells; "));
   CHECK(!has(outcome.err, "warning"));
   CHECK(bench.run(run + "--resume run.checkpoint").code == 0);
   widths("1500.5");
   check_refusal_naming(bench, run + "--resume run.checkpoint", 2, "cell-width of ");
   widths("2500");
-  CHECK(
-      has(bench.run(run).err, "calotte: warning: the width of cells changes by 0.11 km a km at "));
+  CHECK(has(bench.run(run).err, "calotte: warning: the cell width changes by 0.11 km per km at "));
   check_refusal(bench, "cvt --cells auto -o mesh.vtp", 2,
-                "--cells auto is for cell widths; give --cell-width FILE, or a number of cells");
+                "--cells auto requires cell widths; give --cell-width FILE, or a number of cells");
   check_refusal_naming(bench,
                        "cvt --cells auto --cell-width widths.msh --start icosahedron -o other.vtp",
                        2, "makes 10 x 4^k + 2 cells, not 186");
@@ -463,7 +461,7 @@ TEST_CASE("not converging is exit code 1 with the residual; the mesh and the rep
   CHECK(one_line(outcome.err));
   CHECK(outcome.err.starts_with("calotte: not converged: l2-scaled 0."));
   CHECK(outcome.err.ends_with(" is above the tolerance 1e-05 after 3 iterations; the mesh is "
-                              "written, raise --max-iterations\n"));
+                              "written; increase --max-iterations\n"));
   CHECK(outcome.out.starts_with("mesh.vtp: 100 cells, not converged, 3 iterations, l2-scaled 0."));
   CHECK(bench.run("check mesh.vtp").code == 0);
   CHECK(has(bench.file("report.json"), "\"converged\": false"));
@@ -552,8 +550,8 @@ TEST_CASE("SIGTERM and SIGINT end a run in order, and it resumes to the same bit
     CHECK(one_line(outcome.err));
     CHECK(
         outcome.err.starts_with("calotte: stopped by " + std::string(name) + " after iteration "));
-    CHECK(
-        outcome.err.ends_with(" cells; to go on, give the same command --resume run.checkpoint\n"));
+    CHECK(outcome.err.ends_with(
+        " cells; to continue, repeat the command with --resume run.checkpoint\n"));
     CHECK(bench.names() == std::set<std::string>{"run.checkpoint"});
     check_resumed(bench, arguments, "--threads 1 --regions 5");
   }
@@ -567,7 +565,8 @@ TEST_CASE("a run that keeps nothing says so when a signal ends it") {
   const Outcome outcome = bench.finish(process);
   CHECK(outcome.code == 143);
   CHECK(one_line(outcome.err));
-  CHECK(has(outcome.err, "; nothing is kept, give --checkpoint FILE to be able to go on\n"));
+  CHECK(has(outcome.err,
+            "; the state is not saved; run with --checkpoint FILE to be able to resume\n"));
   CHECK(bench.names().empty());
 }
 
@@ -625,7 +624,7 @@ TEST_CASE("checkpoints come every so many iterations or minutes, over all levels
   CHECK(before("--checkpoint-minutes 1e-9") == "(34 before it was resumed");
 }
 
-TEST_CASE("a checkpoint that cannot be written is told, and the run goes on") {
+TEST_CASE("a checkpoint that cannot be written is reported, and the run continues") {
   const Bench bench;
   // The shell's limit on the size of files stands for the disk: 1 block of 512 or 1024 bytes.
   const Outcome outcome = bench.run("cvt --cells 12 --method lloyd --iterations 50 -o mesh.tri "
@@ -633,7 +632,7 @@ TEST_CASE("a checkpoint that cannot be written is told, and the run goes on") {
                                     "ulimit -f 1;");
   CHECK(outcome.code == 0);
   const std::string warning = "calotte: cannot write run.checkpoint: File too large; make room or "
-                              "write elsewhere (the run goes on)\n";
+                              "write elsewhere (the run continues)\n";
   CHECK(outcome.err == warning + warning);
   CHECK(bench.names() == std::set<std::string>{"mesh.tri"});
 }
@@ -772,11 +771,11 @@ TEST_CASE("what does not go with the plane is refused before any work, in one li
   refused(square + "--cells 100 -o m.nc", ".vtp");
   refused("--periodic 1,1 --cells 100 -o m.vtp", ".nc");
   refused("--periodic 1,1 --cells 102 --bisections 1 -o m.nc", "100 and 104");
-  refused(square + "--cells 100 --start fibonacci -o m.vtp", "for the sphere");
-  refused("--cells 100 --start hexagonal -o m.vtp", "for the plane");
-  refused("--rectangle 1,0,0,1 --cells 100 -o m.vtp", "no rectangle");
+  refused(square + "--cells 100 --start fibonacci -o m.vtp", "applies to the sphere only");
+  refused("--cells 100 --start hexagonal -o m.vtp", "applies to the plane only");
+  refused("--rectangle 1,0,0,1 --cells 100 -o m.vtp", "not a rectangle");
   refused(square + "--cells 100 --density tanh:lon=0,lat=0,beta=1,alpha=1,gamma=x8 -o m.vtp",
           "unknown key \"lon\"; the keys are x, y");
-  refused(square + "--cells 100 --cell-width w.nc -o m.vtp", "--cell-width is for the sphere");
-  refused("--cells 5 -o m.vtp", "12 at least");
+  refused(square + "--cells 100 --cell-width w.nc -o m.vtp", "--cell-width applies to the sphere");
+  refused("--cells 5 -o m.vtp", "at least 12");
 }

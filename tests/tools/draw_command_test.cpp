@@ -52,12 +52,14 @@ TEST_CASE("the options of one picture are refused for another, before anything i
     check_refusal(bench, "draw " + arguments, 2, message + "; see calotte draw --help");
   };
   check_usage("-o a.png", "MESH is required");
-  check_usage("a.vtp -o a.png --colour blue",
-              "--colour: \"blue\" is none of spacing, angle, valence (or degree), area, quality, "
-              "density, field:NAME, none");
-  check_usage("a.vtp -o a.png --colour field:",
-              "--colour: \"field:\" is none of spacing, angle, valence (or degree), area, quality, "
-              "density, field:NAME, none");
+  check_usage(
+      "a.vtp -o a.png --colour blue",
+      "--colour: \"blue\" is not one of spacing, angle, valence (or degree), area, quality, "
+      "density, field:NAME, none");
+  check_usage(
+      "a.vtp -o a.png --colour field:",
+      "--colour: \"field:\" is not one of spacing, angle, valence (or degree), area, quality, "
+      "density, field:NAME, none");
   check_usage("-o a.png --density uniform --what cells", "--what: MESH is required");
   check_usage("a.vtp -o a.png --spacing-law --density uniform --view 1,2",
               "--view excludes --spacing-law");
@@ -73,14 +75,14 @@ TEST_CASE("the options of one picture are refused for another, before anything i
 TEST_CASE("a density is asked for and given, or neither, before anything is read") {
   const Bench bench;
   check_refusal(bench, "draw a.vtp -o a.png --spacing-law", 2,
-                "--spacing-law needs a density; give --density or --cell-width");
+                "--spacing-law requires a density; give --density or --cell-width");
   check_refusal(bench, "draw a.vtp -o a.png --colour density", 2,
-                "--colour density needs a density; give --density or --cell-width");
+                "--colour density requires a density; give --density or --cell-width");
   check_refusal(bench, "draw a.vtp -o a.png --density uniform", 2,
-                "with a mesh a density is for --colour density or --spacing-law; give one of "
-                "these, or no MESH for a picture of the density itself");
+                "a mesh with a density requires --colour density or --spacing-law; give one of "
+                "these, or leave MESH out to draw the density");
   check_refusal(bench, "draw -o a.png --density uniform --colour valence", 2,
-                "without MESH a density is coloured by density or spacing; give one of these, or a "
+                "a picture of a density is coloured by density or spacing; give one of these, or a "
                 "mesh");
 }
 

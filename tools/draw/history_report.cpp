@@ -42,13 +42,13 @@ struct Part {
   /// Finite and >= 0.
   double number() const {
     if (!value.is_number() || !std::isfinite(value.get<double>()) || value.get<double>() < 0) {
-      fail("is not a number 0 or more");
+      fail("is not a number >= 0");
     }
     return value.get<double>();
   }
   std::int64_t count(std::int64_t least) const {
     if (!value.is_number_integer() || value.get<std::int64_t>() < least) {
-      fail("is not a whole number " + std::to_string(least) + " or more");
+      fail("is not an integer >= " + std::to_string(least));
     }
     return value.get<std::int64_t>();
   }
@@ -90,7 +90,7 @@ Norm norm_of(const Part& part) {
       return norm;
     }
   }
-  part.fail("is none of l2, linf, l2-scaled, linf-scaled, gradient and none");
+  part.fail("is not one of l2, linf, l2-scaled, linf-scaled, gradient and none");
 }
 
 std::vector<std::string> density_of(const Part& part) {
@@ -112,7 +112,7 @@ std::string method_of(const Part& report) {
       return word;
     }
   }
-  method.fail("is none of auto, lloyd, nesterov, lbfgs and lbfgs-laplacian");
+  method.fail("is not one of auto, lloyd, nesterov, lbfgs and lbfgs-laplacian");
 }
 
 CvtIteration iteration_of(const Part& part) {

@@ -33,7 +33,7 @@ CLI::Validator kilometres() {
             const auto [stop, problem] = std::from_chars(text.data(), end, value);
             const bool good =
                 problem == std::errc() && stop == end && value > 0 && std::isfinite(value);
-            return good ? "" : "\"" + text + "\" is no positive number; give km";
+            return good ? "" : "\"" + text + "\" is not a positive number; give km";
           },
           "KM"};
 }
@@ -48,10 +48,9 @@ bool is_geojson(const std::string& path) {
 void add_cell_width(CLI::App& command, WidthWords& words, CLI::Option* density) {
   CLI::Option* const file =
       command
-          .add_option(
-              "--cell-width", words.file,
-              "instead of a density, how wide cells shall be: a NetCDF raster cellWidth(lat, "
-              "lon) in km (.nc), JIGSAW's spacings (.msh), or polygons (.geojson)")
+          .add_option("--cell-width", words.file,
+                      "Cell widths in km, instead of a density: a NetCDF raster cellWidth(lat, "
+                      "lon) (.nc), JIGSAW's spacings (.msh), or polygons (.geojson)")
           ->type_name("FILE")
           ->excludes(density);
   const auto add = [&](const std::string& name, std::optional<double>& value,
@@ -59,17 +58,20 @@ void add_cell_width(CLI::App& command, WidthWords& words, CLI::Option* density) 
     command.add_option(name, value, help)->check(kilometres())->needs(file);
   };
   add("--inside-width", words.inside,
-      "the width within polygons that have no property cellWidth, in km");
-  add("--outside-width", words.outside, "the width outside all polygons, in km");
+      "Width within polygons that have no property cellWidth, in km; > 0");
+  add("--outside-width", words.outside, "Width outside all polygons, in km; > 0");
   add("--transition", words.transition,
-      "over how many km from a polygon's boundary outwards the width changes");
-  command.add_option("--earth-radius", words.radius, "of the sphere that widths are on, in km")
+      "Distance from a polygon outwards over which the width changes, in km; > 0");
+  command
+      .add_option("--earth-radius", words.radius,
+                  "Radius of the sphere to which the widths refer, in km; > 0")
       ->check(kilometres())
       ->needs(file)
       ->capture_default_str();
   command
-      .add_option("--density-raster", words.raster,
-                  "instead of --density, a NetCDF raster density(lat, lon)")
+      .add_option(
+          "--density-raster", words.raster,
+          "NetCDF raster density(lat, lon), in the plane density(y, x), instead of --density")
       ->type_name("FILE")
       ->excludes(density)
       ->excludes(file);
@@ -113,18 +115,18 @@ std::vector<std::string> notes_on(const CellWidth& widths, const WidthWords& wor
       words.file + ": cells " + formatted("%.4g", widths.widths.minCoeff()) + " to " +
       formatted("%.4g", widths.widths.maxCoeff()) + " km wide, on " +
       std::to_string(widths.longitudes.size()) + " x " + std::to_string(widths.latitudes.size()) +
-      " nodes, ask for " + formatted("%.0f", implied) + " cells"};
+      " nodes, require " + formatted("%.0f", implied) + " cells"};
   const double scale = cells ? std::sqrt(implied / static_cast<double>(*cells)) : 1;
   if (std::abs(scale - 1) > 0.01)
-    notes.front() += "; with " + std::to_string(*cells) + " they are " + formatted("%.3g", scale) +
-                     " times as wide";
+    notes.front() += "; with " + std::to_string(*cells) + " cells, widths are " +
+                     formatted("%.3g", scale) + " times as large";
   const Gradient gradient = largest_gradient(widths, words.radius);
   const std::string slope = formatted("%.2g", gradient.slope);
-  notes.front() += "; their width changes by at most " + slope + " km a km";
+  notes.front() += "; largest gradient " + slope + " km per km";
   if (gradient.slope > steep)
-    notes.push_back("warning: the width of cells changes by " + slope + " km a km at " +
+    notes.push_back("warning: the cell width changes by " + slope + " km per km at " +
                     place(gradient) +
-                    ", where models want at most 0.03; make the transition wider");
+                    ", above 0.03, the limit for most models; make the transition wider");
   return notes;
 }
 
@@ -133,8 +135,8 @@ std::int64_t cells_for(const CellWidth& widths, const WidthWords& words, bool bi
   constexpr std::int64_t coarsest = 642; // see continuation()
   const double implied = std::round(implied_cells(widths, words.radius));
   if (!(implied >= fewest && implied <= most))
-    refuse("--cells auto: " + words.file + " asks for " + formatted("%.4g", implied) +
-           " cells, and a grid has from 12 to 1073741824; are its widths in km?");
+    refuse("--cells auto: " + words.file + " requires " + formatted("%.4g", implied) +
+           " cells, but a grid has 12 to 1073741824; give widths in km");
   const auto cells = static_cast<std::int64_t>(implied);
   std::int64_t parts = 1; // of a coarse grid's cell
   while (bisected && (cells - 2) / (4 * parts) >= coarsest - 2)

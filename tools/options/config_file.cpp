@@ -47,8 +47,8 @@ private:
       if (const toml::table* inner = node.as_table()) {
         if (group)
           refuse(path_, line,
-                 "table " + name + " stands within table " + std::string(group->str()) +
-                     "; tables group keys one deep, leave the inner one out");
+                 "table " + name + " is nested in table " + std::string(group->str()) +
+                     "; nested tables are not supported; remove the inner one");
         add(*inner, &key);
       } else if (const toml::array* array = node.as_array()) {
         settings_.push_back({name, line, values(name, line, *array)});
@@ -83,8 +83,7 @@ private:
                                                : "a date or time";
     refuse(path_, line,
            name + " holds " + what +
-               "; give text in quotes, a number, true or false, "
-               "or an array of texts or numbers");
+               "; give text in quotes, a number, true or false, or an array of texts or numbers");
   }
 
   const std::string& path_;

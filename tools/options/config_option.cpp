@@ -41,7 +41,7 @@ std::string kind_of(const CLI::Option& option) {
   if (type == "FLOAT")
     return "a number";
   if (type == "INT" || type == "UINT")
-    return "a whole number";
+    return "an integer";
   return takes_text_alone(option) ? "text in quotes" : "a number or text in quotes";
 }
 
@@ -59,7 +59,7 @@ std::string mismatch(const CLI::Option& option, const std::vector<ConfigValue>& 
     return "takes text in quotes, not a number";
   if (values.size() > static_cast<std::size_t>(option.get_items_expected_max()))
     return "takes one value, and the array has " + std::to_string(values.size()) +
-           "; leave one of them";
+           "; keep one of them";
   return "";
 }
 
@@ -177,8 +177,8 @@ private:
              CLI::Option& option) {
     const auto [earlier, fresh] = lines_.emplace(&option, setting.line);
     if (!fresh)
-      refuse(setting, option.get_lnames().front() + " is given twice, on line " +
-                          std::to_string(earlier->second) + ", too; leave one of them out");
+      refuse(setting, option.get_lnames().front() + " is given twice, also on line " +
+                          std::to_string(earlier->second) + "; leave one out");
     if (const std::string problem = mismatch(option, values); !problem.empty())
       refuse(setting, setting.key + " " + problem);
     if (overruled(option) || (is_flag(option) && values[0].text == "false"))
@@ -210,8 +210,8 @@ std::shared_ptr<std::string> add_config(CLI::App& command) {
             for (const ConfigSetting& setting : read_config(file))
               application.apply(setting);
           },
-          "a TOML file of these options by their long names; the command line wins; files are "
-          "sought from its folder")
+          "TOML file with options by their long names. The command line takes precedence. File "
+          "names are relative to the TOML file")
       ->type_name("FILE")
       ->configurable(false);
   return path;

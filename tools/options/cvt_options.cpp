@@ -38,8 +38,8 @@ void add_cells(CLI::App& command, CvtRequest& request) {
   command
       .add_option_function<std::string>(
           "--cells", set,
-          "the number of cells of the result (after bisections of a domain with a boundary, "
-          "about so many), or auto: as many as the cell widths ask for")
+          "Number of cells of the result, 3 to 1073741824 (on the sphere >= 12), or auto: computed "
+          "from the cell widths. Approximate after bisections of a domain with a boundary")
       ->transform(CLI::Validator(check, ""))
       ->type_name("N|auto");
 }
@@ -47,42 +47,43 @@ void add_cells(CLI::App& command, CvtRequest& request) {
 void add_start(CLI::App& command, CvtRequest& request) {
   command
       .add_option("START,--points", request.points,
-                  "where to start: text, x y z a line (in the plane x y); - is standard input; or "
-                  "the points of a mesh, " +
-                      std::string(mesh_suffixes) + "; or give --cells")
+                  "Initial generators: text with x y z on each line (in the plane x y), - for "
+                  "standard input, or the points of a mesh: " +
+                      std::string(mesh_suffixes) + ". Without a file give --cells")
       ->type_name("FILE");
   command.add_flag("--lonlat", request.lonlat,
-                   "the text's points are longitude and latitude in degrees");
+                   "The points of START are longitude and latitude in degrees");
   add_cells(command, request);
   command
-      .add_option("--start", request.start,
-                  "where to start without a file: continuation (the default: from a coarse grid, "
-                  "converged and bisected in turn), random, density (drawn from its root, as the "
-                  "cells of an optimal grid lie), fibonacci, "
-                  "spiral or icosahedron; in the plane density (the default), random or hexagonal")
+      .add_option(
+          "--start", request.start,
+          "Initial generators without a file. On the sphere: continuation (default; converges a "
+          "coarse grid, bisects it and converges again, in turn), random (uniform), density "
+          "(random, distributed as the cells of an optimal grid), fibonacci, spiral or "
+          "icosahedron. In the plane: density (default), random or hexagonal")
       ->check(CLI::IsMember({"continuation", "random", "density", "fibonacci", "spiral",
                              "icosahedron", "hexagonal"}));
-  command.add_option("--seed", request.seed, "of random points; default 1")
+  command.add_option("--seed", request.seed, "Seed of random points, >= 0; default: 1")
       ->transform(whole_number(0, std::numeric_limits<std::uint64_t>::max()));
   command
       .add_option("--bisections", request.bisections,
-                  "how often to bisect what has converged and converge again; --cells counts the "
-                  "cells after the last; default 0")
+                  "Number of bisections, 0 to 13; default: 0. Each refines the converged grid, "
+                  "which then converges again. --cells is the number after the last bisection")
       ->transform(whole_number(0, 13));
 }
 
 void add_method(CLI::App& command, CvtRequest& request) {
   command
       .add_option("--method", request.method,
-                  "how the energy is brought down: auto (lbfgs from afar, lbfgs-laplacian from "
-                  "near), lloyd (each generator moves to its centroid), nesterov (that, "
-                  "accelerated), lbfgs (quasi-Newton), or lbfgs-laplacian (from the inverse of "
-                  "the mesh's graph Laplacian)")
+                  "Method that minimises the energy: auto (lbfgs far from the minimum, "
+                  "lbfgs-laplacian near it), lloyd (moves each generator to its centroid), "
+                  "nesterov (accelerated Lloyd), lbfgs (quasi-Newton) or lbfgs-laplacian (L-BFGS "
+                  "preconditioned with the graph Laplacian of the mesh)")
       ->check(CLI::IsMember({"auto", "lloyd", "nesterov", "lbfgs", "lbfgs-laplacian"}))
       ->capture_default_str();
   command
       .add_option("--relaxation", request.relaxation,
-                  "of Lloyd's steps: times the way to the centroid, from 1 to below 2")
+                  "Factor of Lloyd's steps towards the centroid; >= 1 and < 2")
       ->capture_default_str();
 }
 
@@ -90,23 +91,26 @@ void add_end(CLI::App& command, CvtRequest& request) {
   CLI::Option* norm =
       command
           .add_option("--norm", request.norm,
-                      "what is compared with the tolerance: the generators' move in the mean or "
-                      "at most, by itself or over the spacing, the root of the mean area "
-                      "of a cell, or the energy's gradient")
+                      "Norm that is compared with the tolerance: l2 (root mean square distance "
+                      "that the generators move), linf (largest distance), l2-scaled and "
+                      "linf-scaled (the same divided by the spacing, the square root of the mean "
+                      "cell area), or gradient (of the energy)")
           ->check(CLI::IsMember({"l2", "linf", "l2-scaled", "linf-scaled", "gradient"}))
           ->capture_default_str();
-  CLI::Option* tolerance =
-      command.add_option("--tolerance", request.tolerance, "stop at this norm")
-          ->capture_default_str();
+  CLI::Option* tolerance = command
+                               .add_option("--tolerance", request.tolerance,
+                                           "Stop when the norm is at most this value; > 0")
+                               ->capture_default_str();
   CLI::Option* limit = command
                            .add_option("--max-iterations", request.max_iterations,
-                                       "stop there, not converged (exit code 1); of each level")
+                                       "Maximum number of iterations per level, >= 1. A run that "
+                                       "reaches it has not converged (exit code 1)")
                            ->transform(whole_number(1, std::numeric_limits<int>::max()))
                            ->capture_default_str();
   command
       .add_option("--iterations", request.iterations,
-                  "do so many, on each level, instead of converging; trials of a step count, and "
-                  "the last step is finished")
+                  "Number of iterations per level, >= 1, instead of a tolerance. Each trial of a "
+                  "step counts; the last step is completed")
       ->transform(whole_number(1, std::numeric_limits<int>::max()))
       ->excludes(norm)
       ->excludes(tolerance)
@@ -117,40 +121,42 @@ void add_quadrature(CLI::App& command, CvtRequest& request) {
   const CLI::IsMember rules({1, 3, 6, 7, 13, 19});
   command
       .add_option("--rule", request.rule,
-                  "quadrature points on each half kite; not used for uniform density")
+                  "Quadrature points on each half kite; no effect for uniform density")
       ->check(rules)
       ->capture_default_str();
   command
       .add_option("--final-rule", request.final_rule,
-                  "the same once the norm is within ten times the tolerance")
+                  "Quadrature points once the norm is below ten times the tolerance")
       ->check(rules)
       ->capture_default_str();
   command
       .add_option("--triangle-divisions", request.triangle_divisions,
-                  "each half kite is first cut into that many squared")
+                  "Divides each half kite into this number squared before quadrature; 1 to 100")
       ->transform(whole_number(1, 100))
       ->capture_default_str();
 }
 
 void add_files(CLI::App& command, CvtRequest& request) {
   command.add_option("-o,--output", request.mesh, help_of_output())->type_name("FILE")->required();
-  command.add_option("--report", request.report, "a JSON file of what each iteration did")
+  command
+      .add_option("--report", request.report, "Write the data of every iteration to this JSON file")
       ->type_name("FILE");
   command
       .add_option("--checkpoint", request.checkpoint,
-                  "keep the run's state in this file, to go on after an interruption")
+                  "Save the state of the run to this file, for --resume")
       ->type_name("FILE");
   command
-      .add_option("--checkpoint-every", request.checkpoint_every, "iterations between checkpoints")
+      .add_option("--checkpoint-every", request.checkpoint_every,
+                  "Iterations between checkpoints; >= 1")
       ->transform(whole_number(1, std::numeric_limits<int>::max()))
       ->capture_default_str();
   command
       .add_option("--checkpoint-minutes", request.checkpoint_minutes,
-                  "minutes between checkpoints, if that comes first")
+                  "Minutes between checkpoints, if they pass before --checkpoint-every; > 0")
       ->capture_default_str();
   command
       .add_option("--resume", request.resume,
-                  "go on from this checkpoint of the same command; threads, regions and files "
+                  "Continue from this checkpoint of the same command; threads, regions and files "
                   "may differ")
       ->type_name("FILE");
   request.config = add_config(command);

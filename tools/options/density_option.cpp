@@ -62,7 +62,7 @@ void require_known(const std::string& text, const std::string& key, const Gramma
 BumpWords split(const std::string& text, const Grammar& grammar) {
   constexpr std::string_view kind = "tanh:";
   if (!text.starts_with(kind))
-    refuse(text, std::string("no density; give uniform or, for instance, ") + grammar.example);
+    refuse(text, std::string("not a density; give uniform or, for instance, ") + grammar.example);
   BumpWords words{text, {}};
   std::istringstream rest(text.substr(kind.size()));
   for (std::string word; std::getline(rest, word, ',');) {
@@ -72,7 +72,7 @@ BumpWords split(const std::string& text, const Grammar& grammar) {
     const std::string key = word.substr(0, equals);
     require_known(text, key, grammar);
     if (!words.values.emplace(key, word.substr(equals + 1)).second)
-      refuse(text, key + " is given twice; leave one of them out");
+      refuse(text, key + " is given twice; leave one out");
   }
   for (const char* key : grammar.needed)
     if (!words.values.contains(key))
@@ -80,7 +80,7 @@ BumpWords split(const std::string& text, const Grammar& grammar) {
   const auto [stretch, turn] = grammar.further;
   if (words.values.contains(stretch) != words.values.contains(turn))
     refuse(text,
-           std::string("stretch and ") + turn + " make an ellipse together; give both or none");
+           std::string("stretch and ") + turn + " define an ellipse together; give both or none");
   return words;
 }
 
@@ -95,7 +95,7 @@ std::optional<double> number(std::string_view text) {
 double degrees_of(const BumpWords& words, const std::string& key) {
   const auto value = number(words.values.at(key));
   if (!value)
-    refuse_value(words, key, "is no number; give degrees");
+    refuse_value(words, key, "is not a number; give degrees");
   return *value;
 }
 
@@ -108,7 +108,7 @@ double positive_angle(const BumpWords& words, const std::string& key) {
     text.remove_suffix(degree.size());
   const auto value = number(text);
   if (!value || *value <= 0)
-    refuse_value(words, key, "is no positive angle; give radians, or degrees as 30deg");
+    refuse_value(words, key, "is not a positive angle; give radians, or degrees as 30deg");
   return in_degrees ? *value * std::numbers::pi / 180 : *value;
 }
 
@@ -130,7 +130,7 @@ double contrast(const BumpWords& words) {
 double stretch_of(const BumpWords& words) {
   const auto value = number(words.values.at("stretch"));
   if (!value || *value < 1)
-    refuse_value(words, "stretch", "is no number from 1; give how much longer the long axis is");
+    refuse_value(words, "stretch", "is not a number >= 1; give the ratio of the axes");
   return *value;
 }
 
@@ -174,14 +174,14 @@ Bump bump_of(const std::string& text) {
 double number_of(const BumpWords& words, const std::string& key) {
   const auto value = number(words.values.at(key));
   if (!value)
-    refuse_value(words, key, "is no number; give one in the unit of the domain");
+    refuse_value(words, key, "is not a number; give one in the unit of the domain");
   return *value;
 }
 
 double length_of(const BumpWords& words, const std::string& key) {
   const double value = number_of(words, key);
   if (!(value > 0))
-    refuse_value(words, key, "is no positive length; give one in the unit of the domain");
+    refuse_value(words, key, "is not a positive length; give one in the unit of the domain");
   return value;
 }
 
@@ -205,7 +205,7 @@ Density bumps_of(const DensityWords& words, bool planar) {
     if (text != "uniform")
       density.bumps.push_back(planar ? planar_bump_of(text) : bump_of(text));
     else if (words.densities.size() > 1)
-      refuse(text, "it cannot be joined with others; leave it or them out");
+      refuse(text, "uniform excludes other densities; give uniform alone, or leave it out");
   }
   if (!density.bumps.empty())
     density.kind = words.join == "sum" ? Density::Kind::sum : Density::Kind::maximum;
@@ -220,16 +220,18 @@ std::shared_ptr<DensityWords> add_density(CLI::App& command) {
       command
           .add_option(
               "--density", words->densities,
-              "uniform (the default), or a bump such as " + std::string(example) +
-                  ": about 1 within beta of its centre and gamma far away, changing over "
-                  "alpha; lon and lat in degrees, beta and alpha in radians or as 30deg, gamma "
-                  "a number below 1 or x8 for spacings of 8:1; stretch=2,azimuth=45 makes it "
-                  "an ellipse with its long axis 45 degrees clockwise from north. In the plane " +
+              "Density: uniform (default), or a bump such as " + std::string(example) +
+                  ": about 1 within the angle beta of the centre lon, lat and gamma far from it, "
+                  "with a transition of width alpha. lon and lat are in degrees; beta and alpha in "
+                  "radians or as 30deg, > 0; gamma is in (0, 1), or x8 for spacings that differ by "
+                  "a factor of 8. stretch=2,azimuth=45 makes an ellipse: stretch >= 1 is the ratio "
+                  "of its axes, azimuth the direction of the long axis in degrees clockwise from "
+                  "north. In the plane: " +
                   in_plane.example +
-                  ", lengths in its unit, and stretch=2,angle=45 counter-"
-                  "clockwise from x. May be given several times")
+                  ", with lengths in the unit of the domain, and stretch=2,angle=45, "
+                  "counter-clockwise from x. Repeat the option for several bumps")
           ->allow_extra_args(false);
-  command.add_option("--join", words->join, "what several bumps make together")
+  command.add_option("--join", words->join, "Combination of several bumps")
       ->check(CLI::IsMember({"maximum", "sum"}))
       ->capture_default_str();
   add_cell_width(command, words->widths, density);

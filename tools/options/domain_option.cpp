@@ -33,8 +33,8 @@ PlanarDomain rectangle_of(const std::string& word) {
   const auto sides = numbers_of<4>(word);
   if (!sides || !((*sides)[0] < (*sides)[2]) || !((*sides)[1] < (*sides)[3]))
     throw Error(ErrorCode::bad_option, "--rectangle " + word +
-                                           " is no rectangle; give its lower left and its upper "
-                                           "right corner, as in --rectangle 0,0,2,1");
+                                           " is not a rectangle; give its lower left and upper "
+                                           "right corners, as in --rectangle 0,0,2,1");
   return rectangle({(*sides)[0], (*sides)[1]}, {(*sides)[2], (*sides)[3]});
 }
 
@@ -42,9 +42,10 @@ PlanarDomain rectangle_of(const std::string& word) {
 
 CLI::Option* add_periodic(CLI::App& command, std::optional<std::string>& word) {
   return command
-      .add_option("--periodic", word,
-                  "the plane repeats itself every WIDTH in x and HEIGHT in y, and all points lie "
-                  "in the box from 0 0 on; meshes of it are .nc (MPAS) or triangles alone")
+      .add_option(
+          "--periodic", word,
+          "Doubly periodic plane: a box with this WIDTH and HEIGHT, > 0, and its lower left corner "
+          "at 0 0, which contains all points. Meshes of it are .nc (MPAS), .txt or .tri")
       ->type_name("WIDTH,HEIGHT");
 }
 
@@ -53,13 +54,14 @@ std::shared_ptr<DomainWords> add_domain(CLI::App& command) {
   CLI::Option* file =
       command
           .add_option("--domain", words->file,
-                      "the part of the plane inside polygons: GeoJSON (.geojson, .json; x and y "
-                      "for longitude and latitude), or text, a corner x y a line, with a blank "
-                      "line or one of > between rings; rings within rings are holes")
+                      "Planar domain inside polygons: GeoJSON (.geojson, .json; x and y in place "
+                      "of longitude and latitude), or text with a corner x y on each line and a "
+                      "blank line or a line > between rings. Rings within rings are holes")
           ->type_name("FILE");
   CLI::Option* box =
       command
-          .add_option("--rectangle", words->rectangle, "the part of the plane between two corners")
+          .add_option("--rectangle", words->rectangle,
+                      "Planar domain: the rectangle with this lower left and upper right corner")
           ->type_name("X0,Y0,X1,Y1")
           ->excludes(file);
   add_periodic(command, words->periodic)->excludes(file)->excludes(box);
@@ -71,9 +73,9 @@ std::optional<Eigen::Vector2d> period_of(const std::optional<std::string>& word)
     return std::nullopt;
   const auto sides = numbers_of<2>(*word);
   if (!sides || !((*sides)[0] > 0) || !((*sides)[1] > 0))
-    throw Error(ErrorCode::bad_option, "--periodic " + *word +
-                                           " is no box; give two positive lengths, as in "
-                                           "--periodic 1000,866.025");
+    throw Error(ErrorCode::bad_option,
+                "--periodic " + *word +
+                    " is not a box; give two positive lengths, as in --periodic 1000,866.025");
   return Eigen::Vector2d((*sides)[0], (*sides)[1]);
 }
 

@@ -33,8 +33,8 @@ void require_folder(const std::string& path) {
 void require_distinct(const std::string& output, const std::string& input) {
   std::error_code absent;
   if (input != "-" && std::filesystem::equivalent(output, input, absent))
-    throw Error(ErrorCode::bad_option, output + " is both input and output; give the output "
-                                                "another name");
+    throw Error(ErrorCode::bad_option,
+                output + " is both input and output; give the output another name");
 }
 
 void require_outputs(const std::vector<Output>& outputs, const std::vector<std::string>& inputs) {

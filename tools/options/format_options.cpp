@@ -77,9 +77,8 @@ void require_radius(double radius, Format format, const std::string& path) {
     throw Error(ErrorCode::bad_option,
                 given + " is not a positive number; give one such as 6371229, in metres");
   if (radius != 1 && !is_netcdf(format))
-    throw Error(ErrorCode::bad_option, given + " is for NetCDF files, and " + path +
-                                           " holds points as they are; leave it out, or give a "
-                                           "name that ends in .nc");
+    throw Error(ErrorCode::bad_option, given + " applies to NetCDF files only, not to " + path +
+                                           "; leave it out, or give a name that ends in .nc");
 }
 
 } // namespace
@@ -90,19 +89,18 @@ std::shared_ptr<FormatWords> add_format(CLI::App& command, const std::string& de
   for (const auto& [word, format] : formats)
     known.push_back(word);
   command
-      .add_option(
-          "--format", words->format,
-          "of the mesh, where its name does not tell: mpas (full), mpas-minimal (for "
-          "MpasMeshConverter.x), ugrid (cells), ugrid-triangles, scrip and esmf are NetCDF; "
-          "vtp-cells and vtu-cells hold the Voronoi cells, vtp and vtu the triangles")
+      .add_option("--format", words->format,
+                  "Format of the mesh; default: by the file name. NetCDF: mpas (complete), "
+                  "mpas-minimal (for MpasMeshConverter.x), ugrid (cells), ugrid-triangles, scrip "
+                  "and esmf. VTK: vtp and vtu (triangles), vtp-cells and vtu-cells (Voronoi cells)")
       ->check(CLI::IsMember(known));
   command.add_option("--sphere-radius", words->sphere_radius,
-                     "of the sphere in NetCDF files, in metres for MPAS; default " +
+                     "Radius of the sphere in NetCDF files, > 0; MPAS uses metres; default: " +
                          default_radius);
   command
       .add_option("--order", words->order,
-                  "how the mesh numbers its cells: curve (along a space-filling curve, the default "
-                  "of NetCDF files), rcm (reverse Cuthill-McKee), or input (that of other files)")
+                  "Numbering of the cells: curve (along a space-filling curve; default of NetCDF "
+                  "files), rcm (reverse Cuthill-McKee) or input (default of other files)")
       ->check(CLI::IsMember({"curve", "rcm", "input"}));
   return words;
 }
@@ -119,9 +117,9 @@ bool holds_triangles(const std::string& path) {
 }
 
 std::string help_of_output() {
-  return "the mesh; its name tells the format: .nc (MPAS; or see --format), .vtp, .vtu, .off, "
-         ".ply, .msh (JIGSAW), .geojson (cells), .txt or .tri (triangles alone), or SaveVertices "
-         "(MPI-SCVT)";
+  return "Output mesh. Its name selects the format: .nc (MPAS; see --format), .vtp, .vtu, .off, "
+         ".ply, .msh (JIGSAW), .geojson (cells), .txt or .tri (triangles without points), or "
+         "SaveVertices (MPI-SCVT)";
 }
 
 WriteOptions options_of(const FormatWords& words, const std::string& path) {
@@ -132,8 +130,8 @@ WriteOptions options_of(const FormatWords& words, const std::string& path) {
   if (words.order)
     options.numbering = numberings.at(*words.order);
   if (words.order && *words.order != "input" && options.format == Format::triangles)
-    throw Error(ErrorCode::bad_option, path + " holds triangles of the points as they were given; "
-                                              "leave --order out");
+    throw Error(ErrorCode::bad_option,
+                path + " holds triangles that refer to the input points; leave --order out");
   return options;
 }
 

@@ -10,14 +10,14 @@ std::shared_ptr<MeshSource> add_mesh_source(CLI::App& command, const std::string
   auto source = std::make_shared<MeshSource>();
   command
       .add_option(names, source->path,
-                  "the mesh: " + std::string(mesh_suffixes) +
+                  "Input mesh: " + std::string(mesh_suffixes) +
                       ", SaveVertices (MPI-SCVT), or .txt and .tri with --points")
       ->type_name("FILE")
       ->required();
-  command.add_option("--points", source->points, "the points that a .txt or .tri file refers to")
+  command.add_option("--points", source->points, "Points to which a .txt or .tri file refers")
       ->type_name("FILE");
   command.add_flag("--lonlat", source->lonlat,
-                   "these points are longitude and latitude in degrees");
+                   "The points of --points are longitude and latitude in degrees");
   return source;
 }
 
@@ -31,8 +31,8 @@ Mesh read_mesh(const MeshSource& source) {
 CLI::Option* add_plane(CLI::App& command, MeshSource& source) {
   return command
       .add_flag("--plane", source.plane,
-                "the mesh is one of the plane: .vtp, .vtu, .off, .ply or .msh with z = 0, periodic "
-                "MPAS, or .txt and .tri with --points, x y a line")
+                "The mesh is planar: .vtp, .vtu, .off, .ply or .msh with z = 0, periodic MPAS, or "
+                ".txt and .tri with --points (x y on each line)")
       ->excludes(command.get_option("--lonlat"));
 }
 

@@ -22,14 +22,14 @@ std::string formatted(const char* format, double value) {
 
 CLI::Validator whole_number(std::uint64_t least, std::uint64_t most) {
   const std::string range = most == std::numeric_limits<int>::max()
-                                ? std::to_string(least) + " or more"
+                                ? ">= " + std::to_string(least)
                                 : "from " + std::to_string(least) + " to " + std::to_string(most);
   return {[=](std::string& text) -> std::string {
             std::uint64_t value = 0;
             const char* const end = text.data() + text.size();
             const auto [stop, problem] = std::from_chars(text.data(), end, value);
             if (problem != std::errc() || stop != end || value < least || value > most)
-              return "\"" + text + "\" is not a whole number " + range;
+              return "\"" + text + "\" is not an integer " + range;
             text = std::to_string(value); // CLI11 takes leading zeros for octal
             return "";
           },

@@ -37,28 +37,34 @@ Points3 read_centres(const PartitionWords& words, bool plane) {
 
 std::shared_ptr<PartitionWords> add_partition(CLI::App& command) {
   auto words = std::make_shared<PartitionWords>();
-  command.add_option("--threads", words->threads, "threads to use; default all")
+  command.add_option("--threads", words->threads, "Number of threads, 1 to 4096; default: all")
       ->transform(whole_number(1, 4096));
   command
-      .add_option("--regions", words->regions,
-                  "regions to divide the domain into; default from "
-                  "the number of points")
+      .add_option(
+          "--regions", words->regions,
+          "Number of regions, >= 1; default: from the number of points. Does not affect the result")
       ->transform(whole_number(1, std::numeric_limits<int>::max()));
   command
       .add_option("--centres", words->centres,
-                  "the regions' centres: sample (a coarse CVT of the points), fibonacci, or a "
-                  "file of points: text such as MPI-SCVT's RegionList, or a mesh")
+                  "Centres of the regions: sample (a coarse CVT of the points), fibonacci (a "
+                  "lattice), or a file of points (text such as MPI-SCVT's RegionList, or a mesh). "
+                  "Does not affect the result")
       ->type_name("sample|fibonacci|FILE")
       ->capture_default_str();
-  command.add_option("--sort", words->sort, "which points a region takes beside its own")
+  command
+      .add_option("--sort", words->sort,
+                  "Points that a region triangulates besides its own: halo (a strip around it), "
+                  "distance or voronoi (Jacobsen et al., Sect. 2.1.1). Does not affect the result")
       ->check(CLI::IsMember({"halo", "distance", "voronoi"}))
       ->capture_default_str();
-  command.add_option("--duplicates", words->duplicates, "what to do with equal points")
+  command
+      .add_option("--duplicates", words->duplicates,
+                  "Treatment of equal points: merge keeps the first, refuse reports an error")
       ->check(CLI::IsMember({"merge", "refuse"}))
       ->capture_default_str();
-  command.add_option(
-      "--merge-within", words->merge_within,
-      "merge points nearer than this to an earlier one: radians, in the plane a distance");
+  command.add_option("--merge-within", words->merge_within,
+                     "Merge points that are closer than this to an earlier point; radians, in the "
+                     "plane the unit of the coordinates; >= 0; default: 0");
   return words;
 }
 

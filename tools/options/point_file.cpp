@@ -21,7 +21,7 @@ PointFile read_point_file(const std::string& path, bool lonlat) {
   if (holds_points(path)) {
     if (lonlat)
       throw Error(ErrorCode::bad_option,
-                  path + ": a mesh's points are x y z; leave --lonlat out, or give text");
+                  path + ": the points of a mesh are x y z; leave --lonlat out, or give text");
     return {path, read_sites(path), {}};
   }
   PointFile file;

@@ -84,7 +84,7 @@ void require_planar_cells(const CvtRequest& request) {
   const std::string bisections = "--bisections " + std::to_string(request.bisections.value_or(0));
   if (cells / divisor < 3)
     refuse(bisections + " to " + std::to_string(cells) +
-           " cells would start from fewer than 3; give more cells or fewer bisections");
+           " cells requires a start of fewer than 3 cells; give more cells or fewer bisections");
   if (request.domain->periodic && cells % divisor != 0)
     refuse(bisections + " does not lead to " + std::to_string(cells) + " cells; " +
            nearest(cells / divisor * divisor, (cells / divisor + 1) * divisor, 3 * divisor));
@@ -95,22 +95,22 @@ void require_kind(const CvtRequest& request) {
   const std::string kind = kind_of(request);
   const bool both = kind == "random" || kind == "density", plane = planar(request);
   if (plane && !both && kind != "hexagonal")
-    refuse("--start " + kind + " is for the sphere; give density, random or hexagonal");
+    refuse("--start " + kind + " applies to the sphere only; give density, random or hexagonal");
   if (!plane && kind == "hexagonal")
-    refuse("--start hexagonal is for the plane; give --domain, --rectangle or --periodic");
+    refuse("--start hexagonal applies to the plane only; give --domain, --rectangle or --periodic");
 }
 
 void require_cells(const CvtRequest& request) {
   const std::string kind = kind_of(request);
   require_kind(request);
   if (request.cells_of_widths && request.density->widths.file.empty())
-    refuse("--cells auto is for cell widths; give --cell-width FILE, or a number of cells");
+    refuse("--cells auto requires cell widths; give --cell-width FILE, or a number of cells");
   if (!request.cells && !request.cells_of_widths)
     refuse("no start: give a file of points, or the number of cells (--cells N)");
   if (request.lonlat)
-    refuse("--lonlat is for a file of points; leave it out");
+    refuse("--lonlat applies to a file of points only; leave it out");
   if (request.seed && !seeded(kind))
-    refuse("--seed is for the starts continuation, random and density; leave it out");
+    refuse("--seed applies to the starts continuation, random and density only; leave it out");
   if (request.bisections && kind == "continuation")
     refuse("--start continuation chooses the bisections; leave --bisections out");
   if (!request.cells) // see settle_cells
@@ -118,8 +118,8 @@ void require_cells(const CvtRequest& request) {
   if (planar(request))
     require_planar_cells(request);
   else if (*request.cells < fewest)
-    refuse("--cells " + std::to_string(*request.cells) + " are too few; give " +
-           std::to_string(fewest) + " at least");
+    refuse("--cells " + std::to_string(*request.cells) + " is too few; give at least " +
+           std::to_string(fewest));
   else if (kind == "icosahedron")
     require_icosahedral(*request.cells, request.bisections.value_or(0));
   else if (kind != "continuation")
@@ -135,7 +135,7 @@ void require_file(const CvtRequest& request) {
   exclude(request.start.has_value(), "--start");
   exclude(request.seed.has_value(), "--seed");
   if (planar(request) && request.lonlat)
-    refuse("--lonlat is for the sphere; leave it out");
+    refuse("--lonlat applies to the sphere only; leave it out");
 }
 
 /// Says what a continuation to a count that no bisected icosahedron has starts from.
@@ -147,9 +147,9 @@ std::string note_on(const Continuation& start, std::int64_t cells, const Density
       (density.uniform() ? " points of a Fibonacci lattice" : " points drawn from the density");
   const std::string times = start.bisections == 0 ? ""
                             : start.bisections == 1
-                                ? ", to be bisected once"
-                                : ", to be bisected " + std::to_string(start.bisections) + " times";
-  return std::to_string(cells) + " cells are not 10 x 4^k + 2: starting from " + points + times;
+                                ? ", bisected once"
+                                : ", bisected " + std::to_string(start.bisections) + " times";
+  return std::to_string(cells) + " cells is not 10 x 4^k + 2: the start is " + points + times;
 }
 
 Points3 generate(const std::string& kind, std::int64_t count, const Density& density,

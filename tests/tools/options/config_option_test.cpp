@@ -138,9 +138,10 @@ TEST_CASE("hyphens and underscores are the same, and a table's name means nothin
     CHECK(parser.limit == 7);
     CHECK(parser.tolerance == 2);
   }
-  CHECK(refusal("[a]\ntolerance = 1\n[a.b]\nseed = 1\n") ==
-        "line 3: table b stands within table a; tables group keys one deep, leave the inner one "
-        "out");
+  CHECK(
+      refusal("[a]\ntolerance = 1\n[a.b]\nseed = 1\n") ==
+      "line 3: table b is nested in table a; nested tables are not supported; remove the inner one "
+      "out");
 }
 
 TEST_CASE("the command line wins, whatever it excludes included") {
@@ -169,8 +170,7 @@ TEST_CASE("the command line wins, whatever it excludes included") {
   Parser both;
   CHECK_THROWS_AS(both.parse("iterations = 9\ntolerance = 1\n"), CLI::ExcludesError);
   // A wrong value is told though the command line has another.
-  CHECK(refusal("seed = true\n", "--seed 4") ==
-        "line 1: seed takes a whole number, not true or false");
+  CHECK(refusal("seed = true\n", "--seed 4") == "line 1: seed takes an integer, not true or false");
 }
 
 TEST_CASE("a flag that is false is not given") {
@@ -261,17 +261,17 @@ TEST_CASE("an unknown name is refused with the nearest, and the line") {
 
 TEST_CASE("a name that is given twice is refused with both lines") {
   CHECK(refusal("max-iterations = 1\nseed = 2\nmax_iterations = 1\n") ==
-        "line 3: max-iterations is given twice, on line 1, too; leave one of them out");
+        "line 3: max-iterations is given twice, also on line 1; leave one out");
   CHECK(refusal("[a]\nconvergence_criteria = 1\n[b]\ntolerance = 2\n") ==
-        "line 4: tolerance is given twice, on line 2, too; leave one of them out");
+        "line 4: tolerance is given twice, also on line 2; leave one out");
   CHECK(refusal("rule = 3\nquadrature_rule = 3\n") ==
-        "line 2: rule is given twice, on line 1, too; leave one of them out");
+        "line 2: rule is given twice, also on line 1; leave one out");
   CHECK(refusal("seed = 1\nseed = 2\n").starts_with("line 2: ")); // by TOML's own rule
 }
 
 TEST_CASE("values of the wrong kind are refused with their key and line") {
   CHECK(refused_value("tolerance = true") == "takes a number, not true or false");
-  CHECK(refused_value("seed = false") == "takes a whole number, not true or false");
+  CHECK(refused_value("seed = false") == "takes an integer, not true or false");
   CHECK(refused_value("start = true") == "takes text in quotes, not true or false");
   CHECK(refused_value("start = 3") == "takes text in quotes, not a number");
   CHECK(refused_value("cells = true") == "takes a number or text in quotes, not true or false");
@@ -279,8 +279,7 @@ TEST_CASE("values of the wrong kind are refused with their key and line") {
   CHECK(refused_value("points = 3") == "takes text in quotes, not a number");
   for (const std::string value : {"1", "\"true\"", "[true, true]"})
     CHECK(refused_value("lonlat = " + value) == "takes true or false");
-  CHECK(refused_value("seed = [1, 2]") ==
-        "takes one value, and the array has 2; leave one of them");
+  CHECK(refused_value("seed = [1, 2]") == "takes one value, and the array has 2; keep one of them");
   CHECK(refused_value("density = []") == "is an empty array; leave it out");
   const std::string other =
       "; give text in quotes, a number, true or false, or an array of texts or numbers";

@@ -97,33 +97,33 @@ TEST_CASE("words that make no density are refused with the offending one") {
     const std::size_t place = words.find(key);
     return words.replace(place, words.find_first_of(",", place) - place, changed);
   };
-  CHECK(refusal("gauss") == "no density; give uniform or, for instance, "
+  CHECK(refusal("gauss") == "not a density; give uniform or, for instance, "
                             "tanh:lon=270,lat=30,beta=30deg,alpha=0.20,gamma=x8");
   CHECK(refusal("") == refusal("gauss"));
   CHECK(refusal("tanh:") == "lon is missing" + form);
   CHECK(refusal("tanh:lon=0,lat=0,beta=1,alpha=1") == "gamma is missing" + form);
-  CHECK(refusal("tanh:lon=0,lon=1") == "lon is given twice; leave one of them out");
+  CHECK(refusal("tanh:lon=0,lon=1") == "lon is given twice; leave one out");
   CHECK(refusal("tanh:lon") == "\"lon\" is not key=value" + form);
   CHECK(refusal("tanh:lon=0,,lat=0") == "\"\" is not key=value" + form);
   CHECK(refusal("tanh:width=2") == "unknown key \"width\"; the keys are lon, lat, beta, alpha, "
                                    "gamma, stretch, azimuth");
-  CHECK(refusal(with("lon=east")) == "lon \"east\" is no number; give degrees");
-  CHECK(refusal(with("lon=inf")) == "lon \"inf\" is no number; give degrees");
+  CHECK(refusal(with("lon=east")) == "lon \"east\" is not a number; give degrees");
+  CHECK(refusal(with("lon=inf")) == "lon \"inf\" is not a number; give degrees");
   CHECK(refusal(with("lat=90.5")) == "lat \"90.5\" is outside -90 to 90; give degrees north");
   for (const std::string beta : {"0", "-1", "nan", "", "1rad", "deg", "0deg"})
     CHECK(refusal(with("beta=" + beta)) ==
-          "beta \"" + beta + "\" is no positive angle; give radians, or degrees as 30deg");
-  CHECK(refusal(with("alpha=0")).starts_with("alpha \"0\" is no positive angle"));
+          "beta \"" + beta + "\" is not a positive angle; give radians, or degrees as 30deg");
+  CHECK(refusal(with("alpha=0")).starts_with("alpha \"0\" is not a positive angle"));
   for (const std::string gamma : {"0", "1", "-0.5", "x1", "x0", "x", "x-2x", "nan", "x1e200"})
     CHECK(refusal(with("gamma=" + gamma)) ==
           "gamma \"" + gamma +
               "\" is not between 0 and 1; give such a number, or x8 for spacings of 8:1");
   CHECK(refusal(with("gamma=x2,stretch=2")) ==
-        "stretch and azimuth make an ellipse together; give both or none");
+        "stretch and azimuth define an ellipse together; give both or none");
   CHECK(refusal(with("gamma=x2,stretch=0.5,azimuth=0")) ==
-        "stretch \"0.5\" is no number from 1; give how much longer the long axis is");
+        "stretch \"0.5\" is not a number >= 1; give the ratio of the axes");
   CHECK(refusal(with("gamma=x2,stretch=2,azimuth=n")) ==
-        "azimuth \"n\" is no number; give degrees");
+        "azimuth \"n\" is not a number; give degrees");
   CHECK_THROWS_AS(density_of(DensityWords{{"uniform", "uniform"}}), Error);
 }
 
@@ -212,20 +212,20 @@ TEST_CASE("the widths' notes tell their range, number and gradient, and warn of 
   const std::string cells = std::to_string(std::llround(implied));
   std::vector<std::string> notes = notes_on(widths, words.widths, {});
   REQUIRE(notes.size() == 1);
-  CHECK(notes[0] == file.path() + ": cells 100 to 100 km wide, on 4 x 3 nodes, ask for " + cells +
-                        " cells; their width changes by at most 0 km a km");
+  CHECK(notes[0] == file.path() + ": cells 100 to 100 km wide, on 4 x 3 nodes, require " + cells +
+                        " cells; largest gradient 0 km per km");
   CHECK(cells_for(widths, words.widths, false) == std::llround(implied));
   const std::int64_t reached = cells_for(widths, words.widths, true);
   CHECK(static_cast<double>(reached) == doctest::Approx(implied).epsilon(1e-3));
   CHECK(reached % 64 == 2); // 58 900 are three bisections from 920
   notes = notes_on(widths, words.widths, std::llround(implied / 4));
   CHECK(notes[0].find("; with " + std::to_string(std::llround(implied / 4)) +
-                      " they are 2 times as wide;") != std::string::npos);
+                      " cells, widths are 2 times as large;") != std::string::npos);
   widths.widths(1, 1) = 600; // 500 km over 10 007 km either way
   notes = notes_on(widths, words.widths, {});
   REQUIRE(notes.size() == 2);
-  CHECK(notes[1] == "warning: the width of cells changes by 0.071 km a km at 90.0 E 0.0 N, where "
-                    "models want at most 0.03; make the transition wider");
+  CHECK(notes[1] == "warning: the cell width changes by 0.071 km per km at 90.0 E 0.0 N, above "
+                    "0.03, the limit for most models; make the transition wider");
   widths.widths.setConstant(100000);
   CHECK_THROWS_AS(cells_for(widths, words.widths, true), Error);
   widths.widths.setConstant(0.1);
