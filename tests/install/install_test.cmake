@@ -1,21 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Installs the built library into a scratch prefix, then builds and runs a stranger's program with it.
-# Called with BUILD (the library's build tree), SOURCE (this folder), SCRATCH, GENERATOR, CXX, CXX_FLAGS, BUILD_TYPE.
-file(REMOVE_RECURSE ${SCRATCH})
-
-function(run)
-  execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
-  if(NOT result EQUAL 0)
-    list(JOIN ARGN " " command)
-    message(FATAL_ERROR "failed (${result}): ${command}\n${output}")
-  endif()
-  set(output "${output}" PARENT_SCOPE)
-endfunction()
-
-run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${SCRATCH}/prefix)
+# Installs the built library and looks at what was installed.
+# Called with BUILD (the library's build tree), PREFIX (where to install), TYPE (of the library's target) and NM.
+cmake_minimum_required(VERSION 3.25)
+file(REMOVE_RECURSE ${PREFIX})
+execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD} --prefix ${PREFIX} OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
 
 # CGAL and oneTBB are the library's own affair: no public header shows them.
-file(GLOB_RECURSE headers ${SCRATCH}/prefix/include/*.h)
+file(GLOB_RECURSE headers ${PREFIX}/include/*.h)
 if(NOT headers)
   message(FATAL_ERROR "no header was installed")
 endif()
@@ -26,13 +17,26 @@ foreach(header ${headers})
   endif()
 endforeach()
 
-run(${CMAKE_COMMAND} -S ${SOURCE}/consumer -B ${SCRATCH}/build -G ${GENERATOR}
-    -DCMAKE_PREFIX_PATH=${SCRATCH}/prefix -DCMAKE_FIND_USE_PACKAGE_REGISTRY=OFF
-    -DCMAKE_DISABLE_FIND_PACKAGE_CGAL=ON -DCMAKE_CXX_COMPILER=${CXX}
-    -DCMAKE_CXX_FLAGS=${CXX_FLAGS} -DCMAKE_BUILD_TYPE=${BUILD_TYPE})
-run(${CMAKE_COMMAND} --build ${SCRATCH}/build)
-run(${SCRATCH}/build/consumer)
-if(NOT output STREQUAL "1996 triangles\n")
-  message(FATAL_ERROR "the consumer printed: ${output}")
+# What the rooms define for each other is not exported.
+if(TYPE STREQUAL "SHARED_LIBRARY")
+  file(GLOB_RECURSE library ${PREFIX}/*/libcalotte.so)
+  execute_process(COMMAND ${NM} -DC --defined-only ${library} OUTPUT_VARIABLE symbols COMMAND_ERROR_IS_FATAL ANY)
+  if(NOT symbols MATCHES "calotte::write\\(")
+    message(FATAL_ERROR "the shared library exports no calotte::write")
+  endif()
+  string(REGEX MATCHALL "[^\n]*calotte::[a-z]+_detail::[^\n]*" hidden "${symbols}")
+  if(hidden)
+    list(JOIN hidden "\n" hidden)
+    message(FATAL_ERROR "the shared library exports what it should hide:\n${hidden}")
+  endif()
 endif()
-message(STATUS "the installed library works: ${output}")
+
+# The command finds the library wherever the prefix was moved.
+if(EXISTS ${PREFIX}/bin/calotte)
+  file(RENAME ${PREFIX} ${PREFIX}-moved)
+  execute_process(COMMAND ${PREFIX}-moved/bin/calotte --version RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  file(RENAME ${PREFIX}-moved ${PREFIX})
+  if(NOT result EQUAL 0)
+    message(FATAL_ERROR "the installed command failed: ${output}")
+  endif()
+endif()

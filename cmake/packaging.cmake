@@ -1,0 +1,35 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# What is installed: the library and its headers, the command if it is built, and beside the library what
+# find_package(calotte) and pkg-config read.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+target_include_directories(calotte PUBLIC $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+install(TARGETS calotte EXPORT calotteTargets)
+install(DIRECTORY include/calotte TYPE INCLUDE)
+if(TARGET calotte_command)
+  install(TARGETS calotte_command)
+  if(calotte_type STREQUAL "SHARED_LIBRARY") # found wherever the prefix is moved
+    set_target_properties(calotte_command PROPERTIES INSTALL_RPATH $ORIGIN/../${CMAKE_INSTALL_LIBDIR})
+  endif()
+endif()
+
+set(calotte_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/calotte)
+configure_package_config_file(cmake/calotteConfig.cmake.in calotteConfig.cmake INSTALL_DESTINATION ${calotte_package_dir})
+write_basic_package_version_file(calotteConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(EXPORT calotteTargets NAMESPACE calotte:: DESTINATION ${calotte_package_dir})
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/calotteConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/calotteConfigVersion.cmake
+        DESTINATION ${calotte_package_dir})
+
+# A shared library brings its own libraries along; an archive leaves them to `pkg-config --static`.
+if(calotte_type STREQUAL "STATIC_LIBRARY")
+  set(calotte_pc_requires_private "tbb, gmp, netcdf")
+  set(calotte_pc_libs_private "-ltbbmalloc") # oneTBB has no .pc file for its allocator
+endif()
+get_target_property(definitions calotte INTERFACE_COMPILE_DEFINITIONS)
+list(TRANSFORM definitions PREPEND -D)
+list(JOIN definitions " " calotte_pc_definitions)
+foreach(kind LIB INCLUDE) # found from where the .pc file stands
+  file(RELATIVE_PATH calotte_pc_${kind} ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_FULL_${kind}DIR})
+endforeach()
+configure_file(cmake/calotte.pc.in calotte.pc @ONLY)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/calotte.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
