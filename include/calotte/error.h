@@ -13,13 +13,13 @@ namespace calotte {
 enum class ErrorCode {
   not_finite,    ///< a coordinate is NaN or infinite
   zero_vector,   ///< a point at the origin has no direction
-  duplicate,     ///< equal directions or places, and the options refuse them
+  duplicate,     ///< equal directions or places, and the options do not allow them
   too_few_sites, ///< fewer than 4 distinct sites, in the plane 3; too few for a periodic box
   degenerate,    ///< all sites on one great circle or line
   bad_option,    ///< an option outside its range
-  parse,         ///< a file's text is not what its format demands
+  parse,         ///< a file violates its format
   file,          ///< a file cannot be opened, read or written
-  internal,      ///< a law of this library does not hold: a bug, never the caller's fault
+  internal,      ///< a bug of this library; please report it
 };
 
 /// The one exception this library throws. `what()` is one line that names the offending index (or
