@@ -74,14 +74,14 @@ Points3 generators(const std::string& set, std::int64_t n) {
   options.bisections = from.bisections;
   options.tolerance = 1e-3;
   options.max_iterations = 300;
-  Points3 points = cvt(from.start, options).mesh.points;
+  Points3 points = spherical_cvt(from.start, options).mesh.points;
   while (points.cols() < n)
-    points = bisect(delaunay(points));
+    points = bisect(spherical_delaunay(points));
   options.bisections = 0;
   options.norm = Norm::none;
   options.method = Method::lloyd;
   options.max_iterations = 3;
-  return cvt(points, options).mesh.points;
+  return spherical_cvt(points, options).mesh.points;
 }
 
 /// Centres of the paper's decompositions: bisected icosahedra, and a coarse CVT of the x8 density.
@@ -96,7 +96,7 @@ Points3 centres_of(const std::string& decomposition, int regions) {
   CvtOptions options;
   options.density = x8_density();
   options.tolerance = 1e-3;
-  return cvt(random_sphere(regions, site_density(x8_density())), options).mesh.points;
+  return spherical_cvt(random_sphere(regions, site_density(x8_density())), options).mesh.points;
 }
 
 DelaunayOptions partition_of(const Cut& cut) {
@@ -236,12 +236,13 @@ public:
 
   /// The regions in turn, from the first-th on.
   DelaunayReport step(std::size_t first) {
-    Points3& centres = partition_.given_centres.emplace(3, centres_.size());
+    Points3 centres(3, centres_.size());
     const std::size_t count = centres_.size();
     for (std::size_t k = 0; k < count; ++k)
       base_detail::set_column(centres, static_cast<std::int64_t>(k), centres_[(first + k) % count]);
+    partition_.given_centres = centres;
     DelaunayReport report;
-    delaunay(points_, partition_, &report);
+    spherical_delaunay(points_, partition_, &report);
     if (report.one_region) {
       report.seconds_per_region = {report.seconds.triangulate};
       return report;

@@ -45,7 +45,7 @@ Outcome run_calotte(const Points3& points, int threads, const DelaunayOptions& o
   Outcome outcome;
   Mesh mesh;
   const Stopwatch watch;
-  arena.execute([&] { mesh = delaunay(points, options, &outcome.report); });
+  arena.execute([&] { mesh = spherical_delaunay(points, options, &outcome.report); });
   watch.stop(outcome);
   outcome.sites = mesh.points.cols();
   outcome.triangles = mesh.triangles.cols();

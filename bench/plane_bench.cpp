@@ -57,7 +57,7 @@ Outcome run_library(const Points2& points, int threads) {
   Outcome outcome;
   PlanarMesh mesh;
   const Stopwatch watch;
-  arena.execute([&] { mesh = delaunay(points, {}, &outcome.report); });
+  arena.execute([&] { mesh = planar_delaunay(points, {}, &outcome.report); });
   watch.stop(outcome);
   outcome.triangles = mesh.triangles.cols();
   Digest digest;

@@ -102,7 +102,7 @@ void print_part(const char* stage, double seconds, std::int64_t sites) {
 
 /// What a triangulation takes; the mesh lives on.
 Cost triangulation(Points3 points, Mesh& mesh, DelaunayReport* report = nullptr) {
-  return cost_of([&] { mesh = delaunay(std::move(points), {}, report); });
+  return cost_of([&] { mesh = spherical_delaunay(std::move(points), {}, report); });
 }
 
 /// The small set, which the time a site of a large one is compared with. Its first triangulation
@@ -235,8 +235,9 @@ bool iterate(std::int64_t n, const Options& options, Json& json) {
   Points3 points = random_sphere(n, seed);
   Cvt grid;
   const Cost cost = cost_of([&] {
-    grid = cvt(std::move(points),
-               {.method = Method::lloyd, .norm = Norm::none, .max_iterations = options.iterations});
+    grid = spherical_cvt(
+        std::move(points),
+        {.method = Method::lloyd, .norm = Norm::none, .max_iterations = options.iterations});
   });
   print("CVT, with two triangulations", cost, n);
   Json& out = json["cvt"] = to_json(cost, n);

@@ -168,15 +168,16 @@ Plan prepare(CvtRequest& request, Progress& progress) {
 void run_plan(Plan& plan, const CvtCallback& callback, Outcome& outcome) {
   const CvtOptions& options = plan.options;
   if (plan.domain) {
-    PlanarCvt result = plan.state ? cvt(std::move(*plan.state), *plan.domain, options, callback)
-                                  : cvt(plan.start.places, *plan.domain, options, callback);
+    PlanarCvt result = plan.state
+                           ? planar_cvt(std::move(*plan.state), *plan.domain, options, callback)
+                           : planar_cvt(plan.start.places, *plan.domain, options, callback);
     outcome.plane = std::move(result.mesh);
     outcome.report = std::move(result.report);
     outcome.cells = outcome.plane.points.cols();
     outcome.area = area(*plan.domain);
   } else {
-    Cvt result = plan.state ? cvt(std::move(*plan.state), options, callback)
-                            : cvt(plan.start.points, options, callback);
+    Cvt result = plan.state ? spherical_cvt(std::move(*plan.state), options, callback)
+                            : spherical_cvt(plan.start.points, options, callback);
     outcome.mesh = std::move(result.mesh);
     outcome.report = std::move(result.report);
     outcome.cells = outcome.mesh.points.cols();

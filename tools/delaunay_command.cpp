@@ -50,13 +50,14 @@ void require_request(const Request& request) {
 }
 
 Mesh mesh_of(const Points3& points, const Request& request, DelaunayReport& report) {
-  return delaunay(points, options_of(*request.partition), &report);
+  return spherical_delaunay(points, options_of(*request.partition), &report);
 }
 
 PlanarMesh mesh_of(const Points2& points, const Request& request, DelaunayReport& report) {
   const DelaunayOptions options = options_of(*request.partition, true);
   const std::optional<Eigen::Vector2d> period = period_of(request.periodic);
-  return period ? delaunay(points, *period, options, &report) : delaunay(points, options, &report);
+  return period ? periodic_delaunay(points, *period, options, &report)
+                : planar_delaunay(points, options, &report);
 }
 
 template <class AnyMesh, class File>

@@ -31,8 +31,10 @@ inline constexpr double earth_radius = 6371;
 /// \throws Error bad_option where shapes, coordinates or widths are not as CellWidth says.
 Density density_of(const CellWidth& cell_width);
 
-/// The widths at n unit columns. \throws Error as density_of.
-Eigen::VectorXd evaluate(const CellWidth& cell_width, const Points3& x);
+/// The widths in km at n unit columns.
+/// \param points 3 x n.
+/// \throws Error as density_of; bad_option unless the points have 3 rows.
+Eigen::VectorXd evaluate(const CellWidth& cell_width, const PointsRef& points);
 
 /// How many cells the widths h ask for: the integral of 2/(sqrt(3) h^2) over the sphere, as a
 /// regular hexagon whose neighbours are h away has the area sqrt(3)/2 h^2.

@@ -7,6 +7,7 @@
 #include <calotte/export.h>
 #include <calotte/types.h>
 
+#include <concepts>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -149,17 +150,24 @@ struct Cvt {
 /// within max_iterations is reported, not an error.
 ///
 /// \param start 3 x n directions, 12 distinct at least, not within a hemisphere; equal ones merge.
-///        Moved here, they take no memory beside the run's own.
 ///
-/// \throws Error as delaunay(); too_few_sites for fewer than 12 generators, or when they leave a
-/// hemisphere empty or meet; bad_option for an option out of range, or a density that is
+/// \throws Error as spherical_delaunay(); too_few_sites for fewer than 12 generators, or when they
+/// leave a hemisphere empty or meet; bad_option for an option out of range, or a density that is
 /// ill-formed, negative or NaN somewhere, or zero over a whole cell.
-Cvt cvt(Points3 start, const CvtOptions& options = {}, const CvtCallback& callback = {});
+Cvt spherical_cvt(const PointsRef& start, const CvtOptions& options = {},
+                  const CvtCallback& callback = {});
+
+/// The same for a start handed over: an rvalue Points3, which is not kept beside the run's own
+/// points.
+template <std::same_as<Points3> Points>
+Cvt spherical_cvt(Points&& start, const CvtOptions& options = {}, const CvtCallback& callback = {});
+template <>
+Cvt spherical_cvt(Points3&& start, const CvtOptions& options, const CvtCallback& callback);
 
 /// Goes on from a state to the bits that the run would have reached without the interruption,
 /// provided that the options are the same. \throws Error as above; bad_option for a state that is
 /// not whole.
-Cvt cvt(CvtState state, const CvtOptions& options, const CvtCallback& callback = {});
+Cvt spherical_cvt(CvtState state, const CvtOptions& options, const CvtCallback& callback = {});
 
 /// A centroidal Voronoi tessellation of a planar domain.
 struct PlanarCvt {
@@ -174,15 +182,15 @@ struct PlanarCvt {
 /// inside; lengths of the report are in the domain's unit.
 ///
 /// \param start 2 x n places inside the domain, 3 distinct at least, not on one line; in a periodic
-///        box as delaunay(start, period) asks for.
+///        box as periodic_delaunay() requires.
 /// \throws Error as above; bad_option as require_domain(), or with the index of a generator outside
 ///         of the domain.
-PlanarCvt cvt(const Points2& start, const PlanarDomain& domain, const CvtOptions& options = {},
-              const CvtCallback& callback = {});
+PlanarCvt planar_cvt(const PointsRef& start, const PlanarDomain& domain,
+                     const CvtOptions& options = {}, const CvtCallback& callback = {});
 
 /// \throws Error as above.
-PlanarCvt cvt(CvtState state, const PlanarDomain& domain, const CvtOptions& options,
-              const CvtCallback& callback = {});
+PlanarCvt planar_cvt(CvtState state, const PlanarDomain& domain, const CvtOptions& options,
+                     const CvtCallback& callback = {});
 
 /// Where a continuation to a number of cells starts: n cells with bisections b reach it when
 /// cells = 4^b (n - 2) + 2.

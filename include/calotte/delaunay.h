@@ -34,8 +34,9 @@ struct DelaunayOptions {
   /// Number of regions, >= 1; default from the number of sites, and never more than these.
   std::optional<int> regions = {};
   Centres centres = Centres::sample;
-  /// The regions' centres (MPI-SCVT's RegionList), directions of any norm; overrides the two above.
-  std::optional<Points3> given_centres;
+  /// The regions' centres (MPI-SCVT's RegionList); overrides the two above. On the sphere 3 x k
+  /// directions of any norm; in the plane 2 x k places, or 3 x k, whose third row is ignored.
+  std::optional<Eigen::MatrixXd> given_centres;
   Sort sort = Sort::halo;
   Duplicates duplicates = Duplicates::merge;
   /// Radians: a site nearer than this to an earlier site that stays is merged into it. Angles are
@@ -50,7 +51,7 @@ struct DelaunayReport {
     double regions = 0;     ///< centres, owners, halos
     double triangulate = 0; ///< gather, project, triangulate, cull and certify: all regions
     double unite = 0;       ///< the seams' union, canonical order, adjacency
-    double total = 0;       ///< all of delaunay(), from the caller's points to the mesh
+    double total = 0;       ///< all of the call, from the caller's points to the mesh
   } seconds;
   std::int64_t sites = 0;
   std::int64_t duplicates = 0; ///< input columns that were merged into another
@@ -79,37 +80,45 @@ struct DelaunayReport {
 ///
 /// \param points 3 x n directions of any norm from 1e-200 to 1e200.
 /// \param report if not null, filled.
-/// \throws Error not_finite, zero_vector, duplicate (when refused), too_few_sites (fewer than 4
-///         distinct), degenerate (all on one great circle), bad_option.
+/// \throws Error bad_option (not 3 rows, or an option out of range), not_finite, zero_vector,
+///         duplicate (when refused), too_few_sites (fewer than 4 distinct), degenerate (all on one
+///         great circle).
 ///
 /// Jacobsen, Gunzburger, Ringler, Burkardt, Peterson: Parallel algorithms for planar and spherical
 /// Delaunay construction, Geosci. Model Dev. 6, 1353-1365, 2013.
-Mesh delaunay(const Points3& points, const DelaunayOptions& options = {},
-              DelaunayReport* report = nullptr);
+Mesh spherical_delaunay(const PointsRef& points, const DelaunayOptions& options = {},
+                        DelaunayReport* report = nullptr);
 
-/// The same of points that the caller hands over: unless some are merged they become the mesh's,
-/// and are never copied.
-Mesh delaunay(Points3&& points, const DelaunayOptions& options = {},
-              DelaunayReport* report = nullptr);
+/// The same for points handed over: an rvalue Points3. The mesh takes them over without a copy,
+/// unless some of them merge.
+template <std::same_as<Points3> Points>
+Mesh spherical_delaunay(Points&& points, const DelaunayOptions& options = {},
+                        DelaunayReport* report = nullptr);
+template <>
+Mesh spherical_delaunay(Points3&& points, const DelaunayOptions& options, DelaunayReport* report);
 
-/// The Delaunay triangulation of sites in the plane: that of their convex hull. Their doubles are
-/// taken as exact, whatever their size; all that is said above holds for it, of places instead of
-/// directions. Of the options' centres z counts for nothing, and merge_within is a distance.
-/// \param points 2 x n.
-/// \throws Error not_finite, duplicate (when refused), too_few_sites (fewer than 3 distinct),
-///         degenerate (all on one line), bad_option.
-template <std::same_as<Points2> Places> // an expression is a set of directions, as ever
-PlanarMesh delaunay(const Places& points, const DelaunayOptions& options = {},
-                    DelaunayReport* report = nullptr);
+/// The Delaunay triangulation of the convex hull of places in the plane, counter-clockwise.
+/// Coordinates are exact as stored, whatever their size. The result is unique as that of
+/// spherical_delaunay().
+///
+/// \param points 2 x n places.
+/// \param options merge_within is a distance.
+/// \param report if not null, filled.
+/// \throws Error bad_option (not 2 rows, or an option out of range), not_finite, duplicate (when
+///         refused), too_few_sites (fewer than 3 distinct), degenerate (all on one line).
+PlanarMesh planar_delaunay(const PointsRef& points, const DelaunayOptions& options = {},
+                           DelaunayReport* report = nullptr);
 
-/// The Delaunay triangulation of a doubly periodic box, [0, period.x) x [0, period.y), which
-/// repeats itself in both directions: 2n triangles, without a boundary. Exact for copies at the
-/// exact sums of coordinates and periods. The report counts the copies around the box, too. \throws
-/// Error as above; bad_option for a point outside the box; too_few_sites where a circle wider
-///         than half of the box holds none.
-template <std::same_as<Points2> Places>
-PlanarMesh delaunay(const Places& points, const Eigen::Vector2d& period,
-                    const DelaunayOptions& options = {}, DelaunayReport* report = nullptr);
+/// The Delaunay triangulation of the doubly periodic box [0, period.x) x [0, period.y): 2n
+/// triangles, no boundary. It is exact for copies at the exact sums of coordinates and periods. The
+/// report counts the copies around the box, too.
+///
+/// \param points 2 x n places inside the box.
+/// \param period side lengths of the box, positive, at most 1e300, in the unit of the points.
+/// \throws Error as planar_delaunay(); bad_option for a period out of range or a point outside the
+///         box; too_few_sites where a circle wider than half of the box holds no site.
+PlanarMesh periodic_delaunay(const PointsRef& points, const Eigen::Vector2d& period,
+                             const DelaunayOptions& options = {}, DelaunayReport* report = nullptr);
 
 } // namespace calotte
 CALOTTE_API_END

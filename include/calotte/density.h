@@ -61,13 +61,16 @@ Density site_density(const Density& density);
 Density site_density(const Density& density, const PlanarDomain& domain);
 
 /// The density at each of n unit columns.
-/// \param x 3 x n.
-/// \throws Error bad_option, when the density is ill-formed, or a callable's value negative,
-/// infinite or NaN.
-Eigen::VectorXd evaluate(const Density& density, const Points3& x);
+/// \param points 3 x n.
+/// \throws Error bad_option: not 3 rows; an ill-formed density; a callable's value that is
+///         negative, infinite or NaN.
+Eigen::VectorXd evaluate(const Density& density, const PointsRef& points);
 
-/// The same at n places of a planar domain, 2 x n.
-Eigen::VectorXd evaluate(const Density& density, const PlanarDomain& domain, const Points2& places);
+/// The density at n places of a planar domain.
+/// \param places 2 x n.
+/// \throws Error bad_option as above, with 2 rows.
+Eigen::VectorXd evaluate(const Density& density, const PlanarDomain& domain,
+                         const PointsRef& places);
 
 } // namespace calotte
 CALOTTE_API_END

@@ -15,7 +15,7 @@ namespace calotte {
 struct PlanarDomain {
   /// Polygons, 2 x corners each, in either sense; the last corner is joined to the first. Inside is
   /// what lies inside an odd number of them: outer boundaries, holes in these, islands in those.
-  std::vector<Points2> rings;
+  std::vector<Eigen::MatrixXd> rings;
   Eigen::Vector2d period{0, 0}; ///< without rings: of the box [0, period.x) x [0, period.y)
 
   bool periodic() const { return rings.empty(); }
@@ -29,7 +29,8 @@ PlanarDomain periodic_box(const Eigen::Vector2d& period);
 
 /// Refuses what encloses no area in one way only. Coordinates may be as large as 1e30, and the
 /// domain as small as 1e-30.
-/// \throws Error bad_option, naming ring and corner: no ring and no period; fewer than three
+/// \throws Error bad_option, naming ring and corner: no ring and no period; a ring that has not 2
+///         rows; fewer than three
 ///         corners; a coordinate that is not finite; an edge without length; edges that meet
 ///         elsewhere than in the corner that joins them.
 void require_domain(const PlanarDomain& domain);

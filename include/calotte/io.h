@@ -59,11 +59,11 @@ Points2 read_planar_points(const std::string& path, std::vector<std::int64_t>* l
 PlanarDomain read_domain(const std::string& path);
 
 /// x y z a line, or x y of places in a plane, with the fewest digits (17 at most) that read back to
-/// the same bits. \throws Error file.
-void write_points(const std::string& path, const Points3& points);
-void write_points(std::ostream& out, const Points3& points);
-void write_points(const std::string& path, const Points2& points);
-void write_points(std::ostream& out, const Points2& points);
+/// the same bits.
+/// \param points 3 x n, or 2 x n.
+/// \throws Error bad_option for another number of rows, before any file is touched; file.
+void write_points(const std::string& path, const PointsRef& points);
+void write_points(std::ostream& out, const PointsRef& points);
 
 enum class Format {
   by_name,         ///< of the path, see write

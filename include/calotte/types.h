@@ -18,6 +18,18 @@ using Points3 = Eigen::Matrix3Xd;
 /// 2 x n, one Cartesian point a column.
 using Points2 = Eigen::Matrix2Xd;
 
+/// Points that a caller passes, 3 x n on the sphere or 2 x n in the plane, one Cartesian point a
+/// column. Functions that take them check the number of rows at run time: Error bad_option.
+///
+/// Matrices of fixed or dynamic rows, their columns and blocks, and Eigen::Map are read in place.
+/// Expressions, and matrices whose columns are not contiguous (transposed, row-major), are
+/// evaluated into a temporary first. A std::vector<double> or std::span<const double> of n points
+/// comes in as
+///
+///     Eigen::Map<const Eigen::Matrix3Xd>(values.data(), 3, n)    // x y z, x y z, ...
+///     Eigen::Map<const Eigen::MatrixX3d>(values.data(), n, 3).transpose()  // all x, all y, all z
+using PointsRef = Eigen::Ref<const Eigen::MatrixXd>;
+
 /// 3 x m ids, one triangle a column.
 using Triangles = Eigen::Matrix<std::int32_t, 3, Eigen::Dynamic>;
 

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "base/require.h"
 #include "base/vec3.h"
 
 #include <calotte/types.h>
 
 #include <cstdint>
 #include <numeric>
+#include <string>
 #include <vector>
 
 namespace calotte::base_detail {
@@ -18,6 +20,39 @@ inline const Vec3& column(const Points3& points, std::int64_t i) {
 
 inline void set_column(Points3& points, std::int64_t i, const Vec3& value) {
   *reinterpret_cast<Vec3*>(points.data() + 3 * i) = value;
+}
+
+/// Points in place, whatever the distance of their columns in memory.
+using Points3Ref = Eigen::Ref<const Points3>;
+using Points2Ref = Eigen::Ref<const Points2>;
+
+inline const Vec3& column(const Points3Ref& points, std::int64_t i) {
+  return *reinterpret_cast<const Vec3*>(points.data() + points.outerStride() * i);
+}
+
+/// \throws Error bad_option unless a caller's points have so many rows.
+/// \param columns what to give instead. \param instead what to call for points of the other kind,
+///        or empty.
+inline void require_rows(const PointsRef& points, Eigen::Index rows, const std::string& columns,
+                         const std::string& instead) {
+  const bool other = points.rows() == 2 || points.rows() == 3;
+  require(points.rows() == rows, "the points have " + std::to_string(points.rows()) +
+                                     (points.rows() == 1 ? " row" : " rows") + "; give " + columns +
+                                     (other && !instead.empty() ? ", or call " + instead : ""));
+}
+
+/// A caller's directions, in place. \throws Error bad_option unless they have 3 rows.
+/// \param planar what to call with 2 rows, or empty.
+inline Points3Ref directions_of(const PointsRef& points, const std::string& planar = {}) {
+  require_rows(points, 3, "3 x n columns x y z", planar);
+  return points;
+}
+
+/// A caller's places in the plane, in place. \throws Error bad_option unless they have 2 rows.
+/// \param spherical what to call with 3 rows, or empty.
+inline Points2Ref places_of(const PointsRef& points, const std::string& spherical = {}) {
+  require_rows(points, 2, "2 x n columns x y", spherical);
+  return points;
 }
 
 /// site_of_input where no input was merged: 0 to n - 1.

@@ -2,6 +2,7 @@
 #include <calotte/cvt.h>
 
 #include "base/clock.h"
+#include "base/points.h"
 #include "base/require.h"
 #include "cvt/descent.h"
 #include "cvt/planar_cells.h"
@@ -184,6 +185,15 @@ typename World::Result run(const World& world, CvtState whole, CvtOptions option
   return result;
 }
 
+template <class Points>
+Cvt run_from(Points&& start, const CvtOptions& options, const CvtCallback& callback) {
+  require_options(options);
+  SphericalWorld::density(options.density);
+  return run(SphericalWorld(),
+             CvtState(SphericalWorld::begin(std::forward<Points>(start), options)), options,
+             callback);
+}
+
 } // namespace
 } // namespace cvt_detail
 
@@ -204,29 +214,33 @@ double norm_of(const CvtIteration& iteration, Norm norm) {
   }
 }
 
-Cvt cvt(CvtState state, const CvtOptions& options, const CvtCallback& callback) {
+Cvt spherical_cvt(CvtState state, const CvtOptions& options, const CvtCallback& callback) {
   return cvt_detail::run(cvt_detail::SphericalWorld(), std::move(state), options, callback);
 }
 
-Cvt cvt(Points3 start, const CvtOptions& options, const CvtCallback& callback) {
-  cvt_detail::require_options(options);
-  cvt_detail::SphericalWorld::density(options.density);
-  return cvt(CvtState(cvt_detail::SphericalWorld::begin(std::move(start), options)), options,
-             callback);
+Cvt spherical_cvt(const PointsRef& start, const CvtOptions& options, const CvtCallback& callback) {
+  return cvt_detail::run_from(base_detail::directions_of(start, "planar_cvt()"), options, callback);
 }
 
-PlanarCvt cvt(CvtState state, const PlanarDomain& domain, const CvtOptions& options,
-              const CvtCallback& callback) {
+template <>
+Cvt spherical_cvt(Points3&& start, const CvtOptions& options, const CvtCallback& callback) {
+  return cvt_detail::run_from(std::move(start), options, callback);
+}
+
+PlanarCvt planar_cvt(CvtState state, const PlanarDomain& domain, const CvtOptions& options,
+                     const CvtCallback& callback) {
   return cvt_detail::run(cvt_detail::PlanarWorld(domain), std::move(state), options, callback);
 }
 
-PlanarCvt cvt(const Points2& start, const PlanarDomain& domain, const CvtOptions& options,
-              const CvtCallback& callback) {
+PlanarCvt planar_cvt(const PointsRef& start, const PlanarDomain& domain, const CvtOptions& options,
+                     const CvtCallback& callback) {
+  const base_detail::Points2Ref places = base_detail::places_of(start, "spherical_cvt()");
   cvt_detail::require_options(options);
   const cvt_detail::PlanarWorld plane(domain);
   plane.density(options.density);
-  cvt_detail::require_inside(start, domain);
-  return cvt(CvtState(cvt_detail::PlanarWorld::begin(start, options)), domain, options, callback);
+  cvt_detail::require_inside(places, domain);
+  return planar_cvt(CvtState(cvt_detail::PlanarWorld::begin(places, options)), domain, options,
+                    callback);
 }
 
 } // namespace calotte

@@ -26,7 +26,7 @@ std::array<Vec3, 3> hull_around(const Box2& box) {
 
 } // namespace
 
-void require_inside(const Points2& places, const PlanarDomain& domain) {
+void require_inside(const Points2Ref& places, const PlanarDomain& domain) {
   if (domain.periodic())
     return require_in_box(places, domain.period);
   const Outline outline(domain);
@@ -76,7 +76,7 @@ Sites PlanarCells::sites() const {
     for (std::int64_t i = begin; i != end; ++i)
       points.col(i) << places_[i].x, places_[i].y;
   });
-  return make_sites(points, Duplicates::merge, 0);
+  return make_planar_sites(points, Duplicates::merge, 0);
 }
 
 double PlanarCells::spacing() const { return std::sqrt(area_ / static_cast<double>(generators_)); }

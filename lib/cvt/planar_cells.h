@@ -21,7 +21,7 @@
 namespace calotte::cvt_detail {
 
 /// \throws Error bad_option, naming the first place that is outside of the domain.
-void require_inside(const Points2& places, const PlanarDomain& domain);
+void require_inside(const Points2Ref& places, const PlanarDomain& domain);
 
 /// The cells of generators in a planar domain: see SphericalCells, whose functions these are.
 ///

@@ -91,8 +91,8 @@ Connectivity PlaneSigns::triangulate() const {
     for (std::int64_t i = begin; i != end; ++i)
       points.col(i) << (*places_)[i].x, (*places_)[i].y;
   });
-  PlanarMesh mesh =
-      periodic() ? delaunay(points, Eigen::Vector2d(period_.x, period_.y)) : delaunay(points);
+  PlanarMesh mesh = periodic() ? periodic_delaunay(points, Eigen::Vector2d(period_.x, period_.y))
+                               : planar_delaunay(points);
   if (mesh.points.cols() != points.cols())
     throw Error(ErrorCode::too_few_sites, "two generators have met: spread the start over the "
                                           "domain, or take a smoother density");

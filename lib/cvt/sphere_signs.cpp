@@ -31,7 +31,7 @@ bool SphereSigns::circle_holds(const Corners& triangle, int, std::int32_t d) con
 }
 
 Connectivity SphereSigns::triangulate() const {
-  Mesh mesh = delaunay(*points_);
+  Mesh mesh = spherical_delaunay(*points_);
   if (mesh.points.cols() != points_->cols() || !mesh.closed())
     throw Error(ErrorCode::too_few_sites,
                 "the generators lie within a hemisphere, or two of them have met: spread the start "

@@ -63,6 +63,18 @@ void set_places(State& state, const Sites& sites) {
   set_points(state, sites, points);
 }
 
+/// A run on the sphere from its distinct generators.
+State begun_at(Sites&& sites, const CvtOptions& options) {
+  if (sites.size() < 12)
+    throw Error(ErrorCode::too_few_sites, "there are " + std::to_string(sites.size()) +
+                                              " distinct generators: give at least 12");
+  State state;
+  set_points(state, sites, sites.unit);
+  state.site_of_input = std::move(sites.site_of_input);
+  state.bisections_left = options.bisections;
+  return state;
+}
+
 /// Cells of generators on one line would do, but no mesh of them.
 void require_triangle(const Sites& sites) {
   const auto given = [&](std::int32_t id) { return Vec2{sites.given(id).x, sites.given(id).y}; };
@@ -85,16 +97,14 @@ void refuse_state() {
 // ---- The sphere
 
 State SphericalWorld::begin(Points3&& start, const CvtOptions& options) {
-  Sites sites =
-      make_sites(std::move(start), options.partition.duplicates, options.partition.merge_within);
-  if (sites.size() < 12)
-    throw Error(ErrorCode::too_few_sites, "there are " + std::to_string(sites.size()) +
-                                              " distinct generators: give at least 12");
-  State state;
-  set_points(state, sites, sites.unit);
-  state.site_of_input = std::move(sites.site_of_input);
-  state.bisections_left = options.bisections;
-  return state;
+  return begun_at(
+      make_sites(std::move(start), options.partition.duplicates, options.partition.merge_within),
+      options);
+}
+
+State SphericalWorld::begin(const Points3Ref& start, const CvtOptions& options) {
+  return begun_at(make_sites(start, options.partition.duplicates, options.partition.merge_within),
+                  options);
 }
 
 Density SphericalWorld::density(const Density& density) {
@@ -108,7 +118,9 @@ void SphericalWorld::require_points(const State& state) {
     refuse_state();
 }
 
-Mesh SphericalWorld::triangulated(Points3&& points) { return delaunay(std::move(points)); }
+Mesh SphericalWorld::triangulated(Points3&& points) {
+  return spherical_delaunay(std::move(points));
+}
 
 Mesh SphericalWorld::mesh(Points3&& points, Connectivity&& canonical) {
   std::vector<std::int32_t> sites = themselves(points.cols());
@@ -128,8 +140,9 @@ Level SphericalWorld::set_bisected(State& state, const Mesh& coarse) {
 
 PlanarWorld::PlanarWorld(const PlanarDomain& domain) : domain_(domain) { require_domain(domain); }
 
-State PlanarWorld::begin(const Points2& start, const CvtOptions& options) {
-  Sites sites = make_sites(start, options.partition.duplicates, options.partition.merge_within);
+State PlanarWorld::begin(const Points2Ref& start, const CvtOptions& options) {
+  Sites sites =
+      make_planar_sites(start, options.partition.duplicates, options.partition.merge_within);
   require_triangle(sites);
   State state;
   set_places(state, sites);
@@ -153,7 +166,7 @@ void PlanarWorld::require_points(const State& state) const {
 
 PlanarMesh PlanarWorld::triangulated(const Points3& points) const {
   const Points2 places = in_domain(points);
-  return domain_.periodic() ? delaunay(places, domain_.period) : delaunay(places);
+  return domain_.periodic() ? periodic_delaunay(places, domain_.period) : planar_delaunay(places);
 }
 
 PlanarMesh PlanarWorld::mesh(const Points3& points, Connectivity&& canonical) const {
@@ -162,7 +175,7 @@ PlanarMesh PlanarWorld::mesh(const Points3& points, Connectivity&& canonical) co
 }
 
 Level PlanarWorld::set_bisected(State& state, const PlanarMesh& coarse) const {
-  const Sites sites = make_sites(bisect(coarse, domain_), Duplicates::refuse, 0);
+  const Sites sites = make_planar_sites(bisect(coarse, domain_), Duplicates::refuse, 0);
   set_places(state, sites);
   if (!domain_.periodic()) // a part of the midpoints
     return {};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "base/points.h"
 #include "cvt/functional.h"
 #include "cvt/state.h"
 #include "cvt/tessellation.h"
@@ -25,6 +26,7 @@ public:
 
   /// The state of a start. \throws Error as make_sites(); too_few_sites.
   static State begin(Points3&& start, const CvtOptions& options);
+  static State begin(const Points3Ref& start, const CvtOptions& options);
 
   /// The density as the functional takes it. \throws Error bad_option where it is ill-formed.
   static Density density(const Density& density);
@@ -59,7 +61,7 @@ public:
   /// \throws Error as require_domain().
   explicit PlanarWorld(const PlanarDomain& domain);
 
-  static State begin(const Points2& start, const CvtOptions& options);
+  static State begin(const Points2Ref& start, const CvtOptions& options);
   Density density(const Density& density) const;
   void require_points(const State& state) const;
   std::unique_ptr<Functional> functional(const Points3& points, const CvtOptions& options,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "delaunay/centres.h"
 
+#include "base/require.h"
 #include "delaunay/owners.h"
 #include "exact/predicates.h"
 
@@ -132,10 +133,13 @@ std::vector<Vec3> sampled_centres(const Sites& sites, int regions) {
   return centres;
 }
 
-std::vector<Vec3> columns(const Points3& points, const std::optional<Frame>& plane) {
+std::vector<Vec3> columns(const PointsRef& points, const std::optional<Frame>& plane) {
+  require(points.rows() == 3 || (plane && points.rows() == 2),
+          "the regions' centres have " + std::to_string(points.rows()) + " rows; give " +
+              (plane ? "2 x k columns x y" : "3 x k columns x y z"));
   std::vector<Vec3> out(static_cast<std::size_t>(points.cols()));
   for (Eigen::Index k = 0; k < points.cols(); ++k) {
-    const Vec3 p = column(points, k);
+    const Vec3 p{points(0, k), points(1, k), plane ? 0 : points(2, k)};
     const bool finite = std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
     if (plane && finite) {
       out[static_cast<std::size_t>(k)] = (*plane)(p.x, p.y);

@@ -198,11 +198,19 @@ std::vector<std::vector<std::int32_t>> neighbours_in(const Triangles& triangles,
   return adjacent;
 }
 
+template <class Space, class Points>
+Sites make_sites_of(Points&& points, Duplicates duplicates, double merge_within) {
+  if constexpr (std::is_same_v<Space, Plane>)
+    return make_planar_sites(points, duplicates, merge_within);
+  else
+    return make_sites(std::forward<Points>(points), duplicates, merge_within);
+}
+
 /// The triangles of some centres, or none when they are too few, meet, or lie on one line, or on
 /// the sphere in a hemisphere.
 template <class Space, class Points> Triangles triangles_of(const Points& points) {
   try {
-    Sites sites = make_sites(points, Duplicates::merge, 0);
+    Sites sites = make_sites_of<Space>(points, Duplicates::merge, 0);
     DelaunayReport unused;
     Reports reports = triangulate_whole<Space>(sites, unused);
     const Mesh mesh = make_mesh(std::move(sites), std::move(reports));
@@ -222,7 +230,7 @@ std::vector<std::vector<std::int32_t>> adjacent_centres(const std::vector<Vec3>&
   for (std::size_t k = 0; k < count; ++k)
     set_column(points, static_cast<std::int64_t>(k), centres[k]);
   const Triangles triangles =
-      planar ? triangles_of<Plane>(Points2(points.topRows<2>())) : triangles_of<Sphere>(points);
+      planar ? triangles_of<Plane>(points.topRows<2>()) : triangles_of<Sphere>(points);
   if (triangles.cols() > 0)
     return neighbours_in(triangles, count);
   std::vector<std::vector<std::int32_t>> adjacent(count);
@@ -273,11 +281,12 @@ Mesh triangulate(Sites&& sites, const DelaunayOptions& options, DelaunayReport& 
   return mesh;
 }
 
-template <class Points>
+template <class Space, class Points>
 Sites sites_of(Points&& points, const DelaunayOptions& options, DelaunayReport& report) {
   Clock::time_point mark = Clock::now();
   const std::int64_t given = points.cols();
-  Sites sites = make_sites(std::forward<Points>(points), options.duplicates, options.merge_within);
+  Sites sites =
+      make_sites_of<Space>(std::forward<Points>(points), options.duplicates, options.merge_within);
   report = {};
   report.threads = thread_count();
   report.sites = sites.size();
@@ -296,7 +305,7 @@ Mesh triangulate_sphere(Points&& points, const DelaunayOptions& options, Delauna
   DelaunayReport unused;
   DelaunayReport& used = report != nullptr ? *report : unused;
   Clock::time_point start = Clock::now();
-  Sites sites = sites_of(std::forward<Points>(points), options, used);
+  Sites sites = sites_of<Sphere>(std::forward<Points>(points), options, used);
   Mesh mesh = triangulate<Sphere>(std::move(sites), options, used);
   used.seconds.total = lap(start);
   return mesh;
@@ -305,47 +314,50 @@ Mesh triangulate_sphere(Points&& points, const DelaunayOptions& options, Delauna
 } // namespace
 } // namespace delaunay_detail
 
-Mesh delaunay(const Points3& points, const DelaunayOptions& options, DelaunayReport* report) {
-  return delaunay_detail::triangulate_sphere(points, options, report);
+Mesh spherical_delaunay(const PointsRef& points, const DelaunayOptions& options,
+                        DelaunayReport* report) {
+  return delaunay_detail::triangulate_sphere(
+      base_detail::directions_of(points, "planar_delaunay()"), options, report);
 }
 
-Mesh delaunay(Points3&& points, const DelaunayOptions& options, DelaunayReport* report) {
+template <>
+Mesh spherical_delaunay(Points3&& points, const DelaunayOptions& options, DelaunayReport* report) {
   return delaunay_detail::triangulate_sphere(std::move(points), options, report);
 }
 
-template <>
-PlanarMesh delaunay(const Points2& points, const DelaunayOptions& options, DelaunayReport* report) {
+PlanarMesh planar_delaunay(const PointsRef& points, const DelaunayOptions& options,
+                           DelaunayReport* report) {
+  using namespace delaunay_detail;
   DelaunayReport unused;
   DelaunayReport& used = report != nullptr ? *report : unused;
-  base_detail::Clock::time_point start = base_detail::Clock::now();
-  delaunay_detail::Sites sites = delaunay_detail::sites_of(points, options, used);
-  PlanarMesh mesh = delaunay_detail::planar(
-      delaunay_detail::triangulate<delaunay_detail::Plane>(std::move(sites), options, used));
-  used.seconds.total = base_detail::lap(start);
+  const Points2Ref places = places_of(points, "spherical_delaunay()");
+  Clock::time_point start = Clock::now();
+  Sites sites = sites_of<Plane>(places, options, used);
+  PlanarMesh mesh = planar(triangulate<Plane>(std::move(sites), options, used));
+  used.seconds.total = lap(start);
   return mesh;
 }
 
-template <>
-PlanarMesh delaunay(const Points2& points, const Eigen::Vector2d& period,
-                    const DelaunayOptions& options, DelaunayReport* report) {
+PlanarMesh periodic_delaunay(const PointsRef& points, const Eigen::Vector2d& period,
+                             const DelaunayOptions& options, DelaunayReport* report) {
+  using namespace delaunay_detail;
   DelaunayReport unused;
   DelaunayReport& used = report != nullptr ? *report : unused;
-  base_detail::Clock::time_point start = base_detail::Clock::now();
-  delaunay_detail::require_in_box(points, period);
-  delaunay_detail::Sites sites = delaunay_detail::sites_of(points, options, used);
+  const Points2Ref places = places_of(points, "spherical_delaunay()");
+  Clock::time_point start = Clock::now();
+  require_in_box(places, period);
+  Sites sites = sites_of<Plane>(places, options, used);
   const Points2 distinct = sites.points.topRows<2>();
-  const auto triangulate = [&](std::vector<exact_detail::Image> images,
-                               const exact_detail::Vec2& box) {
-    delaunay_detail::Sites copies = delaunay_detail::make_sites(std::move(images), box);
+  const auto triangulate_images = [&](std::vector<Image> images, const Vec2& box) {
+    Sites copies = make_sites(std::move(images), box);
     used.sites_per_region.clear();
     used.owned_per_region.clear();
     used.seconds_per_region.clear();
-    return delaunay_detail::planar(
-        delaunay_detail::triangulate<delaunay_detail::Plane>(std::move(copies), options, used));
+    return planar(triangulate<Plane>(std::move(copies), options, used));
   };
-  PlanarMesh mesh = delaunay_detail::triangulate_periodic(distinct, period, triangulate);
+  PlanarMesh mesh = triangulate_periodic(distinct, period, triangulate_images);
   mesh.site_of_input = std::move(sites.site_of_input);
-  used.seconds.total = base_detail::lap(start);
+  used.seconds.total = lap(start);
   return mesh;
 }
 

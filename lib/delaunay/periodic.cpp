@@ -152,7 +152,7 @@ PlanarMesh folded(const PlanarMesh& whole, const Copies& copies, const Points2& 
 
 } // namespace
 
-void require_in_box(const Points2& points, const Eigen::Vector2d& period) {
+void require_in_box(const Points2Ref& points, const Eigen::Vector2d& period) {
   constexpr double longest = 1e300; // the box's copies must be doubles, too
   require((period.array() > 0).all() && (period.array() <= longest).all(),
           "the periodic box is " + std::to_string(period.x()) + " x " + std::to_string(period.y()) +

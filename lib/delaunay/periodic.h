@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "base/points.h"
 #include "delaunay/room.h"
 #include "exact/plane_predicates.h"
 
@@ -24,6 +25,6 @@ PlanarMesh triangulate_periodic(const Points2& sites, const Eigen::Vector2d& per
                                 const TriangulateImages& triangulate);
 
 /// \throws Error bad_option for a period that is not positive and finite, or a point outside.
-void require_in_box(const Points2& points, const Eigen::Vector2d& period);
+void require_in_box(const Points2Ref& points, const Eigen::Vector2d& period);
 
 } // namespace calotte::delaunay_detail

@@ -38,7 +38,7 @@ bool is_zero(const Vec3& p) { return p.x == 0 && p.y == 0 && p.z == 0; }
 
 /// Directions of any norm.
 struct Directions {
-  const Points3& points;
+  const Points3Ref points;
 
   static constexpr std::int64_t fewest = 4;
   static constexpr const char* distinct = "distinct directions";
@@ -73,7 +73,7 @@ struct Directions {
 
 /// Pairs of doubles.
 struct Places {
-  const Points2& points;
+  const Points2Ref points;
   Frame frame;
 
   static constexpr std::int64_t fewest = 3;
@@ -105,7 +105,7 @@ struct Places {
 };
 
 /// Of the finite points.
-Frame frame_of(const Points2& points) {
+Frame frame_of(const Points2Ref& points) {
   double largest = 0;
   for (const double x : points.reshaped())
     if (std::isfinite(x))
@@ -407,7 +407,7 @@ Vec2 place_of(const Image& image, const Vec2& period) {
 
 } // namespace
 
-Sites make_sites(const Points3& points, Duplicates duplicates, double merge_within) {
+Sites make_sites(const Points3Ref& points, Duplicates duplicates, double merge_within) {
   require_distance(merge_within, "angle", " radians");
   const Directions input{points};
   return make_sites_of(input, duplicates, merge_within, [&] { return copy_of(input); });
@@ -419,7 +419,7 @@ Sites make_sites(Points3&& points, Duplicates duplicates, double merge_within) {
                        [&] { return std::move(points); });
 }
 
-Sites make_sites(const Points2& points, Duplicates duplicates, double merge_within) {
+Sites make_planar_sites(const Points2Ref& points, Duplicates duplicates, double merge_within) {
   require_distance(merge_within, "distance", "");
   const Frame frame = frame_of(points);
   const Places input{points, frame};

@@ -49,14 +49,14 @@ struct Sites {
 
 /// \throws Error not_finite, zero_vector, duplicate, too_few_sites (for more than 2^30 points too),
 /// bad_option.
-Sites make_sites(const Points3& points, Duplicates duplicates, double merge_within);
+Sites make_sites(const Points3Ref& points, Duplicates duplicates, double merge_within);
 
 /// The same; where no points are merged, they become the sites' points and are not copied.
 Sites make_sites(Points3&& points, Duplicates duplicates, double merge_within);
 
 /// Of a plane: equal places are duplicates, `merge_within` is a distance. \throws Error as above,
 /// but for zero_vector.
-Sites make_sites(const Points2& points, Duplicates duplicates, double merge_within);
+Sites make_planar_sites(const Points2Ref& points, Duplicates duplicates, double merge_within);
 
 /// Sites of a periodic box together with copies of them: `points` are the images, each coordinate
 /// rounded once. \pre the images are distinct.

@@ -3,6 +3,7 @@
 
 #include "base/elementary.h"
 #include "base/parallel.h"
+#include "base/points.h"
 #include "density/cell_width_field.h"
 
 #include <calotte/error.h>
@@ -108,7 +109,8 @@ Density density_of(const CellWidth& cell_width) {
   return density;
 }
 
-Eigen::VectorXd evaluate(const CellWidth& cell_width, const Points3& x) {
+Eigen::VectorXd evaluate(const CellWidth& cell_width, const PointsRef& points) {
+  const base_detail::Points3Ref x = base_detail::directions_of(points);
   const WidthField field(cell_width);
   Eigen::VectorXd widths(x.cols());
   base_detail::for_each_block(x.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <calotte/density.h>
 
+#include "base/points.h"
 #include "density/density_evaluator.h"
 #include "exact/predicates.h"
 
@@ -184,7 +185,8 @@ Density site_density(const Density& density) {
   return root;
 }
 
-Eigen::VectorXd evaluate(const Density& density, const Points3& x) {
+Eigen::VectorXd evaluate(const Density& density, const PointsRef& points) {
+  const base_detail::Points3Ref x = base_detail::directions_of(points);
   const density_detail::DensityEvaluator evaluator(density);
   constexpr Eigen::Index batch = 512;
   Eigen::VectorXd rho(x.cols());

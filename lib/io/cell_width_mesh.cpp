@@ -80,7 +80,7 @@ double step_for(const Mesh& mesh) {
 } // namespace
 
 CellWidth resampled(const Points3& points, const Eigen::VectorXd& widths) {
-  const Mesh mesh = delaunay(points);
+  const Mesh mesh = spherical_delaunay(points);
   if (!mesh.closed())
     throw Error(ErrorCode::bad_option, "the points lie within a hemisphere; give widths on the "
                                        "whole sphere");

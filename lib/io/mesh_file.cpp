@@ -147,7 +147,7 @@ void require_ids(const std::string& name, const Triangles& triangles, std::int64
 /// Either kind of points.
 auto triangulated(const std::string& name, const auto& sites) {
   try {
-    return delaunay(sites);
+    return spherical_delaunay(sites);
   } catch (const Error& error) {
     throw Error(error.code(), name + ": " + error.what(), error.index());
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/lonlat.h"
+#include "base/points.h"
 #include "io/file.h"
 #include "io/formats.h"
 
@@ -119,8 +120,8 @@ std::vector<double> read_rows(std::istream& in, const std::string& name, const R
 
 // ---- Writing
 
-/// x y (z) a line, of either kind of points.
-template <class Points> void put_points(const io_detail::Sink& sink, const Points& points) {
+/// A line for each column, its coordinates separated by blanks.
+void put_rows(const io_detail::Sink& sink, const PointsRef& points) {
   io_detail::Writer out(sink);
   for (Eigen::Index i = 0; i < points.cols(); ++i)
     for (Eigen::Index j = 0; j < points.rows(); ++j)
@@ -128,28 +129,14 @@ template <class Points> void put_points(const io_detail::Sink& sink, const Point
   out.flush();
 }
 
-template <class Points> void write_rows(const std::string& path, const Points& points) {
-  io_detail::OutputFile file(path);
-  put_points([&](std::string_view bytes) { file.append(bytes); }, points);
-  file.commit();
-}
-
-template <class Points> void write_rows(std::ostream& out, const Points& points) {
-  put_points(
-      [&](std::string_view bytes) {
-        out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-      },
-      points);
-  if (!out.flush())
-    throw Error(ErrorCode::file, "cannot write the points: the stream failed; make room or write "
-                                 "elsewhere");
+void require_2_or_3_rows(const PointsRef& points) {
+  if (points.rows() != 3)
+    base_detail::require_rows(points, 2, "2 x n columns x y, or 3 x n columns x y z", {});
 }
 
 } // namespace
 
-void io_detail::put_points(const Sink& sink, const Points3& points) {
-  calotte::put_points(sink, points);
-}
+void io_detail::put_points(const Sink& sink, const Points3& points) { put_rows(sink, points); }
 
 Points3 read_points(std::istream& in, const std::string& name, Columns columns,
                     std::vector<std::int64_t>* lines) {
@@ -175,9 +162,23 @@ Points3 read_points(const std::string& path, Columns columns, std::vector<std::i
   return read_points(in, path, columns, lines);
 }
 
-void write_points(const std::string& path, const Points3& points) { write_rows(path, points); }
-void write_points(std::ostream& out, const Points3& points) { write_rows(out, points); }
-void write_points(const std::string& path, const Points2& points) { write_rows(path, points); }
-void write_points(std::ostream& out, const Points2& points) { write_rows(out, points); }
+void write_points(const std::string& path, const PointsRef& points) {
+  require_2_or_3_rows(points);
+  io_detail::OutputFile file(path);
+  put_rows([&](std::string_view bytes) { file.append(bytes); }, points);
+  file.commit();
+}
+
+void write_points(std::ostream& out, const PointsRef& points) {
+  require_2_or_3_rows(points);
+  put_rows(
+      [&](std::string_view bytes) {
+        out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+      },
+      points);
+  if (!out.flush())
+    throw Error(ErrorCode::file, "cannot write the points: the stream failed; make room or write "
+                                 "elsewhere");
+}
 
 } // namespace calotte

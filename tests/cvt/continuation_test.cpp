@@ -100,7 +100,7 @@ TEST_CASE("drawn starts of a peaked density span the sphere, and converge") {
     options.tolerance = 1e-3;
     const Continuation from = continuation(cells, test::x8());
     options.bisections = from.bisections;
-    const Cvt grid = cvt(from.start, options);
+    const Cvt grid = spherical_cvt(from.start, options);
     CHECK(!from.icosahedral);
     CHECK(grid.report.converged);
     CHECK(grid.mesh.points.cols() == cells);
@@ -182,7 +182,7 @@ TEST_CASE("hexagonal lattices of periodic boxes: periodic_hexagons where these f
       check_inside(places, periodic_box(period));
       CHECK(std::abs(places.cols() - n) <= std::max<double>(12, 0.05 * static_cast<double>(n)));
       if (n >= 100) {
-        const PlanarMesh mesh = delaunay(places, period);
+        const PlanarMesh mesh = periodic_delaunay(places, period);
         CHECK(mesh.triangles.cols() == 2 * places.cols());
       }
     }
@@ -190,7 +190,7 @@ TEST_CASE("hexagonal lattices of periodic boxes: periodic_hexagons where these f
 
 TEST_CASE("bisection in the plane: midpoints inside the domain, in a box all of them") {
   const PlanarDomain domain = islands();
-  const PlanarMesh mesh = delaunay(random_places(300, domain, 3));
+  const PlanarMesh mesh = planar_delaunay(random_places(300, domain, 3));
   const Points2 finer = bisect(mesh, domain);
   CHECK(finer.leftCols(300) == mesh.points);
   CHECK(finer.cols() > 900);
@@ -210,7 +210,7 @@ TEST_CASE("bisection in the plane: midpoints inside the domain, in a box all of 
   REQUIRE(fine.cols() == 4 * 48);
   check_inside(fine, periodic_box(hexagons.period));
   // They are hexagons of half the spacing.
-  const PlanarMesh half = delaunay(fine, hexagons.period);
+  const PlanarMesh half = periodic_delaunay(fine, hexagons.period);
   for (Eigen::Index t = 0; t < half.triangles.cols(); ++t) {
     Eigen::Vector2d way =
         half.points.col(half.triangles(1, t)) - half.points.col(half.triangles(0, t));

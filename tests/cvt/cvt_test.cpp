@@ -55,7 +55,7 @@ void check_random_start(const Density& density, Method method) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     options.partition.regions = regions;
     options.partition.sort = sort;
-    return cvt(random_sphere(1700, 4), options);
+    return spherical_cvt(random_sphere(1700, 4), options);
   };
   const Cvt one = with(1, 1, Sort::halo);
   CHECK(!one.report.converged);
@@ -87,7 +87,7 @@ TEST_CASE("every method takes uniform bisected grids to the known optimum withou
     for (const Method method : methods) {
       CAPTURE(static_cast<int>(method));
       options.method = method;
-      const Cvt grid = cvt(bisected_icosahedron(level), options);
+      const Cvt grid = spherical_cvt(bisected_icosahedron(level), options);
       const double energy =
           grid.report.iterations.back().energy * static_cast<double>(grid.mesh.points.cols());
       CHECK(grid.report.converged);
@@ -120,9 +120,9 @@ TEST_CASE("over-relaxed Lloyd's steps descend, and need fewer evaluations") {
     options.tolerance = 1e-4;
     options.max_iterations = 5000;
     const Points3 start = random_sphere(700, 3);
-    const CvtReport plain = cvt(start, options).report;
+    const CvtReport plain = spherical_cvt(start, options).report;
     options.relaxation = 1.7;
-    const CvtReport relaxed = cvt(start, options).report;
+    const CvtReport relaxed = spherical_cvt(start, options).report;
     check_descent(relaxed);
     CHECK(plain.converged);
     CHECK(relaxed.converged);
@@ -141,7 +141,7 @@ TEST_CASE("a run goes on from any of its states to the same bits") {
     options.bisections = 1;
     options.tolerance = 1e-3; // the final rule takes over
     std::vector<CvtState> states;
-    const Cvt whole = cvt(random_sphere(300, 4), options, [&](const CvtProgress& now) {
+    const Cvt whole = spherical_cvt(random_sphere(300, 4), options, [&](const CvtProgress& now) {
       states.push_back(now.state);
       return false;
     });
@@ -149,7 +149,7 @@ TEST_CASE("a run goes on from any of its states to the same bits") {
     if (method != Method::lloyd) // which is not as far then
       CHECK(whole.report.iterations.back().rule == options.final_rule);
     for (std::size_t k = 0; k < states.size(); k += 9) {
-      const Cvt rest = cvt(states[k], options);
+      const Cvt rest = spherical_cvt(states[k], options);
       CAPTURE(k);
       CHECK((rest.mesh.points == whole.mesh.points));
       CHECK((rest.mesh.triangles == whole.mesh.triangles));
@@ -172,22 +172,22 @@ TEST_CASE("every machine, compiler option and vector width gives the same bits")
   CvtOptions options;
   options.method = Method::lloyd;
   options.max_iterations = 30;
-  CHECK(hash(cvt(random_sphere(1500, 6), options).mesh.points) == 2641754437363962629U);
+  CHECK(hash(spherical_cvt(random_sphere(1500, 6), options).mesh.points) == 2641754437363962629U);
   options.density = x8();
-  CHECK(hash(cvt(random_sphere(1500, 6), options).mesh.points) == 4397988346090177093U);
+  CHECK(hash(spherical_cvt(random_sphere(1500, 6), options).mesh.points) == 4397988346090177093U);
   options.method = Method::lbfgs_laplacian;
-  CHECK(hash(cvt(random_sphere(1500, 6), options).mesh.points) == 6522561348324642743U);
+  CHECK(hash(spherical_cvt(random_sphere(1500, 6), options).mesh.points) == 6522561348324642743U);
 }
 
 TEST_CASE("a state that no run has left is refused") {
   CvtOptions options;
   options.max_iterations = 1;
   CvtState good;
-  cvt(random_sphere(50), options, [&](const CvtProgress& now) {
+  spherical_cvt(random_sphere(50), options, [&](const CvtProgress& now) {
     good = now.state;
     return true;
   });
-  CHECK_NOTHROW(cvt(good, options));
+  CHECK_NOTHROW(spherical_cvt(good, options));
   std::vector<CvtState> bad(5, good);
   bad[0].data().id[3] = bad[0].data().id[4];
   bad[1].data().id.pop_back();
@@ -195,7 +195,7 @@ TEST_CASE("a state that no run has left is refused") {
   bad[3].data().points *= 2;
   bad[4].data().site_of_input[0] = 50;
   for (const CvtState& state : bad)
-    CHECK_THROWS_AS(cvt(state, options), Error);
+    CHECK_THROWS_AS(spherical_cvt(state, options), Error);
 }
 
 TEST_CASE("the norms stop as they say") {
@@ -206,7 +206,7 @@ TEST_CASE("the norms stop as they say") {
        {Norm::l2, Norm::linf, Norm::l2_scaled, Norm::linf_scaled, Norm::gradient}) {
     options.norm = norm;
     options.tolerance = 1e-5;
-    const Cvt grid = cvt(bisected_icosahedron(3), options);
+    const Cvt grid = spherical_cvt(bisected_icosahedron(3), options);
     CHECK(grid.report.converged);
     const auto value = [&](const CvtIteration& it) {
       return norm == Norm::l2            ? it.l2
@@ -232,16 +232,16 @@ TEST_CASE("the gradient is the energy's slope") {
   options.norm = Norm::none;
   options.max_iterations = 1;
   const auto energy = [&](const Points3& points) {
-    return cvt(points, options).report.iterations.back().energy;
+    return spherical_cvt(points, options).report.iterations.back().energy;
   };
-  const Moments moments = mesh_moments(delaunay(x), options.density, 19);
+  const Moments moments = mesh_moments(spherical_delaunay(x), options.density, 19);
   Points3 gradient(3, x.cols());
   for (Eigen::Index i = 0; i < x.cols(); ++i) {
     const Vec3 first = moments.first[i];
     const Eigen::Vector3d m(first.x, first.y, first.z);
     gradient.col(i) = -2 * (m - m.dot(x.col(i)) * x.col(i));
   }
-  CHECK(cvt(x, options).report.iterations.back().gradient ==
+  CHECK(spherical_cvt(x, options).report.iterations.back().gradient ==
         doctest::Approx(gradient.norm()).epsilon(1e-12));
   const double step = 1e-4;
   const Points3 there = (x - step * gradient).colwise().normalized();
@@ -257,7 +257,7 @@ TEST_CASE("the report counts the regions' sites and their seconds") {
   const Points3 start = bisected_icosahedron(5);
   for (const Sort sort : {Sort::halo, Sort::distance, Sort::voronoi}) {
     options.partition.sort = sort;
-    const CvtReport report = cvt(start, options).report;
+    const CvtReport report = spherical_cvt(start, options).report;
     std::int64_t sites = 0;
     for (const CvtRegion& region : report.regions) {
       sites += region.sites;
@@ -274,7 +274,7 @@ TEST_CASE("generators stay in the order of the start") {
   const Points3 start = bisected_icosahedron(3);
   CvtOptions options;
   options.max_iterations = 20;
-  const Cvt grid = cvt(start, options);
+  const Cvt grid = spherical_cvt(start, options);
   CHECK((grid.mesh.points - start).colwise().norm().maxCoeff() < 0.05);
 }
 
@@ -283,7 +283,7 @@ TEST_CASE("the tanh bump spreads spacings by the fourth root of its contrast [sl
   options.density = x8();
   options.max_iterations = 1500;
   options.tolerance = 1e-5;
-  const Cvt grid = cvt(bisected_icosahedron(4), options);
+  const Cvt grid = spherical_cvt(bisected_icosahedron(4), options);
   check_descent(grid.report);
   double shortest = 4, longest = 0;
   for (Eigen::Index t = 0; t < grid.mesh.triangles.cols(); ++t)
@@ -312,7 +312,7 @@ TEST_CASE("the fixed point depends on the rule by the rule's order only [slow]")
   const auto fixed_point = [&](int rule, int divisions) {
     options.rule = options.final_rule = rule;
     options.triangle_divisions = divisions;
-    const Cvt grid = cvt(bisected_icosahedron(1), options);
+    const Cvt grid = spherical_cvt(bisected_icosahedron(1), options);
     CHECK(grid.report.converged);
     return grid.mesh.points;
   };
@@ -334,7 +334,7 @@ TEST_CASE("x8: the default rule's centroids are right to 1e-8 of the spacing [sl
   options.density = x8();
   options.tolerance = 1e-3;
   options.bisections = 2;
-  const Cvt grid = cvt(bisected_icosahedron(3), options);
+  const Cvt grid = spherical_cvt(bisected_icosahedron(3), options);
   const double h = std::sqrt(4 * pi / 10242);
   CHECK(grid.mesh.points.cols() == 10242);
   CHECK(grid.report.converged);
@@ -353,7 +353,7 @@ TEST_CASE("bad input is refused in one line") {
   const Points3 start = random_sphere(100);
   const auto code = [&](const Points3& points, const CvtOptions& options) {
     try {
-      cvt(points, options);
+      spherical_cvt(points, options);
     } catch (const Error& e) {
       return e.code();
     }

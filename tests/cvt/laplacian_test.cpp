@@ -32,7 +32,7 @@ Points3 near_optimum(const Density& density, std::int64_t cells) {
   options.bisections = from.bisections;
   options.tolerance = 1e-2;
   Points3 points;
-  cvt(from.start, options, [&](const CvtProgress& now) {
+  spherical_cvt(from.start, options, [&](const CvtProgress& now) {
     points = now.state.data().points;
     return false;
   });

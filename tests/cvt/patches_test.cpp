@@ -91,7 +91,7 @@ Points3 moved(const Points3& points, double amount) {
 }
 
 Connectivity connectivity(const Points3& points) {
-  Mesh mesh = delaunay(points);
+  Mesh mesh = spherical_delaunay(points);
   return {std::move(mesh.triangles), std::move(mesh.neighbours)};
 }
 
@@ -105,7 +105,7 @@ Faults all_faults(const Connectivity& mesh, const Points3& points) {
 } // namespace
 
 TEST_CASE("patches hold what regions own, whatever their shape") {
-  const Mesh mesh = delaunay(random_sphere(600, 3));
+  const Mesh mesh = spherical_delaunay(random_sphere(600, 3));
   Triangles other = mesh.triangles.rowwise().reverse(); // another order, and another first corner
   for (const int row : {0, 1})
     other.row(row).swap(other.row(row + 1));
@@ -117,7 +117,7 @@ TEST_CASE("patches hold what regions own, whatever their shape") {
 }
 
 TEST_CASE("patches of a mesh of several parts") {
-  const Mesh mesh = delaunay(random_sphere(40000, 4));
+  const Mesh mesh = spherical_delaunay(random_sphere(40000, 4));
   const Ownership ownership = random_ownership(40000, 3, 6);
   check_patches(make_patches(mesh.triangles, ownership), mesh.triangles, ownership);
 }
@@ -136,7 +136,7 @@ TEST_CASE("repair finds the Delaunay triangulation of moved points; patches are 
         CHECK(amount >= 0.3);
         continue;
       }
-      CHECK(all_triangles(mesh.triangles) == all_triangles(delaunay(points).triangles));
+      CHECK(all_triangles(mesh.triangles) == all_triangles(spherical_delaunay(points).triangles));
       CHECK(all_faults(mesh, points).none());
       if (amount == 0.0 || amount >= 0.3)
         CHECK((repaired->flips > 0) == (amount > 0));

@@ -194,7 +194,7 @@ TEST_CASE("areas sum where the boundary runs along cells' sides and through thei
         if (size * place > 1e30)
           continue;
         PlanarDomain domain;
-        for (const Points2& ring : straight.rings)
+        for (const Eigen::MatrixXd& ring : straight.rings)
           domain.rings.push_back(moved(ring));
         Points2 lattice(2, 12);
         for (int i = 0; i < 12; ++i)
@@ -272,7 +272,7 @@ TEST_CASE("a periodic lattice of regular hexagons is a fixed point, with the hex
   const PlanarMesh lattice = periodic_hexagons(24, 28, 0.37);
   const PlanarDomain box = periodic_box(lattice.period);
   for (const Method method : all_methods) {
-    const PlanarCvt grid = cvt(lattice.points, box, with_method(method));
+    const PlanarCvt grid = planar_cvt(lattice.points, box, with_method(method));
     CHECK(grid.report.converged);
     CHECK(grid.report.iterations.size() == 1);
     CHECK(grid.report.iterations.back().flips == 0);
@@ -293,7 +293,7 @@ TEST_CASE("every method brings the energy down, in every kind of domain") {
         options.max_iterations = 25;
         if (refined)
           options.density = tanh_bump({0.4, 0.3, 0}, 0.3, 0.15, 1.0 / 81);
-        const PlanarCvt grid = cvt(random_start(domain, 300, 11), domain, options);
+        const PlanarCvt grid = planar_cvt(random_start(domain, 300, 11), domain, options);
         check_descent(grid.report);
         CHECK(grid.report.iterations.back().energy < 0.85 * grid.report.iterations.front().energy);
         const Points2& x = grid.mesh.points;
@@ -302,7 +302,7 @@ TEST_CASE("every method brings the energy down, in every kind of domain") {
           REQUIRE(inside(x.col(i)));
         const Points2 places = x;
         const PlanarMesh again =
-            domain.periodic() ? delaunay(places, domain.period) : delaunay(places);
+            domain.periodic() ? periodic_delaunay(places, domain.period) : planar_delaunay(places);
         CHECK(grid.mesh.triangles == again.triangles);
       }
   }
@@ -316,7 +316,7 @@ TEST_CASE("the same bits for any threads and regions, and after any interruption
       options.max_iterations = 16;
       options.density = tanh_bump({0.4, 0.3, 0}, 0.3, 0.15, 1.0 / 16);
       std::vector<CvtState> states;
-      const PlanarCvt reference = cvt(start, domain, options, [&](const CvtProgress& now) {
+      const PlanarCvt reference = planar_cvt(start, domain, options, [&](const CvtProgress& now) {
         if (now.report.iterations.size() % 7 == 3)
           states.push_back(now.state);
         return false;
@@ -325,13 +325,13 @@ TEST_CASE("the same bits for any threads and regions, and after any interruption
         for (const int threads : {1, 4}) {
           options.partition.regions = regions;
           tbb::task_arena arena(threads);
-          const PlanarCvt other = arena.execute([&] { return cvt(start, domain, options); });
+          const PlanarCvt other = arena.execute([&] { return planar_cvt(start, domain, options); });
           REQUIRE(other.mesh.points == reference.mesh.points);
           REQUIRE(other.mesh.triangles == reference.mesh.triangles);
         }
       REQUIRE(!states.empty());
       for (const CvtState& state : states)
-        REQUIRE(cvt(state, domain, options).mesh.points == reference.mesh.points);
+        REQUIRE(planar_cvt(state, domain, options).mesh.points == reference.mesh.points);
     }
 }
 
@@ -344,7 +344,7 @@ TEST_CASE("a generator of a piece around a corner stays inside, and the run conv
     for (const Method method : {Method::lloyd, Method::lbfgs}) {
       CvtOptions options = with_method(method, 1);
       options.tolerance = 1e-4;
-      const PlanarCvt grid = cvt(random_start(horseshoe, n, 2), horseshoe, options);
+      const PlanarCvt grid = planar_cvt(random_start(horseshoe, n, 2), horseshoe, options);
       CAPTURE(n);
       CHECK(grid.report.converged);
       check_descent(grid.report);
@@ -371,10 +371,10 @@ TEST_CASE("bisection: periodic boxes have four times the cells, other domains th
   options.bisections = 2;
   options.tolerance = 1e-2;
   const PlanarDomain box = periodic_box({1, 1});
-  const PlanarCvt periodic = cvt(random_start(box, 100, 4), box, options);
+  const PlanarCvt periodic = planar_cvt(random_start(box, 100, 4), box, options);
   CHECK(periodic.mesh.points.cols() == 1600);
   CHECK(periodic.report.converged);
-  const PlanarCvt open = cvt(random_start(lake(), 100, 4), lake(), options);
+  const PlanarCvt open = planar_cvt(random_start(lake(), 100, 4), lake(), options);
   CHECK(open.mesh.points.cols() > 1000);
   const auto inside = containing(lake());
   for (Eigen::Index i = 0; i < open.mesh.points.cols(); ++i)
@@ -396,7 +396,7 @@ TEST_CASE("the graph Laplacian's method takes as many evaluations whatever the n
                     box.period[k]);
     CvtOptions options = with_method(Method::lbfgs_laplacian);
     options.tolerance = 1e-7;
-    const PlanarCvt grid = cvt(start, box, options);
+    const PlanarCvt grid = planar_cvt(start, box, options);
     CHECK(grid.report.converged);
     CHECK(scaled_energy(grid.report, area(box)) == doctest::Approx(hexagons).epsilon(1e-9));
     evaluations.push_back(grid.report.iterations.size());
@@ -417,9 +417,9 @@ TEST_CASE("the graph Laplacian is of use where shores turn their backs on genera
   CvtOptions options = with_method(Method::lloyd, 1);
   options.norm = Norm::none;
   options.max_iterations = 20;
-  const PlanarCvt by_lloyd = cvt(lattice, domain, options);
+  const PlanarCvt by_lloyd = planar_cvt(lattice, domain, options);
   options.method = Method::lbfgs_laplacian;
-  const PlanarCvt by_laplacian = cvt(lattice, domain, options);
+  const PlanarCvt by_laplacian = planar_cvt(lattice, domain, options);
   CHECK(by_laplacian.mesh.points != by_lloyd.mesh.points); // which is what it falls back to
 }
 
@@ -436,7 +436,7 @@ TEST_CASE("clusters, and domains far from the origin or of any size") {
           (scale * (offset == 0 ? cluster : random_start(unit_square(), 200, 6))).colwise() + low;
       CvtOptions options = with_method(Method::automatic);
       options.tolerance = 1e-4;
-      const PlanarCvt grid = cvt(start, domain, options);
+      const PlanarCvt grid = planar_cvt(start, domain, options);
       CHECK(grid.report.converged);
       CHECK(scaled_energy(grid.report, area(domain)) == doctest::Approx(hexagons).epsilon(0.08));
     }
@@ -456,7 +456,8 @@ TEST_CASE("quality of hexagons in a box, and of clipped cells") {
   CHECK(hexagonal.cells_area == doctest::Approx(1).epsilon(1e-12));
   CHECK(hexagonal.residual < 1e-12);
 
-  const PlanarCvt grid = cvt(random_start(lake(), 500, 3), lake(), with_method(Method::automatic));
+  const PlanarCvt grid =
+      planar_cvt(random_start(lake(), 500, 3), lake(), with_method(Method::automatic));
   const Quality clipped = quality(grid.mesh, lake());
   CHECK(clipped.cells == 500);
   CHECK(clipped.cells_area == doctest::Approx(1).epsilon(1e-10));
@@ -490,7 +491,7 @@ TEST_CASE("bad input ends in one clear error") {
   const auto refusal = [](const Points2& start, const PlanarDomain& domain,
                           const CvtOptions& options = {}) -> std::pair<ErrorCode, std::string> {
     try {
-      cvt(start, domain, options);
+      planar_cvt(start, domain, options);
     } catch (const Error& error) {
       return {error.code(), error.what()};
     }
@@ -520,7 +521,7 @@ TEST_CASE("10 000 generators of the unit square come near the hexagons' energy [
   CvtOptions options;
   options.tolerance = 1e-4;
   options.max_iterations = 3000;
-  const PlanarCvt grid = cvt(random_start(unit_square(), 10'000, 1), unit_square(), options);
+  const PlanarCvt grid = planar_cvt(random_start(unit_square(), 10'000, 1), unit_square(), options);
   const double energy = scaled_energy(grid.report, 1);
   MESSAGE("E n / area^2 over the hexagons': " << energy / hexagons << ", "
                                               << grid.report.iterations.size() << " evaluations");

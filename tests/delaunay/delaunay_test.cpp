@@ -83,7 +83,7 @@ std::vector<Run> all_runs() {
 /// Laws 1, 2 and 4 on one set.
 void require_one_mesh(const Cloud& cloud, const std::vector<Run>& runs) {
   CAPTURE(cloud.name);
-  const Mesh mesh = delaunay(cloud.points);
+  const Mesh mesh = spherical_delaunay(cloud.points);
   require_laws(mesh, cloud.closed);
   CHECK(mesh.site_of_input.size() == static_cast<std::size_t>(cloud.points.cols()));
   if (cloud.sites != unknown_sites)
@@ -92,12 +92,12 @@ void require_one_mesh(const Cloud& cloud, const std::vector<Run>& runs) {
     CAPTURE(run.regions);
     CAPTURE(run.threads);
     CHECK(with_threads(run.threads, [&] {
-      return identical(delaunay(cloud.points, with_regions(run.regions)), mesh);
+      return identical(spherical_delaunay(cloud.points, with_regions(run.regions)), mesh);
     }));
   }
   for (const Setting& setting : settings(cloud.points)) {
     CAPTURE(setting.name);
-    CHECK(identical(delaunay(cloud.points, setting.options), mesh));
+    CHECK(identical(spherical_delaunay(cloud.points, setting.options), mesh));
   }
 }
 
@@ -110,18 +110,18 @@ std::vector<std::int32_t> random_permutation(std::int64_t n, std::uint64_t seed)
 
 void require_permutable(const Cloud& cloud, std::uint64_t seed) {
   CAPTURE(cloud.name);
-  const Mesh mesh = delaunay(cloud.points);
+  const Mesh mesh = spherical_delaunay(cloud.points);
   const std::vector<std::int32_t> to = random_permutation(mesh.points.cols(), seed);
   const Mesh expected = renumbered(mesh, to);
   for (const int regions : {1, 12}) {
     CAPTURE(regions);
-    CHECK(identical(delaunay(expected.points, with_regions(regions)), expected));
+    CHECK(identical(spherical_delaunay(expected.points, with_regions(regions)), expected));
   }
 }
 
 void require_scalable(const Cloud& cloud, std::uint64_t seed) {
   CAPTURE(cloud.name);
-  const Mesh mesh = delaunay(cloud.points);
+  const Mesh mesh = spherical_delaunay(cloud.points);
   Random random(seed);
   Points3 scaled = cloud.points;
   for (Eigen::Index i = 0; i < scaled.cols(); ++i) {
@@ -134,7 +134,7 @@ void require_scalable(const Cloud& cloud, std::uint64_t seed) {
       return; // a component underflowed
   for (const int regions : {1, 12}) {
     CAPTURE(regions);
-    const Mesh other = delaunay(scaled, with_regions(regions));
+    const Mesh other = spherical_delaunay(scaled, with_regions(regions));
     CHECK(same_bits(other.triangles, mesh.triangles));
     CHECK(same_bits(other.neighbours, mesh.neighbours));
     CHECK(other.site_of_input == mesh.site_of_input);
@@ -203,7 +203,7 @@ struct Failure {
 
 Failure failure_of(const Points3& points, const DelaunayOptions& options = {}) {
   try {
-    delaunay(points, options);
+    spherical_delaunay(points, options);
   } catch (const Error& error) {
     return {error.code(), error.index(), error.what()};
   }
@@ -236,7 +236,7 @@ TEST_CASE("small sets: the triangulation that the definition gives") {
     if (cloud.points.cols() > 25)
       continue;
     CAPTURE(cloud.name);
-    const Mesh mesh = delaunay(cloud.points);
+    const Mesh mesh = spherical_delaunay(cloud.points);
     Mesh expected = oracle::delaunay(mesh.points);
     expected.site_of_input = mesh.site_of_input;
     CHECK(identical(mesh, expected));
@@ -267,7 +267,7 @@ TEST_CASE("small sets at random, in special position, any options: one mesh [slo
     Mesh mesh;
     bool has_mesh = true;
     try {
-      mesh = delaunay(points, with_regions(1));
+      mesh = spherical_delaunay(points, with_regions(1));
     } catch (const Error& error) {
       has_mesh = false;
       ++degenerate;
@@ -283,9 +283,9 @@ TEST_CASE("small sets at random, in special position, any options: one mesh [slo
       const DelaunayOptions options = random_options(random, points);
       CAPTURE(k);
       if (has_mesh)
-        CHECK(identical(delaunay(points, options), mesh));
+        CHECK(identical(spherical_delaunay(points, options), mesh));
       else
-        CHECK_THROWS_AS(delaunay(points, options), Error);
+        CHECK_THROWS_AS(spherical_delaunay(points, options), Error);
     }
   }
   CHECK(std::min(closed, open) > 50);
@@ -306,7 +306,7 @@ TEST_CASE("without ties the triangles are those of CGAL's triangulation on the s
       if (cloud.ties)
         continue;
       CAPTURE(cloud.name);
-      require_as_cgal(delaunay(cloud.points));
+      require_as_cgal(spherical_delaunay(cloud.points));
     }
   };
   require_agreement(small_clouds());
@@ -324,7 +324,7 @@ TEST_CASE("duplicates: the lowest index stays, and the map says where each went"
                                   {0.5, 0.5, 0.5},
                                   {-1, 0, 0}});
   DelaunayReport report;
-  const Mesh mesh = delaunay(points, {}, &report);
+  const Mesh mesh = spherical_delaunay(points, {}, &report);
   CHECK(mesh.points.cols() == 5);
   CHECK(report.sites == 5);
   CHECK(report.duplicates == 3);
@@ -334,7 +334,7 @@ TEST_CASE("duplicates: the lowest index stays, and the map says where each went"
   for (const Cloud& cloud : large_clouds()) {
     if (cloud.sites < 0)
       continue;
-    const Mesh merged = delaunay(cloud.points);
+    const Mesh merged = spherical_delaunay(cloud.points);
     for (Eigen::Index i = 0; i < cloud.points.cols(); ++i) {
       const std::int32_t s = merged.site_of_input[static_cast<std::size_t>(i)];
       CHECK(exact::same_direction(site(cloud.points, i), site(merged.points, s)));
@@ -348,9 +348,9 @@ TEST_CASE("points that are handed over give the same mesh, and are not copied") 
     Points3 points = 3 * random_sphere(5000, 12);
     if (twins)
       points.col(4000) = points.col(7);
-    const Mesh expected = delaunay(points);
+    const Mesh expected = spherical_delaunay(points);
     const double* data = points.data();
-    const Mesh mesh = delaunay(std::move(points));
+    const Mesh mesh = spherical_delaunay(std::move(points));
     CHECK((mesh.points.data() == data) == !twins);
     CHECK(mesh.points == expected.points);
     CHECK(mesh.triangles == expected.triangles);
@@ -366,13 +366,13 @@ TEST_CASE("duplicates refused, and merge_within") {
   require_error(points, refuse, ErrorCode::duplicate, 6);
   DelaunayOptions near;
   near.merge_within = 2e-4;
-  const Mesh mesh = delaunay(points, near);
+  const Mesh mesh = spherical_delaunay(points, near);
   CHECK(mesh.points.cols() == 6);
   CHECK(mesh.site_of_input == std::vector<std::int32_t>{0, 1, 2, 3, 4, 5, 1, 0});
   near.merge_within = 5e-5;
-  CHECK(delaunay(points, near).points.cols() == 7);
+  CHECK(spherical_delaunay(points, near).points.cols() == 7);
   // 1e-16 apart are two sites.
-  CHECK(delaunay(joined(octahedron(), columns({{1, 1e-16, 0}}))).points.cols() == 7);
+  CHECK(spherical_delaunay(joined(octahedron(), columns({{1, 1e-16, 0}}))).points.cols() == 7);
 }
 
 TEST_CASE("bad input is one error that names the first offending index") {
@@ -426,20 +426,20 @@ TEST_CASE("regression: bisecting 162 icosahedral sites over 12 regions gives 642
   for (const DelaunayOptions& options :
        {with_regions(12), with_centres(bisected_icosahedron(0)), with_regions(12, Sort::distance),
         with_regions(12, Sort::voronoi)})
-    CHECK(bisect(delaunay(coarse, options)).cols() == 642);
+    CHECK(bisect(spherical_delaunay(coarse, options)).cols() == 642);
 }
 
 TEST_CASE("regression: 642 icosahedral sites over 12 icosahedral centres (MPI-SCVT: 1172)") {
   for (const Sort sort : {Sort::halo, Sort::distance, Sort::voronoi}) {
     DelaunayOptions options = with_centres(bisected_icosahedron(0));
     options.sort = sort;
-    CHECK(delaunay(bisected_icosahedron(3), options).triangles.cols() == 1280);
+    CHECK(spherical_delaunay(bisected_icosahedron(3), options).triangles.cols() == 1280);
   }
 }
 
 TEST_CASE("bisection of an icosahedral mesh is the next level in another order") {
   for (const int level : {0, 1, 2, 3}) {
-    const Points3 finer = bisect(delaunay(bisected_icosahedron(level)));
+    const Points3 finer = bisect(spherical_delaunay(bisected_icosahedron(level)));
     const Points3 expected = bisected_icosahedron(level + 1);
     REQUIRE(finer.cols() == expected.cols());
     const auto sorted = [](const Points3& points) {
@@ -456,16 +456,16 @@ TEST_CASE("bisection of an icosahedral mesh is the next level in another order")
 TEST_CASE("regression: sites in a hemisphere, region centres beyond it: the mesh stays open") {
   // Seen from their foci, the sites' hull has a far side; its triangles are empty but clockwise.
   const Points3 points = upper_half(6, 4);
-  const Mesh mesh = delaunay(points, with_regions(1));
+  const Mesh mesh = spherical_delaunay(points, with_regions(1));
   REQUIRE_FALSE(mesh.closed());
-  CHECK(identical(delaunay(points, with_centres(-points.leftCols(2))), mesh));
+  CHECK(identical(spherical_delaunay(points, with_centres(-points.leftCols(2))), mesh));
 }
 
 TEST_CASE("regions whose centres and foci are sites") {
   const Points3 points = joined(random_sphere(2000, 81), octahedron());
-  const Mesh mesh = delaunay(points, with_regions(1));
+  const Mesh mesh = spherical_delaunay(points, with_regions(1));
   DelaunayReport report;
-  CHECK(identical(delaunay(points, with_centres(octahedron()), &report), mesh));
+  CHECK(identical(spherical_delaunay(points, with_centres(octahedron()), &report), mesh));
   CHECK(report.regions == 6);
   CHECK_FALSE(report.one_region);
 }
@@ -473,7 +473,7 @@ TEST_CASE("regions whose centres and foci are sites") {
 TEST_CASE("the report adds up") {
   const Points3 points = random_sphere(20000, 91);
   DelaunayReport report;
-  const Mesh mesh = delaunay(points, with_regions(12), &report);
+  const Mesh mesh = spherical_delaunay(points, with_regions(12), &report);
   CHECK(report.sites == 20000);
   CHECK(report.duplicates == 0);
   CHECK(report.regions == 12);
@@ -499,19 +499,19 @@ TEST_CASE("the report adds up") {
   CHECK(s.sites + s.regions + s.triangulate + s.unite <= s.total * 1.000001);
   CHECK(with_threads(2, [&] {
           DelaunayReport other;
-          delaunay(points, with_regions(12), &other);
+          spherical_delaunay(points, with_regions(12), &other);
           return other.threads;
         }) == 2);
-  delaunay(points, with_regions(1), &report);
+  spherical_delaunay(points, with_regions(1), &report);
   CHECK(report.one_region);
-  delaunay(upper_half(500, 92), with_regions(12), &report);
+  spherical_delaunay(upper_half(500, 92), with_regions(12), &report);
   CHECK(report.one_region);
 }
 
 TEST_CASE("caps give up where each query would look at most sites: along a satellite's track") {
   const Points3 points = joined(circle_at_random(30000, 1e-6, 93), random_sphere(6, 94));
   DelaunayReport report;
-  const Mesh mesh = delaunay(points, with_regions(12), &report);
+  const Mesh mesh = spherical_delaunay(points, with_regions(12), &report);
   CHECK(report.one_region);
   CHECK(check(mesh).failure == "");
 }

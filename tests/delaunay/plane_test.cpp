@@ -190,7 +190,7 @@ std::set<Triple> reference(const Points2& points) {
 TEST_CASE("a planar triangulation is exact and whole") {
   for (const Cloud& cloud : clouds()) {
     CAPTURE(cloud.name);
-    const PlanarMesh mesh = delaunay(cloud.points, with_regions(9));
+    const PlanarMesh mesh = planar_delaunay(cloud.points, with_regions(9));
     require_exact(mesh);
     require_whole(mesh);
     if (!cloud.degenerate)
@@ -206,7 +206,8 @@ TEST_CASE("in-circle signs are exact, whatever the sizes of triangle and offset"
     sizes = joined(sizes, circle(40, size));
   }
   for (const Points2& points : {sizes, random_box(400, 1, 1e-6, 20), Points2(1e-150 * sizes)}) {
-    const delaunay_detail::Sites sites = delaunay_detail::make_sites(points, Duplicates::merge, 0);
+    const delaunay_detail::Sites sites =
+        delaunay_detail::make_planar_sites(points, Duplicates::merge, 0);
     delaunay_detail::Plane plane(sites);
     std::mt19937_64 engine(21);
     std::uniform_int_distribution<std::int64_t> any(0, sites.size() - 1), near(0, 40);
@@ -240,26 +241,26 @@ TEST_CASE("in-circle signs are exact, whatever the sizes of triangle and offset"
 TEST_CASE("any regions, sorts, centres and threads give the same planar mesh") {
   for (const Cloud& cloud : clouds()) {
     CAPTURE(cloud.name);
-    const PlanarMesh mesh = delaunay(cloud.points, with_regions(1));
+    const PlanarMesh mesh = planar_delaunay(cloud.points, with_regions(1));
     for (const int regions : {2, 9, 64, 200})
       for (const int threads : {1, 2, 4}) {
         CAPTURE(regions);
         CAPTURE(threads);
-        const auto again =
-            with_threads(threads, [&] { return delaunay(cloud.points, with_regions(regions)); });
+        const auto again = with_threads(
+            threads, [&] { return planar_delaunay(cloud.points, with_regions(regions)); });
         CHECK(identical(again, mesh));
       }
     for (const Sort sort : {Sort::distance, Sort::voronoi})
-      CHECK(identical(delaunay(cloud.points, with_regions(12, sort)), mesh));
-    CHECK(
-        identical(delaunay(cloud.points, with_regions(12, Sort::halo, Centres::fibonacci)), mesh));
+      CHECK(identical(planar_delaunay(cloud.points, with_regions(12, sort)), mesh));
+    CHECK(identical(planar_delaunay(cloud.points, with_regions(12, Sort::halo, Centres::fibonacci)),
+                    mesh));
     DelaunayOptions options;
     options.given_centres = Points3(3, 3);
     *options.given_centres << cloud.points.leftCols(3), 7, 8, 9;
-    CHECK(identical(delaunay(cloud.points, options), mesh));
+    CHECK(identical(planar_delaunay(cloud.points, options), mesh));
     const double beyond = 20 * cloud.points.cwiseAbs().maxCoeff(); // all far outside
     *options.given_centres << beyond, beyond, beyond / 2, beyond, beyond / 2, beyond, 0, 0, 0;
-    CHECK(identical(delaunay(cloud.points, options), mesh));
+    CHECK(identical(planar_delaunay(cloud.points, options), mesh));
   }
 }
 
@@ -274,31 +275,31 @@ TEST_CASE("a permuted planar input permutes the ids") {
     for (std::size_t i = 0; i < order.size(); ++i)
       shuffled.col(static_cast<Eigen::Index>(i)) = cloud.points.col(order[i]);
     std::set<Triple> named;
-    for (Triple t : triangles_of(delaunay(shuffled, with_regions(7)))) {
+    for (Triple t : triangles_of(planar_delaunay(shuffled, with_regions(7)))) {
       for (std::int32_t& id : t)
         id = order[static_cast<std::size_t>(id)];
       std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
       named.insert(t);
     }
-    CHECK(named == triangles_of(delaunay(cloud.points, with_regions(7))));
+    CHECK(named == triangles_of(planar_delaunay(cloud.points, with_regions(7))));
   }
 }
 
 TEST_CASE("regions are used, and certified by cull") {
   const Points2 points = random_box(30000, 1, 1, 21);
   DelaunayReport report;
-  const PlanarMesh mesh = delaunay(points, with_regions(12), &report);
+  const PlanarMesh mesh = planar_delaunay(points, with_regions(12), &report);
   CHECK_FALSE(report.one_region);
   CHECK(report.regions == 12);
   CHECK(report.overlap < 1.3);
   CHECK(report.certified_by_cull > 50 * report.certified_by_query);
-  CHECK(identical(mesh, delaunay(points, with_regions(1))));
+  CHECK(identical(mesh, planar_delaunay(points, with_regions(1))));
 }
 
 TEST_CASE("duplicates in the plane are merged, or refused by name") {
   Points2 points = joined(random_box(100, 1, 1, 22), random_box(50, 1, 1, 22));
   DelaunayReport report;
-  const PlanarMesh mesh = delaunay(points, {}, &report);
+  const PlanarMesh mesh = planar_delaunay(points, {}, &report);
   CHECK(report.duplicates == 50);
   CHECK(mesh.points.cols() == 100);
   for (std::size_t i = 100; i < 150; ++i)
@@ -306,7 +307,7 @@ TEST_CASE("duplicates in the plane are merged, or refused by name") {
   DelaunayOptions refuse;
   refuse.duplicates = Duplicates::refuse;
   try {
-    delaunay(points, refuse);
+    planar_delaunay(points, refuse);
     FAIL("duplicates were accepted");
   } catch (const Error& error) {
     CHECK(error.code() == ErrorCode::duplicate);
@@ -314,7 +315,7 @@ TEST_CASE("duplicates in the plane are merged, or refused by name") {
   }
   DelaunayOptions near;
   near.merge_within = 0.05;
-  const PlanarMesh merged = delaunay(points, near);
+  const PlanarMesh merged = planar_delaunay(points, near);
   CHECK(merged.points.cols() < 100);
   for (Eigen::Index i = 0; i < merged.points.cols(); ++i)
     for (Eigen::Index j = 0; j < i; ++j)
@@ -326,15 +327,15 @@ TEST_CASE("places are merged by their own distance, whatever the frame") {
   points << 0, 1e-20, 1, 0.3, 1.7e308, 0, 0, 0, 1, 0;
   DelaunayOptions near;
   near.merge_within = 1e-300;
-  CHECK(delaunay(points, near).points.cols() == 5);
+  CHECK(planar_delaunay(points, near).points.cols() == 5);
   near.merge_within = 1e-10;
-  CHECK(delaunay(points, near).points.cols() == 4);
+  CHECK(planar_delaunay(points, near).points.cols() == 4);
 }
 
 TEST_CASE("bad planar input ends in a typed error") {
   const auto code_of = [](const Points2& points) {
     try {
-      delaunay(points, with_regions(3));
+      planar_delaunay(points, with_regions(3));
     } catch (const Error& error) {
       return std::pair(error.code(), error.index());
     }
@@ -418,10 +419,10 @@ std::vector<std::pair<Points2, Eigen::Vector2d>> boxes() {
 TEST_CASE("a periodic box is tiled by the same triangles for any regions") {
   for (const auto& [points, period] : boxes()) {
     CAPTURE(points.cols());
-    const PlanarMesh mesh = delaunay(points, period, with_regions(1));
+    const PlanarMesh mesh = periodic_delaunay(points, period, with_regions(1));
     require_periodic(mesh);
     for (const int regions : {2, 9, 64})
-      CHECK(identical(delaunay(points, period, with_regions(regions)), mesh));
+      CHECK(identical(periodic_delaunay(points, period, with_regions(regions)), mesh));
   }
 }
 
@@ -449,7 +450,7 @@ TEST_CASE("a periodic box has the triangles of CGAL's periodic triangulation") {
                   triangle.end());
       theirs.insert(triangle);
     }
-    const PlanarMesh mesh = delaunay(points, Eigen::Vector2d(1, 1));
+    const PlanarMesh mesh = periodic_delaunay(points, Eigen::Vector2d(1, 1));
     for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
       ours.insert({mesh.triangles(0, t), mesh.triangles(1, t), mesh.triangles(2, t)});
     CHECK(ours.size() == 6000);
@@ -460,10 +461,10 @@ TEST_CASE("a periodic box has the triangles of CGAL's periodic triangulation") {
 TEST_CASE("shifting a periodic box by whole steps only renames its sites") {
   // Exact in doubles, so that ties are the same but for who is lowest.
   const Points2 points = (random_box(1000, 1, 1, 35) * 1024).array().floor() / 1024;
-  const PlanarMesh mesh = delaunay(points, Eigen::Vector2d(1, 1));
+  const PlanarMesh mesh = periodic_delaunay(points, Eigen::Vector2d(1, 1));
   Points2 shifted = points.array() + 0.25;
   shifted = shifted.array() - (shifted.array() >= 1).cast<double>();
-  const PlanarMesh other = delaunay(shifted, Eigen::Vector2d(1, 1));
+  const PlanarMesh other = periodic_delaunay(shifted, Eigen::Vector2d(1, 1));
   CHECK(mesh.site_of_input == other.site_of_input);
   CHECK(mesh.triangles.cols() == other.triangles.cols());
   require_periodic(mesh);
@@ -473,7 +474,7 @@ TEST_CASE("shifting a periodic box by whole steps only renames its sites") {
 TEST_CASE("sparse periodic boxes and points outside are refused") {
   const auto code_of = [](const Points2& points, const Eigen::Vector2d& period) {
     try {
-      delaunay(points, period);
+      periodic_delaunay(points, period);
     } catch (const Error& error) {
       return error.code();
     }

@@ -26,12 +26,12 @@ struct Case {
 /// Random sets have obtuse triangles in plenty, and the smallest have circumcaps near a hemisphere.
 std::vector<Case> cases() {
   std::vector<Case> out;
-  out.push_back({"icosahedron", delaunay(bisected_icosahedron(0))});
-  out.push_back({"642 bisected", delaunay(bisected_icosahedron(3))});
-  out.push_back({"lat-lon", delaunay(lat_lon_sphere(10, 20, true))});
-  out.push_back({"random 30", delaunay(random_sphere(30, 5))});
-  out.push_back({"random 3000", delaunay(random_sphere(3000, 5))});
-  out.push_back({"spiral 10000", delaunay(spiral_sphere(10000))});
+  out.push_back({"icosahedron", spherical_delaunay(bisected_icosahedron(0))});
+  out.push_back({"642 bisected", spherical_delaunay(bisected_icosahedron(3))});
+  out.push_back({"lat-lon", spherical_delaunay(lat_lon_sphere(10, 20, true))});
+  out.push_back({"random 30", spherical_delaunay(random_sphere(30, 5))});
+  out.push_back({"random 3000", spherical_delaunay(random_sphere(3000, 5))});
+  out.push_back({"spiral 10000", spherical_delaunay(spiral_sphere(10000))});
   return out;
 }
 
@@ -96,7 +96,7 @@ TEST_CASE("the closed form agrees with quadrature, obtuse triangles included") {
 }
 
 TEST_CASE("every rule converges at its order under division") {
-  const Mesh mesh = delaunay(spiral_sphere(150));
+  const Mesh mesh = spherical_delaunay(spiral_sphere(150));
   // Smooth everywhere, as a bump is not: its distance to the centre has a kink there.
   Density density;
   density.kind = Density::Kind::callable;
@@ -125,14 +125,14 @@ TEST_CASE("moments of a density: mass against its integral in closed form") {
     integral += (s == 0 || s == steps ? 1 : s % 2 ? 4 : 2) * rho * std::sin(d);
   }
   integral *= 2 * pi * pi / steps / 3;
-  const Mesh mesh = delaunay(bisected_icosahedron(5));
+  const Mesh mesh = spherical_delaunay(bisected_icosahedron(5));
   const Density density = tanh_bump({0, 0, 2}, beta, alpha, gamma);
   const Moments moments = mesh_moments(mesh, density, 6);
   CHECK(std::abs(sum(moments.mass) - integral) < 1e-9);
 }
 
 TEST_CASE("moments are the same bits for any number of threads") {
-  const Mesh mesh = delaunay(random_sphere(40000, 5));
+  const Mesh mesh = spherical_delaunay(random_sphere(40000, 5));
   const Density density = tanh_bump({1, 2, 3}, 0.6, 0.5, 0.1);
   const auto with = [&](std::size_t threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);

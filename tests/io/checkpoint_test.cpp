@@ -178,16 +178,16 @@ TEST_CASE("a run goes on from its checkpoint to the same bits, on every level") 
   options.norm = Norm::none;
   options.max_iterations = 12;
   options.bisections = 1;
-  const Cvt whole = cvt(start, options);
+  const Cvt whole = spherical_cvt(start, options);
   for (const std::size_t last : {1, 11, 12, 13, 24}) { // 12 end the coarse level, 24 the fine one
     CAPTURE(last);
-    cvt(start, options, [&](const CvtProgress& now) {
+    spherical_cvt(start, options, [&](const CvtProgress& now) {
       const bool stop = now.report.iterations.size() == last;
       if (stop)
         write_checkpoint(scratch.path, now.state, configuration);
       return stop;
     });
-    const Cvt resumed = cvt(read_checkpoint(scratch.path, configuration), options);
+    const Cvt resumed = spherical_cvt(read_checkpoint(scratch.path, configuration), options);
     CHECK((resumed.mesh.points == whole.mesh.points));
     CHECK((resumed.mesh.triangles == whole.mesh.triangles));
     CHECK(resumed.mesh.site_of_input == whole.mesh.site_of_input);
@@ -209,7 +209,7 @@ TEST_CASE("whatever a method remembers, a run goes on from its checkpoint to the
     CAPTURE(method);
     options.method = method;
     std::vector<CvtState> states; // after each step
-    const Cvt whole = cvt(start, options, [&](const CvtProgress& now) {
+    const Cvt whole = spherical_cvt(start, options, [&](const CvtProgress& now) {
       states.push_back(now.state);
       return false;
     });
@@ -225,7 +225,7 @@ TEST_CASE("whatever a method remembers, a run goes on from its checkpoint to the
       if (place < 0 || place >= std::ssize(states))
         continue;
       write_checkpoint(scratch.path, states[static_cast<std::size_t>(place)], configuration);
-      const Cvt resumed = cvt(read_checkpoint(scratch.path, configuration), options);
+      const Cvt resumed = spherical_cvt(read_checkpoint(scratch.path, configuration), options);
       CHECK(equal(resumed.mesh.points, whole.mesh.points));
       CHECK((resumed.mesh.triangles == whole.mesh.triangles));
       CHECK(resumed.report.converged == whole.report.converged);

@@ -83,8 +83,8 @@ TEST_CASE("a name tells its format, in any case; an option tells it too, and mus
 TEST_CASE("every format's file is read as the mesh that was written") {
   const Scratch scratch;
   for (const auto& [name, mesh] :
-       {NamedMesh{"random", calotte::delaunay(calotte::random_sphere(200, 1))},
-        NamedMesh{"cubed sphere", calotte::delaunay(calotte::cubed_sphere(4))}})
+       {NamedMesh{"random", calotte::spherical_delaunay(calotte::random_sphere(200, 1))},
+        NamedMesh{"cubed sphere", calotte::spherical_delaunay(calotte::cubed_sphere(4))}})
     for (const Kind& kind : kinds) {
       CAPTURE(name);
       CAPTURE(int(kind.format));
@@ -107,7 +107,7 @@ TEST_CASE("every format's file is read as the mesh that was written") {
 
 TEST_CASE("numbering: along the curve for NetCDF by default, as asked for in every format") {
   const Scratch scratch;
-  const Mesh mesh = calotte::delaunay(calotte::random_sphere(120, 2));
+  const Mesh mesh = calotte::spherical_delaunay(calotte::random_sphere(120, 2));
   for (const Numbering numbering : {Numbering::curve, Numbering::rcm, Numbering::input})
     for (const Kind& kind : kinds) {
       CAPTURE(int(kind.format));
@@ -125,7 +125,7 @@ TEST_CASE("numbering: along the curve for NetCDF by default, as asked for in eve
 
 TEST_CASE("a NetCDF file's contents tell its kind, whatever its name") {
   const Scratch scratch;
-  const Mesh mesh = calotte::delaunay(calotte::random_sphere(100, 3));
+  const Mesh mesh = calotte::spherical_delaunay(calotte::random_sphere(100, 3));
   for (const Kind& kind : kinds)
     if (is_netcdf(kind)) {
       calotte::write(scratch / "grid.data", mesh, {.format = kind.format});
@@ -142,7 +142,7 @@ TEST_CASE("a NetCDF file's contents tell its kind, whatever its name") {
 
 TEST_CASE("options out of range are refused before any file is touched") {
   const Scratch scratch;
-  const Mesh mesh = calotte::delaunay(octahedron());
+  const Mesh mesh = calotte::spherical_delaunay(octahedron());
   const auto refused = [&](const Kind& kind, calotte::WriteOptions options) {
     options.format = kind.format;
     CHECK(error_of([&] { calotte::write(scratch / kind.file, mesh, options); }).code() ==
@@ -175,7 +175,7 @@ TEST_CASE("cells need a closed mesh, triangles none; ids must be the mesh's") {
       else
         write();
     }
-  const Mesh good = calotte::delaunay(octahedron());
+  const Mesh good = calotte::spherical_delaunay(octahedron());
   for (const std::int32_t id : {-1, 6, std::numeric_limits<std::int32_t>::max()})
     for (const Kind& kind : kinds) {
       Mesh bad = good;
@@ -195,7 +195,7 @@ TEST_CASE("cells need a closed mesh, triangles none; ids must be the mesh's") {
 
 TEST_CASE("a soup is written as triangles without fields, and read back") {
   const Scratch scratch;
-  Mesh soup = calotte::delaunay(octahedron());
+  Mesh soup = calotte::spherical_delaunay(octahedron());
   soup.triangles.col(7) = soup.triangles.col(0); // as many as a closed mesh has, but open edges
   soup.neighbours.setConstant(-1);
   for (const char* file : {"mesh.vtp", "mesh.vtu", "mesh.off", "mesh.ply", "mesh.msh"}) {
@@ -236,7 +236,7 @@ TEST_CASE("region centres: RegionList, and RegionTriangulation by the list besid
     CHECK(equal_bits(calotte::read_sites(scratch / ("RegionList" + rest)), centres));
     CHECK(equal_bits(calotte::read_sites(scratch / ("RegionTriangulation" + rest)), centres));
     check_equal(calotte::read_mesh(scratch / ("RegionTriangulation" + rest)),
-                calotte::delaunay(centres));
+                calotte::spherical_delaunay(centres));
   }
   write_text(scratch / "RegionTriangulation.4", "0 1 2\n0 2 3\n");
   const calotte::Error alone =
@@ -249,7 +249,7 @@ TEST_CASE("region centres: RegionList, and RegionTriangulation by the list besid
 
 TEST_CASE("triangles alone are no sites") {
   const Scratch scratch;
-  const Mesh mesh = calotte::delaunay(octahedron());
+  const Mesh mesh = calotte::spherical_delaunay(octahedron());
   for (const char* file : {"mesh.txt", "mesh.tri"}) {
     calotte::write(scratch / file, mesh);
     CHECK(error_of([&] { calotte::read_sites(scratch / file); }).code() == ErrorCode::bad_option);
@@ -282,7 +282,7 @@ TEST_CASE("a periodic plane is MPAS's or triangles alone, and keeps its numbers"
     CHECK(read.period == plane.period);
     CHECK(error_of([&] { calotte::read_mesh(path); }).code() == ErrorCode::bad_option);
   }
-  const Mesh sphere = calotte::delaunay(octahedron());
+  const Mesh sphere = calotte::spherical_delaunay(octahedron());
   calotte::write(scratch / "mesh.nc", sphere);
   CHECK(error_of([&] { calotte::read_planar_mesh(scratch / "mesh.nc"); }).code() ==
         ErrorCode::bad_option);
@@ -295,7 +295,7 @@ TEST_CASE("a plane that does not repeat itself is written with z = 0, but not as
   const Scratch scratch;
   calotte::Points2 points(2, 5);
   points << 1, 3, 3, 1, 2, 1, 1, 2, 2, 1.5;
-  const calotte::PlanarMesh plane = calotte::delaunay(points);
+  const calotte::PlanarMesh plane = calotte::planar_delaunay(points);
   for (const Kind& kind : kinds) {
     CAPTURE(int(kind.format));
     const std::string path = scratch / kind.file;

@@ -45,9 +45,9 @@ constexpr double pi = std::numbers::pi;
 /// than a byte counts.
 std::vector<NamedMesh> meshes() {
   std::vector<NamedMesh> all = test::closed_meshes();
-  all.push_back({"bisected", delaunay(bisected_icosahedron(2))});
-  all.push_back({"8:1", delaunay(test::eight_to_one(200, 5))});
-  all.push_back({"many meridians", delaunay(lat_lon_sphere(4, 140, true))});
+  all.push_back({"bisected", spherical_delaunay(bisected_icosahedron(2))});
+  all.push_back({"8:1", spherical_delaunay(test::eight_to_one(200, 5))});
+  all.push_back({"many meridians", spherical_delaunay(lat_lon_sphere(4, 140, true))});
   return all;
 }
 
@@ -366,7 +366,7 @@ TEST_CASE("UGRID, SCRIP and ESMF hold the Voronoi tessellation") {
 
 TEST_CASE("UGRID says what its variables are") {
   const Scratch scratch;
-  const Mesh mesh = delaunay(random_sphere(40));
+  const Mesh mesh = spherical_delaunay(random_sphere(40));
   for (const Write write : {io_detail::write_ugrid, io_detail::write_ugrid_triangles}) {
     write(scratch / "grid.nc", mesh, {});
     const NetcdfReader file(scratch / "grid.nc");
@@ -413,7 +413,7 @@ TEST_CASE("UGRID of triangles holds the mesh and its circumcentres") {
 
 TEST_CASE("SCRIP and ESMF describe their cells") {
   const Scratch scratch;
-  const Mesh mesh = delaunay(random_sphere(40));
+  const Mesh mesh = spherical_delaunay(random_sphere(40));
   io_detail::write_scrip(scratch / "scrip.nc", mesh, {});
   io_detail::write_esmf(scratch / "esmf.nc", mesh, {});
   const NetcdfReader scrip(scratch / "scrip.nc"), esmf(scratch / "esmf.nc");
@@ -471,7 +471,7 @@ TEST_CASE("SCRIP and ESMF give the sites back, but for rounding") {
 
 TEST_CASE("cells need a closed mesh, triangles do not") {
   const Scratch scratch;
-  const Mesh open = delaunay(test::upper_half(30, 1));
+  const Mesh open = spherical_delaunay(test::upper_half(30, 1));
   for (const Write write : {io_detail::write_ugrid, io_detail::write_scrip, io_detail::write_esmf})
     CHECK_THROWS_AS(write(scratch / "a.nc", open, {}), Error);
   CHECK(scratch.files() == 0);
@@ -483,7 +483,7 @@ TEST_CASE("cells need a closed mesh, triangles do not") {
 
 TEST_CASE("each kind is known by its contents") {
   const Scratch scratch;
-  const Mesh mesh = delaunay(test::octahedron());
+  const Mesh mesh = spherical_delaunay(test::octahedron());
   const auto kinds = [&](Write write) {
     write(scratch / "a.nc", mesh, {});
     const NetcdfReader file(scratch / "a.nc");
@@ -498,7 +498,7 @@ TEST_CASE("each kind is known by its contents") {
 
 TEST_CASE("UGRID of others") {
   const Scratch scratch;
-  Mesh mesh = delaunay(random_sphere(30));
+  Mesh mesh = spherical_delaunay(random_sphere(30));
   const std::string path = scratch / "a.nc";
   const auto check_read = [&](const Foreign& foreign, const Triangles& triangles) {
     foreign.write(path, mesh.points);
@@ -522,14 +522,14 @@ TEST_CASE("UGRID of others") {
   check_read({.faces = padded}, Triangles());
 
   SUBCASE("poles in radians") {
-    mesh = delaunay(test::octahedron());
+    mesh = spherical_delaunay(test::octahedron());
     check_read({.faces = faces_of(mesh, 0), .radians = true}, mesh.triangles);
   }
 }
 
 TEST_CASE("bad UGRID files end in one line") {
   const Scratch scratch;
-  const Mesh mesh = delaunay(random_sphere(30));
+  const Mesh mesh = spherical_delaunay(random_sphere(30));
   const std::string path = scratch / "a.nc";
   const auto check_patched = [&](const auto& patch, const std::string& words) {
     io_detail::write_ugrid(path, mesh, {});
@@ -587,7 +587,7 @@ TEST_CASE("bad UGRID files end in one line") {
 
 TEST_CASE("bad SCRIP and ESMF files end in one line") {
   const Scratch scratch;
-  const Mesh mesh = delaunay(random_sphere(30));
+  const Mesh mesh = spherical_delaunay(random_sphere(30));
   const std::string path = scratch / "a.nc";
   io_detail::write_scrip(path, mesh, {});
   Patch(path).put("grid_center_lat", {3}, std::numeric_limits<double>::quiet_NaN());
@@ -610,7 +610,7 @@ TEST_CASE("bad SCRIP and ESMF files end in one line") {
 
 TEST_CASE("truncated files end in one line") {
   const Scratch scratch;
-  const Mesh mesh = delaunay(random_sphere(12));
+  const Mesh mesh = spherical_delaunay(random_sphere(12));
   const std::vector<std::pair<Write, Read>> formats{
       {io_detail::write_ugrid, io_detail::read_ugrid},
       {io_detail::write_ugrid_triangles, io_detail::read_ugrid},

@@ -565,7 +565,7 @@ Mesh x8_mesh(std::int64_t cells, int bisections, int iterations) {
   options.density = x8();
   options.max_iterations = iterations;
   options.bisections = bisections;
-  return cvt(random_sphere(cells, site_density(x8()), 5), options).mesh;
+  return spherical_cvt(random_sphere(cells, site_density(x8()), 5), options).mesh;
 }
 
 struct Case {
@@ -582,14 +582,15 @@ std::vector<Case> cases() {
     of.history = std::move(history);
     return of;
   };
-  return {{"icosahedral", delaunay(bisected_icosahedron(4)), options(1, {}, "seed 1\ntwo lines")},
-          {"icosahedral, of the Earth", delaunay(bisected_icosahedron(3)),
+  return {{"icosahedral", spherical_delaunay(bisected_icosahedron(4)),
+           options(1, {}, "seed 1\ntwo lines")},
+          {"icosahedral, of the Earth", spherical_delaunay(bisected_icosahedron(3)),
            options(6371229, {}, "Earth")},
           {"x8", x8_mesh(2562, 0, 12), options(6371229, x8(), "x8")},
-          {"random", delaunay(random_sphere(1500, 7)), options(1, {}, "random")},
-          {"longitudes and latitudes", delaunay(lat_lon_sphere(19, 40, true)),
+          {"random", spherical_delaunay(random_sphere(1500, 7)), options(1, {}, "random")},
+          {"longitudes and latitudes", spherical_delaunay(lat_lon_sphere(19, 40, true)),
            options(1, {}, "lat-lon")},
-          {"octahedron, of any norm", delaunay(5 * lat_lon_sphere(1, 4, true)),
+          {"octahedron, of any norm", spherical_delaunay(5 * lat_lon_sphere(1, 4, true)),
            options(0.1, {}, "six cells")}};
 }
 
@@ -726,7 +727,7 @@ TEST_CASE("a periodic plane comes back, and its file again") {
 
 TEST_CASE("the same bytes for any number of threads, another file_id for another mesh") {
   const Scratch scratch;
-  const Mesh mesh = delaunay(random_sphere(20'000, 3));
+  const Mesh mesh = spherical_delaunay(random_sphere(20'000, 3));
   for (const int threads : {1, 3})
     tbb::task_arena(threads).execute(
         [&] { io_detail::write_mpas(scratch / (std::to_string(threads) + ".nc"), mesh, {}); });
@@ -735,7 +736,8 @@ TEST_CASE("the same bytes for any number of threads, another file_id for another
 
   std::set<std::string> ids;
   for (int seed = 0; seed < 4; ++seed) {
-    io_detail::write_mpas_minimal(scratch / "a.nc", delaunay(random_sphere(20, seed)), {});
+    io_detail::write_mpas_minimal(scratch / "a.nc", spherical_delaunay(random_sphere(20, seed)),
+                                  {});
     ids.insert(NetcdfReader(scratch / "a.nc").text("", "file_id"));
   }
   CHECK(ids.size() == 4);
@@ -743,8 +745,8 @@ TEST_CASE("the same bytes for any number of threads, another file_id for another
 
 TEST_CASE("a full disk leaves the old mesh and its graph") {
   const Scratch scratch;
-  const Mesh mesh = delaunay(bisected_icosahedron(3));
-  io_detail::write_mpas(scratch / "a.nc", delaunay(bisected_icosahedron(1)), {});
+  const Mesh mesh = spherical_delaunay(bisected_icosahedron(3));
+  io_detail::write_mpas(scratch / "a.nc", spherical_delaunay(bisected_icosahedron(1)), {});
   const std::string before = read_file(scratch / "a.nc"),
                     graph = read_file(scratch / "a.graph.info");
   for (const rlim_t bytes : {rlim_t{1'000}, rlim_t{30'000}, rlim_t{400'000}}) {
@@ -765,8 +767,8 @@ TEST_CASE("a full disk leaves the old mesh and its graph") {
 
 TEST_CASE("what is refused while a file is written leaves the old mesh and its graph") {
   const Scratch scratch;
-  const Mesh mesh = delaunay(bisected_icosahedron(5)); // of several blocks
-  io_detail::write_mpas(scratch / "a.nc", delaunay(bisected_icosahedron(1)), {});
+  const Mesh mesh = spherical_delaunay(bisected_icosahedron(5)); // of several blocks
+  io_detail::write_mpas(scratch / "a.nc", spherical_delaunay(bisected_icosahedron(1)), {});
   const std::string before = read_file(scratch / "a.nc"),
                     graph = read_file(scratch / "a.graph.info");
   WriteOptions options;
@@ -786,8 +788,9 @@ TEST_CASE("meshes that make no such file are refused") {
   const Scratch scratch;
   Points3 half = random_sphere(50, 1);
   half.row(2) = half.row(2).cwiseAbs().array() + 0.01;
-  CHECK(error_of([&] { io_detail::write_mpas(scratch / "a.nc", delaunay(half), {}); }).code() ==
-        ErrorCode::bad_option);
+  CHECK(error_of([&] {
+          io_detail::write_mpas(scratch / "a.nc", spherical_delaunay(half), {});
+        }).code() == ErrorCode::bad_option);
   CHECK(scratch.files() == 0);
 }
 
@@ -861,7 +864,7 @@ TEST_CASE("files that are not as they should be end in one line") {
 
 TEST_CASE("a file cut short anywhere is refused") {
   const Scratch scratch;
-  io_detail::write_mpas(scratch / "a.nc", delaunay(bisected_icosahedron(1)), {});
+  io_detail::write_mpas(scratch / "a.nc", spherical_delaunay(bisected_icosahedron(1)), {});
   const std::string whole = read_file(scratch / "a.nc");
   for (std::size_t length = 0; length < whole.size(); length += 197) {
     CAPTURE(length);

@@ -34,7 +34,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 
 /// A canonical mesh of which one edge is flipped, so that it is not Delaunay but closed.
 Mesh flipped_lattice() {
-  const Mesh mesh = calotte::delaunay(calotte::lat_lon_sphere(4, 6));
+  const Mesh mesh = calotte::spherical_delaunay(calotte::lat_lon_sphere(4, 6));
   std::vector<Triple> triangles;
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
     triangles.push_back({mesh.triangles(0, t), mesh.triangles(1, t), mesh.triangles(2, t)});
@@ -77,7 +77,7 @@ TEST_CASE("JIGSAW: meshes come back bit for bit") {
 
 TEST_CASE("JIGSAW: the file is what its readers expect") {
   const Scratch scratch;
-  calotte::write(scratch / "mesh.msh", calotte::delaunay(octahedron()));
+  calotte::write(scratch / "mesh.msh", calotte::spherical_delaunay(octahedron()));
   const std::string text = read_file(scratch / "mesh.msh");
   CHECK(text.find("\nMSHID=3;EUCLIDEAN-MESH\nNDIMS=3\nPOINT=6\n1;0;0;0\n") != std::string::npos);
   CHECK(text.find("\nTRIA3=8\n0;1;2;0\n") != std::string::npos);
@@ -86,7 +86,7 @@ TEST_CASE("JIGSAW: the file is what its readers expect") {
 TEST_CASE("JIGSAW: keywords in any case, comments, line ends and other sections change nothing") {
   const Scratch scratch;
   const std::string path = scratch / "mesh.msh";
-  const Mesh mesh = calotte::delaunay(octahedron());
+  const Mesh mesh = calotte::spherical_delaunay(octahedron());
   calotte::write(path, mesh);
   const std::string text = read_file(path);
   const auto reads_as = [&](const std::string& changed) {
@@ -122,7 +122,7 @@ TEST_CASE(
     "JIGSAW: a file cut short is refused, or gives the points' mesh where only these are left") {
   const Scratch scratch;
   const std::string path = scratch / "mesh.msh";
-  for (const Mesh& mesh : {calotte::delaunay(octahedron()), open_meshes()[1].mesh}) {
+  for (const Mesh& mesh : {calotte::spherical_delaunay(octahedron()), open_meshes()[1].mesh}) {
     calotte::write(path, mesh);
     const int done = done_when_cut(path, [&] { check_equal(calotte::read_mesh(path), mesh); });
     CHECK(done > 0);
@@ -188,7 +188,7 @@ TEST_CASE("MPI-SCVT: meshes come back bit for bit, and the density stands beside
 TEST_CASE("MPI-SCVT: triangles are taken where they close the sphere, in either turning") {
   const Scratch scratch;
   const std::string path = scratch / "SaveVertices", triangles = scratch / "SaveTriangles";
-  const Mesh mesh = flipped_lattice(), delaunay = calotte::delaunay(mesh.points);
+  const Mesh mesh = flipped_lattice(), delaunay = calotte::spherical_delaunay(mesh.points);
   CHECK_FALSE(equal_bits(mesh.triangles, delaunay.triangles));
   calotte::write(path, mesh);
   check_equal(calotte::read_mesh(path), mesh);
@@ -220,7 +220,7 @@ TEST_CASE("MPI-SCVT: triangles are taken where they close the sphere, in either 
 TEST_CASE("MPI-SCVT: triangles cut short are not taken") {
   const Scratch scratch;
   const std::string path = scratch / "SaveVertices";
-  const Mesh mesh = flipped_lattice(), delaunay = calotte::delaunay(mesh.points);
+  const Mesh mesh = flipped_lattice(), delaunay = calotte::spherical_delaunay(mesh.points);
   calotte::write(path, mesh);
   done_when_cut(scratch / "SaveTriangles",
                 [&] { check_equal(calotte::read_mesh(path), delaunay); });
@@ -245,7 +245,7 @@ TEST_CASE("MPI-SCVT: a missing final newline and CRLF lose nothing; what is no p
 
 TEST_CASE("MPI-SCVT: a file that cannot be written leaves none of the three") {
   const Scratch scratch;
-  const Mesh mesh = calotte::delaunay(octahedron());
+  const Mesh mesh = calotte::spherical_delaunay(octahedron());
   std::filesystem::create_directory(scratch / "SaveTriangles");
   CHECK(error_of([&] { calotte::write(scratch / "SaveVertices", mesh); }).code() ==
         ErrorCode::file);
@@ -341,7 +341,7 @@ TEST_CASE("GeoJSON: closed counter-clockwise rings that tile the plane of longit
 TEST_CASE("GeoJSON: a cell is around its site") {
   const Scratch scratch;
   // Sites that are far from their cells' edges, which are arcs there and straight lines here.
-  const Mesh mesh = calotte::delaunay(calotte::fibonacci_sphere(800));
+  const Mesh mesh = calotte::spherical_delaunay(calotte::fibonacci_sphere(800));
   const json features = geojson_of(scratch, mesh)["features"];
   const double degrees = 180 / std::numbers::pi;
   int cut = 0, poles = 0;
@@ -363,7 +363,7 @@ TEST_CASE("GeoJSON: a cell is around its site") {
 TEST_CASE("GeoJSON: the properties are the cell's fields") {
   const Scratch scratch;
   const calotte::Density density = calotte::tanh_bump({1, 0, 0.5}, 0.5, 0.2, 0.01);
-  const Mesh mesh = calotte::delaunay(calotte::random_sphere(90, 8));
+  const Mesh mesh = calotte::spherical_delaunay(calotte::random_sphere(90, 8));
   const json file = geojson_of(scratch, mesh, {.density = density});
   const calotte::CellFields fields = calotte::cell_fields(calotte::voronoi(mesh), density);
   for (Eigen::Index i = 0; i < mesh.points.cols(); ++i) {
@@ -395,8 +395,9 @@ TEST_CASE("GeoJSON: points are sites; members in any order") {
 
 TEST_CASE("GeoJSON: a file cut short is refused") {
   const Scratch scratch;
-  calotte::write(scratch / "cells.geojson",
-                 calotte::delaunay(columns({{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}})));
+  calotte::write(
+      scratch / "cells.geojson",
+      calotte::spherical_delaunay(columns({{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}})));
   CHECK(done_when_cut(scratch / "cells.geojson",
                       [&] { calotte::read_mesh(scratch / "cells.geojson"); }) == 0);
 }
@@ -444,7 +445,7 @@ namespace {
 PlanarMesh planar_mesh() {
   calotte::Points2 points(2, 5);
   points << 0, 3, 2, -1, 1, 0, 0.1, 2.5, 2, 1.25;
-  return calotte::delaunay(points);
+  return calotte::planar_delaunay(points);
 }
 
 void check_same(const PlanarMesh& a, const PlanarMesh& b) {
@@ -488,11 +489,11 @@ TEST_CASE("a planar mesh comes back bit for bit from all that writes one") {
 
 TEST_CASE("a file of the sphere, or of no place, is no planar mesh") {
   const Scratch scratch;
-  calotte::write(scratch / "s.off", calotte::delaunay(octahedron()));
+  calotte::write(scratch / "s.off", calotte::spherical_delaunay(octahedron()));
   names(error_of([&] { calotte::read_planar_mesh(scratch / "s.off"); }), "z is not 0 at point");
-  calotte::write(scratch / "s.geojson", calotte::delaunay(octahedron()));
+  calotte::write(scratch / "s.geojson", calotte::spherical_delaunay(octahedron()));
   names(error_of([&] { calotte::read_planar_mesh(scratch / "s.geojson"); }), ".vtp");
-  calotte::write(scratch / "s.nc", calotte::delaunay(octahedron()));
+  calotte::write(scratch / "s.nc", calotte::spherical_delaunay(octahedron()));
   names(error_of([&] { calotte::read_planar_mesh(scratch / "s.nc"); }), "sphere");
   write_text(scratch / "x.off", "OFF\n3 1 0\n0 0 0\n1 inf 0\n0 1 0\n3 0 1 2\n");
   names(error_of([&] { calotte::read_planar_mesh(scratch / "x.off"); }), "point 1 has no place");

@@ -189,7 +189,7 @@ TEST_CASE("VTK: cells are counter-clockwise polygons with their fields and sites
 
 TEST_CASE("VTK: a file that is cut short, or has more, is refused") {
   const Scratch scratch;
-  const Mesh mesh = calotte::delaunay(octahedron());
+  const Mesh mesh = calotte::spherical_delaunay(octahedron());
   for (const auto& [file, format] : {of_triangles[0], of_cells[1]}) {
     CAPTURE(file);
     const std::string path = scratch / file;
@@ -202,7 +202,7 @@ TEST_CASE("VTK: a file that is cut short, or has more, is refused") {
 
 TEST_CASE("VTK: counts that are none, other cells and ids out of range are refused") {
   const Scratch scratch;
-  const Mesh mesh = calotte::delaunay(octahedron());
+  const Mesh mesh = calotte::spherical_delaunay(octahedron());
   const auto error = [&](const Kind& kind, const std::function<void(std::string&)>& spoil) {
     calotte::write(scratch / kind.name, mesh, {.format = kind.format});
     std::string text = read_file(scratch / kind.name);

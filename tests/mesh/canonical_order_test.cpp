@@ -38,13 +38,15 @@ template <class AnyMesh> Connected connected(const std::string& name, const AnyM
 std::vector<Connected> samples() {
   std::vector<Connected> out;
   for (const Cloud& cloud : small_clouds())
-    out.push_back(connected(cloud.name, calotte::delaunay(cloud.points)));
-  out.push_back(connected("of many blocks", calotte::delaunay(calotte::random_sphere(20'000, 1))));
-  out.push_back(connected("open", calotte::delaunay(upper_half(3000, 3))));
-  out.push_back(connected("a hub", calotte::delaunay(calotte::lat_lon_sphere(5, 900, true))));
+    out.push_back(connected(cloud.name, calotte::spherical_delaunay(cloud.points)));
+  out.push_back(
+      connected("of many blocks", calotte::spherical_delaunay(calotte::random_sphere(20'000, 1))));
+  out.push_back(connected("open", calotte::spherical_delaunay(upper_half(3000, 3))));
+  out.push_back(
+      connected("a hub", calotte::spherical_delaunay(calotte::lat_lon_sphere(5, 900, true))));
   const Eigen::Vector2d box(2, 1);
   const calotte::Points2 places = calotte::random_places(2000, calotte::periodic_box(box));
-  out.push_back(connected("periodic", calotte::delaunay(places, box)));
+  out.push_back(connected("periodic", calotte::planar_delaunay(places, box)));
   return out;
 }
 
@@ -110,7 +112,7 @@ TEST_CASE("triangles alone are ordered without neighbours") {
 
 TEST_CASE("one thread makes the order that many make") {
   Random random(4);
-  Connected mesh = connected("", calotte::delaunay(calotte::random_sphere(40'000, 5)));
+  Connected mesh = connected("", calotte::spherical_delaunay(calotte::random_sphere(40'000, 5)));
   const Connected before = mesh;
   shuffle_triangles(mesh.triangles, mesh.neighbours, random);
   tbb::task_arena(1).execute([&] { mesh_detail::make_canonical(mesh.triangles, mesh.neighbours); });

@@ -83,7 +83,7 @@ TEST_CASE("meshes made by the definition pass, closed and open") {
 }
 
 TEST_CASE("points of any norm pass, unit vectors but for rounding too") {
-  Mesh mesh = delaunay(random_sphere(3000, 5));
+  Mesh mesh = spherical_delaunay(random_sphere(3000, 5));
   for (const double factor : {1.0, 1 + 0x1p-52, 1 - 0x1p-53, 1 + 0x1p-50, 1 - 0x1p-50, 3e100}) {
     Mesh scaled = mesh;
     scaled.points *= factor;
@@ -353,20 +353,20 @@ PlanarMesh flipped(const PlanarMesh& mesh, std::int64_t t, int i) {
 std::vector<PlanarMesh> planar_meshes() {
   std::vector<PlanarMesh> meshes;
   for (const double scale : {1.0, 1e-150, 1e150})
-    meshes.push_back(delaunay(Points2(scale * scatter(60, 8))));
-  meshes.push_back(delaunay(square_lattice(6)));
+    meshes.push_back(planar_delaunay(Points2(scale * scatter(60, 8))));
+  meshes.push_back(planar_delaunay(square_lattice(6)));
   Points2 thin = scatter(80, 9); // long triangles along the hull
   thin.row(1) *= 1e-9;
-  meshes.push_back(delaunay(thin));
+  meshes.push_back(planar_delaunay(thin));
   for (const std::uint64_t seed : {1, 2, 3})
-    meshes.push_back(delaunay(scatter(100, seed), Eigen::Vector2d(1, 1)));
+    meshes.push_back(periodic_delaunay(scatter(100, seed), Eigen::Vector2d(1, 1)));
   Points2 wide = scatter(300, 4);
   wide.row(0) *= 7e100;
   wide.row(1) *= 3e100;
-  meshes.push_back(delaunay(wide, Eigen::Vector2d(7e100, 3e100)));
-  meshes.push_back(delaunay(square_lattice(8), Eigen::Vector2d(8, 8)));
+  meshes.push_back(periodic_delaunay(wide, Eigen::Vector2d(7e100, 3e100)));
+  meshes.push_back(periodic_delaunay(square_lattice(8), Eigen::Vector2d(8, 8)));
   meshes.push_back(
-      delaunay(periodic_hexagons(8, 10, 1).points, periodic_hexagons(8, 10, 1).period));
+      periodic_delaunay(periodic_hexagons(8, 10, 1).points, periodic_hexagons(8, 10, 1).period));
   return meshes;
 }
 
@@ -384,7 +384,7 @@ TEST_CASE("planar meshes pass, open and periodic, and their areas are known") {
       CHECK(result.boundary_edges == 0);
     }
   }
-  CHECK(check(delaunay(square_lattice(6))).area == 25);
+  CHECK(check(planar_delaunay(square_lattice(6))).area == 25);
 }
 
 TEST_CASE("every flipped edge of a planar mesh is found, ties and copies too") {
@@ -398,8 +398,8 @@ TEST_CASE("every flipped edge of a planar mesh is found, ties and copies too") {
 }
 
 TEST_CASE("arrays and sites of a planar mesh that are wrong are named") {
-  const PlanarMesh open = delaunay(scatter(30, 5)),
-                   box = delaunay(scatter(60, 6), Eigen::Vector2d(1, 1));
+  const PlanarMesh open = planar_delaunay(scatter(30, 5)),
+                   box = periodic_delaunay(scatter(60, 6), Eigen::Vector2d(1, 1));
   fails_with(PlanarMesh{}, "no triangle");
   for (const PlanarMesh& mesh : {open, box}) {
     PlanarMesh wrong = mesh;
@@ -438,8 +438,8 @@ TEST_CASE("arrays and sites of a planar mesh that are wrong are named") {
 }
 
 TEST_CASE("a planar boundary that is not convex, and a torus with a hole") {
-  const PlanarMesh open = delaunay(scatter(30, 5)),
-                   box = delaunay(scatter(60, 6), Eigen::Vector2d(1, 1));
+  const PlanarMesh open = planar_delaunay(scatter(30, 5)),
+                   box = periodic_delaunay(scatter(60, 6), Eigen::Vector2d(1, 1));
   for (const PlanarMesh& mesh : {open, box}) {
     std::vector<Triple> triangles;
     for (std::int64_t u = 0; u < mesh.triangles.cols(); ++u)
@@ -450,7 +450,7 @@ TEST_CASE("a planar boundary that is not convex, and a torus with a hole") {
 }
 
 TEST_CASE("two sheets over a periodic box are not one") {
-  const PlanarMesh one = delaunay(scatter(60, 6), Eigen::Vector2d(1, 1));
+  const PlanarMesh one = periodic_delaunay(scatter(60, 6), Eigen::Vector2d(1, 1));
   PlanarMesh two = one;
   two.points.resize(2, 120);
   two.points << one.points, one.points;
@@ -478,12 +478,12 @@ template <class AnyMesh> void check_neighbours_exchanged(AnyMesh mesh, int round
 }
 
 TEST_CASE("any neighbour that is another is found, in a mesh of several blocks") {
-  check_neighbours_exchanged(calotte::delaunay(calotte::random_sphere(20000, 5)));
-  check_neighbours_exchanged(delaunay(scatter(20000, 5), Eigen::Vector2d(1, 1)));
+  check_neighbours_exchanged(calotte::spherical_delaunay(calotte::random_sphere(20000, 5)));
+  check_neighbours_exchanged(periodic_delaunay(scatter(20000, 5), Eigen::Vector2d(1, 1)));
 }
 
 TEST_CASE("large meshes are checked patch by patch where their sites come in no order") {
-  const Mesh mesh = calotte::delaunay(random_sphere(530000, 6));
+  const Mesh mesh = calotte::spherical_delaunay(random_sphere(530000, 6));
   const Mesh along = mesh_detail::in_order(mesh, mesh_detail::curve_order(mesh.points));
   REQUIRE(curve_detail::are_scattered(mesh.neighbours));
   REQUIRE_FALSE(curve_detail::are_scattered(along.neighbours));
@@ -497,7 +497,7 @@ TEST_CASE("large meshes are checked patch by patch where their sites come in no 
 TEST_CASE("the same of periodic boxes of any size [slow]") {
   for (const double scale : {1e-140, 1.0, 1e140}) {
     const PlanarMesh box =
-        delaunay(Points2(scale * scatter(530000, 5)), Eigen::Vector2d(scale, scale));
+        periodic_delaunay(Points2(scale * scatter(530000, 5)), Eigen::Vector2d(scale, scale));
     REQUIRE(curve_detail::are_scattered(box.neighbours));
     check_neighbours_exchanged(box, 4);
   }

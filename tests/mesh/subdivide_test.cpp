@@ -47,7 +47,7 @@ Points3 northern(std::int64_t n) {
 TEST_CASE("a closed mesh, and an open one, is cut at the midpoints that bisect() gives") {
   for (const Points3& points : {random_sphere(4), random_sphere(5000, 2), cubed_sphere(6),
                                 bisected_icosahedron(2), northern(400)}) {
-    const Mesh mesh = delaunay(points);
+    const Mesh mesh = spherical_delaunay(points);
     const Points3 fine = bisect(mesh);
     const Connectivity parts = subdivided(mesh.triangles, mesh.neighbours, mesh.points.cols());
     check_parts(mesh, fine, parts);

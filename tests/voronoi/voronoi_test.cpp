@@ -43,9 +43,10 @@ std::vector<Case> sphere_cases() {
   for (const std::vector<Cloud>& clouds : {small_clouds(), large_clouds()})
     for (const Cloud& cloud : clouds)
       if (cloud.closed)
-        out.push_back({cloud.name, voronoi(delaunay(cloud.points))});
+        out.push_back({cloud.name, voronoi(spherical_delaunay(cloud.points))});
   const Points3 close = columns({{1, 1e-170, 2e-171}, {1, -3e-171, 1e-170}, {1, 1e-90, 0}});
-  out.push_back({"as near as squares vanish", voronoi(delaunay(joined(octahedron(), close)))});
+  out.push_back(
+      {"as near as squares vanish", voronoi(spherical_delaunay(joined(octahedron(), close)))});
   return out;
 }
 
@@ -373,7 +374,7 @@ TEST_CASE("angles are those of the normal from east, or from x") {
 
 TEST_CASE("quality says the same of spacings, areas, degrees and shapes") {
   for (const Points3& points : {random_sphere(300, 1), fibonacci_sphere(200), cubed_sphere(5)}) {
-    const Mesh mesh = delaunay(points);
+    const Mesh mesh = spherical_delaunay(points);
     const Voronoi v = voronoi(mesh);
     const CellFields fields = cell_fields(v);
     const Quality q = quality(mesh);
@@ -451,7 +452,7 @@ TEST_CASE("flat triangles of equal sites leave all finite, and the box full") {
 
 TEST_CASE("unit columns keep their bits, and norms show nowhere") {
   const Points3 points = random_sphere(500, 3);
-  const Mesh mesh = delaunay(points);
+  const Mesh mesh = spherical_delaunay(points);
   const Voronoi v = voronoi(mesh);
   CHECK(same(v.cells, mesh.points));
   Mesh scaled = mesh;
@@ -465,7 +466,7 @@ TEST_CASE("unit columns keep their bits, and norms show nowhere") {
 }
 
 TEST_CASE("the same bits for any number of threads") {
-  const Mesh mesh = delaunay(random_sphere(40000, 5));
+  const Mesh mesh = spherical_delaunay(random_sphere(40000, 5));
   Voronoi one;
   TangentialWeights weights;
   with_threads(1, [&] {
@@ -579,7 +580,7 @@ TEST_CASE("hexagons reconstruct a uniform field's tangential component") {
 }
 
 TEST_CASE("chunks of weights are parts of the whole") {
-  const Voronoi v = voronoi(delaunay(random_sphere(300, 4)));
+  const Voronoi v = voronoi(spherical_delaunay(random_sphere(300, 4)));
   const TangentialWeights whole = tangential_weights(v, 0, v.dc.size());
   std::int64_t at = 0;
   for (const auto& [first, last] :
@@ -598,7 +599,7 @@ TEST_CASE("chunks of weights are parts of the whole") {
 
 TEST_CASE("cell fields are of each cell's own edges, and the density is relative") {
   const Density density = tanh_bump({1, 2, 3}, 0.5, 0.3, 0.01);
-  const Voronoi v = voronoi(delaunay(random_sphere(400, 6)));
+  const Voronoi v = voronoi(spherical_delaunay(random_sphere(400, 6)));
   const CellFields fields = cell_fields(v, density), uniform = cell_fields(v);
   CHECK(same(fields.area, v.cell_area));
   CHECK(fields.density.maxCoeff() == 1);
@@ -641,9 +642,9 @@ TEST_CASE("what is no closed mesh is refused in one line that names where") {
       CHECK(message.find('\n') == std::string::npos);
     }
   };
-  const Mesh good = delaunay(random_sphere(50, 2));
+  const Mesh good = spherical_delaunay(random_sphere(50, 2));
   check_refused(Mesh{}, -1, "open");
-  check_refused(delaunay(upper_half(50, 1)), -1, "open");
+  check_refused(spherical_delaunay(upper_half(50, 1)), -1, "open");
   const auto check_changed = [&](std::int64_t index, const std::string& words,
                                  const std::function<void(Mesh&)>& change) {
     Mesh mesh = good;
@@ -708,7 +709,7 @@ TEST_CASE("a box so narrow that neighbours meet twice is refused") {
 
 TEST_CASE("densities that do not fit are refused") {
   const Voronoi plane = voronoi(periodic_hexagons(3, 4, 1)),
-                sphere = voronoi(delaunay(random_sphere(20, 1)));
+                sphere = voronoi(spherical_delaunay(random_sphere(20, 1)));
   const Density bump = tanh_bump({1, 2, 3}, 0.5, 0.3, 0.01);
   CHECK_THROWS_WITH_AS(cell_fields(plane, bump), doctest::Contains("plane"), Error);
   CHECK_THROWS_WITH_AS(cell_fields(sphere, tanh_bump({0, 0, 0}, 0.5, 0.3, 0.01)),

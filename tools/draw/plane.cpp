@@ -53,7 +53,7 @@ Window window_of(const PlanarMesh& mesh, const std::optional<PlanarDomain>& doma
     return window_around(mesh.points, 0.04);
   }
   Points2 corners(2, 0);
-  for (const Points2& ring : domain->rings) {
+  for (const Eigen::MatrixXd& ring : domain->rings) {
     const Eigen::Index before = corners.cols();
     corners.conservativeResize(Eigen::NoChange, before + ring.cols());
     corners.rightCols(ring.cols()) = ring;
@@ -88,7 +88,7 @@ Drawn closed_by_far_sites(const PlanarMesh& mesh, const Window& window) {
     const double angle = 2 * std::numbers::pi * i / around;
     places.col(n + i) = window.middle() + reach * Vector2d(std::cos(angle), std::sin(angle));
   }
-  Drawn drawn(delaunay(places));
+  Drawn drawn(planar_delaunay(places));
   std::fill(drawn.site.begin() + n, drawn.site.end(), -1);
   return drawn;
 }
@@ -118,7 +118,7 @@ Drawn with_copies(const PlanarMesh& mesh) {
   for (std::size_t k = 0; k < copies.size(); ++k) {
     places.col(n + static_cast<Eigen::Index>(k)) = copies[k];
   }
-  Drawn drawn(delaunay(places));
+  Drawn drawn(planar_delaunay(places));
   std::copy(site.begin(), site.end(), drawn.site.begin() + n);
   return drawn;
 }
@@ -341,7 +341,7 @@ void add_outline(cairo_t* context, const std::optional<PlanarDomain>& domain, co
     cairo_rectangle(context, -extent.x() / 2, -extent.y() / 2, extent.x(), extent.y());
     return;
   }
-  for (const Points2& ring : domain->rings) {
+  for (const Eigen::MatrixXd& ring : domain->rings) {
     cairo_new_sub_path(context);
     for (const auto& corner : ring.colwise()) {
       const Vector2d place = scale * (corner - window.middle());

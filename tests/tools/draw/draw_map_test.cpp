@@ -175,9 +175,9 @@ Rgb colour_of(const Painting& painting, int shape) {
 
 /// Meshes with sites and corners on poles and on the seam, sides along meridians, wide triangles.
 std::vector<Mesh> hard_meshes() {
-  return {delaunay(random_sphere(60, 5)), delaunay(octahedron()),
-          delaunay(lat_lon_sphere(5, 12, true)), delaunay(cubed_sphere(3)),
-          delaunay(bisected_icosahedron(0))};
+  return {spherical_delaunay(random_sphere(60, 5)), spherical_delaunay(octahedron()),
+          spherical_delaunay(lat_lon_sphere(5, 12, true)), spherical_delaunay(cubed_sphere(3)),
+          spherical_delaunay(bisected_icosahedron(0))};
 }
 
 } // namespace
@@ -212,7 +212,7 @@ TEST_CASE("each pixel has the colour of the cell of the nearest site, or of its 
 }
 
 TEST_CASE("a tilted globe shows the cells of the nearest sites") {
-  const Mesh mesh = delaunay(random_sphere(60, 5));
+  const Mesh mesh = spherical_delaunay(random_sphere(60, 5));
   for (const LonLat& view : {LonLat{15, 25}, LonLat{-120, -60}, LonLat{40, 90}}) {
     const MapSize size = map_size(Projection::globe, 140);
     const Painting painting = painting_of(mesh, Shapes::cells, view);
@@ -227,7 +227,7 @@ TEST_CASE("a tilted globe shows the cells of the nearest sites") {
 }
 
 TEST_CASE("both: the cells' picture, but for lines along the triangles' edges") {
-  const Mesh mesh = delaunay(random_sphere(60, 5));
+  const Mesh mesh = spherical_delaunay(random_sphere(60, 5));
   for (const Projection projection : all_projections) {
     const LonLat view = {33, 0};
     const MapSize size = map_size(projection, 200);
@@ -286,7 +286,7 @@ TEST_CASE("a picture of a field is written in every format, on both maps") {
 
 TEST_CASE("a graticule changes the map, and nothing beside it") {
   const Folder folder;
-  const Mesh mesh = delaunay(random_sphere(60, 5));
+  const Mesh mesh = spherical_delaunay(random_sphere(60, 5));
   for (const int size : {100, 300}) {
     DrawOptions options = {.look = {.projection = Projection::plate_carree, .size = size}};
     draw(folder.file("a.png"), mesh, options);
@@ -384,7 +384,7 @@ TEST_CASE("a field that the file has not is refused by the names of those that i
 
 TEST_CASE("a field's values are those of the cells that show them, and none is bare") {
   const Folder folder;
-  const Mesh mesh = delaunay(fibonacci_sphere(cells));
+  const Mesh mesh = spherical_delaunay(fibonacci_sphere(cells));
   write_fields(folder.file("a.nc"));
   const CellField field = read_cell_field(folder.file("a.nc"), "index", cells);
   const Scene scene = make_scene(mesh, Shapes::cells, {});
@@ -429,8 +429,8 @@ struct PlaneCase {
 };
 
 std::vector<PlaneCase> plane_cases() {
-  return {{delaunay(random_places(80, holed(), 2)), holed(), 0.02},
-          {delaunay(random_places(80, periodic_box({2, 1}), 3), Eigen::Vector2d(2, 1)),
+  return {{planar_delaunay(random_places(80, holed(), 2)), holed(), 0.02},
+          {periodic_delaunay(random_places(80, periodic_box({2, 1}), 3), Eigen::Vector2d(2, 1)),
            periodic_box({2, 1}), 0}};
 }
 

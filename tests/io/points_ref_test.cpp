@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Points come in from a caller's matrix of any kind; the number of rows is checked at run time.
+#include "support/files.h"
+
+#include <calotte/cell_width.h>
+#include <calotte/cvt.h>
+#include <calotte/delaunay.h>
+#include <calotte/density.h>
+#include <calotte/domain.h>
+#include <calotte/error.h>
+#include <calotte/generators.h>
+#include <calotte/io.h>
+
+#include <doctest/doctest.h>
+
+#include <functional>
+#include <span>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+using namespace calotte;
+using calotte::test::error_of;
+
+namespace {
+
+using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+struct Call {
+  std::string name;
+  std::function<void(const PointsRef&)> call;
+};
+
+CvtOptions one_step() {
+  CvtOptions options;
+  options.max_iterations = 1;
+  return options;
+}
+
+CellWidth wide_cells() {
+  Eigen::VectorXd longitudes(4), latitudes(3);
+  longitudes << -180, -90, 0, 90;
+  latitudes << -90, 0, 90;
+  return {longitudes, latitudes, Eigen::MatrixXd::Constant(4, 3, 100)};
+}
+
+std::vector<Call> calls_on_sphere() {
+  return {{"spherical_delaunay", [](const PointsRef& x) { spherical_delaunay(x); }},
+          {"spherical_cvt", [](const PointsRef& x) { spherical_cvt(x, one_step()); }},
+          {"evaluate a density",
+           [](const PointsRef& x) {
+             evaluate(tanh_bump({0, 0, 1}, 0.5, 0.2, 0.1), x);
+           }},
+          {"evaluate a uniform density", [](const PointsRef& x) { evaluate(Density(), x); }},
+          {"evaluate cell widths", [](const PointsRef& x) { evaluate(wide_cells(), x); }},
+          {"given centres", [](const PointsRef& x) {
+             DelaunayOptions options;
+             options.given_centres = x;
+             spherical_delaunay(random_sphere(100), options);
+           }}};
+}
+
+PlanarDomain unit_square() { return rectangle({0, 0}, {1, 1}); }
+
+std::vector<Call> calls_in_plane() {
+  return {{"planar_delaunay", [](const PointsRef& x) { planar_delaunay(x); }},
+          {"periodic_delaunay",
+           [](const PointsRef& x) { periodic_delaunay(x, Eigen::Vector2d(1, 1)); }},
+          {"planar_cvt", [](const PointsRef& x) { planar_cvt(x, unit_square(), one_step()); }},
+          {"planar_cvt in a box",
+           [](const PointsRef& x) {
+             planar_cvt(x, periodic_box({1, 1}), one_step());
+           }},
+          {"evaluate a density", [](const PointsRef& x) { evaluate(Density(), unit_square(), x); }},
+          {"a domain's rings", [](const PointsRef& x) {
+             PlanarDomain domain;
+             domain.rings.emplace_back(x);
+             require_domain(domain);
+           }}};
+}
+
+void check_refused(const Call& call, Eigen::Index rows, Eigen::Index columns) {
+  CAPTURE(call.name);
+  CAPTURE(rows);
+  const Eigen::MatrixXd points = Eigen::MatrixXd::Constant(rows, columns, 0.5);
+  const Error error = error_of([&] { call.call(points); });
+  CHECK(error.code() == ErrorCode::bad_option);
+  const std::string what = error.what();
+  CHECK(what.find(std::to_string(rows) + (rows == 1 ? " row;" : " rows;")) != what.npos);
+  CHECK(what.find("; give ") != what.npos);
+  CHECK(what.find('\n') == what.npos);
+}
+
+std::string message_of(const std::function<void()>& call) { return error_of(call).what(); }
+
+bool same(const Mesh& a, const Mesh& b) {
+  return a.points == b.points && a.triangles == b.triangles && a.neighbours == b.neighbours &&
+         a.site_of_input == b.site_of_input;
+}
+
+bool same(const PlanarMesh& a, const PlanarMesh& b) {
+  return a.points == b.points && a.triangles == b.triangles && a.neighbours == b.neighbours &&
+         a.site_of_input == b.site_of_input && a.period == b.period;
+}
+
+/// Calls `check` with the same points as matrices of all kinds.
+template <class Points, class Check> void for_each_kind(const Points& points, const Check& check) {
+  const Eigen::Index rows = points.rows(), n = points.cols();
+  const Eigen::MatrixXd dynamic = points;
+  const RowMajor row_major = points;
+  const Eigen::MatrixXd transposed = points.transpose();
+  Eigen::MatrixXd framed = Eigen::MatrixXd::Constant(rows + 2, n + 3, 7);
+  framed.block(1, 2, rows, n) = points;
+  std::vector<double> values(points.data(), points.data() + points.size());
+  const std::span<const double> span(values);
+
+  check("dynamic", dynamic);
+  check("row-major", row_major);
+  check("transposed", transposed.transpose());
+  check("a block", framed.block(1, 2, rows, n));
+  check("columns", framed.middleRows(1, rows).middleCols(2, n));
+  check("an expression", 1.0 * dynamic);
+  check("a Map of a vector", Eigen::Map<const Points>(values.data(), rows, n));
+  check("a Map of a span", Eigen::Map<const Eigen::MatrixXd>(span.data(), rows, n));
+  check("a Map of separate coordinates",
+        Eigen::Map<const Eigen::MatrixXd>(transposed.data(), n, rows).transpose());
+}
+
+} // namespace
+
+TEST_CASE("points of another number of rows are refused, not read past their end") {
+  for (const Eigen::Index columns : {1, 50})
+    for (const Eigen::Index rows : {1, 2, 4})
+      for (const Call& call : calls_on_sphere())
+        check_refused(call, rows, columns);
+  for (const Eigen::Index columns : {1, 50})
+    for (const Eigen::Index rows : {1, 3, 4})
+      for (const Call& call : calls_in_plane())
+        check_refused(call, rows, columns);
+}
+
+TEST_CASE("a matrix of another number of rows that is handed over is refused, too") {
+  const auto code = [](const auto& act) { return error_of(act).code(); };
+  CHECK(code([] { spherical_delaunay(Eigen::MatrixXd(2, 1000)); }) == ErrorCode::bad_option);
+  CHECK(code([] { spherical_delaunay(Points2(2, 1000)); }) == ErrorCode::bad_option);
+  CHECK(code([] { spherical_cvt(Eigen::MatrixXd(2, 1000)); }) == ErrorCode::bad_option);
+  CHECK(code([] { planar_delaunay(Eigen::MatrixXd(3, 1000)); }) == ErrorCode::bad_option);
+  CHECK(code([] { planar_delaunay(Points3(3, 1000)); }) == ErrorCode::bad_option);
+  CHECK(code([] { planar_cvt(Points3(3, 1000), unit_square()); }) == ErrorCode::bad_option);
+}
+
+TEST_CASE("the message names the rows and the remedy") {
+  const Eigen::MatrixXd two(2, 9), three(3, 9), none;
+  CHECK(message_of([&] { spherical_delaunay(two); }) ==
+        "the points have 2 rows; give 3 x n columns x y z, or call planar_delaunay()");
+  CHECK(message_of([&] { spherical_delaunay(none); }) ==
+        "the points have 0 rows; give 3 x n columns x y z");
+  CHECK(message_of([&] { spherical_cvt(two); }) ==
+        "the points have 2 rows; give 3 x n columns x y z, or call planar_cvt()");
+  CHECK(message_of([&] { planar_delaunay(three); }) ==
+        "the points have 3 rows; give 2 x n columns x y, or call spherical_delaunay()");
+  CHECK(message_of([&] { planar_cvt(three, unit_square()); }) ==
+        "the points have 3 rows; give 2 x n columns x y, or call spherical_cvt()");
+}
+
+TEST_CASE("empty matrices are refused, or give nothing") {
+  const auto code = [](const auto& act) { return error_of(act).code(); };
+  CHECK(code([] { spherical_delaunay(Eigen::MatrixXd()); }) == ErrorCode::bad_option);
+  CHECK(code([] { spherical_delaunay(Eigen::MatrixXd(0, 9)); }) == ErrorCode::bad_option);
+  CHECK(code([] { spherical_delaunay(Eigen::MatrixXd(3, 0)); }) == ErrorCode::too_few_sites);
+  CHECK(code([] { spherical_delaunay(Points3()); }) == ErrorCode::too_few_sites);
+  CHECK(code([] { spherical_cvt(Eigen::MatrixXd(3, 0)); }) == ErrorCode::too_few_sites);
+  CHECK(code([] { planar_delaunay(Eigen::MatrixXd(2, 0)); }) == ErrorCode::too_few_sites);
+  CHECK(code([] { planar_cvt(Points2(), unit_square()); }) == ErrorCode::too_few_sites);
+  CHECK(evaluate(Density(), Eigen::MatrixXd(3, 0)).size() == 0);
+  CHECK(evaluate(Density(), unit_square(), Eigen::MatrixXd(2, 0)).size() == 0);
+  CHECK(evaluate(wide_cells(), Eigen::MatrixXd(3, 0)).size() == 0);
+}
+
+TEST_CASE("any kind of matrix gives the same mesh of the sphere") {
+  const Points3 points = random_sphere(5000, 3);
+  const Mesh mesh = spherical_delaunay(points);
+  const Eigen::VectorXd rho = evaluate(tanh_bump({0, 0, 1}, 0.5, 0.2, 0.1), points),
+                        widths = evaluate(wide_cells(), points);
+  for_each_kind(points, [&](const char* kind, const auto& other) {
+    CAPTURE(kind);
+    CHECK(same(spherical_delaunay(other), mesh));
+    CHECK(evaluate(tanh_bump({0, 0, 1}, 0.5, 0.2, 0.1), other) == rho);
+    CHECK(evaluate(wide_cells(), other) == widths);
+  });
+}
+
+TEST_CASE("any kind of matrix gives the same mesh of the plane") {
+  const PlanarDomain box = periodic_box({1, 1});
+  const Points2 places = random_places(5000, unit_square(), 3);
+  const PlanarMesh mesh = planar_delaunay(places),
+                   periodic = periodic_delaunay(places, Eigen::Vector2d(1, 1));
+  const Density bump = tanh_bump({0.5, 0.5, 0}, 0.2, 0.1, 0.1);
+  const Eigen::VectorXd rho = evaluate(bump, box, places);
+  for_each_kind(places, [&](const char* kind, const auto& other) {
+    CAPTURE(kind);
+    CHECK(same(planar_delaunay(other), mesh));
+    CHECK(same(periodic_delaunay(other, Eigen::Vector2d(1, 1)), periodic));
+    CHECK(evaluate(bump, box, other) == rho);
+  });
+}
+
+TEST_CASE("any kind of matrix starts the same CVT") {
+  const Points3 points = random_sphere(300, 3);
+  const Cvt grid = spherical_cvt(points, one_step());
+  for_each_kind(points, [&](const char* kind, const auto& other) {
+    CAPTURE(kind);
+    CHECK(same(spherical_cvt(other, one_step()).mesh, grid.mesh));
+  });
+  CHECK(same(spherical_cvt(Points3(points), one_step()).mesh, grid.mesh));
+  const Points2 places = random_places(300, unit_square(), 3);
+  const PlanarCvt plane = planar_cvt(places, unit_square(), one_step());
+  for_each_kind(places, [&](const char* kind, const auto& other) {
+    CAPTURE(kind);
+    CHECK(same(planar_cvt(other, unit_square(), one_step()).mesh, plane.mesh));
+  });
+}
+
+TEST_CASE("centres of regions are 3 x k, in the plane 2 x k or 3 x k") {
+  const Points3 points = random_sphere(2000, 3);
+  DelaunayOptions options;
+  DelaunayReport report;
+  options.given_centres = Eigen::MatrixXd(random_sphere(9, 4));
+  CHECK(same(spherical_delaunay(points, options, &report), spherical_delaunay(points)));
+  CHECK(report.regions == 9);
+  const Points2 places = random_places(2000, unit_square(), 3);
+  for (const Eigen::Index rows : {2, 3}) {
+    Eigen::MatrixXd centres = Eigen::MatrixXd::Constant(rows, 9, 5);
+    centres.topRows(2) = random_places(9, unit_square(), 4);
+    options.given_centres = centres;
+    CHECK(same(planar_delaunay(places, options, &report), planar_delaunay(places)));
+    CHECK(report.regions == 9);
+  }
+}
+
+TEST_CASE("columns of contiguous coordinates are read in place") {
+  const Points3 fixed = random_sphere(20, 3);
+  CHECK(PointsRef(fixed).data() == fixed.data());
+  const Eigen::MatrixXd dynamic = fixed;
+  CHECK(PointsRef(dynamic).data() == dynamic.data());
+  CHECK(PointsRef(dynamic.middleCols(3, 5)).data() == dynamic.data() + 9);
+  CHECK(PointsRef(dynamic.topRows(2)).data() == dynamic.data());
+  const std::vector<double> values(60, 1);
+  CHECK(PointsRef(Eigen::Map<const Points3>(values.data(), 3, 20)).data() == values.data());
+}
+
+TEST_CASE("points that are handed over become the mesh's") {
+  Points3 points = random_sphere(5000, 3);
+  const double* data = points.data();
+  const Mesh mesh = spherical_delaunay(std::move(points));
+  CHECK(mesh.points.data() == data);
+}
+
+TEST_CASE("points of 2 or 3 rows are written, others are refused before there is a file") {
+  Eigen::MatrixXd points(3, 2);
+  points << 1, 4, 2, 5, 3, 6;
+  std::ostringstream out;
+  write_points(out, points);
+  write_points(out, points.topRows(2));
+  CHECK(out.str() == "1 2 3\n4 5 6\n1 2\n4 5\n");
+  const test::Scratch scratch;
+  const std::string path = scratch / "points.txt";
+  for (const Eigen::Index rows : {0, 1, 4}) {
+    const Eigen::MatrixXd other = Eigen::MatrixXd::Zero(rows, 5);
+    CHECK(error_of([&] { write_points(path, other); }).code() == ErrorCode::bad_option);
+    CHECK(error_of([&] { write_points(out, other); }).code() == ErrorCode::bad_option);
+    CHECK(scratch.files() == 0);
+  }
+}
