@@ -62,7 +62,7 @@ Outcome run_stripack_natural(const Points3& shuffled) {
 Row library_row(std::string name, int threads, std::optional<int> regions = {}) {
   return {std::move(name), [=](const Points3& points) {
             DelaunayOptions options;
-            options.regions = regions;
+            options.partition.regions = regions;
             return run_calotte(points, threads, options);
           }};
 }

@@ -99,8 +99,8 @@ Points3 centres_of(const std::string& decomposition, int regions) {
   return spherical_cvt(random_sphere(regions, site_density(x8_density())), options).mesh.points;
 }
 
-DelaunayOptions partition_of(const Cut& cut) {
-  DelaunayOptions options;
+Partition partition_of(const Cut& cut) {
+  Partition options;
   options.sort = sorts.at(cut.sort);
   if (cut.regions > 0)
     options.regions = cut.regions;
@@ -229,10 +229,8 @@ class Triangulations {
 public:
   Triangulations(const Workload& work, const Cut& cut)
       : points_(work.points), partition_(partition_of(cut)),
-        centres_(delaunay_detail::make_centres(delaunay_detail::make_sites(work.points,
-                                                                           partition_.duplicates,
-                                                                           partition_.merge_within),
-                                               partition_)) {}
+        centres_(delaunay_detail::make_centres(
+            delaunay_detail::make_sites(work.points, Duplicates::merge, 0), partition_)) {}
 
   /// The regions in turn, from the first-th on.
   DelaunayReport step(std::size_t first) {
@@ -242,7 +240,7 @@ public:
       base_detail::set_column(centres, static_cast<std::int64_t>(k), centres_[(first + k) % count]);
     partition_.given_centres = centres;
     DelaunayReport report;
-    spherical_delaunay(points_, partition_, &report);
+    spherical_delaunay(points_, {.partition = partition_}, &report);
     if (report.one_region) {
       report.seconds_per_region = {report.seconds.triangulate};
       return report;
@@ -262,7 +260,7 @@ public:
 
 private:
   const Points3& points_;
-  DelaunayOptions partition_;
+  Partition partition_;
   std::vector<base_detail::Vec3> centres_;
 };
 

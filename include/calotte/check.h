@@ -32,8 +32,8 @@ Check check(const Mesh& mesh);
 
 /// The same in the plane: Euler's characteristic 1, and areas that sum to that of the boundary's
 /// polygon; in a periodic box no boundary, Euler's characteristic 0, and areas that sum to the
-/// box's. There a triangle wider than half of the box counts as a failure, as delaunay() makes
-/// none.
+/// box's. There a triangle wider than half of the box counts as a failure, as periodic_delaunay()
+/// makes none.
 Check check(const PlanarMesh& mesh);
 
 } // namespace calotte

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <calotte/delaunay.h>
 #include <calotte/density.h>
 #include <calotte/domain.h>
+#include <calotte/error.h>
 #include <calotte/export.h>
+#include <calotte/options.h>
 #include <calotte/types.h>
 
 #include <concepts>
@@ -55,9 +56,9 @@ struct CvtOptions {
   int final_rule = 6; ///< the same once the norm is within ten times the tolerance; a run without a
                       ///< norm keeps to the first
   int triangle_divisions = 1; ///< each half kite is first cut into that many squared; 1 to 100
-  /// Regions, their centres and what they exchange; duplicates and merge_within hold for the start.
-  /// Nothing of it but the last two shows in the result.
-  DelaunayOptions partition = {};
+  Duplicates duplicates = Duplicates::merge; ///< of the start, see DelaunayOptions
+  double merge_within = 0;                   ///< of the start, see DelaunayOptions; >= 0
+  Partition partition = {};                  ///< never affects the result
 };
 
 /// One evaluation of the energy and its centroids; an iteration of Lloyd's method.

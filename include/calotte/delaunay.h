@@ -1,48 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <calotte/error.h>
 #include <calotte/export.h>
+#include <calotte/options.h>
 #include <calotte/types.h>
 
 #include <concepts>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 CALOTTE_API_BEGIN
 namespace calotte {
-
-/// Which sites a region triangulates beside those it owns.
-enum class Sort {
-  halo,     ///< those within a thin strip beyond its coarse Voronoi cell's bisectors
-  distance, ///< those nearer to its centre than the farthest neighbouring centre (Jacobsen et al.,
-            ///< 2013, Sect. 2.1.1)
-  voronoi,  ///< those owned by the neighbouring regions (same section)
-};
-
-enum class Centres {
-  sample,    ///< a coarse CVT of a sample of the sites, so that the regions hold about equal work
-  fibonacci, ///< a Fibonacci lattice, whatever the sites' density
-};
-
-enum class Duplicates {
-  merge,  ///< equal directions become one site, the lowest index stays
-  refuse, ///< equal directions are an error
-};
-
-struct DelaunayOptions {
-  /// Number of regions, >= 1; default from the number of sites, and never more than these.
-  std::optional<int> regions = {};
-  Centres centres = Centres::sample;
-  /// The regions' centres (MPI-SCVT's RegionList); overrides the two above. On the sphere 3 x k
-  /// directions of any norm; in the plane 2 x k places, or 3 x k, whose third row is ignored.
-  std::optional<Eigen::MatrixXd> given_centres;
-  Sort sort = Sort::halo;
-  Duplicates duplicates = Duplicates::merge;
-  /// Radians: a site nearer than this to an earlier site that stays is merged into it. Angles are
-  /// measured in doubles, good to 1e-15. In the plane a distance; not across a periodic box's edge.
-  double merge_within = 0;
-};
 
 /// What one run did. Seconds are wall-clock time.
 struct DelaunayReport {

@@ -67,7 +67,7 @@ PlanarMesh periodic_hexagons(std::int64_t columns, std::int64_t rows, double spa
 /// threads, fewer of them the first ones.
 Points2 random_places(std::int64_t n, const PlanarDomain& domain, std::uint64_t seed = 1);
 
-/// The same, distributed as the density (of columns x, y, 0; bumps as cvt() has them in a plane):
+/// The same, distributed as the density (of columns x, y, 0; bumps as planar_cvt() has them):
 /// as random_sphere(n, density, seed) for a callable, so that what is narrower than 1/500 of the
 /// domain's longer extent can go unseen, but for the places that would fall there. \throws Error
 /// bad_option, as that.

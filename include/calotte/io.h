@@ -100,7 +100,8 @@ struct WriteOptions {
 /// Writes a mesh. By its name the format is that of
 ///   .nc          mpas
 ///   .vtp .vtu .off .ply .msh .geojson
-///   .txt .tri    triangles: the ids are columns of the input of delaunay(), so that the file goes
+///   .txt .tri    triangles: the ids are columns of the input of the triangulation, so that the
+///   file goes
 ///                with the points it was made from: a merged duplicate goes by its site's lowest
 ///                column
 ///   SaveVertices mpi_scvt; the rest of the name, if any, is that of the files beside it, too
@@ -143,7 +144,7 @@ void require_mesh_suffix(const std::string& path);
 ///        triangle is the duplicate of one that has the same direction, or else stays as a site
 ///        without triangles.
 /// \throws Error bad_option, parse, file; of a planar mesh (all z are 0) bad_option; of sites that
-/// delaunay()
+/// spherical_delaunay()
 ///         refuses, its code.
 Mesh read_mesh(const std::string& path, const Points3* points = nullptr);
 

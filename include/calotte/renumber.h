@@ -16,7 +16,7 @@ enum class Numbering {
 };
 
 /// The same mesh with its sites in another order, and its triangles in the canonical order of
-/// these: the mesh that delaunay() makes of the permuted points, where it is Delaunay.
+/// these: the mesh that spherical_delaunay() makes of the permuted points, where it is Delaunay.
 /// site_of_input tells where the sites went. A mesh that is along the curve stays as it is;
 /// by_format and input change nothing. Any mesh that read_mesh returns will do. Linear time.
 /// \throws Error bad_option, for ids out of range; not_finite, zero_vector.

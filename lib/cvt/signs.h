@@ -48,12 +48,13 @@ public:
 
   std::int64_t sites() const { return places_->size(); }
   /// In a box no triangle is that has a side as long as half of a period: which copies are the
-  /// nearest is in doubt there, and delaunay() refuses what has such sides.
+  /// nearest is in doubt there, and periodic_delaunay() refuses what has such sides.
   bool is_counter_clockwise(const Corners& triangle) const;
   bool is_clearly_acute(const Corners& triangle, int v) const;
   bool circle_holds(const Corners& triangle, int v, std::int32_t d) const;
 
-  /// \throws Error too_few_sites, when two points have met; as delaunay().
+  /// \throws Error too_few_sites, when two points have met; as spherical_delaunay() and
+  /// planar_delaunay().
   Connectivity triangulate() const;
 
 private:

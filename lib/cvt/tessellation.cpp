@@ -19,8 +19,8 @@ constexpr std::int64_t sampled = 64; ///< one point of so many stands for all, f
 } // namespace
 
 template <class Cells>
-Tessellation<Cells>::Tessellation(Cells cells, const Points3& points,
-                                  const DelaunayOptions& partition, Level&& level)
+Tessellation<Cells>::Tessellation(Cells cells, const Points3& points, const Partition& partition,
+                                  Level&& level)
     : cells_(std::move(cells)), generators_(points.cols()), partition_(partition) {
   cells_.move(points);
   const bool known = level.mesh.has_value();

@@ -8,7 +8,7 @@
 #include "integrals/patches.h"
 
 #include <calotte/cvt.h>
-#include <calotte/delaunay.h>
+#include <calotte/options.h>
 #include <calotte/types.h>
 
 #include <cstdint>
@@ -48,7 +48,7 @@ template <class Cells> class Tessellation {
 public:
   /// \param points 3 x n.
   /// \throws Error as Cells::Signs::triangulate().
-  Tessellation(Cells cells, const Points3& points, const DelaunayOptions& partition, Level&& level);
+  Tessellation(Cells cells, const Points3& points, const Partition& partition, Level&& level);
 
   /// The points are there now.
   void move(const Points3& points) { cells_.move(points); }
@@ -117,7 +117,7 @@ private:
 
   Cells cells_;
   std::int64_t generators_;
-  DelaunayOptions partition_;
+  Partition partition_;
   Connectivity mesh_;
   Ownership ownership_;
   std::vector<Patch> patches_;

@@ -97,14 +97,11 @@ void refuse_state() {
 // ---- The sphere
 
 State SphericalWorld::begin(Points3&& start, const CvtOptions& options) {
-  return begun_at(
-      make_sites(std::move(start), options.partition.duplicates, options.partition.merge_within),
-      options);
+  return begun_at(make_sites(std::move(start), options.duplicates, options.merge_within), options);
 }
 
 State SphericalWorld::begin(const Points3Ref& start, const CvtOptions& options) {
-  return begun_at(make_sites(start, options.partition.duplicates, options.partition.merge_within),
-                  options);
+  return begun_at(make_sites(start, options.duplicates, options.merge_within), options);
 }
 
 Density SphericalWorld::density(const Density& density) {
@@ -141,8 +138,7 @@ Level SphericalWorld::set_bisected(State& state, const Mesh& coarse) {
 PlanarWorld::PlanarWorld(const PlanarDomain& domain) : domain_(domain) { require_domain(domain); }
 
 State PlanarWorld::begin(const Points2Ref& start, const CvtOptions& options) {
-  Sites sites =
-      make_planar_sites(start, options.partition.duplicates, options.partition.merge_within);
+  Sites sites = make_planar_sites(start, options.duplicates, options.merge_within);
   require_triangle(sites);
   State state;
   set_places(state, sites);

@@ -166,19 +166,19 @@ int default_region_count(std::int64_t sites) {
   return static_cast<int>(std::max(least, sites / a_region));
 }
 
-std::vector<Vec3> make_centres(const Sites& sites, const DelaunayOptions& options) {
-  if (options.given_centres) {
-    if (options.given_centres->cols() == 0)
+std::vector<Vec3> make_centres(const Sites& sites, const Partition& partition) {
+  if (partition.given_centres) {
+    if (partition.given_centres->cols() == 0)
       throw Error(ErrorCode::bad_option, "no region centre is given; give at least one");
-    return columns(*options.given_centres, sites.frame);
+    return columns(*partition.given_centres, sites.frame);
   }
-  const int regions = options.regions.value_or(default_region_count(sites.size()));
+  const int regions = partition.regions.value_or(default_region_count(sites.size()));
   if (regions < 1)
     throw Error(ErrorCode::bad_option,
                 "the number of regions is " + std::to_string(regions) + ": give at least 1");
   // More regions than sites would own nothing; their centres would only take time and memory.
   const auto useful = static_cast<int>(std::min<std::int64_t>(regions, sites.size()));
-  if (options.centres == Centres::fibonacci)
+  if (partition.centres == Centres::fibonacci)
     return sites.frame ? plane_lattice(*sites.frame, useful)
                        : columns(fibonacci_sphere(useful), std::nullopt);
   return sampled_centres(sites, useful);

@@ -4,7 +4,7 @@
 #include "delaunay/room.h"
 #include "delaunay/sites.h"
 
-#include <calotte/delaunay.h>
+#include <calotte/options.h>
 
 #include <cstdint>
 #include <vector>
@@ -17,6 +17,6 @@ int default_region_count(std::int64_t sites);
 
 /// Centres: those given, or as many as regions are asked for, but no more than sites.
 /// \throws Error bad_option (fewer than one region, centres without a direction).
-std::vector<Vec3> make_centres(const Sites& sites, const DelaunayOptions& options);
+std::vector<Vec3> make_centres(const Sites& sites, const Partition& partition);
 
 } // namespace calotte::delaunay_detail

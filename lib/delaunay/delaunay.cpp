@@ -243,13 +243,13 @@ std::vector<std::vector<std::int32_t>> adjacent_centres(const std::vector<Vec3>&
 
 } // namespace
 
-Regions divide(const Sites& sites, const DelaunayOptions& options) {
-  std::vector<Vec3> centres = make_centres(sites, options);
+Regions divide(const Sites& sites, const Partition& partition) {
+  std::vector<Vec3> centres = make_centres(sites, partition);
   if (centres.size() == 1)
     return {std::move(centres), {}, {}, {}};
   const std::vector<std::vector<std::int32_t>> adjacent =
       adjacent_centres(centres, sites.frame.has_value());
-  return make_regions(sites, std::move(centres), adjacent, options.sort);
+  return make_regions(sites, std::move(centres), adjacent, partition.sort);
 }
 
 namespace {
@@ -261,10 +261,10 @@ void empty_pools_of_many(std::int64_t sites) {
 
 /// From the sites to the mesh, whose points in a plane have z = 0.
 template <class Space>
-Mesh triangulate(Sites&& sites, const DelaunayOptions& options, DelaunayReport& report) {
+Mesh triangulate(Sites&& sites, const Partition& partition, DelaunayReport& report) {
   Clock::time_point mark = Clock::now();
   empty_pools_of_many(sites.size());
-  Regions regions = divide(sites, options);
+  Regions regions = divide(sites, partition);
   sites.cells = {}; // each array goes when it has served: the largest sets take all of the memory
   report.seconds.regions = lap(mark);
   std::optional<Reports> reports;
@@ -306,7 +306,7 @@ Mesh triangulate_sphere(Points&& points, const DelaunayOptions& options, Delauna
   DelaunayReport& used = report != nullptr ? *report : unused;
   Clock::time_point start = Clock::now();
   Sites sites = sites_of<Sphere>(std::forward<Points>(points), options, used);
-  Mesh mesh = triangulate<Sphere>(std::move(sites), options, used);
+  Mesh mesh = triangulate<Sphere>(std::move(sites), options.partition, used);
   used.seconds.total = lap(start);
   return mesh;
 }
@@ -333,7 +333,7 @@ PlanarMesh planar_delaunay(const PointsRef& points, const DelaunayOptions& optio
   const Points2Ref places = places_of(points, "spherical_delaunay()");
   Clock::time_point start = Clock::now();
   Sites sites = sites_of<Plane>(places, options, used);
-  PlanarMesh mesh = planar(triangulate<Plane>(std::move(sites), options, used));
+  PlanarMesh mesh = planar(triangulate<Plane>(std::move(sites), options.partition, used));
   used.seconds.total = lap(start);
   return mesh;
 }
@@ -353,7 +353,7 @@ PlanarMesh periodic_delaunay(const PointsRef& points, const Eigen::Vector2d& per
     used.sites_per_region.clear();
     used.owned_per_region.clear();
     used.seconds_per_region.clear();
-    return planar(triangulate<Plane>(std::move(copies), options, used));
+    return planar(triangulate<Plane>(std::move(copies), options.partition, used));
   };
   PlanarMesh mesh = triangulate_periodic(distinct, period, triangulate_images);
   mesh.site_of_input = std::move(sites.site_of_input);

@@ -5,10 +5,10 @@
 #include "delaunay/room.h"
 #include "exact/plane_predicates.h"
 
-#include <calotte/delaunay.h>
 #include <calotte/types.h>
 
 #include <functional>
+#include <vector>
 
 namespace calotte::delaunay_detail {
 

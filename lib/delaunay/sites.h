@@ -9,7 +9,7 @@
 #include "delaunay/site_boxes.h"
 #include "exact/plane_predicates.h"
 
-#include <calotte/delaunay.h>
+#include <calotte/options.h>
 
 #include <cstdint>
 #include <optional>

@@ -37,15 +37,15 @@ struct Setting {
 DelaunayOptions with_regions(int regions, Sort sort = Sort::halo,
                              Centres centres = Centres::sample) {
   DelaunayOptions options;
-  options.regions = regions;
-  options.sort = sort;
-  options.centres = centres;
+  options.partition.regions = regions;
+  options.partition.sort = sort;
+  options.partition.centres = centres;
   return options;
 }
 
 DelaunayOptions with_centres(const Points3& centres) {
   DelaunayOptions options;
-  options.given_centres = centres;
+  options.partition.given_centres = centres;
   return options;
 }
 
@@ -174,19 +174,19 @@ DelaunayOptions random_options(Random& random, const Points3& points) {
   const auto count = static_cast<int>(std::min<Eigen::Index>(points.cols(), 8));
   const Points3 some = points.leftCols(random.integer(1, count));
   DelaunayOptions options = with_regions(random.integer(2, random.integer(2, 60)));
-  options.sort = static_cast<Sort>(random.integer(0, 2));
+  options.partition.sort = static_cast<Sort>(random.integer(0, 2));
   switch (random.integer(0, 4)) {
   case 0:
-    options.centres = Centres::fibonacci;
+    options.partition.centres = Centres::fibonacci;
     break;
   case 1:
-    options.given_centres = some;
+    options.partition.given_centres = some;
     break;
   case 2:
-    options.given_centres = Points3(-some);
+    options.partition.given_centres = Points3(-some);
     break;
   case 3:
-    options.given_centres =
+    options.partition.given_centres =
         random_sphere(some.cols(), static_cast<std::uint64_t>(random.integer(1, 1000)));
     break;
   default:
@@ -432,7 +432,7 @@ TEST_CASE("regression: bisecting 162 icosahedral sites over 12 regions gives 642
 TEST_CASE("regression: 642 icosahedral sites over 12 icosahedral centres (MPI-SCVT: 1172)") {
   for (const Sort sort : {Sort::halo, Sort::distance, Sort::voronoi}) {
     DelaunayOptions options = with_centres(bisected_icosahedron(0));
-    options.sort = sort;
+    options.partition.sort = sort;
     CHECK(spherical_delaunay(bisected_icosahedron(3), options).triangles.cols() == 1280);
   }
 }

@@ -142,9 +142,9 @@ template <class Call> auto with_threads(int threads, const Call& call) {
 DelaunayOptions with_regions(int regions, Sort sort = Sort::halo,
                              Centres centres = Centres::sample) {
   DelaunayOptions options;
-  options.regions = regions;
-  options.sort = sort;
-  options.centres = centres;
+  options.partition.regions = regions;
+  options.partition.sort = sort;
+  options.partition.centres = centres;
   return options;
 }
 
@@ -255,11 +255,12 @@ TEST_CASE("any regions, sorts, centres and threads give the same planar mesh") {
     CHECK(identical(planar_delaunay(cloud.points, with_regions(12, Sort::halo, Centres::fibonacci)),
                     mesh));
     DelaunayOptions options;
-    options.given_centres = Points3(3, 3);
-    *options.given_centres << cloud.points.leftCols(3), 7, 8, 9;
+    options.partition.given_centres = Points3(3, 3);
+    *options.partition.given_centres << cloud.points.leftCols(3), 7, 8, 9;
     CHECK(identical(planar_delaunay(cloud.points, options), mesh));
     const double beyond = 20 * cloud.points.cwiseAbs().maxCoeff(); // all far outside
-    *options.given_centres << beyond, beyond, beyond / 2, beyond, beyond / 2, beyond, 0, 0, 0;
+    *options.partition.given_centres << beyond, beyond, beyond / 2, beyond, beyond / 2, beyond, 0,
+        0, 0;
     CHECK(identical(planar_delaunay(cloud.points, options), mesh));
   }
 }

@@ -24,10 +24,10 @@ std::vector<std::vector<std::int32_t>> all_pairs(std::size_t count) {
 }
 
 Regions regions_of(const Sites& sites, int count, Centres centres, Sort sort) {
-  DelaunayOptions options;
-  options.regions = count;
-  options.centres = centres;
-  return make_regions(sites, make_centres(sites, options),
+  Partition partition;
+  partition.regions = count;
+  partition.centres = centres;
+  return make_regions(sites, make_centres(sites, partition),
                       all_pairs(static_cast<std::size_t>(count)), sort);
 }
 
@@ -106,13 +106,13 @@ TEST_CASE(
   for (Eigen::Index k = 0; k < centres.cols(); ++k)
     centres.col(k) = middle + 3e-12 * centres.col(k);
   const Sites sites = make_sites(points, Duplicates::merge, 0);
-  DelaunayOptions options;
-  options.given_centres = centres;
+  Partition partition;
+  partition.given_centres = centres;
   std::vector<std::vector<std::int32_t>> adjacent(40); // none but a few: most owners are no members
   for (std::int32_t k = 0; k < 40; ++k)
     adjacent[static_cast<std::size_t>(k)] = {k == 0 ? 39 : k - 1, k == 39 ? 0 : k + 1};
   const Regions regions =
-      make_regions(sites, make_centres(sites, options), adjacent, Sort::voronoi);
+      make_regions(sites, make_centres(sites, partition), adjacent, Sort::voronoi);
   for (std::size_t k = 0; k < 40; ++k)
     for (std::int64_t r = 0; r < sites.size(); ++r) {
       const auto in = [&](const HalfSpace& h) { return dot(sites.unit[r], h.normal) <= h.offset; };
@@ -126,11 +126,11 @@ TEST_CASE(
 
 TEST_CASE("there are no more placed centres than sites, and halos stay thin with one each") {
   const Sites sites = make_sites(random_sphere(1000, 5), Duplicates::merge, 0);
-  DelaunayOptions options;
-  options.regions = 1000000000;
-  CHECK(make_centres(sites, options).size() == 1000);
-  options.centres = Centres::fibonacci;
-  CHECK(make_centres(sites, options).size() == 1000);
+  Partition partition;
+  partition.regions = 1000000000;
+  CHECK(make_centres(sites, partition).size() == 1000);
+  partition.centres = Centres::fibonacci;
+  CHECK(make_centres(sites, partition).size() == 1000);
   const Regions regions = regions_of(sites, 1000, Centres::sample, Sort::halo);
   std::int64_t members = 0;
   for (const std::vector<Run>& runs : regions.members)
@@ -148,10 +148,10 @@ TEST_CASE("regions of sampled centres hold nearly equal numbers of sites") {
 
 TEST_CASE("centres need a number and directions") {
   const Sites sites = make_sites(random_sphere(50), Duplicates::merge, 0);
-  DelaunayOptions options;
-  options.regions = 0;
-  CHECK_THROWS_WITH_AS(make_centres(sites, options), "the number of regions is 0: give at least 1",
+  Partition partition;
+  partition.regions = 0;
+  CHECK_THROWS_WITH_AS(make_centres(sites, partition), "the number of regions is 0: give at least 1",
                        Error);
-  options.given_centres = Points3::Zero(3, 2);
-  CHECK_THROWS_AS(make_centres(sites, options), Error);
+  partition.given_centres = Points3::Zero(3, 2);
+  CHECK_THROWS_AS(make_centres(sites, partition), Error);
 }

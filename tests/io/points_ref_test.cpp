@@ -56,7 +56,7 @@ std::vector<Call> calls_on_sphere() {
           {"evaluate cell widths", [](const PointsRef& x) { evaluate(wide_cells(), x); }},
           {"given centres", [](const PointsRef& x) {
              DelaunayOptions options;
-             options.given_centres = x;
+             options.partition.given_centres = x;
              spherical_delaunay(random_sphere(100), options);
            }}};
 }
@@ -226,14 +226,14 @@ TEST_CASE("centres of regions are 3 x k, in the plane 2 x k or 3 x k") {
   const Points3 points = random_sphere(2000, 3);
   DelaunayOptions options;
   DelaunayReport report;
-  options.given_centres = Eigen::MatrixXd(random_sphere(9, 4));
+  options.partition.given_centres = Eigen::MatrixXd(random_sphere(9, 4));
   CHECK(same(spherical_delaunay(points, options, &report), spherical_delaunay(points)));
   CHECK(report.regions == 9);
   const Points2 places = random_places(2000, unit_square(), 3);
   for (const Eigen::Index rows : {2, 3}) {
     Eigen::MatrixXd centres = Eigen::MatrixXd::Constant(rows, 9, 5);
     centres.topRows(2) = random_places(9, unit_square(), 4);
-    options.given_centres = centres;
+    options.partition.given_centres = centres;
     CHECK(same(planar_delaunay(places, options, &report), planar_delaunay(places)));
     CHECK(report.regions == 9);
   }

@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 #include <string>
+#include <utility>
 
 namespace calotte::tools {
 namespace {
@@ -178,7 +179,10 @@ CvtOptions options_of(const CvtRequest& request) {
   options.rule = request.rule;
   options.final_rule = request.final_rule;
   options.triangle_divisions = request.triangle_divisions;
-  options.partition = options_of(*request.partition, planar(request));
+  DelaunayOptions start = options_of(*request.partition, planar(request));
+  options.duplicates = start.duplicates;
+  options.merge_within = start.merge_within;
+  options.partition = std::move(start.partition);
   return options;
 }
 

@@ -76,14 +76,14 @@ DelaunayOptions options_of(const PartitionWords& words, bool plane) {
   static const std::map<std::string, Sort> sorts{
       {"halo", Sort::halo}, {"distance", Sort::distance}, {"voronoi", Sort::voronoi}};
   DelaunayOptions options;
-  options.regions = words.regions;
-  options.sort = sorts.at(words.sort);
+  options.partition.regions = words.regions;
+  options.partition.sort = sorts.at(words.sort);
   options.duplicates = words.duplicates == "merge" ? Duplicates::merge : Duplicates::refuse;
   options.merge_within = words.merge_within;
   if (words.centres == "fibonacci")
-    options.centres = Centres::fibonacci;
+    options.partition.centres = Centres::fibonacci;
   else if (!centres_file(words).empty())
-    options.given_centres = read_centres(words, plane);
+    options.partition.given_centres = read_centres(words, plane);
   return options;
 }
 
