@@ -144,10 +144,10 @@ void require_ids(const std::string& name, const Triangles& triangles, std::int64
                     t);
 }
 
-/// Either kind of points.
-auto triangulated(const std::string& name, const auto& sites) {
+/// \param triangulate gives the mesh. \throws what it throws, with the file's name.
+auto named(const std::string& name, const auto& triangulate) {
   try {
-    return spherical_delaunay(sites);
+    return triangulate();
   } catch (const Error& error) {
     throw Error(error.code(), name + ": " + error.what(), error.index());
   }
@@ -157,7 +157,7 @@ Mesh mesh_of(const std::string& name, Soup soup) {
   require_sphere(name, soup.points);
   require_directions(name, soup.points);
   if (soup.triangles.cols() == 0)
-    return triangulated(name, soup.points);
+    return named(name, [&] { return spherical_delaunay(soup.points); });
   require_ids(name, soup.triangles, soup.points.cols());
   Mesh mesh{std::move(soup.points), std::move(soup.triangles), {}, {}};
   mesh.neighbours = neighbours_of(mesh.triangles, mesh.points.cols());
@@ -185,7 +185,7 @@ PlanarMesh planar_mesh_of(const std::string& name, const Soup& soup) {
   require_places(name, soup.points);
   const Points2 places = soup.points.topRows<2>();
   if (soup.triangles.cols() == 0)
-    return triangulated(name, places);
+    return named(name, [&] { return planar_delaunay(places); });
   require_ids(name, soup.triangles, places.cols());
   return {places, soup.triangles, neighbours_of(soup.triangles, places.cols()),
           themselves(places.cols())};

@@ -3,6 +3,7 @@
 #include "support/meshes.h"
 
 #include <calotte/check.h>
+#include <calotte/delaunay.h>
 #include <calotte/density.h>
 #include <calotte/io.h>
 
