@@ -143,7 +143,7 @@ std::vector<double> medians(const std::vector<std::vector<double>>& lists, int w
 
 /// Adds the sites that each region would receive in an iteration of a distributed run, and the
 /// bytes that it would send.
-void count_halos(const Points3& points, const DelaunayOptions& partition, Lists& lists) {
+void count_halos(const Points3& points, const Partition& partition, Lists& lists) {
   const delaunay_detail::Sites sites = delaunay_detail::make_sites(points, Duplicates::merge, 0);
   const delaunay_detail::Regions regions = delaunay_detail::divide(sites, partition);
   lists.halo.resize(regions.centres.size(), 0);
@@ -203,7 +203,7 @@ private:
   }
 
   Points3 points_;
-  DelaunayOptions partition_;
+  Partition partition_;
   std::unique_ptr<cvt_detail::Functional> functional_;
   cvt_detail::Evaluation evaluation_;
   std::vector<CvtRegion> regions_;

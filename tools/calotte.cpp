@@ -3,12 +3,15 @@
 #include "run/exit_code.h"
 
 #include <calotte/error.h>
+#include <calotte/version.h>
 
 #include <csignal>
 #include <exception>
 #include <iostream>
 #include <new>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace calotte::tools {
 namespace {
@@ -63,6 +66,19 @@ void run(CLI::App& app, int argc, char** argv) {
     throw CLI::RequiredError("delaunay, cvt, points, check, info, draw or convert");
 }
 
+/// A message of the library, with the option that is its remedy here.
+std::string with_option(const std::string& message) {
+  static const std::vector<std::pair<std::string, std::string>> options{
+      {"read them as longitude and latitude, or as places in a plane", " (--lonlat, --plane)"},
+      {"read it as one of the plane", " (--plane)"},
+      {"read it as one of the sphere", " (without --plane)"},
+      {"give the points they refer to", " (--points FILE)"}};
+  for (const auto& [remedy, option] : options)
+    if (message.ends_with(remedy))
+      return message + option;
+  return message;
+}
+
 /// Runs the command, and turns what it throws into one line and an exit code.
 ExitCode guarded_run(CLI::App& app, int argc, char** argv) {
   try {
@@ -78,7 +94,7 @@ ExitCode guarded_run(CLI::App& app, int argc, char** argv) {
     return bad_input;
   } catch (const Error& error) {
     const bool bug = error.code() == ErrorCode::internal;
-    complain((bug ? "internal error, please report it: " : "") + std::string(error.what()));
+    complain((bug ? "internal error, please report it: " : "") + with_option(error.what()));
     return exit_code(error.code());
   } catch (const std::bad_alloc&) {
     complain("not enough memory; try fewer points");

@@ -9,6 +9,7 @@
 
 #include <calotte/error.h>
 #include <calotte/io.h>
+#include <calotte/version.h>
 
 #include <array>
 #include <cmath>

@@ -12,6 +12,7 @@
 #include <calotte/delaunay.h>
 #include <calotte/error.h>
 #include <calotte/io.h>
+#include <calotte/version.h>
 
 #include <nlohmann/json.hpp>
 

@@ -6,8 +6,6 @@
 
 #include <Eigen/Core>
 
-#include <string>
-
 CALOTTE_API_BEGIN
 namespace calotte {
 
@@ -21,11 +19,6 @@ struct PlanarRaster {
 
 /// A callable. \throws Error bad_option where shapes, coordinates or values are not as said above.
 Density density_of(const PlanarRaster& raster);
-
-/// From a NetCDF file: the variable density(y, x), with the coordinate variables x(x) and y(y),
-/// either of which may descend.
-/// \throws Error parse, naming the variable and its index; file.
-PlanarRaster read_planar_raster(const std::string& path);
 
 } // namespace calotte
 CALOTTE_API_END

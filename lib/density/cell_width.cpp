@@ -20,8 +20,8 @@ namespace {
 
 using density_detail::WidthField;
 
-void require_radius(double radius) {
-  if (!(radius > 0) || !std::isfinite(radius))
+void require_radius(double radius_km) {
+  if (!(radius_km > 0) || !std::isfinite(radius_km))
     throw Error(ErrorCode::bad_option, "the sphere's radius must be positive; give it in km");
 }
 
@@ -119,8 +119,8 @@ Eigen::VectorXd evaluate(const CellWidth& cell_width, const PointsRef& points) {
   return widths;
 }
 
-double implied_cells(const CellWidth& cell_width, double radius) {
-  require_radius(radius);
+double implied_cells(const CellWidth& cell_width, double radius_km) {
+  require_radius(radius_km);
   const WidthField field(cell_width);
   std::vector<double> rows(static_cast<std::size_t>(field.latitudes().intervals()));
   base_detail::for_each_task(field.latitudes().intervals(), [&](std::int64_t j) {
@@ -129,11 +129,11 @@ double implied_cells(const CellWidth& cell_width, double radius) {
   double sum = 0;
   for (const double row : rows)
     sum += row;
-  return 2 / std::numbers::sqrt3 * radius * radius * sum;
+  return 2 / std::numbers::sqrt3 * radius_km * radius_km * sum;
 }
 
-Gradient largest_gradient(const CellWidth& cell_width, double radius) {
-  require_radius(radius);
+Gradient largest_gradient(const CellWidth& cell_width, double radius_km) {
+  require_radius(radius_km);
   const WidthField field(cell_width);
   std::vector<Corner> rows(static_cast<std::size_t>(field.latitudes().intervals()));
   base_detail::for_each_task(field.latitudes().intervals(), [&](std::int64_t j) {
@@ -145,7 +145,7 @@ Gradient largest_gradient(const CellWidth& cell_width, double radius) {
       steepest = corner;
   constexpr double degrees = 180 / std::numbers::pi;
   const double longitude = field.longitudes()[steepest.i] * degrees;
-  return {std::sqrt(std::max(0.0, steepest.square)) / radius,
+  return {std::sqrt(std::max(0.0, steepest.square)) / radius_km,
           longitude < 180 ? longitude : longitude - 360, field.latitudes()[steepest.j] * degrees};
 }
 

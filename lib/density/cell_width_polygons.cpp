@@ -323,7 +323,7 @@ double outside_weight(const Region& region, const PolygonWidths& widths, double 
                       double latitude) {
   if (region.inside(to_units(longitude), latitude))
     return 0;
-  const double width = widths.transition / widths.radius, // as an angle
+  const double width = widths.transition / widths.radius_km, // as an angle
       square = region.boundary.square(from_lonlat(longitude, latitude),
                                       std::min(4.0, width * width)), // chords are shorter
       angle = 2 * arc_sine(std::min(1.0, 0.5 * std::sqrt(square))),
@@ -341,7 +341,7 @@ double width_at(const Region& region, const PolygonWidths& widths, double longit
 double step_for(const PolygonWidths& widths) {
   constexpr double finest = 0.05, coarsest = 1;
   constexpr double samples = 16, fewest_samples = 4; ///< of a transition
-  const double degrees = widths.transition / widths.radius * 180 / std::numbers::pi;
+  const double degrees = widths.transition / widths.radius_km * 180 / std::numbers::pi;
   if (degrees < fewest_samples * finest) {
     const double least = widths.transition * fewest_samples * finest / degrees;
     char text[128];

@@ -5,6 +5,7 @@
 #include "io/file_names.h"
 
 #include <calotte/error.h>
+#include <calotte/read.h>
 
 #include <algorithm>
 #include <cmath>

@@ -114,7 +114,7 @@ private:
 
 CellWidth read_cell_width_geojson(std::istream& in, const std::string& name,
                                   const PolygonWidths& widths) {
-  if (!(widths.radius > 0) || !std::isfinite(widths.radius))
+  if (!(widths.radius_km > 0) || !std::isfinite(widths.radius_km))
     throw Error(ErrorCode::bad_option, "the sphere's radius must be positive; give it in km");
   return Collector(name, widths).read(read_geojson(in, name));
 }

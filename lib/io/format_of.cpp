@@ -122,6 +122,4 @@ bool holds_cells(Format format) {
   }
 }
 
-void require_mesh_suffix(const std::string& path) { format_of(path); }
-
 } // namespace calotte

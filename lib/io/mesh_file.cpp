@@ -119,9 +119,10 @@ Mesh in_space(const PlanarMesh& mesh) {
 /// All sites on one great circle have no mesh of the sphere: more likely they are a plane's.
 void require_sphere(const std::string& name, const Points3& points) {
   if (points.cols() >= 3 && (points.row(2).array() == 0).all())
-    throw Error(ErrorCode::bad_option,
-                name + ": z is 0 at all points, which makes a mesh of the plane; read it as such "
-                       "(--plane)");
+    throw Error(
+        ErrorCode::bad_option,
+        name +
+            ": z is 0 at all points, which makes a mesh of the plane; read it as one of the plane");
 }
 
 void require_directions(const std::string& name, const Points3& points) {
@@ -175,8 +176,7 @@ void require_places(const std::string& name, const Points3& points) {
     if (points(2, i) != 0)
       throw Error(ErrorCode::bad_option,
                   name + ": z is not 0 at point " + std::to_string(i) +
-                      ", so it is not a planar mesh; read it as one of the sphere (without "
-                      "--plane)",
+                      ", so it is not a planar mesh; read it as one of the sphere",
                   i);
   }
 }
@@ -257,8 +257,7 @@ bool holds_netcdf(const std::string& path) {
 }
 
 [[noreturn]] void refuse_triangles_alone(const std::string& path) {
-  throw Error(ErrorCode::bad_option,
-              path + " holds triangles only; give the points they refer to (--points FILE)");
+  throw Error(ErrorCode::bad_option, path + " holds triangles only; give the points they refer to");
 }
 
 /// Of all formats that hold points.

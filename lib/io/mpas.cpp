@@ -3,6 +3,8 @@
 
 #include "base/parallel.h"
 
+#include <calotte/version.h>
+
 #include <bit>
 #include <charconv>
 #include <filesystem>

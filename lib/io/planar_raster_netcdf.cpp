@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/netcdf_reader.h"
 
-#include <calotte/planar_raster.h>
+#include <calotte/read.h>
 
 #include <cmath>
 #include <string>

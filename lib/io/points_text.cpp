@@ -61,7 +61,7 @@ Row row_of(Columns columns) {
             append_lonlat};
   return {3,
           "write three numbers x y z on each line",
-          ", or read them as longitude and latitude (--lonlat) or places in a plane (--plane)",
+          ", or read them as longitude and latitude, or as places in a plane",
           "direction",
           require_direction,
           append<3>};

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <calotte/cell_width.h>
-#include <calotte/planar_raster.h>
+#include <calotte/read.h>
 
 #include "base/lonlat.h"
 #include "base/spherical_angles.h"
@@ -185,7 +184,7 @@ TEST_CASE(
     const CellWidth width = constant(h);
     const double hexagon = std::sqrt(3) / 2 * h * h;
     CHECK(implied_cells(width) * hexagon ==
-          doctest::Approx(4 * pi * earth_radius * earth_radius).epsilon(1e-13));
+          doctest::Approx(4 * pi * earth_radius_km * earth_radius_km).epsilon(1e-13));
     CHECK(implied_cells(width, 1) * hexagon == doctest::Approx(4 * pi).epsilon(1e-13));
     CHECK(largest_gradient(width).slope == 0);
     CHECK(evaluate(density_of(width), random_sphere(1000)).isOnes(0));
@@ -299,7 +298,7 @@ TEST_CASE("the largest gradient is that of the field, where it is") {
     return 100 + 3 * std::clamp(latitude, 0.0, 30.0);
   };
   const Gradient up = largest_gradient(sampled(ramp, 36, 36));
-  CHECK(up.slope == doctest::Approx(3 / (degree * earth_radius)).epsilon(1e-12));
+  CHECK(up.slope == doctest::Approx(3 / (degree * earth_radius_km)).epsilon(1e-12));
   CHECK(up.latitude >= -1e-9);
   CHECK(up.latitude <= 30 + 1e-9);
   // Along a parallel, once: it is steepest where meridians are closest.
@@ -603,7 +602,7 @@ constexpr PolygonWidths coastal{.inside = 30, .outside = 130, .transition = 2000
 
 /// The width at a distance in radians from a boundary, negative inside.
 double across(double distance, const PolygonWidths& widths = coastal) {
-  const double t = std::clamp(distance * widths.radius / widths.transition, 0.0, 1.0);
+  const double t = std::clamp(distance * widths.radius_km / widths.transition, 0.0, 1.0);
   return widths.inside + (widths.outside - widths.inside) * t * t * (3 - 2 * t);
 }
 
@@ -709,7 +708,7 @@ TEST_CASE("the raster resolves the transition and is the same for any number of 
   };
   const CellWidth one = read_with(1), two = read_with(2);
   check_equal(one, two);
-  CHECK((one.latitudes[1] - one.latitudes[0]) * degree * earth_radius <= 400.0 / 16);
+  CHECK((one.latitudes[1] - one.latitudes[0]) * degree * earth_radius_km <= 400.0 / 16);
   // A cubic's greatest slope is 3/2 of the mean one.
   CHECK(largest_gradient(one).slope == doctest::Approx(1.5 * 100 / 400).epsilon(0.02));
   widths.transition = 10;
@@ -783,7 +782,7 @@ TEST_CASE("the spacings of a CVT follow the widths of a raster") {
     for (int i = 0; i < 3; ++i) {
       const std::int32_t a = grid.mesh.triangles(i, t), b = grid.mesh.triangles((i + 1) % 3, t);
       if (a < b)
-        ratios.push_back(earth_radius *
+        ratios.push_back(earth_radius_km *
                          angle_between(grid.mesh.points.col(a), grid.mesh.points.col(b)) /
                          (0.5 * (asked[a] + asked[b])));
     }

@@ -75,7 +75,7 @@ TEST_CASE("a name tells its format, in any case; an option tells it too, and mus
   CHECK(error_of([&] { format_of("grid.data", Format::mpi_scvt); }).code() ==
         ErrorCode::bad_option);
   for (const char* name : {"mesh", "mesh.stl", "", "vtp", "a.vtp/mesh", "SaveTriangles"})
-    CHECK(error_of([&] { calotte::require_mesh_suffix(name); }).code() == ErrorCode::bad_option);
+    CHECK(error_of([&] { calotte::format_of(name); }).code() == ErrorCode::bad_option);
   CHECK(std::string(error_of([&] { format_of("mesh.stl"); }).what()) ==
         "mesh.stl: unknown suffix \".stl\"; a mesh file ends in .nc, .vtp, .vtu, .off, .ply, .msh, "
         ".geojson, .txt or .tri, or is named SaveVertices");

@@ -43,8 +43,8 @@ TEST_CASE("points that are none: the message names the line, and nothing is writ
   check_bad(start + "\n1 two 3\n", "points.txt line 8: \"two\" is not a number" + xyz);
   check_bad("x,y,z\n" + start + "1,2\n",
             "points.txt line 8: 2 columns only" + xyz +
-                ", or read them as longitude and latitude (--lonlat) or places in "
-                "a plane (--plane)");
+                ", or read them as longitude and latitude, or as places in a plane "
+                "(--lonlat, --plane)");
   check_bad("", "points.txt: no points in 0 lines" + xyz);
   check_bad("x y z\n", "points.txt: no points in 1 line" + xyz);
   check_bad("0 0\n90 91\n",

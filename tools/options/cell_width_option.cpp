@@ -5,6 +5,7 @@
 #include "options/numbers.h"
 
 #include <calotte/error.h>
+#include <calotte/read.h>
 
 #include <charconv>
 #include <cmath>
@@ -89,7 +90,7 @@ CellWidth read_widths(const WidthWords& words) {
   return read_cell_width(words.file, {.inside = words.inside.value_or(0),
                                       .outside = words.outside.value_or(0),
                                       .transition = words.transition.value_or(0),
-                                      .radius = words.radius});
+                                      .radius_km = words.radius});
 }
 
 std::string width_configuration(const WidthWords& words) {

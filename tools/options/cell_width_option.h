@@ -17,7 +17,7 @@ struct WidthWords {
   std::string file;                                  ///< of cell widths, or ""
   std::string raster;                                ///< of a density, or ""
   std::optional<double> inside, outside, transition; ///< km, of polygons
-  double radius = earth_radius;                      ///< km
+  double radius = earth_radius_km;                   ///< km
 
   bool given() const { return !file.empty() || !raster.empty(); }
 };

@@ -3,8 +3,8 @@
 
 #include "options/cell_width_option.h"
 
-#include <calotte/cell_width.h>
 #include <calotte/density.h>
+#include <calotte/read.h>
 
 #include <CLI/CLI.hpp>
 

@@ -3,6 +3,8 @@
 
 #include "options/numbers.h"
 
+#include <calotte/version.h>
+
 #include <sstream>
 
 namespace calotte::tools {

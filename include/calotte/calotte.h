@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+/// All of the library.
+#include <calotte/cell_width.h>
+#include <calotte/check.h>
+#include <calotte/cvt.h>
+#include <calotte/delaunay.h>
+#include <calotte/density.h>
+#include <calotte/domain.h>
+#include <calotte/error.h>
+#include <calotte/export.h>
+#include <calotte/generators.h>
+#include <calotte/io.h>
+#include <calotte/options.h>
+#include <calotte/planar_raster.h>
+#include <calotte/quality.h>
+#include <calotte/read.h>
+#include <calotte/renumber.h>
+#include <calotte/types.h>
+#include <calotte/version.h>
+#include <calotte/voronoi.h>
+#include <calotte/write.h>

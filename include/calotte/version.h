@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+/// The version of these headers.
+#define CALOTTE_VERSION_MAJOR 0
+#define CALOTTE_VERSION_MINOR 1
+#define CALOTTE_VERSION_PATCH 0
+#define CALOTTE_VERSION "0.1.0"
