@@ -43,6 +43,7 @@ ExitCode exit_code(ErrorCode code) {
   switch (code) {
   case ErrorCode::file:
     return file_trouble;
+  case ErrorCode::cancelled: // no command cancels what it runs
   case ErrorCode::internal:
     return internal_error;
   default:

@@ -14,6 +14,7 @@
 #include <calotte/io.h>
 #include <calotte/options.h>
 #include <calotte/planar_raster.h>
+#include <calotte/progress.h>
 #include <calotte/quality.h>
 #include <calotte/read.h>
 #include <calotte/renumber.h>

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <calotte/export.h>
+#include <calotte/progress.h>
 #include <calotte/types.h>
 
 #include <string>
@@ -28,13 +29,17 @@ struct Check {
 /// characteristic; every triangle counter-clockwise; every edge Delaunay in exact arithmetic, ties
 /// by the library's rule; a boundary that is convex; areas that sum to 4 pi when closed. Local
 /// properties imply the global one (Delaunay, 1934), so the cost is linear.
-Check check(const Mesh& mesh);
+///
+/// \param progress if set, called between blocks of triangles, with the stage "check". A mesh that
+///        is open or broken is read more than once: the fraction then stands still.
+/// \throws Error cancelled.
+Check check(const Mesh& mesh, const ProgressCallback& progress = {});
 
 /// The same in the plane: Euler's characteristic 1, and areas that sum to that of the boundary's
 /// polygon; in a periodic box no boundary, Euler's characteristic 0, and areas that sum to the
 /// box's. There a triangle wider than half of the box counts as a failure, as periodic_delaunay()
 /// makes none.
-Check check(const PlanarMesh& mesh);
+Check check(const PlanarMesh& mesh, const ProgressCallback& progress = {});
 
 } // namespace calotte
 CALOTTE_API_END

@@ -19,6 +19,7 @@ enum class ErrorCode {
   bad_option,    ///< an option outside its range
   parse,         ///< a file violates its format
   file,          ///< a file cannot be opened, read or written
+  cancelled,     ///< the caller's progress callback ended the run
   internal,      ///< a bug of this library; please report it
 };
 

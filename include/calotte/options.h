@@ -2,6 +2,7 @@
 #pragma once
 
 #include <calotte/export.h>
+#include <calotte/progress.h>
 
 #include <Eigen/Core>
 
@@ -51,6 +52,8 @@ struct DelaunayOptions {
   /// of the points, not across the edge of a periodic box.
   double merge_within = 0;
   Partition partition = {};
+  /// Stages: sites, regions, triangulate, unite.
+  ProgressCallback progress = {};
 };
 
 } // namespace calotte

@@ -4,6 +4,7 @@
 #include <calotte/density.h>
 #include <calotte/error.h>
 #include <calotte/export.h>
+#include <calotte/progress.h>
 #include <calotte/renumber.h>
 #include <calotte/types.h>
 
@@ -53,6 +54,8 @@ struct WriteOptions {
   Density density = {};
   std::string history =
       {}; ///< one line a fact: how the mesh was made; an attribute of NetCDF files
+  /// Stages: number, write. A cancelled run leaves no file.
+  ProgressCallback progress = {};
 };
 
 /// Writes a mesh. By its name the format is that of

@@ -2,6 +2,7 @@
 #include <calotte/delaunay.h>
 
 #include "base/clock.h"
+#include "base/monitor.h"
 #include "delaunay/centres.h"
 #include "delaunay/cull.h"
 #include "delaunay/divide.h"
@@ -20,6 +21,9 @@
 namespace calotte {
 namespace delaunay_detail {
 namespace {
+
+/// Where the stages of a run end, as fractions of its time.
+constexpr double sites_made = 0.25, divided = 0.35, triangulated = 0.8, united = 0.99;
 
 /// The values that the stages of a triangulation by regions leave for the union.
 struct Reports {
@@ -146,11 +150,12 @@ void summarise(const std::vector<CapResult>& caps, std::int64_t sites, DelaunayR
 /// bisector has cost one a site that it owns.
 template <class Space>
 std::optional<Reports> triangulate_caps(const Sites& sites, const Regions& regions,
-                                        DelaunayReport& report) {
+                                        DelaunayReport& report, Monitor& monitor) {
   Reports reports;
   reports.triangles_of = Array<std::int32_t>(sites.size());
   std::vector<CapResult> caps(regions.centres.size());
   std::atomic<bool> failed = false;
+  monitor.begin("triangulate", triangulated, std::ssize(caps));
   for_each_task(std::ssize(caps), [&](std::int64_t k) {
     if (failed.load(std::memory_order_relaxed))
       return;
@@ -160,6 +165,7 @@ std::optional<Reports> triangulate_caps(const Sites& sites, const Regions& regio
       caps[static_cast<std::size_t>(k)] = std::move(*cap);
     else
       failed.store(true, std::memory_order_relaxed);
+    monitor.step();
   });
   std::int64_t owned = 0;
   for (const CapResult& cap : caps)
@@ -172,12 +178,12 @@ std::optional<Reports> triangulate_caps(const Sites& sites, const Regions& regio
   return reports;
 }
 
-Mesh make_mesh(Sites&& sites, Reports&& reports) {
+Mesh make_mesh(Sites&& sites, Reports&& reports, Monitor* monitor = nullptr) {
   Mesh mesh;
   mesh.points = std::move(sites.points);
   mesh.site_of_input = std::move(sites.site_of_input);
   sites = {}; // the mesh's triangles take the room of what is left of them
-  unite(std::move(reports.regions), std::move(reports.triangles_of), mesh);
+  unite(std::move(reports.regions), std::move(reports.triangles_of), mesh, monitor);
   return mesh;
 }
 
@@ -199,11 +205,12 @@ std::vector<std::vector<std::int32_t>> neighbours_in(const Triangles& triangles,
 }
 
 template <class Space, class Points>
-Sites make_sites_of(Points&& points, Duplicates duplicates, double merge_within) {
+Sites make_sites_of(Points&& points, Duplicates duplicates, double merge_within,
+                    Monitor* monitor = nullptr) {
   if constexpr (std::is_same_v<Space, Plane>)
-    return make_planar_sites(points, duplicates, merge_within);
+    return make_planar_sites(points, duplicates, merge_within, monitor);
   else
-    return make_sites(std::forward<Points>(points), duplicates, merge_within);
+    return make_sites(std::forward<Points>(points), duplicates, merge_within, monitor);
 }
 
 /// The triangles of some centres, or none when they are too few, meet, or lie on one line, or on
@@ -261,32 +268,39 @@ void empty_pools_of_many(std::int64_t sites) {
 
 /// From the sites to the mesh, whose points in a plane have z = 0.
 template <class Space>
-Mesh triangulate(Sites&& sites, const Partition& partition, DelaunayReport& report) {
+Mesh triangulate(Sites&& sites, const Partition& partition, DelaunayReport& report,
+                 Monitor& monitor) {
   Clock::time_point mark = Clock::now();
   empty_pools_of_many(sites.size());
+  monitor.begin("regions", divided, 1);
   Regions regions = divide(sites, partition);
   sites.cells = {}; // each array goes when it has served: the largest sets take all of the memory
   report.seconds.regions = lap(mark);
   std::optional<Reports> reports;
   if (regions.centres.size() > 1)
-    reports = triangulate_caps<Space>(sites, regions, report);
+    reports = triangulate_caps<Space>(sites, regions, report, monitor);
   regions = {};
-  if (!reports)
+  if (!reports) {
+    monitor.begin("triangulate", triangulated, 1);
     reports = triangulate_whole<Space>(sites, report);
+  }
   report.seconds.triangulate = lap(mark);
 
-  Mesh mesh = make_mesh(std::move(sites), std::move(*reports));
+  monitor.begin("unite", united, 2 * std::ssize(reports->regions));
+  Mesh mesh = make_mesh(std::move(sites), std::move(*reports), &monitor);
   empty_pools_of_many(mesh.points.cols());
   report.seconds.unite = lap(mark);
   return mesh;
 }
 
 template <class Space, class Points>
-Sites sites_of(Points&& points, const DelaunayOptions& options, DelaunayReport& report) {
+Sites sites_of(Points&& points, const DelaunayOptions& options, DelaunayReport& report,
+               Monitor& monitor) {
+  monitor.begin("sites", sites_made, site_steps);
   Clock::time_point mark = Clock::now();
   const std::int64_t given = points.cols();
-  Sites sites =
-      make_sites_of<Space>(std::forward<Points>(points), options.duplicates, options.merge_within);
+  Sites sites = make_sites_of<Space>(std::forward<Points>(points), options.duplicates,
+                                     options.merge_within, &monitor);
   report = {};
   report.threads = thread_count();
   report.sites = sites.size();
@@ -305,9 +319,11 @@ Mesh triangulate_sphere(Points&& points, const DelaunayOptions& options, Delauna
   DelaunayReport unused;
   DelaunayReport& used = report != nullptr ? *report : unused;
   Clock::time_point start = Clock::now();
-  Sites sites = sites_of<Sphere>(std::forward<Points>(points), options, used);
-  Mesh mesh = triangulate<Sphere>(std::move(sites), options.partition, used);
+  Monitor monitor(options.progress);
+  Sites sites = sites_of<Sphere>(std::forward<Points>(points), options, used, monitor);
+  Mesh mesh = triangulate<Sphere>(std::move(sites), options.partition, used, monitor);
   used.seconds.total = lap(start);
+  monitor.finish();
   return mesh;
 }
 
@@ -332,9 +348,11 @@ PlanarMesh planar_delaunay(const PointsRef& points, const DelaunayOptions& optio
   DelaunayReport& used = report != nullptr ? *report : unused;
   const Points2Ref places = places_of(points, "spherical_delaunay()");
   Clock::time_point start = Clock::now();
-  Sites sites = sites_of<Plane>(places, options, used);
-  PlanarMesh mesh = planar(triangulate<Plane>(std::move(sites), options.partition, used));
+  Monitor monitor(options.progress);
+  Sites sites = sites_of<Plane>(places, options, used, monitor);
+  PlanarMesh mesh = planar(triangulate<Plane>(std::move(sites), options.partition, used, monitor));
   used.seconds.total = lap(start);
+  monitor.finish();
   return mesh;
 }
 
@@ -346,18 +364,20 @@ PlanarMesh periodic_delaunay(const PointsRef& points, const Eigen::Vector2d& per
   const Points2Ref places = places_of(points, "spherical_delaunay()");
   Clock::time_point start = Clock::now();
   require_in_box(places, period);
-  Sites sites = sites_of<Plane>(places, options, used);
+  Monitor monitor(options.progress);
+  Sites sites = sites_of<Plane>(places, options, used, monitor);
   const Points2 distinct = sites.points.topRows<2>();
   const auto triangulate_images = [&](std::vector<Image> images, const Vec2& box) {
     Sites copies = make_sites(std::move(images), box);
     used.sites_per_region.clear();
     used.owned_per_region.clear();
     used.seconds_per_region.clear();
-    return planar(triangulate<Plane>(std::move(copies), options.partition, used));
+    return planar(triangulate<Plane>(std::move(copies), options.partition, used, monitor));
   };
   PlanarMesh mesh = triangulate_periodic(distinct, period, triangulate_images);
   mesh.site_of_input = std::move(sites.site_of_input);
   used.seconds.total = lap(start);
+  monitor.finish();
   return mesh;
 }
 

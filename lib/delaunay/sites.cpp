@@ -362,12 +362,16 @@ template <class Input> void require_count(std::int64_t n, const char* kind) {
 /// \param all_points the input's points as Sites holds them; called at most once, last of all.
 template <class Input, class AllPoints>
 Sites make_sites_of(const Input& input, Duplicates duplicates, double merge_within,
-                    const AllPoints& all_points) {
+                    Monitor* monitor, const AllPoints& all_points) {
   require_count<Input>(input.points.cols(), "points");
-  Order order = order_by_key(make_keys(input));
+  Array<std::uint64_t> keys = make_keys(input);
+  step(monitor);
+  Order order = order_by_key(std::move(keys));
+  step(monitor);
   const std::vector<std::int32_t> lowest = link_inputs(input, order, merge_within);
   if (duplicates == Duplicates::refuse)
     refuse_duplicates(lowest, Input::twin);
+  step(monitor);
 
   Sites sites;
   sites.site_of_input.resize(static_cast<std::size_t>(input.points.cols()));
@@ -391,6 +395,7 @@ Sites make_sites_of(const Input& input, Duplicates duplicates, double merge_with
   });
   sites.cells = Quadtree(std::move(order.keys), !std::is_same_v<Input, Directions>);
   sites.boxes = SiteBoxes(sites.unit);
+  step(monitor);
   return sites;
 }
 
@@ -407,23 +412,26 @@ Vec2 place_of(const Image& image, const Vec2& period) {
 
 } // namespace
 
-Sites make_sites(const Points3Ref& points, Duplicates duplicates, double merge_within) {
+Sites make_sites(const Points3Ref& points, Duplicates duplicates, double merge_within,
+                 Monitor* monitor) {
   require_distance(merge_within, "angle", " radians");
   const Directions input{points};
-  return make_sites_of(input, duplicates, merge_within, [&] { return copy_of(input); });
+  return make_sites_of(input, duplicates, merge_within, monitor, [&] { return copy_of(input); });
 }
 
-Sites make_sites(Points3&& points, Duplicates duplicates, double merge_within) {
+Sites make_sites(Points3&& points, Duplicates duplicates, double merge_within, Monitor* monitor) {
   require_distance(merge_within, "angle", " radians");
-  return make_sites_of(Directions{points}, duplicates, merge_within,
+  return make_sites_of(Directions{points}, duplicates, merge_within, monitor,
                        [&] { return std::move(points); });
 }
 
-Sites make_planar_sites(const Points2Ref& points, Duplicates duplicates, double merge_within) {
+Sites make_planar_sites(const Points2Ref& points, Duplicates duplicates, double merge_within,
+                        Monitor* monitor) {
   require_distance(merge_within, "distance", "");
   const Frame frame = frame_of(points);
   const Places input{points, frame};
-  Sites sites = make_sites_of(input, duplicates, merge_within, [&] { return copy_of(input); });
+  Sites sites =
+      make_sites_of(input, duplicates, merge_within, monitor, [&] { return copy_of(input); });
   sites.frame = frame;
   return sites;
 }
@@ -437,7 +445,7 @@ Sites make_sites(std::vector<Image> images, const Vec2& period) {
   Frame frame = frame_of(points);
   frame.period = period;
   const Images input{{points, frame}};
-  Sites sites = make_sites_of(input, Duplicates::merge, 0, [&] { return copy_of(input); });
+  Sites sites = make_sites_of(input, Duplicates::merge, 0, nullptr, [&] { return copy_of(input); });
   sites.frame = frame;
   sites.images = std::move(images);
   return sites;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "base/monitor.h"
 #include "base/parallel.h"
 #include "base/points.h"
 #include "base/vec3.h"
@@ -47,16 +48,22 @@ struct Sites {
   const Vec3& given(std::int32_t site) const { return column(points, site); }
 };
 
+constexpr std::int64_t site_steps = 4;
+
 /// \throws Error not_finite, zero_vector, duplicate, too_few_sites (for more than 2^30 points too),
 /// bad_option.
-Sites make_sites(const Points3Ref& points, Duplicates duplicates, double merge_within);
+/// \param monitor if not null, told of site_steps steps.
+Sites make_sites(const Points3Ref& points, Duplicates duplicates, double merge_within,
+                 Monitor* monitor = nullptr);
 
 /// The same; where no points are merged, they become the sites' points and are not copied.
-Sites make_sites(Points3&& points, Duplicates duplicates, double merge_within);
+Sites make_sites(Points3&& points, Duplicates duplicates, double merge_within,
+                 Monitor* monitor = nullptr);
 
 /// Of a plane: equal places are duplicates, `merge_within` is a distance. \throws Error as above,
 /// but for zero_vector.
-Sites make_planar_sites(const Points2Ref& points, Duplicates duplicates, double merge_within);
+Sites make_planar_sites(const Points2Ref& points, Duplicates duplicates, double merge_within,
+                        Monitor* monitor = nullptr);
 
 /// Sites of a periodic box together with copies of them: `points` are the images, each coordinate
 /// rounded once. \pre the images are distinct.

@@ -283,7 +283,8 @@ void write_neighbours(const RegionTriangles& report, const Array<std::int32_t>& 
 
 } // namespace
 
-void unite(std::vector<RegionTriangles>&& reports, Array<std::int32_t>&& triangles_of, Mesh& mesh) {
+void unite(std::vector<RegionTriangles>&& reports, Array<std::int32_t>&& triangles_of, Mesh& mesh,
+           Monitor* monitor) {
   const std::int32_t count = exclusive_scan(std::span(triangles_of.begin(), triangles_of.end()));
   make_room(mesh.triangles, 3, count);
   make_room(mesh.neighbours, 3, count);
@@ -301,6 +302,7 @@ void unite(std::vector<RegionTriangles>&& reports, Array<std::int32_t>&& triangl
         tables[static_cast<std::size_t>(k)].enter(seam, own[seam.triangle]);
     if (mesh.points.cols() > most_sites_kept) // the mesh's neighbours take their room
       give_back(report.sites);
+    step(monitor);
   });
   for_each_task(regions, [&](std::int64_t k) {
     for (const Seam& seam : reports[static_cast<std::size_t>(k)].seams)
@@ -315,6 +317,7 @@ void unite(std::vector<RegionTriangles>&& reports, Array<std::int32_t>&& triangl
     report = {}; // freed here, by all threads
     place[static_cast<std::size_t>(k)] = {};
     tables[static_cast<std::size_t>(k)] = {};
+    step(monitor);
   });
 }
 

@@ -52,7 +52,9 @@ RegionTriangles report_triangles(Triangulation<Space>& triangulation, const Site
 /// owner go straight to their place. Seam triangles meet in a concurrent hash table, a part for
 /// each region, which counts who reported each.
 /// \param triangles_of by site, as report_triangles left it; used up, as the reports are.
+/// \param monitor if not null, told of two steps a region.
 /// \throws Error internal, when a seam triangle was not reported by exactly its vertices' owners.
-void unite(std::vector<RegionTriangles>&& reports, Array<std::int32_t>&& triangles_of, Mesh& mesh);
+void unite(std::vector<RegionTriangles>&& reports, Array<std::int32_t>&& triangles_of, Mesh& mesh,
+           Monitor* monitor = nullptr);
 
 } // namespace calotte::delaunay_detail

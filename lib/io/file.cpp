@@ -111,7 +111,17 @@ OutputFile::~OutputFile() {
     ::unlink(temporary_.c_str());
 }
 
+void OutputFile::watch(ProgressCallback progress, std::int64_t bytes) {
+  if (!progress)
+    return;
+  progress_ = std::move(progress);
+  monitor_ = std::make_unique<Monitor>(progress_);
+  monitor_->begin("write", 1, bytes);
+}
+
 void OutputFile::append(std::string_view bytes) {
+  if (monitor_)
+    monitor_->step(static_cast<std::int64_t>(bytes.size()));
   while (!bytes.empty()) {
     if (temporary_.empty()) {
       const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
@@ -144,7 +154,7 @@ void OutputFile::put_tail() {
   const std::int64_t next = tail_.offset() + tail_size_;
   tail_.shorten(tail_size_);
   if (tail_size_ > 0)
-    put(std::move(tail_));
+    send(std::move(tail_));
   tail_ = block(next, tail_bytes);
   tail_size_ = 0;
 }
@@ -181,6 +191,12 @@ OutputBlock OutputFile::block(std::int64_t offset, std::int64_t size) {
 }
 
 void OutputFile::put(OutputBlock block) {
+  if (monitor_)
+    monitor_->step(block.size());
+  send(std::move(block));
+}
+
+void OutputFile::send(OutputBlock block) {
   int error = 0;
   if (block.size() >= least_direct)
     std::call_once(queue_started_, [this] { start_queue(); });

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/memory.h"
+#include "base/monitor.h"
 #include "io/room.h"
 
 #include <cstdint>
@@ -54,6 +55,10 @@ public:
   OutputFile& operator=(const OutputFile&) = delete;
   ~OutputFile(); ///< removes what was not committed
 
+  /// Tells a caller of bytes as they come: a run of one stage, "write".
+  /// \param bytes expected in all. \throws Error cancelled, as append() and put() do from here on.
+  void watch(ProgressCallback progress, std::int64_t bytes);
+
   /// \throws Error file, at once or from commit().
   void append(std::string_view bytes);
 
@@ -83,13 +88,16 @@ public:
 
 private:
   void start_queue();
+  void send(OutputBlock block);
   void keep(Array<char> memory);
   int write_direct(const OutputBlock& block);
   int write_through_cache(std::int64_t offset, std::string_view bytes) const;
   void put_tail();
 
-  std::string name_;      ///< as the caller wrote it, for messages
-  std::string place_;     ///< where the file shall be: symbolic links are followed
+  ProgressCallback progress_;
+  std::unique_ptr<Monitor> monitor_; ///< null where nobody watches
+  std::string name_;                 ///< as the caller wrote it, for messages
+  std::string place_;                ///< where the file shall be: symbolic links are followed
   std::string temporary_; ///< where it is until it is whole; empty when it is written in place
   int descriptor_ = -1;
   int direct_ = -1;  ///< writes past the page cache; -1 where the file system cannot

@@ -6,6 +6,7 @@
 #include "mesh/adjacency.h"
 
 #include "base/ids.h"
+#include "base/monitor.h"
 #include "base/points.h"
 #include "mesh/renumber.h"
 
@@ -56,8 +57,11 @@ Numbering numbering_of(const WriteOptions& options) {
 }
 
 /// A file from front to back.
-template <class Put> void put_file(const std::string& path, const Put& put) {
+template <class Put>
+void put_file(const std::string& path, const ProgressCallback& progress, std::int64_t bytes,
+              const Put& put) {
   OutputFile file(path);
+  file.watch(progress, bytes);
   put([&](std::string_view bytes) { file.append(bytes); });
   file.commit();
 }
@@ -85,6 +89,32 @@ void put_mesh(const Sink& sink, const Mesh& mesh, const WriteOptions& options) {
   }
 }
 
+/// A site's share of a file, roughly: progress alone depends on it.
+std::int64_t expected_bytes(Format format) {
+  switch (format) {
+  case Format::ply:
+  case Format::triangles:
+    return 50;
+  case Format::geojson:
+    return 600;
+  case Format::vtp_cells:
+  case Format::vtu_cells:
+    return 200;
+  default:
+    return 100;
+  }
+}
+
+/// A caller's callback for the part of a run from one fraction on.
+ProgressCallback rest_of(const ProgressCallback& progress, double from) {
+  if (!progress)
+    return {};
+  return [&progress, from](const Progress& part) {
+    constexpr double end = 0.99; // the file has yet to be brought to the disk
+    return progress({part.stage, from + (end - from) * part.fraction});
+  };
+}
+
 void write_numbered(const std::string& path, const Mesh& mesh, const WriteOptions& options) {
   switch (options.format) {
   case Format::mpas:
@@ -102,7 +132,8 @@ void write_numbered(const std::string& path, const Mesh& mesh, const WriteOption
   case Format::mpi_scvt:
     return write_mpi_scvt(path, mesh, options);
   default:
-    put_file(path, [&](const Sink& sink) { put_mesh(sink, mesh, options); });
+    put_file(path, options.progress, expected_bytes(options.format) * mesh.points.cols(),
+             [&](const Sink& sink) { put_mesh(sink, mesh, options); });
   }
 }
 
@@ -287,17 +318,22 @@ Points3 sites_of(const std::string& path) {
 } // namespace
 
 void write(const std::string& path, const Mesh& mesh, const WriteOptions& options) {
+  constexpr double numbered = 0.2; // of the time, where the cells are numbered anew
   WriteOptions resolved = options;
   resolved.format = format_of(path, options.format);
   require_options(path, resolved);
   require_mesh(path, mesh, resolved.format);
+  Monitor monitor(options.progress);
+  monitor.begin("number", numbered, 1);
   const Numbering numbering = numbering_of(resolved);
   const bool stays =
       numbering == Numbering::input || (numbering == Numbering::curve && is_in_curve_order(mesh));
+  resolved.progress = rest_of(options.progress, stays ? 0 : numbered);
   if (stays)
     write_numbered(path, mesh, resolved);
   else
     write_numbered(path, renumbered(mesh, numbering), resolved);
+  monitor.finish("write");
 }
 
 void require_planar_format(const std::string& path, bool periodic, Format format) {
@@ -320,12 +356,14 @@ void write(const std::string& path, const PlanarMesh& mesh, const WriteOptions& 
   if (options.numbering == Numbering::curve || options.numbering == Numbering::rcm)
     refuse(path, "the cells of a planar mesh keep their numbers; leave the order out");
   require_ids(path, mesh);
+  resolved.progress = rest_of(options.progress, 0);
   if (resolved.format == Format::mpas)
     write_mpas(path, mesh, resolved);
   else if (resolved.format == Format::mpas_minimal)
     write_mpas_minimal(path, mesh, resolved);
   else
     write_numbered(path, in_space(mesh), resolved);
+  Monitor(options.progress).finish("write");
 }
 
 Mesh read_mesh(const std::string& path, const Points3* points) {

@@ -100,7 +100,7 @@ NetcdfWriter::Fill<std::int32_t> constant(std::int64_t value) {
 
 GridFile::GridFile(const std::string& path, const WriteOptions& options,
                    const std::string& conventions)
-    : file_(path) {
+    : file_(path, options.progress) {
   file_.attribute({"Conventions", conventions});
   file_.attribute({"sphere_radius", options.sphere_radius});
   if (!options.history.empty())

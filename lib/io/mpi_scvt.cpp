@@ -78,6 +78,8 @@ void write_mpi_scvt(const std::string& path, const Mesh& mesh, const WriteOption
   const Eigen::VectorXd density = evaluate(options.density, units);
   OutputFile vertices(path), triangles(beside(path, triangles_name)),
       densities(beside(path, density_name));
+  constexpr std::int64_t bytes_a_site = 60;
+  vertices.watch(options.progress, bytes_a_site * mesh.points.cols());
   const auto to = [](OutputFile& file) {
     return [&file](std::string_view bytes) { file.append(bytes); };
   };

@@ -174,6 +174,7 @@ struct NetcdfWriter::State {
   template <class T> Variable& start(int variable);
 
   OutputFile file;
+  ProgressCallback progress; ///< given to the file when its size is known
   std::vector<Dimension> dimensions;
   std::vector<Variable> variables;
   NetcdfAttributes attributes;
@@ -247,9 +248,10 @@ void NetcdfWriter::State::put(int ints, int doubles, const PairFill& fill) {
       });
 }
 
-NetcdfWriter::NetcdfWriter(const std::string& path) {
+NetcdfWriter::NetcdfWriter(const std::string& path, ProgressCallback progress) {
   require_regular_output(path);
   state_ = std::make_unique<State>(path);
+  state_->progress = std::move(progress);
 }
 
 NetcdfWriter::~NetcdfWriter() = default;
@@ -300,6 +302,7 @@ void NetcdfWriter::begin() {
     size = std::max(size, variable.offset + variable.bytes());
   }
   state_->file.reserve(size);
+  state_->file.watch(std::move(state_->progress), size);
 }
 
 void NetcdfWriter::put(int variable, const Fill<double>& fill) { state_->put(variable, fill); }

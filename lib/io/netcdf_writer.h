@@ -3,6 +3,8 @@
 
 #include "io/room.h"
 
+#include <calotte/progress.h>
+
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -27,7 +29,8 @@ using NetcdfAttributes = std::vector<NetcdfAttribute>;
 /// Every method \throws Error file.
 class NetcdfWriter {
 public:
-  explicit NetcdfWriter(const std::string& path);
+  /// \param progress told of the bytes written, as OutputFile::watch() does.
+  explicit NetcdfWriter(const std::string& path, ProgressCallback progress = {});
   NetcdfWriter(const NetcdfWriter&) = delete;
   NetcdfWriter& operator=(const NetcdfWriter&) = delete;
   ~NetcdfWriter();

@@ -130,10 +130,10 @@ struct OnSphere : mesh_detail::Faces {
 // part has the characteristic 1, so there is one; and two places in it over one direction would be
 // joined by a shortest path, which is not longer than pi and runs along a great circle: they are
 // one place. Such a mesh with Delaunay edges is Delaunay.
-Check check(const Mesh& mesh) {
+Check check(const Mesh& mesh, const ProgressCallback& progress) {
   return mesh_detail::check_laws(
       mesh, [&](std::int64_t site) { return direction_failure(mesh, site); },
-      [&] { return OnSphere(mesh); });
+      [&] { return OnSphere(mesh); }, progress);
 }
 
 } // namespace calotte

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "base/monitor.h"
 #include "base/parallel.h"
 #include "curve/traversal.h"
 #include "exact/predicates.h"
@@ -64,12 +65,14 @@ inline std::string edge_name(const Faces& s, std::int64_t t, int i) {
 }
 
 /// The first answer of law(0), ..., law(n - 1) that is not empty.
-template <class Law> std::string first_failure(std::int64_t n, const Law& law) {
+/// \param monitor told of a step a block.
+template <class Law> std::string first_failure(std::int64_t n, const Law& law, Monitor& monitor) {
   std::vector<std::string> failures(static_cast<std::size_t>(block_count(n)));
   for_each_block(n, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
     std::string& failure = failures[static_cast<std::size_t>(block)];
     for (std::int64_t i = begin; i != end && failure.empty(); ++i)
       failure = law(i);
+    monitor.step();
   });
   const auto found = std::find_if(failures.begin(), failures.end(),
                                   [](const std::string& failure) { return !failure.empty(); });
@@ -77,13 +80,17 @@ template <class Law> std::string first_failure(std::int64_t n, const Law& law) {
 }
 
 /// The same of law(t, 0), law(t, 1) and law(t, 2) for each triangle.
-template <class Law> std::string first_edge_failure(std::int64_t triangles, const Law& law) {
-  return first_failure(triangles, [&](std::int64_t t) {
-    std::string failure;
-    for (int i = 0; i < 3 && failure.empty(); ++i)
-      failure = law(t, i);
-    return failure;
-  });
+template <class Law>
+std::string first_edge_failure(std::int64_t triangles, const Law& law, Monitor& monitor) {
+  return first_failure(
+      triangles,
+      [&](std::int64_t t) {
+        std::string failure;
+        for (int i = 0; i < 3 && failure.empty(); ++i)
+          failure = law(t, i);
+        return failure;
+      },
+      monitor);
 }
 
 // ---- The arrays
@@ -378,11 +385,12 @@ template <class Surface> Traversal traversal_of(const Surface& s) {
 /// is met twice. So the triangles at a site are a single cycle that turns around it once; and by
 /// Euler's characteristic there are as many cycles as sites. The sum is below that when it is the
 /// whole within its error, and this is small.
-template <class Surface> bool is_proven_closed(const Surface& s, Check& result) {
+template <class Surface> bool is_proven_closed(const Surface& s, Check& result, Monitor& monitor) {
   std::vector<Tally> tallies(static_cast<std::size_t>(block_count(s.triangles())));
   const Traversal way = traversal_of(s);
   for_each_block(s.triangles(), [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
     tallies[static_cast<std::size_t>(block)] = tally_block(s, way, begin, end);
+    monitor.step();
   });
   Tally all;
   std::vector<AreaSum> sums;
@@ -409,14 +417,14 @@ template <class Surface> bool is_proven_closed(const Surface& s, Check& result) 
 /// \param site_failure(i) of a site alone; surface() is asked for when all sites are sound.
 template <class AnyMesh, class SiteFailure, class MakeSurface>
 std::string first_broken_law(const AnyMesh& mesh, const SiteFailure& site_failure,
-                             const MakeSurface& surface, Check& result) {
+                             const MakeSurface& surface, Check& result, Monitor& monitor) {
   std::string failure = shape_failure(mesh);
   const auto holds = [&](std::int64_t n, const auto& law) {
-    failure = first_failure(n, law);
+    failure = first_failure(n, law, monitor);
     return failure.empty();
   };
   const auto holds_of_edges = [&](const auto& law) {
-    failure = first_edge_failure(mesh.triangles.cols(), law);
+    failure = first_edge_failure(mesh.triangles.cols(), law, monitor);
     return failure.empty();
   };
   if (!failure.empty() || !holds(mesh.points.cols(), site_failure))
@@ -424,7 +432,7 @@ std::string first_broken_law(const AnyMesh& mesh, const SiteFailure& site_failur
   const auto s = surface();
   const std::int64_t triangles = s.triangles();
   if (!holds(triangles, [&](std::int64_t t) { return id_failure(s, t); }) ||
-      (result.boundary_edges == 0 && is_proven_closed(s, result)))
+      (result.boundary_edges == 0 && is_proven_closed(s, result, monitor)))
     return failure;
 
   // What is open or broken is looked at one law after the other.
@@ -447,12 +455,17 @@ std::string first_broken_law(const AnyMesh& mesh, const SiteFailure& site_failur
 }
 
 template <class AnyMesh, class SiteFailure, class MakeSurface>
-Check check_laws(const AnyMesh& mesh, const SiteFailure& site_failure, const MakeSurface& surface) {
+Check check_laws(const AnyMesh& mesh, const SiteFailure& site_failure, const MakeSurface& surface,
+                 const ProgressCallback& progress) {
+  Monitor monitor(progress);
   Check result;
   result.sites = mesh.points.cols();
   result.triangles = mesh.triangles.cols();
   result.boundary_edges = count_boundary_edges(mesh.neighbours);
-  result.failure = first_broken_law(mesh, site_failure, surface, result);
+  const std::int64_t triangles = block_count(mesh.triangles.cols());
+  monitor.begin("check", 0.99, block_count(mesh.points.cols()) + 2 * triangles);
+  result.failure = first_broken_law(mesh, site_failure, surface, result, monitor);
+  monitor.finish();
   return result;
 }
 

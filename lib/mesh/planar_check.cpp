@@ -185,10 +185,10 @@ struct InPlane : mesh_detail::Faces {
 // into its area, so areas that sum to the box's leave one part of one sheet. Triangles narrower
 // than half of the box lie in the plane without overlap, which is what in_circle() works in. Such a
 // mesh with Delaunay edges is Delaunay.
-Check check(const PlanarMesh& mesh) {
+Check check(const PlanarMesh& mesh, const ProgressCallback& progress) {
   return mesh_detail::check_laws(
       mesh, [&](std::int64_t site) { return place_failure(mesh, site); },
-      [&] { return InPlane(mesh); });
+      [&] { return InPlane(mesh); }, progress);
 }
 
 } // namespace calotte
