@@ -135,7 +135,8 @@ std::vector<Vec3> sampled_centres(const Sites& sites, int regions) {
 
 std::vector<Vec3> columns(const PointsRef& points, const std::optional<Frame>& plane) {
   require(points.rows() == 3 || (plane && points.rows() == 2),
-          "the regions' centres have " + std::to_string(points.rows()) + " rows; give " +
+          "the regions' centres have " + std::to_string(points.rows()) +
+              (points.rows() == 1 ? " row; give " : " rows; give ") +
               (plane ? "2 x k columns x y" : "3 x k columns x y z"));
   std::vector<Vec3> out(static_cast<std::size_t>(points.cols()));
   for (Eigen::Index k = 0; k < points.cols(); ++k) {
