@@ -51,7 +51,7 @@ struct DelaunayReport {
 /// \param report if not null, filled.
 /// \throws Error bad_option (not 3 rows, or an option out of range), not_finite, zero_vector,
 ///         duplicate (when refused), too_few_sites (fewer than 4 distinct), degenerate (all on one
-///         great circle).
+///         great circle), cancelled (by options.progress).
 ///
 /// Jacobsen, Gunzburger, Ringler, Burkardt, Peterson: Parallel algorithms for planar and spherical
 /// Delaunay construction, Geosci. Model Dev. 6, 1353-1365, 2013.
@@ -74,7 +74,8 @@ Mesh spherical_delaunay(Points3&& points, const DelaunayOptions& options, Delaun
 /// \param options merge_within is a distance.
 /// \param report if not null, filled.
 /// \throws Error bad_option (not 2 rows, or an option out of range), not_finite, duplicate (when
-///         refused), too_few_sites (fewer than 3 distinct), degenerate (all on one line).
+///         refused), too_few_sites (fewer than 3 distinct), degenerate (all on one line),
+///         cancelled (by options.progress).
 PlanarMesh planar_delaunay(const PointsRef& points, const DelaunayOptions& options = {},
                            DelaunayReport* report = nullptr);
 

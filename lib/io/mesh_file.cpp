@@ -58,10 +58,10 @@ Numbering numbering_of(const WriteOptions& options) {
 
 /// A file from front to back.
 template <class Put>
-void put_file(const std::string& path, const ProgressCallback& progress, std::int64_t bytes,
+void put_file(const std::string& path, const ProgressCallback& progress, std::int64_t expected,
               const Put& put) {
   OutputFile file(path);
-  file.watch(progress, bytes);
+  file.watch(progress, expected);
   put([&](std::string_view bytes) { file.append(bytes); });
   file.commit();
 }
