@@ -98,6 +98,12 @@ DelaunayOptions with(const ProgressCallback& progress) {
   return options;
 }
 
+WriteOptions told(const ProgressCallback& progress) {
+  WriteOptions options;
+  options.progress = progress;
+  return options;
+}
+
 const std::vector<std::string> stages_of_delaunay{"sites", "regions", "triangulate", "unite"};
 
 } // namespace
@@ -170,7 +176,7 @@ TEST_CASE("write tells its progress; cancelled, it leaves no file") {
     const Work work = [&](const ProgressCallback& progress) {
       for (const auto& entry : std::filesystem::directory_iterator(watched.folder))
         std::filesystem::remove(entry);
-      write(watched / name, mesh, {.progress = progress});
+      write(watched / name, mesh, told(progress));
     };
     check_cancelled(work, {"number", "write"}, [&] { CHECK(watched.files() == 0); });
     const std::vector<std::string> stages = check_told(work);
@@ -185,7 +191,7 @@ TEST_CASE("write of a file that is there leaves it as it was when cancelled") {
   const Scratch scratch;
   test::write_text(scratch / "a.nc", "older");
   const auto cancel = [](const Progress& progress) { return progress.stage == "write"; };
-  CHECK(error_of([&] { write(scratch / "a.nc", mesh, {.progress = cancel}); }).code() ==
+  CHECK(error_of([&] { write(scratch / "a.nc", mesh, told(cancel)); }).code() ==
         ErrorCode::cancelled);
   CHECK(scratch.files() == 1);
   CHECK(test::read_file(scratch / "a.nc") == "older");
