@@ -131,7 +131,9 @@ TEST_CASE("domains at the ends of the range") {
 }
 
 TEST_CASE("what encloses no area in one way only is refused, with ring and corner") {
-  const auto domain = [](const std::vector<Points2>& rings) { return PlanarDomain{rings, {0, 0}}; };
+  const auto domain = [](const std::vector<Eigen::MatrixXd>& rings) {
+    return PlanarDomain{rings, {0, 0}};
+  };
   CHECK(refusal(domain({square(0, 0, 1)})) == "");
   CHECK(refusal(domain({square(0, 0, 3), square(1, 1, 1)})) == "");
   CHECK(refusal(domain({})).find("no rings") != std::string::npos);
