@@ -33,7 +33,6 @@ namespace fs = std::filesystem;
 using namespace calotte;
 using base_detail::Vec3;
 using calotte::test::error_of;
-using calotte::test::read_file;
 using calotte::test::Scratch;
 using io_detail::NetcdfReader;
 using io_detail::NetcdfType;
