@@ -46,7 +46,7 @@ std::vector<Connected> samples() {
       connected("a hub", calotte::spherical_delaunay(calotte::lat_lon_sphere(5, 900, true))));
   const Eigen::Vector2d box(2, 1);
   const calotte::Points2 places = calotte::random_places(2000, calotte::periodic_box(box));
-  out.push_back(connected("periodic", calotte::planar_delaunay(places, box)));
+  out.push_back(connected("periodic", calotte::periodic_delaunay(places, box)));
   return out;
 }
 
