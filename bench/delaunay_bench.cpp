@@ -199,7 +199,7 @@ void add_options(CLI::App& app, Options& options) {
       ->delimiter(',')
       ->check(CLI::Range(4, 300000000))
       ->capture_default_str();
-  app.add_option("--rows", options.rows, "what to time: " + CLI::io_detail::join(row_names, ", "))
+  app.add_option("--rows", options.rows, "what to time: " + CLI::detail::join(row_names, ", "))
       ->delimiter(',')
       ->check(CLI::IsMember(row_names))
       ->capture_default_str();
