@@ -5,9 +5,9 @@
 #include "io/netcdf_reader.h"
 #include "mesh/adjacency.h"
 
-#include "base/ids.h"
 #include "base/monitor.h"
 #include "base/points.h"
+#include "mesh/ids.h"
 #include "mesh/renumber.h"
 
 #include <calotte/delaunay.h>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/renumber.h"
 
-#include "base/ids.h"
 #include "base/matrix_memory.h"
 #include "base/parallel.h"
 #include "base/points.h"
@@ -9,6 +8,7 @@
 #include "curve/hilbert.h"
 #include "curve/radix_sort.h"
 #include "mesh/canonical_order.h"
+#include "mesh/ids.h"
 
 #include <calotte/error.h>
 #include <calotte/renumber.h>

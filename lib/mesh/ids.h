@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/parallel.h"
+#include "mesh/room.h"
 
 #include <calotte/types.h>
 
@@ -9,7 +10,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace calotte::base_detail {
+namespace calotte::mesh_detail {
 
 inline bool are_ids(const std::int32_t* ids, std::int64_t count, std::int64_t bound,
                     std::int32_t least) {
@@ -32,4 +33,4 @@ inline bool are_ids(const std::vector<std::int32_t>& ids, std::int64_t bound,
   return are_ids(ids.data(), std::ssize(ids), bound, least);
 }
 
-} // namespace calotte::base_detail
+} // namespace calotte::mesh_detail
