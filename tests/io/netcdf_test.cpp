@@ -324,7 +324,8 @@ TEST_CASE("what is no file, no NetCDF or cut short is refused") {
         (scratch / "text") +
             ": it is not a NetCDF file, or is cut short; give another or make it again");
   calotte::write_file(scratch / "empty", "");
-  CHECK(message(scratch / "empty", ErrorCode::parse).find("no NetCDF file") != std::string::npos);
+  CHECK(message(scratch / "empty", ErrorCode::parse).find("not a NetCDF file") !=
+        std::string::npos);
 
   write_sample(scratch / "a.nc");
   const std::string whole = read_file(scratch / "a.nc");
