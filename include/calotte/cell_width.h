@@ -11,10 +11,11 @@
 CALOTTE_API_BEGIN
 namespace calotte {
 
-/// How wide cells shall be (the distance of neighbours' centres), on a grid of longitudes and
-/// latitudes that need not be regular. Between nodes widths are bilinear in longitude and latitude;
-/// after the last longitude comes the first. From the first and last latitudes to the poles they
-/// lead to one value there, the mean of the row: the field is continuous on the whole sphere.
+/// Prescribed cell widths (distances between the centres of neighbouring cells) at the nodes of a
+/// grid of longitudes and latitudes, which may be irregular. Between nodes the width is bilinear in
+/// longitude and latitude, periodic in longitude. Between the first or last latitude and the pole
+/// it is linear; the value at the pole is the mean of that row. The field is continuous on the
+/// whole sphere.
 struct CellWidth {
   Eigen::VectorXd longitudes; ///< nx >= 2 degrees, ascending, the last below the first + 360
   Eigen::VectorXd latitudes;  ///< ny >= 2 degrees, ascending, from -90 to 90
@@ -24,10 +25,11 @@ struct CellWidth {
 /// The Earth's radius, the default of the functions below.
 inline constexpr double earth_radius_km = 6371;
 
-/// rho = (h_min/h)^4, h the width interpolated and h_min the least of the nodes: a CVT of this
-/// density has spacings that are proportional to h. (Ju, Ringler and Gunzburger, 2011.) A callable,
-/// which gives the same bits for any threads and on every x86-64 machine.
-/// \throws Error bad_option where shapes, coordinates or widths are not as CellWidth says.
+/// The density rho = (h_min/h)^4, where h is the interpolated width and h_min its minimum over the
+/// nodes. A CVT for this density has spacings proportional to h (Ju, Ringler and Gunzburger, 2011).
+/// The result is a callable that returns the same bits for any number of threads and on every
+/// x86-64 machine.
+/// \throws Error bad_option if shapes, coordinates or widths violate the conditions of CellWidth.
 Density density_of(const CellWidth& cell_width);
 
 /// The widths in km at n unit columns.
@@ -35,25 +37,27 @@ Density density_of(const CellWidth& cell_width);
 /// \throws Error as density_of; bad_option unless the points have 3 rows.
 Eigen::VectorXd evaluate(const CellWidth& cell_width, const PointsRef& points);
 
-/// How many cells the widths h ask for: the integral of 2/(sqrt(3) h^2) over the sphere, as a
-/// regular hexagon whose neighbours are h away has the area sqrt(3)/2 h^2.
-/// \param radius_km of the sphere, > 0. \throws Error as density_of.
+/// The number of cells that the widths h imply: the integral of 2/(sqrt(3) h^2) over the sphere. A
+/// regular hexagon of width h has the area sqrt(3)/2 h^2.
+/// \param radius_km of the sphere, > 0.
+/// \throws Error as density_of.
 double implied_cells(const CellWidth& cell_width, double radius_km = earth_radius_km);
 
-/// How steep widths are at a place in degrees. km per km: a tenth of 0.3 says that a neighbour 10
-/// km away may be 0.3 km wider.
+/// The gradient of the cell width at one location.
 struct Gradient {
   double slope = 0;
   double longitude = 0, latitude = 0;
 };
 
-/// The largest |grad h| of the interpolated field, found exactly: it lies at a corner of a box of
-/// the grid. Models want it below about 0.03. \throws Error as density_of.
+/// The largest |grad h| of the interpolated field. It is exact, because the maximum lies at a
+/// corner of a grid cell. Most models need a value below about 0.03.
+/// \throws Error as density_of.
 Gradient largest_gradient(const CellWidth& cell_width, double radius_km = earth_radius_km);
 
 /// Widths for the polygons of a GeoJSON file, in km; 0: the file says it.
 struct PolygonWidths {
-  double inside = 0;  ///< of features without a property "cellWidth" (the file's "insideWidth")
+  /// Width inside features without a property "cellWidth" (in the file "insideWidth").
+  double inside = 0;
   double outside = 0; ///< far from all of them (the file's "outsideWidth")
   /// Over this distance from the boundary outwards the width changes from `inside` to `outside`, by
   /// a cubic with horizontal ends (the file's "transition").

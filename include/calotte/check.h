@@ -10,28 +10,32 @@
 CALOTTE_API_BEGIN
 namespace calotte {
 
-/// What `check` found. `failure` is one line on the first law that does not hold, naming the
-/// triangle, edge or site; empty when all hold.
+/// The result of `check`. `failure` is one line that describes the first violated law and names the
+/// triangle, edge or site; it is empty if all laws hold.
 struct Check {
   std::string failure;
   std::int64_t sites = 0;
   std::int64_t triangles = 0;
   std::int64_t boundary_edges = 0;
-  double area = 0;  ///< sum of the triangles' areas: steradians on the unit sphere, or of the plane
-  double whole = 0; ///< what it should be: 4 pi (0 for an open mesh); of the plane's hull or box
+  double area = 0; ///< sum of the triangles' areas: steradians on the unit sphere, or of the plane
+  /// Expected area: 4 pi (0 for an open mesh); in the plane that of the hull or box.
+  double whole = 0;
 
   bool passed() const { return failure.empty(); }
 };
 
-/// Proves that a mesh is the Delaunay triangulation of its own points: ids in range; canonical
-/// order; neighbours mutual; each edge in two triangles, or in one along an open boundary; every
-/// site a vertex with a single cycle (or, on the boundary, a single fan) of triangles; Euler's
-/// characteristic; every triangle counter-clockwise; every edge Delaunay in exact arithmetic, ties
-/// by the library's rule; a boundary that is convex; areas that sum to 4 pi when closed. Local
-/// properties imply the global one (Delaunay, 1934), so the cost is linear.
+/// Proves that a mesh is the Delaunay triangulation of its points. It checks that
+/// - ids are in range, triangles are in canonical order, and neighbours are mutual;
+/// - each edge belongs to two triangles, or to one along an open boundary;
+/// - every site is a vertex with a single cycle of triangles, on the boundary with a single fan;
+/// - Euler's characteristic is 2, or 1 for an open mesh;
+/// - every triangle is counter-clockwise;
+/// - every edge is Delaunay in exact arithmetic, with the library's tie-breaking rule;
+/// - the boundary is convex, and the areas of a closed mesh sum to 4 pi. These local properties
+///   imply the global one (Delaunay, 1934), so the time is linear.
 ///
 /// \param progress if set, called between blocks of triangles, with the stage "check". A mesh that
-///        is open or broken is read more than once: the fraction then stands still.
+///         is open or broken is read more than once: the fraction then stands still.
 /// \throws Error cancelled.
 Check check(const Mesh& mesh, const ProgressCallback& progress = {});
 

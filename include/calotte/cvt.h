@@ -17,72 +17,75 @@
 CALOTTE_API_BEGIN
 namespace calotte {
 
-/// What is compared with the tolerance, for n generators x whose centroids, to which Lloyd's step
-/// would move them, are x'. The first two are as printed by Jacobsen et al.,
-/// 2013, Sect. 2.2; MPI-SCVT divides outside the root.
+/// The norm that is compared with the tolerance. x are the n generators, x' their centroids, the
+/// targets of a Lloyd step. l2 and linf are as printed by Jacobsen et al., 2013, Sect. 2.2;
+/// MPI-SCVT divides outside the root.
 enum class Norm {
   l2,          ///< sqrt( (1/n) sum |x - x'|^2 )
   linf,        ///< max |x - x'|
-  l2_scaled,   ///< l2 over h = sqrt(4 pi / n), in the plane sqrt(area / n)
-  linf_scaled, ///< linf over h
+  l2_scaled,   ///< l2 / h, h = sqrt(4 pi / n), in the plane sqrt(area / n)
+  linf_scaled, ///< linf / h
   gradient,    ///< sqrt( sum |g|^2 ), g = dE/dx of the energy, before the move
-  none,        ///< nothing is: the run ends, converged, after max_iterations
+  none,        ///< no test; stop after max_iterations and report convergence
 };
 
-/// How the energy is brought down. They differ in how many evaluations of it that takes; where
-/// edges flip on the way, they may end in different optima.
+/// The minimisation method. Methods differ in the number of evaluations of the energy. If edges
+/// flip during a run, methods may reach different local minima.
 enum class Method {
-  automatic, ///< lbfgs from afar, lbfgs_laplacian from near
+  automatic, ///< lbfgs far from the minimum, lbfgs_laplacian near it
   lloyd,     ///< each generator moves to its centroid
-  nesterov,  ///< Lloyd's map, accelerated; restarts where it would climb
-  lbfgs,     ///< quasi-Newton, from Lloyd's map (Yang, Gunzburger and Ju, J. Comput. Phys. 2018)
-  lbfgs_laplacian, ///< quasi-Newton, from the inverse of the graph Laplacian of the mesh
+  nesterov,  ///< accelerated Lloyd; restarts if the energy would rise
+  /// L-BFGS, preconditioned with Lloyd's map (Yang, Gunzburger and Ju, J. Comput. Phys. 2018).
+  lbfgs,
+  lbfgs_laplacian, ///< L-BFGS, preconditioned with the mesh's graph Laplacian
 };
 
 struct CvtOptions {
   Density density = {};
   Method method = Method::automatic;
-  /// Of Lloyd's steps: times the way to the centroid; from 1 to below 2. A step that would climb is
-  /// taken without it.
+  /// Factor of Lloyd's steps towards the centroid; 1 <= relaxation < 2. A step that would raise the
+  /// energy is repeated with factor 1.
   double relaxation = 1;
   Norm norm = Norm::l2_scaled;
-  double tolerance = 1e-6;   ///< stop when the norm is at most this; > 0
-  int max_iterations = 1000; ///< evaluations on each level, but for a search's last ones; >= 0
-  /// Continuation: that often, what has converged, or come to max_iterations, is bisected (n -> 4n
-  /// - 6, see bisect()) and converged again; from 0 to what 2^30 generators allow.
+  double tolerance = 1e-6; ///< stop when the norm is at most this; > 0
+  /// Maximum number of evaluations per level; >= 0. The last line search may exceed it.
+  int max_iterations = 1000;
+  /// Number of bisections after the first level; >= 0, at most 2^30 generators. A level that has
+  /// converged or reached max_iterations is bisected (n -> 4n - 6, see bisect()) and converges
+  /// again.
   int bisections = 0;
-  int rule = 3; ///< quadrature points on each half kite: 1, 3, 6, 7, 13 or 19; not used for uniform
-                ///< density
-  int final_rule = 6; ///< the same once the norm is within ten times the tolerance; a run without a
-                      ///< norm keeps to the first
-  int triangle_divisions = 1; ///< each half kite is first cut into that many squared; 1 to 100
+  /// Quadrature points per half kite: 1, 3, 6, 7, 13 or 19; no effect for uniform density.
+  int rule = 3;
+  /// Rule once the norm is below ten times the tolerance; no effect with Norm::none.
+  int final_rule = 6;
+  int triangle_divisions = 1; ///< divides each half kite into this number squared; 1 to 100
   Duplicates duplicates = Duplicates::merge; ///< of the start, see DelaunayOptions
   double merge_within = 0;                   ///< of the start, see DelaunayOptions; >= 0
   Partition partition = {};                  ///< never affects the result
 };
 
-/// One evaluation of the energy and its centroids; an iteration of Lloyd's method.
+/// One evaluation of the energy and the centroids; in Lloyd's method one iteration.
 struct CvtIteration {
   std::int64_t cells = 0;
-  double spacing = 0;      ///< h of so many cells: the root of the area of one
-  int rule = 0;            ///< quadrature points on each half kite, 0 for the exact moments
+  double spacing = 0;      ///< h, the square root of the mean cell area
+  int rule = 0;            ///< quadrature points per half kite; 0 for exact moments
   double l2 = 0, linf = 0; ///< on the unit sphere, not scaled
   double gradient = 0;     ///< see Norm
   double energy = 0;       ///< sum over cells of the integral of rho |x - x_i|^2
-  bool accepted = true;    ///< false for a trial that was not gone on from
-  std::int64_t flips = 0;  ///< of edges, that the move to there called for
-  bool rebuilt = false;    ///< that move called for a new triangulation
+  bool accepted = true;    ///< false if the line search rejected this trial
+  std::int64_t flips = 0;  ///< edge flips after the last move
+  bool rebuilt = false;    ///< the last move required a new triangulation
   double seconds = 0;      ///< wall-clock time of the evaluation
-  /// Sums over the regions' tasks, whatever number ran at a time: taking over positions; finding
-  /// and mending what is no longer Delaunay; moments and the move.
+  /// Times summed over the regions' tasks, not wall-clock: copying positions; restoring the
+  /// Delaunay property; moments and the move.
   double seconds_exchange = 0, seconds_repair = 0, seconds_moments = 0;
-  double seconds_solver = 0; ///< wall-clock time of finding the direction that led there
+  double seconds_solver = 0; ///< wall-clock time of computing the search direction
 };
 
 /// A region at the end of the run.
 struct CvtRegion {
   std::int64_t sites = 0; ///< that it owns
-  double seconds = 0;     ///< of its tasks since the sites were last sorted to regions
+  double seconds = 0;     ///< time of its tasks since the last assignment of sites to regions
 };
 
 /// The value that CvtOptions::tolerance is compared with; 0 for Norm::none.
@@ -90,10 +93,10 @@ double norm_of(const CvtIteration& iteration, Norm norm);
 
 struct CvtReport {
   bool converged = false;
-  double residual = 0; ///< the norm where the run ended
+  double residual = 0; ///< the norm at the end of the run
   std::vector<CvtIteration> iterations;
   std::vector<CvtRegion> regions;
-  double seconds = 0; ///< wall-clock time of the run; of all its parts when it was resumed
+  double seconds = 0; ///< wall-clock time of the run, including the parts before a resumption
 };
 
 /// All that a run needs to go on to the same bits. write_checkpoint() saves it, read_checkpoint()
@@ -141,20 +144,20 @@ struct Cvt {
   CvtReport report;
 };
 
-/// A centroidal Voronoi tessellation of the unit sphere: the generators are moved until they are
-/// the constrained centroids M/|M| of their cells, M the integral of rho x (Jacobsen et al., 2013,
-/// Sect. 3.3), up to the tolerance; then once more to these. What is brought down is the energy E,
-/// the sum over cells of the integral of rho |x - x_i|^2. A region's task integrates over the cells
-/// that the region owns.
+/// Computes a centroidal Voronoi tessellation of the unit sphere. It moves the generators until
+/// they are, up to the tolerance, the constrained centroids M/|M| of their cells, with M the
+/// integral of rho x (Jacobsen et al., 2013, Sect. 3.3), and then moves them to these centroids. It
+/// minimises the energy E, the sum over cells of the integral of rho |x - x_i|^2. Each region's
+/// task integrates over the cells that the region owns.
 ///
-/// The same start gives the same bits for any number of threads and any regions. Not converging
-/// within max_iterations is reported, not an error.
+/// The same start gives the same bits for any number of threads and regions. A run that does not
+/// converge within max_iterations is no error; the report says so.
 ///
 /// \param start 3 x n directions, 12 distinct at least, not within a hemisphere; equal ones merge.
 ///
 /// \throws Error as spherical_delaunay(); too_few_sites for fewer than 12 generators, or when they
-/// leave a hemisphere empty or meet; bad_option for an option out of range, or a density that is
-/// ill-formed, negative or NaN somewhere, or zero over a whole cell.
+///         leave a hemisphere empty or meet; bad_option for an option out of range, or a density
+///         that is ill-formed, negative or NaN somewhere, or zero over a whole cell.
 Cvt spherical_cvt(const PointsRef& start, const CvtOptions& options = {},
                   const CvtCallback& callback = {});
 
@@ -165,9 +168,8 @@ Cvt spherical_cvt(Points&& start, const CvtOptions& options = {}, const CvtCallb
 template <>
 Cvt spherical_cvt(Points3&& start, const CvtOptions& options, const CvtCallback& callback);
 
-/// Goes on from a state to the bits that the run would have reached without the interruption,
-/// provided that the options are the same. \throws Error as above; bad_option for a state that is
-/// not whole.
+/// Continues from a state. With the same options the result has the bits of an uninterrupted run.
+/// \throws Error as above; bad_option for an incomplete state.
 Cvt spherical_cvt(CvtState state, const CvtOptions& options, const CvtCallback& callback = {});
 
 /// A centroidal Voronoi tessellation of a planar domain.
@@ -177,13 +179,13 @@ struct PlanarCvt {
   CvtReport report;
 };
 
-/// The same in a domain of the plane, whose boundary clips the cells. The centroid M/m of a cell
-/// that reaches around a corner of the domain may lie outside: its generator then goes to the
-/// nearest place inside, and rests there. A bisection adds the midpoints of the edges that lie
-/// inside; lengths of the report are in the domain's unit.
+/// The same in a domain of the plane, whose boundary clips the cells. The centroid M/m of a cell at
+/// a reflex corner may lie outside the domain; its generator then moves to the nearest point inside
+/// and stays there. A bisection adds the midpoints of the edges that lie inside. Lengths in the
+/// report are in the domain's unit.
 ///
 /// \param start 2 x n places inside the domain, 3 distinct at least, not on one line; in a periodic
-///        box as periodic_delaunay() requires.
+///         box as periodic_delaunay() requires.
 /// \throws Error as above; bad_option as require_domain(), or with the index of a generator outside
 ///         of the domain.
 PlanarCvt planar_cvt(const PointsRef& start, const PlanarDomain& domain,
@@ -193,20 +195,21 @@ PlanarCvt planar_cvt(const PointsRef& start, const PlanarDomain& domain,
 PlanarCvt planar_cvt(CvtState state, const PlanarDomain& domain, const CvtOptions& options,
                      const CvtCallback& callback = {});
 
-/// Where a continuation to a number of cells starts: n cells with bisections b reach it when
-/// cells = 4^b (n - 2) + 2.
+/// The start of a continuation: n generators and b bisections give 4^b (n - 2) + 2 cells.
 struct Continuation {
   Points3 start;
   int bisections = 0;
   bool icosahedral = false; ///< the start is a bisected icosahedron
 };
 
-/// The coarsest start that bisections lead from: the least such n that is at least 12 (uniform
-/// density) or 642 (others); all of the cells, where no bisection leads to their number from there.
-/// When cells = 10 * 4^k + 2, it is a bisected icosahedron; otherwise a Fibonacci lattice (uniform
-/// density) or points drawn from its site_density().
-/// \throws Error bad_option for cells < 12 or > 2^30, an ill-formed density, or as
-/// random_sphere(n, density, seed) where it draws.
+/// The coarsest start from which bisections reach `cells`: the least such n of at least 12 for
+/// uniform density, or 642 for others; `cells` itself if no bisection reaches it. For cells = 10 *
+/// 4^k + 2 the start is a bisected icosahedron, else a Fibonacci lattice (uniform density) or
+/// random points that follow site_density().
+/// \param cells 12 to 2^30.
+/// \param seed of random points; default 1.
+/// \throws Error bad_option for cells < 12 or > 2^30, an ill-formed density, or as random_sphere(n,
+///         density, seed) where it draws.
 Continuation continuation(std::int64_t cells, const Density& density, std::uint64_t seed = 1);
 
 } // namespace calotte

@@ -13,7 +13,7 @@
 CALOTTE_API_BEGIN
 namespace calotte {
 
-/// What one run did. Seconds are wall-clock time.
+/// Times and counts of one run. Seconds are wall-clock time.
 struct DelaunayReport {
   struct Seconds {
     double sites = 0;       ///< check, normalise, curve order, duplicates
@@ -26,26 +26,26 @@ struct DelaunayReport {
   std::int64_t duplicates = 0; ///< input columns that were merged into another
   int regions = 0;
   int threads = 0;         ///< of the task arena it ran in
-  bool one_region = false; ///< the set was triangulated serially as a whole
+  bool one_region = false; ///< the sites were triangulated serially as one region
   double overlap = 0;      ///< sites of all regions, halos included, over the number of sites
   std::vector<std::int64_t> sites_per_region; ///< owned and halo
   std::vector<std::int64_t> owned_per_region;
   std::vector<double> seconds_per_region; ///< gather to certify, by region
   /// Reports of triangles whose circumcap lies in the covered part.
   std::int64_t certified_by_cull = 0;
-  std::int64_t certified_by_query = 0; ///< reports certified by asking for sites in their circumcap
-  std::int64_t halo_insertions = 0;    ///< sites that such queries added to regions
-  std::int64_t seam_triangles = 0;     ///< triangles whose vertices have different owners
-  std::int64_t filtered_predicates = 0; ///< predicates that the first tier left to the second
-  std::int64_t exact_predicates = 0; ///< predicates that the second tier left to exact arithmetic
+  std::int64_t certified_by_query = 0;  ///< reports certified by a query of their circumcap
+  std::int64_t halo_insertions = 0;     ///< sites that such queries added to regions
+  std::int64_t seam_triangles = 0;      ///< triangles whose vertices have different owners
+  std::int64_t filtered_predicates = 0; ///< predicates that the first tier passed to the second
+  std::int64_t exact_predicates = 0;    ///< predicates that needed exact arithmetic
 };
 
 /// The Delaunay triangulation of the directions of `points` on the unit sphere.
 ///
-/// The result depends on the set of directions alone: it is the same to the last bit for any number
-/// of threads and regions, any `sort` and any centres; a permuted input permutes the ids.
-/// Cocircular sites are resolved by one symbolic rule (design of the in-circle predicate in
-/// lib/exact/predicates.h). It runs in the caller's task arena.
+/// The result depends only on the set of directions: it has the same bits for any number of threads
+/// and regions, any `sort` and any centres; a permuted input permutes the ids. One symbolic rule
+/// resolves cocircular sites (design of the in-circle predicate in lib/exact/predicates.h). It runs
+/// in the caller's task arena.
 ///
 /// \param points 3 x n directions of any norm from 1e-200 to 1e200.
 /// \param report if not null, filled.

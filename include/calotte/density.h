@@ -11,53 +11,59 @@
 CALOTTE_API_BEGIN
 namespace calotte {
 
-/// The paper's bump (Jacobsen et al., 2013, Sect. 4.3), with angles in radians:
-/// rho(x) = (tanh((beta - d)/alpha) + 1) / (2 (1 - gamma)) + gamma, d the angle between x and the
-/// centre. About 1 within beta of the centre, gamma far away, changing over a width alpha. Spacings
-/// differ by gamma^(-1/4): (1/8)^4 is the paper's x8.
+/// The paper's bump (Jacobsen et al., 2013, Sect. 4.3), with angles in radians: rho(x) =
+/// (tanh((beta - d)/alpha) + 1) / (2 (1 - gamma)) + gamma, where d is the angle between x and the
+/// centre. The density is about 1 for d < beta and gamma far from the centre; the transition has
+/// width alpha. The largest spacing is gamma^(-1/4) times the smallest; gamma = (1/8)^4 is the
+/// paper's x8.
 ///
-/// In the plane the centre is a place (x, y, any z), d a distance, in a periodic box the least to a
-/// copy of the centre; beta and alpha are lengths.
+/// In the plane the centre is the point (x, y), z is ignored, d is the distance to the centre, and
+/// beta and alpha are lengths. In a periodic box d is the distance to the nearest copy of the
+/// centre.
 struct Bump {
   Eigen::Vector3d centre{0, 0, 1};  ///< a direction
   double beta = 0.5235987755982988; ///< > 0
   double alpha = 0.2;               ///< > 0
   double gamma = 1.0 / 4096;        ///< 0 < gamma < 1
-  /// Of an ellipse: distances along the long axis count this much less than across. 1 for a circle.
+  /// Ratio of the axes of an elliptic bump: distances along the long axis are divided by it; >= 1.
+  /// Default 1, a circular bump.
   double stretch = 1;
-  /// Direction of the long axis at the centre, projected to the tangent plane there. Used where
-  /// stretch > 1.
+  /// Direction of the long axis at the centre; the library projects it to the tangent plane. It has
+  /// an effect only if stretch > 1.
   Eigen::Vector3d major{1, 0, 0};
 };
 
-/// A density on the unit sphere or in the plane: uniform, bumps, or a callable.
+/// A density rho >= 0 on the unit sphere or in the plane: uniform, one or more bumps, or a
+/// callable. Only its ratios matter. Default: uniform.
 struct Density {
   enum class Kind { uniform, maximum, sum, callable };
-  /// Fills rho(j) with the density at column j of x, unit columns: from 1e-150 to 1e150 where it is
-  /// not 0, and of that column alone. It is called from many threads at once with blocks of a few
-  /// dozen columns, the last of which may be repeats. In the plane columns are (x, y, 0): of a
-  /// periodic box inside it; of another domain inside it or, beside its boundary, within a cell's
-  /// width of it.
+  /// Sets rho(j) to the density at column j of x (3 x k, unit columns). rho(j) is 0 or from 1e-150
+  /// to 1e150 and depends on column j alone. Many threads call it concurrently, with blocks of a
+  /// few dozen columns; the last columns of a block may repeat. In the plane the columns are (x, y,
+  /// 0). They lie in the periodic box, or inside another domain or outside it within the width of a
+  /// cell.
   using Callable =
       std::function<void(const Eigen::Ref<const Points3>& x, Eigen::Ref<Eigen::VectorXd> rho)>;
 
   Kind kind = Kind::uniform;
-  std::vector<Bump> bumps; ///< joined by their maximum or their sum
+  std::vector<Bump> bumps; ///< combined by Kind::maximum or Kind::sum; not empty for these kinds
   Callable callable;
 
   bool uniform() const { return kind == Kind::uniform; }
 };
 
-/// One round bump about a direction of any norm; angles in radians. What is out of range is refused
-/// where the density is used.
+/// A circular bump.
+/// \param centre direction of any norm > 0.
+/// \param beta, alpha radians, > 0.
+/// \param gamma in (0, 1). Functions that use the density throw for values out of range.
 Density tanh_bump(const Eigen::Vector3d& centre, double beta, double alpha, double gamma);
 
-/// How the generators of an optimal CVT of many cells are distributed: as rho^(1/2). (In d
-/// dimensions as rho^(d/(d+2)): Gersho, IEEE Trans. Inf. Theory 25, 1979.) Starts are best drawn
-/// from that. \throws Error bad_option, when the density is ill-formed.
+/// The density of the generators of an optimal CVT with many cells: rho^(1/2). Random starts should
+/// follow it. (In d dimensions rho^(d/(d+2)); Gersho, IEEE Trans. Inf. Theory 25, 1979.)
+/// \throws Error bad_option if the density is ill-formed.
 Density site_density(const Density& density);
 
-/// The same of a density in a planar domain; what it gives knows of a box's period.
+/// The same for a density in a planar domain. The result takes a box's period into account.
 Density site_density(const Density& density, const PlanarDomain& domain);
 
 /// The density at each of n unit columns.

@@ -10,36 +10,41 @@
 CALOTTE_API_BEGIN
 namespace calotte {
 
-/// A part of the plane that cells tessellate: what closed polygons enclose, or a doubly periodic
-/// box.
+/// A bounded domain of the plane: the interior of closed polygons, or a doubly periodic box.
 struct PlanarDomain {
-  /// Polygons, 2 x corners each, in either sense; the last corner is joined to the first. Inside is
-  /// what lies inside an odd number of them: outer boundaries, holes in these, islands in those.
+  /// Boundary polygons, each 2 x corners in either orientation; an edge joins the last corner to
+  /// the first. A point is inside the domain if it lies inside an odd number of rings, so that
+  /// rings can be outer boundaries, holes and islands. Default: none, a periodic box.
   std::vector<Eigen::MatrixXd> rings;
-  Eigen::Vector2d period{0, 0}; ///< without rings: of the box [0, period.x) x [0, period.y)
+  /// Of the box [0, period.x) x [0, period.y); > 0 without rings, else 0.
+  Eigen::Vector2d period{0, 0};
 
   bool periodic() const { return rings.empty(); }
 };
 
-/// \throws Error bad_option unless lower < upper.
+/// The rectangle [lower.x, upper.x] x [lower.y, upper.y], in any unit of length.
+/// \param lower, upper opposite corners; finite.
+/// \throws Error bad_option unless lower < upper in both coordinates.
 PlanarDomain rectangle(const Eigen::Vector2d& lower, const Eigen::Vector2d& upper);
 
-/// \throws Error bad_option for a period that is not positive and finite.
+/// The doubly periodic box [0, period.x) x [0, period.y).
+/// \throws Error bad_option unless both periods are positive and finite.
 PlanarDomain periodic_box(const Eigen::Vector2d& period);
 
-/// Refuses what encloses no area in one way only. Coordinates may be as large as 1e30, and the
-/// domain as small as 1e-30.
+/// Throws unless the rings bound a well-defined region, or the period is valid. Absolute
+/// coordinates are at most 1e30; the domain's extent is at least 1e-30.
 /// \throws Error bad_option, naming ring and corner: no ring and no period; a ring that has not 2
-///         rows; fewer than three
-///         corners; a coordinate that is not finite; an edge without length; edges that meet
-///         elsewhere than in the corner that joins them.
+///         rows; fewer than three corners; a coordinate that is not finite; an edge without length;
+///         edges that meet elsewhere than in the corner that joins them.
 void require_domain(const PlanarDomain& domain);
 
 /// \pre require_domain().
 double area(const PlanarDomain& domain);
 
-/// Whether a place is inside or on the boundary, exactly; of a box, whether it is in the half-open
-/// box. It looks at the whole boundary each time. \pre require_domain().
+/// True if the point lies inside the domain or on its boundary; for a periodic box, if it lies in
+/// the half-open box. The test is exact. Its time is linear in the number of corners.
+/// \param place 2-vector in the domain's unit.
+/// \pre require_domain().
 bool contains(const PlanarDomain& domain, const Eigen::Vector2d& place);
 
 /// contains() for many places: the boundary is prepared once, and a call looks at the part of it

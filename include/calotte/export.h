@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-/// What stands between these two in a public header, the shared library exports. All else is
-/// compiled with hidden visibility.
+/// The shared library exports the declarations between these two macros in a public header. All
+/// else is compiled with hidden visibility.
 #ifdef __GNUC__
 #define CALOTTE_API_BEGIN _Pragma("GCC visibility push(default)")
 #define CALOTTE_API_END _Pragma("GCC visibility pop")

@@ -11,60 +11,76 @@
 CALOTTE_API_BEGIN
 namespace calotte {
 
-/// All generators of the sphere return 3 x n unit columns (to the last bits), Cartesian, and the
-/// same bits on every machine. They throw Error bad_option on a count out of range; none makes more
-/// than 2^30 points.
+/// Functions for the sphere return 3 x n Cartesian unit columns, with the same bits on every
+/// machine. They throw Error bad_option for a count out of range; the largest count is 2^30.
 
-/// n >= 1 points, independent and uniform on the sphere; the same seed gives the same points, fewer
-/// of them the first ones. Marsaglia's rejection (Ann. Math. Stat. 43, 1972) from SplitMix64.
+/// Independent random points, uniform on the sphere. A smaller n gives the first points of a larger
+/// n with the same seed. Method: Marsaglia's rejection (Ann. Math. Stat. 43, 1972) with SplitMix64.
+/// \param n number of points, 1 to 2^30.
+/// \param seed any value; default 1.
 Points3 random_sphere(std::int64_t n, std::uint64_t seed = 1);
 
-/// n >= 1 points, independent and distributed as the density (uniform: the points above); the same
-/// seed gives the same points for any number of threads, fewer of them the first ones. Von
+/// Independent random points with the given density. The points depend on n, density and seed, not
+/// on the number of threads; a smaller n gives the first points of a larger n. Method: von
 /// Neumann's rejection (1951) from a bound of the density that is constant on small boxes, so that
 /// narrow bumps cost no more than wide ones.
 ///
-/// A callable's bound comes from a lattice of its values. Where a proposal lies above it, all is
-/// drawn anew from a better one; then fewer points may be others. What is narrower than 0.01
-/// radians can go unseen (0.001, where all else is zero), but for the points that would fall there.
-/// \throws Error bad_option, when the density is ill-formed, negative, infinite or NaN somewhere,
-/// zero everywhere, or a callable that has no greatest value.
+/// The bound of a callable comes from its values on a lattice. If the density exceeds the bound at
+/// a proposed point, the function improves the bound and draws all points again; then a smaller n
+/// may give other points. The lattice can miss features narrower than 0.01 radians (0.001 where the
+/// density is zero elsewhere); they then receive too few points.
+/// \param n number of points, 1 to 2^30.
+/// \param density uniform gives the points above.
+/// \param seed any value; default 1.
+/// \throws Error bad_option if the density is ill-formed; negative, infinite or NaN somewhere; zero
+///         everywhere; or a callable without a maximum.
 Points3 random_sphere(std::int64_t n, const Density& density, std::uint64_t seed = 1);
 
 /// The Fibonacci lattice: z_i = 1 - (2i + 1)/n, longitude i times the golden angle.
+/// \param n number of points, 1 to 2^30.
 Points3 fibonacci_sphere(std::int64_t n);
 
 /// The generalised spiral of Rakhmanov, Saff and Zhou (Math. Res. Lett. 1, 1994), with both poles.
-/// n >= 2.
+/// \param n number of points, 2 to 2^30.
 Points3 spiral_sphere(std::int64_t n);
 
-/// The icosahedron with every edge bisected `level` times: 10 * 4^level + 2 points, 0 <= level
-/// <= 13. The points of a coarser level come first, bit for bit, and those of the next are its
-/// `bisect` in another order.
+/// The icosahedron with every edge bisected `level` times: 10 * 4^level + 2 points. The points of a
+/// coarser level come first, bit for bit; `bisect` of a level gives the points of the next in
+/// another order.
+/// \param level 0 to 13.
 Points3 bisected_icosahedron(int level);
 
 /// A regular latitude-longitude grid: rows of `longitudes` points at cell-centred latitudes, south
-/// to north; with `poles`, the two poles are added at the end. latitudes >= 1, longitudes >= 3.
+/// to north.
+/// \param latitudes number of rows, >= 1.
+/// \param longitudes points per row, >= 3.
+/// \param poles appends the two poles; default false.
 Points3 lat_lon_sphere(std::int64_t latitudes, std::int64_t longitudes, bool poles = false);
 
-/// Centres of the 6 m^2 cells of the equiangular cubed sphere (Ronchi et al., 1996). m >= 1.
+/// Centres of the 6 m^2 cells of the equiangular cubed sphere (Ronchi et al., 1996).
+/// \param m number of cells along an edge, >= 1.
 Points3 cubed_sphere(std::int64_t m);
 
-/// The points of a mesh, as they are, followed by the unit midpoint of every edge in the order of
-/// the triangles, edge i of a triangle across from its vertex i (n -> 4n - 6 on a closed mesh).
-/// \throws Error bad_option where an id is outside the mesh.
+/// The points of a mesh, unchanged, followed by the unit midpoints of all edges in the order of the
+/// triangles; edge i of a triangle is opposite vertex i. A closed mesh of n points gives 4n - 6
+/// points.
+/// \throws Error bad_option if an id is out of range.
 Points3 bisect(const Mesh& mesh);
 
-/// Regular hexagons in a doubly periodic box, [0, columns spacing) x [0, rows spacing sqrt(3)/2):
-/// every second row is shifted by half a spacing. Site r columns + c stands in row r.
-/// \throws Error bad_option, for fewer than 3 columns, or 4 rows, or an odd number of these; for a
-/// spacing that is not positive and finite.
+/// Regular hexagons in the doubly periodic box [0, columns spacing) x [0, rows spacing sqrt(3)/2).
+/// Every second row is shifted by half a spacing. Site r columns + c is in row r.
+/// \param columns >= 3.
+/// \param rows even, >= 4.
+/// \param spacing distance between neighbouring sites; > 0 and finite.
+/// \throws Error bad_option for an argument out of range.
 PlanarMesh periodic_hexagons(std::int64_t columns, std::int64_t rows, double spacing);
 
-// ---- The plane: 2 x n places inside a domain. They throw as require_domain(), too.
+// ---- The plane: 2 x n points inside a domain. These functions also throw as require_domain().
 
-/// n >= 1 places, independent and uniform; the same seed gives the same places for any number of
-/// threads, fewer of them the first ones.
+/// Independent random points, uniform in the domain. They do not depend on the number of threads; a
+/// smaller n gives the first points of a larger n.
+/// \param n number of points, 1 to 2^30.
+/// \param seed any value; default 1.
 Points2 random_places(std::int64_t n, const PlanarDomain& domain, std::uint64_t seed = 1);
 
 /// The same, distributed as the density (of columns x, y, 0; bumps as planar_cvt() has them):
@@ -74,24 +90,27 @@ Points2 random_places(std::int64_t n, const PlanarDomain& domain, std::uint64_t 
 Points2 random_places(std::int64_t n, const PlanarDomain& domain, const Density& density,
                       std::uint64_t seed = 1);
 
-/// A regular hexagonal lattice, rows along x from the bottom up. n >= 1.
+/// A regular hexagonal lattice with rows along x, from the bottom up.
+/// \param n approximate number of points, 1 to 2^30; in a periodic box >= 12.
 ///
-/// Of a polygon, the places inside it of the lattice whose spacing s, bisected from
-/// sqrt(2 area / (sqrt(3) n)), makes them nearest to n, which they may miss by about half a row:
-/// those at x_0 + (i + 1/4) s, i + 3/4 in every second row, and y_0 + (j + 1/2) s sqrt(3)/2, with
-/// (x_0, y_0) the lower left corner of the least box around it. A rectangle of whole rows and
-/// columns is filled evenly.
+/// In polygons the result is the lattice points inside the domain: x_0 + (i + 1/4) s, in every
+/// second row x_0 + (i + 3/4) s, and y_0 + (j + 1/2) s sqrt(3)/2, where (x_0, y_0) is the lower
+/// left corner of the bounding box. Bisection from sqrt(2 area / (sqrt(3) n)) finds the spacing s
+/// whose number of points is closest to n; the difference may be about half a row. The lattice
+/// fills a rectangle of whole rows and columns evenly.
 ///
-/// Of a periodic box, at least 3 columns and an even number of rows, at least 4, stretched to fit:
-/// those for which the sum of how much the number misses n and how much the rows' distance misses
-/// sqrt(3)/2 of the columns', relative both, is least. A box of periodic_hexagons() has its points.
-/// \throws Error bad_option also for n < 12 in a periodic box, and where no place is inside.
+/// In a periodic box the lattice is stretched to fit. It has at least 3 columns and an even number
+/// of rows, at least 4. The function minimises the sum of two relative errors: that of the number
+/// of points, and that of the ratio sqrt(3)/2 of row to column distance. A box of
+/// periodic_hexagons() gives their points.
+/// \throws Error bad_option also for n < 12 in a periodic box, and if no lattice point is inside.
 Points2 hexagonal_lattice(std::int64_t n, const PlanarDomain& domain);
 
-/// The points of a mesh, as they are, followed by those midpoints of its edges that are inside the
-/// domain or on its boundary, in the order of bisect(mesh). Of a periodic box: all midpoints
-/// between nearest copies, in the box (n -> 4n).
-/// \throws Error bad_option where an id is outside the mesh, or its period is not the domain's.
+/// The points of a mesh, unchanged, followed by the midpoints of its edges that lie inside the
+/// domain or on its boundary, in the order of bisect(mesh). In a periodic box the midpoints are
+/// those between nearest copies, moved into the box; n points give 4n.
+/// \throws Error bad_option if an id is out of range, or the period of the mesh is not the
+///         domain's.
 Points2 bisect(const PlanarMesh& mesh, const PlanarDomain& domain);
 
 } // namespace calotte

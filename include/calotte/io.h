@@ -11,8 +11,8 @@
 CALOTTE_API_BEGIN
 namespace calotte {
 
-/// A checkpoint: a run's state as binary, with the configuration that it belongs to in words of the
-/// caller's choice. A file that was cut short or damaged is refused, and so is another version's.
+/// A checkpoint: a run's state as binary, with a text of the caller's that identifies the
+/// configuration. Reading throws for a file that is incomplete, damaged, or from another version.
 /// \throws Error file.
 void write_checkpoint(const std::string& path, const CvtState& state,
                       const std::string& configuration);

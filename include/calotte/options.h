@@ -11,10 +11,10 @@
 CALOTTE_API_BEGIN
 namespace calotte {
 
-/// Which sites a region triangulates beside those it owns.
+/// The sites that a region triangulates besides its own. The choice does not affect the result.
 enum class Sort {
-  halo,     ///< those within a thin strip beyond its coarse Voronoi cell's bisectors
-  distance, ///< those nearer to its centre than the farthest neighbouring centre (Jacobsen et al.,
+  halo,     ///< those within a thin strip around its coarse Voronoi cell
+  distance, ///< those closer to its centre than the farthest neighbouring centre (Jacobsen et al.,
             ///< 2013, Sect. 2.1.1)
   voronoi,  ///< those owned by the neighbouring regions (same section)
 };

@@ -9,15 +9,16 @@
 CALOTTE_API_BEGIN
 namespace calotte {
 
-/// A density of the plane at the nodes of a grid that need not be regular. Between nodes it is
-/// bilinear; beyond the grid it is that of the grid's nearest place.
+/// A density of the plane at the nodes of a grid, which may be irregular. Between nodes it is
+/// bilinear. Outside the grid it has the value of the nearest point of the grid.
 struct PlanarRaster {
   Eigen::VectorXd x;       ///< nx >= 2, ascending, in the domain's unit
   Eigen::VectorXd y;       ///< ny >= 2, ascending
   Eigen::MatrixXd density; ///< nx x ny, finite and >= 0
 };
 
-/// A callable. \throws Error bad_option where shapes, coordinates or values are not as said above.
+/// The density of a raster, as a callable.
+/// \throws Error bad_option if shapes, coordinates or values violate the conditions above.
 Density density_of(const PlanarRaster& raster);
 
 } // namespace calotte

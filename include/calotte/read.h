@@ -22,56 +22,59 @@ enum class Columns {
   lonlat, ///< longitude (any) and latitude (-90 to 90), in degrees, become unit columns
 };
 
-/// Points as text, one a line: three numbers, or two with Columns::lonlat. Blanks or tabs, and at
-/// most one of comma, semicolon and bar, separate them; `#` starts a comment; blank lines count for
-/// nothing; one header line (it holds no number) may precede the points; further columns are
+/// Reads points as text, one on each line: three numbers, or two with Columns::lonlat. Blanks or
+/// tabs, and at most one of comma, semicolon and bar, separate them; `#` starts a comment; blank
+/// lines are ignored; one header line without numbers may precede the points; further columns are
 /// ignored. Lines end in LF, CRLF or CR; a missing final newline loses nothing.
 ///
-/// Longitude and latitude are exact at multiples of 90 degrees, and the same bits on every machine:
-/// longitudes that differ by 360 are one place, and so are all longitudes at a pole.
-/// \param name stands for the stream in messages.
+/// Longitude and latitude are exact at multiples of 90 degrees and give the same bits on every
+/// machine. Longitudes that differ by 360 give the same point, and so do all longitudes at a pole.
+/// \param name the stream's name in messages.
 /// \param lines if not null, the 1-based line of each column.
-/// \throws Error parse (index() is the 1-based line): text that is no number, NaN, infinite or the
-///         zero vector; too few columns; a latitude out of range; no points at all. Error file.
+/// \throws Error parse (index() is the 1-based line) for text that is not a number, NaN, infinity
+///         or the zero vector, too few columns, a latitude out of range, or a file without points.
+///         Error file.
 Points3 read_points(std::istream& in, const std::string& name, Columns columns = Columns::xyz,
                     std::vector<std::int64_t>* lines = nullptr);
 Points3 read_points(const std::string& path, Columns columns = Columns::xyz,
                     std::vector<std::int64_t>* lines = nullptr);
 
-/// The same for places in the plane: x y a line. \throws Error as above.
+/// The same for points in the plane: x y on each line.
+/// \throws Error as above.
 Points2 read_planar_points(std::istream& in, const std::string& name,
                            std::vector<std::int64_t>* lines = nullptr);
 Points2 read_planar_points(const std::string& path, std::vector<std::int64_t>* lines = nullptr);
 
-/// A domain of the plane, ready for require_domain(), by the file's name:
+/// Reads a planar domain. The suffix selects the format:
 ///
 /// .geojson, .json: Polygon and MultiPolygon geometries, alone or in features or collections, all
 /// of them one domain. Positions are taken as x and y, in any unit; a third coordinate is ignored.
 ///
-/// Else text: a corner x y a line, in the order of the ring, as read_planar_points has lines; a
-/// blank line, or one that starts with `>` (as in GMT's files of many segments), ends a ring.
+/// Other suffixes: text with a corner x y on each line, in the order of the ring, in the syntax of
+/// read_planar_points. A blank line, or a line that starts with `>` (as in GMT's multi-segment
+/// files), ends a ring.
 ///
 /// A ring may repeat its first corner at its end.
-/// \throws Error parse, naming the line, or the feature and its ring; as require_domain(), with
-///         the file's name; file.
+/// \throws Error parse, naming the line, or the feature and its ring; as require_domain(), with the
+///         file's name; file.
 PlanarDomain read_domain(const std::string& path);
 
-/// Reads a mesh that `write` wrote, of any format, and those of their kind that others wrote. By
-/// name as `write`, except that a NetCDF file's contents tell which of these it is, and that it is
-/// one where its name says nothing. Coordinates come back bit for bit where the format holds them.
-/// Formats without triangles of the sites (scrip, esmf, geojson, and cells of UGRID that others
-/// wrote) and files of points alone give the sites' Delaunay triangulation, in which equal
-/// directions are one site; so does SaveVertices without a SaveTriangles beside it that closes the
-/// sphere. Ids are checked to be in range, geometry is not: check() proves it. Neighbours are
-/// rebuilt; an edge of three triangles, or of two that run through it the same way, stays open.
+/// Reads a mesh of any format that `write` supports, also from other programs. The name selects the
+/// format as in `write`, but the content of a NetCDF file determines its format under any name.
+/// Coordinates come back bit for bit where the format holds them. Formats without triangles of the
+/// sites (scrip, esmf, geojson, and cells of UGRID that others wrote) and files of points alone
+/// give the sites' Delaunay triangulation, in which equal directions are one site; so does
+/// SaveVertices without a SaveTriangles beside it that closes the sphere. The function checks that
+/// ids are in range; check() proves the geometry. Neighbours are rebuilt; an edge of three
+/// triangles, or of two that run through it the same way, stays open.
 /// \param points the columns that a .txt/.tri file refers to; not used otherwise. A column in no
-///        triangle is the duplicate of one that has the same direction, or else stays as a site
-///        without triangles.
-/// \throws Error bad_option, parse, file; of a planar mesh (all z are 0) bad_option; of sites
-///         that spherical_delaunay() refuses, its code.
+///         triangle is the duplicate of one that has the same direction, or else stays as a site
+///         without triangles.
+/// \throws Error bad_option, parse, file; of a planar mesh (all z are 0) bad_option; of sites that
+///         spherical_delaunay() refuses, its code.
 Mesh read_mesh(const std::string& path, const Points3* points = nullptr);
 
-/// The points of such a file, without a look at its triangles: the generators of an MPAS or UGRID
+/// Reads the points of such a file and ignores its triangles: the generators of an MPAS or UGRID
 /// mesh, the nodes of another's UGRID, SaveVertices, .msh; and MPI-SCVT's centres of regions, which
 /// RegionList holds, and RegionTriangulation by the RegionList beside it. (read_mesh triangulates
 /// these.)
@@ -100,40 +103,41 @@ struct CellField {
 ///         file.
 CellField read_cell_field(const std::string& path, const std::string& name, std::int64_t cells);
 
-/// Cell widths from a file, by its suffix:
+/// Reads cell widths from a file. The suffix selects the format:
 ///
 /// .nc (NetCDF): the variable cellWidth(lat, lon) in km, with the coordinate variables lat and lon
-/// in degrees, one of them for each of its dimensions. Latitudes may descend; longitudes may be any
-/// 360 degrees, with the first meridian repeated at the end or not. Both must cover the sphere: no
-/// gap wider than 1.5 times the widest step.
+/// in degrees, one of them for each of its dimensions. Latitudes may descend. Longitudes cover any
+/// interval of 360 degrees; the first meridian may be repeated at the end. Both must cover the
+/// sphere without a gap wider than 1.5 times the widest step.
 ///
 /// .msh (JIGSAW): an ellipsoid-grid, its longitudes and latitudes in radians, values by columns of
-/// latitudes; or a mesh (ellipsoid-mesh of longitude and latitude in radians, euclidean-mesh of
-/// x y z about the sphere's centre) with a value at each point. A mesh's values are interpolated on
-/// the Delaunay triangles of its points and sampled with half the points' least common spacing (but
-/// from 0.05 to 1 degree).
+/// latitudes; or a mesh (ellipsoid-mesh of longitude and latitude in radians, euclidean-mesh of x y
+/// z about the sphere's centre) with a value at each point. The values of a mesh are interpolated
+/// linearly on the Delaunay triangles of its points. The sampling interval is half of the points'
+/// smallest common spacing, from 0.05 to 1 degree.
 ///
 /// .geojson, .json: Polygon and MultiPolygon geometries, alone or in features or collections. An
 /// edge is straight in longitude and latitude (RFC 7946, Sect. 3.1.1), runs the shorter way round,
 /// and once round the Earth where its longitudes differ by 360. A ring encloses what it cuts off
 /// from both poles; one that runs round the Earth encloses the smaller side. Its orientation does
-/// not matter. Rings after the first are holes. Inside, a feature's width holds: its property
-/// "cellWidth", or `inside`. Outside, the distance to the boundary along great circles leads to
-/// `outside`; edges with polygons of the same width on both sides, as cuts at a meridian leave
-/// them, are no boundary. Where features or their surroundings overlap, the least width holds. The
-/// widths are sampled at a sixteenth of the transition (but from 0.05 to 1 degree).
+/// not matter. Rings after the first are holes. Inside a feature the width is its property
+/// "cellWidth", or `inside`. Outside, the width approaches `outside` with the great-circle distance
+/// to the boundary. An edge between polygons of the same width, such as a cut along a meridian, is
+/// not a boundary. Where features or transitions overlap, the smallest width applies. The sampling
+/// interval of the widths is a sixteenth of the transition, from 0.05 to 1 degree.
 ///
-/// \param polygons of GeoJSON alone.
-/// \throws Error bad_option for another suffix, a polygon width that is missing or not positive;
-///         parse, naming the variable and its index, the line or the feature; file.
+/// \param polygons widths for GeoJSON; other formats ignore them.
+/// \throws Error bad_option for an unknown suffix, or a polygon width that is missing or not
+///         positive; parse, naming the variable and its index, the line or the feature; file.
 CellWidth read_cell_width(const std::string& path, const PolygonWidths& polygons = {});
 
-/// As read_cell_width of a NetCDF file, from a variable density(lat, lon): widths rho^(-1/4), over
-/// the least of them. They know ratios only: no number of cells follows from them.
+/// Reads the variable density(lat, lon) of a NetCDF file, with the coordinates of read_cell_width.
+/// The result holds rho^(-1/4) divided by its minimum. These widths are relative; they imply no
+/// number of cells.
 CellWidth read_density_raster(const std::string& path);
 
-/// From a NetCDF file: the variable density(y, x), with the coordinate variables x(x) and y(y),
-/// either of which may descend.
+/// Reads the variable density(y, x) and the coordinate variables x(x) and y(y) of a NetCDF file.
+/// The coordinates may descend.
 /// \throws Error parse, naming the variable and its index; file.
 PlanarRaster read_planar_raster(const std::string& path);
 

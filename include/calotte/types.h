@@ -11,8 +11,9 @@
 CALOTTE_API_BEGIN
 namespace calotte {
 
-/// 3 x n, one Cartesian point a column. On the sphere a column is a *direction*: its norm does not
-/// matter (1e-200 to 1e200), and every decision is taken as if x/|x| stood exactly on the sphere.
+/// 3 x n, one Cartesian point a column. On the sphere a column is a *direction*: its norm is from
+/// 1e-200 to 1e200 and has no effect. Every predicate is evaluated as if x/|x| were exactly on the
+/// sphere.
 using Points3 = Eigen::Matrix3Xd;
 
 /// 2 x n, one Cartesian point a column.

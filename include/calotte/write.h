@@ -17,8 +17,8 @@
 CALOTTE_API_BEGIN
 namespace calotte {
 
-/// x y z a line, or x y of places in a plane, with the fewest digits (17 at most) that read back to
-/// the same bits.
+/// Writes x y z, in the plane x y, on each line, with the fewest digits (at most 17) that read back
+/// to the same bits.
 /// \param points 3 x n, or 2 x n.
 /// \throws Error bad_option for another number of rows, before any file is touched; file.
 void write_points(const std::string& path, const PointsRef& points);
@@ -38,7 +38,7 @@ enum class Format {
   vtu_cells,       ///< VTK UnstructuredGrid of the same
   off,             ///< text, digits as write_points
   ply,             ///< binary doubles
-  triangles,       ///< 0-based `i j k` a line
+  triangles,       ///< 0-based `i j k` on each line
   mpi_scvt,        ///< SaveVertices, and SaveTriangles and SaveDensity beside it
   msh,             ///< JIGSAW
   geojson,         ///< the cells as polygons with their CellFields
@@ -47,10 +47,10 @@ enum class Format {
 struct WriteOptions {
   Format format = Format::by_name;
   Numbering numbering = Numbering::by_format;
-  /// Of the sphere, in the file's unit of length (MPAS: metres): > 0. NetCDF formats; others hold
-  /// the points as given.
+  /// Radius of the sphere in NetCDF files, in the file's unit of length (MPAS: metres); > 0;
+  /// default 1. Other formats store the points unchanged.
   double sphere_radius = 1;
-  /// What the mesh was made for: of the fields meshDensity and nominalMinDc, and the like.
+  /// Density of the mesh, for fields such as meshDensity and nominalMinDc. Default: uniform.
   Density density = {};
   std::string history =
       {}; ///< one line a fact: how the mesh was made; an attribute of NetCDF files
@@ -70,8 +70,8 @@ struct WriteOptions {
 /// Places of NetCDF files are sphere_radius times the unit vectors; a point whose norm is that
 /// radius but for rounding keeps its bits.
 /// \throws Error bad_option for an unknown suffix, a radius out of range, an ill-formed density,
-///         ids that are not the mesh's, an open mesh where cells are asked for: before any file is
-///         touched; file.
+///         ids that are not the mesh's, an open mesh for a format of cells; all before any file is
+///         written; file.
 void write(const std::string& path, const Mesh& mesh, const WriteOptions& options = {});
 
 /// A plane, numbered as it is. Periodic: mpas, mpas_minimal and triangles. Not periodic: triangles,
@@ -80,17 +80,18 @@ void write(const std::string& path, const PlanarMesh& mesh, const WriteOptions& 
 
 /// The format that `write` gives a path: the option's, or else that of its name.
 /// \throws Error bad_option for a name that says none; for an option that is not that of the name's
-///         suffix (a NetCDF format of .nc; vtp and vtp_cells of .vtp, and so on), as nobody could
-///         read the file; for mpi_scvt under another name.
+///         suffix (a NetCDF format of .nc; vtp and vtp_cells of .vtp, and so on), because readers
+///         go by the name; for mpi_scvt under another name.
 Format format_of(const std::string& path, Format option = Format::by_name);
 
-/// Whether the format's files hold Voronoi cells, so that it needs a closed mesh.
+/// True if the format stores Voronoi cells and thus requires a closed mesh.
 bool holds_cells(Format format);
 
-/// \throws Error bad_option when `write` has no planar mesh, or no periodic one, of that format.
+/// Throws unless `write` supports planar (or periodic) meshes in the format.
+/// \throws Error bad_option.
 void require_planar_format(const std::string& path, bool periodic, Format format);
 
-/// Writes bytes in the way of all files here.
+/// Writes bytes to a file that is complete or absent, as described above.
 /// \throws Error file.
 void write_file(const std::string& path, std::string_view bytes);
 
