@@ -159,7 +159,7 @@ template <class World> Level refine(const World& world, State& state, Ending&& e
 }
 
 template <class World>
-typename World::Result run(const World& world, CvtState whole, CvtOptions options,
+typename World::Result run(const World& world, CvtState whole, Level&& level, CvtOptions options,
                            const CvtCallback& callback) {
   State& state = whole.data();
   require_options(options);
@@ -169,9 +169,9 @@ typename World::Result run(const World& world, CvtState whole, CvtOptions option
   require_room(world, state);
   Clock::time_point mark = Clock::now();
   const double before = state.report.seconds;
-  Ending ending = iterate(world, whole, {}, options, callback);
+  Ending ending = iterate(world, whole, std::move(level), options, callback);
   while (!ending.stopped && state.bisections_left > 0) {
-    Level level = refine(world, state, std::move(ending));
+    level = refine(world, state, std::move(ending));
     ending = iterate(world, whole, std::move(level), options, callback);
   }
   state.memory = {};
@@ -189,8 +189,8 @@ template <class Points>
 Cvt run_from(Points&& start, const CvtOptions& options, const CvtCallback& callback) {
   require_options(options);
   SphericalWorld::density(options.density);
-  return run(SphericalWorld(),
-             CvtState(SphericalWorld::begin(std::forward<Points>(start), options)), options,
+  Start begun = SphericalWorld::begin(std::forward<Points>(start), options);
+  return run(SphericalWorld(), CvtState(std::move(begun.state)), std::move(begun.level), options,
              callback);
 }
 
@@ -215,7 +215,7 @@ double norm_of(const CvtIteration& iteration, Norm norm) {
 }
 
 Cvt spherical_cvt(CvtState state, const CvtOptions& options, const CvtCallback& callback) {
-  return cvt_detail::run(cvt_detail::SphericalWorld(), std::move(state), options, callback);
+  return cvt_detail::run(cvt_detail::SphericalWorld(), std::move(state), {}, options, callback);
 }
 
 Cvt spherical_cvt(const PointsRef& start, const CvtOptions& options, const CvtCallback& callback) {
@@ -229,7 +229,7 @@ Cvt spherical_cvt(Points3&& start, const CvtOptions& options, const CvtCallback&
 
 PlanarCvt planar_cvt(CvtState state, const PlanarDomain& domain, const CvtOptions& options,
                      const CvtCallback& callback) {
-  return cvt_detail::run(cvt_detail::PlanarWorld(domain), std::move(state), options, callback);
+  return cvt_detail::run(cvt_detail::PlanarWorld(domain), std::move(state), {}, options, callback);
 }
 
 PlanarCvt planar_cvt(const PointsRef& start, const PlanarDomain& domain, const CvtOptions& options,
@@ -239,8 +239,9 @@ PlanarCvt planar_cvt(const PointsRef& start, const PlanarDomain& domain, const C
   const cvt_detail::PlanarWorld plane(domain);
   plane.density(options.density);
   cvt_detail::require_inside(places, domain);
-  return planar_cvt(CvtState(cvt_detail::PlanarWorld::begin(places, options)), domain, options,
-                    callback);
+  cvt_detail::Start begun = cvt_detail::PlanarWorld::begin(places, options);
+  return cvt_detail::run(plane, CvtState(std::move(begun.state)), std::move(begun.level), options,
+                         callback);
 }
 
 } // namespace calotte

@@ -4,6 +4,7 @@
 #include "cvt/laplacian.h"
 #include "cvt/room.h"
 #include "cvt/signs.h"
+#include "delaunay/regions.h"
 #include "delaunay/sites.h"
 #include "domain/outline.h"
 #include "integrals/integrand.h"
@@ -47,6 +48,8 @@ public:
   bool has_hull() const { return outline_ != nullptr; }
   Signs signs() const { return Signs(places_, period_); }
   Sites sites() const;
+  /// Of the hull and of a box's copies the sites know nothing.
+  Connectivity triangulate(Sites&&, Regions&&) const { return signs().triangulate(); }
   double spacing() const;
 
   /// See planar_moments.h.

@@ -19,6 +19,10 @@ namespace calotte::cvt_detail {
 /// such class for each kind of mesh.
 using Corners = std::array<std::int32_t, 3>; ///< of a triangle
 
+/// The connectivity of a closed mesh of n generators.
+/// \throws Error too_few_sites, when two of them have met or a hemisphere is empty.
+Connectivity closed_connectivity(Mesh&& mesh, std::int64_t n);
+
 /// On the sphere: closed meshes of unit columns.
 class SphereSigns {
 public:

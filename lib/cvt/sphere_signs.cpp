@@ -30,13 +30,16 @@ bool SphereSigns::circle_holds(const Corners& triangle, int, std::int32_t d) con
                             column(*points_, triangle[2]), column(*points_, d)) > 0;
 }
 
-Connectivity SphereSigns::triangulate() const {
-  Mesh mesh = spherical_delaunay(*points_);
-  if (mesh.points.cols() != points_->cols() || !mesh.closed())
+Connectivity closed_connectivity(Mesh&& mesh, std::int64_t n) {
+  if (mesh.points.cols() != n || !mesh.closed())
     throw Error(ErrorCode::too_few_sites,
                 "the generators lie within a hemisphere, or two of them have met: spread the start "
                 "over the sphere, or take a smoother density");
   return {std::move(mesh.triangles), std::move(mesh.neighbours)};
+}
+
+Connectivity SphereSigns::triangulate() const {
+  return closed_connectivity(spherical_delaunay(*points_), points_->cols());
 }
 
 } // namespace calotte::cvt_detail

@@ -4,6 +4,8 @@
 #include "cvt/laplacian.h"
 #include "cvt/room.h"
 #include "cvt/signs.h"
+#include "delaunay/delaunay.h"
+#include "delaunay/regions.h"
 #include "delaunay/sites.h"
 #include "integrals/integrand.h"
 #include "integrals/moments.h"
@@ -12,6 +14,7 @@
 #include <calotte/types.h>
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace calotte::cvt_detail {
@@ -31,6 +34,11 @@ public:
   static bool has_hull() { return false; } ///< places of the mesh that are no generators
   Signs signs() const { return Signs(*points_); }
   Sites sites() const { return make_sites(*points_, Duplicates::merge, 0); } ///< equal ones merged
+  /// The mesh of all places from their sites, which are used up.
+  Connectivity triangulate(Sites&& sites, Regions&& regions) const {
+    return closed_connectivity(
+        delaunay_detail::spherical_mesh(std::move(sites), std::move(regions)), places());
+  }
   double spacing() const; ///< h of so many generators
 
   /// See moments.h.

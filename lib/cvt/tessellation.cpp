@@ -18,17 +18,27 @@ constexpr std::int64_t sampled = 64; ///< one point of so many stands for all, f
 
 } // namespace
 
+/// One sort and one division serve the triangulation as well as the regions' tasks.
 template <class Cells>
 Tessellation<Cells>::Tessellation(Cells cells, const Points3& points, const Partition& partition,
                                   Level&& level)
     : cells_(std::move(cells)), generators_(points.cols()), partition_(partition) {
   cells_.move(points);
-  const bool known = level.mesh.has_value();
-  mesh_ = known ? std::move(*level.mesh) : cells_.signs().triangulate();
-  divide(std::move(level.sites));
-  Effort unused;
-  if (!known)
+  Sites sites = level.sites ? std::move(*level.sites) : cells_.sites();
+  if (sites.size() != generators_) // two points have met
+    cells_.signs().triangulate();  // which says it
+  Regions regions = delaunay_detail::divide(sites, partition_);
+  Owners owners = owners_of(sites, regions);
+  if (!level.mesh) {
+    mesh_ = cells_.triangulate(std::move(sites), std::move(regions));
+    adopt(std::move(owners));
     return;
+  }
+  sites = {};
+  regions = {};
+  mesh_ = std::move(*level.mesh);
+  adopt(std::move(owners));
+  Effort unused;
   if (const Faults faults = find_faults(unused); !faults.none() && !mend(faults, unused))
     rebuild(unused);
 }
@@ -50,29 +60,19 @@ template <class Cells> void Tessellation<Cells>::note_sample() {
     sample_[k] = cells_.place(static_cast<std::int32_t>(k * sampled));
 }
 
-template <class Cells> void Tessellation<Cells>::divide() { divide(std::nullopt); }
-
-template <class Cells> void Tessellation<Cells>::divide(std::optional<Sites>&& known) {
+template <class Cells> void Tessellation<Cells>::divide() {
   patches_.clear(); // sorting takes as much memory
+  std::optional<Owners> owners;
+  if (const Sites sites = cells_.sites(); sites.size() == generators_)
+    owners = owners_of(sites, delaunay_detail::divide(sites, partition_));
   // Where two points have met, the old regions do: a new triangulation will say it.
-  if (std::optional<Owners> owners = owners_of(std::move(known))) {
-    ownership_ = make_ownership(std::move(owners->owner), owners->regions);
-    work_ = std::vector<Work>(static_cast<std::size_t>(owners->regions));
-  }
-  patches_ = make_patches(mesh_.triangles, ownership_);
-  for (std::size_t k = 0; k < patches_.size(); ++k)
-    work_[k].report.sites = patches_[k].owned;
-  note_sample();
+  adopt(owners ? std::move(*owners)
+               : Owners{std::move(ownership_.owner), static_cast<std::int32_t>(work_.size())});
 }
 
-/// Empty where two points have met.
 template <class Cells>
-std::optional<typename Tessellation<Cells>::Owners>
-Tessellation<Cells>::owners_of(std::optional<Sites>&& known) const {
-  const Sites sites = known ? std::move(*known) : cells_.sites();
-  if (sites.size() != generators_)
-    return std::nullopt;
-  const Regions regions = delaunay_detail::divide(sites, partition_);
+typename Tessellation<Cells>::Owners Tessellation<Cells>::owners_of(const Sites& sites,
+                                                                    const Regions& regions) const {
   const auto count = static_cast<std::int32_t>(regions.centres.size());
   Owners owners{Array<std::int32_t>(cells_.places()), count};
   std::fill(owners.owner.begin() + generators_, owners.owner.end(), 0);
@@ -81,6 +81,15 @@ Tessellation<Cells>::owners_of(std::optional<Sites>&& known) const {
       owners.owner[sites.id[r]] = count > 1 ? regions.owner[r] : 0;
   });
   return owners;
+}
+
+template <class Cells> void Tessellation<Cells>::adopt(Owners&& owners) {
+  ownership_ = make_ownership(std::move(owners.owner), owners.regions);
+  patches_ = make_patches(mesh_.triangles, ownership_);
+  work_ = std::vector<Work>(patches_.size());
+  for (std::size_t k = 0; k < patches_.size(); ++k)
+    work_[k].report.sites = patches_[k].owned;
+  note_sample();
 }
 
 /// Positions of a patch's sites, by local number.

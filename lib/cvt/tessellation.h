@@ -3,6 +3,7 @@
 
 #include "cvt/repair.h"
 #include "cvt/room.h"
+#include "delaunay/regions.h"
 #include "delaunay/sites.h"
 #include "integrals/moments.h"
 #include "integrals/patches.h"
@@ -18,9 +19,11 @@
 
 namespace calotte::cvt_detail {
 
-/// What a level of a continuation knows of its points from the level before.
+/// What is known of the points of a level when it starts: from the sort of the start, or from the
+/// level before.
 struct Level {
-  std::optional<Sites> sites; ///< whose ids and ranks are the points' columns
+  std::optional<Sites> sites; ///< whose ids and ranks are the points' columns; with a mesh, their
+                              ///< points may be gone
   /// Of the points, Delaunay but for a few edges.
   std::optional<Connectivity> mesh;
 };
@@ -108,8 +111,8 @@ private:
     std::int32_t regions;
   };
 
-  void divide(std::optional<Sites>&& known);
-  std::optional<Owners> owners_of(std::optional<Sites>&& known) const;
+  Owners owners_of(const Sites& sites, const Regions& regions) const;
+  void adopt(Owners&& owners);
   void note_sample();
   Array<Vec3> exchange(const Patch& patch) const;
   void find_faults(const Patch& patch, Work& work) const;

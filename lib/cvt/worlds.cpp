@@ -36,7 +36,6 @@ void set_points(State& state, const Sites& sites, const Array<Vec3>& points) {
 
 /// The sites by rank alone, as the state has them.
 Sites by_rank(Sites&& sites) {
-  sites.points = {};
   sites.site_of_input = {};
   std::iota(sites.id.begin(), sites.id.end(), 0);
   return std::move(sites);
@@ -64,7 +63,7 @@ void set_places(State& state, const Sites& sites) {
 }
 
 /// A run on the sphere from its distinct generators.
-State begun_at(Sites&& sites, const CvtOptions& options) {
+Start begun_at(Sites&& sites, const CvtOptions& options) {
   if (sites.size() < 12)
     throw Error(ErrorCode::too_few_sites, "there are " + std::to_string(sites.size()) +
                                               " distinct generators: give at least 12");
@@ -72,7 +71,8 @@ State begun_at(Sites&& sites, const CvtOptions& options) {
   set_points(state, sites, sites.unit);
   state.site_of_input = std::move(sites.site_of_input);
   state.bisections_left = options.bisections;
-  return state;
+  sites.points = state.points;
+  return {std::move(state), {by_rank(std::move(sites)), std::nullopt}};
 }
 
 /// Cells of generators on one line would do, but no mesh of them.
@@ -96,11 +96,11 @@ void refuse_state() {
 
 // ---- The sphere
 
-State SphericalWorld::begin(Points3&& start, const CvtOptions& options) {
+Start SphericalWorld::begin(Points3&& start, const CvtOptions& options) {
   return begun_at(make_sites(std::move(start), options.duplicates, options.merge_within), options);
 }
 
-State SphericalWorld::begin(const Points3Ref& start, const CvtOptions& options) {
+Start SphericalWorld::begin(const Points3Ref& start, const CvtOptions& options) {
   return begun_at(make_sites(start, options.duplicates, options.merge_within), options);
 }
 
@@ -130,6 +130,7 @@ Level SphericalWorld::set_bisected(State& state, const Mesh& coarse) {
   set_points(state, sites, sites.unit);
   Connectivity mesh =
       bisected_mesh(coarse.triangles, coarse.neighbours, coarse.points.cols(), sites);
+  sites.points = {}; // with the mesh they have served
   return {by_rank(std::move(sites)), std::move(mesh)};
 }
 
@@ -137,14 +138,14 @@ Level SphericalWorld::set_bisected(State& state, const Mesh& coarse) {
 
 PlanarWorld::PlanarWorld(const PlanarDomain& domain) : domain_(domain) { require_domain(domain); }
 
-State PlanarWorld::begin(const Points2Ref& start, const CvtOptions& options) {
+Start PlanarWorld::begin(const Points2Ref& start, const CvtOptions& options) {
   Sites sites = make_planar_sites(start, options.duplicates, options.merge_within);
   require_triangle(sites);
   State state;
   set_places(state, sites);
   state.site_of_input = std::move(sites.site_of_input);
   state.bisections_left = options.bisections;
-  return state;
+  return {std::move(state), {}};
 }
 
 Density PlanarWorld::density(const Density& density) const {

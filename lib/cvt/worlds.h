@@ -18,15 +18,21 @@ namespace calotte::cvt_detail {
 /// \throws Error bad_option: no run has left this state.
 [[noreturn]] void refuse_state();
 
+/// Where a run starts.
+struct Start {
+  State state;
+  Level level;
+};
+
 /// What a run needs to know of the space that its generators live in: the sphere. PlanarWorld is
 /// its like for the plane, and says the same of each function.
 class SphericalWorld {
 public:
   using Result = Cvt;
 
-  /// The state of a start. \throws Error as make_sites(); too_few_sites.
-  static State begin(Points3&& start, const CvtOptions& options);
-  static State begin(const Points3Ref& start, const CvtOptions& options);
+  /// \throws Error as make_sites(); too_few_sites.
+  static Start begin(Points3&& start, const CvtOptions& options);
+  static Start begin(const Points3Ref& start, const CvtOptions& options);
 
   /// The density as the functional takes it. \throws Error bad_option where it is ill-formed.
   static Density density(const Density& density);
@@ -61,7 +67,7 @@ public:
   /// \throws Error as require_domain().
   explicit PlanarWorld(const PlanarDomain& domain);
 
-  static State begin(const Points2Ref& start, const CvtOptions& options);
+  static Start begin(const Points2Ref& start, const CvtOptions& options);
   Density density(const Density& density) const;
   void require_points(const State& state) const;
   std::unique_ptr<Functional> functional(const Points3& points, const CvtOptions& options,

@@ -5,6 +5,7 @@
 #include "base/monitor.h"
 #include "delaunay/centres.h"
 #include "delaunay/cull.h"
+#include "delaunay/delaunay.h"
 #include "delaunay/divide.h"
 #include "delaunay/periodic.h"
 #include "delaunay/regions.h"
@@ -266,16 +267,13 @@ void empty_pools_of_many(std::int64_t sites) {
     empty_pools();
 }
 
-/// From the sites to the mesh, whose points in a plane have z = 0.
+/// From sites and their regions to the mesh, whose points in a plane have z = 0. Each array goes
+/// when it has served: the largest sets take all of the memory.
 template <class Space>
-Mesh triangulate(Sites&& sites, const Partition& partition, DelaunayReport& report,
-                 Monitor& monitor) {
+Mesh triangulate_regions(Sites&& sites, Regions&& regions, DelaunayReport& report,
+                         Monitor& monitor) {
   Clock::time_point mark = Clock::now();
-  empty_pools_of_many(sites.size());
-  monitor.begin("regions", divided, 1);
-  Regions regions = divide(sites, partition);
-  sites.cells = {}; // each array goes when it has served: the largest sets take all of the memory
-  report.seconds.regions = lap(mark);
+  sites.cells = {};
   std::optional<Reports> reports;
   if (regions.centres.size() > 1)
     reports = triangulate_caps<Space>(sites, regions, report, monitor);
@@ -291,6 +289,17 @@ Mesh triangulate(Sites&& sites, const Partition& partition, DelaunayReport& repo
   empty_pools_of_many(mesh.points.cols());
   report.seconds.unite = lap(mark);
   return mesh;
+}
+
+template <class Space>
+Mesh triangulate(Sites&& sites, const Partition& partition, DelaunayReport& report,
+                 Monitor& monitor) {
+  Clock::time_point mark = Clock::now();
+  empty_pools_of_many(sites.size());
+  monitor.begin("regions", divided, 1);
+  Regions regions = divide(sites, partition);
+  report.seconds.regions = lap(mark);
+  return triangulate_regions<Space>(std::move(sites), std::move(regions), report, monitor);
 }
 
 template <class Space, class Points>
@@ -328,6 +337,13 @@ Mesh triangulate_sphere(Points&& points, const DelaunayOptions& options, Delauna
 }
 
 } // namespace
+
+Mesh spherical_mesh(Sites&& sites, Regions&& regions) {
+  DelaunayReport unused;
+  Monitor monitor({});
+  return triangulate_regions<Sphere>(std::move(sites), std::move(regions), unused, monitor);
+}
+
 } // namespace delaunay_detail
 
 Mesh spherical_delaunay(const PointsRef& points, const DelaunayOptions& options,

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/densities.h"
+
+#include <calotte/cvt.h>
+#include <calotte/delaunay.h>
+#include <calotte/domain.h>
+#include <calotte/generators.h>
+
+#include <doctest/doctest.h>
+
+using namespace calotte;
+using test::x8;
+
+// A run hands its mesh from level to level and never triangulates it again. By the law of
+// uniqueness the result is the triangulation of its generators, to the last bit.
+
+namespace {
+
+template <class AnyMesh> void check_same(const AnyMesh& mesh, const AnyMesh& anew) {
+  REQUIRE(anew.points == mesh.points);
+  CHECK(anew.triangles == mesh.triangles);
+  CHECK(anew.neighbours == mesh.neighbours);
+  CHECK(anew.site_of_input == mesh.site_of_input);
+}
+
+void check_triangulated(const Cvt& grid) {
+  check_same(grid.mesh, spherical_delaunay(grid.mesh.points));
+}
+
+} // namespace
+
+TEST_CASE("the mesh of a continuation is the triangulation of its generators") {
+  for (const Density& density : {Density{}, x8()})
+    for (const Points3& start : {bisected_icosahedron(1), fibonacci_sphere(150),
+                                 random_sphere(642, site_density(x8()), 5)}) {
+      CvtOptions options;
+      options.density = density;
+      options.tolerance = 1e-3;
+      options.bisections = 2;
+      options.max_iterations = 60;
+      check_triangulated(spherical_cvt(start, options));
+    }
+}
+
+TEST_CASE("so it is where edges flip at every step, and where a run stops on any iteration") {
+  CvtOptions options;
+  options.density = x8();
+  options.method = Method::lloyd;
+  options.norm = Norm::none;
+  options.max_iterations = 6;
+  options.bisections = 2;
+  for (std::size_t last = 1; last <= 18; ++last) {
+    std::int64_t flips = 0;
+    const Cvt grid = spherical_cvt(random_sphere(500, 9), options, [&](const CvtProgress& now) {
+      flips += now.report.iterations.back().flips;
+      return now.report.iterations.size() == last;
+    });
+    CAPTURE(last);
+    CHECK(grid.report.iterations.size() == last);
+    CHECK((flips > 0 || last == 1));
+    check_triangulated(grid);
+  }
+}
+
+TEST_CASE("a run without iterations is the bisected start's triangulation") {
+  CvtOptions options;
+  options.max_iterations = 0;
+  options.bisections = 2;
+  check_triangulated(spherical_cvt(random_sphere(300, 2), options));
+}
+
+TEST_CASE("in a periodic box, and in a bounded plane") {
+  CvtOptions options;
+  options.tolerance = 1e-3;
+  options.bisections = 1;
+  const PlanarDomain box = periodic_box({2, 1});
+  const PlanarCvt periodic = planar_cvt(random_places(500, box), box, options);
+  check_same(periodic.mesh, periodic_delaunay(periodic.mesh.points, box.period));
+  const PlanarDomain basin = rectangle({0, 0}, {2, 1});
+  const PlanarCvt bounded = planar_cvt(random_places(300, basin), basin, options);
+  check_same(bounded.mesh, planar_delaunay(bounded.mesh.points));
+}
