@@ -2,17 +2,14 @@
 #include "io/file.h"
 #include "io/formats.h"
 #include "io/mpas.h"
+#include "io/triangle_quality.h"
 
-#include "base/elementary.h"
-#include "base/points.h"
 #include "base/spherical_angles.h"
 #include "voronoi/geometry.h"
 #include "voronoi/stages.h"
 #include "voronoi/tangential_weights.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <numbers>
 
 namespace calotte::io_detail {
@@ -250,78 +247,11 @@ void put_fields(MpasFile& file, const Dimensions& dimensions, const MpasMesh& me
                scaled(fields.spacing, mesh.radius));
 }
 
-/// The sides of a triangle, shortest first.
-struct Sides {
-  double a, b, c;
-};
-
-Sides sorted(double x, double y, double z) {
-  const double low = std::min(x, y), high = std::max(x, y);
-  return {std::min(low, z), std::max(low, std::min(high, z)), std::max(high, z)};
-}
-
-Sides arcs(const Voronoi& voronoi, std::int64_t vertex) {
-  const auto side = [&](int j) { return voronoi.dc[voronoi.edges_on_vertex(j, vertex)]; };
-  return sorted(side(0), side(1), side(2));
-}
-
-/// Of the flat triangle.
-Sides chords(const Voronoi& voronoi, std::int64_t vertex) {
-  if (!voronoi.on_sphere)
-    return arcs(voronoi, vertex);
-  const auto corner = [&](int j) {
-    return column(voronoi.cells, voronoi.cells_on_vertex(j, vertex));
-  };
-  const Vec3 p = corner(0), q = corner(1), r = corner(2);
-  return sorted(norm(q - p), norm(r - q), norm(p - r));
-}
-
-/// By more than rounding, as Quality::obtuse has it.
-bool is_obtuse(const Sides& sides) {
-  const auto [a, b, c] = sides;
-  return a * a + b * b - c * c < -2e-9 * a * b;
-}
-
-/// Half of an angle whose sine has this square.
-CALOTTE_INLINE double half_angle(double square) {
-  return arc_sine(std::sqrt(std::min(std::max(square, 0.0), 1.0)));
-}
-
-/// Smallest over largest angle of flat triangles with these sides, as MPAS's mesh converter has it:
-/// 2 asin(sqrt((s - b)(s - c) / (b c))) is the angle between sides b and c, s half of the sum.
-CALOTTE_VECTOR_WIDTHS
-void angle_qualities(const double* a, const double* b, const double* c, std::int64_t count,
-                     double* out) {
-  for (std::int64_t i = 0; i < count; ++i) {
-    const double to_a = 0.5 * ((c[i] - a[i]) + b[i]), to_b = 0.5 * ((c[i] - b[i]) + a[i]),
-                 to_c = 0.5 * (a[i] - (c[i] - b[i]));
-    out[i] = half_angle(to_b * to_c / (b[i] * c[i])) / half_angle(to_a * to_b / (a[i] * b[i]));
-  }
-}
-
-/// Vertices begin to end - 1.
-void fill_angle_qualities(const Voronoi& voronoi, std::int64_t begin, std::int64_t end,
-                          double* out) {
-  constexpr std::int64_t lanes = 64;
-  std::array<std::array<double, lanes>, 3> sides;
-  for (std::int64_t first = begin; first < end; first += lanes) {
-    const std::int64_t count = std::min(lanes, end - first);
-    for (std::int64_t i = 0; i < count; ++i) {
-      const Sides of = arcs(voronoi, first + i);
-      const auto lane = static_cast<std::size_t>(i);
-      sides[0][lane] = of.a, sides[1][lane] = of.b, sides[2][lane] = of.c;
-    }
-    angle_qualities(sides[0].data(), sides[1].data(), sides[2].data(), count,
-                    out + (first - begin));
-  }
-}
-
 void put_triangle_quality(MpasFile& file, const Dimensions& dimensions, const Voronoi& voronoi) {
   file.doubles("triangleQuality", {dimensions.vertices},
                described("1", "shortest over longest side of the triangle around each vertex"),
                table<double>(1, [&voronoi](std::int64_t v, std::int64_t) {
-                 const Sides sides = arcs(voronoi, v);
-                 return sides.a / sides.c;
+                 return side_quality(voronoi, v);
                }));
   file.doubles("triangleAngleQuality", {dimensions.vertices},
                described("1", "smallest over largest angle of the triangle around each vertex"),
@@ -331,7 +261,7 @@ void put_triangle_quality(MpasFile& file, const Dimensions& dimensions, const Vo
   file.ints("obtuseTriangle", {dimensions.vertices},
             described("1", "1 where the triangle around a vertex has an obtuse angle"),
             table<std::int32_t>(1, [&voronoi](std::int64_t v, std::int64_t) {
-              return is_obtuse(chords(voronoi, v)) ? 1 : 0;
+              return is_obtuse(voronoi, v) ? 1 : 0;
             }));
 }
 
