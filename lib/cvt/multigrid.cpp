@@ -64,12 +64,7 @@ Multigrid::Multigrid(SparseMatrix matrix) {
     matrix = level.restriction * SparseMatrix(level.matrix * level.prolongation);
     levels_.push_back(std::move(level));
   }
-  coarsest_.swap(matrix);
-  factors_.compute(Eigen::SparseMatrix<double>(coarsest_));
-}
-
-Points3 Multigrid::apply(const Points3& x) const {
-  return times(levels_.empty() ? coarsest_ : levels_.front().matrix, x);
+  factors_.compute(Eigen::SparseMatrix<double>(matrix));
 }
 
 Points3 Multigrid::cycle(std::size_t level, const Points3& right) const {

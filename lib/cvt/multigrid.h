@@ -22,9 +22,6 @@ public:
   /// The cycle for the three coordinates at once, 3 x n.
   Points3 solve(const Points3& right) const { return cycle(0, right); }
 
-  /// The matrix times each coordinate.
-  Points3 apply(const Points3& x) const;
-
 private:
   struct Level {
     SparseMatrix matrix, prolongation, restriction;
@@ -34,7 +31,6 @@ private:
   Points3 cycle(std::size_t level, const Points3& right) const;
 
   std::vector<Level> levels_;
-  SparseMatrix coarsest_;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors_; ///< of the coarsest
 };
 
