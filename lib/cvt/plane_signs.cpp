@@ -35,9 +35,9 @@ Vec2 PlaneSigns::offset(const Image& from, const Image& to) const {
 /// u L at most, as is a product with -1, 0 or 1 times the period not at all. With offsets up to D,
 /// the products' and their difference's rounding adds 4u D^2: in all below 4 D e + 2 e^2 + 4u D^2.
 bool PlaneSigns::is_counter_clockwise(const Corners& triangle) const {
-  if (!periodic())
-    return orientation(given(triangle[0]), given(triangle[1]), given(triangle[2])) > 0;
   const Image a{given(triangle[0]), 0, 0}, b = next_to(a, triangle[1]), c = next_to(a, triangle[2]);
+  if (!periodic())
+    return orientation(period_, a, b, c) > 0;
   const Vec2 p = offset(a, b), q = offset(a, c);
   // From b to c the nearest copies may be others than a's.
   if (!within_half({1.000001 * (q.x - p.x), 1.000001 * (q.y - p.y)}, period_))
@@ -63,25 +63,24 @@ bool PlaneSigns::is_clearly_acute(const Corners& triangle, int v) const {
 /// With offsets from a as above, the determinant is a sum of 12 products of four of them: it errs
 /// by up to 48 D^3 e, and by 12 * 10u D^4 of its own rounding.
 bool PlaneSigns::circle_holds(const Corners& triangle, int v, std::int32_t d) const {
-  if (!periodic()) {
-    const Vec2 a = given(triangle[0]), b = given(triangle[1]), c = given(triangle[2]), p = given(d);
-    const int sign = in_circle(a, b, c, p);
-    return (sign != 0 ? sign : in_circle_tie(a, b, c, p)) > 0;
-  }
   std::array<Image, 3> corner{};
   corner[0] = {given(triangle[0]), 0, 0};
   corner[1] = next_to(corner[0], triangle[1]);
   corner[2] = next_to(corner[0], triangle[2]);
   const Image far = next_to(corner[static_cast<std::size_t>(next_vertex(v))], d);
-  const Vec2 p = offset(far, corner[0]), q = offset(far, corner[1]), r = offset(far, corner[2]);
-  const auto square = [](const Vec2& s) { return s.x * s.x + s.y * s.y; };
-  const double value = square(p) * (q.x * r.y - q.y * r.x) - square(q) * (p.x * r.y - p.y * r.x) +
-                       square(r) * (p.x * q.y - p.y * q.x);
-  const double e = 4 * roundoff * size_of(period_),
-               most = std::max({size_of(p), size_of(q), size_of(r)});
-  if (std::abs(value) > (64 * e + 160 * roundoff * most) * most * most * most)
-    return value > 0;
-  const int sign = in_circle(period_, corner[0], corner[1], corner[2], far);
+  const auto filter = [&] {
+    const Vec2 p = offset(far, corner[0]), q = offset(far, corner[1]), r = offset(far, corner[2]);
+    const auto square = [](const Vec2& x) { return x.x * x.x + x.y * x.y; };
+    const double value = square(p) * (q.x * r.y - q.y * r.x) - square(q) * (p.x * r.y - p.y * r.x) +
+                         square(r) * (p.x * q.y - p.y * q.x);
+    const double e = 4 * roundoff * size_of(period_),
+                 most = std::max({size_of(p), size_of(q), size_of(r)});
+    const double error = (64 * e + 160 * roundoff * most) * most * most * most;
+    return value > error ? 1 : value < -error ? -1 : 0;
+  };
+  int sign = periodic() ? filter() : 0;
+  if (sign == 0)
+    sign = in_circle(period_, corner[0], corner[1], corner[2], far);
   return (sign != 0 ? sign : in_circle_tie(period_, corner[0], corner[1], corner[2], far)) > 0;
 }
 

@@ -56,30 +56,17 @@ int Plane::orientation_beyond_static(const Place& a, const Place& b, const Place
     return 1;
   if (left - right < -error)
     return -1;
-  return exact_orientation(a, b, c);
-}
-
-int Plane::exact_orientation(const Place& a, const Place& b, const Place& c) const {
-  return periodic() ? exact_detail::orientation(sites_->frame->period, image(a), image(b), image(c))
-                    : exact_detail::orientation(given(a), given(b), given(c));
+  return exact_detail::orientation(sites_->frame->period, image(a), image(b), image(c));
 }
 
 int Plane::in_circle_beyond_local(const Place& a, const Place& b, const Place& c, const Place& d) {
   ++counts_.filtered;
-  if (periodic())
-    return in_circle_of_images(a, b, c, d);
-  if (const int sign = exact_detail::in_circle(given(a), given(b), given(c), given(d)))
-    return sign;
-  ++counts_.exact;
-  return in_circle_tie(given(a), given(b), given(c), given(d));
-}
-
-int Plane::in_circle_of_images(const Place& a, const Place& b, const Place& c, const Place& d) {
   const Vec2& period = sites_->frame->period;
-  if (const int sign = exact_detail::in_circle(period, image(a), image(b), image(c), image(d)))
+  const Image p = image(a), q = image(b), r = image(c), s = image(d);
+  if (const int sign = exact_detail::in_circle(period, p, q, r, s))
     return sign;
   ++counts_.exact;
-  return in_circle_tie(period, image(a), image(b), image(c), image(d));
+  return in_circle_tie(period, p, q, r, s);
 }
 
 } // namespace calotte::delaunay_detail

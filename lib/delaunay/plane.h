@@ -107,15 +107,13 @@ private:
     const Vec3& p = sites_->given(a.site);
     return {p.x, p.y};
   }
-  const Image& image(const Place& a) const {
-    return sites_->images[static_cast<std::size_t>(a.site)];
+  Image image(const Place& a) const {
+    return periodic() ? sites_->images[static_cast<std::size_t>(a.site)] : Image{given(a), 0, 0};
   }
   bool periodic() const { return !sites_->images.empty(); }
-  int exact_orientation(const Place& a, const Place& b, const Place& c) const;
   void widen(double reach);
   int orientation_beyond_static(const Place& a, const Place& b, const Place& c);
   int in_circle_beyond_local(const Place& a, const Place& b, const Place& c, const Place& d);
-  int in_circle_of_images(const Place& a, const Place& b, const Place& c, const Place& d);
 
   const Sites* sites_;
   Vec3 centre_;

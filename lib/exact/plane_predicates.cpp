@@ -22,6 +22,9 @@ Exact::Point_2 exact_point(const Vec2& period, const Image& a) {
   return {x + a.i * width, y + a.j * height};
 }
 
+/// Signs do not change when all places move by whole periods.
+bool in_one_box(const Image& a, const Image& b) { return a.i == b.i && a.j == b.j; }
+
 /// With lifts l and vectors from d, the determinant is l_a b x c - l_b a x c + l_c a x b, and that
 /// of l_d makes the sum of the coefficients 0. \param order by which the sites' eps fall. \param
 /// turn orientation of three of them.
@@ -59,10 +62,14 @@ int in_circle_tie(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
 }
 
 int orientation(const Vec2& period, const Image& a, const Image& b, const Image& c) {
+  if (in_one_box(a, b) && in_one_box(a, c))
+    return orientation(a.site, b.site, c.site);
   return CGAL::orientation(exact_point(period, a), exact_point(period, b), exact_point(period, c));
 }
 
 int in_circle(const Vec2& period, const Image& a, const Image& b, const Image& c, const Image& d) {
+  if (in_one_box(a, b) && in_one_box(a, c) && in_one_box(a, d))
+    return in_circle(a.site, b.site, c.site, d.site);
   return CGAL::side_of_oriented_circle(exact_point(period, a), exact_point(period, b),
                                        exact_point(period, c), exact_point(period, d));
 }

@@ -45,7 +45,8 @@ struct Image {
   int i, j;
 };
 
-/// As above, exact in the sums. Ties are decided by the sites, and only between copies of one site
+/// As above, exact in the sums; as fast where all are copies in one box. A period of 0, with i and
+/// j 0, is a plane without one. Ties are decided by the sites, and only between copies of one site
 /// by which copy it is: where circles are small beside the box, the mesh is as periodic as the
 /// sites.
 int orientation(const Vec2& period, const Image& a, const Image& b, const Image& c);

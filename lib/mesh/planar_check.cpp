@@ -74,23 +74,14 @@ struct InPlane : mesh_detail::Faces {
     return {p, boxes_to(q.x, p.x, period.x), boxes_to(q.y, p.y, period.y)};
   }
 
-  static bool in_box(const Image& a) { return a.i == 0 && a.j == 0; }
-
   int orientation(std::int32_t a, std::int32_t b, std::int32_t c) const {
-    const Image p = image(a, a), q = image(b, a), r = image(c, a);
-    return in_box(q) && in_box(r) ? exact_detail::orientation(p.site, q.site, r.site)
-                                  : exact_detail::orientation(period, p, q, r);
+    return exact_detail::orientation(period, image(a, a), image(b, a), image(c, a));
   }
 
   int in_circle(std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t d) const {
     const Image p = image(a, a), q = image(b, a), r = image(c, a), s = image(d, a);
-    const bool plain = in_box(q) && in_box(r) && in_box(s);
-    const int sign = plain ? exact_detail::in_circle(p.site, q.site, r.site, s.site)
-                           : exact_detail::in_circle(period, p, q, r, s);
-    if (sign != 0)
-      return sign;
-    return periodic() ? exact_detail::in_circle_tie(period, p, q, r, s)
-                      : exact_detail::in_circle_tie(p.site, q.site, r.site, s.site);
+    const int sign = exact_detail::in_circle(period, p, q, r, s);
+    return sign != 0 ? sign : exact_detail::in_circle_tie(period, p, q, r, s);
   }
 
   const void* stored(std::int32_t site) const { return &mesh.points(0, site); }
