@@ -15,19 +15,19 @@ namespace calotte::curve_detail {
 
 /// Puts items into buckets in parallel, in linear time: bucket by bucket, and the items of a bucket
 /// in the order that they had.
-/// \pre n < 2^31.
+/// \tparam Place counts the items.
 /// \param bucket_of(i) of item i, below `buckets`; asked for twice.
 /// \param put(i, place) is told each item's place.
 /// \return where each bucket begins, and the number of items.
-template <class BucketOf, class Put>
-std::vector<std::int32_t> distribute(std::int64_t n, std::int64_t buckets,
-                                     const BucketOf& bucket_of, const Put& put) {
+template <class Place = std::int32_t, class BucketOf, class Put>
+std::vector<Place> distribute(std::int64_t n, std::int64_t buckets, const BucketOf& bucket_of,
+                              const Put& put) {
   // Each part of the items counts for itself, in cache; so few parts that the counts stay small
   // beside the items.
   const std::int64_t parts = std::clamp<std::int64_t>(n / (8 * buckets), 1, 64);
   constexpr std::int64_t group = 64; // of buckets, whose counts are a run of memory in each part
   const std::int64_t groups = (buckets + group - 1) / group;
-  Array<std::int32_t> next(parts * buckets); // of [part, bucket]: first counts, then places
+  Array<Place> next(parts * buckets); // of [part, bucket]: first counts, then places
   const auto for_each_part = [&](const auto& body) {
     for_each_task(parts, [&](std::int64_t part) {
       body(next.begin() + part * buckets, n * part / parts, n * (part + 1) / parts);
@@ -37,12 +37,12 @@ std::vector<std::int32_t> distribute(std::int64_t n, std::int64_t buckets,
     for_each_task(groups,
                   [&](std::int64_t g) { body(g, g * group, std::min((g + 1) * group, buckets)); });
   };
-  for_each_part([&](std::int32_t* count, std::int64_t begin, std::int64_t end) {
+  for_each_part([&](Place* count, std::int64_t begin, std::int64_t end) {
     std::fill(count, count + buckets, 0);
     for (std::int64_t i = begin; i != end; ++i)
       ++count[bucket_of(i)];
   });
-  std::vector<std::int32_t> first(static_cast<std::size_t>(buckets + 1));
+  std::vector<Place> first(static_cast<std::size_t>(buckets + 1));
   for_each_group([&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t part = 0; part != parts; ++part)
       for (std::int64_t b = begin; b != end; ++b)
@@ -50,15 +50,15 @@ std::vector<std::int32_t> distribute(std::int64_t n, std::int64_t buckets,
   });
   exclusive_scan(std::span(first));
   for_each_group([&](std::int64_t, std::int64_t begin, std::int64_t end) {
-    std::array<std::int32_t, group> place;
+    std::array<Place, group> place;
     std::copy(first.begin() + begin, first.begin() + end, place.begin());
     for (std::int64_t part = 0; part != parts; ++part)
       for (std::int64_t b = begin; b != end; ++b) {
-        std::int32_t& slot = place[static_cast<std::size_t>(b - begin)];
+        Place& slot = place[static_cast<std::size_t>(b - begin)];
         slot += std::exchange(next[part * buckets + b], slot);
       }
   });
-  for_each_part([&](std::int32_t* place, std::int64_t begin, std::int64_t end) {
+  for_each_part([&](Place* place, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i)
       put(i, place[bucket_of(i)]++);
   });

@@ -125,8 +125,8 @@ private:
       return;
     std::vector<CellCorner> cell;
     for (std::int64_t s = rings.begin[i]; s != rings.begin[i + 1]; ++s) {
-      const std::int32_t t = triangle_of(rings.corners[s]);
-      const int v = vertex_of(rings.corners[s]);
+      const std::int32_t t = rings.corners[s].triangle;
+      const int v = rings.corners[s].vertex;
       const Vec2 beyond = offset(i, triangles(previous_vertex(v), t));
       cell.push_back({circumcentre(offset(i, triangles(next_vertex(v), t)), beyond), beyond});
     }
@@ -181,8 +181,8 @@ void set_row(const Source& source, const Edges& edges, std::int32_t i, Row& row)
   Corner before = rings.corners[rings.begin[i + 1] - 1];
   for (std::int64_t s = rings.begin[i]; s != rings.begin[i + 1]; ++s) {
     const Corner corner = rings.corners[s];
-    const std::int32_t t = triangle_of(corner), u = triangle_of(before);
-    const int v = vertex_of(corner), w = vertex_of(before);
+    const std::int32_t t = corner.triangle, u = before.triangle;
+    const int v = corner.vertex, w = before.vertex;
     before = corner;
     const std::int32_t j = source.triangles(next_vertex(v), t);
     if (j >= source.rows())
@@ -207,8 +207,7 @@ Array<std::int32_t> row_begins(const Source& source) {
       begin[i] = 1;
       for (std::int64_t s = rings.begin[i]; s != rings.begin[i + 1]; ++s) {
         const Corner corner = rings.corners[s];
-        begin[i] +=
-            source.triangles(next_vertex(vertex_of(corner)), triangle_of(corner)) < source.rows();
+        begin[i] += source.triangles(next_vertex(corner.vertex), corner.triangle) < source.rows();
       }
     }
   });

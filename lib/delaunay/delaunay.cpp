@@ -10,6 +10,7 @@
 #include "delaunay/periodic.h"
 #include "delaunay/regions.h"
 #include "delaunay/unite.h"
+#include "mesh/edges.h"
 
 #include <calotte/error.h>
 
@@ -189,19 +190,14 @@ Mesh make_mesh(Sites&& sites, Reports&& reports, Monitor* monitor = nullptr) {
 }
 
 /// Both ends of each edge learn of each other.
-std::vector<std::vector<std::int32_t>> neighbours_in(const Triangles& triangles,
-                                                     std::size_t count) {
-  std::vector<std::vector<std::int32_t>> adjacent(count);
-  for (Eigen::Index t = 0; t < triangles.cols(); ++t)
-    for (int i = 0; i < 3; ++i) {
-      const std::int32_t a = triangles(i, t), b = triangles((i + 1) % 3, t);
-      adjacent[static_cast<std::size_t>(a)].push_back(b);
-      adjacent[static_cast<std::size_t>(b)].push_back(a);
-    }
-  for (std::vector<std::int32_t>& list : adjacent) {
+std::vector<std::vector<std::int32_t>> adjacent_sites(const Mesh& mesh) {
+  std::vector<std::vector<std::int32_t>> adjacent(static_cast<std::size_t>(mesh.points.cols()));
+  for_each_edge(mesh, [&](std::int32_t a, std::int32_t b) {
+    adjacent[static_cast<std::size_t>(a)].push_back(b);
+    adjacent[static_cast<std::size_t>(b)].push_back(a);
+  });
+  for (std::vector<std::int32_t>& list : adjacent)
     std::sort(list.begin(), list.end());
-    list.erase(std::unique(list.begin(), list.end()), list.end());
-  }
   return adjacent;
 }
 
@@ -214,19 +210,19 @@ Sites make_sites_of(Points&& points, Duplicates duplicates, double merge_within,
     return make_sites(std::forward<Points>(points), duplicates, merge_within, monitor);
 }
 
-/// The triangles of some centres, or none when they are too few, meet, or lie on one line, or on
+/// The mesh of some centres, or none when they are too few, meet, or lie on one line, or on
 /// the sphere in a hemisphere.
-template <class Space, class Points> Triangles triangles_of(const Points& points) {
+template <class Space, class Points> std::optional<Mesh> mesh_of(const Points& points) {
   try {
     Sites sites = make_sites_of<Space>(points, Duplicates::merge, 0);
     DelaunayReport unused;
     Reports reports = triangulate_whole<Space>(sites, unused);
-    const Mesh mesh = make_mesh(std::move(sites), std::move(reports));
+    Mesh mesh = make_mesh(std::move(sites), std::move(reports));
     if (mesh.points.cols() == points.cols() && (std::is_same_v<Space, Plane> || mesh.closed()))
-      return mesh.triangles;
+      return mesh;
   } catch (const Error&) {
   }
-  return Triangles(3, 0);
+  return std::nullopt;
 }
 
 /// For each centre those whose coarse Voronoi cells meet its own: its neighbours in the Delaunay
@@ -237,10 +233,10 @@ std::vector<std::vector<std::int32_t>> adjacent_centres(const std::vector<Vec3>&
   Points3 points(3, static_cast<Eigen::Index>(count));
   for (std::size_t k = 0; k < count; ++k)
     set_column(points, static_cast<std::int64_t>(k), centres[k]);
-  const Triangles triangles =
-      planar ? triangles_of<Plane>(points.topRows<2>()) : triangles_of<Sphere>(points);
-  if (triangles.cols() > 0)
-    return neighbours_in(triangles, count);
+  const std::optional<Mesh> mesh =
+      planar ? mesh_of<Plane>(points.topRows<2>()) : mesh_of<Sphere>(points);
+  if (mesh)
+    return adjacent_sites(*mesh);
   std::vector<std::vector<std::int32_t>> adjacent(count);
   for (std::size_t k = 0; k < count; ++k)
     for (std::size_t m = 0; m < count; ++m)

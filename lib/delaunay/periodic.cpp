@@ -4,6 +4,7 @@
 #include "base/require.h"
 
 #include "mesh/adjacency.h"
+#include "mesh/canonical_order.h"
 
 #include <calotte/error.h>
 
@@ -108,23 +109,20 @@ Found judge(const PlanarMesh& mesh, const Copies& copies, std::int64_t sites,
 /// Of each triangle the copy whose lowest site stands in the box, in canonical order.
 Triangles one_copy_each(const PlanarMesh& mesh, std::int64_t sites,
                         const std::vector<std::int32_t>& site) {
-  using Triple = std::array<std::int32_t, 3>;
-  std::vector<Triple> kept;
-  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
-    Triple ids{};
-    for (int v = 0; v < 3; ++v)
-      ids[static_cast<std::size_t>(v)] = site[static_cast<std::size_t>(mesh.triangles(v, t))];
-    const auto lowest = std::min_element(ids.begin(), ids.end());
-    if (mesh.triangles(static_cast<int>(lowest - ids.begin()), t) >= sites)
-      continue;
-    std::rotate(ids.begin(), lowest, ids.end());
-    kept.push_back(ids);
-  }
-  std::sort(kept.begin(), kept.end());
-  Triangles triangles(3, std::ssize(kept));
-  for (std::size_t t = 0; t < kept.size(); ++t)
-    for (int v = 0; v < 3; ++v)
-      triangles(v, static_cast<Eigen::Index>(t)) = kept[t][static_cast<std::size_t>(v)];
+  const auto site_of = [&](std::int32_t copy) { return site[static_cast<std::size_t>(copy)]; };
+  const auto is_kept = [&](Eigen::Index t) {
+    const auto copies = mesh.triangles.col(t);
+    return *std::min_element(copies.begin(), copies.end(), [&](std::int32_t a, std::int32_t b) {
+      return site_of(a) < site_of(b);
+    }) < sites;
+  };
+  Triangles triangles(3, mesh.triangles.cols()), unknown;
+  Eigen::Index kept = 0;
+  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
+    if (is_kept(t))
+      triangles.col(kept++) = mesh.triangles.col(t);
+  triangles.conservativeResize(Eigen::NoChange, kept);
+  make_canonical(triangles, unknown, site);
   return triangles;
 }
 

@@ -1,66 +1,41 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/adjacency.h"
 
+#include "base/matrix_memory.h"
 #include "exact/plane_predicates.h"
 #include "exact/predicates.h"
+#include "mesh/by_vertex.h"
 
 #include <algorithm>
 #include <numeric>
+#include <tuple>
+#include <vector>
 
 namespace calotte::mesh_detail {
 namespace {
 
-/// Half-edge 3t + i of triangle t lies across from its vertex i.
+/// Half-edge 3t + i of triangle t, which lies across from its vertex i.
 struct HalfEdge {
-  std::int32_t from, to;
+  std::int32_t lower, higher; ///< its ends
+  std::int64_t side;          ///< twice the half-edge, and 1 if it runs up
+
+  std::int64_t half_edge() const { return side / 2; }
+  bool runs_up() const { return side % 2 != 0; }
+  std::int32_t vertex() const { return lower; }
+  bool operator<(const HalfEdge& other) const {
+    return std::tie(lower, higher, side) < std::tie(other.lower, other.higher, other.side);
+  }
 };
 
 HalfEdge half_edge(const Triangles& triangles, std::int64_t h) {
   const std::int64_t t = h / 3, i = h % 3;
-  return {triangles((i + 1) % 3, t), triangles((i + 2) % 3, t)};
+  const std::int32_t from = triangles((i + 1) % 3, t), to = triangles((i + 2) % 3, t);
+  return {std::min(from, to), std::max(from, to), 2 * h + (from < to)};
 }
 
-/// Half-edges by their lower vertex: those of vertex v are list[first[v]] to list[first[v+1]].
-struct HalfEdgesOfVertices {
-  std::vector<std::int64_t> first, list;
-};
-
-HalfEdgesOfVertices by_lower_vertex(const Triangles& triangles, std::int64_t points) {
-  const std::int64_t count = 3 * triangles.cols();
-  HalfEdgesOfVertices edges{std::vector<std::int64_t>(static_cast<std::size_t>(points) + 2),
-                            std::vector<std::int64_t>(static_cast<std::size_t>(count))};
-  const auto slot = [&](std::int64_t h) -> std::int64_t& {
-    const HalfEdge e = half_edge(triangles, h);
-    return edges.first[static_cast<std::size_t>(std::min(e.from, e.to)) + 1];
-  };
-  // Counts stand two places on, so that filling the lists turns them into the lists' starts.
-  for (std::int64_t h = 0; h < count; ++h)
-    ++*(&slot(h) + 1);
-  std::partial_sum(edges.first.begin(), edges.first.end(), edges.first.begin());
-  for (std::int64_t h = 0; h < count; ++h)
-    edges.list[static_cast<std::size_t>(slot(h)++)] = h;
-  return edges;
-}
-
-/// What is known of the edge from the current lower vertex to a higher one.
-struct Meeting {
-  std::int32_t lower = -1;
-  int half_edges = 0;
-  std::int64_t one = -1, other = -1;
-};
-
-void link(const Triangles& triangles, std::int64_t h, Meeting& edge, Triangles& neighbours) {
-  if (++edge.half_edges == 1) {
-    edge.one = h;
-  } else if (edge.half_edges == 2) {
-    edge.other = h;
-    if (half_edge(triangles, edge.one).from == half_edge(triangles, h).to) {
-      neighbours.data()[h] = static_cast<std::int32_t>(edge.one / 3);
-      neighbours.data()[edge.one] = static_cast<std::int32_t>(h / 3);
-    }
-  } else {
-    neighbours.data()[edge.one] = neighbours.data()[edge.other] = -1;
-  }
+/// Whether two half-edges of the same ends are two sides of one edge.
+bool are_twins(const HalfEdge& a, const HalfEdge& b) {
+  return a.runs_up() != b.runs_up() || a.lower == a.higher;
 }
 
 /// The order of sites; 0 for equal ones.
@@ -100,20 +75,23 @@ std::vector<std::int32_t> stands_for(const Points& columns, const std::vector<bo
 } // namespace
 
 Triangles neighbours_of(const Triangles& triangles, std::int64_t points) {
-  Triangles neighbours = Triangles::Constant(3, triangles.cols(), -1);
-  const HalfEdgesOfVertices edges = by_lower_vertex(triangles, points);
-  std::vector<Meeting> meetings(static_cast<std::size_t>(points));
-  for (std::int32_t v = 0; v < points; ++v) {
-    const auto begin = edges.list.begin() + edges.first[static_cast<std::size_t>(v)];
-    const auto end = edges.list.begin() + edges.first[static_cast<std::size_t>(v) + 1];
-    for (auto h = begin; h != end; ++h) {
-      const HalfEdge e = half_edge(triangles, *h);
-      Meeting& edge = meetings[static_cast<std::size_t>(std::max(e.from, e.to))];
-      if (edge.lower != v)
-        edge = {.lower = v};
-      link(triangles, *h, edge, neighbours);
+  Triangles neighbours;
+  make_room(neighbours, 3, triangles.cols());
+  const auto lower = [&](std::int64_t h) { return half_edge(triangles, h).lower; };
+  const auto item = [&](std::int64_t h) { return half_edge(triangles, h); };
+  const auto link = [&](std::int64_t, const std::vector<HalfEdge>& sorted) {
+    for (auto edge = sorted.begin(), end = edge; edge != sorted.end(); edge = end) {
+      end = std::find_if(edge, sorted.end(), [&](const HalfEdge& other) {
+        return other.lower != edge->lower || other.higher != edge->higher;
+      });
+      const bool linked = end - edge == 2 && are_twins(edge[0], edge[1]);
+      for (auto h = edge; h != end; ++h) {
+        const std::int64_t twin = linked ? edge[h == edge ? 1 : 0].half_edge() / 3 : -1;
+        neighbours.data()[h->half_edge()] = static_cast<std::int32_t>(twin);
+      }
     }
-  }
+  };
+  for_each_vertex_block<std::int64_t, HalfEdge>(triangles.size(), points, lower, item, link);
   return neighbours;
 }
 

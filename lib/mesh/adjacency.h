@@ -8,8 +8,9 @@
 /// From what a file holds to a mesh.
 namespace calotte::mesh_detail {
 
-/// The triangle across from each vertex, in linear time. -1 along an open edge, and along one of
-/// three triangles, or of two that run through it the same way. \pre ids are in [0, points).
+/// The triangle across from each vertex, in linear time, in parallel. -1 along an open edge, and
+/// along one of three triangles, or of two that run through it the same way. \pre ids are in [0,
+/// points).
 Triangles neighbours_of(const Triangles& triangles, std::int64_t points);
 
 /// A mesh whose triangles refer to input columns: a column in no triangle that has the same

@@ -4,7 +4,7 @@
 #include "base/matrix_memory.h"
 #include "base/parallel.h"
 #include "base/triangle.h"
-#include "curve/radix_sort.h"
+#include "mesh/by_vertex.h"
 
 #include <algorithm>
 #include <array>
@@ -66,42 +66,11 @@ struct Moved {
   Triple ids;
   std::int32_t from;
 
+  std::int32_t vertex() const { return ids[0]; }
   bool operator<(const Moved& other) const {
     return std::tie(ids, from) < std::tie(other.ids, other.from);
   }
 };
-
-/// Sorts run after run; most have fewer than four members.
-void sort_runs(Moved* items, const std::vector<std::int32_t>& ends) {
-  std::int32_t begin = 0;
-  for (const std::int32_t end : ends) {
-    if (end - begin > 1)
-      std::sort(items + begin, items + end);
-    begin = end;
-  }
-}
-
-/// Blocks of lowest vertices: the triangles of one stay in cache while they are sorted.
-constexpr int block_bits = 12;
-
-/// The triangles of one block, sorted.
-std::vector<Moved> sorted(std::span<const Moved> block) {
-  constexpr std::int32_t mask = (1 << block_bits) - 1;
-  std::vector<std::int32_t> ends(std::size_t{1} << block_bits);
-  const auto slot = [&](const Moved& triangle) -> std::int32_t& {
-    return ends[static_cast<std::size_t>(triangle.ids[0] & mask)];
-  };
-  for (const Moved& triangle : block)
-    ++slot(triangle);
-  std::int32_t sum = 0;
-  for (std::int32_t& end : ends)
-    sum += std::exchange(end, sum);
-  std::vector<Moved> out(block.size());
-  for (const Moved& triangle : block) // turns where a run begins into where it ends
-    out[static_cast<std::size_t>(slot(triangle)++)] = triangle;
-  sort_runs(out.data(), ends);
-  return out;
-}
 
 } // namespace
 
@@ -112,30 +81,26 @@ CanonicalPlaces order_triangles(const Triangles& triangles, std::span<const std:
   const std::int64_t sites =
       new_id.empty() ? std::int64_t{highest_id(triangles)} + 1 : std::ssize(new_id);
   CanonicalPlaces places{Array<std::int32_t>(count), Array<std::int8_t>(count)};
-  Array<Moved> moved(count);
-  const std::int64_t blocks = ((sites - 1) >> block_bits) + 1;
-  const auto block_of = [&](std::int64_t t) {
+  const auto lowest = [&](std::int64_t t) {
     const Triple ids = renamed[t];
-    return std::min({ids[0], ids[1], ids[2]}) >> block_bits;
+    return std::min({ids[0], ids[1], ids[2]});
   };
-  const auto put = [&](std::int64_t t, std::int32_t place) {
+  const auto moved = [&](std::int64_t t) {
     const Triple ids = renamed[t];
     const int first = first_vertex(ids);
     places.first[t] = static_cast<std::int8_t>(first);
-    moved[place] = {turned(ids, first), static_cast<std::int32_t>(t)};
+    return Moved{turned(ids, first), static_cast<std::int32_t>(t)};
   };
-  const std::vector<std::int32_t> begin = distribute(count, blocks, block_of, put);
   make_room(out, 3, count);
-  for_each_task(blocks, [&](std::int64_t block) {
-    std::int32_t k = begin[static_cast<std::size_t>(block)];
-    const std::int32_t end = begin[static_cast<std::size_t>(block) + 1];
-    for (const Moved& triangle : sorted({moved.begin() + k, moved.begin() + end})) {
-      places.place[triangle.from] = k;
-      for (int i = 0; i < 3; ++i)
-        out(i, k) = triangle.ids[static_cast<std::size_t>(i)];
-      ++k;
-    }
-  });
+  for_each_vertex_block<std::int32_t, Moved>(
+      count, sites, lowest, moved, [&](std::int32_t k, const std::vector<Moved>& sorted) {
+        for (const Moved& triangle : sorted) {
+          places.place[triangle.from] = k;
+          for (int i = 0; i < 3; ++i)
+            out(i, k) = triangle.ids[static_cast<std::size_t>(i)];
+          ++k;
+        }
+      });
   return places;
 }
 

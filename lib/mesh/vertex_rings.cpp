@@ -8,47 +8,24 @@
 namespace calotte::mesh_detail {
 namespace {
 
-/// A mesh without its points.
-struct Links {
-  const Triangles& triangles;
-  const Triangles& neighbours;
-};
-
-/// The corner at the same site in the triangle that follows counter-clockwise.
-Corner next_around(const Links& mesh, Corner corner) {
-  const std::int32_t t = triangle_of(corner);
-  const int v = vertex_of(corner);
-  const std::int32_t beyond = mesh.neighbours(next_vertex(v), t), site = mesh.triangles(v, t);
-  const int there = mesh.triangles(0, beyond) == site   ? 0
-                    : mesh.triangles(1, beyond) == site ? 1
-                                                        : 2;
-  return 4 * Corner{beyond} + there;
-}
-
 /// For each of the first sites some corner at it: which one may vary, as the rings' order does not
 /// depend on it.
-Array<Corner> some_corners(const Links& mesh, std::int64_t sites) {
-  Array<Corner> corner(sites);
-  for_each_block(mesh.triangles.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+Array<Corner> some_corners(const Faces& mesh) {
+  Array<Corner> corner(mesh.sites());
+  for_each_block(mesh.triangles(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t t = begin; t != end; ++t)
       for (int v = 0; v < 3; ++v)
-        if (const std::int32_t site = mesh.triangles(v, t); site < sites)
-          std::atomic_ref(corner[site]).store(4 * t + v, std::memory_order_relaxed);
+        if (const std::int32_t site = mesh.triangle_ids(v, t); site < mesh.sites())
+          std::atomic_ref(corner[site])
+              .store({static_cast<std::int32_t>(t), v}, std::memory_order_relaxed);
   });
   return corner;
 }
 
 template <class Body>
-void for_each_corner_around(const Links& mesh, Corner first, const Body& body) {
-  Corner corner = first;
-  do {
-    body(corner);
-    corner = next_around(mesh, corner);
-  } while (corner != first);
-}
-
-std::int32_t following_site(const Links& mesh, Corner corner) {
-  return mesh.triangles(next_vertex(vertex_of(corner)), triangle_of(corner));
+void for_each_corner_around(const Faces& mesh, Corner first, const Body& body) {
+  walk_around(
+      first, [&](Corner corner) { return next_around(mesh, corner); }, body);
 }
 
 } // namespace
@@ -59,9 +36,9 @@ VertexRings make_vertex_rings(const Mesh& mesh) {
 
 VertexRings make_vertex_rings(const Triangles& triangles, const Triangles& neighbours,
                               std::int64_t sites) {
-  const Links mesh{triangles, neighbours};
+  const Faces mesh{triangles, neighbours, sites};
   const std::int64_t n = sites;
-  Array<Corner> first = some_corners(mesh, n);
+  Array<Corner> first = some_corners(mesh);
   VertexRings rings{Array<std::int64_t>(n + 1), {}};
   for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i) {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/memory.h"
-#include "base/triangle.h"
+#include "mesh/faces.h"
 #include "mesh/room.h"
 
 #include <calotte/types.h>
@@ -10,11 +10,6 @@
 #include <cstdint>
 
 namespace calotte::mesh_detail {
-
-/// A vertex of a triangle: 4 t + v; 2^31 triangles have more of them than an int32 counts.
-using Corner = std::int64_t;
-inline std::int32_t triangle_of(Corner corner) { return static_cast<std::int32_t>(corner >> 2); }
-inline int vertex_of(Corner corner) { return static_cast<int>(corner & 3); }
 
 /// The corners at each site of a closed mesh, counter-clockwise, from the one whose next vertex is
 /// the lowest neighbour on: an order that the triangulation alone determines, whatever its history.

@@ -178,9 +178,8 @@ inline void add_cell(CellPart& part, const Subject& subject, std::int64_t site) 
   Corner before = rings.corners[end - 1];
   for (std::int64_t s = begin; s != end; ++s) {
     const Corner corner = rings.corners[s];
-    const Edge edge =
-        edge_of(subject.shapes, triangle_of(corner), previous_vertex(vertex_of(corner)),
-                triangle_of(before), next_vertex(vertex_of(before)));
+    const Edge edge = edge_of(subject.shapes, corner.triangle, previous_vertex(corner.vertex),
+                              before.triangle, next_vertex(before.vertex));
     arcs.add(edge.arc);
     voronoi.add(edge.voronoi);
     before = corner;

@@ -47,8 +47,8 @@ public:
   bool whole(const Triangles& triangles, const VertexRings& rings, std::int64_t site) const {
     double reach = 0;
     for (std::int64_t s = rings.begin[site]; s != rings.begin[site + 1]; ++s)
-      reach = std::max(reach, norm(centre_of(triangles, triangle_of(rings.corners[s]),
-                                             vertex_of(rings.corners[s]))));
+      reach = std::max(
+          reach, norm(centre_of(triangles, rings.corners[s].triangle, rings.corners[s].vertex)));
     return !near_shore(outline_, at(static_cast<std::int32_t>(site)), reach);
   }
 

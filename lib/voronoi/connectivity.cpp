@@ -21,63 +21,43 @@ namespace {
 
 // ---- Rings: the triangles around a site, counter-clockwise
 
-/// A vertex of a triangle.
-struct Corner {
-  std::int32_t triangle;
-  int vertex;
-};
+/// The corner at the same site in the triangle that follows, or none where that one does not fit.
+/// As the way back is checked as well, no two corners have the same next one: a walk comes back to
+/// where it began.
+Corner fitting_next(const Faces& surface, Corner corner) {
+  const std::int32_t t = corner.triangle;
+  if (surface.neighbour_ids(next_vertex(corner.vertex), t) >= surface.triangles())
+    return no_corner;
+  const Corner next = next_around(surface, corner);
+  const bool fits = exists(next) && site_at(surface, next) == site_at(surface, corner) &&
+                    following_site(surface, next) == preceding_site(surface, corner) &&
+                    surface.neighbour_ids(previous_vertex(next.vertex), next.triangle) == t;
+  return fits ? next : no_corner;
+}
+
+/// body(corner) around a site. \returns the corner whose next does not fit, or none.
+template <class Body>
+Corner walk_ring(const Faces& surface, std::int32_t first, std::int32_t site, const Body& body) {
+  return walk_around(
+      Corner{first, vertex_at(surface.triangle_ids, first, site)},
+      [&](Corner corner) { return fitting_next(surface, corner); }, body);
+}
 
 constexpr std::int32_t none = -1;
 
-std::int32_t following_site(const Surface& surface, Corner corner) {
-  return surface.triangles(next_vertex(corner.vertex), corner.triangle);
-}
-
-/// The corner at the same site in the triangle that follows, or `none` where that one does not fit.
-/// As the way back is checked as well, no two corners have the same next one: a walk comes back to
-/// where it began.
-Corner next_around(const Surface& surface, Corner corner) {
-  const auto& [sites, triangles, neighbours] = surface;
-  const std::int32_t t = corner.triangle, site = triangles(corner.vertex, t);
-  const std::int32_t beyond = neighbours(next_vertex(corner.vertex), t);
-  if (beyond < 0 || beyond >= triangles.cols())
-    return {none, 0};
-  const int v = vertex_at(triangles, beyond, site);
-  const bool fits =
-      triangles(v, beyond) == site &&
-      triangles(next_vertex(v), beyond) == triangles(previous_vertex(corner.vertex), t) &&
-      neighbours(previous_vertex(v), beyond) == t;
-  return {fits ? beyond : none, v};
-}
-
-/// body(corner) around a site. \returns the triangle whose next does not fit, or `none`.
-template <class Body>
-std::int32_t walk_ring(const Surface& surface, std::int32_t first, std::int32_t site,
-                       const Body& body) {
-  Corner corner{first, vertex_at(surface.triangles, first, site)};
-  do {
-    body(corner);
-    const Corner next = next_around(surface, corner);
-    if (next.triangle == none)
-      return corner.triangle;
-    corner = next;
-  } while (corner.triangle != first);
-  return none;
-}
-
 /// For each site some triangle at it: which one may vary, as the rings' order does not depend on
 /// it.
-Array<std::int32_t> some_triangles(const Surface& surface) {
-  Array<std::int32_t> some(surface.sites);
-  for_each_block(surface.sites, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+Array<std::int32_t> some_triangles(const Faces& surface) {
+  Array<std::int32_t> some(surface.sites());
+  for_each_block(surface.sites(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     std::fill(some.begin() + begin, some.begin() + end, none);
   });
   FirstFault fault;
-  for_each_block(surface.triangles.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+  for_each_block(surface.triangles(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t t = begin; t != end; ++t) {
-      const std::int32_t a = surface.triangles(0, t), b = surface.triangles(1, t),
-                         c = surface.triangles(2, t);
-      if (std::min({a, b, c}) < 0 || std::max({a, b, c}) >= surface.sites || a == b || b == c ||
+      const std::int32_t a = surface.triangle_ids(0, t), b = surface.triangle_ids(1, t),
+                         c = surface.triangle_ids(2, t);
+      if (std::min({a, b, c}) < 0 || std::max({a, b, c}) >= surface.sites() || a == b || b == c ||
           c == a) {
         fault.at(t);
         continue;
@@ -93,11 +73,11 @@ Array<std::int32_t> some_triangles(const Surface& surface) {
 }
 
 /// Instead of where lists begin, it sets how long they are: begin, and in the rings first_edge.
-Rings count_rings(const Surface& surface, Voronoi& out) {
-  Rings rings{some_triangles(surface), Array<std::int32_t>(surface.sites)};
-  make_room(out.begin, surface.sites + 1, 1);
+Rings count_rings(const Faces& surface, Voronoi& out) {
+  Rings rings{some_triangles(surface), Array<std::int32_t>(surface.sites())};
+  make_room(out.begin, surface.sites() + 1, 1);
   FirstFault lonely, unfit;
-  for_each_block(surface.sites, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+  for_each_block(surface.sites(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (auto i = static_cast<std::int32_t>(begin); i != end; ++i) {
       std::int32_t degree = 0, higher = 0, lowest = std::numeric_limits<std::int32_t>::max();
       const std::int32_t some = rings.first[i];
@@ -105,7 +85,7 @@ Rings count_rings(const Surface& surface, Voronoi& out) {
         lonely.at(i);
         continue;
       }
-      const std::int32_t fault = walk_ring(surface, some, i, [&](Corner corner) {
+      const Corner fault = walk_ring(surface, some, i, [&](Corner corner) {
         const std::int32_t j = following_site(surface, corner);
         ++degree;
         higher += j > i;
@@ -114,8 +94,8 @@ Rings count_rings(const Surface& surface, Voronoi& out) {
           rings.first[i] = corner.triangle;
         }
       });
-      if (fault != none)
-        unfit.at(fault);
+      if (exists(fault))
+        unfit.at(fault.triangle);
       out.begin[i] = degree;
       rings.first_edge[i] = higher;
     }
@@ -126,12 +106,12 @@ Rings count_rings(const Surface& surface, Voronoi& out) {
 }
 
 /// Names a site at which triangles form more than the one ring that was found.
-[[noreturn]] void refuse_second_ring(const Surface& surface, const Voronoi& out) {
-  std::vector<std::int64_t> corners(static_cast<std::size_t>(surface.sites));
-  for (const std::int32_t site : surface.triangles.reshaped())
+[[noreturn]] void refuse_second_ring(const Faces& surface, const Voronoi& out) {
+  std::vector<std::int64_t> corners(static_cast<std::size_t>(surface.sites()));
+  for (const std::int32_t site : surface.triangle_ids.reshaped())
     ++corners[static_cast<std::size_t>(site)];
   FirstFault fault;
-  for (std::int64_t i = 0; i != surface.sites; ++i)
+  for (std::int64_t i = 0; i != surface.sites(); ++i)
     if (corners[static_cast<std::size_t>(i)] != out.begin[i + 1] - out.begin[i])
       fault.at(i);
   fault.refuse("site", "has triangles that do not form one ring around it: triangulate the points "
@@ -148,7 +128,7 @@ struct Neighbour {
 };
 
 /// Sets all that belongs to edge e, the `place`-th of the lower cell's list.
-void set_edge(const Surface& surface, std::int32_t e, std::int32_t lower, std::int64_t place,
+void set_edge(const Faces& surface, std::int32_t e, std::int32_t lower, std::int64_t place,
               Voronoi& out) {
   const std::int64_t begin = out.begin[lower], end = out.begin[lower + 1];
   const std::int32_t left = out.vertices_on_cell[place],
@@ -157,11 +137,11 @@ void set_edge(const Surface& surface, std::int32_t e, std::int32_t lower, std::i
   out.vertices_on_edge.col(e) << right, left;
   out.edges_on_cell[place] = e;
   // Edge j of a vertex joins its cells j - 1 and j.
-  out.edges_on_vertex(next_vertex(vertex_at(surface.triangles, left, lower)), left) = e;
-  out.edges_on_vertex(vertex_at(surface.triangles, right, lower), right) = e;
+  out.edges_on_vertex(next_vertex(vertex_at(surface.triangle_ids, left, lower)), left) = e;
+  out.edges_on_vertex(vertex_at(surface.triangle_ids, right, lower), right) = e;
 }
 
-void set_cell(const Surface& surface, const Rings& rings, std::int32_t i,
+void set_cell(const Faces& surface, const Rings& rings, std::int32_t i,
               std::vector<Neighbour>& higher, Voronoi& out, FirstFault& twice) {
   std::int64_t place = out.begin[i];
   higher.clear();
@@ -183,9 +163,9 @@ void set_cell(const Surface& surface, const Rings& rings, std::int32_t i,
   }
 }
 
-void set_cells_and_edges(const Surface& surface, const Rings& rings, Voronoi& out) {
+void set_cells_and_edges(const Faces& surface, const Rings& rings, Voronoi& out) {
   FirstFault twice;
-  for_each_block(surface.sites, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+  for_each_block(surface.sites(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     std::vector<Neighbour> higher;
     for (auto i = static_cast<std::int32_t>(begin); i != end; ++i)
       set_cell(surface, rings, i, higher, out, twice);
@@ -196,46 +176,47 @@ void set_cells_and_edges(const Surface& surface, const Rings& rings, Voronoi& ou
 }
 
 /// Those that the lower cells have numbered.
-void set_edges_of_higher_cells(const Surface& surface, Voronoi& out) {
-  for_each_block(surface.sites, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+void set_edges_of_higher_cells(const Faces& surface, Voronoi& out) {
+  for_each_block(surface.sites(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (auto i = static_cast<std::int32_t>(begin); i != end; ++i)
       for (std::int64_t place = out.begin[i]; place != out.begin[i + 1]; ++place)
         if (out.cells_on_cell[place] < i) {
           const std::int32_t t = out.vertices_on_cell[place];
           out.edges_on_cell[place] =
-              out.edges_on_vertex(next_vertex(vertex_at(surface.triangles, t, i)), t);
+              out.edges_on_vertex(next_vertex(vertex_at(surface.triangle_ids, t, i)), t);
         }
   });
 }
 
-void copy_triangles(const Surface& surface, Voronoi& out) {
-  make_room(out.cells_on_vertex, 3, surface.triangles.cols());
-  for_each_block(surface.triangles.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-    std::copy(surface.triangles.data() + begin, surface.triangles.data() + end,
-              out.cells_on_vertex.data() + begin);
-  });
+void copy_triangles(const Faces& surface, Voronoi& out) {
+  make_room(out.cells_on_vertex, 3, surface.triangles());
+  for_each_block(surface.triangle_ids.size(),
+                 [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+                   std::copy(surface.triangle_ids.data() + begin, surface.triangle_ids.data() + end,
+                             out.cells_on_vertex.data() + begin);
+                 });
 }
 
 } // namespace
 
-Rings find_rings(const Surface& surface, Voronoi& out) {
+Rings find_rings(const Faces& surface, Voronoi& out) {
   Rings rings = count_rings(surface, out);
-  out.begin[surface.sites] = 0;
+  out.begin[surface.sites()] = 0;
   const std::int64_t found =
       exclusive_scan(std::span(out.begin.data(), static_cast<std::size_t>(out.begin.size())));
-  if (found != surface.triangles.size())
+  if (found != surface.triangle_ids.size())
     refuse_second_ring(surface, out);
   exclusive_scan(std::span(rings.first_edge.begin(), rings.first_edge.end()));
   copy_triangles(surface, out);
   return rings;
 }
 
-void connect(const Surface& surface, const Rings& rings, Voronoi& out) {
-  const std::int64_t corners = surface.triangles.size(), edges = corners / 2;
+void connect(const Faces& surface, const Rings& rings, Voronoi& out) {
+  const std::int64_t corners = surface.triangle_ids.size(), edges = corners / 2;
   make_room(out.edges_on_cell, corners, 1);
   make_room(out.vertices_on_cell, corners, 1);
   make_room(out.cells_on_cell, corners, 1);
-  make_room(out.edges_on_vertex, 3, surface.triangles.cols());
+  make_room(out.edges_on_vertex, 3, surface.triangles());
   make_room(out.cells_on_edge, 2, edges);
   make_room(out.vertices_on_edge, 2, edges);
   set_cells_and_edges(surface, rings, out);

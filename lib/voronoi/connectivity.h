@@ -2,21 +2,14 @@
 #pragma once
 
 #include "base/memory.h"
+#include "mesh/faces.h"
 #include "voronoi/room.h"
 
-#include <calotte/types.h>
 #include <calotte/voronoi.h>
 
 #include <cstdint>
 
 namespace calotte::voronoi_detail {
-
-/// A closed triangulation of a surface, without places.
-struct Surface {
-  std::int64_t sites;
-  const Triangles& triangles;  ///< counter-clockwise
-  const Triangles& neighbours; ///< the one across from each vertex
-};
 
 /// Where each site's list of triangles begins.
 struct Rings {
@@ -24,20 +17,14 @@ struct Rings {
   Array<std::int32_t> first_edge; ///< of those of which the site is the lower cell
 };
 
-/// The first of two stages that set the ids of the tessellation that is dual to a surface: begin
-/// and cells_on_vertex.
-/// \pre as many neighbours as triangles; at most 2^29 sites.
-/// \throws Error bad_option, where ids are out of range, the neighbours do not fit the triangles,
+/// The first of two stages that set the ids of the tessellation that is dual to a closed surface:
+/// begin and cells_on_vertex. \pre as many neighbours as triangles; at most 2^29 sites. \throws
+/// Error bad_option, where ids are out of range, the neighbours do not fit the triangles,
 ///         or the triangles at a site do not form one ring.
-Rings find_rings(const Surface& surface, Voronoi& out);
+Rings find_rings(const Faces& surface, Voronoi& out);
 
 /// Sets the other lists, pairs and triples. \throws Error bad_option, where two cells share two
 /// edges.
-void connect(const Surface& surface, const Rings& rings, Voronoi& out);
-
-/// Which vertex of a triangle a site is. \pre it is one.
-inline int vertex_at(const Triangles& triangles, std::int64_t t, std::int32_t site) {
-  return triangles(0, t) == site ? 0 : triangles(1, t) == site ? 1 : 2;
-}
+void connect(const Faces& surface, const Rings& rings, Voronoi& out);
 
 } // namespace calotte::voronoi_detail

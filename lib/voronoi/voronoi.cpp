@@ -59,10 +59,6 @@ void set_cells(const PlanarMesh& mesh, Voronoi& out) {
   fault.refuse("site", "lies outside the periodic box: give the copy of it that is inside");
 }
 
-template <class AnyMesh> Surface surface_of(const AnyMesh& mesh) {
-  return {mesh.points.cols(), mesh.triangles, mesh.neighbours};
-}
-
 /// Sets all that begun() does but for the kind of the space.
 template <class AnyMesh> void begin(const AnyMesh& mesh, BegunVoronoi& out) {
   constexpr std::int64_t most_cells = std::int64_t{1} << 29;
@@ -73,7 +69,7 @@ template <class AnyMesh> void begin(const AnyMesh& mesh, BegunVoronoi& out) {
           "the mesh has " + std::to_string(mesh.triangles.cols()) +
               " triangles but neighbours of " + std::to_string(mesh.neighbours.cols()) +
               ": give a mesh with both");
-  out.rings = find_rings(surface_of(mesh), out.voronoi);
+  out.rings = find_rings(faces_of(mesh), out.voronoi);
   set_cells(mesh, out.voronoi);
 }
 
@@ -107,11 +103,11 @@ BegunVoronoi begun(const PlanarMesh& mesh) {
 }
 
 void connect(const Mesh& mesh, BegunVoronoi& out) {
-  connect(surface_of(mesh), out.rings, out.voronoi);
+  connect(faces_of(mesh), out.rings, out.voronoi);
 }
 
 void connect(const PlanarMesh& mesh, BegunVoronoi& out) {
-  connect(surface_of(mesh), out.rings, out.voronoi);
+  connect(faces_of(mesh), out.rings, out.voronoi);
 }
 
 namespace {

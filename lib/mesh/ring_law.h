@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "mesh/faces.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+/// The law of the triangles around a site.
+namespace calotte::mesh_detail {
+
+/// For each site a triangle at which a walk around it begins, and how many triangles it has.
+struct RingStarts {
+  std::vector<std::int32_t>
+      first; ///< -1 for none; along a boundary the one that the walk must begin at
+  std::vector<std::int32_t> size;
+};
+
+inline RingStarts make_ring_starts(const Faces& s) {
+  RingStarts rings{std::vector<std::int32_t>(static_cast<std::size_t>(s.sites()), -1),
+                   std::vector<std::int32_t>(static_cast<std::size_t>(s.sites()), 0)};
+  for (std::int32_t t = 0; t < s.triangles(); ++t)
+    for (int i = 0; i < 3; ++i) {
+      const auto vertex = static_cast<std::size_t>(s.vertex(t, i));
+      ++rings.size[vertex];
+      if (rings.first[vertex] < 0 || s.neighbour(t, i + 2) < 0)
+        rings.first[vertex] = t;
+    }
+  return rings;
+}
+
+/// The triangles around a site are one cycle that turns around it once, or one fan of at most half
+/// a turn.
+///
+/// Seen from the sphere's centre, the sites across turn left by less than half a turn from one to
+/// the next, as all triangles are counter-clockwise. With the first of them ahead, each is in the
+/// left half plane or in the right one; the walk has turned around once each time it comes from the
+/// right to the left. A fan of at most half a turn has all on the left, the last perhaps behind:
+/// the boundary is convex there.
+template <class Surface>
+std::string ring_failure(const Surface& s, const RingStarts& rings, std::int32_t site) {
+  const std::string name = "site " + std::to_string(site);
+  const std::int32_t start = rings.first[static_cast<std::size_t>(site)];
+  const std::int32_t size = rings.size[static_cast<std::size_t>(site)];
+  if (start < 0)
+    return name + " is not a vertex of any triangle";
+  const Corner first{start, slot_of(s, start, site)};
+  const std::int32_t ahead = following_site(s, first);
+  std::int32_t walked = 0, turns = 0;
+  int way = 1;
+  bool reflex = false;
+  int side = 1; // of the site across last reached: 1 ahead or left, -1 behind or right
+  const auto next = [&](Corner corner) { return next_around(s, corner); };
+  const Corner last = walk_around(first, next, [&](Corner corner) {
+    const std::int32_t across = preceding_site(s, corner);
+    way = across == ahead ? 1 : s.orientation(site, ahead, across);
+    const int new_side = way > 0 ? 1 : -1;
+    turns += side < 0 && new_side > 0;
+    reflex = reflex || side < 0;
+    side = new_side;
+    ++walked;
+  });
+  const bool is_fan = exists(last);
+  if (is_fan && (reflex || way < 0))
+    return "the boundary is not convex at " + name;
+  if (walked < size)
+    return "the triangles at " + name + " are not a single cycle or fan";
+  if (!is_fan && turns != 1)
+    return "the triangles turn " + std::to_string(turns) + " times around " + name;
+  return {};
+}
+
+} // namespace calotte::mesh_detail
