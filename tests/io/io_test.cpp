@@ -159,13 +159,13 @@ TEST_CASE("points that are none end in one line that names the file's line and t
   check_bad("1 2 3\n1e400 2 3\n", 2, "points line 2: \"1e400\" is out of range" + xyz);
   check_bad("1 2 3\n4 5", 2,
             "points line 2: 2 columns only" + xyz +
-                ", or read them as longitude and latitude (--lonlat) or places in "
-                "a plane (--plane)");
+                ", or read them as longitude and latitude, or as places in "
+                "a plane");
   check_bad("1 2 3\n4\n", 2, "points line 2: 1 column only" + xyz);
   check_bad("1 2 3\n4,5,\n", 2,
             "points line 2: 2 columns only" + xyz +
-                ", or read them as longitude and latitude (--lonlat) or places in "
-                "a plane (--plane)");
+                ", or read them as longitude and latitude, or as places in "
+                "a plane");
   check_bad("1 2 3\n4 # 5 6\n", 2, "points line 2: 1 column only" + xyz);
   check_bad("1 2 3\n\x01\x02garbage\n", 2, "points line 2: \"??garbage\" is not a number" + xyz);
   check_bad("1 2 3\n" + std::string(99, 'a'), 2,

@@ -478,7 +478,8 @@ TEST_CASE("a planar mesh comes back bit for bit from all that writes one") {
   }
   calotte::write(scratch / "a.tri", mesh);
   check_same(calotte::read_planar_mesh(scratch / "a.tri", &mesh.points), mesh);
-  names(error_of([&] { calotte::read_planar_mesh(scratch / "a.tri"); }), "--points");
+  names(error_of([&] { calotte::read_planar_mesh(scratch / "a.tri"); }),
+        "give the points they refer to");
   // Triangles refer to the columns that were triangulated: one that is there twice is one site.
   calotte::Points2 twice(2, 6);
   twice << mesh.points, mesh.points.col(2);

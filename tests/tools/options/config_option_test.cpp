@@ -138,10 +138,9 @@ TEST_CASE("hyphens and underscores are the same, and a table's name means nothin
     CHECK(parser.limit == 7);
     CHECK(parser.tolerance == 2);
   }
-  CHECK(
-      refusal("[a]\ntolerance = 1\n[a.b]\nseed = 1\n") ==
-      "line 3: table b is nested in table a; nested tables are not supported; remove the inner one "
-      "out");
+  CHECK(refusal("[a]\ntolerance = 1\n[a.b]\nseed = 1\n") ==
+        "line 3: table b is nested in table a; nested tables are not supported; remove the inner "
+        "one");
 }
 
 TEST_CASE("the command line wins, whatever it excludes included") {
