@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <calotte/cell_width.h>
 #include <calotte/delaunay.h>
 #include <calotte/error.h>
 #include <calotte/generators.h>
+#include <calotte/read.h>
 
 #include <iostream>
 
