@@ -166,7 +166,8 @@ Cvt spherical_cvt(const PointsRef& start, const CvtOptions& options = {},
 template <std::same_as<Points3> Points>
 Cvt spherical_cvt(Points&& start, const CvtOptions& options = {}, const CvtCallback& callback = {});
 template <>
-Cvt spherical_cvt(Points3&& start, const CvtOptions& options, const CvtCallback& callback);
+CALOTTE_API_SPECIALISATION Cvt spherical_cvt(Points3&& start, const CvtOptions& options,
+                                             const CvtCallback& callback);
 
 /// Continues from a state. With the same options the result has the bits of an uninterrupted run.
 /// \throws Error as above; bad_option for an incomplete state.

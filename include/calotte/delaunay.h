@@ -64,7 +64,8 @@ template <std::same_as<Points3> Points>
 Mesh spherical_delaunay(Points&& points, const DelaunayOptions& options = {},
                         DelaunayReport* report = nullptr);
 template <>
-Mesh spherical_delaunay(Points3&& points, const DelaunayOptions& options, DelaunayReport* report);
+CALOTTE_API_SPECIALISATION Mesh spherical_delaunay(Points3&& points, const DelaunayOptions& options,
+                                                   DelaunayReport* report);
 
 /// The Delaunay triangulation of the convex hull of places in the plane, counter-clockwise.
 /// Coordinates are exact as stored, whatever their size. The result is unique as that of

@@ -19,11 +19,13 @@ Batch gather(const Patch& patch, const Array<Vec3>& x, std::size_t first) {
   return batch;
 }
 
+namespace {
+
 // Of a corner's two sides the product is positive when its angle is acute. It errs by some 8
 // roundoffs of itself, and stored vectors differ from unit ones by 5: 1e-14 exceeds both, for sides
 // as long as can be. The same bounds the normal's product.
 CALOTTE_VECTOR_WIDTHS
-bool triangle_rows(const Batch& batch, TriangleRows& out) {
+bool compute_triangle_rows(const Batch& batch, TriangleRows& out) {
   constexpr double margin = 1e-14;
   std::int64_t unclear = 0;
   CALOTTE_VECTOR_LOOP
@@ -50,6 +52,13 @@ bool triangle_rows(const Batch& batch, TriangleRows& out) {
     unclear |= clearance > 0 ? 0 : 1;
   }
   return unclear == 0;
+}
+
+} // namespace
+
+// A function with versions for several vector widths would be exported, whatever its visibility.
+bool triangle_rows(const Batch& batch, TriangleRows& out) {
+  return compute_triangle_rows(batch, out);
 }
 
 namespace {
