@@ -150,8 +150,8 @@ TEST_CASE("centres need a number and directions") {
   const Sites sites = make_sites(random_sphere(50), Duplicates::merge, 0);
   Partition partition;
   partition.regions = 0;
-  CHECK_THROWS_WITH_AS(make_centres(sites, partition), "the number of regions is 0: give at least 1",
-                       Error);
+  CHECK_THROWS_WITH_AS(make_centres(sites, partition),
+                       "the number of regions is 0: give at least 1", Error);
   partition.given_centres = Points3::Zero(3, 2);
   CHECK_THROWS_AS(make_centres(sites, partition), Error);
 }

@@ -8,9 +8,9 @@
 #include <algorithm>
 #include <array>
 
-/// The predicates again, without error and without a line in common with lib/exact/predicates.cpp: slow,
-/// for the tests alone. Directions become integer vectors; the signs of sums of square roots come
-/// from integer square roots of enough digits, where "enough" is a proven bound.
+/// The predicates again, without error and without a line in common with lib/exact/predicates.cpp:
+/// slow, for the tests alone. Directions become integer vectors; the signs of sums of square roots
+/// come from integer square roots of enough digits, where "enough" is a proven bound.
 namespace calotte::exact {
 
 using base_detail::Vec3;
