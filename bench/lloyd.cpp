@@ -21,7 +21,7 @@ namespace {
 /// CPU seconds of all threads so far.
 double cpu_now() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-/// What is told of an iteration, summed over those after the warm-up.
+/// Measures of an iteration, summed over those after the warm-up.
 struct Sums {
   double seconds = 0, exchange = 0, repair = 0, moments = 0;
   double flipped = 0, flips = 0;

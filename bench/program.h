@@ -14,7 +14,7 @@
 
 namespace calotte::bench {
 
-/// What every program that runs in rounds is told.
+/// Options of every program that runs in rounds.
 struct RoundOptions {
   int rounds = 7;
   int threads = 2; ///< of the library's rows

@@ -5,7 +5,7 @@ import json
 from dataclasses import dataclass
 from pathlib import Path
 
-# A row is disturbed when the quartiles of what is told of it lie further apart than this part of
+# A row is disturbed when the quartiles of its measured ratio lie further apart than this part of
 # their median; when, being serial, it had less than this part of a core; or when other programs, or
 # the host of a virtual machine, took more than this part of all cores while its step ran.
 WIDEST_SPREAD = 0.15

@@ -17,7 +17,7 @@ namespace calotte::curve_detail {
 /// in the order that they had.
 /// \tparam Place counts the items.
 /// \param bucket_of(i) of item i, below `buckets`; asked for twice.
-/// \param put(i, place) is told each item's place.
+/// \param put(i, place) receives the place of each item.
 /// \return where each bucket begins, and the number of items.
 template <class Place = std::int32_t, class BucketOf, class Put>
 std::vector<Place> distribute(std::int64_t n, std::int64_t buckets, const BucketOf& bucket_of,

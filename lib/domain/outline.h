@@ -52,7 +52,7 @@ private:
            k != begin_[static_cast<std::size_t>(s + 1)]; ++k) {
         const std::int32_t e = listed_[static_cast<std::size_t>(k)];
         const Box2 own = box_of(edges_[static_cast<std::size_t>(e)]);
-        // An edge is told of in the first strip that it shares with the box.
+        // An edge is reported in the first strip that it shares with the box.
         if (own.low.x <= box.high.x && own.high.x >= box.low.x && own.low.y <= box.high.y &&
             own.high.y >= box.low.y && s == std::max(first, strip(own.low.y)))
           body(e);

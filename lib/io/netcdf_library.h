@@ -12,7 +12,7 @@ namespace calotte::io_detail {
 /// The C library keeps tables without locks: whoever calls it holds this.
 std::mutex& netcdf_mutex();
 
-/// A path as the C library wants it: it takes names like http://... for addresses, and skips
+/// A path as the C library expects it: it takes names like http://... for addresses, and skips
 /// leading blanks.
 std::string netcdf_path(const std::string& path);
 

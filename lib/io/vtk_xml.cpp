@@ -80,7 +80,7 @@ vtk_blocks(std::string_view content, const std::string& name, const VtkHead& hea
 }
 
 void add_field_arrays(const std::string& element, std::int64_t cells, VtkHead& head) {
-  // ParaView colours by the scalars that it is told of.
+  // ParaView colours by the scalars named here.
   for (const char* name : {"area", "density", "spacing", "quality"})
     head.arrays.push_back({element + " Scalars=\"spacing\"", "Float64", name, cells});
   head.arrays.push_back({element + " Scalars=\"spacing\"", "Int32", "degree", cells});

@@ -81,7 +81,7 @@ MomentPart add_moments(const Mesh& mesh, const Density& density) {
   });
 }
 
-// ---- The door
+// ---- Input validation
 
 Mesh with_unit_columns(Mesh mesh) {
   for_each_block(mesh.points.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {

@@ -9,7 +9,7 @@
 
 namespace calotte::tools {
 
-/// What is told of a run that ended.
+/// The report of a run that ended.
 /// \param threads that it had.
 /// \param area of the sphere or the domain.
 std::string to_json(const CvtRequest& request, const CvtReport& report, std::int64_t cells,
