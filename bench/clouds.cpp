@@ -43,7 +43,7 @@ Points3 nearest_bisection(std::int64_t n) {
 double x8_number_density(double theta) {
   constexpr double radius = std::numbers::pi / 6;
   constexpr double width = 0.15;
-  constexpr double least = 1.0 / 4096; // of rho, the fourth power of the spacing's ratio
+  constexpr double least = 1.0 / 4096; // proportional to rho; the spacing ratio to the fourth power
   const double step = 0.5 * (std::tanh((radius - theta) / width) + 1);
   return std::sqrt((1 - least) * step + least);
 }
@@ -58,7 +58,7 @@ Points3 x8(std::int64_t n) {
       continue;
     }
     const double r = std::sqrt((1 - z) * (1 + z));
-    // The cap's centre stands on no axis, so that nothing is aligned by accident.
+    // The centre of the cap lies on no axis, which avoids accidental alignment.
     const Eigen::Vector3d local(r * std::cos(longitude), r * std::sin(longitude), z);
     static const Eigen::Vector3d axis = Eigen::Vector3d(1, 2, 3).normalized();
     const Eigen::Vector3d mirror = (axis - Eigen::Vector3d::UnitZ()).normalized();

@@ -27,9 +27,9 @@ namespace calotte::bench {
 
 namespace {
 
-/// How far generators may differ after one iteration of n from the same points. A first moment's
-/// terms are of the size h of a cell, the moment of its area h^2: rounding grows as 1/h, and at
-/// 163 842 sites reaches some 6 roundoffs over h.
+/// Maximum difference of generators after one iteration of n from the same points. The terms of a
+/// first moment have the size h of a cell, the moment has that of its area h^2: rounding grows as
+/// 1/h, and at 163 842 sites is about 6 roundoffs over h.
 double tolerance(std::int64_t n) {
   const double h = std::sqrt(4 * std::numbers::pi / static_cast<double>(n));
   return std::max(1e-13, 8 * 0x1p-53 / h);
@@ -47,7 +47,7 @@ struct Options : RoundOptions {
   int density_samples = 101;
 };
 
-/// One set of sites and what it is iterated with; made when first needed.
+/// One set of sites and the data of its iterations; computed at first use.
 struct Workload {
   std::string set;
   std::int64_t n = 0;
@@ -131,7 +131,7 @@ std::vector<RoundRow> make_rows(const Options& options, const std::shared_ptr<Wo
   return rows;
 }
 
-/// Registered in the order in which they are to run: sizes and sets take turns within a round.
+/// Registered in the order of execution: sizes and sets alternate within a round.
 void register_all(const Options& options) {
   std::vector<std::shared_ptr<Workload>> works;
   for (const std::int64_t n : options.sizes)

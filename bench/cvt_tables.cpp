@@ -48,7 +48,7 @@ void print_serial_shares(std::ostream& out, const SetResults& set) {
   }
 }
 
-/// The smallest set of the same name in which the row ran as well.
+/// The smallest set of the same name that has measurements of the row.
 const SetResults& smallest(const std::vector<SetResults>& results, const SetResults& set,
                            const std::string& row) {
   const SetResults* found = &set;

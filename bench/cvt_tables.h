@@ -10,8 +10,8 @@
 
 namespace calotte::bench {
 
-/// Markdown: for each set the rows' seconds and their ratios to `base`, and what an iteration is
-/// made of; then each row's cost a site against the smallest set of the same name.
+/// Markdown: for each set the seconds of the rows, their ratios to `base` and the composition of an
+/// iteration; then the cost of each row per site relative to the smallest set of the same name.
 void print_iterations(std::ostream& out, const std::vector<SetResults>& results,
                       const std::string& base);
 

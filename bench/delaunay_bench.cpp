@@ -33,11 +33,11 @@ struct Options : RoundOptions {
   bool warm = false;
 };
 
-/// The sites of one set, made when first needed, and what the first run of all made of them.
+/// The sites of one set, computed at first use, and the triangulation of the first run.
 struct Workload {
   std::string set;
   Points3 points;
-  std::optional<Outcome> reference; ///< by the first of the library's rows
+  std::optional<Outcome> reference; ///< from the first of the library's rows
 };
 
 using Run = std::function<Outcome(const Points3&)>;
@@ -100,10 +100,10 @@ std::vector<Row> make_rows(const Options& options) {
   return rows;
 }
 
-/// One line on how an outcome differs from what it must be; empty when it does not. Peers decide by
-/// the stored doubles, the library by the exact directions; on random sites no decision is near
-/// enough for that to show, on a bisected icosahedron many are, so there the peers' triangles are
-/// only counted.
+/// One line that describes how an outcome differs from the expected one; empty if it does not.
+/// Peers decide by the stored doubles, the library by the exact directions. On random sites the
+/// difference does not affect any decision; on a bisected icosahedron it affects many, so that the
+/// peers' triangles are only counted there.
 std::string fault(const Outcome& outcome, const Row& row, const Workload& work) {
   if (!outcome.failure.empty()) {
     return outcome.failure;
@@ -136,7 +136,7 @@ void add_counters(benchmark::State& state, const Outcome& outcome) {
   state.counters["exact"] = static_cast<double>(report.exact_predicates);
 }
 
-/// \param warm after a run that is not timed.
+/// \param warm true after a run that is not timed.
 void run_row(benchmark::State& state, Workload& work, std::int64_t n, const Row& row, bool warm) {
   if (work.points.cols() == 0) {
     work.points = cloud(work.set, n);
@@ -173,8 +173,8 @@ std::vector<RoundRow> rows_of(const std::vector<Row>& rows, const std::shared_pt
   return result;
 }
 
-/// Registered in the order in which they are to run; the sets take turns, too. The library's own
-/// row opens the first round, so that the peers have something to be compared with.
+/// Registered in the order of execution; the sets alternate, too. The library's own row opens the
+/// first round, as the reference for the peers.
 void register_all(const Options& options) {
   const std::vector<Row> rows = make_rows(options);
   for (const std::int64_t n : options.sizes) {

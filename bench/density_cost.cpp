@@ -47,7 +47,7 @@ void evaluate_rows(const density_detail::DensityEvaluator& density, std::size_t 
 
 std::vector<DensityCost> density_costs(const Density& density, const std::vector<std::size_t>& rows,
                                        int samples) {
-  constexpr int repeats = 200; // some half a millisecond, far above the clock's grain
+  constexpr int repeats = 200; // about half a millisecond, far above the resolution of the clock
   const density_detail::DensityEvaluator evaluator(density);
   Sample sample = make_sample();
   std::vector<DensityCost> costs;

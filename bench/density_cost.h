@@ -8,14 +8,14 @@
 
 namespace calotte::bench {
 
-/// What one evaluation of a density costs on this thread, when points come in rows of some length.
+/// Time of one evaluation of a density on the current thread, for rows of several lengths.
 struct DensityCost {
   std::size_t row = 0;
   std::vector<double> nanoseconds; ///< an evaluation, by sample
 };
 
-/// \param rows the lengths; they take turns in every sample, over the same points, which fit in the
-/// first cache.
+/// \param rows the lengths; they alternate in every sample, over the same points, which fit in the
+///         first-level cache.
 std::vector<DensityCost> density_costs(const Density& density, const std::vector<std::size_t>& rows,
                                        int samples);
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Measures what each region of a decomposition takes: of an iteration of the CVT, or of a
-// triangulation; and the bytes of positions that it would exchange. All on one thread, so that no
-// region is disturbed by another. From that, bench/report works out what distributed runs would
-// take.
+// Measures the time of each region of a decomposition, in an iteration of the CVT or in a
+// triangulation, and the bytes of positions that it would exchange. All regions run on one thread,
+// so that none disturbs another. bench/report derives the time of distributed runs from these
+// measurements.
 
 #include "clouds.h"
 #include "program.h"
@@ -49,10 +49,10 @@ struct Options : RoundOptions {
 struct Workload {
   std::string set;
   std::int64_t n = 0;
-  Points3 points; ///< made when first needed
+  Points3 points; ///< computed at first use
 };
 
-/// What one row measures.
+/// The quantity that one row measures.
 struct Cut {
   std::string work, sort, decomposition;
   int regions = 0; ///< 0 for the library's own number
@@ -129,7 +129,8 @@ void add_lists(Lists lists) {
     add_list("sent", std::move(lists.sent));
 }
 
-/// Of lists of one value a region: the median of each region's, leaving out the first lists.
+/// For lists with one value per region: the median for each region, without the first
+/// `without` lists.
 std::vector<double> medians(const std::vector<std::vector<double>>& lists, int without) {
   std::vector<double> result;
   for (std::size_t k = 0; k < lists.front().size(); ++k) {
@@ -141,8 +142,8 @@ std::vector<double> medians(const std::vector<std::vector<double>>& lists, int w
   return result;
 }
 
-/// Adds the sites that each region would receive in an iteration of a distributed run, and the
-/// bytes that it would send.
+/// Adds the number of sites that each region would receive in an iteration of a distributed run,
+/// and the number of bytes that it would send.
 void count_halos(const Points3& points, const Partition& partition, Lists& lists) {
   const delaunay_detail::Sites sites = delaunay_detail::make_sites(points, Duplicates::merge, 0);
   const delaunay_detail::Regions regions = delaunay_detail::divide(sites, partition);
@@ -157,8 +158,8 @@ void count_halos(const Points3& points, const Partition& partition, Lists& lists
         }
 }
 
-/// Iterations of Lloyd's method. A region's seconds are the median of its own over all but the
-/// first two, which look at the start's mesh twice and find their memory new.
+/// Iterations of Lloyd's method. The seconds of a region are the median over all iterations but the
+/// first two, which test the start's mesh twice and use fresh memory.
 class Iterations {
 public:
   Iterations(const Workload& work, const Cut& cut)
@@ -221,10 +222,9 @@ void run_iterations(benchmark::State& state, const Workload& work, const Cut& cu
   add_lists(iterations.lists());
 }
 
-/// Triangulations. A region's seconds (gather, project, triangulate, cull and certify) are the
-/// median of its own over all but the first, which finds its memory new. They begin with regions
-/// far apart, as the one that comes first finds the caches cold; the centres are given, and their
-/// choice is in no triangulation's seconds.
+/// Triangulations. The seconds of a region (gather, project, triangulate, cull and certify) are the
+/// median over all but the first, which uses fresh memory. Regions start far apart, because the
+/// first one finds the caches cold. The centres are given; the time to choose them is not measured.
 class Triangulations {
 public:
   Triangulations(const Workload& work, const Cut& cut)
@@ -232,7 +232,7 @@ public:
         centres_(delaunay_detail::make_centres(
             delaunay_detail::make_sites(work.points, Duplicates::merge, 0), partition_)) {}
 
-  /// The regions in turn, from the first-th on.
+  /// The regions in cyclic order from the first-th on.
   DelaunayReport step(std::size_t first) {
     Points3 centres(3, centres_.size());
     const std::size_t count = centres_.size();

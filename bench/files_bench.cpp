@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Times what a full MPAS mesh costs beside the triangulation that it is of, in rounds: the
-// triangulation, its numbering along the curve, the connectivity alone, the file of the mesh so
-// numbered, connectivity included, on the disk, and as many bytes written the same way without
-// computing them: what the disk allows.
+// Times writing a full MPAS mesh compared with the triangulation, in rounds: the triangulation, its
+// numbering along the curve, the connectivity alone, the file of the renumbered mesh, including its
+// connectivity, on the disk, and the same number of bytes written in the same way without
+// computation, which is the limit of the disk.
 
 #include "base/parallel.h"
 #include "io/file.h"
@@ -41,7 +41,7 @@ struct Options : RoundOptions {
 
 using Body = std::function<void()>;
 
-/// A row that times a body once a round, after a preparation that it does not time.
+/// A row that times a body once per round, after a preparation that is not timed.
 RoundRow row_of(
     const std::string& name, const Body& body, const Body& prepare = [] {}) {
   return {name, [=](benchmark::State& state) {
@@ -57,14 +57,14 @@ RoundRow row_of(
           }};
 }
 
-/// The files of the mesh; another one of as many bytes.
+/// The files of the mesh, and another one with the same number of bytes.
 struct Files {
   Files() = default;
   explicit Files(const std::filesystem::path& folder)
       : mesh(folder / "files_bench.nc"), graph(folder / "files_bench.graph.info"),
         other(folder / "files_bench.bytes") {}
 
-  /// A file that is replaced would cost its removal as well.
+  /// Called before a write is timed: replacing a file would include the time of its removal.
   void remove() const {
     std::error_code absent;
     for (const std::filesystem::path& file : {mesh, graph, other})
@@ -75,7 +75,7 @@ struct Files {
   std::int64_t bytes = 0; ///< of mesh and graph
 };
 
-/// What is written, and where; made when the options are known.
+/// The data to write and their paths; computed after the options are read.
 struct Workload {
   Workload() = default;
   Workload(const Workload&) = delete;
@@ -93,7 +93,8 @@ void write_mesh(Files& files, const Mesh& mesh) {
                                           std::filesystem::file_size(files.graph));
 }
 
-/// The same pseudo-random bytes in every block, but for its number: no disk takes them for zeros.
+/// The same pseudo-random bytes in every block, except for its number, so that a disk cannot
+/// compress them as zeros.
 void write_bytes(const Files& files) {
   static const std::vector<std::uint32_t> pattern = [] {
     std::vector<std::uint32_t> words(1 << 22);
@@ -119,7 +120,7 @@ void register_all(const Options& options, Workload& work) {
   work.as_bisected = spherical_delaunay(bisected_icosahedron(options.level));
   work.mesh = renumbered(work.as_bisected, Numbering::curve);
   work.files = Files(options.folder);
-  write_mesh(work.files, work.mesh); // tells how many bytes
+  write_mesh(work.files, work.mesh); // reports the number of bytes
   const auto remove = [&work] { work.files.remove(); };
   const std::vector<RoundRow> rows = {
       row_of("delaunay", [&work] { spherical_delaunay(work.mesh.points); }),

@@ -21,7 +21,7 @@ namespace {
 /// CPU seconds of all threads so far.
 double cpu_now() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-/// Measures of an iteration, summed over those after the warm-up.
+/// Measurements of an iteration, summed over those after the warm-up.
 struct Sums {
   double seconds = 0, exchange = 0, repair = 0, moments = 0;
   double flipped = 0, flips = 0;
@@ -63,7 +63,7 @@ void measure(const std::vector<CvtIteration>& iterations, const std::vector<doub
                   {"flips", sums.flips}};
 }
 
-/// What a serial program keeps between iterations.
+/// The data of a serial program between iterations.
 struct Serial {
   explicit Serial(std::int64_t n) : mesh(n), x(n), moments(n) {
     std::fill(x.begin(), x.end(), base_detail::Vec3{0, 0, 0});
@@ -92,7 +92,7 @@ void set_points(Serial& serial, const Points3& points) {
   }
 }
 
-/// Nodes are walked in ascending order: the triangles need no sorting.
+/// Visits nodes in ascending order, so that the triangles need no sorting.
 void read_triangles(Serial& serial) {
   serial.cells.corners.clear();
   serial.mesh.for_each_triangle([&](std::int32_t a, std::int32_t b, std::int32_t c) {

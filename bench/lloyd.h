@@ -11,25 +11,25 @@
 
 namespace calotte::bench {
 
-/// What is iterated towards: the same for all who are timed.
+/// The target of the iteration, the same for all programs.
 struct Target {
   Density density;
   int rule = 3; ///< quadrature points on each half kite, where the density is not uniform
 };
 
-/// Iterations of a run that no measure takes in: the start's mesh is looked at twice, and memory is
-/// new.
+/// Number of first iterations that no measurement includes: they test the start's mesh twice and
+/// use fresh memory.
 constexpr int warm_up = 2;
 
-/// The options of so many iterations, all with the target's rule.
+/// Options for a number of iterations, all with the target's rule.
 CvtOptions fixed_iterations(const Target& target, int iterations);
 
-/// What one timed run made, and what one of its iterations took.
+/// The result of one timed run, and the measurements of one iteration.
 struct Iterated {
   double seconds = 0;                     ///< wall-clock time of one iteration
-  std::map<std::string, double> counters; ///< by name, as said below
+  std::map<std::string, double> counters; ///< by name, see below
   Points3 points;                         ///< 3 x n: the generators afterwards, in the given order
-  std::string failure;                    ///< not empty when it went wrong
+  std::string failure;                    ///< describes a failure; empty on success
 };
 
 /// `iterations` > warm_up of calotte::cvt on `threads` threads; `seconds` is the median of those

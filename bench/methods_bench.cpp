@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Counts the evaluations that each method takes to bring the rms distance of generators from their
-// centroids below 1e-6, 1e-8 and 1e-10, from the bisected optimum of the next coarser level.
+// Counts the evaluations that each method needs to reduce the rms distance of generators from their
+// centroids below 1e-6, 1e-8 and 1e-10, starting from the bisected optimum of the next coarser
+// level.
 
 #include "clouds.h"
 #include "program.h"
@@ -58,7 +59,7 @@ Points3 start_of(std::int64_t cells, const Density& density) {
   return bisect(spherical_cvt(from.start, options).mesh);
 }
 
-/// For each goal that was reached, the evaluations and seconds that it took.
+/// For each goal that was reached, the number of evaluations and the seconds.
 void add_counters(benchmark::State& state, const CvtReport& report) {
   double seconds = 0, flips = 0, evaluations = 0;
   std::size_t next = 0;

@@ -96,7 +96,7 @@ struct PointHash {
   }
 };
 
-/// The digest of CGAL's triangles in the ids of `points`, which its vertices do not carry.
+/// The digest of CGAL's triangles in the ids of `points`, which CGAL's vertices do not store.
 std::uint64_t digest_of(const Triangulation& triangulation, const Points3& points) {
   std::unordered_map<std::array<double, 3>, std::int32_t, PointHash> ids;
   ids.reserve(static_cast<std::size_t>(points.cols()));

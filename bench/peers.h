@@ -21,12 +21,12 @@ private:
   std::uint64_t sum_ = 0;
 };
 
-/// What one timed run made; timed is the triangulation alone.
+/// The result of one timed run; only the triangulation is timed.
 struct Outcome : Timed {
   std::int64_t sites = 0; ///< vertices of the result
   std::int64_t triangles = 0;
   std::uint64_t digest = 0; ///< Digest of the triangles in the ids of the input
-  std::string failure;      ///< not empty when the run gave no triangulation
+  std::string failure;      ///< describes a failure; empty if the run gave a triangulation
   DelaunayReport report;    ///< of the library's own runs
 };
 
@@ -34,18 +34,19 @@ struct Outcome : Timed {
 /// timed.
 Outcome run_calotte(const Points3& points, int threads, const DelaunayOptions& options = {});
 
-/// As many of them as threads, each on a thread of its own, at once; the seconds of the slowest.
-/// They share the points, the process's memory management and the machine's caches, with as many
-/// times the memory of one: how much longer than one alone they take is a yardstick of the machine,
-/// no bound of what several threads on one set can reach.
+/// Runs one triangulation per thread at once; returns the seconds of the slowest. They share the
+/// points, the process's memory management and the machine's caches, and use as many times the
+/// memory of one. Their slowdown compared with one alone is a reference for the machine, not a
+/// bound for several threads on one set.
 Outcome run_side_by_side(const Points3& points, int threads);
 
 /// CGAL::Delaunay_triangulation_on_sphere_2 with exact predicates and inexact constructions: the
 /// insertion of a range of points of CGAL's own type, which CGAL sorts along a space-filling curve.
 Outcome run_cgal(const Points3& points);
 
-/// STRIPACK's TRMESH, with its arrays allocated and touched before the clock starts; its linked
-/// lists are its result. \pre has_stripack().
+/// STRIPACK's TRMESH; its arrays are allocated and touched before the clock starts, and its linked
+/// lists are the result.
+/// \pre has_stripack().
 Outcome run_stripack(const Points3& points);
 
 /// Qhull's convex hull of the points, whose facets are the triangles (Barber, Dobkin, Huhdanpaa,
@@ -53,7 +54,7 @@ Outcome run_stripack(const Points3& points);
 /// triangles. \pre has_qhull().
 Outcome run_qhull(const Points3& points);
 
-/// Whether this program was built with Qhull, and with which.
+/// True if this program was built with Qhull, and its version.
 bool has_qhull();
 std::string qhull_version();
 

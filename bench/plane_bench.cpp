@@ -95,7 +95,7 @@ struct Options : RoundOptions {
   std::int64_t size = 1000000;
 };
 
-/// The places of a set, made when first needed, and the digest of the first run.
+/// The places of a set, computed at first use, and the digest of the first run.
 struct Workload {
   Points2 points;
   std::optional<std::uint64_t> digest;

@@ -54,7 +54,7 @@ Json set_json(const SetResults& set) {
   return {{"set", set.set}, {"sites", set.sites}, {"rows", std::move(rows)}};
 }
 
-/// All samples of a run, with what is needed to repeat it.
+/// All samples of a run, with the information to repeat it.
 void write_json(const std::string& file, const std::vector<std::string>& arguments,
                 const Program& program, const RoundReporter& reporter) {
   Json sets = Json::array();
@@ -76,15 +76,15 @@ void write_json(const std::string& file, const std::vector<std::string>& argumen
   }
 }
 
-/// Keeps what is freed for the next round, of the peers and of the library alike. A system takes
-/// large arrays back at once, and where the host of a virtual machine takes free memory back from
-/// the system, to fault it in again was seen to cost 3 s a GiB: more than to triangulate in it. The
-/// library itself gives back what more than 2^23 sites leave.
+/// Keeps freed memory for the next round, for the peers and the library alike. Otherwise the system
+/// reclaims large arrays at once; if the host of a virtual machine reclaims its free memory,
+/// faulting it in again took 3 s per GiB, more than a triangulation in it. The library itself
+/// returns the memory of more than 2^23 sites.
 void keep_memory() {
 #ifdef __GLIBC__
   mallopt(M_MMAP_MAX, 0);
   mallopt(M_TRIM_THRESHOLD, -1);
-  mallopt(M_ARENA_MAX, 1); // the two above do not reach the arenas of other threads
+  mallopt(M_ARENA_MAX, 1); // the two settings above do not affect the arenas of other threads
 #endif
 }
 

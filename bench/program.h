@@ -14,7 +14,7 @@
 
 namespace calotte::bench {
 
-/// Options of every program that runs in rounds.
+/// Options of every program that measures in rounds.
 struct RoundOptions {
   int rounds = 7;
   int threads = 2; ///< of the library's rows
@@ -26,20 +26,21 @@ void add_round_options(CLI::App& app, RoundOptions& options);
 void add_grid_options(CLI::App& app, std::vector<std::string>& sets,
                       std::vector<std::int64_t>& sizes);
 
-/// A program that times rows in rounds.
+/// A program that measures rows in rounds.
 struct Program {
   std::string purpose;                      ///< one line, for --help
-  std::map<std::string, std::string> peers; ///< versions of what it is compared with, by name
+  std::map<std::string, std::string> peers; ///< versions of the programs compared, by name
   std::function<void(CLI::App&)> add_options;
-  std::function<void()> register_rows; ///< once the options are read
-  /// Markdown: what is timed and how, before; the tables, afterwards.
+  std::function<void()> register_rows; ///< called after the options are read
+  /// Markdown: the subject and the method of the measurements, printed before; the tables, printed
+  /// after.
   std::function<void(std::ostream&)> print_head;
   std::function<void(std::ostream&, const std::vector<SetResults>&)> print_results;
 };
 
-/// All of main: reads the options, hands those that the program does not know to Google Benchmark,
-/// runs the rows and prints their tables; with --json FILE, writes the samples of every round.
-/// Its value is the exit code: 0 done, 1 a result was wrong or something failed, 2 bad usage.
+/// The main function: reads the options, passes those that the program does not know to Google
+/// Benchmark, runs the rows and prints their tables; with --json FILE, writes the samples of every
+/// round. It returns the exit code: 0 done, 1 a wrong result or a failure, 2 invalid usage.
 int run_program(int argc, char** argv, const Program& program);
 
 } // namespace calotte::bench

@@ -186,7 +186,7 @@ void print_sets(std::ostream& out, const std::vector<SetResults>& results,
 
 namespace {
 
-/// Of the run that is under way; runs come one at a time.
+/// Of the current run; runs are sequential.
 std::map<std::string, std::vector<double>>& pending_lists() {
   static std::map<std::string, std::vector<double>> lists;
   return lists;

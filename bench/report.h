@@ -13,11 +13,11 @@
 
 namespace calotte::bench {
 
-/// One row of one set: the measurements of all rounds, in the order they were made.
+/// One row of one set: the measurements of all rounds, in chronological order.
 struct Series {
   std::map<int, double> seconds;                       ///< by round
   std::map<std::string, std::vector<double>> counters; ///< by name: one value a round
-  /// By name: one list a round, as of the regions.
+  /// By name: one list per round, such as one value per region.
   std::map<std::string, std::vector<std::vector<double>>> lists;
 };
 
@@ -29,14 +29,15 @@ struct SetResults {
   std::map<std::string, Series> rows;
 };
 
-/// The p-quantile of values that need no order, linear between neighbours; 0 of none.
+/// The p-quantile of unsorted values, linear between neighbours; 0 for no values.
 double quantile(std::vector<double> values, double p);
 double median(const std::vector<double>& values);
 
-/// row / base of every round in which both ran.
+/// The ratio row / base for every round in which both ran.
 std::vector<double> paired_ratios(const Series& row, const Series& base);
 
-/// A row's seconds a site over those of another set, of every round in which both ran.
+/// The ratio of a row's seconds per site to those of another set, for every round in which both
+/// ran.
 std::vector<double> site_ratios(const SetResults& set, const SetResults& base,
                                 const std::string& row);
 
@@ -50,20 +51,21 @@ std::string range_text(const std::vector<double>& values, double from, double to
 /// The set's name and its number of sites.
 std::string title(const SetResults& set);
 
-/// The name of the library's row on so many threads.
+/// The name of the library's row for a number of threads.
 std::string threads_row(int threads);
 
-/// What is timed in every round, in sets of up to a number of sites.
+/// A row of every round, in sets of up to a number of sites.
 struct RoundRow {
   std::string name;
   std::function<void(benchmark::State&)> run; ///< once a round; sets the iteration's time
   std::int64_t limit = std::numeric_limits<std::int64_t>::max(); ///< sites
 };
 
-/// Adds a list to the run that is under way, which has room for single numbers alone.
+/// Adds a list to the current run, whose counters hold single numbers only.
 void add_list(const std::string& name, std::vector<double> values);
 
-/// Registers one round over one set: every row once, starting with the row of the round's number.
+/// Registers one round over one set: every row once, starting with the row whose number is that of
+/// the round.
 void register_round(const std::string& set, std::int64_t n, int round,
                     const std::vector<RoundRow>& rows);
 
@@ -74,7 +76,7 @@ public:
   bool ReportContext(const Context& context) override;
   void ReportRuns(const std::vector<Run>& runs) override;
   const std::vector<SetResults>& results() const { return results_; }
-  /// One line for each run that went wrong.
+  /// One line for each run that failed.
   const std::vector<std::string>& failures() const { return failures_; }
 
 private:
@@ -83,7 +85,7 @@ private:
   std::vector<std::string> failures_;
 };
 
-/// Markdown: a set's rows' seconds, and their ratios to `base`, paired by round. Rows have a
+/// Markdown: the seconds of a set's rows, and their ratios to `base`, paired by round. Rows have a
 /// counter cpu.
 void print_times(std::ostream& out, const SetResults& set, const std::string& base);
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How far one machine's memory goes: a triangulation of many random sites, a proof of it, and some
-// iterations of a CVT from there, with the peak of memory of each and the time of every stage.
-// First a small set is triangulated, too, to compare the time a site with: its first triangulation
-// with the first of the many sites, both in memory that is mostly new to the process; later ones
-// with a second.
+// Measures the largest sets that one machine's memory allows: a triangulation of many random sites,
+// its check, and some iterations of a CVT from there, with the peak memory and the time of each
+// stage. A small set is triangulated first, as the reference for the time per site: its first
+// triangulation compares with the first of the many sites, both in memory that is mostly new to the
+// process; later ones compare with a second.
 
 #include <calotte/check.h>
 #include <calotte/cvt.h>
@@ -60,10 +60,11 @@ std::int64_t peak() {
   return 0;
 }
 
-/// Where the system refuses, peaks are those since the start: no less, as the sizes ascend.
+/// If the system does not support a reset, peaks count from the start; they do not decrease,
+/// because the sizes ascend.
 void reset_peak() { std::ofstream("/proc/self/clear_refs") << '5'; }
 
-/// What a stage took.
+/// The time and memory of a stage.
 struct Cost {
   double seconds = 0;
   std::int64_t peak = 0; ///< bytes
@@ -100,13 +101,13 @@ void print_part(const char* stage, double seconds, std::int64_t sites) {
   std::printf("| - %s | %.2f | %.0f | | |\n", stage, seconds, ns_a_site(seconds, sites));
 }
 
-/// What a triangulation takes; the mesh lives on.
+/// Triangulates and reports the cost; the mesh stays alive.
 Cost triangulation(Points3 points, Mesh& mesh, DelaunayReport* report = nullptr) {
   return cost_of([&] { mesh = spherical_delaunay(std::move(points), {}, report); });
 }
 
-/// The small set, which the time a site of a large one is compared with. Its first triangulation
-/// faults its memory in, as that of a larger set does, and starts the threads; later ones do not.
+/// The small set, the reference for the time per site of a large one. Its first triangulation
+/// faults in memory, as that of a larger set does, and starts the threads; later ones do not.
 class Base {
 public:
   explicit Base(const Options& options)
@@ -161,7 +162,7 @@ std::string fault(const Check& check, std::int64_t n) {
   return {};
 }
 
-/// Checks a mesh and reports what that took; false when a law is broken.
+/// Checks a mesh and reports the cost; false if a law is violated.
 bool prove(const Mesh& mesh, std::int64_t n, const char* name, Json& json) {
   Check check;
   const Cost cost = cost_of([&] { check = calotte::check(mesh); });
@@ -177,7 +178,7 @@ bool prove(const Mesh& mesh, std::int64_t n, const char* name, Json& json) {
   return failure.empty();
 }
 
-/// Of what the library computes of a mesh: a mesh of the same points has the same.
+/// Measures that the library computes of a mesh; meshes of the same points have the same values.
 std::size_t fingerprint(const Mesh& mesh) {
   const auto bytes = [](const auto& matrix) {
     return std::string_view(reinterpret_cast<const char*>(matrix.data()),
@@ -212,7 +213,8 @@ bool triangulate(std::int64_t n, const Base& base, Json& json) {
   out["overlap"] = report.overlap;
   bool good = prove(mesh, n, "its check", out);
   print_part("both", first.seconds + out["check"]["seconds"].get<double>(), n);
-  // A virtual machine's host may take what is free for some seconds: so the mesh is freed last.
+  // The host of a virtual machine may reclaim free memory for some seconds, so that the mesh is
+  // freed last.
   Points3 points = random_sphere(n, seed);
   const std::size_t proved = fingerprint(mesh);
   const double later = base.later();
@@ -266,7 +268,7 @@ bool run(std::int64_t n, const Options& options, const Base& base, Json& json) {
   return good;
 }
 
-/// Ends in bad_alloc what would take more, before the system has to end it.
+/// Limits memory, so that excess ends in bad_alloc before the system ends the process.
 void limit_memory(double limit) {
   const auto bytes = static_cast<rlim_t>(limit * gib);
   const rlimit data{bytes, bytes};

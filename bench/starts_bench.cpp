@@ -43,7 +43,7 @@ CvtOptions cvt_options(const std::string& set, const std::string& method, const 
   return result;
 }
 
-/// What the finest level's evaluations took, and where the run ended.
+/// The cost of the finest level's evaluations, and the result of the run.
 void add_counters(benchmark::State& state, const CvtReport& report, std::int64_t n, int threads) {
   std::vector<double> seconds;
   double exchange = 0, repair = 0, moments = 0, solver = 0, sum = 0, flips = 0;

@@ -34,7 +34,7 @@ struct Stripack {
       do {
         const int following = at(lptr, pointer);
         const int b = std::abs(at(list, pointer)), c = std::abs(at(list, following));
-        // A negative last neighbour says that no triangle lies between it and the first.
+        // A negative last neighbour means that no triangle lies between it and the first.
         if (a < b && a < c && at(list, pointer) > 0)
           body(a - 1, b - 1, c - 1);
         pointer = following;
@@ -48,7 +48,7 @@ private:
   }
 };
 
-/// Whether this program was built with STRIPACK.
+/// True if this program was built with STRIPACK.
 bool has_stripack();
 
 } // namespace calotte::bench

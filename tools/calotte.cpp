@@ -31,7 +31,7 @@ std::string help_of(const CLI::App& app) {
   return "calotte " + (commands.empty() ? "" : commands.back()->get_name() + " ") + "--help";
 }
 
-/// One line, whatever the message.
+/// Replaces line ends, so that a message is one line.
 void complain(std::string message) {
   for (char& c : message)
     if (c == '\n')
@@ -43,7 +43,7 @@ ExitCode exit_code(ErrorCode code) {
   switch (code) {
   case ErrorCode::file:
     return file_trouble;
-  case ErrorCode::cancelled: // no command cancels what it runs
+  case ErrorCode::cancelled: // unexpected here: no command cancels its run
   case ErrorCode::internal:
     return internal_error;
   default:
@@ -80,7 +80,7 @@ std::string with_option(const std::string& message) {
   return message;
 }
 
-/// Runs the command, and turns what it throws into one line and an exit code.
+/// Runs the command, and converts an exception to one line and an exit code.
 ExitCode guarded_run(CLI::App& app, int argc, char** argv) {
   try {
     run(app, argc, argv);
@@ -111,7 +111,7 @@ ExitCode guarded_run(CLI::App& app, int argc, char** argv) {
 
 int main(int argc, char** argv) try {
   using namespace calotte::tools;
-  // A file larger than allowed is an error like a full disk, not a reason to die.
+  // Makes a file larger than the limit an error like a full disk, instead of a fatal signal.
   std::signal(SIGXFSZ, SIG_IGN);
   std::ios::sync_with_stdio(false);
   CLI::App app("Computes exact Delaunay triangulations and centroidal Voronoi tessellations (CVTs) "
@@ -123,6 +123,6 @@ int main(int argc, char** argv) try {
     return file_trouble;
   }
   return code;
-} catch (...) { // not even a message could be made
+} catch (...) { // no memory even for a message
   return calotte::tools::internal_error;
 }

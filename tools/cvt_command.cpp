@@ -35,7 +35,7 @@ void require_positive(const std::string& option, double value, const std::string
                 option + " " + shortest(value) + " is not a positive number; give " + remedy);
 }
 
-/// What a run in the plane has none of.
+/// Rejects options that a planar run does not support.
 void require_plane(const CvtRequest& request, const WriteOptions& options) {
   require_planar_format(request.mesh, request.domain->periodic.has_value(),
                         format_of(request.mesh, options.format));
@@ -46,14 +46,14 @@ void require_plane(const CvtRequest& request, const WriteOptions& options) {
                 "--cell-width applies to the sphere only; give --density or --density-raster");
 }
 
-/// All that can be known to fail from the options alone.
+/// Checks all options that can fail, before any work.
 void require_request(const CvtRequest& request) {
   require_positive("--tolerance", request.tolerance, "one such as 1e-6");
   require_positive("--checkpoint-minutes", request.checkpoint_minutes, "one such as 10");
   if (request.relaxation != 1 && request.method != "lloyd")
     throw Error(ErrorCode::bad_option, "--relaxation applies to --method lloyd only; leave it out");
   require_start(request);
-  const WriteOptions options = // throws for a file that could not be written
+  const WriteOptions options = // throws for a file that cannot be written
       options_of(*request.format, request.mesh);
   if (planar(request))
     require_plane(request, options);
@@ -64,13 +64,13 @@ void require_request(const CvtRequest& request) {
   require_outputs(
       {{"mesh", request.mesh}, {"report", request.report}, {"checkpoint", request.checkpoint}},
       inputs);
-  // A run may go on writing the checkpoint that it was resumed from.
+  // A run may overwrite the checkpoint from which it resumed.
   require_outputs({{"mesh", request.mesh}, {"report", request.report}}, {request.resume});
 }
 
 // ---- The run
 
-/// Keeps a run's state in a file, now and then.
+/// Writes the state of a run to a file at intervals.
 class Keeper {
 public:
   Keeper(const CvtRequest& request, std::string configuration, std::size_t iterations)
@@ -105,12 +105,12 @@ struct Outcome {
   PlanarMesh plane; ///< or in the plane
   std::int64_t cells = 0;
   double area = 0;        ///< of the sphere or the domain
-  int signal = 0;         ///< that ended it early
-  std::size_t before = 0; ///< iterations of the parts that it resumed
+  int signal = 0;         ///< the signal that ended it early
+  std::size_t before = 0; ///< iterations of the earlier parts of a resumed run
   int threads = 0;
 };
 
-/// Shows where the run stands, keeps it, and ends it when a signal came.
+/// Shows progress, writes checkpoints, and ends the run after a signal.
 bool after_iteration(const CvtProgress& now, const CvtRequest& request, const CvtOptions& options,
                      Keeper& keeper, Progress& progress, int& signal) {
   progress.stage(describe(now, options, norm_word(request)));
@@ -124,13 +124,13 @@ bool after_iteration(const CvtProgress& now, const CvtRequest& request, const Cv
     return false;
   try {
     keeper.keep(now.state);
-  } catch (const Error& error) { // a full disk may have room again before the run needs it
+  } catch (const Error& error) { // a full disk may have space again by then
     progress.say("calotte: " + std::string(error.what()) + " (the run continues)");
   }
   return false;
 }
 
-/// All that a run needs.
+/// The input of a run.
 struct Plan {
   CvtOptions options;
   std::optional<PlanarDomain> domain; ///< of a plane
@@ -139,7 +139,7 @@ struct Plan {
   std::optional<CvtState> state; ///< where it goes on
 };
 
-/// \param request learns how many cells the widths ask for.
+/// \param request receives the number of cells that the widths imply.
 Plan prepare(CvtRequest& request, Progress& progress) {
   Plan plan;
   plan.options = options_of(request);
@@ -164,7 +164,7 @@ Plan prepare(CvtRequest& request, Progress& progress) {
   return plan;
 }
 
-/// Its mesh is one of the two.
+/// Runs the plan on the sphere or in the plane; the outcome has the mesh of that kind.
 void run_plan(Plan& plan, const CvtCallback& callback, Outcome& outcome) {
   const CvtOptions& options = plan.options;
   if (plan.domain) {
@@ -185,7 +185,7 @@ void run_plan(Plan& plan, const CvtCallback& callback, Outcome& outcome) {
   }
 }
 
-/// \param plan gives its state away.
+/// \param plan its state is moved out.
 Outcome tessellate(const CvtRequest& request, Plan& plan, Progress& progress) {
   Outcome outcome;
   outcome.before = plan.state ? plan.state->report().iterations.size() : 0;
@@ -207,7 +207,7 @@ Outcome tessellate(const CvtRequest& request, Plan& plan, Progress& progress) {
 
 // ---- After it
 
-/// Says where a signal ended the run and how to go on.
+/// Prints where a signal ended the run and how to resume it.
 [[noreturn]] void finish_interrupted(const CvtRequest& request, const Outcome& outcome) {
   const std::vector<CvtIteration>& iterations = outcome.report.iterations;
   std::cerr
@@ -245,7 +245,8 @@ void write_result(const CvtRequest& request, const Plan& plan, const Outcome& ou
                to_json(request, outcome.report, outcome.cells, outcome.area, outcome.threads));
 }
 
-/// From the first iteration to the end of writing a signal ends the run in order.
+/// Between the first iteration and the end of writing, a signal ends the run with its output
+/// complete.
 Outcome tessellate_and_write(CvtRequest& request) {
   Progress progress;
   Plan plan = prepare(request, progress);

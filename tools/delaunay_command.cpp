@@ -36,7 +36,7 @@ template <class AnyMesh> struct Result {
   DelaunayReport report;
 };
 
-/// Everything about the options that can be known to fail, before any work.
+/// Checks all options that can fail, before any work.
 void require_request(const Request& request) {
   if (request.plane && request.format->sphere_radius)
     throw Error(ErrorCode::bad_option, "--sphere-radius does not apply with --plane; leave it out");
@@ -44,8 +44,8 @@ void require_request(const Request& request) {
     throw Error(ErrorCode::bad_option,
                 request.points +
                     ": --plane requires text with x y on each line; leave --plane out for a mesh");
-  period_of(request.periodic);               // throws for one that is no box
-  options_of(*request.format, request.mesh); // throws for a file that could not be written
+  period_of(request.periodic);               // throws for an invalid box
+  options_of(*request.format, request.mesh); // throws for a file that cannot be written
   require_outputs({{"mesh", request.mesh}, {"report", request.report}},
                   {request.points, centres_file(*request.partition), *request.config});
 }

@@ -26,19 +26,19 @@ namespace {
 struct DrawArguments {
   std::shared_ptr<MeshSource> source;
   std::shared_ptr<DensityWords> density;
-  std::vector<const CLI::Option*> density_options; ///< all that add_density adds
+  std::vector<const CLI::Option*> density_options; ///< all options that add_density adds
   const CLI::Option* what = nullptr;
   const CLI::Option* colour = nullptr;
   std::string output;
   DrawOptions options;
-  std::vector<std::string> reports; ///< to be drawn instead of a mesh
+  std::vector<std::string> reports; ///< drawn instead of a mesh
   bool spacing_law = false;
   std::shared_ptr<DomainWords> domain; ///< with --plane
 
   bool has_density() const { return !density->densities.empty() || density->widths.given(); }
 };
 
-/// Takes a number and what follows it; false where none is.
+/// Removes a number and the text after it from the input; false if there is none.
 bool take_number(std::string_view& text, double& value) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   text.remove_prefix(static_cast<std::size_t>(end - text.data()));
@@ -63,7 +63,7 @@ LonLat parse_view(std::string_view text) {
   return view;
 }
 
-/// An option whose value is one of a few words.
+/// An option whose value is one of several words.
 template <class Value>
 void add_choice(CLI::App& command, const std::string& names, Value& value,
                 const std::vector<std::pair<std::string, Value>>& choices,
@@ -157,7 +157,7 @@ void add_density_options(CLI::App& command, DrawArguments& arguments) {
   }
 }
 
-/// The pictures that are no map, and which options they do without.
+/// The pictures that are no map, and the options that they do not support.
 void add_plots(CLI::App& command, DrawArguments& arguments) {
   CLI::Option* history = command
                              .add_option("--history", arguments.reports,
@@ -180,7 +180,7 @@ void add_plots(CLI::App& command, DrawArguments& arguments) {
   }
 }
 
-/// --plane, the domain, and what they do without.
+/// --plane, the domain, and the options that they exclude.
 void add_plane_options(CLI::App& command, DrawArguments& arguments) {
   CLI::Option* plane = add_plane(command, *arguments.source);
   arguments.domain = add_domain(command);
@@ -203,7 +203,7 @@ void draw_reports(const DrawArguments& arguments) {
             << (histories.size() == 1 ? " run\n" : " runs\n");
 }
 
-/// Throws for a density that no option uses, and for one that is missing.
+/// Throws for a density without an option that uses it, and for a missing density.
 void require_density(const DrawArguments& arguments) {
   const bool wanted = arguments.spacing_law || arguments.options.colouring == Colouring::density;
   if (wanted && !arguments.has_density()) {
@@ -218,7 +218,7 @@ void require_density(const DrawArguments& arguments) {
   }
 }
 
-/// The values of the mesh's sites: a cell whose site is a duplicate goes by the first.
+/// The values of the mesh's sites; a cell whose site has duplicates has the value of the first.
 template <class AnyMesh>
 CellField read_field(const std::string& path, const std::string& name, const AnyMesh& mesh) {
   const auto cells = mesh.site_of_input.empty()
@@ -278,14 +278,14 @@ std::string title_of(const DensityWords& words) {
                            : std::to_string(names.size()) + " bumps, their " + words.join;
 }
 
-/// The spacings that a density asks for: `unit` where it is 1.
+/// The spacings that a density implies; `unit` is the spacing at density 1.
 std::function<Eigen::VectorXd(const Points3&)> spacings_by(const Density& density, double unit) {
   return [density, unit](const Points3& x) -> Eigen::VectorXd {
     return unit * evaluate(density, x).array().max(1e-150).pow(-0.25);
   };
 }
 
-/// The widths of a file, else the density; or by --colour the other.
+/// The widths of a file, otherwise the density; --colour selects the other.
 SphereField field_of(const DrawArguments& arguments) {
   const Resolution resolution = resolution_of(*arguments.density);
   const Density& density = resolution.density;
@@ -317,7 +317,7 @@ void draw_density(const DrawArguments& arguments) {
 }
 
 void run(const DrawArguments& arguments) {
-  picture_format(arguments.output); // fails before anything is read
+  picture_format(arguments.output); // fails before any input is read
   require_folder(arguments.output);
   if (!arguments.reports.empty()) {
     draw_reports(arguments);
@@ -337,7 +337,7 @@ void add_draw(CLI::App& app) {
                                                  "law of a mesh, or the convergence of CVT runs.");
   auto arguments = std::make_shared<DrawArguments>();
   arguments->source = add_mesh_source(*command);
-  command->get_option("MESH")->required(false); // a density or a report takes its place
+  command->get_option("MESH")->required(false); // a density or a report replaces it
   command->add_option("-o,--output", arguments->output, "Output picture: .png, .svg or .pdf")
       ->required()
       ->type_name("FILE");

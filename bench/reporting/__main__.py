@@ -68,7 +68,7 @@ def run(step, programs, commit, file, runs):
 
 
 def run_all(options, raw):
-    """The steps' samples, those that were there already included where that was asked for."""
+    """The samples of the steps; with --resume, existing samples are included."""
     commit = machine.commit()
     everything = options.sections == tuple(plan.SECTIONS) and not options.steps
     if everything and not options.resume:

@@ -18,7 +18,7 @@ def spread_text(values, digits=2):
 
 
 def refused(text, disturbed):
-    """What is shown of a row when the machine was disturbed."""
+    """The text for a row that was measured while the machine was disturbed."""
     return f"disturbed: {text}" if disturbed else text
 
 

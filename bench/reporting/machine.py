@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the samples were made on, and of what."""
+"""The machine and the software versions of the samples."""
 
 import os
 import platform

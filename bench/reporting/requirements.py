@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The thresholds for the library, and what was measured or modelled."""
+"""The thresholds for the library, with the measured or modelled values."""
 
 from typing import NamedTuple
 

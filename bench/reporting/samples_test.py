@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is said of samples: python3 -m unittest reporting.samples_test (in bench/)."""
+"""Tests of the statistics of samples: python3 -m unittest reporting.samples_test (in bench/)."""
 
 import random
 import tempfile

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The first lines of RESULTS.md: what was compared, on what machine, and the main results."""
+"""The first lines of RESULTS.md: the programs compared, the machine, and the main results."""
 
 from reporting.cells import NONE
 

@@ -18,11 +18,11 @@ namespace calotte {
 /// whole sphere.
 struct CellWidth {
   Eigen::VectorXd longitudes; ///< nx >= 2 degrees, ascending, the last below the first + 360
-  Eigen::VectorXd latitudes;  ///< ny >= 2 degrees, ascending, from -90 to 90
-  Eigen::MatrixXd widths;     ///< nx x ny, > 0 and finite, in km
+  Eigen::VectorXd latitudes;  ///< ny >= 2 degrees, ascending, within -90 to 90
+  Eigen::MatrixXd widths;     ///< nx x ny, > 0 and finite, in km; max / min at most 1e30
 };
 
-/// The Earth's radius, the default of the functions below.
+/// The radius of the Earth in km, the default of the functions below.
 inline constexpr double earth_radius_km = 6371;
 
 /// The density rho = (h_min/h)^4, where h is the interpolated width and h_min its minimum over the
@@ -32,37 +32,42 @@ inline constexpr double earth_radius_km = 6371;
 /// \throws Error bad_option if shapes, coordinates or widths violate the conditions of CellWidth.
 Density density_of(const CellWidth& cell_width);
 
-/// The widths in km at n unit columns.
-/// \param points 3 x n.
+/// The widths in km at n points.
+/// \param points 3 x n unit columns.
 /// \throws Error as density_of; bad_option unless the points have 3 rows.
 Eigen::VectorXd evaluate(const CellWidth& cell_width, const PointsRef& points);
 
 /// The number of cells that the widths h imply: the integral of 2/(sqrt(3) h^2) over the sphere. A
 /// regular hexagon of width h has the area sqrt(3)/2 h^2.
-/// \param radius_km of the sphere, > 0.
-/// \throws Error as density_of.
+/// \param radius_km radius of the sphere, > 0 and finite; default that of the Earth.
+/// \throws Error as density_of; bad_option for a radius out of range.
 double implied_cells(const CellWidth& cell_width, double radius_km = earth_radius_km);
 
 /// The gradient of the cell width at one location.
 struct Gradient {
-  double slope = 0;
-  double longitude = 0, latitude = 0;
+  double slope = 0;                   ///< |grad h|, km per km
+  double longitude = 0, latitude = 0; ///< degrees; longitude from -180 to below 180
 };
 
 /// The largest |grad h| of the interpolated field. It is exact, because the maximum lies at a
 /// corner of a grid cell. Most models need a value below about 0.03.
-/// \throws Error as density_of.
+/// \param radius_km radius of the sphere, > 0 and finite; default that of the Earth.
+/// \throws Error as density_of; bad_option for a radius out of range.
 Gradient largest_gradient(const CellWidth& cell_width, double radius_km = earth_radius_km);
 
-/// Widths for the polygons of a GeoJSON file, in km; 0: the file says it.
+/// Widths for the polygons of a GeoJSON file, all in km, see read_cell_width(). A width of 0, the
+/// default, is taken from the file; other values override the file. Valid values are >= 0 and
+/// finite.
 struct PolygonWidths {
-  /// Width inside features without a property "cellWidth" (in the file "insideWidth").
+  /// Width inside features that have no property "cellWidth"; in the file "insideWidth". Required
+  /// if there is such a feature.
   double inside = 0;
-  double outside = 0; ///< far from all of them (the file's "outsideWidth")
-  /// Over this distance from the boundary outwards the width changes from `inside` to `outside`, by
-  /// a cubic with horizontal ends (the file's "transition").
+  double outside = 0; ///< width far from all features; in the file "outsideWidth"; required
+  /// Distance from the boundary outwards over which the width changes from `inside` to `outside` by
+  /// a cubic with horizontal ends; in the file "transition". Required; at least 0.2 degrees of a
+  /// great circle, about 22.2 km on the Earth.
   double transition = 0;
-  double radius_km = earth_radius_km; ///< of the sphere, > 0
+  double radius_km = earth_radius_km; ///< radius of the sphere, > 0 and finite
 };
 
 } // namespace calotte

@@ -40,37 +40,42 @@ enum class Method {
   lbfgs_laplacian, ///< L-BFGS, preconditioned with the mesh's graph Laplacian
 };
 
+/// Options of a CVT run. A function that takes them throws Error bad_option for a value out of
+/// range.
 struct CvtOptions {
-  Density density = {};
+  Density density = {}; ///< rho of the energy; default uniform
   Method method = Method::automatic;
-  /// Factor of Lloyd's steps towards the centroid; 1 <= relaxation < 2. A step that would raise the
-  /// energy is repeated with factor 1.
+  /// Factor of the steps of Method::lloyd towards the centroid; 1 <= relaxation < 2. A step that
+  /// would raise the energy is repeated with factor 1. Other methods ignore it.
   double relaxation = 1;
   Norm norm = Norm::l2_scaled;
-  double tolerance = 1e-6; ///< stop when the norm is at most this; > 0
+  double tolerance = 1e-6; ///< stop when the norm is at most this; > 0 and finite
   /// Maximum number of evaluations per level; >= 0. The last line search may exceed it.
   int max_iterations = 1000;
-  /// Number of bisections after the first level; >= 0, at most 2^30 generators. A level that has
-  /// converged or reached max_iterations is bisected (n -> 4n - 6, see bisect()) and converges
-  /// again.
+  /// Number of bisections after the first level; >= 0, and at most 2^30 generators in the last
+  /// level. A level that has converged or reached max_iterations is bisected (n -> 4n - 6, see
+  /// bisect()) and converges again.
   int bisections = 0;
   /// Quadrature points per half kite: 1, 3, 6, 7, 13 or 19; no effect for uniform density.
   int rule = 3;
-  /// Rule once the norm is below ten times the tolerance; no effect with Norm::none.
+  /// Rule from the iteration on in which the norm is at most ten times the tolerance or a line
+  /// search fails; same values as `rule`. A run converges with this rule only. No effect for
+  /// uniform density and with Norm::none.
   int final_rule = 6;
   int triangle_divisions = 1; ///< divides each half kite into this number squared; 1 to 100
   Duplicates duplicates = Duplicates::merge; ///< of the start, see DelaunayOptions
-  double merge_within = 0;                   ///< of the start, see DelaunayOptions; >= 0
-  Partition partition = {};                  ///< never affects the result
+  double merge_within = 0;                   ///< of the start, see DelaunayOptions; >= 0 and finite
+  Partition partition = {};                  ///< affects time and memory, not the result
 };
 
-/// One evaluation of the energy and the centroids; in Lloyd's method one iteration.
+/// One evaluation of the energy and the centroids; in Lloyd's method one iteration. Lengths are on
+/// the unit sphere, in the plane in the unit of the domain.
 struct CvtIteration {
   std::int64_t cells = 0;
   double spacing = 0;      ///< h, the square root of the mean cell area
   int rule = 0;            ///< quadrature points per half kite; 0 for exact moments
-  double l2 = 0, linf = 0; ///< on the unit sphere, not scaled
-  double gradient = 0;     ///< see Norm
+  double l2 = 0, linf = 0; ///< Norm::l2 and Norm::linf, not scaled
+  double gradient = 0;     ///< Norm::gradient
   double energy = 0;       ///< sum over cells of the integral of rho |x - x_i|^2
   bool accepted = true;    ///< false if the line search rejected this trial
   std::int64_t flips = 0;  ///< edge flips after the last move
@@ -84,28 +89,30 @@ struct CvtIteration {
 
 /// A region at the end of the run.
 struct CvtRegion {
-  std::int64_t sites = 0; ///< that it owns
+  std::int64_t sites = 0; ///< number of sites that the region owns
   double seconds = 0;     ///< time of its tasks since the last assignment of sites to regions
 };
 
 /// The value that CvtOptions::tolerance is compared with; 0 for Norm::none.
 double norm_of(const CvtIteration& iteration, Norm norm);
 
+/// The course of a run.
 struct CvtReport {
+  /// The norm of the last level is at most the tolerance; with Norm::none, all iterations are done.
   bool converged = false;
-  double residual = 0; ///< the norm at the end of the run
-  std::vector<CvtIteration> iterations;
-  std::vector<CvtRegion> regions;
+  double residual = 0;                  ///< the selected norm at the end of the run
+  std::vector<CvtIteration> iterations; ///< all evaluations, of all levels, in order
+  std::vector<CvtRegion> regions;       ///< of the last level
   double seconds = 0; ///< wall-clock time of the run, including the parts before a resumption
 };
 
-/// All that a run needs to go on to the same bits. write_checkpoint() saves it, read_checkpoint()
-/// loads it.
+/// The state from which a run continues to the same bits. write_checkpoint() saves it,
+/// read_checkpoint() loads it.
 class CvtState {
 public:
-  CvtState(); ///< of no generators
+  CvtState(); ///< a state without generators, which no run accepts
   CvtState(const CvtState& other);
-  CvtState(CvtState&& other) noexcept; ///< the other may only be assigned to or destroyed then
+  CvtState(CvtState&& other) noexcept; ///< afterwards assign to `other` or destroy it only
   CvtState& operator=(CvtState other) noexcept;
   ~CvtState();
 
@@ -114,7 +121,7 @@ public:
 
   const CvtReport& report() const; ///< of the run so far
 
-  /// For the library alone.
+  /// Internal to the library.
   struct Data;
   explicit CvtState(Data data);
   const Data& data() const { return *data_; }
@@ -124,12 +131,12 @@ private:
   std::unique_ptr<Data> data_;
 };
 
-/// Where a run stands after an accepted iteration. Valid during the call that it is passed to.
+/// The progress of a run after an accepted iteration. Valid during the call that it is passed to.
 struct CvtProgress {
-  const CvtReport& report;     ///< so far; residual and seconds are those of now
+  const CvtReport& report;     ///< of the run so far, with the current residual and seconds
   int iterations_of_level = 0; ///< evaluations of the current level, trials included
   int bisections_left = 0;     ///< levels that follow the current one
-  const CvtState& state;       ///< what a checkpoint holds
+  const CvtState& state;       ///< for write_checkpoint()
 };
 
 /// Called after each accepted iteration; return true to stop the run there. The result is then the
@@ -153,7 +160,9 @@ struct Cvt {
 /// The same start gives the same bits for any number of threads and regions. A run that does not
 /// converge within max_iterations is no error; the report says so.
 ///
-/// \param start 3 x n directions, 12 distinct at least, not within a hemisphere; equal ones merge.
+/// \param start 3 x n directions of any norm, 12 distinct at least, not within a hemisphere; by
+///        default equal ones merge.
+/// \param callback called after each accepted iteration, see CvtCallback; default none.
 ///
 /// \throws Error as spherical_delaunay(); too_few_sites for fewer than 12 generators, or when they
 ///         leave a hemisphere empty or meet; bad_option for an option out of range, or a density
@@ -170,13 +179,16 @@ CALOTTE_API_SPECIALISATION Cvt spherical_cvt(Points3&& start, const CvtOptions& 
                                              const CvtCallback& callback);
 
 /// Continues from a state. With the same options the result has the bits of an uninterrupted run.
+/// CvtOptions::bisections, duplicates and merge_within have no effect; the state holds the
+/// bisections that remain.
 /// \throws Error as above; bad_option for an incomplete state.
 Cvt spherical_cvt(CvtState state, const CvtOptions& options, const CvtCallback& callback = {});
 
 /// A centroidal Voronoi tessellation of a planar domain.
 struct PlanarCvt {
-  PlanarMesh mesh; ///< Delaunay triangulation of the generators, in the order of the start; in a
-                   ///< periodic box where that is
+  /// Delaunay triangulation of the generators, in the order of the start (after bisections, the
+  /// midpoints follow); periodic if the domain is.
+  PlanarMesh mesh;
   CvtReport report;
 };
 
@@ -187,19 +199,22 @@ struct PlanarCvt {
 ///
 /// \param start 2 x n places inside the domain, 3 distinct at least, not on one line; in a periodic
 ///         box as periodic_delaunay() requires.
-/// \throws Error as above; bad_option as require_domain(), or with the index of a generator outside
-///         of the domain.
+/// \param domain bounded by rings, or a periodic box.
+/// \throws Error as planar_delaunay() and periodic_delaunay(); bad_option as above, as
+///         require_domain(), or with the index of a generator outside of the domain.
 PlanarCvt planar_cvt(const PointsRef& start, const PlanarDomain& domain,
                      const CvtOptions& options = {}, const CvtCallback& callback = {});
 
-/// \throws Error as above.
+/// Continues from a state of a run in the same domain.
+/// \throws Error as above; bad_option for an incomplete state.
 PlanarCvt planar_cvt(CvtState state, const PlanarDomain& domain, const CvtOptions& options,
                      const CvtCallback& callback = {});
 
-/// The start of a continuation: n generators and b bisections give 4^b (n - 2) + 2 cells.
+/// The start of a continuation on the sphere: n generators and b bisections give 4^b (n - 2) + 2
+/// cells.
 struct Continuation {
-  Points3 start;
-  int bisections = 0;
+  Points3 start;            ///< 3 x n unit columns
+  int bisections = 0;       ///< value for CvtOptions::bisections
   bool icosahedral = false; ///< the start is a bisected icosahedron
 };
 
@@ -207,8 +222,9 @@ struct Continuation {
 /// uniform density, or 642 for others; `cells` itself if no bisection reaches it. For cells = 10 *
 /// 4^k + 2 the start is a bisected icosahedron, else a Fibonacci lattice (uniform density) or
 /// random points that follow site_density().
-/// \param cells 12 to 2^30.
-/// \param seed of random points; default 1.
+/// \param cells number of cells, 12 to 2^30.
+/// \param density density of the run, whose start the function computes.
+/// \param seed seed of random points; default 1.
 /// \throws Error bad_option for cells < 12 or > 2^30, an ill-formed density, or as random_sphere(n,
 ///         density, seed) where it draws.
 Continuation continuation(std::int64_t cells, const Density& density, std::uint64_t seed = 1);

@@ -22,12 +22,12 @@ struct DelaunayReport {
     double unite = 0;       ///< the seams' union, canonical order, adjacency
     double total = 0;       ///< all of the call, from the caller's points to the mesh
   } seconds;
-  std::int64_t sites = 0;
+  std::int64_t sites = 0;      ///< distinct sites of the input
   std::int64_t duplicates = 0; ///< input columns that were merged into another
   int regions = 0;
   int threads = 0;         ///< of the task arena it ran in
   bool one_region = false; ///< the sites were triangulated serially as one region
-  double overlap = 0;      ///< sites of all regions, halos included, over the number of sites
+  double overlap = 0;      ///< sites of all regions, halos included, divided by the number of sites
   std::vector<std::int64_t> sites_per_region; ///< owned and halo
   std::vector<std::int64_t> owned_per_region;
   std::vector<double> seconds_per_region; ///< gather to certify, by region
@@ -47,11 +47,12 @@ struct DelaunayReport {
 /// resolves cocircular sites (design of the in-circle predicate in lib/exact/predicates.h). It runs
 /// in the caller's task arena.
 ///
-/// \param points 3 x n directions of any norm from 1e-200 to 1e200.
-/// \param report if not null, filled.
-/// \throws Error bad_option (not 3 rows, or an option out of range), not_finite, zero_vector,
-///         duplicate (when refused), too_few_sites (fewer than 4 distinct), degenerate (all on one
-///         great circle), cancelled (by options.progress).
+/// \param points 3 x n directions of any norm from 1e-200 to 1e200, n from 4 to 2^30.
+/// \param report if not null, receives times and counts; default null.
+/// \throws Error bad_option (not 3 rows, more than 2^30 points, or an option out of range; see
+///         DelaunayOptions and Partition), not_finite, zero_vector, duplicate (when refused),
+///         too_few_sites (fewer than 4 distinct), degenerate (all on one great circle), cancelled
+///         (by options.progress).
 ///
 /// Jacobsen, Gunzburger, Ringler, Burkardt, Peterson: Parallel algorithms for planar and spherical
 /// Delaunay construction, Geosci. Model Dev. 6, 1353-1365, 2013.
@@ -68,26 +69,26 @@ CALOTTE_API_SPECIALISATION Mesh spherical_delaunay(Points3&& points, const Delau
                                                    DelaunayReport* report);
 
 /// The Delaunay triangulation of the convex hull of places in the plane, counter-clockwise.
-/// Coordinates are exact as stored, whatever their size. The result is unique as that of
+/// Coordinates of any size are exact as stored. The result is unique as that of
 /// spherical_delaunay().
 ///
-/// \param points 2 x n places.
-/// \param options merge_within is a distance.
-/// \param report if not null, filled.
-/// \throws Error bad_option (not 2 rows, or an option out of range), not_finite, duplicate (when
-///         refused), too_few_sites (fewer than 3 distinct), degenerate (all on one line),
-///         cancelled (by options.progress).
+/// \param points 2 x n places in any unit of length, n from 3 to 2^30.
+/// \param options merge_within is a distance in that unit.
+/// \param report if not null, receives times and counts; default null.
+/// \throws Error bad_option (not 2 rows, more than 2^30 points, or an option out of range),
+///         not_finite, duplicate (when refused), too_few_sites (fewer than 3 distinct), degenerate
+///         (all on one line), cancelled (by options.progress).
 PlanarMesh planar_delaunay(const PointsRef& points, const DelaunayOptions& options = {},
                            DelaunayReport* report = nullptr);
 
 /// The Delaunay triangulation of the doubly periodic box [0, period.x) x [0, period.y): 2n
-/// triangles, no boundary. It is exact for copies at the exact sums of coordinates and periods. The
-/// report counts the copies around the box, too.
+/// triangles, no boundary. It is exact for copies at the exact sums of coordinates and periods. All
+/// counts of the report but `sites` and `duplicates` include the copies around the box.
 ///
 /// \param points 2 x n places inside the box.
 /// \param period side lengths of the box, positive, at most 1e300, in the unit of the points.
 /// \throws Error as planar_delaunay(); bad_option for a period out of range or a point outside the
-///         box; too_few_sites where a circle wider than half of the box holds no site.
+///         box; too_few_sites if a circle wider than half of the box holds no site.
 PlanarMesh periodic_delaunay(const PointsRef& points, const Eigen::Vector2d& period,
                              const DelaunayOptions& options = {}, DelaunayReport* report = nullptr);
 

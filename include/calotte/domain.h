@@ -12,11 +12,13 @@ namespace calotte {
 
 /// A bounded domain of the plane: the interior of closed polygons, or a doubly periodic box.
 struct PlanarDomain {
-  /// Boundary polygons, each 2 x corners in either orientation; an edge joins the last corner to
-  /// the first. A point is inside the domain if it lies inside an odd number of rings, so that
-  /// rings can be outer boundaries, holes and islands. Default: none, a periodic box.
+  /// Boundary polygons, each 2 x corners in either orientation, in any unit of length; an edge
+  /// joins the last corner to the first. A point is inside the domain if it lies inside an odd
+  /// number of rings, so that rings can be outer boundaries, holes and islands. Default: none, a
+  /// periodic box.
   std::vector<Eigen::MatrixXd> rings;
-  /// Of the box [0, period.x) x [0, period.y); > 0 without rings, else 0.
+  /// Side lengths of the box [0, period.x) x [0, period.y); from 1e-30 to 1e30 without rings, else
+  /// 0.
   Eigen::Vector2d period{0, 0};
 
   bool periodic() const { return rings.empty(); }
@@ -28,7 +30,8 @@ struct PlanarDomain {
 PlanarDomain rectangle(const Eigen::Vector2d& lower, const Eigen::Vector2d& upper);
 
 /// The doubly periodic box [0, period.x) x [0, period.y).
-/// \throws Error bad_option unless both periods are positive and finite.
+/// \param period side lengths, from 1e-30 to 1e30, in any unit of length.
+/// \throws Error bad_option for a side length out of range.
 PlanarDomain periodic_box(const Eigen::Vector2d& period);
 
 /// Throws unless the rings bound a well-defined region, or the period is valid. Absolute
@@ -38,17 +41,20 @@ PlanarDomain periodic_box(const Eigen::Vector2d& period);
 ///         edges that meet elsewhere than in the corner that joins them.
 void require_domain(const PlanarDomain& domain);
 
-/// \pre require_domain().
+/// The area of the domain, in the square of its unit.
+/// \throws Error as require_domain() if the domain has rings.
 double area(const PlanarDomain& domain);
 
 /// True if the point lies inside the domain or on its boundary; for a periodic box, if it lies in
-/// the half-open box. The test is exact. Its time is linear in the number of corners.
-/// \param place 2-vector in the domain's unit.
-/// \pre require_domain().
+/// the half-open box. The test is exact. Each call prepares the boundary; for many places call
+/// containing().
+/// \param place in the unit of the domain; false for NaN.
+/// \throws Error as require_domain() if the domain has rings.
 bool contains(const PlanarDomain& domain, const Eigen::Vector2d& place);
 
-/// contains() for many places: the boundary is prepared once, and a call looks at the part of it
-/// beside the place. \pre require_domain().
+/// Returns contains() as a function for many places. It prepares the boundary once; a call reads
+/// only the edges near the place. The result keeps a copy of the boundary.
+/// \throws Error as require_domain() if the domain has rings.
 std::function<bool(const Eigen::Vector2d&)> containing(const PlanarDomain& domain);
 
 } // namespace calotte

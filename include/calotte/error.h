@@ -10,22 +10,25 @@
 CALOTTE_API_BEGIN
 namespace calotte {
 
+/// Why a call failed.
 enum class ErrorCode {
-  not_finite,    ///< a coordinate is NaN or infinite
-  zero_vector,   ///< a point at the origin has no direction
-  duplicate,     ///< equal directions or places, and the options do not allow them
-  too_few_sites, ///< fewer than 4 distinct sites, in the plane 3; too few for a periodic box
-  degenerate,    ///< all sites on one great circle or line
-  bad_option,    ///< an option outside its range
-  parse,         ///< a file violates its format
-  file,          ///< a file cannot be opened, read or written
-  cancelled,     ///< the caller's progress callback ended the run
-  internal,      ///< a bug of this library; please report it
+  not_finite,  ///< a coordinate is NaN or infinite
+  zero_vector, ///< a point at the origin has no direction
+  duplicate,   ///< equal directions or places, which Duplicates::refuse does not allow
+  /// Fewer than 4 distinct sites on the sphere, 3 in the plane, or 12 generators of a spherical
+  /// CVT; sites that leave an empty circle wider than half of a periodic box.
+  too_few_sites,
+  degenerate, ///< all sites on one great circle or line
+  bad_option, ///< an argument or option of the wrong shape or out of its range
+  parse,      ///< a file violates its format
+  file,       ///< a file cannot be opened, read or written
+  cancelled,  ///< the caller's progress callback ended the run
+  internal,   ///< a bug of this library; please report it
 };
 
 /// The one exception this library throws. `what()` is one line that names the offending index (or
-/// line of a file) and the remedy; `index()` is that 0-based index or 1-based line, -1 where none
-/// is.
+/// line of a file) and the remedy. `index()` is that 0-based index or 1-based line; -1 (the
+/// default) if the error has none.
 class Error : public std::runtime_error {
 public:
   Error(ErrorCode code, const std::string& message, std::int64_t index = -1)

@@ -11,8 +11,9 @@
 CALOTTE_API_BEGIN
 namespace calotte {
 
-/// Functions for the sphere return 3 x n Cartesian unit columns, with the same bits on every
-/// machine. They throw Error bad_option for a count out of range; the largest count is 2^30.
+/// Starts of a CVT and test sets. Functions for the sphere return 3 x n Cartesian unit columns,
+/// with the same bits on every machine. All functions throw Error bad_option for a count out of
+/// range; the largest count is 2^30.
 
 /// Independent random points, uniform on the sphere. A smaller n gives the first points of a larger
 /// n with the same seed. Method: Marsaglia's rejection (Ann. Math. Stat. 43, 1972) with SplitMix64.
@@ -36,11 +37,13 @@ Points3 random_sphere(std::int64_t n, std::uint64_t seed = 1);
 ///         everywhere; or a callable without a maximum.
 Points3 random_sphere(std::int64_t n, const Density& density, std::uint64_t seed = 1);
 
-/// The Fibonacci lattice: z_i = 1 - (2i + 1)/n, longitude i times the golden angle.
+/// The Fibonacci lattice, from north to south: z_i = 1 - (2i + 1)/n, longitude i times the golden
+/// angle pi (3 - sqrt 5).
 /// \param n number of points, 1 to 2^30.
 Points3 fibonacci_sphere(std::int64_t n);
 
-/// The generalised spiral of Rakhmanov, Saff and Zhou (Math. Res. Lett. 1, 1994), with both poles.
+/// The generalised spiral of Rakhmanov, Saff and Zhou (Math. Res. Lett. 1, 1994), from the south
+/// pole to the north pole.
 /// \param n number of points, 2 to 2^30.
 Points3 spiral_sphere(std::int64_t n);
 
@@ -51,14 +54,14 @@ Points3 spiral_sphere(std::int64_t n);
 Points3 bisected_icosahedron(int level);
 
 /// A regular latitude-longitude grid: rows of `longitudes` points at cell-centred latitudes, south
-/// to north.
-/// \param latitudes number of rows, >= 1.
+/// to north, each from longitude 0 eastwards.
+/// \param latitudes number of rows, >= 1; latitudes times longitudes is at most 2^30.
 /// \param longitudes points per row, >= 3.
-/// \param poles appends the two poles; default false.
+/// \param poles appends the south and the north pole; default false.
 Points3 lat_lon_sphere(std::int64_t latitudes, std::int64_t longitudes, bool poles = false);
 
 /// Centres of the 6 m^2 cells of the equiangular cubed sphere (Ronchi et al., 1996).
-/// \param m number of cells along an edge, >= 1.
+/// \param m number of cells along an edge, 1 to 13377.
 Points3 cubed_sphere(std::int64_t m);
 
 /// The points of a mesh, unchanged, followed by the unit midpoints of all edges in the order of the
@@ -69,13 +72,15 @@ Points3 bisect(const Mesh& mesh);
 
 /// Regular hexagons in the doubly periodic box [0, columns spacing) x [0, rows spacing sqrt(3)/2).
 /// Every second row is shifted by half a spacing. Site r columns + c is in row r.
-/// \param columns >= 3.
-/// \param rows even, >= 4.
-/// \param spacing distance between neighbouring sites; > 0 and finite.
+/// The mesh is the Delaunay triangulation of the sites.
+/// \param columns number of columns, >= 3; columns times rows is at most 2^30.
+/// \param rows number of rows, even, >= 4.
+/// \param spacing distance between neighbouring sites, in any unit of length; > 0 and finite.
 /// \throws Error bad_option for an argument out of range.
 PlanarMesh periodic_hexagons(std::int64_t columns, std::int64_t rows, double spacing);
 
-// ---- The plane: 2 x n points inside a domain. These functions also throw as require_domain().
+// ---- The plane: 2 x n points inside a domain, in its unit. These functions also throw as
+// require_domain().
 
 /// Independent random points, uniform in the domain. They do not depend on the number of threads; a
 /// smaller n gives the first points of a larger n.
@@ -83,10 +88,11 @@ PlanarMesh periodic_hexagons(std::int64_t columns, std::int64_t rows, double spa
 /// \param seed any value; default 1.
 Points2 random_places(std::int64_t n, const PlanarDomain& domain, std::uint64_t seed = 1);
 
-/// The same, distributed as the density (of columns x, y, 0; bumps as planar_cvt() has them):
-/// as random_sphere(n, density, seed) for a callable, so that what is narrower than 1/500 of the
-/// domain's longer extent can go unseen, but for the places that would fall there. \throws Error
-/// bad_option, as that.
+/// The same with the given density. The function bounds a density that is not uniform as
+/// random_sphere(n, density, seed) bounds a callable. It can miss features narrower than 1/500 of
+/// the longer extent of the domain; they then receive too few points.
+/// \param density in the plane, see Bump and Density::Callable.
+/// \throws Error bad_option as random_sphere(n, density, seed).
 Points2 random_places(std::int64_t n, const PlanarDomain& domain, const Density& density,
                       std::uint64_t seed = 1);
 
@@ -106,8 +112,8 @@ Points2 random_places(std::int64_t n, const PlanarDomain& domain, const Density&
 /// \throws Error bad_option also for n < 12 in a periodic box, and if no lattice point is inside.
 Points2 hexagonal_lattice(std::int64_t n, const PlanarDomain& domain);
 
-/// The points of a mesh, unchanged, followed by the midpoints of its edges that lie inside the
-/// domain or on its boundary, in the order of bisect(mesh). In a periodic box the midpoints are
+/// The points of a mesh, 2 x n, unchanged, followed by the midpoints of its edges that lie inside
+/// the domain or on its boundary, in the order of bisect(mesh). In a periodic box the midpoints are
 /// those between nearest copies, moved into the box; n points give 4n.
 /// \throws Error bad_option if an id is out of range, or the period of the mesh is not the
 ///         domain's.

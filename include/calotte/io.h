@@ -11,12 +11,19 @@
 CALOTTE_API_BEGIN
 namespace calotte {
 
-/// A checkpoint: a run's state as binary, with a text of the caller's that identifies the
-/// configuration. Reading throws for a file that is incomplete, damaged, or from another version.
+/// Writes a checkpoint: the state of a run in binary, with a checksum. The file is complete or
+/// absent, as with write().
+/// \param configuration text that identifies the configuration of the run, such as its options, one
+///        per line.
 /// \throws Error file.
 void write_checkpoint(const std::string& path, const CvtState& state,
                       const std::string& configuration);
-/// \throws Error file, parse, bad_option (of another configuration).
+
+/// Reads a checkpoint. The state has the bits of the one written.
+/// \param configuration must equal the text that the checkpoint was written with.
+/// \throws Error file; parse for a file that is not a checkpoint, is incomplete or damaged, or
+///         comes from another version or byte order; bad_option if the configuration differs,
+///         naming the first line that does.
 CvtState read_checkpoint(const std::string& path, const std::string& configuration);
 
 } // namespace calotte

@@ -13,33 +13,36 @@
 #include <string>
 #include <vector>
 
-/// Readers. Error messages name the file and, where there is one, the 1-based line.
+/// Readers. Error messages name the file and, in text formats, the 1-based line, which is also
+/// index(). The case of a suffix does not matter.
 CALOTTE_API_BEGIN
 namespace calotte {
 
+/// What the columns of a text file of points hold.
 enum class Columns {
-  xyz,    ///< x y z: a direction of any norm but 0
+  xyz,    ///< x y z: a direction of any norm but 0; the default
   lonlat, ///< longitude (any) and latitude (-90 to 90), in degrees, become unit columns
 };
 
-/// Reads points as text, one on each line: three numbers, or two with Columns::lonlat. Blanks or
-/// tabs, and at most one of comma, semicolon and bar, separate them; `#` starts a comment; blank
-/// lines are ignored; one header line without numbers may precede the points; further columns are
-/// ignored. Lines end in LF, CRLF or CR; a missing final newline loses nothing.
+/// Reads points as text, one on each line: three numbers, or two with Columns::lonlat. The result
+/// is 3 x n, with Columns::xyz as written, with Columns::lonlat unit columns. Blanks or tabs, and
+/// at most one of comma, semicolon and bar, separate them; `#` starts a comment; blank lines are
+/// ignored; one header line without numbers may precede the points; further columns are ignored.
+/// Lines end in LF, CRLF or CR; a missing final newline loses nothing.
 ///
 /// Longitude and latitude are exact at multiples of 90 degrees and give the same bits on every
 /// machine. Longitudes that differ by 360 give the same point, and so do all longitudes at a pole.
-/// \param name the stream's name in messages.
-/// \param lines if not null, the 1-based line of each column.
+/// \param name the name of the stream in messages.
+/// \param lines if not null, receives the 1-based line of each column; default null.
 /// \throws Error parse (index() is the 1-based line) for text that is not a number, NaN, infinity
-///         or the zero vector, too few columns, a latitude out of range, or a file without points.
-///         Error file.
+///         or the zero vector, too few columns, a latitude out of range, or a file without points;
+///         file.
 Points3 read_points(std::istream& in, const std::string& name, Columns columns = Columns::xyz,
                     std::vector<std::int64_t>* lines = nullptr);
 Points3 read_points(const std::string& path, Columns columns = Columns::xyz,
                     std::vector<std::int64_t>* lines = nullptr);
 
-/// The same for points in the plane: x y on each line.
+/// The same for points in the plane: x y on each line, in any unit. The result is 2 x n.
 /// \throws Error as above.
 Points2 read_planar_points(std::istream& in, const std::string& name,
                            std::vector<std::int64_t>* lines = nullptr);
@@ -59,36 +62,38 @@ Points2 read_planar_points(const std::string& path, std::vector<std::int64_t>* l
 ///         file's name; file.
 PlanarDomain read_domain(const std::string& path);
 
-/// Reads a mesh of any format that `write` supports, also from other programs. The name selects the
-/// format as in `write`, but the content of a NetCDF file determines its format under any name.
-/// Coordinates come back bit for bit where the format holds them. Formats without triangles of the
-/// sites (scrip, esmf, geojson, and cells of UGRID that others wrote) and files of points alone
-/// give the sites' Delaunay triangulation, in which equal directions are one site; so does
-/// SaveVertices without a SaveTriangles beside it that closes the sphere. The function checks that
-/// ids are in range; check() proves the geometry. Neighbours are rebuilt; an edge of three
-/// triangles, or of two that run through it the same way, stays open.
-/// \param points the columns that a .txt/.tri file refers to; not used otherwise. A column in no
-///         triangle is the duplicate of one that has the same direction, or else stays as a site
-///         without triangles.
-/// \throws Error bad_option, parse, file; of a planar mesh (all z are 0) bad_option; of sites that
-///         spherical_delaunay() refuses, its code.
+/// Reads a mesh of the sphere in any format that `write` supports, also from other programs. The
+/// name selects the format as in `write`. A file of suffix .nc, or a NetCDF file of unknown suffix,
+/// has the format of its content. Coordinates keep their bits if the format holds them. Formats
+/// without triangles of the sites (scrip, esmf, geojson, and cells of UGRID that others wrote) and
+/// files of points alone give the sites' Delaunay triangulation, in which equal directions are one
+/// site; so does SaveVertices without a SaveTriangles beside it that closes the sphere. The
+/// function checks that ids are in range; check() proves the geometry. Neighbours are rebuilt. An
+/// edge of three triangles, or of two that run through it in the same direction, stays open.
+/// \param points 3 x n, the points that the ids of a .txt or .tri file refer to; other formats
+///         ignore them. A column in no triangle is a duplicate of a column of the same direction,
+///         or else a site without triangles. Default null.
+/// \throws Error bad_option for an unknown suffix, a planar mesh (all z are 0), or a .txt or .tri
+///         file without `points`; parse; file; for sites that spherical_delaunay() refuses, its
+///         code.
 Mesh read_mesh(const std::string& path, const Points3* points = nullptr);
 
-/// Reads the points of such a file and ignores its triangles: the generators of an MPAS or UGRID
-/// mesh, the nodes of another's UGRID, SaveVertices, .msh; and MPI-SCVT's centres of regions, which
-/// RegionList holds, and RegionTriangulation by the RegionList beside it. (read_mesh triangulates
-/// these.)
+/// Reads the points of such a file, 3 x n, and ignores its triangles. In a UGRID file without sites
+/// the points are the nodes. The function also reads the region centres of MPI-SCVT: from
+/// RegionList, or for a name that starts with RegionTriangulation from the RegionList beside it.
+/// (read_mesh triangulates these.)
 /// \throws Error as read_mesh.
 Points3 read_sites(const std::string& path);
 
-/// A mesh of the plane: a periodic one from an MPAS file (.nc); others from all that
-/// write(path, PlanarMesh) writes, and JIGSAW's of NDIMS=2. Without triangles, the points are
-/// triangulated.
-/// \param points as read_mesh's. \throws Error as read_mesh; bad_option of a sphere's mesh, one
-/// with a z that is not 0.
+/// Reads a mesh of the plane: a periodic mesh from an MPAS file (.nc), other meshes from the
+/// formats of write(path, PlanarMesh) and from JIGSAW files of NDIMS=2. Points without triangles
+/// are triangulated by planar_delaunay().
+/// \param points 2 x n, as in read_mesh().
+/// \throws Error as read_mesh(); bad_option for a spherical mesh, which has a z that is not 0.
 PlanarMesh read_planar_mesh(const std::string& path, const Points2* points = nullptr);
 
-/// The bytes of a file. \throws Error file.
+/// Reads all bytes of a file.
+/// \throws Error file.
 std::string read_file(const std::string& path);
 
 /// A variable of a NetCDF file with one number for each cell.
@@ -97,24 +102,28 @@ struct CellField {
   std::string long_name, units; ///< the variable's attributes, or empty
 };
 
-/// Reads a variable whose one dimension, or the last after some of size 1, has the size `cells`.
-/// \param cells the columns of read_sites: cells of MPAS and UGRID files, nodes of UGRID triangles.
-/// \throws Error bad_option where the file has no such variable (names those there are); parse,
-///         file.
+/// Reads a NetCDF variable whose last dimension has the size `cells`; any other dimensions have the
+/// size 1.
+/// \param name name of the variable.
+/// \param cells number of columns of read_sites(): cells of MPAS and UGRID files, nodes of UGRID
+///        triangles.
+/// \throws Error bad_option if the file has no such variable, naming the variables of that size;
+///         parse; file.
 CellField read_cell_field(const std::string& path, const std::string& name, std::int64_t cells);
 
 /// Reads cell widths from a file. The suffix selects the format:
 ///
-/// .nc (NetCDF): the variable cellWidth(lat, lon) in km, with the coordinate variables lat and lon
-/// in degrees, one of them for each of its dimensions. Latitudes may descend. Longitudes cover any
-/// interval of 360 degrees; the first meridian may be repeated at the end. Both must cover the
-/// sphere without a gap wider than 1.5 times the widest step.
+/// .nc (NetCDF): the variable cellWidth(lat, lon) in km, or in metres if its attribute `units` says
+/// so, with the coordinate variables lat and lon (or latitude and longitude) in degrees. A fill
+/// value is an error. Latitudes may descend. Longitudes cover any interval of 360 degrees; the
+/// first meridian may be repeated at the end. Both must cover the sphere without a gap wider
+/// than 1.5 times the widest step.
 ///
-/// .msh (JIGSAW): an ellipsoid-grid, its longitudes and latitudes in radians, values by columns of
-/// latitudes; or a mesh (ellipsoid-mesh of longitude and latitude in radians, euclidean-mesh of x y
-/// z about the sphere's centre) with a value at each point. The values of a mesh are interpolated
-/// linearly on the Delaunay triangles of its points. The sampling interval is half of the points'
-/// smallest common spacing, from 0.05 to 1 degree.
+/// .msh (JIGSAW): an ellipsoid-grid, its longitudes and latitudes in radians, values in km by
+/// columns of latitudes; or a mesh (ellipsoid-mesh of longitude and latitude in radians,
+/// euclidean-mesh of x y z about the sphere's centre) with a value at each point. The values of a
+/// mesh are interpolated linearly on the Delaunay triangles of its points. The sampling interval is
+/// half of the spacing that a tenth of the edges are shorter than, from 0.05 to 1 degree.
 ///
 /// .geojson, .json: Polygon and MultiPolygon geometries, alone or in features or collections. An
 /// edge is straight in longitude and latitude (RFC 7946, Sect. 3.1.1), runs the shorter way round,
@@ -127,17 +136,19 @@ CellField read_cell_field(const std::string& path, const std::string& name, std:
 /// interval of the widths is a sixteenth of the transition, from 0.05 to 1 degree.
 ///
 /// \param polygons widths for GeoJSON; other formats ignore them.
-/// \throws Error bad_option for an unknown suffix, or a polygon width that is missing or not
-///         positive; parse, naming the variable and its index, the line or the feature; file.
+/// \throws Error bad_option for an unknown suffix, a width, transition or radius that is missing or
+///         not positive, a transition narrower than 0.2 degrees, or points of a mesh within a
+///         hemisphere; parse, naming the variable and its index, the line or the feature; file.
 CellWidth read_cell_width(const std::string& path, const PolygonWidths& polygons = {});
 
 /// Reads the variable density(lat, lon) of a NetCDF file, with the coordinates of read_cell_width.
-/// The result holds rho^(-1/4) divided by its minimum. These widths are relative; they imply no
-/// number of cells.
+/// Densities are > 0. The result holds rho^(-1/4) divided by its minimum. These widths are
+/// relative; they imply no number of cells.
+/// \throws Error parse, naming the variable and its index; file.
 CellWidth read_density_raster(const std::string& path);
 
 /// Reads the variable density(y, x) and the coordinate variables x(x) and y(y) of a NetCDF file.
-/// The coordinates may descend.
+/// Densities are finite and >= 0; the coordinates are in the unit of the domain and may descend.
 /// \throws Error parse, naming the variable and its index; file.
 PlanarRaster read_planar_raster(const std::string& path);
 

@@ -7,19 +7,22 @@
 CALOTTE_API_BEGIN
 namespace calotte {
 
-/// How the cells of a file are numbered.
+/// The order of the cells in a file.
 enum class Numbering {
-  by_format, ///< curve where the cells are numbered anew for a model (NetCDF), else input
+  by_format, ///< curve in NetCDF files, input in all others
   curve,     ///< along a space-filling curve
   rcm,       ///< reverse Cuthill-McKee: small differences between neighbours
-  input,     ///< as the mesh's sites
+  input,     ///< the order of the sites in the mesh
 };
 
-/// The same mesh with its sites in another order, and its triangles in the canonical order of
-/// these: the mesh that spherical_delaunay() makes of the permuted points, where it is Delaunay.
-/// site_of_input tells where the sites went. A mesh that is along the curve stays as it is;
-/// by_format and input change nothing. Any mesh that read_mesh returns will do. Linear time.
-/// \throws Error bad_option, for ids out of range; not_finite, zero_vector.
+/// The same mesh with its sites in another order and its triangles in canonical order. For a
+/// Delaunay mesh the result is that of spherical_delaunay() for the permuted points. site_of_input
+/// maps each input column to its new site. Numbering::curve keeps the order of sites that already
+/// follow the curve. The time is linear.
+/// \param mesh as spherical_delaunay() or read_mesh() returns it; it may be open.
+/// \param numbering by_format and input return the mesh unchanged.
+/// \throws Error bad_option for ids out of range, or neighbours that do not match the triangles;
+///         with Numbering::curve not_finite and zero_vector, with the index of the point.
 Mesh renumbered(const Mesh& mesh, Numbering numbering);
 
 } // namespace calotte

@@ -11,12 +11,13 @@
 CALOTTE_API_BEGIN
 namespace calotte {
 
-/// 3 x n, one Cartesian point a column. On the sphere a column is a *direction*: its norm is from
-/// 1e-200 to 1e200 and has no effect. Every predicate is evaluated as if x/|x| were exactly on the
-/// sphere.
+/// 3 x n, one Cartesian point a column. On the sphere a column is a *direction*: its norm has no
+/// effect and must be from 1e-200 to 1e200. Every predicate is evaluated as if x/|x| were exactly
+/// on the unit sphere. Zero and non-finite columns are errors; other norms out of range are not
+/// detected.
 using Points3 = Eigen::Matrix3Xd;
 
-/// 2 x n, one Cartesian point a column.
+/// 2 x n, one Cartesian point x y a column, in any unit of length.
 using Points2 = Eigen::Matrix2Xd;
 
 /// Points that a caller passes, 3 x n on the sphere or 2 x n in the plane, one Cartesian point a
@@ -31,35 +32,36 @@ using Points2 = Eigen::Matrix2Xd;
 ///     Eigen::Map<const Eigen::MatrixX3d>(values.data(), n, 3).transpose()  // all x, all y, all z
 using PointsRef = Eigen::Ref<const Eigen::MatrixXd>;
 
-/// 3 x m ids, one triangle a column.
+/// 3 x m 0-based ids, one triangle a column.
 using Triangles = Eigen::Matrix<std::int32_t, 3, Eigen::Dynamic>;
 
 /// A Delaunay triangulation of the unit sphere.
 ///
 /// `triangles` run counter-clockwise seen from outside, start at their lowest vertex and are sorted
 /// by their vertices, so that equal triangulations are equal arrays. `neighbours(i, t)` is the
-/// triangle across from vertex i of triangle t (it shares the edge of the two other vertices), -1
-/// where the mesh has an open boundary. It has one exactly when all sites lie in a closed
+/// triangle across from vertex i of triangle t (it shares the edge of the two other vertices), or
+/// -1 along an open boundary. The mesh has an open boundary exactly when all sites lie in a closed
 /// hemisphere; a closed mesh of n sites has 2n - 4 triangles.
 struct Mesh {
   Points3 points;      ///< 3 x n sites: the distinct columns of the input, as given, in their order
   Triangles triangles; ///< 3 x m site ids
   Triangles neighbours; ///< 3 x m triangle ids, or -1
   std::vector<std::int32_t>
-      site_of_input; ///< for each input column its site; a duplicate has the lowest's
+      site_of_input; ///< for each input column its site; a duplicate has the site of the lowest
 
+  /// True if the number of triangles is that of a closed mesh.
   bool closed() const { return triangles.cols() == 2 * points.cols() - 4; }
 };
 
-/// A Delaunay triangulation in the plane: of the sites' convex hull, or of a doubly periodic box,
-/// [0, period.x) x [0, period.y), where a triangle's corners are the nearest copies of its sites
-/// and n sites have 2n triangles. Triangles and neighbours are as Mesh's.
+/// A Delaunay triangulation in the plane: of the convex hull of the sites, or of the doubly
+/// periodic box [0, period.x) x [0, period.y). In the box the corners of a triangle are the nearest
+/// copies of its sites, and n sites have 2n triangles. Triangles and neighbours are as in Mesh.
 struct PlanarMesh {
-  Points2 points;                          ///< 2 x n sites
+  Points2 points;                          ///< 2 x n sites; in a periodic box, inside it
   Triangles triangles;                     ///< 3 x m site ids, counter-clockwise
   Triangles neighbours;                    ///< 3 x m triangle ids; -1 along an open boundary
-  std::vector<std::int32_t> site_of_input; ///< as Mesh's
-  Eigen::Vector2d period{0, 0};            ///< of the box; 0 of a plane without
+  std::vector<std::int32_t> site_of_input; ///< as in Mesh
+  Eigen::Vector2d period{0, 0};            ///< side lengths of the periodic box; 0 if there is none
 };
 
 } // namespace calotte

@@ -27,7 +27,7 @@ using Pairs = Eigen::Matrix<std::int32_t, 2, Eigen::Dynamic>;
 /// lengths are in the unit of the points and areas in its square, points lie in the box with z = 0,
 /// and distances are those between nearest copies.
 struct Voronoi {
-  bool on_sphere = true;
+  bool on_sphere = true;        ///< false in a periodic plane
   Eigen::Vector2d period{0, 0}; ///< of the periodic plane; 0 on the sphere
 
   Points3 cells;    ///< 3 x n: the sites; unit columns on the sphere
@@ -70,9 +70,11 @@ struct Voronoi {
 ///         or points that do not form a triangulation, naming the first triangle or site; for more
 ///         than 2^29 sites, whose edges exceed int32.
 Voronoi voronoi(const Mesh& mesh);
+
 /// The same for a periodic plane.
-/// \throws Error as above; bad_option for a box without area, for a site outside the box, and for a
-///         box so narrow that two cells share two edges.
+/// \param mesh the Delaunay triangulation of a periodic box with periods between 1e-30 and 1e30.
+/// \throws Error as above; bad_option for a period out of range, for a site outside the box, and
+///         for a box so narrow that two cells share two edges.
 Voronoi voronoi(const PlanarMesh& mesh);
 
 /// TRiSK weights, which reconstruct the tangential velocity from the normal velocity: v_e is the
@@ -83,16 +85,16 @@ Voronoi voronoi(const PlanarMesh& mesh);
 /// and for an edge between cells that coincide up to rounding.
 struct TangentialWeights {
   Eigen::Matrix<std::int64_t, Eigen::Dynamic, 1>
-      begin; ///< entries of the k-th edge: begin[k] to begin[k + 1] - 1
-  Ids edges;
-  Eigen::VectorXd weights;
+      begin;               ///< entries of the k-th edge: begin[k] to begin[k + 1] - 1
+  Ids edges;               ///< by entry: the other edge e'
+  Eigen::VectorXd weights; ///< by entry: its weight, without unit
 };
 
 /// The weights of edges first to last - 1. A caller may process a large mesh in parts.
 /// \pre 0 <= first <= last <= number of edges.
 TangentialWeights tangential_weights(const Voronoi& voronoi, std::int64_t first, std::int64_t last);
 
-/// Scalar fields of the n cells, for pictures and files.
+/// Scalar fields of the n cells, for pictures and files. Units are those of Voronoi.
 struct CellFields {
   Eigen::VectorXd area; ///< as Voronoi::cell_area
   /// Density at the site, divided by its maximum over the sites; 1 if uniform.
@@ -103,12 +105,13 @@ struct CellFields {
 };
 
 /// Computes the fields.
-/// \param density default: uniform. In a plane it must be uniform.
+/// \param density evaluated at the sites; in a plane uniform. Default: uniform.
 /// \throws Error bad_option as evaluate(), and if the density is zero at every cell.
 CellFields cell_fields(const Voronoi& voronoi, const Density& density = {});
 
 /// The nominal spacing at the maximum of the density, for regular hexagonal cells with h ~
-/// rho^(-1/4): sqrt(2/sqrt(3)/n sum area rho^(1/2)), with rho of CellFields. Radians.
+/// rho^(-1/4): sqrt(2/sqrt(3)/n sum area rho^(1/2)), with rho of CellFields. Radians on the sphere,
+/// in a plane the unit of the points.
 double nominal_spacing(const CellFields& fields);
 
 } // namespace calotte

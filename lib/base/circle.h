@@ -10,10 +10,10 @@ struct CosSin {
   double cos, sin;
 };
 
-/// The cosine and sine of (octant + part) pi/4; of an odd octant, `part` is measured from its far
-/// end. Points of equal part are mirror images to the last bit: lattices come out as symmetric as
-/// the circle, and multiples of pi/2 exact. Only + - * round, each once, so that every machine gets
-/// the same bits: sin and cos of a C library differ from one build of it to the next.
+/// The cosine and sine of (octant + part) pi/4; in an odd octant, `part` is measured from its far
+/// end. Points of equal part are mirror images to the last bit, so that lattices have the symmetry
+/// of the circle, and multiples of pi/2 are exact. The function uses only + - *, each rounded once,
+/// so that every machine gives the same bits; sin and cos differ between builds of a C library.
 /// \param octant 0 to 7.
 /// \param part 0 to 1.
 inline CosSin cos_sin_of_octant(int octant, double part) {

@@ -7,10 +7,10 @@ namespace calotte::base_detail {
 
 /// An unevaluated sum hi + lo of two doubles, |lo| <= ulp(hi)/2: about 106 bits.
 ///
-/// Sums and products err by at most 4 v^2 and 8 v^2 relative, v = 2^-53, barring underflow (Joldes,
-/// Muller, Popescu: Tight and rigorous error bounds for basic building blocks of double-word
-/// arithmetic, ACM Trans. Math. Softw. 44, 2017, algorithms 6 and 10, rounded up). Written with
-/// + - * alone, so that every machine gives the same bits.
+/// Barring underflow, the relative errors of sums and products are at most 4 v^2 and 8 v^2, v =
+/// 2^-53 (Joldes, Muller, Popescu: Tight and rigorous error bounds for basic building blocks of
+/// double-word arithmetic, ACM Trans. Math. Softw. 44, 2017, algorithms 6 and 10, rounded up). The
+/// code uses only + - *, so that every machine gives the same bits.
 struct DoubleDouble {
   double hi = 0, lo = 0;
 };

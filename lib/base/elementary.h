@@ -48,10 +48,10 @@ CALOTTE_INLINE double arc_sine_of_root(double w) {
   return s + s * (w * (p / q));
 }
 
-/// atan(x) for |x| <= 1; beyond, it loses digits.
+/// atan(x) for |x| <= 1; loses digits for larger |x|.
 CALOTTE_INLINE double arc_tangent(double x) { return arc_sine(x / std::sqrt(1 + x * x)); }
 
-/// exp(x) for |x| <= 700, to 2 units in the last place; beyond, that of the nearest bound.
+/// exp(x) for |x| <= 700, to 2 units in the last place; other arguments are clamped to that range.
 CALOTTE_INLINE double exponential(double x) {
   constexpr double log2_e = 1.4426950408889634, ln2_high = 6.93147180369123816490e-01,
                    ln2_low = 1.90821492927058770002e-10;

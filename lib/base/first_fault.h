@@ -19,7 +19,7 @@ public:
     while (index < known && !first_.compare_exchange_weak(known, index, std::memory_order_relaxed))
       ;
   }
-  /// \throws Error bad_option "<thing> <index> <fault>", where there was one.
+  /// \throws Error bad_option "<thing> <index> <fault>" if there is a fault.
   void refuse(const std::string& thing, const std::string& fault) const {
     if (const std::int64_t index = first_.load(std::memory_order_relaxed); index != none)
       throw Error(ErrorCode::bad_option, thing + ' ' + std::to_string(index) + ' ' + fault, index);

@@ -7,10 +7,10 @@
 
 namespace calotte::base_detail {
 
-/// Tells ThreadSanitizer what it cannot see, since Debian's libtbb is not built for it: all that
-/// precedes a parallel loop happens before each of its bodies, and each body before all that
-/// follows the loop. Two bodies stay unordered, so races between them are still found. In other
-/// builds it does nothing.
+/// Annotations for ThreadSanitizer, which cannot see the synchronisation in Debian's libtbb because
+/// that is not instrumented. They state that everything before a parallel loop happens before each
+/// of its bodies, and each body before everything after the loop. Two bodies remain unordered, so
+/// that races between them are still found. In other builds the functions do nothing.
 class Handover {
 #ifdef __SANITIZE_THREAD__
 #define CALOTTE_UNSEEN                                                                             \

@@ -8,8 +8,8 @@
 namespace calotte::base_detail {
 namespace {
 
-/// std::remainder and std::fmod are exact, and so the reduction to an octant is, but for the last
-/// subtraction, which rounds once.
+/// std::remainder and std::fmod are exact, and so is the reduction to an octant, except for the
+/// last subtraction, which rounds once.
 CosSin cos_sin(double degrees) {
   const double turned = std::remainder(degrees, 360.0), angle = std::abs(turned);
   const double rest = std::fmod(angle, 45.0);
@@ -24,7 +24,7 @@ CosSin cos_sin(double degrees) {
 
 Vec3 from_lonlat(double longitude, double latitude) {
   const CosSin east = cos_sin(longitude), north = cos_sin(latitude);
-  // Adding 0 makes -0 into 0, so that equal places are equal bits.
+  // Adding 0 turns -0 into 0, so that equal places have equal bits.
   return {north.cos * east.cos + 0.0, north.cos * east.sin + 0.0, north.sin + 0.0};
 }
 

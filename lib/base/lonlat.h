@@ -5,10 +5,10 @@
 
 namespace calotte::base_detail {
 
-/// The unit vector at a longitude (any finite value) and a latitude (-90 to 90) in degrees. Laws:
-/// exact at multiples of 90 degrees; longitudes that differ by 360 give the same bits, and so do
-/// all longitudes at a pole; no coordinate is -0. Only + - * / round here, so that every machine
-/// gets the same bits.
+/// The unit vector at a longitude (any finite value) and a latitude (-90 to 90) in degrees. It is
+/// exact at multiples of 90 degrees. Longitudes that differ by 360 give the same bits, and so do
+/// all longitudes at a pole. No coordinate is -0. Only + - * / round here, so that every machine
+/// gives the same bits.
 Vec3 from_lonlat(double longitude, double latitude);
 
 } // namespace calotte::base_detail

@@ -8,8 +8,8 @@
 
 namespace calotte::base_detail {
 
-/// Sizes an Eigen matrix like an Array: not initialised, so that the thread that first writes a
-/// page also faults it in.
+/// Resizes an Eigen matrix without initialising it, as Array does, so that the thread that first
+/// writes a page also faults it in.
 template <class Matrix> void make_room(Matrix& matrix, std::int64_t rows, std::int64_t columns) {
   matrix.resize(rows, columns);
   prefer_huge_pages(matrix.data(),

@@ -20,7 +20,7 @@
 #endif
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define CALOTTE_POOLED false // the sanitizers see what malloc gives
+#define CALOTTE_POOLED false // the sanitizers track malloc
 #else
 #define CALOTTE_POOLED true
 #endif
@@ -28,8 +28,8 @@
 namespace calotte::base_detail {
 
 #ifdef __linux__
-/// Gives the system madvise()'s advice on the whole pages of a block, of that many bytes each. A
-/// refusal changes nothing.
+/// Passes `advice` to madvise() for the whole pages, of `page` bytes each, of a block. Errors are
+/// ignored.
 inline void advise(void* begin, std::size_t bytes, std::size_t page, int advice) {
   const auto address = reinterpret_cast<std::uintptr_t>(begin);
   const std::uintptr_t first = (address + page - 1) / page * page,
@@ -39,8 +39,8 @@ inline void advise(void* begin, std::size_t bytes, std::size_t page, int advice)
 }
 #endif
 
-/// Asks the system to back fresh memory by huge pages where it lets programs choose. Large arrays
-/// that are read and written at random then miss the TLB seldom, and fault in 512 times less often.
+/// Requests huge pages for fresh memory if the system lets programs choose. Random access to large
+/// arrays then causes fewer TLB misses and 512 times fewer page faults.
 inline void prefer_huge_pages([[maybe_unused]] void* begin, [[maybe_unused]] std::size_t bytes) {
 #ifdef __linux__
   advise(begin, bytes, std::size_t{1} << 21, MADV_HUGEPAGE);
@@ -50,9 +50,9 @@ inline void prefer_huge_pages([[maybe_unused]] void* begin, [[maybe_unused]] std
 /// n values of a type without constructors, not initialised, so that the thread that first writes a
 /// page also faults it in.
 ///
-/// Up to some megabytes the memory is oneTBB's, which keeps it for the next array; the C library
-/// returns such blocks to the system, and faulting them in again would cost a tenth of a
-/// triangulation. Larger arrays come from the system and go back to it.
+/// Arrays of up to a few megabytes come from oneTBB, which keeps their memory for the next array.
+/// The C library would return such blocks to the system, and faulting them in again would cost a
+/// tenth of a triangulation. Larger arrays come from the system and return to it.
 template <class T> class Array {
 public:
   Array() = default;
@@ -95,11 +95,12 @@ private:
   Data data_;
 };
 
-/// The pools keep what a triangulation of up to so many sites leaves, for the next one; that of
-/// more, half a gigabyte of reports alone, goes back to the system.
+/// The pools keep the memory of a triangulation of up to this number of sites for the next one. A
+/// larger triangulation, whose reports alone take half a gigabyte, returns its memory to the
+/// system.
 inline constexpr std::int64_t most_sites_kept = 1 << 23;
 
-/// Gives back to the system what oneTBB and the C library keep for arrays to come.
+/// Returns to the system the free memory that oneTBB and the C library keep for later arrays.
 inline void empty_pools() {
 #if CALOTTE_POOLED
   scalable_allocation_command(TBBMALLOC_CLEAN_ALL_BUFFERS, nullptr);
@@ -109,8 +110,8 @@ inline void empty_pools() {
 #endif
 }
 
-/// Frees an array, and gives its pages back to the system, also those of a block in a pool that
-/// other arrays keep from going back.
+/// Frees an array and returns its pages to the system, including those of a block in a pool that
+/// other arrays keep alive.
 template <class T> void give_back(Array<T>& array) {
 #ifdef __linux__
   advise(array.begin(), static_cast<std::size_t>(array.size()) * sizeof(T),

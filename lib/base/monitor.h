@@ -12,14 +12,15 @@
 
 namespace calotte::base_detail {
 
-/// Tells a caller how far a run is, and ends the run if the caller cancels it. Stages follow one
+/// Reports progress to a callback and ends the run if the callback cancels it. Stages follow one
 /// another; the steps of a stage may end in any thread. Without a callback a step costs one branch.
 class Monitor {
 public:
   explicit Monitor(const ProgressCallback& callback) : callback_(callback ? &callback : nullptr) {}
 
-  /// Begins a stage that leads to the fraction `end` in so many steps. From one thread, while no
-  /// step runs. \throws Error cancelled.
+  /// Begins a stage of `steps` steps that ends at the fraction `end`. Call it from one thread,
+  /// while no step runs.
+  /// \throws Error cancelled.
   void begin(std::string_view stage, double end, std::int64_t steps) {
     if (!callback_)
       return;
@@ -31,7 +32,8 @@ public:
     tell();
   }
 
-  /// Ends steps of the stage. From any thread. \throws Error cancelled.
+  /// Ends `count` steps of the stage. Any thread may call it.
+  /// \throws Error cancelled.
   void step(std::int64_t count = 1) {
     if (!callback_)
       return;
@@ -39,23 +41,24 @@ public:
     tell();
   }
 
-  /// The run is complete. \param stage its last one, where it was not this monitor's.
+  /// Reports the fraction 1.
+  /// \param stage the last stage if another monitor ran it.
   void finish(std::string_view stage = {}) {
     if (callback_)
       (*callback_)({stage.empty() ? stage_ : stage, 1});
   }
 
 private:
-  /// A thread that finds another one in the callback goes on.
+  /// Calls the callback, unless another thread is in it.
   void tell() {
     if (!ended_.load(std::memory_order_acquire) &&
         !telling_.test_and_set(std::memory_order_acquire)) {
-      if (!ended_.load(std::memory_order_acquire)) // another thread's turn may have ended the run
+      if (!ended_.load(std::memory_order_acquire)) // another thread's call may have ended the run
         call();
       telling_.clear(std::memory_order_release);
     }
     if (ended_.load(std::memory_order_acquire))
-      std::rethrow_exception(reason_); // in all threads: whichever oneTBB hands on
+      std::rethrow_exception(reason_); // in all threads, because oneTBB passes on any one of them
   }
 
   void call() {
@@ -80,11 +83,11 @@ private:
   std::int64_t steps_ = 1;
   std::atomic<std::int64_t> done_{0};
   std::atomic<bool> ended_{false};
-  std::exception_ptr reason_; ///< where it has ended
+  std::exception_ptr reason_; ///< set if the run has ended
   std::atomic_flag telling_ = ATOMIC_FLAG_INIT;
 };
 
-/// Where a monitor is optional.
+/// For an optional monitor: does nothing for null.
 inline void step(Monitor* monitor) {
   if (monitor)
     monitor->step();

@@ -16,11 +16,11 @@
 #include <utility>
 #include <vector>
 
-/// The only file with oneTBB's loops. They run in the caller's task arena; every body writes slots
-/// of its own, so that no result depends on the number of threads.
+/// The only file with oneTBB's loops. They run in the caller's task arena. Each body writes its own
+/// slots, so that no result depends on the number of threads.
 namespace calotte::base_detail {
 
-/// body(i) for 0 <= i < n, each a task of its own.
+/// body(i) for 0 <= i < n, each in its own task.
 template <class Body> void for_each_task(std::int64_t n, const Body& body) {
   Handover handover;
   handover.fork();
@@ -51,7 +51,7 @@ template <class Body> void for_each_block(std::int64_t n, const Body& body) {
   });
 }
 
-/// Whether holds(begin, end) for all blocks of [0, n).
+/// True if holds(begin, end) is true for all blocks of [0, n).
 template <class Holds> bool holds_for_blocks(std::int64_t n, const Holds& holds) {
   std::atomic<bool> all = true;
   for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {

@@ -13,7 +13,7 @@
 
 namespace calotte::base_detail {
 
-/// A column in place: columns of a Points3 are triples of doubles, as Vec3 is.
+/// A reference to a column: columns of a Points3 are triples of doubles, as Vec3 is.
 inline const Vec3& column(const Points3& points, std::int64_t i) {
   return *reinterpret_cast<const Vec3*>(points.data() + 3 * i);
 }
@@ -22,7 +22,7 @@ inline void set_column(Points3& points, std::int64_t i, const Vec3& value) {
   *reinterpret_cast<Vec3*>(points.data() + 3 * i) = value;
 }
 
-/// Points in place, whatever the distance of their columns in memory.
+/// Points in place, with any stride between columns.
 using Points3Ref = Eigen::Ref<const Points3>;
 using Points2Ref = Eigen::Ref<const Points2>;
 
@@ -30,9 +30,9 @@ inline const Vec3& column(const Points3Ref& points, std::int64_t i) {
   return *reinterpret_cast<const Vec3*>(points.data() + points.outerStride() * i);
 }
 
-/// \throws Error bad_option unless a caller's points have so many rows.
-/// \param columns what to give instead. \param instead what to call for points of the other kind,
-///        or empty.
+/// \throws Error bad_option unless a caller's points have the given number of rows.
+/// \param columns the shape to give instead, for the message.
+/// \param instead the function for points of the other kind, for the message, or empty.
 inline void require_rows(const PointsRef& points, Eigen::Index rows, const std::string& columns,
                          const std::string& instead) {
   const bool other = points.rows() == 2 || points.rows() == 3;
@@ -41,21 +41,23 @@ inline void require_rows(const PointsRef& points, Eigen::Index rows, const std::
                                      (other && !instead.empty() ? ", or call " + instead : ""));
 }
 
-/// A caller's directions, in place. \throws Error bad_option unless they have 3 rows.
-/// \param planar what to call with 2 rows, or empty.
+/// A caller's directions, in place.
+/// \param planar the function for points of 2 rows, for the message, or empty.
+/// \throws Error bad_option unless they have 3 rows.
 inline Points3Ref directions_of(const PointsRef& points, const std::string& planar = {}) {
   require_rows(points, 3, "3 x n columns x y z", planar);
   return points;
 }
 
-/// A caller's places in the plane, in place. \throws Error bad_option unless they have 2 rows.
-/// \param spherical what to call with 3 rows, or empty.
+/// A caller's places in the plane, in place.
+/// \param spherical the function for points of 3 rows, for the message, or empty.
+/// \throws Error bad_option unless they have 2 rows.
 inline Points2Ref places_of(const PointsRef& points, const std::string& spherical = {}) {
   require_rows(points, 2, "2 x n columns x y", spherical);
   return points;
 }
 
-/// site_of_input where no input was merged: 0 to n - 1.
+/// site_of_input if no input is merged: 0 to n - 1.
 inline std::vector<std::int32_t> themselves(std::int64_t n) {
   std::vector<std::int32_t> sites(static_cast<std::size_t>(n));
   std::iota(sites.begin(), sites.end(), 0);

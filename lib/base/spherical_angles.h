@@ -3,8 +3,8 @@
 
 #include "base/elementary.h"
 
-/// Longitude and latitude of vectors in radians, good to 1e-15, as fixed sequences of operations:
-/// see elementary.h. The library's own atan2 differs from one C library to the next.
+/// Longitude and latitude of vectors in radians, accurate to 1e-15, as fixed sequences of
+/// operations (see elementary.h). std::atan2 differs between C libraries.
 namespace calotte::base_detail {
 
 /// atan2(sqrt(b), sqrt(a)) of two squares, which are not both below 1e-290 (0 is returned then).

@@ -9,7 +9,7 @@ namespace calotte::base_detail {
 /// entered anywhere.
 class SplitMix {
 public:
-  /// \param skipped numbers of the seed's stream that are left out.
+  /// \param skipped number of values of the stream to skip.
   explicit SplitMix(std::uint64_t seed, std::uint64_t skipped = 0)
       : state_(seed + skipped * step) {}
 

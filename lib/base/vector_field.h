@@ -5,7 +5,7 @@
 
 namespace calotte::base_detail {
 
-/// Vectors at n places, 3 x n. What is summed over the places is summed by blocks in their order:
+/// Vectors at n places, 3 x n. Sums over the places are computed block by block in a fixed order:
 /// the same bits for any number of threads.
 
 double inner(const Points3& a, const Points3& b);
@@ -15,7 +15,7 @@ void add(Points3& y, double a, const Points3& x);
 
 void multiply(Points3& y, double a);
 
-/// Takes from each vector its part along x, unit columns.
+/// Subtracts from each vector its component along x, unit columns.
 void make_tangential(Points3& vectors, const Points3& x);
 
 /// x + step d, normalised.

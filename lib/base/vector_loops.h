@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-/// How the loops are compiled that vector code is wanted of.
+/// Attributes and pragmas for loops that must compile to vector code.
 
-/// Compiled for several vector widths, of which the widest that the machine has is chosen when the
-/// program starts. Not under sanitizers, whose runtime is not ready by then.
+/// Compiles a function for several vector widths; the program selects the widest that the machine
+/// supports at its start. Disabled under sanitizers, whose runtime is not ready at that time.
 #if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__SANITIZE_ADDRESS__) &&             \
     !defined(__SANITIZE_THREAD__) && !defined(__clang__)
 #define CALOTTE_VECTOR_WIDTHS __attribute__((target_clones("default", "avx2", "avx512f")))
@@ -12,14 +12,15 @@
 #define CALOTTE_VECTOR_WIDTHS
 #endif
 
-/// A call would end the vector code of the loop around it.
+/// Forces inlining: a call would prevent vector code in the loop around it.
 #ifdef __GNUC__
 #define CALOTTE_INLINE inline __attribute__((always_inline))
 #else
 #define CALOTTE_INLINE inline
 #endif
 
-/// Before a loop: no iteration reads what another one writes, though the compiler cannot know.
+/// Placed before a loop: no iteration reads what another one writes, which the compiler cannot
+/// prove.
 #if defined(__clang__)
 #define CALOTTE_VECTOR_LOOP _Pragma("clang loop vectorize(assume_safety)")
 #elif defined(__GNUC__)

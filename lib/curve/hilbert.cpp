@@ -6,7 +6,8 @@
 namespace calotte::curve_detail {
 namespace {
 
-// Five levels a look-up: for each turn and 5 bits of i and of j, 10 bits of key and the turn below.
+// A table of five levels: for each turn and 5 bits of i and of j, 10 bits of key and the turn
+// below.
 constexpr int step = 5;
 constexpr unsigned cells = 1U << (2 * step);
 
@@ -40,7 +41,7 @@ unsigned cell_index(double u) {
   return static_cast<unsigned>(std::clamp((u + 1) * half, 0.0, 2 * half - 1));
 }
 
-/// The key of a point, level by level: each step waits for the turn that the one before it left.
+/// The key of a point, level by level; each step depends on the turn of the step before.
 struct KeyDescent {
   unsigned i, j, turn;
   std::uint64_t key;

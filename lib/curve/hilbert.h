@@ -24,8 +24,8 @@ struct CubePoint {
 };
 
 inline CubePoint to_cube(const Vec3& p) {
-  // The faces' axes make the curve continuous from each face to the next. Without branches, which
-  // would be mispredicted: sites in no order are on any face.
+  // The axes of the faces make the curve continuous from each face to the next. The code has no
+  // branches, because those would be mispredicted for sites in random order.
   struct Axes {
     std::uint8_t u, v;
     double sign_u, sign_v;
@@ -60,13 +60,13 @@ inline Vec3 from_cube(const CubePoint& c) {
   }
 }
 
-/// How a cell's four children are run through: bit 0 exchanges the axes, bit 1 reverses both.
+/// The order of the four children of a cell: bit 0 exchanges the axes, bit 1 reverses both.
 using CurveTurn = std::uint8_t;
 struct Quadrant {
   std::uint8_t i, j;
 };
 
-/// The position-th quadrant of a cell of that turn.
+/// The position-th quadrant of a cell with that turn.
 constexpr Quadrant curve_quadrant(CurveTurn turn, int position) {
   std::uint8_t i = position >= 2, j = position == 1 || position == 2;
   if (turn & 2) {
@@ -87,7 +87,7 @@ constexpr CurveTurn face_turn(int face) { return face & 1; }
 /// Key of the finest cell, of key_bits bits.
 std::uint64_t curve_key(const CubePoint& c);
 
-/// The keys of four points, in little more time than that of one.
+/// The keys of four points, in about the time of one.
 std::array<std::uint64_t, 4> curve_keys(const std::array<CubePoint, 4>& points);
 
 /// body(i, key of square(i)) for begin <= i < end.

@@ -8,7 +8,7 @@
 namespace calotte::curve_detail {
 namespace {
 
-/// Bits of a key below the cells of a level.
+/// Number of key bits below the cells of a level.
 constexpr int bits_below(int level) { return 2 * (curve_levels - level); }
 
 } // namespace
@@ -35,8 +35,8 @@ Quadtree::Quadtree(Array<std::uint64_t> keys, bool planar)
             static_cast<std::int32_t>(n));
 }
 
-/// The first rank, of those from begin to end, with that key or a higher one.
-/// \param key that of a cell of the level.
+/// The first rank in [begin, end) with that key or a higher one.
+/// \param key key of a cell of the level.
 std::int64_t Quadtree::first_rank(std::uint64_t key, int level, std::int64_t begin,
                                   std::int64_t end) const {
   if (level <= level_)
@@ -87,7 +87,7 @@ Ball bounding_ball(const QuadtreeCell& cell) {
   if (cell.face == plane_face)
     return {{u, v, 0}, 0.70710679 * width + 0x1p-50};
   const Vec3 middle = from_cube({cell.face, u, v});
-  // Central projection from the cube onto the unit ball inside it lengthens no distance.
+  // The central projection from the cube onto its inscribed unit ball does not increase distances.
   return {(1 / norm(middle)) * middle, 0.70710679 * width + 0x1p-50};
 }
 

@@ -10,7 +10,7 @@
 
 namespace calotte::curve_detail {
 
-/// The face of a plane's cells, which are squares of [-1,1]^2. Their keys are those of face 0.
+/// The face of the cells of a plane, which are squares of [-1,1]^2. Their keys are those of face 0.
 inline constexpr int plane_face = 6;
 
 /// A square of a cube's face or of the plane, and the run of ranks in it.
@@ -25,13 +25,14 @@ struct QuadtreeCell {
   bool divisible() const { return level < curve_levels; }
 };
 
-/// The quadtree that sites sorted by curve key are. A directory tells where the cells of one level
-/// begin, of a few sites each where these are evenly spread; below it, a descent bisects the keys.
+/// The quadtree that sites sorted by curve key form. A directory stores where the cells of one
+/// level begin, with a few sites per cell for an even distribution; below that level, a descent
+/// bisects the keys.
 class Quadtree {
 public:
   Quadtree() = default;
   /// \param keys ascending.
-  /// \param planar whether they are those of a plane's cells.
+  /// \param planar true for the keys of a plane.
   explicit Quadtree(Array<std::uint64_t> keys, bool planar = false);
 
   const Array<std::uint64_t>& keys() const { return keys_; }
@@ -48,7 +49,7 @@ private:
   Array<std::int32_t> first_{}; ///< by cell of that level, and the number of all
 };
 
-/// A ball that holds the directions of the cell, or in a plane its square.
+/// A ball that contains the directions of the cell, or in a plane its square.
 struct Ball {
   Vec3 centre; ///< a unit vector, or z = 0
   double radius;

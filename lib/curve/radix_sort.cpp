@@ -10,12 +10,11 @@ namespace calotte::curve_detail {
 namespace {
 
 constexpr int first_digit = 12, digit = 8;
-/// Comparison sorts mispredict in their inner loops, a digit pass does not: only runs up to this
-/// length are compared.
+/// Longest run that is sorted by comparison. The inner loops of comparison sorts mispredict; a
+/// digit pass does not.
 constexpr std::int64_t short_run = 24;
 
-/// Sorts [begin, end), whose keys agree above bit `shift`, with `buffer` of the same length to
-/// spare.
+/// Sorts [begin, end), whose keys agree above bit `shift`. `buffer` is scratch of the same length.
 void sort_run(KeyedItem* begin, KeyedItem* end, KeyedItem* buffer, int shift) {
   if (end - begin <= short_run || shift <= 0) {
     std::sort(begin, end, precedes);
@@ -37,7 +36,7 @@ void sort_run(KeyedItem* begin, KeyedItem* end, KeyedItem* buffer, int shift) {
       sort_run(begin + first[d], begin + first[d + 1], buffer, down);
 }
 
-/// Sorts keys together with their items; `run` and `buffer` have room for them.
+/// Sorts keys together with their items; `run` and `buffer` are scratch of their length.
 void sort_bucket(std::span<std::uint64_t> keys, std::int32_t* items, KeyedItem* run,
                  KeyedItem* buffer) {
   for (std::size_t i = 0; i < keys.size(); ++i)
@@ -49,8 +48,8 @@ void sort_bucket(std::span<std::uint64_t> keys, std::int32_t* items, KeyedItem* 
   }
 }
 
-/// Sorts the buckets of the first digit. A task sorts several, one after another in the same
-/// memory, which buckets of well spread keys leave in cache.
+/// Sorts the buckets of the first digit. A task sorts several buckets, one after another in the
+/// same memory, which stays in cache if the keys are well spread.
 void sort_buckets(std::span<const std::int32_t> first, Order& order) {
   constexpr std::size_t group = 16;
   static_assert((1 << first_digit) % group == 0);

@@ -13,17 +13,16 @@
 
 namespace calotte::curve_detail {
 
-/// Puts items into buckets in parallel, in linear time: bucket by bucket, and the items of a bucket
-/// in the order that they had.
-/// \tparam Place counts the items.
-/// \param bucket_of(i) of item i, below `buckets`; asked for twice.
+/// Puts items into buckets in parallel, in linear time. The items of a bucket keep their order.
+/// \tparam Place type that counts the items.
+/// \param bucket_of(i) bucket of item i, below `buckets`; called twice per item.
 /// \param put(i, place) receives the place of each item.
 /// \return where each bucket begins, and the number of items.
 template <class Place = std::int32_t, class BucketOf, class Put>
 std::vector<Place> distribute(std::int64_t n, std::int64_t buckets, const BucketOf& bucket_of,
                               const Put& put) {
-  // Each part of the items counts for itself, in cache; so few parts that the counts stay small
-  // beside the items.
+  // Each part of the items has its own counts, in cache. The number of parts is small, so that the
+  // counts take little memory compared with the items.
   const std::int64_t parts = std::clamp<std::int64_t>(n / (8 * buckets), 1, 64);
   constexpr std::int64_t group = 64; // of buckets, whose counts are a run of memory in each part
   const std::int64_t groups = (buckets + group - 1) / group;
@@ -74,7 +73,7 @@ inline bool precedes(const KeyedItem& a, const KeyedItem& b) {
   return a.key != b.key ? a.key < b.key : a.item < b.item;
 }
 
-/// Items in ascending order of their keys, those of equal keys in the order that they had.
+/// Items in ascending order of their keys; items of equal keys keep their order.
 struct Order {
   Array<std::uint64_t> keys;
   Array<std::int32_t> items;
@@ -82,7 +81,8 @@ struct Order {
   std::int64_t size() const { return keys.size(); }
 };
 
-/// Radix sort from the leading bits: linear time, and as many passes as the keys' crowding needs.
+/// Radix sort from the leading bits: linear time; the number of passes grows with the clustering of
+/// the keys.
 /// \param keys by item, below 2^key_bits; fewer than 2^31.
 Order order_by_key(Array<std::uint64_t> keys);
 

@@ -3,9 +3,8 @@
 
 #include "exact/room.h"
 
-/// Orders of traversal: Hilbert's curve on the faces of a cube, the quadtree that sorted curve keys
-/// are, a parallel radix sort, and the order in which a pass over a large mesh visits its
-/// triangles.
+/// Orders of traversal: Hilbert's curve on the faces of a cube, the quadtree of sorted curve keys,
+/// a parallel radix sort, and the order in which a pass over a large mesh visits its triangles.
 ///
 /// In: unit vectors or places. Out: keys, permutations, and runs of sorted ranks.
 namespace calotte::curve_detail {

@@ -17,16 +17,16 @@ namespace calotte::curve_detail {
 /// The order in which a pass over a mesh visits its triangles: as they are numbered, or patch by
 /// patch.
 ///
-/// Triangles are numbered by their lowest sites. Where the sites come in no order, neighbours are
-/// far apart in memory, and a pass over a large mesh in that order waits for memory most of the
-/// time. A patch, its sites and its triangles are small enough to stay in cache.
+/// Triangles are numbered by their lowest sites. If the sites come in random order, neighbours are
+/// far apart in memory, and a pass over a large mesh in that order is bound by memory latency. A
+/// patch, with its sites and its triangles, fits in cache.
 class Traversal {
 public:
-  /// As they are numbered.
+  /// In the order of their numbers.
   Traversal() = default;
 
   /// By patches of some thousand sites, which are cells of a grid on each face.
-  /// \param square(t) where triangle t is: a face, below `faces`, and u and v in [-1, 1].
+  /// \param square(t) position of triangle t: a face, below `faces`, and u and v in [-1, 1].
   /// \pre fewer than 2^31 triangles.
   template <class Square>
   Traversal(std::int64_t triangles, std::int64_t sites, int faces, const Square& square)
@@ -56,14 +56,15 @@ public:
 private:
   static constexpr double patch = 4096; ///< sites
 
-  Array<std::int32_t> triangles_; ///< empty: as they are numbered
+  Array<std::int32_t> triangles_; ///< empty: in the order of their numbers
 };
 
-/// Whether the triangles of a large mesh are so far from their neighbours in memory that a pass
-/// gains from visiting them by patches. Looks at the neighbour across from each lowest site: the
-/// other two share that site, so they are numbered beside the triangle in any order.
+/// True if the triangles of a large mesh are so far from their neighbours in memory that a pass
+/// gains from visiting them by patches. Tests the neighbour across from each lowest site only: the
+/// other two neighbours share that site, so they have numbers near that of the triangle in any
+/// order.
 inline bool are_scattered(const Triangles& neighbours) {
-  // Below a million triangles, a traversal costs what it saves. A sample tells.
+  // Below a million triangles, a traversal costs as much as it saves. Above, a sample decides.
   constexpr std::int64_t fewest = 1 << 20, far = 1 << 15, stride = 61;
   if (neighbours.cols() < fewest)
     return false;

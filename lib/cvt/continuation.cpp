@@ -23,7 +23,8 @@ std::optional<int> icosahedral_level(std::int64_t n) {
 
 Continuation continuation(std::int64_t cells, const Density& density, std::uint64_t seed) {
   base_detail::require_count(cells, 12, "the number of cells");
-  evaluate(density, bisected_icosahedron(0)); // refuses an ill-formed one, whatever the start
+  evaluate(density, bisected_icosahedron(
+                        0)); // throws for an ill-formed density, even if the start does not use it
   const std::int64_t least = density.uniform() ? 12 : 642;
   Continuation result;
   std::int64_t n = cells;

@@ -44,7 +44,7 @@ void require_options(const CvtOptions& options) {
   quadrature_rule(options.final_rule);
 }
 
-/// Refuses a state that no run has left, whatever its space.
+/// Throws for a state that no run can have left, in any space.
 void require_state(const State& state) {
   const auto n = static_cast<std::size_t>(state.points.cols());
   std::vector<std::uint8_t> seen(n, 0);
@@ -68,12 +68,12 @@ void require_state(const State& state) {
     refuse_state();
 }
 
-/// Takes the evaluation at the state's points into the state: its norm, and what follows from it.
+/// Updates the state with the evaluation at its points: the norm, convergence and the rule.
 void conclude(State& state, const CvtOptions& options, const CvtIteration& iteration) {
   CvtReport& report = state.report;
   const bool by_final_rule = options.density.uniform() || iteration.rule == options.final_rule;
   report.residual = norm_of(iteration, options.norm);
-  // Near the end the finer rule takes over; only with it a run can converge.
+  // Near the end the finer rule replaces the coarser one; a run converges with the finer rule only.
   if (options.norm == Norm::none) {
     report.converged = state.iterations_of_level >= options.max_iterations;
   } else {
@@ -89,7 +89,7 @@ bool level_ended(const State& state, const CvtOptions& options) {
 /// How a level ended.
 struct Ending {
   bool stopped = false;
-  std::optional<Connectivity> mesh; ///< of the state's points; else they are to be triangulated
+  std::optional<Connectivity> mesh; ///< of the state's points; none if they must be triangulated
 };
 
 /// The descent of one level.
@@ -126,7 +126,7 @@ Ending iterate(const World& world, CvtState& whole, Level&& level, const CvtOpti
   }
 }
 
-/// Refuses bisections to more generators than a mesh can hold, before any work.
+/// Throws, before any work, if the bisections lead to more generators than a mesh can hold.
 template <class World> void require_room(const World& world, const State& state) {
   const std::int64_t n = state.points.cols();
   int most = 0;

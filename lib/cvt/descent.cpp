@@ -17,10 +17,12 @@ namespace {
 
 constexpr std::size_t most_pairs = 10;
 constexpr int most_trials = 3;
-constexpr double rule_error = 1e-7;  ///< of the energy by quadrature: below it slopes decide
-constexpr double rounding = 1e-13;   ///< of the energy, over itself
-constexpr int laplacian_lasts = 60;  ///< evaluations, once edges have flipped
-constexpr double near_enough = 0.05; ///< rms distance from the centroids over h: for the Laplacian
+constexpr double rule_error =
+    1e-7; ///< of the energy by quadrature; for smaller differences the slopes decide
+constexpr double rounding = 1e-13;  ///< relative, of the energy
+constexpr int laplacian_lasts = 60; ///< evaluations, once edges have flipped
+constexpr double near_enough =
+    0.05; ///< rms distance from the centroids over h; below it the Laplacian is used
 
 double scaled_l2(const CvtIteration& iteration) { return iteration.l2 / iteration.spacing; }
 
@@ -29,7 +31,7 @@ double scaled_l2(const CvtIteration& iteration) { return iteration.l2 / iteratio
 Descent::Descent(State& state, const CvtOptions& options, Functional& functional)
     : state_(state), options_(options), functional_(functional), density_(options.density) {}
 
-/// Far from an optimum edges flip all the time, and no Laplacian lasts.
+/// Far from an optimum edges flip in every step, and no Laplacian stays valid.
 Method Descent::method() const {
   if (options_.method != Method::automatic)
     return options_.method;
@@ -60,7 +62,7 @@ void Descent::step() {
                           here_.iteration.rule != options_.final_rule;
   if (options_.method == Method::lloyd && options_.relaxation == 1)
     lloyd_step();
-  else if (other_rule) // another functional: its energies are not to be compared
+  else if (other_rule) // another functional, whose energies do not compare
     evaluate(state_.points, here_);
   else if (options_.method == Method::lloyd)
     relaxed_step();
@@ -70,7 +72,7 @@ void Descent::step() {
     quasi_newton_step();
 }
 
-/// Goes to the points that have been evaluated last.
+/// Moves the state to the points that have been evaluated last.
 void Descent::accept(Points3&& points) {
   state_.points = std::move(points);
   std::swap(here_, there_);
@@ -86,7 +88,8 @@ void Descent::relaxed_step() {
   step_or_lloyd(functional_.retract(state_.points, options_.relaxation, move));
 }
 
-/// Goes to the points, unless they are higher: then by Lloyd's step. False for the latter.
+/// Moves to the points unless their energy is higher; otherwise takes Lloyd's step and returns
+/// false.
 bool Descent::step_or_lloyd(Points3&& next) {
   evaluate(next, there_);
   const bool lower = there_.iteration.energy <= here_.iteration.energy * (1 + rounding);
@@ -99,8 +102,8 @@ bool Descent::step_or_lloyd(Points3&& next) {
   return lower;
 }
 
-/// Nesterov's sequence (1983) over Lloyd's map, which restarts where it turns back (O'Donoghue and
-/// Candes, 2015) or climbs.
+/// Nesterov's sequence (1983) over Lloyd's map. It restarts when the step reverses its direction
+/// (O'Donoghue and Candes, 2015) or raises the energy.
 void Descent::nesterov_step() {
   Memory& memory = state_.memory;
   Points3 next = here_.centroids;
@@ -187,7 +190,8 @@ Points3 Descent::direction() const {
   return d;
 }
 
-/// So that no generator moves farther than half of its cell's width, the root of mass over density.
+/// The step that limits the motion of each generator to half of its cell's width, the root of mass
+/// over density.
 double Descent::longest_step(const Points3& direction) const {
   std::vector<double> most(static_cast<std::size_t>(block_count(direction.cols())), 0);
   for_each_block(direction.cols(), [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
@@ -213,10 +217,11 @@ double Descent::longest_step(const Points3& direction) const {
   return 0.5 / std::sqrt(*std::max_element(most.begin(), most.end()));
 }
 
-/// Trials along a direction until one is lower and not far beyond the lowest, or until the slopes
-/// say so where the energies differ by less than quadrature resolves (in the way of Hager and
-/// Zhang's approximate Wolfe conditions, 2005); each next one by the secant of the slopes. False
-/// when none is. \param points set to the accepted ones.
+/// Line search. It accepts a trial if its energy is lower and it is not far beyond the minimum, or,
+/// if the energies differ by less than quadrature resolves, if the slopes satisfy conditions like
+/// the approximate Wolfe conditions of Hager and Zhang (2005). The next trial follows from the
+/// secant of the slopes. Returns false if no trial is accepted.
+/// \param points set to the accepted ones.
 bool Descent::search(const Points3& direction, double slope, Points3& points) {
   double step = std::min(1.0, longest_step(direction));
   for (int trial = 0; trial < most_trials; ++trial) {
@@ -239,7 +244,8 @@ bool Descent::search(const Points3& direction, double slope, Points3& points) {
   return false;
 }
 
-/// Takes in the step from the state's points to others, which have been evaluated.
+/// Stores the step from the state's points to `points`, which have been evaluated, as an L-BFGS
+/// pair.
 void Descent::remember(const Points3& points) {
   Points3 before = here_.gradient;
   functional_.make_tangential(before, points);
@@ -270,7 +276,7 @@ void Descent::quasi_newton_step() {
   Points3 points;
   if (slope < 0 && search(d, slope, points)) {
     remember(points);
-  } else { // Lloyd's step always descends; and the coarser rule's energy may have misled the search
+  } else { // Lloyd's step always descends; the coarser rule's energy may have misled the search
     forget();
     state_.final_rule = state_.final_rule || options_.norm != Norm::none;
     points = here_.centroids;

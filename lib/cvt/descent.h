@@ -13,14 +13,15 @@
 
 namespace calotte::cvt_detail {
 
-/// The methods of CvtOptions over the functional: each step goes from generators that have been
-/// evaluated to others of no higher energy, but for rounding. Every evaluation is recorded in the
-/// state's report, and what the method remembers stands in the state.
+/// The methods of CvtOptions over the functional. Each step goes from evaluated generators to
+/// others whose energy is not higher, except for rounding. The state's report records every
+/// evaluation, and the state holds the memory of the method.
 class Descent {
 public:
   Descent(State& state, const CvtOptions& options, Functional& functional);
 
-  /// Evaluates the state's points: recorded, unless the state has been evaluated there before.
+  /// Evaluates the state's points. The report records it unless the state has been evaluated there
+  /// before.
   void begin();
 
   /// One step; the state's points are the new ones, evaluated.

@@ -17,7 +17,7 @@
 namespace calotte::cvt_detail {
 namespace {
 
-/// Sums of blocks of sites, added in the order of the blocks: the same for any number of threads.
+/// Sums over blocks of sites, added in the order of the blocks: the same for any number of threads.
 void add_sums(const Array<SiteTerms>& terms, CvtIteration& iteration) {
   const std::int64_t n = terms.size();
   std::vector<SiteTerms> sums(static_cast<std::size_t>(block_count(n)));
@@ -43,7 +43,7 @@ void add_sums(const Array<SiteTerms>& terms, CvtIteration& iteration) {
   iteration.gradient = std::sqrt(total.slope);
 }
 
-/// Evaluates one generator; where its cell has no mass, the energy is NaN.
+/// Evaluates one generator; the energy is NaN if its cell has no mass.
 template <class Cells>
 void evaluate_site(const Vec3& x, const CellMoments& cell, std::int32_t site, bool with_gradient,
                    Evaluation& out) {
@@ -105,7 +105,7 @@ private:
   int rule_, final_rule_; ///< their numbers of points, 0 where none is used
 };
 
-/// What is in `out` gives way to sorting and triangulating, which take more memory than all else.
+/// Frees the memory of `out` before sorting and triangulating, which need most of the memory.
 template <class Cells>
 Effort FunctionalOver<Cells>::integrate(const Points3& points, const Integrand& integrand,
                                         bool with_gradient, Evaluation& out) {
@@ -134,7 +134,7 @@ Effort FunctionalOver<Cells>::integrate(const Points3& points, const Integrand& 
   };
   if (tessellation_.restless())
     mend(tessellation_.find_faults(effort));
-  // After a mending nothing is left to mend: twice is the most that this takes.
+  // After a repair no fault is left, so that this integrates at most twice.
   for (Faults faults = integrate_all(); !faults.none(); faults = integrate_all())
     mend(faults);
   tessellation_.settle(effort);
@@ -162,7 +162,7 @@ void FunctionalOver<Cells>::evaluate(const Points3& points, bool final_rule, boo
   iteration.seconds = lap(mark);
 }
 
-/// The mesh is that of the last evaluation: at other points it may not be Delaunay.
+/// The mesh is that of the last evaluation; at other points it may not be Delaunay.
 template <class Cells> SparseMatrix FunctionalOver<Cells>::laplacian(const Points3& points) {
   Effort unused;
   tessellation_.move(points);

@@ -23,13 +23,13 @@
 namespace calotte::cvt_detail {
 namespace {
 
-/// A triangle's edge ab and the circumcentre beside it.
+/// An edge ab of a triangle and the circumcentre beside it.
 struct HalfEdge {
   double length;
   double delta; ///< signed distance from the edge's middle to the circumcentre
 };
 
-/// Of an edge of a triangle, that triangle's share.
+/// The share of a triangle in the weight of one of its edges.
 struct EdgeShare {
   double weight; ///< (l^2 delta/4 - delta^3/3)/l
   double least;  ///< a thousandth of that of an equilateral triangle
@@ -74,19 +74,20 @@ class SphericalEdges {
 public:
   explicit SphericalEdges(const Points3& points) : points_(&points) {}
 
-  /// Of site i and the edge to j, which has c to its left and d to its right.
+  /// The contribution to site i of the edge to j, which has c to its left and d to its right.
   EdgeTerms edge(std::int32_t i, std::int32_t j, std::int32_t c, std::int32_t d) const {
     const auto at = [&](std::int32_t site) { return column(*points_, site); };
     return terms_of(spherical_edge(at(i), at(j), at(c)), spherical_edge(at(j), at(i), at(d)));
   }
-  /// What else is on the diagonal. \param area the sum of the edges'.
+  /// The other terms on the diagonal.
+  /// \param area sum over the edges.
   static double held(std::int32_t, double rho, double area) { return rho * area * area; }
 
 private:
   const Points3* points_;
 };
 
-/// Of cells that the domain clips, the parts inside count.
+/// For cells that the domain clips, only the parts inside count.
 class PlanarEdges {
 public:
   PlanarEdges(const PlanarSites& sites, const Triangles& triangles, const VertexRings& rings)
@@ -105,8 +106,8 @@ public:
                       planar_edge(at[j], at[i], at[d], sites_->period));
     return {i < j ? clipped_weight(i, j, c, d) : clipped_weight(j, i, d, c), 0};
   }
-  /// A shore that turns its back, as an island's far one does, counts as negative: held to what
-  /// leaves the matrix positive.
+  /// A boundary that faces away from the generator, such as the far side of an island, contributes
+  /// a negative term; their sum is at least 0, so that the matrix stays positive.
   double held(std::int32_t i, double rho, double area) const {
     const double whole = clipped_[i] != 0 ? area_[i] : area;
     return rho *
@@ -161,16 +162,16 @@ private:
   Array<double> shore_, area_; ///< of clipped cells: between the generator and the shore, and all
 };
 
-/// What a matrix is made of.
+/// The input of a matrix.
 struct Source {
   const Triangles& triangles;
-  VertexRings rings; ///< of the sites that have rows; those from there on have none
+  VertexRings rings; ///< number of sites with rows; later sites have none
   Eigen::VectorXd rho;
 
   std::int64_t rows() const { return rho.size(); }
 };
 
-/// The row of a site: neighbours and itself, with what they are multiplied by, ascending.
+/// The row of a site: its neighbours and itself with their coefficients, ascending.
 using Row = std::vector<std::pair<std::int32_t, double>>;
 
 template <class Edges>
@@ -198,7 +199,7 @@ void set_row(const Source& source, const Edges& edges, std::int32_t i, Row& row)
   std::sort(row.begin(), row.end());
 }
 
-/// Where each row begins: it has an element for each neighbour with a row, and one for itself.
+/// The start of each row: a row has an element for each neighbour with a row, and one for itself.
 Array<std::int32_t> row_begins(const Source& source) {
   Array<std::int32_t> begin(source.rows() + 1);
   const VertexRings& rings = source.rings;
@@ -236,7 +237,7 @@ template <class Edges> SparseMatrix make_matrix(const Source& source, const Edge
   return matrix;
 }
 
-/// The matrix counts its entries, 7 n at most, by int32.
+/// The matrix counts its entries, at most 7 n, by int32.
 void require_countable(std::int64_t generators) {
   require(generators <= std::numeric_limits<std::int32_t>::max() / 7,
           "there are " + std::to_string(generators) +

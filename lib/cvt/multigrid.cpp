@@ -34,7 +34,7 @@ Points3 times(const SparseMatrix& matrix, const Points3& x) {
   return by_rows(matrix.rows(), [&](std::int64_t i) { return row_times(matrix, i, x); });
 }
 
-/// Six rows are one: the last of the aggregates takes what is left.
+/// Six consecutive rows form one aggregate; the last aggregate takes the remainder.
 SparseMatrix aggregation(Eigen::Index rows) {
   const Eigen::Index aggregates = std::max<Eigen::Index>(1, rows / aggregate_rows);
   SparseMatrix matrix(rows, aggregates);

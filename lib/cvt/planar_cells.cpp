@@ -14,8 +14,8 @@
 namespace calotte::cvt_detail {
 namespace {
 
-/// Three places far around a box: no place inside it is nearer to one of them than to any other
-/// place inside.
+/// Three places far outside a box. No place inside the box is nearer to one of them than to any
+/// other place inside.
 std::array<Vec3, 3> hull_around(const Box2& box) {
   const Vec2 extent{box.high.x - box.low.x, box.high.y - box.low.y};
   const double x = box.low.x + extent.x / 2, y = box.low.y + extent.y / 2,

@@ -21,15 +21,15 @@
 
 namespace calotte::cvt_detail {
 
-/// \throws Error bad_option, naming the first place that is outside of the domain.
+/// \throws Error bad_option with the index of the first place outside the domain.
 void require_inside(const Points2Ref& places, const PlanarDomain& domain);
 
-/// The cells of generators in a planar domain: see SphericalCells, whose functions these are.
+/// The cells of generators in a planar domain, with the functions of SphericalCells.
 ///
-/// Generators are columns with z = 0. Those of a periodic box may leave it: the places of the mesh
-/// are the copies inside. Those of another domain are followed by three places so far away that
-/// their cells do not reach it: the hull, which never moves. All generators have closed stars then,
-/// and their cells are what a domain clips.
+/// Generators are columns with z = 0. In a periodic box they may leave the box; the places of the
+/// mesh are the copies inside. In another domain three further places follow the generators, so far
+/// away that their cells do not reach the domain: the hull, which does not move. All generators
+/// then have closed stars, and the domain clips their cells.
 class PlanarCells {
 public:
   using Signs = PlaneSigns;
@@ -48,7 +48,7 @@ public:
   bool has_hull() const { return outline_ != nullptr; }
   Signs signs() const { return Signs(places_, period_); }
   Sites sites() const;
-  /// Of the hull and of a box's copies the sites know nothing.
+  /// Excludes the hull, and copies in a box.
   Connectivity triangulate(Sites&&, Regions&&) const { return signs().triangulate(); }
   double spacing() const;
 
@@ -65,7 +65,7 @@ public:
   };
   static Pull pull(const Vec3& x, const CellMoments& cell);
 
-  /// Generators that would leave the domain go to the nearest place inside.
+  /// Moves generators that would leave the domain to the nearest place inside.
   Points3 retract(const Points3& x, double step, const Points3& d) const;
   static void make_tangential(Points3&, const Points3&) {} ///< all motions are
   SparseMatrix laplacian(const Connectivity& mesh, const Density& density) const;

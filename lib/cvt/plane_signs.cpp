@@ -39,7 +39,7 @@ bool PlaneSigns::is_counter_clockwise(const Corners& triangle) const {
   if (!periodic())
     return orientation(period_, a, b, c) > 0;
   const Vec2 p = offset(a, b), q = offset(a, c);
-  // From b to c the nearest copies may be others than a's.
+  // The nearest copies for the way from b to c may differ from those seen from a.
   if (!within_half({1.000001 * (q.x - p.x), 1.000001 * (q.y - p.y)}, period_))
     return false;
   const double value = p.x * q.y - p.y * q.x, e = 2 * roundoff * size_of(period_),

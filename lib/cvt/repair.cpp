@@ -27,8 +27,8 @@ bool is_delaunay(const Connectivity& mesh, const Signs& signs, const TriangleEdg
                                            mesh.triangles(index_of(mesh, beyond, t), beyond));
 }
 
-/// Replaces the edge bc of the triangles abc and dcb by ad: they become abd and dca. The four outer
-/// edges are to be looked at again.
+/// Replaces the edge bc of the triangles abc and dcb by ad, which gives abd and dca. The four outer
+/// edges must then be tested again.
 void flip(Connectivity& mesh, const TriangleEdge& edge, std::vector<TriangleEdge>& pending) {
   const std::int32_t t = edge.triangle, u = mesh.neighbours(edge.across, t);
   const int at = edge.across, ut = index_of(mesh, u, t);
@@ -52,7 +52,7 @@ void flip(Connectivity& mesh, const TriangleEdge& edge, std::vector<TriangleEdge
     pending.push_back(outer);
 }
 
-/// Flips until all edges are Delaunay; empty when that takes more than `most` flips.
+/// Flips until all edges are Delaunay; empty if that takes more than `most` flips.
 template <class Signs>
 std::optional<Repair> flip_all(Connectivity& mesh, const Signs& signs,
                                std::vector<TriangleEdge> pending, std::int64_t most) {
@@ -85,7 +85,7 @@ void add_faults(const Connectivity& mesh, const Signs& signs, std::int32_t trian
 
 template <class Signs>
 std::optional<Repair> repair(Connectivity& mesh, const Signs& signs, const Faults& faults) {
-  // A flip costs about as much as three sites of a new triangulation, which is parallel.
+  // A flip costs about as much as three sites of a new triangulation, which runs in parallel.
   const std::int64_t most = signs.sites() / 16;
   if (faults.overturned)
     return std::nullopt;

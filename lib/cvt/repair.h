@@ -19,8 +19,8 @@ struct TriangleEdge {
   int across;
 };
 
-/// What keeps a mesh from being the Delaunay triangulation of its points. A mesh without overturned
-/// triangles whose edges are all Delaunay is (Delaunay, 1934).
+/// The reasons why a mesh is not the Delaunay triangulation of its points. A mesh without
+/// overturned triangles whose edges are all Delaunay is that triangulation (Delaunay, 1934).
 struct Faults {
   std::vector<TriangleEdge> edges; ///< that are not Delaunay, by the exact predicate
   bool overturned = false;         ///< some triangle is
@@ -38,8 +38,8 @@ struct Repair {
   std::vector<std::int32_t> changed; ///< triangles that flips made others; may repeat
 };
 
-/// Makes the mesh Delaunay by flips from the faulty edges on. Empty where a triangle is overturned
-/// or flips would take longer than a new triangulation: what is left of the mesh is then of no use.
+/// Makes the mesh Delaunay by flips, starting from the faulty edges. Empty if a triangle is
+/// overturned or the flips would take longer than a new triangulation; the mesh is then unusable.
 template <class Signs>
 std::optional<Repair> repair(Connectivity& mesh, const Signs& signs, const Faults& faults);
 

@@ -19,13 +19,13 @@
 
 namespace calotte::cvt_detail {
 
-/// What a Tessellation and a Functional need to know of the sphere. PlanarCells is its like for the
-/// plane, and says the same of each function.
+/// The interface of the sphere for Tessellation and Functional. PlanarCells provides the same
+/// functions for the plane.
 class SphericalCells {
 public:
   using Signs = SphereSigns;
 
-  /// The generators where they are now: unit columns that stay there until the next call.
+  /// Sets the generators: unit columns that must stay there until the next call.
   void move(const Points3& points) { points_ = &points; }
 
   std::int64_t places() const { return points_->cols(); } ///< of the mesh: generators come first
@@ -34,12 +34,12 @@ public:
   static bool has_hull() { return false; } ///< places of the mesh that are no generators
   Signs signs() const { return Signs(*points_); }
   Sites sites() const { return make_sites(*points_, Duplicates::merge, 0); } ///< equal ones merged
-  /// The mesh of all places from their sites, which are used up.
+  /// The mesh of all places, from their sites, which it consumes.
   Connectivity triangulate(Sites&& sites, Regions&& regions) const {
     return closed_connectivity(
         delaunay_detail::spherical_mesh(std::move(sites), std::move(regions)), places());
   }
-  double spacing() const; ///< h of so many generators
+  double spacing() const; ///< the spacing h for that number of generators
 
   /// See moments.h.
   static void integrate(const Integrand& integrand, const Patch& patch, const Array<Vec3>& x,
@@ -51,11 +51,11 @@ public:
     integrals_detail::find_suspects(patch, x, suspects);
   }
 
-  /// What a generator's cell makes of it.
+  /// The effect of a cell on its generator.
   struct Pull {
     Vec3 centroid; ///< where Lloyd's step leads
     Vec3 gradient; ///< of the energy; a motion that the generator can make
-    double mass;   ///< of the cell, but for h^2; not a number of a cell without mass
+    double mass;   ///< of the cell, up to a factor h^2; NaN for a cell without mass
   };
   static Pull pull(const Vec3& x, const CellMoments& cell);
 

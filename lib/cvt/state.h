@@ -10,7 +10,7 @@
 
 namespace calotte::cvt_detail {
 
-/// What a method remembers of its way.
+/// The memory of a method.
 struct Memory {
   std::vector<Points3> steps, changes; ///< of generators, and of the gradient then; oldest first
   std::vector<double> curvatures;      ///< their inner products
@@ -25,7 +25,7 @@ struct Memory {
 
 namespace calotte {
 
-/// All that a run needs to go on to the same bits.
+/// The state from which a run continues to the same bits.
 struct CvtState::Data {
   Points3 points; ///< unit generators, along a space-filling curve; in the plane with z = 0
   std::vector<std::int32_t> id;            ///< of each: its column in the result

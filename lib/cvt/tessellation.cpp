@@ -14,11 +14,12 @@
 namespace calotte::cvt_detail {
 namespace {
 
-constexpr std::int64_t sampled = 64; ///< one point of so many stands for all, for how far they move
+constexpr std::int64_t sampled =
+    64; ///< one point in this many represents all when motion is measured
 
 } // namespace
 
-/// One sort and one division serve the triangulation as well as the regions' tasks.
+/// One sort and one division serve both the triangulation and the tasks of the regions.
 template <class Cells>
 Tessellation<Cells>::Tessellation(Cells cells, const Points3& points, const Partition& partition,
                                   Level&& level)
@@ -65,7 +66,7 @@ template <class Cells> void Tessellation<Cells>::divide() {
   std::optional<Owners> owners;
   if (const Sites sites = cells_.sites(); sites.size() == generators_)
     owners = owners_of(sites, delaunay_detail::divide(sites, partition_));
-  // Where two points have met, the old regions do: a new triangulation will say it.
+  // If two points coincide, the old regions stay; a new triangulation will report the error.
   adopt(owners ? std::move(*owners)
                : Owners{std::move(ownership_.owner), static_cast<std::int32_t>(work_.size())});
 }
@@ -106,7 +107,7 @@ template <class Cells> void Tessellation<Cells>::find_faults(const Patch& patch,
     add_faults(mesh_, signs, patch.triangles[static_cast<std::size_t>(suspect)], work.faults);
 }
 
-/// Runs the task of each region; its faults and effort are added up in the order of the regions.
+/// Runs the task of each region, then adds faults and effort in the order of the regions.
 template <class Cells>
 template <class Task>
 Faults Tessellation<Cells>::run_tasks(const Task& task, Effort& effort) {

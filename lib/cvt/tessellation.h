@@ -19,16 +19,15 @@
 
 namespace calotte::cvt_detail {
 
-/// What is known of the points of a level when it starts: from the sort of the start, or from the
-/// level before.
+/// The data of a level's points at its start: from the sort of the start, or from the level before.
 struct Level {
   std::optional<Sites> sites; ///< whose ids and ranks are the points' columns; with a mesh, their
                               ///< points may be gone
-  /// Of the points, Delaunay but for a few edges.
+  /// The connectivity of the points, Delaunay except for a few edges.
   std::optional<Connectivity> mesh;
 };
 
-/// What evaluations took; seconds as CvtIteration's.
+/// The cost of evaluations; seconds as in CvtIteration.
 struct Effort {
   std::int64_t flips = 0;
   bool rebuilt = false;
@@ -53,40 +52,41 @@ public:
   /// \throws Error as Cells::Signs::triangulate().
   Tessellation(Cells cells, const Points3& points, const Partition& partition, Level&& level);
 
-  /// The points are there now.
+  /// Moves the points.
   void move(const Points3& points) { cells_.move(points); }
 
-  /// Whether points have moved so far since the regions were chosen that others would do better.
+  /// True if points have moved so far since the regions were chosen that new regions are better.
   bool drifted() const;
 
-  /// Chooses the regions anew.
+  /// Chooses new regions.
   void divide();
 
-  /// Whether the mesh did not hold last time: then a look before integrating is worth it.
+  /// True if the mesh had faults last time: then testing it before integrating pays off.
   bool restless() const { return restless_; }
 
   /// The faults of the mesh at the points.
   Faults find_faults(Effort& effort);
 
-  /// Makes the mesh Delaunay by flips. False where these do not do: the mesh is lost.
+  /// Makes the mesh Delaunay by flips. False if flips do not suffice; the mesh is then unusable.
   bool mend(const Faults& faults, Effort& effort);
 
-  /// Triangulates the points anew. \throws Error as Cells::Signs::triangulate().
+  /// Triangulates the points again.
+  /// \throws Error as Cells::Signs::triangulate().
   void rebuild(Effort& effort);
 
-  /// What a region's task hands over: moments by local number, whole for the patch's own sites.
+  /// The result of a region's task: moments by local number, complete for the patch's own sites.
   using Receiver = std::function<void(const Patch& patch, const Array<Vec3>& x,
                                       const Array<CellMoments>& moments)>;
 
-  /// Integrates over the cells; the receiver is called in each region's task. Where it returns
-  /// faults, the mesh is to be mended and all is to be integrated again: what the receiver writes
-  /// must be slots that a later call overwrites.
+  /// Integrates over the cells and calls the receiver in each region's task. If it returns faults,
+  /// the caller repairs the mesh and integrates again; the receiver must therefore write slots that
+  /// a later call overwrites.
   Faults integrate(const Integrand& integrand, const Receiver& receive, Effort& effort);
 
   /// Ends an evaluation.
   void settle(const Effort& effort) { restless_ = effort.flips > 0 || effort.rebuilt; }
 
-  /// The mesh, gone from here, made Delaunay at the points; empty where flips do not do.
+  /// Moves out the mesh, made Delaunay at the points; empty if flips do not suffice.
   std::optional<Connectivity> take_mesh(const Points3& points);
 
   const Cells& cells() const { return cells_; }
@@ -96,8 +96,9 @@ public:
   std::vector<CvtRegion> regions() const;
 
 private:
-  /// What a region's task found and took. Positions and moments live no longer than the task: the
-  /// threads' few stay in cache, where those of all regions would be a third of the memory.
+  /// The findings and costs of a region's task. Positions and moments live only during the task:
+  /// those of the active threads fit in cache, while those of all regions would take a third of the
+  /// memory.
   struct Work {
     std::vector<std::int32_t> suspects;
     Faults faults;
@@ -105,7 +106,7 @@ private:
     CvtRegion report;
   };
 
-  /// Who owns each place of the mesh.
+  /// The owner of each place of the mesh.
   struct Owners {
     Array<std::int32_t> owner;
     std::int32_t regions;
@@ -125,7 +126,7 @@ private:
   Ownership ownership_;
   std::vector<Patch> patches_;
   std::vector<Work> work_;
-  Array<Vec3> sample_; ///< every so many-th point, as it was when the regions were chosen
+  Array<Vec3> sample_; ///< sampled points, as they were when the regions were chosen
   bool restless_ = true;
 };
 

@@ -75,7 +75,7 @@ Start begun_at(Sites&& sites, const CvtOptions& options) {
   return {std::move(state), {by_rank(std::move(sites)), std::nullopt}};
 }
 
-/// Cells of generators on one line would do, but no mesh of them.
+/// Cells of generators on one line exist, but a mesh of them does not.
 void require_triangle(const Sites& sites) {
   const auto given = [&](std::int32_t id) { return Vec2{sites.given(id).x, sites.given(id).y}; };
   for (std::int32_t id = 2; id < sites.size(); ++id)
@@ -105,7 +105,7 @@ Start SphericalWorld::begin(const Points3Ref& start, const CvtOptions& options) 
 }
 
 Density SphericalWorld::density(const Density& density) {
-  evaluate(density, Points3(Eigen::Vector3d::UnitZ())); // says what is wrong with it
+  evaluate(density, Points3(Eigen::Vector3d::UnitZ())); // throws if the density is ill-formed
   return density;
 }
 

@@ -15,17 +15,16 @@
 
 namespace calotte::cvt_detail {
 
-/// \throws Error bad_option: no run has left this state.
+/// \throws Error bad_option: the state is not one that a run has left.
 [[noreturn]] void refuse_state();
 
-/// Where a run starts.
+/// The start of a run.
 struct Start {
   State state;
   Level level;
 };
 
-/// What a run needs to know of the space that its generators live in: the sphere. PlanarWorld is
-/// its like for the plane, and says the same of each function.
+/// The interface of the sphere for a run. PlanarWorld provides the same functions for the plane.
 class SphericalWorld {
 public:
   using Result = Cvt;
@@ -34,10 +33,11 @@ public:
   static Start begin(Points3&& start, const CvtOptions& options);
   static Start begin(const Points3Ref& start, const CvtOptions& options);
 
-  /// The density as the functional takes it. \throws Error bad_option where it is ill-formed.
+  /// The density in the form that the functional takes.
+  /// \throws Error bad_option if it is ill-formed.
   static Density density(const Density& density);
 
-  /// Refuses a state whose points are not unit vectors, or too few.
+  /// Throws for a state whose points are not unit vectors, or too few.
   static void require_points(const State& state);
 
   static std::unique_ptr<Functional> functional(const Points3& points, const CvtOptions& options,
@@ -45,7 +45,7 @@ public:
     return make_functional(points, options, std::move(level));
   }
 
-  /// The most generators that a bisection leaves of n.
+  /// The largest number of generators after a bisection of n.
   static std::int64_t bisected(std::int64_t n) { return 4 * n - 6; }
 
   /// The Delaunay triangulation of generators, by a new triangulation.
@@ -54,8 +54,8 @@ public:
   /// The same from its connectivity in canonical order.
   static Mesh mesh(Points3&& points, Connectivity&& canonical);
 
-  /// Gives a state the generators of a bisected mesh, along the curve; returns what is known of
-  /// them.
+  /// Sets the generators of a state to those of a bisected mesh, in curve order; returns the start
+  /// of the next level.
   static Level set_bisected(State& state, const Mesh& coarse);
 };
 

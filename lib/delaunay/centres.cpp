@@ -20,17 +20,17 @@ namespace {
 struct Sample {
   Array<Vec3> unit;
   Quadtree cells;
-  Array<double> density; ///< of samples around each, but for a factor
+  Array<double> density; ///< of samples around each, up to a factor
 };
 
-/// From the mean step along the curve between a few samples before each and a few after it.
+/// Computed from the mean step along the curve over a few samples before and after each sample.
 Array<double> densities(const Array<Vec3>& unit) {
   constexpr std::int64_t reach = 8;
   Array<double> density(unit.size());
   for (std::int64_t s = 0; s < unit.size(); ++s) {
     const std::int64_t begin = std::max<std::int64_t>(0, s - reach);
     const std::int64_t end = std::min(unit.size() - 1, s + reach);
-    double length = 1e-15; // some of the samples may differ by less than rounding
+    double length = 1e-15; // samples may differ by less than rounding
     for (std::int64_t t = begin; t < end; ++t)
       length += norm(unit[t + 1] - unit[t]);
     const double inverse = static_cast<double>(end - begin) / length;
@@ -52,10 +52,11 @@ Sample take_sample(const Sites& sites, std::int64_t count) {
   return {std::move(unit), Quadtree(std::move(keys), sites.frame.has_value()), std::move(density)};
 }
 
-/// Moves each centre to the mean of the samples it owns, on the sphere to its direction; one that
-/// owns none, or whose mean has no direction, stays. Each sample weighs as much as the density
-/// there: a CVT's centres are distributed as the square root of what it integrates (Gersho, IEEE
-/// Trans. Inf. Theory 25, 1979), samples times weights, so as the sites are.
+/// Moves each centre to the mean of the samples it owns, on the sphere to its direction. A centre
+/// that owns no samples, or whose mean has no direction, stays. Each sample has the weight of the
+/// density there: the centres of a CVT are distributed as the square root of the density that it
+/// integrates (Gersho, IEEE Trans. Inf. Theory 25, 1979), here samples times weights, and thus as
+/// the sites are.
 void move_to_means(const Sample& sample, const Array<std::int32_t>& owner, bool planar,
                    std::vector<Vec3>& centres) {
   std::vector<Vec3> sum(centres.size(), Vec3{0, 0, 0});
@@ -70,9 +71,9 @@ void move_to_means(const Sample& sample, const Array<std::int32_t>& owner, bool 
       centres[k] = (1 / length) * sum[k];
 }
 
-/// Moves each centre towards those neighbours that own more samples than it does, and away from
-/// those that own fewer: a region shrinks as its neighbours' centres come nearer. Neighbours are
-/// those between whom the curve passes, as often as it does.
+/// Moves each centre towards the neighbours that own more samples than it does, and away from those
+/// that own fewer: a region shrinks as the centres of its neighbours approach. Two centres are
+/// neighbours if the curve passes between their regions, with the number of passages as weight.
 void move_to_load(const Sample& sample, const Array<std::int32_t>& owner, bool planar,
                   std::vector<Vec3>& centres) {
   std::vector<double> load(centres.size(), 0), passages(centres.size(), 0); // load 1 is the mean
@@ -92,8 +93,8 @@ void move_to_load(const Sample& sample, const Array<std::int32_t>& owner, bool p
     }
   }
   // A cell of a hexagonal lattice loses its excess when its six neighbours move by half of it, in
-  // units of their distance; each sees it in a sixth of its passages, so the factor were 3. Half of
-  // that does not overshoot where neighbours have excesses, too.
+  // units of their distance. Each neighbour sees the excess in a sixth of its passages, so that the
+  // factor would be 3. Half of that does not overshoot if neighbours have excesses, too.
   constexpr double rate = 1.5;
   for (std::size_t k = 0; k < centres.size(); ++k)
     if (passages[k] > 0) {
@@ -102,7 +103,7 @@ void move_to_load(const Sample& sample, const Array<std::int32_t>& owner, bool p
     }
 }
 
-/// A Fibonacci lattice over the box of the sites: even, whatever their density.
+/// A Fibonacci lattice over the bounding box of the sites; it ignores their density.
 std::vector<Vec3> plane_lattice(const Frame& frame, int regions) {
   constexpr double golden = 0.6180339887498949;
   std::vector<Vec3> centres;
@@ -114,8 +115,8 @@ std::vector<Vec3> plane_lattice(const Frame& frame, int regions) {
   return centres;
 }
 
-/// A coarse CVT of a sample, whose regions hold about equal numbers of sites: it starts from equal
-/// parts of the curve, a few steps round the cells, and a few more even out what they hold.
+/// A coarse CVT of a sample, whose regions own about equal numbers of sites. It starts from equal
+/// parts of the curve; a few steps make the cells round, and a few more equalise the numbers.
 std::vector<Vec3> sampled_centres(const Sites& sites, int regions) {
   const Sample sample = take_sample(sites, std::int64_t{128} * regions);
   std::vector<Vec3> centres(static_cast<std::size_t>(regions), sample.unit[0]);
@@ -177,7 +178,7 @@ std::vector<Vec3> make_centres(const Sites& sites, const Partition& partition) {
   if (regions < 1)
     throw Error(ErrorCode::bad_option,
                 "the number of regions is " + std::to_string(regions) + ": give at least 1");
-  // More regions than sites would own nothing; their centres would only take time and memory.
+  // More regions than sites would own no sites; their centres would only cost time and memory.
   const auto useful = static_cast<int>(std::min<std::int64_t>(regions, sites.size()));
   if (partition.centres == Centres::fibonacci)
     return sites.frame ? plane_lattice(*sites.frame, useful)

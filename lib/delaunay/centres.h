@@ -11,11 +11,12 @@
 
 namespace calotte::delaunay_detail {
 
-/// Regions' number by default: a function of the number of sites alone, such that a region's
-/// triangulation stays in cache and its halo is a small part of it.
+/// The default number of regions: a function of the number of sites alone, chosen so that the
+/// triangulation of a region stays in cache and its halo is a small part of it.
 int default_region_count(std::int64_t sites);
 
-/// Centres: those given, or as many as regions are asked for, but no more than sites.
+/// The centres that the options give, or as many as the number of regions, but at most one per
+/// site.
 /// \throws Error bad_option (fewer than one region, centres without a direction).
 std::vector<Vec3> make_centres(const Sites& sites, const Partition& partition);
 

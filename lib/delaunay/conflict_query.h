@@ -13,13 +13,13 @@
 #include <utility>
 #include <vector>
 
-/// The search of the whole set for sites in the circumcap of a region's triangle.
+/// The search of all sites for those in the circumcap of a region's triangle.
 namespace calotte::delaunay_detail {
 
 inline Vec3 middle_of(const SiteBox& box) { return {box.middle[0], box.middle[1], box.middle[2]}; }
 inline Vec3 half_of(const SiteBox& box) { return {box.half[0], box.half[1], box.half[2]}; }
 
-/// The greatest d.x over offsets x from the box's middle.
+/// The maximum of d.x over offsets x from the middle of the box.
 inline double most_along(const Vec3& d, const SiteBox& box) {
   const Vec3 half = half_of(box);
   return std::abs(d.x) * half.x + std::abs(d.y) * half.y + std::abs(d.z) * half.z;
@@ -34,7 +34,8 @@ inline double square_distance(const SiteBox& box, const Vec3& p) {
   return x * x + y * y + z * z;
 }
 
-/// Where sites in conflict with a face may stand, in doubles: what is outside is surely outside.
+/// The region in which sites in conflict with a face may lie, in doubles: a site outside it is
+/// certainly not in conflict.
 template <class Space> class Zone;
 
 template <> class Zone<Sphere> {
@@ -53,10 +54,10 @@ public:
     cap_radius_ = area > 0 ? norm(corner_[0] - cap_centre_) + 2 * normal_error_ / area + 1e-14 : 2;
   }
 
-  /// No site of the box lies in the circumcap, whatever the rounding: the cap's centre and the
-  /// chord of its radius err by the normal's error each. Of a triangle so thin that this says
-  /// little, the box must be below the plane: over the vertex a and any x of the box, (x - a).q
-  /// errs by |x - a| times the error and 12 roundoffs of |q|.
+  /// True if no site of the box lies in the circumcap, with rounding taken into account: the centre
+  /// of the cap and the chord of its radius each err by the error of the normal. For a triangle so
+  /// thin that this test is useless, the box must lie below the plane: over the vertex a and any x
+  /// of the box, (x - a).q errs by |x - a| times the error and 12 roundoffs of |q|.
   bool is_outside(const SiteBox& box) const {
     if (square_distance(box, cap_centre_) > cap_radius_ * cap_radius_ * (1 + 1e-14))
       return true;
@@ -94,11 +95,11 @@ public:
     size_ = std::sqrt(std::max(p2, r2)) + 16 * roundoff;
   }
 
-  /// f is concave, so over the box it is at most its value in the middle and the rise of the
-  /// tangent there. A frame's coordinate errs by 3 roundoffs, a difference by 6 and its own; with L
+  /// f is concave, so that over the box it is at most its value in the middle plus the rise of the
+  /// tangent there. A frame coordinate errs by 3 roundoffs, a difference by 6 and its own. With L
   /// the longer side from a and R the reach of the box, n errs by 36 L^2 + 8 L^3 roundoffs, q by 12
   /// L, and x - a moves f by 12 L^3 + 12 L^2 R: below 128 L (L + R)^2 in all, as L < 3. The second
-  /// order counts only where L is no more than some roundoffs, which are added to it.
+  /// order matters only if L is no more than some roundoffs, which are added to it.
   bool is_outside(const SiteBox& box) const {
     const Vec3 apart = middle_of(box) - a_;
     const double reach = norm(apart) + norm(half_of(box)), q = std::max(curvature_, 0.0);
@@ -115,16 +116,16 @@ private:
   double curvature_ = 0, size_ = 0;
 };
 
-/// Sites of the whole set in conflict with a face, found from the nearest cells on: at most a few,
-/// since each changes the triangulation around it. None is a member of the region, as these are in
-/// no face's circle: where the circle holds members' boxes alone, nothing is looked at.
+/// The sites in conflict with a face, found from the nearest cells on: at most a few, because each
+/// changes the triangulation around it. No member of the region is among them, because the circle
+/// of a face contains no member. If the circle meets only boxes of members, no site is tested.
 template <class Space> class ConflictQuery {
 public:
   ConflictQuery(Triangulation<Space>& triangulation, const Sites& sites,
                 const std::vector<Run>& members)
       : triangulation_(triangulation), sites_(sites), members_(members) {}
 
-  /// Boxes and sites looked at so far.
+  /// Number of boxes and sites tested so far.
   std::int64_t looks() const { return looks_; }
 
   const std::vector<std::int32_t>& run(FaceOf<Space> face) {
@@ -165,7 +166,7 @@ private:
     }
   }
 
-  /// Whether all sites of a node are members of the region.
+  /// True if all sites of a node are members of the region.
   bool are_members(int level, std::int64_t i) const {
     std::int64_t sites = SiteBoxes::width;
     for (int l = 0; l < level; ++l)

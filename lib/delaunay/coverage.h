@@ -12,8 +12,9 @@
 #include <cmath>
 #include <vector>
 
-/// The cull test (Jacobsen et al., 2013, Eq. 1 and Sect. 3.2): whether a triangle's circumcap lies
-/// in the part of the domain of which a region holds all sites, in doubles with bounded errors.
+/// The cull test (Jacobsen et al., 2013, Eq. 1 and Sect. 3.2): true if the circumcap of a triangle
+/// lies in the part of the domain of which a region holds all sites. It runs in doubles with
+/// bounded errors.
 namespace calotte::delaunay_detail {
 
 template <class Space> using FaceOf = typename Triangulation<Space>::Face;
@@ -30,7 +31,8 @@ inline Vec3 normal_of(FaceOf<Plane> face) {
                face->vertex(2)->place.unit - face->vertex(0)->place.unit);
 }
 
-/// Whether the triangle's normal points outward, so that its circumcap is less than a hemisphere.
+/// True if the normal of the triangle points outward, so that its circumcap is less than a
+/// hemisphere.
 inline bool is_below_hemisphere(FaceOf<Sphere> face) {
   return dot(face->circle.normal, face->vertex(0)->place.unit) > 0;
 }
@@ -55,10 +57,11 @@ template <class Face> Circumcircle circumcircle(Face face) {
   return {normal, area, std::sqrt(ab2 * ac2 * bc2) / (2 * area), normal_error * longest / area};
 }
 
-/// Whether a ball around an owned vertex that holds the circumcap is covered. Its radius is the
-/// chord of the cap's diameter, 2 sin r, and sin r = |ab||ac||bc| / (2 |q|), q = ab x ac. Most
-/// triangles pass, so it is written without roots or quotients; a relative error of 1e-3 in q moves
-/// it by less than the 2% set aside. \pre one of its vertices is owned.
+/// True if a ball around an owned vertex that contains the circumcap is covered. The radius of the
+/// ball is the chord of the cap's diameter, 2 sin r, and sin r = |ab||ac||bc| / (2 |q|), q = ab x
+/// ac. Most triangles pass, so the test has no roots or quotients; a relative error of 1e-3 in q
+/// moves the radius by less than the margin of 2%.
+/// \pre one of the vertices is owned.
 template <class Face> bool is_within_depth(Face face) {
   const auto a = face->vertex(0), b = face->vertex(1), c = face->vertex(2);
   const float depth = std::max({a->depth, b->depth, c->depth});
@@ -73,8 +76,8 @@ template <class Face> bool is_within_depth(Face face) {
          1.04 * ab2 * ac2 * bc2 < static_cast<double>(depth) * depth * area2;
 }
 
-/// Whether the cap lies in all half-spaces: its highest point over each is cos(angle - r), the
-/// angle from the cap's centre to the normal, or 1 when the cap holds the normal.
+/// True if the cap lies in all half-spaces: its highest point over each is cos(angle - r), the
+/// angle from the cap's centre to the normal, or 1 if the cap contains the normal.
 inline bool is_covered(FaceOf<Sphere> face, const std::vector<HalfSpace>& covered) {
   const Circumcircle cap = circumcircle(face);
   if (!is_below_hemisphere(face) || !(cap.error < 1e-3) || cap.radius > 0.9)
@@ -88,14 +91,15 @@ inline bool is_covered(FaceOf<Sphere> face, const std::vector<HalfSpace>& covere
     const double height = dot(centre, h.normal);
     if (height >= cosine)
       return false;
-    // Near -1, the root makes 1e-8 of a rounding in the height: it must not come out too small.
+    // Near -1 the root turns a rounding error of the height into 1e-8; the result must not be too
+    // small.
     const double across = std::sqrt(1 - height * height + 1e-14);
     return height * cosine + cap.radius * across + margin <= h.offset;
   });
 }
 
-/// Whether the disc lies in all half-planes. With e the relative error of q, radius and centre,
-/// a + ((ab . ab) ac - (ac . ac) ab) turned / 2q, err by some e times the radius and longest side.
+/// True if the disc lies in all half-planes. With e the relative error of q, radius and centre, a +
+/// ((ab . ab) ac - (ac . ac) ab) turned / 2q, err by some e times the radius and longest side.
 inline bool is_covered(FaceOf<Plane> face, const std::vector<HalfSpace>& covered) {
   const Circumcircle disc = circumcircle(face);
   if (!(disc.error < 1e-3) || disc.radius > Plane::diameter)

@@ -22,7 +22,7 @@ double inner_radius(const Vec3& centre, const std::vector<HalfSpace>& covered, d
   return radius;
 }
 
-/// Distance of x to the covered part's rim, if not far inside: then a lower bound.
+/// Distance of x to the rim of the covered part; far inside, a lower bound.
 double depth_of(const Vec3& x, const Vec3& centre, double inner,
                 const std::vector<HalfSpace>& covered, double diameter) {
   double depth = inner - norm(x - centre);
@@ -34,7 +34,8 @@ double depth_of(const Vec3& x, const Vec3& centre, double inner,
   return depth;
 }
 
-/// Certifies a face by the cull test. \return whether it still has to be: it has an owned vertex.
+/// Certifies a face by the cull test.
+/// \return true if the face has an owned vertex and is not certified.
 template <class Space>
 bool is_open(FaceOf<Space> face, const std::vector<HalfSpace>& covered, CullCounts& counts) {
   if (face->certified || !has_owned_vertex(face))
@@ -47,7 +48,7 @@ bool is_open(FaceOf<Space> face, const std::vector<HalfSpace>& covered, CullCoun
   return false;
 }
 
-/// The faces that have to be certified yet.
+/// The faces that are still to be certified.
 template <class Space>
 std::vector<FaceOf<Space>> open_faces(Triangulation<Space>& triangulation,
                                       const std::vector<HalfSpace>& covered, CullCounts& counts) {
@@ -59,7 +60,8 @@ std::vector<FaceOf<Space>> open_faces(Triangulation<Space>& triangulation,
   return open;
 }
 
-/// Inserts sites. \return those of the faces around them, the only new ones, that are open.
+/// Inserts sites.
+/// \return the open faces among those around the sites, which are the only new ones.
 template <class Space>
 std::vector<FaceOf<Space>> insert_all(const std::vector<std::int32_t>& ranks,
                                       Triangulation<Space>& triangulation,
@@ -71,8 +73,8 @@ std::vector<FaceOf<Space>> insert_all(const std::vector<std::int32_t>& ranks,
     around.insert(around.end(), star.begin(), star.end());
   }
   counts.inserted += std::ssize(ranks);
-  // A later star may have taken a face of an earlier one. The order is that of the insertions: by
-  // address, the counts of predicates would differ from run to run.
+  // A later star may have replaced a face of an earlier one. The order is that of the insertions;
+  // by address, the counts of predicates would differ from run to run.
   std::vector<FaceOf<Space>> open;
   constexpr std::int32_t listed = 0, unlisted = -1;
   for (const FaceOf<Space> face : around)
@@ -85,8 +87,8 @@ std::vector<FaceOf<Space>> insert_all(const std::vector<std::int32_t>& ranks,
   return open;
 }
 
-/// Whether the triangle is one of a closed mesh: finite, and its circumcap below a hemisphere.
-/// Empty caps beyond that are the far side of sites that a hemisphere holds.
+/// True if the triangle belongs to a closed mesh: it is finite, and its circumcap is below a
+/// hemisphere. Larger empty caps are the far side of sites within a hemisphere.
 bool may_stand(FaceOf<Sphere> face, const Sites& sites) {
   if (Triangulation<Sphere>::is_infinite(face))
     return false;
@@ -95,13 +97,13 @@ bool may_stand(FaceOf<Sphere> face, const Sites& sites) {
 }
 bool may_stand(FaceOf<Plane>, const Sites&) { return true; }
 
-/// Undecided predicates and insertions for each member, beyond which the set as a whole is cheaper:
-/// a cap's lattices need a few, clusters that are hard to certify thousands.
+/// Undecided predicates and insertions per member beyond which triangulating the set as a whole is
+/// cheaper: the caps of lattices need a few, clusters that are hard to certify thousands.
 constexpr std::int64_t effort = 16;
 
-/// Looks of queries that cost as much as one of those. Where most sites stand along a great circle,
-/// each triangle's circumcap runs past all of them, and the queries' looks grow with the square of
-/// their number.
+/// Number of tests of a query that cost as much as one undecided predicate. If most sites lie along
+/// a great circle, each circumcap passes all of them, and the number of tests grows with the square
+/// of the number of sites.
 constexpr std::int64_t looks_an_effort = 4;
 
 } // namespace
@@ -155,7 +157,7 @@ bool certify(Triangulation<Space>& triangulation, const Sites& sites, const Regi
     }
     std::sort(missing.begin(), missing.end());
     missing.erase(std::unique(missing.begin(), missing.end()), missing.end());
-    open = insert_all(missing, triangulation, covered, counts); // what they found is gone
+    open = insert_all(missing, triangulation, covered, counts); // their results are no longer valid
   }
   return true;
 }

@@ -18,21 +18,20 @@ struct CullCounts {
 template <class Space>
 std::vector<Member> gather(const Sites& sites, const Regions& regions, std::int32_t k);
 
-/// Certifies every triangle with an owned vertex: by the paper's cull test (Jacobsen et al., 2013,
-/// Eq. 1 and Sect. 3.2) that its circumcap lies where the region holds all sites; else by asking
-/// for sites in the circumcap, inserting those found, and repeating.
+/// Certifies every triangle with an owned vertex. The paper's cull test (Jacobsen et al., 2013, Eq.
+/// 1 and Sect. 3.2) shows that the circumcap lies where the region holds all sites. If it fails, a
+/// query searches the circumcap for sites; those found are inserted, and the test repeats. These
+/// faces, and no others, are marked as certified. In the plane an infinite face at an owned site is
+/// certified, too: no site lies beyond its edge of the hull.
 ///
-/// Those faces, and no others, are marked as certified. In the plane an infinite face at an owned
-/// site is certified, too: no site lies beyond its edge of the hull.
-///
-/// \return whether all owned sites have closed stars now, within reasonable effort. They have not
-///         when the focus lies in one of their circumcaps, as with a few sites, or when all sites
-///         are in a hemisphere. In the plane only effort may fail.
+/// \return true if all owned sites have closed stars, within reasonable effort. False if the focus
+///         lies in one of their circumcaps, as with a few sites, or if all sites are in a
+///         hemisphere; in the plane only if the effort is exceeded.
 template <class Space>
 bool certify(Triangulation<Space>& triangulation, const Sites& sites, const Regions& regions,
              std::int32_t k, CullCounts& counts);
 
-/// Marks every finite face as certified: for a set as a whole, of which nothing is left out.
+/// Marks every finite face as certified, for a set as a whole, from which no site is left out.
 template <class Space> void certify_all(Triangulation<Space>& triangulation);
 
 } // namespace calotte::delaunay_detail

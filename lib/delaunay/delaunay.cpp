@@ -24,10 +24,10 @@ namespace calotte {
 namespace delaunay_detail {
 namespace {
 
-/// Where the stages of a run end, as fractions of its time.
+/// The ends of the stages, as fractions of the run time.
 constexpr double sites_made = 0.25, divided = 0.35, triangulated = 0.8, united = 0.99;
 
-/// The values that the stages of a triangulation by regions leave for the union.
+/// The results of the triangulation of regions, for the union.
 struct Reports {
   std::vector<RegionTriangles> regions;
   Array<std::int32_t> triangles_of; ///< by site, see report_triangles
@@ -38,7 +38,7 @@ void add(DelaunayReport& report, const PredicateCounts& counts) {
   report.exact_predicates += counts.exact;
 }
 
-/// What sites that span no triangle all stand on.
+/// Throws for sites that span no triangle.
 [[noreturn]] void refuse_degenerate(const Sites& sites) {
   throw Error(ErrorCode::degenerate,
               sites.frame
@@ -46,7 +46,8 @@ void add(DelaunayReport& report, const PredicateCounts& counts) {
                   : "all sites lie on one great circle: add a site off it, they span no triangle");
 }
 
-/// The whole set as one region, on the sphere seen from its centre: nothing is left to certify.
+/// Triangulates the whole set as one region, on the sphere from its centre. No triangle needs a
+/// certificate.
 template <class Space> Reports triangulate_whole(const Sites& sites, DelaunayReport& report) {
   std::vector<Member> members(static_cast<std::size_t>(sites.size()));
   for (std::size_t r = 0; r < members.size(); ++r)
@@ -75,8 +76,8 @@ struct CapResult {
   double seconds = 0;
 };
 
-/// The members together with some sites from all over the set; empty when they, too, span no
-/// triangle.
+/// Triangulates the members together with sites sampled from the whole set; empty if these span no
+/// triangle either.
 template <class Space>
 Triangulation<Space> build_with_sample(const Space& space, std::int64_t sites,
                                        std::vector<Member> members) {
@@ -86,7 +87,8 @@ Triangulation<Space> build_with_sample(const Space& space, std::int64_t sites,
         {static_cast<std::int32_t>(s * sites / std::min(sample, sites)), Member::not_owned});
   const auto by_rank = [](const Member& a, const Member& b) { return a.rank < b.rank; };
   const auto same_rank = [](const Member& a, const Member& b) { return a.rank == b.rank; };
-  std::stable_sort(members.begin(), members.end(), by_rank); // a member stays before its double
+  std::stable_sort(members.begin(), members.end(),
+                   by_rank); // stable: a member precedes its duplicate
   members.erase(std::unique(members.begin(), members.end(), same_rank), members.end());
   std::erase_if(members, [&](const Member& m) { return !space.has_place(m.rank); });
   Triangulation<Space> triangulation(space);
@@ -94,8 +96,8 @@ Triangulation<Space> build_with_sample(const Space& space, std::int64_t sites,
   return triangulation;
 }
 
-/// One region: gather, project, triangulate, cull and certify. Empty when its cap cannot certify
-/// its sites.
+/// One region: gather, project, triangulate, cull and certify. Empty if its cap cannot certify its
+/// sites.
 template <class Space>
 std::optional<CapResult> triangulate_cap(const Sites& sites, const Regions& regions, std::int32_t k,
                                          Array<std::int32_t>& triangles_of) {
@@ -116,10 +118,10 @@ std::optional<CapResult> triangulate_cap(const Sites& sites, const Regions& regi
   }
   const Space space(sites, centre, 1.000001 * std::sqrt(reach));
   std::erase_if(members, [&](const Member& m) { return !space.has_place(m.rank); });
-  if (count_owned() != result.owned) // its own focus is a site of its own
+  if (count_owned() != result.owned) // one of its own sites is at the focus
     return std::nullopt;
   Triangulation<Space> triangulation(space);
-  if (!triangulation.build(members)) // too few, or on one line: some from afar make a triangle
+  if (!triangulation.build(members)) // too few, or on one line: add sites from outside
     triangulation = build_with_sample<Space>(space, sites.size(), members);
   if (triangulation.members().empty() || !certify(triangulation, sites, regions, k, result.cull))
     return std::nullopt;
@@ -148,8 +150,8 @@ void summarise(const std::vector<CapResult>& caps, std::int64_t sites, DelaunayR
   report.overlap = static_cast<double>(members) / static_cast<double>(sites);
 }
 
-/// All regions, a task each; empty when one of them cannot certify its sites, or when a rounded
-/// bisector has cost one a site that it owns.
+/// All regions, each in its own task. Empty if a region cannot certify its sites, or if a rounded
+/// bisector has removed a site from its owner.
 template <class Space>
 std::optional<Reports> triangulate_caps(const Sites& sites, const Regions& regions,
                                         DelaunayReport& report, Monitor& monitor) {
@@ -184,12 +186,12 @@ Mesh make_mesh(Sites&& sites, Reports&& reports, Monitor* monitor = nullptr) {
   Mesh mesh;
   mesh.points = std::move(sites.points);
   mesh.site_of_input = std::move(sites.site_of_input);
-  sites = {}; // the mesh's triangles take the room of what is left of them
+  sites = {}; // frees what is left of the sites, so that the triangles can use the memory
   unite(std::move(reports.regions), std::move(reports.triangles_of), mesh, monitor);
   return mesh;
 }
 
-/// Both ends of each edge learn of each other.
+/// Adds each edge to the lists of both its ends.
 std::vector<std::vector<std::int32_t>> adjacent_sites(const Mesh& mesh) {
   std::vector<std::vector<std::int32_t>> adjacent(static_cast<std::size_t>(mesh.points.cols()));
   for_each_edge(mesh, [&](std::int32_t a, std::int32_t b) {
@@ -210,8 +212,8 @@ Sites make_sites_of(Points&& points, Duplicates duplicates, double merge_within,
     return make_sites(std::forward<Points>(points), duplicates, merge_within, monitor);
 }
 
-/// The mesh of some centres, or none when they are too few, meet, or lie on one line, or on
-/// the sphere in a hemisphere.
+/// The mesh of centres; none if they are too few, coincide, or lie on one line, or on the sphere in
+/// a hemisphere.
 template <class Space, class Points> std::optional<Mesh> mesh_of(const Points& points) {
   try {
     Sites sites = make_sites_of<Space>(points, Duplicates::merge, 0);
@@ -225,8 +227,8 @@ template <class Space, class Points> std::optional<Mesh> mesh_of(const Points& p
   return std::nullopt;
 }
 
-/// For each centre those whose coarse Voronoi cells meet its own: its neighbours in the Delaunay
-/// triangulation of the centres, or all others where there is none.
+/// For each centre the centres whose coarse Voronoi cells meet its own: its neighbours in the
+/// Delaunay triangulation of the centres, or all others if there is no such triangulation.
 std::vector<std::vector<std::int32_t>> adjacent_centres(const std::vector<Vec3>& centres,
                                                         bool planar) {
   const std::size_t count = centres.size();
@@ -263,8 +265,8 @@ void empty_pools_of_many(std::int64_t sites) {
     empty_pools();
 }
 
-/// From sites and their regions to the mesh, whose points in a plane have z = 0. Each array goes
-/// when it has served: the largest sets take all of the memory.
+/// Computes the mesh from sites and regions; in a plane its points have z = 0. Each array is freed
+/// after its last use, because the largest sets take all of the memory.
 template <class Space>
 Mesh triangulate_regions(Sites&& sites, Regions&& regions, DelaunayReport& report,
                          Monitor& monitor) {

@@ -9,9 +9,9 @@
 
 namespace calotte::delaunay_detail {
 
-/// The stages that follow divide(), on the sphere: the Delaunay triangulation of sites, for a
-/// caller that has their regions already.
-/// \throws Error degenerate, for sites on one great circle.
+/// The stages after divide(), on the sphere: the Delaunay triangulation of sites for a caller that
+/// already has their regions.
+/// \throws Error degenerate for sites on one great circle.
 Mesh spherical_mesh(Sites&& sites, Regions&& regions);
 
 } // namespace calotte::delaunay_detail

@@ -8,8 +8,8 @@
 
 namespace calotte::delaunay_detail {
 
-/// The sphere's regions by the options: centres, owners, and who takes which sites beside its own.
-/// A single region has no owners or members listed.
+/// Divides sites into regions by the options: centres, owners and members. A single region has no
+/// lists of owners and members.
 /// \throws Error bad_option.
 Regions divide(const Sites& sites, const Partition& partition);
 

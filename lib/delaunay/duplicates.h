@@ -18,9 +18,9 @@
 /// The inputs that stand for one site: equal ones, and those nearer than a distance.
 namespace calotte::delaunay_detail {
 
-/// Orders a run of inputs of equal keys: along a curve over the square that their cube points fill,
-/// and so on where those keys are equal too. A cluster narrower than a finest cell is a curve like
-/// any other then, where walks from site to site are short. Equal cube points end up side by side,
+/// Orders a run of inputs of equal keys along a curve over the square that their cube points fill,
+/// and recursively if keys are equal again. A cluster narrower than a finest cell thus follows a
+/// curve, too, on which walks from site to site are short. Equal cube points become adjacent,
 /// ordered by direction, then index.
 template <class Input> void order_finely(const Input& input, std::span<std::int32_t> run) {
   CubePoint low = input.square(run.front()), high = low;
@@ -55,8 +55,8 @@ template <class Input> void order_finely(const Input& input, std::span<std::int3
   }
 }
 
-/// For each input the lowest index of the same direction. Equal directions have the same bits on
-/// the cube, hence the same key, and stand side by side in a run of equal keys that is in order.
+/// Links each input to the lowest index of the same direction. Equal directions have the same bits
+/// on the cube, hence the same key, and are adjacent in an ordered run of equal keys.
 template <class Input>
 void link_duplicates(const Input& input, std::span<std::int32_t> run,
                      std::vector<std::int32_t>& lowest) {
@@ -66,15 +66,15 @@ void link_duplicates(const Input& input, std::span<std::int32_t> run,
       lowest[static_cast<std::size_t>(run[i])] = lowest[static_cast<std::size_t>(run[i - 1])];
 }
 
-/// Merges each input into an earlier one that stays and is nearer than `within`, if there is one:
-/// those that stay are kept in a grid of cubes wider than the distance, rounding included.
+/// Merges each input into an earlier input that stays and is nearer than `within`, if there is one.
+/// A grid of cubes wider than the distance, including rounding, holds the inputs that stay.
 template <class Input>
 void link_near(const Input& input, double within, std::vector<std::int32_t>& lowest) {
   constexpr std::int64_t none = std::numeric_limits<std::int64_t>::max();
   const double cell = (1 + 1e-9) * input.distance(within) + 0x1p-48;
   std::unordered_multimap<std::uint64_t, std::int32_t> grid;
   const auto cell_of = [&](double x) { return static_cast<std::int64_t>(std::floor(x / cell)); };
-  // Cubes that share a hash cost time alone: distances are compared.
+  // A collision of hashes costs time only, because distances are compared.
   const auto hash = [](std::int64_t i, std::int64_t j, std::int64_t k) {
     std::uint64_t h = 0;
     for (const std::int64_t index : {i, j, k})
@@ -96,7 +96,7 @@ void link_near(const Input& input, double within, std::vector<std::int32_t>& low
   };
   for (std::int64_t i = 0; i < input.points.cols(); ++i) {
     const auto index = static_cast<std::size_t>(i);
-    if (lowest[index] != i) { // its twin came earlier and knows by now where it went
+    if (lowest[index] != i) { // a duplicate of an earlier input, whose target is final
       lowest[index] = lowest[static_cast<std::size_t>(lowest[index])];
       continue;
     }
@@ -108,7 +108,7 @@ void link_near(const Input& input, double within, std::vector<std::int32_t>& low
   }
 }
 
-/// For each input the one that stands for it; empty when each stands for itself.
+/// For each input the index of its representative; empty if no inputs merge.
 template <class Input>
 std::vector<std::int32_t> link_inputs(const Input& input, Order& order, double merge_within) {
   const std::int64_t n = order.size();

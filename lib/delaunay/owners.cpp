@@ -14,7 +14,7 @@ std::int32_t nearest(const Vec3& x, const std::vector<Vec3>& centres,
                      std::span<const std::int32_t> candidates) {
   std::int32_t best = candidates.front();
   double least = std::numeric_limits<double>::infinity();
-  for (const std::int32_t k : candidates) { // ascending: a tie stays with the lowest
+  for (const std::int32_t k : candidates) { // ascending, so that a tie stays with the lowest
     const Vec3 apart = x - centres[static_cast<std::size_t>(k)];
     if (const double square = dot(apart, apart); square < least) {
       best = k;
@@ -24,9 +24,9 @@ std::int32_t nearest(const Vec3& x, const std::vector<Vec3>& centres,
   return best;
 }
 
-/// Descends the cells of some sites, together with the centres that may be nearest to some of a
-/// cell's. These stand in a stack, those of a cell above those of the cell around it: a descent
-/// that allocates in every cell has threads wait for each other.
+/// Descends the quadtree together with the centres that may be nearest to some site of a cell. The
+/// candidates are kept on a stack, those of a cell above those of its parent: allocating in every
+/// cell would make threads wait for each other.
 class OwnerDescent {
 public:
   OwnerDescent(const Quadtree& tree, const Vec3* unit, const std::vector<Vec3>& centres,
@@ -36,7 +36,7 @@ public:
   void run(const QuadtreeCell& cell) { own(cell, 0); }
 
 private:
-  /// The candidates are those from `first` on.
+  /// The candidates are those from index `first` on.
   void own(const QuadtreeCell& cell, std::size_t first) {
     const std::size_t end = candidates_.size();
     push_possible(bounding_ball(cell), first);
@@ -73,13 +73,13 @@ private:
   const std::vector<Vec3>& centres_;
   std::int32_t* owner_;
   std::vector<std::int32_t> candidates_;
-  std::vector<double> distance_; ///< of one cell's candidates
+  std::vector<double> distance_; ///< by candidate of one cell
 };
 
 } // namespace
 
 std::vector<QuadtreeCell> task_cells(const Quadtree& tree) {
-  constexpr std::int64_t parts = 128, least = 256; // of fewer sites a task is not worth a thread
+  constexpr std::int64_t parts = 128, least = 256; // a task of fewer sites is not worth a thread
   const std::int64_t enough = std::max(tree.size() / parts, least);
   std::vector<QuadtreeCell> cells, pending;
   const auto push_reversed = [&](const auto& group) {

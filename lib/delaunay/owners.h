@@ -9,17 +9,17 @@
 
 namespace calotte::delaunay_detail {
 
-/// Of so few sites a descent looks at each.
+/// Below this number of sites a descent tests each site.
 constexpr std::int64_t leaf_size = 16;
 
-/// Cells of like size that together hold all sites, in the order of the curve: the tasks of a
-/// descent.
+/// Cells of similar size that together contain all sites, in curve order: the tasks of a descent.
 std::vector<QuadtreeCell> task_cells(const Quadtree& tree);
 
 /// The numbers of all centres.
 std::vector<std::int32_t> all_of(const std::vector<Vec3>& centres);
 
-/// The nearest centre of each of some directions sorted along the curve, ties to the lowest.
+/// The nearest centre of each of several directions sorted along the curve; a tie goes to the
+/// lowest index.
 Array<std::int32_t> owners(const Quadtree& tree, const Array<Vec3>& unit,
                            const std::vector<Vec3>& centres);
 

@@ -23,8 +23,8 @@ struct Copies {
   std::vector<std::int32_t> site; ///< of each image
 };
 
-/// The copies up to `margin` around the box, at most half of it: those of the boxes around are
-/// enough.
+/// The copies up to `margin` around the box, at most half of the box: copies in the adjacent boxes
+/// suffice.
 Copies copies_within(const Points2& sites, const Eigen::Vector2d& period, double margin) {
   Copies copies;
   for (std::int32_t s = 0; s < sites.cols(); ++s) {
@@ -52,8 +52,8 @@ struct Circle {
   double radius;
 };
 
-/// From the corner across from the longest side. Differences of sites come first, so that copies of
-/// one shift are as far apart as their sites, to the last digits.
+/// Computed from the corner across from the longest side. Differences of sites come first, so that
+/// copies with the same shift have the offsets of their sites to the last digits.
 Circle circle_of(const std::array<Image, 3>& corner, const Eigen::Vector2d& period) {
   const double unit = period.maxCoeff();
   const auto side = [&](std::size_t from, std::size_t to) {
@@ -77,9 +77,9 @@ Circle circle_of(const std::array<Image, 3>& corner, const Eigen::Vector2d& peri
 
 enum class Found { all, need_more_margin, too_few };
 
-/// Whether the circles of the triangles at the box's sites are narrower than half of the box, and
-/// lie within the margin. In doubles, with room for their rounding: a circle that is wrongly said
-/// to be too wide costs time, or a set that is sparse to the last digits.
+/// Tests whether the circles of the triangles at the sites of the box are narrower than half of the
+/// box and lie within the margin. It runs in doubles with a margin for rounding: a circle wrongly
+/// reported as too wide costs time, or rejects a set that is sparse to the last digits.
 Found judge(const PlanarMesh& mesh, const Copies& copies, std::int64_t sites,
             const Eigen::Vector2d& period, double margin) {
   constexpr double room = 1e-6;
@@ -106,7 +106,7 @@ Found judge(const PlanarMesh& mesh, const Copies& copies, std::int64_t sites,
   return found;
 }
 
-/// Of each triangle the copy whose lowest site stands in the box, in canonical order.
+/// Of each triangle the copy whose lowest site is in the box, in canonical order.
 Triangles one_copy_each(const PlanarMesh& mesh, std::int64_t sites,
                         const std::vector<std::int32_t>& site) {
   const auto site_of = [&](std::int32_t copy) { return site[static_cast<std::size_t>(copy)]; };
@@ -133,7 +133,7 @@ Triangles one_copy_each(const PlanarMesh& mesh, std::int64_t sites,
                   " sites: add sites, or put several copies of the box beside each other");
 }
 
-/// The mesh of the box's sites, of which `whole` holds copies.
+/// The mesh of the sites of the box, from `whole`, which contains copies.
 PlanarMesh folded(const PlanarMesh& whole, const Copies& copies, const Points2& sites,
                   const Eigen::Vector2d& period) {
   PlanarMesh mesh;
@@ -151,7 +151,7 @@ PlanarMesh folded(const PlanarMesh& whole, const Copies& copies, const Points2& 
 } // namespace
 
 void require_in_box(const Points2Ref& points, const Eigen::Vector2d& period) {
-  constexpr double longest = 1e300; // the box's copies must be doubles, too
+  constexpr double longest = 1e300; // the coordinates of copies must be finite, too
   require((period.array() > 0).all() && (period.array() <= longest).all(),
           "the periodic box is " + std::to_string(period.x()) + " x " + std::to_string(period.y()) +
               "; give two positive lengths up to 1e300");

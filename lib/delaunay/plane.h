@@ -11,9 +11,9 @@
 
 namespace calotte::delaunay_detail {
 
-/// The plane as the stages see it: the second instance of what they call a Space, see sphere.h. The
-/// projection is the identity; the doubles of a place filter both signs, and leave what they cannot
-/// decide to the exact predicates on the given coordinates.
+/// The plane, the second model of a Space (see sphere.h). The projection is the identity. The
+/// doubles of a place filter both signs; the exact predicates on the given coordinates decide the
+/// rest.
 class Plane {
 public:
   struct Place {
@@ -32,7 +32,7 @@ public:
   /// The distance that no two places in the frame exceed.
   static constexpr double diameter = 2.83;
 
-  /// All sites.
+  /// Views all sites.
   explicit Plane(const Sites& sites) : Plane(sites, {0, 0, 0}, diameter) {}
 
   /// `reach` bounds the distance from the centre to the sites of a region, in the sites' frame.
@@ -42,10 +42,10 @@ public:
 
   static bool has_place(std::int64_t) { return true; }
 
-  /// Fetches what the place of a site will need: the given coordinates stand in the input's order.
+  /// Prefetches the data that place() reads: the given coordinates are in input order.
   void expect(std::int64_t rank) const { __builtin_prefetch(&sites_->given(sites_->id[rank])); }
 
-  /// The place of a site; bounds that it outgrows are widened.
+  /// The place of a site; widens the error bounds if the site exceeds them.
   Place place(std::int64_t rank);
 
   const PredicateCounts& counts() const { return counts_; }
@@ -59,8 +59,7 @@ public:
     return orientation_beyond_static(a, b, c);
   }
 
-  /// Of images by their rounded places: where these are the hull of a box's copies, nothing that
-  /// counts stands.
+  /// For images by their rounded places: at the hull of a box's copies, no result depends on them.
   bool between(const Place& a, const Place& p, const Place& b) const {
     return exact_detail::between(given(a), given(p), given(b));
   }
@@ -81,9 +80,9 @@ public:
       return 1;
     if (value < -in_circle_error_)
       return -1;
-    // The bound of widen() by this triangle's size L and the offset's s: where sites are far denser
-    // along a region than across it, the static bound decides nothing. (L + s)^2 is at most
-    // 2 (L^2 + s^2), and s (L + s) at most 3/4 of that, which needs no roots.
+    // The bound of widen() by this triangle's size L and the offset's s. If sites are far denser
+    // along a region than across it, the static bound decides no sign. (L + s)^2 is at most 2 (L^2
+    // + s^2), and s (L + s) at most 3/4 of that, which needs no roots.
     const double size2 = std::max(square_distance(a, b), square_distance(a, c)),
                  both2 = 2 * (size2 + square_distance(a, d));
     double error = 61 * roundoff * size2 * both2 + least_error;
@@ -97,7 +96,7 @@ public:
   }
 
 private:
-  /// What underflow of the scaled coordinates and their products may add, with room to spare.
+  /// Bound on the underflow error of the scaled coordinates and their products, with a margin.
   static constexpr double least_error = 0x1p-900;
 
   static double square_distance(const Place& a, const Place& b) {

@@ -11,9 +11,9 @@
 namespace calotte::delaunay_detail {
 namespace {
 
-/// Mean step along the curve between sites of one owner, by region: the local spacing, but for a
-/// factor near 1. That of all sites for a region of a site or two, as where there are as many
-/// regions as sites.
+/// Mean step along the curve between sites of one owner, by region: the local spacing, up to a
+/// factor near 1. For a region of one or two sites, as with as many regions as sites, the mean of
+/// all sites.
 std::vector<double> mean_steps(const Sites& sites, const Array<std::int32_t>& owner,
                                std::size_t regions) {
   std::vector<double> sum(regions, 0), count(regions, 0);
@@ -34,15 +34,15 @@ std::vector<double> mean_steps(const Sites& sites, const Array<std::int32_t>& ow
   return sum;
 }
 
-/// A circumcap of random sites rarely spans more than this many steps across a bisector; for the
-/// rest a query is cheaper than a wider halo of all.
+/// A circumcap of random sites rarely spans more than this number of steps across a bisector; for
+/// the others a query is cheaper than a wider halo of all regions.
 constexpr double halo_steps = 2.5;
 
 HalfSpace beyond_bisector(const Vec3& own, const Vec3& other, double width) {
   const Vec3 apart = other - own;
   const double length = norm(apart);
   const double offset =
-      dot(own + other, apart) / (2 * length); // 0 of unit vectors, but for rounding
+      dot(own + other, apart) / (2 * length); // 0 for unit vectors, up to rounding
   return {(1 / length) * apart, offset + width};
 }
 
@@ -103,9 +103,9 @@ distance_half_spaces(const Sites& sites, const Regions& regions,
   return covered;
 }
 
-/// What is nearer to a region's centre than to any centre that is not its neighbour's is surely
-/// owned by it or a neighbour. `nearest` compares squared distances that err by 5e-15 each; over a
-/// bisector of centres that stand close together, that is much.
+/// A site that is nearer to a region's centre than to any centre that is not its neighbour's is
+/// certainly owned by the region or a neighbour. `nearest` compares squared distances with an error
+/// of 5e-15 each, which is large over a bisector of centres that are close together.
 std::vector<std::vector<HalfSpace>>
 voronoi_half_spaces(const Regions& regions,
                     const std::vector<std::vector<std::int32_t>>& adjacent) {
@@ -119,7 +119,8 @@ voronoi_half_spaces(const Regions& regions,
         continue;
       const double length = norm(regions.centres[m] - regions.centres[k]);
       if (length < 1e-12) {
-        covered[k].assign(1, {regions.centres[k], -2}); // a twin: nothing is surely covered
+        covered[k].assign(
+            1, {regions.centres[k], -2}); // a coincident centre: no site is certainly covered
         break;
       }
       covered[k].push_back(
@@ -159,8 +160,8 @@ Side side(const Ball& ball, const std::vector<HalfSpace>& half_spaces) {
   return result;
 }
 
-/// Descends the cells of some sites, together with the regions whose half-spaces may hold some of a
-/// cell's and not others; these stand in a stack, as in a descent to owners.
+/// Descends the quadtree together with the regions whose half-spaces may hold a part of a cell's
+/// sites. The regions are kept on a stack, as in a descent to owners.
 class MemberDescent {
 public:
   MemberDescent(const Sites& sites, const Regions& regions)
@@ -173,7 +174,7 @@ public:
   }
 
 private:
-  /// The candidates are those from `first` on.
+  /// The candidates are those from index `first` on.
   void collect(const QuadtreeCell& cell, std::size_t first) {
     const std::size_t end = candidates_.size();
     const Ball ball = bounding_ball(cell);

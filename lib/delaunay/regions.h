@@ -22,18 +22,18 @@ struct Run {
   std::int32_t begin, end;
 };
 
-/// The decomposition: who owns each site, and which sites each region triangulates.
+/// The decomposition: the owner of each site, and the sites that each region triangulates.
 struct Regions {
   std::vector<Vec3> centres; ///< t_k, unit vectors; in a plane places in its frame
   Array<std::int32_t> owner; ///< by rank: the region with the nearest centre, ties to the lowest
   std::vector<std::vector<Run>> members; ///< by region, ascending: its own sites and its halo
-  /// By region: every site in all of these is a member.
+  /// By region: a site in all of these half-spaces is a member.
   std::vector<std::vector<HalfSpace>> covered;
 };
 
-/// Owners of the sites, by rank, and members by the options' sort.
+/// Computes the owners of the sites, by rank, and the members by the option `sort`.
 /// \param adjacent for each region its neighbours: regions whose coarse Voronoi cells meet its own.
-///        Too many of them cost time, too few make halos larger than need be.
+///         Too many neighbours cost time; too few make halos larger than necessary.
 Regions make_regions(const Sites& sites, std::vector<Vec3> centres,
                      const std::vector<std::vector<std::int32_t>>& adjacent, Sort sort);
 

@@ -5,11 +5,11 @@
 
 /// The triangulation by regions (Jacobsen et al., 2013): points -> sites -> regions -> [ gather,
 /// project, triangulate, cull ] for each region -> unite -> mesh. Each arrow is a stage, a function
-/// from values to values in a file of its name. The stages are written once for a Space, Sphere or
+/// from values to values in a file of its name. The stages are templates over a Space, Sphere or
 /// Plane.
 ///
 /// In: points of a caller. Out: the Delaunay triangulation in canonical order, the same bits for
-/// any threads, regions and order of insertion.
+/// any number of threads and regions and any order of insertion.
 namespace calotte::delaunay_detail {
 using namespace integrals_detail; // and the rooms below it
 }

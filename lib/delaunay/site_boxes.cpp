@@ -18,8 +18,8 @@ struct Extent {
   }
 };
 
-/// Rounding the middle moves it, which the half extents make up for; these are rounded up, by the
-/// least normal number where they are too small for a relative margin.
+/// Rounding moves the middle; the half extents compensate for it. They are rounded up, by the least
+/// normal number if they are too small for a relative margin.
 SiteBox rounded(const Extent& extent) {
   SiteBox box{};
   for (std::size_t axis = 0; axis < 3; ++axis) {

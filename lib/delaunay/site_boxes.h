@@ -16,9 +16,9 @@ struct SiteBox {
   std::array<float, 3> middle, half;
 };
 
-/// A tree of boxes over sites that are sorted along a space-filling curve: leaves of 8 consecutive
-/// sites, eight nodes to each node above (a packed Hilbert R-tree: Kamel and Faloutsos, 1993). It
-/// fits any distribution of the sites, as a quadtree does not where they crowd along a line.
+/// A tree of boxes over sites sorted along a space-filling curve: leaves of 8 consecutive sites,
+/// eight nodes to each node above (a packed Hilbert R-tree: Kamel and Faloutsos, 1993). It fits any
+/// distribution of the sites; a quadtree does not fit sites that crowd along a line.
 class SiteBoxes {
 public:
   static constexpr std::int64_t width = 8;

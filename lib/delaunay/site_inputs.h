@@ -17,7 +17,7 @@
 #include <cstdint>
 #include <string>
 
-/// What sites are made of: how an input's points are told apart and placed along the curve.
+/// The kinds of input points: their comparison and their position along the curve.
 namespace calotte::delaunay_detail {
 
 inline bool is_finite(const Vec3& p) {
@@ -52,7 +52,7 @@ struct Directions {
   CubePoint square(std::int64_t i) const { return to_cube(at(i)); }
   int compare(std::int64_t i, std::int64_t j) const {
     const Vec3 &p = at(i), &q = at(j);
-    const bool equal_bits = p.x == q.x && p.y == q.y && p.z == q.z; // spares exact arithmetic
+    const bool equal_bits = p.x == q.x && p.y == q.y && p.z == q.z; // avoids exact arithmetic
     return equal_bits ? 0 : compare_directions(p, q);
   }
   bool same(std::int64_t i, std::int64_t j) const { return same_direction(at(i), at(j)); }
@@ -92,21 +92,21 @@ struct Places {
     return {std::clamp(q.x, -1.0, 1.0), std::clamp(q.y, -1.0, 1.0), 0};
   }
   double distance(double within) const { return within * frame.scale / frame.half; }
-  /// In halves, lest they overflow.
+  /// Halved, so that differences do not overflow.
   bool are_within(std::int64_t i, std::int64_t j, double within) const {
     return std::hypot(points(0, i) / 2 - points(0, j) / 2, points(1, i) / 2 - points(1, j) / 2) <
            within / 2;
   }
 };
 
-/// Of the finite points.
+/// The frame of the finite points.
 inline Frame frame_of(const Points2Ref& points) {
   double largest = 0;
   for (const double x : points.reshaped())
     if (std::isfinite(x))
       largest = std::max(largest, std::abs(x));
   Frame frame;
-  if (largest > 0) // so far that neither the scale nor what it scales leaves the doubles' range
+  if (largest > 0) // clamped so that the scale and the scaled values stay in the range of doubles
     frame.scale = std::ldexp(1.0, -std::clamp(std::ilogb(largest), -1000, 1000));
   Eigen::Array2d low(2, 2), high(-2, -2);
   for (Eigen::Index i = 0; i < points.cols(); ++i)
@@ -117,9 +117,9 @@ inline Frame frame_of(const Points2Ref& points) {
     }
   if (largest > 0) {
     Eigen::Array2d centre = (low + high) / 2;
-    // The curve passes the middle lines of its square twice: a narrow box around one would be in
-    // two halves. It passes once above the horizontal one and along the left edge, so they lie
-    // there.
+    // The curve crosses the middle lines of its square twice: a narrow box around one of them would
+    // fall into two halves. The curve crosses once above the horizontal middle line and along the
+    // left edge, so the frame puts narrow boxes there.
     const Eigen::Array2d extent = high - low;
     if (2 * extent.y() <= extent.x())
       centre.y() = low.y();
@@ -136,7 +136,7 @@ inline Frame frame_of(const Points2Ref& points) {
   return frame;
 }
 
-/// Images of sites, which stand where their rounded points do.
+/// Images of sites, at their rounded places.
 struct Images : Places {
   static bool same(std::int64_t, std::int64_t) { return false; }
 };

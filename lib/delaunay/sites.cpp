@@ -19,7 +19,7 @@
 namespace calotte::delaunay_detail {
 namespace {
 
-/// Curve keys of all inputs, which it checks.
+/// Computes the curve keys of all inputs and checks them.
 template <class Input> Array<std::uint64_t> make_keys(const Input& input) {
   constexpr std::int64_t none = std::numeric_limits<std::int64_t>::max();
   const std::int64_t n = input.points.cols();
@@ -51,7 +51,7 @@ void refuse_duplicates(const std::vector<std::int32_t>& lowest, const char* twin
                   static_cast<std::int64_t>(i));
 }
 
-/// Keeps the inputs that stand for themselves and numbers them in the order of the input.
+/// Keeps the inputs that represent themselves and numbers them in input order.
 template <class Input>
 void keep_distinct(const Input& input, const std::vector<std::int32_t>& lowest, Order& order,
                    Sites& sites) {
@@ -105,7 +105,8 @@ template <class Input> void require_count(std::int64_t n, const char* kind) {
                                            " points: 32-bit triangle ids allow 2^30 at most");
 }
 
-/// \param all_points the input's points as Sites holds them; called at most once, last of all.
+/// \param all_points returns the input's points in the form of Sites; called at most once, after
+///         the last read of the input's points.
 template <class Input, class AllPoints>
 Sites make_sites_of(const Input& input, Duplicates duplicates, double merge_within,
                     Monitor* monitor, const AllPoints& all_points) {
@@ -134,7 +135,7 @@ Sites make_sites_of(const Input& input, Duplicates duplicates, double merge_with
   constexpr std::int64_t ahead = 24;
   for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t rank = begin; rank != end; ++rank) {
-      if (rank + ahead < end) // in the input's order they are anywhere
+      if (rank + ahead < end) // in input order, at random places in memory
         __builtin_prefetch(&sites.given(sites.id[rank + ahead]));
       sites.unit[rank] = input.unit(sites.given(sites.id[rank]));
     }

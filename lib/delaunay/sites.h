@@ -18,8 +18,8 @@
 
 namespace calotte::delaunay_detail {
 
-/// From a plane's coordinates to [-1,1]^2: (scale x - centre) / half. The scale is a power of two,
-/// which keeps products of coordinates from overflow and underflow.
+/// Maps coordinates of a plane to [-1,1]^2: (scale x - centre) / half. The scale is a power of two;
+/// it prevents overflow and underflow of products of coordinates.
 struct Frame {
   double scale = 1;
   Vec3 centre{0, 0, 0}; ///< the frame's origin: of the sites' box, but that a narrow one is moved
@@ -31,9 +31,9 @@ struct Frame {
   }
 };
 
-/// The distinct directions of an input, or the distinct places of a plane's, in two orders: by
-/// *id*, the order of the input, and by *rank*, along the space-filling curve. Stages work by rank,
-/// where neighbours in memory are neighbours in space; the mesh speaks of ids.
+/// The distinct directions of an input, or the distinct places of a plane, in two orders: by *id*,
+/// the order of the input, and by *rank*, along the space-filling curve. Stages work by rank, in
+/// which sites near in memory are near in space; the mesh uses ids.
 struct Sites {
   Points3 points;                          ///< by id: as given, of any norm; in a plane with z = 0
   std::vector<std::int32_t> site_of_input; ///< id for each input column
@@ -50,23 +50,24 @@ struct Sites {
 
 constexpr std::int64_t site_steps = 4;
 
-/// \throws Error not_finite, zero_vector, duplicate, too_few_sites (for more than 2^30 points too),
-/// bad_option.
-/// \param monitor if not null, told of site_steps steps.
+/// \param monitor if not null, receives site_steps steps.
+/// \throws Error not_finite, zero_vector, duplicate, too_few_sites, bad_option (for more than 2^30
+///         points, too).
 Sites make_sites(const Points3Ref& points, Duplicates duplicates, double merge_within,
                  Monitor* monitor = nullptr);
 
-/// The same; where no points are merged, they become the sites' points and are not copied.
+/// The same. If no points merge, they become the points of the sites without a copy.
 Sites make_sites(Points3&& points, Duplicates duplicates, double merge_within,
                  Monitor* monitor = nullptr);
 
-/// Of a plane: equal places are duplicates, `merge_within` is a distance. \throws Error as above,
-/// but for zero_vector.
+/// In a plane: equal places are duplicates, `merge_within` is a distance.
+/// \throws Error as above, except zero_vector.
 Sites make_planar_sites(const Points2Ref& points, Duplicates duplicates, double merge_within,
                         Monitor* monitor = nullptr);
 
-/// Sites of a periodic box together with copies of them: `points` are the images, each coordinate
-/// rounded once. \pre the images are distinct.
+/// Sites of a periodic box together with copies: `points` are the images, each coordinate rounded
+/// once.
+/// \pre the images are distinct.
 Sites make_sites(std::vector<Image> images, const Vec2& period);
 
 } // namespace calotte::delaunay_detail

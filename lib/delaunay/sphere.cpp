@@ -4,8 +4,8 @@
 namespace calotte::delaunay_detail {
 namespace {
 
-/// Beyond this chord from the centre (120 degrees) the projection is not used: its error grows
-/// without bound.
+/// The projection is not used beyond this chord from the centre (120 degrees), because its error
+/// grows without bound.
 constexpr double farthest_projected = 1.7320508;
 
 } // namespace

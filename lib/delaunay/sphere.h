@@ -10,18 +10,19 @@
 
 namespace calotte::delaunay_detail {
 
-/// The sphere as the stages see it: the first instance of what they call a Space.
+/// The sphere, the first model of a Space.
 ///
-/// A Space looks at its domain from one region. It supplies `Place`, the coordinates that the
-/// triangulation keeps in a vertex; `place`, to make one of a site that `has_place`, and `expect`,
-/// to fetch ahead what that reads; `circle`, what in-circle tests of a triangle share; and the
-/// signs `orientation`, `between` and `in_circle` of three or four places, ties resolved.
-/// `in_circle` is never 0 for a triangle of the triangulation and another site.
+/// A Space views its domain from one region. It provides `Place`, the coordinates that the
+/// triangulation stores in a vertex; `place`, which makes one from a site that `has_place`;
+/// `expect`, which prefetches the data that `place` reads; `circle`, the values that the in-circle
+/// tests of a triangle share; and the signs `orientation`, `between` and `in_circle` of three or
+/// four places, with ties resolved. `in_circle` is not 0 for a triangle of the triangulation and
+/// another site.
 ///
 /// On the sphere the view is stereographic from the focus opposite to a cap's centre (Jacobsen et
 /// al., 2013, Eq. 5), or central for a whole set. The projected doubles of a place filter
-/// orientations only; the unit vector filters in-circle signs; both leave what they cannot decide
-/// to the exact predicates on the given directions.
+/// orientations only; the unit vector filters in-circle signs. The exact predicates on the given
+/// directions decide the rest.
 class Sphere {
 public:
   struct Place {
@@ -30,8 +31,8 @@ public:
     std::int32_t site;
   };
 
-  /// What is the same for all in-circle tests of one triangle: the flat triangle's normal
-  /// (b - a) x (c - a), so that the determinant is its product with d - a.
+  /// The values that all in-circle tests of one triangle share: the normal (b - a) x (c - a) of the
+  /// flat triangle; the determinant is its product with d - a.
   struct Circle {
     Vec3 normal;
   };
@@ -46,13 +47,13 @@ public:
   /// sites.
   Sphere(const Sites& sites, const Vec3& centre, double reach);
 
-  /// Whether a site has a place: all but one at the focus itself.
+  /// True if a site has a place: all sites do except one at the focus itself.
   bool has_place(std::int64_t rank) const;
 
-  /// What follows needs that place: nothing to fetch, ranks follow each other in memory.
+  /// Announces the use of a place: needs no prefetch, because ranks are consecutive in memory.
   static void expect(std::int64_t) {}
 
-  /// The place of a site; bounds that it outgrows are widened.
+  /// The place of a site; widens the error bounds if the site exceeds them.
   Place place(std::int64_t rank);
 
   const View& view() const { return view_; }

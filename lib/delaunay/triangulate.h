@@ -5,8 +5,7 @@
 #include "base/triangle.h"
 #include "delaunay/room.h"
 
-// CGAL's containers take their memory through this macro: for the same reason as Array, from
-// oneTBB.
+// CGAL's containers allocate through this macro: from oneTBB, for the same reason as Array.
 #if CALOTTE_POOLED
 #define CGAL_ALLOCATOR(T) tbb::scalable_allocator<T>
 #endif
@@ -31,7 +30,7 @@ struct Member {
   bool owned() const { return depth != not_owned; }
 };
 
-/// CGAL's vertex with what the inner loops read of a site: one cache line.
+/// CGAL's vertex with the data of a site that the inner loops read: one cache line.
 template <class Place, class Tds = void>
 struct RegionVertex : CGAL::Triangulation_ds_vertex_base_2<Tds> {
   template <class OtherTds> struct Rebind_TDS { using Other = RegionVertex<Place, OtherTds>; };
@@ -42,13 +41,13 @@ struct RegionVertex : CGAL::Triangulation_ds_vertex_base_2<Tds> {
   bool owned() const { return depth != Member::not_owned; }
 };
 
-/// CGAL's face with its circle and marks of its own.
+/// CGAL's face with its circle and additional marks.
 template <class Circle, class Tds = void>
 struct RegionFace : CGAL::Triangulation_ds_face_base_2<Tds> {
   using Base = CGAL::Triangulation_ds_face_base_2<Tds>;
   using Base::Base;
   template <class OtherTds> struct Rebind_TDS { using Other = RegionFace<Circle, OtherTds>; };
-  // The small ones first: they fit into the base's padding.
+  // Small members first: they fit into the padding of the base.
   std::int8_t infinite = -1; ///< index of the vertex at infinity, -1 in a finite face
   bool in_conflict = false;  ///< during an insertion
   bool certified = false;    ///< free for a later stage; false in a new face
@@ -59,14 +58,14 @@ struct RegionFace : CGAL::Triangulation_ds_face_base_2<Tds> {
 /// The Delaunay triangulation of places of a Space (see sphere.h), by incremental insertion,
 /// completed by one vertex at infinity that is joined to the hull.
 ///
-/// CGAL's Triangulation_data_structure_2 holds vertices and faces. The insertion over it is
-/// Bowyer's and Watson's (1981): the faces in conflict with the new site are found from the one
-/// that holds it and become the site's star, so that each is written once. (CGAL's own insertion
-/// writes a star of three and flips; with its planar predicates, on 20 000 sites in the same order,
-/// it took 1.6 times as long.)
+/// CGAL's Triangulation_data_structure_2 stores vertices and faces. The insertion over it is that
+/// of Bowyer and Watson (1981): the faces in conflict with the new site are found from the face
+/// that contains it and become the star of the site, so that each is written once. (CGAL's own
+/// insertion writes a star of three and flips; with its planar predicates, on 20 000 sites in the
+/// same order, it took 1.6 times as long.)
 ///
 /// Invariant after `build`: a Delaunay triangulation, ties as the Space resolves them. From the
-/// sphere's centre the vertex at infinity stands for the centre, and vanishes once the sites
+/// sphere's centre the vertex at infinity represents the centre, and vanishes once the sites
 /// surround it.
 template <class Space> class Triangulation {
 public:
@@ -80,7 +79,8 @@ public:
 
   explicit Triangulation(Space space) : space_(std::move(space)) { store_.set_dimension(2); }
 
-  /// Inserts all members, which lie along a curve; false when they lie on one line of the view.
+  /// Inserts all members, which are ordered along a curve; false if they lie on one line of the
+  /// view.
   bool build(std::span<const Member> members);
 
   /// Inserts one more site, which is no member yet.
@@ -98,12 +98,12 @@ public:
       body(Face(face));
   }
 
-  /// Whether a place lies inside the circumcap of a face; of an infinite face, beyond the hull's
+  /// True if a place lies inside the circumcap of a face; for an infinite face, beyond the hull's
   /// edge.
   bool conflicts(Face face, const Place& p);
 
 private:
-  /// Whether p lies beyond the hull's edge of an infinite face, or on it.
+  /// True if p lies beyond the hull's edge of an infinite face, or on it.
   bool is_beyond(Face face, const Place& p);
 
   /// An edge as seen from one of its faces.
@@ -128,7 +128,7 @@ private:
   Vertex infinity_;
   Face hint_;
   std::vector<Member> members_;
-  // Of one insertion; kept for their memory, whose size is never 0.
+  // Scratch of one insertion, kept for its memory, whose size is never 0.
   std::vector<Edge> inner_edges_ = std::vector<Edge>(64), rim_ = std::vector<Edge>(64);
   std::vector<Face> conflicting_ = std::vector<Face>(64);
   std::size_t conflicts_ = 0, rim_size_ = 0;
@@ -190,8 +190,8 @@ template <class Space> bool Triangulation<Space>::build(std::span<const Member> 
   abc->circle = space_.circle(a->place, b->place, c->place);
   hint_ = abc;
 
-  // Along the curve, the steps of a walk are few; in rounds from coarse to fine, the hull is soon
-  // complete and stars stay small.
+  // Along the curve, walks take few steps; in rounds from coarse to fine, the hull is soon complete
+  // and stars stay small.
   const std::int64_t n = std::ssize(members);
   constexpr std::array<std::int64_t, 4> strides{512, 64, 8, 1};
   for (std::size_t round = 0; round < strides.size(); ++round)
@@ -212,9 +212,10 @@ template <class Space> void Triangulation<Space>::insert(const Member& member) {
   make_star(vertex);
 }
 
-/// The face that holds p, by a visibility walk; an infinite face when p lies beyond the hull. It
-/// ends in a Delaunay triangulation, whose faces seen from any point are ordered without a cycle.
-/// Both edges ahead are tested before either answer is needed: the processor overlaps them.
+/// The face that contains p, by a visibility walk; an infinite face if p lies beyond the hull. The
+/// walk ends in a Delaunay triangulation, whose faces seen from any point are ordered without a
+/// cycle. Both edges ahead are tested before either result is needed, so that the processor
+/// overlaps the tests.
 template <class Space> auto Triangulation<Space>::locate(const Place& p) -> Face {
   Face face = is_infinite(hint_) ? hint_->neighbor(hint_->infinite) : hint_;
   int back = 0; // index of the vertex across from the edge behind
@@ -254,8 +255,8 @@ template <class Space> bool Triangulation<Space>::is_beyond(Face face, const Pla
   return way != 0 ? way > 0 : space_.between(a, p, b);
 }
 
-/// The conflicting faces, which hang together, and their rim, breadth first: the next edges are
-/// known before the last answer is, and the processor overlaps their tests.
+/// The conflicting faces, which are connected, and their rim, breadth first: the next edges are
+/// known before the last result, so that the processor overlaps their tests.
 template <class Space> void Triangulation<Space>::find_conflicts(Face start, const Place& p) {
   start->in_conflict = true;
   conflicting_[0] = start;
@@ -289,8 +290,8 @@ template <class Space> void Triangulation<Space>::grow() {
   conflicting_.resize(inner_edges_.size());
 }
 
-/// Replaces the conflicting faces by the star of a vertex over their rim. The rim's vertices tell,
-/// by the face that they point to, which faces of the star are neighbours.
+/// Replaces the conflicting faces by the star of a vertex over their rim. The face pointers of the
+/// rim's vertices identify which faces of the star are neighbours.
 template <class Space> void Triangulation<Space>::make_star(Vertex centre) {
   for (; conflicts_ < rim_size_; ++conflicts_)
     conflicting_[conflicts_] = store_.create_face();

@@ -46,8 +46,8 @@ template <class Vertices> std::int8_t own_edges(const Vertices& v) {
   return static_cast<std::int8_t>(bits);
 }
 
-/// Turns lists of the triangles of one lowest vertex into ranks: of each triangle by second site.
-/// A list ends in a triangle that does not exist, with a second site beyond all.
+/// Turns lists of the triangles of one lowest vertex into ranks: of each triangle by second site. A
+/// list ends with a sentinel triangle, whose second site is larger than all others.
 class RankLists {
 public:
   RankLists(std::int32_t triangles, std::size_t vertices)
@@ -64,7 +64,7 @@ public:
   /// For a triangle in no list.
   void leave_out(std::int32_t triangle) { next_[triangle] = -1; }
 
-  /// The ranks by triangle, -1 of those left out, and one of the list's end.
+  /// The ranks by triangle; -1 for triangles in no list, and one entry for the sentinel.
   Array<std::int32_t> ranks() && {
     for (const std::int32_t t : last_)
       rank(t);
@@ -72,8 +72,8 @@ public:
   }
 
 private:
-  /// Most lists have up to four members, and their number cannot be foreseen: ends are ranked as
-  /// members are, without branches that would be mispredicted.
+  /// Most lists have up to four members, and their length is unpredictable: sentinels are ranked as
+  /// members are, without branches, which would be mispredicted.
   void rank(std::int32_t t0) {
     const std::int32_t t1 = next_[t0], t2 = next_[t1], t3 = next_[t2];
     if (next_[t3] != end_) {
@@ -90,7 +90,7 @@ private:
     next_[end_] = end_;
   }
 
-  /// Of a hub there may be any number.
+  /// A hub may have any number of triangles.
   void rank_many(std::int32_t t) {
     many_.clear();
     for (; t != end_; t = next_[t])
@@ -174,17 +174,18 @@ namespace {
                                        ": please report this input as a bug");
 }
 
-/// The seam triangles whose lowest site one region owns, by their sites: open addressing. The table
-/// of all would be as large as a cache, and met at random; that of a region and those of its
-/// neighbours, where alone its seams stand, are small.
+/// The seam triangles whose lowest site one region owns, by their sites, with open addressing. A
+/// table of all seam triangles would be as large as a cache, with random access; the tables of a
+/// region and its neighbours, which hold all of its seams, are small.
 class SeamTable {
 public:
   SeamTable() = default;
-  /// With room for so many.
+  /// Reserves space for that many triangles.
   explicit SeamTable(std::int64_t triangles)
       : slots_(static_cast<std::size_t>(triangles + triangles / 2 + 1)) {}
 
-  /// Enters a triangle and its place in the mesh, reported once. By one thread, before others look.
+  /// Enters a triangle and its place in the mesh, reported once. One thread calls it, before others
+  /// read.
   void enter(const Seam& seam, std::int32_t place) {
     Slot& slot = find(seam.sites);
     slot.sites = seam.sites;
@@ -193,7 +194,7 @@ public:
     slot.reports.fetch_add(1, std::memory_order_relaxed);
   }
 
-  /// Counts one more report of a triangle, by any thread; its place in the mesh.
+  /// Counts one more report of a triangle, from any thread; returns its place in the mesh.
   std::int32_t count(const Seam& seam) {
     Slot& slot = find(seam.sites);
     if (slot.place < 0 || slot.reporters != seam.reporters)
@@ -202,7 +203,7 @@ public:
     return slot.place;
   }
 
-  /// Each triangle was reported by all of its owners.
+  /// True if each triangle was reported by all of its owners.
   void require_agreement() const {
     for (const Slot& slot : slots_)
       if (slot.reports.load(std::memory_order_relaxed) != slot.reporters)
@@ -231,8 +232,8 @@ private:
   std::vector<Slot> slots_;
 };
 
-/// Triangles ahead of the one in hand whose memory is fetched: ids in the input's order scatter a
-/// region's triangles all over the mesh.
+/// Number of triangles ahead of the current one whose memory is prefetched: ids in input order
+/// scatter a region's triangles over the mesh.
 constexpr std::int64_t ahead = 32;
 
 /// Turns the ranks of the triangles whose lowest site the region owns into their places in the
@@ -257,8 +258,8 @@ Array<std::int32_t> place_own(Array<std::int32_t>&& rank, const Array<Triple>& s
   return place;
 }
 
-/// Neighbours across the edges that the region answers for: all of a triangle with one owner, those
-/// of a seam triangle whose lower site it owns.
+/// Sets the neighbours across the edges that the region is responsible for: all edges of a triangle
+/// with one owner, and those edges of a seam triangle whose lower site it owns.
 void write_neighbours(const RegionTriangles& report, const Array<std::int32_t>& place,
                       Triangles& out) {
   const auto write = [&](std::int64_t t, int bits) {
@@ -300,7 +301,7 @@ void unite(std::vector<RegionTriangles>&& reports, Array<std::int32_t>&& triangl
     for (const Seam& seam : report.seams)
       if (seam.home == k)
         tables[static_cast<std::size_t>(k)].enter(seam, own[seam.triangle]);
-    if (mesh.points.cols() > most_sites_kept) // the mesh's neighbours take their room
+    if (mesh.points.cols() > most_sites_kept) // frees memory for the mesh's neighbours
       give_back(report.sites);
     step(monitor);
   });

@@ -26,7 +26,7 @@ struct Seam {
                          ///< from vertex i
 };
 
-/// What one region reports: its triangles with an owned vertex, in no order, each from its lowest
+/// The report of one region: its triangles with an owned vertex, in any order, each from its lowest
 /// site on.
 struct RegionTriangles {
   Array<Triple> sites;      ///< counter-clockwise
@@ -36,7 +36,8 @@ struct RegionTriangles {
   std::vector<Seam> seams;  ///< ascending by triangle
 };
 
-/// The number of those whose lowest site that region owns: of all regions together, each once.
+/// The number of triangles whose lowest site the region owns; over all regions each triangle counts
+/// once.
 std::int64_t seams_at(std::int64_t home, const std::vector<Seam>& seams);
 
 /// Reports the certified finite faces of a triangulation.
@@ -48,12 +49,13 @@ RegionTriangles report_triangles(Triangulation<Space>& triangulation, const Site
                                  const Array<std::int32_t>& owner,
                                  Array<std::int32_t>& triangles_of);
 
-/// Unites the regions' reports to triangles and neighbours in canonical order. Triangles with one
-/// owner go straight to their place. Seam triangles meet in a concurrent hash table, a part for
-/// each region, which counts who reported each.
-/// \param triangles_of by site, as report_triangles left it; used up, as the reports are.
-/// \param monitor if not null, told of two steps a region.
-/// \throws Error internal, when a seam triangle was not reported by exactly its vertices' owners.
+/// Unites the reports of the regions to triangles and neighbours in canonical order. Triangles with
+/// one owner go directly to their place. Seam triangles meet in a concurrent hash table, one part
+/// per region, which counts their reports.
+/// \param triangles_of by site, as report_triangles left it; consumed, as the reports are.
+/// \param monitor if not null, receives two steps per region.
+/// \throws Error internal if a seam triangle was not reported by exactly the owners of its
+///         vertices.
 void unite(std::vector<RegionTriangles>&& reports, Array<std::int32_t>&& triangles_of, Mesh& mesh,
            Monitor* monitor = nullptr);
 

@@ -70,9 +70,9 @@ struct Corner {
 };
 
 /// The steepest corner of the boxes between rows j and j + 1. In a box dh/dlat is linear in
-/// longitude and dh/dlon linear in latitude; over the cosine of the latitude it has no inner
-/// maximum. Towards a pole, where both dh/dlon and the cosine vanish, it falls: at the pole's own
-/// corners it is left out.
+/// longitude and dh/dlon linear in latitude; divided by the cosine of the latitude, dh/dlon has no
+/// inner maximum. Towards a pole, where both dh/dlon and the cosine vanish, it falls; the east
+/// component is therefore 0 at the corners on a pole.
 Corner steepest_of_row(const WidthField& field, std::int64_t j) {
   const double height = field.latitudes()[j + 1] - field.latitudes()[j];
   Corner steepest;

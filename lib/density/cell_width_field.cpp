@@ -47,7 +47,7 @@ void require(const CellWidth& cell_width) {
     refuse("the widths differ by more than 1e30; give them in one unit");
 }
 
-/// The mean of a row, which is exact where all are equal.
+/// The mean of a row, exact if all values are equal.
 double mean(const CellWidth& cell_width, Eigen::Index row) {
   const double first = cell_width.widths(0, row);
   double sum = 0;

@@ -17,10 +17,10 @@ public:
   /// At least two values.
   explicit Axis(std::vector<double> values);
 
-  /// The last i with values[i] <= x; the first or the last interval where there is none.
+  /// The last i with values[i] <= x, clamped to the first and last interval.
   std::int64_t interval(double x) const;
 
-  /// Where x stands in interval i: 0 at its start, 1 at its end and beyond.
+  /// The relative position of x in interval i: 0 at its start, 1 at its end, clamped.
   double fraction(std::int64_t i, double x) const;
 
   double operator[](std::int64_t i) const { return values_[static_cast<std::size_t>(i)]; }
@@ -28,18 +28,19 @@ public:
 
 private:
   std::vector<double> values_, inverse_steps_;
-  std::vector<std::int32_t> first_; ///< by bin: the interval that its start lies in
+  std::vector<std::int32_t> first_; ///< by bin: the interval that contains the start of the bin
   double bins_per_unit_ = 0;
 };
 
-/// A cell width made ready to be evaluated many times: the first column stands again at the end,
-/// and a row at either pole has one value.
+/// A cell width prepared for repeated evaluation: the first column is repeated at the end, and the
+/// rows at the poles have one value each.
 class WidthField {
 public:
-  /// \throws Error bad_option where it is not as CellWidth says.
+  /// \throws Error bad_option if it violates the conditions of CellWidth.
   explicit WidthField(const CellWidth& cell_width);
 
-  /// Widths at unit vectors given by their coordinates: of each alone, in any company.
+  /// Widths at unit vectors given by their coordinates. The bits of each width depend on its vector
+  /// alone.
   void operator()(const double* x, const double* y, const double* z, std::size_t count,
                   double* widths) const;
 
@@ -50,7 +51,7 @@ public:
   }
   double least() const { return least_; }
 
-  /// Of a row: from_lonlat's, the same bits on every machine.
+  /// Cosine of the latitude of a row, as from_lonlat() computes it: the same bits on every machine.
   double cosine(std::int64_t j) const { return cosines_[static_cast<std::size_t>(j)]; }
   double sine(std::int64_t j) const { return sines_[static_cast<std::size_t>(j)]; }
 
@@ -64,8 +65,8 @@ private:
   double least_ = 0; ///< of the nodes given
 };
 
-/// The regular grid whose steps are the largest of at most so many degrees that divide the
-/// hemisphere, poles included, with widths yet to be filled in.
+/// The regular grid, poles included, with the largest step of at most `step` degrees that divides
+/// 180. The widths are not set.
 CellWidth regular_grid(double step);
 
 } // namespace calotte::density_detail

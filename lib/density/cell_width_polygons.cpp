@@ -25,8 +25,8 @@ namespace {
 
 // ---- Inside or outside
 
-/// Longitudes are whole numbers of 1e-9 degrees, so that turns by 360 degrees are exact and every
-/// meridian crosses a ring as often as topology has it.
+/// Longitudes are integers in units of 1e-9 degrees, so that turns by 360 degrees are exact and the
+/// number of crossings of a meridian and a ring is topologically correct.
 using Longitude = std::int64_t;
 constexpr double units = 1e9; ///< in a degree
 constexpr Longitude turn = 360'000'000'000;
@@ -46,8 +46,8 @@ struct Edge {
   std::int32_t polygon, ring;
 };
 
-/// How far east it is from one place to the next: the shorter way, but a written difference of 360
-/// degrees is kept.
+/// The longitude step to the next place: the shorter way, but a written difference of 360 degrees
+/// is kept.
 Longitude eastward(const Place& from, const Place& to) {
   const double written = to.longitude - from.longitude;
   if (std::abs(written) == 360)
@@ -56,7 +56,7 @@ Longitude eastward(const Place& from, const Place& to) {
   return way < turn / 2 || (way == turn / 2 && written > 0) ? way : way - turn;
 }
 
-/// Adds a ring's edges; true where the north pole is inside it.
+/// Adds the edges of a ring; returns true if the north pole is inside it.
 bool add_edges(const Ring& ring, std::int32_t polygon, std::int32_t number,
                std::vector<Edge>& edges) {
   Longitude round = 0;
@@ -79,8 +79,8 @@ bool add_edges(const Ring& ring, std::int32_t polygon, std::int32_t number,
   return round != 0 && std::abs(northern) <= static_cast<double>(turn); // a sphere has twice that
 }
 
-/// Tells whether a place lies inside polygons: from there, every ring is crossed on the way along
-/// the meridian to the north pole.
+/// Point-in-polygon test: counts the crossings of each ring along the meridian from the place to
+/// the north pole.
 class Inside {
 public:
   explicit Inside(const std::vector<Polygon>& polygons) : bins_(bin_count) {
@@ -102,7 +102,7 @@ public:
   const std::vector<Edge>& edges() const { return edges_; }
 
   bool operator()(Longitude longitude, double latitude) const {
-    // A pole lies inside as what is just beside it.
+    // A pole counts as the places next to it.
     constexpr double highest = 90 - 1e-9;
     latitude = std::clamp(latitude, -highest, highest);
     const Longitude meridian = wrapped(longitude);
@@ -123,7 +123,7 @@ private:
 
   const Edge& edge(std::int32_t e) const { return edges_[static_cast<std::size_t>(e)]; }
 
-  /// Whether the meridian meets the edge to the north of the latitude.
+  /// True if the meridian crosses the edge north of the latitude.
   static bool crosses(const Edge& edge, Longitude meridian, double latitude) {
     const Longitude offset = wrapped(meridian - edge.west);
     if (offset >= edge.span)
@@ -162,7 +162,7 @@ double square_from(const Arc& arc, const Vec3& p) {
   return std::min(dot(a, a), dot(b, b));
 }
 
-/// Whether an edge's part from `start` to `end` (0 to 1) has polygons on one side only.
+/// True if the part of an edge from `start` to `end` (0 to 1) has polygons on one side only.
 bool is_boundary(const Inside& inside, const Edge& edge, double start, double end) {
   constexpr double aside = 1e-6; // degrees: a tenth of a metre
   const double middle = 0.5 * (start + end),
@@ -239,8 +239,8 @@ std::vector<Arc> boundary_arcs(const Inside& inside) {
   return arcs;
 }
 
-/// Distances to polygons' boundary. Its arcs stand along a space-filling curve, below a binary tree
-/// of boxes: node k has the children 2k and 2k + 1.
+/// Distances to the boundary of polygons. Its arcs are sorted along a space-filling curve, below a
+/// binary tree of boxes: node k has the children 2k and 2k + 1.
 class Boundary {
 public:
   explicit Boundary(const Inside& inside) {
@@ -253,7 +253,7 @@ public:
       arcs_.push_back(arc);
     while (leaves_ * arcs_of_leaf < arcs_.size())
       leaves_ *= 2;
-    boxes_.resize(2 * leaves_, {{4, 4, 4}, {-4, -4, -4}}); // of nothing
+    boxes_.resize(2 * leaves_, {{4, 4, 4}, {-4, -4, -4}}); // empty box
     for (std::size_t leaf = 0; leaf < leaves_; ++leaf)
       for (std::size_t a = first_of(leaf); a < first_of(leaf + 1); ++a)
         boxes_[leaves_ + leaf] = joined(boxes_[leaves_ + leaf], box_of(arcs_[a]));
@@ -261,7 +261,7 @@ public:
       boxes_[node] = joined(boxes_[2 * node], boxes_[2 * node + 1]);
   }
 
-  /// The square of the chord from a unit vector, or `far` where it is not below that.
+  /// The square of the chord from a unit vector to the boundary, at most `far`.
   double square(const Vec3& p, double far) const {
     visit(1, p, far);
     return far;
@@ -294,7 +294,7 @@ private:
 
 // ---- Widths
 
-/// Regions of equal width are one: borders between them are no boundary.
+/// Merges regions of equal width: borders between them are no boundary.
 std::vector<WidthRegion> merged(const std::vector<WidthRegion>& regions) {
   std::vector<WidthRegion> all;
   for (const WidthRegion& region : regions) {
@@ -318,7 +318,7 @@ struct Region {
   Boundary boundary;
 };
 
-/// The outside's part in the width at a place: 0 inside, 1 beyond the transition.
+/// The weight of the outside width at a place: 0 inside, 1 beyond the transition.
 double outside_weight(const Region& region, const PolygonWidths& widths, double longitude,
                       double latitude) {
   if (region.inside(to_units(longitude), latitude))

@@ -18,7 +18,7 @@ struct Place {
 /// At least three places; the last leads back to the first.
 using Ring = std::vector<Place>;
 
-/// The first ring and its holes: what lies within an odd number of its rings.
+/// The first ring and its holes: the interior is the set of places within an odd number of rings.
 using Polygon = std::vector<Ring>;
 
 /// Polygons with one width inside, in km.
@@ -27,9 +27,10 @@ struct WidthRegion {
   std::vector<Polygon> polygons;
 };
 
-/// See read_cell_width. All widths but each region's own are given. Only where there is one region
-/// may it be wider than the outside. \pre the places are finite, latitudes from -90 to 90.
-/// \throws Error bad_option, for a transition too narrow for the finest raster; a ring that runs
+/// See read_cell_width(). The outside width and the transition in `widths` are set. An inside width
+/// may exceed the outside width only if there is one region.
+/// \pre the places are finite, latitudes from -90 to 90.
+/// \throws Error bad_option for a transition too narrow for the finest raster, or a ring that runs
 ///         round the Earth more than once.
 CellWidth cell_width_of(const std::vector<WidthRegion>& regions, const PolygonWidths& widths);
 

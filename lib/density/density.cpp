@@ -36,9 +36,9 @@ Profile profile_of(const Bump& bump, std::size_t b) {
   return profile;
 }
 
-/// The angle between a unit vector and the centre: 2 asin(|x - c|/2) in the near hemisphere and
-/// pi - 2 asin(|x + c|/2) in the far one. acos(x.c) would lose half of the digits near the centre,
-/// and the first form in the far hemisphere. Of a stretched bump, |x - c| is the reduced length.
+/// The angle between a unit vector and the centre: 2 asin(|x - c|/2) in the near hemisphere and pi
+/// - 2 asin(|x + c|/2) in the far one. acos(x.c) would lose half of the digits near the centre, and
+/// the first form in the far hemisphere. For a stretched bump, |x - c| is the reduced length.
 template <bool stretched> CALOTTE_INLINE double angle_from(const Profile& bump, const Vec3& x) {
   Vec3 apart = x - bump.centre;
   const Vec3 sum = x + bump.centre;
@@ -58,7 +58,7 @@ CALOTTE_VECTOR_WIDTHS
 void bump_values(const Profile& profile, const double* x, const double* y, const double* z,
                  std::size_t count, double* rho) {
   const Profile bump = profile; // writing to rho cannot change it
-  if (bump.shrink > 0) {        // two loops: a choice inside would keep them from being vectorised
+  if (bump.shrink > 0) {        // two loops: a branch inside would prevent vectorisation
     CALOTTE_VECTOR_LOOP
     for (std::size_t j = 0; j < count; ++j)
       rho[j] = value_at(bump, angle_from<true>(bump, {x[j], y[j], z[j]}));
@@ -131,7 +131,7 @@ void DensityEvaluator::operator()(std::span<const double> x, std::span<const dou
 }
 
 DensityEvaluator::Bounds DensityEvaluator::bounds(const Vec3& middle, double reach) const {
-  constexpr double slack = 1e-14; // of an angle, and of a value: more than rounding takes
+  constexpr double slack = 1e-14; // for an angle and for a value: more than the rounding error
   Bounds bounds;
   for (const Profile& profile : profiles_) {
     const double change = reach * (profile.shrink > 0 ? std::numbers::sqrt2 : 1) + slack;

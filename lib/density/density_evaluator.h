@@ -13,7 +13,7 @@
 
 namespace calotte::density_detail {
 
-/// A bump as its inner loop needs it.
+/// A bump in the form that the inner loop reads.
 struct Profile {
   Vec3 centre, major; ///< unit vectors; major tangential
   double shrink;      ///< 1 - 1/stretch, by which offsets along major are reduced
@@ -26,29 +26,31 @@ CALOTTE_INLINE double value_at(const Profile& bump, double distance) {
          bump.height / (1 + exponential((bump.beta - distance) * bump.minus_two_over_alpha));
 }
 
-/// All of a bump but its centre and its axis. \param name in messages.
-/// \throws Error bad_option, where a number is out of range.
+/// The profile without centre and axis.
+/// \param name names the bump in messages.
+/// \throws Error bad_option if a number is out of range.
 Profile profile_without_place(const Bump& bump, const std::string& name);
 
-/// A density made ready to be evaluated many times.
+/// A density prepared for repeated evaluation.
 class DensityEvaluator {
 public:
-  /// \throws Error bad_option, when the density is ill-formed.
+  /// \throws Error bad_option if the density is ill-formed.
   explicit DensityEvaluator(const Density& density);
 
-  /// The density at unit vectors given by their coordinates. The same bits for a point in any
-  /// company. \throws Error bad_option, when a callable's value is negative, infinite or NaN.
+  /// The density at unit vectors given by their coordinates. The bits of each value depend on its
+  /// vector alone.
+  /// \throws Error bad_option if a value of a callable is negative, infinite or NaN.
   void operator()(std::span<const double> x, std::span<const double> y, std::span<const double> z,
                   std::span<double> rho) const;
 
   struct Bounds {
     double least = 0, greatest = 0;
   };
-  /// Of bumps, at the unit vectors within an angle `reach` of one. Where a bump's distances change
-  /// by 1, or by sqrt(2) of a stretched one, at most per radian, so does the argument of its tanh:
-  /// with p, w the components of x along the centre and the long axis and k = 1 - 1/stretch^2, the
-  /// square of that slope is (1 + k^2 w^2 - (p + k w^2)^2) / (1 - (p + k w^2/2)^2), and that is at
-  /// most 2 as p^2 + w^2 <= 1.
+  /// Bounds of bumps over the unit vectors within an angle `reach` of one. The distance of a bump
+  /// changes by at most 1 per radian, that of a stretched bump by at most sqrt(2), and so does the
+  /// argument of its tanh: with p, w the components of x along the centre and the long axis and k =
+  /// 1 - 1/stretch^2, the square of that slope is (1 + k^2 w^2 - (p + k w^2)^2) / (1 - (p + k
+  /// w^2/2)^2), which is at most 2 as p^2 + w^2 <= 1.
   Bounds bounds(const Vec3& middle, double reach) const;
 
 private:

@@ -16,7 +16,7 @@ namespace {
 
 using Bounds = DensityEvaluator::Bounds;
 
-constexpr double smallest_side = 0x1p-40; // far from where halves of it would round
+constexpr double smallest_side = 0x1p-40; // far above sizes whose halves round
 constexpr std::size_t lattice = 8;        ///< points along a box
 constexpr int first_depth = 6, last_depth = 9;
 
@@ -27,8 +27,8 @@ double least_square(const Box& box) {
   return x * x + y * y;
 }
 
-/// Whether an edge passes through a box whose own box it meets: not all corners lie beyond it. May
-/// say so wrongly where that is close.
+/// True if an edge may pass through a box whose own box it meets, that is unless all corners lie on
+/// one side of it. A close miss may count as a hit.
 bool crosses(const Outline::Edge& edge, const Box2& box) {
   const double dx = edge.to.x - edge.from.x, dy = edge.to.y - edge.from.y;
   int left = 0, right = 0;
@@ -63,8 +63,8 @@ std::array<double, 2> Hemispheres::nearest(double x, double y) {
   return length > 1 ? std::array{x / length, y / length} : std::array{x, y};
 }
 
-/// The disc is convex: what lies in it and in the box is no farther from the box's middle, when
-/// that is moved into the disc, than half a diagonal.
+/// The disc is convex: a point in the disc and in the box is no farther from the box's middle,
+/// after that is moved into the disc, than half a diagonal.
 Bounds Hemispheres::bounds(const DensityEvaluator& density, const Box& box) {
   const auto [x, y] = nearest(box.x + 0.5 * box.side, box.y + 0.5 * box.side);
   const double half_chord = std::min(1.0, std::sqrt(0.5) * box.side);
@@ -146,8 +146,8 @@ template <class Map> void EnvelopeOf<Map>::cover(int depth) {
   bound(boxes_);
 }
 
-/// Halves the boxes that matter until the bounds are close to each other on the whole, or there are
-/// too many boxes: then a long thin ridge costs more proposals.
+/// Halves the boxes with the largest effect until the bounds are close to each other on the whole,
+/// or there are too many boxes. In the latter case a long thin ridge costs more proposals.
 template <class Map> void EnvelopeOf<Map>::refine() {
   const std::size_t most = boxes_.size() + (1 << 16);
   while (boxes_.size() < most) {
@@ -208,7 +208,7 @@ template <class Map> void EnvelopeOf<Map>::raise(const std::vector<Witness>& wit
         else
           siblings.push_back(quarter);
     }
-    // Both bounds the same: it is not halved again.
+    // Both bounds are equal, so that the box is not halved again.
     box.bounds.greatest = std::max(2 * witness.rho, box.bounds.greatest);
     box.bounds.least = box.bounds.greatest;
   }
@@ -231,7 +231,7 @@ template <class Map> void EnvelopeOf<Map>::bound(std::vector<Box>& boxes) const 
   });
 }
 
-/// From values in the box and a quarter of a side around it, with a margin.
+/// Sampled in the box and a quarter of a side around it, with a margin.
 template <class Map> Bounds EnvelopeOf<Map>::sampled_bounds(const Box& box) const {
   constexpr double step = 1.5 / lattice, margin = 1.25;
   std::array<std::array<double, lattice * lattice>, 4> rows;

@@ -19,17 +19,17 @@ namespace calotte::density_detail {
 /// in the disc is at least half of the chord on the sphere.
 Vec3 on_sphere(double x, double y, bool south);
 
-/// A square of a map: corners (x, y) and (x + side, y + side). It may stick out of what the map
-/// shows.
+/// A square of a map: corners (x, y) and (x + side, y + side). It may extend beyond the area that
+/// the map shows.
 struct Box {
   double x = -1, y = -1, side = 2;
   bool south = false; ///< which hemisphere; false in a plane
   DensityEvaluator::Bounds bounds;
 
-  double area() const { return side * side; } ///< in proportion to that of what is mapped
+  double area() const { return side * side; } ///< proportional to the area mapped
 };
 
-/// How much of a box shows a place.
+/// The part of a box that the map shows.
 enum class Shown { none, part, whole };
 
 /// The two maps of the sphere. (Area: half of that on the sphere.)
@@ -37,14 +37,14 @@ struct Hemispheres {
   static constexpr const char* name = "sphere";
 
   static std::vector<Box> squares() { return {Box{}, Box{-1, -1, 2, true, {}}}; }
-  /// A box that sticks out of its disc counts as whole: what is proposed there is as many as a
-  /// bound in the disc says.
+  /// A box that extends beyond its disc counts as whole: the number of proposals in it follows from
+  /// a bound in the disc.
   static Shown shown(const Box& box);
   static Vec3 place(double x, double y, bool south) { return on_sphere(x, y, south); }
   static bool holds(double x, double y, const Vec3&) { return x * x + y * y < 1; }
   /// The map's point that is nearest to (x, y), where the density is known.
   static std::array<double, 2> nearest(double x, double y);
-  /// Whether bounds() of a density that is not a callable are certain.
+  /// True if bounds() is certain for a density that is not a callable.
   static bool is_certain(const Density&) { return true; }
   static DensityEvaluator::Bounds bounds(const DensityEvaluator& density, const Box& box);
 };
@@ -81,27 +81,29 @@ struct Witness {
   double x = 0, y = 0, rho = 0;
 };
 
-/// A density's upper bound that is constant on boxes, small ones where the density varies. Boxes
-/// are halved until the bound's integral is about twice that of a lower bound: proposals that
-/// follow it are accepted more often than not, however peaked the density is.
+/// An upper bound of a density that is constant on boxes, which are small where the density varies.
+/// Boxes are halved until the integral of the bound is about twice that of a lower bound, so that
+/// more than half of the proposals are accepted, even for a density with high peaks.
 ///
-/// For bumps on the sphere the bound is certain. For others it rests on a lattice of 64 values in
-/// and around each box, and is nowhere less than a sixteenth of the bound's mean: what hides
-/// between the lattice's points (0.01 radians apart; 0.001 when all coarser lattices meet zeros
-/// only) is known when a proposal hits it.
+/// For bumps on the sphere the bound is certain. For other densities it rests on a lattice of 64
+/// values in and around each box, and is nowhere less than a sixteenth of its mean. A feature
+/// between the points of the lattice (0.01 radians apart; 0.001 if all coarser lattices meet zeros
+/// only) is found when a proposal hits it.
 ///
-/// Where nothing is shown the density counts as 0, so that boxes are halved along a boundary, too.
+/// Outside the map the density counts as 0, so that boxes are halved along a boundary, too.
 template <class Map> class EnvelopeOf {
 public:
-  /// \throws Error bad_option, when the density is ill-formed, negative, infinite or NaN, or zero
-  /// everywhere.
   /// \param density of places of the map.
+  /// \throws Error bad_option if the density is ill-formed, negative, infinite or NaN, or zero
+  ///         everywhere.
   explicit EnvelopeOf(const Density& density, Map map = Map());
 
-  /// The box that a number from [0, 1) falls to, each box by its bound's integral.
+  /// The box for a number from [0, 1): the probability of a box is proportional to the integral of
+  /// its bound.
   std::int64_t choose(double unit) const;
 
-  /// Cuts the witnesses' boxes into smaller ones about them, bounded by twice what was found.
+  /// Cuts the boxes of the witnesses into smaller ones around them, with twice the value found as
+  /// bound.
   void raise(const std::vector<Witness>& witnesses);
 
   const Map& map() const { return map_; }

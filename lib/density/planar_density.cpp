@@ -56,7 +56,7 @@ Density::Callable bump_values(const Density& density, const Vec2& period) {
   };
 }
 
-/// Asks a callable for places in the box.
+/// Evaluates a callable at copies of places inside the box.
 Density::Callable in_box(Density::Callable callable, const Eigen::Vector2d& period) {
   return [callable = std::move(callable), period](const Eigen::Ref<const Points3>& x,
                                                   Eigen::Ref<Eigen::VectorXd> rho) {
@@ -78,7 +78,7 @@ Density planar_density(const Density& density, const PlanarDomain& domain) {
   planar.kind = Density::Kind::callable;
   if (density.kind != Density::Kind::callable)
     planar.callable = bump_values(density, period);
-  else if (!density.callable) // refused where it is used
+  else if (!density.callable) // rejected at its use
     return density;
   else
     planar.callable =

@@ -8,9 +8,9 @@
 
 namespace calotte::density_detail {
 
-/// A density of a planar domain made ready for what speaks of columns (x, y, 0) alone: uniform, or
-/// a callable that knows of the box's period.
-/// \throws Error bad_option, when the density is ill-formed.
+/// Converts a density of a planar domain for functions that evaluate columns (x, y, 0): uniform, or
+/// a callable that accounts for the period of the box.
+/// \throws Error bad_option if the density is ill-formed.
 Density planar_density(const Density& density, const PlanarDomain& domain);
 
 } // namespace calotte::density_detail

@@ -36,7 +36,7 @@ void require_raster(const PlanarRaster& raster) {
                   ") is negative, infinite or NaN; correct it");
 }
 
-/// A raster whose intervals are found in constant time.
+/// A raster that finds intervals in constant time.
 struct Field {
   Axis x, y;
   Eigen::MatrixXd density;

@@ -6,7 +6,7 @@
 /// Densities and cell widths: tanh bumps, rasters, polygons and callables, evaluated in batches,
 /// bounded from above, and sampled.
 ///
-/// In: what a user asks for. Out: values at points, and points distributed as a density.
+/// In: a density or cell widths. Out: values at points, and points distributed as a density.
 namespace calotte::density_detail {
 using namespace domain_detail; // and the rooms below it
 }

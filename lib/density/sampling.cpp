@@ -20,7 +20,7 @@ constexpr std::size_t batch = 512; ///< proposals that are evaluated at once
 constexpr std::int64_t batches_of_task = 16;
 constexpr std::int64_t proposals_of_task = batches_of_task * batch;
 
-/// What became of a task's proposals.
+/// The outcome of the proposals of a task.
 struct Drawn {
   std::vector<Vec3> accepted;
   std::vector<Witness> above; ///< their envelope
@@ -76,7 +76,7 @@ Drawn draw_task(const EnvelopeOf<Map>& envelope, std::uint64_t seed, std::uint64
   return drawn;
 }
 
-/// The greatest of each box, by box.
+/// The greatest witness of each box, by box.
 std::vector<Witness> greatest_of_boxes(const std::vector<Drawn>& drawn) {
   std::vector<Witness> all;
   for (const Drawn& d : drawn)
@@ -105,19 +105,20 @@ std::int64_t append(const std::vector<Drawn>& drawn, std::int64_t filled, Points
   return begin.back();
 }
 
-/// So many tasks that, if the share of accepted proposals stays as it is, no further are needed.
+/// The number of tasks that probably suffices if the share of accepted proposals stays the same.
 std::int64_t tasks_for(std::int64_t missing, std::int64_t accepted, std::int64_t proposed) {
-  constexpr std::int64_t most = 512; // what they accept stands in memory twice
+  constexpr std::int64_t most = 512; // accepted points are in memory twice
   const double share = static_cast<double>(accepted + 1) / static_cast<double>(proposed + 2);
   const double needed = 1.02 * static_cast<double>(missing) / share / proposals_of_task;
   return needed < most ? static_cast<std::int64_t>(needed) + 1 : most;
 }
 
-/// A density of which the envelope finds no better grip is refused: it might be drawn from forever.
+/// Above these limits a density is rejected: its envelope does not fit it, and drawing might not
+/// end.
 constexpr std::int64_t most_in_vain = 1 << 24, acceptable = 1 << 14;
 
-/// Fills the points; or returns the witnesses that speak against the envelope.
-/// \param stream of the seed's streams, which are 2^56 numbers apart.
+/// Fills the points, or returns the witnesses above the envelope.
+/// \param stream number of the seed's stream; streams are 2^56 numbers apart.
 template <class Map>
 std::vector<Witness> fill(const EnvelopeOf<Map>& envelope, std::uint64_t seed, std::uint64_t stream,
                           Points3& points) {
@@ -146,7 +147,7 @@ template <class Map>
 Points3 draw_from(EnvelopeOf<Map> envelope, std::int64_t n, std::uint64_t seed) {
   Points3 points(3, n);
   constexpr std::uint64_t most_attempts = 64;
-  constexpr std::size_t most_boxes = 1 << 20; // sound densities need fewer
+  constexpr std::size_t most_boxes = 1 << 20; // valid densities need fewer
   for (std::uint64_t attempt = 0; attempt < most_attempts && envelope.boxes().size() < most_boxes;
        ++attempt) {
     const std::vector<Witness> above = fill(envelope, seed, attempt, points);

@@ -13,11 +13,11 @@ namespace calotte::density_detail {
 
 /// n independent points distributed as a density that is not uniform: proposals from its envelope
 /// (envelope.h), each accepted with probability rho over the envelope (von Neumann, 1951). The
-/// numbers behind a proposal depend on the seed and its place in the sequence alone.
+/// random numbers of a proposal depend only on the seed and the index of the proposal.
 ///
-/// A proposal above its envelope, which only a callable's can be, shows that what was drawn so far
-/// follows the wrong distribution: it is thrown away, the envelope raised there, and all drawn
-/// anew.
+/// A proposal above the envelope, which only a callable can cause, shows that the points drawn so
+/// far follow the wrong distribution. The function then raises the envelope there and draws all
+/// points again.
 ///
 /// \throws Error bad_option as random_sphere(n, density, seed).
 Points3 draw(std::int64_t n, const Density& density, std::uint64_t seed);

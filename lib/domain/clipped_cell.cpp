@@ -26,7 +26,8 @@ std::vector<CellCorner> cut(const std::vector<CellCorner>& polygon, const Vec2& 
   return part;
 }
 
-/// Cells along the hull reach far beyond the domain: what is left lies a little beyond it at most.
+/// Cells along the hull extend far beyond the domain; the remainder extends only slightly beyond
+/// it.
 std::vector<CellCorner> cut_to_box(std::vector<CellCorner> cell, const Box2& box,
                                    const Vec2& site) {
   const Vec2 margin = 0.01 * (box.high - box.low), low = box.low - site - margin,
@@ -37,7 +38,8 @@ std::vector<CellCorner> cut_to_box(std::vector<CellCorner> cell, const Box2& box
   return cut(cell, {0, -1}, -low.y);
 }
 
-/// The box around a polygon, wider by more than rounding, and than Part looks inward.
+/// The bounding box of a polygon, widened by more than rounding and more than the inward offset of
+/// Part.
 Box2 box_around(const std::vector<CellCorner>& polygon, const Vec2& site) {
   Vec2 low = polygon.front().place, high = low;
   for (const CellCorner& corner : polygon) {
@@ -56,15 +58,16 @@ std::vector<Outline::Edge> shore_near(const Outline& outline, const Box2& box) {
   return shore;
 }
 
-/// The line half-way to a generator beyond, seen from the cell's: what decides about the boundary's
-/// edges, on both sides of each cell's, so that a boundary along that line is told of alike.
+/// The bisector with the generator of a neighbouring cell, seen from this cell's generator. It
+/// decides about the edges of the boundary on both sides, so that both cells agree about a boundary
+/// along it.
 struct Bisector {
   Vec2 beyond;
 
   bool none() const { return beyond.x == 0 && beyond.y == 0; }
   /// Positive on the cell's side: the distance, times that of the generators.
   double over(const Vec2& p) const { return dot(beyond, 0.5 * beyond - p); }
-  /// How far along the cell's side, counter-clockwise, times the distance of the generators.
+  /// The position along the cell's side, counter-clockwise, times the distance of the generators.
   double along(const Vec2& p) const { return cross(beyond, p); }
 };
 
@@ -86,7 +89,7 @@ void add_shore(const std::vector<CellCorner>& cell, const Vec2& from, const Vec2
     sides.push_back({from + first * (to - from), last == 1 ? to : from + last * (to - from), true});
 }
 
-/// Where a side of a cell meets the boundary.
+/// The intersection of a side of a cell with the boundary.
 struct Crossing {
   double along;
   Vec2 place;
@@ -100,9 +103,9 @@ public:
         along_(from.along + (to.along - from.along) / 2),
         noise_(1e-9 * (norm(from.place) + norm(to.place))) {}
 
-  /// Whether the domain holds it: its middle decides. Where the boundary passes by so closely that
-  /// rounding might move it across, a place farther in does, and the edges between the two, which
-  /// are those that add_shore() takes to be the cell's.
+  /// True if the domain contains the part; its middle decides. If the boundary is so close that
+  /// rounding could move it across the middle, a place farther inside decides, together with the
+  /// edges between the two, which are those that add_shore() counts as the cell's.
   bool inside(const Outline& outline, const Vec2& site,
               const std::vector<Outline::Edge>& shore) const {
     const double noise =
@@ -128,7 +131,7 @@ public:
   }
 
 private:
-  /// The distance to an edge on the cell's side, straight on from the middle.
+  /// The distance to an edge on the cell's side, in the normal direction from the middle.
   std::optional<double> depth_of(const Vec2& from, const Vec2& to) const {
     const double a = bisector_.along(from), b = bisector_.along(to);
     if ((a <= along_) == (b <= along_))
@@ -143,8 +146,8 @@ private:
   double noise_; ///< of cells' corners
 };
 
-/// The parts of a cell's side that are inside the domain. They end in the places where add_shore()
-/// ends the edges that cross it.
+/// The parts of a cell's side inside the domain. They end at the places where add_shore() ends the
+/// edges that cross the side.
 void add_inner(const Outline& outline, const Vec2& site, const std::vector<Outline::Edge>& shore,
                const CellCorner& corner, const Vec2& to, std::vector<Crossing>& crossings,
                std::vector<CellSide>& sides) {
@@ -156,7 +159,7 @@ void add_inner(const Outline& outline, const Vec2& site, const std::vector<Outli
   for (const Outline::Edge& edge : shore) {
     const Vec2 a = edge.from - site, b = edge.to - site;
     const double start = bisector.over(a), share = start / (start - bisector.over(b));
-    // What rounding adds here divides a part in two.
+    // A crossing that rounding adds only divides a part in two.
     if (!(share > -1e-9 && share < 1 + 1e-9))
       continue;
     const Vec2 place = a + share * (b - a);
@@ -171,7 +174,7 @@ void add_inner(const Outline& outline, const Vec2& site, const std::vector<Outli
       sides.push_back({p.place, q.place, false});
 }
 
-/// Looks for the place of segments that is nearest to a given one.
+/// Finds the place of segments that is nearest to a given one.
 class Nearest {
 public:
   explicit Nearest(const Vec2& to) : to_(to) {}
@@ -187,7 +190,7 @@ public:
     }
   }
 
-  /// Straight on from there is inward, of an edge and of a corner that juts into the cell.
+  /// The inward direction of an edge, and of a corner that points into the cell.
   std::optional<Vec2> inside(const Outline& outline, const Vec2& site) const {
     const Vec2 onward = place_ - to_;
     const double length = norm(onward), reach = norm(place_) + length;

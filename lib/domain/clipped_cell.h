@@ -17,45 +17,45 @@ inline double dot(const Vec2& a, const Vec2& b) { return a.x * b.x + a.y * b.y; 
 inline double cross(const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; }
 inline double norm(const Vec2& a) { return std::sqrt(dot(a, a)); }
 
-/// The place as far from 0 as from u and v; u, v counter-clockwise.
+/// The circumcentre of 0, u and v; u, v counter-clockwise.
 inline Vec2 circumcentre(const Vec2& u, const Vec2& v) {
   const double u2 = dot(u, u), v2 = dot(v, v), four_areas = 2 * cross(u, v);
   return {(v.y * u2 - u.y * v2) / four_areas, (u.x * v2 - v.x * u2) / four_areas};
 }
 
-/// A corner of a Voronoi cell, and the generator beyond the side from there to the next corner,
-/// counter-clockwise; both seen from the cell's generator.
+/// A corner of a Voronoi cell, and the generator across the side from this corner to the next,
+/// counter-clockwise; both relative to the cell's generator.
 struct CellCorner {
   Vec2 place, beyond;
 };
 
-/// Whether the domain's boundary, by the boxes of its edges, comes within `reach` of a site: where
-/// it does not come as near as the farthest corner of a cell, the domain holds the cell.
+/// True if the domain's boundary, by the boxes of its edges, comes within `reach` of a site. If it
+/// does not come as near as the farthest corner of a cell, the cell lies inside the domain.
 bool near_shore(const Outline& outline, const Vec2& site, double reach);
 bool near_shore(const Outline& outline, const Vec2& site, const std::vector<CellCorner>& cell);
 
-/// A side of a cell's part in the domain, which lies to the left of the way from p to q.
+/// A side of the part of a cell in the domain, which lies to the left of the direction from p to q.
 struct CellSide {
   Vec2 p, q;  ///< seen from the cell's generator
   bool shore; ///< on the domain's boundary
 };
 
-/// The sides of what a domain and a Voronoi cell have in common, in no order.
-/// \param cell the whole cell's corners, counter-clockwise, seen from the generator at `site`.
+/// The sides of the intersection of a domain and a Voronoi cell, in any order.
+/// \param cell corners of the whole cell, counter-clockwise, relative to the generator at `site`.
 std::vector<CellSide> clipped_cell(const Outline& outline, const Vec2& site,
                                    std::vector<CellCorner> cell);
 
-/// The parts of a cell's side, from a corner to the next, that are inside the domain.
+/// The parts of a cell's side, from a corner to the next, inside the domain.
 std::vector<CellSide> parts_inside(const Outline& outline, const Vec2& site,
                                    const CellCorner& corner, const Vec2& to);
 
-/// The place inside the domain that is nearest to one outside, but for a billionth of the way to
-/// the generator, seen as that is from there; of those near the cell's own shore. None where a
-/// shore is nowhere to be entered.
+/// The place inside the domain that is nearest to one outside, moved towards the generator by a
+/// billionth of the distance and relative to the generator. Only the boundary within the cell
+/// counts. None if the boundary can nowhere be entered.
 std::optional<Vec2> nearest_inside(const Outline& outline, const Vec2& site,
                                    const std::vector<CellSide>& sides, const Vec2& outside);
 
-/// The same of all the domain's shore no farther from there than the generator.
+/// The same for all of the domain's boundary no farther from the place than the generator.
 std::optional<Vec2> nearest_inside(const Outline& outline, const Vec2& site, const Vec2& outside);
 
 } // namespace calotte::domain_detail

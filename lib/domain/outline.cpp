@@ -17,7 +17,7 @@ constexpr double largest_coordinate = 1e30, least_extent = 1e-30;
   throw Error(ErrorCode::bad_option, "the domain: " + what, index);
 }
 
-/// Which ring an edge belongs to, and which of its edges it is: from that corner on.
+/// The ring of an edge and the corner at which the edge starts.
 struct Name {
   std::int64_t ring, corner;
   std::string words() const {
@@ -43,13 +43,13 @@ void require_ring(const Eigen::MatrixXd& ring, std::int64_t r) {
   }
 }
 
-/// Whether a place stands on an edge, its ends included.
+/// True if a place lies on an edge or at one of its ends.
 bool on_edge(const Outline::Edge& edge, const Vec2& p) {
   return orientation(edge.from, edge.to, p) == 0 &&
          compare(edge.from, p) * compare(p, edge.to) >= 0;
 }
 
-/// Whether two edges have a place in common.
+/// True if two edges have a common place.
 bool meet(const Outline::Edge& a, const Outline::Edge& b) {
   const int b_from = orientation(a.from, a.to, b.from), b_to = orientation(a.from, a.to, b.to),
             a_from = orientation(b.from, b.to, a.from), a_to = orientation(b.from, b.to, a.to);
@@ -58,13 +58,14 @@ bool meet(const Outline::Edge& a, const Outline::Edge& b) {
   return on_edge(a, b.from) || on_edge(a, b.to) || on_edge(b, a.from) || on_edge(b, a.to);
 }
 
-/// Whether two edges that follow each other in a ring have more in common than the corner between.
+/// True if two consecutive edges of a ring have more in common than the corner between them.
 bool fold(const Outline::Edge& a, const Outline::Edge& b) {
   return on_edge(a, b.to) || on_edge(b, a.from);
 }
 
-/// Whether the ray from p to the right crosses the edge; edges hold their lower end only, so that a
-/// ray through a corner is counted once. \pre p is not on the edge.
+/// True if the ray from p to the right crosses the edge. An edge contains its lower end only, so
+/// that a ray through a corner counts once.
+/// \pre p is not on the edge.
 bool crosses_ray(const Outline::Edge& edge, const Vec2& p) {
   const bool from_below = edge.from.y <= p.y, to_below = edge.to.y <= p.y;
   if (from_below == to_below)
@@ -79,8 +80,8 @@ std::int64_t Outline::strip(double y) const {
   return static_cast<std::int64_t>(std::clamp(place, 0.0, static_cast<double>(strips_ - 1)));
 }
 
-/// Lists the edges of each strip: about as many strips as edges, unless long edges pass through so
-/// many of them that the lists would be long.
+/// Lists the edges of each strip. There are about as many strips as edges, or fewer if long edges
+/// pass through so many strips that the lists would be long.
 void Outline::make_strips() {
   const auto edges = std::ssize(edges_);
   constexpr std::int64_t most_strips = 1 << 16, listings = 64;
@@ -140,12 +141,12 @@ std::string Outline::name_of(std::int32_t edge) const {
   return Name{static_cast<std::int64_t>(ring), edge - ring_begin_[ring]}.words();
 }
 
-/// Turns the edges of rings that have the domain to their right.
+/// Reverses the edges of rings that have the domain to their right.
 void Outline::orient() {
   for (std::size_t r = 0; r + 1 < ring_begin_.size(); ++r) {
     const auto begin = edges_.begin() + ring_begin_[r], end = edges_.begin() + ring_begin_[r + 1];
     const Vec2 corner = begin->from;
-    int around = 0; // rings that enclose this one, but for pairs of them
+    int around = 0; // number of rings that enclose this one, modulo 2
     for_each_listed_near({corner, {box_.high.x, corner.y}}, [&](std::int32_t e) {
       around += ring_of(e) != r && crosses_ray(edges_[static_cast<std::size_t>(e)], corner);
     });

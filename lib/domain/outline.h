@@ -20,8 +20,8 @@ struct Box2 {
 
 enum class Side { outside, boundary, inside };
 
-/// The boundary of a domain, made ready for many questions: horizontal strips list the edges that
-/// pass through them.
+/// The boundary of a domain, prepared for many queries: horizontal strips list the edges that pass
+/// through them.
 class Outline {
 public:
   /// The domain lies to the left of an edge.
@@ -36,10 +36,10 @@ public:
   double area() const { return area_; }
   const std::vector<Edge>& edges() const { return edges_; } ///< ring by ring
 
-  /// Exact.
+  /// The position of a place relative to the boundary; exact.
   Side side(const Vec2& place) const;
 
-  /// body(edge) for each edge whose own box meets a box, once.
+  /// Calls body(edge) once for each edge whose bounding box meets a box.
   template <class Body> void for_each_edge_near(const Box2& box, const Body& body) const {
     for_each_listed_near(box, [&](std::int32_t e) { body(edges_[static_cast<std::size_t>(e)]); });
   }

@@ -7,10 +7,10 @@
 
 #include <cmath>
 
-/// Coordinates in a doubly periodic box, in doubles. A period of 0 stands for a plane without one.
+/// Coordinates in a doubly periodic box, in doubles. A period of 0 means a plane without period.
 namespace calotte::domain_detail {
 
-/// The copy of b nearest to a, in whole periods: 0 where there is none.
+/// The shift of the copy of b nearest to a, in whole periods; 0 if there is no period.
 inline double periods_between(double a, double b, double period) {
   return period > 0 ? -std::round((b - a) / period) : 0;
 }
@@ -21,13 +21,13 @@ inline double wrapped(double x, double period) {
   return inside >= 0 && inside < period ? inside : 0;
 }
 
-/// Whether an offset is below half of the period in both directions. True where there is none.
+/// True if an offset is below half of the period in both directions, or if there is no period.
 inline bool within_half(const Vec2& offset, const Vec2& period) {
   return !(period.x > 0) ||
          (std::abs(offset.x) < period.x / 2 && std::abs(offset.y) < period.y / 2);
 }
 
-/// From a to b, or to the nearest copy of b.
+/// The offset from a to b, or to the nearest copy of b.
 inline Vec2 nearest_offset(const Vec3& a, const Vec3& b, const Vec2& period) {
   return {b.x - a.x + periods_between(a.x, b.x, period.x) * period.x,
           b.y - a.y + periods_between(a.y, b.y, period.y) * period.y};

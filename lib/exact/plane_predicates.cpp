@@ -22,7 +22,7 @@ Exact::Point_2 exact_point(const Vec2& period, const Image& a) {
   return {x + a.i * width, y + a.j * height};
 }
 
-/// Signs do not change when all places move by whole periods.
+/// Signs are invariant under a common shift by whole periods.
 bool in_one_box(const Image& a, const Image& b) { return a.i == b.i && a.j == b.j; }
 
 /// With lifts l and vectors from d, the determinant is l_a b x c - l_b a x c + l_c a x b, and that

@@ -27,16 +27,16 @@ inline int compare(const Vec2& a, const Vec2& b) {
   return a.y < b.y ? -1 : a.y > b.y;
 }
 
-/// For p on the line through a and b: whether it lies strictly between them.
+/// For p on the line through a and b: true if it lies strictly between them.
 inline bool between(const Vec2& a, const Vec2& p, const Vec2& b) {
   return compare(a, p) * compare(p, b) > 0;
 }
 
-/// The sign of in_circle where that is exactly 0, for four distinct sites on a circle.
+/// The sign of in_circle if that is exactly 0, for four distinct sites on a circle.
 ///
-/// Each site's lift onto the paraboloid grows by an eps of its own, the largest for the site that
-/// comes first in compare(). To first order the determinant changes by the orientation of the other
-/// three, which do not lie on one line. The rule knows no region, thread, index or order.
+/// Each site's lift onto the paraboloid grows by its own eps, the largest for the site that comes
+/// first in compare(). To first order the determinant changes by the orientation of the other
+/// three, which do not lie on one line. The rule does not depend on region, thread, index or order.
 int in_circle_tie(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d);
 
 /// A copy of a site of a doubly periodic box: at x + i times the period's x, y + j times its y.
@@ -45,10 +45,10 @@ struct Image {
   int i, j;
 };
 
-/// As above, exact in the sums; as fast where all are copies in one box. A period of 0, with i and
-/// j 0, is a plane without one. Ties are decided by the sites, and only between copies of one site
-/// by which copy it is: where circles are small beside the box, the mesh is as periodic as the
-/// sites.
+/// As above, exact in the sums, and as fast if all are copies in one box. A period of 0, with i and
+/// j 0, means a plane without period. The sites decide ties; the shifts of the copies decide only
+/// between copies of one site. If circles are small compared with the box, the mesh is therefore as
+/// periodic as the sites.
 int orientation(const Vec2& period, const Image& a, const Image& b, const Image& c);
 int in_circle(const Vec2& period, const Image& a, const Image& b, const Image& c, const Image& d);
 int in_circle_tie(const Vec2& period, const Image& a, const Image& b, const Image& c,

@@ -54,12 +54,12 @@ double squared_reach(const Vec3Extended& a) {
 
 // ---- Tier 3
 
-/// Integers proportional to a direction.
+/// Integer coordinates proportional to a direction.
 struct Vec3Integer {
   mpz_class x, y, z;
 };
 
-/// Sets an integer to x 2^shift, which must be one.
+/// Sets an integer to x 2^shift, which must be an integer.
 void set_scaled(mpz_class& out, double x, int shift) {
   int exponent = 0;
   const double mantissa = std::frexp(x, &exponent);
@@ -105,8 +105,8 @@ int sign_of_sum(const Root& p, const Root& q) {
   return sp * sgn(difference);
 }
 
-/// Sign of whole + p + q: when whole opposes p + q, the squares are compared, whose difference has
-/// one root, sqrt(p.radicand q.radicand).
+/// Sign of whole + p + q: if whole opposes p + q, the function compares the squares, whose
+/// difference has one root, sqrt(p.radicand q.radicand).
 int sign_of_sum(const mpz_class& whole, const Root& p, const Root& q) {
   const int roots = sign_of_sum(p, q);
   if (roots == 0 || sgn(whole) == 0 || roots == sgn(whole))
@@ -129,7 +129,7 @@ int sign_of_sum(const Root& p, const Root& q, const Root& r, const Root& s) {
   return left * sign_of_sum(whole, pq, rs);
 }
 
-/// Adds up the roots of equal radicand, as lattices have many, and sums what is left.
+/// Adds roots of equal radicand, which lattices have often, and sums the remaining terms.
 int sign_of_sum(std::array<Root, 4>& roots) {
   for (std::size_t i = 1; i < 4; ++i)
     for (std::size_t j = 0; j < i; ++j)
@@ -191,7 +191,7 @@ int in_circle_extended(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& 
 }
 
 int in_circle_exact(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-  thread_local Vec3Integer ia, ib, ic, id; // their limbs are kept: allocation would dominate
+  thread_local Vec3Integer ia, ib, ic, id; // keep their limbs: allocation would dominate
   set_integers(ia, a);
   set_integers(ib, b);
   set_integers(ic, c);
@@ -276,8 +276,8 @@ int in_circle_tie(const View& view, const Vec3& a, const Vec3& b, const Vec3& c,
                               *sites[static_cast<std::size_t>(j)]) < 0;
   });
   for (const int pushed : order) {
-    // Pushed outward, d rises over the plane of a, b, c counter-clockwise, and the determinant with
-    // it; exchanging another pushed site with d changes its sign.
+    // Pushing d outward raises it over the plane of a, b, c counter-clockwise and increases the
+    // determinant; exchanging another pushed site with d changes the sign.
     const int sign = pushed == 0   ? -orientation(view, d, b, c)
                      : pushed == 1 ? -orientation(view, a, d, c)
                      : pushed == 2 ? -orientation(view, a, b, d)

@@ -9,22 +9,21 @@
 
 /// The exact signs on which every topological decision on the sphere rests.
 ///
-/// A site is a direction: each sign is that of the points x/|x| standing exactly on the unit
-/// sphere, whatever the norms and the rounding of the stored doubles. Three tiers decide it:
-/// doubles with a derived bound, about 106 bits with a derived bound, then integers and square
-/// roots without error.
+/// A site is a direction: each sign is that of the points x/|x| exactly on the unit sphere, for any
+/// norms and any rounding of the stored doubles. Three tiers decide it: doubles with a derived
+/// bound, about 106 bits with a derived bound, then integers and square roots without error.
 ///
 /// Laws: in_circle and orientation are antisymmetric under exchange of two arguments and do not
-/// change when an argument is scaled by a positive number.
+/// change if an argument is multiplied by a positive number.
 namespace calotte::exact_detail {
 
-/// How often a tier handed on to the next.
+/// How often each tier passed a decision to the next.
 struct PredicateCounts {
-  std::int64_t filtered = 0; ///< the doubles could not decide
-  std::int64_t exact = 0;    ///< nor could the 106 bits
+  std::int64_t filtered = 0; ///< undecided in doubles
+  std::int64_t exact = 0;    ///< undecided in 106 bits
 };
 
-/// The same direction with its largest component in [1/2, 1): exact, but for components below
+/// The same direction with its largest component in [1/2, 1): exact, except for components below
 /// 1e-307.
 Vec3 scaled_to_one(const Vec3& x);
 
@@ -37,7 +36,7 @@ inline Vec3 normalised(const Vec3& x) {
   return (1 / norm(scaled)) * scaled;
 }
 
-// ---- Signs of directions of any norm. All are -1, 0 or 1; all tiers inside.
+// ---- Signs of directions of any norm, by all tiers. The values are -1, 0 or 1.
 
 /// Positive when d is inside the circumcap of a, b, c counter-clockwise seen from outside: the sign
 /// of |a| det(b,c,d) - |b| det(a,c,d) + |c| det(a,b,d) - |d| det(a,b,c), which is orient3d of the
@@ -51,23 +50,23 @@ int orientation(const Vec3& a, const Vec3& b, const Vec3& c);
 /// first.
 int compare_directions(const Vec3& a, const Vec3& b);
 
-/// Whether a is a positive multiple of b.
+/// True if a is a positive multiple of b.
 bool same_direction(const Vec3& a, const Vec3& b);
 
-// ---- The point from which the sphere is looked at.
+// ---- Views: the points from which the sphere is projected.
 
-/// Either the sphere's centre, or a focus on the sphere from which it is projected
-/// stereographically. From both, the picture of a Delaunay triangulation is a planar one.
+/// Either the sphere's centre, or a focus on the sphere for a stereographic projection. From both,
+/// the image of a Delaunay triangulation is a planar triangulation.
 struct View {
   bool from_centre = true;
-  Vec3 focus{0, 0, 0}; ///< a direction; not used from the centre
+  Vec3 focus{0, 0, 0}; ///< a direction; no effect from the centre
 };
 
 /// Orientation of a, b, c in that view, counter-clockwise as seen from outside the sphere: from the
 /// centre the sign of det(a,b,c), from a focus f the sign of -in_circle(a,b,c,f).
 int orientation(const View& view, const Vec3& a, const Vec3& b, const Vec3& c);
 
-/// For p on the line through a and b in that view (orientation 0): whether it lies strictly between
+/// For p on the line through a and b in that view (orientation 0): true if it lies strictly between
 /// them.
 bool between(const View& view, const Vec3& a, const Vec3& p, const Vec3& b);
 
@@ -131,7 +130,7 @@ int in_circle_extended(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& 
 /// Tier 3 on directions of any norm: the sign.
 int in_circle_exact(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 
-/// Tiers 2 and 3, counted.
+/// Tiers 2 and 3 with counts.
 int in_circle_beyond_filter(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d,
                             PredicateCounts& counts);
 

@@ -4,7 +4,7 @@
 #include "base/room.h"
 
 /// The exact predicates: the signs on which every topological decision rests, on the sphere, in the
-/// plane and in a doubly periodic box. CGAL's kernels are used here.
+/// plane and in a doubly periodic box. This room uses CGAL's kernels.
 ///
 /// In: coordinates as the caller gave them. Out: the sign of a determinant, without rounding, and
 /// the symbolic rule that resolves a sign of 0.

@@ -19,8 +19,8 @@
 #include <string>
 #include <vector>
 
-// Only + - * / and sqrt, each rounded once, so that every machine gets the same bits: sin and cos
-// of a C library differ from one build of it to the next.
+// The code uses only + - * / and sqrt, each rounded once, so that every machine gives the same
+// bits; sin and cos differ between builds of a C library.
 
 namespace calotte {
 namespace {
@@ -43,7 +43,7 @@ Vec3 get(const Points3& points, std::int64_t column) {
 
 // ---- Angles
 
-/// Of k/n turns, 0 <= k < n <= 2^58.
+/// Cosine and sine of k/n turns, 0 <= k < n <= 2^58.
 CosSin cos_sin(std::int64_t k, std::int64_t n) {
   const int octant = static_cast<int>(8 * k / n);
   const std::int64_t rest = 8 * k % n;
@@ -51,7 +51,8 @@ CosSin cos_sin(std::int64_t k, std::int64_t n) {
   return cos_sin_of_octant(octant, static_cast<double>(part) / static_cast<double>(n));
 }
 
-/// Of an angle in units of 2^-64 turns: additions of such angles wrap around without error.
+/// Cosine and sine of an angle in units of 2^-64 turns: additions of such angles wrap around
+/// without error.
 CosSin cos_sin(std::uint64_t turns) {
   constexpr std::uint64_t eighth = std::uint64_t{1} << 61;
   const int octant = static_cast<int>(turns / eighth);
@@ -176,8 +177,8 @@ LinkedTriangle from_lowest(const Triple& v, const Triple& across) {
   return {{v[first], v[second], v[third]}, {across[first], across[second], across[third]}};
 }
 
-/// Two triangles stand on each site of the hexagons: 2i on the way to the next one in its row, 2i +
-/// 1 on its tip.
+/// Each site of the hexagons has two triangles: 2i contains the next site in its row, 2i + 1 has
+/// its tip at the site.
 std::vector<LinkedTriangle> hexagons_triangles(std::int64_t columns, std::int64_t rows) {
   std::vector<LinkedTriangle> out;
   out.reserve(static_cast<std::size_t>(2 * columns * rows));

@@ -47,7 +47,7 @@ struct Lattice {
   }
 
 private:
-  /// Held to what a box of most_points places has in a row, were it as narrow as the spacing.
+  /// Bounded by the count of a box of most_points places that is as narrow as the spacing.
   static std::int64_t count(double extent, double step) {
     return static_cast<std::int64_t>(std::min(extent / step + 1, double(8 * most_points)));
   }
@@ -62,7 +62,7 @@ void for_each_inside(const Outline& outline, const Lattice& lattice, std::int64_
       body(place);
 }
 
-/// How many places of each row are inside.
+/// The number of places inside, for each row.
 std::vector<std::int64_t> count_rows(const Outline& outline, const Lattice& lattice) {
   std::vector<std::int64_t> counts(static_cast<std::size_t>(lattice.rows));
   base_detail::for_each_task(lattice.rows, [&](std::int64_t row) {
@@ -80,8 +80,8 @@ std::int64_t count_inside(const Outline& outline, double spacing) {
   return sum;
 }
 
-/// The spacing, of those that bisection meets, whose number is nearest to n. A wider spacing gives
-/// fewer places on the whole, not from step to step.
+/// Among the spacings that the bisection tries, the one whose number is nearest to n. A wider
+/// spacing gives fewer places on the whole, but not monotonically.
 double spacing_for(std::int64_t n, const Outline& outline) {
   const double first = std::sqrt(outline.area() / (rise * static_cast<double>(n)));
   std::int64_t best_miss = std::numeric_limits<std::int64_t>::max();
@@ -94,7 +94,7 @@ double spacing_for(std::int64_t n, const Outline& outline) {
     }
     return miss;
   };
-  // A boundary is as long as it likes; a factor of 2 makes 4 times as many places.
+  // A boundary may have any length; a factor of 2 in the spacing gives 4 times as many places.
   double low = first, high = first;
   constexpr int most_steps = 24;
   const std::int64_t miss = misses(first);
@@ -164,7 +164,7 @@ Grid grid_for(std::int64_t n, const Eigen::Vector2d& period) {
   return best;
 }
 
-/// The spacing of periodic_hexagons() that gives this box to the last bit, if there is one.
+/// The spacing of periodic_hexagons() that gives this box exactly, if there is one.
 std::optional<double> regular_spacing(const Grid& grid, const Eigen::Vector2d& period) {
   const double near = period.x() / static_cast<double>(grid.columns);
   for (const double spacing : {near, std::nextafter(near, 0.0), std::nextafter(near, 2 * near)})

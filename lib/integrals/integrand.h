@@ -11,17 +11,18 @@
 
 namespace calotte::integrals_detail {
 
-/// What is integrated over Voronoi cells, and how: rho = 1 exactly, other densities by a rule on
-/// each half kite, which is first cut into divisions^2 similar triangles.
+/// The integrand over Voronoi cells and its rule: rho = 1 exactly, other densities by a rule on
+/// each half kite, which is first divided into divisions^2 similar triangles.
 struct Integrand {
   DensityEvaluator density;
   bool uniform = true;
-  /// Of all parts of a half kite; weights sum to 1. None for uniform density.
+  /// The nodes on all parts of a half kite; weights sum to 1. Empty for uniform density.
   std::vector<QuadratureRule::Node> nodes;
 };
 
-/// \param rule a number of points, see quadrature_rule(). \param divisions 1 to 100.
-/// \throws Error bad_option, when the density or the rule is not to be had.
+/// \param rule a number of points, see quadrature_rule().
+/// \param divisions 1 to 100.
+/// \throws Error bad_option for an ill-formed density, or a rule that does not exist.
 Integrand make_integrand(const Density& density, int rule, int divisions);
 
 } // namespace calotte::integrals_detail

@@ -12,7 +12,7 @@
 namespace calotte::integrals_detail {
 namespace {
 
-/// The rows of a batch; triangles that are not clear are added to the suspects.
+/// Integrates over the rows of a batch; adds triangles that are not clear to the suspects.
 void checked_rows(const Batch& batch, std::size_t first, TriangleRows& rows,
                   std::vector<std::int32_t>& suspects) {
   if (triangle_rows(batch, rows))

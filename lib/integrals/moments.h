@@ -44,7 +44,7 @@ void integrate(const Integrand& integrand, const Patch& patch, const Array<Vec3>
                Array<CellMoments>& moments, Array<double>* mass,
                std::vector<std::int32_t>& suspects);
 
-/// The suspects alone.
+/// Finds the suspects only.
 void find_suspects(const Patch& patch, const Array<Vec3>& x, std::vector<std::int32_t>& suspects);
 
 /// Moments of all cells of a mesh, by site.

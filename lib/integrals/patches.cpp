@@ -11,7 +11,7 @@ namespace {
 
 using Triple = std::array<std::int32_t, 3>;
 
-/// From the lowest on: moments are the same to the last bit only from the same corner on.
+/// From the lowest vertex on: the moments have the same bits only if they start at the same corner.
 Triple sites_of(const Triangles& triangles, std::int32_t t) {
   const std::int32_t a = triangles(0, t), b = triangles(1, t), c = triangles(2, t);
   if (a < b && a < c)
@@ -33,7 +33,7 @@ struct ByKey {
   bool operator()(std::int32_t t, std::int32_t u) const { return key_of(t) < key_of(u); }
 };
 
-/// Calls body(region) once for each owner of a triangle's sites.
+/// Calls body(region) once for each region that owns a site of a triangle.
 template <class Body>
 void for_each_owner(const Triple& sites, const Array<std::int32_t>& owner, const Body& body) {
   const std::int32_t a = owner[sites[0]], b = owner[sites[1]], c = owner[sites[2]];
@@ -44,8 +44,8 @@ void for_each_owner(const Triple& sites, const Array<std::int32_t>& owner, const
     body(c);
 }
 
-/// The numbers of each region's triangles, ascending: counted by parts of the mesh, then written to
-/// places that no other part writes. The parts are few: each counts for all regions.
+/// The numbers of each region's triangles, ascending. Parts of the mesh are counted, then written
+/// to disjoint places. There are few parts, because each counts for all regions.
 std::vector<std::vector<std::int32_t>> triangles_by_region(const Triangles& triangles,
                                                            const Ownership& ownership) {
   const std::size_t regions = ownership.owned.size();
@@ -78,9 +78,9 @@ std::vector<std::vector<std::int32_t>> triangles_by_region(const Triangles& tria
   return out;
 }
 
-/// Brings a region's triangles into their order.
+/// Sorts the triangles of a region.
 void sort_triangles(std::vector<std::int32_t>& list, const Triangles& triangles) {
-  if (!std::is_sorted(list.begin(), list.end(), ByKey{triangles})) // the library's meshes are
+  if (!std::is_sorted(list.begin(), list.end(), ByKey{triangles})) // true for the library's meshes
     std::sort(list.begin(), list.end(), ByKey{triangles});
 }
 
@@ -113,7 +113,7 @@ void number_sites(Patch& patch, const Triangles& triangles, const Ownership& own
   }
 }
 
-/// Takes changed triangles out of a patch's list, and those of them that are its own now in again.
+/// Removes changed triangles from a patch's list and adds those of them that now belong to it.
 void renew(Patch& patch, const Triangles& triangles, const Ownership& ownership,
            const std::vector<std::uint8_t>& has_changed, std::vector<std::int32_t> own) {
   std::sort(own.begin(), own.end(), ByKey{triangles});
@@ -168,8 +168,8 @@ void renew_patches(std::vector<Patch>& patches, const Triangles& triangles,
     for_each_owner(sites_of(triangles, t), ownership.owner,
                    [&](std::int32_t k) { own[static_cast<std::size_t>(k)].push_back(t); });
   }
-  // A flip leaves all of its four sites in the two triangles: patches that lost a triangle have one
-  // of the changed ones still.
+  // A flip leaves all four of its sites in the two triangles: a patch that lost a triangle still
+  // has one of the changed ones.
   for_each_task(std::ssize(patches), [&](std::int64_t k) {
     const auto region = static_cast<std::size_t>(k);
     if (!own[region].empty())

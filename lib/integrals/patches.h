@@ -23,8 +23,8 @@ struct Ownership {
 /// \param owner by site: a region from 0 to regions - 1.
 Ownership make_ownership(Array<std::int32_t>&& owner, std::int32_t regions);
 
-/// What a region's task sees of a closed mesh: the triangles with a site of its own, and the sites
-/// of these. It holds no positions: these are taken over anew when they have changed.
+/// The part of a closed mesh that a region's task reads: the triangles with a site of its own, and
+/// the sites of these. It holds no positions; the task copies them after each move.
 struct Patch {
   std::int32_t region = 0;
   std::vector<std::int32_t>
@@ -33,14 +33,14 @@ struct Patch {
   /// Numbers in the mesh, ordered by the triangles' lowest site and the one that follows it there:
   /// an order that the triangulation alone determines, whatever the partition and the history.
   std::vector<std::int32_t> triangles;
-  /// Of these, from their lowest site on, as local numbers.
+  /// The corners of these triangles, from their lowest site on, as local numbers.
   std::vector<std::array<std::int32_t, 3>> corners;
 };
 
 /// \param triangles counter-clockwise, in any order.
 std::vector<Patch> make_patches(const Triangles& triangles, const Ownership& ownership);
 
-/// Makes the patches right again after some triangles of the mesh have become others.
+/// Updates the patches after changes of some triangles of the mesh.
 /// \param changed their numbers; may repeat.
 void renew_patches(std::vector<Patch>& patches, const Triangles& triangles,
                    const Ownership& ownership, std::span<const std::int32_t> changed);

@@ -16,8 +16,7 @@ namespace {
 
 // ---- Triangles with a corner in a site
 
-/// Adds integrals over triangles (x_i, x_i + p, x_i + q) to the moments of sites i, in the order in
-/// which they are given.
+/// Adds integrals over triangles (x_i, x_i + p, x_i + q) to the moments of sites i, in call order.
 class FanSum {
 public:
   FanSum(const Integrand& integrand, const Array<Vec3>& x, Array<CellMoments>& moments)
@@ -44,7 +43,7 @@ public:
       finish();
   }
 
-  /// To be called before the moments are looked at.
+  /// Must be called before the moments are read.
   void finish() {
     const auto row = [&](std::vector<double>& values) {
       return std::span(values).first(count_ * nodes_);
@@ -96,11 +95,11 @@ private:
   std::vector<double> place_x_, place_y_, place_z_, rho_;
 };
 
-/// What is to be done about a cell.
+/// The treatment of a cell.
 enum class CellKind : std::uint8_t {
-  none,    ///< nothing: another region's, or the hull's
-  whole,   ///< it lies inside the domain
-  clipped, ///< the domain's boundary may pass through it
+  none,    ///< none: of another region or the hull
+  whole,   ///< inside the domain
+  clipped, ///< possibly cut by the domain's boundary
 };
 
 // ---- The triangles of a patch
@@ -119,7 +118,7 @@ Shape shape_of(const std::array<std::int32_t, 3>& corners, const Array<Vec3>& x,
   return {{Vec2{0, 0}, u, v}, circumcentre(u, v), cross(u, v)};
 }
 
-/// Whether a triangle is certainly counter-clockwise and acute. Offsets err by up to e = 4u M each,
+/// True if a triangle is certainly counter-clockwise and acute. Offsets err by up to e = 4u M each,
 /// M the largest coordinate, and their products by 2 e times their size.
 bool is_clear(const Shape& shape, double largest, const Vec2& period) {
   const auto& [a, b, c] = shape.corner;

@@ -12,7 +12,7 @@
 
 namespace calotte::integrals_detail {
 
-/// A domain as cells see it.
+/// A domain for the integration over cells.
 struct PlanarField {
   const Outline* outline;  ///< or none, of a periodic box
   Vec2 period;             ///< 0 where there is none
@@ -41,7 +41,7 @@ void integrate(const Integrand& integrand, const PlanarField& field, const Patch
                const Array<Vec3>& x, Array<CellMoments>& moments,
                std::vector<std::int32_t>& suspects);
 
-/// The suspects alone.
+/// Finds the suspects only.
 void find_suspects(const PlanarField& field, const Patch& patch, const Array<Vec3>& x,
                    std::vector<std::int32_t>& suspects);
 

@@ -61,7 +61,7 @@ std::vector<Node> nodes_of(int points) {
     add_3(nodes, 0.025577675658698, 0.044729513394453);
     add_6(nodes, 0.043283539377289, 0.036838412054736, 0.221962989160766);
   }
-  // The tables have 15 digits: the sum is made 1 to the last bit that matters.
+  // The tables have 15 digits; the weights are scaled so that their sum is 1 to rounding.
   double sum = 0;
   for (const Node& node : nodes)
     sum += node.weight;

@@ -21,9 +21,9 @@ Batch gather(const Patch& patch, const Array<Vec3>& x, std::size_t first) {
 
 namespace {
 
-// Of a corner's two sides the product is positive when its angle is acute. It errs by some 8
+// The product of a corner's two sides is positive if its angle is acute. It errs by some 8
 // roundoffs of itself, and stored vectors differ from unit ones by 5: 1e-14 exceeds both, for sides
-// as long as can be. The same bounds the normal's product.
+// of any length. The same bound holds for the normal's product.
 CALOTTE_VECTOR_WIDTHS
 bool compute_triangle_rows(const Batch& batch, TriangleRows& out) {
   constexpr double margin = 1e-14;
@@ -63,15 +63,15 @@ bool triangle_rows(const Batch& batch, TriangleRows& out) {
 
 namespace {
 
-/// What each edge, named by the vertex across, gives to both of its ends.
+/// The contribution of each edge, named by the vertex across, to both of its ends.
 struct alignas(64) EdgeRows {
   Rows3 pull; ///< delta / (2 |a-b|): the first moment's part is that times (a - b) for a
   Rows3 energy, area;
 };
 
 // With s = |a-b|/2 the sine of half of the edge's arc, S = s^2, u = s cot(C)/sqrt(1-S) the sine of
-// delta and w = u^2, series in S and w give all: the first that is left out is 2^-53 of the
-// leading one below this.
+// delta and w = u^2, all terms are series in S and w: below this bound, the first omitted term is
+// 2^-53 of the leading one.
 constexpr double small = 0x1p-12;
 
 CALOTTE_INLINE double inverse_root_series(double z) { // (1 - z)^(-1/2)
@@ -152,8 +152,8 @@ CALOTTE_INLINE double half_energy(const HalfEdge& half) {
   return 4 * (low ? by_series : direct);
 }
 
-/// Replaces what small_edges() gave by the closed forms where the series do not hold. Which one a
-/// lane gets depends on that lane alone.
+/// Replaces the results of small_edges() by the closed forms in lanes where the series are not
+/// valid. The choice for a lane depends on that lane alone.
 CALOTTE_VECTOR_WIDTHS
 void large_edges(const Row& quarter, const Row& cotangent, Row& pull, Row& energy) {
   CALOTTE_VECTOR_LOOP

@@ -12,8 +12,8 @@
 
 namespace calotte::integrals_detail {
 
-/// Triangles are worked on so many at a time, each quantity in a row: loops over the lanes of rows
-/// become vector code, and the rows stay in the first cache.
+/// Triangles are processed in batches of this size, each quantity in a row: loops over the lanes of
+/// rows become vector code, and the rows stay in the first-level cache.
 constexpr std::size_t lanes = 32;
 
 using Row = std::array<double, lanes>;
@@ -36,14 +36,14 @@ struct alignas(64) Batch {
   const std::array<std::int32_t, 3>* locals; ///< of the first: local numbers of its corners
 };
 
-/// What follows from the corners, per edge or corner named by the vertex that is across or there.
+/// Quantities derived from the corners, per edge or corner, named by the vertex across or there.
 struct alignas(64) TriangleRows {
   Rows3 quarter;   ///< |a-b|^2/4 of the edge across
   Rows3 cotangent; ///< of the flat triangle's angle
   Rows3 normal;    ///< (b - a) x (c - a), [x, y, z]
   Row scale;       ///< 1/|normal|
   Row height;      ///< normal times a: positive when counter-clockwise
-  /// Positive only where the triangle is certainly acute and counter-clockwise.
+  /// Positive only if the triangle is certainly acute and counter-clockwise.
   Row clearance;
 };
 
@@ -55,7 +55,7 @@ struct alignas(64) VertexTerms {
 
 Batch gather(const Patch& patch, const Array<Vec3>& x, std::size_t first);
 
-/// True when the clearance of all lanes is positive.
+/// True if the clearance of all lanes is positive.
 bool triangle_rows(const Batch& batch, TriangleRows& out);
 
 /// Terms for rho = 1. \param with_mass otherwise terms.mass is not set.

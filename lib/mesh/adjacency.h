@@ -5,7 +5,7 @@
 
 #include <calotte/types.h>
 
-/// From what a file holds to a mesh.
+/// Builds a mesh from the contents of a file.
 namespace calotte::mesh_detail {
 
 /// The triangle across from each vertex, in linear time, in parallel. -1 along an open edge, and

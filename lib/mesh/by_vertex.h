@@ -12,13 +12,13 @@
 #include <utility>
 #include <vector>
 
-/// What belongs to vertices, sorted by them: in linear time, in parallel.
+/// Sorts items that belong to vertices by vertex, in linear time, in parallel.
 namespace calotte::mesh_detail {
 
 /// Blocks of vertices: the items of one stay in cache while they are sorted.
 inline constexpr int vertex_block_bits = 12;
 
-/// The items of one block, sorted: by vertex first, then as they are. Most vertices have a few.
+/// The items of one block, sorted by vertex, then by value. Most vertices have a few.
 template <class Item> std::vector<Item> sorted_block(std::span<const Item> block) {
   constexpr std::int32_t mask = (1 << vertex_block_bits) - 1;
   std::vector<std::int32_t> ends(std::size_t{1} << vertex_block_bits);
@@ -31,7 +31,7 @@ template <class Item> std::vector<Item> sorted_block(std::span<const Item> block
   for (std::int32_t& end : ends)
     sum += std::exchange(end, sum);
   std::vector<Item> out(block.size());
-  for (const Item& item : block) // turns where a run begins into where it ends
+  for (const Item& item : block) // replaces the start of a run by its end
     out[static_cast<std::size_t>(slot(item)++)] = item;
   std::int32_t begin = 0;
   for (const std::int32_t end : ends) {
@@ -42,12 +42,12 @@ template <class Item> std::vector<Item> sorted_block(std::span<const Item> block
   return out;
 }
 
-/// body(first, sorted) for each block of vertices: its items, of which the first is that place in
-/// the order of all.
-/// \tparam Place counts the items.
+/// Calls body(first, sorted) for each block of vertices with its items; `first` is the index of the
+/// first item in the order of all.
+/// \tparam Place type that counts the items.
 /// \tparam Item has a vertex() and an operator< that compares all of it, vertices first.
-/// \param vertex_of(i) of item i, below `vertices`. \param item_of(i) is asked for once, in order
-/// within each part of the items.
+/// \param vertex_of(i) vertex of item i, below `vertices`.
+/// \param item_of(i) called once, in order within each part of the items.
 template <class Place, class Item, class VertexOf, class ItemOf, class Body>
 void for_each_vertex_block(std::int64_t items, std::int64_t vertices, const VertexOf& vertex_of,
                            const ItemOf& item_of, const Body& body) {

@@ -21,8 +21,8 @@ Triple column(const Triangles& matrix, std::int64_t t) {
   return {matrix(0, t), matrix(1, t), matrix(2, t)};
 }
 
-/// Where a triangle starts. Of vertices that are repeated, as a file may have them, the start is
-/// the one that makes the ids the lowest.
+/// The vertex at which a triangle starts. If vertices repeat, which a file may contain, the start
+/// with the lowest ids.
 int first_vertex(const Triple& ids) {
   const auto vertex = [&](int i) { return ids[static_cast<std::size_t>(i)]; };
   int best = 0;
@@ -124,7 +124,7 @@ void make_canonical(Triangles& triangles, Triangles& neighbours,
                     std::span<const std::int32_t> new_id) {
   Triangles ordered;
   const CanonicalPlaces places = order_triangles(triangles, new_id, ordered);
-  triangles = std::move(ordered); // the old ones make room for the neighbours
+  triangles = std::move(ordered); // frees the old ones before the neighbours are allocated
   if (neighbours.cols() == 0)
     return;
   Triangles across;

@@ -9,30 +9,30 @@
 #include <cstdint>
 #include <span>
 
-/// The one order of a mesh's triangles: each starts at its lowest vertex, and they are sorted by
-/// their vertices, triangles of equal vertices in the order that they had. Linear time, parallel.
+/// The canonical order of a mesh's triangles: each starts at its lowest vertex, and they are sorted
+/// by their vertices; triangles of equal vertices keep their order. Linear time, parallel.
 namespace calotte::mesh_detail {
 
 /// Brings triangles into canonical order, and their neighbours with them.
-/// \param neighbours across from each vertex, -1 where there is none; 3 x 0 if they are not known.
-/// \param new_id by old vertex: renames the vertices first; none keeps their names.
+/// \param neighbours across from each vertex, -1 if there is none; 3 x 0 if they are not known.
+/// \param new_id by old vertex: renames the vertices first; empty keeps their names.
 /// \pre vertices are in [0, new_id.size()), or not negative if there are no new names; neighbours
-/// are in [-1, triangles).
+///         are in [-1, triangles).
 void make_canonical(Triangles& triangles, Triangles& neighbours,
                     std::span<const std::int32_t> new_id = {});
 
-/// Where canonical order puts the triangles, for arrays that follow them.
+/// The places of the triangles in canonical order, for arrays that follow them.
 struct CanonicalPlaces {
   Array<std::int32_t> place; ///< of each triangle
   Array<std::int8_t> first;  ///< which of its old vertices comes first
 };
 
-/// The two stages of make_canonical(), from a mesh that stays as it is.
+/// The two stages of make_canonical(), for a mesh that stays unchanged.
 CanonicalPlaces order_triangles(const Triangles& triangles, std::span<const std::int32_t> new_id,
                                 Triangles& out);
 void order_neighbours(const Triangles& neighbours, const CanonicalPlaces& places, Triangles& out);
 
-/// Whether make_canonical() would leave them as they are.
+/// True if make_canonical() would not change the triangles.
 bool is_canonical(const Triangles& triangles);
 
 } // namespace calotte::mesh_detail

@@ -12,24 +12,25 @@
 #include <cstdint>
 #include <vector>
 
-/// All laws of a closed mesh in one pass over its triangles.
+/// Checks all laws of a closed mesh in one pass over its triangles.
 namespace calotte::mesh_detail {
 
-/// What triangles of a block say, each of itself and of its edges to triangles of higher numbers.
+/// The results of a block's triangles, each for itself and for its edges to triangles of higher
+/// numbers.
 struct Tally {
   bool good = true;
   std::int64_t up = 0, down = 0; ///< neighbours of higher and of lower numbers
   AreaSum sum;
 };
 
-/// Asks for what the laws of a triangle will read: without that, each read from far away in a large
-/// mesh would wait for the one before it.
+/// Prefetches the data that the laws of a triangle read: otherwise each read from a distant part of
+/// a large mesh would wait for the one before it.
 inline void fetch_triangle(const Faces& s, std::int64_t t) {
   __builtin_prefetch(&s.triangle_ids(0, t));
   __builtin_prefetch(&s.neighbour_ids(0, t));
 }
 
-/// The same for its vertices and the neighbours that it looks at.
+/// The same for its vertices and the neighbours that it tests.
 template <class Surface> void fetch_neighbours(const Surface& s, std::int64_t t) {
   for (int i = 0; i < 3; ++i) {
     __builtin_prefetch(s.stored(s.vertex(t, i)));
@@ -89,23 +90,23 @@ template <class Surface> Traversal traversal_of(const Surface& s) {
           [&](std::int64_t t) { return s.square(s.vertex(t, 0)); }};
 }
 
-/// Whether all laws hold of a closed mesh, whose ids are in range. \param result its areas are set
-/// if they do.
+/// True if all laws hold for a closed mesh, whose ids are in range.
+/// \param result its areas are set if they hold.
 ///
-/// Each triangle is visited once, in any order: its laws read it, the one numbered before it and
-/// its neighbours; the rest are counts and sums.
+/// Each triangle is visited once, in any order: its laws read it, its predecessor in number and its
+/// neighbours; the other laws are counts and sums.
 ///
-/// An edge is looked at from one side alone. Each side that points to a higher number is known to
-/// be answered by one that points back; no two are answered by the same; so where as many point to
-/// lower numbers, neighbours are mutual.
+/// An edge is tested from one side only. Each side that points to a higher number is known to be
+/// answered by one that points back, and no two are answered by the same. If as many sides point to
+/// lower numbers, neighbours are therefore mutual.
 ///
-/// Walks around the sites are spared. Glued along their edges, the triangles, all
-/// counter-clockwise, cover the sphere or the periodic box evenly, but for branch points at sites
-/// that they turn around more than once: as often as the whole goes into their areas. Where these
-/// sum to less than 3/2 of the whole, that is once: the surface has the whole's shape, and no place
-/// is met twice. So the triangles at a site are a single cycle that turns around it once; and by
-/// Euler's characteristic there are as many cycles as sites. The sum is below that when it is the
-/// whole within its error, and this is small.
+/// Walks around the sites are not needed. Glued along their edges, the triangles, all
+/// counter-clockwise, cover the sphere or the periodic box evenly, except for branch points at
+/// sites around which they turn more than once; the number of sheets is the sum of their areas
+/// divided by the whole. If that is less than 3/2, there is one sheet: the surface has the shape of
+/// the whole, and no place is covered twice. The triangles at a site are then a single cycle that
+/// turns around it once, and by Euler's characteristic there are as many cycles as sites. The sum
+/// is below that bound if it is the whole within its error, and this error is small.
 template <class Surface> bool is_proven_closed(const Surface& s, Check& result, Monitor& monitor) {
   std::vector<Tally> tallies(static_cast<std::size_t>(block_count(s.triangles())));
   const Traversal way = traversal_of(s);

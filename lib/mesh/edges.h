@@ -10,15 +10,15 @@
 #include <cstdint>
 #include <string>
 
-/// The edges of a mesh of either kind, each once: at the first of its triangles.
+/// Calls a body for each edge of a spherical or planar mesh once: at the first of its triangles.
 namespace calotte::mesh_detail {
 
 template <class AnyMesh> bool is_first(const AnyMesh& mesh, std::int64_t t, int i) {
   return mesh.neighbours(i, t) < 0 || mesh.neighbours(i, t) > t;
 }
 
-/// \throws Error bad_option where the mesh lacks neighbours, or has more edges and sites than
-/// most_points.
+/// \throws Error bad_option if the mesh lacks neighbours, or has more edges and sites than
+///         most_points.
 template <class AnyMesh> std::int64_t count_edges(const AnyMesh& mesh) {
   const std::int64_t n = mesh.points.cols(), triangles = mesh.triangles.cols();
   require(mesh.neighbours.cols() == triangles,

@@ -8,7 +8,7 @@
 
 #include <cstdint>
 
-/// A mesh without its points, and the one walk around a site.
+/// A mesh without its points, and the walk around a site.
 namespace calotte::mesh_detail {
 
 /// A mesh's arrays.
@@ -35,7 +35,8 @@ inline int slot_of(const Faces& s, std::int64_t t, std::int32_t vertex) {
   return first + second + third == 1 ? second + 2 * third : 3;
 }
 
-/// Which vertex of a triangle a site is. \pre it is one.
+/// The index of a site among the vertices of a triangle.
+/// \pre it is one of them.
 inline int vertex_at(const Triangles& triangles, std::int64_t t, std::int32_t site) {
   return triangles(0, t) == site ? 0 : triangles(1, t) == site ? 1 : 2;
 }
@@ -61,8 +62,8 @@ inline std::int32_t preceding_site(const Faces& s, Corner corner) {
   return s.triangle_ids(previous_vertex(corner.vertex), corner.triangle);
 }
 
-/// The corner at the same site in the triangle that follows counter-clockwise; none beyond an open
-/// edge. \pre neighbours are -1 or triangles.
+/// The corner at the same site in the next triangle counter-clockwise; none beyond an open edge.
+/// \pre neighbours are -1 or triangles.
 inline Corner next_around(const Faces& s, Corner corner) {
   const std::int32_t beyond = s.neighbour_ids(next_vertex(corner.vertex), corner.triangle);
   if (beyond < 0)
@@ -70,9 +71,9 @@ inline Corner next_around(const Faces& s, Corner corner) {
   return {beyond, vertex_at(s.triangle_ids, beyond, site_at(s, corner))};
 }
 
-/// body(corner) from one corner at a site on. \return the corner that has no next one, or none
-/// when the walk has come back to the first. \pre no two corners have the same next one, or the
-/// walk would not come back.
+/// Calls body(corner) for the corners at a site, from a given one on.
+/// \return the corner that has no next one, or none if the walk returns to the first.
+/// \pre no two corners have the same next one; otherwise the walk might not return.
 template <class Next, class Body>
 Corner walk_around(Corner first, const Next& next, const Body& body) {
   Corner corner = first;

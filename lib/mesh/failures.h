@@ -10,7 +10,8 @@
 #include <string>
 #include <vector>
 
-/// How check() names what it looks at, and finds the first failure in parallel.
+/// The names that check() gives to triangles and edges, and the parallel search for the first
+/// failure.
 namespace calotte::mesh_detail {
 
 inline std::string triangle_name(const Faces& s, std::int64_t t) {
@@ -24,8 +25,8 @@ inline std::string edge_name(const Faces& s, std::int64_t t, int i) {
          ") of " + triangle_name(s, t);
 }
 
-/// The first answer of law(0), ..., law(n - 1) that is not empty.
-/// \param monitor told of a step a block.
+/// The first result of law(0), ..., law(n - 1) that is not empty.
+/// \param monitor receives one step per block.
 template <class Law> std::string first_failure(std::int64_t n, const Law& law, Monitor& monitor) {
   std::vector<std::string> failures(static_cast<std::size_t>(block_count(n)));
   for_each_block(n, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {

@@ -24,7 +24,7 @@ inline bool are_ids(const std::int32_t* ids, std::int64_t count, std::int64_t bo
   });
 }
 
-/// Whether all are at least `least` and below the bound.
+/// True if all ids are at least `least` and below the bound.
 inline bool are_ids(const Triangles& ids, std::int64_t bound, std::int32_t least = 0) {
   return are_ids(ids.data(), ids.size(), bound, least);
 }

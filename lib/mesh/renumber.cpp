@@ -59,7 +59,7 @@ void for_each_key(const Points3& points, std::int64_t begin, std::int64_t end, c
       begin, end, [&](std::int64_t i) { return to_cube(column(points, i)); }, body);
 }
 
-/// For each site its place in the order.
+/// For each site its position in the order.
 Array<std::int32_t> inverse(const Array<std::int32_t>& order) {
   Array<std::int32_t> place(order.size());
   for_each_block(order.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
@@ -129,7 +129,7 @@ Array<std::int32_t> reverse_cuthill_mckee_order(const Mesh& mesh) {
   const Graph graph(boost::edges_are_unsorted_multi_pass, edges.begin(), edges.end(),
                     static_cast<std::int32_t>(sites));
   std::vector<boost::default_color_type> colours(static_cast<std::size_t>(sites));
-  // Sites of equal degree are told apart by their ids, as no sort is the same in all libraries.
+  // Ids break ties between sites of equal degree, because sorts differ between libraries.
   const auto rank = [&](std::int32_t site) {
     return static_cast<std::int64_t>(out_degree(site, graph)) * sites + site;
   };

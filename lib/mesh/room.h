@@ -3,7 +3,7 @@
 
 #include "curve/room.h"
 
-/// What a mesh is: its edges, the triangles around each vertex, its neighbours rebuilt from
+/// The structure of a mesh: its edges, the triangles around each vertex, neighbours rebuilt from
 /// triangles alone, its numbering, and the proof that it is the Delaunay triangulation of its
 /// points.
 ///

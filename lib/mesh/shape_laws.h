@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-/// The laws of the geometry: orientation, empty circles, Euler's characteristic and areas. A
-/// Surface is what check_laws.h says.
+/// The laws of the geometry: orientation, empty circles, Euler's characteristic and areas.
+/// check_laws.h describes Surface.
 namespace calotte::mesh_detail {
 
 template <class Surface> std::string orientation_failure(const Surface& s, std::int64_t t) {
@@ -21,10 +21,10 @@ template <class Surface> std::string orientation_failure(const Surface& s, std::
   return triangle_name(s, t) + " is not counter-clockwise";
 }
 
-/// Of the edge across from vertex i; an edge is looked at from the triangle of the lower number.
+/// Tests the edge across from vertex i, from the triangle of the lower number.
 template <class Surface> std::string edge_failure(const Surface& s, std::int64_t t, int i) {
   const std::int32_t other = s.neighbour(t, i);
-  if (other < t) // none, or seen from there
+  if (other < t) // no neighbour, or tested from there
     return {};
   const std::int32_t across = s.vertex(other, slot_of(s, other, s.vertex(t, i + 2)) + 2);
   if (s.in_circle(s.vertex(t, i + 1), s.vertex(t, i + 2), s.vertex(t, i), across) < 0)

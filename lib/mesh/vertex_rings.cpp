@@ -8,7 +8,7 @@
 namespace calotte::mesh_detail {
 namespace {
 
-/// For each of the first sites some corner at it: which one may vary, as the rings' order does not
+/// For each of the first sites a corner at it. The choice may vary; the order of the rings does not
 /// depend on it.
 Array<Corner> some_corners(const Faces& mesh) {
   Array<Corner> corner(mesh.sites());

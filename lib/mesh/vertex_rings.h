@@ -11,8 +11,8 @@
 
 namespace calotte::mesh_detail {
 
-/// The corners at each site of a closed mesh, counter-clockwise, from the one whose next vertex is
-/// the lowest neighbour on: an order that the triangulation alone determines, whatever its history.
+/// The corners at each site of a closed mesh, counter-clockwise, starting with the corner whose
+/// next vertex is the lowest neighbour: an order that the triangulation alone determines.
 struct VertexRings {
   Array<std::int64_t> begin; ///< those of site i are at begin[i] to begin[i + 1]
   Array<Corner> corners;
@@ -20,8 +20,8 @@ struct VertexRings {
 
 VertexRings make_vertex_rings(const Mesh& mesh);
 
-/// Of the first `sites` of a mesh alone, whose rings are closed, whatever the others' are.
-/// \param neighbours as Mesh's.
+/// For the first `sites` sites of a mesh only, whose rings are closed; the other rings may be open.
+/// \param neighbours as in Mesh.
 VertexRings make_vertex_rings(const Triangles& triangles, const Triangles& neighbours,
                               std::int64_t sites);
 

@@ -18,13 +18,14 @@
 #include <utility>
 #include <vector>
 
-/// What is measured of a mesh from the shapes of its triangles, on the sphere and in the plane.
+/// The measures of a mesh that follow from the shapes of its triangles, on the sphere and in the
+/// plane.
 namespace calotte::quality_detail {
 
-/// What lattices make exactly 0 or 90 degrees comes out within this of it.
+/// Tolerance for angles that are exactly 0 or 90 degrees in lattices.
 inline constexpr double rounding_of_lattices = 1e-9;
 
-/// A Range in the making.
+/// An accumulator for a Range.
 struct Tally {
   double min = std::numeric_limits<double>::infinity(), max = -min, sum = 0;
   std::int64_t count = 0;
@@ -58,7 +59,7 @@ struct Shape {
 
 using Shapes = Array<Shape>;
 
-/// What is measured, with all that its parts need.
+/// The mesh to measure, with the data that all measures need.
 struct Subject {
   const Triangles& triangles;
   const Triangles& neighbours;
@@ -88,8 +89,8 @@ inline Edge edge_of(const Shapes& shapes, std::int64_t t, int v, std::int64_t ot
   return {arc, length < rounding_of_lattices * arc ? 0 : length, 0.5 * std::abs(here - there)};
 }
 
-/// body(part, i) for 0 <= i < n, each block of them on a part of its own; the parts are joined in
-/// the order of the blocks, so that sums are the same for any number of threads.
+/// Calls body(part, i) for 0 <= i < n, each block with its own part, and joins the parts in the
+/// order of the blocks, so that sums are the same for any number of threads.
 template <class Part, class Body> Part join_blocks(std::int64_t n, const Body& body) {
   std::vector<Part> parts(static_cast<std::size_t>(block_count(n)));
   for_each_block(n, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
@@ -137,7 +138,7 @@ struct EdgePart {
   }
 };
 
-/// Those that triangle t shares with a later one.
+/// The edges that triangle t shares with a triangle of a higher number.
 inline void add_edges(EdgePart& part, const Subject& subject, std::int64_t t) {
   const Triangles& neighbours = subject.neighbours;
   for (int v = 0; v < 3; ++v) {
@@ -189,7 +190,7 @@ inline void add_cell(CellPart& part, const Subject& subject, std::int64_t site) 
   part.count(static_cast<std::size_t>(end - begin), 1);
 }
 
-/// All but residual, energy and areas.
+/// Sets all measures except residual, energy and areas.
 inline Quality measure_shapes(const Subject& subject, std::int64_t cells) {
   const std::int64_t m = subject.shapes.size();
   const auto triangles = join_blocks<TrianglePart>(m, [&](TrianglePart& part, std::int64_t t) {

@@ -18,7 +18,7 @@ namespace calotte {
 namespace quality_detail {
 namespace {
 
-/// Lengths from each corner, in a box to the nearest copies.
+/// Computes lengths from each corner, in a box to the nearest copies.
 Shape shape_of(const std::array<Vec3, 3>& p, const Vec2& period) {
   Shape shape{};
   for (std::size_t v = 0; v < 3; ++v) {
@@ -32,7 +32,8 @@ Shape shape_of(const std::array<Vec3, 3>& p, const Vec2& period) {
   return shape;
 }
 
-/// A domain's triangles have the circumcentre in it, and no corner that is a place of the hull.
+/// Selects the triangles of a domain: their circumcentre is in it, and none of their corners is a
+/// place of the hull.
 class Insides {
 public:
   Insides(const PlanarCells& cells, const PlanarDomain& domain, std::int64_t generators)

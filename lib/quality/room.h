@@ -3,8 +3,8 @@
 
 #include "cvt/room.h"
 
-/// What a model judges a grid by: spacings, angles, areas, quality of cells and triangles, distance
-/// from the centroids, energy.
+/// Measures of the quality of a grid: spacings, angles, areas, quality of cells and triangles,
+/// distance from the centroids, energy.
 ///
 /// In: a closed mesh, or one in a domain. Out: ranges and counts.
 namespace calotte::quality_detail {

@@ -14,7 +14,8 @@
 namespace calotte {
 namespace {
 
-/// Empty where it is 1 at all cells. \throws Error bad_option.
+/// The density divided by its maximum; empty if it is uniform.
+/// \throws Error bad_option.
 Eigen::VectorXd relative_density(const Voronoi& voronoi, const Density& density) {
   base_detail::require(density.uniform() || voronoi.on_sphere,
                        "a periodic plane supports uniform density only");
@@ -64,7 +65,7 @@ CellFields cell_fields(const Voronoi& voronoi, const Density& density) {
 
 double nominal_spacing(const CellFields& fields) {
   const double n = static_cast<double>(fields.area.size());
-  double sum = 0; // in the cells' order: the same bits for any number of threads
+  double sum = 0; // in the order of the cells: the same bits for any number of threads
   for (Eigen::Index i = 0; i < fields.area.size(); ++i)
     sum += fields.area[i] * std::sqrt(fields.density[i]);
   return std::sqrt(2 / std::numbers::sqrt3 * sum / n);

@@ -21,9 +21,9 @@ namespace {
 
 // ---- Rings: the triangles around a site, counter-clockwise
 
-/// The corner at the same site in the triangle that follows, or none where that one does not fit.
-/// As the way back is checked as well, no two corners have the same next one: a walk comes back to
-/// where it began.
+/// The corner at the same site in the next triangle, or none if that triangle does not match. The
+/// way back is checked as well, so that no two corners have the same next one, and a walk returns
+/// to its start.
 Corner fitting_next(const Faces& surface, Corner corner) {
   const std::int32_t t = corner.triangle;
   if (surface.neighbour_ids(next_vertex(corner.vertex), t) >= surface.triangles())
@@ -35,7 +35,8 @@ Corner fitting_next(const Faces& surface, Corner corner) {
   return fits ? next : no_corner;
 }
 
-/// body(corner) around a site. \returns the corner whose next does not fit, or none.
+/// Calls body(corner) around a site.
+/// \returns the corner whose next does not match, or none.
 template <class Body>
 Corner walk_ring(const Faces& surface, std::int32_t first, std::int32_t site, const Body& body) {
   return walk_around(
@@ -45,7 +46,7 @@ Corner walk_ring(const Faces& surface, std::int32_t first, std::int32_t site, co
 
 constexpr std::int32_t none = -1;
 
-/// For each site some triangle at it: which one may vary, as the rings' order does not depend on
+/// For each site a triangle at it. The choice may vary; the order of the rings does not depend on
 /// it.
 Array<std::int32_t> some_triangles(const Faces& surface) {
   Array<std::int32_t> some(surface.sites());
@@ -72,7 +73,7 @@ Array<std::int32_t> some_triangles(const Faces& surface) {
   return some;
 }
 
-/// Instead of where lists begin, it sets how long they are: begin, and in the rings first_edge.
+/// Sets the lengths of the lists instead of their starts: begin, and in the rings first_edge.
 Rings count_rings(const Faces& surface, Voronoi& out) {
   Rings rings{some_triangles(surface), Array<std::int32_t>(surface.sites())};
   make_room(out.begin, surface.sites() + 1, 1);
@@ -105,7 +106,7 @@ Rings count_rings(const Faces& surface, Voronoi& out) {
   return rings;
 }
 
-/// Names a site at which triangles form more than the one ring that was found.
+/// Throws for a site whose triangles form more than the one ring that was found.
 [[noreturn]] void refuse_second_ring(const Faces& surface, const Voronoi& out) {
   std::vector<std::int64_t> corners(static_cast<std::size_t>(surface.sites()));
   for (const std::int32_t site : surface.triangle_ids.reshaped())
@@ -127,7 +128,7 @@ struct Neighbour {
   std::int64_t place;
 };
 
-/// Sets all that belongs to edge e, the `place`-th of the lower cell's list.
+/// Sets all data of edge e, the `place`-th of the lower cell's list.
 void set_edge(const Faces& surface, std::int32_t e, std::int32_t lower, std::int64_t place,
               Voronoi& out) {
   const std::int64_t begin = out.begin[lower], end = out.begin[lower + 1];
@@ -175,7 +176,7 @@ void set_cells_and_edges(const Faces& surface, const Rings& rings, Voronoi& out)
                "box");
 }
 
-/// Those that the lower cells have numbered.
+/// Sets the entries of edges that the lower cells have numbered.
 void set_edges_of_higher_cells(const Faces& surface, Voronoi& out) {
   for_each_block(surface.sites(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (auto i = static_cast<std::int32_t>(begin); i != end; ++i)

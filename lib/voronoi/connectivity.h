@@ -11,20 +11,21 @@
 
 namespace calotte::voronoi_detail {
 
-/// Where each site's list of triangles begins.
+/// The starts of the sites' lists of triangles.
 struct Rings {
   Array<std::int32_t> first;      ///< of each site: the triangle that follows its lowest neighbour
   Array<std::int32_t> first_edge; ///< of those of which the site is the lower cell
 };
 
-/// The first of two stages that set the ids of the tessellation that is dual to a closed surface:
-/// begin and cells_on_vertex. \pre as many neighbours as triangles; at most 2^29 sites. \throws
-/// Error bad_option, where ids are out of range, the neighbours do not fit the triangles,
-///         or the triangles at a site do not form one ring.
+/// The first of two stages that set the ids of the tessellation dual to a closed surface: begin and
+/// cells_on_vertex.
+/// \pre as many neighbours as triangles; at most 2^29 sites.
+/// \throws Error bad_option if ids are out of range, the neighbours do not match the triangles, or
+///         the triangles at a site do not form one ring.
 Rings find_rings(const Faces& surface, Voronoi& out);
 
-/// Sets the other lists, pairs and triples. \throws Error bad_option, where two cells share two
-/// edges.
+/// Sets the other lists, pairs and triples.
+/// \throws Error bad_option if two cells share two edges.
 void connect(const Faces& surface, const Rings& rings, Voronoi& out);
 
 } // namespace calotte::voronoi_detail

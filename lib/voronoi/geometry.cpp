@@ -21,7 +21,7 @@
 namespace calotte::voronoi_detail {
 namespace {
 
-// What is done for each lane has no branches: the loops over it become vector code.
+// Operations per lane have no branches, so that the loops over lanes become vector code.
 
 // ---- Elementary functions
 
@@ -43,7 +43,7 @@ CALOTTE_INLINE Vec3 choose(bool first, const Vec3& a, const Vec3& b) {
   return {first ? a.x : b.x, first ? a.y : b.y, first ? a.z : b.z};
 }
 
-/// The direction of a vector of no extreme norm, or another's where it is zero.
+/// The direction of a vector of moderate norm; for a zero vector, a given direction.
 CALOTTE_INLINE Vec3 direction_or(const Vec3& a, const Vec3& other) {
   const double s = square(a);
   const bool some = s > 1e-300;
@@ -52,7 +52,7 @@ CALOTTE_INLINE Vec3 direction_or(const Vec3& a, const Vec3& other) {
 
 // ---- The two spaces
 
-/// Of a triangle's edge: the halves, on its two ends' sides, of the kites there are mirror images.
+/// The half kites at an edge of a triangle: those at its two ends are mirror images.
 struct HalfKite {
   double arc;  ///< signed, from the edge's middle to the circumcentre
   double area; ///< signed, of either
@@ -62,7 +62,8 @@ struct HalfKite {
 struct Sphere {
   Array<double> surplus; ///< by cell: by how much its norm exceeds 1
 
-  /// As if both stood exactly on the sphere: beside a short edge, the rounding of norms is large.
+  /// Computed as if both points were exactly on the sphere: for a short edge, the rounding of norms
+  /// is large.
   Vec3 difference(const Points3& cells, std::int32_t from, std::int32_t to) const {
     const Vec3 &a = column(cells, from), &b = column(cells, to);
     return (b - a) + (surplus[from] * a - surplus[to] * b);
@@ -71,13 +72,13 @@ struct Sphere {
   /// \param normal (b - a) x (c - a) of a triangle; zero of a thin one.
   /// \param middle the flat triangle's circumcentre, from a.
   CALOTTE_INLINE Vec3 circumcentre(const Vec3& normal, const Vec3& a, const Vec3& middle) const {
-    // The flat centre keeps the digits of small triangles, the normal those of large ones, whose
-    // flat centre is near the sphere's.
+    // The flat centre keeps the digits of small triangles; the normal keeps those of large ones,
+    // whose flat centre is near the sphere's.
     const double outward = dot(normal, a);
     const bool flat = square(middle) < 0.25 || outward == 0;
     return direction_or(choose(flat, a + middle, std::copysign(1.0, outward) * normal), a);
   }
-  /// Rounding can turn a triangle over whose corners are one but for rounding.
+  /// Rounding can reverse a triangle whose corners are equal up to rounding.
   CALOTTE_INLINE double height(const Vec3& normal, const Vec3& a) const {
     return 2 * std::abs(dot(normal, a));
   }
@@ -97,7 +98,7 @@ struct Sphere {
     return 4 * arc_tangent(std::sqrt(square(difference)) /
                            (2 + std::sqrt(square((a + a) + difference))));
   }
-  /// From east, (-y, x, 0) over r = sqrt(x^2 + y^2), to north, (-x z, -y z, r^2) over r.
+  /// The angle from east, (-y, x, 0) over r = sqrt(x^2 + y^2), to north, (-x z, -y z, r^2) over r.
   CALOTTE_INLINE double angle(const Vec3& m, const Vec3& normal) const {
     const bool pole = m.x == 0 && m.y == 0;
     const double x = pole ? 1 : m.x, y = m.y;
@@ -174,7 +175,7 @@ CALOTTE_INLINE void measure_triangle(const Space& space, TriangleBatch& batch, s
              c = at(batch.corner[2], lane);
   const Vec3 bc = at(batch.side[0], lane), ca = at(batch.side[1], lane),
              ab = at(batch.side[2], lane);
-  // At the corner p across from the longest side the normal keeps most digits.
+  // The corner p across from the longest side gives the normal with the most digits.
   const double across_a = square(bc), across_b = square(ca), across_c = square(ab);
   const bool at_a = across_a >= across_b && across_a >= across_c, at_b = across_b >= across_c;
   const Vec3 p = choose(at_a, a, choose(at_b, b, c)), next = choose(at_a, ab, choose(at_b, bc, ca)),
@@ -221,7 +222,8 @@ void gather_triangles(const Space& space, const Voronoi& of, std::int64_t t, std
   }
 }
 
-/// The arcs wait in dv, on an edge's left, and in angle, on its right, for their sum.
+/// dv stores the arc to the left of an edge, and angle that to its right, until their sum is
+/// computed.
 void scatter_triangle(const TriangleBatch& batch, std::size_t lane, std::int64_t t, Voronoi& out) {
   set_column(out.vertices, t, at(batch.centre, lane));
   double sum = 0;
@@ -333,7 +335,7 @@ void set_cell_areas(Voronoi& out) {
   });
 }
 
-/// By how much the norms of unit columns exceed 1, to some digits of that.
+/// The amount by which the norms of unit columns exceed 1, to a few digits.
 Array<double> surplus_of(const Points3& cells) {
   Array<double> surplus(cells.cols());
   for_each_block(cells.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {

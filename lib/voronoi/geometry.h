@@ -20,8 +20,8 @@ namespace calotte::voronoi_detail {
 /// Of three sites that are one but for rounding, the deltas are 0.
 void measure(Voronoi& out);
 
-/// The same in two stages, for those who use the first one's results beside the second: vertices,
-/// their areas and kites; then edges and the areas of cells.
+/// The same in two stages, for callers that use the results of the first beside the second:
+/// vertices, their areas and kites; then edges and the areas of cells.
 void measure_vertices(Voronoi& out);
 void measure_edges_and_cells(Voronoi& out);
 

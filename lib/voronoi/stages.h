@@ -6,7 +6,7 @@
 
 #include <calotte/voronoi.h>
 
-/// voronoi() in stages, for those who use a stage's results while the next is made: begun(),
+/// voronoi() in stages, for callers that use the results of a stage while the next runs: begun(),
 /// connect(), then measure().
 namespace calotte::voronoi_detail {
 
@@ -15,13 +15,15 @@ struct BegunVoronoi {
   Rings rings;
 };
 
-/// The sites stand at these points, without a copy of the mesh. \param points as many as the
-/// mesh's. \throws Error bad_option, as voronoi(mesh).
+/// The sites are at these points; the mesh is not copied.
+/// \param points as many as the mesh has.
+/// \throws Error bad_option, as voronoi(mesh).
 BegunVoronoi begun(const Points3& points, const Mesh& mesh);
 BegunVoronoi begun(const PlanarMesh& mesh);
 
-/// Sets all other ids. \param mesh that it was begun with. \throws Error bad_option, where two
-/// cells share two edges.
+/// Sets all other ids.
+/// \param mesh the mesh passed to begun().
+/// \throws Error bad_option if two cells share two edges.
 void connect(const Mesh& mesh, BegunVoronoi& out);
 void connect(const PlanarMesh& mesh, BegunVoronoi& out);
 

@@ -13,8 +13,8 @@ namespace voronoi_detail {
 namespace {
 
 /// Sets the weights of a cell's other edges for an edge, counter-clockwise from it on.
-/// \param sign 1 where the edge's normal leaves the cell, -1 where it enters it.
-/// \returns how many.
+/// \param sign 1 if the edge's normal leaves the cell, -1 if it enters it.
+/// \returns the number of weights.
 std::int64_t set_weights_of_cell(const Voronoi& of, std::int32_t edge, std::int32_t cell,
                                  double sign, std::int32_t* edges, double* weights) {
   const std::int64_t begin = of.begin[cell], end = of.begin[cell + 1];

@@ -15,8 +15,8 @@ inline std::int64_t weight_count(const Voronoi& of, std::int64_t edge) {
   return of.begin[a + 1] - of.begin[a] + of.begin[b + 1] - of.begin[b] - 2;
 }
 
-/// Sets them and the edges that they are of, from 0, in the order of TangentialWeights.
-/// \param edges, weights have room for weight_count() each.
+/// Sets the weights and their edges from index 0 on, in the order of TangentialWeights.
+/// \param edges, weights have space for weight_count() each.
 void set_weights(const Voronoi& of, std::int32_t edge, std::int32_t* edges, double* weights);
 
 } // namespace calotte::voronoi_detail

@@ -21,11 +21,11 @@ namespace calotte {
 namespace voronoi_detail {
 namespace {
 
-/// A norm that is 1 but for rounding stays, so that unit columns come back bit for bit: normalised
-/// ones err by 5 units of roundoff, their squares by twice that and 3 of their own.
+/// A norm that is 1 up to rounding is kept, so that unit columns keep their bits: normalised
+/// columns err by 5 units of roundoff, their squares by twice that and 3 of their own.
 Vec3 unit_column(const Vec3& x) { return std::abs(dot(x, x) - 1) <= 0x1p-49 ? x : normalised(x); }
 
-/// A mesh of the sphere, whose sites may have moved.
+/// A mesh of the sphere with sites at other points.
 struct MeshAt {
   const Points3& points;
   const Triangles &triangles, &neighbours;
@@ -38,7 +38,7 @@ void set_cells(const MeshAt& mesh, Voronoi& out) {
     for (std::int64_t i = begin; i != end; ++i) {
       const Vec3 unit = unit_column(column(mesh.points, i));
       set_column(out.cells, i, unit);
-      if (!(std::abs(dot(unit, unit) - 1) < 1e-9)) // NaN of what has no direction
+      if (!(std::abs(dot(unit, unit) - 1) < 1e-9)) // NaN for points without a direction
         fault.at(i);
     }
   });
@@ -59,7 +59,7 @@ void set_cells(const PlanarMesh& mesh, Voronoi& out) {
   fault.refuse("site", "lies outside the periodic box: give the copy of it that is inside");
 }
 
-/// Sets all that begun() does but for the kind of the space.
+/// Sets all members of begun() except the kind of the space.
 template <class AnyMesh> void begin(const AnyMesh& mesh, BegunVoronoi& out) {
   constexpr std::int64_t most_cells = std::int64_t{1} << 29;
   require(mesh.points.cols() <= most_cells,
@@ -85,7 +85,7 @@ BegunVoronoi begun(const Points3& points, const Mesh& mesh) {
 }
 
 BegunVoronoi begun(const PlanarMesh& mesh) {
-  // Areas' products and quotients must stay among the doubles.
+  // Products and quotients of areas must stay in the range of doubles.
   require(mesh.period.minCoeff() > 1e-30 && mesh.period.maxCoeff() < 1e30,
           "the box of the plane is " + std::to_string(mesh.period[0]) + " x " +
               std::to_string(mesh.period[1]) +

@@ -15,7 +15,7 @@ using namespace calotte::base_detail;
 
 namespace {
 
-/// Bytes of the process that are in memory.
+/// Number of the process's bytes that are in memory.
 std::int64_t resident() {
   std::int64_t all = 0, pages = 0;
   std::ifstream("/proc/self/statm") >> all >> pages;
@@ -34,9 +34,9 @@ bool holds(const Array<std::int32_t>& array, std::int32_t value) {
 
 } // namespace
 
-TEST_CASE("give_back() takes an array's pages from the process, and nothing of its neighbours") {
+TEST_CASE("give_back() returns the pages of an array, and none of its neighbours") {
   for (const std::int64_t n :
-       {0, 1, 100, 3000, 100003, 4000000, 5000000}) { // the last is no pool's
+       {0, 1, 100, 3000, 100003, 4000000, 5000000}) { // the last is larger than those of the pools
     INFO(n, " values");
     constexpr std::size_t count = 12;
     std::array<Array<std::int32_t>, count> arrays;
@@ -45,7 +45,8 @@ TEST_CASE("give_back() takes an array's pages from the process, and nothing of i
     const std::int64_t before = resident();
     for (std::size_t i = 0; i < count; i += 2)
       give_back(arrays[i]);
-    // Half: the system counts roughly, and a sanitizer marks freed memory with an eighth as much.
+    // Half: the system counts roughly, and a sanitizer marks freed memory with an eighth of its
+    // size.
     if (n >= 4000000)
       CHECK(before - resident() >= static_cast<std::int64_t>(count / 2) * n * 2);
     for (std::size_t i = 0; i < count; ++i)
@@ -68,7 +69,7 @@ TEST_CASE("advise() reaches the whole pages of a block, and no byte beside them"
       const std::int64_t behind = reinterpret_cast<std::intptr_t>(array.begin()) % page;
       char* const first = array.begin() + (page - behind) % page; // a page's
       advise(first + begin, static_cast<std::size_t>(bytes), static_cast<std::size_t>(page),
-             MADV_DONTNEED); // which leaves zeros
+             MADV_DONTNEED); // leaves zeros
       const std::int64_t from = (begin + page - 1) / page * page,
                          to = std::max(from, (begin + bytes) / page * page);
       CHECK(std::count(array.begin(), array.end(), '\0') == to - from);

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Whether the programs of others read what the command writes.
+"""Tests whether other programs read the files that the command writes.
 
     client_test.py CLIENT CALOTTE
 

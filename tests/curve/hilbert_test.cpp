@@ -55,7 +55,7 @@ TEST_CASE("multiples of one direction have one key and the same bits on the cube
   }
 }
 
-TEST_CASE("keys are the same side by side") {
+TEST_CASE("keys computed together and one by one are equal") {
   const std::vector<Vec3> points = directions(50);
   for (std::int64_t begin = 0; begin < 9; ++begin)
     for (std::int64_t end = begin; end < std::ssize(points); ++end) {
@@ -72,7 +72,7 @@ TEST_CASE("keys are the same side by side") {
 }
 
 TEST_CASE("steps of the curve go to neighbouring cells, from face to face too") {
-  // All cells of a coarse level in the order of the curve, by their middle points.
+  // All cells of a coarse level in curve order, by their middle points.
   constexpr int level = 5, cells = 1 << level;
   std::vector<std::pair<std::uint64_t, Vec3>> middles;
   for (int face = 0; face < 6; ++face)
@@ -87,7 +87,7 @@ TEST_CASE("steps of the curve go to neighbouring cells, from face to face too") 
     CHECK(norm(middles[m].second - middles[m - 1].second) < 2.0 / cells + 1e-12);
 }
 
-TEST_CASE("the cells of each level part the sites, and their balls hold them") {
+TEST_CASE("the cells of each level partition the sites, and their balls contain them") {
   std::vector<std::pair<std::uint64_t, Vec3>> sites;
   for (const Vec3& p : directions(3000))
     sites.emplace_back(curve_key(to_cube(p)), normalised(p));

@@ -80,7 +80,7 @@ TEST_CASE("order_by_key() sorts by key, then item, keys crowded, equal or far ap
 
 namespace {
 
-/// When each triangle is visited, each once.
+/// The position of each triangle in the traversal, which visits each once.
 std::vector<std::int64_t> turns(const Traversal& way, std::int64_t triangles) {
   std::vector<std::int64_t> turn(static_cast<std::size_t>(triangles), -1);
   for (std::int64_t i = 0; i < triangles; ++i) {

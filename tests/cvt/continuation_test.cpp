@@ -43,13 +43,14 @@ void check(std::int64_t cells, const Density& density, std::int64_t least) {
   const std::int64_t n = c.start.cols();
   CHECK(after(c) == cells);
   CHECK((c.bisections == 0 || n >= least));
-  CHECK((n % 4 != 2 || (n - 2) / 4 + 2 < least)); // no coarser one would do
+  CHECK((n % 4 != 2 || (n - 2) / 4 + 2 < least)); // no coarser start would do
   CHECK(c.icosahedral == is_icosahedral(cells));
 }
 
 } // namespace
 
-TEST_CASE("continuation: bisections lead from the start to the cells, and from none coarser") {
+TEST_CASE(
+    "continuation: the start is the coarsest from which bisections reach the number of cells") {
   const Density other = bump();
   for (std::int64_t cells = 12; cells <= 5000; ++cells)
     check(cells, Density{}, 12);
@@ -61,7 +62,7 @@ TEST_CASE("continuation: bisections lead from the start to the cells, and from n
       check(cells, density, density.uniform() ? 12 : 642);
 }
 
-TEST_CASE("continuation: what the start is") {
+TEST_CASE("continuation: the kind of start") {
   CHECK(continuation(655362, {}).start == bisected_icosahedron(0));
   CHECK(continuation(655362, bump()).start == bisected_icosahedron(3));
   CHECK(continuation(162, bump()).start == bisected_icosahedron(2));
@@ -70,7 +71,7 @@ TEST_CASE("continuation: what the start is") {
   CHECK(continuation(1009, bump(), 7).start == random_sphere(1009, site_density(bump()), 7));
   CHECK(continuation(4 * 1001 + 2, bump(), 7).start ==
         random_sphere(1003, site_density(bump()), 7));
-  // Two thirds of a billion, from the fewest.
+  // Two thirds of a billion cells, from the smallest start.
   CHECK(continuation(10 * (std::int64_t{1} << 26) + 2, {}).bisections == 13);
 }
 
@@ -89,7 +90,7 @@ TEST_CASE("continuation refuses what it cannot reach in one line") {
     CHECK(message(cells, {}).find("number of cells is " + std::to_string(cells)) !=
           std::string::npos);
   const Density bad = tanh_bump({0, 0, 1}, 0.5, -1, 0.1);
-  for (const std::int64_t cells : {642, 1000}) // drawn from it or not
+  for (const std::int64_t cells : {642, 1000}) // the start is drawn from it or not
     CHECK(message(cells, bad).find("alpha") != std::string::npos);
 }
 

@@ -27,7 +27,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// Accepted steps lower the energy, but for round-off.
+/// Accepted steps lower the energy, except for rounding.
 void check_descent(const CvtReport& report) {
   const CvtIteration* before = nullptr;
   for (const CvtIteration& iteration : report.iterations) {
@@ -44,7 +44,7 @@ void check_descent(const CvtReport& report) {
 constexpr std::array<Method, 5> methods{Method::lloyd, Method::nesterov, Method::lbfgs,
                                         Method::lbfgs_laplacian, Method::automatic};
 
-/// From a random start, of one method.
+/// Runs one method from a random start.
 void check_random_start(const Density& density, Method method) {
   CAPTURE(static_cast<int>(method));
   CvtOptions options;
@@ -105,7 +105,7 @@ TEST_CASE("every method takes uniform bisected grids to the known optimum withou
   }
 }
 
-TEST_CASE("random starts: the energy falls, and threads, regions and sorts do not show") {
+TEST_CASE("random starts: the energy falls, and threads, regions and sorts have no effect") {
   for (const Method method : methods) {
     check_random_start(Density{}, method);
     check_random_start(x8(), method);
@@ -126,18 +126,18 @@ TEST_CASE("over-relaxed Lloyd's steps descend, and need fewer evaluations") {
     check_descent(relaxed);
     CHECK(plain.converged);
     CHECK(relaxed.converged);
-    if (density.uniform()) // defects go other ways where it is not
+    if (density.uniform()) // otherwise defects take other paths
       CHECK(relaxed.iterations.size() < plain.iterations.size());
   }
 }
 
-TEST_CASE("a run goes on from any of its states to the same bits") {
+TEST_CASE("a run continues from any of its states to the same bits") {
   for (const Method method : methods) {
     CAPTURE(static_cast<int>(method));
     CvtOptions options;
     options.density = x8();
     options.method = method;
-    options.max_iterations = 70; // the Laplacian is made anew
+    options.max_iterations = 70; // the Laplacian is computed again
     options.bisections = 1;
     options.tolerance = 1e-3; // the final rule takes over
     std::vector<CvtState> states;
@@ -146,7 +146,7 @@ TEST_CASE("a run goes on from any of its states to the same bits") {
       return false;
     });
     CHECK(whole.mesh.points.cols() == 4 * 300 - 6);
-    if (method != Method::lloyd) // which is not as far then
+    if (method != Method::lloyd) // smaller than before
       CHECK(whole.report.iterations.back().rule == options.final_rule);
     for (std::size_t k = 0; k < states.size(); k += 9) {
       const Cvt rest = spherical_cvt(states[k], options);
@@ -160,8 +160,8 @@ TEST_CASE("a run goes on from any of its states to the same bits") {
 }
 
 TEST_CASE("every machine, compiler option and vector width gives the same bits") {
-  // FNV-1a of the coordinates, as a build without vector code gave them: the sanitizers' builds
-  // have none, the release has that of the machine.
+  // FNV-1a of the coordinates, from a build without vector code: the sanitizers' builds have none,
+  // the release build has that of the machine.
   const auto hash = [](const Points3& points) {
     std::uint64_t h = 0xcbf29ce484222325U;
     for (const double value : points.reshaped())
@@ -198,7 +198,7 @@ TEST_CASE("a state that no run has left is refused") {
     CHECK_THROWS_AS(spherical_cvt(state, options), Error);
 }
 
-TEST_CASE("the norms stop as they say") {
+TEST_CASE("each norm stops the run at its tolerance") {
   CvtOptions options;
   options.max_iterations = 2000;
   const double h = std::sqrt(4 * pi / 642);
@@ -227,7 +227,7 @@ TEST_CASE("the gradient is the energy's slope") {
   const Points3 x = random_sphere(300, 9);
   CvtOptions options;
   options.density = x8();
-  options.rule = options.final_rule = 19; // else the rule's error shows in the energy
+  options.rule = options.final_rule = 19; // otherwise the error of the rule appears in the energy
   options.method = Method::lloyd;
   options.norm = Norm::none;
   options.max_iterations = 1;
@@ -299,7 +299,7 @@ TEST_CASE("the tanh bump spreads spacings by the fourth root of its contrast [sl
 }
 
 TEST_CASE("the fixed point depends on the rule by the rule's order only [slow]") {
-  // Smooth and without any symmetry, along which generators could turn.
+  // Smooth and without any symmetry, so that the generators cannot rotate.
   CvtOptions options;
   options.density.kind = Density::Kind::callable;
   options.density.callable = [](const Eigen::Ref<const Points3>& x,

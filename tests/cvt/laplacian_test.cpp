@@ -67,7 +67,7 @@ double curvature(Functional& functional, const Points3& x, const Points3& v) {
 
 } // namespace
 
-TEST_CASE("the graph Laplacian is symmetric, and all but zero on a constant") {
+TEST_CASE("the graph Laplacian is symmetric, and almost zero on a constant") {
   for (const Density& density : {Density{}, x8()}) {
     const SparseMatrix matrix = laplacian_of(near_optimum(density, 642), density);
     const SparseMatrix transposed = matrix.transpose();
@@ -99,7 +99,7 @@ TEST_CASE("the graph Laplacian is near the energy's second derivative") {
   }
 }
 
-TEST_CASE("the multigrid cycle is symmetric, positive, and contracts whatever the size") {
+TEST_CASE("the multigrid cycle is symmetric, positive, and contracts for any size") {
   for (const std::int64_t cells : {642, 2562, 10242}) {
     for (const Density& density : {Density{}, x8()}) {
       CAPTURE(cells);

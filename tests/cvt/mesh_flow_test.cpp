@@ -11,7 +11,7 @@
 using namespace calotte;
 using test::x8;
 
-// A run hands its mesh from level to level and never triangulates it again. By the law of
+// A run passes its mesh from level to level and never triangulates it again. By the law of
 // uniqueness the result is the triangulation of its generators, to the last bit.
 
 namespace {
@@ -42,7 +42,7 @@ TEST_CASE("the mesh of a continuation is the triangulation of its generators") {
     }
 }
 
-TEST_CASE("so it is where edges flip at every step, and where a run stops on any iteration") {
+TEST_CASE("the same if edges flip at every step, and if a run stops at any iteration") {
   CvtOptions options;
   options.density = x8();
   options.method = Method::lloyd;

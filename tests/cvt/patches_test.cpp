@@ -37,7 +37,7 @@ std::set<Triple> all_triangles(const Triangles& triangles) {
   return out;
 }
 
-/// Regions without any shape: what holds for these holds for all.
+/// Regions of random shape: a law that holds for these holds for all.
 Ownership random_ownership(std::int64_t sites, std::int32_t regions, unsigned seed) {
   std::mt19937 random(seed);
   Array<std::int32_t> owner(sites);
@@ -53,7 +53,8 @@ Triple global(const Patch& patch, const Triple& locals) {
   return {site(locals[0]), site(locals[1]), site(locals[2])};
 }
 
-/// Each patch holds the triangles with a site of its own, in the one order, and the sites of these.
+/// Each patch contains the triangles with a site of its own, in the canonical order, and the sites
+/// of these.
 void check_patches(const std::vector<Patch>& patches, const Triangles& triangles,
                    const Ownership& ownership) {
   const std::set<Triple> all = all_triangles(triangles);
@@ -104,12 +105,12 @@ Faults all_faults(const Connectivity& mesh, const Points3& points) {
 
 } // namespace
 
-TEST_CASE("patches hold what regions own, whatever their shape") {
+TEST_CASE("patches contain the sites of their regions, for any shape") {
   const Mesh mesh = spherical_delaunay(random_sphere(600, 3));
   Triangles other = mesh.triangles.rowwise().reverse(); // another order, and another first corner
   for (const int row : {0, 1})
     other.row(row).swap(other.row(row + 1));
-  for (const std::int32_t regions : {1, 2, 7, 900}) { // some of the last own nothing
+  for (const std::int32_t regions : {1, 2, 7, 900}) { // some of the last regions own no sites
     const Ownership ownership = random_ownership(600, regions, 5);
     check_patches(make_patches(mesh.triangles, ownership), mesh.triangles, ownership);
     check_patches(make_patches(other, ownership), other, ownership);
@@ -132,7 +133,7 @@ TEST_CASE("repair finds the Delaunay triangulation of moved points; patches are 
       const Points3 points = moved(start, amount);
       const std::optional<Repair> repaired =
           repair(mesh, SphereSigns(points), all_faults(mesh, points));
-      if (!repaired) { // it is cheaper to triangulate anew
+      if (!repaired) { // a new triangulation is cheaper
         CHECK(amount >= 0.3);
         continue;
       }

@@ -133,7 +133,7 @@ AllMoments moments_of(const Points2& points, const PlanarDomain& domain, const D
   return all;
 }
 
-/// Accepted steps never climb, but for rounding.
+/// Accepted steps do not raise the energy, except for rounding.
 void check_descent(const CvtReport& report) {
   const CvtIteration* before = nullptr;
   for (const CvtIteration& iteration : report.iterations) {
@@ -162,7 +162,7 @@ constexpr std::array all_methods{Method::lloyd, Method::nesterov, Method::lbfgs,
 
 } // namespace
 
-TEST_CASE("areas of clipped cells sum to the domain's, whatever its shape and the generators") {
+TEST_CASE("areas of clipped cells sum to the domain's, for any shape and generators") {
   for (const PlanarDomain& domain : {unit_square(), lake(), comb()})
     for (const std::int64_t n : {1, 2, 3, 10, 100, 3000}) {
       CAPTURE(n);
@@ -353,7 +353,7 @@ TEST_CASE("a generator of a piece around a corner stays inside, and the run conv
     }
 }
 
-TEST_CASE("in a box a triangle whose nearest copies do not close is none") {
+TEST_CASE("in a box a triangle whose nearest copies do not close is invalid") {
   Array<Vec3> places(3);
   const PlaneSigns signs(places, {1, 1});
   places[0] = {0.5, 0.5, 0};
@@ -381,7 +381,8 @@ TEST_CASE("bisection: periodic boxes have four times the cells, other domains th
     REQUIRE(inside(open.mesh.points.col(i)));
 }
 
-TEST_CASE("the graph Laplacian's method takes as many evaluations whatever the number of cells") {
+TEST_CASE(
+    "the number of evaluations with the graph Laplacian does not grow with the number of cells") {
   std::vector<std::size_t> evaluations;
   for (const int columns : {16, 32, 64, 128}) {
     const PlanarMesh lattice = periodic_hexagons(columns, columns, 1.0 / columns);
@@ -407,7 +408,7 @@ TEST_CASE("the graph Laplacian's method takes as many evaluations whatever the n
   CHECK(evaluations[3] < 60);
 }
 
-TEST_CASE("the graph Laplacian is of use where shores turn their backs on generators") {
+TEST_CASE("the graph Laplacian works if the boundary faces away from generators") {
   PlanarDomain domain = rectangle({0, 0}, {4, 3});
   domain.rings.push_back(ring_of({{1, 0.3}, {1.2, 0.3}, {1.2, 2.7}, {1, 2.7}}));
   domain.rings.push_back(ring_of({{2, 1}, {2.2, 1}, {2.2, 2}, {2, 2}}));
@@ -420,7 +421,7 @@ TEST_CASE("the graph Laplacian is of use where shores turn their backs on genera
   const PlanarCvt by_lloyd = planar_cvt(lattice, domain, options);
   options.method = Method::lbfgs_laplacian;
   const PlanarCvt by_laplacian = planar_cvt(lattice, domain, options);
-  CHECK(by_laplacian.mesh.points != by_lloyd.mesh.points); // which is what it falls back to
+  CHECK(by_laplacian.mesh.points != by_lloyd.mesh.points); // the method that it falls back to
 }
 
 TEST_CASE("clusters, and domains far from the origin or of any size") {
@@ -470,7 +471,7 @@ TEST_CASE("quality of hexagons in a box, and of clipped cells") {
   CHECK(whole < 500);
 }
 
-TEST_CASE("a raster is bilinear, and goes on as at its rim") {
+TEST_CASE("a raster is bilinear, and constant beyond its rim") {
   PlanarRaster raster{Eigen::Vector3d(0, 1, 3), Eigen::Vector2d(0, 2), Eigen::MatrixXd(3, 2)};
   raster.density << 1, 2, 3, 5, 4, 8;
   const Density density = density_of(raster);

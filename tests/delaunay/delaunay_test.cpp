@@ -49,8 +49,8 @@ DelaunayOptions with_centres(const Points3& centres) {
   return options;
 }
 
-/// Every sort and every kind of centres. Those given include some that sites stand on, in both
-/// senses.
+/// Every sort and every kind of centres. The given centres include some at sites and some opposite
+/// to sites.
 std::vector<Setting> settings(const Points3& points) {
   std::vector<Setting> out;
   for (const int regions : {2, 12, 42}) {
@@ -292,7 +292,8 @@ TEST_CASE("small sets at random, in special position, any options: one mesh [slo
   CHECK(degenerate > 0);
 }
 
-TEST_CASE("small sets: a permuted input permutes the mesh, factors of sites change no triangle") {
+TEST_CASE(
+    "small sets: a permuted input permutes the mesh, factors of sites do not change triangles") {
   require_invariance(small_clouds());
 }
 
@@ -314,7 +315,7 @@ TEST_CASE("without ties the triangles are those of CGAL's triangulation on the s
   require_agreement(slow_clouds(CALOTTE_FIXTURES));
 }
 
-TEST_CASE("duplicates: the lowest index stays, and the map says where each went") {
+TEST_CASE("duplicates: the lowest index stays, and the map gives the site of each") {
   const Points3 points = columns({{1, 1, 1},
                                   {2, 2, 2},
                                   {1, 0, 0},
@@ -371,7 +372,7 @@ TEST_CASE("duplicates refused, and merge_within") {
   CHECK(mesh.site_of_input == std::vector<std::int32_t>{0, 1, 2, 3, 4, 5, 1, 0});
   near.merge_within = 5e-5;
   CHECK(spherical_delaunay(points, near).points.cols() == 7);
-  // 1e-16 apart are two sites.
+  // Points 1e-16 apart are two sites.
   CHECK(spherical_delaunay(joined(octahedron(), columns({{1, 1e-16, 0}}))).points.cols() == 7);
 }
 
@@ -454,7 +455,8 @@ TEST_CASE("bisection of an icosahedral mesh is the next level in another order")
 }
 
 TEST_CASE("regression: sites in a hemisphere, region centres beyond it: the mesh stays open") {
-  // Seen from their foci, the sites' hull has a far side; its triangles are empty but clockwise.
+  // Seen from their foci, the hull of the sites has a far side; its triangles are empty but
+  // clockwise.
   const Points3 points = upper_half(6, 4);
   const Mesh mesh = spherical_delaunay(points, with_regions(1));
   REQUIRE_FALSE(mesh.closed());

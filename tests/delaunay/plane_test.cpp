@@ -75,7 +75,7 @@ Points2 circle(int n, double radius) {
   return points;
 }
 
-/// A parabola so flat that its sites are on a line but for rounding, under a scatter.
+/// A parabola so flat that its sites are collinear up to rounding, below a scatter.
 Points2 flat_hull(int n, std::uint64_t seed) {
   Points2 points = random_box(2 * n, 1, 1, seed);
   for (int i = 0; i < n; ++i) {
@@ -166,7 +166,7 @@ std::set<Triple> triangles_of(const PlanarMesh& mesh) {
   return out;
 }
 
-/// By CGAL's own triangulation in the plane.
+/// Compares with CGAL's own triangulation in the plane.
 std::set<Triple> reference(const Points2& points) {
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
   using Vertex = CGAL::Triangulation_vertex_base_with_info_2<std::int32_t, Kernel>;
@@ -198,8 +198,9 @@ TEST_CASE("a planar triangulation is exact and whole") {
   }
 }
 
-TEST_CASE("in-circle signs are exact, whatever the sizes of triangle and offset") {
-  // Sites of one set are near each other or far, on circles or not; three are the triangle.
+TEST_CASE("in-circle signs are exact for any sizes of triangle and offset") {
+  // Sites of one set are near each other or far, on circles or not; three of them form the
+  // triangle.
   Points2 sizes = random_box(40, 1, 1, 18);
   for (const double size : {1e-3, 1e-6, 1e-9, 1e-13}) {
     sizes = joined(sizes, random_box(40, size, size, 19));
@@ -323,7 +324,7 @@ TEST_CASE("duplicates in the plane are merged, or refused by name") {
       CHECK((merged.points.col(i) - merged.points.col(j)).norm() > 0.0499999);
 }
 
-TEST_CASE("places are merged by their own distance, whatever the frame") {
+TEST_CASE("places are merged by their own distance in any frame") {
   Points2 points(2, 5);
   points << 0, 1e-20, 1, 0.3, 1.7e308, 0, 0, 0, 1, 0;
   DelaunayOptions near;
@@ -365,8 +366,8 @@ Eigen::Vector2d nearest_image(const Eigen::Vector2d& p, const Eigen::Vector2d& t
   return p.array() - period.array() * ((p - to).array() / period.array()).round();
 }
 
-/// Every triangle counter-clockwise, and of a convex quadrilateral the right diagonal, in doubles
-/// with room for their rounding; 2n triangles that tile the box, no edge open.
+/// Every triangle is counter-clockwise, and each convex quadrilateral has the Delaunay diagonal, in
+/// doubles with a margin for rounding; 2n triangles tile the box, and no edge is open.
 void require_periodic(const PlanarMesh& mesh) {
   const auto corner = [&](std::int64_t t, int v, const Eigen::Vector2d& to) {
     return nearest_image(mesh.points.col(mesh.triangles(v, t)), to, mesh.period);
@@ -380,7 +381,7 @@ void require_periodic(const PlanarMesh& mesh) {
                           c = corner(t, 2, a);
     const Eigen::Vector2d p = b - a, q = c - a;
     const double twice = p.x() * q.y() - p.y() * q.x();
-    if (std::abs(twice) < 1e-15) // beyond what these doubles tell of a copy
+    if (std::abs(twice) < 1e-15) // beyond the precision of these doubles for a copy
       continue;
     REQUIRE(twice > 0);
     area += twice / 2;
@@ -407,7 +408,7 @@ std::vector<std::pair<Points2, Eigen::Vector2d>> boxes() {
   out.emplace_back(lattice(15, 18, {0.1, 0}, {0, 0.1}), Eigen::Vector2d(1.5, 1.8));
   out.emplace_back(joined(random_box(2000, 1, 1, 33), random_box(500, 1e-8, 1e-8, 34)),
                    Eigen::Vector2d(1, 1));
-  Points2 twins(2, 2); // one place where their copies stand
+  Points2 twins(2, 2); // equal places, because their copies coincide
   twins << 0, 1e-17, 0.5, 0.5;
   out.emplace_back(joined(random_box(998, 1, 1, 39), twins), Eigen::Vector2d(1, 1));
   out.emplace_back(1e-200 * random_box(1000, 1, 1, 40), Eigen::Vector2d(1e-200, 1e-200));
@@ -460,7 +461,7 @@ TEST_CASE("a periodic box has the triangles of CGAL's periodic triangulation") {
 }
 
 TEST_CASE("shifting a periodic box by whole steps only renames its sites") {
-  // Exact in doubles, so that ties are the same but for who is lowest.
+  // Exact in doubles, so that ties differ only in which site is lowest.
   const Points2 points = (random_box(1000, 1, 1, 35) * 1024).array().floor() / 1024;
   const PlanarMesh mesh = periodic_delaunay(points, Eigen::Vector2d(1, 1));
   Points2 shifted = points.array() + 0.25;

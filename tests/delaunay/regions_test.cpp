@@ -31,7 +31,7 @@ Regions regions_of(const Sites& sites, int count, Centres centres, Sort sort) {
                       all_pairs(static_cast<std::size_t>(count)), sort);
 }
 
-/// Of the sampled regions the most sites that one owns, over the mean.
+/// For the sampled regions, the largest number of owned sites over the mean.
 double fullest(const Points3& points, int count) {
   const Sites sites = make_sites(points, Duplicates::merge, 0);
   const Regions regions = regions_of(sites, count, Centres::sample, Sort::halo);
@@ -98,7 +98,7 @@ TEST_CASE("members ascend, hold all owned sites and all sites of the covered par
 
 TEST_CASE(
     "what the voronoi sort calls covered is, though centres stand too close to tell owners apart") {
-  // Near the centres and across from them, each site is as near to one as to the other, by doubles.
+  // Near the centres and their antipodes, each site is equally near to both centres in doubles.
   Points3 points = random_sphere(20000, 6), centres = random_sphere(40, 7);
   const Eigen::Vector3d middle = centres.col(0);
   for (Eigen::Index i = 0; i < points.cols(); ++i)
@@ -108,7 +108,7 @@ TEST_CASE(
   const Sites sites = make_sites(points, Duplicates::merge, 0);
   Partition partition;
   partition.given_centres = centres;
-  std::vector<std::vector<std::int32_t>> adjacent(40); // none but a few: most owners are no members
+  std::vector<std::vector<std::int32_t>> adjacent(40); // only a few: most owners are no members
   for (std::int32_t k = 0; k < 40; ++k)
     adjacent[static_cast<std::size_t>(k)] = {k == 0 ? 39 : k - 1, k == 39 ? 0 : k + 1};
   const Regions regions =

@@ -27,7 +27,7 @@ std::vector<Member> all_members(const Sites& sites) {
   return members;
 }
 
-/// Finite faces by sites, from the lowest on; every neighbour is checked to look back.
+/// Finite faces by sites, starting at the lowest; each neighbour is checked to point back.
 std::set<Triple> faces_of(Cap& cap) {
   std::set<Triple> faces;
   cap.for_each_face([&](Cap::Face face) {

@@ -13,11 +13,11 @@ namespace {
 
 const std::array<Triple, 4> faces{{{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}}};
 
-/// Of sites 0 and 2 the first, of 1 and 3 the second.
+/// Sites 0 and 2 belong to the first region, 1 and 3 to the second.
 std::int32_t owner_of(std::int32_t site) { return site % 2; }
 
-/// The first faces of a tetrahedron as one of two regions reports them. All are seams of both;
-/// three have their lowest site in the first region, one in the second.
+/// The first faces of a tetrahedron in the report of one of two regions. All are seam triangles of
+/// both regions; three have their lowest site in the first region, one in the second.
 RegionTriangles report_of(std::int32_t region, std::int32_t count = 4) {
   RegionTriangles out{Array<Triple>(count), Array<Triple>(count), Array<std::int32_t>(count), {}};
   const std::array<Triple, 4> neighbours{{{3, 1, 2}, {3, 2, 0}, {3, 0, 1}, {1, 0, 2}}};
@@ -40,7 +40,7 @@ RegionTriangles report_of(std::int32_t region, std::int32_t count = 4) {
   return out;
 }
 
-/// \param points of the mesh, which are not looked at: their number alone counts.
+/// \param points points of the mesh; only their number matters.
 Mesh united(RegionTriangles first, RegionTriangles second, std::int64_t points = 4) {
   std::vector<RegionTriangles> reports;
   reports.push_back(std::move(first));
@@ -67,7 +67,7 @@ bool is_internal_error(RegionTriangles first, RegionTriangles second) {
 
 TEST_CASE("two regions' reports of one tetrahedron unite to its mesh") {
   for (const std::int64_t points :
-       {std::int64_t{4}, most_sites_kept + 1}) { // many: memory goes back
+       {std::int64_t{4}, most_sites_kept + 1}) { // many: memory returns to the system
     Mesh mesh = united(report_of(0), report_of(1), points);
     mesh.points.resize(3, 4);
     mesh.points << 1, -1, -1, 1, 1, 1, -1, -1, 1, -1, 1, -1;
@@ -77,13 +77,13 @@ TEST_CASE("two regions' reports of one tetrahedron unite to its mesh") {
 }
 
 TEST_CASE("regions that disagree are an error, never a mesh") {
-  CHECK(is_internal_error(report_of(0), report_of(1, 3))); // one report too few: of its home
-  CHECK(is_internal_error(report_of(0, 3), report_of(1))); // of the other
+  CHECK(is_internal_error(report_of(0), report_of(1, 3))); // one report too few: that of its home
+  CHECK(is_internal_error(report_of(0, 3), report_of(1))); // that of the other
   RegionTriangles other = report_of(1);
-  other.seams[2].sites = {0, 3, 2}; // a triangle that nobody else knows
+  other.seams[2].sites = {0, 3, 2}; // a triangle that no other region reports
   CHECK(is_internal_error(report_of(0), std::move(other)));
   RegionTriangles sure = report_of(0);
-  sure.seams[1].reporters = 3; // says three owners, of which two report
+  sure.seams[1].reporters = 3; // claims three owners, of which two report
   CHECK(is_internal_error(std::move(sure), report_of(1)));
   sure = report_of(1);
   sure.seams[1].reporters = 3;

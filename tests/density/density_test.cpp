@@ -67,7 +67,7 @@ Reference reference(const Bump& bump, const Eigen::Vector3d& at) {
   return {static_cast<double>(rho), roundoff * static_cast<double>(units)};
 }
 
-/// Points at random, and close to the centre, to its antipode, and to its edge, on all sides.
+/// Random points, and points close to the centre, to its antipode and to its edge, on all sides.
 Points3 places(const Bump& bump) {
   test::Random random(17);
   const Eigen::Vector3d c = bump.centre.normalized();
@@ -93,8 +93,8 @@ Points3 places(const Bump& bump) {
   return x;
 }
 
-/// Directions off the axes, widths from a ten-thousandth to beyond the sphere, floors from next to
-/// nothing to next to 1, and an ellipse of each.
+/// Directions off the axes, widths from a ten-thousandth to beyond the sphere, floors from almost 0
+/// to almost 1, and an ellipse of each.
 std::vector<Bump> bumps() {
   std::vector<Bump> out;
   for (const Eigen::Vector3d& centre :
@@ -172,7 +172,7 @@ TEST_CASE("an ellipse is a circle across its axis and reaches so much farther al
   const Bump round{{0, 0, 1}, 0.01, 0.01, 0.01};
   Bump ellipse = round;
   ellipse.stretch = 10;
-  ellipse.major = {0, 2, 5}; // of which the tangential part counts
+  ellipse.major = {0, 2, 5}; // of which only the tangential part counts
   const double d = 0.02;
   Points3 x(3, 2);
   x << std::sin(d), 0, 0, std::sin(10 * d), std::cos(d), std::cos(10 * d);
@@ -183,7 +183,7 @@ TEST_CASE("an ellipse is a circle across its axis and reaches so much farther al
   CHECK(at[1] == doctest::Approx(at[0]).epsilon(2 / round.alpha * d * 20 * d * d * 100));
 }
 
-TEST_CASE("a value is the same bits in any company") {
+TEST_CASE("the bits of a value do not depend on the other points of a call") {
   const Points3 x = random_sphere(2100, 2);
   const Density squared = of([](const Eigen::Ref<const Points3>& p, Eigen::Ref<Eigen::VectorXd> r) {
     r = p.row(0).cwiseAbs2().transpose();

@@ -43,7 +43,7 @@ double mass(const Envelope& envelope) {
   return sum;
 }
 
-/// The box that holds a place of the map.
+/// The box that contains a place of the map.
 std::int64_t box_of(const Envelope& envelope, double x, double y, bool south) {
   const auto& boxes = envelope.boxes();
   const auto found = std::find_if(boxes.begin(), boxes.end(), [&](const Box& box) {
@@ -111,7 +111,8 @@ TEST_CASE("the bound of bumps holds everywhere, and most proposals are accepted"
       }
       expected += sum * box.area();
     }
-    // At least half by the stop of the refinement, less what sticks out: at most 1 - pi/4 of it.
+    // At least half by the stopping rule of the refinement, less the part outside the disc: at most
+    // 1 - pi/4 of it.
     CHECK(expected > 0.25 * mass(envelope));
   }
 }
@@ -131,7 +132,7 @@ TEST_CASE("boxes are chosen by their bound's integral") {
   CHECK(envelope.choose(1 - 0x1p-53) == std::ssize(envelope.boxes()) - 1);
 }
 
-TEST_CASE("a callable's bound rises about what is found above it, and nowhere else") {
+TEST_CASE("a callable's bound is raised only around values found above it") {
   // At the middle of a box of the first lattice, farthest from its points.
   const double x = 1.0 / 64, y = 1.0 / 64, height = 1e5;
   const Vec3 centre = on_sphere(x, y, false);
@@ -143,7 +144,7 @@ TEST_CASE("a callable's bound rises about what is found above it, and nowhere el
   };
   Envelope envelope(density);
   const double before = mass(envelope);
-  REQUIRE(before < 10); // unseen: 1.25 on two squares of area 4 each, less their corners
+  REQUIRE(before < 10); // unsampled: 1.25 on two squares of area 4 each, less their corners
   envelope.raise({{box_of(envelope, x, y, false), x, y, height}});
   const auto bound_at = [&](double u, double v) {
     return envelope.boxes()[static_cast<std::size_t>(box_of(envelope, u, v, false))]

@@ -33,9 +33,9 @@ Density of(const std::function<double(const Eigen::Vector3d&)>& rho_at) {
   return density;
 }
 
-/// Whether Pearson's sum for n points in classes of these probabilities lies within five of its
-/// standard deviations; classes that expect fewer than 20 points count as one. Its mean is K - 1,
-/// its variance 2 (K - 1) + (sum 1/p - K^2 - 2 K + 2)/n.
+/// True if Pearson's sum for n points in classes of these probabilities lies within five of its
+/// standard deviations; classes that expect fewer than 20 points are merged into one. Its mean is K
+/// - 1, its variance 2 (K - 1) + (sum 1/p - K^2 - 2 K + 2)/n.
 bool fits(const std::vector<double>& probability, const std::vector<std::int64_t>& count) {
   std::int64_t n = 0;
   for (const std::int64_t c : count)
@@ -185,7 +185,7 @@ TEST_CASE("points drawn from a density are distributed as it is") {
   }
 }
 
-TEST_CASE("the test of distributions tells a density from one a twentieth wider") {
+TEST_CASE("the test of distributions distinguishes a density from one a twentieth wider") {
   const Density one = tanh_bump({0, -0.8, 0.6}, 0.5, 0.2, 1.0 / 4096);
   const Density other = tanh_bump({0, -0.8, 0.6}, 0.525, 0.2, 1.0 / 4096);
   CHECK_FALSE(fits(class_probabilities(other), class_counts(random_sphere(100000, one, 11))));
@@ -217,7 +217,7 @@ TEST_CASE("peaked bumps: rings about the centre and quadrants fit") {
         }
 }
 
-TEST_CASE("a callable that is zero but in a cap of 0.01 radians") {
+TEST_CASE("a callable that is zero except in a cap of 0.01 radians") {
   const Eigen::Vector3d centre(0.36, 0.48, 0.8);
   const auto rho = [&](double d) { return d < 0.01 ? 1.0 : 0.0; };
   const Points3 points = random_sphere(30000, of([&](const Eigen::Vector3d& x) {
@@ -234,8 +234,8 @@ TEST_CASE("a callable that is zero but in a cap of 0.01 radians") {
 }
 
 TEST_CASE("a callable's spike that only proposals find gets its share of points [slow]") {
-  // About the middle of a box of the lattice on which the bound is first built, and so small that
-  // the lattice steps over it; a proposal meets it once in 160 000.
+  // Around the middle of a box of the lattice on which the bound is first built, and so small that
+  // the lattice misses it; one in 160 000 proposals meets it.
   const double x = 1.0 / 64, r = std::sqrt(2 - 2 * x * x), radius = 0.005, height = 1e4;
   const Eigen::Vector3d centre(x * r, x * r, 1 - 2 * x * x);
   const std::int64_t n = 1500000;
@@ -265,7 +265,7 @@ TEST_CASE("the same points for any number of threads; another seed, other points
   }
 }
 
-TEST_CASE("fewer points are the first ones") {
+TEST_CASE("fewer points are the first of more") {
   for (const Case& c : smooth_cases()) {
     CAPTURE(c.name);
     const Points3 points = random_sphere(40000, c.density, 3);
@@ -275,7 +275,7 @@ TEST_CASE("fewer points are the first ones") {
   CHECK(random_sphere(100, Density{}, 3) == random_sphere(100, 3));
 }
 
-TEST_CASE("random: what cannot be drawn is one line that says why") {
+TEST_CASE("random: a density that cannot be drawn gives an error of one line with the reason") {
   const auto message = [](std::int64_t n, const Density& density) -> std::string {
     try {
       random_sphere(n, density);
@@ -304,7 +304,7 @@ TEST_CASE("random: what cannot be drawn is one line that says why") {
   says(10, nothing, "no bump");
 }
 
-TEST_CASE("a callable is refused that has no greatest value, or grows from call to call [slow]") {
+TEST_CASE("a callable without a maximum, or that grows from call to call, is refused [slow]") {
   const Eigen::Vector3d centre(0.36, 0.48, 0.8);
   Density density;
   density.kind = Density::Kind::callable;
@@ -331,7 +331,7 @@ PlanarDomain frame() {
   return {{outer, inner}, {0, 0}};
 }
 
-/// Of the parallelogram: how far along and across it a place lies, both from 0 to 1.
+/// Coordinates in the parallelogram: the position of a place along and across it, both from 0 to 1.
 Eigen::Vector2d in_frame(const Eigen::Vector2d& p) {
   Eigen::Matrix2d sides;
   sides << 100, 3, 50, 1;

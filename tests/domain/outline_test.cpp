@@ -96,12 +96,12 @@ TEST_CASE("a coastline of some thousand edges: sides and area as without strips"
     const double x = random.real(-1.5, 1.5), y = random.real(-1.5, 1.5);
     const double angle = std::atan2(y, x);
     const double radius = 1 + 0.2 * std::sin(5 * angle) + 0.05 * std::sin(41 * angle);
-    if (std::abs(std::hypot(x, y) - radius) > 1e-4) // chords leave the curve by less
+    if (std::abs(std::hypot(x, y) - radius) > 1e-4) // chords deviate from the curve by less
       REQUIRE((outline.side({x, y}) == Side::inside) == (std::hypot(x, y) < radius));
   }
 }
 
-TEST_CASE("edges near a box are told once each, and none is left out") {
+TEST_CASE("each edge near a box is reported exactly once") {
   const Outline outline(PlanarDomain{{wavy(2000), reversed(square(-0.1, -0.2, 0.3))}, {0, 0}});
   test::Random random(8);
   for (int k = 0; k < 300; ++k) {
@@ -130,7 +130,7 @@ TEST_CASE("domains at the ends of the range") {
   CHECK_FALSE(contains(periodic_box({3, 4}), {3, 0}));
 }
 
-TEST_CASE("what encloses no area in one way only is refused, with ring and corner") {
+TEST_CASE("rings that do not bound a well-defined region are refused, with ring and corner") {
   const auto domain = [](const std::vector<Eigen::MatrixXd>& rings) {
     return PlanarDomain{rings, {0, 0}};
   };

@@ -12,7 +12,8 @@ using calotte::test::Random;
 
 namespace {
 
-/// Of a coarse grid, so that many sites are on one line or circle, and copies' places are exact.
+/// Points of a coarse grid, so that many sites are on one line or circle, and the places of copies
+/// are exact.
 Vec2 site(Random& random) { return {random.integer(0, 7) / 8.0, random.integer(0, 7) / 8.0}; }
 
 Vec2 place(const Vec2& period, const Image& image) {

@@ -23,7 +23,7 @@ namespace {
 
 using Quad = std::array<Vec3, 4>;
 
-/// Where the predicates are hard: quadruples by family, all from seeds.
+/// Hard cases for the predicates: quadruples by family, all from seeds.
 struct Family {
   std::string name;
   std::function<Quad(Random&)> make;
@@ -82,7 +82,7 @@ Quad cocircular_integers(Random& random) {
   return quad;
 }
 
-/// On one great circle, exactly: small multiples of two integer vectors.
+/// On one great circle exactly: small multiples of two integer vectors.
 Quad one_great_circle(Random& random) {
   const auto integers = [&] {
     return Vec3{double(random.integer(-9, 9)), double(random.integer(-9, 9)),
@@ -267,7 +267,7 @@ TEST_CASE("the filters are never wrong near their bounds [slow]") {
   }
 }
 
-TEST_CASE("the filter settles all but a few random quadruples") {
+TEST_CASE("the filter decides all but a few random quadruples") {
   Random random(29);
   int undecided = 0;
   for (int i = 0; i < 100000; ++i)
@@ -301,7 +301,7 @@ TEST_CASE("in_circle is antisymmetric") {
   });
 }
 
-TEST_CASE("a positive factor of an argument changes nothing") {
+TEST_CASE("a positive factor of an argument has no effect") {
   for_each_quad(50, [](Random& random, const Quad& q) {
     Quad scaled = q;
     for (Vec3& p : scaled) {
@@ -344,7 +344,7 @@ TEST_CASE("compare_directions orders directions, and is 0 for equal ones alone")
   });
 }
 
-TEST_CASE("ties follow the stated rule, whatever the order of the arguments") {
+TEST_CASE("ties follow the stated rule for any order of the arguments") {
   int ties = 0;
   for_each_quad(150, [&](Random& random, const Quad& q) {
     if (!distinct(q) || exact::in_circle(q[0], q[1], q[2], q[3]) != 0)
@@ -385,7 +385,7 @@ TEST_CASE("a tie from the centre is the same from every focus outside the circle
 
 TEST_CASE("ties are the signs of a true outward push") {
   // Integer vectors of one norm: the determinant is that of the vectors themselves, and pushes by
-  // 2^-100, 2^-10000, ... of the sites in lexicographic order can be carried out.
+  // 2^-100, 2^-10000, ... of the sites in lexicographic order can be computed.
   using Rational3 = std::array<mpq_class, 3>;
   const auto det = [](const Rational3& a, const Rational3& b, const Rational3& c) -> mpq_class {
     return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +

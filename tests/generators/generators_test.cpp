@@ -20,7 +20,7 @@ namespace {
 
 using Point = std::array<double, 3>;
 
-/// The points as a set: sorted, with -0 for 0 taken away.
+/// The points as a set: sorted, with -0 replaced by 0.
 std::vector<Point> sorted(const Points3& points) {
   std::vector<Point> out;
   for (const auto& column : points.colwise())
@@ -88,12 +88,12 @@ std::vector<Named> samples() {
 
 } // namespace
 
-TEST_CASE("every generator gives distinct unit columns, as many as it says") {
+TEST_CASE("every generator gives distinct unit columns, in the documented number") {
   for (const Named& sample : samples()) {
     CAPTURE(sample.name);
     CHECK(sample.points.cols() == sample.count);
     CHECK(all_distinct(sample.points));
-    // 2u for each rounded coordinate and a few for what it was made from
+    // 2u for each rounded coordinate and a few for the values it is computed from
     CHECK((sample.points.colwise().norm().array() - 1).abs().maxCoeff() <= 8 * 0x1p-53);
   }
 }

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Builds and runs a stranger's program, which gets the library in one way. Warnings in public headers are errors.
+# Builds and runs a program of another project, which uses the library in one way. Warnings in public headers are errors.
 # Called with WAY (find_package, pkg_config, add_subdirectory or fetch_content), CXX (a compiler), TYPE (of the
 # installed library), ROOT (the project), PREFIX (where it is installed), SCRATCH and GENERATOR.
 cmake_minimum_required(VERSION 3.25)
@@ -32,7 +32,7 @@ function(build_with_cmake folder)
   run(${CMAKE_COMMAND} --build ${SCRATCH}/build --parallel 2)
 endfunction()
 
-# A plain command line. Eigen's .pc file does not call its headers a system's.
+# A plain command line. Eigen's .pc file does not mark its headers as system headers.
 function(build_with_pkg_config)
   file(GLOB_RECURSE pc ${PREFIX}/*/calotte.pc)
   get_filename_component(folder ${pc} DIRECTORY)

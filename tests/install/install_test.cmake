@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Installs the built library and looks at what was installed.
+# Installs the built library and checks the installed files.
 # Called with BUILD (the library's build tree), PREFIX (where to install), TYPE (of the library's target) and NM.
 cmake_minimum_required(VERSION 3.25)
 file(REMOVE_RECURSE ${PREFIX})
 execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD} --prefix ${PREFIX} OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
 
-# CGAL and oneTBB are the library's own affair: no public header shows them.
+# CGAL and oneTBB are private dependencies: no public header includes them.
 file(GLOB_RECURSE headers ${PREFIX}/include/*.h)
 if(NOT headers)
   message(FATAL_ERROR "no header was installed")
@@ -17,7 +17,7 @@ foreach(header ${headers})
   endif()
 endforeach()
 
-# What the rooms define for each other is not exported.
+# Internal symbols of the rooms are not exported.
 if(TYPE STREQUAL "SHARED_LIBRARY")
   file(GLOB_RECURSE library ${PREFIX}/*/libcalotte.so)
   execute_process(COMMAND ${NM} -DC --defined-only ${library} OUTPUT_VARIABLE symbols COMMAND_ERROR_IS_FATAL ANY)
@@ -31,7 +31,7 @@ if(TYPE STREQUAL "SHARED_LIBRARY")
   endif()
 endif()
 
-# The command finds the library wherever the prefix was moved.
+# The command finds the library after the prefix is moved.
 if(EXISTS ${PREFIX}/bin/calotte)
   file(RENAME ${PREFIX} ${PREFIX}-moved)
   execute_process(COMMAND ${PREFIX}-moved/bin/calotte --version RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)

@@ -23,7 +23,7 @@ struct Case {
   Mesh mesh;
 };
 
-/// Random sets have obtuse triangles in plenty, and the smallest have circumcaps near a hemisphere.
+/// Random sets have many obtuse triangles, and the smallest sets have circumcaps near a hemisphere.
 std::vector<Case> cases() {
   std::vector<Case> out;
   out.push_back({"icosahedron", spherical_delaunay(bisected_icosahedron(0))});
@@ -97,7 +97,7 @@ TEST_CASE("the closed form agrees with quadrature, obtuse triangles included") {
 
 TEST_CASE("every rule converges at its order under division") {
   const Mesh mesh = spherical_delaunay(spiral_sphere(150));
-  // Smooth everywhere, as a bump is not: its distance to the centre has a kink there.
+  // Smooth everywhere; a bump is not: its distance to the centre has a kink there.
   Density density;
   density.kind = Density::Kind::callable;
   density.callable = [](const Eigen::Ref<const Points3>& x, Eigen::Ref<Eigen::VectorXd> rho) {
@@ -109,7 +109,7 @@ TEST_CASE("every rule converges at its order under division") {
     const double once = largest_difference(mesh_moments(mesh, density, points, 1), exact);
     const double twice = largest_difference(mesh_moments(mesh, density, points, 2), exact);
     CAPTURE(points);
-    CHECK(std::log2(once / twice) > rule.degree + 0.5); // degree + 1, but for the next order
+    CHECK(std::log2(once / twice) > rule.degree + 0.5); // degree + 1, up to the next order
   }
 }
 

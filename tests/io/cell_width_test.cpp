@@ -335,7 +335,7 @@ TEST_CASE("the largest gradient is that of the field, where it is") {
   CHECK(largest_gradient(poles, 1).slope == doctest::Approx(1 / pi));
 }
 
-TEST_CASE("grids that are none are refused") {
+TEST_CASE("invalid grids are refused") {
   const auto refused = [](const std::function<void(CellWidth&)>& spoil) {
     CellWidth width = constant(10);
     spoil(width);
@@ -397,7 +397,7 @@ TEST_CASE("a density raster gives widths whose density it is") {
           doctest::Approx(raster.values[static_cast<std::size_t>(k)] / most).epsilon(1e-13));
 }
 
-TEST_CASE("a raster of the plane: in any direction of its axes, and what is none") {
+TEST_CASE("a raster of the plane: axes of any direction, and invalid rasters") {
   const Folder folder;
   Raster raster{{0, 1, 3}, {2, 0}, {8, 7, 6, 5, 4, 3}, "density", "y", "x"};
   const PlanarRaster read = read_planar_raster(written(folder, raster));
@@ -429,7 +429,7 @@ TEST_CASE("a raster of the plane: in any direction of its axes, and what is none
         ": density is not density(lat, lon); give it these dimensions, in this order");
 }
 
-TEST_CASE("NetCDF rasters that are none end in one line that names what is wrong") {
+TEST_CASE("invalid NetCDF rasters give an error of one line that names the defect") {
   const Folder folder;
   const CellWidth width = sampled(smooth, 24, 12);
   const auto refused = [&](const std::function<void(Raster&)>& spoil) {

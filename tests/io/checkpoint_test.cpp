@@ -170,7 +170,7 @@ TEST_CASE("a state comes back with every field, bit for bit") {
   CHECK(scratch.files() == 1);
 }
 
-TEST_CASE("a run goes on from its checkpoint to the same bits, on every level") {
+TEST_CASE("a run resumes from its checkpoint to the same bits, on every level") {
   const Scratch scratch;
   const Points3 start = random_sphere(200, 3);
   CvtOptions options;
@@ -196,7 +196,7 @@ TEST_CASE("a run goes on from its checkpoint to the same bits, on every level") 
   }
 }
 
-TEST_CASE("whatever a method remembers, a run goes on from its checkpoint to the same bits") {
+TEST_CASE("with every method a run resumes from its checkpoint to the same bits") {
   const Scratch scratch;
   CvtOptions options;
   options.density = tanh_bump({0.6, 0, 0.8}, 0.5, 0.2, 1.0 / 4096);
@@ -264,7 +264,7 @@ TEST_CASE("damage to any byte is found") {
   }
 }
 
-TEST_CASE("what is no checkpoint of this version is refused") {
+TEST_CASE("a file that is no checkpoint of this version is refused") {
   const Scratch scratch;
   write_checkpoint(scratch.path, CvtState(some_state()), configuration);
   std::string other = scratch.bytes();
@@ -296,7 +296,7 @@ TEST_CASE("another configuration is refused with the first line that differs") {
   check_words(configuration.substr(0, configuration.size() - 1), "");
 }
 
-TEST_CASE("a checkpoint that cannot be written leaves the one before as it was") {
+TEST_CASE("a checkpoint that cannot be written leaves the old one unchanged") {
   const Scratch scratch;
   write_checkpoint(scratch.path, CvtState(some_state()), configuration);
   const std::string before = scratch.bytes();

@@ -144,7 +144,7 @@ TEST_CASE("a file longer than the reader's buffer loses nothing, whatever ends i
   CHECK(points_of("#" + std::string(5'000'000, ' ') + "\n1 2 3").cols() == 1);
 }
 
-TEST_CASE("points that are none end in one line that names the file's line and the remedy") {
+TEST_CASE("invalid points give an error of one line with the line of the file and the remedy") {
   const std::string xyz = "; write three numbers x y z on each line";
   check_bad("1 2 3\n4 abc 6\n", 2, "points line 2: \"abc\" is not a number" + xyz);
   check_bad("1 2 3\n\n# c\n4 5 6x\n", 4, "points line 4: \"6x\" is not a number" + xyz);
@@ -280,7 +280,7 @@ TEST_CASE("meshes come back bit for bit in every format") {
   }
 }
 
-TEST_CASE("a merged duplicate goes by its lowest column in triangles as text") {
+TEST_CASE("triangles as text refer to the lowest column of merged duplicates") {
   const Scratch scratch;
   Mesh mesh = octahedron();
   // Columns 1, 4 and 8 repeat an earlier direction; 4 at another length.
@@ -293,7 +293,7 @@ TEST_CASE("a merged duplicate goes by its lowest column in triangles as text") {
   check_equal(calotte::read_mesh(scratch / "mesh.tri", &columns), mesh);
 }
 
-TEST_CASE("a column in no triangle that repeats none stays as a site") {
+TEST_CASE("a distinct column in no triangle stays as a site") {
   const Scratch scratch;
   const Mesh mesh = octahedron();
   Points3 columns(3, 8);
@@ -318,7 +318,7 @@ TEST_CASE("neighbours: an edge of three triangles, or of two the same way, stays
   CHECK((neighbours("3 0 1 2\n3 1 0 3\n3 0 1 4\n3 1 0 2\n", 4)(2, 0)) == -1);
 }
 
-TEST_CASE("a VTK file says what the readers demand") {
+TEST_CASE("a VTK file has the structure that readers require") {
   const Scratch scratch;
   calotte::write(scratch / "mesh.vtp", octahedron());
   const std::string vtp = read_file(scratch / "mesh.vtp");
@@ -339,7 +339,7 @@ TEST_CASE("a VTK file says what the readers demand") {
   CHECK(last == 24);
 }
 
-TEST_CASE("mesh files that are none, or not whole, end in one clear error") {
+TEST_CASE("files that are no mesh, or incomplete, give one clear error") {
   const Scratch scratch;
   const auto error = [&](const std::string& name, const Points3* points = nullptr) {
     return error_of([&] { calotte::read_mesh(scratch / name, points); });

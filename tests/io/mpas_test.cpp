@@ -680,7 +680,7 @@ TEST_CASE("a minimal file holds the same cells and vertices") {
   }
 }
 
-TEST_CASE("a mesh comes back, and its file again") {
+TEST_CASE("a mesh keeps its bits in a round trip, and so does its file") {
   const Scratch scratch;
   for (const Case& of : cases())
     for (const auto write :
@@ -705,7 +705,7 @@ TEST_CASE("a mesh comes back, and its file again") {
     }
 }
 
-TEST_CASE("a periodic plane comes back, and its file again") {
+TEST_CASE("a periodic plane keeps its bits in a round trip, and so does its file") {
   const Scratch scratch;
   const PlanarMesh mesh = periodic_hexagons(5, 6, 0.3);
   for (const bool full : {true, false}) {
@@ -764,7 +764,7 @@ TEST_CASE("a full disk leaves the old mesh and its graph") {
   }
 }
 
-TEST_CASE("what is refused while a file is written leaves the old mesh and its graph") {
+TEST_CASE("an error while a file is written leaves the old mesh and its graph") {
   const Scratch scratch;
   const Mesh mesh = spherical_delaunay(bisected_icosahedron(5)); // of several blocks
   io_detail::write_mpas(scratch / "a.nc", spherical_delaunay(bisected_icosahedron(1)), {});

@@ -201,7 +201,7 @@ TEST_CASE("files are written and read from several threads at a time") {
   CHECK(right == 8);
 }
 
-TEST_CASE("CDF-5 as soon as a variable takes 4 GiB") {
+TEST_CASE("CDF-5 if a variable takes 4 GiB") {
   using calotte::io_detail::needs_cdf5;
   constexpr std::int64_t limit = (std::int64_t{1} << 32) - 4;
   CHECK(!needs_cdf5({}));
@@ -307,7 +307,7 @@ TEST_CASE("a name that looks like an address is a file's") {
   fs::current_path(before);
 }
 
-TEST_CASE("what is no file, no NetCDF or cut short is refused") {
+TEST_CASE("missing, invalid and truncated NetCDF files are refused") {
   const Scratch scratch;
   const auto message = [](const std::string& path, ErrorCode code) {
     const Error error = error_of([&] { NetcdfReader reader(path); });

@@ -85,7 +85,7 @@ std::string message_of(const std::function<void()>& work) {
 
 } // namespace
 
-TEST_CASE("a block stands in memory as in the file's pages") {
+TEST_CASE("a block has the same alignment in memory as in the file") {
   for (const std::int64_t offset : {0, 1, 4095, 4096, 123'457}) {
     OutputBlock block(offset, 10'000);
     CHECK(block.size() == 10'000);
@@ -127,7 +127,7 @@ TEST_CASE("room that is reserved, and memory of blocks that are written, change 
   device.reserve(1 << 20); // has no room to reserve
 }
 
-TEST_CASE("room that the disk does not have is refused before anything is written") {
+TEST_CASE("a reservation larger than the disk fails before anything is written") {
   for (const fs::path& parent : parents()) {
     CAPTURE(parent.string());
     const Scratch scratch(parent);
@@ -140,7 +140,7 @@ TEST_CASE("room that the disk does not have is refused before anything is writte
   }
 }
 
-TEST_CASE("what is appended in pieces of any size stands in order") {
+TEST_CASE("pieces of any size are appended in order") {
   const std::string expected = bytes_to(13'000'001);
   for (const fs::path& parent : parents())
     for (const std::size_t step : {std::size_t{977'777}, std::size_t{4 << 20}, expected.size()}) {
@@ -181,7 +181,7 @@ TEST_CASE("a disk that fills up at any block keeps the old file and removes the 
   }
 }
 
-TEST_CASE("a file that is given up while blocks wait leaves nothing") {
+TEST_CASE("a file abandoned while blocks wait leaves nothing") {
   const Scratch scratch(fs::temp_directory_path());
   {
     OutputFile file(scratch / "a");
@@ -190,7 +190,7 @@ TEST_CASE("a file that is given up while blocks wait leaves nothing") {
   CHECK(scratch.files() == 0);
 }
 
-TEST_CASE("the queue writes each block once and tells of the first failure") {
+TEST_CASE("the queue writes each block once and reports the first failure") {
   std::atomic<std::int64_t> sum = 0;
   OutputQueue right([&](const OutputBlock& block) {
     sum += block.offset();

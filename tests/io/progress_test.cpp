@@ -108,7 +108,7 @@ const std::vector<std::string> stages_of_delaunay{"sites", "regions", "triangula
 
 } // namespace
 
-TEST_CASE("a triangulation tells its progress, and gives the same bits") {
+TEST_CASE("a triangulation reports progress and gives the same bits") {
   const Points3 points = random_sphere(200'000, 4);
   const Mesh mesh = spherical_delaunay(points);
   const std::vector<std::string> stages = check_told([&](const ProgressCallback& progress) {
@@ -126,7 +126,7 @@ TEST_CASE("a triangulation is cancelled in any stage, and the next one is whole"
   CHECK(same(spherical_delaunay(points), mesh));
 }
 
-TEST_CASE("triangulations of the plane, of a box and of few sites tell their progress") {
+TEST_CASE("triangulations of the plane, of a box and of few sites report progress") {
   const PlanarDomain square = rectangle({0, 0}, {1, 1});
   const Points2 places = random_places(20'000, square, 3);
   const Points3 few = random_sphere(50, 3);
@@ -137,7 +137,7 @@ TEST_CASE("triangulations of the plane, of a box and of few sites tell their pro
   check_told([&](const ProgressCallback& progress) { spherical_delaunay(few, with(progress)); });
 }
 
-TEST_CASE("what the callback throws reaches the caller") {
+TEST_CASE("an exception of the callback reaches the caller") {
   const Points3 points = random_sphere(100'000, 4);
   for (const std::string& stage : stages_of_delaunay) {
     const auto callback = [&](const Progress& progress) -> bool {
@@ -149,7 +149,7 @@ TEST_CASE("what the callback throws reaches the caller") {
   }
 }
 
-TEST_CASE("check tells its progress and is cancelled") {
+TEST_CASE("check reports progress and can be cancelled") {
   const Mesh mesh = spherical_delaunay(random_sphere(100'000, 4));
   const Check alone = check(mesh);
   const Work work = [&](const ProgressCallback& progress) {
@@ -166,7 +166,7 @@ TEST_CASE("check tells its progress and is cancelled") {
   });
 }
 
-TEST_CASE("write tells its progress; cancelled, it leaves no file") {
+TEST_CASE("write reports progress; if cancelled, it leaves no file") {
   const Mesh mesh = spherical_delaunay(random_sphere(20'000, 4));
   for (const char* name :
        {"a.nc", "a.off", "a.vtu", "a.ply", "a.tri", "a.geojson", "SaveVertices"}) {

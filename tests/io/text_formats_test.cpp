@@ -130,7 +130,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("JIGSAW: what is wrong is named") {
+TEST_CASE("JIGSAW: errors name the defect") {
   const Scratch scratch;
   const std::string path = scratch / "mesh.msh", head = "MSHID=3;EUCLIDEAN-MESH\nNDIMS=3\n",
                     points = "POINT=3\n1;0;0;0\n0;1;0;0\n0;0;1;0\n";
@@ -402,7 +402,7 @@ TEST_CASE("GeoJSON: a file cut short is refused") {
                       [&] { calotte::read_mesh(scratch / "cells.geojson"); }) == 0);
 }
 
-TEST_CASE("GeoJSON: what is wrong is named") {
+TEST_CASE("GeoJSON: errors name the defect") {
   const Scratch scratch;
   const std::string path = scratch / "cells.geojson";
   const auto error = [&](const std::string& text) {
@@ -537,7 +537,7 @@ TEST_CASE("domains: text and GeoJSON say the same rings") {
   }
 }
 
-TEST_CASE("domains: what is wrong is named, in one line") {
+TEST_CASE("domains: errors name the defect, in one line") {
   const Scratch scratch;
   const auto refused = [&](const std::string& file, const std::string& words) {
     write_text(scratch / file, words);

@@ -16,7 +16,7 @@ TEST_CASE("calotte.h is enough for each kind of work") {
   CHECK(calotte::earth_radius_km == 6371);
 }
 
-TEST_CASE("the version's numbers make the version") {
+TEST_CASE("the version string agrees with the version numbers") {
   CHECK(std::string(CALOTTE_VERSION) == std::to_string(CALOTTE_VERSION_MAJOR) + "." +
                                             std::to_string(CALOTTE_VERSION_MINOR) + "." +
                                             std::to_string(CALOTTE_VERSION_PATCH));

@@ -200,7 +200,7 @@ TEST_CASE("VTK: a file that is cut short, or has more, is refused") {
   }
 }
 
-TEST_CASE("VTK: counts that are none, other cells and ids out of range are refused") {
+TEST_CASE("VTK: invalid counts, other cells and ids out of range are refused") {
   const Scratch scratch;
   const Mesh mesh = calotte::spherical_delaunay(octahedron());
   const auto error = [&](const Kind& kind, const std::function<void(std::string&)>& spoil) {

@@ -26,7 +26,7 @@ namespace mesh_detail = calotte::mesh_detail;
 
 namespace {
 
-/// neighbours_of() as it is defined: by all half-edges of the same two ends.
+/// neighbours_of() by its definition: from all half-edges of the same two ends.
 Triangles neighbours_by_definition(const Triangles& triangles) {
   std::map<std::pair<std::int32_t, std::int32_t>, std::vector<std::int64_t>> edges;
   const auto from = [&](std::int64_t h) { return triangles((h + 1) % 3, h / 3); };
@@ -43,7 +43,7 @@ Triangles neighbours_by_definition(const Triangles& triangles) {
 
 } // namespace
 
-TEST_CASE("neighbours are found anew from triangles alone") {
+TEST_CASE("neighbours are rebuilt from triangles alone") {
   Random random(1);
   std::vector<Cloud> clouds = small_clouds();
   clouds.push_back({"of many blocks", calotte::random_sphere(20'000, 1)});
@@ -61,7 +61,7 @@ TEST_CASE("neighbours are found anew from triangles alone") {
   }
 }
 
-TEST_CASE("no neighbour along an edge of one triangle, of three, or of two that run the same way") {
+TEST_CASE("no neighbour along an edge of one triangle, of three, or of two of equal direction") {
   Random random(2);
   for (int round = 0; round < 200; ++round) {
     CAPTURE(round);

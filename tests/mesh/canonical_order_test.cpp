@@ -50,10 +50,10 @@ std::vector<Connected> samples() {
   return out;
 }
 
-/// With vertices renamed at random.
+/// Renames the vertices at random.
 struct Renamed {
   Connected mesh;
-  std::vector<std::int32_t> back; ///< the name that each vertex had
+  std::vector<std::int32_t> back; ///< the original name of each vertex
 };
 
 Renamed renamed(const Connected& mesh, Random& random) {
@@ -67,7 +67,7 @@ Renamed renamed(const Connected& mesh, Random& random) {
 
 } // namespace
 
-TEST_CASE("shuffled and turned triangles come back to the same bits") {
+TEST_CASE("shuffled and rotated triangles return to the same bits") {
   Random random(1);
   for (const Connected& mesh : samples()) {
     CAPTURE(mesh.name);
@@ -84,7 +84,7 @@ TEST_CASE("shuffled and turned triangles come back to the same bits") {
   }
 }
 
-TEST_CASE("renamed vertices get their names back") {
+TEST_CASE("renamed vertices regain their names") {
   Random random(2);
   for (const Connected& mesh : samples()) {
     CAPTURE(mesh.name);
@@ -110,7 +110,7 @@ TEST_CASE("triangles alone are ordered without neighbours") {
   }
 }
 
-TEST_CASE("one thread makes the order that many make") {
+TEST_CASE("one thread and many give the same order") {
   Random random(4);
   Connected mesh = connected("", calotte::spherical_delaunay(calotte::random_sphere(40'000, 5)));
   const Connected before = mesh;
@@ -120,7 +120,7 @@ TEST_CASE("one thread makes the order that many make") {
   CHECK(same_bits(mesh.neighbours, before.neighbours));
 }
 
-TEST_CASE("equal and degenerate triangles, as a file may hold, keep the order that they had") {
+TEST_CASE("equal and degenerate triangles, which a file may contain, keep their order") {
   Triangles triangles(3, 5), neighbours(3, 5);
   triangles << 5, 2, 7, 1, 2, //
       1, 2, 5, 7, 5,          //
@@ -141,7 +141,7 @@ TEST_CASE("equal and degenerate triangles, as a file may hold, keep the order th
   CHECK(mesh_detail::is_canonical(triangles));
 }
 
-TEST_CASE("no triangles stay none") {
+TEST_CASE("an empty list of triangles stays empty") {
   Triangles triangles(3, 0), neighbours(3, 0);
   mesh_detail::make_canonical(triangles, neighbours);
   CHECK(triangles.cols() == 0);

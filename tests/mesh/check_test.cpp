@@ -41,7 +41,7 @@ std::vector<Triple> triangles_of(const Mesh& mesh) {
 
 Mesh good_mesh() { return oracle::delaunay(random_sphere(20, 4)); }
 
-/// With the edge across from vertex 0 of triangle t flipped.
+/// The mesh with the edge across from vertex 0 of triangle t flipped.
 Mesh flipped(const Mesh& mesh, std::int64_t t) {
   std::vector<Triple> triangles = triangles_of(mesh);
   const std::int32_t other = mesh.neighbours(0, t);
@@ -82,7 +82,7 @@ TEST_CASE("meshes made by the definition pass, closed and open") {
   }
 }
 
-TEST_CASE("points of any norm pass, unit vectors but for rounding too") {
+TEST_CASE("points of any norm pass, also unit vectors up to rounding") {
   Mesh mesh = spherical_delaunay(random_sphere(3000, 5));
   for (const double factor : {1.0, 1 + 0x1p-52, 1 - 0x1p-53, 1 + 0x1p-50, 1 - 0x1p-50, 3e100}) {
     Mesh scaled = mesh;
@@ -159,7 +159,7 @@ TEST_CASE("neighbours that are wrong") {
   mesh.neighbours(0, 2) = -1;
   fails_with(mesh, "edge");
   mesh = good_mesh();
-  // Cut along one edge: both sides say that nothing is across.
+  // Cut along one edge: both sides have no neighbour there.
   const std::int32_t other = mesh.neighbours(0, 2);
   for (int j = 0; j < 3; ++j)
     if (mesh.neighbours(j, other) == 2)
@@ -243,7 +243,7 @@ TEST_CASE("one site of two fans") {
 }
 
 TEST_CASE("two sheets over the sphere") {
-  // The octahedron, twice round its axis: every triangle counter-clockwise, every edge in two.
+  // The octahedron, twice around its axis: every triangle counter-clockwise, every edge in two.
   std::vector<Vec3> ring;
   for (int i = 0; i < 8; ++i)
     ring.push_back({std::cos(i * std::numbers::pi / 2 + 0.01 * i),
@@ -283,7 +283,7 @@ TEST_CASE("arrays of nonsense do not crash") {
     }
     CHECK_FALSE(check(mesh).passed());
   }
-  // Good triangles over points that do not fit, neighbours mutual: past the first laws.
+  // Valid triangles over wrong points, with mutual neighbours, which pass the first laws.
   const Mesh mesh = good_mesh();
   for (int round = 0; round < 1000; ++round) {
     Mesh wrong = mesh;
@@ -333,7 +333,7 @@ PlanarMesh planar_mesh_of(const PlanarMesh& mesh, std::vector<Triple> triangles)
   return out;
 }
 
-/// With the edge across from vertex i of triangle t flipped.
+/// The mesh with the edge across from vertex i of triangle t flipped.
 PlanarMesh flipped(const PlanarMesh& mesh, std::int64_t t, int i) {
   std::vector<Triple> triangles;
   for (std::int64_t u = 0; u < mesh.triangles.cols(); ++u)
@@ -430,7 +430,7 @@ TEST_CASE("arrays and sites of a planar mesh that are wrong are named") {
   wrong.points(0, 3) = 1;
   fails_with(wrong, "site 3 is outside the periodic box");
   wrong = box;
-  wrong.period *= 2; // what the meshes' triangles bridge is not there
+  wrong.period *= 2; // the bridge of the meshes' triangles is missing
   CHECK_FALSE(check(wrong).passed());
   wrong = box;
   wrong.period.setZero();
@@ -477,12 +477,12 @@ template <class AnyMesh> void check_neighbours_exchanged(AnyMesh mesh, int round
   }
 }
 
-TEST_CASE("any neighbour that is another is found, in a mesh of several blocks") {
+TEST_CASE("any wrong neighbour is found, in a mesh of several blocks") {
   check_neighbours_exchanged(calotte::spherical_delaunay(calotte::random_sphere(20000, 5)));
   check_neighbours_exchanged(periodic_delaunay(scatter(20000, 5), Eigen::Vector2d(1, 1)));
 }
 
-TEST_CASE("large meshes are checked patch by patch where their sites come in no order") {
+TEST_CASE("large meshes are checked patch by patch if their sites are in random order") {
   const Mesh mesh = calotte::spherical_delaunay(random_sphere(530000, 6));
   const Mesh along = mesh_detail::in_order(mesh, mesh_detail::curve_order(mesh.points));
   REQUIRE(curve_detail::are_scattered(mesh.neighbours));

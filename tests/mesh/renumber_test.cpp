@@ -34,7 +34,7 @@ std::vector<Cloud> clouds() {
   return out;
 }
 
-/// Where each site of `mesh` went: sites are distinct directions, and keep their bits.
+/// The new index of each site of `mesh`: sites are distinct directions and keep their bits.
 std::vector<std::int32_t> where(const Mesh& mesh, const Mesh& moved) {
   std::vector<std::int32_t> to(std::size_t(mesh.points.cols()), -1);
   for (std::size_t i = 0; i < mesh.site_of_input.size(); ++i)
@@ -96,7 +96,7 @@ TEST_CASE("input keeps a mesh, and one along the curve stays as it is") {
   }
 }
 
-TEST_CASE("a mesh is told to be in the curve's order where renumbering would change nothing") {
+TEST_CASE("is_in_curve_order() is true exactly if renumbering would not change the mesh") {
   Random random(7);
   const auto check = [](const Mesh& mesh) {
     CHECK(calotte::mesh_detail::is_in_curve_order(mesh) ==
@@ -113,12 +113,12 @@ TEST_CASE("a mesh is told to be in the curve's order where renumbering would cha
     Mesh other = ordered;
     shuffle_triangles(other.triangles, other.neighbours, random);
     check(other);
-    other = ordered; // only its last two triangles change places
+    other = ordered; // only its last two triangles are exchanged
     const Eigen::Index last = other.triangles.cols() - 1;
     other.triangles.col(last).swap(other.triangles.col(last - 1));
     check(other);
     for (const Eigen::Index i : {Eigen::Index{0}, ordered.points.cols() / 2}) {
-      other = ordered; // two sites change places
+      other = ordered; // two sites are exchanged
       other.points.col(i).swap(other.points.col(i + 1));
       check(other);
     }
@@ -126,7 +126,7 @@ TEST_CASE("a mesh is told to be in the curve's order where renumbering would cha
   check({});
 }
 
-TEST_CASE("the order of the triangles in a mesh is forgotten") {
+TEST_CASE("the result does not depend on the order of the triangles") {
   Random random(5);
   for (const auto& [name, points, closed, ties, sites] : clouds())
     for (const Numbering numbering : {Numbering::curve, Numbering::rcm}) {

@@ -14,8 +14,8 @@ using namespace calotte::mesh_detail;
 
 namespace {
 
-/// The parts of each triangle stand where a subdivision puts them: one at each vertex and one in
-/// the middle, whose vertices are the midpoints of the edges.
+/// Checks the places of the parts of each triangle in a subdivision: one part at each vertex and
+/// one in the middle, whose vertices are the midpoints of the edges.
 template <class AnyMesh, class Points>
 void check_parts(const AnyMesh& mesh, const Points& points, const Connectivity& parts) {
   const std::int64_t n = mesh.points.cols();

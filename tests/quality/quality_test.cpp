@@ -50,7 +50,7 @@ std::vector<Case> cases() {
   return out;
 }
 
-/// All that is no count, off-centring aside.
+/// All measures that are no counts, except off-centring.
 std::vector<double> measures(const Quality& q) {
   std::vector<double> out{q.residual, q.energy, q.cells_area, q.triangles_area};
   for (const Range& range :
@@ -63,7 +63,7 @@ std::vector<double> off_centring(const Quality& q) {
   return {q.off_centring.min, q.off_centring.mean, q.off_centring.max};
 }
 
-/// Equal but for rounding.
+/// Equal up to rounding.
 void check_same(const Quality& a, const Quality& b) {
   constexpr double epsilon = 1e-11;
   CHECK(a.cells == b.cells);
@@ -231,7 +231,7 @@ Density bump(const Eigen::Vector3d& centre) { return tanh_bump(centre, 0.6, 0.5,
 
 } // namespace
 
-TEST_CASE("every measure is what its definition says") {
+TEST_CASE("every measure agrees with its definition") {
   std::vector<Case> all = cases();
   all.push_back({"several blocks", spherical_delaunay(random_sphere(20000, 4))});
   for (const Case& c : all) {
@@ -301,7 +301,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("neither rotation nor permutation nor the norms of the directions show") {
+TEST_CASE("rotation, permutation and the norms of the directions do not affect the measures") {
   for (const std::uint64_t seed : {7, 8, 9}) {
     const Points3 points = random_sphere(300, seed);
     const Eigen::Vector3d centre(1, 2, -1);
@@ -343,7 +343,8 @@ TEST_CASE("the residual vanishes for centroidal meshes of the same density alone
   options.tolerance = 1e-12;
   CHECK(quality(spherical_delaunay(start)).residual > 1e-3);
   CHECK(quality(spherical_cvt(start, options).mesh).residual < 1e-12);
-  // Slower: nothing but the triangles' grain keeps the grid from turning about the bump's axis.
+  // Slow: only the discreteness of the triangles prevents the grid from rotating about the bump's
+  // axis.
   options.tolerance = 1e-4;
   options.density = bump({1, 0, 1});
   CHECK(quality(spherical_delaunay(start), options.density).residual > 1e-2);
@@ -352,7 +353,7 @@ TEST_CASE("the residual vanishes for centroidal meshes of the same density alone
   CHECK(quality(grid).residual > 1e-2);
 }
 
-TEST_CASE("ties of cocircular sites show in no Voronoi measure") {
+TEST_CASE("ties of cocircular sites do not affect Voronoi measures") {
   const Points3 points = cubed_sphere(6);
   const Eigen::Matrix3d turn =
       Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();

@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-/// The point sets on which the laws are tested.
+/// The point sets for the tests of the laws.
 namespace calotte::test {
 
 using base_detail::Vec3;
@@ -27,10 +27,10 @@ constexpr std::int64_t unknown_sites = -2;
 struct Cloud {
   std::string name;
   Points3 points;
-  bool closed = true; ///< no closed hemisphere holds all
-  bool ties =
-      false; ///< some four sites are cocircular, or nearly: CGAL may triangulate them otherwise
-  std::int64_t sites = -1; ///< distinct directions; -1 for as many as points
+  bool closed = true; ///< no closed hemisphere contains all
+  bool ties = false;  ///< some four sites are cocircular, or nearly, so that CGAL may triangulate
+                      ///< them differently
+  std::int64_t sites = -1; ///< number of distinct directions; -1 for all points
 };
 
 inline Points3 columns(const std::vector<Vec3>& points) {
@@ -46,8 +46,9 @@ inline Points3 joined(const Points3& a, const Points3& b) {
   return out;
 }
 
-/// Whether no closed hemisphere holds all sites: for sites not all on one great circle, one that
-/// does may be turned until two sites that are not parallel stand on its boundary. O(n^3).
+/// True if no closed hemisphere contains all sites. If one does, and the sites are not all on one
+/// great circle, it can be turned until two sites that are not parallel lie on its boundary.
+/// O(n^3).
 inline bool is_closed(const Points3& points) {
   const Eigen::Index n = points.cols();
   for (Eigen::Index i = 0; i < n; ++i)
@@ -253,9 +254,9 @@ inline Points3 weather_stations(const std::string& fixtures) {
   return columns(points);
 }
 
-// ---- All of them
+// ---- All sets
 
-/// Small sets, whose triangulation the definition itself can give (oracle.h).
+/// Small sets, whose triangulation the definition itself gives in reasonable time (oracle.h).
 inline std::vector<Cloud> small_clouds() {
   std::vector<Cloud> out;
   const auto add = [&](std::string name, Points3 points, bool ties, std::int64_t sites = -1) {

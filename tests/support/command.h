@@ -13,7 +13,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-/// The command as a user runs it: by a shell, in a folder of its own. CALOTTE_COMMAND is its path.
+/// Runs the command as a user does: in a shell, in a temporary folder. CALOTTE_COMMAND is its path.
 namespace calotte::test {
 
 inline std::string contents(const std::filesystem::path& path) {
@@ -22,11 +22,11 @@ inline std::string contents(const std::filesystem::path& path) {
 }
 
 struct Outcome {
-  int code; ///< the exit code, or minus the signal that killed it
+  int code; ///< the exit code, or minus the number of the signal that ended it
   std::string out, err;
 };
 
-/// A folder that goes when the test ends, and what the command does in it.
+/// A temporary folder, removed at the end of the test, in which the command runs.
 class Bench {
 public:
   Bench() {
@@ -46,7 +46,7 @@ public:
 
   std::string file(const std::string& name) const { return contents(folder() / name); }
 
-  /// Starts the command; its process has the number that is returned.
+  /// Starts the command and returns its process id.
   /// \param arguments in the shell's syntax, redirections included.
   /// \param before a command for the shell, ended by a semicolon.
   pid_t start(const std::string& arguments, const std::string& before = "") const {
@@ -89,7 +89,7 @@ inline bool one_line(const std::string& text) {
   return !text.empty() && std::count(text.begin(), text.end(), '\n') == 1 && text.back() == '\n';
 }
 
-/// The command ends with this code and exactly this message, and leaves no file behind.
+/// Checks that the command ends with this code and exactly this message, and leaves no file behind.
 inline void check_refusal(const Bench& bench, const std::string& arguments, int code,
                           const std::string& message, const std::string& before = "") {
   CAPTURE(arguments);
@@ -101,7 +101,7 @@ inline void check_refusal(const Bench& bench, const std::string& arguments, int 
   CHECK(bench.names() == names);
 }
 
-/// As check_refusal, for a message whose words belong to a stage of the library.
+/// As check_refusal(), for a message that a stage of the library composes.
 inline void check_refusal_naming(const Bench& bench, const std::string& arguments, int code,
                                  const std::string& part) {
   CAPTURE(arguments);

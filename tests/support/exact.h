@@ -8,9 +8,9 @@
 #include <algorithm>
 #include <array>
 
-/// The predicates again, without error and without a line in common with lib/exact/predicates.cpp:
-/// slow, for the tests alone. Directions become integer vectors; the signs of sums of square roots
-/// come from integer square roots of enough digits, where "enough" is a proven bound.
+/// A second implementation of the predicates, without error and independent of
+/// lib/exact/predicates.cpp; slow, for the tests only. Directions become integer vectors; the signs
+/// of sums of square roots come from integer square roots with enough digits, by a proven bound.
 namespace calotte::exact {
 
 using base_detail::Vec3;
@@ -103,7 +103,7 @@ inline int compare_directions(const Vec3& a, const Vec3& b) {
 }
 
 /// The tie rule: the push of site i along its ray from the view's point changes the determinant by
-/// the orientation of the others; the lexicographically smallest site's push weighs most.
+/// the orientation of the others; the push of the lexicographically smallest site dominates.
 inline int in_circle_tie(const View& view, const Vec3& a, const Vec3& b, const Vec3& c,
                          const Vec3& d) {
   const std::array<Vec3, 4> p{a, b, c, d};

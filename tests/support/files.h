@@ -15,10 +15,10 @@
 
 #include <unistd.h>
 
-/// What tests of files have in common.
+/// Common code of the tests of files.
 namespace calotte::test {
 
-/// A folder that goes when the test ends.
+/// A temporary folder, removed at the end of the test.
 struct Scratch {
   std::filesystem::path folder;
   explicit Scratch(const std::filesystem::path& parent = std::filesystem::temp_directory_path()) {
@@ -44,7 +44,7 @@ inline void write_text(const std::string& path, const std::string& text) {
   std::ofstream(path, std::ios::binary) << text;
 }
 
-/// The error that the work ends in: one line.
+/// The error that the function throws, checked to be one line.
 template <class Work> Error error_of(Work work) {
   try {
     work();
@@ -56,13 +56,14 @@ template <class Work> Error error_of(Work work) {
   std::abort();
 }
 
-/// Work on a file cut short at every length, but for the last byte, ends in an Error, or else is
-/// done. \returns how often it was done. The file is whole again at the end.
+/// Truncates a file at every length, except for the last byte, and checks that the function either
+/// throws an Error or succeeds.
+/// \returns the number of successes. The file is complete again at the end.
 inline int done_when_cut(const std::string& path, const std::function<void()>& work) {
   const std::string whole = read_file(path);
   int done = 0;
   for (std::size_t size = 0; size + 1 < whole.size(); ++size) {
-    std::filesystem::remove(path); // some file systems bring what is overwritten to the disk
+    std::filesystem::remove(path); // some file systems synchronise a file that is overwritten
     write_text(path, whole.substr(0, size));
     INFO("cut to ", size, " bytes");
     try {

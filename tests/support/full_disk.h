@@ -9,7 +9,7 @@
 
 namespace calotte::test {
 
-/// A limit on the size of files stands for a full disk.
+/// Limits the size of files, which has the effect of a full disk.
 struct FullDisk {
   explicit FullDisk(rlim_t bytes) : handler(std::signal(SIGXFSZ, SIG_IGN)) {
     REQUIRE(::getrlimit(RLIMIT_FSIZE, &before) == 0);

@@ -22,7 +22,7 @@
 #include <utility>
 #include <vector>
 
-/// The laws of a mesh as assertions. They are made without lib/check.cpp, so that the two test each
+/// The laws of a mesh as assertions. They do not use lib/mesh/check.cpp, so that each tests the
 /// other.
 namespace calotte::test {
 
@@ -46,8 +46,8 @@ inline bool identical(const Mesh& a, const Mesh& b) {
          same_bits(a.neighbours, b.neighbours) && a.site_of_input == b.site_of_input;
 }
 
-/// Law 1, exact: every triangle counter-clockwise; no site inside a circumcap, ties by the rule.
-/// All sites are tried up to 60 of them; beyond, the site across each edge, which implies the
+/// Law 1, exact: every triangle is counter-clockwise; no site is inside a circumcap, ties by the
+/// rule. Up to 60 sites all are tested; beyond, the site across each edge, which implies the
 /// others.
 inline void require_exact(const Mesh& mesh) {
   const auto n = static_cast<std::int32_t>(mesh.points.cols());
@@ -147,7 +147,7 @@ inline void require_laws(const Mesh& mesh, bool closed) {
   CHECK(check(mesh).failure == "");
 }
 
-/// The mesh of the sites renumbered: site i of `mesh` is site `to[i]` of the result.
+/// The mesh with its sites renumbered: site i of `mesh` is site `to[i]` of the result.
 inline Mesh renumbered(const Mesh& mesh, const std::vector<std::int32_t>& to) {
   Points3 points(3, mesh.points.cols());
   for (Eigen::Index i = 0; i < points.cols(); ++i)
@@ -162,9 +162,9 @@ inline Mesh renumbered(const Mesh& mesh, const std::vector<std::int32_t>& to) {
   return oracle::mesh_of(points, std::move(triangles));
 }
 
-/// The triangles that CGAL makes of the points, in canonical order, without the ghosts of an open
-/// boundary. CGAL keeps one of sites nearer than 2^-23 and takes the stored doubles for the
-/// sphere's points: for sets in general position alone.
+/// CGAL's triangles of the points, in canonical order, without the ghosts of an open boundary. CGAL
+/// merges sites nearer than 2^-23 and treats the stored doubles as points on the sphere: for sets
+/// in general position only.
 inline std::vector<Triple> cgal_triangles(const Points3& points) {
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
   using Traits = CGAL::Delaunay_triangulation_on_sphere_traits_2<Kernel>;

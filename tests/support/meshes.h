@@ -22,8 +22,8 @@ struct NamedMesh {
   Mesh mesh;
 };
 
-/// Of sites in general position and on lattices, whose cells have edges of length 0; of four sites;
-/// with vertices, edges and sites at the poles and on the meridian of 180 degrees.
+/// Meshes of sites in general position and on lattices, whose cells have edges of length 0; of four
+/// sites; with vertices, edges and sites at the poles and on the meridian of 180 degrees.
 inline std::vector<NamedMesh> closed_meshes() {
   const Points3 axes = octahedron();
   Points3 bridge(3, 7);                // an edge of cells runs over the north pole

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-/// Meshes made the slow and obvious way, to compare the library's with.
+/// Meshes computed in a slow and simple way, as the reference for the library's.
 namespace calotte::oracle {
 
 using Triple = std::array<std::int32_t, 3>;

@@ -18,12 +18,12 @@
 #include <iterator>
 #include <string>
 
-/// For tests that write pictures and read them back.
+/// Tools for tests that write pictures and read them back.
 namespace calotte::test {
 
 namespace fs = std::filesystem;
 
-/// A folder of its own that goes with the test.
+/// A temporary folder, removed at the end of the test.
 struct Folder {
   Folder() : path(fs::temp_directory_path() / ("calotte-draw-" + std::to_string(getpid()))) {
     fs::remove_all(path);
@@ -57,7 +57,7 @@ inline Error error_of(const std::function<void()>& act) {
 
 inline ErrorCode code_of(const std::function<void()>& act) { return error_of(act).code(); }
 
-/// A PNG that was written.
+/// A PNG file, read back.
 struct Picture {
   explicit Picture(const std::string& path)
       : surface(cairo_image_surface_create_from_png(path.c_str())) {
@@ -82,7 +82,7 @@ inline std::uint32_t packed(const tools::Rgb& c) {
   return byte(c.r) << 16 | byte(c.g) << 8 | byte(c.b);
 }
 
-/// Whether a pixel has a colour, but for rounding.
+/// True if a pixel has a colour, up to rounding.
 inline bool has_colour(std::uint32_t pixel, const tools::Rgb& colour) {
   const std::uint32_t expected = packed(colour);
   for (const int shift : {0, 8, 16}) {

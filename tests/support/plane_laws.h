@@ -48,8 +48,8 @@ inline int orientation(const Points2& points, const Triple& t) {
   return sgn(minor_of(lifted(points, t[0]), lifted(points, t[1]), lifted(points, t[2]), 2));
 }
 
-/// The sign of the determinant of the four lifted rows; where it is 0, its first derivative that is
-/// not, with respect to the lifts of the sites in the order of (x, y).
+/// The sign of the determinant of the four lifted rows; if it is 0, its first non-zero derivative
+/// with respect to the lifts of the sites in the order of (x, y).
 inline int in_circle_resolved(const Points2& points, const Triple& t, std::int32_t d) {
   const std::array<std::int32_t, 4> site{t[0], t[1], t[2], d};
   std::array<LiftedRow, 4> row;
@@ -78,8 +78,8 @@ inline int in_circle_resolved(const Points2& points, const Triple& t, std::int32
   return 0;
 }
 
-/// Law 1: every triangle counter-clockwise, and no site inside a circumcircle: all sites are tried
-/// up to 50 of them, beyond, the one across each edge, which implies the others.
+/// Law 1: every triangle is counter-clockwise, and no site is inside a circumcircle. Up to 50 sites
+/// all are tested; beyond, the site across each edge, which implies the others.
 inline void require_exact(const PlanarMesh& mesh) {
   const auto n = static_cast<std::int32_t>(mesh.points.cols());
   for (std::int64_t t = 0; t < mesh.triangles.cols(); ++t) {
@@ -113,8 +113,8 @@ inline std::map<std::int32_t, std::int32_t> boundary_of(const PlanarMesh& mesh) 
   return next;
 }
 
-/// Law 4: canonical order, mutual neighbours, every site a vertex, Euler's count, and one boundary
-/// that turns left or goes straight on everywhere: that of the convex hull.
+/// Law 4: canonical order, mutual neighbours, every site a vertex, Euler's formula, and one
+/// boundary that nowhere turns right: that of the convex hull.
 inline void require_whole(const PlanarMesh& mesh) {
   const std::int64_t n = mesh.points.cols(), m = mesh.triangles.cols();
   std::vector<bool> is_vertex(static_cast<std::size_t>(n), false);

@@ -11,7 +11,8 @@
 
 namespace calotte::test {
 
-/// Seeded numbers for the tests: the same with every standard library, unlike std's distributions.
+/// Seeded random numbers for the tests: the same with every standard library, unlike std's
+/// distributions.
 class Random {
 public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}

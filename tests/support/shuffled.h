@@ -25,7 +25,7 @@ inline std::vector<std::int32_t> inverse_of(const std::vector<std::int32_t>& ord
   return place;
 }
 
-/// The triangles in another order, each from a vertex drawn by lot on; neighbours follow.
+/// The triangles in random order, each starting at a random vertex; neighbours follow.
 inline void shuffle_triangles(Triangles& triangles, Triangles& neighbours, Random& random) {
   const std::vector<std::int32_t> order = permutation(triangles.cols(), random);
   const std::vector<std::int32_t> place = inverse_of(order);

@@ -22,7 +22,7 @@ constexpr const char* octahedron = "1 0 0\n0 1 0\n0 0 1\n-1 0 0\n0 -1 0\n0 0 -1\
 
 } // namespace
 
-TEST_CASE("points that are none: the message names the line, and nothing is written") {
+TEST_CASE("invalid points: the message names the line, and nothing is written") {
   const Bench bench;
   const auto check_bad = [&](const std::string& text, const std::string& message,
                              const std::string& options = "") {
@@ -75,7 +75,7 @@ TEST_CASE("sets that span no mesh are refused, and nothing is written") {
 
 TEST_CASE("bad usage is refused before any work") {
   const Bench bench;
-  // A named pipe that nobody writes: reading it would hang, so nothing may be read.
+  // A named pipe without a writer: reading it would block, so the command must not read it.
   REQUIRE(::mkfifo((bench.folder() / "never").c_str(), 0600) == 0);
   const auto check_usage = [&](const std::string& arguments, const std::string& message) {
     check_refusal(bench, arguments, 2, message);
@@ -138,12 +138,12 @@ TEST_CASE("an output that cannot be written is refused before any work") {
       "cannot write absent/points.txt: the folder absent does not exist; create it first");
 }
 
-TEST_CASE("a full disk leaves nothing behind, and what was there before as it was") {
+TEST_CASE("a full disk leaves no new file, and the old file unchanged") {
   const Bench bench;
   const Outcome made = bench.run("points random 100 -o points.txt");
   REQUIRE(made.code == 0);
   bench.file("mesh.vtp", "old");
-  // The shell's limit on the size of files stands for the disk: 1 block of 512 or 1024 bytes.
+  // The shell's limit on the size of files stands for a full disk: 1 block of 512 or 1024 bytes.
   const std::string limit = "ulimit -f 1;";
   check_refusal(bench, "delaunay points.txt -o mesh.vtp", 3,
                 "cannot write mesh.vtp: File too large; make room or write elsewhere", limit);
@@ -190,7 +190,7 @@ TEST_CASE("standard input and output take the place of files") {
 TEST_CASE("a mesh that is not Delaunay fails its check with exit code 1") {
   const Bench bench;
   bench.file("points.txt", octahedron);
-  // The last triangle runs the wrong way.
+  // The last triangle is clockwise.
   bench.file("mesh.tri", "0 1 2\n0 2 4\n0 4 5\n0 5 1\n1 3 2\n1 5 3\n2 3 4\n3 4 5\n");
   const Outcome outcome = bench.run("check mesh.tri --points points.txt");
   CHECK(outcome.code == 1);
@@ -208,7 +208,7 @@ TEST_CASE("duplicates are merged and counted, and triangles as text keep the inp
   CHECK(bench.run("check mesh.tri --points points.txt").code == 0);
 }
 
-TEST_CASE("a set in a hemisphere gives an open mesh, and says so") {
+TEST_CASE("a set in a hemisphere gives an open mesh and a message") {
   const Bench bench;
   bench.file("points.txt", "0 0 1\n1 0 1\n0 1 1\n-1 -1 1\n");
   CHECK(bench.run("delaunay points.txt -o mesh.vtp").out ==
@@ -216,7 +216,7 @@ TEST_CASE("a set in a hemisphere gives an open mesh, and says so") {
   CHECK(bench.run("check mesh.vtp").code == 0);
 }
 
-TEST_CASE("the report holds what it promises") {
+TEST_CASE("the report has the documented content") {
   const Bench bench;
   CHECK(bench.run("points random 2000 --seed 5 -o points.txt").code == 0);
   CHECK(bench.run("delaunay points.txt -o mesh.vtp --threads 2 --regions 12 --report report.json")
@@ -309,7 +309,7 @@ TEST_CASE("info measures against a density") {
   const auto before = [](const Outcome& outcome) {
     return outcome.out.substr(0, outcome.out.find("residual"));
   };
-  CHECK(before(bump) == before(uniform)); // what no density shows in
+  CHECK(before(bump) == before(uniform)); // parts that do not depend on the density
   CHECK(bump.out != uniform.out);
 }
 
@@ -325,7 +325,7 @@ TEST_CASE("info refuses a mesh without a Voronoi tessellation, and a report in i
                 "first");
 }
 
-TEST_CASE("a plane is triangulated, open or periodic, and read and written as such") {
+TEST_CASE("a plane is triangulated, open or periodic, written and read back") {
   const Bench bench;
   std::string lattice = "x, y\n";
   for (int i = 0; i < 10; ++i)
@@ -367,7 +367,7 @@ TEST_CASE("planar points in a domain, and the proof that their mesh is Delaunay"
   CHECK(bent.err.find("is not Delaunay") != std::string::npos);
 }
 
-TEST_CASE("domains and planar points that cannot be are refused in one line") {
+TEST_CASE("invalid domains and planar points are refused in one line") {
   const Bench bench;
   bench.file("bow.txt", "0 0\n4 4\n4 0\n0 4\n");
   check_refusal_naming(bench, "points hexagonal 50 -o x.txt", 2, "--domain");
@@ -388,7 +388,7 @@ TEST_CASE("domains and planar points that cannot be are refused in one line") {
                        2, "excludes");
 }
 
-TEST_CASE("what a plane cannot be is refused, naming line or option") {
+TEST_CASE("invalid planar input is refused, naming line or option") {
   const Bench bench;
   bench.file("points.txt", "0 0\n1 0\n0.5 1\n0.7 0.2\n");
   bench.file("bad.txt", "0 0\n1 0\n0.5 inf\n");

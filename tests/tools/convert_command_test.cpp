@@ -51,7 +51,7 @@ calotte::Mesh make_start(const Bench& bench, int count) {
   return calotte::read_mesh(in_folder(bench, "start.vtp"));
 }
 
-/// Converts, and checks what is told.
+/// Converts a file and checks the messages.
 void convert(const Bench& bench, const std::string& in, const File& out, int cells,
              const std::string& options = " --order input") {
   const Outcome made = bench.run("convert " + in + " " + out.name + out.option + options);
@@ -94,7 +94,7 @@ TEST_CASE("formats of angles and cells give the same mesh, places as far as angl
   }
 }
 
-TEST_CASE("the order that is asked for") {
+TEST_CASE("the selected order of the cells") {
   const Bench bench;
   const calotte::Mesh start = make_start(bench, 100);
   const auto check_order = [&](const std::string& out, const std::string& options,
@@ -115,7 +115,7 @@ TEST_CASE("the order that is asked for") {
   }
 }
 
-TEST_CASE("the sphere's radius: the one that is asked for, or that of the points") {
+TEST_CASE("the sphere's radius: the selected one, or that of the points") {
   const Bench bench;
   const calotte::Mesh start = make_start(bench, 50);
   const auto points = [&](const std::string& name) {
@@ -225,7 +225,7 @@ TEST_CASE("a periodic plane goes from MPAS to MPAS") {
   check_refusal_naming(bench, "convert plane.nc scrip.nc --format scrip", 2, "scrip.nc: ");
 }
 
-TEST_CASE("what cannot be is refused before anything is read") {
+TEST_CASE("invalid options are refused before anything is read") {
   const Bench bench;
   REQUIRE(::mkfifo((bench.folder() / "never.vtp").c_str(), 0600) == 0);
   bench.file("mesh.vtp", "a mesh");
@@ -283,7 +283,7 @@ TEST_CASE("kill -9 in the midst of writing leaves the old file whole [slow]") {
   const auto before = bench.names();
   for (int k = 0; k < 5; ++k) {
     const pid_t process = bench.start("convert mesh.vtp mesh.nc");
-    for (int wait = 0; wait < 100'000 && bench.names() == before; ++wait) // until it writes
+    for (int wait = 0; wait < 100'000 && bench.names() == before; ++wait) // blocks until it writes
       std::this_thread::sleep_for(std::chrono::microseconds(200));
     std::this_thread::sleep_for(std::chrono::milliseconds(k * k));
     REQUIRE(::kill(process, SIGKILL) == 0);
@@ -293,7 +293,7 @@ TEST_CASE("kill -9 in the midst of writing leaves the old file whole [slow]") {
     CHECK((graph == "old" || std::count(graph.begin(), graph.end(), '\n') == 100'001));
     for (const std::string& name : bench.names())
       if (!before.contains(name))
-        fs::remove(bench.folder() / name); // what is left has another name
+        fs::remove(bench.folder() / name); // the remaining file has another name
   }
   CHECK(bench.run("convert mesh.vtp mesh.nc").code == 0);
   CHECK(calotte::read_sites(in_folder(bench, "mesh.nc")).cols() == 100'000);

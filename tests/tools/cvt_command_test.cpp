@@ -24,7 +24,7 @@ namespace {
 
 const std::string bump = "tanh:lon=270,lat=30,beta=30deg,alpha=0.20,gamma=x3";
 
-/// Waits for what another process shall do. It is an error when it does not within minutes.
+/// Waits for a condition that another process fulfils; fails after minutes.
 void wait_until(const std::function<bool()>& done) {
   for (int k = 0; k < 200'000 && !done(); ++k)
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -34,7 +34,7 @@ void wait_until(const std::function<bool()>& done) {
 /// A key as it stands in a report.
 std::string quoted(const std::string& key) { return std::string("\"").append(key).append("\": "); }
 
-/// Those lines of a report that a run determines, whoever made it and how fast.
+/// The lines of a report that the run determines, independent of host and time.
 std::vector<std::string> course(const std::string& report) {
   std::vector<std::string> lines;
   std::istringstream in(report);
@@ -49,8 +49,8 @@ bool has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-/// Whether the command runs there and has a handler for the signal. (The test's own process, which
-/// it is for a moment after the fork, has one, too.)
+/// True if the command runs in that process and handles the signal. (After the fork the process is
+/// briefly the test's own, which handles it, too.)
 bool handles(pid_t process, int signal) {
   std::istringstream status(contents("/proc/" + std::to_string(process) + "/status"));
   bool command = false;
@@ -63,14 +63,15 @@ bool handles(pid_t process, int signal) {
   return false;
 }
 
-/// Runs long enough to be interrupted many times: they keep their state after every iteration.
+/// Options of a run that is long enough to be interrupted many times; it saves its state after
+/// every iteration.
 const std::string long_run = "cvt --cells 162 --start random --seed 5 --iterations 3000";
 const std::string long_levels = "cvt --cells 162 --method nesterov --iterations 1500";
 const std::string long_bump =
     "cvt --cells 162 --method lloyd --start density --iterations 3000 --density " + bump;
 const std::string kept = " --checkpoint run.checkpoint --checkpoint-every 1";
 
-/// Interrupts a run in its midst.
+/// Interrupts a run before its end.
 Outcome interrupt(const Bench& bench, const std::string& arguments, int signal) {
   const pid_t process = bench.start(arguments + kept + " -o mesh.vtp --report report.json");
   wait_until([&] { return fs::exists(bench.folder() / "run.checkpoint"); });
@@ -78,7 +79,7 @@ Outcome interrupt(const Bench& bench, const std::string& arguments, int signal) 
   return bench.finish(process);
 }
 
-/// Resumes and compares with what the run makes when nothing interrupts it.
+/// Resumes a run and compares the result with that of an uninterrupted one.
 void check_resumed(const Bench& bench, const std::string& arguments, const std::string& other) {
   REQUIRE(bench.run(arguments + " -o whole.vtp --report whole.json").code == 0);
   const Outcome resumed = bench.run(arguments +
@@ -94,7 +95,7 @@ void check_resumed(const Bench& bench, const std::string& arguments, const std::
 
 } // namespace
 
-TEST_CASE("every start leads to the cells that were asked for") {
+TEST_CASE("every start leads to the requested number of cells") {
   const Bench bench;
   const auto check_start = [&](const std::string& arguments, int cells, const std::string& note) {
     CAPTURE(arguments);
@@ -138,7 +139,7 @@ TEST_CASE("every start leads to the cells that were asked for") {
   check_start("places.txt --lonlat --density uniform", 13, "");
 }
 
-TEST_CASE("a run goes on from the mesh that another left, in any format") {
+TEST_CASE("a run continues from the mesh of another run, in any format") {
   const Bench bench;
   const std::string run = "cvt --method lloyd --duplicates refuse --iterations ";
   CHECK(bench.run("points random 60 -o points.txt").code == 0);
@@ -150,7 +151,7 @@ TEST_CASE("a run goes on from the mesh that another left, in any format") {
     CHECK(bench.run(run + "3 " + grid + " -o mesh.vtp").code == 0);
     const calotte::Mesh mesh = calotte::read_mesh(bench.folder() / "mesh.vtp");
     CHECK((mesh.triangles == whole.triangles));
-    CHECK((mesh.points - whole.points).cwiseAbs().maxCoeff() < 1e-13); // it is normalised anew
+    CHECK((mesh.points - whole.points).cwiseAbs().maxCoeff() < 1e-13); // normalised again
     CHECK(bench.run("delaunay " + grid + " -o same.vtp").code == 0);
     CHECK(calotte::read_mesh(bench.folder() / "same.vtp").triangles.cols() == 116);
     for (const std::string command : {"cvt ", "delaunay "})
@@ -215,7 +216,7 @@ TEST_CASE("seeds make a difference, and the same seed makes none") {
 
 TEST_CASE("bad usage is refused before any work") {
   const Bench bench;
-  // A named pipe that nobody writes: reading it would hang, so nothing may be read.
+  // A named pipe without a writer: reading it would block, so the command must not read it.
   REQUIRE(::mkfifo((bench.folder() / "never").c_str(), 0600) == 0);
   const auto check_usage = [&](const std::string& arguments, const std::string& message) {
     check_refusal(bench, "cvt " + arguments, 2, message);
@@ -281,7 +282,8 @@ TEST_CASE("bad usage is refused before any work") {
   check_usage("never never" + out, "The following argument was not expected: never" + see);
 }
 
-TEST_CASE("outputs that cannot be, or would replace what is read, are refused before any work") {
+TEST_CASE(
+    "outputs that cannot be written, or would replace an input, are refused before any work") {
   const Bench bench;
   REQUIRE(::mkfifo((bench.folder() / "never").c_str(), 0600) == 0);
   bench.file("points.off", "0 0 1\n");
@@ -320,7 +322,8 @@ TEST_CASE("starts that make no tessellation are refused, and nothing is written"
   check_refusal_naming(bench, "cvt absent.txt -o mesh.vtp", 3, "cannot read absent.txt");
 }
 
-TEST_CASE("options from a file: the command line wins, and what is unknown is refused") {
+TEST_CASE(
+    "options from a file: the command line takes precedence, and unknown options are refused") {
   const Bench bench;
   bench.file("run.toml", "# a run\ncells = 42\nstart = \"random\"\niterations = 4\n"
                          "density = [\"" +
@@ -391,7 +394,7 @@ TEST_CASE("the examples run, from anywhere, and write beside themselves") {
   CHECK(has(bench.file("examples/coastal.nc"), "cell-width of "));
 }
 
-TEST_CASE("cell widths say how many cells, warn, and belong to a checkpoint") {
+TEST_CASE("cell widths determine the number of cells, give warnings, and belong to a checkpoint") {
   const Bench bench;
   const auto widths = [&](const std::string& one) {
     bench.file("widths.msh", "MSHID=3;ELLIPSOID-GRID\nNDIMS=2\nCOORD=1;2\n0\n3.141592653589793\n"
@@ -420,7 +423,7 @@ TEST_CASE("cell widths say how many cells, warn, and belong to a checkpoint") {
                        2, "makes 10 x 4^k + 2 cells, not 186");
 }
 
-TEST_CASE("a mesh tells how it was made, and equal runs give equal bytes") {
+TEST_CASE("a mesh file contains its provenance, and equal runs give equal bytes") {
   const Bench bench;
   const std::string run = "cvt --cells 42 --seed 3 --iterations 4 --density " + bump;
   const auto history = [&](const std::string& name) {
@@ -468,7 +471,7 @@ TEST_CASE("not converging is exit code 1 with the residual; the mesh and the rep
   CHECK(bench.run("cvt --cells 12 -o mesh.vtp").out.starts_with("mesh.vtp: 12 cells, converged, "));
 }
 
-TEST_CASE("the norm that is asked for is the one that ends the run") {
+TEST_CASE("the selected norm ends the run") {
   const Bench bench;
   const auto iterations = [&](const std::string& options) {
     const Outcome made =
@@ -483,7 +486,7 @@ TEST_CASE("the norm that is asked for is the one that ends the run") {
   CHECK(iterations("--tolerance 2e-3") == iterations("--tolerance 2e-3 --norm l2-scaled"));
 }
 
-TEST_CASE("the report holds what it promises") {
+TEST_CASE("the report has the documented content") {
   const Bench bench;
   CHECK(
       bench
@@ -557,7 +560,7 @@ TEST_CASE("SIGTERM and SIGINT end a run in order, and it resumes to the same bit
   }
 }
 
-TEST_CASE("a run that keeps nothing says so when a signal ends it") {
+TEST_CASE("a run without a checkpoint says so when a signal ends it") {
   const Bench bench;
   const pid_t process = bench.start(long_run + "000 -o mesh.vtp");
   wait_until([&] { return handles(process, SIGTERM); });
@@ -572,7 +575,7 @@ TEST_CASE("a run that keeps nothing says so when a signal ends it") {
 
 TEST_CASE("a second signal ends the process at once") {
   const Bench bench;
-  // One iteration of this takes longer than any wait here.
+  // One iteration of this run takes longer than any wait here.
   const pid_t process =
       bench.start("cvt --cells 5000 --start random --density " + bump +
                   " --rule 19 --triangle-divisions 100 -o mesh.vtp --checkpoint run.checkpoint");
@@ -588,7 +591,7 @@ TEST_CASE("kill -9 at any moment: the run resumes from its checkpoint to the sam
   const Bench bench;
   const fs::path checkpoint = bench.folder() / "run.checkpoint";
   CHECK(interrupt(bench, long_bump, SIGKILL).code == -SIGKILL);
-  for (const int milliseconds : {1, 5, 11}) { // again and again, going on from the same file
+  for (const int milliseconds : {1, 5, 11}) { // resumes repeatedly from the same file
     const auto size = fs::file_size(checkpoint);
     const pid_t process =
         bench.start(long_bump + kept + " --resume run.checkpoint --regions 4 -o mesh.vtp");
@@ -626,7 +629,7 @@ TEST_CASE("checkpoints come every so many iterations or minutes, over all levels
 
 TEST_CASE("a checkpoint that cannot be written is reported, and the run continues") {
   const Bench bench;
-  // The shell's limit on the size of files stands for the disk: 1 block of 512 or 1024 bytes.
+  // The shell's limit on the size of files stands for a full disk: 1 block of 512 or 1024 bytes.
   const Outcome outcome = bench.run("cvt --cells 12 --method lloyd --iterations 50 -o mesh.tri "
                                     "--checkpoint run.checkpoint --checkpoint-every 20",
                                     "ulimit -f 1;");
@@ -755,7 +758,7 @@ TEST_CASE("a periodic box: MPAS's file, bisections, hexagons at rest") {
   CHECK(bench.run("info --plane box.nc").code == 0);
 }
 
-TEST_CASE("what does not go with the plane is refused before any work, in one line") {
+TEST_CASE("options that a planar run does not support are refused before any work, in one line") {
   const Bench bench;
   bench.file("points.txt", "0.5 0.5\n0.1 0.2\n3 3\n0.9 0.1\n");
   const auto refused = [&](const std::string& arguments, const std::string& words) {

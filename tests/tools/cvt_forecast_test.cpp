@@ -11,7 +11,7 @@ using namespace calotte::tools;
 
 namespace {
 
-/// Where a run stands, with a report of its own.
+/// The progress of a run, with a report of its own.
 struct Standing {
   CvtReport report;
   int iterations_of_level = 0, bisections_left = 0;
@@ -38,7 +38,7 @@ Standing decaying(int iterations, double factor) {
 
 } // namespace
 
-TEST_CASE("a norm that decays evenly is foreseen to the iteration") {
+TEST_CASE("the end of an exponential decay is predicted to the iteration") {
   CvtOptions options;
   options.tolerance = std::pow(0.9, 300.5); // 0.9^301 is the first below
   for (const Norm norm : {Norm::l2, Norm::linf, Norm::gradient})
@@ -51,13 +51,13 @@ TEST_CASE("a norm that decays evenly is foreseen to the iteration") {
     }
 }
 
-TEST_CASE("the limit of iterations ends what would take longer, and a run of a number of them") {
+TEST_CASE("the limit of iterations ends longer runs, and runs of a fixed number of iterations") {
   CvtOptions options;
   options.tolerance = 1e-9;
   options.max_iterations = 100;
   for (const Norm norm : {Norm::l2_scaled, Norm::none}) {
     options.norm = norm;
-    for (const double factor : {0.99, 1.0, 1.01}) { // a norm that does not fall, too
+    for (const double factor : {0.99, 1.0, 1.01}) { // also for a norm that does not fall
       const auto end = forecast(decaying(40, factor), options);
       REQUIRE(end);
       CHECK(!end->converges);
@@ -73,7 +73,7 @@ TEST_CASE("a last step that went beyond the limit of iterations leaves no time")
   CHECK(forecast(decaying(40, 0.9), options)->seconds == 0);
 }
 
-TEST_CASE("nothing is foreseen from few iterations, or those of another level") {
+TEST_CASE("there is no prediction from few iterations, or from those of another level") {
   CvtOptions options;
   CHECK(!forecast(decaying(9, 0.9), options));
   Standing next = decaying(50, 0.9);
@@ -83,7 +83,7 @@ TEST_CASE("nothing is foreseen from few iterations, or those of another level") 
   CHECK(!forecast(next, options));
 }
 
-TEST_CASE("trials that were not gone on from take time, and their norms count for nothing") {
+TEST_CASE("rejected trials count in the time but not in the norms") {
   CvtOptions options;
   options.norm = Norm::l2;
   options.tolerance = std::pow(0.9, 300.5);
@@ -101,7 +101,7 @@ TEST_CASE("trials that were not gone on from take time, and their norms count fo
   CHECK(end->seconds == doctest::Approx(2 * (301 - 100)));
 }
 
-TEST_CASE("what has converged takes no more time") {
+TEST_CASE("a converged level takes no more time") {
   CvtOptions options;
   options.tolerance = 0.5;
   const auto end = forecast(decaying(50, 0.9), options);
@@ -123,7 +123,7 @@ TEST_CASE("the norms are those of the report") {
   CHECK(norm_of(iteration, Norm::linf_scaled) == doctest::Approx(2 / h));
 }
 
-TEST_CASE("progress names the level, the norm and what is to come") {
+TEST_CASE("progress names the level, the norm and the prediction") {
   Standing state = decaying(101, 0.9);
   state.bisections_left = 2;
   CvtOptions options;

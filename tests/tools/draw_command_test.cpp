@@ -72,7 +72,7 @@ TEST_CASE("the options of one picture are refused for another, before anything i
               "--history: At Most 8 required but received 9");
 }
 
-TEST_CASE("a density is asked for and given, or neither, before anything is read") {
+TEST_CASE("a density without use, or a missing one, is refused before anything is read") {
   const Bench bench;
   check_refusal(bench, "draw a.vtp -o a.png --spacing-law", 2,
                 "--spacing-law requires a density; give --density or --cell-width");
@@ -102,7 +102,7 @@ TEST_CASE("a mesh is drawn on either map, by its shapes and by what they are col
   }
 }
 
-TEST_CASE("a density alone becomes a picture of it, or of the spacings it asks for") {
+TEST_CASE("a density alone gives a picture of it, or of the spacings that it implies") {
   const Bench bench;
   const std::vector<std::string> looks = {"", "--projection plate-carree --graticule",
                                           "--colour spacing --view 270,30",
@@ -132,7 +132,7 @@ TEST_CASE("a mesh file's variables colour its cells; an unknown one names those 
   check_refusal_naming(bench, "draw a.vtp -o b.png --colour field:area", 2, "a.vtp");
 }
 
-TEST_CASE("what is no report is named, and nothing is written") {
+TEST_CASE("a file that is no report is named, and nothing is written") {
   const Bench bench;
   const std::string remedy = "; give a report of calotte cvt --report";
   bench.file("a.json", "{\"norm\": \"l2\"}\n");

@@ -50,7 +50,7 @@ std::vector<Case> sphere_cases() {
   return out;
 }
 
-/// Hexagons whose sites are moved by up to a part of their spacing: Delaunay still, for 0.1.
+/// Hexagons whose sites are moved by up to a part of their spacing; still Delaunay for 0.1.
 PlanarMesh uneven_hexagons(std::int64_t columns, std::int64_t rows, double spacing, double part) {
   PlanarMesh mesh = periodic_hexagons(columns, rows, spacing);
   Random random(7);
@@ -79,7 +79,7 @@ const std::vector<Case>& all_cases() {
   return cases;
 }
 
-/// Which of a vertex's cells this is.
+/// The index of a cell among those of a vertex.
 int place_of(const Voronoi& v, std::int32_t vertex, std::int32_t cell) {
   for (int j = 0; j < 3; ++j)
     if (v.cells_on_vertex(j, vertex) == cell)
@@ -88,7 +88,7 @@ int place_of(const Voronoi& v, std::int32_t vertex, std::int32_t cell) {
   return 0;
 }
 
-/// From one place to another's nearest copy.
+/// The offset from a place to the nearest copy of another.
 Vector difference(const Voronoi& v, const Vector& from, const Vector& to) {
   Vector d = to - from;
   for (int axis = 0; axis < 2 && !v.on_sphere; ++axis)
@@ -101,7 +101,7 @@ Vector cell(const Voronoi& v, std::int32_t i) {
   return v.on_sphere ? Vector(x.normalized()) : x;
 }
 
-/// Whether some sites are one but for rounding.
+/// True if some sites are equal up to rounding.
 bool equal_sites(const Voronoi& v) {
   return v.cell_area.minCoeff() < 1e-9 * v.cell_area.maxCoeff();
 }
@@ -134,19 +134,19 @@ Real arc(const Vector& a, const Vector& b) {
   return 2 * std::atan2((a - b).norm(), (a + b).norm());
 }
 
-/// Of the spherical triangle, signed.
+/// Signed area of the spherical triangle.
 Real triangle_area(const Vector& a, const Vector& b, const Vector& c) {
   const Vector p = b - a, q = c - a;
   return 2 * std::atan2(a.dot(p.cross(q)), 1 + a.dot(b) + b.dot(c) + c.dot(a));
 }
 
-/// A triangle on the sphere as it is defined.
+/// A triangle on the sphere by its definition.
 struct Triangle {
   Vector corner[3], centre;
   Real radius, shortest, longest;
-  /// Of its circumcentre: some dozen roundoffs over the sine of the largest angle and the cosine of
-  /// half the longest side; and here, where the corners are round to long doubles, that of a normal
-  /// which their norms tilt.
+  /// Error bound of its circumcentre: some dozen roundoffs over the sine of the largest angle and
+  /// the cosine of half the longest side; and here, because the corners are rounded to long
+  /// doubles, the error of a normal that their norms tilt.
   Real error;
 
   Triangle(const Voronoi& v, std::int32_t t) {
@@ -273,7 +273,7 @@ TEST_CASE("laws: cells, vertices and kites fill the sphere or the box") {
   }
 }
 
-TEST_CASE("circumcentres, kites and lengths are what their definitions say") {
+TEST_CASE("circumcentres, kites and lengths agree with their definitions") {
   std::int64_t compared = 0;
   for (const Case& c : all_cases()) {
     const Voronoi& v = c.v;
@@ -372,7 +372,7 @@ TEST_CASE("angles are those of the normal from east, or from x") {
   }
 }
 
-TEST_CASE("quality says the same of spacings, areas, degrees and shapes") {
+TEST_CASE("quality() gives the same spacings, areas, degrees and shapes") {
   for (const Points3& points : {random_sphere(300, 1), fibonacci_sphere(200), cubed_sphere(5)}) {
     const Mesh mesh = spherical_delaunay(points);
     const Voronoi v = voronoi(mesh);
@@ -392,7 +392,7 @@ TEST_CASE("quality says the same of spacings, areas, degrees and shapes") {
   }
 }
 
-TEST_CASE("regular hexagons are exact but for rounding") {
+TEST_CASE("regular hexagons are exact up to rounding") {
   for (const double spacing : {1e-3, 1.0, 30e3}) {
     const PlanarMesh mesh = periodic_hexagons(8, 6, spacing);
     const Voronoi v = voronoi(mesh);
@@ -435,7 +435,7 @@ TEST_CASE("a plane of hexagons is canonical, and its columns and rows are where 
     CHECK_THROWS_WITH_AS(periodic_hexagons(3, 4, spacing), doctest::Contains("spacing"), Error);
 }
 
-TEST_CASE("flat triangles of equal sites leave all finite, and the box full") {
+TEST_CASE("flat triangles of equal sites give finite results that fill the box") {
   PlanarMesh mesh = periodic_hexagons(6, 6, 1);
   mesh.points.col(8) = mesh.points.col(7);
   const Voronoi v = voronoi(mesh);
@@ -450,7 +450,7 @@ TEST_CASE("flat triangles of equal sites leave all finite, and the box full") {
   CHECK(sum(v.cell_area) == doctest::Approx(mesh.period.prod()));
 }
 
-TEST_CASE("unit columns keep their bits, and norms show nowhere") {
+TEST_CASE("unit columns keep their bits, and norms have no effect") {
   const Points3 points = random_sphere(500, 3);
   const Mesh mesh = spherical_delaunay(points);
   const Voronoi v = voronoi(mesh);
@@ -506,7 +506,7 @@ TEST_CASE("weights are of the other edges of both cells, counter-clockwise from 
   }
 }
 
-TEST_CASE("law: weight dc_e / dv_e' is antisymmetric, so that energy is kept") {
+TEST_CASE("law: weight dc_e / dv_e' is antisymmetric, so that energy is conserved") {
   for (const Case& c : all_cases()) {
     const Voronoi& v = c.v;
     CAPTURE(c.name);
@@ -514,7 +514,7 @@ TEST_CASE("law: weight dc_e / dv_e' is antisymmetric, so that energy is kept") {
     CHECK(w.weights.allFinite());
     if (equal_sites(v))
       continue;
-    // The kites around a cell sum to its area but for the rounding of the largest.
+    // The kites around a cell sum to its area up to the rounding of the largest.
     const double tolerance =
         64 * epsilon * std::max(1.0, v.kites.cwiseAbs().maxCoeff() / v.cell_area.minCoeff());
     for (std::int32_t e = 0; e < v.dc.size(); ++e)
@@ -597,7 +597,7 @@ TEST_CASE("chunks of weights are parts of the whole") {
 
 // ---- Fields of the cells
 
-TEST_CASE("cell fields are of each cell's own edges, and the density is relative") {
+TEST_CASE("cell fields use the edges of the cell, and the density is relative") {
   const Density density = tanh_bump({1, 2, 3}, 0.5, 0.3, 0.01);
   const Voronoi v = voronoi(spherical_delaunay(random_sphere(400, 6)));
   const CellFields fields = cell_fields(v, density), uniform = cell_fields(v);
@@ -627,7 +627,7 @@ TEST_CASE("the nominal spacing is that of hexagons that follow the density") {
 
 // ---- Refusals
 
-TEST_CASE("what is no closed mesh is refused in one line that names where") {
+TEST_CASE("an input that is no closed mesh is refused in one line that names the place") {
   const auto check_refused = [](const auto& mesh, std::int64_t index, const std::string& words) {
     CAPTURE(words);
     try {
@@ -660,7 +660,8 @@ TEST_CASE("what is no closed mesh is refused in one line that names where") {
                   [&](Mesh& m) { m.neighbours(0, 3) = neighbour; });
   check_changed(4, "site 4 has no direction", [](Mesh& m) { m.points.col(4).setZero(); });
   check_changed(4, "site 4 has no direction", [](Mesh& m) { m.points(1, 4) = std::nan(""); });
-  Mesh pinched; // two tetrahedra that share two sites: as many triangles as a closed mesh has
+  Mesh pinched; // two tetrahedra that share two sites: the number of triangles is that of a closed
+                // mesh
   pinched.points = random_sphere(6, 1);
   const Triangles tetrahedron{{0, 0, 0, 1}, {1, 2, 3, 3}, {2, 3, 1, 2}},
       beside{{3, 3, 3, 1}, {1, 2, 0, 0}, {2, 0, 1, 2}};

@@ -16,7 +16,8 @@ namespace {
 constexpr Rgb border_colour = {0.25, 0.27, 0.31};
 constexpr Rgb grid_colour = {0.91, 0.92, 0.93};
 constexpr double smallest = 1e-100; ///< on a logarithmic axis, and the largest's inverse
-constexpr double fuzz = 1e-9;       ///< a tick so near to an end, in steps, stands on the axis
+constexpr double fuzz =
+    1e-9; ///< distance in steps within which a tick counts as an end of the axis
 
 std::string with_minus(const std::string& text) {
   return text.starts_with('-') ? "\u2212" + text.substr(1) : text;
@@ -44,7 +45,7 @@ std::string logarithmic_label(int digit, int exponent) {
   return factor + power_of_ten(exponent);
 }
 
-/// The least of 1, 2 or 5 times a power of ten that leaves at most so many steps.
+/// The smallest of 1, 2 or 5 times a power of ten that gives at most `most` steps.
 double round_step(double range, int most) {
   const double least = range / most;
   const double power = std::pow(10, std::floor(std::log10(least)));
@@ -67,7 +68,7 @@ AxisTicks linear_ticks(const Axis& axis, int most) {
   return ticks;
 }
 
-/// The powers of ten, or every so many of them; what lies between is unlabelled.
+/// The powers of ten, or a regular subset of them; ticks between them have no label.
 AxisTicks decade_ticks(const Axis& axis, int first, int last, int most) {
   AxisTicks ticks;
   const int stride = (last - first) / most + 1;

@@ -11,17 +11,17 @@
 
 namespace calotte::tools {
 
-/// From a quantity to places along a side of a frame.
+/// Maps a quantity to places along a side of a frame.
 struct Axis {
   double low = 0, high = 1; ///< low < high; both > 0 where logarithmic
   bool logarithmic = false;
 
   double place(double value) const; ///< 0 at low, 1 at high; beyond them for values beyond
-  bool shows(double value) const;   ///< whether the value has a place: finite, > 0 if logarithmic
+  bool shows(double value) const;   ///< true if the value has a place: finite, > 0 if logarithmic
 };
 
-/// The axis of the values that it can show, with a margin at both ends that is this part of their
-/// range; from 0 (or 0.1) to 1 where it can show none.
+/// The axis of the values that it can show, with a margin at both ends of this fraction of their
+/// range; from 0 (or 0.1) to 1 if it can show none.
 Axis axis_around(const std::vector<double>& values, bool logarithmic, double margin = 0.04);
 
 struct Tick {
@@ -29,13 +29,14 @@ struct Tick {
   std::string label;
 };
 
-/// Round values along an axis: those with a label (marked text), and the others' places.
+/// Round values along an axis: those with a label (marked text), and the places of the others.
 struct AxisTicks {
   std::vector<Tick> labelled;
   std::vector<double> unlabelled;
 };
 
-/// \param most labels at most, >= 2; fewer than two only where the axis holds no more.
+/// \param most maximum number of labels, >= 2; fewer than two only if the axis has no more round
+///         values.
 AxisTicks ticks_of(const Axis& axis, int most);
 
 /// A place on the page, y downwards.
@@ -55,15 +56,15 @@ struct Frame {
   }
 };
 
-/// How a frame's axes look.
+/// The style of a frame's axes.
 struct AxesLook {
-  double text = 12;        ///< size of the letters; lines and ticks go with it
+  double text = 12;        ///< font size; lines and ticks scale with it
   std::string across = {}; ///< the axes' names, marked text
   std::string up = {};
   int most_across = 8; ///< labels along an axis; 0 for an axis without ticks
   int most_up = 7;
-  bool across_labels = true; ///< false where the frame below has them
-  double up_labels = 3.2;    ///< least room for the labels of `up`, in letters
+  bool across_labels = true; ///< false if the frame below has them
+  double up_labels = 3.2;    ///< minimum width of the labels of `up`, in letters
 };
 
 /// Faint lines at the labelled ticks: beneath the data.
@@ -72,11 +73,11 @@ void draw_grid(cairo_t* context, const Frame& frame, const AxesLook& look);
 /// The border, ticks, labels and names: above the data.
 void draw_axes(cairo_t* context, const Frame& frame, const AxesLook& look);
 
-/// Lets `paint` paint inside of the frame only.
+/// Calls `paint`, clipped to the frame.
 void inside(cairo_t* context, const Frame& frame, const std::function<void()>& paint);
 
-/// Strokes the line through the points, which has a gap where one cannot be shown; a point between
-/// two gaps becomes a dot. Colour, width and dashes are the context's.
+/// Strokes the line through the points, with a gap at points that cannot be shown; a point between
+/// two gaps becomes a dot. Colour, width and dashes are those of the context.
 void draw_curve(cairo_t* context, const Frame& frame, const std::vector<double>& x,
                 const std::vector<double>& y);
 

@@ -21,8 +21,8 @@ namespace calotte::tools {
 
 namespace {
 
-constexpr std::int64_t most_paths = 30000;     ///< a vector file of more shapes is slow to open
-constexpr std::int64_t field_samples = 100000; ///< whose extremes are the colour bar's
+constexpr std::int64_t most_paths = 30000;     ///< a vector file with more shapes opens slowly
+constexpr std::int64_t field_samples = 100000; ///< whose extremes define the colour bar
 
 bool has_boundary(const Mesh& mesh) { return (mesh.neighbours.array() < 0).any(); }
 
@@ -119,7 +119,7 @@ void require_field(const DrawOptions& options, std::int64_t sites) {
 
 namespace {
 
-/// What is given by site, of the colourings that are.
+/// The values per site of the colourings that have such values.
 Eigen::VectorXd by_site(const Mesh& mesh, const DrawOptions& options) {
   if (options.colouring == Colouring::field) {
     require_field(options, mesh.points.cols());
@@ -141,7 +141,7 @@ Eigen::VectorXd by_site(const Mesh& mesh, const DrawOptions& options) {
   return rho / greatest;
 }
 
-/// With the view that the defaults leave open.
+/// Fills in defaults of the view.
 Look seen(const Look& look, const LonLat& middle) {
   Look result = look;
   if (look.projection == Projection::plate_carree) {
@@ -167,7 +167,7 @@ Painting make_painting(const Mesh& mesh, const DrawOptions& options, const LonLa
   return painting;
 }
 
-/// In a vector file an image is printed at any size: give it twice the pixels.
+/// A vector file may be printed at any size: its image gets twice the pixels.
 MapSize image_size(cairo_t* context, const MapSize& map) {
   const bool raster_page =
       cairo_surface_get_type(cairo_get_target(context)) == CAIRO_SURFACE_TYPE_IMAGE;

@@ -17,22 +17,22 @@ enum class Projection {
   plate_carree, ///< the whole sphere: longitude to the right, latitude up, in the same unit
 };
 
-/// What a picture shows of a mesh.
+/// The shapes that a picture shows.
 enum class Shapes {
   triangles, ///< the Delaunay triangles
-  cells,     ///< the Voronoi cells; those that an open boundary leaves unbounded are left out
-  both,      ///< the cells, and over them the triangles' edges
+  cells,     ///< the Voronoi cells; cells without bound at an open boundary are omitted
+  both,      ///< the cells, with the triangles' edges on top
 };
 
-/// By what its shapes are coloured. Cells have the values of their sites; triangles their own, or
-/// for density and field the mean of their corners'.
+/// The quantity that colours the shapes. Cells have the values of their sites; triangles their own,
+/// or for density and field the mean of their corners.
 enum class Colouring {
   spacing, ///< mean distance of a site to its neighbours, or mean side of a triangle; radians
   angle,   ///< smallest angle of a triangle, or of those around a site; radians
   valence, ///< number of a site's neighbours; a triangle has that of its corner furthest from 6
   area,    ///< over the mean; of cells of closed meshes only
   quality, ///< shortest over longest side of a cell, closed meshes only; Quality::triangle_quality
-  density, ///< DrawOptions::density, over its greatest at a site
+  density, ///< DrawOptions::density, divided by its maximum over the sites
   field,   ///< DrawOptions::field
   none,
 };
@@ -43,11 +43,11 @@ struct LonLat {
   double latitude = 0;
 };
 
-/// How a picture of the sphere looks.
+/// The style of a picture of the sphere.
 struct Look {
   Projection projection = Projection::globe;
-  /// The middle of the globe, by default 15 E 25 N or the middle of an open mesh; of plate carree
-  /// the central longitude, by default 0.
+  /// Centre of the view of the globe, default 15 E 25 N or the middle of an open mesh; for plate
+  /// carree the central longitude, default 0.
   std::optional<LonLat> view = {};
   bool graticule = false; ///< faint meridians and parallels, labelled
   int size = 1200;        ///< width in pixels; in points for SVG and PDF. 64 to 16384
@@ -68,15 +68,15 @@ struct DrawOptions {
 ///         field that does not fit; file.
 void draw(const std::string& path, const Mesh& mesh, const DrawOptions& options = {});
 
-/// Draws a mesh of the plane, of the look its size alone. Cells are cut off at the domain, or else
-/// at a box a little wider than the sites; triangles are not. Of a periodic mesh the box is drawn,
-/// with its sites' own Delaunay triangles.
-/// \throws Error bad_option, also for cells' area or quality of a mesh that is not periodic, for
-///         a density that is ill-formed, and for a periodic domain that is not the mesh's; file.
+/// Draws a mesh of the plane; of the view, only the size has an effect. Cells are clipped by the
+/// domain, or otherwise by a box slightly larger than the sites; triangles are not. For a periodic
+/// mesh the box is drawn, with the Delaunay triangles of its own sites.
+/// \throws Error bad_option, also for cells' area or quality of a mesh that is not periodic, for a
+///         density that is ill-formed, and for a periodic domain that is not the mesh's; file.
 void draw(const std::string& path, const PlanarMesh& mesh,
           const std::optional<PlanarDomain>& domain, const DrawOptions& options = {});
 
-/// What is known everywhere on the sphere.
+/// A scalar field on the whole sphere.
 struct SphereField {
   /// At each of n unit columns; finite.
   std::function<Eigen::VectorXd(const Points3& x)> values;

@@ -19,7 +19,7 @@ namespace {
 constexpr Rgb tolerance_colour = {0.35, 0.36, 0.40};
 constexpr Rgb level_colour = {0.62, 0.64, 0.67};
 
-/// The runs' names: their files', with the folders where two files have the same.
+/// The names of the runs: those of their files, with the folders if two files have the same name.
 std::vector<std::string> names_of(const std::vector<History>& histories) {
   std::vector<std::string> names;
   for (const History& history : histories) {
@@ -36,7 +36,7 @@ std::string counted(std::int64_t number, const std::string& thing) {
   return grouped(number) + " " + thing + (number == 1 ? "" : "s");
 }
 
-/// Its method and what it took.
+/// The method of a run and its cost.
 std::string summary_of(const History& history) {
   char seconds[32];
   std::snprintf(seconds, sizeof seconds, "%.3g s", history.seconds);
@@ -59,7 +59,8 @@ double right_of(const HistoryPage& page) { return page.columns.back().norms.righ
 
 // ---- The legend.
 
-/// A sample of a line, from x to the right, in the middle of its text's letters. \return its end.
+/// A sample of a line, from x to the right, vertically centred on its text.
+/// \return its end.
 double sample(cairo_t* context, const HistoryPage& page, double x, double baseline) {
   const double y = baseline - 0.35 * page.text;
   cairo_move_to(context, x, y);
@@ -105,7 +106,7 @@ void rebuilt_mark(cairo_t* context, double x, double bottom, double height) {
   cairo_fill(context);
 }
 
-/// One line for each run: its colour, its file, what came of it. Shrunk to the page where need be.
+/// One line for each run: colour, file, outcome. Shrunk to fit the page.
 void runs_legend(cairo_t* context, const HistoryPage& page, const std::vector<History>& histories) {
   const std::vector<std::string> names = names_of(histories);
   for (std::size_t run = 0; run < histories.size(); ++run) {
@@ -127,7 +128,7 @@ bool has_tolerance(const History& history) {
   return !std::isnan(scaled_tolerance(history).front());
 }
 
-/// What the lines and marks mean, in one line beneath the runs'.
+/// Explains the lines and marks, in one line below those of the runs.
 void styles_legend(cairo_t* context, const HistoryPage& page,
                    const std::vector<History>& histories) {
   const std::size_t runs = histories.size();
@@ -168,7 +169,7 @@ void styles_legend(cairo_t* context, const HistoryPage& page,
 
 // ---- The data.
 
-/// Where a curve goes.
+/// The kind of a curve.
 struct Way {
   std::vector<double> x, y;
 };
@@ -185,7 +186,7 @@ Way accepted_way(const History& history, const std::vector<double>& x, const std
   return way;
 }
 
-/// A curve for each level, as values of two levels are not one run's descent.
+/// One curve per level, because values of two levels do not belong to one descent.
 void draw_levels(cairo_t* context, const Frame& frame, const History& history, Across across,
                  const std::vector<double>& values) {
   const std::vector<double> x = places(history, across);
@@ -218,7 +219,7 @@ ToleranceLine tolerance_line(const HistoryColumn& column, const History& history
   return line;
 }
 
-/// Each line once, as dashes on dashes would look like another.
+/// Draws each line once: overlapping dashes would look like a different pattern.
 void draw_tolerances(cairo_t* context, const HistoryPage& page, const HistoryColumn& column,
                      const std::vector<History>& histories) {
   std::vector<ToleranceLine> drawn;
@@ -266,7 +267,7 @@ bool was_repaired(const CvtIteration& iteration) {
   return iteration.flips > 0 || iteration.rebuilt;
 }
 
-/// How long a stroke is, of letters: longer for more flips, by the logarithm.
+/// The length of a stroke in letters: longer for more flips, logarithmically.
 double stroke_length(std::int64_t flips, std::int64_t most) {
   return 0.2 +
          0.55 * std::log1p(static_cast<double>(flips)) / std::log1p(static_cast<double>(most));
@@ -331,7 +332,7 @@ void draw_level_end(cairo_t* context, const HistoryPage& page, const HistoryColu
   cairo_stroke(context);
 }
 
-/// Lines where a level ends, and above them the cells of each level that has room for their number.
+/// Lines at the ends of levels, with the number of cells above if there is space.
 void draw_level_ends(cairo_t* context, const HistoryPage& page, const HistoryColumn& column,
                      const History& history, const Rgb& colour, double baseline) {
   const std::vector<std::size_t> starts = level_starts(history);
@@ -370,7 +371,7 @@ void draw_all_level_ends(cairo_t* context, const HistoryPage& page, const Histor
   }
 }
 
-/// The columns share the axes upwards, whose names stand on the left.
+/// The columns share the vertical axes, whose names are on the left.
 void draw_column(cairo_t* context, const HistoryPage& page, const HistoryColumn& column,
                  const std::vector<History>& histories) {
   const bool named = &column == &page.columns.front();

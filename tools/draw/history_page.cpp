@@ -9,8 +9,8 @@ namespace calotte::tools {
 
 namespace {
 
-constexpr double least_excess = 1e-14; ///< below, energies differ by rounding
-constexpr std::size_t far_apart = 20;  ///< such a ratio of evaluations calls for logarithmic axes
+constexpr double least_excess = 1e-14; ///< smaller differences of energies are rounding
+constexpr std::size_t far_apart = 20;  ///< above this ratio of evaluations the axes are logarithmic
 
 std::vector<double> joined(const std::vector<History>& histories,
                            const std::function<std::vector<double>(const History&)>& values) {

@@ -9,10 +9,10 @@
 
 namespace calotte::tools {
 
-/// What runs from left to right.
+/// The quantity on the horizontal axis.
 enum class Across { evaluations, seconds };
 
-/// Frames one below the other that share what runs from left to right.
+/// Frames in one column that share the horizontal axis.
 struct HistoryColumn {
   Across quantity = Across::evaluations;
   Frame norms;   ///< up: a norm of the moves over h
@@ -20,8 +20,8 @@ struct HistoryColumn {
   Frame repairs; ///< up: a row for each run, the first on top
 };
 
-/// Where things stand in a picture of convergence, pixels. The axes across are logarithmic when a
-/// run has more than twenty times the evaluations of another.
+/// The layout of a picture of convergence, in pixels. The horizontal axes are logarithmic if a run
+/// has more than twenty times the evaluations of another.
 struct HistoryPage {
   int width = 0, height = 0;
   double text = 0;                      ///< size of the letters
@@ -34,13 +34,13 @@ HistoryPage history_page(const std::vector<History>& histories, int size);
 inline constexpr double legend_row = 1.5;  ///< height of a line of the legend, in letters
 inline constexpr double repairs_row = 1.5; ///< of a run's row of repairs
 
-/// By evaluation its place across.
+/// The horizontal position of each evaluation.
 std::vector<double> places(const History& history, Across across);
 
-/// The place of the border before an evaluation: between two numbers; where the clock stood.
+/// The position of the border before an evaluation: between two numbers, or at the clock time.
 double border_before(const History& history, std::size_t evaluation, Across across);
 
-/// Whether a run has more than one level.
+/// True if a run has more than one level.
 bool has_levels(const History& history);
 
 } // namespace calotte::tools

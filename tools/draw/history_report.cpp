@@ -21,7 +21,7 @@ namespace {
 
 using nlohmann::json;
 
-/// A part of a report, and its place there for messages.
+/// A part of a report, with its path for messages.
 struct Part {
   const json& value;
   std::string file;
@@ -101,7 +101,7 @@ std::vector<std::string> density_of(const Part& part) {
   return part.value.get<std::vector<std::string>>();
 }
 
-/// The reports of versions that had no other method than Lloyd's do not name it.
+/// Reports of versions that had only Lloyd's method do not name it.
 std::string method_of(const Part& report) {
   if (!report.value.contains("method")) {
     return "";
@@ -118,7 +118,7 @@ std::string method_of(const Part& report) {
 CvtIteration iteration_of(const Part& part) {
   CvtIteration iteration;
   iteration.cells = part.at("cells").count(1);
-  iteration.spacing = part.value.contains("spacing") // older reports are of the sphere
+  iteration.spacing = part.value.contains("spacing") // older reports are for the sphere
                           ? part.at("spacing").number()
                           : std::sqrt(4 * std::numbers::pi / static_cast<double>(iteration.cells));
   iteration.rule = static_cast<int>(std::min<std::int64_t>(part.at("rule").count(0), 1000));
@@ -128,7 +128,7 @@ CvtIteration iteration_of(const Part& part) {
   iteration.flips = part.at("flips").count(0);
   iteration.rebuilt = part.at("rebuilt").truth();
   iteration.seconds = part.at("seconds").number();
-  // The reports of Lloyd's method alone had neither.
+  // Reports of versions with only Lloyd's method have neither key.
   iteration.accepted = !part.value.contains("accepted") || part.at("accepted").truth();
   if (part.value.contains("seconds_solver")) {
     iteration.seconds_solver = part.at("seconds_solver").number();
@@ -159,24 +159,24 @@ std::vector<std::size_t> accepted_between(const History& history, std::size_t fi
   return accepted;
 }
 
-/// How far the energy falls from the k-th to the next of the evaluations `way` of a level.
+/// The decrease of the energy from the k-th to the next of the evaluations `way` of a level.
 double descent(const History& history, const std::vector<std::size_t>& way, std::size_t k) {
   const auto at = [&](std::size_t j) -> const CvtIteration& { return history.iterations[way[j]]; };
   if (at(k).rule == at(k + 1).rule) {
     return at(k).energy - at(k + 1).energy;
   }
-  // Two rules' energies do not compare.
+  // Energies of different rules do not compare.
   return k > 0 && at(k - 1).rule == at(k).rule ? at(k - 1).energy - at(k).energy : 0;
 }
 
-/// Runs' levels whose energies compare have the same.
+/// Levels of runs have the same key if their energies compare.
 using Comparable = std::tuple<std::vector<std::string>, std::int64_t, int>;
 
 Comparable comparable(const History& history, std::size_t last) {
   return {history.density, history.iterations[last].cells, history.iterations[last].rule};
 }
 
-/// Calls with each level of a run: its accepted evaluations, if there are any.
+/// Calls the function for each level of a run with its accepted evaluations, if there are any.
 template <class Visit> void each_level(const History& history, const Visit& visit) {
   const std::vector<std::size_t> starts = level_starts(history);
   for (std::size_t level = 0; level + 1 < starts.size(); ++level) {

@@ -8,11 +8,11 @@
 
 namespace calotte::tools {
 
-/// What a picture of convergence takes from the report of one run, see CvtReport.
+/// The data of one run's report for a picture of convergence, see CvtReport.
 struct History {
   std::string name;                 ///< of the file
-  std::vector<std::string> density; ///< as --density was given
-  std::string method;               ///< the word of --method; empty in a report without it
+  std::vector<std::string> density; ///< in the syntax of --density
+  std::string method;               ///< the value of --method; empty in a report without it
   Norm norm = Norm::l2_scaled;
   double tolerance = 0;
   bool converged = false;
@@ -27,22 +27,22 @@ History read_history(const std::string& path);
 /// The number of each evaluation, from 1 through all levels, whether accepted or not.
 std::vector<double> evaluation_numbers(const History& history);
 
-/// By evaluation the seconds from the start to its end: those of it and of all before, and of
-/// finding the directions that led there.
+/// For each evaluation the seconds from the start to its end: the sum over it and all before,
+/// including the search directions.
 std::vector<double> elapsed_seconds(const History& history);
 
-/// By evaluation a norm of its move over h = sqrt(4 pi / cells); NaN where it was not accepted.
+/// For each evaluation a norm of its move over h = sqrt(4 pi / cells); NaN if it was not accepted.
 std::vector<double> scaled_l2(const History& history);
 std::vector<double> scaled_linf(const History& history);
 
-/// By evaluation what the stopping norm's tolerance is on that scale; NaN where it has no place on
-/// it (the gradient).
+/// For each evaluation the tolerance of the stopping norm on that scale; NaN if it has none there
+/// (the gradient).
 std::vector<double> scaled_tolerance(const History& history);
 
-/// By run and evaluation E/E_min - 1, NaN where it was not accepted. E_min is the least of the
-/// energies at the ends of the levels, in any run, that have the same number of cells, density and
-/// rule at their end: those that compare. Where the quadrature rule changes within a level, the
-/// energy's jump (less a descent like the one before) is taken out.
+/// For each run and evaluation E/E_min - 1, NaN if it was not accepted. E_min is the minimum of the
+/// energies at the ends of the levels, in any run, with the same number of cells, density and rule
+/// at their end. If the quadrature rule changes within a level, the jump of the energy (less a
+/// decrease like the previous one) is removed.
 std::vector<std::vector<double>> energy_excess(const std::vector<History>& histories);
 
 /// The first evaluation of each level, and the number of evaluations.

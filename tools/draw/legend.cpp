@@ -16,7 +16,7 @@ bool is_angle(const Scale& scale) {
          scale.colouring == Colouring::angle;
 }
 
-/// The power of ten that labels would be too long without.
+/// The power of ten that is factored out to shorten the labels.
 int common_exponent(const Axis& axis) {
   const double greatest = std::max(std::abs(axis.low), std::abs(axis.high));
   const bool by_powers = axis.logarithmic && axis.high >= 100 * axis.low;
@@ -27,13 +27,13 @@ int common_exponent(const Axis& axis) {
   return exponent >= 5 || exponent < -2 ? exponent : 0;
 }
 
-/// Where the bar stands.
+/// The layout of the bar.
 struct Bar {
   double left, top, width, height;
   double bottom() const { return top + height; }
 };
 
-/// The bar, with an arrow at an end beyond which values lie.
+/// The bar, with an arrow at an end if values lie beyond it.
 void bar_path(cairo_t* context, const Scale& scale, const Bar& bar) {
   cairo_new_path(context);
   cairo_move_to(context, bar.left, bar.top);
@@ -96,7 +96,7 @@ void colour_bar(cairo_t* context, const Scale& scale, const Bar& bar, double tex
   draw_ticks(context, bar_ticks(scale, most), bar, text);
 }
 
-/// A swatch, its name and its count for each class, in one line that is made to fit.
+/// A swatch, a name and a count for each class, in one line that is shrunk to fit.
 void class_legend(cairo_t* context, const std::vector<ValenceClass>& classes, double page_width,
                   double top, double page_text) {
   const double gap = 1.3;    // between classes; these in letter sizes

@@ -13,7 +13,7 @@ namespace calotte::tools {
 
 inline constexpr Rgb map_border_colour = {0.45, 0.48, 0.52}; ///< and the legend's
 
-/// What the colours mean.
+/// The meaning of the colours.
 struct Legend {
   Scale scale;
   std::vector<ValenceClass> classes = {}; ///< of Colouring::valence
@@ -29,7 +29,7 @@ struct BarTicks {
 
 BarTicks bar_ticks(const Scale& scale, int most);
 
-/// Draws the legend beneath y = top, in the middle of a page so wide: about 4 letters high.
+/// Draws the legend below y = top, centred on a page of that width; about 4 letters high.
 void draw_legend(cairo_t* context, const Legend& legend, double page_width, double top,
                  double text);
 

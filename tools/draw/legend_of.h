@@ -6,13 +6,13 @@
 
 #include <cstdint>
 
-/// What pictures of meshes of the sphere and of the plane have in common.
+/// Common code of the pictures of meshes of the sphere and of the plane.
 namespace calotte::tools {
 
-/// Sets the painting's scale, for which areas are divided by their mean.
+/// Sets the scale of the painting; divides areas by their mean for it.
 Legend make_legend(Painting& painting, const DrawOptions& options);
 
-/// \throws Error bad_option where the field has not one value for each site.
+/// \throws Error bad_option unless the field has one value for each site.
 void require_field(const DrawOptions& options, std::int64_t sites);
 
 } // namespace calotte::tools

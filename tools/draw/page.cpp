@@ -39,7 +39,7 @@ void edge_labels(cairo_t* context, const Page& page, const Eigen::Matrix3d& fram
     const Place place = PlateCarree::place(frame * direction_of(LonLat{1.0 * longitude, 0}));
     const double x = place.u / std::numbers::pi * page.map.width / 2;
     centred_text(context, x, bottom + 1.1 * page.text, longitude_label(longitude));
-    if (std::abs(x) > 179.5 * scale) { // at the seam it stands at both ends
+    if (std::abs(x) > 179.5 * scale) { // at the seam it appears at both ends
       centred_text(context, -x, bottom + 1.1 * page.text, longitude_label(longitude));
     }
   }
@@ -51,7 +51,7 @@ void edge_labels(cairo_t* context, const Page& page, const Eigen::Matrix3d& fram
   }
 }
 
-/// Text on a light ground that fades into what is beneath.
+/// Text on a light background that fades out.
 void haloed_text(cairo_t* context, double x, double baseline, const std::string& text,
                  double size) {
   cairo_move_to(context, x - text_width(context, text) / 2, baseline);
@@ -64,7 +64,7 @@ void haloed_text(cairo_t* context, double x, double baseline, const std::string&
   cairo_fill(context);
 }
 
-/// Where a globe's graticule crosses its meridian and its parallel nearest to the middle.
+/// The crossings of a globe's graticule with its meridian and its parallel nearest to the middle.
 void globe_labels(cairo_t* context, const Page& page, const Look& look,
                   const Eigen::Matrix3d& frame) {
   const double radius = page.map.width / 2.0;
@@ -113,7 +113,8 @@ void draw_surroundings_of_map(cairo_t* context, const Page& page, const Surround
   }
 }
 
-/// Puts title, map and legend beneath each other. \param below the map: labels.
+/// Places title, map and legend below each other.
+/// \param below the map: labels.
 void arrange(Page& page, double below, bool with_legend) {
   const double middle = 2.6 * page.text + page.map.height / 2.0;
   const double bottom = middle + page.map.height / 2.0 + below;

@@ -11,35 +11,36 @@
 
 namespace calotte::tools {
 
-/// Where things stand in a picture of the sphere or of a plane, in pixels: a title, the map, a
-/// legend, from top to bottom.
+/// The layout of a picture of the sphere or of a plane, in pixels: a title, the map, a legend, from
+/// top to bottom.
 struct Page {
   int width = 0, height = 0;
   double text = 0; ///< size of the letters
   MapSize map;
   double middle_x = 0, middle_y = 0; ///< of the map, whole pixels
   double legend_top = 0;
-  bool labelled = false; ///< whether there is room for degrees at the map's edge
+  bool labelled = false; ///< true if there is space for degrees at the map's edge
 };
 
 Page page_of(const Look& look, bool with_legend);
 
-/// Of a plane. \param aspect the map's height over its width.
+/// For a plane.
+/// \param aspect the map's height over its width.
 Page page_of_plane(int size, double aspect, bool with_legend);
 
-/// What stands around the map.
+/// The texts around the map.
 struct Surroundings {
   Look look;
   Eigen::Matrix3d frame; ///< from places on the earth to directions of the scene
   std::string title;
-  Legend legend; ///< none of Colouring::none
+  Legend legend; ///< no value for Colouring::none
 };
 
 /// Draws the page. paint() draws the map around the origin, in pixels.
 void draw_page(cairo_t* context, const Page& page, const std::string& title, const Legend& legend,
                const std::function<void()>& paint);
 
-/// The same with what stands around a map of the sphere.
+/// The same with the labels around a map of the sphere.
 void draw_page(cairo_t* context, const Page& page, const Surroundings& surroundings,
                const std::function<void()>& paint);
 

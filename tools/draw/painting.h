@@ -12,7 +12,7 @@
 
 namespace calotte::tools {
 
-/// A scene with what fills its shapes.
+/// A scene with the values that fill its shapes.
 struct Painting {
   Scene scene;
   std::vector<double> values;         ///< by shape; NaN: not painted
@@ -23,14 +23,14 @@ struct Painting {
 
 inline constexpr Rgb globe_colour = {0.965, 0.97, 0.975}; ///< where no shape is
 
-/// How a shape's outline is drawn.
+/// The style of a shape's outline.
 struct Line {
   Rgb colour;
   double width = 0; ///< pixels
   double alpha = 0;
 };
 
-/// What is drawn in one go, later layers over earlier ones.
+/// Shapes that are drawn together, later layers over earlier ones.
 struct Layer {
   Shapes shapes = Shapes::triangles; ///< or cells
   bool filled = true;
@@ -38,9 +38,10 @@ struct Layer {
   Rgb line_colour;
   double line_strength = 0; ///< the lines' alpha where shapes are large
 
-  /// Thin lines that fade as the shapes shrink, and are gone when these are a few pixels wide.
-  /// \param scale pixels in the map's unit.
-  /// \param height of the shape: towards the limb the lines crowd.
+  /// The line style for shapes of a size: thin lines that fade as the shapes shrink and vanish at a
+  /// few pixels.
+  /// \param scale pixels per unit of the map.
+  /// \param height height of the shape's centre towards the viewer: near the limb the lines crowd.
   Line line(std::size_t shape, double scale, double height) const;
 };
 

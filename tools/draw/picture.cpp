@@ -14,7 +14,7 @@
 #include <string>
 
 #ifdef __SANITIZE_ADDRESS__
-// Fontconfig loses some of what it keeps for the life of a process.
+// Fontconfig leaks some memory that it keeps for the life of a process.
 extern "C" const char* __lsan_default_suppressions();
 extern "C" const char* __lsan_default_suppressions() { return "leak:libfontconfig"; }
 extern "C" const char* __lsan_default_options();
@@ -28,7 +28,8 @@ namespace {
 using Surface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
 using Context = std::unique_ptr<cairo_t, decltype(&cairo_destroy)>;
 
-/// Where Cairo's C code hands over bytes: an exception waits there until it may pass.
+/// Receives bytes from Cairo's C code, which exceptions must not cross: an exception is stored
+/// until the call returns.
 struct Stream {
   std::string bytes;
   std::exception_ptr failure;

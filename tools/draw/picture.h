@@ -11,15 +11,16 @@ namespace calotte::tools {
 enum class PictureFormat { png, svg, pdf };
 
 /// The format of a file's suffix.
-/// \throws Error bad_option for a suffix that is none.
+/// \throws Error bad_option for an unknown suffix.
 PictureFormat picture_format(const std::string& path);
 
-/// Refuses, before any work, what write_picture would.
+/// Validates a file name and a width before any work.
 /// \throws Error bad_option for a suffix that is no picture's, or a width outside 64 to 16384.
 void require_picture(const std::string& path, int width);
 
-/// Has a picture painted on white, width times height pixels (points in SVG and PDF), and writes it
-/// in the format of the suffix. The file is written beside its place and renamed when whole.
+/// Calls a function that paints on white, width times height pixels (points in SVG and PDF), and
+/// writes the picture in the format of the suffix. The file is written under a temporary name and
+/// renamed when complete.
 /// \throws Error as require_picture; file.
 void write_picture(const std::string& path, int width, int height,
                    const std::function<void(cairo_t*)>& paint);

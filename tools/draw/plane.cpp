@@ -30,7 +30,7 @@ constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 bool is_periodic(const PlanarMesh& mesh) { return mesh.period.minCoeff() > 0; }
 
-/// What is seen of the plane.
+/// The visible part of the plane.
 struct Window {
   Vector2d low, high;
 
@@ -61,7 +61,7 @@ Window window_of(const PlanarMesh& mesh, const std::optional<PlanarDomain>& doma
   return window_around(corners, 0.01);
 }
 
-/// What is drawn: the mesh, or one that holds it with more around it.
+/// The mesh to draw, or a larger one that contains it.
 struct Drawn {
   Mesh mesh; ///< triangles and neighbours
   Points2 places;
@@ -76,7 +76,7 @@ struct Drawn {
   }
 };
 
-/// With far sites around, which close the outer cells beyond all that is seen.
+/// Adds far sites around the mesh, which close the outer cells beyond the window.
 Drawn closed_by_far_sites(const PlanarMesh& mesh, const Window& window) {
   constexpr int around = 64;
   constexpr double far = 40; // of the window's extent
@@ -93,7 +93,7 @@ Drawn closed_by_far_sites(const PlanarMesh& mesh, const Window& window) {
   return drawn;
 }
 
-/// With the copies of a box's sites that are near it.
+/// Adds the copies of a box's sites near it.
 Drawn with_copies(const PlanarMesh& mesh) {
   const Eigen::Index n = mesh.points.cols();
   const double spacing = std::sqrt(mesh.period.prod() / static_cast<double>(n));
@@ -135,12 +135,12 @@ Scene scene_of(const Drawn& drawn, Shapes shapes, const Window& window) {
   return make_flat_scene(drawn.mesh, shapes, (drawn.places.colwise() - window.middle()) / half);
 }
 
-/// Of lengths, or of areas, in the scene's unit.
+/// The power of the scene's unit in a quantity: 1 for lengths, 2 for areas, otherwise 0.
 double power_of(Colouring colouring) {
   return colouring == Colouring::spacing ? 1 : colouring == Colouring::area ? 2 : 0;
 }
 
-/// Of a domain a density needs to know no more than the period.
+/// Of a domain, a density depends on the period only.
 Eigen::VectorXd by_site(const PlanarMesh& mesh, const DrawOptions& options) {
   if (options.colouring == Colouring::density) {
     const bool periodic = mesh.period.minCoeff() > 0;
@@ -156,7 +156,7 @@ Eigen::VectorXd by_site(const PlanarMesh& mesh, const DrawOptions& options) {
   return options.field.values;
 }
 
-/// What of a segment is within the window; nothing where it misses it.
+/// The part of a segment within the window; none if it misses the window.
 std::optional<std::array<Vector2d, 2>> within(const Window& window, const Vector2d& from,
                                               const Vector2d& to) {
   double first = 0;
@@ -178,7 +178,7 @@ std::optional<std::array<Vector2d, 2>> within(const Window& window, const Vector
   return std::array<Vector2d, 2>{from + first * (to - from), from + last * (to - from)};
 }
 
-/// Whether two cells meet where it is seen: of their common side, at one of some places.
+/// True if two cells meet in the visible part: tests some places of their common side.
 class Meeting {
 public:
   Meeting(const std::optional<PlanarDomain>& domain, const Window& window) : window_(window) {
@@ -207,8 +207,8 @@ private:
   std::function<bool(const Vector2d&)> inside_;
 };
 
-/// Of an open mesh: mean distances to the neighbours, or their number, where these are the sites
-/// whose cells meet the site's own inside the domain. Triangles reach across bays and islands.
+/// For an open mesh: mean distances to the neighbours, or their number. Neighbours are sites whose
+/// cells meet the site's own inside the domain; triangles reach across bays and islands.
 std::vector<double> values_by_neighbours(const PlanarMesh& mesh, Colouring colouring,
                                          const std::optional<PlanarDomain>& domain,
                                          const Scene& scene, const Window& window) {
@@ -241,12 +241,12 @@ std::vector<double> values_by_neighbours(const PlanarMesh& mesh, Colouring colou
     return counts;
   }
   for (std::size_t i = 0; i < sites; ++i) {
-    sums[i] /= counts[i]; // NaN of a cell that meets no other
+    sums[i] /= counts[i]; // NaN for a cell that meets no other
   }
   return sums;
 }
 
-/// The mesh's own cells, whatever is around them.
+/// Uses the mesh's own cells only.
 std::vector<double> values_of_cells(const PlanarMesh& mesh, const DrawOptions& options,
                                     const std::optional<PlanarDomain>& domain, const Scene& scene,
                                     const Window& window) {
@@ -265,7 +265,7 @@ std::vector<double> values_of_cells(const PlanarMesh& mesh, const DrawOptions& o
   }
   const Drawn own(mesh);
   const Scene own_scene = scene_of(own, Shapes::cells, window);
-  // Of a box, the values of copies stand for the sites' own.
+  // In a box the values of copies are used as well as the sites' own.
   Eigen::VectorXd given = by_site(mesh, options);
   std::vector<double> values;
   if (periodic) {
@@ -294,7 +294,7 @@ std::vector<double> values_of_triangles(const PlanarMesh& mesh, const DrawOption
   return values;
 }
 
-/// Lines of triangles that reach a far site are not drawn.
+/// Omits lines of triangles with a far site.
 void hide_far_triangles(const Drawn& drawn, std::vector<float>& widths) {
   for (std::size_t t = 0; t < widths.size(); ++t) {
     for (const std::int32_t place : drawn.mesh.triangles.col(static_cast<Eigen::Index>(t))) {
@@ -351,7 +351,7 @@ void add_outline(cairo_t* context, const std::optional<PlanarDomain>& domain, co
   }
 }
 
-/// \param cut whether what lies outside the domain is not drawn.
+/// \param cut clips by the domain.
 void paint_plane(cairo_t* context, const Page& page, const Painting& painting,
                  const std::optional<PlanarDomain>& domain, const Window& window, bool cut) {
   const double scale = page.map.width / window.extent().x();

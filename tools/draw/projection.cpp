@@ -5,14 +5,14 @@ namespace calotte::tools {
 
 namespace {
 
-/// More than rounding moves a place by.
+/// Larger than the displacement of a place by rounding.
 constexpr double fuzz = 1e-9;
 
 double longitude_step(const Vector3d& from, const Vector3d& to) {
   return std::remainder(PlateCarree::place(to).u - PlateCarree::place(from).u, PlateCarree::period);
 }
 
-/// The pole is in the facet or on its outline, or so near that no longitude can be trusted.
+/// True if the pole is in the facet or on its outline, or so near that longitudes are unreliable.
 bool holds_pole(const Facet& f, double sign) {
   return std::min({sign * f.a.cross(f.b).y(), sign * f.b.cross(f.c).y(),
                    sign * f.c.cross(f.a).y()}) > -1e-12;
@@ -46,7 +46,7 @@ std::vector<Vector3d> Orthographic::clipped(const std::vector<Vector3d>& polygon
   return result;
 }
 
-/// The flat triangle's picture, and what the facet bulges beyond it: 1 - |p| at most.
+/// The image of the flat triangle, widened by the bulge of the facet: at most 1 - |p|.
 Bounds Orthographic::bounds(const Facet& f) {
   const double bulge = 1 - std::sqrt(std::max(0.0, 1 - f.longest() / 3));
   const auto [left, right] = std::minmax({f.a.x(), f.b.x(), f.c.x()});

@@ -28,7 +28,7 @@ namespace calotte::tools {
 
 using Eigen::Vector3d;
 
-/// Of a map: u to the right, v up.
+/// Coordinates on a map: u to the right, v up.
 struct Place {
   double u = 0, v = 0;
 };
@@ -53,7 +53,7 @@ struct Facet {
   }
 };
 
-/// u or v of the middle of a sample: of so many that fill a map.
+/// u or v of the middle of a sample, for a number of samples that fill a map.
 inline double middle_of(int sample, int samples, double half) {
   return ((2 * sample + 1.0) / samples - 1) * half;
 }
@@ -68,7 +68,7 @@ struct Orthographic {
     return {{1, 0, -p.x() / p.z()}, {0, 1, -p.y() / p.z()}};
   }
   static bool shows(const Vector3d& p) { return p.z() >= 0; }
-  /// An arc between two corners behind the limb stays behind it; so does a shape.
+  /// An arc between two corners behind the limb stays behind it, and so does a shape.
   static bool shows_some(const std::vector<Vector3d>& corners) {
     return std::any_of(corners.begin(), corners.end(), [](const Vector3d& p) { return p.z() > 0; });
   }
@@ -129,8 +129,8 @@ struct PlateCarree {
   };
 };
 
-/// The plane as it is, for what draws paths: lines are straight, and what is seen of it is left to
-/// the clip path.
+/// The plane itself, for drawing paths: lines are straight, and the clip path selects the visible
+/// part.
 struct Flat {
   static constexpr double half_width = std::numeric_limits<double>::infinity();
   static constexpr double half_height = half_width;
@@ -142,7 +142,7 @@ struct Flat {
   static std::vector<Vector3d> clipped(const std::vector<Vector3d>& polygon) { return polygon; }
 };
 
-/// Has a projection's policy do what `act` does.
+/// Calls `act` with the policy of a projection.
 template <class Act> auto with_map(Projection projection, Act act) {
   return projection == Projection::globe ? act.template operator()<Orthographic>()
                                          : act.template operator()<PlateCarree>();

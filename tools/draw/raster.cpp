@@ -48,13 +48,13 @@ template <class Map> struct Samples {
 
 // ---- Shapes
 
-/// How a shape is painted. It is convex, so the great circles of its sides do not enter it, and the
-/// distance to the nearest of them is that to its outline.
+/// The paint of a shape. The shape is convex, so that the great circles of its sides do not enter
+/// it, and the distance to the nearest of them is that to its outline.
 struct Paint {
   Paint(const Line& outline, const std::vector<Vector3d>& corners) : line(outline) {
     for (std::size_t i = 0; line.alpha > 0 && i < corners.size(); ++i) {
       const Vector3d normal = corners[i].cross(corners[(i + 1) % corners.size()]);
-      // A side of no length to speak of, as between cocircular sites, has no direction either.
+      // A side of negligible length, as between cocircular sites, has no direction.
       if (normal.squaredNorm() > 1e-14) {
         sides.push_back(normal);
       }
@@ -68,8 +68,8 @@ struct Paint {
   std::vector<Vector3d> sides; ///< normals of the outline's great circles; none without an outline
 };
 
-/// How near the point is to the shape's outline, in samples. f = normal . p vanishes on a side, and
-/// |f| over the length of its gradient on the map is the distance to first order.
+/// The distance of a point to the shape's outline, in samples. f = normal . p vanishes on a side,
+/// and |f| over the length of its gradient on the map is the distance to first order.
 template <class Map>
 double distance_to_outline(const Paint& paint, const Vector3d& p, double scale) {
   if (paint.sides.empty()) {
@@ -119,7 +119,7 @@ void paint_within(Samples<Map>& samples, const Bounds& bounds, const Facet& f, c
   }
 }
 
-/// A facet that crosses the map's seam has a part at either side.
+/// A facet that crosses the map's seam has a part on each side.
 template <class Map>
 void paint_facet(Samples<Map>& samples, const Facet& facet, const Paint& paint) {
   const Bounds bounds = Map::bounds(facet);

@@ -12,7 +12,7 @@ struct MapSize {
   int width = 0, height = 0;
 };
 
-/// The largest map that is so wide at most, and an even number of pixels wide and high.
+/// The largest map of at most that width with an even number of pixels in both directions.
 MapSize map_size(Projection projection, int width);
 
 /// The map in an image of this size, whose pixels average 1 to 16 samples each; a sample lies in

@@ -27,14 +27,14 @@ Rgb valence_colour(double valence) {
   return hex(colours[static_cast<std::size_t>(v - least_class)]);
 }
 
-/// What may spread over powers of ten.
+/// Quantities that may range over powers of ten.
 bool is_magnitude(Colouring colouring) {
   return colouring == Colouring::spacing || colouring == Colouring::area ||
          colouring == Colouring::density || colouring == Colouring::field;
 }
 
-/// A few values far out must not leave the others nearly one colour. Of spacings and areas only the
-/// least are cut off: a few wide shapes fill much of the picture.
+/// A few outliers must not compress the others into nearly one colour. For spacings and areas only
+/// small values are cut off, because a few wide shapes fill much of the picture.
 void trim(Scale& scale, std::vector<double>& values) {
   const auto quantile = [&](double p) {
     const auto k = static_cast<std::ptrdiff_t>(p * static_cast<double>(values.size() - 1));
@@ -82,7 +82,7 @@ Scale make_scale(const std::vector<double>& values, Colouring colouring) {
   scale.high = *greatest;
   scale.logarithmic = is_magnitude(colouring) && scale.low > 0 && scale.high > 4 * scale.low;
   if (scale.high - scale.low <= 1e-6 * std::abs(scale.high)) {
-    // All the same but for rounding: one colour, amid a bar that has a width.
+    // All values are equal up to rounding: one colour, in the middle of a bar of positive width.
     const double margin = std::max(0.05 * std::abs(scale.high), 1e-300);
     scale.low -= margin;
     scale.high += margin;

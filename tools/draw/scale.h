@@ -14,27 +14,28 @@ struct Rgb {
   double r = 0, g = 0, b = 0;
 };
 
-/// From values to colours.
+/// Maps values to colours.
 struct Scale {
   Colouring colouring = Colouring::none;
   double low = 0, high = 1; ///< the values at the colour bar's ends
   bool logarithmic = false;
   bool lengths = false;              ///< spacings are a plane's, not arcs in radians
-  bool below = false, above = false; ///< whether values beyond an end were given the end's colour
+  bool below = false, above = false; ///< true if values beyond an end have the colour of the end
 
-  /// Where a value stands on the bar, 0 to 1.
+  /// The position of a value on the bar, 0 to 1.
   double place(double value) const;
   Rgb colour(double value) const;
 };
 
-/// A scale for these values, NaN left out. Its ends are the extreme values, unless one in a hundred
-/// at an end would take more than a fifth of it. Logarithmic for values that spread widely.
+/// A scale for these values, NaN excluded. Its ends are the extreme values, unless the outermost
+/// hundredth at an end would take more than a fifth of it. Logarithmic for values with a wide
+/// range.
 Scale make_scale(const std::vector<double>& values, Colouring colouring);
 
 /// The colour bar's colour from 0 to 1: viridis (van der Walt and Smith, 2015).
 Rgb viridis(double place);
 
-/// One class of valences: its colour, its name, how many shapes are of it.
+/// One class of valences: its colour, its name, its number of shapes.
 struct ValenceClass {
   Rgb colour;
   std::string label;

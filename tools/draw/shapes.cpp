@@ -36,7 +36,8 @@ Vector3d flat_circumcentre(const Corners& c) {
   return c.at[0] + Vector3d(across.y(), -across.x(), 0) / (2 * p.cross(q).z());
 }
 
-/// What follows from the sites' places: a triangle of each, and the circumcentres.
+/// Sets the values that follow from the places of the sites: a triangle for each, and the
+/// circumcentres.
 void link(Scene& scene) {
   const Mesh& mesh = *scene.mesh;
   scene.triangle_of.assign(static_cast<std::size_t>(scene.sites.cols()), -1);

@@ -10,8 +10,8 @@
 
 namespace calotte::tools {
 
-/// A mesh as it is seen: all points on the unit sphere, x to the right, y up, z to the viewer. Or
-/// all on a plane, z = 0.
+/// A mesh in view coordinates: all points on the unit sphere, x to the right, y up, z to the
+/// viewer; or all on a plane, z = 0.
 struct Scene {
   bool flat = false;
   Points3 sites;
@@ -26,7 +26,7 @@ struct Scene {
   }
 };
 
-/// The mesh turned so that `view` comes to the middle, north up. Rounded: for pictures only.
+/// The mesh rotated so that `view` is in the middle, north up. Rounded: for pictures only.
 Scene make_scene(const Mesh& mesh, Shapes shapes, const LonLat& view);
 
 /// The same of a plane. \param mesh its triangles and neighbours; \param places of its sites.
@@ -41,17 +41,17 @@ Eigen::Vector3d direction_of(const LonLat& place);
 /// Unit, for norms whose squares under- or overflow, too.
 Eigen::Vector3d direction_of(const Eigen::Vector3d& point);
 
-/// The middle of the sites: where to look at an open mesh from.
+/// The middle of the sites, the default view of an open mesh.
 LonLat middle(const Mesh& mesh);
 
-/// The corners of a triangle or, counter-clockwise, of a cell; none of a cell that is not closed.
+/// The corners of a triangle or, counter-clockwise, of a cell; empty for a cell that is not closed.
 void outline_of(const Scene& scene, Shapes shapes, std::int64_t shape,
                 std::vector<Eigen::Vector3d>& corners);
 
-/// For each triangle or cell the side of a square of its area on the unit sphere, roughly.
+/// For each triangle or cell the approximate side of a square of its area on the unit sphere.
 std::vector<float> widths_of(const Scene& scene, Shapes shapes);
 
-/// One triangle's corners, and what is measured of it.
+/// The corners of one triangle, and measures of it.
 struct Corners {
   Corners(const Scene& scene, Eigen::Index triangle);
   double side(int i) const; ///< from corner i to the next
@@ -65,7 +65,7 @@ struct Corners {
   bool flat;
 };
 
-/// The triangles around a site, counter-clockwise, one call each; false when the star is open.
+/// The triangles around a site, counter-clockwise, one call each; false if the star is open.
 bool around(const Scene& scene, std::int64_t site, const std::function<void(std::int32_t)>& visit);
 
 } // namespace calotte::tools

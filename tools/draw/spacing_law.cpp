@@ -24,9 +24,9 @@ constexpr Rgb line_of_law = {0.10, 0.11, 0.13};
 constexpr Rgb median_colour = {0.84, 0.37, 0.00};
 constexpr Rgb band_colour = {0.86, 0.87, 0.89};
 constexpr double row = 1.6;          ///< height of a line of the legend, in letters
-constexpr std::size_t least_bin = 8; ///< cells whose median says something
+constexpr std::size_t least_bin = 8; ///< number of cells whose median is meaningful
 
-/// The value that this part of the others lies below.
+/// The quantile of the values for that fraction.
 double quantile(std::vector<double> values, double part) {
   const auto k = static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), values.begin() + k, values.end());
@@ -38,7 +38,7 @@ double extreme_ratio(const std::vector<double>& values) {
   return *greatest / *least;
 }
 
-/// The median of the values of the cells whose lawful spacing is within a range.
+/// The median of the values of the cells whose spacing by the law is within a range.
 double median_within(const SpacingLaw& law, const std::vector<double>& values, double low,
                      double high) {
   std::vector<double> within;
@@ -69,7 +69,7 @@ Points3 unit_sites(const Mesh& mesh) {
   return sites;
 }
 
-/// The lawful spacings of the cells that have a spacing, but for a common factor: rho^(-1/4).
+/// The spacings by the law of the cells that have a spacing, up to a common factor: rho^(-1/4).
 std::vector<double> lawful_spacings(const Mesh& mesh, const Density& density,
                                     const std::vector<double>& spacings) {
   const Eigen::VectorXd rho = evaluate(density, unit_sites(mesh));
@@ -92,7 +92,8 @@ std::vector<double> lawful_spacings(const Mesh& mesh, const Density& density,
 
 // ---- The picture.
 
-/// To either side of 0, percent: as far as the worst cell, unless that is far from nearly all.
+/// The range on both sides of 0, percent: up to the worst cell, unless that is far from nearly all
+/// others.
 Axis deviation_axis(const SpacingLaw& law) {
   std::vector<double> off(law.measured.size());
   for (std::size_t i = 0; i < off.size(); ++i) {
@@ -114,8 +115,8 @@ std::vector<std::size_t> drawn_cells(const SpacingLaw& law) {
   return drawn;
 }
 
-/// Translucent dots, so that many look darker than few. A vector file would hold some 200 bytes for
-/// each dot stroked by itself: every 16th goes into one path.
+/// Translucent dots, so that many look darker than few. In a vector file each separate dot would
+/// take about 200 bytes: every 16th dot shares one path.
 void draw_dots(cairo_t* context, const Frame& frame, double text,
                const std::vector<PagePoint>& points) {
   constexpr std::size_t paths = 16;
@@ -135,7 +136,7 @@ void draw_dots(cairo_t* context, const Frame& frame, double text,
   }
 }
 
-/// What lies within law_band of the law.
+/// The cells within law_band of the law.
 void draw_band(cairo_t* context, const SpacingLawPage& page) {
   const double low = page.spacing.across.low;
   const double high = page.spacing.across.high;
@@ -175,7 +176,7 @@ void draw_spacings(cairo_t* context, const SpacingLawPage& page, const SpacingLa
   });
 }
 
-/// The median deviation of the cells in each of some equal parts of the axis.
+/// The median deviation of the cells in each of several equal parts of the axis.
 void draw_running_median(cairo_t* context, const SpacingLawPage& page, const SpacingLaw& law) {
   std::vector<std::vector<double>> bins(30);
   for (std::size_t i = 0; i < law.measured.size(); ++i) {
@@ -225,7 +226,7 @@ std::string title_of(const SpacingLaw& law) {
   return grouped(static_cast<std::int64_t>(law.measured.size())) + " cells" + text;
 }
 
-/// In the corner that a rising law leaves free.
+/// In the corner that a rising law leaves empty.
 void legend(cairo_t* context, const SpacingLawPage& page, const SpacingLaw& law) {
   const double left = page.spacing.left + 1.5 * page.text;
   const double right = left + 2.2 * page.text;

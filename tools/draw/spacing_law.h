@@ -20,8 +20,8 @@ struct SpacingLaw {
   /// h_i over the law's spacing at rho_max, the law being drawn through the median of h rho^(1/4):
   /// an odd cell does not shift it.
   std::vector<double> measured;
-  /// The spacing where rho is least over that where it is greatest: medians over the hundredth of
-  /// the cells at either end.
+  /// The spacing at the minimum of rho over that at its maximum: medians over the hundredth of the
+  /// cells at either end.
   double lawful_ratio = 1, measured_ratio = 1;
   double extreme_ratio = 1; ///< the largest spacing over the smallest
   double share = 0;         ///< of the cells, whose spacing is within law_band of the law
@@ -29,12 +29,12 @@ struct SpacingLaw {
 
 inline constexpr double law_band = 0.05;
 
-/// \throws Error bad_option for a mesh without bounded cells, a density that is 0 at a site; as
+/// \throws Error bad_option for a mesh without bounded cells, or a density that is 0 at a site; as
 ///         evaluate().
 SpacingLaw spacing_law(const Mesh& mesh, const Density& density);
 
-/// Where things stand in the picture of a law, pixels. The frames share the axis of lawful
-/// spacings.
+/// The layout of the picture of a law, in pixels. The frames share the axis of the spacings by the
+/// law.
 struct SpacingLawPage {
   int width = 0, height = 0;
   double text = 0; ///< size of the letters

@@ -41,7 +41,7 @@ std::vector<Piece> pieces_of(const std::string& text) {
   return pieces;
 }
 
-/// Sets the piece's font and gives its length.
+/// Sets the font of the piece and returns its length.
 double select_for(cairo_t* context, const Piece& piece, double size) {
   cairo_select_font_face(context, family,
                          piece.italic ? CAIRO_FONT_SLANT_ITALIC : CAIRO_FONT_SLANT_NORMAL,

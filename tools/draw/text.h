@@ -14,7 +14,7 @@ inline constexpr Rgb text_colour = {0.13, 0.15, 0.19};
 
 void set_colour(cairo_t* context, const Rgb& colour);
 
-/// The face of all text, in letters of this size.
+/// The font of all text, in letters of this size.
 void select_font(cairo_t* context, double size);
 
 double text_width(cairo_t* context, const std::string& text);
@@ -22,20 +22,20 @@ double text_width(cairo_t* context, const std::string& text);
 /// One line of text whose middle is at x.
 void centred_text(cairo_t* context, double x, double baseline, const std::string& text);
 
-/// One line of text whose middle is at x, in letters of this size or as small as the room needs.
+/// One line of text centred at x, in letters of this size, or smaller to fit the width.
 void fitted_text(cairo_t* context, double x, double baseline, const std::string& text, double size,
                  double room);
 
-/// 2621442 as 2 621 442.
+/// A number with groups of three digits: 2621442 as 2 621 442.
 std::string grouped(std::int64_t number);
 
-/// Whatever a file says or is called, as text that can be shown.
+/// Converts a file's text or name to text that can be shown.
 std::string shown(const std::string& text);
 
-/// The same as marked text that has no marks.
+/// Converts text to marked text without marks.
 std::string unmarked(const std::string& text);
 
-/// Units as files have them in marked text: exponents, as in "m s-1", are raised.
+/// Converts units in the style of files to marked text: exponents, as in "m s-1", are raised.
 std::string unit_text(const std::string& units);
 
 /// The length of a line of marked text: `*h*` is in italics, `_{i}` lowered, `^{2}` raised.

@@ -23,7 +23,7 @@ std::vector<bool> closed_stars(const Scene& scene) {
   return closed;
 }
 
-/// Of a plane's open stars, too.
+/// For open stars of a plane, too.
 std::vector<int> valences(const Scene& scene) {
   std::vector<int> count(static_cast<std::size_t>(scene.sites.cols()));
   for (Eigen::Index t = 0; t < scene.mesh->triangles.cols(); ++t) {
@@ -40,7 +40,7 @@ std::vector<int> valences(const Scene& scene) {
   return count;
 }
 
-/// Of those of a triangle's corners, the one furthest from 6.
+/// The valence furthest from 6 among a triangle's corners.
 int oddest_valence(const Corners& corners, const std::vector<int>& valence) {
   int furthest = 6;
   for (const int id : corners.id) {
@@ -71,7 +71,7 @@ double triangle_value(const Corners& corners, Colouring colouring, const std::ve
   return oddest_valence(corners, valence);
 }
 
-/// The mean distance to the neighbours: an edge is met in two triangles, or counts twice.
+/// The mean distance to the neighbours: each edge is visited in two triangles, or counts twice.
 std::vector<double> mean_distances(const Scene& scene) {
   std::vector<double> sums(static_cast<std::size_t>(scene.sites.cols()));
   std::vector<double> counts(sums.size());

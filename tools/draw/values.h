@@ -9,10 +9,10 @@
 
 namespace calotte::tools {
 
-/// For each shape the quantity that colours it, NaN where there is none (an open cell
-/// of the sphere; a plane's are closed by its domain).
+/// For each shape the quantity that colours it, NaN if it has none (an open cell of the sphere; the
+/// domain closes those of a plane).
 /// \param by_site for Colouring::density and field: n values.
-/// \throws Error bad_option, for the area or quality of cells of an open mesh.
+/// \throws Error bad_option for the area or quality of cells of an open mesh.
 std::vector<double> values_of(const Scene& scene, Colouring colouring,
                               const Eigen::VectorXd& by_site = {});
 

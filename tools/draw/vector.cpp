@@ -8,13 +8,14 @@ namespace calotte::tools {
 
 namespace {
 
-constexpr double tolerance = 0.1; ///< pixels that a chord may be off its arc
+constexpr double tolerance = 0.1; ///< maximum distance in pixels of a chord from its arc
 
-/// A line on a map, not broken at the seam: places beyond it stand for those a period away.
+/// A line on a map, continuous across the seam: places beyond the seam represent those a period
+/// away.
 using Way = std::vector<Place>;
 
-/// Of the places that stand for a direction, that nearest to another. Of a pole, and of what
-/// rounding cannot tell from it, all longitudes are one.
+/// Of the places that represent a direction, the one nearest to another. A pole, and a direction
+/// that rounding cannot distinguish from it, has all longitudes.
 template <class Map> Place place_near(const Vector3d& p, const Place& other) {
   Place place = Map::place(p);
   if constexpr (Map::period != 0) {
@@ -66,7 +67,7 @@ template <class Map> Way way_around(const std::vector<Vector3d>& polygon, double
   return way;
 }
 
-/// How often the way runs around the map: 1 counter-clockwise around the north pole.
+/// The winding number of the line around the map: 1 counter-clockwise around the north pole.
 template <class Map> int turns_of(const Way& way) {
   return Map::period == 0 || way.empty()
              ? 0
@@ -80,7 +81,7 @@ void add_path(cairo_t* context, const Way& way, double scale, double shift) {
   }
 }
 
-/// Adds the way as often as the map shows it.
+/// Adds the line once for each time that the map shows it.
 template <class Map> void add_copies(cairo_t* context, const Way& way, double scale, bool close) {
   const auto by_u = [](const Place& a, const Place& b) { return a.u < b.u; };
   const auto [left, right] = std::minmax_element(way.begin(), way.end(), by_u);
@@ -99,7 +100,7 @@ template <class Map> void add_copies(cairo_t* context, const Way& way, double sc
   }
 }
 
-/// What a polygon encloses: around a pole, all between its outline and the map's edge.
+/// The interior of a polygon: around a pole, the area between its outline and the map's edge.
 template <class Map>
 void add_inside(cairo_t* context, const std::vector<Vector3d>& polygon, double scale) {
   Way way = way_around<Map>(Map::clipped(polygon), scale);
@@ -137,7 +138,7 @@ void stroke_layer(cairo_t* context, const Painting& painting, const Layer& layer
                           const Line line = layer.line(shape, scale, Map::height(corners));
                           if (line.alpha > 0) {
                             add_outline<Map>(context, corners, scale);
-                            // Two shapes draw a shared side, each with half of the strength.
+                            // Two shapes draw a shared side, each with half of the opacity.
                             cairo_set_source_rgba(context, line.colour.r, line.colour.g,
                                                   line.colour.b, 1 - std::sqrt(1 - line.alpha));
                             cairo_set_line_width(context, line.width);
@@ -166,7 +167,7 @@ template <class Map> std::int64_t count_visible(const Painting& painting) {
 
 // ---- Graticule
 
-/// The line through places on the earth, where the map shows it.
+/// The line through places on the earth, in its visible part.
 template <class Map>
 void add_places(cairo_t* context, const Eigen::Matrix3d& frame, const std::vector<LonLat>& places,
                 double scale) {
@@ -244,7 +245,7 @@ void draw_graticule(cairo_t* context, const Eigen::Matrix3d& frame, Projection p
   cairo_clip(context);
   with_map(projection,
            [&]<class Map>() { add_graticule<Map>(context, frame, width / (2 * Map::half_width)); });
-  // Light about dark, to be seen on any ground.
+  // A light outline around dark lines, visible on any background.
   cairo_set_source_rgba(context, 1, 1, 1, 0.2);
   cairo_set_line_width(context, 2.2 * line);
   cairo_stroke_preserve(context);

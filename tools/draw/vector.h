@@ -7,17 +7,18 @@
 
 namespace calotte::tools {
 
-/// Shapes that are on the map at least in part.
+/// The shapes that are at least partly on the map.
 std::int64_t visible_shapes(const Painting& painting, Projection projection);
 
 /// The map's outline as a path around the origin: the limb, or a rectangle.
 void add_border(cairo_t* context, Projection projection, double width);
 
-/// The map in paths, so wide, around the origin; the current transformation must be the identity
-/// but for a translation.
+/// The map in paths, of that width, around the origin; the current transformation must be the
+/// identity except for a translation.
 void vector_map(cairo_t* context, const Painting& painting, Projection projection, double width);
 
-/// A flat scene in paths, so many pixels in its unit, around the origin, within the clip path.
+/// A flat scene in paths, at that number of pixels per unit, around the origin, within the clip
+/// path.
 void flat_map(cairo_t* context, const Painting& painting, double scale);
 
 inline constexpr int graticule_step = 30; ///< degrees

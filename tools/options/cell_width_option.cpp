@@ -26,7 +26,7 @@ std::string place(const Gradient& gradient) {
          (gradient.latitude < 0 ? " S" : " N");
 }
 
-/// A number of km, for an option's check.
+/// Validates a number of km, for an option's check.
 CLI::Validator kilometres() {
   return {[](std::string& text) -> std::string {
             double value = 0;

@@ -12,7 +12,7 @@
 
 namespace calotte::tools {
 
-/// What the options say about cell widths.
+/// The values of the options for cell widths.
 struct WidthWords {
   std::string file;                                  ///< of cell widths, or ""
   std::string raster;                                ///< of a density, or ""
@@ -23,27 +23,30 @@ struct WidthWords {
 };
 
 /// Adds --cell-width, --inside-width, --outside-width, --transition, --earth-radius and
-/// --density-raster. \param density the option that they take the place of.
+/// --density-raster.
+/// \param density the option that they replace.
 void add_cell_width(CLI::App& command, WidthWords& words, CLI::Option* density);
 
-/// Widths from either file: a density raster's have no unit. \pre words.given().
+/// Reads widths from either file; those of a density raster have no unit.
+/// \pre words.given().
 /// \throws Error as read_cell_width; bad_option for polygons' widths without polygons.
 CellWidth read_widths(const WidthWords& words);
 
-/// What determines them, a line each: the file's contents, and the numbers. \pre words.given().
+/// The input that determines the widths, one line each: the file's contents, and the numbers.
+/// \pre words.given().
 /// \throws Error file.
 std::string width_configuration(const WidthWords& words);
 
-/// What there is to know of widths in km before a run: their range, the cells that they imply,
-/// their largest gradient; and a warning, a line of its own, where that is above what models want.
-/// \param cells that the run has, if known: they make all widths larger or smaller.
+/// A summary of widths in km before a run: their range, the cells that they imply and their largest
+/// gradient; also a warning, on its own line, if that exceeds the value that models recommend.
+/// \param cells number of cells of the run, if known: it scales all widths.
 std::vector<std::string> notes_on(const CellWidth& widths, const WidthWords& words,
                                   std::optional<std::int64_t> cells);
 
 /// The number of cells that widths in km imply.
-/// \param bisected moves it, by less than a thousandth, to the nearest that a continuation reaches
-///        from a coarse grid: few numbers can be bisected to.
-/// \throws Error bad_option where no CVT has so many or so few.
+/// \param bisected rounds it, by less than a thousandth, to the nearest number that a continuation
+///         reaches from a coarse grid: few numbers can be bisected to.
+/// \throws Error bad_option if no CVT has so many or so few.
 std::int64_t cells_for(const CellWidth& widths, const WidthWords& words, bool bisected);
 
 } // namespace calotte::tools

@@ -26,7 +26,7 @@ toml::table parse(const std::string& path) {
   }
 }
 
-/// Makes settings of a file's nodes.
+/// Converts the nodes of a file to settings.
 class Reader {
 public:
   explicit Reader(const std::string& path) : path_(path) {}
@@ -39,7 +39,7 @@ public:
   }
 
 private:
-  /// \param group the name of the table, or none for the whole file.
+  /// \param group the name of the table, or empty for the top level.
   void add(const toml::table& table, const toml::key* group) {
     for (const auto& [key, node] : table) {
       const std::int64_t line = key.source().begin.line;

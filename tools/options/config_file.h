@@ -7,14 +7,14 @@
 
 namespace calotte::tools {
 
-/// One value of a file, in the words that the command line would have for it.
+/// One value of a file, in the syntax of the command line.
 struct ConfigValue {
   enum class Kind { truth, number, text };
   Kind kind = Kind::text;
   std::string text; ///< "true" or "false" for a truth; numbers with the fewest digits
 };
 
-/// What a file says of one key.
+/// The setting of one key in a file.
 struct ConfigSetting {
   std::string key;
   std::int64_t line = 0;           ///< 1-based

@@ -50,7 +50,7 @@ std::string hyphenated(std::string name) {
 }
 
 std::size_t edit_distance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1); // distances of a's first letters to b's
+  std::vector<std::size_t> row(b.size() + 1); // distances of the prefixes of a to those of b
   std::iota(row.begin(), row.end(), 0);
   for (std::size_t i = 0; i < a.size(); ++i) {
     std::size_t diagonal = std::exchange(row[0], i + 1);

@@ -6,7 +6,7 @@
 
 namespace calotte::tools {
 
-/// A name of MPI-SCVT's for what options here are called otherwise.
+/// A name of MPI-SCVT's for an option that has another name here.
 struct BorrowedName {
   std::string name;
   std::vector<std::string> options; ///< the long names of those that it sets
@@ -15,29 +15,30 @@ struct BorrowedName {
   struct Value {
     std::string number; ///< that stands for it there, or ""
     std::string word;   ///< that may stand for it in its place
-    std::string ours;   ///< what the options here have for it
+    std::string ours;   ///< the value of the option here
   };
-  std::vector<Value> values; ///< none: as they are
-  std::string others;        ///< what there is to say of further values, or ""
+  std::vector<Value> values; ///< empty: values are unchanged
+  std::string others;        ///< a remark on further values, or ""
 
-  /// What the options have for a value, "" for none.
+  /// The option's value for a value of MPI-SCVT's; "" if there is none.
   std::string ours(const std::string& value) const;
-  /// "0 (centroid), ...": all that may be given.
+  /// "0 (centroid), ...": all valid values.
   std::string known() const;
 };
 
-/// Those of its names that mean the same here (Jacobsen et al.'s MPI-SCVT, the keys of its
-/// config.xml). bisections has the same name here. So has triangle_divisions, but not the same
-/// number: MPI-SCVT's n halves the sides n times, where 2^n here cuts them into so many.
+/// The names of MPI-SCVT that mean the same here (Jacobsen et al.'s MPI-SCVT, the keys of its
+/// config.xml). bisections has the same name here. triangle_divisions also has the same name but
+/// another number: MPI-SCVT's n halves the sides n times; here 2^n divides them into that many
+/// parts.
 const std::vector<BorrowedName>& borrowed_names();
 
-/// With hyphens, as the command line has names.
+/// Converts underscores to hyphens, as in the names of the command line.
 std::string hyphenated(std::string name);
 
-/// How many letters must be changed, added or left out to make one of the other (Levenshtein).
+/// The number of letters to change, add or remove to make one of the other (Levenshtein).
 std::size_t edit_distance(const std::string& a, const std::string& b);
 
-/// The nearest of the names, "" where all are so far that hardly one is meant.
+/// The nearest of the names; "" if all are too different.
 std::string nearest_name(const std::string& name, const std::vector<std::string>& names);
 
 } // namespace calotte::tools

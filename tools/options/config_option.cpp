@@ -18,11 +18,11 @@ namespace {
 
 using Kind = ConfigValue::Kind;
 
-// ---- What an option takes
+// ---- The type of an option
 
 bool is_flag(const CLI::Option& option) { return option.get_expected_min() == 0; }
 
-/// The words of its type without those on its values: FLOAT, FILE, sample|FILE.
+/// The words of its type without those for its values: FLOAT, FILE, sample|FILE.
 std::string type_of(const CLI::Option& option) {
   const std::string name = option.get_type_name();
   return name.substr(0, name.find(':'));
@@ -30,7 +30,7 @@ std::string type_of(const CLI::Option& option) {
 
 bool takes_file(const CLI::Option& option) { return type_of(option).ends_with("FILE"); }
 
-/// Whether a number in its place is a mistake.
+/// True if a number is invalid as its value.
 bool takes_text_alone(const CLI::Option& option) {
   const std::string name = option.get_type_name();
   return takes_file(option) || name == "TEXT" || name.starts_with("TEXT:{");
@@ -45,7 +45,7 @@ std::string kind_of(const CLI::Option& option) {
   return takes_text_alone(option) ? "text in quotes" : "a number or text in quotes";
 }
 
-/// What is wrong with the kinds and the number of values that an option is given, "" for nothing.
+/// Describes an error in the kinds and the number of values of an option; "" if there is none.
 std::string mismatch(const CLI::Option& option, const std::vector<ConfigValue>& values) {
   const auto of_kind = [&](Kind kind) {
     return std::any_of(values.begin(), values.end(),
@@ -63,7 +63,7 @@ std::string mismatch(const CLI::Option& option, const std::vector<ConfigValue>& 
   return "";
 }
 
-/// A word that an option takes in the place of a file.
+/// A word that an option accepts instead of a file.
 bool is_word(const CLI::Option& option, const std::string& value) {
   std::istringstream words(type_of(option));
   for (std::string word; std::getline(words, word, '|');)
@@ -72,7 +72,7 @@ bool is_word(const CLI::Option& option, const std::string& value) {
   return value == "-";
 }
 
-/// \param folder where files are sought from.
+/// \param folder base of relative file names.
 void give(CLI::Option& option, const std::vector<ConfigValue>& values,
           const std::filesystem::path& folder) {
   for (const ConfigValue& value : values) {
@@ -84,7 +84,7 @@ void give(CLI::Option& option, const std::vector<ConfigValue>& values,
 
 // ---- Names
 
-/// The option of a name, unless it is none for files.
+/// The option of a name, unless the option is not allowed in files.
 CLI::Option* option_of(CLI::App& command, const std::string& name) {
   CLI::Option* option = command.get_option_no_throw("--" + name);
   return option && option->get_configurable() ? option : nullptr;
@@ -110,7 +110,7 @@ std::vector<std::string> known_names(CLI::App& command) {
 
 // ---- The file
 
-/// Gives a command's options what a file says of them.
+/// Applies the settings of a file to a command's options.
 class Application {
 public:
   Application(CLI::App& command, const std::string& path)
@@ -159,13 +159,13 @@ private:
 
   bool given(const CLI::Option* option) const { return given_.contains(option); }
 
-  /// Whether the command line has given one that the option excludes.
+  /// True if the command line has an option that this one excludes.
   bool excluded(const CLI::Option* option) const {
     const std::set<CLI::Option*> others = option->get_excludes();
     return std::any_of(others.begin(), others.end(), [&](auto* other) { return given(other); });
   }
 
-  /// Whether the command line has given the option, or rules it or one that it needs out.
+  /// True if the command line has the option, or excludes it or an option that it needs.
   bool overruled(const CLI::Option& option) const {
     const std::set<CLI::Option*> needed = option.get_needs();
     return given(&option) || excluded(&option) ||

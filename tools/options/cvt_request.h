@@ -15,13 +15,13 @@
 
 namespace calotte::tools {
 
-/// What the options of `calotte cvt` say.
+/// The values of the options of `calotte cvt`.
 struct CvtRequest {
   std::string points; ///< the file of the start, or none
   bool lonlat = false;
   std::shared_ptr<DomainWords> domain; ///< of a plane, where one is given
   std::optional<int> cells;            ///< of the result
-  bool cells_of_widths = false;        ///< --cells auto: those that the cell widths ask for
+  bool cells_of_widths = false;        ///< --cells auto: the number that the cell widths imply
   std::optional<std::string> start;    ///< default continuation, in the plane density
   std::optional<std::uint64_t> seed;
   std::optional<int> bisections;
@@ -45,13 +45,13 @@ struct CvtRequest {
   std::shared_ptr<std::string> config;
 };
 
-/// Whether it is a run in the plane.
+/// True for a run in the plane.
 inline bool planar(const CvtRequest& request) { return request.domain->given(); }
 
-/// The word of --norm, "none" for a run of --iterations.
+/// The value of --norm; "none" for a run of --iterations.
 std::string norm_word(const CvtRequest& request);
 
-/// All but the bisections, which belong to the start, and the density.
+/// The options of the run except the bisections, which belong to the start, and the density.
 /// \throws Error bad_option.
 CvtOptions options_of(const CvtRequest& request);
 

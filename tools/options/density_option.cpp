@@ -17,7 +17,7 @@
 namespace calotte::tools {
 namespace {
 
-/// How a bump is written on the sphere, or in the plane.
+/// The syntax of a bump on the sphere or in the plane.
 struct Grammar {
   const char* example;
   std::array<const char*, 5> needed;
@@ -99,7 +99,7 @@ double degrees_of(const BumpWords& words, const std::string& key) {
   return *value;
 }
 
-/// Radians, or degrees that say so.
+/// Radians, or degrees with the suffix deg.
 double positive_angle(const BumpWords& words, const std::string& key) {
   constexpr std::string_view degree = "deg";
   std::string_view text = words.values.at(key);
@@ -145,7 +145,7 @@ Eigen::Vector3d place(double longitude, double latitude) {
   return read_points(in, "a place", Columns::lonlat).col(0);
 }
 
-/// The unit tangent at a place that points to so many degrees clockwise from north.
+/// The unit tangent at a place, in the direction so many degrees clockwise from north.
 Eigen::Vector3d heading(double longitude, double latitude, double azimuth) {
   const Eigen::Vector3d east = place(longitude + 90, 0);
   const Eigen::Vector3d north =

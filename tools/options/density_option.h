@@ -15,7 +15,7 @@
 
 namespace calotte::tools {
 
-/// What the options say about a density.
+/// The values of the options for a density.
 struct DensityWords {
   std::vector<std::string>
       densities; ///< "uniform", or "tanh:lon=270,lat=30,beta=30deg,alpha=0.20,gamma=x8"
@@ -26,7 +26,7 @@ struct DensityWords {
 /// Adds --density (which may be given several times), --join and what add_cell_width adds.
 std::shared_ptr<DensityWords> add_density(CLI::App& command);
 
-/// What they ask for.
+/// The density of the options.
 struct Resolution {
   Density density;
   std::optional<CellWidth> widths; ///< in km, where --cell-width gives them
@@ -37,13 +37,14 @@ struct Resolution {
 ///        unit; a raster is one of x and y.
 /// \throws Error bad_option naming the word and the remedy; as read_cell_width.
 Resolution resolution_of(const DensityWords& words, bool planar = false);
-/// The same, without the widths.
+/// The same without the widths.
 Density density_of(const DensityWords& words, bool planar = false);
 
-/// What reports and pictures call it, a part each: "uniform", a bump's words, a file.
+/// The parts of its name in reports and pictures: "uniform", the words of a bump, a file.
 std::vector<std::string> density_names(const DensityWords& words);
 
-/// What determines it, lines "name value" for a run's configuration: of a file, its contents.
+/// The input that determines it, lines "name value" for a run's configuration; for a file, its
+/// contents.
 /// \throws Error file.
 std::string density_configuration(const DensityWords& words);
 

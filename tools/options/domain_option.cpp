@@ -13,7 +13,7 @@
 namespace calotte::tools {
 namespace {
 
-/// So many finite numbers with commas between them and nothing else.
+/// Parses exactly that number of finite numbers, separated by commas.
 template <std::size_t count>
 std::optional<std::array<double, count>> numbers_of(const std::string& text) {
   std::array<double, count> numbers{};

@@ -11,7 +11,7 @@
 
 namespace calotte::tools {
 
-/// What the options say about a part of the plane: one of these at most.
+/// The values of the options for a domain of the plane; at most one is given.
 struct DomainWords {
   std::optional<std::string> file;      ///< of polygons
   std::optional<std::string> rectangle; ///< "X0,Y0,X1,Y1"
@@ -23,18 +23,22 @@ struct DomainWords {
 /// Adds --domain, --rectangle and --periodic.
 std::shared_ptr<DomainWords> add_domain(CLI::App& command);
 
-/// What they ask for; nothing where none is given. Reads the file, if there is one.
+/// The domain of the options; none if no option is given. Reads the file, if there is one.
 /// \throws Error bad_option naming the word and the remedy; as read_domain.
 std::optional<PlanarDomain> domain_of(const DomainWords& words);
 
-/// What determines it, a line "name value" for a run's configuration: of a file, its contents.
-/// \pre words.given(). \throws Error file.
+/// The input that determines it, a line "name value" for a run's configuration; for a file, its
+/// contents.
+/// \pre words.given().
+/// \throws Error file.
 std::string domain_configuration(const DomainWords& words);
 
-/// --periodic alone. \param word receives what is given.
+/// Adds --periodic only.
+/// \param word receives the value.
 CLI::Option* add_periodic(CLI::App& command, std::optional<std::string>& word);
 
-/// Of --periodic, where it is given. \throws Error bad_option.
+/// The period of --periodic, if it is given.
+/// \throws Error bad_option.
 std::optional<Eigen::Vector2d> period_of(const std::optional<std::string>& word);
 
 } // namespace calotte::tools

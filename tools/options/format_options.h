@@ -11,7 +11,7 @@
 
 namespace calotte::tools {
 
-/// What the options say of the mesh file that is written.
+/// The values of the options for the mesh file that is written.
 struct FormatWords {
   std::optional<std::string> format; ///< by the file's name where none is given
   std::optional<std::string> order;  ///< by the format
@@ -26,11 +26,11 @@ std::shared_ptr<FormatWords> add_format(CLI::App& command, const std::string& de
 inline constexpr const char* mesh_suffixes =
     ".nc (MPAS, UGRID, SCRIP or ESMF), .vtp, .vtu, .off, .ply, .msh or .geojson";
 
-/// Whether read_sites is for a file of this name: it is a mesh that holds its points, and no text
-/// of them, as MPI-SCVT's SaveVertices and RegionList are.
+/// True if read_sites() reads a file of this name: a mesh that holds its points, except text such
+/// as MPI-SCVT's SaveVertices and RegionList.
 bool holds_points(const std::string& path);
 
-/// Whether a file of this name holds triangles alone, for all that the name says.
+/// True if a file of this name holds triangles alone, as far as the name determines it.
 bool holds_triangles(const std::string& path);
 
 /// The help of an option for a mesh that is written in the format of its name or of --format.

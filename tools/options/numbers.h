@@ -9,14 +9,14 @@
 /// Numbers in the text of options and files.
 namespace calotte::tools {
 
-/// With the fewest digits that read back to the same bits.
+/// Formats a number with the fewest digits that read back to the same bits.
 std::string shortest(double value);
 
-/// As printf writes it; at most 63 characters. \param format with one conversion of a double.
+/// Formats a number as printf does; at most 63 characters.
+/// \param format with one conversion of a double.
 std::string formatted(const char* format, double value);
 
-/// Whole numbers in a range, for an option's transform: in decimal, though they may start with
-/// zeros.
+/// Whole numbers in a range, for an option's transform: decimal, also with leading zeros.
 CLI::Validator whole_number(std::uint64_t least, std::uint64_t most);
 
 } // namespace calotte::tools

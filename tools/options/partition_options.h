@@ -12,7 +12,7 @@
 
 namespace calotte::tools {
 
-/// What the options say about the parts of the work and who does them.
+/// The values of the options for regions and threads.
 struct PartitionWords {
   std::optional<int> threads, regions;
   std::string centres = "sample", sort = "halo", duplicates = "merge";
@@ -22,14 +22,14 @@ struct PartitionWords {
 /// Adds --threads, --regions, --centres, --sort, --duplicates and --merge-within.
 std::shared_ptr<PartitionWords> add_partition(CLI::App& command);
 
-/// The file of centres, "" where there is none.
+/// The file of centres; "" if there is none.
 std::string centres_file(const PartitionWords& words);
 
 /// Reads the file of centres where there is one, in the plane x y a line.
 /// \throws Error bad_option, or as read_points.
 DelaunayOptions options_of(const PartitionWords& words, bool plane = false);
 
-/// Does the work with so many threads, or all.
+/// Runs the work with that number of threads, or with all.
 void with_threads(std::optional<int> threads, const std::function<void()>& work);
 
 } // namespace calotte::tools

@@ -9,7 +9,7 @@
 namespace calotte::tools {
 namespace {
 
-/// As read_points; "-" is standard input.
+/// Reads as read_points(); "-" is standard input.
 Points3 points_from(const std::string& path, Columns columns, std::vector<std::int64_t>* lines) {
   return path == "-" ? read_points(std::cin, "standard input", columns, lines)
                      : read_points(path, columns, lines);

@@ -10,7 +10,7 @@
 
 namespace calotte::tools {
 
-/// Points with the lines they stand on, for messages.
+/// Points with their line numbers, for messages.
 struct PointFile {
   std::string name;
   Points3 points;
@@ -32,8 +32,9 @@ struct PlanarPointFile {
 /// Text, x y a line; "-" is standard input. \throws Error as read_planar_points.
 PlanarPointFile read_planar_point_file(const std::string& path);
 
-/// The library names the column of a bad point; who wrote the file looks for the line.
-/// \param lines of the columns of the file `name`; none where it has none.
+/// Runs a function; if it throws an Error with the column of a bad point, replaces the column by
+/// the line in the file.
+/// \param lines of the columns of the file `name`; empty if it has none.
 [[noreturn]] void rethrow_with_line(const Error& error, const std::string& name,
                                     const std::vector<std::int64_t>& lines);
 

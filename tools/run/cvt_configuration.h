@@ -10,12 +10,12 @@
 
 namespace calotte::tools {
 
-/// All that determines the bits of the result, a line each; see write_checkpoint. Threads, regions
-/// and files do not.
+/// All input that determines the bits of the result, one line each; see write_checkpoint().
+/// Threads, regions and files have no effect on them.
 std::string configuration_of(const CvtRequest& request, const CvtOptions& options,
                              const CvtStart& start);
 
-/// The same in one line, for files that tell how they were made: equal runs have equal ones.
+/// The same on one line, as provenance in output files: equal runs have equal lines.
 std::string history_of(const std::string& configuration);
 
 } // namespace calotte::tools

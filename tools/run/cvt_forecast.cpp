@@ -12,14 +12,14 @@ namespace {
 
 constexpr std::size_t fewest = 10, most = 500;
 
-/// The last iterations of the current level, none where they are too few.
+/// The last iterations of the current level; empty if there are too few.
 std::span<const CvtIteration> recent(const CvtProgress& progress) {
   const std::span all(progress.report.iterations);
   const auto level = std::min(all.size(), static_cast<std::size_t>(progress.iterations_of_level));
   return level < fewest ? all.last(0) : all.last(std::clamp(level / 2, fewest, most));
 }
 
-/// Of the straight line nearest to the logarithms of the norm: its slope an iteration and its value
+/// The least-squares line through the logarithms of the norm: its slope per iteration and its value
 /// at the last one.
 struct Decay {
   double slope, last;
@@ -72,7 +72,7 @@ std::optional<Forecast> forecast(const CvtProgress& progress, const CvtOptions& 
   for (const CvtIteration& iteration : iterations)
     seconds +=
         (iteration.seconds + iteration.seconds_solver) / static_cast<double>(iterations.size());
-  // The last step's trials may go beyond the limit.
+  // The trials of the last step may exceed the limit.
   const double to_limit = std::max(options.max_iterations - progress.iterations_of_level, 0);
   if (options.norm == Norm::none)
     return Forecast{seconds * to_limit, false};

@@ -8,19 +8,20 @@
 
 namespace calotte::tools {
 
-/// When a level ends.
+/// The predicted end of a level.
 struct Forecast {
   double seconds = 0;
-  bool converges = false; ///< the norm reaches the tolerance; else the limit of iterations ends it
+  bool converges =
+      false; ///< the norm reaches the tolerance; otherwise the limit of iterations ends the level
 };
 
-/// From the decay of the norm over the level's last half, 10 to 500 iterations: a straight line
-/// through its logarithms where they were accepted, and the mean of the seconds of all, which the
-/// trials take part in. While the norm does not fall, the limit is foreseen; nothing before there
-/// are 10 iterations.
+/// Extrapolates the decay of the norm over the last half of the level, 10 to 500 iterations: a
+/// straight line through the logarithms of the accepted norms, and the mean time of all
+/// evaluations, trials included. If the norm does not decrease, the prediction is the limit. No
+/// prediction before 10 iterations.
 std::optional<Forecast> forecast(const CvtProgress& progress, const CvtOptions& options);
 
-/// Where a run stands: the line that progress shows.
+/// The progress line of a run.
 std::string describe(const CvtProgress& progress, const CvtOptions& options,
                      const std::string& norm);
 

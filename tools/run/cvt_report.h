@@ -9,14 +9,15 @@
 
 namespace calotte::tools {
 
-/// The report of a run that ended.
-/// \param threads that it had.
-/// \param area of the sphere or the domain.
+/// The report of a completed run.
+/// \param threads number of threads.
+/// \param area area of the sphere or the domain.
 std::string to_json(const CvtRequest& request, const CvtReport& report, std::int64_t cells,
                     double area, int threads);
 
-/// One line without its ending. \param before iterations of the parts that the run resumed.
-/// \param area of a planar domain, over whose square the energy is told; 1 of the sphere.
+/// One line without a line end.
+/// \param before iterations of the earlier parts of a resumed run.
+/// \param area area of a planar domain, by whose square the energy is divided; 1 for the sphere.
 std::string summary(const CvtRequest& request, const CvtReport& report, std::int64_t cells,
                     double area, std::int64_t before);
 

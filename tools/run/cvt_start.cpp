@@ -32,16 +32,16 @@ bool seeded(const std::string& kind) {
   return kind == "continuation" || kind == "random" || kind == "density";
 }
 
-/// How many cells n become by so many bisections: n -> 4n - 6.
+/// The number of cells after bisections of n: n -> 4n - 6.
 std::int64_t bisected(std::int64_t n, int bisections) { return ((n - 2) << (2 * bisections)) + 2; }
 
-/// The count that so many bisections bring to `cells`, 0 where there is none.
+/// The start from which that number of bisections reaches `cells`; 0 if there is none.
 std::int64_t start_count(std::int64_t cells, int bisections) {
   const std::int64_t count = ((cells - 2) >> (2 * bisections)) + 2;
   return count >= fewest && bisected(count, bisections) == cells ? count : 0;
 }
 
-/// The level of the bisected icosahedron with so many points, or -1.
+/// The level of the bisected icosahedron with that number of points, or -1.
 int level_of(std::int64_t count) {
   int level = 0;
   while (bisected(fewest, level) < count)
@@ -49,7 +49,7 @@ int level_of(std::int64_t count) {
   return bisected(fewest, level) == count ? level : -1;
 }
 
-/// "the nearest counts are ...": of `below` and `above` those that a run can have.
+/// "the nearest counts are ...": those of `below` and `above` that a run can have.
 std::string nearest(std::int64_t below, std::int64_t above, std::int64_t least) {
   return below < least
              ? "the nearest count is " + std::to_string(std::max(above, least))
@@ -77,7 +77,7 @@ void require_icosahedral(std::int64_t cells, int bisections) {
          nearest(below, bisected(fewest, level), fewest));
 }
 
-/// In a periodic box n cells become 4n; elsewhere the midpoints outside of the domain are left out.
+/// In a periodic box n cells become 4n; elsewhere midpoints outside the domain are omitted.
 void require_planar_cells(const CvtRequest& request) {
   const std::int64_t cells = *request.cells,
                      divisor = std::int64_t{1} << (2 * request.bisections.value_or(0));
@@ -90,7 +90,7 @@ void require_planar_cells(const CvtRequest& request) {
            nearest(cells / divisor * divisor, (cells / divisor + 1) * divisor, 3 * divisor));
 }
 
-/// What a run in the plane has none of, and what it alone has.
+/// Rejects options that a planar run does not support, and those that only a planar run supports.
 void require_kind(const CvtRequest& request) {
   const std::string kind = kind_of(request);
   const bool both = kind == "random" || kind == "density", plane = planar(request);
@@ -138,7 +138,7 @@ void require_file(const CvtRequest& request) {
     refuse("--lonlat applies to the sphere only; leave it out");
 }
 
-/// Says what a continuation to a count that no bisected icosahedron has starts from.
+/// Describes the start of a continuation to a number that no bisected icosahedron has.
 std::string note_on(const Continuation& start, std::int64_t cells, const Density& density) {
   if (start.icosahedral)
     return "";

@@ -9,32 +9,34 @@
 
 namespace calotte::tools {
 
-/// Where a run starts.
+/// The start of a run.
 struct CvtStart {
   std::string file;                ///< that the points come from, or ""
   std::vector<std::int64_t> lines; ///< of it, where they stand
   Points3 points;                  ///< on the sphere
   Points2 places;                  ///< or in the plane
   int bisections = 0;
-  std::string note; ///< what the user ought to know of it, or ""
-  /// What determines it, for the run's configuration: lines "name value".
+  std::string note; ///< a message for the user, or ""
+  /// The input that determines it, for the run's configuration: lines "name value".
   std::string configuration;
 };
 
-/// Refuses, before any work, what the options say of the start.
+/// Validates the options of the start before any work.
 /// \throws Error bad_option.
 void require_start(const CvtRequest& request);
 
-/// Gives the request the number of cells that the widths ask for, where it is to have that.
-/// \returns what the user ought to know of the widths, a line each. \throws Error bad_option.
+/// Sets the request's number of cells to that of the widths, if it is automatic.
+/// \returns messages about the widths, one line each.
+/// \throws Error bad_option.
 std::vector<std::string> settle_cells(CvtRequest& request, const std::optional<CellWidth>& widths);
 
-/// Reads the points, if they come from a file, and says what determines them.
+/// Reads the points, if they come from a file, and describes the input that determines them.
 /// \throws Error bad_option, parse, file.
 CvtStart open_start(const CvtRequest& request);
 
-/// Makes the points, unless they come from a file; a continuation's bisections and note, too.
-/// \param domain of a plane. \throws Error bad_option.
+/// Computes the points, unless they come from a file, and a continuation's bisections and note.
+/// \param domain of a plane.
+/// \throws Error bad_option.
 void generate_points(const CvtRequest& request, const Density& density,
                      const std::optional<PlanarDomain>& domain, CvtStart& start);
 

@@ -21,7 +21,7 @@ Interruption::Interruption() {
   noted = 0;
   struct sigaction action = {};
   action.sa_handler = calotte_note_signal;
-  action.sa_flags = SA_RESTART; // what is being written is written on
+  action.sa_flags = SA_RESTART; // a write in progress continues
   ::sigaction(SIGINT, &action, &before_interrupt_);
   ::sigaction(SIGTERM, &action, &before_terminate_);
 }

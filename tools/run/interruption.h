@@ -5,8 +5,8 @@
 
 namespace calotte::tools {
 
-/// While it lives, the first SIGINT or SIGTERM is noted instead of ending the process; a second one
-/// ends it at once. One at a time.
+/// During its lifetime, the first SIGINT or SIGTERM is recorded instead of ending the process; a
+/// second one ends it at once. One object at a time.
 class Interruption {
 public:
   Interruption();
@@ -14,7 +14,7 @@ public:
   Interruption& operator=(const Interruption&) = delete;
   ~Interruption();
 
-  /// The signal that came, or 0.
+  /// The signal received, or 0.
   static int signal();
 
 private:

@@ -9,8 +9,8 @@
 
 namespace calotte::tools {
 
-/// One line on standard error that names the stage and the seconds so far: on a terminal only,
-/// after a second only, and gone at the end.
+/// A line on standard error that names the stage and the seconds so far: only on a terminal, only
+/// after a second; removed at the end.
 class Progress {
 public:
   Progress();
@@ -20,7 +20,7 @@ public:
 
   void stage(const std::string& name);
 
-  /// A line of standard error that stays, terminal or not.
+  /// Prints a permanent line on standard error, on a terminal or not.
   void say(const std::string& line);
 
 private:
@@ -31,7 +31,7 @@ private:
   std::condition_variable ended_;
   std::string stage_;
   bool end_ = false;
-  std::thread thread_; ///< last, so that it starts when all else is there
+  std::thread thread_; ///< last, so that it starts after all other members exist
 };
 
 /// Seconds of wall-clock time that a piece of work takes.

@@ -8,7 +8,7 @@
 
 namespace {
 
-/// Takes NetCDF, and an exception across the library's boundary.
+/// Uses NetCDF, and an exception across the library's boundary.
 bool misses_a_file() {
   try {
     calotte::read_cell_width("missing.nc");

@@ -13,7 +13,8 @@ using namespace calotte::tools;
 
 namespace {
 
-/// What a label says: digits grouped by thin spaces, with a minus sign, a factor, a power of ten.
+/// The number in a label: digits grouped by thin spaces, with a minus sign, a factor, a power of
+/// ten.
 double value_of(std::string label) {
   const auto replace = [&](const std::string& from, const std::string& to) {
     for (std::size_t at = label.find(from); at != std::string::npos; at = label.find(from)) {
@@ -56,7 +57,7 @@ void check_ticks(const Axis& axis, int most) {
 
 } // namespace
 
-TEST_CASE("a label stands where its number is, and there are not too many") {
+TEST_CASE("a label is at the place of its number, and the number of labels is limited") {
   for (const int most : {3, 5, 8, 12}) {
     for (const auto& [low, high] : {std::pair{1e-3, 1.0},
                                     {0.9, 8.7},
@@ -140,7 +141,7 @@ TEST_CASE("marks are not letters: raised and lowered text is smaller, other text
   CHECK(marked_width(context, "^{}mean_{}") == doctest::Approx(plain));
   CHECK(marked_text(context, 5, 5, "mean") == doctest::Approx(5 + plain));
   CHECK(marked_text(context, 5, 5, "mean", 1) == doctest::Approx(5));
-  CHECK(text_width(context, "mean") == doctest::Approx(plain)); // the font is as it was
+  CHECK(text_width(context, "mean") == doctest::Approx(plain)); // the font is unchanged
   cairo_destroy(context);
   cairo_surface_destroy(surface);
 }

@@ -54,7 +54,7 @@ History history_of(const Folder& folder, const json& report) {
   return read_history(written(folder, report.dump(2)));
 }
 
-/// Reading fails with one line that names the file and the key.
+/// Checks that reading fails with one line that names the file and the key.
 void check_refused(const Folder& folder, const std::string& text, const std::string& key) {
   CAPTURE(text.substr(0, 200));
   const Error error = error_of([&] { read_history(written(folder, text)); });
@@ -102,7 +102,7 @@ TEST_CASE("a report is read by its keys") {
   }
 }
 
-TEST_CASE("what is no report is refused in a line that names the file and the key") {
+TEST_CASE("a file that is no report is refused in a line that names the file and the key") {
   const Folder folder;
   for (const char* key : {"density", "norm", "tolerance", "converged", "seconds", "iterations"}) {
     json report = sample_report();
@@ -143,7 +143,8 @@ TEST_CASE("what is no report is refused in a line that names the file and the ke
   check_refused(folder, report.dump(), "iterations is empty: the run made no iteration");
 }
 
-TEST_CASE("what only newer reports have is taken, and checked; without it, all was accepted") {
+TEST_CASE(
+    "keys of newer reports are read and checked; without them all evaluations count as accepted") {
   const Folder folder;
   json report = sample_report();
   const History old = history_of(folder, report);
@@ -172,7 +173,7 @@ TEST_CASE("what only newer reports have is taken, and checked; without it, all w
   check_refused(folder, report.dump(), "method is not one of auto, lloyd, ");
 }
 
-TEST_CASE("the clock sums the evaluations and the solver, and what was rejected counts") {
+TEST_CASE("the clock sums the evaluations, rejected ones included, and the solver") {
   const Folder folder;
   json report = sample_report();
   report["iterations"][2]["seconds_solver"] = 0.5;
@@ -186,7 +187,8 @@ TEST_CASE("the clock sums the evaluations and the solver, and what was rejected 
   }
 }
 
-TEST_CASE("what was rejected has no norms and no excess, and the excess of others is as without") {
+TEST_CASE(
+    "rejected evaluations have no norms and no excess, and do not affect the excess of others") {
   const Folder folder;
   json report = sample_report();
   const std::vector<double> before = excess_of(history_of(folder, report));
@@ -218,7 +220,7 @@ TEST_CASE("the excess is over the best of the runs with as many cells, that dens
   const History best = history_of(folder, better);
   const History other = history_of(folder, sample_report(10));
   const auto both = energy_excess({other, best});
-  for (std::size_t i = 0; i < 10; ++i) { // whichever run it is, the same energy has the same excess
+  for (std::size_t i = 0; i < 10; ++i) { // in any run, the same energy has the same excess
     CHECK(both[0][i] == doctest::Approx(both[1][i]));
     CHECK(both[0][10 + i] == doctest::Approx(both[1][30 + i]));
   }
@@ -240,7 +242,7 @@ TEST_CASE("the excess is over the best of the runs with as many cells, that dens
   }
 }
 
-TEST_CASE("what is not JSON, or was cut short, is refused with its line") {
+TEST_CASE("a file that is no JSON, or is cut short, is refused with its line") {
   const Folder folder;
   const std::string whole = sample_report(2).dump(2);
   for (std::size_t length = 0; length < whole.size(); length += 37) {
@@ -258,7 +260,8 @@ TEST_CASE("what is not JSON, or was cut short, is refused with its line") {
   CHECK(code_of([&] { read_history(folder.path.string()); }) == ErrorCode::file);
 }
 
-TEST_CASE("the tolerance of a scaled norm is itself, of another over h, of the gradient nowhere") {
+TEST_CASE("the tolerance of a scaled norm is unchanged, that of another is divided by h, that of "
+          "the gradient is NaN") {
   const Folder folder;
   json report = sample_report();
   for (const char* norm : {"l2-scaled", "linf-scaled", "l2", "linf", "gradient", "none"}) {
@@ -276,7 +279,7 @@ TEST_CASE("the tolerance of a scaled norm is itself, of another over h, of the g
   }
 }
 
-TEST_CASE("the energy's excess falls to 0 in each level, whatever the rules' energies") {
+TEST_CASE("the energy's excess falls to 0 in each level, for any energies of the rules") {
   const Folder folder;
   json report = sample_report();
   const std::vector<double> excess = excess_of(history_of(folder, report));
@@ -286,7 +289,7 @@ TEST_CASE("the energy's excess falls to 0 in each level, whatever the rules' ene
         1e-2 * (std::pow(0.9, static_cast<double>(i % 20)) - end) / (1 + 1e-2 * end);
     CHECK(excess[i] == doctest::Approx(expected).epsilon(1e-9));
   }
-  // From iteration 12 of the second level on another rule is used, which finds more energy.
+  // From iteration 12 of the second level on another rule applies, which gives higher energies.
   for (std::size_t i = 32; i < 40; ++i) {
     json& iteration = report["iterations"][i];
     iteration["rule"] = 6;
@@ -303,7 +306,7 @@ TEST_CASE("the energy's excess falls to 0 in each level, whatever the rules' ene
 
 namespace {
 
-/// Whether a column's frames stand in order on the page, and hold all of a run in order.
+/// True if a column's frames are in order on the page and contain the whole run in order.
 void check_column(const HistoryPage& page, const HistoryColumn& column, const History& history) {
   CHECK(column.norms.left > 0);
   CHECK(column.norms.right() < page.width);
@@ -371,7 +374,7 @@ TEST_CASE("runs of very different length have logarithmic axes across, which hol
 
 namespace {
 
-/// The curves have the run's colour where its values are.
+/// The curves have the colour of the run at its values.
 void check_curves(const Picture& picture, const HistoryColumn& column, const History& history) {
   const Rgb colour = history_colour(0);
   const std::vector<double> across = places_in(column, history);
@@ -456,10 +459,10 @@ TEST_CASE("the tolerance is a dashed line, and a level ends in a full one") {
   }
 }
 
-TEST_CASE("a curve passes by what was rejected") {
+TEST_CASE("a curve skips rejected evaluations") {
   const Folder folder;
   json report = sample_report();
-  for (const char* key : {"l2", "linf"}) { // would bring the curve down, still within the frame
+  for (const char* key : {"l2", "linf"}) { // would lower the curve, still within the frame
     report["iterations"][9][key] = report["iterations"][19][key];
   }
   for (const bool accepted : {true, false}) {
@@ -481,7 +484,7 @@ TEST_CASE("a curve passes by what was rejected") {
   }
 }
 
-TEST_CASE("several runs are told apart by their colours") {
+TEST_CASE("several runs have different colours") {
   const Folder folder;
   std::vector<History> histories;
   for (const double scale : {1., 0.3, 0.1}) {
@@ -542,7 +545,7 @@ TEST_CASE("the oddest reports can be drawn in every format") {
   CHECK(bytes_of(folder.file("a.pdf")).ends_with("%%EOF\n"));
 }
 
-TEST_CASE("no reports, too many, a size or a suffix that is none: refused, and nothing is left") {
+TEST_CASE("no reports, too many, an invalid size or suffix: refused, and no file is left") {
   const Folder folder;
   const History history = history_of(folder, sample_report());
   const std::vector<History> one = {history};

@@ -46,8 +46,8 @@ Vector3d on_earth(double longitude, double latitude) {
           std::sin(latitude)};
 }
 
-/// Where on the earth the middle of a pixel is, by the textbook's formulas; none beside the globe,
-/// or so near to its limb that a pixel is wide.
+/// The place on the earth of the middle of a pixel, by the textbook's formulas; none outside the
+/// globe, or so near to its limb that a pixel is wide.
 std::optional<Vector3d> place_of(const MapSize& size, Projection projection, const LonLat& view,
                                  double x, double y) {
   const double u = (x + 0.5) / size.width * 2 - 1;
@@ -66,8 +66,8 @@ std::optional<Vector3d> place_of(const MapSize& size, Projection projection, con
   return on_earth(lon + std::atan2(u, std::cos(lat) * std::cos(c) - v * std::sin(lat)), phi);
 }
 
-/// Which shape holds a place, by its definition: the cell of the nearest site, or the triangle all
-/// of whose sides have it to their left; -1 where rounding leaves that open.
+/// The shape that contains a place, by its definition: the cell of the nearest site, or the
+/// triangle all of whose sides have the place to their left; -1 if rounding leaves it undecided.
 class Locator {
 public:
   Locator(const Mesh& mesh, Shapes shapes)
@@ -145,7 +145,7 @@ Eigen::ArrayXXi shapes_at(const Mesh& mesh, Shapes shapes, Projection projection
   return result;
 }
 
-/// Visits all pixels that a shape holds with their surroundings, so that no line touches them;
+/// Visits all pixels whose surroundings lie in one shape, so that no line touches them; returns
 /// their number.
 template <class Visit>
 int for_each_inner_pixel(const Mesh& mesh, Shapes shapes, Projection projection, const LonLat& view,
@@ -157,7 +157,7 @@ int for_each_inner_pixel(const Mesh& mesh, Shapes shapes, Projection projection,
       const int own = shape(x, y + near);
       bool inner = own >= 0;
       for (int dx = -near; inner && dx <= near; ++dx) {
-        const int column = (x + dx + size.width) % size.width; // beyond the seam it goes on
+        const int column = (x + dx + size.width) % size.width; // continues beyond the seam
         inner = (shape.row(column).segment(y, 2 * near + 1) == own).all();
       }
       if (inner) {
@@ -226,7 +226,7 @@ TEST_CASE("a tilted globe shows the cells of the nearest sites") {
   }
 }
 
-TEST_CASE("both: the cells' picture, but for lines along the triangles' edges") {
+TEST_CASE("both: the picture of the cells, except for lines along the triangles' edges") {
   const Mesh mesh = spherical_delaunay(random_sphere(60, 5));
   for (const Projection projection : all_projections) {
     const LonLat view = {33, 0};
@@ -246,7 +246,7 @@ TEST_CASE("both: the cells' picture, but for lines along the triangles' edges") 
   }
 }
 
-TEST_CASE("a field of the sphere has each pixel's own value, on both maps") {
+TEST_CASE("a field of the sphere is evaluated at each pixel, on both maps") {
   // Smooth, and without symmetry.
   const auto values = [](const Points3& x) -> Eigen::VectorXd {
     return (x.row(0) + 0.5 * x.row(1) - 0.7 * x.row(2)).transpose();
@@ -284,7 +284,7 @@ TEST_CASE("a picture of a field is written in every format, on both maps") {
   CHECK(folder.count() == 3);
 }
 
-TEST_CASE("a graticule changes the map, and nothing beside it") {
+TEST_CASE("a graticule changes only the map") {
   const Folder folder;
   const Mesh mesh = spherical_delaunay(random_sphere(60, 5));
   for (const int size : {100, 300}) {
@@ -350,7 +350,7 @@ void write_fields(const std::string& path) {
 
 } // namespace
 
-TEST_CASE("a field of a file comes with its values, name and units; a fill value is none") {
+TEST_CASE("a field of a file has its values, name and units; a fill value becomes NaN") {
   const Folder folder;
   write_fields(folder.file("a.nc"));
   const CellField depth = read_cell_field(folder.file("a.nc"), "depth", cells);
@@ -363,7 +363,7 @@ TEST_CASE("a field of a file comes with its values, name and units; a fill value
   CHECK(index.units.empty());
 }
 
-TEST_CASE("a field that the file has not is refused by the names of those that it has") {
+TEST_CASE("an unknown field is refused with the names of the fields in the file") {
   const Folder folder;
   const std::string path = folder.file("a.nc");
   write_fields(path);
@@ -382,7 +382,7 @@ TEST_CASE("a field that the file has not is refused by the names of those that i
         path + ": depth has not one value for each of 41 cells; the file has none: give another");
 }
 
-TEST_CASE("a field's values are those of the cells that show them, and none is bare") {
+TEST_CASE("each cell shows its own value of a field, and every cell is painted") {
   const Folder folder;
   const Mesh mesh = spherical_delaunay(fibonacci_sphere(cells));
   write_fields(folder.file("a.nc"));
@@ -444,7 +444,7 @@ DrawOptions coloured_by_number(const PlanarMesh& mesh, Shapes shapes) {
   return options;
 }
 
-/// The same colour, but for what rounding to bytes takes.
+/// The same colour, up to the rounding to bytes.
 bool alike(std::uint32_t a, std::uint32_t b) {
   const auto channel = [](std::uint32_t rgb, int shift) { return int(rgb >> shift & 0xff); };
   return std::abs(channel(a, 16) - channel(b, 16)) <= 1 &&

@@ -46,7 +46,7 @@ TEST_CASE("a mesh that obeys its density has every cell on the line") {
   const Mesh mesh = spherical_delaunay(random_sphere(400));
   const std::vector<double> spacings = spacings_of(mesh);
   const auto [least, greatest] = std::minmax_element(spacings.begin(), spacings.end());
-  for (const double factor : {1., 7e5, 1e-9}) { // the density's own factor does not matter
+  for (const double factor : {1., 7e5, 1e-9}) { // the factor of the density does not matter
     const SpacingLaw law = spacing_law(mesh, obeyed_by(mesh, [&](std::size_t) { return factor; }));
     REQUIRE(law.measured.size() == 400);
     for (std::size_t i = 0; i < 400; ++i) {
@@ -61,7 +61,7 @@ TEST_CASE("a mesh that obeys its density has every cell on the line") {
   }
 }
 
-TEST_CASE("odd cells stand off the line by their factor, and shift no other") {
+TEST_CASE("odd cells are off the line by their factor, and do not shift others") {
   const Mesh mesh = spherical_delaunay(random_sphere(400));
   const std::vector<double> spacings = spacings_of(mesh);
   const auto odd = [&](std::size_t i) { // the smallest cells keep the largest density
@@ -159,7 +159,7 @@ TEST_CASE("the picture has its size, the law's line is a diagonal, and odd cells
   CHECK(red(page.deviation.at(x, -12)) > 0xe0);
 }
 
-TEST_CASE("every format and size; what cannot be drawn leaves nothing") {
+TEST_CASE("every format and size; a picture that cannot be drawn leaves no file") {
   const Folder folder;
   const Mesh mesh = spherical_delaunay(random_sphere(60));
   for (const char* name : {"a.png", "a.svg", "a.pdf"}) {

@@ -103,7 +103,7 @@ TEST_CASE("a picture has its format's signature, and is the only file that appea
   CHECK(folder.count() == 3);
 }
 
-TEST_CASE("what cannot be drawn is refused, and leaves nothing") {
+TEST_CASE("a picture that cannot be drawn is refused, and leaves no file") {
   const Folder folder;
   const Mesh mesh = tetrahedron();
   for (const char* name : {"a.jpg", "a", "png", ".", "a.png/"}) {
@@ -140,7 +140,7 @@ TEST_CASE("four sites, an open mesh and a usual one can be drawn in every way") 
         }
         for (const Projection projection : all_projections) {
           if (projection == Projection::plate_carree && colouring != Colouring::spacing) {
-            continue; // shapes and colours do not know each other
+            continue; // shapes and colours are independent
           }
           const DrawOptions options = {.look = {.projection = projection, .size = 100},
                                        .shapes = shapes,
@@ -317,7 +317,7 @@ TEST_CASE("labels of a bar say the values at their places, in degrees or powers 
   }
 }
 
-TEST_CASE("what a mesh cannot be coloured by is refused, and leaves nothing") {
+TEST_CASE("a colouring that a mesh does not support is refused, and leaves no file") {
   const Folder folder;
   const auto refused = [&](const Mesh& mesh, const DrawOptions& options) {
     CHECK(code_of([&] { draw(folder.file("a.png"), mesh, options); }) == ErrorCode::bad_option);

@@ -45,7 +45,7 @@ public:
 
   std::string path() const { return folder_ / "run.toml"; }
 
-  /// Parses a file of this text, and what the command line has beside it.
+  /// Parses a file with this text, together with arguments on the command line.
   void parse(const std::string& text, const std::string& arguments = "") {
     test::write_text(path(), text);
     app_.parse(arguments + " --config " + path());
@@ -67,7 +67,7 @@ private:
   std::shared_ptr<std::string> config_;
 };
 
-/// The message of a refusal without the file's name, which every one starts with.
+/// The message of a rejection without the file's name, with which every message starts.
 std::string refusal(const std::string& text, const std::string& arguments = "") {
   Parser parser;
   try {
@@ -125,7 +125,7 @@ TEST_CASE("numbers keep their bits, in quotes, too") {
   CHECK(parser.tolerance == 3);
 }
 
-TEST_CASE("hyphens and underscores are the same, and a table's name means nothing") {
+TEST_CASE("hyphens and underscores are equivalent, and a table's name has no effect") {
   for (const std::string text :
        {"max-iterations = 7\ntolerance = 2\n", "max_iterations = 7\ntolerance = 2\n",
         "tolerance = 2\n[end]\nmax_iterations = 7\n",
@@ -143,7 +143,7 @@ TEST_CASE("hyphens and underscores are the same, and a table's name means nothin
         "one");
 }
 
-TEST_CASE("the command line wins, whatever it excludes included") {
+TEST_CASE("the command line takes precedence, also over options that it excludes") {
   const std::string text =
       "tolerance = 1e-3\nseed = 3\nlonlat = true\ndensity = [\"one\", \"two\"]\n";
   Parser parser;
@@ -168,7 +168,7 @@ TEST_CASE("the command line wins, whatever it excludes included") {
   CHECK(third.tolerance == 1e-4);
   Parser both;
   CHECK_THROWS_AS(both.parse("iterations = 9\ntolerance = 1\n"), CLI::ExcludesError);
-  // A wrong value is told though the command line has another.
+  // A wrong value in the file is an error even if the command line has another.
   CHECK(refusal("seed = true\n", "--seed 4") == "line 1: seed takes an integer, not true or false");
 }
 
@@ -178,12 +178,12 @@ TEST_CASE("a flag that is false is not given") {
   CHECK(!parser.lonlat);
 }
 
-TEST_CASE("files are sought from the folder of the file of options") {
+TEST_CASE("file names are relative to the folder of the file of options") {
   Parser parser;
   parser.parse("points = \"points.txt\"\ncentres = \"centres.txt\"\nsort = \"points.txt\"\n");
   CHECK(parser.points == parser.in_folder("points.txt"));
   CHECK(parser.centres == parser.in_folder("centres.txt"));
-  CHECK(parser.sort == "points.txt"); // which is no file's option
+  CHECK(parser.sort == "points.txt"); // an option that is not allowed in a file
   Parser outright;
   outright.parse("points = \"/absolute\"\ncentres = \"fibonacci\"\n");
   CHECK(outright.points == "/absolute");
@@ -253,7 +253,7 @@ TEST_CASE("an unknown name is refused with the nearest, and the line") {
   unknown("Seed", "seed");
   CHECK(refusal("speedometer = 1\n") ==
         "line 1: unknown option \"speedometer\"; see calotte test --help");
-  for (const std::string none : {"config", "help"}) // these are not for files
+  for (const std::string none : {"config", "help"}) // options that are not allowed in files
     CHECK(refusal(none + " = \"other.toml\"\n") ==
           "line 1: unknown option \"" + none + "\"; see calotte test --help");
 }
@@ -265,7 +265,7 @@ TEST_CASE("a name that is given twice is refused with both lines") {
         "line 4: tolerance is given twice, also on line 2; leave one out");
   CHECK(refusal("rule = 3\nquadrature_rule = 3\n") ==
         "line 2: rule is given twice, also on line 1; leave one out");
-  CHECK(refusal("seed = 1\nseed = 2\n").starts_with("line 2: ")); // by TOML's own rule
+  CHECK(refusal("seed = 1\nseed = 2\n").starts_with("line 2: ")); // by a rule of TOML
 }
 
 TEST_CASE("values of the wrong kind are refused with their key and line") {
@@ -285,14 +285,14 @@ TEST_CASE("values of the wrong kind are refused with their key and line") {
   CHECK(refused_value("seed = 2020-01-01") == "holds a date or time" + other);
   CHECK(refused_value("density = [[\"one\"]]") == "holds an array" + other);
   CHECK(refused_value("density = [{ lon = 1 }]") == "holds a table" + other);
-  // What an option says of a value that it cannot take
+  // The message of an option for an invalid value.
   CHECK(refusal("# a run\nstart = \"there\"\n") == "line 2: --start: there not in {random,spiral}");
   CHECK(refusal("seed = 1.5\n").starts_with("line 1: "));
   CHECK(refusal("tolerance = \"small\"\n").starts_with("line 1: "));
   CHECK(refusal("max_iterations = 99999999999\n").starts_with("line 1: "));
 }
 
-TEST_CASE("what is no TOML is refused with its line") {
+TEST_CASE("a file that is no TOML is refused with its line") {
   for (const std::string text :
        {"seed = 1\nstart = random\n", "seed = 1\nstart\n", "seed = 1\ndensity = [\"one\"\n\n",
         "seed = 1\n[end\n", "seed = 1\nstart = \"ran\n", "seed = 1\n= 3\n",
@@ -307,7 +307,7 @@ TEST_CASE("what is no TOML is refused with its line") {
   }
 }
 
-TEST_CASE("the first wrong line is the one that is told") {
+TEST_CASE("the message names the first wrong line") {
   CHECK(refusal("seed = 1\nzebra = 1\n[table]\naardvark = 2\n")
             .starts_with("line 2: unknown option \"zebra\""));
 }

@@ -26,7 +26,7 @@ Bump bump(const std::string& words) {
   return density.bumps[0];
 }
 
-/// The message of a refusal without what every one starts with.
+/// The message of a rejection without the common prefix.
 std::string refusal(const std::string& words) {
   try {
     density_of(DensityWords{{words}});
@@ -80,7 +80,7 @@ TEST_CASE("the long axis of an ellipse points clockwise from north") {
   }
 }
 
-TEST_CASE("several bumps are joined; none is the uniform density") {
+TEST_CASE("several bumps are joined; without bumps the density is uniform") {
   const std::string one = "tanh:lon=0,lat=0,beta=1,alpha=1,gamma=x2";
   CHECK(density_of(DensityWords{}).uniform());
   CHECK(density_of(DensityWords{{"uniform"}}).uniform());
@@ -131,7 +131,7 @@ TEST_CASE("words that make no density are refused with the offending one") {
 
 namespace {
 
-/// A file that goes when the test ends.
+/// A temporary file, removed at the end of the test.
 class TextFile {
 public:
   TextFile(const std::string& suffix, const std::string& text)
@@ -150,7 +150,7 @@ private:
   std::filesystem::path path_;
 };
 
-/// 100 km wide everywhere but for one place.
+/// 100 km wide everywhere except at one place.
 std::string jigsaw_grid(const std::string& elsewhere) {
   std::string text = "MSHID=3;ELLIPSOID-GRID\nNDIMS=2\nCOORD=1;4\n0\n1.5707963267948966\n"
                      "3.141592653589793\n4.71238898038469\nCOORD=2;3\n-1.5707963267948966\n0\n"
@@ -179,7 +179,7 @@ std::string message_of(const DensityWords& words) {
 
 } // namespace
 
-TEST_CASE("cell widths take the place of a density, and belong to a run by their contents") {
+TEST_CASE("cell widths replace a density, and their contents belong to the configuration") {
   const TextFile file(".msh", jigsaw_grid("200"));
   const DensityWords words = parsed({"--cell-width", file.path()});
   const Resolution resolution = resolution_of(words);
