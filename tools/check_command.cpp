@@ -5,24 +5,59 @@
 #include "run/progress.h"
 
 #include <calotte/check.h>
+#include <calotte/mesh_file.h>
 
 #include <iomanip>
 #include <iostream>
 #include <numbers>
+#include <optional>
 #include <sstream>
 #include <string>
 
 namespace calotte::tools {
 namespace {
 
-Check read_and_check(const MeshSource& source) {
-  Progress progress;
-  progress.stage("reading " + source.path);
-  const auto checked = [&](const auto& mesh) {
-    progress.stage("checking " + source.path);
-    return check(mesh);
-  };
-  return source.plane ? checked(read_planar_mesh(source)) : checked(read_mesh(source));
+/// What is proven of a mesh, and counted where that is not all.
+struct Findings {
+  Check check;                     ///< of a mesh of the sphere that is not Delaunay: as a surface
+  bool delaunay = false;           ///< the mesh is the Delaunay triangulation of its points
+  std::optional<EdgeCounts> edges; ///< of a mesh of the sphere that is not
+  std::string failure;             ///< why the check fails; empty if it passes
+};
+
+std::string first_edge(const EdgeCounts& edges) {
+  return std::to_string(edges.first[0]) + " to " + std::to_string(edges.first[1]);
+}
+
+/// A mesh whose edges are all Delaunay passes: a foreign mesh may have the other diagonals of
+/// cocircular sites, or a boundary that is not convex.
+Findings findings_of(const Mesh& mesh) {
+  Findings found;
+  found.check = check(mesh);
+  found.delaunay = found.check.passed();
+  if (found.delaunay)
+    return found;
+  const std::string strict = found.check.failure;
+  found.check = check_surface(mesh);
+  found.failure = found.check.failure;
+  if (!found.failure.empty())
+    return found;
+  found.edges = count_edges(mesh);
+  if (found.edges->not_delaunay > 0)
+    found.failure = std::to_string(found.edges->not_delaunay) + " of " +
+                    std::to_string(found.edges->edges) +
+                    " edges are not Delaunay; the first is from site " + first_edge(*found.edges);
+  else if (found.edges->boundary == 0 && found.edges->cocircular == 0)
+    found.failure = strict;
+  return found;
+}
+
+Findings findings_of(const PlanarMesh& mesh) {
+  Findings found;
+  found.check = check(mesh);
+  found.delaunay = found.check.passed();
+  found.failure = found.check.failure;
+  return found;
 }
 
 /// What the areas are compared with.
@@ -35,17 +70,58 @@ std::string area_line(const Check& result, bool plane) {
   return line.str();
 }
 
+std::string table(const Findings& found, bool plane) {
+  std::ostringstream out;
+  out << "sites           " << found.check.sites << "\n"
+      << "triangles       " << found.check.triangles << "\n"
+      << "boundary edges  " << found.check.boundary_edges << "\n"
+      << area_line(found.check, plane) << "\n";
+  if (const std::optional<EdgeCounts>& edges = found.edges) {
+    out << "not Delaunay    " << edges->not_delaunay << " edges\n"
+        << "cocircular      " << edges->cocircular << " edges take the other diagonal\n";
+    if (edges->boundary > 0)
+      out << "boundaries      " << edges->loops << ", not convex at " << edges->not_convex
+          << " sites\n";
+    if (edges->unused_sites > 0)
+      out << "unused          " << edges->unused_sites << " sites are in no triangle\n";
+  }
+  out << "Delaunay        "
+      << (found.delaunay          ? "yes, all checks passed"
+          : found.failure.empty() ? "yes, every edge"
+                                  : "no")
+      << "\n";
+  return out.str();
+}
+
+std::string table(const Polygons& polygons, const std::string& not_voronoi) {
+  std::ostringstream out;
+  out << "cells           " << polygons.size() << "\n"
+      << "corners         " << polygons.corners.cols() << "\n"
+      << "Voronoi         no: " << not_voronoi << "\n";
+  return out.str();
+}
+
 void run(const MeshSource& source) {
-  const Check result = read_and_check(source);
-  std::cout << "sites           " << result.sites << "\n"
-            << "triangles       " << result.triangles << "\n"
-            << "boundary edges  " << result.boundary_edges << "\n"
-            << area_line(result, source.plane) << "\n"
-            << "Delaunay        " << (result.passed() ? "yes, all checks passed" : "no") << "\n";
-  if (result.passed())
+  std::string text, failure;
+  {
+    Progress progress;
+    progress.stage("reading " + source.path);
+    const MeshFile file = read_mesh_file(source);
+    progress.stage("checking " + source.path);
+    text = changes_of(source, file);
+    if (file.plane || (file.mesh && !(file.polygons && file.mesh->closed()))) {
+      const Findings found = file.plane ? findings_of(*file.plane) : findings_of(*file.mesh);
+      text += table(found, file.plane.has_value());
+      failure = found.failure;
+    }
+    if (file.polygons)
+      text += table(*file.polygons, file.not_voronoi);
+  }
+  std::cout << text;
+  if (failure.empty())
     return;
   std::cout.flush();
-  std::cerr << "calotte: " + source.path + ": " + result.failure + "\n";
+  std::cerr << "calotte: " + source.path + ": " + failure + "\n";
   finish(check_failed);
 }
 

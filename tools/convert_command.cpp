@@ -5,18 +5,14 @@
 #include "options/files.h"
 #include "options/format_options.h"
 #include "options/mesh_source.h"
+#include "options/numbers.h"
 #include "run/progress.h"
 
 #include <calotte/error.h>
-#include <calotte/io.h>
+#include <calotte/mesh_file.h>
 #include <calotte/version.h>
 
-#include <array>
-#include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <iostream>
-#include <variant>
 
 namespace calotte::tools {
 namespace {
@@ -29,12 +25,10 @@ struct Request {
   std::string output;
 };
 
-using AnyMesh = std::variant<Mesh, PlanarMesh>;
-
-/// All that can be known to fail before anything is read.
+/// Checks all options that can fail, before any input is read.
 void require_request(const Request& request) {
   const MeshSource& source = *request.source;
-  options_of(*request.format, request.output); // throws for a file that could not be written
+  options_of(*request.format, request.output); // throws for a file that cannot be written
   const WidthWords& widths = request.density->widths;
   require_outputs({{"mesh", request.output}},
                   {source.path, source.points, widths.file, widths.raster, *request.config});
@@ -45,53 +39,54 @@ void require_request(const Request& request) {
                     "the file holds points, triangulate them with calotte delaunay");
 }
 
-/// A mesh of the sphere, or else of the plane.
-AnyMesh read(const MeshSource& source) {
-  if (source.plane)
-    return read_planar_mesh(source);
-  try {
-    return read_mesh(source);
-  } catch (const Error& error) {
-    if (error.code() != ErrorCode::bad_option)
-      throw;
-    try {
-      return calotte::read_planar_mesh(source.path);
-    } catch (const Error& other) {
-      throw other.code() == ErrorCode::bad_option ? error : other;
-    }
-  }
-}
+constexpr double kilometre = 1000; // metres
 
-/// Of the sphere that all points stand on but for their digits, with 12 of its own; 1 where there
-/// is none.
-double radius_of(const Points3& points) {
-  constexpr double rounding = 1e-6;
-  const Eigen::RowVectorXd norms = points.colwise().stableNorm();
-  const double mean = norms.mean();
-  if (!((norms.array() - mean).abs() <= rounding * mean).all())
-    return 1;
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.12g", mean);
-  return std::strtod(text.data(), nullptr);
-}
+/// An Earth in kilometres, as JIGSAW's meshes have it; NetCDF formats are in metres.
+bool is_in_kilometres(double radius) { return radius > 6300 && radius < 6400; }
 
-WriteOptions write_options(const Request& request, const Density& density, const AnyMesh& mesh) {
+WriteOptions write_options(const Request& request, const Density& density, const MeshFile& file) {
   WriteOptions options = options_of(*request.format, request.output);
-  if (const auto* sphere = std::get_if<Mesh>(&mesh); sphere && !request.format->sphere_radius)
-    options.sphere_radius = radius_of(sphere->points);
+  if (!request.format->sphere_radius)
+    options.sphere_radius =
+        is_in_kilometres(file.sphere_radius) ? kilometre * file.sphere_radius : file.sphere_radius;
   options.density = density;
   options.history = "calotte " CALOTTE_VERSION " convert: " + request.source->path;
   return options;
 }
 
-std::string describe(const Mesh& mesh) {
-  return std::to_string(mesh.points.cols()) + " sites, " + std::to_string(mesh.triangles.cols()) +
-         " triangles, " + (mesh.closed() ? "closed" : "open");
+std::string describe(const MeshFile& file) {
+  if (file.plane)
+    return std::to_string(file.plane->points.cols()) + " sites, " +
+           std::to_string(file.plane->triangles.cols()) + " triangles, a " +
+           (file.plane->period.minCoeff() > 0 ? "periodic plane" : "plane");
+  if (!file.mesh || (file.polygons && file.mesh->closed()))
+    return std::to_string(file.polygons->size()) + " cells, not Voronoi cells: " + file.not_voronoi;
+  return std::to_string(file.mesh->points.cols()) + " sites, " +
+         std::to_string(file.mesh->triangles.cols()) + " triangles, " +
+         (file.mesh->closed() ? "closed" : "open");
 }
 
-std::string describe(const PlanarMesh& mesh) {
-  return std::to_string(mesh.points.cols()) + " sites, " + std::to_string(mesh.triangles.cols()) +
-         " triangles, a " + (mesh.period.minCoeff() > 0 ? "periodic plane" : "plane");
+std::string joined(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names)
+    list += (list.empty() ? "" : ", ") + name;
+  return list;
+}
+
+/// What the output does not hold of the input, and a unit that was taken for granted.
+std::string remarks(const Request& request, const MeshFile& file, const WriteOptions& options,
+                    const std::vector<std::string>& dropped) {
+  std::string lines;
+  if (options.sphere_radius != file.sphere_radius && !request.format->sphere_radius &&
+      request.output.ends_with(".nc"))
+    lines += request.output + ": the radius " + shortest(file.sphere_radius) +
+             " is taken as kilometres and written as " + shortest(options.sphere_radius) +
+             " metres\n";
+  if (!dropped.empty())
+    lines += request.output + ": the format does not hold " + joined(dropped) + "\n";
+  if (!file.ignored.empty())
+    lines += request.output + ": not converted: " + joined(file.ignored) + "\n";
+  return lines;
 }
 
 void run(const Request& request) {
@@ -101,20 +96,22 @@ void run(const Request& request) {
   {
     Progress progress;
     progress.stage("reading " + request.source->path);
-    const AnyMesh any = read(*request.source);
+    const MeshFile file = read_mesh_file(*request.source);
     progress.stage("writing " + request.output);
-    const WriteOptions options = write_options(request, density, any);
-    std::visit([&](const auto& mesh) { write(request.output, mesh, options); }, any);
-    words = std::visit([](const auto& mesh) { return describe(mesh); }, any);
+    const WriteOptions options = write_options(request, density, file);
+    const std::vector<std::string> dropped = write(request.output, file, options);
+    words = changes_of(*request.source, file) + remarks(request, file, options, dropped) +
+            request.output + ": " + describe(file) + "\n";
   }
-  std::cout << request.output + ": " + words + "\n";
+  std::cout << words;
 }
 
 } // namespace
 
 void add_convert(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
-      "convert", "Converts a mesh to another format. Points and triangles do not change.");
+      "convert", "Converts a mesh, its density and its fields to another format. Points, "
+                 "triangles and cells do not change.");
   auto request = std::make_shared<Request>();
   request->source = add_mesh_source(*command, "IN,--input");
   add_plane(*command, *request->source);

@@ -6,14 +6,17 @@
 #include "options/mesh_source.h"
 #include "run/progress.h"
 
+#include <calotte/check.h>
 #include <calotte/error.h>
-#include <calotte/io.h>
+#include <calotte/mesh_file.h>
 #include <calotte/quality.h>
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <iomanip>
 #include <iostream>
+#include <numbers>
 #include <optional>
 #include <sstream>
 
@@ -27,10 +30,13 @@ struct Request {
   std::string report;
 };
 
-/// What was measured, and where.
+/// The quality of a mesh, and the area of its domain.
 struct Measured {
   Quality quality;
   std::optional<double> domain_area; ///< of a plane
+  bool cells = true; ///< false for a mesh without Voronoi cells: its triangles alone are measured
+  std::vector<std::string> changes; ///< that reading made
+  std::vector<std::string> remarks; ///< about the mesh, one line each
 };
 
 double ratio(const Range& range) { return range.max / range.min; }
@@ -39,9 +45,25 @@ nlohmann::ordered_json to_json(const Range& range) {
   return {{"min", range.min}, {"mean", range.mean}, {"max", range.max}};
 }
 
+void add_cells(const Quality& quality, nlohmann::ordered_json& json) {
+  json["sigma"] = to_json(quality.sigma);
+  json["cell_quality"] = to_json(quality.cell_quality);
+  json["cell_area"] = to_json(quality.cell_area);
+  json["area_ratio"] = ratio(quality.cell_area);
+  json["off_centring"] = to_json(quality.off_centring);
+  json["residual"] = quality.residual;
+  json["energy"] = quality.energy;
+  json["energy_times_cells"] = quality.energy * static_cast<double>(quality.cells);
+  json["cells_area"] = quality.cells_area;
+}
+
 std::string to_json(const Measured& measured) {
   const Quality& quality = measured.quality;
   nlohmann::ordered_json json;
+  if (!measured.changes.empty())
+    json["changes"] = measured.changes;
+  if (!measured.remarks.empty())
+    json["remarks"] = measured.remarks;
   json["cells"] = quality.cells;
   json["triangles"] = quality.triangles;
   json["degrees"] = nlohmann::ordered_json::object();
@@ -50,17 +72,10 @@ std::string to_json(const Measured& measured) {
       json["degrees"][std::to_string(degree)] = quality.degrees[degree];
   json["obtuse"] = quality.obtuse;
   json["spacing"] = to_json(quality.spacing);
-  json["sigma"] = to_json(quality.sigma);
-  json["cell_quality"] = to_json(quality.cell_quality);
-  json["cell_area"] = to_json(quality.cell_area);
-  json["area_ratio"] = ratio(quality.cell_area);
   json["triangle_quality"] = to_json(quality.triangle_quality);
   json["angles"] = to_json(quality.angles);
-  json["off_centring"] = to_json(quality.off_centring);
-  json["residual"] = quality.residual;
-  json["energy"] = quality.energy;
-  json["energy_times_cells"] = quality.energy * static_cast<double>(quality.cells);
-  json["cells_area"] = quality.cells_area;
+  if (measured.cells)
+    add_cells(quality, json);
   if (measured.domain_area)
     json["domain_area"] = *measured.domain_area;
   else
@@ -77,7 +92,7 @@ std::string degrees(const Quality& quality) {
   return list;
 }
 
-/// A name and what belongs to it, beneath those before.
+/// Aligned rows of names and values.
 class Table {
 public:
   template <class Value> void row(const std::string& name, const Value& value, int digits = 6) {
@@ -97,43 +112,50 @@ private:
   std::ostringstream out_;
 };
 
-std::string table(const Measured& measured) {
+void add_cell_rows(const Measured& measured, Table& table) {
   const Quality& quality = measured.quality;
   const bool plane = measured.domain_area.has_value();
   const double area = measured.domain_area.value_or(1);
+  table.row("sigma", quality.sigma);
+  table.row("cell quality", quality.cell_quality);
+  table.row(plane ? "cell area" : "cell area, steradians", quality.cell_area);
+  table.row("off-centring", quality.off_centring);
+  table.row("area ratio", ratio(quality.cell_area));
+  table.row("residual / h", quality.residual);
+  table.row("energy", quality.energy, 7);
+  table.row(plane ? "energy * cells / A^2" : "energy * cells",
+            quality.energy * static_cast<double>(quality.cells) / (area * area), 7);
+  table.row(plane ? "cells / domain" : "cells / 4 pi", quality.cells_area, 15);
+}
+
+std::string table(const Measured& measured) {
+  const Quality& quality = measured.quality;
+  const bool plane = measured.domain_area.has_value();
   Table table;
   table.row("cells", quality.cells);
   table.row("triangles", quality.triangles);
   table.row("degree: cells", degrees(quality));
   table.row<std::string>("", "min", "mean", "max");
   table.row(plane ? "spacing" : "spacing, radians", quality.spacing);
-  table.row("sigma", quality.sigma);
-  table.row("cell quality", quality.cell_quality);
-  table.row(plane ? "cell area" : "cell area, steradians", quality.cell_area);
   table.row("triangle quality", quality.triangle_quality);
   table.row("angles, degrees", quality.angles);
-  table.row("off-centring", quality.off_centring);
-  table.row("area ratio", ratio(quality.cell_area));
   table.row("obtuse triangles", quality.obtuse);
-  table.row("residual / h", quality.residual);
-  table.row("energy", quality.energy, 7);
-  table.row(plane ? "energy * cells / A^2" : "energy * cells",
-            quality.energy * static_cast<double>(quality.cells) / (area * area), 7);
-  table.row(plane ? "cells / domain" : "cells / 4 pi", quality.cells_area, 15);
+  if (measured.cells)
+    add_cell_rows(measured, table);
   if (!plane)
     table.row("triangles / 4 pi", quality.triangles_area, 15);
   return table.text();
 }
 
-void require_outputs(const Request& request) {
-  if (request.report.empty())
-    return;
-  require_folder(request.report);
-  require_distinct(request.report, request.source->path);
-  require_distinct(request.report, request.source->points);
+/// The report replaces no input.
+void require_report(const Request& request) {
+  const WidthWords& widths = request.density->widths;
+  require_outputs({{"report", request.report}},
+                  {request.source->path, request.source->points, widths.file, widths.raster,
+                   request.domain->file.value_or("")});
 }
 
-/// The domain that is given, or the box of the mesh.
+/// The given domain, or the box of the mesh.
 PlanarDomain domain_of(const Request& request, const PlanarMesh& mesh) {
   if (const std::optional<PlanarDomain> given = domain_of(*request.domain))
     return *given;
@@ -144,31 +166,110 @@ PlanarDomain domain_of(const Request& request, const PlanarMesh& mesh) {
                                          "give --domain, --rectangle or --periodic");
 }
 
-Measured read_and_measure(const Request& request) {
-  const bool plane = request.source->plane;
-  const Density density = density_of(*request.density, plane);
+/// The density that is given, or else that of the file.
+Density density_of(const Request& request, const MeshFile& file, Measured& measured) {
+  const Density given = density_of(*request.density, request.source->plane);
+  if (!given.uniform() || file.density.size() == 0 || !file.mesh ||
+      file.density.minCoeff() == file.density.maxCoeff())
+    return given;
+  measured.remarks.emplace_back("the density is the file's, interpolated between the sites");
+  return interpolated_density(*file.mesh, file.density);
+}
+
+/// Whether a mesh has Voronoi cells that cover the sphere; if not, a remark tells why.
+bool has_voronoi_cells(const Mesh& mesh, Measured& measured) {
+  const EdgeCounts edges = count_edges(mesh);
+  if (edges.boundary > 0)
+    measured.remarks.push_back("the mesh is open: " + std::to_string(edges.boundary) +
+                               " boundary edges in " + std::to_string(edges.loops) +
+                               (edges.loops == 1 ? " loop" : " loops") +
+                               "; its triangles are measured");
+  if (edges.not_delaunay > 0)
+    measured.remarks.push_back(std::to_string(edges.not_delaunay) +
+                               " edges are not Delaunay; the triangles are measured");
+  return edges.boundary == 0 && edges.not_delaunay == 0;
+}
+
+void measure_sphere(const Request& request, const MeshFile& file, Measured& measured) {
+  const Mesh& mesh = *file.mesh;
+  measured.cells = has_voronoi_cells(mesh, measured);
+  measured.quality =
+      measured.cells ? quality(mesh, density_of(request, file, measured)) : triangle_quality(mesh);
+}
+
+void measure_plane(const Request& request, const MeshFile& file, Measured& measured) {
+  const PlanarDomain domain = domain_of(request, *file.plane);
+  measured.quality = quality(*file.plane, domain, density_of(*request.density, true));
+  measured.domain_area = area(domain);
+}
+
+/// Polygons that are not Voronoi cells: their number of sides and their areas.
+std::string table(const Polygons& polygons) {
+  const Eigen::VectorXd area = areas(polygons);
+  std::vector<std::int64_t> sides;
+  for (std::int64_t i = 0; i < polygons.size(); ++i) {
+    const auto count = static_cast<std::size_t>(polygons.begin[i + 1] - polygons.begin[i]);
+    sides.resize(std::max(sides.size(), count + 1));
+    ++sides[count];
+  }
+  Quality counts;
+  counts.degrees = sides;
+  Table table;
+  table.row("cells", polygons.size());
+  table.row("corners", polygons.corners.cols());
+  table.row("sides: cells", degrees(counts));
+  table.row<std::string>("", "min", "mean", "max");
+  table.row("cell area, steradians", Range{area.minCoeff(), area.mean(), area.maxCoeff()});
+  table.row("cells / 4 pi", area.sum() / (4 * std::numbers::pi), 15);
+  return table.text();
+}
+
+std::string to_json(const Polygons& polygons, const Measured& measured) {
+  const Eigen::VectorXd area = areas(polygons);
+  nlohmann::ordered_json json;
+  json["changes"] = measured.changes;
+  json["remarks"] = measured.remarks;
+  json["cells"] = polygons.size();
+  json["corners"] = polygons.corners.cols();
+  json["cell_area"] = to_json(Range{area.minCoeff(), area.mean(), area.maxCoeff()});
+  json["cells_area"] = area.sum() / (4 * std::numbers::pi);
+  return json.dump(2) + "\n";
+}
+
+std::string remarks_of(const Request& request, const Measured& measured) {
+  std::string lines;
+  for (const auto* list : {&measured.changes, &measured.remarks})
+    for (const std::string& remark : *list)
+      lines += request.source->path + ": " + remark + "\n";
+  return lines;
+}
+
+/// The table to print. Writes the report, too.
+std::string read_and_measure(const Request& request) {
   Progress progress;
   progress.stage("reading " + request.source->path);
-  if (plane) {
-    const PlanarMesh mesh = read_planar_mesh(*request.source);
-    const PlanarDomain domain = domain_of(request, mesh);
-    progress.stage("measuring " + request.source->path);
-    return {quality(mesh, domain, density), area(domain)};
-  }
-  const Mesh mesh = read_mesh(*request.source);
+  const MeshFile file = read_mesh_file(*request.source);
   progress.stage("measuring " + request.source->path);
-  return {quality(mesh, density), {}};
+  Measured measured;
+  measured.changes = file.changes;
+  const bool as_polygons = !file.plane && file.polygons && !(file.mesh && !file.mesh->closed());
+  if (as_polygons)
+    measured.remarks.push_back("the cells are not Voronoi cells: " + file.not_voronoi);
+  else if (file.plane)
+    measure_plane(request, file, measured);
+  else
+    measure_sphere(request, file, measured);
+  if (!request.report.empty())
+    write_file(request.report, as_polygons ? to_json(*file.polygons, measured) : to_json(measured));
+  return remarks_of(request, measured) + (as_polygons ? table(*file.polygons) : table(measured));
 }
 
 void run(const Request& request) {
   if (request.domain->given() && !request.source->plane)
     throw Error(ErrorCode::bad_option,
                 "a domain requires --plane; add --plane, or leave the domain out");
-  require_outputs(request);
-  const Measured measured = read_and_measure(request);
-  if (!request.report.empty())
-    write_file(request.report, to_json(measured));
-  std::cout << table(measured);
+  require_report(request);
+  std::cout << read_and_measure(request);
 }
 
 } // namespace

@@ -48,7 +48,7 @@ void require_options(const Request& request) {
         ErrorCode::bad_option,
         request.output + ": points are text with " + (request.planar() ? "x y" : "x y z") +
             " on each line; give a name such as points.txt; calotte delaunay makes a mesh of them");
-  require_folder(request.output);
+  require_outputs({{"points", request.output}}, {request.domain->file.value_or("")});
 }
 
 int level_of(std::int64_t count) {

@@ -5,20 +5,25 @@
 #include <calotte/progress.h>
 #include <calotte/types.h>
 
+#include <array>
+#include <cstdint>
 #include <string>
 
 CALOTTE_API_BEGIN
 namespace calotte {
 
-/// The result of `check`. `failure` is one line that describes the first violated law and names the
-/// triangle, edge or site; it is empty if all laws hold.
+/// The result of `check`.
 struct Check {
+  /// One line that describes the first violated law and names the triangle, edge or site; empty if
+  /// all laws hold.
   std::string failure;
   std::int64_t sites = 0;
   std::int64_t triangles = 0;
   std::int64_t boundary_edges = 0;
-  double area = 0; ///< sum of the triangles' areas: steradians on the unit sphere, or of the plane
-  /// Expected area: 4 pi (0 for an open mesh); in the plane that of the hull or box.
+  /// Sum of the areas of the triangles: steradians on the unit sphere; in the plane the square of
+  /// the points' unit. 0 if an earlier law is violated.
+  double area = 0;
+  /// Expected area: 4 pi (0 for an open mesh); in the plane that of the boundary polygon or box.
   double whole = 0;
 
   bool passed() const { return failure.empty(); }
@@ -34,16 +39,52 @@ struct Check {
 /// - the boundary is convex, and the areas of a closed mesh sum to 4 pi. These local properties
 ///   imply the global one (Delaunay, 1934), so the time is linear.
 ///
+/// A mesh that violates a law is a result, not an error.
+///
 /// \param progress if set, called between blocks of triangles, with the stage "check". A mesh that
-///         is open or broken is read more than once: the fraction then stands still.
+///         is open or broken is read more than once; the fraction may then stay constant.
 /// \throws Error cancelled.
 Check check(const Mesh& mesh, const ProgressCallback& progress = {});
 
-/// The same in the plane: Euler's characteristic 1, and areas that sum to that of the boundary's
-/// polygon; in a periodic box no boundary, Euler's characteristic 0, and areas that sum to the
-/// box's. There a triangle wider than half of the box counts as a failure, as periodic_delaunay()
-/// makes none.
+/// The same in the plane: Euler's characteristic is 1, and the areas sum to that of the boundary
+/// polygon. In a periodic box there is no boundary, Euler's characteristic is 0, and the areas sum
+/// to that of the box; a triangle wider than half of the box is a failure, because
+/// periodic_delaunay() makes none.
+/// \throws Error cancelled.
 Check check(const PlanarMesh& mesh, const ProgressCallback& progress = {});
+
+/// Proves less, for a mesh that need be neither Delaunay nor convex, such as a region cut from a
+/// larger mesh: ids, canonical order and neighbours as above; every triangle counter-clockwise; the
+/// triangles at each site a single cycle that turns around it once, or a single fan; and the areas
+/// of a closed mesh sum to 4 pi. Sites in no triangle are allowed. Such triangles do not overlap
+/// near any site or edge.
+/// \throws Error cancelled.
+Check check_surface(const Mesh& mesh, const ProgressCallback& progress = {});
+
+/// Counts of what keeps a mesh from being the Delaunay triangulation of its points, or closed.
+struct EdgeCounts {
+  std::int64_t edges = 0;    ///< of all triangles
+  std::int64_t boundary = 0; ///< edges of one triangle
+  std::int64_t loops = 0;    ///< closed lines of boundary edges; 0 for a closed mesh
+  /// Boundary sites at which the boundary turns towards the outside by more than a straight line:
+  /// the mesh does not fill its hull there.
+  std::int64_t not_convex = 0;
+  /// Edges whose opposite site lies inside the circumcap, by more than rounding: their Voronoi edge
+  /// has a length below -1e-9 of their own. The mesh has no Voronoi cells there.
+  std::int64_t not_delaunay = 0;
+  /// Edges between sites that are cocircular up to that rounding, and that follow another diagonal
+  /// than the library's rule. They make the same Voronoi cells.
+  std::int64_t cocircular = 0;
+  std::int64_t unused_sites = 0; ///< sites in no triangle
+  std::array<std::int32_t, 2> first = {-1,
+                                       -1}; ///< the sites of the first edge that is not Delaunay
+  double shortest = 0; ///< the least length of a Voronoi edge over that of its edge; 0 or negative
+};
+
+/// Counts edges of a mesh that need not be Delaunay or convex. Linear time; the signs are exact.
+/// \pre ids are in range, triangles are counter-clockwise, neighbours are mutual, as read_mesh()
+/// makes them.
+EdgeCounts count_edges(const Mesh& mesh);
 
 } // namespace calotte
 CALOTTE_API_END

@@ -21,21 +21,22 @@ namespace calotte {
 /// beta and alpha are lengths. In a periodic box d is the distance to the nearest copy of the
 /// centre.
 struct Bump {
-  Eigen::Vector3d centre{0, 0, 1};  ///< a direction
-  double beta = 0.5235987755982988; ///< > 0
-  double alpha = 0.2;               ///< > 0
-  double gamma = 1.0 / 4096;        ///< 0 < gamma < 1
+  Eigen::Vector3d centre{0, 0, 1};  ///< a direction, finite and non-zero
+  double beta = 0.5235987755982988; ///< radius in radians, > 0; default pi / 6
+  double alpha = 0.2;               ///< width of the transition in radians, > 0
+  double gamma = 1.0 / 4096;        ///< density far from the centre; 0 < gamma < 1
   /// Ratio of the axes of an elliptic bump: distances along the long axis are divided by it; >= 1.
   /// Default 1, a circular bump.
   double stretch = 1;
-  /// Direction of the long axis at the centre; the library projects it to the tangent plane. It has
-  /// an effect only if stretch > 1.
+  /// Direction of the long axis at the centre, of any norm; the library projects it to the tangent
+  /// plane, where it must not vanish. It has an effect only if stretch > 1.
   Eigen::Vector3d major{1, 0, 0};
 };
 
 /// A density rho >= 0 on the unit sphere or in the plane: uniform, one or more bumps, or a
 /// callable. Only its ratios matter. Default: uniform.
 struct Density {
+  /// Uniform, the maximum or the sum of the bumps, or the callable.
   enum class Kind { uniform, maximum, sum, callable };
   /// Sets rho(j) to the density at column j of x (3 x k, unit columns). rho(j) is 0 or from 1e-150
   /// to 1e150 and depends on column j alone. Many threads call it concurrently, with blocks of a
@@ -47,7 +48,7 @@ struct Density {
 
   Kind kind = Kind::uniform;
   std::vector<Bump> bumps; ///< combined by Kind::maximum or Kind::sum; not empty for these kinds
-  Callable callable;
+  Callable callable;       ///< not empty for Kind::callable; no effect for other kinds
 
   bool uniform() const { return kind == Kind::uniform; }
 };
@@ -58,12 +59,14 @@ struct Density {
 /// \param gamma in (0, 1). Functions that use the density throw for values out of range.
 Density tanh_bump(const Eigen::Vector3d& centre, double beta, double alpha, double gamma);
 
-/// The density of the generators of an optimal CVT with many cells: rho^(1/2). Random starts should
-/// follow it. (In d dimensions rho^(d/(d+2)); Gersho, IEEE Trans. Inf. Theory 25, 1979.)
+/// The density of the generators of an optimal CVT with many cells: rho^(1/2); uniform for uniform
+/// density. Random starts should follow it. (In d dimensions rho^(d/(d+2)); Gersho, IEEE Trans.
+/// Inf. Theory 25, 1979.)
 /// \throws Error bad_option if the density is ill-formed.
 Density site_density(const Density& density);
 
-/// The same for a density in a planar domain. The result takes a box's period into account.
+/// The same for a density in a planar domain. In a periodic box the result is periodic.
+/// \throws Error bad_option if the density is ill-formed.
 Density site_density(const Density& density, const PlanarDomain& domain);
 
 /// The density at each of n unit columns.
@@ -73,10 +76,17 @@ Density site_density(const Density& density, const PlanarDomain& domain);
 Eigen::VectorXd evaluate(const Density& density, const PointsRef& points);
 
 /// The density at n places of a planar domain.
-/// \param places 2 x n.
+/// \param places 2 x n, in the unit of the domain.
 /// \throws Error bad_option as above, with 2 rows.
 Eigen::VectorXd evaluate(const Density& density, const PlanarDomain& domain,
                          const PointsRef& places);
+
+/// The density that values at the sites of a mesh give everywhere: rho^(-1/4), which cell widths
+/// are proportional to, is linear on each triangle of unit vectors. Outside an open mesh the
+/// nearest triangle found holds. \param mesh a mesh of the sphere; the density keeps a copy of what
+/// it needs. \param density n values >= 0, finite, by site. \throws Error bad_option for another
+/// number of values, a value out of range, or no triangle.
+Density interpolated_density(const Mesh& mesh, const Eigen::VectorXd& density);
 
 } // namespace calotte
 CALOTTE_API_END

@@ -12,6 +12,7 @@
 CALOTTE_API_BEGIN
 namespace calotte {
 
+/// Extremes and mean of a quantity; all 0 if there is nothing to measure.
 struct Range {
   double min = 0, mean = 0, max = 0;
 };
@@ -28,7 +29,7 @@ struct Quality {
   Range sigma;   ///< per cell: distance to the nearest neighbour / distance to the farthest
   /// Per cell: shortest Voronoi edge / longest; 0 where cocircular sites share a corner.
   Range cell_quality;
-  Range cell_area; ///< per cell; max / min is the area ratio
+  Range cell_area; ///< per cell, steradians; max / min is the area ratio
 
   /// Per triangle: (b + c - a) (c + a - b) (a + b - c) / (a b c), with a, b, c the arcs of the
   /// sides; 1 if equilateral. With chords it is twice the inradius divided by the circumradius
@@ -66,6 +67,13 @@ struct Quality {
 ///         cover the sphere; for a density that is ill-formed, negative, infinite or NaN somewhere,
 ///         or zero over a whole cell.
 Quality quality(const Mesh& mesh, const Density& density = {});
+
+/// Measures the triangles of a mesh that need be neither closed nor Delaunay: triangles, spacing,
+/// triangle_quality, angles, obtuse and triangles_area. `cells` is the number of sites, and
+/// `degrees` counts the sites with a closed ring of triangles. The other fields, which belong to
+/// Voronoi cells, stay 0.
+/// \throws Error bad_option, for a mesh that fails check_surface().
+Quality triangle_quality(const Mesh& mesh);
 
 /// Measures a mesh of generators in a planar domain. Lengths and areas are in the domain's unit, h
 /// = sqrt(area / n), cells_area is divided by the domain's area, and triangles_area is 0. The

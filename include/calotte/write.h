@@ -4,6 +4,7 @@
 #include <calotte/density.h>
 #include <calotte/error.h>
 #include <calotte/export.h>
+#include <calotte/mesh_field.h>
 #include <calotte/progress.h>
 #include <calotte/renumber.h>
 #include <calotte/types.h>
@@ -11,87 +12,110 @@
 #include <iosfwd>
 #include <string>
 #include <string_view>
+#include <vector>
 
-/// Writers. Each file is written beside its place, flushed to the disk and renamed when whole: a
-/// reader sees all of it or none.
+/// Writers. Each file is written under a temporary name in the same folder, flushed to the disk and
+/// renamed when complete, so that a reader sees all of it or none. A device or a pipe is written in
+/// place.
 CALOTTE_API_BEGIN
 namespace calotte {
 
-/// Writes x y z, in the plane x y, on each line, with the fewest digits (at most 17) that read back
-/// to the same bits.
-/// \param points 3 x n, or 2 x n.
+/// Writes x y z, in the plane x y, on each line, separated by blanks, with the fewest digits (at
+/// most 17) that read back to the same bits.
+/// \param points 3 x n or 2 x n, unchanged.
 /// \throws Error bad_option for another number of rows, before any file is touched; file.
 void write_points(const std::string& path, const PointsRef& points);
+/// The same to a stream, which it flushes.
 void write_points(std::ostream& out, const PointsRef& points);
 
+/// The format of a mesh file. "Cells" are Voronoi cells, "triangles" Delaunay triangles.
 enum class Format {
-  by_name,         ///< of the path, see write
+  by_name,         ///< selected by the file name, see write(); the default
   mpas,            ///< full MPAS mesh, NetCDF; NAME.graph.info, as METIS reads it, beside NAME.nc
-  mpas_minimal,    ///< what MPAS's MpasMeshConverter.x reads, NetCDF
+  mpas_minimal,    ///< the input of MpasMeshConverter.x of MPAS, NetCDF
   ugrid,           ///< UGRID of the Voronoi cells, NetCDF
   ugrid_triangles, ///< UGRID of the Delaunay triangles, NetCDF
   scrip,           ///< SCRIP of the cells, NetCDF
   esmf,            ///< ESMF unstructured of the cells, NetCDF
-  vtp,             ///< VTK PolyData of the triangles, CellFields at the sites
+  vtp,             ///< VTK PolyData of the triangles; a closed mesh has its CellFields at the sites
   vtu,             ///< VTK UnstructuredGrid of the same
   vtp_cells,       ///< VTK PolyData of the Voronoi cells with their CellFields
   vtu_cells,       ///< VTK UnstructuredGrid of the same
-  off,             ///< text, digits as write_points
-  ply,             ///< binary doubles
-  triangles,       ///< 0-based `i j k` on each line
+  off,             ///< OFF of the triangles, text, digits as in write_points()
+  ply,             ///< PLY of the triangles, binary doubles
+  triangles,       ///< text: the 0-based ids `i j k` of a triangle on each line, without points
   mpi_scvt,        ///< SaveVertices, and SaveTriangles and SaveDensity beside it
-  msh,             ///< JIGSAW
+  msh,             ///< JIGSAW of the triangles
   geojson,         ///< the cells as polygons with their CellFields
 };
 
+/// Options of write(). No option changes the geometry of the mesh.
 struct WriteOptions {
-  Format format = Format::by_name;
-  Numbering numbering = Numbering::by_format;
-  /// Radius of the sphere in NetCDF files, in the file's unit of length (MPAS: metres); > 0;
-  /// default 1. Other formats store the points unchanged.
+  Format format = Format::by_name; ///< must agree with the file name, see format_of()
+  Numbering numbering =
+      Numbering::by_format; ///< of the cells; a plane supports by_format and input
+  /// Radius of the sphere in NetCDF files, in the file's unit of length (MPAS: metres); > 0 and
+  /// finite; default 1. A plane and the other formats store the points unchanged.
   double sphere_radius = 1;
-  /// Density of the mesh, for fields such as meshDensity and nominalMinDc. Default: uniform.
+  /// Density of the mesh, for fields such as meshDensity and nominalMinDc; in a plane uniform.
+  /// Default: uniform.
   Density density = {};
-  std::string history =
-      {}; ///< one line a fact: how the mesh was made; an attribute of NetCDF files
-  /// Stages: number, write. A cancelled run leaves no file.
+  /// n values >= 0, one of them positive, by site; they replace `density`. Default: none.
+  Eigen::VectorXd site_density = {};
+  /// Fields of the mesh, in its order. NetCDF formats, VTK and, at cells, GeoJSON hold them; other
+  /// formats ignore them. Default: none.
+  std::vector<MeshField> fields = {};
+  /// How the mesh was made, one fact a line; the attribute `history` of NetCDF files. Default:
+  /// empty, no attribute.
+  std::string history = {};
+  /// Stages: number (on the sphere), write. A cancelled run leaves no file. Default: none.
   ProgressCallback progress = {};
 };
 
-/// Writes a mesh. By its name the format is that of
-///   .nc          mpas
-///   .vtp .vtu .off .ply .msh .geojson
-///   .txt .tri    triangles: the ids are columns of the input of the triangulation, so that the
-///   file goes
-///                with the points it was made from: a merged duplicate goes by its site's lowest
-///                column
-///   SaveVertices mpi_scvt; the rest of the name, if any, is that of the files beside it, too
-/// Formats of cells, and the fields of the others, need a closed mesh.
-/// Places of NetCDF files are sphere_radius times the unit vectors; a point whose norm is that
-/// radius but for rounding keeps its bits.
+/// Writes a mesh. The file name selects the format:
+///
+/// - .nc: mpas;
+/// - .vtp, .vtu, .off, .ply, .msh, .geojson: the format of that name;
+/// - .txt, .tri: triangles. The ids are columns of the input of the triangulation, so that the file
+///   belongs to the points that were triangulated. A site with duplicates has the id of its lowest
+///   column;
+/// - a name that starts with SaveVertices: mpi_scvt. The rest of the name is also that of
+///   SaveTriangles and SaveDensity beside it.
+///
+/// Formats of cells require a closed mesh. Coordinates in NetCDF files are sphere_radius times the
+/// unit vectors; a point whose norm equals that radius up to rounding keeps its bits.
+/// \param mesh as spherical_delaunay() or read_mesh() returns it: columns of any norm, triangles
+///        counter-clockwise seen from outside.
 /// \throws Error bad_option for an unknown suffix, a radius out of range, an ill-formed density,
-///         ids that are not the mesh's, an open mesh for a format of cells; all before any file is
-///         written; file.
+///         ids out of range, or an open mesh in a format of cells, all before any file is written;
+///         not_finite or zero_vector as renumbered(); cancelled; file.
 void write(const std::string& path, const Mesh& mesh, const WriteOptions& options = {});
 
-/// A plane, numbered as it is. Periodic: mpas, mpas_minimal and triangles. Not periodic: triangles,
-/// and the streams vtp, vtu, off, ply and msh with z = 0.
+/// Writes a planar mesh in the order of its sites. A periodic mesh supports mpas, mpas_minimal and
+/// triangles; other planar meshes support triangles and, with z = 0, vtp, vtu, off, ply and msh.
+/// \throws Error as above; bad_option for another format, for Numbering::curve and Numbering::rcm,
+///         and for a density that is not uniform in an MPAS file.
 void write(const std::string& path, const PlanarMesh& mesh, const WriteOptions& options = {});
 
-/// The format that `write` gives a path: the option's, or else that of its name.
-/// \throws Error bad_option for a name that says none; for an option that is not that of the name's
-///         suffix (a NetCDF format of .nc; vtp and vtp_cells of .vtp, and so on), because readers
-///         go by the name; for mpi_scvt under another name.
+/// The format in which `write` writes a path: the option, or for by_name the format of the name.
+/// The case of a suffix does not matter. An option other than mpi_scvt may have a name of unknown
+/// suffix.
+/// \throws Error bad_option if by_name meets an unknown suffix; if the option contradicts a known
+///         suffix, because readers go by the name (.nc has the NetCDF formats, .vtp has vtp and
+///         vtp_cells, .vtu has vtu and vtu_cells); for mpi_scvt under another name.
 Format format_of(const std::string& path, Format option = Format::by_name);
 
 /// True if the format stores Voronoi cells and thus requires a closed mesh.
 bool holds_cells(Format format);
 
-/// Throws unless `write` supports planar (or periodic) meshes in the format.
+/// Throws unless `write` supports planar meshes in the format.
+/// \param path for the message.
+/// \param periodic the mesh is that of a periodic box.
+/// \param format not by_name.
 /// \throws Error bad_option.
 void require_planar_format(const std::string& path, bool periodic, Format format);
 
-/// Writes bytes to a file that is complete or absent, as described above.
+/// Writes bytes to a file, which is complete or absent as described above.
 /// \throws Error file.
 void write_file(const std::string& path, std::string_view bytes);
 

@@ -14,21 +14,23 @@ namespace calotte::io_detail {
 
 inline constexpr bool little_endian = std::endian::native == std::endian::little;
 
-/// The number that follows the first `key` in `text`, if it is one that can count an array.
+/// The number after the first `key` in `text`, if it is valid as the size of an array.
 std::optional<std::int64_t> count_after(std::string_view text, std::string_view key);
 
-/// What is left of a file's bytes to take.
+/// The unread part of a file's bytes.
 class Bytes {
 public:
   Bytes(std::string_view bytes, std::string name) : rest_(bytes), name_(std::move(name)) {}
 
-  /// The next `size` bytes. \throws Error parse when there are fewer.
+  /// Returns the next `size` bytes.
+  /// \throws Error parse if there are fewer.
   std::string_view take(std::int64_t size);
 
-  /// Takes `expected`, or fails with the problem. \throws Error parse.
+  /// Reads `expected`, or fails with the problem.
+  /// \throws Error parse.
   void take(std::string_view expected, const std::string& problem);
 
-  /// \throws Error parse when bytes are left.
+  /// \throws Error parse if bytes are left.
   void finish() const;
 
   [[noreturn]] void fail(const std::string& problem) const;

@@ -10,7 +10,7 @@ namespace calotte::io_detail {
 namespace {
 
 constexpr double degrees = 180 / std::numbers::pi;
-constexpr double cut = 180; ///< the meridian, and this more or less any number of turns
+constexpr double cut = 180; ///< the meridian; any number of turns may be added
 
 using Ring = std::vector<MapPlace>;
 
@@ -22,7 +22,7 @@ double longitude_of(const Vec3& p) {
 
 double latitude_of(const Vec3& p) { return std::atan2(p.z, std::hypot(p.x, p.y)) * degrees; }
 
-/// Longitudes that run on past 180 degrees, along the ring from its first place to that again.
+/// Longitudes that continue beyond 180 degrees, along the ring from its first place back to it.
 class Unrolled {
 public:
   explicit Unrolled(const std::vector<Vec3>& corners) {
@@ -52,13 +52,13 @@ public:
   }
 
 private:
-  /// Goes from a to b, which are no poles, by way of the pole on the side of `between` if that is
-  /// one, or if the edge runs through it.
+  /// Continues from a to b, which are no poles, through the pole on the side of `between` if that
+  /// is a pole, or if the edge passes through it.
   void append(const Vec3& a, const Vec3& b, const Vec3& between, bool pole) {
     double step = std::remainder(longitude_of(b) - longitude_of(a), 360.0);
     const double from = places_.back().longitude;
     if (pole || std::abs(step) > 180 - 1e-10) {
-      // Seen from the pole the cell is a wedge, west of the meridian that goes up to the north.
+      // Seen from the pole the cell is a wedge to the west of the meridian that runs north.
       const double edge = std::copysign(90.0, between.z);
       if (std::abs(step) > 180 - 1e-10)
         step = -std::copysign(step, edge);
@@ -68,7 +68,7 @@ private:
     push({from + step, latitude_of(b)}, &a, &b);
   }
 
-  /// With a place where the way there crosses the cut: on the arc from a to b, or at a pole.
+  /// Adds a place if the path to it crosses the cut: on the arc from a to b, or at a pole.
   void push(const MapPlace& place, const Vec3* a = nullptr, const Vec3* b = nullptr) {
     const MapPlace last = places_.back();
     const double low = std::min(last.longitude, place.longitude),
@@ -94,7 +94,7 @@ Ring between_cuts(const Ring& ring, int turn) {
   return part;
 }
 
-/// A ring that goes round once, from the cut to the cut, and back along the pole's edge.
+/// A ring that runs round once, from the cut to the cut, and back along the pole's edge.
 Ring around_pole(Ring ring, long turns) {
   ring.pop_back();
   const auto on_cut = [](const MapPlace& place) {
@@ -113,7 +113,7 @@ Ring around_pole(Ring ring, long turns) {
   return ring;
 }
 
-/// Without places that repeat the one before; empty where it has no width.
+/// Removes places that repeat the one before; empty if the ring has no width.
 Ring cleaned(const Ring& ring) {
   Ring out;
   const auto same = [](const MapPlace& a, const MapPlace& b) {

@@ -13,13 +13,14 @@ struct MapPlace {
   double longitude, latitude;
 };
 
-/// The outline of a convex cell of the sphere on the plane of longitude and latitude, as RFC 7946
-/// (Butler et al., 2016, Sect. 3.1) demands: rings counter-clockwise, the last place not the first
-/// again; a cell that the meridian of 180 degrees cuts is two rings (Sect. 3.1.9); one around a
-/// pole is a ring that runs along that meridian to the pole's edge of the plane and back. An edge
-/// is cut where its arc meets the meridian, so that neighbours agree to the last bit. \param
-/// corners unit vectors counter-clockwise seen from outside. Those within 1e-12 of a pole
-///        stand at it; equal ones count once. \returns no ring for fewer than three places.
+/// The outline of a convex cell of the sphere in the plane of longitude and latitude, as RFC 7946
+/// (Butler et al., 2016, Sect. 3.1) requires: rings run counter-clockwise, and the first place is
+/// not repeated. A cell cut by the meridian of 180 degrees has two rings (Sect. 3.1.9). A cell
+/// around a pole has one ring that runs along that meridian to the pole's edge of the plane and
+/// back. An edge is cut where its arc meets the meridian, so that neighbours agree to the last bit.
+/// \param corners unit vectors counter-clockwise seen from outside. Corners within 1e-12 of a pole
+///         count as the pole; equal corners count once.
+/// \returns no ring for fewer than three places.
 std::vector<std::vector<MapPlace>> outline_of(const std::vector<Vec3>& corners);
 
 } // namespace calotte::io_detail

@@ -15,7 +15,7 @@ namespace calotte {
 namespace io_detail {
 namespace {
 
-/// Degrees that rounding in a file may take.
+/// Tolerance in degrees for coordinates rounded in a file.
 constexpr double slack = 1e-3;
 
 std::string shortly(double value) {
@@ -73,7 +73,7 @@ void require_widths(const Raster& raster, const std::string& name) {
     }
 }
 
-/// The first meridian may stand again at the end.
+/// The first meridian may be repeated at the end.
 void drop_repeated(Raster& raster, const std::string& name) {
   const double around = raster.longitudes.back() - raster.longitudes.front() - 360;
   if (around > slack)
@@ -100,7 +100,7 @@ CellWidth checked(Raster raster, const std::string& name) {
   if (raster.latitudes.size() > 1 && raster.latitudes[1] < raster.latitudes[0]) {
     std::reverse(raster.latitudes.begin(), raster.latitudes.end());
     require_ascending(raster.latitudes, raster.latitude_name + " backwards", name);
-    require_widths(raster, name); // whose indices are the file's
+    require_widths(raster, name); // before the reversal, so that indices are those of the file
     raster.widths = raster.widths.rowwise().reverse().eval();
   }
   require_ascending(raster.longitudes, raster.longitude_name, name);
@@ -111,7 +111,7 @@ CellWidth checked(Raster raster, const std::string& name) {
                        " is outside -90 to 90; give degrees");
     latitude = std::clamp(latitude, -90.0, 90.0);
   }
-  require_ascending(raster.latitudes, raster.latitude_name, name); // still
+  require_ascending(raster.latitudes, raster.latitude_name, name); // still ascending after clamping
   require_widths(raster, name);
   drop_repeated(raster, name);
   require_ascending(raster.longitudes, raster.longitude_name, name);

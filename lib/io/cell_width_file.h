@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-/// Cell widths from files, one function a format; see read_cell_width.
+/// Readers of cell widths, one function per format; see read_cell_width().
 namespace calotte::io_detail {
 
-/// A raster as a file has it, and what its parts are called there.
+/// A raster as stored in a file, with the names of its variables there.
 struct Raster {
   std::vector<double> longitudes, latitudes; ///< degrees
   Eigen::MatrixXd widths;                    ///< longitudes x latitudes, km
@@ -21,7 +21,7 @@ struct Raster {
 };
 
 /// Brings a raster into the order of CellWidth: latitudes ascending, no longitude repeated.
-/// \throws Error parse, "NAME: ..." with the variable and its index, where it does not cover the
+/// \throws Error parse, "NAME: ..." with the variable and its index, if it does not cover the
 ///         sphere, or a width is not positive.
 CellWidth checked(Raster raster, const std::string& name);
 

@@ -50,7 +50,7 @@ private:
     return value.get<double>();
   }
 
-  /// What the caller gave, or the file's member of that name.
+  /// Takes a width from the caller or, if that is 0, from the file's member of that name.
   void outer_width(const Json& root, const std::string& key, double& width, bool needed) const {
     const auto given = root.find(key);
     if (width == 0 && given != root.end())
@@ -95,7 +95,8 @@ private:
     return ring;
   }
 
-  /// Of several widths the least holds: one wider than the outside would never be seen.
+  /// The smallest of several widths applies, so that a width larger than the outside width would
+  /// have no effect.
   void require_narrower() const {
     std::set<double> inside;
     for (const WidthRegion& region : regions_)

@@ -24,20 +24,21 @@ Vec3 column(const Points3& points, Eigen::Index j) {
   return {points(0, j), points(1, j), points(2, j)};
 }
 
-/// Where a direction stands in a triangle: the determinants of it and each edge, across from
+/// The position of a direction relative to a triangle: its determinants with each edge, across from
 /// vertices 0 to 2. All are positive inside.
 std::array<double, 3> weights_in(const Mesh& mesh, std::int32_t triangle, const Vec3& p) {
   std::array<Vec3, 3> corners;
   for (int i = 0; i < 3; ++i)
     corners[static_cast<std::size_t>(i)] =
         normalised(column(mesh.points, mesh.triangles(i, triangle))) - p;
-  // The corners relative to p, so that nothing cancels: det(p, b, c) = det(p, b - p, c - p).
+  // Computed from the corners relative to p, which avoids cancellation: det(p, b, c) = det(p, b -
+  // p, c - p).
   return {dot(p, cross(corners[1], corners[2])), dot(p, cross(corners[2], corners[0])),
           dot(p, cross(corners[0], corners[1]))};
 }
 
-/// Walks from a triangle to one that holds p, across the edge that p is farthest beyond. Among
-/// Delaunay triangles that comes to an end; the number of steps is limited as signs are rounded.
+/// Walks from a triangle to one that contains p, across the edge that p is farthest beyond. The
+/// walk ends among Delaunay triangles; the number of steps is limited because signs are rounded.
 std::int32_t locate(const Mesh& mesh, std::int32_t triangle, const Vec3& p) {
   for (Eigen::Index step = 0; step < mesh.triangles.cols(); ++step) {
     const std::array<double, 3> weights = weights_in(mesh, triangle, p);
@@ -61,7 +62,7 @@ double interpolate(const Mesh& mesh, const Eigen::VectorXd& widths, std::int32_t
   return sum / total;
 }
 
-/// Half the spacing, in degrees, that a tenth of the edges are shorter than.
+/// Half of the spacing, in degrees, that a tenth of the edges are shorter than.
 double step_for(const Mesh& mesh) {
   constexpr double finest = 0.05, coarsest = 1;
   std::vector<double> squares;
@@ -85,7 +86,7 @@ CellWidth resampled(const Points3& points, const Eigen::VectorXd& widths) {
     throw Error(ErrorCode::bad_option, "the points lie within a hemisphere; give widths on the "
                                        "whole sphere");
   Eigen::VectorXd of_site(mesh.points.cols());
-  for (Eigen::Index i = points.cols(); i-- > 0;) // the lowest of duplicates stays
+  for (Eigen::Index i = points.cols(); i-- > 0;) // the lowest duplicate is assigned last
     of_site[mesh.site_of_input[static_cast<std::size_t>(i)]] = widths[i];
   CellWidth grid = regular_grid(step_for(mesh));
   for_each_task(grid.latitudes.size(), [&](std::int64_t j) {

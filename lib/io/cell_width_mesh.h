@@ -8,10 +8,11 @@
 
 namespace calotte::io_detail {
 
-/// Widths at points of the sphere, linear on the flat triangles between them, on a grid of
-/// longitudes and latitudes: see read_cell_width.
-/// \param points 3 x n directions. \param widths n.
-/// \throws Error as spherical_delaunay(); bad_option where the points leave a hemisphere empty.
+/// Interpolates widths at points of the sphere linearly on the flat triangles between them, on a
+/// grid of longitudes and latitudes: see read_cell_width().
+/// \param points 3 x n directions.
+/// \param widths n.
+/// \throws Error as spherical_delaunay(); bad_option if the points leave a hemisphere empty.
 CellWidth resampled(const Points3& points, const Eigen::VectorXd& widths);
 
 } // namespace calotte::io_detail

@@ -8,7 +8,7 @@
 namespace calotte::io_detail {
 namespace {
 
-/// The first of the names that the file has as a variable of one dimension.
+/// Returns the first of the names that is a variable of one dimension in the file.
 std::string coordinate(const NetcdfReader& file, const std::string& name,
                        const std::string& long_name) {
   for (const std::string& candidate : {name, long_name})
@@ -17,7 +17,7 @@ std::string coordinate(const NetcdfReader& file, const std::string& name,
   file.fail("no coordinate variable " + name + "; give " + name + "(" + name + ") in degrees");
 }
 
-/// Values that stand for none become NaN.
+/// Replaces fill values by NaN.
 void drop_fill(const NetcdfReader& file, const std::string& variable, Eigen::MatrixXd& values) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   for (const std::string attribute : {"_FillValue", "missing_value"}) {

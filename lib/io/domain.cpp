@@ -15,12 +15,12 @@ namespace {
 
 using namespace io_detail;
 
-/// Rings as they are read, each with where it came from, for messages.
+/// The rings of a file, each with its origin for messages.
 struct Rings {
   std::vector<GeoRing> corners;
   std::vector<std::string> origins;
 
-  /// Ends the last ring: a first corner that was repeated goes.
+  /// Ends the last ring and removes a repeated first corner.
   void close() {
     if (corners.empty())
       return;

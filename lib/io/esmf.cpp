@@ -12,7 +12,7 @@ namespace calotte::io_detail {
 namespace {
 
 /// The corners of each element, 1-based.
-void add_elements(GridFile& file, const Voronoi& cells, int elements) {
+void add_elements(GridFile& file, const Polygons& cells, int elements) {
   const std::int64_t most = most_corners(cells);
   const int corners = file.netcdf().dimension("maxNodePElement", most);
   const std::string unit = "1";
@@ -45,30 +45,83 @@ NetcdfAttributes degrees(const std::string& of) {
   return {{"units", std::string("degrees")}, {"long_name", "longitude and latitude of " + of}};
 }
 
+const NetcdfMeshNames esmf_names{
+    .cells = "elementCount",
+    .vertices = "nodeCount",
+    .variables = {"nodeCoords", "elementConn", "numElementConn", "centerCoords"}};
+
+/// Longitudes and latitudes in pairs.
+Points3 read_pairs(const NetcdfReader& file, const std::string& name) {
+  const std::vector<double> pairs = file.doubles(name, {-1, 2});
+  const double scale = degrees_per_unit(file, name);
+  std::vector<double> longitudes, latitudes;
+  for (std::size_t i = 0; i < pairs.size(); i += 2) {
+    longitudes.push_back(scale * pairs[i]);
+    latitudes.push_back(scale * pairs[i + 1]);
+  }
+  return from_lonlats(file, name, longitudes, latitudes);
+}
+
+/// The elements' corners. What follows the number that numElementConn gives is padding, whatever
+/// its value.
+Polygons read_elements(const NetcdfReader& file, Points3 nodes, Points3 centres) {
+  const std::vector<std::int32_t> all = file.ints("elementConn", {-1, -1});
+  const std::int64_t elements = file.shape_of("elementConn")[0],
+                     most = file.shape_of("elementConn")[1];
+  const std::vector<std::int32_t> counts = file.ints("numElementConn", {elements});
+  const auto start = static_cast<std::int32_t>(file.number("elementConn", "start_index", 1));
+  Polygons polygons{std::move(nodes), {}, {}, std::move(centres)};
+  polygons.begin.resize(elements + 1);
+  std::vector<std::int32_t> ids;
+  const auto fail = [&](std::int64_t element, const std::string& problem) {
+    file.fail("element " + std::to_string(element) + " (0-based) " + problem +
+              "; make the file again");
+  };
+  for (std::int64_t i = 0; i < elements; ++i) {
+    polygons.begin[i] = std::ssize(ids);
+    const std::int32_t count = counts[static_cast<std::size_t>(i)];
+    if (count < 3 || count > most)
+      fail(i, "has " + std::to_string(count) + " nodes in numElementConn");
+    for (std::int64_t k = 0; k < count; ++k) {
+      const std::int32_t id = all[static_cast<std::size_t>(i * most + k)] - start;
+      if (id < 0 || id >= polygons.corners.cols())
+        fail(i, "has node " + std::to_string(id + start) + " in elementConn, which is not one of " +
+                    std::to_string(polygons.corners.cols()) + " from " + std::to_string(start) +
+                    " on");
+      ids.push_back(id);
+    }
+  }
+  polygons.begin[elements] = std::ssize(ids);
+  polygons.ids = Eigen::Map<const Ids>(ids.data(), std::ssize(ids));
+  return polygons;
+}
+
 } // namespace
 
-void write_esmf(const std::string& path, const Mesh& mesh, const WriteOptions& options) {
-  const Voronoi cells = voronoi(mesh);
+void write_esmf(const std::string& path, const CellGrid& grid, const WriteOptions& options) {
+  const Polygons& cells = grid.polygons;
   GridFile file(path, options, "CF-1.8");
   file.netcdf().attribute({"gridType", std::string("unstructured")});
   file.netcdf().attribute({"version", std::string("0.9")});
-  const int nodes = file.netcdf().dimension("nodeCount", cells.vertices.cols());
-  const int elements = file.netcdf().dimension("elementCount", cells.cells.cols());
+  const int nodes = file.netcdf().dimension("nodeCount", cells.corners.cols());
+  const int elements = file.netcdf().dimension("elementCount", cells.size());
   const int pair = file.netcdf().dimension("coordDim", 2);
 
   file.doubles("nodeCoords", {nodes, pair}, degrees("the node, a corner of cells"),
-               lonlats_of(cells.vertices));
+               lonlats_of(cells.corners));
   add_elements(file, cells, elements);
-  file.doubles("centerCoords", {elements, pair}, degrees("the element's site"),
-               lonlats_of(cells.cells));
+  if (cells.centres.cols() > 0)
+    file.doubles("centerCoords", {elements, pair}, degrees("the element's site"),
+                 lonlats_of(cells.centres));
   file.doubles("elementArea", {elements},
                {{"units", std::string("radians^2")},
                 {"long_name", std::string("area of the element on the unit sphere")}},
-               values_of(cells.cell_area));
+               values_of(grid.area));
   file.ints("elementMask", {elements},
             {{"units", std::string("1")},
              {"long_name", std::string("mask of the elements: 1 takes part")}},
-            constant(1));
+            mask_of(options));
+  add_fields(file, options, {elements, nodes}, esmf_names);
   file.commit();
 }
 
@@ -77,19 +130,19 @@ bool is_esmf(const NetcdfReader& file) {
 }
 
 Soup read_esmf(const NetcdfReader& file) {
-  const std::string name = "centerCoords";
-  if (!file.has_variable(name))
-    file.fail("it has no variable " + name +
-              ", which holds the cells' sites; add it, or give a "
-              "file of another format");
-  const std::vector<double> pairs = file.doubles(name, {-1, 2});
-  const double scale = degrees_per_unit(file, name);
-  std::vector<double> longitudes, latitudes;
-  for (std::size_t i = 0; i < pairs.size(); i += 2) {
-    longitudes.push_back(scale * pairs[i]);
-    latitudes.push_back(scale * pairs[i + 1]);
+  Soup soup;
+  if (file.has_variable("centerCoords"))
+    soup.points = read_pairs(file, "centerCoords");
+  if (file.has_variable("elementConn")) {
+    soup.polygons = read_elements(file, read_pairs(file, "nodeCoords"), soup.points);
+    soup.corner_rounding = file.is_float("nodeCoords") ? float_rounding : 0;
+  } else if (soup.points.cols() == 0) {
+    file.fail("it has neither centerCoords, the cells' sites, nor elementConn, their corners; give "
+              "a file that has");
   }
-  return {from_lonlats(file, name, longitudes, latitudes), {}};
+  read_fields(file, esmf_names, soup);
+  drop_derived_fields(soup);
+  return soup;
 }
 
 } // namespace calotte::io_detail

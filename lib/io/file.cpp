@@ -51,7 +51,7 @@ fs::path follow_links(const std::string& path) {
   return error ? fs::path(path) : place;
 }
 
-/// Tells of a failure by its errno, of success by 0.
+/// Returns the errno of a failure, or 0.
 int pwrite_all(int descriptor, std::int64_t offset, std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t written = ::pwrite(descriptor, bytes.data(), bytes.size(), offset);
@@ -65,11 +65,11 @@ int pwrite_all(int descriptor, std::int64_t offset, std::string_view bytes) {
   return 0;
 }
 
-/// Smaller blocks gain nothing by waiting for the disk one by one.
+/// Smallest block for direct output; smaller blocks gain nothing from it.
 constexpr std::int64_t least_direct = 1 << 18;
-/// More blocks than wait for the disk and are filled meanwhile.
+/// Number of spare blocks; more than wait for the disk and are being filled.
 constexpr std::size_t most_spare = 64;
-/// Of an appended block.
+/// Size of a block of appended bytes.
 constexpr std::int64_t tail_bytes = 1 << 22;
 
 std::int64_t page_before(std::int64_t offset) { return offset & -OutputBlock::page; }
@@ -90,7 +90,7 @@ OutputFile::OutputFile(const std::string& path) : name_(path), place_(follow_lin
   if (!renameable(place_)) {
     descriptor_ = ::open(place_.c_str(), O_WRONLY | O_CLOEXEC);
   } else {
-    // Another process or an interrupted one may have left such a name: never write into it.
+    // Another or an interrupted process may have left a file of that name: never write into it.
     for (int attempt = 0; descriptor_ < 0 && attempt < 100; ++attempt) {
       temporary_ = place_ + ".part" + std::to_string(::getpid()) + "-" + std::to_string(attempt);
       descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
@@ -142,14 +142,14 @@ void OutputFile::append(std::string_view bytes) {
 
 void OutputFile::reserve([[maybe_unused]] std::int64_t size) {
 #ifdef __linux__
-  // Many file systems cannot: blocks then get their places when they are written.
+  // Many file systems do not support fallocate; they allocate space when blocks are written.
   if (!temporary_.empty() && ::fallocate(descriptor_, 0, 0, size) != 0 &&
       (errno == ENOSPC || errno == EDQUOT || errno == EFBIG))
     fail(errno);
 #endif
 }
 
-/// Begins the next.
+/// Writes the tail and begins the next one.
 void OutputFile::put_tail() {
   const std::int64_t next = tail_.offset() + tail_size_;
   tail_.shorten(tail_size_);
@@ -163,7 +163,7 @@ void OutputFile::start_queue() {
 #ifdef O_DIRECT
   direct_ = ::open(temporary_.c_str(), O_WRONLY | O_CLOEXEC | O_DIRECT);
   {
-    const std::lock_guard lock(spare_mutex_); // block() looks there meanwhile
+    const std::lock_guard lock(spare_mutex_); // block() reads it concurrently
     spare_.reserve(most_spare);
   }
   if (direct_ >= 0)
@@ -177,7 +177,7 @@ void OutputFile::start_queue() {
 
 void OutputFile::keep(Array<char> memory) {
   const std::lock_guard lock(spare_mutex_);
-  if (spare_.size() < most_spare) // where there is room, so that nothing is thrown
+  if (spare_.size() < most_spare) // only if there is capacity, so that nothing is thrown
     spare_.push_back(std::move(memory));
 }
 
@@ -212,8 +212,8 @@ int OutputFile::write_through_cache(std::int64_t offset, std::string_view bytes)
   return pwrite_all(descriptor_, offset, bytes);
 }
 
-/// Whole pages go from memory to the disk; what the block has of its first and last page meets the
-/// neighbours' parts in the page cache.
+/// Writes whole pages from memory to the disk; the parts of the first and the last page go through
+/// the page cache, where they meet the parts of neighbouring blocks.
 int OutputFile::write_direct(const OutputBlock& block) {
   const std::int64_t end = block.offset() + block.size(),
                      first = page_before(block.offset() + OutputBlock::page - 1),
@@ -223,7 +223,7 @@ int OutputFile::write_direct(const OutputBlock& block) {
                                 static_cast<std::size_t>(to - from));
   };
   int error = pwrite_all(direct_, first, part(first, last));
-  if (error == EINVAL) // the file system opens such files and does not write them
+  if (error == EINVAL) // the file system opens files for direct output but does not write them
     error = write_through_cache(first, part(first, last));
   if (error == 0)
     error = write_through_cache(block.offset(), part(block.offset(), first));
@@ -236,7 +236,7 @@ void OutputFile::commit() {
   if (queue_)
     if (const int error = queue_->finish(); error != 0)
       fail(error);
-  // A device or a pipe has nothing to bring to the disk.
+  // A device or a pipe needs no synchronisation.
   if (!temporary_.empty() && ::fsync(descriptor_) != 0)
     fail(errno);
   const int descriptor = std::exchange(descriptor_, -1);

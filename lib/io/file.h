@@ -16,15 +16,16 @@
 
 namespace calotte::io_detail {
 
-/// Consecutive bytes of a file in the making. They stand in memory as they stand in the file's
-/// pages, so that the disk can fetch them from there.
+/// Consecutive bytes of a file that is being written. They have the alignment of the file's pages,
+/// so that the disk can read them from there.
 class OutputBlock {
 public:
   static constexpr std::int64_t page = 4096; ///< of the system, and at least a sector of any disk
 
   OutputBlock() = default;
-  /// The bytes are not initialised. \param offset of the first one in the file. \param memory is
-  /// used where it is large enough.
+  /// The bytes are not initialised.
+  /// \param offset offset of the first byte in the file.
+  /// \param memory used if it is large enough.
   OutputBlock(std::int64_t offset, std::int64_t size, Array<char> memory = {});
 
   std::int64_t offset() const { return offset_; }
@@ -33,7 +34,7 @@ public:
   std::string_view bytes() const { return {begin_, static_cast<std::size_t>(size_)}; }
   /// \pre size <= size()
   void shorten(std::int64_t size) { size_ = size; }
-  /// For another block; this one is no more.
+  /// Moves out the memory for another block; this block is then empty.
   Array<char> take_memory() { return std::move(memory_); }
 
 private:
@@ -44,9 +45,9 @@ private:
 
 class OutputQueue;
 
-/// A file that appears under its name only when it is whole: it is written beside its place,
-/// brought to the disk and renamed. What cannot be renamed, such as a device or a pipe, is written
-/// in place.
+/// A file that appears under its name only when it is complete: it is written under a temporary
+/// name in the same folder, synchronised and renamed. A target that cannot be renamed, such as a
+/// device or a pipe, is written in place.
 class OutputFile {
 public:
   /// \throws Error file.
@@ -55,35 +56,37 @@ public:
   OutputFile& operator=(const OutputFile&) = delete;
   ~OutputFile(); ///< removes what was not committed
 
-  /// Tells a caller of bytes as they come: a run of one stage, "write".
-  /// \param bytes expected in all. \throws Error cancelled, as append() and put() do from here on.
+  /// Reports progress while bytes are written: a run of one stage, "write".
+  /// \param bytes expected total.
+  /// \throws Error cancelled, as append() and put() do from then on.
   void watch(ProgressCallback progress, std::int64_t bytes);
 
   /// \throws Error file, at once or from commit().
   void append(std::string_view bytes);
 
-  /// Tells how large the file will be, where it is not written in place. A full disk is found now,
-  /// and the blocks lie side by side. \throws Error file.
+  /// Announces the size of the file, unless it is written in place. This detects a full disk early
+  /// and allocates contiguous blocks.
+  /// \throws Error file.
   void reserve(std::int64_t size);
 
-  /// A block to put, from any thread. It may stand where one stood that is written: the system's
-  /// memory for a fresh one would cost more than the disk takes to write it.
+  /// Returns a block to put, from any thread. It may reuse the memory of a block that is written:
+  /// fresh memory would take the system longer than the disk takes to write the block.
   OutputBlock block(std::int64_t offset, std::int64_t size);
 
-  /// Writes a block, from any thread. A large one goes from its memory to the disk where the file
-  /// system can do that, while the caller goes on. \pre temporary() is not empty; nothing is
-  /// appended. \throws Error file, at once, from a later call or from commit().
+  /// Writes a block, from any thread. A large block goes from its memory to the disk while the
+  /// caller continues, if the file system supports that.
+  /// \pre temporary() is not empty; nothing is appended.
+  /// \throws Error file, immediately, from a later call or from commit().
   void put(OutputBlock block);
 
-  /// Where the file stands until it is whole, so that others may write to it; empty when it is
-  /// written in place.
+  /// The temporary name, so that others may write to the file; empty if it is written in place.
   const std::string& temporary() const { return temporary_; }
 
-  /// The file takes its name; what others wrote to temporary() is brought to the disk, too.
+  /// Gives the file its name. It also synchronises data that others wrote to temporary().
   /// \throws Error file.
   void commit();
 
-  /// \throws Error file that says what an errno means for this file, always.
+  /// \throws Error file, always, with the meaning of an errno for this file.
   [[noreturn]] void fail(int error) const;
 
 private:
@@ -95,13 +98,13 @@ private:
   void put_tail();
 
   ProgressCallback progress_;
-  std::unique_ptr<Monitor> monitor_; ///< null where nobody watches
+  std::unique_ptr<Monitor> monitor_; ///< null without a callback
   std::string name_;                 ///< as the caller wrote it, for messages
   std::string place_;                ///< where the file shall be: symbolic links are followed
   std::string temporary_; ///< where it is until it is whole; empty when it is written in place
   int descriptor_ = -1;
-  int direct_ = -1;  ///< writes past the page cache; -1 where the file system cannot
-  OutputBlock tail_; ///< what is appended and not yet put
+  int direct_ = -1;  ///< writes past the page cache; -1 if the file system does not support it
+  OutputBlock tail_; ///< appended bytes that are not yet put
   std::int64_t tail_size_ = 0;
   std::mutex spare_mutex_;
   std::vector<Array<char>> spare_; ///< of large blocks that are written
@@ -109,7 +112,8 @@ private:
   std::unique_ptr<OutputQueue> queue_; ///< of blocks for direct_; null where it is -1
 };
 
-/// For formats that are not written from front to back. \throws Error file for a device or a pipe.
+/// Throws for an output that cannot be written at random offsets.
+/// \throws Error file for a device or a pipe.
 void require_regular_output(const std::string& path);
 
 /// \throws Error file.

@@ -9,29 +9,31 @@
 #include <string>
 #include <string_view>
 
-/// What the names of files say.
+/// The information in the names of files.
 namespace calotte::io_detail {
 
-// MPI-SCVT's names; what follows them, as in RegionList.12, is common to files that go together.
+// MPI-SCVT's names; the rest of a name, as in RegionList.12, is common to files that belong
+// together.
 inline constexpr std::string_view vertices_name = "SaveVertices";
 inline constexpr std::string_view triangles_name = "SaveTriangles";
 inline constexpr std::string_view density_name = "SaveDensity";
 inline constexpr std::string_view centres_name = "RegionList";
 inline constexpr std::string_view centre_triangles_name = "RegionTriangulation";
 
-/// ".nc" of NAME.NC: in lower case, or nothing.
+/// The suffix of a name in lower case, such as ".nc" for NAME.NC; empty if there is none.
 std::string suffix_of(const std::string& path);
 
 bool is_netcdf(Format format);
 
-/// The format of a mesh file's name, if it says one.
+/// The format of a mesh file by its name, if the name determines it.
 std::optional<Format> format_of_name(const std::string& path);
 
-/// The path with the name's start, `stem`, changed to `other`; nothing where it does not start so.
+/// Replaces the start `stem` of the file name by `other`; none if the name does not start with
+/// `stem`.
 std::optional<std::string> sibling(const std::string& path, std::string_view stem,
                                    std::string_view other);
 
-/// \throws Error bad_option, always: names that say a format.
+/// \throws Error bad_option, always, with the names that determine a format.
 [[noreturn]] void refuse_name(const std::string& path);
 
 } // namespace calotte::io_detail

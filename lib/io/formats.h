@@ -5,19 +5,27 @@
 #include "io/text.h"
 
 #include <calotte/io.h>
+#include <calotte/mesh_file.h>
 #include <calotte/types.h>
 
 #include <iosfwd>
 #include <string>
+#include <vector>
 
 /// The formats. A writer's mesh is numbered as its file shall be; a reader checks that the file is
 /// whole and leaves the rest to read_mesh.
 namespace calotte::io_detail {
 
-/// Points and triangles as a file holds them; no triangles where the sites are to be triangulated.
+/// A mesh as a file holds it, before anything is known of its order and orientation.
 struct Soup {
-  Points3 points;
-  Triangles triangles;
+  Points3 points = {};      ///< the sites; none where the file holds cells without centres
+  Triangles triangles = {}; ///< of the sites; none where these are to be triangulated
+  Polygons polygons = {};   ///< the cells, of either orientation; a cell without corners is unknown
+  /// How far a corner may be from its place by the file's digits alone, radians.
+  double corner_rounding = 0;
+  Eigen::VectorXd density = {}; ///< by site, or empty
+  std::vector<MeshField> fields = {};
+  std::vector<std::string> ignored = {}; ///< variables that are neither the mesh's nor fields
 };
 
 // ---- Streams
@@ -32,7 +40,10 @@ void put_vtp(const Sink& sink, const Mesh& mesh, const WriteOptions& options);
 void put_vtu(const Sink& sink, const Mesh& mesh, const WriteOptions& options);
 void put_vtp_cells(const Sink& sink, const Mesh& mesh, const WriteOptions& options);
 void put_vtu_cells(const Sink& sink, const Mesh& mesh, const WriteOptions& options);
+void put_vtp_cells(const Sink& sink, const Polygons& polygons, const WriteOptions& options);
+void put_vtu_cells(const Sink& sink, const Polygons& polygons, const WriteOptions& options);
 void put_geojson(const Sink& sink, const Mesh& mesh, const WriteOptions& options);
+void put_geojson(const Sink& sink, const Polygons& polygons, const WriteOptions& options);
 
 /// \throws Error parse, file.
 Soup get_vtp(std::istream& in, const std::string& name);
@@ -45,6 +56,10 @@ Soup get_geojson(std::istream& in, const std::string& name);
 /// Triangles of `points` columns.
 Triangles get_triangles_text(std::istream& in, const std::string& name, std::int64_t points);
 
+/// Whether a format has a place for a field; all that have a place for fields at all have one for
+/// those at cells.
+bool holds_field(Format format, const MeshField& field);
+
 // ---- Files of their own making. \throws Error bad_option, file.
 
 void write_mpas(const std::string& path, const Mesh& mesh, const WriteOptions& options);
@@ -52,10 +67,11 @@ void write_mpas(const std::string& path, const PlanarMesh& mesh, const WriteOpti
 void write_mpas_minimal(const std::string& path, const Mesh& mesh, const WriteOptions& options);
 void write_mpas_minimal(const std::string& path, const PlanarMesh& mesh,
                         const WriteOptions& options);
-void write_ugrid(const std::string& path, const Mesh& mesh, const WriteOptions& options);
+struct CellGrid;
+void write_ugrid(const std::string& path, const CellGrid& grid, const WriteOptions& options);
 void write_ugrid_triangles(const std::string& path, const Mesh& mesh, const WriteOptions& options);
-void write_scrip(const std::string& path, const Mesh& mesh, const WriteOptions& options);
-void write_esmf(const std::string& path, const Mesh& mesh, const WriteOptions& options);
+void write_scrip(const std::string& path, const CellGrid& grid, const WriteOptions& options);
+void write_esmf(const std::string& path, const CellGrid& grid, const WriteOptions& options);
 void write_mpi_scvt(const std::string& path, const Mesh& mesh, const WriteOptions& options);
 
 class NetcdfReader;
@@ -67,7 +83,8 @@ bool is_esmf(const NetcdfReader& file);
 /// \pre it is. \throws Error parse, file.
 Soup read_mpas(const NetcdfReader& file);
 Points3 read_mpas_sites(const NetcdfReader& file); ///< without a look at the triangles
-PlanarMesh read_planar_mpas(const NetcdfReader& file);
+bool is_planar_mpas(const NetcdfReader& file);
+MeshFile read_planar_mpas(const NetcdfReader& file);
 Soup read_ugrid(const NetcdfReader& file);
 Soup read_scrip(const NetcdfReader& file);
 Soup read_esmf(const NetcdfReader& file);

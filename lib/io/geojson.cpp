@@ -2,6 +2,8 @@
 #include "base/lonlat.h"
 #include "io/cell_outline.h"
 #include "io/formats.h"
+#include "io/model_grid.h"
+#include "io/polygons.h"
 
 #include "base/points.h"
 
@@ -75,26 +77,55 @@ void put_property(Writer& out, const char* name, double value) {
   put_number(out, value);
 }
 
-std::vector<Vec3> corners_of(const Voronoi& cells, std::int64_t cell) {
+std::vector<Vec3> corners_of(const Polygons& cells, std::int64_t cell) {
   std::vector<Vec3> corners;
   for (std::int64_t k = cells.begin[cell]; k < cells.begin[cell + 1]; ++k)
-    corners.push_back(column(cells.vertices, cells.vertices_on_cell[k]));
+    corners.push_back(column(cells.corners, cells.ids[k]));
   return corners;
 }
 
-void put_feature(Writer& out, const Voronoi& cells, const CellFields& fields, const Vec3& site,
-                 std::int64_t cell) {
-  out.text(R"({"type":"Feature","geometry":)");
-  put_geometry(out, outline_of(corners_of(cells, cell)));
-  out.text(R"(,"properties":{"id":)").number(cell);
+constexpr std::array own_properties{"id",      "x",       "y",       "z",     "area",
+                                    "density", "spacing", "quality", "degree"};
+
+/// Those of the cells that have no name of another property.
+std::vector<const MeshField*> cell_fields_of(const WriteOptions& options) {
+  std::vector<const MeshField*> fields;
+  for (const MeshField& field : options.fields)
+    if (field.location == Location::cells &&
+        std::find(own_properties.begin(), own_properties.end(), field.name) == own_properties.end())
+      fields.push_back(&field);
+  return fields;
+}
+
+void put_site(Writer& out, const Vec3& site) {
   put_property(out, "x", site.x);
   put_property(out, "y", site.y);
   put_property(out, "z", site.z);
-  put_property(out, "area", fields.area[cell]);
-  put_property(out, "density", fields.density[cell]);
-  put_property(out, "spacing", fields.spacing[cell]);
-  put_property(out, "quality", fields.quality[cell]);
-  out.text(R"(,"degree":)").number(std::int64_t{fields.degree[cell]}).text("}}");
+}
+
+void put_collection(Writer& out, std::int64_t cells, const auto& put_cell) {
+  out.text(R"({"type":"FeatureCollection","features":[)");
+  for (std::int64_t i = 0; i < cells; ++i) {
+    out.text(i > 0 ? ",\n" : "\n");
+    put_cell(i);
+  }
+  out.text("\n]}\n").flush();
+}
+
+/// \param properties puts those after the id.
+void put_feature(Writer& out, const Polygons& cells, std::int64_t cell, const auto& properties) {
+  out.text(R"({"type":"Feature","geometry":)");
+  put_geometry(out, outline_of(corners_of(cells, cell)));
+  out.text(R"(,"properties":{"id":)").number(cell);
+  properties();
+  out.text("}}");
+}
+
+void put_fields(Writer& out, const std::vector<const MeshField*>& fields, std::int64_t cell) {
+  for (const MeshField* field : fields) {
+    out.text(",").text(json(field->name).dump()).text(":");
+    put_number(out, field->values[cell]);
+  }
 }
 
 // ---- Reading
@@ -159,15 +190,36 @@ json parse(std::istream& in, const std::string& name,
 } // namespace
 
 void put_geojson(const Sink& sink, const Mesh& mesh, const WriteOptions& options) {
-  const Voronoi cells = voronoi(mesh);
-  const CellFields fields = cell_fields(cells, options.density);
+  Voronoi voronoi = calotte::voronoi(mesh);
+  const CellFields fields = fields_of(voronoi, options);
+  const Polygons cells = polygons_of(std::move(voronoi));
+  const std::vector<const MeshField*> others = cell_fields_of(options);
   Writer out(sink);
-  out.text(R"({"type":"FeatureCollection","features":[)");
-  for (Eigen::Index i = 0; i < mesh.points.cols(); ++i) {
-    out.text(i > 0 ? ",\n" : "\n");
-    put_feature(out, cells, fields, column(mesh.points, i), i);
-  }
-  out.text("\n]}\n").flush();
+  put_collection(out, cells.size(), [&](std::int64_t i) {
+    put_feature(out, cells, i, [&] {
+      put_site(out, column(mesh.points, i));
+      put_property(out, "area", fields.area[i]);
+      put_property(out, "density", fields.density[i]);
+      put_property(out, "spacing", fields.spacing[i]);
+      put_property(out, "quality", fields.quality[i]);
+      out.text(R"(,"degree":)").number(std::int64_t{fields.degree[i]});
+      put_fields(out, others, i);
+    });
+  });
+}
+
+void put_geojson(const Sink& sink, const Polygons& polygons, const WriteOptions& options) {
+  const Eigen::VectorXd areas = areas_of(polygons);
+  const std::vector<const MeshField*> others = cell_fields_of(options);
+  Writer out(sink);
+  put_collection(out, polygons.size(), [&](std::int64_t i) {
+    put_feature(out, polygons, i, [&] {
+      if (polygons.centres.cols() > 0)
+        put_site(out, column(polygons.centres, i));
+      put_property(out, "area", areas[i]);
+      put_fields(out, others, i);
+    });
+  });
 }
 
 Soup get_geojson(std::istream& in, const std::string& name) {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-/// Polygons of GeoJSON (RFC 7946), for whatever they stand for.
+/// Polygons of GeoJSON (RFC 7946) for any use.
 namespace calotte::io_detail {
 
 using GeoPosition = std::array<double, 2>;
@@ -24,18 +24,19 @@ struct GeoGeometry {
   std::vector<GeoPolygon> polygons;
 };
 
-/// What a pair of coordinates is, for messages.
+/// The meaning of a pair of coordinates, for messages.
 struct GeoPair {
   std::string form;   ///< "[longitude, latitude]"
   std::string remedy; ///< "give degrees"
 };
 
-/// The file's root. \throws Error parse where it is no JSON, or no object; file.
+/// Parses a file.
+/// \throws Error parse if it is no JSON or no object; file.
 nlohmann::json read_geojson(std::istream& in, const std::string& name);
 
-/// All polygons of a geometry, a feature, or a collection of either. Places are not looked at but
-/// for being numbers; rings have three of them at least.
-/// \throws Error parse, "NAME: WHERE..." with the remedy; where there is no polygon, too.
+/// All polygons of a geometry, a feature, or a collection of either. Coordinates must be numbers,
+/// of any value; rings have at least three places.
+/// \throws Error parse, "NAME: WHERE..." with the remedy; also if there is no polygon.
 std::vector<GeoGeometry> geojson_polygons(const nlohmann::json& root, const std::string& name,
                                           const GeoPair& pair);
 

@@ -5,6 +5,7 @@
 #include "base/parallel.h"
 #include "base/points.h"
 #include "base/spherical_angles.h"
+#include "io/polygons.h"
 #include "io/text.h"
 
 #include <calotte/error.h>
@@ -53,19 +54,27 @@ Points3 on_sphere(const Points3& points, double radius) {
   return places;
 }
 
+CellFields fields_of(const Voronoi& voronoi, const WriteOptions& options) {
+  if (options.site_density.size() == 0)
+    return cell_fields(voronoi, options.density);
+  CellFields fields = cell_fields(voronoi);
+  fields.density = options.site_density / options.site_density.maxCoeff();
+  return fields;
+}
+
+CellGrid cell_grid(const Mesh& mesh) {
+  Voronoi cells = voronoi(mesh);
+  Eigen::VectorXd area = std::move(cells.cell_area);
+  return {polygons_of(std::move(cells)), std::move(area), mesh.points};
+}
+
+CellGrid cell_grid(const Polygons& polygons) { return {polygons, areas_of(polygons), {}}; }
+
 std::int64_t most_corners(const Voronoi& cells) {
   std::int64_t most = 0;
   for (Eigen::Index i = 0; i < cells.cells.cols(); ++i)
     most = std::max(most, corners_of(cells, i));
   return most;
-}
-
-std::int32_t corner(const Voronoi& cells, std::int64_t cell, std::int64_t k) {
-  return k < corners_of(cells, cell) ? cells.vertices_on_cell[cells.begin[cell] + k] : -1;
-}
-
-std::int32_t corner_or_last(const Voronoi& cells, std::int64_t cell, std::int64_t k) {
-  return corner(cells, cell, std::min(k, corners_of(cells, cell) - 1));
 }
 
 NetcdfWriter::Fill<double> longitudes_of(const Points3& points) {
@@ -125,6 +134,66 @@ void GridFile::commit() {
   file_.commit();
 }
 
+namespace {
+
+bool is_mask(const MeshField& field) {
+  return field.location == Location::cells &&
+         (field.name == "grid_imask" || field.name == "elementMask");
+}
+
+bool is_area(const MeshField& field) {
+  return field.location == Location::cells &&
+         (field.name == "grid_area" || field.name == "elementArea" || field.name == "cell_area");
+}
+
+bool are_areas_of(const Polygons& polygons, const Eigen::VectorXd& values) {
+  constexpr double rounding = 1e-6;
+  const Eigen::VectorXd areas = areas_of(polygons).cwiseAbs();
+  return areas.size() == values.size() &&
+         ((areas - values).array().abs() <= rounding * areas.array()).all();
+}
+
+} // namespace
+
+bool can_hold(const NetcdfMeshNames& names, const MeshField& field) {
+  const bool has_place = field.location == Location::cells || !names.vertices.empty();
+  return has_place && !names.variables.contains(field.name);
+}
+
+void add_fields(GridFile& file, const WriteOptions& options, const FieldPlaces& places,
+                const NetcdfMeshNames& names) {
+  for (const MeshField& field : options.fields) {
+    if (!can_hold(names, field) || is_mask(field))
+      continue;
+    NetcdfAttributes attributes = places.attributes;
+    if (!field.units.empty())
+      attributes.push_back({"units", field.units});
+    if (!field.long_name.empty())
+      attributes.push_back({"long_name", field.long_name});
+    if (!places.coordinates.empty())
+      attributes.push_back({"coordinates", places.coordinates});
+    file.doubles(field.name, {field.location == Location::cells ? places.cells : places.vertices},
+                 attributes, values_of(field.values));
+  }
+}
+
+NetcdfWriter::Fill<std::int32_t> mask_of(const WriteOptions& options) {
+  const auto mask = std::find_if(options.fields.begin(), options.fields.end(), is_mask);
+  if (mask == options.fields.end())
+    return constant(1);
+  const Eigen::VectorXd& values = mask->values;
+  return table<std::int32_t>(1, [&values](std::int64_t i, std::int64_t /*k*/) {
+    return static_cast<std::int32_t>(values[i]);
+  });
+}
+
+void drop_derived_fields(Soup& soup) {
+  std::erase_if(soup.fields, [&](const MeshField& field) {
+    return (is_mask(field) && (field.values.array() == 1).all()) ||
+           (is_area(field) && are_areas_of(soup.polygons, field.values));
+  });
+}
+
 void scale(std::vector<double>& values, double factor) {
   for (double& value : values)
     value *= factor;
@@ -157,9 +226,9 @@ Points3 from_lonlats(const NetcdfReader& file, const std::string& variables,
 }
 
 Points3 read_lonlats(const NetcdfReader& file, const std::string& longitude,
-                     const std::string& latitude) {
-  std::vector<double> east = file.doubles(longitude, {-1});
-  std::vector<double> north = file.doubles(latitude, {std::ssize(east)});
+                     const std::string& latitude, const std::vector<std::int64_t>& shape) {
+  std::vector<double> east = file.doubles(longitude, shape);
+  std::vector<double> north = file.doubles(latitude, file.shape_of(longitude));
   scale(east, degrees_per_unit(file, longitude));
   scale(north, degrees_per_unit(file, latitude));
   return from_lonlats(file, longitude + " and " + latitude, east, north);

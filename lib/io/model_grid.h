@@ -2,11 +2,14 @@
 #pragma once
 
 #include "base/vec3.h"
+#include "io/netcdf_fields.h"
 #include "io/netcdf_reader.h"
 #include "io/netcdf_writer.h"
+#include "io/polygons.h"
 #include "io/room.h"
 
 #include <calotte/io.h>
+#include <calotte/mesh_file.h>
 #include <calotte/types.h>
 #include <calotte/voronoi.h>
 
@@ -32,11 +35,21 @@ LonLat lonlat_of(const Vec3& place);
 /// \throws Error bad_option for a radius that is not positive and finite.
 Points3 on_sphere(const Points3& points, double radius);
 
+/// Cells as a file of polygons shall hold them.
+struct CellGrid {
+  Polygons polygons;
+  Eigen::VectorXd area; ///< steradians
+  Points3 sites;        ///< of the cells, with their norms; 3 x 0 where they have none
+};
+
+/// The cells' fields with the options' density, that of the sites first. \throws Error bad_option.
+CellFields fields_of(const Voronoi& voronoi, const WriteOptions& options);
+
+CellGrid cell_grid(const Mesh& mesh); ///< the Voronoi cells. \throws Error as voronoi().
+CellGrid cell_grid(const Polygons& polygons);
+
 /// The number of corners of the cell that has most.
 std::int64_t most_corners(const Voronoi& cells);
-/// The vertex that is corner k of a cell, counter-clockwise; past the last one -1, or the last.
-std::int32_t corner(const Voronoi& cells, std::int64_t cell, std::int64_t k);
-std::int32_t corner_or_last(const Voronoi& cells, std::int64_t cell, std::int64_t k);
 
 /// Columns of points as contents of variables; unit columns, where it is their longitude and
 /// latitude. The points must outlive them.
@@ -113,7 +126,33 @@ private:
   std::vector<Stage> stages_ = {{[] {}, {}}};
 };
 
+/// Where a file's fields go: dimensions, -1 where the format has none, and the names of the cells'
+/// coordinate variables for the attribute "coordinates", or "".
+struct FieldPlaces {
+  int cells = -1, vertices = -1;
+  std::string coordinates = {};
+  NetcdfAttributes attributes = {}; ///< of each field, besides
+};
+
+/// Announces the options' fields that can_hold().
+void add_fields(GridFile& file, const WriteOptions& options, const FieldPlaces& places,
+                const NetcdfMeshNames& names);
+
+/// Whether a file of a format with such names can hold a field: the location has a dimension, and
+/// no variable of the mesh has the name.
+bool can_hold(const NetcdfMeshNames& names, const MeshField& field);
+
+/// The mask among the options' fields, under the name that SCRIP or ESMF gives it; 1 without.
+NetcdfWriter::Fill<std::int32_t> mask_of(const WriteOptions& options);
+
 // ---- Reading
+
+/// How far floats may be from an angle of up to 360 degrees, radians.
+inline constexpr double float_rounding = 4e-7;
+
+/// Removes areas of SCRIP and ESMF that are those of the polygons but for rounding, and masks that
+/// are 1 at all cells: what a writer makes anew.
+void drop_derived_fields(Soup& soup);
 
 /// How many degrees the unit of a variable is: of none, or one that starts with "deg", 1; of one
 /// that starts with "rad", 180 / pi. \throws Error parse, for others.
@@ -126,8 +165,8 @@ void scale(std::vector<double>& values, double factor);
 Points3 from_lonlats(const NetcdfReader& file, const std::string& variables,
                      const std::vector<double>& longitudes, const std::vector<double>& latitudes);
 
-/// The same from a variable each, of one dimension. \throws Error parse, file.
+/// The same from a variable each, of that shape. \throws Error parse, file.
 Points3 read_lonlats(const NetcdfReader& file, const std::string& longitude,
-                     const std::string& latitude);
+                     const std::string& latitude, const std::vector<std::int64_t>& shape = {-1});
 
 } // namespace calotte::io_detail

@@ -113,6 +113,28 @@ std::string fingerprint(const MpasMesh& mesh) {
   return hexadecimal(mixed(places ^ mixed(triangles)));
 }
 
+const NetcdfMeshNames& mpas_names() {
+  static const NetcdfMeshNames names{
+      .cells = "nCells",
+      .vertices = "nVertices",
+      .variables = {"latCell",        "lonCell",         "xCell",
+                    "yCell",          "zCell",           "indexToCellID",
+                    "latEdge",        "lonEdge",         "xEdge",
+                    "yEdge",          "zEdge",           "indexToEdgeID",
+                    "latVertex",      "lonVertex",       "xVertex",
+                    "yVertex",        "zVertex",         "indexToVertexID",
+                    "boundaryVertex", "cellsOnEdge",     "nEdgesOnCell",
+                    "nEdgesOnEdge",   "edgesOnCell",     "edgesOnEdge",
+                    "weightsOnEdge",  "dvEdge",          "dcEdge",
+                    "angleEdge",      "areaCell",        "areaTriangle",
+                    "cellsOnCell",    "verticesOnCell",  "verticesOnEdge",
+                    "edgesOnVertex",  "cellsOnVertex",   "kiteAreasOnVertex",
+                    "meshDensity",    "nominalMinDc",    "cellQuality",
+                    "gridSpacing",    "triangleQuality", "triangleAngleQuality",
+                    "obtuseTriangle"}};
+  return names;
+}
+
 std::string graph_path(const std::string& path) {
   return std::filesystem::path(path).replace_extension(".graph.info");
 }

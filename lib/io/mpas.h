@@ -48,6 +48,9 @@ public:
   void places(const MpasKind& kind, int dimension, const Points3& points, double factor);
 };
 
+/// The dimensions, and the variables that describe a mesh.
+const NetcdfMeshNames& mpas_names();
+
 /// 16 hexadecimal digits that differ where meshes do.
 std::string fingerprint(const MpasMesh& mesh);
 

@@ -1,25 +1,28 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/formats.h"
+#include "io/mesh_intake.h"
+#include "io/mpas.h"
+#include "io/netcdf_fields.h"
 #include "io/netcdf_reader.h"
-#include "mesh/adjacency.h"
 
+#include "base/parallel.h"
 #include "base/points.h"
+#include "exact/predicates.h"
 
 #include <calotte/error.h>
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace calotte::io_detail {
 namespace {
 
-bool on_plane(const NetcdfReader& file) { return file.text("", "on_a_sphere").starts_with("NO"); }
-
-/// One row of coordinates of the cells a call, which all have the same length.
-Points3 places_of_cells(const NetcdfReader& file) {
+/// One row of coordinates a call, which all have the same length. \param kind "Cell" or "Vertex".
+Points3 places_of(const NetcdfReader& file, const std::string& kind) {
   Points3 places;
   for (int row = 0; row < 3; ++row) {
-    const std::string name = std::string(1, "xyz"[row]) + "Cell";
+    const std::string name = std::string(1, "xyz"[row]) + kind;
     const std::vector<double> values =
         file.doubles(name, {row == 0 ? std::int64_t{-1} : std::int64_t{places.cols()}});
     if (row == 0)
@@ -29,18 +32,98 @@ Points3 places_of_cells(const NetcdfReader& file) {
   return places;
 }
 
-Triangles cells_on_vertices(const NetcdfReader& file, std::int64_t cells) {
-  const std::vector<std::int32_t> ids = file.ints("cellsOnVertex", {-1, 3});
-  const auto wrong = std::find_if(ids.begin(), ids.end(),
-                                  [cells](std::int32_t id) { return id < 1 || id > cells; });
-  if (wrong != ids.end()) {
-    const std::string where = "cellsOnVertex has cell " + std::to_string(*wrong) + " at vertex " +
-                              std::to_string((wrong - ids.begin()) / 3 + 1) + " (both 1-based), ";
-    file.fail(*wrong == 0
-                  ? where + "so the mesh ends there; give one that covers the sphere"
-                  : where + "but there are " + std::to_string(cells) + "; make the file again");
+/// 0-based, -1 for the 0 of a missing one. \throws Error parse, for other ids.
+std::vector<std::int32_t> ids_of(const NetcdfReader& file, const std::string& variable,
+                                 const std::vector<std::int64_t>& shape, const std::string& row,
+                                 std::int64_t width, const std::string& thing, std::int64_t count) {
+  std::vector<std::int32_t> ids = file.ints(variable, shape);
+  for (std::size_t k = 0; k < ids.size(); ++k) {
+    if (ids[k] < 0 || ids[k] > count)
+      file.fail(variable + " has " + thing + " " + std::to_string(ids[k]) + " at " + row + " " +
+                std::to_string(static_cast<std::int64_t>(k) / width + 1) +
+                " (both 1-based), but there are " + std::to_string(count) +
+                "; make the file again");
+    --ids[k];
   }
-  return Eigen::Map<const Triangles>(ids.data(), 3, std::ssize(ids) / 3).array() - 1;
+  return ids;
+}
+
+/// The triangles of the vertices with three cells, and the vertex of each.
+struct CompleteVertices {
+  Triangles triangles;
+  std::vector<std::int32_t> vertex;
+  bool all = true;
+};
+
+CompleteVertices complete_vertices(const NetcdfReader& file, std::int64_t cells) {
+  const std::vector<std::int32_t> ids =
+      ids_of(file, "cellsOnVertex", {-1, 3}, "vertex", 3, "cell", cells);
+  const Eigen::Map<const Triangles> around(ids.data(), 3, std::ssize(ids) / 3);
+  CompleteVertices complete{Triangles(3, around.cols()), {}, true};
+  for (std::int32_t v = 0; v < around.cols(); ++v)
+    if (around.col(v).minCoeff() >= 0) {
+      complete.triangles.col(std::ssize(complete.vertex)) = around.col(v);
+      complete.vertex.push_back(v);
+    }
+  complete.all = std::ssize(complete.vertex) == around.cols();
+  complete.triangles.conservativeResize(Eigen::NoChange, std::ssize(complete.vertex));
+  return complete;
+}
+
+/// Whether each vertex is the circumcentre of its cells: within a millionth of the mean cell width,
+/// or of the circumcentre's distance from the cells, whichever is larger.
+bool are_circumcentres(const Points3& sites, const Triangles& triangles, const Points3& vertices) {
+  const double width = std::sqrt(4 * std::numbers::pi /
+                                 static_cast<double>(std::max<Eigen::Index>(sites.cols(), 1)));
+  return holds_for_blocks(triangles.cols(), [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t t = begin; t != end; ++t) {
+      const Vec3 a = normalised(column(sites, triangles(0, t))),
+                 b = normalised(column(sites, triangles(1, t))),
+                 c = normalised(column(sites, triangles(2, t)));
+      const Vec3 normal = cross(b - a, c - a), v = normalised(column(vertices, t));
+      const Vec3 centre = std::copysign(1, dot(normal, a)) * normalised(normal);
+      const Vec3 apart = v - centre, reach = centre - a;
+      if (!(dot(apart, apart) <= 1e-12 * std::max(width * width, dot(reach, reach))))
+        return false;
+    }
+    return true;
+  });
+}
+
+/// The cells as the file has them. A cell with a missing vertex has none here.
+Polygons cells_of(const NetcdfReader& file, const Points3& sites, const Points3& vertices) {
+  const std::int64_t cells = sites.cols();
+  const std::vector<std::int32_t> counts = file.ints("nEdgesOnCell", {cells});
+  const std::int64_t width = file.shape_of("verticesOnCell").back();
+  const std::vector<std::int32_t> rows =
+      ids_of(file, "verticesOnCell", {cells, -1}, "cell", width, "vertex", vertices.cols());
+  Polygons polygons{vertices.colwise().normalized(), {}, {}, sites.colwise().normalized()};
+  polygons.begin.resize(cells + 1);
+  std::vector<std::int32_t> ids;
+  for (std::int64_t i = 0; i < cells; ++i) {
+    polygons.begin[i] = std::ssize(ids);
+    const std::int64_t count = counts[static_cast<std::size_t>(i)];
+    if (count < 0 || count > width)
+      file.fail("nEdgesOnCell is " + std::to_string(count) + " at cell " + std::to_string(i + 1) +
+                " (1-based), but verticesOnCell holds " + std::to_string(width) +
+                "; make the file again");
+    const auto first = rows.begin() + i * width;
+    if (std::all_of(first, first + count, [](std::int32_t id) { return id >= 0; }))
+      ids.insert(ids.end(), first, first + count);
+  }
+  polygons.begin[cells] = std::ssize(ids);
+  polygons.ids = Eigen::Map<const Ids>(ids.data(), std::ssize(ids));
+  return polygons;
+}
+
+void select_vertices(std::vector<MeshField>& fields, const std::vector<std::int32_t>& vertices) {
+  for (MeshField& field : fields)
+    if (field.location == Location::vertices) {
+      const Eigen::VectorXd all = field.values;
+      field.values.resize(std::ssize(vertices));
+      for (std::size_t k = 0; k < vertices.size(); ++k)
+        field.values[static_cast<Eigen::Index>(k)] = all[vertices[k]];
+    }
 }
 
 double period_of(const NetcdfReader& file, const std::string& name) {
@@ -56,42 +139,70 @@ double wrapped(double x, double period) {
   return inside >= 0 && inside < period ? inside : 0;
 }
 
+void read_density_and_fields(const NetcdfReader& file, std::int64_t cells, Soup& soup) {
+  read_fields(file, mpas_names(), soup);
+  if (file.has_variable("meshDensity") &&
+      file.shape_of("meshDensity") == std::vector<std::int64_t>{cells})
+    soup.density = values_with_fill(file, "meshDensity");
+}
+
 } // namespace
 
 bool is_mpas(const NetcdfReader& file) {
   return file.has_variable("xCell") && file.has_variable("yCell") && file.has_variable("zCell");
 }
 
+bool is_planar_mpas(const NetcdfReader& file) {
+  return file.text("", "on_a_sphere").starts_with("NO");
+}
+
 Points3 read_mpas_sites(const NetcdfReader& file) {
-  if (on_plane(file))
+  if (is_planar_mpas(file))
     throw Error(ErrorCode::bad_option, file.path() + " holds a mesh of the plane, not of the "
                                                      "sphere; read it with read_planar_mesh");
-  return places_of_cells(file);
+  return places_of(file, "Cell");
 }
 
 Soup read_mpas(const NetcdfReader& file) {
-  Points3 sites = read_mpas_sites(file);
-  Triangles triangles = cells_on_vertices(file, sites.cols());
-  return {std::move(sites), std::move(triangles)};
+  Soup soup{.points = read_mpas_sites(file)};
+  require_directions(file.path(), soup.points);
+  const std::int64_t cells = soup.points.cols();
+  CompleteVertices complete = complete_vertices(file, cells);
+  read_density_and_fields(file, cells, soup);
+  const bool has_cells = file.has_variable("verticesOnCell") && file.has_variable("nEdgesOnCell") &&
+                         file.has_variable("xVertex");
+  if (has_cells) {
+    const Points3 vertices = places_of(file, "Vertex");
+    require_directions(file.path() + ": of the vertices", vertices);
+    if (!complete.all || !are_circumcentres(soup.points, complete.triangles, vertices))
+      soup.polygons = cells_of(file, soup.points, vertices);
+  }
+  if (!complete.all)
+    select_vertices(soup.fields, complete.vertex);
+  soup.triangles = std::move(complete.triangles);
+  return soup;
 }
 
-PlanarMesh read_planar_mpas(const NetcdfReader& file) {
-  if (!on_plane(file))
+MeshFile read_planar_mpas(const NetcdfReader& file) {
+  if (!is_planar_mpas(file))
     throw Error(ErrorCode::bad_option, file.path() + " holds a mesh of the sphere, not of the "
                                                      "plane; read it with read_mesh");
   PlanarMesh mesh;
   mesh.period = {period_of(file, "x_period"), period_of(file, "y_period")};
-  const Points3 places = places_of_cells(file);
+  const Points3 places = places_of(file, "Cell");
   if (!places.allFinite())
     file.fail("a coordinate of the cells is NaN or infinite; make the file again");
   mesh.points = places.topRows<2>();
   for (int row = 0; row < 2; ++row)
     for (double& x : mesh.points.row(row))
       x = wrapped(x, mesh.period[row]);
-  mesh.triangles = cells_on_vertices(file, mesh.points.cols());
-  mesh.neighbours = neighbours_of(mesh.triangles, mesh.points.cols());
-  mesh.site_of_input = themselves(mesh.points.cols());
-  return mesh;
+  CompleteVertices complete = complete_vertices(file, mesh.points.cols());
+  if (!complete.all)
+    file.fail("a vertex of the periodic plane has fewer than three cells; make the file again");
+  mesh.triangles = std::move(complete.triangles);
+  Soup rest;
+  read_density_and_fields(file, mesh.points.cols(), rest);
+  return periodic_mesh_file_of(file.path(), std::move(mesh), std::move(rest));
 }
 
 } // namespace calotte::io_detail

@@ -285,7 +285,7 @@ void write_full(const std::string& path, const MpasMesh& mesh, const WriteOption
   put_vertex_measures(file, dimensions, mesh);
   file.after([&] {
     measure_edges_and_cells(mesh.voronoi);
-    mesh.fields = cell_fields(voronoi, options.density);
+    mesh.fields = fields_of(voronoi, options);
     put_graph([&](std::string_view text) { graph.append(text); }, voronoi);
   });
   put_kind(file, mpas_edge, dimensions.edges, voronoi.edges, voronoi.edges, mesh.radius, on_sphere);
@@ -293,6 +293,7 @@ void write_full(const std::string& path, const MpasMesh& mesh, const WriteOption
   put_weights(file, dimensions, voronoi);
   put_fields(file, dimensions, mesh);
   put_triangle_quality(file, dimensions, voronoi);
+  add_fields(file, options, {dimensions.cells, dimensions.vertices}, mpas_names());
   file.commit();
   graph.commit();
 }
@@ -309,7 +310,7 @@ void write_minimal(const std::string& path, const MpasMesh& mesh, const WriteOpt
   file.after([&] {
     mesh.connect();
     measure(mesh.voronoi);
-    mesh.fields = cell_fields(voronoi, options.density);
+    mesh.fields = fields_of(voronoi, options);
   });
   file.places(mpas_vertex, vertices, voronoi.vertices, mesh.radius);
   file.ints("cellsOnVertex", {vertices, degree},
@@ -318,6 +319,7 @@ void write_minimal(const std::string& path, const MpasMesh& mesh, const WriteOpt
   file.doubles("meshDensity", {cells},
                described("1", "density that the mesh was made for, over its maximum"),
                scaled(mesh.fields.density, 1));
+  add_fields(file, options, {cells, vertices}, mpas_names());
   file.commit();
 }
 

@@ -75,7 +75,8 @@ void write_mpi_scvt(const std::string& path, const Mesh& mesh, const WriteOption
   Points3 units(3, mesh.points.cols());
   for (Eigen::Index i = 0; i < units.cols(); ++i)
     set_column(units, i, normalised(column(mesh.points, i)));
-  const Eigen::VectorXd density = evaluate(options.density, units);
+  const Eigen::VectorXd density =
+      options.site_density.size() > 0 ? options.site_density : evaluate(options.density, units);
   OutputFile vertices(path), triangles(beside(path, triangles_name)),
       densities(beside(path, density_name));
   constexpr std::int64_t bytes_a_site = 60;

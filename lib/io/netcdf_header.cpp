@@ -12,7 +12,7 @@ namespace {
 
 std::int64_t padded(std::int64_t bytes) { return (bytes + 3) / 4 * 4; }
 
-/// Walks along a header by the lengths of what stands in it.
+/// Reads a header sequentially by the lengths of its entries.
 struct HeaderWalk {
   int id;
   std::int64_t count_size = 4;  ///< of a count, a length or a dimension's id
@@ -109,7 +109,7 @@ std::int64_t record_count(int id) {
   return static_cast<std::int64_t>(records);
 }
 
-/// Ends are limited to what 64 bits hold: no file is that long.
+/// Ends are limited to the range of 64 bits, which no file exceeds.
 void add_ends(int id, std::vector<NetcdfExtent>& extents) {
   std::vector<Shape> shapes;
   std::int64_t record = 0, record_variables = 0;

@@ -7,7 +7,8 @@
 #include <string>
 #include <vector>
 
-/// What the C library does not tell of the classic formats: where a variable's values stand.
+/// The position of a variable's values in the classic formats, which the C library does not
+/// provide.
 namespace calotte::io_detail {
 
 /// A classic file's variable: value 0 stands at byte `begin`, the last one ends before byte `end`.
@@ -20,9 +21,9 @@ struct NetcdfLayout {
   std::vector<NetcdfExtent> variables;
 };
 
-/// Of an open classic file (CDF-1, -2 or -5). The lengths that the library tells lead to the
-/// offsets in the header (NetCDF Classic Format Specification, Unidata). \pre its format is
-/// classic, the header is on the disk, and nobody else calls the library.
+/// Reads the header of an open classic file (CDF-1, -2 or -5). The lengths that the library returns
+/// lead to the offsets in the header (NetCDF Classic Format Specification, Unidata).
+/// \pre the format is classic, the header is on the disk, and no other thread calls the library.
 NetcdfLayout classic_layout(int id, const std::string& path);
 
 /// Whether one of the variables, of so many bytes each, is too large for the 64-bit offset format.

@@ -6,14 +6,14 @@
 #include <mutex>
 #include <string>
 
-/// What whoever calls the NetCDF C library has to know.
+/// Requirements for calls of the NetCDF C library.
 namespace calotte::io_detail {
 
-/// The C library keeps tables without locks: whoever calls it holds this.
+/// The C library has tables without locks; a caller must hold this lock.
 std::mutex& netcdf_mutex();
 
-/// A path as the C library expects it: it takes names like http://... for addresses, and skips
-/// leading blanks.
+/// A path in the form that the C library expects: it interprets names like http://... as addresses,
+/// and skips leading blanks.
 std::string netcdf_path(const std::string& path);
 
 } // namespace calotte::io_detail

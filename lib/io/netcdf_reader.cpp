@@ -167,6 +167,24 @@ std::int64_t NetcdfReader::dimension(const std::string& name) const {
   return static_cast<std::int64_t>(size);
 }
 
+int NetcdfReader::type_of(const std::string& variable) const {
+  const std::lock_guard lock(netcdf_mutex());
+  int v = -1;
+  nc_type type = NC_NAT;
+  nc_inq_varid(id_, variable.c_str(), &v);
+  nc_inq_vartype(id_, v, &type);
+  return type;
+}
+
+bool NetcdfReader::is_numeric(const std::string& variable) const {
+  const int type = type_of(variable);
+  return type != NC_CHAR && type != NC_STRING && type >= NC_BYTE && type <= NC_UINT64;
+}
+
+bool NetcdfReader::is_float(const std::string& variable) const {
+  return type_of(variable) == NC_FLOAT;
+}
+
 std::string NetcdfReader::text(const std::string& variable, const std::string& attribute) const {
   const std::lock_guard lock(netcdf_mutex());
   int v = NC_GLOBAL;
@@ -213,13 +231,7 @@ std::vector<double> NetcdfReader::doubles(const std::string& variable,
 std::vector<std::int32_t> NetcdfReader::ints(const std::string& variable,
                                              const std::vector<std::int64_t>& shape) const {
   const std::vector<std::int64_t> has = shape_of(variable);
-  nc_type type = NC_INT;
-  {
-    const std::lock_guard lock(netcdf_mutex());
-    int v = -1;
-    nc_inq_varid(id_, variable.c_str(), &v);
-    nc_inq_vartype(id_, v, &type);
-  }
+  const int type = type_of(variable);
   // The library would cut off fractions, and knows no integer for NaN.
   if (matches(has, shape) && type != NC_FLOAT && type != NC_DOUBLE)
     return get_values<std::int32_t>(*this, id_, variable, has);

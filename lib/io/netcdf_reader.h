@@ -25,6 +25,10 @@ public:
   std::vector<std::int64_t> shape_of(const std::string& variable) const;
   /// The size of a dimension, -1 where the file has none of that name.
   std::int64_t dimension(const std::string& name) const;
+  /// Whether a variable holds numbers; characters and strings are none. \pre it exists.
+  bool is_numeric(const std::string& variable) const;
+  /// Whether a variable's numbers have fewer digits than doubles: NC_FLOAT. \pre it exists.
+  bool is_float(const std::string& variable) const;
   /// A text attribute of a variable, or with "" of the file; "" where there is none.
   std::string text(const std::string& variable, const std::string& attribute) const;
   /// A number attribute of the same, else the fallback.
@@ -40,6 +44,8 @@ public:
   [[noreturn]] void fail(const std::string& problem) const; ///< parse, "PATH: problem"
 
 private:
+  int type_of(const std::string& variable) const; ///< nc_type
+
   std::string path_;
   int id_ = -1;
 };

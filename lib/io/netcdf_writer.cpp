@@ -85,8 +85,8 @@ void reverse_each_4(const char* values, std::int64_t count, char* out) {
   reverse_words<std::uint32_t>(values, count, out);
 }
 
-/// The classic formats hold numbers with the most significant byte first. \param out need not be
-/// aligned.
+/// The classic formats store numbers with the most significant byte first.
+/// \param out need not be aligned.
 template <class T> void to_big_endian(const T* values, std::int64_t count, char* out) {
   const auto* const bytes = reinterpret_cast<const char*>(values);
   if constexpr (sizeof(T) == 1 || std::endian::native == std::endian::big)
@@ -106,8 +106,8 @@ void for_each_rows(std::int64_t first, std::int64_t last, std::int64_t row_bytes
     body(begin, std::min(last, begin + rows));
 }
 
-/// The same for all rows, in blocks that the disk likes, the larger the better, and that are enough
-/// for all threads; each a task.
+/// The same for all rows, each block in its own task. Blocks are large, which suits the disk, but
+/// numerous enough for all threads.
 template <class Body>
 void for_each_block_of_rows(std::int64_t rows, std::int64_t row_bytes, const Body& body) {
   const std::int64_t block_bytes =
@@ -118,13 +118,13 @@ void for_each_block_of_rows(std::int64_t rows, std::int64_t row_bytes, const Bod
   });
 }
 
-/// What is filled at once, in bytes: its conversion finds it in the cache.
+/// Number of bytes filled at once, so that their conversion finds them in the cache.
 constexpr std::int64_t fill_bytes = 1 << 17;
 
 } // namespace
 
-/// The C library writes the header. The values are converted and written by tasks of our own: by
-/// the library, one thread after the other, a large mesh would take thrice as long.
+/// The C library writes the header; tasks of this library convert and write the values. The library
+/// would do it serially and take three times as long for a large mesh.
 struct NetcdfWriter::State {
   struct Dimension {
     std::string name;
@@ -142,7 +142,7 @@ struct NetcdfWriter::State {
     std::int64_t bytes() const { return rows * row_bytes(); }
   };
 
-  /// Some rows of a variable on their way to the file.
+  /// Rows of a variable on their way to the file.
   template <class T> struct RowBlock {
     RowBlock(OutputFile& file, const Variable& of, std::int64_t begin, std::int64_t end)
         : first(begin), row_values(of.row_values),

@@ -23,13 +23,13 @@ struct NetcdfAttribute {
 };
 using NetcdfAttributes = std::vector<NetcdfAttribute>;
 
-/// A classic NetCDF file in the making: 64-bit offsets, or CDF-5 as soon as a variable takes 4 GiB.
-/// Dimensions, variables and attributes are announced first, begin() writes the header, then each
-/// variable is put once. Nothing appears at the path before commit().
-/// Every method \throws Error file.
+/// A classic NetCDF file that is being written: 64-bit offsets, or CDF-5 if a variable takes 4 GiB.
+/// Define dimensions, variables and attributes first, call begin(), which writes the header, then
+/// put each variable once. The path appears at commit(). Every method
+/// \throws Error file.
 class NetcdfWriter {
 public:
-  /// \param progress told of the bytes written, as OutputFile::watch() does.
+  /// \param progress receives the bytes written, as OutputFile::watch() describes.
   explicit NetcdfWriter(const std::string& path, ProgressCallback progress = {});
   NetcdfWriter(const NetcdfWriter&) = delete;
   NetcdfWriter& operator=(const NetcdfWriter&) = delete;
@@ -46,13 +46,13 @@ public:
   void begin();
 
   /// fill(begin, end, out) writes rows begin to end - 1 of the variable (its slowest dimension; a
-  /// scalar is one row) to out. It is called for blocks of rows, from several threads at once.
+  /// scalar is one row) to out. Several threads call it at once for blocks of rows.
   template <class T> using Fill = std::function<void(std::int64_t begin, std::int64_t end, T* out)>;
   void put(int variable, const Fill<double>& fill);
   void put(int variable, const Fill<std::int32_t>& fill);
   void put(int variable, const Fill<std::int8_t>& fill);
 
-  /// The same for two variables of as many rows, whose values are made together.
+  /// The same for two variables with the same number of rows, whose values are computed together.
   using PairFill = std::function<void(std::int64_t begin, std::int64_t end, std::int32_t* ints,
                                       double* doubles)>;
   void put(int ints, int doubles, const PairFill& fill);

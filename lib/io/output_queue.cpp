@@ -7,11 +7,12 @@
 namespace calotte::io_detail {
 
 OutputQueue::OutputQueue(Write write) : write_(std::move(write)) {
-  constexpr int threads = 2; // while one is woken, the disk is busy with the other's block
+  constexpr int threads = 2; // two: the disk writes a block of one while the other wakes up
   try {
     for (int t = 0; t < threads; ++t)
       threads_.emplace_back([this] { run(); });
-  } catch (const std::system_error&) { // the system gives no more: those that there are will do
+  } catch (const std::system_error&) { // the system gives no more threads: continue with the
+                                       // existing ones
   }
 }
 

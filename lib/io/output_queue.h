@@ -14,11 +14,12 @@
 
 namespace calotte::io_detail {
 
-/// Blocks that wait for the disk, and threads that wait with them: these take next to no time of
-/// the processors, which the tasks that fill the next blocks have meanwhile.
+/// A queue of blocks for the disk, with threads that write them. The threads mostly wait for the
+/// disk; the processors are free for the tasks that fill the next blocks.
 class OutputQueue {
 public:
-  /// Called from several threads at once. \returns 0, or the errno of what failed.
+  /// Several threads call it at once.
+  /// \returns 0, or the errno of the failure.
   using Write = std::function<int(OutputBlock)>;
 
   explicit OutputQueue(Write write);
@@ -26,8 +27,9 @@ public:
   OutputQueue& operator=(const OutputQueue&) = delete;
   ~OutputQueue(); ///< drops what is not written
 
-  /// Waits while too many blocks do; without a thread to write it, writes it itself. From any
-  /// thread. \returns 0, or the first errno so far.
+  /// Adds a block; waits while the queue is full. Without a thread, the call writes the block
+  /// itself. Any thread may call it.
+  /// \returns 0, or the first errno so far.
   int push(OutputBlock block);
 
   /// Waits until all is written. \returns 0, or the first errno.

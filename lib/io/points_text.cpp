@@ -18,12 +18,12 @@ using io_detail::Columned;
 using io_detail::LineReader;
 using io_detail::Outcome;
 
-/// What a line holds.
+/// The content of a line.
 struct Row {
   int columns;
   std::string expected; ///< what to write in a line, for messages
   std::string perhaps;  ///< a remedy where a column is missing, or empty
-  const char* use;      ///< what a number that is not finite gives none of
+  const char* use;      ///< what a non-finite number does not give, for messages
   void (*require)(const LineReader&, const double*);
   void (*append)(std::vector<double>&, const double*);
 };

@@ -4,8 +4,8 @@
 #include "quality/room.h"
 
 /// Files: one source file for each format of points, meshes, densities, domains and checkpoints,
-/// and the one way in which every file is written: beside its place, synchronised, and renamed when
-/// whole.
+/// and the procedure by which every file is written: under a temporary name, synchronised, and
+/// renamed when complete.
 ///
 /// In: a path. Out: values of the public types, or one line that names the file and the line in it.
 namespace calotte::io_detail {

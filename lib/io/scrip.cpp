@@ -2,6 +2,8 @@
 #include "base/points.h"
 #include "io/formats.h"
 #include "io/model_grid.h"
+#include "io/netcdf_fields.h"
+#include "io/polygons.h"
 
 // The grid file of SCRIP, a package for conservative remapping (Jones, Mon. Weather Rev. 127,
 // 1999), which CDO, ESMF, NCO and TempestRemap read, too: each cell has copies of its corners.
@@ -24,44 +26,50 @@ NetcdfAttributes centre_angle(const std::string& standard_name, const std::strin
 }
 
 /// Of the cells' corners; the last one fills the row.
-NetcdfWriter::Fill<double> corner_angles(const Voronoi& cells, double LonLat::*angle) {
+NetcdfWriter::Fill<double> corner_angles(const Polygons& cells, double LonLat::*angle) {
   return table<double>(most_corners(cells), [&cells, angle](std::int64_t cell, std::int64_t k) {
-    return lonlat_of(column(cells.vertices, corner_or_last(cells, cell, k))).*angle;
+    return lonlat_of(column(cells.corners, corner_or_last(cells, cell, k))).*angle;
   });
 }
 
+const NetcdfMeshNames scrip_names{.cells = "grid_size",
+                                  .vertices = "",
+                                  .variables = {"grid_dims", "grid_center_lat", "grid_center_lon",
+                                                "grid_corner_lat", "grid_corner_lon"}};
+
 } // namespace
 
-void write_scrip(const std::string& path, const Mesh& mesh, const WriteOptions& options) {
-  const Voronoi cells = voronoi(mesh);
+void write_scrip(const std::string& path, const CellGrid& grid, const WriteOptions& options) {
+  const Polygons& cells = grid.polygons;
   const std::string unit = "1", coordinates = "grid_center_lat grid_center_lon";
   GridFile file(path, options, "CF-1.8");
-  const int size = file.netcdf().dimension("grid_size", cells.cells.cols());
+  const int size = file.netcdf().dimension("grid_size", cells.size());
   const int corners = file.netcdf().dimension("grid_corners", most_corners(cells));
   const int rank = file.netcdf().dimension("grid_rank", 1);
 
   file.doubles("grid_center_lat", {size}, centre_angle("latitude", "grid_corner_lat"),
-               latitudes_of(cells.cells));
+               latitudes_of(cells.centres));
   file.doubles("grid_center_lon", {size}, centre_angle("longitude", "grid_corner_lon"),
-               longitudes_of(cells.cells));
+               longitudes_of(cells.centres));
   file.ints("grid_imask", {size},
             {{"units", unit},
              {"long_name", std::string("mask of the cells: 1 takes part")},
              {"coordinates", coordinates}},
-            constant(1));
+            mask_of(options));
   file.doubles("grid_area", {size},
                {{"units", std::string("radians^2")},
                 {"long_name", std::string("area of the cell on the unit sphere")},
                 {"coordinates", coordinates}},
-               values_of(cells.cell_area));
+               values_of(grid.area));
   const std::string corner = "the cell's corners, counter-clockwise";
   file.doubles("grid_corner_lat", {size, corners}, angle("latitude", corner),
                corner_angles(cells, &LonLat::latitude));
   file.doubles("grid_corner_lon", {size, corners}, angle("longitude", corner),
                corner_angles(cells, &LonLat::longitude));
+  add_fields(file, options, {size, -1, coordinates}, scrip_names);
   // Last: CDO takes the first variable of data for the grid that it is asked about.
   file.ints("grid_dims", {rank}, {{"units", unit}, {"long_name", std::string("number of cells")}},
-            constant(cells.cells.cols()));
+            constant(cells.size()));
   file.commit();
 }
 
@@ -70,7 +78,17 @@ bool is_scrip(const NetcdfReader& file) {
 }
 
 Soup read_scrip(const NetcdfReader& file) {
-  return {read_lonlats(file, "grid_center_lon", "grid_center_lat"), {}};
+  Soup soup{.points = read_lonlats(file, "grid_center_lon", "grid_center_lat")};
+  const std::int64_t cells = soup.points.cols();
+  if (file.has_variable("grid_corner_lon")) {
+    const std::int64_t most = file.shape_of("grid_corner_lon").back();
+    const Points3 corners = read_lonlats(file, "grid_corner_lon", "grid_corner_lat", {cells, most});
+    soup.polygons = polygons_of(corners, most, soup.points);
+    soup.corner_rounding = file.is_float("grid_corner_lon") ? float_rounding : 0;
+  }
+  read_fields(file, scrip_names, soup);
+  drop_derived_fields(soup);
+  return soup;
 }
 
 } // namespace calotte::io_detail

@@ -27,7 +27,7 @@ const char* column_end(const char* p, const char* end) {
   return std::find_if(p, end, [](char c) { return is_blank(c) || is_mark(c); });
 }
 
-/// std::from_chars knows no plus sign.
+/// std::from_chars does not accept a plus sign.
 const char* skip_plus(const char* p, const char* end) {
   return end - p > 1 && p[0] == '+' && p[1] != '+' && p[1] != '-' ? p + 1 : p;
 }
@@ -98,7 +98,8 @@ bool LineReader::next(std::string_view& line) {
   return true;
 }
 
-/// Moves what is left to the buffer's front and reads on; false at the end of the stream.
+/// Moves the unread bytes to the front of the buffer and reads more; false at the end of the
+/// stream.
 bool LineReader::refill() {
   std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
   end_ -= begin_;

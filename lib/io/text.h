@@ -21,11 +21,11 @@ public:
   /// \param name stands for the stream in messages.
   LineReader(std::istream& in, std::string name);
 
-  /// The next line, without its ending; it lives until the next call. False after the last one.
+  /// Reads the next line, without its ending; valid until the next call. False after the last one.
   /// \throws Error file.
   bool next(std::string_view& line);
 
-  /// As next, without comments; lines that hold nothing else are passed over.
+  /// As next(), without comments; skips lines without other content.
   bool next_content(std::string_view& line);
 
   std::int64_t number() const { return number_; } ///< 1-based, of the line that `next` returned
@@ -40,12 +40,12 @@ private:
   std::istream& in_;
   std::string name_;
   std::vector<char> buffer_;
-  std::size_t begin_ = 0, end_ = 0; ///< what of the buffer is not yet returned
+  std::size_t begin_ = 0, end_ = 0; ///< the unread part of the buffer
   std::int64_t number_ = 0;
-  bool after_cr_ = false; ///< an LF here belongs to the line before
+  bool after_cr_ = false; ///< a following LF belongs to the same line ending
 };
 
-/// What the numbers at the start of a line came to.
+/// The result of parsing the numbers at the start of a line.
 enum class Outcome {
   ok,
   too_few,      ///< the line ends before `count` columns
@@ -53,7 +53,7 @@ enum class Outcome {
   out_of_range, ///< a column is a number that the type cannot hold
 };
 
-/// A view of the first column that was not as it should be, or how many there were.
+/// The first invalid column, or the number of columns read.
 struct Columned {
   Outcome outcome = Outcome::ok;
   int columns = 0;       ///< read so far
@@ -65,18 +65,19 @@ struct Columned {
 Columned parse_columns(std::string_view line, int count, double* values);
 Columned parse_columns(std::string_view line, int count, std::int64_t* values);
 
-/// Whether one of the line's columns, all of them taken, is a number.
+/// True if one of the line's columns is a number.
 bool holds_number(std::string_view line);
 
 /// Text from a file as one short printable line within quotes.
 std::string in_quotes(std::string_view text);
 
-/// "`abc` is not a number" and the like, without the remedy. \pre the outcome is not ok or too_few.
+/// A description such as "`abc` is not a number", without the remedy.
+/// \pre the outcome is not ok or too_few.
 std::string describe(const Columned& read);
 
 // ---- Writing
 
-/// Where bytes go.
+/// Receives output bytes.
 using Sink = std::function<void(std::string_view)>;
 
 /// Collects small pieces for a sink. Call flush() at the end.

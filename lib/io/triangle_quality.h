@@ -7,13 +7,13 @@
 
 #include <cstdint>
 
-/// What an MPAS file says of the shape of the triangle around each vertex.
+/// Measures of the triangle around each vertex that MPAS files contain.
 namespace calotte::io_detail {
 
 /// Shortest over longest side.
 double side_quality(const Voronoi& voronoi, std::int64_t vertex);
 
-/// By more than rounding, as Quality::obtuse has it.
+/// Obtuse by more than rounding, as in Quality::obtuse.
 bool is_obtuse(const Voronoi& voronoi, std::int64_t vertex);
 
 /// Smallest over largest angle, of the vertices begin to end - 1.

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/mesh_intake.h"
+#include "io/model_grid.h"
+#include "io/polygons.h"
 #include "io/vtk_xml.h"
 
 #include "io/binary.h"
@@ -7,48 +10,77 @@ namespace calotte::io_detail {
 namespace {
 
 constexpr std::uint8_t polygon_type = 7;
+constexpr const char* cell_data = "CellData Scalars=\"spacing\"";
 
-/// Three cells meet in a corner.
-VtkHead head_of(const VtkHead& counts) {
-  VtkHead head = counts;
-  head.arrays.push_back({"PointData", "Int32", "triangle", head.points, 3});
-  add_field_arrays("CellData", head.cells, head);
-  head.arrays.push_back({"CellData Scalars=\"spacing\"", "Float64", "site", head.cells, 3});
-  add_points(head.points, head);
-  add_cells(3 * head.points, head);
-  return head;
+/// Points, connectivity, offsets and types.
+void add_shapes(const Points3& corners, const Polygons& cells, VtkHead& head,
+                std::vector<VtkContent>& contents) {
+  add_points(corners.cols(), head);
+  contents.push_back(content_of(corners));
+  add_cells(cells.ids.size(), head);
+  contents.emplace_back([&cells](Writer& out) {
+    for (const std::int32_t corner : cells.ids)
+      out.raw(std::int64_t{corner});
+  });
+  contents.emplace_back([&cells](Writer& out) {
+    for (std::int64_t i = 1; i <= cells.size(); ++i)
+      out.raw(cells.begin[i]);
+  });
+  if (head.flavour.types)
+    contents.emplace_back([&cells](Writer& out) {
+      out.text(std::string(static_cast<std::size_t>(cells.size()), polygon_type));
+    });
 }
 
 } // namespace
 
 void put_vtk_cells(const Sink& sink, const Mesh& mesh, const WriteOptions& options,
                    const VtkFlavour& flavour) {
-  const Voronoi cells = voronoi(mesh);
-  const CellFields fields = cell_fields(cells, options.density);
-  const std::int64_t count = mesh.points.cols();
+  Voronoi voronoi = calotte::voronoi(mesh);
+  const CellFields fields = fields_of(voronoi, options);
+  const Polygons cells = polygons_of(std::move(voronoi));
+  const Points3 corners = radius_of(mesh.points) * cells.corners;
+  VtkHead head{flavour, corners.cols(), cells.size(), {}};
   std::vector<VtkContent> contents;
+  head.arrays.push_back({"PointData", "Int32", "triangle", head.points, 3});
   contents.emplace_back(
       [&](Writer& out) { out.text(bytes_of(mesh.triangles.data(), mesh.triangles.size())); });
+  add_fields("PointData", options.fields, Location::vertices, head, contents);
+  add_field_arrays("CellData", head.cells, head);
   add_field_contents(fields, contents);
+  head.arrays.push_back({cell_data, "Float64", "site", head.cells, 3});
   contents.push_back(content_of(mesh.points));
-  contents.push_back(content_of(cells.vertices));
-  contents.emplace_back([&](Writer& out) {
-    for (const std::int32_t corner : cells.vertices_on_cell)
-      out.raw(std::int64_t{corner});
-  });
-  contents.emplace_back([&](Writer& out) {
-    for (std::int64_t i = 1; i <= count; ++i)
-      out.raw(cells.begin[i]);
-  });
-  if (flavour.types)
-    contents.emplace_back(
-        [&](Writer& out) { out.text(std::string(static_cast<std::size_t>(count), polygon_type)); });
-  put_vtk(sink, head_of({flavour, cells.vertices.cols(), count, {}}), contents);
+  add_fields(cell_data, options.fields, Location::cells, head, contents);
+  add_shapes(corners, cells, head, contents);
+  put_vtk(sink, head, contents);
+}
+
+void put_vtk_cells(const Sink& sink, const Polygons& polygons, const WriteOptions& options,
+                   const VtkFlavour& flavour) {
+  const Eigen::VectorXd areas = areas_of(polygons);
+  VtkHead head{flavour, polygons.corners.cols(), polygons.size(), {}};
+  std::vector<VtkContent> contents;
+  add_fields("PointData", options.fields, Location::vertices, head, contents);
+  const std::vector<MeshField> own{{.name = "area", .values = areas}};
+  add_fields("CellData", own, Location::cells, head, contents);
+  if (polygons.centres.cols() > 0) {
+    head.arrays.push_back({"CellData", "Float64", "site", head.cells, 3});
+    contents.push_back(content_of(polygons.centres));
+  }
+  add_fields("CellData", options.fields, Location::cells, head, contents);
+  add_shapes(polygons.corners, polygons, head, contents);
+  put_vtk(sink, head, contents);
 }
 
 std::optional<Soup> vtk_cells(std::string_view content, const std::string& name,
                               const VtkHead& counts) {
-  const auto blocks = vtk_blocks(content, name, head_of(counts));
+  VtkHead head = counts;
+  head.arrays.push_back({"PointData", "Int32", "triangle", head.points, 3});
+  add_field_arrays("CellData", head.cells, head);
+  head.arrays.push_back({cell_data, "Float64", "site", head.cells, 3});
+  add_points(head.points, head);
+  add_cells(3 * head.points, head);
+  const auto blocks = vtk_blocks(content, name, head);
   if (!blocks)
     return std::nullopt;
   const std::string_view triangles = blocks->front(), sites = (*blocks)[6];

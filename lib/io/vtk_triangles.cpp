@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/model_grid.h"
 #include "io/vtk_xml.h"
 
 #include "io/binary.h"
@@ -49,12 +50,18 @@ void put_vtk_triangles(const Sink& sink, const Mesh& mesh, const WriteOptions& o
                        const VtkFlavour& flavour) {
   const std::int64_t triangles = mesh.triangles.cols();
   std::vector<VtkContent> contents;
+  VtkHead head{flavour, mesh.points.cols(), triangles, {}};
   CellFields fields;
   if (has_fields(mesh)) {
-    fields = cell_fields(voronoi(mesh), options.density);
+    fields = fields_of(voronoi(mesh), options);
+    add_field_arrays("PointData", head.points, head);
     add_field_contents(fields, contents);
   }
-  const VtkHead head = head_of({flavour, mesh.points.cols(), triangles, {}}, !contents.empty());
+  add_fields(head.arrays.empty() ? "PointData" : "PointData Scalars=\"spacing\"", options.fields,
+             Location::cells, head, contents);
+  add_fields("CellData", options.fields, Location::vertices, head, contents);
+  add_points(head.points, head);
+  add_cells(3 * head.cells, head);
   contents.push_back(content_of(mesh.points));
   contents.emplace_back([&](Writer& out) {
     for (std::int64_t i = 0; i < 3 * triangles; ++i)

@@ -4,6 +4,7 @@
 #include "io/binary.h"
 #include "io/file.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace calotte::io_detail {
@@ -13,6 +14,14 @@ constexpr std::string_view tail = "\n  </AppendedData>\n</VTKFile>\n";
 
 /// The element's name alone ends it.
 std::string end_of(const std::string& element) { return element.substr(0, element.find(' ')); }
+
+/// Text within the quotes of an attribute.
+std::string xml_text(const std::string& text) {
+  std::string out;
+  for (const char c : text)
+    out += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '"' ? "&quot;" : std::string(1, c);
+  return out;
+}
 
 /// Everything before the first block.
 std::string text_of(const VtkHead& head) {
@@ -93,6 +102,22 @@ void add_field_contents(const CellFields& fields, std::vector<VtkContent>& conte
         [field](Writer& out) { out.text(bytes_of(field->data(), field->size())); });
   contents.emplace_back(
       [&fields](Writer& out) { out.text(bytes_of(fields.degree.data(), fields.degree.size())); });
+}
+
+void add_fields(const std::string& element, const std::vector<MeshField>& fields, Location location,
+                VtkHead& head, std::vector<VtkContent>& contents) {
+  const auto is_taken = [&head](const std::string& name) {
+    return std::any_of(head.arrays.begin(), head.arrays.end(),
+                       [&](const VtkArray& array) { return array.name == name; });
+  };
+  for (const MeshField& field : fields) {
+    if (field.location != location || is_taken(field.name))
+      continue;
+    const Eigen::VectorXd& values = field.values;
+    head.arrays.push_back({element, "Float64", xml_text(field.name), values.size()});
+    contents.emplace_back(
+        [&values](Writer& out) { out.text(bytes_of(values.data(), values.size())); });
+  }
 }
 
 void add_points(std::int64_t points, VtkHead& head) {

@@ -52,6 +52,10 @@ vtk_blocks(std::string_view content, const std::string& name, const VtkHead& hea
 /// CellFields as arrays of an element, and their contents; the fields must outlive these.
 void add_field_arrays(const std::string& element, std::int64_t cells, VtkHead& head);
 void add_field_contents(const CellFields& fields, std::vector<VtkContent>& contents);
+/// Fields of one location as Float64 arrays of an element, and their contents; those that have the
+/// name of an array before them are left out. The fields must outlive these.
+void add_fields(const std::string& element, const std::vector<MeshField>& fields, Location location,
+                VtkHead& head, std::vector<VtkContent>& contents);
 /// Points Float64, which stay where they are until they are put.
 void add_points(std::int64_t points, VtkHead& head);
 VtkContent content_of(const Points3& points);
@@ -66,9 +70,12 @@ void put_vtk_triangles(const Sink& sink, const Mesh& mesh, const WriteOptions& o
 std::optional<Soup> vtk_triangles(std::string_view content, const std::string& name,
                                   const VtkHead& counts);
 
-/// Voronoi cells as polygons with their CellFields and sites; at each point, a corner of cells, the
-/// three sites of its triangle.
+/// Voronoi cells as polygons with their CellFields and sites, on the sphere of the sites if these
+/// stand on one; at each point, a corner of cells, the three sites of its triangle.
 void put_vtk_cells(const Sink& sink, const Mesh& mesh, const WriteOptions& options,
+                   const VtkFlavour& flavour);
+/// Polygons with their areas and numbers of corners, on the unit sphere.
+void put_vtk_cells(const Sink& sink, const Polygons& polygons, const WriteOptions& options,
                    const VtkFlavour& flavour);
 std::optional<Soup> vtk_cells(std::string_view content, const std::string& name,
                               const VtkHead& counts);

@@ -20,6 +20,10 @@ void put_vtp_cells(const Sink& sink, const Mesh& mesh, const WriteOptions& optio
   put_vtk_cells(sink, mesh, options, poly_data);
 }
 
+void put_vtp_cells(const Sink& sink, const Polygons& polygons, const WriteOptions& options) {
+  put_vtk_cells(sink, polygons, options, poly_data);
+}
+
 Soup get_vtp(std::istream& in, const std::string& name) { return get_vtk(in, name, poly_data); }
 
 } // namespace calotte::io_detail

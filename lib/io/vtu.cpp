@@ -19,6 +19,10 @@ void put_vtu_cells(const Sink& sink, const Mesh& mesh, const WriteOptions& optio
   put_vtk_cells(sink, mesh, options, unstructured_grid);
 }
 
+void put_vtu_cells(const Sink& sink, const Polygons& polygons, const WriteOptions& options) {
+  put_vtk_cells(sink, polygons, options, unstructured_grid);
+}
+
 Soup get_vtu(std::istream& in, const std::string& name) {
   return get_vtk(in, name, unstructured_grid);
 }

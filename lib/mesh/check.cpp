@@ -4,9 +4,11 @@
 #include "base/points.h"
 #include "curve/hilbert.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 namespace calotte {
 namespace {
@@ -49,8 +51,8 @@ Array<Vec3> unit_vectors(const Points3& points) {
   return unit;
 }
 
-/// Whether all points are as good as normalised ones, within 5 roundoffs: squares within 6, and
-/// known to 3, are within 10.
+/// True if all points are unit vectors as accurate as normalised ones, within 5 roundoffs: squares
+/// within 6, and known to 3, are within 10.
 bool are_unit_vectors(const Points3& points) {
   std::atomic<bool> are{true};
   base_detail::for_each_block(
@@ -66,7 +68,7 @@ bool are_unit_vectors(const Points3& points) {
   return are;
 }
 
-/// A mesh with its unit vectors, which the predicates' filters work on.
+/// A mesh with its unit vectors, which the filters of the predicates read.
 struct OnSphere : mesh_detail::Faces {
   static constexpr const char* circle = "cap";
 
@@ -121,7 +123,106 @@ struct OnSphere : mesh_detail::Faces {
   }
 };
 
+/// Half the sum of the cotangents of the angles across from an edge: the length of its Voronoi edge
+/// over its own, but for the sphere's curvature.
+double relative_length(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  const auto cotangent = [&](const Vec3& p) {
+    const Vec3 u = a - p, v = b - p;
+    return dot(u, v) / base_detail::norm(cross(u, v));
+  };
+  return (cotangent(c) + cotangent(d)) / 2;
+}
+
+void join(EdgeCounts& all, const EdgeCounts& block) {
+  all.edges += block.edges;
+  all.boundary += block.boundary;
+  all.not_delaunay += block.not_delaunay;
+  all.cocircular += block.cocircular;
+  all.shortest = std::min(all.shortest, block.shortest);
+  if (all.first[0] < 0)
+    all.first = block.first;
+}
+
+/// The edge across from vertex i, seen from the triangle of the lower number.
+void count_edge(const OnSphere& s, std::int64_t t, int i, EdgeCounts& counts) {
+  constexpr double rounding = 1e-9;
+  const std::int32_t other = s.neighbour(t, i);
+  if (other >= 0 && other < t)
+    return;
+  ++counts.edges;
+  if (other < 0) {
+    ++counts.boundary;
+    return;
+  }
+  const std::int32_t a = s.vertex(t, i + 1), b = s.vertex(t, i + 2), c = s.vertex(t, i);
+  const std::int32_t d = s.vertex(other, mesh_detail::slot_of(s, other, b) + 2);
+  if (s.in_circle(a, b, c, d) < 0) // d is outside
+    return;
+  const double length = relative_length(s.unit[a], s.unit[b], s.unit[c], s.unit[d]);
+  if (length > -rounding) {
+    ++counts.cocircular;
+    return;
+  }
+  if (counts.not_delaunay++ == 0)
+    counts.first = {std::min(a, b), std::max(a, b)};
+  counts.shortest = std::min(counts.shortest, length);
+}
+
+/// The boundary as one successor for each of its sites; -1 elsewhere. Of a site at which the
+/// boundary passes more than once, one passage.
+std::vector<std::int32_t> boundary_successors(const OnSphere& s) {
+  std::vector<std::int32_t> next(static_cast<std::size_t>(s.sites()), -1);
+  for (std::int64_t t = 0; t < s.triangles(); ++t)
+    for (int i = 0; i < 3; ++i)
+      if (s.neighbour(t, i) < 0)
+        next[static_cast<std::size_t>(s.vertex(t, i + 1))] = s.vertex(t, i + 2);
+  return next;
+}
+
+void count_boundary(const OnSphere& s, EdgeCounts& counts) {
+  const std::vector<std::int32_t> next = boundary_successors(s);
+  const auto successor = [&](std::int32_t site) { return next[static_cast<std::size_t>(site)]; };
+  std::vector<bool> seen(next.size());
+  for (std::int32_t start = 0; start < s.sites(); ++start) {
+    if (successor(start) < 0 || seen[static_cast<std::size_t>(start)])
+      continue;
+    ++counts.loops;
+    for (std::int32_t site = start; site >= 0 && !seen[static_cast<std::size_t>(site)];
+         site = successor(site)) {
+      seen[static_cast<std::size_t>(site)] = true;
+      const std::int32_t middle = successor(site), end = middle < 0 ? -1 : successor(middle);
+      if (end >= 0 && end != site && s.orientation(site, middle, end) < 0)
+        ++counts.not_convex;
+    }
+  }
+}
+
+std::int64_t count_unused_sites(const Mesh& mesh) {
+  std::vector<bool> used(static_cast<std::size_t>(mesh.points.cols()));
+  for (const std::int32_t site : mesh.triangles.reshaped())
+    used[static_cast<std::size_t>(site)] = true;
+  return std::count(used.begin(), used.end(), false);
+}
+
 } // namespace
+
+EdgeCounts count_edges(const Mesh& mesh) {
+  const OnSphere s(mesh);
+  std::vector<EdgeCounts> blocks(static_cast<std::size_t>(base_detail::block_count(s.triangles())));
+  base_detail::for_each_block(s.triangles(),
+                              [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
+                                for (std::int64_t t = begin; t != end; ++t)
+                                  for (int i = 0; i < 3; ++i)
+                                    count_edge(s, t, i, blocks[static_cast<std::size_t>(block)]);
+                              });
+  EdgeCounts all;
+  for (const EdgeCounts& block : blocks)
+    join(all, block);
+  if (all.boundary > 0)
+    count_boundary(s, all);
+  all.unused_sites = count_unused_sites(mesh);
+  return all;
+}
 
 // Why local laws are enough. The triangles are counter-clockwise and turn around each inner site
 // once, so the mesh covers the sphere without folds or branch points. Closed, it is a covering of
@@ -133,7 +234,13 @@ struct OnSphere : mesh_detail::Faces {
 Check check(const Mesh& mesh, const ProgressCallback& progress) {
   return mesh_detail::check_laws(
       mesh, [&](std::int64_t site) { return direction_failure(mesh, site); },
-      [&] { return OnSphere(mesh); }, progress);
+      [&] { return OnSphere(mesh); }, mesh_detail::Proof::delaunay, progress);
+}
+
+Check check_surface(const Mesh& mesh, const ProgressCallback& progress) {
+  return mesh_detail::check_laws(
+      mesh, [&](std::int64_t site) { return direction_failure(mesh, site); },
+      [&] { return OnSphere(mesh); }, mesh_detail::Proof::surface, progress);
 }
 
 } // namespace calotte

@@ -27,11 +27,16 @@
 ///   area_failure(sum, result)  of the areas' sum
 namespace calotte::mesh_detail {
 
+/// What a mesh is proven to be: the Delaunay triangulation of its points, or a surface of
+/// counter-clockwise triangles that need be neither Delaunay nor convex nor simply connected.
+enum class Proof { delaunay, surface };
+
 /// The laws in an order in which each may rely on those before it.
 /// \param site_failure(i) of a site alone; surface() is asked for when all sites are sound.
 template <class AnyMesh, class SiteFailure, class MakeSurface>
 std::string first_broken_law(const AnyMesh& mesh, const SiteFailure& site_failure,
-                             const MakeSurface& surface, Check& result, Monitor& monitor) {
+                             const MakeSurface& surface, Proof proof, Check& result,
+                             Monitor& monitor) {
   std::string failure = shape_failure(mesh);
   const auto holds = [&](std::int64_t n, const auto& law) {
     failure = first_failure(n, law, monitor);
@@ -56,21 +61,25 @@ std::string first_broken_law(const AnyMesh& mesh, const SiteFailure& site_failur
       !holds(triangles, [&](std::int64_t t) { return orientation_failure(s, t); }))
     return failure;
   const RingStarts rings = make_ring_starts(s);
-  if (!holds(s.sites(),
-             [&](std::int64_t i) { return ring_failure(s, rings, static_cast<std::int32_t>(i)); }))
+  const bool delaunay = proof == Proof::delaunay;
+  if (!holds(s.sites(), [&](std::int64_t i) {
+        const bool unused = rings.first[static_cast<std::size_t>(i)] < 0;
+        return unused && !delaunay ? std::string()
+                                   : ring_failure(s, rings, static_cast<std::int32_t>(i), delaunay);
+      }))
     return failure;
-  if (failure = euler_failure(s, result.boundary_edges); !failure.empty())
+  if (failure = delaunay ? euler_failure(s, result.boundary_edges) : ""; !failure.empty())
     return failure;
   const Area area = sum_areas(s);
   s.set_area(area.value, result);
-  if (!holds_of_edges([&](std::int64_t t, int i) { return edge_failure(s, t, i); }))
+  if (delaunay && !holds_of_edges([&](std::int64_t t, int i) { return edge_failure(s, t, i); }))
     return failure;
   return s.area_failure(area, result);
 }
 
 template <class AnyMesh, class SiteFailure, class MakeSurface>
 Check check_laws(const AnyMesh& mesh, const SiteFailure& site_failure, const MakeSurface& surface,
-                 const ProgressCallback& progress) {
+                 Proof proof, const ProgressCallback& progress) {
   Monitor monitor(progress);
   Check result;
   result.sites = mesh.points.cols();
@@ -78,7 +87,7 @@ Check check_laws(const AnyMesh& mesh, const SiteFailure& site_failure, const Mak
   result.boundary_edges = count_boundary_edges(mesh.neighbours);
   const std::int64_t triangles = block_count(mesh.triangles.cols());
   monitor.begin("check", 0.99, block_count(mesh.points.cols()) + 2 * triangles);
-  result.failure = first_broken_law(mesh, site_failure, surface, result, monitor);
+  result.failure = first_broken_law(mesh, site_failure, surface, proof, result, monitor);
   monitor.finish();
   return result;
 }

@@ -44,8 +44,8 @@ Area half_cross(const Vec2& p, const Vec2& q, double off) {
           2 * largest * off + off * off + 2 * roundoff * largest * largest};
 }
 
-/// A mesh in the plane or in a periodic box. Sites near a site are its nearest copies: how many
-/// boxes away the copy of b near a is, is the opposite of what it is for a near b.
+/// A mesh in the plane or in a periodic box. Predicates use the copies of sites nearest to a site:
+/// the shift of the copy of b near a is the opposite of the shift of the copy of a near b.
 struct InPlane : mesh_detail::Faces {
   static constexpr const char* circle = "circle";
 
@@ -86,7 +86,7 @@ struct InPlane : mesh_detail::Faces {
 
   const void* stored(std::int32_t site) const { return &mesh.points(0, site); }
 
-  /// Of a periodic box: an open mesh is not visited by a traversal.
+  /// For a periodic box; an open mesh is not visited by a traversal.
   static constexpr int cube_faces = 1;
   curve_detail::CubePoint square(std::int32_t site) const {
     const Vec2 p = given(site);
@@ -94,7 +94,7 @@ struct InPlane : mesh_detail::Faces {
     return {0, 2 * u - 1, 2 * v - 1};
   }
 
-  /// From corner to corner to corner, nearest copies lead back to the first.
+  /// The nearest copies lead from corner to corner and back to the first.
   std::string own_failure(std::int64_t t) const {
     int i = 0, j = 0;
     for (int k = 0; k < 3; ++k) {
@@ -118,7 +118,7 @@ struct InPlane : mesh_detail::Faces {
             scaled(b.site.y) - scaled(a.y) + b.j * scaled(period.y)};
   }
 
-  /// Of the way's coordinates: rounding, and what scaling may take from subnormal numbers.
+  /// Error of the coordinates of an offset: rounding, and the loss of scaling subnormal numbers.
   double error_of_way(const Vec2& p) const {
     return periodic() ? 4 * roundoff
                       : roundoff * std::max(std::abs(p.x), std::abs(p.y)) + 0x1p-1073;
@@ -179,7 +179,7 @@ struct InPlane : mesh_detail::Faces {
 Check check(const PlanarMesh& mesh, const ProgressCallback& progress) {
   return mesh_detail::check_laws(
       mesh, [&](std::int64_t site) { return place_failure(mesh, site); },
-      [&] { return InPlane(mesh); }, progress);
+      [&] { return InPlane(mesh); }, mesh_detail::Proof::delaunay, progress);
 }
 
 } // namespace calotte

@@ -10,10 +10,10 @@
 /// The law of the triangles around a site.
 namespace calotte::mesh_detail {
 
-/// For each site a triangle at which a walk around it begins, and how many triangles it has.
+/// For each site a triangle at which a walk around it starts, and its number of triangles.
 struct RingStarts {
   std::vector<std::int32_t>
-      first; ///< -1 for none; along a boundary the one that the walk must begin at
+      first; ///< -1 for none; along a boundary the triangle at which the walk must start
   std::vector<std::int32_t> size;
 };
 
@@ -38,8 +38,10 @@ inline RingStarts make_ring_starts(const Faces& s) {
 /// left half plane or in the right one; the walk has turned around once each time it comes from the
 /// right to the left. A fan of at most half a turn has all on the left, the last perhaps behind:
 /// the boundary is convex there.
+/// \param convex whether the boundary must be; a fan may else turn by up to a whole turn.
 template <class Surface>
-std::string ring_failure(const Surface& s, const RingStarts& rings, std::int32_t site) {
+std::string ring_failure(const Surface& s, const RingStarts& rings, std::int32_t site,
+                         bool convex = true) {
   const std::string name = "site " + std::to_string(site);
   const std::int32_t start = rings.first[static_cast<std::size_t>(site)];
   const std::int32_t size = rings.size[static_cast<std::size_t>(site)];
@@ -62,10 +64,12 @@ std::string ring_failure(const Surface& s, const RingStarts& rings, std::int32_t
     ++walked;
   });
   const bool is_fan = exists(last);
-  if (is_fan && (reflex || way < 0))
+  if (is_fan && convex && (reflex || way < 0))
     return "the boundary is not convex at " + name;
   if (walked < size)
     return "the triangles at " + name + " are not a single cycle or fan";
+  if (is_fan && turns > 0)
+    return "the triangles at " + name + " overlap";
   if (!is_fan && turns != 1)
     return "the triangles turn " + std::to_string(turns) + " times around " + name;
   return {};

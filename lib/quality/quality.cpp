@@ -32,7 +32,7 @@ Shape shape_of(const std::array<Vec3, 3>& p) {
     const double sine = difference / sum * (product / twice_area);
     shape.angle[v] = std::atan2(twice_area, product);
     shape.side[v] = 2 * std::atan2(difference, sum);
-    shape.delta[v] = std::asin(std::clamp(sine, -1.0, 1.0)); // rounding can pass a hemisphere
+    shape.delta[v] = std::asin(std::clamp(sine, -1.0, 1.0)); // rounding can exceed a hemisphere
   }
   return shape;
 }
@@ -95,17 +95,42 @@ Mesh with_unit_columns(Mesh mesh) {
 
 /// \returns the sum of the triangles' areas.
 double require_closed_delaunay(const Mesh& mesh) {
-  const Check found = check(mesh);
-  if (!found.passed())
-    throw Error(ErrorCode::bad_option,
-                "the mesh is not the Delaunay triangulation of its points, so it has no Voronoi "
-                "cells: " +
-                    found.failure + "; triangulate the points anew");
+  Check found = check(mesh);
+  if (!found.passed()) {
+    // The other diagonals of cocircular sites make the same cells.
+    const std::string failure = found.failure;
+    found = check_surface(mesh);
+    const EdgeCounts edges = found.passed() ? count_edges(mesh) : EdgeCounts{};
+    if (edges.boundary > 0 || edges.unused_sites > 0 || edges.cocircular == 0 ||
+        edges.not_delaunay > 0)
+      throw Error(ErrorCode::bad_option,
+                  "the mesh is not the Delaunay triangulation of its points, so it has no Voronoi "
+                  "cells: " +
+                      failure + "; triangulate the points anew");
+  }
   if (found.boundary_edges > 0)
     throw Error(ErrorCode::bad_option,
                 "the mesh is open, as all its sites lie in a hemisphere, and its Voronoi cells do "
                 "not tessellate the sphere: give sites all around");
   return found.area;
+}
+
+/// How many sites with a closed ring of triangles have each number of neighbours.
+std::vector<std::int64_t> inner_degrees(const Mesh& mesh) {
+  std::vector<std::int64_t> degree(static_cast<std::size_t>(mesh.points.cols()));
+  std::vector<bool> open(degree.size());
+  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
+    for (int i = 0; i < 3; ++i) {
+      ++degree[static_cast<std::size_t>(mesh.triangles(i, t))];
+      if (mesh.neighbours(i, t) < 0)
+        for (const int end : {1, 2})
+          open[static_cast<std::size_t>(mesh.triangles((i + end) % 3, t))] = true;
+    }
+  CellPart inner;
+  for (std::size_t i = 0; i < degree.size(); ++i)
+    if (!open[i] && degree[i] > 0)
+      inner.count(static_cast<std::size_t>(degree[i]), 1);
+  return inner.degrees;
 }
 
 Quality measure(const Mesh& mesh, const Density& density) {
@@ -129,10 +154,26 @@ Quality measure(const Mesh& mesh, const Density& density) {
 } // namespace quality_detail
 
 Quality quality(const Mesh& mesh, const Density& density) {
-  evaluate(density, Points3(Eigen::Vector3d::UnitZ())); // says what is wrong with it
+  evaluate(density, Points3(Eigen::Vector3d::UnitZ())); // throws if the density is ill-formed
   const double triangles_area = quality_detail::require_closed_delaunay(mesh);
   Quality result = quality_detail::measure(quality_detail::with_unit_columns(mesh), density);
   result.triangles_area = triangles_area / (4 * std::numbers::pi);
+  return result;
+}
+
+Quality triangle_quality(const Mesh& mesh) {
+  using namespace quality_detail;
+  const Check found = check_surface(mesh);
+  if (!found.passed())
+    throw Error(ErrorCode::bad_option, "the triangles do not form a surface: " + found.failure +
+                                           "; triangulate the points anew");
+  const Mesh unit = with_unit_columns(mesh);
+  Quality result =
+      measure_shapes({unit.triangles, unit.neighbours, {}, make_shapes(unit), {}, {}}, 0);
+  result.off_centring = {};
+  result.cells = mesh.points.cols();
+  result.degrees = inner_degrees(mesh);
+  result.triangles_area = found.area / (4 * pi);
   return result;
 }
 

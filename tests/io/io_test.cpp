@@ -304,18 +304,20 @@ TEST_CASE("a distinct column in no triangle stays as a site") {
   CHECK(read.site_of_input == std::vector<std::int32_t>{0, 1, 2, 3, 4, 5, 6, 6});
 }
 
-TEST_CASE("neighbours: an edge of three triangles, or of two the same way, stays open") {
+TEST_CASE("neighbours: an edge of one triangle is open; one of three, or of two the same way, is "
+          "refused") {
   const Scratch scratch;
-  const auto neighbours = [&](const std::string& faces, int count) {
+  const auto write_faces = [&](const std::string& faces, int count) {
     write_text(scratch / "mesh.off", "OFF\n5 " + std::to_string(count) +
                                          " 0\n1 0 0\n0 1 0\n0 0 1\n-1 0 0\n0 -1 0\n" + faces);
-    return calotte::read_mesh(scratch / "mesh.off").neighbours;
   };
-  CHECK(neighbours("3 0 1 2\n3 1 0 3\n", 2) ==
-        (Triangles(3, 2) << -1, -1, -1, -1, 1, 0).finished());
-  CHECK((neighbours("3 0 1 2\n3 0 1 3\n", 2).array() == -1).all());
-  CHECK((neighbours("3 0 1 2\n3 1 0 3\n3 0 1 4\n", 3).array() == -1).all());
-  CHECK((neighbours("3 0 1 2\n3 1 0 3\n3 0 1 4\n3 1 0 2\n", 4)(2, 0)) == -1);
+  write_faces("3 0 1 2\n3 1 3 2\n", 2);
+  CHECK(calotte::read_mesh(scratch / "mesh.off").neighbours ==
+        (Triangles(3, 2) << 1, -1, -1, 0, -1, -1).finished());
+  for (const char* faces : {"3 0 1 2\n3 0 1 2\n", "3 0 1 2\n3 1 3 2\n3 2 1 4\n"}) {
+    write_faces(faces, static_cast<int>(std::count(faces, faces + std::strlen(faces), '\n')));
+    CHECK(error_of([&] { calotte::read_mesh(scratch / "mesh.off"); }).code() == ErrorCode::parse);
+  }
 }
 
 TEST_CASE("a VTK file has the structure that readers require") {

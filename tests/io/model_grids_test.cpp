@@ -6,6 +6,7 @@
 
 #include "base/lonlat.h"
 #include "io/formats.h"
+#include "io/model_grid.h"
 #include "io/netcdf_reader.h"
 #include "io/netcdf_writer.h"
 
@@ -230,6 +231,17 @@ Polygons scrip_polygons(const NetcdfReader& file) {
 using Write = void (*)(const std::string&, const Mesh&, const WriteOptions&);
 using Read = Soup (*)(const NetcdfReader&);
 
+// The cells of a mesh as files of polygons.
+void write_ugrid(const std::string& path, const Mesh& mesh, const WriteOptions& options) {
+  io_detail::write_ugrid(path, io_detail::cell_grid(mesh), options);
+}
+void write_scrip(const std::string& path, const Mesh& mesh, const WriteOptions& options) {
+  io_detail::write_scrip(path, io_detail::cell_grid(mesh), options);
+}
+void write_esmf(const std::string& path, const Mesh& mesh, const WriteOptions& options) {
+  io_detail::write_esmf(path, io_detail::cell_grid(mesh), options);
+}
+
 Soup written_and_read(const std::string& path, const Mesh& mesh, Write write, Read read,
                       const WriteOptions& options = {}) {
   write(path, mesh, options);
@@ -351,9 +363,9 @@ TEST_CASE("UGRID, SCRIP and ESMF hold the Voronoi tessellation") {
   const WriteOptions options{.sphere_radius = 6371220, .history = "made by a test\nfrom nothing"};
   for (const NamedMesh& c : meshes()) {
     CAPTURE(c.name);
-    io_detail::write_ugrid(scratch / "ugrid.nc", c.mesh, options);
-    io_detail::write_scrip(scratch / "scrip.nc", c.mesh, options);
-    io_detail::write_esmf(scratch / "esmf.nc", c.mesh, options);
+    write_ugrid(scratch / "ugrid.nc", c.mesh, options);
+    write_scrip(scratch / "scrip.nc", c.mesh, options);
+    write_esmf(scratch / "esmf.nc", c.mesh, options);
     const NetcdfReader ugrid(scratch / "ugrid.nc"), scrip(scratch / "scrip.nc"),
         esmf(scratch / "esmf.nc");
     for (const NetcdfReader* file : {&ugrid, &scrip, &esmf})
@@ -367,7 +379,7 @@ TEST_CASE("UGRID, SCRIP and ESMF hold the Voronoi tessellation") {
 TEST_CASE("UGRID says what its variables are") {
   const Scratch scratch;
   const Mesh mesh = spherical_delaunay(random_sphere(40));
-  for (const Write write : {io_detail::write_ugrid, io_detail::write_ugrid_triangles}) {
+  for (const Write write : {write_ugrid, io_detail::write_ugrid_triangles}) {
     write(scratch / "grid.nc", mesh, {});
     const NetcdfReader file(scratch / "grid.nc");
     CHECK(file.text("", "Conventions") == "CF-1.8 UGRID-1.0");
@@ -414,8 +426,8 @@ TEST_CASE("UGRID of triangles holds the mesh and its circumcentres") {
 TEST_CASE("SCRIP and ESMF describe their cells") {
   const Scratch scratch;
   const Mesh mesh = spherical_delaunay(random_sphere(40));
-  io_detail::write_scrip(scratch / "scrip.nc", mesh, {});
-  io_detail::write_esmf(scratch / "esmf.nc", mesh, {});
+  write_scrip(scratch / "scrip.nc", mesh, {});
+  write_esmf(scratch / "esmf.nc", mesh, {});
   const NetcdfReader scrip(scratch / "scrip.nc"), esmf(scratch / "esmf.nc");
   CHECK(scrip.dimension("grid_rank") == 1);
   CHECK(scrip.ints("grid_dims", {1}) == std::vector<std::int32_t>{40});
@@ -433,7 +445,7 @@ TEST_CASE("UGRID gives the mesh back to the bit") {
   const Scratch scratch;
   for (const NamedMesh& c : meshes()) {
     CAPTURE(c.name);
-    for (const Write write : {io_detail::write_ugrid, io_detail::write_ugrid_triangles}) {
+    for (const Write write : {write_ugrid, io_detail::write_ugrid_triangles}) {
       // Unit columns stay as they are, whatever their last bits; others come to the radius and
       // stay.
       const bool unit = ((c.mesh.points.colwise().norm().array() - 1).abs() < 5e-16).all();
@@ -459,9 +471,8 @@ TEST_CASE("SCRIP and ESMF give the sites back, but for rounding") {
   for (const NamedMesh& c : meshes()) {
     CAPTURE(c.name);
     for (const Soup& soup :
-         {written_and_read(scratch / "a.nc", c.mesh, io_detail::write_scrip, io_detail::read_scrip),
-          written_and_read(scratch / "b.nc", c.mesh, io_detail::write_esmf,
-                           io_detail::read_esmf)}) {
+         {written_and_read(scratch / "a.nc", c.mesh, write_scrip, io_detail::read_scrip),
+          written_and_read(scratch / "b.nc", c.mesh, write_esmf, io_detail::read_esmf)}) {
       CHECK(soup.triangles.cols() == 0);
       REQUIRE(soup.points.cols() == c.mesh.points.cols());
       CHECK((soup.points - on_sphere(c.mesh, 1)).cwiseAbs().maxCoeff() < 2e-15);
@@ -472,7 +483,7 @@ TEST_CASE("SCRIP and ESMF give the sites back, but for rounding") {
 TEST_CASE("cells need a closed mesh, triangles do not") {
   const Scratch scratch;
   const Mesh open = spherical_delaunay(test::upper_half(30, 1));
-  for (const Write write : {io_detail::write_ugrid, io_detail::write_scrip, io_detail::write_esmf})
+  for (const Write write : {write_ugrid, write_scrip, write_esmf})
     CHECK_THROWS_AS(write(scratch / "a.nc", open, {}), Error);
   CHECK(scratch.files() == 0);
   const Soup soup = written_and_read(scratch / "a.nc", open, io_detail::write_ugrid_triangles,
@@ -490,10 +501,10 @@ TEST_CASE("each kind is known by its contents") {
     return std::vector<bool>{io_detail::is_ugrid(file), io_detail::is_scrip(file),
                              io_detail::is_esmf(file)};
   };
-  CHECK(kinds(io_detail::write_ugrid) == std::vector<bool>{true, false, false});
+  CHECK(kinds(write_ugrid) == std::vector<bool>{true, false, false});
   CHECK(kinds(io_detail::write_ugrid_triangles) == std::vector<bool>{true, false, false});
-  CHECK(kinds(io_detail::write_scrip) == std::vector<bool>{false, true, false});
-  CHECK(kinds(io_detail::write_esmf) == std::vector<bool>{false, false, true});
+  CHECK(kinds(write_scrip) == std::vector<bool>{false, true, false});
+  CHECK(kinds(write_esmf) == std::vector<bool>{false, false, true});
 }
 
 TEST_CASE("UGRID of others") {
@@ -518,8 +529,13 @@ TEST_CASE("UGRID of others") {
   for (auto& face : padded)
     face.back() = std::numeric_limits<double>::quiet_NaN();
   check_read({.faces = padded}, mesh.triangles);
-  padded[5].back() = 0; // a quadrangle: the nodes are sites to be triangulated
-  check_read({.faces = padded}, Triangles());
+  padded[5].back() = 0; // a quadrangle: the faces are cells
+  Foreign{.faces = padded}.write(path, mesh.points);
+  const Soup cells = io_detail::read_ugrid(NetcdfReader(path));
+  CHECK(cells.points.cols() == 0);
+  CHECK(cells.triangles.cols() == 0);
+  CHECK(cells.polygons.size() == mesh.triangles.cols());
+  CHECK(cells.polygons.begin[6] - cells.polygons.begin[5] == 4);
 
   SUBCASE("poles in radians") {
     mesh = spherical_delaunay(test::octahedron());
@@ -532,7 +548,7 @@ TEST_CASE("bad UGRID files end in one line") {
   const Mesh mesh = spherical_delaunay(random_sphere(30));
   const std::string path = scratch / "a.nc";
   const auto check_patched = [&](const auto& patch, const std::string& words) {
-    io_detail::write_ugrid(path, mesh, {});
+    write_ugrid(path, mesh, {});
     patch(Patch(path));
     check_bad(path, io_detail::read_ugrid, words);
   };
@@ -589,7 +605,7 @@ TEST_CASE("bad SCRIP and ESMF files end in one line") {
   const Scratch scratch;
   const Mesh mesh = spherical_delaunay(random_sphere(30));
   const std::string path = scratch / "a.nc";
-  io_detail::write_scrip(path, mesh, {});
+  write_scrip(path, mesh, {});
   Patch(path).put("grid_center_lat", {3}, std::numeric_limits<double>::quiet_NaN());
   check_bad(path, io_detail::read_scrip, "grid_center_lon and grid_center_lat hold no place");
   Patch(path).rename("grid_center_lat", "others");
@@ -598,12 +614,14 @@ TEST_CASE("bad SCRIP and ESMF files end in one line") {
   Patch(path).rename("grid_corner_lat", "grid_center_lat");
   check_bad(path, io_detail::read_scrip, "grid_center_lat has the shape (30, ");
 
-  io_detail::write_esmf(path, mesh, {});
+  write_esmf(path, mesh, {});
   Patch(path).put("centerCoords", {3, 1}, -91);
   check_bad(path, io_detail::read_esmf, "centerCoords hold no place on the sphere at index 3");
   Patch(path).rename("centerCoords", "others");
   CHECK(io_detail::is_esmf(NetcdfReader(path)));
-  check_bad(path, io_detail::read_esmf, "no variable centerCoords");
+  CHECK(io_detail::read_esmf(NetcdfReader(path)).polygons.size() == 30);
+  Patch(path).put("elementConn", {3, 0}, 400);
+  check_bad(path, io_detail::read_esmf, "element 3 (0-based) has node 400 in elementConn");
   Patch(path).rename("elementConn", "centerCoords");
   check_bad(path, io_detail::read_esmf, "centerCoords has the shape (30, ");
 }
@@ -612,10 +630,10 @@ TEST_CASE("truncated files end in one line") {
   const Scratch scratch;
   const Mesh mesh = spherical_delaunay(random_sphere(12));
   const std::vector<std::pair<Write, Read>> formats{
-      {io_detail::write_ugrid, io_detail::read_ugrid},
+      {write_ugrid, io_detail::read_ugrid},
       {io_detail::write_ugrid_triangles, io_detail::read_ugrid},
-      {io_detail::write_scrip, io_detail::read_scrip},
-      {io_detail::write_esmf, io_detail::read_esmf}};
+      {write_scrip, io_detail::read_scrip},
+      {write_esmf, io_detail::read_esmf}};
   for (const auto& [write, read] : formats) {
     const std::string path = scratch / "a.nc";
     write(path, mesh, {});

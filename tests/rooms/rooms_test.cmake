@@ -10,10 +10,10 @@ set(most_units 20) # in a room other than io; a header and its source are one
 set(most_lines 400)
 
 # The rooms of the public headers. One that has a room's name belongs to that room.
-set(headers_of_base error export options points progress types version)
+set(headers_of_base error export mesh_field options points progress types version)
 set(headers_of_mesh check renumber)
 set(headers_of_density cell_width planar_raster)
-set(headers_of_io calotte checkpoint read write)
+set(headers_of_io calotte checkpoint mesh_file read write)
 
 foreach(room ${rooms})
   foreach(header ${room} ${headers_of_${room}})

@@ -189,14 +189,25 @@ TEST_CASE("standard input and output take the place of files") {
 
 TEST_CASE("a mesh that is not Delaunay fails its check with exit code 1") {
   const Bench bench;
-  bench.file("points.txt", octahedron);
-  // The last triangle is clockwise.
-  bench.file("mesh.tri", "0 1 2\n0 2 4\n0 4 5\n0 5 1\n1 3 2\n1 5 3\n2 3 4\n3 4 5\n");
+  bench.file("points.txt", "0.1 0 1\n-0.1 0 1\n0 1 1\n0 -1 1\n");
+  bench.file("mesh.tri", "0 2 3\n1 3 2\n"); // the long diagonal
   const Outcome outcome = bench.run("check mesh.tri --points points.txt");
   CHECK(outcome.code == 1);
-  CHECK(one_line(outcome.err));
-  CHECK(outcome.err.starts_with("calotte: mesh.tri: "));
-  CHECK(outcome.out.find("sites           6\n") != std::string::npos);
+  CHECK(outcome.err == "calotte: mesh.tri: 1 of 5 edges are not Delaunay; the first is from site "
+                       "2 to 3\n");
+  CHECK(outcome.out.find("sites           4\n") != std::string::npos);
+  CHECK(outcome.out.find("boundary edges  4\n") != std::string::npos);
+  CHECK(outcome.out.find("Delaunay        no\n") != std::string::npos);
+}
+
+TEST_CASE("triangles of both orientations are refused with the first of the rarer") {
+  const Bench bench;
+  bench.file("points.txt", octahedron);
+  bench.file("mesh.tri", "0 1 2\n0 2 4\n0 4 5\n0 5 1\n1 3 2\n1 5 3\n2 3 4\n3 4 5\n");
+  for (const std::string command : {"check", "info"})
+    check_refusal(bench, command + " mesh.tri --points points.txt", 2,
+                  "mesh.tri: triangle 7 (3, 4, 5) runs clockwise, but 7 triangles run the other "
+                  "way, so the file contradicts itself; make the file again");
 }
 
 TEST_CASE("duplicates are merged and counted, and triangles as text keep the input's ids") {
@@ -313,11 +324,15 @@ TEST_CASE("info measures against a density") {
   CHECK(bump.out != uniform.out);
 }
 
-TEST_CASE("info refuses a mesh without a Voronoi tessellation, and a report in its place") {
+TEST_CASE("info measures the triangles of an open mesh, and refuses a report in its place") {
   const Bench bench;
   bench.file("points.txt", "0 0 1\n1 0 1\n0 1 1\n-1 -1 1\n");
   CHECK(bench.run("delaunay points.txt -o mesh.vtp").code == 0);
-  check_refusal_naming(bench, "info mesh.vtp --report report.json", 2, "the mesh is open");
+  const Outcome open = bench.run("info mesh.vtp --report report.json");
+  CHECK(open.code == 0);
+  CHECK(open.out.starts_with(
+      "mesh.vtp: the mesh is open: 3 boundary edges in 1 loop; its triangles are measured\n"));
+  CHECK(contents(bench.folder() / "report.json").find("\"cell_area\"") == std::string::npos);
   check_refusal(bench, "info mesh.vtp --report mesh.vtp", 2,
                 "mesh.vtp is both input and output; give the output another name");
   check_refusal(bench, "info mesh.vtp --report absent/report.json", 3,

@@ -58,8 +58,8 @@ void convert(const Bench& bench, const std::string& in, const File& out, int cel
   CAPTURE(made.err);
   CHECK(made.code == 0);
   CHECK(made.err.empty());
-  CHECK(made.out == out.name + ": " + std::to_string(cells) + " sites, " +
-                        std::to_string(2 * cells - 4) + " triangles, closed\n");
+  CHECK(made.out.ends_with(out.name + ": " + std::to_string(cells) + " sites, " +
+                           std::to_string(2 * cells - 4) + " triangles, closed\n"));
 }
 
 } // namespace

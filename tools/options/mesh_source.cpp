@@ -21,6 +21,25 @@ std::shared_ptr<MeshSource> add_mesh_source(CLI::App& command, const std::string
   return source;
 }
 
+MeshFile read_mesh_file(const MeshSource& source) {
+  if (source.plane) {
+    MeshFile file;
+    file.plane = read_planar_mesh(source);
+    return file;
+  }
+  if (source.points.empty())
+    return calotte::read_mesh_file(source.path);
+  const Points3 points = read_point_file(source.points, source.lonlat).points;
+  return calotte::read_mesh_file(source.path, &points);
+}
+
+std::string changes_of(const MeshSource& source, const MeshFile& file) {
+  std::string lines;
+  for (const std::string& change : file.changes)
+    lines += source.path + ": " + change + "\n";
+  return lines;
+}
+
 Mesh read_mesh(const MeshSource& source) {
   if (source.points.empty())
     return calotte::read_mesh(source.path);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <calotte/io.h>
+#include <calotte/mesh_file.h>
 
 #include <CLI/CLI.hpp>
 
@@ -10,7 +10,7 @@
 
 namespace calotte::tools {
 
-/// Where a mesh is read from: the file, and the points that a .txt or .tri file refers to.
+/// The source of a mesh: the file, and the points that a .txt or .tri file refers to.
 struct MeshSource {
   std::string path;
   std::string points;
@@ -23,6 +23,13 @@ std::shared_ptr<MeshSource> add_mesh_source(CLI::App& command, const std::string
 
 /// Adds --plane. \returns the option.
 CLI::Option* add_plane(CLI::App& command, MeshSource& source);
+
+/// A mesh of the sphere or, with --plane or where the file holds no other, of the plane.
+/// \throws Error as read_mesh_file and read_points do.
+MeshFile read_mesh_file(const MeshSource& source);
+
+/// The lines that say what reading changed, each after the file's name.
+std::string changes_of(const MeshSource& source, const MeshFile& file);
 
 /// \throws Error as read_mesh and read_points do.
 Mesh read_mesh(const MeshSource& source);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/formats.h"
 #include "io/model_grid.h"
+#include "io/netcdf_fields.h"
+#include "io/ugrid.h"
 
 #include <algorithm>
 #include <array>
@@ -8,92 +10,16 @@
 #include <limits>
 #include <sstream>
 
-// The UGRID conventions 1.0 for unstructured grids in NetCDF files. They hold longitudes and
-// latitudes, which do not lead back to the last bit of Cartesian coordinates: those of the sites go
-// along, and the mesh variable's attribute site_coordinates, which is ours, names them. By it the
-// reader knows a file of ours, and by their dimension whether sites are faces or nodes.
-
 namespace calotte::io_detail {
 namespace {
-
-const std::string mesh_name = "mesh", node_name = "mesh_node", face_name = "mesh_face",
-                  face_nodes_name = "mesh_face_nodes", site_coordinates = "site_coordinates";
-
-// ---- Writing
-
-NetcdfAttribute long_name(const std::string& text) { return {"long_name", text}; }
-
-std::string three_names(const std::string& prefix) {
-  return prefix + "_x " + prefix + "_y " + prefix + "_z";
-}
-
-/// The variable that says what the others are.
-/// \param sites the prefix of the variables of the sites' places.
-void add_topology(GridFile& file, const std::string& what, const std::string& sites,
-                  bool face_places) {
-  NetcdfAttributes attributes{
-      {"cf_role", std::string("mesh_topology")},
-      long_name(what),
-      {"units", std::string("1")},
-      {"topology_dimension", std::int32_t{2}},
-      {"node_coordinates", node_name + "_lon " + node_name + "_lat"},
-      {"face_node_connectivity", face_nodes_name},
-      {"face_dimension", face_name},
-      {site_coordinates, three_names(sites)},
-  };
-  if (face_places)
-    attributes.push_back({"face_coordinates", face_name + "_lon " + face_name + "_lat"});
-  file.ints(mesh_name, {}, attributes, constant(0));
-}
-
-/// Longitudes and latitudes of nodes or faces. \param of in words.
-void add_lonlats(GridFile& file, const std::string& prefix, int dimension, const std::string& of,
-                 const Points3& points) {
-  file.doubles(prefix + "_lon", {dimension},
-               {{"units", std::string("degrees_east")},
-                {"standard_name", std::string("longitude")},
-                long_name("longitude of " + of)},
-               longitudes_of(points));
-  file.doubles(prefix + "_lat", {dimension},
-               {{"units", std::string("degrees_north")},
-                {"standard_name", std::string("latitude")},
-                long_name("latitude of " + of)},
-               latitudes_of(points));
-}
-
-void add_places(GridFile& file, const std::string& prefix, int dimension, const Points3& points) {
-  for (int row = 0; row < 3; ++row) {
-    const std::string axis(1, "xyz"[row]);
-    std::string name = prefix + "_";
-    name += axis;
-    file.doubles(name, {dimension},
-                 {{"units", std::string("m")}, long_name("Cartesian " + axis + " of the site")},
-                 row_of(points, row));
-  }
-}
-
-/// \param node of face and corner; -1 past the last.
-template <class Node>
-void add_face_nodes(GridFile& file, int faces, std::int64_t most, const Node& node) {
-  const int corners = file.netcdf().dimension("mesh_max_face_nodes", most);
-  file.ints(face_nodes_name, {faces, corners},
-            {{"cf_role", std::string("face_node_connectivity")},
-             long_name("nodes of the face, counter-clockwise seen from outside"),
-             {"units", std::string("1")},
-             {"start_index", std::int32_t{0}},
-             {"_FillValue", std::int32_t{-1}}},
-            table<std::int32_t>(most, node));
-}
-
-constexpr const char* conventions = "CF-1.8 UGRID-1.0";
-
-// ---- Reading
 
 /// The names that the mesh variable lists.
 struct Topology {
   std::string face_nodes, face_dimension;
   std::vector<std::string> nodes; ///< longitude and latitude
   std::vector<std::string> sites; ///< x, y, z; none in files of others
+  std::vector<std::string> faces; ///< longitude and latitude of the faces; may be none
+  std::string mesh;               ///< the variable that lists the names
 };
 
 /// The first variable that describes a mesh of faces, or nothing.
@@ -120,9 +46,10 @@ bool is_latitude(const NetcdfReader& file, const std::string& name) {
 
 Topology topology_of(const NetcdfReader& file) {
   const std::string mesh = mesh_variable(file);
-  Topology topology{file.text(mesh, "face_node_connectivity"), file.text(mesh, "face_dimension"),
-                    names_in(file.text(mesh, "node_coordinates")),
-                    names_in(file.text(mesh, site_coordinates))};
+  Topology topology{
+      file.text(mesh, "face_node_connectivity"),     file.text(mesh, "face_dimension"),
+      names_in(file.text(mesh, "node_coordinates")), names_in(file.text(mesh, site_coordinates)),
+      names_in(file.text(mesh, "face_coordinates")), mesh};
   if (topology.face_nodes.empty())
     file.fail("the mesh variable " + mesh + " names no face_node_connectivity; add the attribute");
   if (topology.nodes.size() != 2)
@@ -130,8 +57,12 @@ Topology topology_of(const NetcdfReader& file) {
               " are not the names of two variables, longitude and latitude; mend the attribute");
   if (is_latitude(file, topology.nodes[0]))
     std::swap(topology.nodes[0], topology.nodes[1]);
+  if (topology.faces.size() != 2)
+    topology.faces.clear();
+  else if (is_latitude(file, topology.faces[0]))
+    std::swap(topology.faces[0], topology.faces[1]);
   if (!topology.sites.empty() && topology.sites.size() != 3)
-    file.fail("the " + site_coordinates + " of the mesh variable " + mesh +
+    file.fail(std::string("the ") + site_coordinates + " of the mesh variable " + mesh +
               " are not the names of three variables; mend the attribute or remove it");
   return topology;
 }
@@ -251,44 +182,45 @@ Triangles dual(const NetcdfReader& file, const FaceNodes& faces, std::int64_t no
   return triangles;
 }
 
+/// The faces as polygons.
+Polygons faces_of(const FaceNodes& faces, Points3 nodes, Points3 centres) {
+  Polygons polygons{std::move(nodes), {}, {}, std::move(centres)};
+  polygons.begin.resize(faces.cols() + 1);
+  polygons.begin[0] = 0;
+  for (Eigen::Index face = 0; face < faces.cols(); ++face)
+    polygons.begin[face + 1] = polygons.begin[face] + (faces.col(face).array() >= 0).count();
+  polygons.ids.resize(polygons.begin[faces.cols()]);
+  for (Eigen::Index face = 0; face < faces.cols(); ++face)
+    polygons.ids.segment(polygons.begin[face], polygons.begin[face + 1] - polygons.begin[face]) =
+        faces.col(face).head(polygons.begin[face + 1] - polygons.begin[face]);
+  return polygons;
+}
+
+/// Everything that the mesh variable names is not a field.
+NetcdfMeshNames names_of(const NetcdfReader& file, const Topology& topology, bool sites_are_nodes) {
+  const std::vector<std::string> of_faces = file.dimensions_of(topology.face_nodes);
+  const std::string nodes = file.dimensions_of(topology.nodes[0]).front();
+  const std::string faces =
+      !topology.face_dimension.empty() ? topology.face_dimension : of_faces[0];
+  NetcdfMeshNames names{sites_are_nodes ? nodes : faces,
+                        sites_are_nodes ? faces : nodes,
+                        {topology.mesh, topology.face_nodes}};
+  if (!topology.sites.empty())
+    names.variables.insert("cell_area"); // as written here
+  for (const auto* list : {&topology.nodes, &topology.sites, &topology.faces})
+    names.variables.insert(list->begin(), list->end());
+  for (const char* attribute :
+       {"edge_node_connectivity", "face_edge_connectivity", "face_face_connectivity",
+        "edge_face_connectivity", "boundary_node_connectivity"})
+    names.variables.insert(file.text(topology.mesh, attribute));
+  return names;
+}
+
 bool all_triangles(const FaceNodes& faces) {
   return faces.cols() > 0 && (faces.bottomRows(faces.rows() - 3).array() < 0).all();
 }
 
 } // namespace
-
-void write_ugrid(const std::string& path, const Mesh& mesh, const WriteOptions& options) {
-  const Voronoi cells = voronoi(mesh);
-  const Points3 sites = on_sphere(mesh.points, options.sphere_radius);
-  GridFile file(path, options, conventions);
-  const int nodes = file.netcdf().dimension(node_name, cells.vertices.cols());
-  const int faces = file.netcdf().dimension(face_name, sites.cols());
-  add_topology(file, "Voronoi cells of the sites", face_name, true);
-  add_lonlats(file, node_name, nodes, "the node, a corner of cells", cells.vertices);
-  add_lonlats(file, face_name, faces, "the face's site", cells.cells);
-  add_face_nodes(file, faces, most_corners(cells),
-                 [&cells](std::int64_t cell, std::int64_t k) { return corner(cells, cell, k); });
-  add_places(file, face_name, faces, sites);
-  file.commit();
-}
-
-void write_ugrid_triangles(const std::string& path, const Mesh& mesh, const WriteOptions& options) {
-  const Points3 sites = on_sphere(mesh.points, options.sphere_radius);
-  const Points3 directions = on_sphere(mesh.points, 1);
-  const Points3 centres = mesh.closed() ? voronoi(mesh).vertices : Points3();
-  GridFile file(path, options, conventions);
-  const int nodes = file.netcdf().dimension(node_name, sites.cols());
-  const int faces = file.netcdf().dimension(face_name, mesh.triangles.cols());
-  add_topology(file, "Delaunay triangles of the sites", node_name, mesh.closed());
-  add_lonlats(file, node_name, nodes, "the node, a site", directions);
-  if (mesh.closed())
-    add_lonlats(file, face_name, faces, "the face's circumcentre", centres);
-  add_face_nodes(file, faces, 3, [&mesh](std::int64_t triangle, std::int64_t k) {
-    return mesh.triangles(k, triangle);
-  });
-  add_places(file, node_name, nodes, sites);
-  file.commit();
-}
 
 bool is_ugrid(const NetcdfReader& file) { return !mesh_variable(file).empty(); }
 
@@ -299,12 +231,28 @@ Soup read_ugrid(const NetcdfReader& file) {
     file.fail(topology.nodes[0] + " is not a list of nodes; make the file again");
   const FaceNodes faces = face_nodes_of(file, topology, nodes[0]);
 
+  Soup soup;
   const std::vector<std::string>& sites = topology.sites;
-  if (!sites.empty() && file.dimensions_of(sites[0]) != file.dimensions_of(topology.nodes[0]))
-    return {read_places(file, sites, faces.cols()), dual(file, faces, nodes[0])};
-  Points3 points = sites.empty() ? read_lonlats(file, topology.nodes[0], topology.nodes[1])
-                                 : read_places(file, sites, nodes[0]);
-  return {std::move(points), all_triangles(faces) ? Triangles(faces.topRows(3)) : Triangles()};
+  const bool sites_are_faces =
+      !sites.empty() && file.dimensions_of(sites[0]) != file.dimensions_of(topology.nodes[0]);
+  const bool sites_are_nodes = !sites_are_faces && (!sites.empty() || all_triangles(faces));
+  if (sites_are_faces) {
+    soup.points = read_places(file, sites, faces.cols());
+    soup.triangles = dual(file, faces, nodes[0]);
+  } else if (sites_are_nodes) {
+    soup.points = sites.empty() ? read_lonlats(file, topology.nodes[0], topology.nodes[1])
+                                : read_places(file, sites, nodes[0]);
+    soup.triangles = faces.topRows(3);
+  } else {
+    if (!topology.faces.empty())
+      soup.points = read_lonlats(file, topology.faces[0], topology.faces[1]);
+    soup.polygons =
+        faces_of(faces, read_lonlats(file, topology.nodes[0], topology.nodes[1]), soup.points);
+    soup.corner_rounding = file.is_float(topology.nodes[0]) ? float_rounding : 0;
+  }
+  read_fields(file, names_of(file, topology, sites_are_nodes), soup);
+  drop_derived_fields(soup);
+  return soup;
 }
 
 } // namespace calotte::io_detail

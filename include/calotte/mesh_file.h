@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <calotte/export.h>
+#include <calotte/mesh_field.h>
+#include <calotte/read.h>
+#include <calotte/types.h>
+#include <calotte/voronoi.h>
+#include <calotte/write.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// Mesh files as they are: a mesh or its cells, the fields on it, and what reading changed.
+CALOTTE_API_BEGIN
+namespace calotte {
+
+/// n polygons on the sphere, such as the cells of a grid that need not be Voronoi cells. Their
+/// sides are arcs of great circles.
+struct Polygons {
+  Points3 corners; ///< 3 x m unit columns
+  /// n + 1: polygon i has the corners ids[begin[i]] to ids[begin[i + 1] - 1], counter-clockwise
+  /// seen from outside. 0-based.
+  Eigen::Matrix<std::int64_t, Eigen::Dynamic, 1> begin;
+  Ids ids;
+  Points3 centres; ///< 3 x n unit columns; 3 x 0 if the file gives none
+
+  std::int64_t size() const { return begin.size() > 0 ? begin.size() - 1 : 0; }
+};
+
+/// Areas of polygons on the unit sphere, steradians. \pre counter-clockwise, each smaller than a
+/// hemisphere.
+Eigen::VectorXd areas(const Polygons& polygons);
+
+/// What a mesh file holds. At least one of `mesh`, `plane` and `polygons` is present.
+struct MeshFile {
+  std::string format; ///< for messages, such as "MPAS" or "SCRIP"
+
+  /// The triangulation of the sites in canonical form. It is the file's, or, if the file holds
+  /// cells alone, that of the cells' centres, provided that the cells are their Voronoi cells.
+  std::optional<Mesh> mesh;
+  std::optional<PlanarMesh> plane;
+  /// The file's cells, unless they are the Voronoi cells of `mesh`.
+  std::optional<Polygons> polygons;
+  /// Why `polygons` are not Voronoi cells, as a clause; empty without polygons.
+  std::string not_voronoi;
+
+  /// Radius of the sphere on which all points lie, with 12 digits; 1 if they lie on none.
+  double sphere_radius = 1;
+  Eigen::VectorXd density; ///< by site, as the file has it; empty if it has none
+  std::vector<MeshField> fields;
+
+  std::vector<std::string>
+      changes; ///< what reading changed, such as "turned 12 clockwise triangles"
+  std::vector<std::string> ignored; ///< names of variables that were not read
+};
+
+/// Reads a mesh file of any format, recognised as read_mesh() does, and brings the mesh to
+/// canonical form.
+///
+/// Clockwise triangles and polygons are turned if all run clockwise. Triangles start at their
+/// lowest vertex and are sorted. `changes` names what was done.
+///
+/// \param points as read_mesh's.
+/// \throws Error as read_mesh; parse for a file that contradicts itself, naming the first offender:
+///         triangles or polygons of both orientations, an edge of more than two of them, or cells
+///         that overlap.
+MeshFile read_mesh_file(const std::string& path, const Points3* points = nullptr);
+
+/// Writes what a file holds to another format. The cells keep their shapes: polygons go to formats
+/// of cells only, and not to MPAS, which needs Voronoi cells. Density and fields go along.
+/// \param options its density, if not uniform, replaces the file's.
+/// \returns the names of the fields that the format cannot hold.
+/// \throws Error as write(); bad_option if the format cannot hold the mesh, with the reason.
+std::vector<std::string> write(const std::string& path, const MeshFile& file,
+                               const WriteOptions& options = {});
+
+} // namespace calotte
+CALOTTE_API_END

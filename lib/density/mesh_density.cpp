@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/points.h"
+#include "base/require.h"
+#include "curve/hilbert.h"
+#include "density/room.h"
+#include "exact/predicates.h"
+
+#include <calotte/density.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace calotte {
+namespace {
+
+using namespace density_detail;
+
+/// Triangles of unit vectors, and where to start looking for the one that holds a direction.
+class Locator {
+public:
+  explicit Locator(const Mesh& mesh)
+      : unit_(3, mesh.points.cols()), triangles_(mesh.triangles), neighbours_(mesh.neighbours) {
+    for (Eigen::Index i = 0; i < unit_.cols(); ++i)
+      set_column(unit_, i, normalised(column(mesh.points, i)));
+    while (4 * cells_a_side_ * cells_a_side_ < triangles_.cols() / 6)
+      cells_a_side_ *= 2;
+    start_.assign(static_cast<std::size_t>(6 * cells_a_side_ * cells_a_side_), 0);
+    for (std::int32_t t = 0; t < triangles_.cols(); ++t)
+      start_[bucket_of(column(unit_, triangles_(0, t)))] = t;
+  }
+
+  /// A triangle, and the weights of its vertices at a direction: not negative, with the sum 1.
+  struct Place {
+    std::int32_t triangle;
+    std::array<double, 3> weight;
+  };
+
+  /// The walk crosses edges towards x. Where rounding or a boundary stops it, the nearest weights
+  /// of the last triangle are used.
+  Place place_of(const Vec3& x) const {
+    std::int32_t t = start_[bucket_of(x)];
+    for (std::int64_t step = 0; step < triangles_.cols(); ++step) {
+      const std::array<double, 3> sides = sides_of(t, x);
+      const auto least = std::min_element(sides.begin(), sides.end());
+      const std::int32_t beyond =
+          *least < 0 ? neighbours_(static_cast<Eigen::Index>(least - sides.begin()), t) : -1;
+      if (beyond < 0)
+        return {t, weights_of(sides)};
+      t = beyond;
+    }
+    return {t, weights_of(sides_of(t, x))};
+  }
+
+  const Triangles& triangles() const { return triangles_; }
+
+private:
+  std::size_t bucket_of(const Vec3& x) const {
+    const CubePoint place = to_cube(x);
+    const auto cell = [&](double u) { // -1 to 1
+      const auto scaled =
+          static_cast<std::int64_t>((u + 1) / 2 * static_cast<double>(cells_a_side_));
+      return std::clamp<std::int64_t>(scaled, 0, cells_a_side_ - 1);
+    };
+    return static_cast<std::size_t>((place.face * cells_a_side_ + cell(place.u)) * cells_a_side_ +
+                                    cell(place.v));
+  }
+
+  /// For each vertex the volume of x and the edge across from it: negative beyond that edge.
+  std::array<double, 3> sides_of(std::int32_t t, const Vec3& x) const {
+    const Vec3 a = column(unit_, triangles_(0, t)), b = column(unit_, triangles_(1, t)),
+               c = column(unit_, triangles_(2, t));
+    return {dot(x, cross(b - x, c - x)), dot(x, cross(c - x, a - x)), dot(x, cross(a - x, b - x))};
+  }
+
+  static std::array<double, 3> weights_of(std::array<double, 3> sides) {
+    double sum = 0;
+    for (double& side : sides)
+      sum += side = std::max(side, 0.0);
+    for (double& side : sides)
+      side = sum > 0 ? side / sum : 1.0 / 3;
+    return sides;
+  }
+
+  Points3 unit_;
+  Triangles triangles_, neighbours_;
+  std::int64_t cells_a_side_ = 1;
+  std::vector<std::int32_t> start_; ///< a triangle near each cell of the cube's faces
+};
+
+} // namespace
+
+Density interpolated_density(const Mesh& mesh, const Eigen::VectorXd& density) {
+  constexpr double least = 1e-150; // a density that is 0 has no cell width
+  base_detail::require(density.size() == mesh.points.cols(),
+                       "the density has " + std::to_string(density.size()) +
+                           " values; give one for each of the mesh's " +
+                           std::to_string(mesh.points.cols()) + " sites");
+  base_detail::require(mesh.triangles.cols() > 0,
+                       "the mesh has no triangle; triangulate its points");
+  for (Eigen::Index i = 0; i < density.size(); ++i)
+    base_detail::require(density[i] >= 0 && std::isfinite(density[i]),
+                         "the density is " + std::to_string(density[i]) + " at site " +
+                             std::to_string(i) + "; give finite numbers that are not negative");
+  const auto locator = std::make_shared<const Locator>(mesh);
+  const auto widths =
+      std::make_shared<const Eigen::VectorXd>(density.array().max(least).pow(-0.25));
+  Density result;
+  result.kind = Density::Kind::callable;
+  result.callable = [locator, widths](const Eigen::Ref<const Points3>& x,
+                                      Eigen::Ref<Eigen::VectorXd> rho) {
+    for (Eigen::Index j = 0; j < x.cols(); ++j) {
+      const Locator::Place place = locator->place_of({x(0, j), x(1, j), x(2, j)});
+      double width = 0;
+      for (std::size_t i = 0; i < 3; ++i)
+        width += place.weight[i] *
+                 (*widths)[locator->triangles()(static_cast<Eigen::Index>(i), place.triangle)];
+      rho[j] = 1 / (width * width * width * width);
+    }
+  };
+  return result;
+}
+
+} // namespace calotte

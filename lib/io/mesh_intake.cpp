@@ -1,0 +1,315 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/mesh_intake.h"
+
+#include "base/points.h"
+#include "io/polygons.h"
+#include "mesh/adjacency.h"
+#include "mesh/canonical_order.h"
+#include "mesh/orientation.h"
+
+#include <calotte/delaunay.h>
+#include <calotte/error.h>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <numbers>
+#include <utility>
+
+namespace calotte::io_detail {
+namespace {
+
+[[noreturn]] void refuse(const std::string& name, const std::string& problem, std::int64_t index) {
+  throw Error(ErrorCode::parse, name + ": " + problem + "; make the file again", index);
+}
+
+void require_ids(const std::string& name, const Triangles& triangles, std::int64_t points) {
+  for (Eigen::Index t = 0; t < triangles.cols(); ++t)
+    for (int i = 0; i < 3; ++i)
+      if (triangles(i, t) < 0 || triangles(i, t) >= points)
+        refuse(name,
+               "triangle " + std::to_string(t) + " has an id that is not one of the " +
+                   std::to_string(points) + " points",
+               t);
+}
+
+std::string triangle_name(const Triangles& triangles, std::int64_t t) {
+  return "triangle " + std::to_string(t) + " (" + std::to_string(triangles(0, t)) + ", " +
+         std::to_string(triangles(1, t)) + ", " + std::to_string(triangles(2, t)) + ")";
+}
+
+// ---- Canonical form
+
+void require_one_orientation(const std::string& name, const Triangles& triangles,
+                             const Orientations& found) {
+  if (!found.contradict())
+    return;
+  const std::int64_t t = found.first_exception();
+  const bool clockwise = t == found.first_clockwise;
+  refuse(name,
+         triangle_name(triangles, t) + " runs " + (clockwise ? "clockwise" : "counter-clockwise") +
+             ", but " + std::to_string(clockwise ? found.counter_clockwise : found.clockwise) +
+             " triangles run the other way, so the file contradicts itself",
+         t);
+}
+
+/// Turns clockwise triangles.
+void orient(const std::string& name, Triangles& triangles, const Orientations& found,
+            std::vector<std::string>& changes) {
+  require_one_orientation(name, triangles, found);
+  if (found.clockwise == 0)
+    return;
+  reverse(triangles);
+  changes.push_back("turned " + std::to_string(found.clockwise) + " clockwise triangles");
+}
+
+/// Values by triangle follow their triangles.
+void reorder_vertex_fields(std::vector<MeshField>& fields, const CanonicalPlaces& places) {
+  for (MeshField& field : fields)
+    if (field.location == Location::vertices && field.values.size() == places.place.size()) {
+      const Eigen::VectorXd old = field.values;
+      for (Eigen::Index t = 0; t < old.size(); ++t)
+        field.values[places.place[t]] = old[t];
+    }
+}
+
+void sort(Triangles& triangles, MeshFile& file) {
+  if (is_canonical(triangles))
+    return;
+  Triangles sorted;
+  const CanonicalPlaces places = order_triangles(triangles, {}, sorted);
+  triangles = std::move(sorted);
+  reorder_vertex_fields(file.fields, places);
+  file.changes.push_back("sorted " + std::to_string(triangles.cols()) + " triangles");
+}
+
+void require_one_surface(const std::string& name, const Triangles& triangles,
+                         const Triangles& neighbours) {
+  const SharedEdge edge = first_shared_edge(triangles, neighbours);
+  if (edge.triangle >= 0)
+    refuse(name,
+           "the edge from " + std::to_string(edge.from) + " to " + std::to_string(edge.to) +
+               " of " + triangle_name(triangles, edge.triangle) +
+               " belongs to more than two triangles, or to two on the same side of it, so the "
+               "triangles overlap",
+           edge.triangle);
+}
+
+void require_distinct_vertices(const std::string& name, const Triangles& triangles) {
+  for (Eigen::Index t = 0; t < triangles.cols(); ++t)
+    if (triangles(0, t) == triangles(1, t) || triangles(1, t) == triangles(2, t) ||
+        triangles(2, t) == triangles(0, t))
+      refuse(name, triangle_name(triangles, t) + " has a vertex twice", t);
+}
+
+/// Orientation, order and neighbours. \pre ids are in range.
+Triangles canonical(const std::string& name, Triangles& triangles, std::int64_t points,
+                    const Orientations& found, MeshFile& file) {
+  require_distinct_vertices(name, triangles);
+  orient(name, triangles, found, file.changes);
+  sort(triangles, file);
+  Triangles neighbours = neighbours_of(triangles, points);
+  require_one_surface(name, triangles, neighbours);
+  return neighbours;
+}
+
+/// \param triangulate gives the mesh. \throws what it throws, with the file's name.
+auto named(const std::string& name, const auto& triangulate) {
+  try {
+    return triangulate();
+  } catch (const Error& error) {
+    throw Error(error.code(), name + ": " + error.what(), error.index());
+  }
+}
+
+// ---- Cells
+
+/// Whether polygons are worth comparing: one for each site.
+bool may_be_voronoi(const Mesh& mesh, const Polygons& polygons) {
+  return mesh.closed() && polygons.size() == mesh.points.cols();
+}
+
+/// Keeps the polygons unless they are the Voronoi cells of the mesh.
+void settle_polygons(const std::string& name, Polygons polygons, double rounding, MeshFile& file) {
+  const std::int64_t turned = turn_counter_clockwise(polygons, name);
+  if (turned > 0)
+    file.changes.push_back("turned " + std::to_string(turned) + " clockwise cells");
+  if (file.mesh && may_be_voronoi(*file.mesh, polygons)) {
+    file.not_voronoi = difference_from(voronoi(*file.mesh), polygons, rounding);
+    if (file.not_voronoi.empty())
+      return;
+  } else {
+    file.not_voronoi = !file.mesh ? "the cells have no centres"
+                       : !file.mesh->closed()
+                           ? "the mesh is open"
+                           : "there are " + std::to_string(polygons.size()) + " cells, but " +
+                                 std::to_string(file.mesh->points.cols()) + " distinct centres";
+  }
+  require_no_overlap(polygons, name);
+  file.polygons = std::move(polygons);
+}
+
+/// Values by input column become values by site: a site has those of its lowest column.
+void merge_values(const Mesh& mesh, MeshFile& file) {
+  const auto columns = std::ssize(mesh.site_of_input);
+  if (columns == mesh.points.cols())
+    return;
+  const auto merge = [&](Eigen::VectorXd& values) {
+    if (values.size() != columns)
+      return;
+    const Eigen::VectorXd by_column = values;
+    values.resize(mesh.points.cols());
+    for (auto i = columns; i-- > 0;)
+      values[mesh.site_of_input[static_cast<std::size_t>(i)]] = by_column[i];
+  };
+  merge(file.density);
+  for (MeshField& field : file.fields)
+    if (field.location == Location::cells)
+      merge(field.values);
+}
+
+/// Cells whose centres have no Delaunay triangulation stay polygons.
+void triangulate_centres(const Points3& centres, MeshFile& file) {
+  try {
+    file.mesh = spherical_delaunay(centres);
+  } catch (const Error& error) {
+    file.not_voronoi = error.what();
+  }
+}
+
+MeshFile rest_of(const std::string& format, Soup& soup) {
+  MeshFile file;
+  file.format = format;
+  file.density = std::move(soup.density);
+  file.fields = std::move(soup.fields);
+  file.ignored = std::move(soup.ignored);
+  return file;
+}
+
+void require_places(const std::string& name, const Points3& points) {
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    if (!points.col(i).allFinite())
+      refuse(name, "point " + std::to_string(i) + " has no place (NaN or infinite)", i);
+    if (points(2, i) != 0)
+      throw Error(ErrorCode::bad_option,
+                  name + ": z is not 0 at point " + std::to_string(i) +
+                      ", so it is not a planar mesh; read it as one of the sphere",
+                  i);
+  }
+}
+
+} // namespace
+
+bool lies_in_plane(const Points3& points) {
+  return points.cols() >= 3 && (points.row(2).array() == 0).all();
+}
+
+void require_sphere(const std::string& name, const Points3& points) {
+  if (lies_in_plane(points))
+    throw Error(
+        ErrorCode::bad_option,
+        name +
+            ": z is 0 at all points, which makes a mesh of the plane; read it as one of the plane");
+}
+
+void require_directions(const std::string& name, const Points3& points) {
+  for (Eigen::Index i = 0; i < points.cols(); ++i)
+    if (!points.col(i).allFinite() || (points.col(i).array() == 0).all())
+      refuse(name, "point " + std::to_string(i) + " has no direction (NaN, infinite or zero)", i);
+}
+
+double radius_of(const Points3& points) {
+  constexpr double rounding = 1e-6;
+  if (points.cols() == 0)
+    return 1;
+  const Eigen::RowVectorXd norms = points.colwise().stableNorm();
+  const double mean = norms.mean();
+  if (!((norms.array() - mean).abs() <= rounding * mean).all())
+    return 1;
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.12g", mean);
+  return std::strtod(text.data(), nullptr);
+}
+
+MeshFile mesh_file_of(const std::string& name, const std::string& format, Soup soup) {
+  require_sphere(name, soup.points);
+  require_directions(name, soup.points);
+  MeshFile file = rest_of(format, soup);
+  const bool has_cells = soup.polygons.size() > 0;
+  if (soup.triangles.cols() > 0) {
+    require_ids(name, soup.triangles, soup.points.cols());
+    Mesh mesh{std::move(soup.points), std::move(soup.triangles), {}, {}};
+    mesh.neighbours = canonical(name, mesh.triangles, mesh.points.cols(),
+                                orientations_of(mesh.points, mesh.triangles), file);
+    mesh.site_of_input = themselves(mesh.points.cols());
+    file.mesh = std::move(mesh);
+  } else if (!has_cells) {
+    file.mesh = named(name, [&] { return spherical_delaunay(soup.points); });
+    merge_values(*file.mesh, file);
+    file.changes.push_back("triangulated " + std::to_string(soup.points.cols()) + " points");
+  } else if (soup.points.cols() > 0) {
+    triangulate_centres(soup.points, file);
+  }
+  if (file.mesh)
+    file.sphere_radius = radius_of(file.mesh->points);
+  if (has_cells)
+    settle_polygons(name, std::move(soup.polygons), soup.corner_rounding, file);
+  return file;
+}
+
+MeshFile planar_mesh_file_of(const std::string& name, const std::string& format, Soup soup) {
+  require_places(name, soup.points);
+  MeshFile file = rest_of(format, soup);
+  PlanarMesh mesh;
+  mesh.points = soup.points.topRows<2>();
+  if (soup.triangles.cols() == 0) {
+    file.plane = named(name, [&] { return planar_delaunay(mesh.points); });
+    return file;
+  }
+  require_ids(name, soup.triangles, mesh.points.cols());
+  mesh.triangles = std::move(soup.triangles);
+  mesh.neighbours = canonical(name, mesh.triangles, mesh.points.cols(),
+                              orientations_of(mesh.points, mesh.triangles), file);
+  mesh.site_of_input = themselves(mesh.points.cols());
+  file.plane = std::move(mesh);
+  return file;
+}
+
+namespace {
+
+template <class Points>
+auto mesh_of_columns_in_order(const std::string& name, const Points& points, Triangles& triangles,
+                              MeshFile& file) {
+  require_ids(name, triangles, points.cols());
+  canonical(name, triangles, points.cols(), orientations_of(points, triangles), file);
+  return mesh_of_columns(points, triangles);
+}
+
+} // namespace
+
+MeshFile mesh_file_of_columns(const std::string& name, const Points3& points, Triangles triangles) {
+  MeshFile file;
+  file.format = "triangles";
+  file.mesh = mesh_of_columns_in_order(name, points, triangles, file);
+  file.sphere_radius = radius_of(points);
+  return file;
+}
+
+MeshFile mesh_file_of_columns(const std::string& name, const Points2& points, Triangles triangles) {
+  MeshFile file;
+  file.format = "triangles";
+  file.plane = mesh_of_columns_in_order(name, points, triangles, file);
+  return file;
+}
+
+MeshFile periodic_mesh_file_of(const std::string& name, PlanarMesh mesh, Soup rest) {
+  MeshFile file = rest_of("MPAS", rest);
+  mesh.neighbours = canonical(name, mesh.triangles, mesh.points.cols(),
+                              orientations_of(mesh.points, mesh.triangles, mesh.period), file);
+  mesh.site_of_input = themselves(mesh.points.cols());
+  file.plane = std::move(mesh);
+  return file;
+}
+
+} // namespace calotte::io_detail

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/polygons.h"
+
+#include "base/parallel.h"
+#include "base/points.h"
+
+#include <calotte/error.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace calotte::io_detail {
+namespace {
+
+std::int64_t corners_of(const Polygons& polygons, std::int64_t polygon) {
+  return polygons.begin[polygon + 1] - polygons.begin[polygon];
+}
+
+const Vec3& place(const Polygons& polygons, std::int64_t k) {
+  return column(polygons.corners, polygons.ids[k]);
+}
+
+/// 2 atan2(a . b x c, 1 + a.b + b.c + c.a) (Oosterom and Strackee, IEEE Trans. Biomed. Eng. 30,
+/// 1983), with differences in the product, which keep the digits of small triangles.
+double signed_area(const Vec3& a, const Vec3& b, const Vec3& c) {
+  return 2 * std::atan2(dot(a, cross(b - a, c - a)), 1 + dot(a, b) + dot(b, c) + dot(c, a));
+}
+
+/// The fan of triangles from the first corner.
+double signed_area(const Polygons& polygons, std::int64_t polygon) {
+  const std::int64_t first = polygons.begin[polygon], end = polygons.begin[polygon + 1];
+  double sum = 0;
+  for (std::int64_t k = first + 1; k + 1 < end; ++k)
+    sum += signed_area(place(polygons, first), place(polygons, k), place(polygons, k + 1));
+  return sum;
+}
+
+std::string name_of(std::int64_t polygon) { return "cell " + std::to_string(polygon); }
+
+/// A side of a polygon, in its direction.
+struct Side {
+  std::int32_t from, to;
+  std::int32_t polygon;
+
+  bool operator<(const Side& other) const {
+    return std::tie(from, to, polygon) < std::tie(other.from, other.to, other.polygon);
+  }
+};
+
+std::vector<Side> sides_of(const Polygons& polygons) {
+  std::vector<Side> sides;
+  sides.reserve(static_cast<std::size_t>(polygons.ids.size()));
+  for (std::int32_t i = 0; i < polygons.size(); ++i)
+    for (std::int64_t k = polygons.begin[i]; k < polygons.begin[i + 1]; ++k) {
+      const std::int64_t next = k + 1 < polygons.begin[i + 1] ? k + 1 : polygons.begin[i];
+      sides.push_back({polygons.ids[k], polygons.ids[next], i});
+    }
+  return sides;
+}
+
+/// The square of the distance from a point to the nearest of some columns.
+double nearest(const Vec3& p, const Points3& points, const Ids& ids, std::int64_t begin,
+               std::int64_t end) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::int64_t k = begin; k != end; ++k) {
+    const Vec3 apart = p - column(points, ids[k]);
+    least = std::min(least, dot(apart, apart));
+  }
+  return least;
+}
+
+/// The largest distance from a corner of either cell to the nearest corner of the other.
+double distance(const Voronoi& voronoi, const Polygons& polygons, std::int64_t cell) {
+  const std::int64_t begin = polygons.begin[cell], end = polygons.begin[cell + 1];
+  const std::int64_t own_begin = voronoi.begin[cell], own_end = voronoi.begin[cell + 1];
+  double most = 0;
+  for (std::int64_t k = begin; k != end; ++k)
+    most = std::max(most, nearest(place(polygons, k), voronoi.vertices, voronoi.vertices_on_cell,
+                                  own_begin, own_end));
+  for (std::int64_t k = own_begin; k != own_end; ++k)
+    most = std::max(most, nearest(column(voronoi.vertices, voronoi.vertices_on_cell[k]),
+                                  polygons.corners, polygons.ids, begin, end));
+  return std::sqrt(most);
+}
+
+bool before(const Vec3& a, const Vec3& b) {
+  return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+}
+bool equal(const Vec3& a, const Vec3& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+
+/// For each column the number of its place among the distinct ones, -1 for a column of zeros.
+struct Distinct {
+  Points3 points;
+  std::vector<std::int32_t> id;
+};
+
+Distinct distinct_columns(const Points3& columns) {
+  std::vector<std::int64_t> order;
+  for (Eigen::Index i = 0; i < columns.cols(); ++i)
+    if (!equal(column(columns, i), {0, 0, 0}))
+      order.push_back(i);
+  std::sort(order.begin(), order.end(), [&](std::int64_t a, std::int64_t b) {
+    return before(column(columns, a), column(columns, b));
+  });
+  Distinct distinct{Points3(3, std::ssize(order)),
+                    std::vector<std::int32_t>(static_cast<std::size_t>(columns.cols()), -1)};
+  std::int32_t count = 0;
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    if (k == 0 || !equal(column(columns, order[k]), column(columns, order[k - 1])))
+      distinct.points.col(count++) = columns.col(order[k]);
+    distinct.id[static_cast<std::size_t>(order[k])] = count - 1;
+  }
+  distinct.points.conservativeResize(Eigen::NoChange, count);
+  return distinct;
+}
+
+} // namespace
+
+Polygons polygons_of(Voronoi&& voronoi) {
+  return {std::move(voronoi.vertices), std::move(voronoi.begin),
+          std::move(voronoi.vertices_on_cell), std::move(voronoi.cells)};
+}
+
+Polygons polygons_of(const Points3& corners, std::int64_t most, Points3 centres) {
+  Distinct distinct = distinct_columns(corners);
+  const std::int64_t count = most > 0 ? corners.cols() / most : 0;
+  Polygons polygons{std::move(distinct.points), {}, {}, std::move(centres)};
+  polygons.begin.resize(count + 1);
+  std::vector<std::int32_t> ids;
+  for (std::int64_t i = 0; i < count; ++i) {
+    const auto first = static_cast<std::ptrdiff_t>(ids.size());
+    polygons.begin[i] = first;
+    for (std::int64_t k = 0; k < most; ++k) {
+      const std::int32_t id = distinct.id[static_cast<std::size_t>(i * most + k)];
+      if (id >= 0 && (std::ssize(ids) == first || ids.back() != id))
+        ids.push_back(id);
+    }
+    while (std::ssize(ids) > first + 1 && ids.back() == ids[static_cast<std::size_t>(first)])
+      ids.pop_back();
+  }
+  polygons.begin[count] = std::ssize(ids);
+  polygons.ids = Eigen::Map<const Ids>(ids.data(), std::ssize(ids));
+  return polygons;
+}
+
+Eigen::VectorXd areas_of(const Polygons& polygons) {
+  Eigen::VectorXd areas(polygons.size());
+  for_each_block(areas.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i != end; ++i)
+      areas[i] = signed_area(polygons, i);
+  });
+  return areas;
+}
+
+std::int64_t turn_counter_clockwise(Polygons& polygons, const std::string& name) {
+  const Eigen::VectorXd areas = areas_of(polygons);
+  const std::int64_t clockwise = (areas.array() < 0).count(),
+                     counter_clockwise = (areas.array() > 0).count();
+  if (clockwise == 0)
+    return 0;
+  if (counter_clockwise > 0) {
+    const bool rarer_is_clockwise = clockwise <= counter_clockwise;
+    const auto first = std::find_if(areas.begin(), areas.end(), [&](double area) {
+      return rarer_is_clockwise ? area < 0 : area > 0;
+    });
+    const std::int64_t cell = first - areas.begin();
+    throw Error(ErrorCode::parse,
+                name + ": " + name_of(cell) + " runs " +
+                    (rarer_is_clockwise ? "clockwise" : "counter-clockwise") +
+                    " seen from outside, but " +
+                    std::to_string(std::max(clockwise, counter_clockwise)) +
+                    " cells run the other way; the file contradicts itself, make it again",
+                cell);
+  }
+  for (std::int64_t i = 0; i < polygons.size(); ++i)
+    std::reverse(polygons.ids.begin() + polygons.begin[i],
+                 polygons.ids.begin() + polygons.begin[i + 1]);
+  return clockwise;
+}
+
+void require_no_overlap(const Polygons& polygons, const std::string& name) {
+  std::vector<Side> sides = sides_of(polygons);
+  std::sort(sides.begin(), sides.end());
+  for (std::size_t k = 1; k < sides.size(); ++k)
+    if (sides[k].from == sides[k - 1].from && sides[k].to == sides[k - 1].to)
+      throw Error(ErrorCode::parse,
+                  name + ": " + name_of(sides[k - 1].polygon) + " and " +
+                      name_of(sides[k].polygon) +
+                      " overlap, as both lie to the left of one side; make the file again",
+                  sides[k - 1].polygon);
+  constexpr double whole = 4 * std::numbers::pi, rounding = 1e-6;
+  const double area = areas_of(polygons).sum();
+  if (area > whole * (1 + rounding))
+    throw Error(ErrorCode::parse, name + ": the cells overlap: their areas sum to " +
+                                      std::to_string(area / whole) +
+                                      " times the sphere's; make the file again");
+}
+
+std::string difference_from(const Voronoi& voronoi, const Polygons& polygons, double rounding) {
+  const std::int64_t count = polygons.size();
+  if (voronoi.cells.cols() != count)
+    return "there are " + std::to_string(count) + " cells, but " +
+           std::to_string(voronoi.cells.cols()) + " distinct centres";
+  const double width = std::sqrt(4 * std::numbers::pi / static_cast<double>(count));
+  const double tolerance = 1e-6 * width + rounding;
+  std::vector<std::int64_t> first(static_cast<std::size_t>(block_count(count)), -1);
+  for_each_block(count, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
+    std::int64_t& found = first[static_cast<std::size_t>(block)];
+    for (std::int64_t i = begin; i != end && found < 0; ++i)
+      if (!(distance(voronoi, polygons, i) <= tolerance))
+        found = i;
+  });
+  const auto found =
+      std::find_if(first.begin(), first.end(), [](std::int64_t cell) { return cell >= 0; });
+  if (found == first.end())
+    return {};
+  if (corners_of(polygons, *found) == 0)
+    return name_of(*found) + " has no corners";
+  return "a corner of " + name_of(*found) + " is " +
+         std::to_string(distance(voronoi, polygons, *found) / width) +
+         " mean cell widths away from that of the Voronoi cell of its centre";
+}
+
+std::int64_t most_corners(const Polygons& polygons) {
+  std::int64_t most = 0;
+  for (std::int64_t i = 0; i < polygons.size(); ++i)
+    most = std::max(most, corners_of(polygons, i));
+  return most;
+}
+
+std::int32_t corner(const Polygons& polygons, std::int64_t polygon, std::int64_t k) {
+  return k < corners_of(polygons, polygon) ? polygons.ids[polygons.begin[polygon] + k] : -1;
+}
+
+std::int32_t corner_or_last(const Polygons& polygons, std::int64_t polygon, std::int64_t k) {
+  return corner(polygons, polygon, std::min(k, corners_of(polygons, polygon) - 1));
+}
+
+} // namespace calotte::io_detail
+
+namespace calotte {
+
+Eigen::VectorXd areas(const Polygons& polygons) { return io_detail::areas_of(polygons); }
+
+} // namespace calotte

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "io/room.h"
+
+#include <calotte/mesh_file.h>
+#include <calotte/voronoi.h>
+
+#include <cstdint>
+#include <string>
+
+/// Cells as polygons: their orientation, their areas, and whether they are Voronoi cells.
+namespace calotte::io_detail {
+
+/// The cells of a tessellation, which is used up.
+Polygons polygons_of(Voronoi&& voronoi);
+
+/// Polygons from a list of corners for each, in which equal corners are one, and consecutive equal
+/// ones count once.
+/// \param corners 3 x (n * most): those of polygon i from column i * most on; a column of zeros
+///        ends the list.
+Polygons polygons_of(const Points3& corners, std::int64_t most, Points3 centres);
+
+/// Areas on the unit sphere in steradians, positive for counter-clockwise polygons. \pre each is
+/// smaller than a hemisphere.
+Eigen::VectorXd areas_of(const Polygons& polygons);
+
+/// Turns polygons that all run clockwise. \returns how many were turned.
+/// \throws Error parse, where both orientations occur; names the first polygon of the rarer one.
+std::int64_t turn_counter_clockwise(Polygons& polygons, const std::string& name);
+
+/// \throws Error parse, where two polygons run through one side in the same direction, or all
+/// together are larger than the sphere. \pre counter-clockwise.
+void require_no_overlap(const Polygons& polygons, const std::string& name);
+
+/// Why polygons are not the Voronoi cells of their centres, as a clause that names the first such
+/// cell; empty if they are. Corners count as equal if they are closer than a millionth of the mean
+/// cell width, and `rounding`.
+std::string difference_from(const Voronoi& voronoi, const Polygons& polygons, double rounding);
+
+/// The most corners of a polygon.
+std::int64_t most_corners(const Polygons& polygons);
+/// Corner k of a polygon; past the last one -1, or the last.
+std::int32_t corner(const Polygons& polygons, std::int64_t polygon, std::int64_t k);
+std::int32_t corner_or_last(const Polygons& polygons, std::int64_t polygon, std::int64_t k);
+
+} // namespace calotte::io_detail

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/file.h"
+#include "io/file_names.h"
+#include "io/formats.h"
+#include "io/mesh_intake.h"
+#include "io/netcdf_reader.h"
+
+#include <calotte/error.h>
+#include <calotte/mesh_file.h>
+
+#include <array>
+#include <optional>
+#include <string_view>
+
+namespace calotte {
+namespace {
+
+using namespace io_detail;
+
+// ---- Which format
+
+/// Whether the first bytes are those of a classic NetCDF file or of HDF5.
+bool starts_as_netcdf(const std::string& path) {
+  std::array<char, 4> start{};
+  std::ifstream in(path, std::ios::binary);
+  in.read(start.data(), start.size());
+  const std::string_view bytes(start.data(), start.size());
+  return bytes.starts_with("CDF") || bytes == "\x89HDF";
+}
+
+/// Whether the file is NetCDF: its name says so, or its contents where the name says nothing.
+/// \throws Error bad_option, where neither says a format.
+bool holds_netcdf(const std::string& path) {
+  const std::optional<Format> format = format_of_name(path);
+  if (!format && !starts_as_netcdf(path))
+    refuse_name(path);
+  return !format || is_netcdf(*format);
+}
+
+[[noreturn]] void refuse_triangles_alone(const std::string& path) {
+  throw Error(ErrorCode::bad_option, path + " holds triangles only; give the points they refer to");
+}
+
+// ---- Files of each kind
+
+MeshFile read_netcdf(const std::string& path) {
+  const NetcdfReader file(path);
+  if (is_mpas(file))
+    return is_planar_mpas(file) ? read_planar_mpas(file)
+                                : mesh_file_of(path, "MPAS", read_mpas(file));
+  if (is_ugrid(file))
+    return mesh_file_of(path, "UGRID", read_ugrid(file));
+  if (is_scrip(file))
+    return mesh_file_of(path, "SCRIP", read_scrip(file));
+  if (is_esmf(file))
+    return mesh_file_of(path, "ESMF", read_esmf(file));
+  file.fail("a NetCDF file, but no mesh of MPAS, UGRID, SCRIP or ESMF; convert it to one of them");
+}
+
+/// MPI-SCVT's centres of regions. Its triangles of these say nothing that the centres do not, so
+/// that either file stands for both. Nothing where the name is none of the two.
+std::optional<Soup> read_centres(const std::string& path) {
+  if (format_of_name(path).value_or(Format::triangles) != Format::triangles)
+    return std::nullopt;
+  if (sibling(path, centres_name, centres_name))
+    return Soup{read_points(path)};
+  const std::optional<std::string> centres = sibling(path, centre_triangles_name, centres_name);
+  if (!centres)
+    return std::nullopt;
+  if (!std::ifstream(*centres))
+    throw Error(ErrorCode::file, path + ": it holds the centres' triangles only, and " + *centres +
+                                     ", which holds the centres, cannot be read; put it there");
+  return Soup{read_points(*centres)};
+}
+
+Soup read_stream(const std::string& path, Format format) {
+  std::ifstream in = open_input(path);
+  switch (format) {
+  case Format::vtp:
+    return get_vtp(in, path);
+  case Format::vtu:
+    return get_vtu(in, path);
+  case Format::off:
+    return get_off(in, path);
+  case Format::ply:
+    return get_ply(in, path);
+  case Format::msh:
+    return get_msh(in, path);
+  default:
+    return get_geojson(in, path);
+  }
+}
+
+std::string name_of(Format format) {
+  switch (format) {
+  case Format::vtp:
+  case Format::vtu:
+    return "VTK";
+  case Format::off:
+    return "OFF";
+  case Format::ply:
+    return "PLY";
+  case Format::msh:
+    return "JIGSAW";
+  case Format::mpi_scvt:
+    return "MPI-SCVT";
+  default:
+    return "GeoJSON";
+  }
+}
+
+/// Formats that hold points in space may hold a mesh of the plane.
+MeshFile mesh_file_of_any(const std::string& path, Format format, Soup soup) {
+  return lies_in_plane(soup.points) ? planar_mesh_file_of(path, name_of(format), std::move(soup))
+                                    : mesh_file_of(path, name_of(format), std::move(soup));
+}
+
+MeshFile read_any(const std::string& path) {
+  if (std::optional<Soup> centres = read_centres(path))
+    return mesh_file_of(path, name_of(Format::mpi_scvt), *std::move(centres));
+  if (holds_netcdf(path))
+    return read_netcdf(path);
+  const std::optional<Format> format = format_of_name(path);
+  if (*format == Format::triangles)
+    refuse_triangles_alone(path);
+  return mesh_file_of_any(path, *format,
+                          *format == Format::mpi_scvt ? read_mpi_scvt(path)
+                                                      : read_stream(path, *format));
+}
+
+// ---- Points alone
+
+/// Without what goes with them where that costs a look or may fail.
+Points3 sites_of(const std::string& path) {
+  if (std::optional<Soup> centres = read_centres(path))
+    return std::move(centres->points);
+  const std::optional<Format> format = format_of_name(path);
+  if (format == Format::mpi_scvt)
+    return read_points(path);
+  if (format == Format::triangles)
+    refuse_triangles_alone(path);
+  if (!holds_netcdf(path))
+    return read_stream(path, *format).points;
+  const NetcdfReader file(path);
+  if (is_mpas(file))
+    return read_mpas_sites(file);
+  if (is_ugrid(file))
+    return read_ugrid(file).points;
+  if (is_scrip(file))
+    return read_scrip(file).points;
+  if (is_esmf(file))
+    return read_esmf(file).points;
+  file.fail("a NetCDF file, but no mesh of MPAS, UGRID, SCRIP or ESMF; convert it to one of them");
+}
+
+} // namespace
+
+MeshFile read_mesh_file(const std::string& path, const Points3* points) {
+  if (!points || format_of_name(path) != Format::triangles)
+    return read_any(path);
+  std::ifstream in = open_input(path);
+  return mesh_file_of_columns(path, *points, get_triangles_text(in, path, points->cols()));
+}
+
+Mesh read_mesh(const std::string& path, const Points3* points) {
+  MeshFile file = read_mesh_file(path, points);
+  if (file.plane)
+    throw Error(
+        ErrorCode::bad_option,
+        path + ": " +
+            (file.plane->period.minCoeff() > 0 ? "it is periodic" : "z is 0 at all points") +
+            ", which makes a mesh of the plane; read it as one of the plane");
+  if (file.polygons && !(file.mesh && !file.mesh->closed()))
+    throw Error(ErrorCode::bad_option, path +
+                                           ": the cells are not the Voronoi cells of their "
+                                           "centres (" +
+                                           file.not_voronoi +
+                                           "); read them with read_mesh_file(), or read their "
+                                           "centres with read_sites() and triangulate these");
+  return std::move(*file.mesh);
+}
+
+Points3 read_sites(const std::string& path) {
+  Points3 sites = sites_of(path);
+  require_sphere(path, sites);
+  require_directions(path, sites);
+  return sites;
+}
+
+PlanarMesh read_planar_mesh(const std::string& path, const Points2* points) {
+  if (holds_netcdf(path)) {
+    const NetcdfReader file(path);
+    if (!is_mpas(file))
+      file.fail("not an MPAS mesh, the only NetCDF format of planar meshes");
+    return std::move(*read_planar_mpas(file).plane);
+  }
+  const Format format = *format_of_name(path);
+  require_planar_format(path, false, format);
+  if (format != Format::triangles)
+    return std::move(*planar_mesh_file_of(path, name_of(format), read_stream(path, format)).plane);
+  if (!points)
+    refuse_triangles_alone(path);
+  std::ifstream in = open_input(path);
+  return std::move(
+      *mesh_file_of_columns(path, *points, get_triangles_text(in, path, points->cols())).plane);
+}
+
+} // namespace calotte

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/formats.h"
+#include "io/model_grid.h"
+#include "io/ugrid.h"
+
+namespace calotte::io_detail {
+namespace {
+
+const std::string mesh_name = "mesh", node_name = "mesh_node", face_name = "mesh_face",
+                  face_nodes_name = "mesh_face_nodes";
+
+NetcdfAttribute long_name(const std::string& text) { return {"long_name", text}; }
+
+std::string three_names(const std::string& prefix) {
+  return prefix + "_x " + prefix + "_y " + prefix + "_z";
+}
+
+/// The variable that says what the others are.
+/// \param sites the prefix of the variables of the sites' places; empty for none.
+void add_topology(GridFile& file, const std::string& what, const std::string& sites,
+                  bool face_places) {
+  NetcdfAttributes attributes{
+      {"cf_role", std::string("mesh_topology")},
+      long_name(what),
+      {"units", std::string("1")},
+      {"topology_dimension", std::int32_t{2}},
+      {"node_coordinates", node_name + "_lon " + node_name + "_lat"},
+      {"face_node_connectivity", face_nodes_name},
+      {"face_dimension", face_name},
+  };
+  if (!sites.empty())
+    attributes.push_back({site_coordinates, three_names(sites)});
+  if (face_places)
+    attributes.push_back({"face_coordinates", face_name + "_lon " + face_name + "_lat"});
+  file.ints(mesh_name, {}, attributes, constant(0));
+}
+
+/// Longitudes and latitudes of nodes or faces. \param of in words.
+void add_lonlats(GridFile& file, const std::string& prefix, int dimension, const std::string& of,
+                 const Points3& points) {
+  file.doubles(prefix + "_lon", {dimension},
+               {{"units", std::string("degrees_east")},
+                {"standard_name", std::string("longitude")},
+                long_name("longitude of " + of)},
+               longitudes_of(points));
+  file.doubles(prefix + "_lat", {dimension},
+               {{"units", std::string("degrees_north")},
+                {"standard_name", std::string("latitude")},
+                long_name("latitude of " + of)},
+               latitudes_of(points));
+}
+
+void add_places(GridFile& file, const std::string& prefix, int dimension, const Points3& points) {
+  for (int row = 0; row < 3; ++row) {
+    const std::string axis(1, "xyz"[row]);
+    std::string name = prefix + "_";
+    name += axis;
+    file.doubles(name, {dimension},
+                 {{"units", std::string("m")}, long_name("Cartesian " + axis + " of the site")},
+                 row_of(points, row));
+  }
+}
+
+/// \param node of face and corner; -1 past the last.
+template <class Node>
+void add_face_nodes(GridFile& file, int faces, std::int64_t most, const Node& node) {
+  const int corners = file.netcdf().dimension("mesh_max_face_nodes", most);
+  file.ints(face_nodes_name, {faces, corners},
+            {{"cf_role", std::string("face_node_connectivity")},
+             long_name("nodes of the face, counter-clockwise seen from outside"),
+             {"units", std::string("1")},
+             {"start_index", std::int32_t{0}},
+             {"_FillValue", std::int32_t{-1}}},
+            table<std::int32_t>(most, node));
+}
+
+constexpr const char* conventions = "CF-1.8 UGRID-1.0";
+
+/// What is not a field: the names that files of ours have.
+NetcdfMeshNames ugrid_names(bool of_cells) {
+  NetcdfMeshNames names{of_cells ? face_name : node_name,
+                        of_cells ? node_name : face_name,
+                        {mesh_name, face_nodes_name, "cell_area"}};
+  for (const std::string& prefix : {node_name, face_name})
+    for (const char* end : {"_lon", "_lat", "_x", "_y", "_z"})
+      names.variables.insert(prefix + end);
+  return names;
+}
+
+/// Attributes of a variable of data at faces or nodes.
+NetcdfAttributes located(const std::string& location) {
+  return {{"mesh", mesh_name}, {"location", location}};
+}
+
+std::string coordinates_of(const std::string& prefix) { return prefix + "_lon " + prefix + "_lat"; }
+
+/// A variable of data at the faces: without one, CDO sees no unstructured grid.
+void add_areas(GridFile& file, int faces, const Eigen::VectorXd& areas, bool face_places) {
+  NetcdfAttributes attributes = located("face");
+  attributes.push_back({"units", std::string("radians^2")});
+  attributes.push_back(long_name("area of the face on the unit sphere"));
+  attributes.push_back({"standard_name", std::string("cell_area")});
+  if (face_places)
+    attributes.push_back({"coordinates", coordinates_of(face_name)});
+  file.doubles("cell_area", {faces}, attributes, values_of(areas));
+}
+
+} // namespace
+
+void write_ugrid(const std::string& path, const CellGrid& grid, const WriteOptions& options) {
+  const Polygons& cells = grid.polygons;
+  const bool has_centres = cells.centres.cols() > 0, has_sites = grid.sites.cols() > 0;
+  const Points3 sites = on_sphere(grid.sites, options.sphere_radius);
+  GridFile file(path, options, conventions);
+  const int nodes = file.netcdf().dimension(node_name, cells.corners.cols());
+  const int faces = file.netcdf().dimension(face_name, cells.size());
+  add_topology(file, has_sites ? "Voronoi cells of the sites" : "cells", has_sites ? face_name : "",
+               has_centres);
+  add_lonlats(file, node_name, nodes, "the node, a corner of cells", cells.corners);
+  if (has_centres)
+    add_lonlats(file, face_name, faces, "the face's site", cells.centres);
+  add_face_nodes(file, faces, most_corners(cells),
+                 [&cells](std::int64_t cell, std::int64_t k) { return corner(cells, cell, k); });
+  if (has_sites)
+    add_places(file, face_name, faces, sites);
+  add_areas(file, faces, grid.area, has_centres);
+  add_fields(file, options,
+             {faces, nodes, has_centres ? coordinates_of(face_name) : "", located("face")},
+             ugrid_names(true));
+  file.commit();
+}
+
+void write_ugrid_triangles(const std::string& path, const Mesh& mesh, const WriteOptions& options) {
+  const Points3 sites = on_sphere(mesh.points, options.sphere_radius);
+  const Points3 directions = on_sphere(mesh.points, 1);
+  const Points3 centres = mesh.closed() ? voronoi(mesh).vertices : Points3();
+  GridFile file(path, options, conventions);
+  const int nodes = file.netcdf().dimension(node_name, sites.cols());
+  const int faces = file.netcdf().dimension(face_name, mesh.triangles.cols());
+  add_topology(file, "Delaunay triangles of the sites", node_name, mesh.closed());
+  add_lonlats(file, node_name, nodes, "the node, a site", directions);
+  if (mesh.closed())
+    add_lonlats(file, face_name, faces, "the face's circumcentre", centres);
+  add_face_nodes(file, faces, 3, [&mesh](std::int64_t triangle, std::int64_t k) {
+    return mesh.triangles(k, triangle);
+  });
+  add_places(file, node_name, nodes, sites);
+  add_fields(file, options, {nodes, faces, "", located("node")}, ugrid_names(false));
+  file.commit();
+}
+
+} // namespace calotte::io_detail

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "mesh/room.h"
+
+#include <calotte/types.h>
+
+#include <cstdint>
+
+/// Which way the triangles of a file run.
+namespace calotte::mesh_detail {
+
+/// How many triangles run each way, in exact arithmetic. Flat ones run neither way.
+struct Orientations {
+  std::int64_t counter_clockwise = 0, clockwise = 0;
+  std::int64_t first_counter_clockwise = -1, first_clockwise = -1; ///< -1 for none
+
+  bool contradict() const { return counter_clockwise > 0 && clockwise > 0; }
+  /// The first triangle of the rarer orientation; of a tie, the first clockwise one.
+  std::int64_t first_exception() const {
+    return clockwise <= counter_clockwise ? first_clockwise : first_counter_clockwise;
+  }
+};
+
+/// \pre ids are in range, and points are directions.
+Orientations orientations_of(const Points3& points, const Triangles& triangles);
+/// In the plane. \pre ids are in range, and points are finite.
+Orientations orientations_of(const Points2& points, const Triangles& triangles);
+/// In a doubly periodic box, where a triangle's corners are the nearest copies of its sites.
+Orientations orientations_of(const Points2& points, const Triangles& triangles,
+                             const Eigen::Vector2d& period);
+
+/// Reverses every triangle: its last two vertices change places.
+void reverse(Triangles& triangles);
+
+/// An edge that more than two triangles share, or that two triangles run through in the same
+/// direction: the mesh overlaps itself there.
+struct SharedEdge {
+  std::int64_t triangle = -1;      ///< the lowest triangle of such an edge; -1 if there is none
+  std::int32_t from = -1, to = -1; ///< the edge, as that triangle runs through it
+};
+
+/// The first such edge. \param neighbours as neighbours_of() makes them.
+SharedEdge first_shared_edge(const Triangles& triangles, const Triangles& neighbours);
+
+} // namespace calotte::mesh_detail
