@@ -50,23 +50,25 @@ void require_request(const Request& request) {
                   {request.points, centres_file(*request.partition), *request.config});
 }
 
-Mesh mesh_of(const Points3& points, const Request& request, DelaunayReport& report) {
-  return spherical_delaunay(points, options_of(*request.partition), &report);
+Mesh mesh_of(const Points3& points, const Request& /*request*/, const DelaunayOptions& options,
+             DelaunayReport& report) {
+  return spherical_delaunay(points, options, &report);
 }
 
-PlanarMesh mesh_of(const Points2& points, const Request& request, DelaunayReport& report) {
-  const DelaunayOptions options = options_of(*request.partition, true);
+PlanarMesh mesh_of(const Points2& points, const Request& request, const DelaunayOptions& options,
+                   DelaunayReport& report) {
   const std::optional<Eigen::Vector2d> period = period_of(request.periodic);
   return period ? periodic_delaunay(points, *period, options, &report)
                 : planar_delaunay(points, options, &report);
 }
 
 template <class AnyMesh, class File>
-Result<AnyMesh> triangulate(const File& input, const Request& request) {
+Result<AnyMesh> triangulate(const File& input, const Request& request,
+                            const DelaunayOptions& options) {
   Result<AnyMesh> result;
   try {
     with_threads(request.partition->threads,
-                 [&] { result.mesh = mesh_of(input.points, request, result.report); });
+                 [&] { result.mesh = mesh_of(input.points, request, options, result.report); });
   } catch (const Error& error) {
     rethrow_with_line(error, input.name, input.lines);
   }
@@ -139,13 +141,14 @@ std::string summary(const Request& request, const Result<AnyMesh>& result) {
 
 /// \param read_file reads the points.
 template <class AnyMesh, class ReadFile>
-std::string triangulate_file(const Request& request, const ReadFile& read_file) {
+std::string triangulate_file(const Request& request, const DelaunayOptions& options,
+                             const ReadFile& read_file) {
   Progress progress;
   decltype(read_file()) input;
   progress.stage("reading points");
   const double read = seconds_of([&] { input = read_file(); });
   progress.stage("triangulating " + std::to_string(input.points.cols()) + " points");
-  const Result<AnyMesh> result = triangulate<AnyMesh>(input, request);
+  const Result<AnyMesh> result = triangulate<AnyMesh>(input, request, options);
   progress.stage("writing " + request.mesh);
   const double written = seconds_of(
       [&] { write(request.mesh, result.mesh, write_options(request, input.points.cols())); });
@@ -156,12 +159,12 @@ std::string triangulate_file(const Request& request, const ReadFile& read_file) 
 
 void run(const Request& request) {
   require_request(request);
-  options_of(*request.partition, request.plane); // throws before the points are read
+  const DelaunayOptions options = options_of(*request.partition, request.plane); // reads centres
   const std::string line =
       request.plane
-          ? triangulate_file<PlanarMesh>(request,
+          ? triangulate_file<PlanarMesh>(request, options,
                                          [&] { return read_planar_point_file(request.points); })
-          : triangulate_file<Mesh>(request,
+          : triangulate_file<Mesh>(request, options,
                                    [&] { return read_point_file(request.points, request.lonlat); });
   std::cout << line;
 }

@@ -248,6 +248,35 @@ void draw_planar_mesh(const DrawArguments& arguments) {
             << mesh.triangles.cols() << " triangles\n";
 }
 
+/// A field of the file, read with the cells.
+CellField field_of(const DrawArguments& arguments, const MeshFile& file, std::int64_t cells) {
+  const std::string& name = arguments.options.field_name;
+  for (const MeshField& field : file.fields) {
+    if (field.name == name && field.values.size() == cells) {
+      return {field.values, field.long_name, field.units};
+    }
+  }
+  return read_cell_field(arguments.source->path, name, cells);
+}
+
+/// Cells that are not Voronoi cells have no triangles and no spacing law.
+void draw_cells(const DrawArguments& arguments, const MeshFile& file) {
+  const Polygons& cells = *file.polygons;
+  const std::string not_voronoi =
+      arguments.source->path + ": the cells are not Voronoi cells (" + file.not_voronoi + ")";
+  if (arguments.spacing_law ||
+      (arguments.what->count() > 0 && arguments.options.shapes != Shapes::cells)) {
+    throw Error(ErrorCode::bad_option, not_voronoi + "; draw them with --what cells");
+  }
+  DrawOptions options = arguments.options;
+  if (options.colouring == Colouring::field) {
+    options.field = field_of(arguments, file, cells.size());
+  }
+  draw(arguments.output, cells, options);
+  std::cout << changes_of(*arguments.source, file) << arguments.output << ": picture of "
+            << cells.size() << " cells\n";
+}
+
 void draw_mesh(const DrawArguments& arguments) {
   require_distinct(arguments.output, arguments.source->path);
   require_distinct(arguments.output, arguments.source->points);
@@ -258,7 +287,17 @@ void draw_mesh(const DrawArguments& arguments) {
   }
   DrawOptions options = arguments.options;
   options.density = density_of(*arguments.density);
-  const Mesh mesh = read_mesh(*arguments.source);
+  const MeshFile file = read_mesh_file(*arguments.source);
+  if (file.plane) {
+    throw Error(ErrorCode::bad_option,
+                arguments.source->path +
+                    ": it holds a mesh of the plane; read it as one of the plane");
+  }
+  if (file.polygons && !(file.mesh && !file.mesh->closed())) {
+    draw_cells(arguments, file);
+    return;
+  }
+  const Mesh& mesh = *file.mesh;
   if (options.colouring == Colouring::field) {
     options.field = read_field(arguments.source->path, options.field_name, mesh);
   }
@@ -267,7 +306,7 @@ void draw_mesh(const DrawArguments& arguments) {
   } else {
     draw(arguments.output, mesh, options);
   }
-  std::cout << arguments.output << ": "
+  std::cout << changes_of(*arguments.source, file) << arguments.output << ": "
             << (arguments.spacing_law ? "spacing law of " : "picture of ") << mesh.points.cols()
             << " sites, " << mesh.triangles.cols() << " triangles\n";
 }

@@ -47,6 +47,8 @@ enum class Format {
   mpi_scvt,        ///< SaveVertices, and SaveTriangles and SaveDensity beside it
   msh,             ///< JIGSAW of the triangles
   geojson,         ///< the cells as polygons with their CellFields
+  exodus,          ///< Exodus II of the cells, NetCDF, as TempestRemap reads it
+  fesom,           ///< nod2d.out, and elem2d.out beside it: the triangles for FESOM, text
 };
 
 /// Options of write(). No option changes the geometry of the mesh.
@@ -76,6 +78,8 @@ struct WriteOptions {
 ///
 /// - .nc: mpas;
 /// - .vtp, .vtu, .off, .ply, .msh, .geojson: the format of that name;
+/// - .g, .exo: exodus;
+/// - nod2d.out: fesom;
 /// - .txt, .tri: triangles. The ids are columns of the input of the triangulation, so that the file
 ///   belongs to the points that were triangulated. A site with duplicates has the id of its lowest
 ///   column;

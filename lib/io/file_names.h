@@ -20,6 +20,10 @@ inline constexpr std::string_view density_name = "SaveDensity";
 inline constexpr std::string_view centres_name = "RegionList";
 inline constexpr std::string_view centre_triangles_name = "RegionTriangulation";
 
+// FESOM's names.
+inline constexpr std::string_view fesom_nodes_name = "nod2d.out";
+inline constexpr std::string_view fesom_elements_name = "elem2d.out";
+
 /// The suffix of a name in lower case, such as ".nc" for NAME.NC; empty if there is none.
 std::string suffix_of(const std::string& path);
 

@@ -22,11 +22,13 @@ struct Suffix {
   Format format; ///< by default
 };
 
-constexpr std::array suffixes{Suffix{".nc", Format::mpas},        Suffix{".vtp", Format::vtp},
-                              Suffix{".vtu", Format::vtu},        Suffix{".off", Format::off},
-                              Suffix{".ply", Format::ply},        Suffix{".msh", Format::msh},
-                              Suffix{".txt", Format::triangles},  Suffix{".tri", Format::triangles},
-                              Suffix{".geojson", Format::geojson}};
+constexpr std::array suffixes{
+    Suffix{".nc", Format::mpas},         Suffix{".vtp", Format::vtp},
+    Suffix{".vtu", Format::vtu},         Suffix{".off", Format::off},
+    Suffix{".ply", Format::ply},         Suffix{".msh", Format::msh},
+    Suffix{".txt", Format::triangles},   Suffix{".tri", Format::triangles},
+    Suffix{".geojson", Format::geojson}, Suffix{".g", Format::exodus},
+    Suffix{".exo", Format::exodus}};
 
 /// The format that stands for those of one suffix.
 Format of_suffix(Format format) {
@@ -57,10 +59,14 @@ std::string suffix_of(const std::string& path) {
   return suffix;
 }
 
-bool is_netcdf(Format format) { return of_suffix(format) == Format::mpas; }
+bool is_netcdf(Format format) {
+  return of_suffix(format) == Format::mpas || format == Format::exodus;
+}
 
 std::optional<Format> format_of_name(const std::string& path) {
   const std::string suffix = suffix_of(path);
+  if (name_of(path) == fesom_nodes_name)
+    return Format::fesom;
   const auto* const known = std::find_if(suffixes.begin(), suffixes.end(),
                                          [&](const Suffix& s) { return s.text == suffix; });
   // SaveVertices.vtp is what somebody makes of SaveVertices.
@@ -83,8 +89,8 @@ void refuse_name(const std::string& path) {
   const std::string suffix = suffix_of(path);
   throw Error(ErrorCode::bad_option,
               path + ": " + (suffix.empty() ? "no suffix" : "unknown suffix " + in_quotes(suffix)) +
-                  "; a mesh file ends in .nc, .vtp, .vtu, .off, .ply, .msh, .geojson, .txt or "
-                  ".tri, or is named SaveVertices");
+                  "; a mesh file ends in .nc, .vtp, .vtu, .off, .ply, .msh, .geojson, .g, "
+                  ".exo, .txt or .tri, or is named SaveVertices or nod2d.out");
 }
 
 bool holds_field(Format format, const MeshField& field) {
@@ -98,6 +104,7 @@ bool holds_field(Format format, const MeshField& field) {
   case Format::vtu:
   case Format::vtp_cells:
   case Format::vtu_cells:
+  case Format::exodus:
     return true;
   case Format::scrip:
   case Format::esmf:
@@ -119,6 +126,9 @@ Format format_of(const std::string& path, Format option) {
       refuse_name(path);
     return *named;
   }
+  if (option == Format::fesom && named != Format::fesom)
+    throw Error(ErrorCode::bad_option, path + ": files of that format are named " +
+                                           std::string(fesom_nodes_name) + "; give that name");
   if (option == Format::mpi_scvt && named != Format::mpi_scvt)
     throw Error(ErrorCode::bad_option, path + ": files of that format are named " +
                                            std::string(vertices_name) +
@@ -140,6 +150,7 @@ bool holds_cells(Format format) {
   case Format::vtp_cells:
   case Format::vtu_cells:
   case Format::geojson:
+  case Format::exodus:
     return true;
   default:
     return false;

@@ -72,6 +72,8 @@ void write_ugrid(const std::string& path, const CellGrid& grid, const WriteOptio
 void write_ugrid_triangles(const std::string& path, const Mesh& mesh, const WriteOptions& options);
 void write_scrip(const std::string& path, const CellGrid& grid, const WriteOptions& options);
 void write_esmf(const std::string& path, const CellGrid& grid, const WriteOptions& options);
+void write_exodus(const std::string& path, const CellGrid& grid, const WriteOptions& options);
+void write_fesom(const std::string& path, const Mesh& mesh, const WriteOptions& options);
 void write_mpi_scvt(const std::string& path, const Mesh& mesh, const WriteOptions& options);
 
 class NetcdfReader;
@@ -80,6 +82,8 @@ bool is_mpas(const NetcdfReader& file);
 bool is_ugrid(const NetcdfReader& file);
 bool is_scrip(const NetcdfReader& file);
 bool is_esmf(const NetcdfReader& file);
+bool is_exodus(const NetcdfReader& file);
+bool is_icon(const NetcdfReader& file);
 /// \pre it is. \throws Error parse, file.
 Soup read_mpas(const NetcdfReader& file);
 Points3 read_mpas_sites(const NetcdfReader& file); ///< without a look at the triangles
@@ -88,6 +92,9 @@ MeshFile read_planar_mpas(const NetcdfReader& file);
 Soup read_ugrid(const NetcdfReader& file);
 Soup read_scrip(const NetcdfReader& file);
 Soup read_esmf(const NetcdfReader& file);
+Soup read_exodus(const NetcdfReader& file);
+Soup read_icon(const NetcdfReader& file);
+Soup read_fesom(const std::string& path);
 Soup read_mpi_scvt(const std::string& path);
 
 /// Three ids, each 0 <= id < points, from one line of text. \throws Error parse.

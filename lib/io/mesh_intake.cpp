@@ -289,6 +289,7 @@ auto mesh_of_columns_in_order(const std::string& name, const Points& points, Tri
 } // namespace
 
 MeshFile mesh_file_of_columns(const std::string& name, const Points3& points, Triangles triangles) {
+  require_directions(name, points);
   MeshFile file;
   file.format = "triangles";
   file.mesh = mesh_of_columns_in_order(name, points, triangles, file);
@@ -297,6 +298,9 @@ MeshFile mesh_file_of_columns(const std::string& name, const Points3& points, Tr
 }
 
 MeshFile mesh_file_of_columns(const std::string& name, const Points2& points, Triangles triangles) {
+  for (Eigen::Index i = 0; i < points.cols(); ++i)
+    if (!points.col(i).allFinite())
+      refuse(name, "point " + std::to_string(i) + " has no place (NaN or infinite)", i);
   MeshFile file;
   file.format = "triangles";
   file.plane = mesh_of_columns_in_order(name, points, triangles, file);

@@ -97,7 +97,7 @@ Polygons cells_of(const NetcdfReader& file, const Points3& sites, const Points3&
   const std::int64_t width = file.shape_of("verticesOnCell").back();
   const std::vector<std::int32_t> rows =
       ids_of(file, "verticesOnCell", {cells, -1}, "cell", width, "vertex", vertices.cols());
-  Polygons polygons{vertices.colwise().normalized(), {}, {}, sites.colwise().normalized()};
+  Polygons polygons{on_sphere(vertices, 1), {}, {}, on_sphere(sites, 1)};
   polygons.begin.resize(cells + 1);
   std::vector<std::int32_t> ids;
   for (std::int64_t i = 0; i < cells; ++i) {

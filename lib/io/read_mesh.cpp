@@ -9,6 +9,7 @@
 #include <calotte/mesh_file.h>
 
 #include <array>
+#include <filesystem>
 #include <optional>
 #include <string_view>
 
@@ -19,20 +20,11 @@ using namespace io_detail;
 
 // ---- Which format
 
-/// Whether the first bytes are those of a classic NetCDF file or of HDF5.
-bool starts_as_netcdf(const std::string& path) {
-  std::array<char, 4> start{};
-  std::ifstream in(path, std::ios::binary);
-  in.read(start.data(), start.size());
-  const std::string_view bytes(start.data(), start.size());
-  return bytes.starts_with("CDF") || bytes == "\x89HDF";
-}
-
 /// Whether the file is NetCDF: its name says so, or its contents where the name says nothing.
 /// \throws Error bad_option, where neither says a format.
 bool holds_netcdf(const std::string& path) {
   const std::optional<Format> format = format_of_name(path);
-  if (!format && !starts_as_netcdf(path))
+  if (!format && !is_netcdf_file(path))
     refuse_name(path);
   return !format || is_netcdf(*format);
 }
@@ -42,6 +34,11 @@ bool holds_netcdf(const std::string& path) {
 }
 
 // ---- Files of each kind
+
+[[noreturn]] void refuse_netcdf(const NetcdfReader& file) {
+  file.fail("a NetCDF file, but no mesh of MPAS, UGRID, SCRIP, ESMF, Exodus or ICON; convert it to "
+            "one of them");
+}
 
 MeshFile read_netcdf(const std::string& path) {
   const NetcdfReader file(path);
@@ -54,7 +51,11 @@ MeshFile read_netcdf(const std::string& path) {
     return mesh_file_of(path, "SCRIP", read_scrip(file));
   if (is_esmf(file))
     return mesh_file_of(path, "ESMF", read_esmf(file));
-  file.fail("a NetCDF file, but no mesh of MPAS, UGRID, SCRIP or ESMF; convert it to one of them");
+  if (is_exodus(file))
+    return mesh_file_of(path, "Exodus", read_exodus(file));
+  if (is_icon(file))
+    return mesh_file_of(path, "ICON", read_icon(file));
+  refuse_netcdf(file);
 }
 
 /// MPI-SCVT's centres of regions. Its triangles of these say nothing that the centres do not, so
@@ -123,6 +124,8 @@ MeshFile read_any(const std::string& path) {
   const std::optional<Format> format = format_of_name(path);
   if (*format == Format::triangles)
     refuse_triangles_alone(path);
+  if (*format == Format::fesom)
+    return mesh_file_of(path, "FESOM", read_fesom(path));
   return mesh_file_of_any(path, *format,
                           *format == Format::mpi_scvt ? read_mpi_scvt(path)
                                                       : read_stream(path, *format));
@@ -137,6 +140,8 @@ Points3 sites_of(const std::string& path) {
   const std::optional<Format> format = format_of_name(path);
   if (format == Format::mpi_scvt)
     return read_points(path);
+  if (format == Format::fesom)
+    return read_fesom(path).points;
   if (format == Format::triangles)
     refuse_triangles_alone(path);
   if (!holds_netcdf(path))
@@ -150,10 +155,24 @@ Points3 sites_of(const std::string& path) {
     return read_scrip(file).points;
   if (is_esmf(file))
     return read_esmf(file).points;
-  file.fail("a NetCDF file, but no mesh of MPAS, UGRID, SCRIP or ESMF; convert it to one of them");
+  if (is_exodus(file))
+    return read_exodus(file).points;
+  if (is_icon(file))
+    return read_icon(file).points;
+  refuse_netcdf(file);
 }
 
 } // namespace
+
+bool is_netcdf_file(const std::string& path) {
+  if (std::error_code error; !std::filesystem::is_regular_file(path, error))
+    return false;
+  std::array<char, 4> start{};
+  std::ifstream in(path, std::ios::binary);
+  in.read(start.data(), start.size());
+  const std::string_view bytes(start.data(), start.size());
+  return bytes.starts_with("CDF") || bytes == "\x89HDF";
+}
 
 MeshFile read_mesh_file(const std::string& path, const Points3* points) {
   if (!points || format_of_name(path) != Format::triangles)

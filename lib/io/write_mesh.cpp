@@ -150,6 +150,10 @@ void write_numbered(const std::string& path, const Mesh& mesh, const WriteOption
     return write_scrip(path, cell_grid(mesh), options);
   case Format::esmf:
     return write_esmf(path, cell_grid(mesh), options);
+  case Format::exodus:
+    return write_exodus(path, cell_grid(mesh), options);
+  case Format::fesom:
+    return write_fesom(path, mesh, options);
   case Format::mpi_scvt:
     return write_mpi_scvt(path, mesh, options);
   default:
@@ -279,6 +283,8 @@ void write_polygons(const std::string& path, const Polygons& polygons,
     return write_scrip(path, cell_grid(polygons), options);
   case Format::esmf:
     return write_esmf(path, cell_grid(polygons), options);
+  case Format::exodus:
+    return write_exodus(path, cell_grid(polygons), options);
   default:
     put_file(path, options.progress, expected_bytes(options.format) * polygons.size(),
              [&](const Sink& sink) { put_polygons(sink, polygons, options); });
@@ -289,11 +295,11 @@ void write_polygons(const std::string& path, const Polygons& polygons,
 void require_polygon_format(const std::string& path, const MeshFile& file, Format format) {
   if (format == Format::mpas || format == Format::mpas_minimal)
     refuse(path, "MPAS needs Voronoi cells on the whole sphere, but " + file.not_voronoi +
-                     "; write ugrid, scrip, esmf, vtp-cells, vtu-cells or geojson");
+                     "; write ugrid, scrip, esmf, exodus, vtp-cells, vtu-cells or geojson");
   if (!holds_cells(format))
     refuse(path, "the format holds triangles, but the mesh consists of cells, and " +
                      file.not_voronoi +
-                     "; write ugrid, scrip, esmf, vtp-cells, vtu-cells or geojson");
+                     "; write ugrid, scrip, esmf, exodus, vtp-cells, vtu-cells or geojson");
   const auto& begin = file.polygons->begin;
   for (std::int64_t i = 0; i < file.polygons->size(); ++i)
     if (begin[i] == begin[i + 1])

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <calotte/quality.h>
 
+#include "base/require.h"
 #include "cvt/functional.h"
 #include "cvt/planar_cells.h"
 #include "density/planar_density.h"
@@ -116,6 +117,8 @@ Evaluation evaluated(const Points3& points, const PlanarDomain& domain, const De
 Quality quality(const PlanarMesh& mesh, const PlanarDomain& domain, const Density& density) {
   using namespace quality_detail;
   require_domain(domain);
+  require(mesh.period == domain.period,
+          "the mesh and the domain have different periods; give the domain of the mesh");
   const Density planar = planar_density(density, domain);
   if (const Check found = check(mesh); !found.passed())
     throw Error(ErrorCode::bad_option,

@@ -61,6 +61,9 @@ TEST_CASE("a name tells its format, in any case; an option tells it too, and mus
        {"SaveVertices", "a.b/SaveVertices", "SaveVertices.42", "SaveVertices.txt"})
     CHECK(format_of(name) == Format::mpi_scvt);
   CHECK(format_of("SaveVertices.vtp") == Format::vtp);
+  CHECK(format_of("mesh.g") == Format::exodus);
+  CHECK(format_of("mesh.EXO") == Format::exodus);
+  CHECK(format_of("a/nod2d.out") == Format::fesom);
 
   for (const Kind& kind : kinds) {
     CHECK(format_of(kind.file, kind.format) == kind.format);
@@ -78,7 +81,7 @@ TEST_CASE("a name tells its format, in any case; an option tells it too, and mus
     CHECK(error_of([&] { calotte::format_of(name); }).code() == ErrorCode::bad_option);
   CHECK(std::string(error_of([&] { format_of("mesh.stl"); }).what()) ==
         "mesh.stl: unknown suffix \".stl\"; a mesh file ends in .nc, .vtp, .vtu, .off, .ply, .msh, "
-        ".geojson, .txt or .tri, or is named SaveVertices");
+        ".geojson, .g, .exo, .txt or .tri, or is named SaveVertices or nod2d.out");
 }
 
 TEST_CASE("every format's file is read as the mesh that was written") {

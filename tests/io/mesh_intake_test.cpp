@@ -411,3 +411,34 @@ TEST_CASE("an interpolated density has the values of its sites, and lies between
   CHECK(error_of([&] { calotte::interpolated_density(mesh, rho.head(10)); }).code() ==
         ErrorCode::bad_option);
 }
+
+TEST_CASE("Exodus holds cells of any shape, and FESOM the triangles of open and closed meshes") {
+  const Scratch scratch;
+  const Polygons quads = cube_of_quads(4);
+  calotte::write(scratch / "quads.g", file_of(quads));
+  const MeshFile read = calotte::read_mesh_file(scratch / "quads.g");
+  CHECK(read.format == "Exodus");
+  REQUIRE(read.polygons);
+  CHECK(read.not_voronoi == "the cells have no centres");
+  CHECK(equal_bits(read.polygons->corners, quads.corners));
+  CHECK(equal_bits(read.polygons->ids, quads.ids));
+  for (const auto& [name, mesh] : all_meshes()) {
+    CAPTURE(name);
+    if (mesh.closed()) {
+      calotte::write(scratch / "cells.exo", mesh, {.numbering = calotte::Numbering::input});
+      const MeshFile cells = calotte::read_mesh_file(scratch / "cells.exo");
+      const double sum =
+          cells.polygons ? calotte::areas(*cells.polygons).sum() : 4 * std::numbers::pi;
+      CHECK(sum == doctest::Approx(4 * std::numbers::pi).epsilon(1e-9));
+    }
+    calotte::write(scratch / "nod2d.out", mesh);
+    const MeshFile fesom = calotte::read_mesh_file(scratch / "nod2d.out");
+    REQUIRE(fesom.mesh);
+    CHECK(equal_bits(fesom.mesh->triangles, mesh.triangles));
+    CHECK((fesom.mesh->points - mesh.points.colwise().normalized()).cwiseAbs().maxCoeff() < 1e-15);
+    CHECK((fesom.fields[0].values.maxCoeff() == 1) == !mesh.closed());
+  }
+  write_text(scratch / "nod2d.out", "2\n1 0 0 0\n3 90 0 0\n");
+  CHECK(std::string(error_of([&] { calotte::read_mesh_file(scratch / "nod2d.out"); }).what())
+            .find("line 3: node 2 has another id") != std::string::npos);
+}

@@ -167,6 +167,32 @@ Painting make_painting(const Mesh& mesh, const DrawOptions& options, const LonLa
   return painting;
 }
 
+/// The values of cells of any shape.
+std::vector<double> values_of(const Polygons& polygons, const DrawOptions& options) {
+  const auto by_cell = [](const Eigen::VectorXd& values) {
+    return std::vector<double>(values.begin(), values.end());
+  };
+  switch (options.colouring) {
+  case Colouring::area:
+    return by_cell(areas(polygons));
+  case Colouring::field:
+    require_field(options, polygons.size());
+    return by_cell(options.field.values);
+  case Colouring::valence:
+  case Colouring::none: {
+    std::vector<double> sides;
+    for (std::int64_t i = 0; i < polygons.size(); ++i) {
+      sides.push_back(static_cast<double>(polygons.begin[i + 1] - polygons.begin[i]));
+    }
+    return sides;
+  }
+  default:
+    throw Error(ErrorCode::bad_option, "the cells are not Voronoi cells, which alone have that "
+                                       "colouring; colour them by area, valence, field:NAME or "
+                                       "none");
+  }
+}
+
 /// A vector file may be printed at any size: its image gets twice the pixels.
 MapSize image_size(cairo_t* context, const MapSize& map) {
   const bool raster_page =
@@ -186,18 +212,43 @@ void paint_mesh(cairo_t* context, const Page& page, const Painting& painting, Pr
 
 } // namespace
 
-void draw(const std::string& path, const Mesh& mesh, const DrawOptions& options) {
-  require_picture(path, options.look.size);
-  const Look look = seen(options.look, mesh);
-  Painting painting = make_painting(mesh, options, *look.view);
+namespace {
+
+void draw_painting(const std::string& path, Painting& painting, const DrawOptions& options,
+                   const Look& look, const std::string& title) {
   const Legend legend = make_legend(painting, options);
   const Page page = page_of(look, options.colouring != Colouring::none);
   const bool paths = picture_format(path) != PictureFormat::png &&
                      visible_shapes(painting, look.projection) <= most_paths;
   write_picture(path, page.width, page.height, [&](cairo_t* context) {
-    draw_page(context, page, {look, painting.scene.frame, title_of(mesh), legend},
+    draw_page(context, page, {look, painting.scene.frame, title, legend},
               [&] { paint_mesh(context, page, painting, look.projection, paths); });
   });
+}
+
+} // namespace
+
+void draw(const std::string& path, const Mesh& mesh, const DrawOptions& options) {
+  require_picture(path, options.look.size);
+  const Look look = seen(options.look, mesh);
+  Painting painting = make_painting(mesh, options, *look.view);
+  draw_painting(path, painting, options, look, title_of(mesh));
+}
+
+void draw(const std::string& path, const Polygons& polygons, const DrawOptions& asked) {
+  require_picture(path, asked.look.size);
+  DrawOptions options = asked;
+  options.shapes = Shapes::cells;
+  if (options.colouring == Colouring::spacing) {
+    options.colouring = Colouring::area;
+  }
+  const Look look = seen(options.look, LonLat{15, 25});
+  Painting painting;
+  painting.scene = make_scene(polygons, *look.view);
+  painting.values = values_of(polygons, options);
+  painting.widths = widths_of(painting.scene, Shapes::cells);
+  const std::string title = grouped(polygons.size()) + " cells";
+  draw_painting(path, painting, options, look, title);
 }
 
 void draw(const std::string& path, const SphereField& field, const Look& asked) {

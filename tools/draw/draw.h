@@ -3,7 +3,7 @@
 
 #include <calotte/density.h>
 #include <calotte/domain.h>
-#include <calotte/io.h>
+#include <calotte/mesh_file.h>
 #include <calotte/types.h>
 
 #include <functional>
@@ -67,6 +67,11 @@ struct DrawOptions {
 /// \throws Error bad_option, also for cells' area or quality of an open mesh, and for a density or
 ///         field that does not fit; file.
 void draw(const std::string& path, const Mesh& mesh, const DrawOptions& options = {});
+
+/// Draws cells that need not be Voronoi cells, coloured by area (the default in place of spacing),
+/// valence (the number of their sides), a field, or not at all.
+/// \throws Error bad_option, also for triangles and for other colourings; file.
+void draw(const std::string& path, const Polygons& polygons, const DrawOptions& options = {});
 
 /// Draws a mesh of the plane; of the view, only the size has an effect. Cells are clipped by the
 /// domain, or otherwise by a box slightly larger than the sites; triangles are not. For a periodic

@@ -148,6 +148,23 @@ Scene make_scene(const Mesh& mesh, Shapes shapes, const LonLat& view) {
   return scene;
 }
 
+Scene make_scene(const Polygons& polygons, const LonLat& view) {
+  Scene scene;
+  scene.polygons = &polygons;
+  scene.shapes = Shapes::cells;
+  scene.frame = frame_of(view);
+  scene.circumcentres = scene.frame * polygons.corners;
+  scene.sites.resize(3, polygons.size()); // the cells' middles
+  for (std::int64_t i = 0; i < polygons.size(); ++i) {
+    Vector3d sum = Vector3d::Zero();
+    for (std::int64_t k = polygons.begin[i]; k < polygons.begin[i + 1]; ++k) {
+      sum += scene.circumcentres.col(polygons.ids[k]);
+    }
+    scene.sites.col(i) = direction_of(sum);
+  }
+  return scene;
+}
+
 Scene make_flat_scene(const Mesh& mesh, Shapes shapes, const Points2& places) {
   Scene scene;
   scene.flat = true;
@@ -177,6 +194,12 @@ void outline_of(const Scene& scene, Shapes shapes, std::int64_t shape,
     }
     return;
   }
+  if (const Polygons* polygons = scene.polygons) {
+    for (std::int64_t k = polygons->begin[shape]; k < polygons->begin[shape + 1]; ++k) {
+      corners.emplace_back(scene.circumcentres.col(polygons->ids[k]));
+    }
+    return;
+  }
   const auto add = [&](std::int32_t t) { corners.emplace_back(scene.circumcentres.col(t)); };
   if (!around(scene, shape, add)) {
     corners.clear();
@@ -184,6 +207,10 @@ void outline_of(const Scene& scene, Shapes shapes, std::int64_t shape,
 }
 
 std::vector<float> widths_of(const Scene& scene, Shapes shapes) {
+  if (scene.polygons != nullptr) {
+    const Eigen::VectorXf widths = areas(*scene.polygons).cwiseAbs().cwiseSqrt().cast<float>();
+    return {widths.begin(), widths.end()};
+  }
   const bool triangles = shapes == Shapes::triangles;
   std::vector<double> areas(
       static_cast<std::size_t>(triangles ? scene.mesh->triangles.cols() : scene.sites.cols()));

@@ -17,17 +17,23 @@ struct Scene {
   Points3 sites;
   Points3 circumcentres;                 ///< of the triangles, where there are cells
   std::vector<std::int32_t> triangle_of; ///< for each site one of its triangles, or -1
-  const Mesh* mesh = nullptr;
-  Shapes shapes = Shapes::triangles;                   ///< that are filled: triangles or cells
+  const Mesh* mesh = nullptr;            ///< null where there are polygons
+  const Polygons* polygons = nullptr; ///< cells of any shape, whose corners are the circumcentres
+  Shapes shapes = Shapes::triangles;  ///< that are filled: triangles or cells
   Eigen::Matrix3d frame = Eigen::Matrix3d::Identity(); ///< from places on the earth
 
   std::int64_t count() const { ///< shapes: triangles, or sites
-    return shapes == Shapes::cells ? sites.cols() : mesh->triangles.cols();
+    return polygons                  ? polygons->size()
+           : shapes == Shapes::cells ? sites.cols()
+                                     : mesh->triangles.cols();
   }
 };
 
 /// The mesh rotated so that `view` is in the middle, north up. Rounded: for pictures only.
 Scene make_scene(const Mesh& mesh, Shapes shapes, const LonLat& view);
+
+/// Cells of any shape in the same view.
+Scene make_scene(const Polygons& polygons, const LonLat& view);
 
 /// The same of a plane. \param mesh its triangles and neighbours; \param places of its sites.
 Scene make_flat_scene(const Mesh& mesh, Shapes shapes, const Points2& places);

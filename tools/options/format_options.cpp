@@ -31,7 +31,9 @@ const std::vector<std::pair<std::string, Format>> formats{
     {"triangles", Format::triangles},
     {"mpi-scvt", Format::mpi_scvt},
     {"msh", Format::msh},
-    {"geojson", Format::geojson}};
+    {"geojson", Format::geojson},
+    {"exodus", Format::exodus},
+    {"fesom", Format::fesom}};
 
 const std::map<std::string, Numbering> numberings{
     {"curve", Numbering::curve}, {"rcm", Numbering::rcm}, {"input", Numbering::input}};
@@ -65,6 +67,7 @@ bool is_netcdf(Format format) {
   case Format::ugrid_triangles:
   case Format::scrip:
   case Format::esmf:
+  case Format::exodus:
     return true;
   default:
     return false;
@@ -109,7 +112,8 @@ bool holds_points(const std::string& path) {
   if (starts_as(path, "RegionTriangulation"))
     return true; // RegionList beside it does
   const std::optional<Format> format = format_of_name(path);
-  return format && *format != Format::triangles && *format != Format::mpi_scvt;
+  return format ? *format != Format::triangles && *format != Format::mpi_scvt
+                : is_netcdf_file(path);
 }
 
 bool holds_triangles(const std::string& path) {
@@ -118,8 +122,8 @@ bool holds_triangles(const std::string& path) {
 
 std::string help_of_output() {
   return "Output mesh. Its name selects the format: .nc (MPAS; see --format), .vtp, .vtu, .off, "
-         ".ply, .msh (JIGSAW), .geojson (cells), .txt or .tri (triangles without points), or "
-         "SaveVertices (MPI-SCVT)";
+         ".ply, .msh (JIGSAW), .geojson (cells), .g (Exodus), .txt or .tri (triangles without "
+         "points), SaveVertices (MPI-SCVT), or nod2d.out (FESOM)";
 }
 
 WriteOptions options_of(const FormatWords& words, const std::string& path) {

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/lonlat.h"
+#include "base/points.h"
+#include "io/file.h"
+#include "io/file_names.h"
+#include "io/formats.h"
+#include "io/model_grid.h"
+
+#include <calotte/error.h>
+
+#include <array>
+#include <cmath>
+#include <set>
+
+// The mesh files of FESOM (Danilov et al., Geosci. Model Dev. 10, 2017), text: nod2d.out has the
+// number of nodes, then id, longitude and latitude in degrees and a flag, 1 on the coast, a line;
+// elem2d.out the number of triangles, then three ids a line. Ids are from 1 on.
+
+namespace calotte::io_detail {
+namespace {
+
+std::string elements_beside(const std::string& path) {
+  return sibling(path, fesom_nodes_name, fesom_elements_name).value_or(path);
+}
+
+template <class T>
+void take(LineReader& reader, std::string_view& line, int count, T* values,
+          const std::string& awaited) {
+  if (!reader.next_content(line))
+    reader.fail("the file ends before " + awaited + "; it is incomplete; make it again");
+  const Columned read = parse_columns(line, count, values);
+  if (read.outcome != Outcome::ok)
+    reader.fail((read.outcome == Outcome::too_few ? "too few columns" : describe(read)) +
+                " where " + awaited + " belongs");
+}
+
+std::int64_t take_count(LineReader& reader, const std::string& of) {
+  std::string_view line;
+  std::int64_t count = 0;
+  take(reader, line, 1, &count, "the number of " + of);
+  if (count < 0 || count > (std::int64_t{1} << 30))
+    reader.fail(std::to_string(count) + " is not a number of " + of);
+  return count;
+}
+
+/// Consecutive ids are the rule; the flags go along as a field.
+Soup read_nodes(const std::string& path) {
+  std::ifstream in = open_input(path);
+  LineReader reader(in, path);
+  const std::int64_t count = take_count(reader, "nodes");
+  std::vector<double> places, flags;
+  std::string_view line;
+  for (std::int64_t i = 0; i < count; ++i) {
+    std::array<double, 4> row{};
+    take(reader, line, 4, row.data(),
+         "node " + std::to_string(i + 1) + " of " + std::to_string(count));
+    if (row[0] != static_cast<double>(i + 1))
+      reader.fail("node " + std::to_string(i + 1) + " has another id; number the nodes from 1 on");
+    if (!std::isfinite(row[1]) || !(std::abs(row[2]) <= 90))
+      reader.fail("longitude and latitude are no place on the sphere; make the file again");
+    const Vec3 place = from_lonlat(row[1], row[2]);
+    places.insert(places.end(), {place.x, place.y, place.z});
+    flags.push_back(row[3]);
+  }
+  Soup soup{.points = Eigen::Map<const Points3>(places.data(), 3, count)};
+  soup.fields.push_back({.name = "coast",
+                         .long_name = "1 for a node on the coast",
+                         .values = Eigen::Map<const Eigen::VectorXd>(flags.data(), count)});
+  return soup;
+}
+
+Triangles read_elements(const std::string& path, std::int64_t nodes) {
+  std::ifstream in = open_input(path);
+  LineReader reader(in, path);
+  const std::int64_t count = take_count(reader, "elements");
+  std::vector<std::int32_t> ids;
+  std::string_view line;
+  for (std::int64_t t = 0; t < count; ++t) {
+    std::array<std::int64_t, 3> row{};
+    take(reader, line, 3, row.data(),
+         "element " + std::to_string(t + 1) + " of " + std::to_string(count));
+    for (std::int64_t& id : row)
+      --id;
+    parse_ids(reader, row.data(), nodes, ids);
+  }
+  return Eigen::Map<const Triangles>(ids.data(), 3, count);
+}
+
+} // namespace
+
+void write_fesom(const std::string& path, const Mesh& mesh, const WriteOptions& options) {
+  std::vector<bool> coast(static_cast<std::size_t>(mesh.points.cols()));
+  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
+    for (int i = 0; i < 3; ++i)
+      if (mesh.neighbours(i, t) < 0)
+        for (const int end : {1, 2})
+          coast[static_cast<std::size_t>(mesh.triangles((i + end) % 3, t))] = true;
+
+  OutputFile nodes(path), elements(elements_beside(path));
+  nodes.watch(options.progress, 60 * mesh.points.cols());
+  const auto to = [](OutputFile& file) {
+    return Writer([&file](std::string_view bytes) { file.append(bytes); });
+  };
+  Writer out = to(nodes);
+  out.number(std::int64_t{mesh.points.cols()}).text("\n");
+  const Points3 units = on_sphere(mesh.points, 1);
+  for (Eigen::Index i = 0; i < units.cols(); ++i) {
+    const LonLat place = lonlat_of(column(units, i));
+    out.number(std::int64_t{i + 1}).text(" ").number(place.longitude).text(" ");
+    out.number(place.latitude).text(coast[static_cast<std::size_t>(i)] ? " 1\n" : " 0\n");
+  }
+  out.flush();
+  Writer lines = to(elements);
+  lines.number(std::int64_t{mesh.triangles.cols()}).text("\n");
+  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
+    for (int i = 0; i < 3; ++i)
+      lines.number(std::int64_t{mesh.triangles(i, t) + 1}).text(i < 2 ? " " : "\n");
+  }
+  lines.flush();
+  elements.commit();
+  nodes.commit();
+}
+
+Soup read_fesom(const std::string& path) {
+  Soup soup = read_nodes(path);
+  soup.triangles = read_elements(elements_beside(path), soup.points.cols());
+  return soup;
+}
+
+} // namespace calotte::io_detail

@@ -1,0 +1,221 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Mesh files in the way that other programs write them, without Calotte.
+
+Each writer takes a path and a case: `points`, `triangles` (of points), and for formats of cells
+`corners`, `cells` (lists of corners) and `centres`; `base` is the first index where a format leaves it
+free."""
+import math
+import struct
+
+import netcdf3
+
+
+def lon(p):
+    return math.degrees(math.atan2(p[1], p[0])) % 360
+
+
+def lat(p):
+    return math.degrees(math.atan2(p[2], math.hypot(p[0], p[1])))
+
+
+def flat(rows):
+    return [x for row in rows for x in row]
+
+
+def text(path, lines):
+    with open(path, "w", encoding="ascii") as file:
+        file.write("\n".join(lines) + "\n")
+
+
+def line(values, separator=" "):
+    return separator.join(repr(v) for v in values)
+
+
+# ---- Triangles of points
+
+def off(path, case):
+    text(path, ["OFF", f"{len(case.points)} {len(case.triangles)} 0"] +
+         [line(p) for p in case.points] + ["3 " + line(t) for t in case.triangles])
+
+
+def msh(path, case):
+    text(path, ["# a mesh", "MSHID=3;EUCLIDEAN-MESH", "NDIMS=3", f"POINT={len(case.points)}"] +
+         [line(p, ";") + ";0" for p in case.points] + [f"TRIA3={len(case.triangles)}"] +
+         [line(t, ";") + ";0" for t in case.triangles])
+
+
+def msh_ellipsoid(path, case):
+    text(path, ["MSHID=3;ELLIPSOID-MESH", "RADII=1;1;1", "NDIMS=2", f"POINT={len(case.points)}"] +
+         [line((math.radians(lon(p)), math.radians(lat(p))), ";") + ";0" for p in case.points] +
+         [f"TRIA3={len(case.triangles)}"] + [line(t, ";") + ";0" for t in case.triangles])
+
+
+def fesom(path, case):
+    text(path, [str(len(case.points))] +
+         [f"{i + 1} {lon(p)!r} {lat(p)!r} 0" for i, p in enumerate(case.points)])
+    text(path.replace("nod2d", "elem2d"), [str(len(case.triangles))] +
+         [line([i + 1 for i in t]) for t in case.triangles])
+
+
+def columns(path, case):
+    text(path, [line(t) for t in case.triangles])
+    text(path.replace(".tri", ".points.txt"), [line(p) for p in case.points])
+
+
+def ply_ascii(path, case):
+    text(path, ["ply", "format ascii 1.0", f"element vertex {len(case.points)}", "property float64 x",
+                "property float64 y", "property float64 z", f"element face {len(case.triangles)}",
+                "property list uchar int vertex_index", "end_header"] +
+         [line(p) for p in case.points] + ["3 " + line(t) for t in case.triangles])
+
+
+def ply_binary(order):
+    def write(path, case):
+        name = "little" if order == "<" else "big"
+        head = (f"ply\nformat binary_{name}_endian 1.0\ncomment by another\n"
+                f"element vertex {len(case.points)}\nproperty double x\nproperty double y\n"
+                f"property double z\nproperty uchar red\nelement face {len(case.triangles)}\n"
+                "property list uchar uint vertex_indices\nend_header\n")
+        with open(path, "wb") as file:
+            file.write(head.encode())
+            for p in case.points:
+                file.write(struct.pack(order + "dddB", *p, 7))
+            for t in case.triangles:
+                file.write(struct.pack(order + "BIII", 3, *t))
+    return write
+
+
+def vtk_xml(data_set, cells, counts, types):
+    def write(path, case):
+        offsets = [3 * (k + 1) for k in range(len(case.triangles))]
+        text(path, ['<?xml version="1.0"?>',
+                    f'<VTKFile type="{data_set}" version="0.1" byte_order="LittleEndian">',
+                    f"<{data_set}>", f'<Piece NumberOfPoints="{len(case.points)}" '
+                    f'{counts}="{len(case.triangles)}">', "<Points>",
+                    '<DataArray type="Float64" NumberOfComponents="3" format="ascii">',
+                    line(flat(case.points)), "</DataArray>", "</Points>", f"<{cells}>",
+                    '<DataArray type="Int64" Name="connectivity" format="ascii">',
+                    line(flat(case.triangles)), "</DataArray>",
+                    '<DataArray type="Int64" Name="offsets" format="ascii">', line(offsets),
+                    "</DataArray>"] +
+             (['<DataArray type="UInt8" Name="types" format="ascii">',
+               line([5] * len(case.triangles)), "</DataArray>"] if types else []) +
+             [f"</{cells}>", "</Piece>", f"</{data_set}>", "</VTKFile>"])
+    return write
+
+
+def vtk_legacy(path, case):
+    text(path, ["# vtk DataFile Version 3.0", "a mesh", "ASCII", "DATASET POLYDATA",
+                f"POINTS {len(case.points)} double"] + [line(p) for p in case.points] +
+         [f"POLYGONS {len(case.triangles)} {4 * len(case.triangles)}"] +
+         ["3 " + line(t) for t in case.triangles])
+
+
+def ugrid_triangles(path, case):
+    netcdf3.write(path, {"nMesh2_node": len(case.points), "nMesh2_face": len(case.triangles), "Three": 3},
+                  {"Mesh2": ((), [0], {"cf_role": "mesh_topology", "topology_dimension": 2,
+                                       "node_coordinates": "Mesh2_node_x Mesh2_node_y",
+                                       "face_node_connectivity": "Mesh2_face_nodes"}),
+                   "Mesh2_face_nodes": (("nMesh2_face", "Three"),
+                                        [i + case.base for i in flat(case.triangles)],
+                                        {"cf_role": "face_node_connectivity", "start_index": case.base}),
+                   "Mesh2_node_x": (("nMesh2_node",), [lon(p) for p in case.points],
+                                    {"units": "degrees_east", "standard_name": "longitude"}),
+                   "Mesh2_node_y": (("nMesh2_node",), [lat(p) for p in case.points],
+                                    {"units": "degrees_north", "standard_name": "latitude"})})
+
+
+def icon(path, case):
+    turned = [[t[k] + 1 for t in case.triangles] for k in range(3)]
+    netcdf3.write(path, {"cell": len(case.triangles), "vertex": len(case.points), "nv": 3},
+                  {"vlon": (("vertex",), [math.radians(lon(p)) for p in case.points], {"units": "radian"}),
+                   "vlat": (("vertex",), [math.radians(lat(p)) for p in case.points], {"units": "radian"}),
+                   "vertex_of_cell": (("nv", "cell"), flat(turned), {})})
+
+
+def exodus_triangles(path, case):
+    exodus(path, case.points, case.triangles, "TRI3")
+
+
+def mpas_minimal(path, case):
+    n, m = len(case.points), len(case.triangles)
+    variables = {}
+    for k, axis in enumerate("xyz"):
+        variables[axis + "Cell"] = (("nCells",), [p[k] for p in case.points], {})
+    variables["cellsOnVertex"] = (("nVertices", "vertexDegree"), [i + 1 for i in flat(case.triangles)], {})
+    netcdf3.write(path, {"nCells": n, "nVertices": m, "vertexDegree": 3}, variables,
+                  {"on_a_sphere": "YES", "sphere_radius": float(case.radius)})
+
+
+# ---- Cells
+
+def exodus(path, corners, cells, kind):
+    most = max(len(c) for c in cells)
+    netcdf3.write(path, {"num_dim": 3, "num_nodes": len(corners), "num_elem": len(cells), "num_el_blk": 1,
+                         "num_el_in_blk1": len(cells), "num_nod_per_el1": most},
+                  {"coord": (("num_dim", "num_nodes"), [p[k] for k in range(3) for p in corners], {}),
+                   "connect1": (("num_el_in_blk1", "num_nod_per_el1"),
+                                flat([[c[min(k, len(c) - 1)] + 1 for k in range(most)] for c in cells]),
+                                {"elem_type": kind})})
+
+
+def exodus_cells(path, case):
+    exodus(path, case.corners, case.cells, "SHELL")
+
+
+def scrip(path, case):
+    most = max(len(c) for c in case.cells)
+    rows = [[case.corners[c[min(k, len(c) - 1)]] for k in range(most)] for c in case.cells]
+    netcdf3.write(path, {"grid_size": len(case.cells), "grid_corners": most, "grid_rank": 1},
+                  {"grid_dims": (("grid_rank",), [len(case.cells)], {}),
+                   "grid_center_lat": (("grid_size",), [lat(p) for p in case.centres], {"units": "degrees"}),
+                   "grid_center_lon": (("grid_size",), [lon(p) for p in case.centres], {"units": "degrees"}),
+                   "grid_corner_lat": (("grid_size", "grid_corners"), [lat(p) for p in flat(rows)],
+                                       {"units": "degrees"}),
+                   "grid_corner_lon": (("grid_size", "grid_corners"), [lon(p) for p in flat(rows)],
+                                       {"units": "degrees"}),
+                   "grid_imask": (("grid_size",), [1] * len(case.cells), {})})
+
+
+def esmf(path, case):
+    most = max(len(c) for c in case.cells)
+    rows = [[c[k] + case.base if k < len(c) else -1 for k in range(most)] for c in case.cells]
+    netcdf3.write(path, {"nodeCount": len(case.corners), "elementCount": len(case.cells),
+                         "maxNodePElement": most, "coordDim": 2},
+                  {"nodeCoords": (("nodeCount", "coordDim"), flat([(lon(p), lat(p)) for p in case.corners]),
+                                  {"units": "degrees"}),
+                   "elementConn": (("elementCount", "maxNodePElement"), flat(rows),
+                                   {"start_index": case.base, "_FillValue": -1}),
+                   "numElementConn": (("elementCount",), [len(c) for c in case.cells], {}),
+                   "centerCoords": (("elementCount", "coordDim"), flat([(lon(p), lat(p)) for p in case.centres]),
+                                    {"units": "degrees"})},
+                  {"gridType": "unstructured"})
+
+
+def ugrid_cells(path, case):
+    most = max(len(c) for c in case.cells)
+    rows = [[c[k] + case.base if k < len(c) else -1 for k in range(most)] for c in case.cells]
+    places = {}
+    for prefix, points, dim in (("node", case.corners, "nNodes"), ("face", case.centres, "nFaces")):
+        places["grid_" + prefix + "_lat"] = ((dim,), [lat(p) for p in points],
+                                             {"units": "degrees_north", "standard_name": "latitude"})
+        places["grid_" + prefix + "_lon"] = ((dim,), [lon(p) for p in points],
+                                             {"units": "degrees_east", "standard_name": "longitude"})
+    netcdf3.write(path, {"nNodes": len(case.corners), "nFaces": len(case.cells), "nMaxNodes": most},
+                  {"grid": ((), [0], {"cf_role": "mesh_topology", "topology_dimension": 2,
+                                      "node_coordinates": "grid_node_lat grid_node_lon",
+                                      "face_coordinates": "grid_face_lon grid_face_lat",
+                                      "face_dimension": "nFaces", "face_node_connectivity": "grid_nodes"}),
+                   "grid_nodes": (("nFaces", "nMaxNodes"), flat(rows),
+                                  {"start_index": case.base, "_FillValue": -1}), **places})
+
+
+TRIANGLES = {"mesh.off": off, "mesh.msh": msh, "ellipsoid.msh": msh_ellipsoid, "nod2d.out": fesom,
+             "mesh.tri": columns, "ascii.ply": ply_ascii, "little.ply": ply_binary("<"),
+             "big.ply": ply_binary(">"), "mesh.vtp": vtk_xml("PolyData", "Polys", "NumberOfPolys", False),
+             "mesh.vtu": vtk_xml("UnstructuredGrid", "Cells", "NumberOfCells", True),
+             "legacy.vtk": vtk_legacy, "ugrid.nc": ugrid_triangles, "icon.nc": icon,
+             "triangles.g": exodus_triangles, "minimal.nc": mpas_minimal}
+CELLS = {"cells.g": exodus_cells, "scrip.nc": scrip, "esmf.nc": esmf, "cells.nc": ugrid_cells}
+ANGLES = {"ellipsoid.msh", "nod2d.out", "ugrid.nc", "icon.nc"}  # hold no radius
+FREE_BASE = {"ugrid.nc", "esmf.nc", "cells.nc"}
