@@ -67,8 +67,22 @@ private:
       triangles(whole<1>(what)[0]);
     else if (name == "value")
       file_.values = numbers(whole<1>(what)[0], 1);
-    else if (name != "radii")
+    else if (name == "radii")
+      radii(what);
+    else
       skip(whole<1>(what)[0]);
+  }
+
+  /// One for all axes, or three.
+  void radii(std::string_view text) {
+    std::array<double, 3>& radii = file_.radii;
+    if (parse_columns(text, 3, radii.data()).outcome != Outcome::ok) {
+      parse(text, 1, radii.data());
+      radii.fill(radii[0]);
+    }
+    for (const double radius : radii)
+      if (!(radius > 0 && std::isfinite(radius)))
+        reader_.fail("a radius that is not positive and finite; correct it");
   }
 
   /// Whole numbers of a section's head.

@@ -5,6 +5,7 @@
 
 #include <calotte/types.h>
 
+#include <array>
 #include <iosfwd>
 #include <string>
 #include <vector>
@@ -19,6 +20,7 @@ struct JigsawFile {
   Eigen::MatrixXd points; ///< dimensions x n: of an ellipsoid-mesh of 2, longitude and latitude in
                           ///< radians
   Triangles triangles;    ///< 3 x m, 0-based columns of points
+  std::array<double, 3> radii{1, 1, 1}; ///< of the ellipsoid
   std::vector<double> x_grid, y_grid; ///< of an ellipsoid-grid: longitudes and latitudes in radians
   std::vector<double>
       values; ///< the first of each point's, or of each node's with y running faster

@@ -34,7 +34,12 @@ Soup get_msh(std::istream& in, const std::string& name) {
     places.topRows<2>() = file.points;
     return {std::move(places), file.triangles};
   }
-  return {directions_of(file, name), file.triangles};
+  if (file.dimensions == 3)
+    return {file.points, file.triangles};
+  const auto& [a, b, c] = file.radii;
+  if (a != b || b != c)
+    throw Error(ErrorCode::parse, name + ": the radii differ; only meshes of a sphere are read");
+  return {a * directions_of(file, name), file.triangles};
 }
 
 } // namespace calotte::io_detail

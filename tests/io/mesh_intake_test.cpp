@@ -442,3 +442,26 @@ TEST_CASE("Exodus holds cells of any shape, and FESOM the triangles of open and 
   CHECK(std::string(error_of([&] { calotte::read_mesh_file(scratch / "nod2d.out"); }).what())
             .find("line 3: node 2 has another id") != std::string::npos);
 }
+
+TEST_CASE("JIGSAW's longitudes and latitudes stand on the sphere of the file's radius") {
+  const Scratch scratch;
+  const auto write_mesh = [&](const std::string& radii) {
+    write_text(scratch / "mesh.msh", "MSHID=3;ELLIPSOID-MESH\n" + radii +
+                                         "NDIMS=2\nPOINT=6\n0;0;0\n1.5707963267948966;0;0\n"
+                                         "3.141592653589793;0;0\n-1.5707963267948966;0;0\n"
+                                         "0;1.5707963267948966;0\n0;-1.5707963267948966;0\n");
+  };
+  for (const auto& [radii, radius] :
+       {std::pair{"", 1.0}, {"RADII=6371;6371;6371\n", 6371.0}, {"RADII=2.5\n", 2.5}}) {
+    write_mesh(radii);
+    const MeshFile file = calotte::read_mesh_file(scratch / "mesh.msh");
+    CHECK(file.sphere_radius == radius);
+    CHECK(file.mesh->closed());
+  }
+  write_mesh("RADII=6378;6378;6357\n");
+  CHECK(std::string(error_of([&] { calotte::read_mesh_file(scratch / "mesh.msh"); }).what())
+            .find("the radii differ") != std::string::npos);
+  write_mesh("RADII=0\n");
+  CHECK(error_of([&] { calotte::read_mesh_file(scratch / "mesh.msh"); }).code() ==
+        ErrorCode::parse);
+}
