@@ -12,6 +12,7 @@
 #include <calotte/delaunay.h>
 #include <calotte/error.h>
 #include <calotte/io.h>
+#include <calotte/mesh_file.h>
 #include <calotte/version.h>
 
 #include <nlohmann/json.hpp>
@@ -139,6 +140,22 @@ std::string summary(const Request& request, const Result<AnyMesh>& result) {
   return line + "\n";
 }
 
+/// For the points of an open mesh, such as a region, a line that warns: the triangulation covers
+/// what lies beyond its boundary, too. Empty for other input, and where the mesh cannot be read.
+std::string warning_of(const std::string& points, bool closed) {
+  if (!closed || !holds_points(points))
+    return {};
+  try {
+    const MeshFile file = read_mesh_file(points);
+    if (!file.mesh || file.mesh->closed())
+      return {};
+    return points + ": its mesh is open, with " + std::to_string(file.mesh->triangles.cols()) +
+           " triangles; the new one closes the sphere\n";
+  } catch (const Error&) {
+    return {}; // the points alone are used
+  }
+}
+
 /// \param read_file reads the points.
 template <class AnyMesh, class ReadFile>
 std::string triangulate_file(const Request& request, const DelaunayOptions& options,
@@ -154,7 +171,7 @@ std::string triangulate_file(const Request& request, const DelaunayOptions& opti
       [&] { write(request.mesh, result.mesh, write_options(request, input.points.cols())); });
   if (!request.report.empty())
     write_file(request.report, to_json(result, read, written));
-  return summary(request, result);
+  return warning_of(request.points, has_no_boundary(result.mesh)) + summary(request, result);
 }
 
 void run(const Request& request) {

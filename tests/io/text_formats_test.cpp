@@ -113,7 +113,7 @@ TEST_CASE("JIGSAW: longitudes and latitudes in radians") {
   write_text(scratch / "mesh.msh", text.str());
   const Points3 read = calotte::read_sites(scratch / "mesh.msh");
   REQUIRE(read.cols() == 40);
-  CHECK((read - points).colwise().norm().maxCoeff() < 1e-14);
+  CHECK((read / 6371 - points).colwise().norm().maxCoeff() < 1e-14);
   write_text(scratch / "mesh.msh", "MSHID=3;ELLIPSOID-MESH\nNDIMS=2\nPOINT=1\n0;2;0\n");
   CHECK(error_of([&] { calotte::read_sites(scratch / "mesh.msh"); }).code() == ErrorCode::parse);
 }

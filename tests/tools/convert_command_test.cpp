@@ -298,3 +298,15 @@ TEST_CASE("kill -9 in the midst of writing leaves the old file whole [slow]") {
   CHECK(bench.run("convert mesh.vtp mesh.nc").code == 0);
   CHECK(calotte::read_sites(in_folder(bench, "mesh.nc")).cols() == 100'000);
 }
+
+TEST_CASE("the points of an open mesh are triangulated with a warning") {
+  const Bench bench;
+  bench.file("open.off", "OFF\n6 7 0\n1 0 0\n-1 0 0\n0 1 0\n0 -1 0\n0 0 1\n0 0 -1\n"
+                         "3 0 2 4\n3 2 1 4\n3 1 3 4\n3 3 0 4\n3 2 0 5\n3 1 2 5\n3 3 1 5\n");
+  const Outcome outcome = bench.run("delaunay open.off -o closed.off");
+  CHECK(outcome.code == 0);
+  CHECK(outcome.out == "open.off: its mesh is open, with 7 triangles; the new one closes the "
+                       "sphere\nclosed.off: 6 sites, 8 triangles, closed\n");
+  CHECK(bench.run("delaunay closed.off -o again.off").out ==
+        "again.off: 6 sites, 8 triangles, closed\n");
+}
