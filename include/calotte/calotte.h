@@ -4,6 +4,7 @@
 /// All of the library.
 #include <calotte/cell_width.h>
 #include <calotte/check.h>
+#include <calotte/check_file.h>
 #include <calotte/cvt.h>
 #include <calotte/delaunay.h>
 #include <calotte/density.h>

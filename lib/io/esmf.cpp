@@ -129,12 +129,18 @@ bool is_esmf(const NetcdfReader& file) {
   return file.dimension("elementCount") >= 0 || file.has_variable("elementConn");
 }
 
+Points3 read_esmf_centres(const NetcdfReader& file) {
+  return file.has_variable("centerCoords") ? read_pairs(file, "centerCoords") : Points3();
+}
+
+Polygons read_esmf_cells(const NetcdfReader& file, const Points3& centres) {
+  return read_elements(file, read_pairs(file, "nodeCoords"), centres);
+}
+
 Soup read_esmf(const NetcdfReader& file) {
-  Soup soup;
-  if (file.has_variable("centerCoords"))
-    soup.points = read_pairs(file, "centerCoords");
+  Soup soup{.points = read_esmf_centres(file)};
   if (file.has_variable("elementConn")) {
-    soup.polygons = read_elements(file, read_pairs(file, "nodeCoords"), soup.points);
+    soup.polygons = read_esmf_cells(file, soup.points);
     soup.corner_rounding = file.is_float("nodeCoords") ? float_rounding : 0;
   } else if (soup.points.cols() == 0) {
     file.fail("it has neither centerCoords, the cells' sites, nor elementConn, their corners; give "

@@ -95,6 +95,11 @@ Soup read_esmf(const NetcdfReader& file);
 Soup read_exodus(const NetcdfReader& file);
 Soup read_icon(const NetcdfReader& file);
 Soup read_fesom(const std::string& path);
+/// The cells with their corners' lists as the file has them. \pre it has corners, and as many
+/// centres or none.
+Polygons read_scrip_cells(const NetcdfReader& file, const Points3& centres);
+Polygons read_esmf_cells(const NetcdfReader& file, const Points3& centres);
+Points3 read_esmf_centres(const NetcdfReader& file); ///< none where the file has none
 Soup read_mpi_scvt(const std::string& path);
 
 /// Three ids, each 0 <= id < points, from one line of text. \throws Error parse.

@@ -66,6 +66,25 @@ int get_all(int id, int variable, std::int32_t* values) {
   return nc_get_var_int(id, variable, values);
 }
 
+int get_some(int id, int variable, const std::size_t* start, const std::size_t* count,
+             double* values) {
+  return nc_get_vara_double(id, variable, start, count, values);
+}
+int get_some(int id, int variable, const std::size_t* start, const std::size_t* count,
+             std::int32_t* values) {
+  return nc_get_vara_int(id, variable, start, count, values);
+}
+
+/// \throws Error parse, unless the C library read the variable.
+void require_read(const NetcdfReader& file, const std::string& name, int code) {
+  if (code == NC_ECHAR)
+    file.fail(name + " is text, not numbers; make the file again");
+  if (code == NC_ERANGE)
+    file.fail(name + " has a number out of range; make the file again");
+  if (code != NC_NOERR)
+    file.fail(name + " cannot be read (" + nc_strerror(code) + "); make the file again");
+}
+
 /// All values of a variable whose shape is that. \throws Error parse.
 template <class T>
 std::vector<T> get_values(const NetcdfReader& file, int id, const std::string& name,
@@ -83,13 +102,7 @@ std::vector<T> get_values(const NetcdfReader& file, int id, const std::string& n
   const std::lock_guard lock(netcdf_mutex());
   int variable = -1;
   nc_inq_varid(id, name.c_str(), &variable);
-  const int code = get_all(id, variable, values.data());
-  if (code == NC_ECHAR)
-    file.fail(name + " is text, not numbers; make the file again");
-  if (code == NC_ERANGE)
-    file.fail(name + " has a number out of range; make the file again");
-  if (code != NC_NOERR)
-    file.fail(name + " cannot be read (" + nc_strerror(code) + "); make the file again");
+  require_read(file, name, get_all(id, variable, values.data()));
   return values;
 }
 
@@ -240,6 +253,41 @@ std::vector<std::int32_t> NetcdfReader::ints(const std::string& variable,
   std::transform(values.begin(), values.end(), ints.begin(),
                  [&](double value) { return to_int(*this, variable, value); });
   return ints;
+}
+
+template <class T>
+void NetcdfReader::get_rows(const std::string& variable, std::int64_t first, std::int64_t count,
+                            T* out) const {
+  const std::vector<std::int64_t> shape = shape_of(variable);
+  std::vector<std::size_t> start(shape.size(), 0), counts(shape.begin(), shape.end());
+  if (!shape.empty()) {
+    start[0] = static_cast<std::size_t>(first);
+    counts[0] = static_cast<std::size_t>(count);
+  }
+  const std::lock_guard lock(netcdf_mutex());
+  int v = -1;
+  nc_inq_varid(id_, variable.c_str(), &v);
+  require_read(*this, variable, get_some(id_, v, start.data(), counts.data(), out));
+}
+
+void NetcdfReader::rows(const std::string& variable, std::int64_t first, std::int64_t count,
+                        double* out) const {
+  get_rows(variable, first, count, out);
+}
+
+void NetcdfReader::rows(const std::string& variable, std::int64_t first, std::int64_t count,
+                        std::int32_t* out) const {
+  const int type = type_of(variable);
+  if (type != NC_FLOAT && type != NC_DOUBLE)
+    return get_rows(variable, first, count, out);
+  std::int64_t size = count; // as ints()
+  const std::vector<std::int64_t> shape = shape_of(variable);
+  for (std::size_t d = 1; d < shape.size(); ++d)
+    size *= shape[d];
+  std::vector<double> values(static_cast<std::size_t>(size));
+  get_rows(variable, first, count, values.data());
+  std::transform(values.begin(), values.end(), out,
+                 [&](double value) { return to_int(*this, variable, value); });
 }
 
 void NetcdfReader::fail(const std::string& problem) const {

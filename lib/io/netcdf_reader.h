@@ -39,11 +39,19 @@ public:
                               const std::vector<std::int64_t>& shape) const;
   std::vector<std::int32_t> ints(const std::string& variable,
                                  const std::vector<std::int64_t>& shape) const;
+  /// Rows first to first + count - 1 of a variable, converted: row i holds all whose first index is
+  /// i. A variable without dimensions is one row. \pre the rows exist, and `out` has space for
+  /// them.
+  void rows(const std::string& variable, std::int64_t first, std::int64_t count, double* out) const;
+  void rows(const std::string& variable, std::int64_t first, std::int64_t count,
+            std::int32_t* out) const;
 
   const std::string& path() const { return path_; }
   [[noreturn]] void fail(const std::string& problem) const; ///< parse, "PATH: problem"
 
 private:
+  template <class T>
+  void get_rows(const std::string& variable, std::int64_t first, std::int64_t count, T* out) const;
   int type_of(const std::string& variable) const; ///< nc_type
 
   std::string path_;

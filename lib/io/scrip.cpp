@@ -77,13 +77,17 @@ bool is_scrip(const NetcdfReader& file) {
   return file.dimension("grid_size") >= 0 || file.has_variable("grid_center_lon");
 }
 
+Polygons read_scrip_cells(const NetcdfReader& file, const Points3& centres) {
+  const std::int64_t most = file.shape_of("grid_corner_lon").back();
+  const Points3 corners =
+      read_lonlats(file, "grid_corner_lon", "grid_corner_lat", {centres.cols(), most});
+  return polygons_of(corners, most, centres);
+}
+
 Soup read_scrip(const NetcdfReader& file) {
   Soup soup{.points = read_lonlats(file, "grid_center_lon", "grid_center_lat")};
-  const std::int64_t cells = soup.points.cols();
   if (file.has_variable("grid_corner_lon")) {
-    const std::int64_t most = file.shape_of("grid_corner_lon").back();
-    const Points3 corners = read_lonlats(file, "grid_corner_lon", "grid_corner_lat", {cells, most});
-    soup.polygons = polygons_of(corners, most, soup.points);
+    soup.polygons = read_scrip_cells(file, soup.points);
     soup.corner_rounding = file.is_float("grid_corner_lon") ? float_rounding : 0;
   }
   read_fields(file, scrip_names, soup);

@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "io/netcdf_reader.h"
 #include "io/room.h"
+
+#include <calotte/mesh_file.h>
+
+#include <string>
+#include <vector>
 
 // The UGRID conventions 1.0 for unstructured grids in NetCDF files. They hold longitudes and
 // latitudes, which do not lead back to the last bit of Cartesian coordinates: those of the sites go
@@ -11,5 +17,24 @@
 namespace calotte::io_detail {
 
 inline constexpr const char* site_coordinates = "site_coordinates";
+
+/// The names that the mesh variable lists.
+struct Topology {
+  std::string face_nodes, face_dimension;
+  std::vector<std::string> nodes; ///< longitude and latitude
+  std::vector<std::string> sites; ///< x, y, z; none in files of others
+  std::vector<std::string> faces; ///< longitude and latitude of the faces; may be none
+  std::string mesh;               ///< the variable that lists the names
+};
+
+/// \throws Error parse.
+Topology topology_of(const NetcdfReader& file);
+
+/// The words of an attribute that lists names.
+std::vector<std::string> names_in(const std::string& text);
+
+/// The faces as polygons on the longitudes and latitudes of their nodes; centres where the file has
+/// longitudes and latitudes of the faces. \throws Error parse.
+Polygons read_ugrid_faces(const NetcdfReader& file, const Topology& topology);
 
 } // namespace calotte::io_detail

@@ -13,15 +13,6 @@
 namespace calotte::io_detail {
 namespace {
 
-/// The names that the mesh variable lists.
-struct Topology {
-  std::string face_nodes, face_dimension;
-  std::vector<std::string> nodes; ///< longitude and latitude
-  std::vector<std::string> sites; ///< x, y, z; none in files of others
-  std::vector<std::string> faces; ///< longitude and latitude of the faces; may be none
-  std::string mesh;               ///< the variable that lists the names
-};
-
 /// The first variable that describes a mesh of faces, or nothing.
 std::string mesh_variable(const NetcdfReader& file) {
   for (const std::string& name : file.variables())
@@ -31,17 +22,19 @@ std::string mesh_variable(const NetcdfReader& file) {
   return "";
 }
 
+bool is_latitude(const NetcdfReader& file, const std::string& name) {
+  return file.text(name, "standard_name") == "latitude" ||
+         file.text(name, "units").find("north") != std::string::npos;
+}
+
+} // namespace
+
 std::vector<std::string> names_in(const std::string& text) {
   std::istringstream words(text);
   std::vector<std::string> names;
   for (std::string name; words >> name;)
     names.push_back(name);
   return names;
-}
-
-bool is_latitude(const NetcdfReader& file, const std::string& name) {
-  return file.text(name, "standard_name") == "latitude" ||
-         file.text(name, "units").find("north") != std::string::npos;
 }
 
 Topology topology_of(const NetcdfReader& file) {
@@ -66,6 +59,8 @@ Topology topology_of(const NetcdfReader& file) {
               " are not the names of three variables; mend the attribute or remove it");
   return topology;
 }
+
+namespace {
 
 /// Node ids, 0-based, a face a column; -1 past its last corner.
 using FaceNodes = Eigen::Matrix<std::int32_t, Eigen::Dynamic, Eigen::Dynamic>;
@@ -223,6 +218,15 @@ bool all_triangles(const FaceNodes& faces) {
 } // namespace
 
 bool is_ugrid(const NetcdfReader& file) { return !mesh_variable(file).empty(); }
+
+Polygons read_ugrid_faces(const NetcdfReader& file, const Topology& topology) {
+  Points3 nodes = read_lonlats(file, topology.nodes[0], topology.nodes[1]);
+  const FaceNodes faces = face_nodes_of(file, topology, nodes.cols());
+  Points3 centres;
+  if (!topology.faces.empty())
+    centres = read_lonlats(file, topology.faces[0], topology.faces[1], {faces.cols()});
+  return faces_of(faces, std::move(nodes), std::move(centres));
+}
 
 Soup read_ugrid(const NetcdfReader& file) {
   const Topology topology = topology_of(file);

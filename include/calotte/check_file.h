@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <calotte/export.h>
+#include <calotte/mesh_file.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+CALOTTE_API_BEGIN
+namespace calotte {
+
+/// A variable or attribute of a file that contradicts the mesh of the file or a rule of its format.
+struct Deviation {
+  std::string variable; ///< its name in the file
+  /// The largest relative difference between a stored and the derived value; 1 for ids and for
+  /// rules without a measure; infinite for values that are not finite.
+  double difference = 0;
+  std::int64_t index = -1; ///< 0-based place of that value in the variable; -1 without a place
+  /// True if all its differences are a known fault of MpasMeshConverter (MPAS-Tools), in variables
+  /// that do not enter a model's equations.
+  bool known = false;
+  std::string text; ///< one line: the variable, the rule, the place, and both values
+};
+
+/// Compares the variables of a NetCDF mesh file with what follows from its mesh, and with the rules
+/// of its format (MPAS, UGRID, SCRIP, ESMF). It checks variables that are present, in their order
+/// in the format, and reports each at most once. The file's numbering of edges and vertices, the
+/// first entry of a cyclic list, and the first cell of an edge are free.
+///
+/// Differences count from 1e-6 of a value's scale on, because MpasMeshConverter computes lengths
+/// and areas in single precision; angles are compared modulo 2 pi. The scale is local: that of an
+/// edge's dvEdge is its dcEdge, that of a coordinate is the distance to the nearest cells. Files
+/// with coordinates in single precision have a wider tolerance.
+///
+/// Of an open MPAS mesh, what depends on its missing cells is not checked. The values of fields and
+/// of masks, but for their range, are free; so is the density in files without nominalMinDc.
+///
+/// \param file the contents of the file at `path`, as read_mesh_file() returns them.
+/// \returns nothing for other formats.
+/// \throws Error file, parse, as read_mesh_file().
+std::vector<Deviation> check_file(const std::string& path, const MeshFile& file);
+
+} // namespace calotte
+CALOTTE_API_END

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <calotte/check_file.h>
+
+#include "io/deviations.h"
+#include "io/formats.h"
+#include "io/grid_check.h"
+#include "io/mpas_check.h"
+#include "io/netcdf_reader.h"
+
+#include <utility>
+
+namespace calotte {
+
+using namespace io_detail;
+
+std::vector<Deviation> check_file(const std::string& path, const MeshFile& file) {
+  if (file.format != "MPAS" && file.format != "UGRID" && file.format != "SCRIP" &&
+      file.format != "ESMF")
+    return {};
+  const NetcdfReader stored(path);
+  Deviations deviations(stored);
+  if (is_mpas(stored))
+    check_mpas(file, deviations);
+  else if (is_ugrid(stored))
+    check_ugrid(file, deviations);
+  else if (is_scrip(stored))
+    check_scrip(file, deviations);
+  else if (is_esmf(stored))
+    check_esmf(file, deviations);
+  return std::move(deviations).result();
+}
+
+} // namespace calotte

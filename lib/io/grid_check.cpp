@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/grid_check.h"
+
+#include "base/points.h"
+#include "io/polygons.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace calotte::io_detail {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+std::int64_t corners_of(const Polygons& polygons, std::int64_t i) {
+  return polygons.begin[i + 1] - polygons.begin[i];
+}
+
+const Vec3& place(const Polygons& polygons, std::int64_t k) {
+  return column(polygons.corners, polygons.ids[k]);
+}
+
+std::string cell_name(std::int64_t i) { return "cell " + std::to_string(i) + " (0-based)"; }
+
+/// The items of [0, n) that break a law.
+struct Broken {
+  std::int64_t count = 0, tested = 0, first = -1;
+  bool any() const { return count > 0; }
+  /// Most items keep the law, so that it is one of this grid.
+  bool is_law() const { return 2 * (tested - count) >= tested; }
+};
+
+enum class Verdict { keeps, breaks, untested };
+
+/// \param verdict(i) runs in parallel.
+template <class Of> Broken broken(std::int64_t n, const Of& verdict) {
+  std::vector<Broken> parts(static_cast<std::size_t>(block_count(n)));
+  for_each_block(n, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
+    Broken& part = parts[static_cast<std::size_t>(block)];
+    for (std::int64_t i = begin; i != end; ++i) {
+      const Verdict found = verdict(i);
+      part.tested += found == Verdict::untested ? 0 : 1;
+      if (found != Verdict::breaks)
+        continue;
+      ++part.count;
+      if (part.first < 0)
+        part.first = i;
+    }
+  });
+  Broken all;
+  for (const Broken& part : parts) {
+    all.count += part.count;
+    all.tested += part.tested;
+    if (all.first < 0)
+      all.first = part.first;
+  }
+  return all;
+}
+
+Verdict verdict_of(bool holds) { return holds ? Verdict::keeps : Verdict::breaks; }
+
+std::string of_all(const Broken& found) {
+  return std::to_string(found.count) + " of " + std::to_string(found.tested);
+}
+
+// ---- Orientation and cover
+
+void check_orientation(const StoredGrid& grid, const Eigen::VectorXd& areas,
+                       Deviations& deviations) {
+  const Broken found =
+      broken(areas.size(), [&](std::int64_t i) { return verdict_of(areas[i] > 0); });
+  if (found.any())
+    deviations.add(grid.lists,
+                   grid.lists + ": " + of_all(found) +
+                       " cells do not run counter-clockwise seen from outside; the "
+                       "first is " +
+                       cell_name(found.first),
+                   found.first);
+}
+
+/// Whether a polygon shares a side, in its direction, with another.
+void check_overlap(const StoredGrid& grid, const Sides& sides, Deviations& deviations) {
+  const Broken found = broken(sides.nodes(), [&](std::int64_t node) {
+    for (std::int64_t k = sides.begin[node]; k < sides.begin[node + 1]; ++k)
+      for (std::int64_t other = sides.begin[node]; other < k; ++other)
+        if (sides.to[k] == sides.to[other])
+          return Verdict::breaks;
+    return Verdict::keeps;
+  });
+  if (found.any())
+    deviations.add(grid.lists,
+                   grid.lists +
+                       ": two cells overlap, as both lie to the left of one side from "
+                       "corner " +
+                       std::to_string(found.first) + " (0-based)",
+                   found.first);
+}
+
+void check_cover(const StoredGrid& grid, const Sides& sides, const Eigen::VectorXd& areas,
+                 Deviations& deviations) {
+  const Broken open = broken(sides.nodes(), [&](std::int64_t node) {
+    for (std::int64_t k = sides.begin[node]; k < sides.begin[node + 1]; ++k)
+      if (sides.polygon_of(sides.to[k], static_cast<std::int32_t>(node)) < 0)
+        return Verdict::breaks;
+    return Verdict::keeps;
+  });
+  const double whole = 4 * pi, sum = areas.sum();
+  if (open.any() || std::abs(sum - whole) <= 1e-9 * whole + grid.rounding)
+    return;
+  deviations.add(grid.corners,
+                 grid.corners + ": no side is open, but the areas of the cells sum to " +
+                     std::to_string(sum / whole) + " times the sphere's",
+                 -1, std::abs(sum / whole - 1));
+}
+
+// ---- Centres
+
+/// The angle by which the sides turn around a point: 2 pi around a point inside, 0 outside, -2 pi
+/// around the antipodes of the inside.
+double turn_around(const Polygons& polygons, std::int64_t i, const Vec3& centre) {
+  double turn = 0;
+  const std::int64_t begin = polygons.begin[i], end = polygons.begin[i + 1];
+  for (std::int64_t k = begin; k != end; ++k) {
+    const Vec3 from = place(polygons, k) - centre,
+               to = place(polygons, k + 1 < end ? k + 1 : begin) - centre;
+    const Vec3 a = cross(centre, from), b = cross(centre, to);
+    turn += std::atan2(dot(centre, cross(from, to)), dot(a, b));
+  }
+  return turn;
+}
+
+void check_inside(const StoredGrid& grid, const Eigen::VectorXd& areas, Deviations& deviations) {
+  const Polygons& polygons = grid.polygons;
+  const Broken found = broken(polygons.size(), [&](std::int64_t i) {
+    if (corners_of(polygons, i) < 3)
+      return Verdict::untested;
+    const double turn = turn_around(polygons, i, column(polygons.centres, i));
+    return verdict_of((areas[i] < 0 ? -turn : turn) > pi);
+  });
+  if (found.any())
+    deviations.add(grid.centres,
+                   grid.centres + ": " + of_all(found) +
+                       " centres are outside their cells; the first is that of " +
+                       cell_name(found.first),
+                   found.first);
+}
+
+/// Distances that are equal but for rounding.
+struct Range {
+  double least = 10, greatest = 0;
+  void add(const Vec3& apart) {
+    const double distance = norm(apart);
+    least = std::min(least, distance);
+    greatest = std::max(greatest, distance);
+  }
+  bool is_one(double rounding) const {
+    return greatest - least <= rounding_of_others * greatest + 2 * rounding + 1e-13;
+  }
+};
+
+/// The centre of each triangle is as far from all its corners, if it is in most.
+/// \returns whether that is so in most.
+bool check_circumcentres(const StoredGrid& grid, Deviations& deviations) {
+  const Polygons& polygons = grid.polygons;
+  const Broken found = broken(polygons.size(), [&](std::int64_t i) {
+    Range range;
+    for (std::int64_t k = polygons.begin[i]; k < polygons.begin[i + 1]; ++k)
+      range.add(place(polygons, k) - column(polygons.centres, i));
+    return verdict_of(range.is_one(grid.rounding));
+  });
+  if (found.any() && found.is_law())
+    deviations.add(grid.centres,
+                   grid.centres + ": " + of_all(found) +
+                       " centres are not the circumcentres of their triangles, as "
+                       "the others are; the first is that of " +
+                       cell_name(found.first),
+                   found.first);
+  return found.is_law();
+}
+
+/// Of a corner of three or more cells.
+Verdict is_equidistant(const StoredGrid& grid, const Sides& sides, std::int64_t node) {
+  if (sides.begin[node + 1] - sides.begin[node] < 3)
+    return Verdict::untested;
+  Range range;
+  for (std::int64_t k = sides.begin[node]; k < sides.begin[node + 1]; ++k)
+    range.add(column(grid.polygons.corners, node) -
+              column(grid.polygons.centres, sides.polygon[k]));
+  return verdict_of(range.is_one(grid.rounding));
+}
+
+/// Whether all tested corners of a cell break the law, so that its centre is wrong.
+bool centre_is_wrong(const StoredGrid& grid, const Sides& sides, std::int64_t cell) {
+  const Polygons& polygons = grid.polygons;
+  return std::none_of(
+      polygons.ids.begin() + polygons.begin[cell], polygons.ids.begin() + polygons.begin[cell + 1],
+      [&](std::int32_t node) { return is_equidistant(grid, sides, node) == Verdict::keeps; });
+}
+
+void check_voronoi(const StoredGrid& grid, const Sides& sides, Deviations& deviations) {
+  const Broken found =
+      broken(sides.nodes(), [&](std::int64_t node) { return is_equidistant(grid, sides, node); });
+  if (!found.any() || !found.is_law())
+    return;
+  const std::string law = ": " + of_all(found) +
+                          " corners are not as far from the centres of all cells around them, as "
+                          "the others are; the first is corner " +
+                          std::to_string(found.first) + " (0-based)";
+  for (std::int64_t k = sides.begin[found.first]; k < sides.begin[found.first + 1]; ++k)
+    if (centre_is_wrong(grid, sides, sides.polygon[k]))
+      return deviations.add(grid.centres,
+                            grid.centres + law + "; the centre of " + cell_name(sides.polygon[k]) +
+                                " is not that of a Voronoi cell",
+                            sides.polygon[k]);
+  deviations.add(grid.corners, grid.corners + law, found.first);
+}
+
+bool has_triangles_only(const Polygons& polygons) {
+  return polygons.ids.size() == 3 * polygons.size() && most_corners(polygons) == 3;
+}
+
+} // namespace
+
+Sides::Sides(const Polygons& polygons)
+    : begin(polygons.corners.cols() + 1), to(polygons.ids.size()), polygon(polygons.ids.size()) {
+  std::fill(begin.begin(), begin.end(), std::int64_t{0});
+  for (const std::int32_t id : polygons.ids)
+    ++begin[id];
+  exclusive_scan(std::span(begin.begin(), static_cast<std::size_t>(begin.size())));
+  for (std::int32_t i = 0; i < polygons.size(); ++i)
+    for (std::int64_t k = polygons.begin[i]; k < polygons.begin[i + 1]; ++k) {
+      const std::int64_t next = k + 1 < polygons.begin[i + 1] ? k + 1 : polygons.begin[i];
+      const std::int64_t at = begin[polygons.ids[k]]++;
+      to[at] = polygons.ids[next];
+      polygon[at] = i;
+    }
+  for (std::int64_t node = begin.size() - 1; node > 0; --node) // each start has become the end
+    begin[node] = begin[node - 1];
+  begin[0] = 0;
+}
+
+std::int32_t Sides::polygon_of(std::int32_t from, std::int32_t end) const {
+  for (std::int64_t k = begin[from]; k < begin[from + 1]; ++k)
+    if (to[k] == end)
+      return polygon[k];
+  return -1;
+}
+
+void check_polygons(const StoredGrid& grid, const Sides& sides, Deviations& deviations) {
+  const Eigen::VectorXd areas = areas_of(grid.polygons);
+  check_orientation(grid, areas, deviations);
+  check_overlap(grid, sides, deviations);
+  check_cover(grid, sides, areas, deviations);
+  if (grid.polygons.centres.cols() != grid.polygons.size())
+    return;
+  if (has_triangles_only(grid.polygons) && check_circumcentres(grid, deviations))
+    return; // those of obtuse triangles are outside
+  check_inside(grid, areas, deviations);
+  check_voronoi(grid, sides, deviations);
+}
+
+void check_areas(const StoredGrid& grid, const std::string& variable, Deviations& deviations) {
+  const std::string units = deviations.file().text(variable, "units");
+  const bool on_unit_sphere =
+      units.empty() || units.starts_with("rad") || units.starts_with("ster") || units == "sr";
+  if (!on_unit_sphere || !deviations.has(variable, {grid.polygons.size()}))
+    return;
+  const Eigen::VectorXd areas = areas_of(grid.polygons);
+  const double width = std::sqrt(areas.cwiseAbs().mean());
+  const double tolerance = rounding_of_others + 4 * grid.rounding / width;
+  deviations.add(
+      variable,
+      deviations.visit_rows<double>(variable,
+                                    [&](std::int64_t i, const double* stored, Differences& out) {
+                                      const double derived = std::abs(areas[i]);
+                                      out.compare(i, *stored, derived, derived, tolerance);
+                                    }),
+      "the area on the unit sphere of each cell, whose sides are arcs of great circles");
+}
+
+void check_mask(const std::string& variable, std::int64_t cells, Deviations& deviations) {
+  if (!deviations.has(variable, {cells}))
+    return;
+  const Differences differences = deviations.visit_rows<std::int32_t>(
+      variable, [](std::int64_t i, const std::int32_t* stored, Differences& out) {
+        if (*stored != 0 && *stored != 1)
+          out.note(i, *stored, 1, 1);
+      });
+  deviations.add(variable, differences, "0 or 1");
+  const std::vector<std::int32_t> mask = deviations.file().ints(variable, {cells});
+  if (cells > 0 && std::all_of(mask.begin(), mask.end(), [](std::int32_t m) { return m == 0; }))
+    deviations.add(variable, variable + " is 0 at all cells, so that none takes part", 0);
+}
+
+} // namespace calotte::io_detail

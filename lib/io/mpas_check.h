@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "io/deviations.h"
+#include "io/mpas_numbering.h"
+#include "io/room.h"
+
+#include <calotte/mesh_file.h>
+#include <calotte/voronoi.h>
+
+/// What an MPAS file holds against what follows from its cells and its cellsOnVertex.
+namespace calotte::io_detail {
+
+/// What the file should hold, in its own numbering.
+struct MpasCheck {
+  Deviations& deviations;
+  const Voronoi& voronoi;
+  const CellFields& fields; ///< with the file's density; uniform if it has none
+  const MpasNumbering& numbering;
+  double radius;    ///< of the sphere; 1 in a plane
+  double width;     ///< mean width of a cell, in the unit of voronoi
+  double tolerance; ///< relative, of lengths and areas
+  /// Rounding of a variable's places, in the unit of voronoi.
+  double rounding(const std::string& variable) const;
+
+  bool has_vertices() const { return numbering.vertex.size() > 0; }
+  bool has_edges() const { return numbering.edge.size() > 0; }
+};
+
+void check_mpas_attributes(Deviations& deviations, bool on_sphere);
+void check_mpas_places(const MpasCheck& check);
+void check_mpas_lists(const MpasCheck& check); ///< of ids
+void check_mpas_measures(const MpasCheck& check);
+void check_mpas_weights(const MpasCheck& check);
+void check_mpas_quality(const MpasCheck& check);
+
+/// Of an open mesh: what the present cells determine.
+void check_open_mpas(const Mesh& mesh, Deviations& deviations);
+
+/// All of it.
+void check_mpas(const MeshFile& file, Deviations& deviations);
+
+} // namespace calotte::io_detail

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/mpas_check.h"
+
+#include "base/points.h"
+#include "io/triangle_quality.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+// Density and quality. MpasMeshConverter has known faults here: older versions wrote cellQuality
+// as gridSpacing, and one angle of its triangles comes from a wrong formula.
+
+namespace calotte::io_detail {
+namespace {
+
+// ---- Density
+
+void check_density(const MpasCheck& check) {
+  const std::int64_t cells = check.voronoi.cells.cols();
+  if (!check.deviations.has("meshDensity", {cells}))
+    return;
+  const Differences outside = check.deviations.visit_rows<double>(
+      "meshDensity", [](std::int64_t i, const double* stored, Differences& out) {
+        if (!(*stored >= 0 && *stored <= 1 + rounding_of_others))
+          out.note(i, *stored, 1, std::isfinite(*stored) ? std::abs(*stored - 1) : 1);
+      });
+  check.deviations.add("meshDensity", outside, "numbers from 0 to 1");
+  const double greatest = check.fields.density.maxCoeff();
+  if (outside.count == 0 && std::abs(greatest - 1) > rounding_of_others)
+    check.deviations.add("meshDensity", "meshDensity: its maximum is " + std::to_string(greatest) +
+                                            " instead of 1");
+}
+
+/// A sum over all cells, to which a wrong density of a single one contributes little.
+void check_nominal_spacing(const MpasCheck& check) {
+  if (!check.deviations.has("nominalMinDc", {}))
+    return;
+  const NetcdfReader& file = check.deviations.file();
+  const bool rounded = file.is_float("nominalMinDc") || file.is_float("xCell") ||
+                       (file.has_variable("meshDensity") && file.is_float("meshDensity"));
+  const double tolerance = rounded ? rounding_of_others : 1e-10;
+  const double derived = check.radius * nominal_spacing(check.fields);
+  check.deviations.add("nominalMinDc",
+                       check.deviations.visit_rows<double>(
+                           "nominalMinDc",
+                           [&](std::int64_t, const double* stored, Differences& out) {
+                             out.compare(0, *stored, derived, derived, tolerance);
+                           }),
+                       "the nominal distance of cells where meshDensity is 1, which follows from "
+                       "meshDensity and the areas");
+}
+
+// ---- Cells
+
+void check_cell_quality(const MpasCheck& check) {
+  const std::int64_t cells = check.voronoi.cells.cols();
+  if (check.deviations.has("cellQuality", {cells}))
+    check.deviations.add("cellQuality",
+                         check.deviations.visit_rows<double>(
+                             "cellQuality",
+                             [&](std::int64_t i, const double* stored, Differences& out) {
+                               out.compare(i, *stored, check.fields.quality[i], 1, check.tolerance);
+                             }),
+                         "the shortest over the longest edge of each cell");
+  if (!check.deviations.has("gridSpacing", {cells}))
+    return;
+  const Differences differences = check.deviations.visit_rows<double>(
+      "gridSpacing", [&](std::int64_t i, const double* stored, Differences& out) {
+        const double derived = check.radius * check.fields.spacing[i];
+        out.compare(i, *stored, derived, derived, check.tolerance);
+        if (!(std::abs(*stored - check.fields.quality[i]) <= check.tolerance))
+          ++out.unlike_fault;
+      });
+  check.deviations.add("gridSpacing", differences,
+                       "the mean distance of each cell from its neighbours",
+                       "MpasMeshConverter wrote cellQuality here");
+}
+
+// ---- Triangles
+
+/// The angles of a triangle as MpasMeshConverter computes them from its sides in their order in
+/// edgesOnVertex: the second formula has b c where b b belongs.
+std::array<double, 3> angles_of_converter(double a, double b, double c) {
+  const auto angle = [](double cosine) { return std::acos(std::clamp(cosine, -1.0, 1.0)); };
+  return {angle((b * b + c * c - a * a) / (2 * b * c)),
+          angle((a * a + c * c - b * c) / (2 * a * c)),
+          angle((a * a + b * b - c * c) / (2 * a * b))};
+}
+
+/// Its angles from the sides on, in the order of the file.
+std::array<double, 3> angles_of_converter(const MpasCheck& check, std::int64_t row) {
+  const Voronoi& voronoi = check.voronoi;
+  const int start = std::max<int>(check.numbering.vertex_start[row], 0);
+  const auto side = [&](int j) {
+    return voronoi.dc[voronoi.edges_on_vertex((start + j) % 3, check.numbering.vertex[row])];
+  };
+  return angles_of_converter(side(0), side(1), side(2));
+}
+
+void check_side_quality(const MpasCheck& check) {
+  check.deviations.add("triangleQuality",
+                       check.deviations.visit_rows<double>(
+                           "triangleQuality",
+                           [&](std::int64_t row, const double* stored, Differences& out) {
+                             if (const std::int32_t t = check.numbering.vertex[row]; t >= 0)
+                               out.compare(row, *stored, side_quality(check.voronoi, t), 1,
+                                           check.tolerance);
+                           }),
+                       "the shortest over the longest side of each triangle");
+}
+
+void check_angle_quality(const MpasCheck& check) {
+  const Differences differences = check.deviations.visit_rows<double>(
+      "triangleAngleQuality", [&](std::int64_t row, const double* stored, Differences& out) {
+        const std::int32_t t = check.numbering.vertex[row];
+        if (t < 0)
+          return;
+        double derived = 0;
+        fill_angle_qualities(check.voronoi, t, t + 1, &derived);
+        out.compare(row, *stored, derived, 1, check.tolerance);
+        const auto angles = angles_of_converter(check, row);
+        const auto [least, greatest] = std::minmax_element(angles.begin(), angles.end());
+        if (!(std::abs(*stored - *least / *greatest) <= 1e-5))
+          ++out.unlike_fault;
+      });
+  check.deviations.add("triangleAngleQuality", differences,
+                       "the smallest over the largest angle of each triangle",
+                       "MpasMeshConverter has a wrong formula for one of the angles");
+}
+
+/// Whether an angle is a right one but for the precision of others.
+bool is_right(const Voronoi& voronoi, std::int32_t t) {
+  std::array<double, 3> sides{};
+  for (int j = 0; j < 3; ++j)
+    sides[static_cast<std::size_t>(j)] = voronoi.dc[voronoi.edges_on_vertex(j, t)];
+  std::sort(sides.begin(), sides.end());
+  const auto [a, b, c] = sides;
+  return std::abs(a * a + b * b - c * c) <= rounding_of_others * c * c;
+}
+
+void check_obtuse(const MpasCheck& check) {
+  const Differences differences = check.deviations.visit_rows<std::int32_t>(
+      "obtuseTriangle", [&](std::int64_t row, const std::int32_t* stored, Differences& out) {
+        const std::int32_t t = check.numbering.vertex[row];
+        if (t < 0)
+          return;
+        const bool flag = *stored == 0 || *stored == 1;
+        const std::int32_t derived = is_obtuse(check.voronoi, t) ? 1 : 0;
+        if (flag && is_right(check.voronoi, t))
+          return;
+        out.compare(row, *stored, derived);
+        const auto angles = angles_of_converter(check, row);
+        const bool of_converter = *std::max_element(angles.begin(), angles.end()) > std::acos(0.0);
+        if (!flag || of_converter != (*stored == 1))
+          ++out.unlike_fault;
+      });
+  check.deviations.add("obtuseTriangle", differences,
+                       "1 where the triangle has an obtuse angle, and 0 elsewhere",
+                       "MpasMeshConverter has a wrong formula for one of the angles");
+}
+
+} // namespace
+
+void check_mpas_quality(const MpasCheck& check) {
+  check_density(check);
+  check_nominal_spacing(check);
+  check_cell_quality(check);
+  if (!check.has_vertices())
+    return;
+  const std::vector<std::int64_t> shape{check.voronoi.cells_on_vertex.cols()};
+  if (check.deviations.has("triangleQuality", shape))
+    check_side_quality(check);
+  if (check.deviations.has("triangleAngleQuality", shape))
+    check_angle_quality(check);
+  if (check.deviations.has("obtuseTriangle", shape))
+    check_obtuse(check);
+}
+
+} // namespace calotte::io_detail
