@@ -5,14 +5,17 @@
 #include "run/progress.h"
 
 #include <calotte/check.h>
+#include <calotte/check_file.h>
 #include <calotte/mesh_file.h>
 
+#include <algorithm>
 #include <iomanip>
 #include <iostream>
 #include <numbers>
 #include <optional>
 #include <sstream>
 #include <string>
+#include <vector>
 
 namespace calotte::tools {
 namespace {
@@ -101,6 +104,23 @@ std::string table(const Polygons& polygons, const std::string& not_voronoi) {
   return out.str();
 }
 
+std::string lines_of(const std::vector<Deviation>& deviations) {
+  std::string lines;
+  for (const Deviation& deviation : deviations)
+    lines += deviation.text + "\n";
+  return lines;
+}
+
+/// Why deviations make the check fail; empty if they do not.
+std::string failure_of(const std::vector<Deviation>& deviations) {
+  const auto count = std::count_if(deviations.begin(), deviations.end(),
+                                   [](const Deviation& deviation) { return !deviation.known; });
+  if (count == 0)
+    return "";
+  return std::to_string(count) + (count == 1 ? " variable deviates" : " variables deviate") +
+         " from the mesh or the format";
+}
+
 void run(const MeshSource& source) {
   std::string text, failure;
   {
@@ -116,6 +136,10 @@ void run(const MeshSource& source) {
     }
     if (file.polygons)
       text += table(*file.polygons, file.not_voronoi);
+    const std::vector<Deviation> deviations = check_file(source.path, file);
+    text += lines_of(deviations);
+    if (failure.empty())
+      failure = failure_of(deviations);
   }
   std::cout << text;
   if (failure.empty())
@@ -130,7 +154,8 @@ void run(const MeshSource& source) {
 void add_check(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "check",
-      "Proves in exact arithmetic that a mesh is the Delaunay triangulation of its points.");
+      "Proves in exact arithmetic that a mesh is the Delaunay triangulation of its points, and "
+      "compares the other variables of a NetCDF file with it.");
   auto source = add_mesh_source(*command);
   add_plane(*command, *source);
   command->callback([source] { run(*source); });

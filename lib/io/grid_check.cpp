@@ -80,6 +80,24 @@ void check_orientation(const StoredGrid& grid, const Eigen::VectorXd& areas,
                    found.first);
 }
 
+/// Whether a cell comes to a corner twice.
+void check_distinct_corners(const StoredGrid& grid, Deviations& deviations) {
+  const Polygons& polygons = grid.polygons;
+  const Broken found = broken(polygons.size(), [&](std::int64_t i) {
+    const auto begin = polygons.ids.begin() + polygons.begin[i],
+               end = polygons.ids.begin() + polygons.begin[i + 1];
+    for (auto id = begin; id != end; ++id)
+      if (std::find(begin, id, *id) != id)
+        return Verdict::breaks;
+    return Verdict::keeps;
+  });
+  if (found.any())
+    deviations.add(grid.lists,
+                   grid.lists + ": " + of_all(found) + " cells have a corner twice; the first is " +
+                       cell_name(found.first),
+                   found.first);
+}
+
 /// Whether a polygon shares a side, in its direction, with another.
 void check_overlap(const StoredGrid& grid, const Sides& sides, Deviations& deviations) {
   const Broken found = broken(sides.nodes(), [&](std::int64_t node) {
@@ -251,6 +269,7 @@ std::int32_t Sides::polygon_of(std::int32_t from, std::int32_t end) const {
 void check_polygons(const StoredGrid& grid, const Sides& sides, Deviations& deviations) {
   const Eigen::VectorXd areas = areas_of(grid.polygons);
   check_orientation(grid, areas, deviations);
+  check_distinct_corners(grid, deviations);
   check_overlap(grid, sides, deviations);
   check_cover(grid, sides, areas, deviations);
   if (grid.polygons.centres.cols() != grid.polygons.size())

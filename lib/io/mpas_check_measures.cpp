@@ -188,8 +188,7 @@ void check_edge_angles(const MpasCheck& check) {
         // East turns by the edge's place, infinitely fast at a pole; the normal by that of its
         // cells.
         const double free = digits * ((voronoi.on_sphere ? 1 / across : 0) + 1 / voronoi.dc[e]);
-        if (!(std::abs(*stored - derived) <= rounding_of_others + free))
-          out.note(row, *stored, derived, std::abs(*stored - derived));
+        out.compare(row, *stored, derived, 1, rounding_of_others + free);
         if (!is_angle_of_converter(voronoi, e, reversed, *stored, exact))
           ++out.unlike_fault;
       });

@@ -138,7 +138,7 @@ const std::vector<FileKind> kinds{
 std::vector<NamedMesh> meshes() {
   std::vector<NamedMesh> all = test::closed_meshes();
   all.push_back({"8:1", spherical_delaunay(test::eight_to_one(200, 5))});
-  all.push_back({"many meridians", spherical_delaunay(test::lat_lon_sphere(4, 140, true))});
+  all.push_back({"many meridians", spherical_delaunay(lat_lon_sphere(4, 140, true))});
   return all;
 }
 
