@@ -2,6 +2,7 @@
 #include "io/grid_check.h"
 
 #include "base/points.h"
+#include "io/broken.h"
 #include "io/polygons.h"
 
 #include <algorithm>
@@ -24,47 +25,6 @@ const Vec3& place(const Polygons& polygons, std::int64_t k) {
 
 std::string cell_name(std::int64_t i) { return "cell " + std::to_string(i) + " (0-based)"; }
 
-/// The items of [0, n) that break a law.
-struct Broken {
-  std::int64_t count = 0, tested = 0, first = -1;
-  bool any() const { return count > 0; }
-  /// Most items keep the law, so that it is one of this grid.
-  bool is_law() const { return 2 * (tested - count) >= tested; }
-};
-
-enum class Verdict { keeps, breaks, untested };
-
-/// \param verdict(i) runs in parallel.
-template <class Of> Broken broken(std::int64_t n, const Of& verdict) {
-  std::vector<Broken> parts(static_cast<std::size_t>(block_count(n)));
-  for_each_block(n, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
-    Broken& part = parts[static_cast<std::size_t>(block)];
-    for (std::int64_t i = begin; i != end; ++i) {
-      const Verdict found = verdict(i);
-      part.tested += found == Verdict::untested ? 0 : 1;
-      if (found != Verdict::breaks)
-        continue;
-      ++part.count;
-      if (part.first < 0)
-        part.first = i;
-    }
-  });
-  Broken all;
-  for (const Broken& part : parts) {
-    all.count += part.count;
-    all.tested += part.tested;
-    if (all.first < 0)
-      all.first = part.first;
-  }
-  return all;
-}
-
-Verdict verdict_of(bool holds) { return holds ? Verdict::keeps : Verdict::breaks; }
-
-std::string of_all(const Broken& found) {
-  return std::to_string(found.count) + " of " + std::to_string(found.tested);
-}
-
 // ---- Orientation and cover
 
 void check_orientation(const StoredGrid& grid, const Eigen::VectorXd& areas,
@@ -73,7 +33,7 @@ void check_orientation(const StoredGrid& grid, const Eigen::VectorXd& areas,
       broken(areas.size(), [&](std::int64_t i) { return verdict_of(areas[i] > 0); });
   if (found.any())
     deviations.add(grid.lists,
-                   grid.lists + ": " + of_all(found) +
+                   grid.lists + ": " + found.of_all() +
                        " cells do not run counter-clockwise seen from outside; the "
                        "first is " +
                        cell_name(found.first),
@@ -93,8 +53,8 @@ void check_distinct_corners(const StoredGrid& grid, Deviations& deviations) {
   });
   if (found.any())
     deviations.add(grid.lists,
-                   grid.lists + ": " + of_all(found) + " cells have a corner twice; the first is " +
-                       cell_name(found.first),
+                   grid.lists + ": " + found.of_all() +
+                       " cells have a corner twice; the first is " + cell_name(found.first),
                    found.first);
 }
 
@@ -159,7 +119,7 @@ void check_inside(const StoredGrid& grid, const Eigen::VectorXd& areas, Deviatio
   });
   if (found.any())
     deviations.add(grid.centres,
-                   grid.centres + ": " + of_all(found) +
+                   grid.centres + ": " + found.of_all() +
                        " centres are outside their cells; the first is that of " +
                        cell_name(found.first),
                    found.first);
@@ -190,7 +150,7 @@ bool check_circumcentres(const StoredGrid& grid, Deviations& deviations) {
   });
   if (found.any() && found.is_law())
     deviations.add(grid.centres,
-                   grid.centres + ": " + of_all(found) +
+                   grid.centres + ": " + found.of_all() +
                        " centres are not the circumcentres of their triangles, as "
                        "the others are; the first is that of " +
                        cell_name(found.first),
@@ -222,7 +182,7 @@ void check_voronoi(const StoredGrid& grid, const Sides& sides, Deviations& devia
       broken(sides.nodes(), [&](std::int64_t node) { return is_equidistant(grid, sides, node); });
   if (!found.any() || !found.is_law())
     return;
-  const std::string law = ": " + of_all(found) +
+  const std::string law = ": " + found.of_all() +
                           " corners are not as far from the centres of all cells around them, as "
                           "the others are; the first is corner " +
                           std::to_string(found.first) + " (0-based)";

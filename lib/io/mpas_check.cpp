@@ -54,7 +54,7 @@ void check_sphere(const MeshFile& file, Deviations& deviations) {
   if (file.mesh->closed())
     check_closed(voronoi(*file.mesh), radius_of(deviations.file(), file), file, deviations);
   else
-    check_open_mpas(*file.mesh, deviations);
+    check_open_mpas(file, radius_of(deviations.file(), file), deviations);
 }
 
 } // namespace

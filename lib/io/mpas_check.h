@@ -20,11 +20,18 @@ struct MpasCheck {
   double radius;    ///< of the sphere; 1 in a plane
   double width;     ///< mean width of a cell, in the unit of voronoi
   double tolerance; ///< relative, of lengths and areas
+  bool closed = true;
   /// Rounding of a variable's places, in the unit of voronoi.
   double rounding(const std::string& variable) const;
 
   bool has_vertices() const { return numbering.vertex.size() > 0; }
   bool has_edges() const { return numbering.edge.size() > 0; }
+  /// Whether both cells of an edge of the tessellation are there, and whole.
+  bool has_weights(std::int32_t e) const {
+    const std::int32_t a = voronoi.cells_on_edge(0, e), b = voronoi.cells_on_edge(1, e);
+    return closed ||
+           (b < voronoi.cells.cols() && voronoi.cell_area[a] > 0 && voronoi.cell_area[b] > 0);
+  }
 };
 
 void check_mpas_attributes(Deviations& deviations, bool on_sphere);
@@ -34,8 +41,8 @@ void check_mpas_measures(const MpasCheck& check);
 void check_mpas_weights(const MpasCheck& check);
 void check_mpas_quality(const MpasCheck& check);
 
-/// Of an open mesh: what the present cells determine.
-void check_open_mpas(const Mesh& mesh, Deviations& deviations);
+/// Of an open mesh: the relations between the lists of ids, and what present cells determine.
+void check_open_mpas(const MeshFile& file, double radius, Deviations& deviations);
 
 /// All of it.
 void check_mpas(const MeshFile& file, Deviations& deviations);

@@ -208,7 +208,7 @@ Differences visit_weights(const MpasCheck& check, const std::string& variable,
       variable, [&](std::int64_t begin, std::int64_t end, const T* row, Differences& out) {
         Weights weights;
         for (std::int64_t e = begin; e != end; ++e, row += width) {
-          if (check.numbering.edge[e] < 0)
+          if (check.numbering.edge[e] < 0 || !check.has_weights(check.numbering.edge[e]))
             continue;
           weights.set(check, check.numbering.edge[e]);
           for (std::int64_t k = 0; k < width; ++k)
@@ -230,7 +230,7 @@ void check_weight_counts(const MpasCheck& check) {
                            "nEdgesOnEdge",
                            [&](std::int64_t row, const std::int32_t* count, Differences& out) {
                              const std::int32_t e = check.numbering.edge[row];
-                             if (e >= 0)
+                             if (e >= 0 && check.has_weights(e))
                                out.compare(row, *count,
                                            static_cast<std::int32_t>(
                                                voronoi_detail::weight_count(check.voronoi, e)));

@@ -227,7 +227,7 @@ void check_cell_areas(const MpasCheck& check) {
                            "areaCell",
                            [&](std::int64_t i, const double* stored, Differences& out) {
                              const double derived = check.radius * check.radius * areas[i];
-                             out.compare(i, *stored, derived, derived, check.tolerance);
+                             out.compare(i, *stored, derived, std::abs(derived), check.tolerance);
                            }),
                        "the sum of the kites of each cell");
 }

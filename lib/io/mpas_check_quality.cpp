@@ -165,7 +165,8 @@ void check_obtuse(const MpasCheck& check) {
 
 void check_mpas_quality(const MpasCheck& check) {
   check_density(check);
-  check_nominal_spacing(check);
+  if (check.closed)
+    check_nominal_spacing(check);
   check_cell_quality(check);
   if (!check.has_vertices())
     return;
