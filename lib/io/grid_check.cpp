@@ -84,7 +84,7 @@ void check_cover(const StoredGrid& grid, const Sides& sides, const Eigen::Vector
         return Verdict::breaks;
     return Verdict::keeps;
   });
-  const double whole = 4 * pi, sum = areas.sum();
+  const double whole = 4 * pi, sum = std::abs(areas.sum());
   if (open.any() || std::abs(sum - whole) <= 1e-9 * whole + grid.rounding)
     return;
   deviations.add(grid.corners,

@@ -25,6 +25,11 @@ struct MpasCheck {
   double rounding(const std::string& variable) const;
 
   bool has_vertices() const { return numbering.vertex.size() > 0; }
+  /// Whether a vertex of the tessellation has three cells and three edges.
+  bool has_triangle(std::int32_t v) const {
+    return closed || (voronoi.cells_on_vertex.col(v).minCoeff() >= 0 &&
+                      voronoi.edges_on_vertex.col(v).minCoeff() >= 0);
+  }
   bool has_edges() const { return numbering.edge.size() > 0; }
   /// Whether both cells of an edge of the tessellation are there, and whole.
   bool has_weights(std::int32_t e) const {

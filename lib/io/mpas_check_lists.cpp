@@ -208,8 +208,14 @@ Differences visit_weights(const MpasCheck& check, const std::string& variable,
       variable, [&](std::int64_t begin, std::int64_t end, const T* row, Differences& out) {
         Weights weights;
         for (std::int64_t e = begin; e != end; ++e, row += width) {
-          if (check.numbering.edge[e] < 0 || !check.has_weights(check.numbering.edge[e]))
+          if (check.numbering.edge[e] < 0)
             continue;
+          if (!check.has_weights(check.numbering.edge[e])) { // any numbers may stand there
+            for (std::int64_t k = 0; k < width; ++k)
+              if (row[k] != row[k])
+                out.note(e * width + k, static_cast<double>(row[k]), 0, 1);
+            continue;
+          }
           weights.set(check, check.numbering.edge[e]);
           for (std::int64_t k = 0; k < width; ++k)
             if (k < weights.count)

@@ -111,8 +111,8 @@ void check_places(const MpasCheck& check, const Kind& kind) {
 
 /// The distance of a vertex from its cells.
 double circumradius(const Voronoi& voronoi, std::int64_t v) {
-  const Vec3 apart =
-      column(voronoi.vertices, v) - column(voronoi.cells, voronoi.cells_on_vertex(0, v));
+  const std::int32_t cell = voronoi.cells_on_vertex.col(v).maxCoeff(); // one that is there
+  const Vec3 apart = column(voronoi.vertices, v) - column(voronoi.cells, cell);
   if (voronoi.on_sphere)
     return norm(apart);
   const double x = std::remainder(apart.x, voronoi.period[0]),

@@ -60,7 +60,7 @@ void set_vertices(const OpenLists& lists, Voronoi& out, MpasNumbering& numbering
   numbering.vertex_start = Array<std::int8_t>(vertices);
   numbering.file_vertex = Array<std::int32_t>(vertices);
   for (std::int32_t v = 0; v < vertices; ++v) {
-    numbering.vertex[v] = lists.is_complete(v) ? v : -1;
+    numbering.vertex[v] = v;
     numbering.vertex_start[v] = 0;
     numbering.file_vertex[v] = v;
   }
@@ -143,8 +143,10 @@ void measure_kites(Voronoi& out) {
   for_each_block(vertices, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t v = begin; v != end; ++v)
       for (int j = 0; j < 3; ++j) {
-        const std::int32_t cell = out.cells_on_vertex(j, v), e = out.edges_on_vertex(j, v),
-                           next = out.edges_on_vertex((j + 1) % 3, v);
+        const std::int32_t cell = out.cells_on_vertex(j, v), e = out.edges_on_vertex(j, v);
+        std::int32_t next = out.edges_on_vertex((j + 1) % 3, v);
+        if (next < 0) // a list of two edges
+          next = out.edges_on_vertex((j + 2) % 3, v);
         if (cell < 0 || e < 0 || next < 0)
           continue;
         const Vec3 &p = column(out.vertices, v), &c = column(out.cells, cell);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 // Density and quality. MpasMeshConverter has known faults here: older versions wrote cellQuality
@@ -99,22 +100,33 @@ std::array<double, 3> angles_of_converter(const MpasCheck& check, std::int64_t r
   return angles_of_converter(side(0), side(1), side(2));
 }
 
+/// The vertex of the tessellation, -1 where the file's has no triangle: any number may stand there.
+std::int32_t triangle_of(const MpasCheck& check, std::int64_t row, double stored,
+                         Differences& differences) {
+  const std::int32_t t = check.numbering.vertex[row];
+  if (t >= 0 && check.has_triangle(t))
+    return t;
+  if (!std::isfinite(stored))
+    differences.note(row, stored, 0, std::numeric_limits<double>::infinity());
+  return -1;
+}
+
 void check_side_quality(const MpasCheck& check) {
-  check.deviations.add("triangleQuality",
-                       check.deviations.visit_rows<double>(
-                           "triangleQuality",
-                           [&](std::int64_t row, const double* stored, Differences& out) {
-                             if (const std::int32_t t = check.numbering.vertex[row]; t >= 0)
-                               out.compare(row, *stored, side_quality(check.voronoi, t), 1,
-                                           check.tolerance);
-                           }),
-                       "the shortest over the longest side of each triangle");
+  check.deviations.add(
+      "triangleQuality",
+      check.deviations.visit_rows<double>(
+          "triangleQuality",
+          [&](std::int64_t row, const double* stored, Differences& out) {
+            if (const std::int32_t t = triangle_of(check, row, *stored, out); t >= 0)
+              out.compare(row, *stored, side_quality(check.voronoi, t), 1, check.tolerance);
+          }),
+      "the shortest over the longest side of each triangle");
 }
 
 void check_angle_quality(const MpasCheck& check) {
   const Differences differences = check.deviations.visit_rows<double>(
       "triangleAngleQuality", [&](std::int64_t row, const double* stored, Differences& out) {
-        const std::int32_t t = check.numbering.vertex[row];
+        const std::int32_t t = triangle_of(check, row, *stored, out);
         if (t < 0)
           return;
         double derived = 0;
@@ -143,7 +155,7 @@ bool is_right(const Voronoi& voronoi, std::int32_t t) {
 void check_obtuse(const MpasCheck& check) {
   const Differences differences = check.deviations.visit_rows<std::int32_t>(
       "obtuseTriangle", [&](std::int64_t row, const std::int32_t* stored, Differences& out) {
-        const std::int32_t t = check.numbering.vertex[row];
+        const std::int32_t t = triangle_of(check, row, *stored, out);
         if (t < 0)
           return;
         const bool flag = *stored == 0 || *stored == 1;

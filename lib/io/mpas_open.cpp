@@ -202,10 +202,6 @@ bool IdTable::has(std::int64_t row, std::int32_t id) const {
   return std::find(begin, begin + width, id) != begin + width;
 }
 
-bool OpenLists::is_complete(std::int64_t vertex) const {
-  return !cells_on_vertex.has(vertex, -1) && !edges_on_vertex.has(vertex, -1);
-}
-
 bool read_open_lists(std::int64_t cells, OpenLists& lists, Deviations& deviations) {
   const NetcdfReader& file = deviations.file();
   const std::int64_t vertices = file.dimension("nVertices"), edges = file.dimension("nEdges");

@@ -32,9 +32,6 @@ struct OpenLists {
   IdTable cells_on_vertex, edges_on_vertex, cells_on_edge, vertices_on_edge, edges_on_cell,
       vertices_on_cell, cells_on_cell;
   std::vector<std::int32_t> edge_count; ///< by cell
-
-  /// Whether a vertex has three cells and three edges.
-  bool is_complete(std::int64_t vertex) const;
 };
 
 /// Reads the lists. Adds a deviation for ids out of range. \returns whether all lists are there.

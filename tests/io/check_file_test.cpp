@@ -2,6 +2,7 @@
 #include "support/clouds.h"
 #include "support/files.h"
 #include "support/meshes.h"
+#include "support/spoilt_files.h"
 
 #include <calotte/check_file.h>
 #include <calotte/delaunay.h>
@@ -9,11 +10,9 @@
 #include <calotte/error.h>
 
 #include <doctest/doctest.h>
-#include <netcdf.h>
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <functional>
 #include <limits>
 #include <map>
@@ -26,104 +25,12 @@
 // What a file stores against what its mesh says: files of this library agree; a file of which any
 // variable is spoilt is found out.
 
-namespace fs = std::filesystem;
 using namespace calotte;
-using test::NamedMesh;
-using test::Scratch;
+using namespace calotte::test;
 
 namespace {
 
 constexpr double pi = std::numbers::pi;
-
-// ---- Files through the C library
-
-void require(int code) { REQUIRE(std::string(nc_strerror(code)) == nc_strerror(NC_NOERR)); }
-
-/// A variable as a file holds it.
-struct Variable {
-  std::string name;
-  std::vector<std::size_t> shape;
-  bool integer = false;
-  std::vector<double> values;
-
-  std::size_t width() const { return shape.size() < 2 ? 1 : shape[1]; }
-};
-
-class Patch {
-public:
-  explicit Patch(const std::string& path) { require(nc_open(path.c_str(), NC_WRITE, &id_)); }
-  Patch(const Patch&) = delete;
-  Patch& operator=(const Patch&) = delete;
-  ~Patch() { nc_close(id_); }
-
-  int id() const { return id_; }
-  Variable get(int v) const {
-    char name[NC_MAX_NAME + 1] = "";
-    int dimensions[NC_MAX_VAR_DIMS], count = 0;
-    nc_type type = NC_NAT;
-    require(nc_inq_var(id_, v, name, &type, &count, dimensions, nullptr));
-    Variable variable{name, {}, type != NC_DOUBLE && type != NC_FLOAT, {}};
-    std::size_t size = 1;
-    for (int d = 0; d < count; ++d) {
-      variable.shape.emplace_back();
-      require(nc_inq_dimlen(id_, dimensions[d], &variable.shape.back()));
-      size *= variable.shape.back();
-    }
-    variable.values.resize(size);
-    require(nc_get_var_double(id_, v, variable.values.data()));
-    return variable;
-  }
-  Variable get(const std::string& name) const {
-    int v = -1;
-    require(nc_inq_varid(id_, name.c_str(), &v));
-    return get(v);
-  }
-  void put(const Variable& variable) const {
-    int v = -1;
-    require(nc_inq_varid(id_, variable.name.c_str(), &v));
-    require(nc_put_var_double(id_, v, variable.values.data()));
-  }
-  std::vector<Variable> all() const {
-    int count = 0;
-    require(nc_inq_nvars(id_, &count));
-    std::vector<Variable> variables;
-    for (int v = 0; v < count; ++v)
-      variables.push_back(get(v));
-    return variables;
-  }
-
-private:
-  int id_ = -1;
-};
-
-std::string in_lines(const std::vector<Deviation>& deviations) {
-  std::string lines;
-  for (const Deviation& deviation : deviations)
-    lines += deviation.text + "\n";
-  return lines;
-}
-
-std::vector<Deviation> deviations_of(const std::string& path) {
-  return check_file(path, read_mesh_file(path));
-}
-
-void check_none(const std::string& path) { CHECK(in_lines(deviations_of(path)).empty()); }
-
-/// Whether reading refuses a file, or the check finds a deviation that counts.
-bool is_found(const std::string& path) {
-  try {
-    const std::vector<Deviation> found = deviations_of(path);
-    for (const Deviation& deviation : found) {
-      CHECK(!deviation.text.empty());
-      CHECK(deviation.text.find('\n') == std::string::npos);
-      CHECK(deviation.difference > 0);
-    }
-    return std::any_of(found.begin(), found.end(), [](const Deviation& d) { return !d.known; });
-  } catch (const Error& error) {
-    CHECK(std::string(error.what()).find('\n') == std::string::npos);
-    return true;
-  }
-}
 
 // ---- Files of this library
 
@@ -152,116 +59,6 @@ WriteOptions options_of(const Mesh& mesh, double radius, Format format) {
   return options;
 }
 
-// ---- Corruption
-
-/// A way to spoil the values of a variable; `pick` chooses a place.
-struct Corruption {
-  std::string name;
-  std::function<void(Variable&, std::size_t pick)> spoil;
-  bool of_one_value = false;
-};
-
-/// Another id of the variable; of a flag, the other one.
-double another_id(const Variable& variable, std::size_t pick) {
-  const double own = variable.values[pick];
-  for (std::size_t k = 1; k < variable.values.size(); ++k) {
-    const double other = variable.values[(pick + k * k) % variable.values.size()];
-    if (other != own && other > 0)
-      return other;
-  }
-  return own == 0 ? 1 : own + 1;
-}
-
-void nudge(Variable& variable, std::size_t pick) {
-  double& value = variable.values[pick];
-  value = variable.integer ? another_id(variable, pick) : value * (1 + 1e-3);
-}
-
-const std::vector<Corruption>& corruptions() {
-  static const std::vector<Corruption> all{
-      {"one value changed", nudge, true},
-      {"one value zeroed", [](Variable& v, std::size_t pick) { v.values[pick] = 0; }, true},
-      {"halved",
-       [](Variable& v, std::size_t) {
-         for (double& value : v.values)
-           value = v.integer ? std::trunc(value / 2) : value / 2;
-       }},
-      {"reversed",
-       [](Variable& v, std::size_t) { std::reverse(v.values.begin(), v.values.end()); }},
-      {"zeroed",
-       [](Variable& v, std::size_t) { std::fill(v.values.begin(), v.values.end(), 0.0); }},
-      {"shifted by one place",
-       [](Variable& v, std::size_t) {
-         std::rotate(v.values.begin(), v.values.begin() + 1, v.values.end());
-       }},
-      {"shifted by one row",
-       [](Variable& v, std::size_t) {
-         std::rotate(v.values.begin(), v.values.begin() + static_cast<std::ptrdiff_t>(v.width()),
-                     v.values.end());
-       }},
-      {"not a number", [](Variable& v, std::size_t pick) {
-         if (!v.integer)
-           v.values[pick] = std::numeric_limits<double>::quiet_NaN();
-       }}};
-  return all;
-}
-
-/// Values that are large for their variable, evenly spaced among these: a relative change of 1e-3
-/// moves each beyond the tolerance.
-std::vector<std::size_t> picks_of(const Variable& variable, std::size_t count) {
-  double greatest = 0;
-  for (const double value : variable.values)
-    greatest = std::max(greatest, std::abs(value));
-  std::vector<std::size_t> large, picks;
-  for (std::size_t i = 0; i < variable.values.size(); ++i)
-    if (variable.integer ? variable.values[i] >= 0 : std::abs(variable.values[i]) > greatest / 100)
-      large.push_back(i);
-  if (large.empty())
-    large.push_back(0);
-  const std::size_t step = std::max<std::size_t>(large.size() / count, 1);
-  for (std::size_t k = 0; k < large.size() && picks.size() < count; k += step)
-    picks.push_back(large[k]);
-  return picks;
-}
-
-/// Whether a corruption leaves a file that means something else, but is right.
-bool is_still_right(Format format, const Variable& before, const Variable& after) {
-  // The mesh variable of UGRID carries attributes alone; the conventions give its value no meaning.
-  if (before.name == "mesh")
-    return format == Format::ugrid || format == Format::ugrid_triangles;
-  // A mask with some cells left out is as right as one without.
-  if (before.name == "grid_imask" || before.name == "elementMask")
-    return std::any_of(after.values.begin(), after.values.end(), [](double m) { return m == 1; }) &&
-           std::all_of(after.values.begin(), after.values.end(),
-                       [](double m) { return m == 0 || m == 1; });
-  return false;
-}
-
-/// Spoils each variable alone in each way, and restores it.
-int check_each_variable(const std::string& path, Format format, std::size_t picks) {
-  const std::vector<Variable> variables = Patch(path).all();
-  int done = 0;
-  for (const Variable& variable : variables)
-    for (const Corruption& corruption : corruptions())
-      for (const std::size_t pick : picks_of(variable, corruption.of_one_value ? picks : 1)) {
-        Variable spoilt = variable;
-        corruption.spoil(spoilt, pick);
-        const bool same =
-            std::equal(spoilt.values.begin(), spoilt.values.end(), variable.values.begin());
-        if (same || is_still_right(format, variable, spoilt))
-          continue;
-        Patch(path).put(spoilt);
-        CAPTURE(variable.name);
-        CAPTURE(corruption.name);
-        CAPTURE(pick);
-        CHECK(is_found(path));
-        Patch(path).put(variable);
-        ++done;
-      }
-  check_none(path);
-  return done;
-}
-
 void check_corruptions(int sites, std::size_t picks) {
   const Scratch scratch;
   const Mesh mesh = spherical_delaunay(random_sphere(sites, 7));
@@ -276,37 +73,6 @@ void check_corruptions(int sites, std::size_t picks) {
 }
 
 // ---- The free choices of an MPAS file
-
-/// An MPAS file in memory; ids are 1-based.
-struct Mpas {
-  explicit Mpas(const std::string& path) {
-    for (Variable& variable : Patch(path).all())
-      variables.emplace(variable.name, std::move(variable));
-  }
-  void write(const std::string& path) const {
-    const Patch patch(path);
-    for (const auto& [name, variable] : variables)
-      patch.put(variable);
-  }
-  Variable& operator[](const std::string& name) { return variables.at(name); }
-  std::size_t rows(const std::string& name) { return (*this)[name].shape[0]; }
-  double& at(const std::string& name, std::size_t row, std::size_t k = 0) {
-    Variable& variable = (*this)[name];
-    return variable.values[row * variable.width() + k];
-  }
-  std::size_t id(const std::string& name, std::size_t row, std::size_t k = 0) {
-    return static_cast<std::size_t>(at(name, row, k)) - 1;
-  }
-  /// Turns the first `count` entries of a row to the left.
-  void rotate_row(const std::string& name, std::size_t row, std::size_t by, std::size_t count) {
-    const auto first =
-        (*this)[name].values.begin() + static_cast<std::ptrdiff_t>(row * (*this)[name].width());
-    std::rotate(first, first + static_cast<std::ptrdiff_t>(by),
-                first + static_cast<std::ptrdiff_t>(count));
-  }
-
-  std::map<std::string, Variable> variables;
-};
 
 /// Stores every second edge from its other cell.
 void reverse_edges(Mpas& file) {
@@ -468,6 +234,168 @@ TEST_CASE("a deviation names the variable, the place, both values and the rule")
   CHECK(found[0].text ==
         "areaCell: 1 of 6 values are not the sum of the kites of each cell; at (2), 0-based, "
         "3.14159265359 is stored, 2.09439510239 is derived");
+}
+
+TEST_CASE("attributes of an MPAS file are checked") {
+  const Scratch scratch;
+  const std::string path = scratch / "mesh.nc";
+  const auto first = [&](const std::function<void(const Patch&)>& spoil) {
+    write(path, spherical_delaunay(octahedron()), {.format = Format::mpas});
+    spoil(Patch(path));
+    return deviations_of(path).at(0).variable;
+  };
+  CHECK(first([](const Patch& file) { file.attribute("", "on_a_sphere", "perhaps"); }) ==
+        "on_a_sphere");
+  CHECK(first([](const Patch& file) { file.remove_attribute("", "on_a_sphere"); }) ==
+        "on_a_sphere");
+  CHECK(first([](const Patch& file) { file.remove_attribute("", "sphere_radius"); }) ==
+        "sphere_radius");
+  CHECK(first([](const Patch& file) { file.attribute("", "sphere_radius", 2.0); }) == "xCell");
+}
+
+TEST_CASE("coordinates in single precision have no deviation") {
+  const Scratch scratch;
+  const std::string path = scratch / "mesh.nc", rounded = scratch / "float.nc";
+  const Mesh mesh = spherical_delaunay(fibonacci_sphere(500));
+  write(path, mesh, options_of(mesh, 6371229, Format::mpas));
+  Mpas(path).create(rounded, NC_FLOAT, [](int id) {
+    const double radius = 6371229;
+    require(nc_put_att_text(id, NC_GLOBAL, "on_a_sphere", 3, "YES"));
+    require(nc_put_att_double(id, NC_GLOBAL, "sphere_radius", NC_DOUBLE, 1, &radius));
+  });
+  check_none(rounded);
+}
+
+// ---- Files of polygons
+
+namespace {
+
+/// The Voronoi cells of a mesh, all or some, with other centres.
+MeshFile file_of_cells(const Mesh& mesh, int every) {
+  const Voronoi cells = voronoi(mesh);
+  std::vector<std::int64_t> begin{0};
+  std::vector<std::int32_t> ids;
+  std::vector<Eigen::Vector3d> centres;
+  for (Eigen::Index i = 0; i < mesh.points.cols(); ++i) {
+    if (every > 0 && i % every == 0)
+      continue;
+    Eigen::Vector3d sum(0, 0, 0);
+    for (std::int64_t k = cells.begin[i]; k < cells.begin[i + 1]; ++k) {
+      ids.push_back(cells.vertices_on_cell[k]);
+      sum += cells.vertices.col(ids.back());
+    }
+    begin.push_back(std::ssize(ids));
+    centres.push_back(sum.normalized());
+  }
+  MeshFile file;
+  file.not_voronoi = "they have other centres";
+  file.polygons = Polygons{cells.vertices, {}, {}, Points3(3, std::ssize(centres))};
+  file.polygons->begin = Eigen::Map<const Eigen::Matrix<std::int64_t, Eigen::Dynamic, 1>>(
+      begin.data(), std::ssize(begin));
+  file.polygons->ids = Eigen::Map<const Ids>(ids.data(), std::ssize(ids));
+  for (std::size_t i = 0; i < centres.size(); ++i)
+    file.polygons->centres.col(static_cast<Eigen::Index>(i)) = centres[i];
+  return file;
+}
+
+} // namespace
+
+TEST_CASE("cells that are no Voronoi cells, and some of a mesh's cells, have no deviation") {
+  const Scratch scratch;
+  const Mesh mesh = spherical_delaunay(random_sphere(150, 4));
+  for (const int every : {0, 3})
+    for (const Format format : {Format::ugrid, Format::scrip, Format::esmf}) {
+      CAPTURE(every);
+      CAPTURE(int(format));
+      const std::string path = scratch / "cells.nc";
+      write(path, file_of_cells(mesh, every), {.format = format});
+      check_none(path);
+    }
+}
+
+TEST_CASE("a file whose cells are all clockwise deviates") {
+  const Scratch scratch;
+  const std::string path = scratch / "cells.nc";
+  write(path, spherical_delaunay(cubed_sphere(3)), {.format = Format::scrip});
+  for (const char* name : {"grid_corner_lon", "grid_corner_lat"}) {
+    Variable corners = Patch(path).get(name);
+    for (std::size_t i = 0; i < corners.shape[0]; ++i)
+      std::reverse(corners.values.begin() + static_cast<std::ptrdiff_t>(i * corners.width()),
+                   corners.values.begin() + static_cast<std::ptrdiff_t>((i + 1) * corners.width()));
+    Patch(path).put(corners);
+  }
+  const std::vector<Deviation> found = deviations_of(path);
+  REQUIRE(found.size() == 1);
+  CHECK(found[0].text == "grid_corner_lon, grid_corner_lat: 54 of 54 cells do not run "
+                         "counter-clockwise seen from outside; the first is cell 0 (0-based)");
+}
+
+TEST_CASE("attributes of a UGRID file are checked") {
+  const Scratch scratch;
+  const std::string path = scratch / "cells.nc";
+  const auto deviates = [&](const std::function<void(const Patch&)>& spoil) {
+    write(path, spherical_delaunay(octahedron()), {.format = Format::ugrid});
+    spoil(Patch(path));
+    return is_found(path);
+  };
+  CHECK(!deviates([](const Patch& file) { file.attribute("mesh", "comment", "none"); }));
+  CHECK(deviates([](const Patch& file) { file.remove_attribute("mesh", "topology_dimension"); }));
+  CHECK(deviates([](const Patch& file) { file.attribute("mesh", "face_dimension", "faces"); }));
+  CHECK(deviates([](const Patch& file) { file.attribute("mesh", "node_coordinates", "x y"); }));
+  CHECK(deviates([](const Patch& file) { file.attribute("cell_area", "coordinates", "x y"); }));
+  CHECK(deviates([](const Patch& file) { file.attribute("cell_area", "mesh", "grid"); }));
+  CHECK(deviates([](const Patch& file) { file.remove_attribute("mesh_node_lon", "units"); }));
+  CHECK(deviates([](const Patch& file) { file.attribute("mesh_node_lat", "units", "m"); }));
+  CHECK(deviates([](const Patch& file) { file.attribute("mesh_face_nodes", "start_index", 1.0); }));
+  CHECK(deviates([](const Patch& file) {
+    file.attribute("mesh_face_nodes", "cf_role", "edge_node_connectivity");
+  }));
+}
+
+TEST_CASE("optional lists of a UGRID file are checked") {
+  const Scratch scratch;
+  const std::string path = scratch / "cells.nc";
+  const Mesh mesh = spherical_delaunay(random_sphere(40, 9));
+  write(path, mesh, {.format = Format::ugrid, .numbering = Numbering::input});
+  const Voronoi cells = voronoi(mesh);
+  const auto edges = static_cast<std::size_t>(cells.cells_on_edge.cols());
+  const auto of_edges = [&](const char* name, const Pairs& pairs) {
+    return Variable{name,
+                    {edges, 2},
+                    {"edges", "two"},
+                    true,
+                    std::vector<double>(pairs.data(), pairs.data() + pairs.size())};
+  };
+  const std::size_t width = Patch(path).get("mesh_face_nodes").width();
+  const auto of_faces = [&](const char* name, const Ids& ids) {
+    Variable table{name,
+                   {40, width},
+                   {"mesh_face", "mesh_max_face_nodes"},
+                   true,
+                   std::vector<double>(40 * width, -1)};
+    for (Eigen::Index i = 0; i < 40; ++i)
+      for (std::int64_t k = cells.begin[i]; k < cells.begin[i + 1]; ++k)
+        table.values[static_cast<std::size_t>(i) * width +
+                     static_cast<std::size_t>(k - cells.begin[i])] = ids[k];
+    return table;
+  };
+  const std::vector<std::pair<std::string, Variable>> tables{
+      {"edge_node_connectivity", of_edges("edge_nodes", cells.vertices_on_edge)},
+      {"edge_face_connectivity", of_edges("edge_faces", cells.cells_on_edge)},
+      {"face_edge_connectivity", of_faces("face_edges", cells.edges_on_cell)},
+      {"face_face_connectivity", of_faces("face_faces", cells.cells_on_cell)}};
+  Patch(path).add(tables, "mesh");
+  check_none(path);
+  for (const auto& [attribute, table] : tables)
+    for (std::size_t pick = 0; pick < table.values.size(); pick += 7) {
+      CAPTURE(attribute);
+      CAPTURE(pick);
+      Variable spoilt = table;
+      nudge(spoilt, pick);
+      Patch(path).put(spoilt);
+      CHECK(deviations_of(path).at(0).variable == table.name);
+      Patch(path).put(table);
+    }
 }
 
 TEST_CASE("files of other formats have no variables to check") {
