@@ -11,6 +11,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 // The part of a tessellation that an open mesh has, in the numbering of its file. Places of
 // vertices that lack a cell are the file's; all else follows from these and from the cells.
@@ -84,13 +85,14 @@ void set_cells(const OpenLists& lists, Voronoi& out) {
 
 // ---- Places and measures
 
-/// The vertices as the file has them, or zeros where it has none.
-Points3 stored_vertices(std::int64_t vertices, Deviations& deviations) {
-  Points3 places = Points3::Zero(3, vertices);
+/// The vertices as the file has them, or none.
+Points3 stored_vertices(Deviations& deviations) {
+  const std::int64_t vertices = deviations.file().dimension("nVertices");
+  Points3 places(3, std::max<std::int64_t>(vertices, 0));
   for (int row = 0; row < 3; ++row) {
     const std::string name = std::string(1, "xyz"[row]) + "Vertex";
     if (!deviations.has(name, {vertices}))
-      return Points3::Zero(3, vertices);
+      return {};
     const std::vector<double> values = deviations.file().doubles(name, {vertices});
     places.row(row) = Eigen::Map<const Eigen::RowVectorXd>(values.data(), vertices);
   }
@@ -173,14 +175,15 @@ void check_open_mpas(const MeshFile& file, double radius, Deviations& deviations
   MpasNumbering numbering;
   OpenLists lists;
   part.cells = file.mesh->points.colwise().normalized();
-  const bool whole = read_open_lists(part.cells.cols(), lists, deviations);
+  Points3 vertices = stored_vertices(deviations);
+  const bool whole = read_open_lists(part.cells.cols(), lists, deviations) && vertices.cols() > 0;
   if (whole && !check_open_lists(lists, deviations))
     return;
   if (whole) {
     set_edges(lists, part, numbering);
     set_vertices(lists, part, numbering);
     set_cells(lists, part);
-    place_vertices(stored_vertices(part.cells_on_vertex.cols(), deviations), part);
+    place_vertices(std::move(vertices), part);
     measure_edges(part);
     measure_kites(part);
     measure_cells(radius, part);

@@ -200,6 +200,21 @@ TEST_CASE("a mesh that is not Delaunay fails its check with exit code 1") {
   CHECK(outcome.out.find("Delaunay        no\n") != std::string::npos);
 }
 
+TEST_CASE("a file that deviates from its mesh fails its check with exit code 1") {
+  const Bench bench;
+  bench.file("points.txt", octahedron);
+  CHECK(bench.run("delaunay points.txt -o mesh.nc").code == 0);
+  CHECK(bench.run("check mesh.nc").code == 0);
+  std::string bytes = bench.file("mesh.nc");
+  bytes.replace(bytes.find("YES"), 3, "YEP"); // of on_a_sphere
+  bench.file("mesh.nc", bytes);
+  const Outcome outcome = bench.run("check mesh.nc");
+  CHECK(outcome.code == 1);
+  CHECK(outcome.err == "calotte: mesh.nc: 1 variable deviates from the mesh or the format\n");
+  CHECK(outcome.out.ends_with("Delaunay        yes, all checks passed\n"
+                              "the attribute on_a_sphere is \"YEP\" instead of \"YES\"\n"));
+}
+
 TEST_CASE("triangles of both orientations are refused with the first of the rarer") {
   const Bench bench;
   bench.file("points.txt", octahedron);
