@@ -22,7 +22,7 @@ install(FILES ${CMAKE_CURRENT_BINARY_DIR}/calotteConfig.cmake ${CMAKE_CURRENT_BI
 
 # A shared library brings its own libraries along; an archive leaves them to `pkg-config --static`.
 if(calotte_type STREQUAL "STATIC_LIBRARY")
-  set(calotte_pc_requires_private "tbb, gmp, netcdf")
+  set(calotte_pc_requires_private "tbb, gmp, netcdf, expat, zlib")
   set(calotte_pc_libs_private "-ltbbmalloc") # oneTBB has no .pc file for its allocator
 endif()
 get_target_property(definitions calotte INTERFACE_COMPILE_DEFINITIONS)

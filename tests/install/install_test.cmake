@@ -5,13 +5,13 @@ cmake_minimum_required(VERSION 3.25)
 file(REMOVE_RECURSE ${PREFIX})
 execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD} --prefix ${PREFIX} OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
 
-# CGAL and oneTBB are private dependencies: no public header includes them.
+# CGAL, oneTBB and so on are private dependencies: no public header includes them.
 file(GLOB_RECURSE headers ${PREFIX}/include/*.h)
 if(NOT headers)
   message(FATAL_ERROR "no header was installed")
 endif()
 foreach(header ${headers})
-  file(STRINGS ${header} leaks REGEX "# *include *[<\"](CGAL|boost|tbb|oneapi|gmp)")
+  file(STRINGS ${header} leaks REGEX "# *include *[<\"](CGAL|boost|tbb|oneapi|gmp|netcdf|expat|zlib)")
   if(leaks)
     message(FATAL_ERROR "${header} shows a private dependency: ${leaks}")
   endif()

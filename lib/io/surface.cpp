@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/surface.h"
+
+#include "io/mesh_intake.h"
+#include "io/model_grid.h"
+#include "io/scalars.h"
+#include "io/text.h"
+
+#include <calotte/error.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <utility>
+
+namespace calotte::io_detail {
+namespace {
+
+constexpr const char* site_name = "site";
+constexpr const char* triangle_name = "triangle";
+
+/// How far a direction may turn by rounding to single precision, and the circumcentre of three such
+/// directions with it, radians.
+constexpr double single_rounding = 4 * 0x1p-24;
+
+/// Of the cells; written with each mesh, and computed from it.
+bool is_derived(const std::string& name) {
+  constexpr std::array<std::string_view, 4> derived{"area", "spacing", "quality", "degree"};
+  return std::find(derived.begin(), derived.end(), name) != derived.end();
+}
+
+bool holds_centres(const std::string& name) { return name == site_name || name == "Center"; }
+
+const SurfaceArray* find(const Surface& surface, const std::string& name, bool of_polygons) {
+  const auto found =
+      std::find_if(surface.arrays.begin(), surface.arrays.end(), [&](const SurfaceArray& array) {
+        return array.name == name && array.of_polygons == of_polygons && array.components == 3;
+      });
+  return found == surface.arrays.end() ? nullptr : &*found;
+}
+
+Points3 points_of(const SurfaceArray& array) {
+  return Eigen::Map<const Points3>(array.values.data(), 3, array.values.size() / 3);
+}
+
+bool all_triangles(const Surface& surface) {
+  for (std::int64_t i = 0; i <= surface.size(); ++i)
+    if (surface.begin[i] != 3 * i)
+      return false;
+  return true;
+}
+
+// ---- Voronoi cells as calotte writes them
+
+Triangles triangles_of(const std::string& name, const SurfaceArray& array, std::int64_t sites) {
+  Triangles triangles(3, array.values.size() / 3);
+  for (Eigen::Index k = 0; k < array.values.size(); ++k) {
+    const auto id = number_as<std::int32_t>(array.values[k]);
+    if (id < 0 || id >= sites)
+      fail_array(name, triangle_name,
+                 "it has a site at point " + std::to_string(k / 3) + " that is not one of the " +
+                     std::to_string(sites) +
+                     " cells; make the file again, or remove the array to read the cells alone",
+                 k / 3);
+    triangles.data()[k] = id;
+  }
+  return triangles;
+}
+
+/// Each corner of a cell belongs to a triangle of the cell's site. Another program may have removed
+/// or renumbered cells.
+void require_triangles_of_cells(const std::string& name, const Surface& surface,
+                                const Triangles& triangles) {
+  for (std::int64_t i = 0; i < surface.size(); ++i)
+    for (std::int64_t k = surface.begin[i]; k < surface.begin[i + 1]; ++k)
+      if (!(triangles.col(surface.ids[k]).array() == i).any())
+        fail_array(name, triangle_name,
+                   "cell " + std::to_string(i) + " has the corner " +
+                       std::to_string(surface.ids[k]) +
+                       ", whose triangle is not one of the cell; the cells were changed, so remove "
+                       "the array to read them alone",
+                   i);
+}
+
+// ---- Fields
+
+void add_field(SurfaceArray& array, Location location, std::set<std::string>& names, Soup& soup) {
+  if (location == Location::cells && is_derived(array.name))
+    return;
+  const bool first = names.insert(array.name).second;
+  if (!first)
+    soup.ignored.push_back(std::move(array.name));
+  else if (location == Location::cells && array.name == "density")
+    soup.density = std::move(array.values);
+  else
+    soup.fields.push_back({.name = std::move(array.name),
+                           .location = location,
+                           .values = std::move(array.values)});
+}
+
+/// Adds the arrays of one component.
+void add_fields(Surface& surface, bool polygons_are_cells, Soup& soup) {
+  std::set<std::string> names;
+  soup.ignored = std::move(surface.ignored);
+  for (SurfaceArray& array : surface.arrays)
+    if (array.components == 1)
+      add_field(array,
+                array.of_polygons == polygons_are_cells ? Location::cells : Location::vertices,
+                names, soup);
+    else if (array.name != site_name && array.name != triangle_name && !polygons_are_cells)
+      soup.ignored.push_back(array.name);
+}
+
+// ---- Cells
+
+Points3 directions(const std::string& name, const Points3& points) {
+  require_directions(name, points);
+  return on_sphere(points, 1);
+}
+
+Soup cells_of(const std::string& name, Surface& surface, const SurfaceArray* centres) {
+  if (lies_in_plane(surface.points))
+    throw Error(ErrorCode::bad_option,
+                name + ": z is 0 at all points; of a plane only triangles are read");
+  Soup soup;
+  soup.polygons = {directions(name, surface.points), std::move(surface.begin),
+                   std::move(surface.ids), Points3(3, 0)};
+  if (centres != nullptr) {
+    soup.points = points_of(*centres);
+    soup.polygons.centres = directions(name + ": array " + in_quotes(centres->name), soup.points);
+  }
+  soup.corner_rounding = surface.single ? single_rounding : 0;
+  return soup;
+}
+
+} // namespace
+
+void fail_array(const std::string& name, const std::string& array, const std::string& problem,
+                std::int64_t index) {
+  throw Error(ErrorCode::parse, name + ": array " + in_quotes(array) + ": " + problem, index);
+}
+
+bool is_read(const std::string& name, bool of_polygons, std::int64_t components) {
+  return components == 1 ||
+         (components == 3 && (of_polygons ? holds_centres(name) : name == triangle_name));
+}
+
+void require_polygons(const std::string& name, const Surface& surface, const SurfaceNames& names) {
+  const std::int64_t count = surface.size();
+  const std::string again = "; make the file again";
+  for (std::int64_t i = 0; i < count; ++i) {
+    const std::int64_t begin = surface.begin[i], end = surface.begin[i + 1];
+    if (end > surface.ids.size())
+      fail_array(name, names.offsets,
+                 "polygon " + std::to_string(i) + " ends at " + std::to_string(end) +
+                     ", but there are " + std::to_string(surface.ids.size()) + " corners" + again,
+                 i);
+    if (end < begin || end - begin < 3)
+      fail_array(name, names.offsets,
+                 "polygon " + std::to_string(i) + " runs from " + std::to_string(begin) + " to " +
+                     std::to_string(end) + ", so it has fewer than 3 corners" + again,
+                 i);
+    for (std::int64_t k = begin; k < end; ++k)
+      if (surface.ids[k] < 0 || surface.ids[k] >= surface.points.cols())
+        fail_array(name, names.ids,
+                   "polygon " + std::to_string(i) + " has a corner that is not one of the " +
+                       std::to_string(surface.points.cols()) + " points" + again,
+                   i);
+  }
+  if (const std::int64_t used = count > 0 ? surface.begin[count] : 0; used != surface.ids.size())
+    fail_array(name, names.ids,
+               "it has " + std::to_string(surface.ids.size()) + " corners, but the " +
+                   std::to_string(count) + " polygons have " + std::to_string(used) + again);
+}
+
+Soup soup_of(const std::string& name, Surface&& surface) {
+  const SurfaceArray* const site = find(surface, site_name, true);
+  const SurfaceArray* const triangle = find(surface, triangle_name, false);
+  const bool cells = surface.size() > 0 && (site != nullptr || !all_triangles(surface));
+  Soup soup;
+  if (cells && site != nullptr && triangle != nullptr) {
+    soup.points = points_of(*site);
+    soup.triangles = triangles_of(name, *triangle, surface.size());
+    require_triangles_of_cells(name, surface, soup.triangles);
+  } else if (cells) {
+    soup = cells_of(name, surface, site != nullptr ? site : find(surface, "Center", true));
+  } else {
+    soup.points = std::move(surface.points);
+    soup.triangles = Eigen::Map<const Triangles>(surface.ids.data(), 3, surface.size());
+  }
+  add_fields(surface, cells, soup);
+  return soup;
+}
+
+} // namespace calotte::io_detail
