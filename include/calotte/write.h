@@ -49,6 +49,7 @@ enum class Format {
   geojson,         ///< the cells as polygons with their CellFields
   exodus,          ///< Exodus II of the cells, NetCDF, as TempestRemap reads it
   fesom,           ///< nod2d.out, and elem2d.out beside it: the triangles for FESOM, text
+  vtk,             ///< legacy VTK, which is read only: write() throws bad_option
 };
 
 /// Options of write(). No option changes the geometry of the mesh.
@@ -104,7 +105,7 @@ void write(const std::string& path, const PlanarMesh& mesh, const WriteOptions& 
 /// The format in which `write` writes a path: the option, or for by_name the format of the name.
 /// The case of a suffix does not matter. An option other than mpi_scvt may have a name of unknown
 /// suffix.
-/// \throws Error bad_option if by_name meets an unknown suffix; if the option contradicts a known
+/// \throws Error bad_option if by_name meets an unknown suffix; for legacy VTK (.vtk); if the option contradicts a known
 ///         suffix, because readers go by the name (.nc has the NetCDF formats, .vtp has vtp and
 ///         vtp_cells, .vtu has vtu and vtu_cells); for mpi_scvt under another name.
 Format format_of(const std::string& path, Format option = Format::by_name);

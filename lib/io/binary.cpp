@@ -3,20 +3,7 @@
 
 #include <calotte/error.h>
 
-#include <charconv>
-
 namespace calotte::io_detail {
-
-std::optional<std::int64_t> count_after(std::string_view text, std::string_view key) {
-  constexpr std::int64_t largest = std::int64_t{1} << 31;
-  const std::size_t place = text.find(key);
-  if (place == std::string_view::npos)
-    return std::nullopt;
-  text.remove_prefix(place + key.size());
-  std::int64_t count = -1;
-  std::from_chars(text.data(), text.data() + text.size(), count);
-  return 0 <= count && count < largest ? std::optional(count) : std::nullopt;
-}
 
 std::string_view Bytes::take(std::int64_t size) {
   if (static_cast<std::uint64_t>(size) > rest_.size())

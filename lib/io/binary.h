@@ -6,16 +6,12 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
-#include <optional>
 #include <string>
 #include <string_view>
 
 namespace calotte::io_detail {
 
 inline constexpr bool little_endian = std::endian::native == std::endian::little;
-
-/// The number after the first `key` in `text`, if it is valid as the size of an array.
-std::optional<std::int64_t> count_after(std::string_view text, std::string_view key);
 
 /// The unread part of a file's bytes.
 class Bytes {

@@ -28,7 +28,7 @@ constexpr std::array suffixes{
     Suffix{".ply", Format::ply},         Suffix{".msh", Format::msh},
     Suffix{".txt", Format::triangles},   Suffix{".tri", Format::triangles},
     Suffix{".geojson", Format::geojson}, Suffix{".g", Format::exodus},
-    Suffix{".exo", Format::exodus}};
+    Suffix{".exo", Format::exodus},     Suffix{".vtk", Format::vtk}};
 
 /// The format that stands for those of one suffix.
 Format of_suffix(Format format) {
@@ -121,6 +121,9 @@ using namespace io_detail;
 
 Format format_of(const std::string& path, Format option) {
   const std::optional<Format> named = format_of_name(path);
+  if (named == Format::vtk || option == Format::vtk)
+    throw Error(ErrorCode::bad_option,
+                path + ": legacy VTK files are read, but not written; write .vtp or .vtu");
   if (option == Format::by_name) {
     if (!named)
       refuse_name(path);

@@ -46,8 +46,8 @@ void put_geojson(const Sink& sink, const Mesh& mesh, const WriteOptions& options
 void put_geojson(const Sink& sink, const Polygons& polygons, const WriteOptions& options);
 
 /// \throws Error parse, file.
-Soup get_vtp(std::istream& in, const std::string& name);
-Soup get_vtu(std::istream& in, const std::string& name);
+Soup get_vtk_xml(std::istream& in, const std::string& name);    ///< .vtp and .vtu
+Soup get_vtk_legacy(std::istream& in, const std::string& name); ///< .vtk
 Soup get_off(std::istream& in, const std::string& name);
 Soup get_ply(std::istream& in, const std::string& name);
 Soup get_msh(std::istream& in, const std::string& name);

@@ -78,9 +78,10 @@ Soup read_stream(const std::string& path, Format format) {
   std::ifstream in = open_input(path);
   switch (format) {
   case Format::vtp:
-    return get_vtp(in, path);
   case Format::vtu:
-    return get_vtu(in, path);
+    return get_vtk_xml(in, path);
+  case Format::vtk:
+    return get_vtk_legacy(in, path);
   case Format::off:
     return get_off(in, path);
   case Format::ply:
@@ -96,6 +97,7 @@ std::string name_of(Format format) {
   switch (format) {
   case Format::vtp:
   case Format::vtu:
+  case Format::vtk:
     return "VTK";
   case Format::off:
     return "OFF";
@@ -133,6 +135,14 @@ MeshFile read_any(const std::string& path) {
 
 // ---- Points alone
 
+/// \throws Error bad_option, for cells without centres.
+Points3 sites_of(const std::string& path, Soup soup) {
+  if (soup.points.cols() == 0 && soup.polygons.size() > 0)
+    throw Error(ErrorCode::bad_option, path + ": its cells have no centres, so it has no sites; "
+                                              "read them with read_mesh_file()");
+  return std::move(soup.points);
+}
+
 /// Without what goes with them where that costs a look or may fail.
 Points3 sites_of(const std::string& path) {
   if (std::optional<Soup> centres = read_centres(path))
@@ -145,7 +155,7 @@ Points3 sites_of(const std::string& path) {
   if (format == Format::triangles)
     refuse_triangles_alone(path);
   if (!holds_netcdf(path))
-    return read_stream(path, *format).points;
+    return sites_of(path, read_stream(path, *format));
   const NetcdfReader file(path);
   if (is_mpas(file))
     return read_mpas_sites(file);
@@ -214,7 +224,8 @@ PlanarMesh read_planar_mesh(const std::string& path, const Points2* points) {
     return std::move(*read_planar_mpas(file).plane);
   }
   const Format format = *format_of_name(path);
-  require_planar_format(path, false, format);
+  if (format != Format::vtk)
+    require_planar_format(path, false, format);
   if (format != Format::triangles)
     return std::move(*planar_mesh_file_of(path, name_of(format), read_stream(path, format)).plane);
   if (!points)

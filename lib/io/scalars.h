@@ -70,7 +70,8 @@ template <class To, class From> To number_as(From value) {
     return static_cast<To>(value);
   } else if constexpr (std::is_floating_point_v<From>) {
     constexpr From end = static_cast<From>(std::uint64_t{1} << (8 * sizeof(To) - 1));
-    return value >= 0 && value < end && value == std::floor(value) ? static_cast<To>(value) : To{-1};
+    return value >= 0 && value < end && value == std::floor(value) ? static_cast<To>(value)
+                                                                   : To{-1};
   } else {
     const bool holds = value >= 0 && static_cast<std::uint64_t>(value) <=
                                          static_cast<std::uint64_t>(std::numeric_limits<To>::max());
@@ -98,9 +99,8 @@ template <class T> T stored(const char* place, bool swapped) {
 
 /// One number of any type.
 template <class To> To stored_as(const char* place, Scalar type, bool swapped) {
-  return with_type(type, [&](auto zero) {
-    return number_as<To>(stored<decltype(zero)>(place, swapped));
-  });
+  return with_type(
+      type, [&](auto zero) { return number_as<To>(stored<decltype(zero)>(place, swapped)); });
 }
 
 /// Consecutive numbers of any type.
@@ -109,8 +109,8 @@ void copy_numbers(const char* place, std::int64_t count, Scalar type, bool swapp
   with_type(type, [&](auto zero) {
     using From = decltype(zero);
     for (std::int64_t i = 0; i < count; ++i)
-      out[i] = number_as<To>(
-          stored<From>(place + i * static_cast<std::int64_t>(sizeof(From)), swapped));
+      out[i] =
+          number_as<To>(stored<From>(place + i * static_cast<std::int64_t>(sizeof(From)), swapped));
   });
 }
 

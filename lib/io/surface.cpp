@@ -93,9 +93,8 @@ void add_field(SurfaceArray& array, Location location, std::set<std::string>& na
   else if (location == Location::cells && array.name == "density")
     soup.density = std::move(array.values);
   else
-    soup.fields.push_back({.name = std::move(array.name),
-                           .location = location,
-                           .values = std::move(array.values)});
+    soup.fields.push_back(
+        {.name = std::move(array.name), .location = location, .values = std::move(array.values)});
 }
 
 /// Adds the arrays of one component.
@@ -103,7 +102,7 @@ void add_fields(Surface& surface, bool polygons_are_cells, Soup& soup) {
   std::set<std::string> names;
   soup.ignored = std::move(surface.ignored);
   for (SurfaceArray& array : surface.arrays)
-    if (array.components == 1)
+    if (array.components == 1 && array.values.size() > 0)
       add_field(array,
                 array.of_polygons == polygons_are_cells ? Location::cells : Location::vertices,
                 names, soup);

@@ -13,7 +13,8 @@
 /// Polygons with data, as files of graphics programs hold them: VTK and PLY.
 namespace calotte::io_detail {
 
-using Offsets = Eigen::Matrix<std::int64_t, Eigen::Dynamic, 1>;
+template <class T> using Column = Eigen::Matrix<T, Eigen::Dynamic, 1>;
+using Offsets = Column<std::int64_t>;
 
 /// Data of the points or of the polygons.
 struct SurfaceArray {
@@ -25,10 +26,10 @@ struct SurfaceArray {
 
 /// A file's contents, before it is known whether its points are sites or corners of cells.
 struct Surface {
-  Points3 points;              ///< as in the file
-  bool single = false;         ///< the file holds the points in single precision
-  Offsets begin;               ///< n + 1: polygon i has the corners ids[begin[i]] and so on
-  Ids ids;                     ///< 0-based points, in order around the polygon
+  Points3 points;                   ///< as in the file
+  bool single = false;              ///< the file holds the points in single precision
+  Offsets begin;                    ///< n + 1: polygon i has the corners ids[begin[i]] and so on
+  Ids ids;                          ///< 0-based points, in order around the polygon
   std::vector<SurfaceArray> arrays; ///< those that is_read() selects, others are left out
   std::vector<std::string> ignored; ///< names of other arrays
 

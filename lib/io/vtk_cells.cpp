@@ -4,8 +4,6 @@
 #include "io/polygons.h"
 #include "io/vtk_xml.h"
 
-#include "io/binary.h"
-
 namespace calotte::io_detail {
 namespace {
 
@@ -70,24 +68,6 @@ void put_vtk_cells(const Sink& sink, const Polygons& polygons, const WriteOption
   add_fields("CellData", options.fields, Location::cells, head, contents);
   add_shapes(polygons.corners, polygons, head, contents);
   put_vtk(sink, head, contents);
-}
-
-std::optional<Soup> vtk_cells(std::string_view content, const std::string& name,
-                              const VtkHead& counts) {
-  VtkHead head = counts;
-  head.arrays.push_back({"PointData", "Int32", "triangle", head.points, 3});
-  add_field_arrays("CellData", head.cells, head);
-  head.arrays.push_back({cell_data, "Float64", "site", head.cells, 3});
-  add_points(head.points, head);
-  add_cells(3 * head.points, head);
-  const auto blocks = vtk_blocks(content, name, head);
-  if (!blocks)
-    return std::nullopt;
-  const std::string_view triangles = blocks->front(), sites = (*blocks)[6];
-  Soup soup{Points3(3, counts.cells), Triangles(3, counts.points)};
-  std::memcpy(soup.points.data(), sites.data(), sites.size());
-  std::memcpy(soup.triangles.data(), triangles.data(), triangles.size());
-  return soup;
 }
 
 } // namespace calotte::io_detail

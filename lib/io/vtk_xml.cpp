@@ -2,10 +2,8 @@
 #include "io/vtk_xml.h"
 
 #include "io/binary.h"
-#include "io/file.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace calotte::io_detail {
 namespace {
@@ -51,12 +49,6 @@ std::string text_of(const VtkHead& head) {
   return text + "    </Piece>\n  </" + flavour.data_set + ">\n  <AppendedData encoding=\"raw\">\n_";
 }
 
-std::string_view take_block(Bytes& bytes, std::int64_t size) {
-  if (load<std::uint64_t>(bytes.take(8).data()) != static_cast<std::uint64_t>(size))
-    bytes.fail("a block's length is not what its head announces; it is damaged, make it again");
-  return bytes.take(size);
-}
-
 } // namespace
 
 std::int64_t VtkArray::bytes() const {
@@ -72,20 +64,6 @@ void put_vtk(const Sink& sink, const VtkHead& head, const std::vector<VtkContent
     contents[i](out);
   }
   out.text(tail).flush();
-}
-
-std::optional<std::vector<std::string_view>>
-vtk_blocks(std::string_view content, const std::string& name, const VtkHead& head) {
-  const std::string text = text_of(head);
-  if (!content.starts_with(text))
-    return std::nullopt;
-  Bytes bytes(content.substr(text.size()), name);
-  std::vector<std::string_view> blocks;
-  for (const VtkArray& array : head.arrays)
-    blocks.push_back(take_block(bytes, array.bytes()));
-  bytes.take(tail, "the file does not end as it should; it is damaged, make it again");
-  bytes.finish();
-  return blocks;
 }
 
 void add_field_arrays(const std::string& element, std::int64_t cells, VtkHead& head) {
@@ -134,22 +112,6 @@ void add_cells(std::int64_t corners, VtkHead& head) {
   head.arrays.push_back({element, "Int64", "offsets", head.cells});
   if (head.flavour.types)
     head.arrays.push_back({element, "UInt8", "types", head.cells});
-}
-
-Soup get_vtk(std::istream& in, const std::string& name, const VtkFlavour& flavour) {
-  const std::string content = read_all(in, name);
-  const auto points = count_after(content, "NumberOfPoints=\"");
-  const auto cells = count_after(content, flavour.cell_counts);
-  if (points && cells) {
-    const VtkHead counts{flavour, *points, *cells, {}};
-    if (std::optional<Soup> soup = vtk_triangles(content, name, counts))
-      return *std::move(soup);
-    if (std::optional<Soup> soup = vtk_cells(content, name, counts))
-      return *std::move(soup);
-  }
-  Bytes(content, name)
-      .fail("its head is not that of a VTK " + flavour.data_set +
-            " file of triangles or cells which calotte wrote; convert it to .off");
 }
 
 } // namespace calotte::io_detail

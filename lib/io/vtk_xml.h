@@ -6,10 +6,8 @@
 
 #include <calotte/voronoi.h>
 
-#include <optional>
-
-/// VTK's XML files with appended raw blocks, each after its length as UInt64: what PolyData (.vtp)
-/// and UnstructuredGrid (.vtu) have in common.
+/// Writing VTK's XML files with appended raw blocks, each after its length as UInt64: what PolyData
+/// (.vtp) and UnstructuredGrid (.vtu) have in common.
 namespace calotte::io_detail {
 
 /// In what the two differ.
@@ -44,11 +42,6 @@ using VtkContent = std::function<void(Writer&)>;
 /// \param contents of the head's arrays.
 void put_vtk(const Sink& sink, const VtkHead& head, const std::vector<VtkContent>& contents);
 
-/// The bytes of the head's arrays, where the file has that head. \throws Error parse, where what
-/// follows the head is not whole.
-std::optional<std::vector<std::string_view>>
-vtk_blocks(std::string_view content, const std::string& name, const VtkHead& head);
-
 /// CellFields as arrays of an element, and their contents; the fields must outlive these.
 void add_field_arrays(const std::string& element, std::int64_t cells, VtkHead& head);
 void add_field_contents(const CellFields& fields, std::vector<VtkContent>& contents);
@@ -67,8 +60,6 @@ void add_cells(std::int64_t corners, VtkHead& head);
 /// Triangles, with the CellFields at the points of a closed mesh.
 void put_vtk_triangles(const Sink& sink, const Mesh& mesh, const WriteOptions& options,
                        const VtkFlavour& flavour);
-std::optional<Soup> vtk_triangles(std::string_view content, const std::string& name,
-                                  const VtkHead& counts);
 
 /// Voronoi cells as polygons with their CellFields and sites, on the sphere of the sites if these
 /// stand on one; at each point, a corner of cells, the three sites of its triangle.
@@ -77,11 +68,5 @@ void put_vtk_cells(const Sink& sink, const Mesh& mesh, const WriteOptions& optio
 /// Polygons with their areas and numbers of corners, on the unit sphere.
 void put_vtk_cells(const Sink& sink, const Polygons& polygons, const WriteOptions& options,
                    const VtkFlavour& flavour);
-std::optional<Soup> vtk_cells(std::string_view content, const std::string& name,
-                              const VtkHead& counts);
-
-/// Reads a file with exactly a head that is written here, of either kind. \throws Error parse,
-/// file.
-Soup get_vtk(std::istream& in, const std::string& name, const VtkFlavour& flavour);
 
 } // namespace calotte::io_detail

@@ -24,6 +24,4 @@ void put_vtp_cells(const Sink& sink, const Polygons& polygons, const WriteOption
   put_vtk_cells(sink, polygons, options, poly_data);
 }
 
-Soup get_vtp(std::istream& in, const std::string& name) { return get_vtk(in, name, poly_data); }
-
 } // namespace calotte::io_detail

@@ -23,8 +23,4 @@ void put_vtu_cells(const Sink& sink, const Polygons& polygons, const WriteOption
   put_vtk_cells(sink, polygons, options, unstructured_grid);
 }
 
-Soup get_vtu(std::istream& in, const std::string& name) {
-  return get_vtk(in, name, unstructured_grid);
-}
-
 } // namespace calotte::io_detail

@@ -80,17 +80,17 @@ void set_callbacks(Collector& collector) {
   const std::string problem = collector.refused != nullptr
                                   ? std::string(collector.refused)
                                   : XML_ErrorString(XML_GetErrorCode(collector.parser));
-  throw Error(ErrorCode::parse,
-              name + ": the XML is not well-formed at line " +
-                  std::to_string(XML_GetCurrentLineNumber(collector.parser)) + " (" + problem +
-                  "); the file is damaged or incomplete, make it again");
+  throw Error(ErrorCode::parse, name + ": the XML is not well-formed at line " +
+                                    std::to_string(XML_GetCurrentLineNumber(collector.parser)) +
+                                    " (" + problem +
+                                    "); the file is damaged or incomplete, make it again");
 }
 
 } // namespace
 
 std::string XmlElement::attribute(std::string_view key, std::string_view otherwise) const {
-  const auto found =
-      std::find_if(attributes.begin(), attributes.end(), [&](const auto& a) { return a.first == key; });
+  const auto found = std::find_if(attributes.begin(), attributes.end(),
+                                  [&](const auto& a) { return a.first == key; });
   return std::string(found == attributes.end() ? otherwise : std::string_view(found->second));
 }
 

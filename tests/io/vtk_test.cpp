@@ -236,10 +236,12 @@ TEST_CASE("VTK: invalid counts, other cells and ids out of range are refused") {
                 std::memcpy(&text[place + 4 * 16], &narrow, 4);
               }).index() == 5);
   }
-  CHECK(std::string(error(of_triangles[1],
-                          [](std::string& text) {
-                            text[std::size_t(block_of(text, "types").data() - text.data()) + 3] = 7;
-                          })
-                        .what())
-            .ends_with("cell 3 is not a triangle; only triangles are read"));
+  CHECK(
+      std::string(error(of_triangles[1],
+                        [](std::string& text) {
+                          text[std::size_t(block_of(text, "types").data() - text.data()) + 3] = 10;
+                        })
+                      .what())
+          .ends_with("array \"types\": cell 3 has the type 10 (tetrahedron); only 5 (triangle), 7 "
+                     "(polygon) and 9 (quad) are read, remove the others"));
 }

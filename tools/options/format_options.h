@@ -24,7 +24,7 @@ std::shared_ptr<FormatWords> add_format(CLI::App& command, const std::string& de
 
 /// The suffixes of meshes that hold their points, for help texts.
 inline constexpr const char* mesh_suffixes = ".nc (MPAS, UGRID, SCRIP, ESMF or ICON), .g (Exodus), "
-                                             ".vtp, .vtu, .off, .ply, .msh, .geojson or "
+                                             ".vtp, .vtu, .vtk, .off, .ply, .msh, .geojson or "
                                              "nod2d.out (FESOM)";
 
 /// True if read_sites() reads a file of this name: a mesh that holds its points, except text such

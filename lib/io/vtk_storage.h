@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "io/room.h"
+#include "io/scalars.h"
+#include "io/surface.h"
+#include "io/xml.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+/// How VTK's XML files store the numbers of an array: as text, in base64, or after the XML; behind
+/// a header of lengths; compressed or not.
+namespace calotte::io_detail {
+
+/// What the file's first elements say about all arrays.
+struct VtkStorage {
+  std::string name; ///< of the file, for messages
+  bool swapped = false;
+  Scalar length_type = Scalar::uint32;                     ///< of the lengths before a block
+  bool compressed = false;                                 ///< by zlib
+  std::optional<std::string_view> appended = std::nullopt; ///< the bytes that offsets refer to
+  bool appended_base64 = false;
+};
+
+/// The type of an array's numbers; none for strings and bits.
+std::optional<Scalar> vtk_type(const std::string& name);
+
+/// The numbers of an array (T: double, std::int32_t or std::int64_t), converted as number_as().
+/// \param count how many there must be; -1 for any number.
+/// \throws Error parse. The memory is in proportion to the bytes that the file has.
+template <class T>
+Column<T> vtk_numbers(const VtkStorage& storage, const XmlElement& array, std::int64_t count);
+
+extern template Column<double> vtk_numbers(const VtkStorage&, const XmlElement&, std::int64_t);
+extern template Column<std::int32_t> vtk_numbers(const VtkStorage&, const XmlElement&,
+                                                 std::int64_t);
+extern template Column<std::int64_t> vtk_numbers(const VtkStorage&, const XmlElement&,
+                                                 std::int64_t);
+
+} // namespace calotte::io_detail
