@@ -272,13 +272,30 @@ std::ifstream open_input(const std::string& path) {
   return in;
 }
 
+namespace {
+
+/// The bytes from here to the end of a stream; 0 where it cannot tell, as a pipe.
+std::size_t bytes_left(std::istream& in) {
+  const std::istream::pos_type here = in.tellg();
+  in.seekg(0, std::ios::end);
+  const std::istream::pos_type end = in.tellg();
+  in.clear();
+  if (here < 0 || end < here)
+    return 0;
+  in.seekg(here);
+  return static_cast<std::size_t>(end - here);
+}
+
+} // namespace
+
 std::string read_all(std::istream& in, const std::string& name) {
   constexpr std::size_t chunk = std::size_t{1} << 20;
   std::string bytes;
+  bytes.reserve(bytes_left(in) + chunk);
   std::size_t size = 0;
   do {
     if (bytes.size() - size < chunk)
-      bytes.resize(std::max(2 * bytes.size(), chunk));
+      bytes.resize(std::max({2 * bytes.size(), bytes.capacity(), chunk}));
     in.read(bytes.data() + size, static_cast<std::streamsize>(bytes.size() - size));
     size += static_cast<std::size_t>(in.gcount());
   } while (in);

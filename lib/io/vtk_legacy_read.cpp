@@ -164,7 +164,7 @@ private:
     } else if (keyword == "color_scalars") {
       const std::string name = text_.decoded_name();
       const std::int64_t components = text_.count("components");
-      ignore(name, colours(), components);
+      ignore(name, colours(), components * tuples_);
     } else if (keyword == "texture_coordinates") {
       const std::string name = text_.decoded_name();
       const std::int64_t components = text_.count("components");

@@ -197,7 +197,8 @@ StoredBytes bytes_of(const Place& place, bool appended, std::int64_t size) {
   return source.take(bytes);
 }
 
-template <class T> Column<T> numbers_of_text(const Place& place, Scalar type, std::int64_t count) {
+template <class T>
+void read_text(const Place& place, Scalar type, std::int64_t count, const Room<T>& room) {
   std::vector<T> numbers;
   std::string_view text = place.array.text;
   for (std::string_view word = take_word(text); !word.empty(); word = take_word(text)) {
@@ -210,7 +211,7 @@ template <class T> Column<T> numbers_of_text(const Place& place, Scalar type, st
   if (count >= 0 && std::ssize(numbers) != count)
     place.fail("it has " + std::to_string(numbers.size()) + " numbers, but " +
                std::to_string(count) + " belong there" + again);
-  return Eigen::Map<const Column<T>>(numbers.data(), std::ssize(numbers));
+  std::copy(numbers.begin(), numbers.end(), room(std::ssize(numbers)));
 }
 
 } // namespace
@@ -234,14 +235,15 @@ std::optional<Scalar> vtk_type(const std::string& name) {
 }
 
 template <class T>
-Column<T> vtk_numbers(const VtkStorage& storage, const XmlElement& array, std::int64_t count) {
+void read_vtk_numbers(const VtkStorage& storage, const XmlElement& array, std::int64_t count,
+                      const Room<T>& room) {
   const Place place{storage, array};
   const std::optional<Scalar> type = vtk_type(array.attribute("type"));
   if (!type)
     place.fail("its type " + in_quotes(array.attribute("type")) + " is not one of numbers");
   const std::string format = array.attribute("format", "ascii");
   if (format == "ascii")
-    return numbers_of_text<T>(place, *type, count);
+    return read_text<T>(place, *type, count, room);
   if (format != "binary" && format != "appended")
     place.fail("its format " + in_quotes(format) + " is not ascii, binary or appended");
   const std::int64_t width = size_of(*type);
@@ -250,13 +252,14 @@ Column<T> vtk_numbers(const VtkStorage& storage, const XmlElement& array, std::i
   if (size % width != 0)
     place.fail("it has " + std::to_string(size) + " bytes, which are not numbers of " +
                std::to_string(width) + again);
-  Column<T> numbers(size / width);
-  copy_numbers(bytes.view().data(), numbers.size(), *type, storage.swapped, numbers.data());
-  return numbers;
+  copy_numbers(bytes.view().data(), size / width, *type, storage.swapped, room(size / width));
 }
 
-template Column<double> vtk_numbers(const VtkStorage&, const XmlElement&, std::int64_t);
-template Column<std::int32_t> vtk_numbers(const VtkStorage&, const XmlElement&, std::int64_t);
-template Column<std::int64_t> vtk_numbers(const VtkStorage&, const XmlElement&, std::int64_t);
+template void read_vtk_numbers(const VtkStorage&, const XmlElement&, std::int64_t,
+                               const Room<double>&);
+template void read_vtk_numbers(const VtkStorage&, const XmlElement&, std::int64_t,
+                               const Room<std::int32_t>&);
+template void read_vtk_numbers(const VtkStorage&, const XmlElement&, std::int64_t,
+                               const Room<std::int64_t>&);
 
 } // namespace calotte::io_detail

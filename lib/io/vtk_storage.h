@@ -7,6 +7,7 @@
 #include "io/xml.h"
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -28,16 +29,34 @@ struct VtkStorage {
 /// The type of an array's numbers; none for strings and bits.
 std::optional<Scalar> vtk_type(const std::string& name);
 
-/// The numbers of an array (T: double, std::int32_t or std::int64_t), converted as number_as().
+/// Makes room for so many numbers.
+template <class T> using Room = std::function<T*(std::int64_t count)>;
+
+/// Reads the numbers of an array (T: double, std::int32_t or std::int64_t), converted as
+/// number_as().
 /// \param count how many there must be; -1 for any number.
+/// \param room called once, when the file is known to have that many.
 /// \throws Error parse. The memory is in proportion to the bytes that the file has.
 template <class T>
-Column<T> vtk_numbers(const VtkStorage& storage, const XmlElement& array, std::int64_t count);
+void read_vtk_numbers(const VtkStorage& storage, const XmlElement& array, std::int64_t count,
+                      const Room<T>& room);
 
-extern template Column<double> vtk_numbers(const VtkStorage&, const XmlElement&, std::int64_t);
-extern template Column<std::int32_t> vtk_numbers(const VtkStorage&, const XmlElement&,
-                                                 std::int64_t);
-extern template Column<std::int64_t> vtk_numbers(const VtkStorage&, const XmlElement&,
-                                                 std::int64_t);
+extern template void read_vtk_numbers(const VtkStorage&, const XmlElement&, std::int64_t,
+                                      const Room<double>&);
+extern template void read_vtk_numbers(const VtkStorage&, const XmlElement&, std::int64_t,
+                                      const Room<std::int32_t>&);
+extern template void read_vtk_numbers(const VtkStorage&, const XmlElement&, std::int64_t,
+                                      const Room<std::int64_t>&);
+
+/// The same as a column.
+template <class T>
+Column<T> vtk_numbers(const VtkStorage& storage, const XmlElement& array, std::int64_t count) {
+  Column<T> numbers;
+  read_vtk_numbers<T>(storage, array, count, [&](std::int64_t size) {
+    numbers.resize(size);
+    return numbers.data();
+  });
+  return numbers;
+}
 
 } // namespace calotte::io_detail

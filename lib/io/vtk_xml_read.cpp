@@ -183,8 +183,10 @@ void read_points(const VtkFile& file, const XmlElement& piece, std::int64_t coun
   if (const std::string components = array.attribute("NumberOfComponents"); components != "3")
     fail_array(file.storage.name, array.attribute("Name", "Points"),
                "its NumberOfComponents is " + in_quotes(components) + ", not 3" + again);
-  const Column<double> numbers = vtk_numbers<double>(file.storage, array, 3 * count);
-  surface.points = Eigen::Map<const Points3>(numbers.data(), 3, count);
+  read_vtk_numbers<double>(file.storage, array, 3 * count, [&](std::int64_t size) {
+    surface.points.resize(3, size / 3);
+    return surface.points.data();
+  });
   surface.single = array.attribute("type") == "Float32";
 }
 
@@ -194,10 +196,12 @@ void read_polygons(const VtkFile& file, const XmlElement& piece, std::int64_t co
   if (count == 0 && find_array(file, piece, section, "connectivity") == nullptr)
     return;
   const VtkStorage& storage = file.storage;
-  const auto ends =
-      vtk_numbers<std::int64_t>(storage, array_of(file, piece, section, "offsets"), count);
-  surface.begin = Offsets::Zero(count + 1);
-  surface.begin.tail(count) = ends;
+  read_vtk_numbers<std::int64_t>(storage, array_of(file, piece, section, "offsets"), count,
+                                 [&](std::int64_t size) {
+                                   surface.begin.resize(size + 1);
+                                   surface.begin[0] = 0;
+                                   return surface.begin.data() + 1;
+                                 });
   surface.ids =
       vtk_numbers<std::int32_t>(storage, array_of(file, piece, section, "connectivity"), -1);
   if (file.type == "UnstructuredGrid")
