@@ -25,17 +25,22 @@ struct Deviation {
 };
 
 /// Compares the variables of a NetCDF mesh file with what follows from its mesh, and with the rules
-/// of its format (MPAS, UGRID, SCRIP, ESMF). It checks variables that are present, in their order
-/// in the format, and reports each at most once. The file's numbering of edges and vertices, the
-/// first entry of a cyclic list, and the first cell of an edge are free.
+/// of its format (MPAS, UGRID, SCRIP, ESMF). Absent variables are not checked. The file's numbering
+/// of edges and vertices, the first entry of a cyclic list, and the first cell of an edge are free.
+///
+/// The mesh is that of the cells and of cellsOnVertex (MPAS), or of the polygons. All else follows
+/// from it, so that a wrong place of a cell makes many variables deviate.
 ///
 /// Differences count from 1e-6 of a value's scale on, because MpasMeshConverter computes lengths
-/// and areas in single precision; angles are compared modulo 2 pi. The scale is local: that of an
-/// edge's dvEdge is its dcEdge, that of a coordinate is the distance to the nearest cells. Files
-/// with coordinates in single precision have a wider tolerance.
+/// and areas in single precision; angles are compared modulo 2 pi. The scale is local: that of
+/// dvEdge is dcEdge, that of an area is the sum of its kites, that of a coordinate the distance to
+/// the nearest cells. Longitudes and latitudes of MPAS may differ by 2e-8 + 1e-6 mean cell widths.
+/// nominalMinDc, a sum over all cells, must agree to 1e-10, because it alone tells of meshDensity.
+/// Files with coordinates in single precision have a wider tolerance.
 ///
-/// Of an open MPAS mesh, what depends on its missing cells is not checked. The values of fields and
-/// of masks, but for their range, are free; so is the density in files without nominalMinDc.
+/// Not checked: what depends on the missing cells of an open MPAS mesh; fields; masks, but for
+/// values other than 0 and 1; areas in units other than radians^2; centres that are inside their
+/// cells, where most of the cells are not Voronoi cells.
 ///
 /// \param file the contents of the file at `path`, as read_mesh_file() returns them.
 /// \returns nothing for other formats.

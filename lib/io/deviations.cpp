@@ -22,7 +22,8 @@ std::string in_words(const std::vector<std::int64_t>& numbers) {
 }
 
 std::string place_in_words(std::int64_t index, const std::vector<std::int64_t>& shape) {
-  return shape.size() < 2 ? in_words({index}) : in_words({index / shape[1], index % shape[1]});
+  return shape.size() < 2 || shape[1] == 0 ? in_words({index})
+                                           : in_words({index / shape[1], index % shape[1]});
 }
 
 std::int64_t size_of(const std::vector<std::int64_t>& shape) {

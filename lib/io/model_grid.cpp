@@ -212,16 +212,21 @@ double degrees_per_unit(const NetcdfReader& file, const std::string& variable) {
 Points3 from_lonlats(const NetcdfReader& file, const std::string& variables,
                      const std::vector<double>& longitudes, const std::vector<double>& latitudes) {
   constexpr double pole = 90 * (1 + 0x1p-50); // from radians, a pole may come a rounding beyond it
-  Points3 points(3, std::ssize(longitudes));
-  for (Eigen::Index i = 0; i < points.cols(); ++i) {
-    const double longitude = longitudes[static_cast<std::size_t>(i)];
-    const double latitude = latitudes[static_cast<std::size_t>(i)];
-    if (!std::isfinite(longitude) || !(std::abs(latitude) <= pole))
+  const auto is_place = [&](std::size_t i) {
+    return std::isfinite(longitudes[i]) && std::abs(latitudes[i]) <= pole;
+  };
+  for (std::size_t i = 0; i < longitudes.size(); ++i)
+    if (!is_place(i))
       file.fail(variables + " hold no place on the sphere at index " + std::to_string(i) +
-                " (0-based): longitude " + std::to_string(longitude) + ", latitude " +
-                std::to_string(latitude) + " degrees; make the file again");
-    set_column(points, i, from_lonlat(longitude, std::clamp(latitude, -90.0, 90.0)));
-  }
+                " (0-based): longitude " + std::to_string(longitudes[i]) + ", latitude " +
+                std::to_string(latitudes[i]) + " degrees; make the file again");
+  Points3 points(3, std::ssize(longitudes));
+  for_each_block(points.cols(), [&](std::int64_t /*block*/, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i != end; ++i)
+      set_column(points, i,
+                 from_lonlat(longitudes[static_cast<std::size_t>(i)],
+                             std::clamp(latitudes[static_cast<std::size_t>(i)], -90.0, 90.0)));
+  });
   return points;
 }
 

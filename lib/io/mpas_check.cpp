@@ -48,8 +48,6 @@ void check_closed(const Voronoi& voronoi, double radius, const MeshFile& file,
   check_mpas_quality(check);
 }
 
-/// With places on the file's own sphere, so that a file of this library has the bits of its
-/// derived values.
 void check_sphere(const MeshFile& file, Deviations& deviations) {
   if (file.mesh->closed())
     check_closed(voronoi(*file.mesh), radius_of(deviations.file(), file), file, deviations);

@@ -176,7 +176,8 @@ void check_open_mpas(const MeshFile& file, double radius, Deviations& deviations
   OpenLists lists;
   part.cells = file.mesh->points.colwise().normalized();
   Points3 vertices = stored_vertices(deviations);
-  const bool whole = read_open_lists(part.cells.cols(), lists, deviations) && vertices.cols() > 0;
+  const bool whole = read_open_lists(part.cells.cols(), lists, deviations) && vertices.cols() > 0 &&
+                     lists.cells_on_edge.rows() > 0;
   if (whole && !check_open_lists(lists, deviations))
     return;
   if (whole) {

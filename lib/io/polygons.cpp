@@ -98,14 +98,41 @@ struct Distinct {
   std::vector<std::int32_t> id;
 };
 
-Distinct distinct_columns(const Points3& columns) {
-  std::vector<std::int64_t> order;
+/// A column by its first coordinate, which tells most columns apart without a look at them.
+struct ColumnKey {
+  double x;
+  std::int64_t index;
+};
+
+/// Sorts parts side by side, then merges them.
+template <class Less> void sort_in_parts(std::vector<ColumnKey>& keys, const Less& less) {
+  constexpr std::int64_t parts = 16; // a power of 2
+  const auto at = [&](std::int64_t part) { return keys.begin() + std::ssize(keys) * part / parts; };
+  for_each_task(parts, [&](std::int64_t k) { std::sort(at(k), at(k + 1), less); });
+  for (std::int64_t width = 1; width < parts; width *= 2)
+    for_each_task(parts / (2 * width), [&](std::int64_t k) {
+      const std::int64_t first = 2 * width * k;
+      std::inplace_merge(at(first), at(first + width), at(first + 2 * width), less);
+    });
+}
+
+/// The columns that are not zero, in the order of before().
+std::vector<std::int64_t> sorted_columns(const Points3& columns) {
+  std::vector<ColumnKey> keys;
   for (Eigen::Index i = 0; i < columns.cols(); ++i)
     if (!equal(column(columns, i), {0, 0, 0}))
-      order.push_back(i);
-  std::sort(order.begin(), order.end(), [&](std::int64_t a, std::int64_t b) {
-    return before(column(columns, a), column(columns, b));
+      keys.push_back({columns(0, i), i});
+  sort_in_parts(keys, [&](const ColumnKey& a, const ColumnKey& b) {
+    return a.x != b.x ? a.x < b.x : before(column(columns, a.index), column(columns, b.index));
   });
+  std::vector<std::int64_t> order(keys.size());
+  std::transform(keys.begin(), keys.end(), order.begin(),
+                 [](const ColumnKey& key) { return key.index; });
+  return order;
+}
+
+Distinct distinct_columns(const Points3& columns) {
+  const std::vector<std::int64_t> order = sorted_columns(columns);
   Distinct distinct{Points3(3, std::ssize(order)),
                     std::vector<std::int32_t>(static_cast<std::size_t>(columns.cols()), -1)};
   std::int32_t count = 0;

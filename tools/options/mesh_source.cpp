@@ -25,7 +25,8 @@ MeshFile read_mesh_file(const MeshSource& source) {
   if (source.plane) {
     MeshFile file;
     file.plane = read_planar_mesh(source);
-    return file;
+    const bool is_mpas = file.plane->period.minCoeff() > 0; // has density and fields, too
+    return is_mpas ? calotte::read_mesh_file(source.path) : file;
   }
   if (source.points.empty())
     return calotte::read_mesh_file(source.path);
