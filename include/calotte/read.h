@@ -70,6 +70,12 @@ PlanarDomain read_domain(const std::string& path);
 /// site; so does SaveVertices without a SaveTriangles beside it that closes the sphere. The
 /// function checks that ids are in range; check() proves the geometry. Neighbours are rebuilt. An
 /// edge of three triangles, or of two that run through it in the same direction, stays open.
+///
+/// VTK files are XML (.vtp, .vtu: PolyData or UnstructuredGrid; text, base64 or appended; also
+/// compressed by zlib) or legacy (.vtk: POLYDATA or UNSTRUCTURED_GRID, to version 5.1). PLY files
+/// are text or binary. Their triangles are those of the points; a file with other polygons holds
+/// cells, and the cell data `site` or `Center` are their centres. Triangle strips, other types of
+/// cells, several pieces and other compression are errors.
 /// \param points 3 x n, the points that the ids of a .txt or .tri file refer to; other formats
 ///         ignore them. A column in no triangle is a duplicate of a column of the same direction,
 ///         or else a site without triangles. Default null.

@@ -10,6 +10,7 @@
 #include <calotte/delaunay.h>
 #include <calotte/error.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -130,15 +131,30 @@ bool may_be_voronoi(const Mesh& mesh, const Polygons& polygons) {
   return mesh.closed() && polygons.size() == mesh.points.cols();
 }
 
+/// Values by corner become values by triangle.
+void move_to_triangles(const Voronoi& cells, const Polygons& polygons,
+                       std::vector<MeshField>& fields) {
+  const auto is_by_corner = [&](const MeshField& field) {
+    return field.location == Location::vertices && field.values.size() == polygons.corners.cols();
+  };
+  if (std::none_of(fields.begin(), fields.end(), is_by_corner))
+    return;
+  const Ids corners = corners_of_vertices(cells, polygons);
+  for (MeshField& field : fields)
+    if (is_by_corner(field))
+      field.values = Eigen::VectorXd(field.values(corners));
+}
+
 /// Keeps the polygons unless they are the Voronoi cells of the mesh.
 void settle_polygons(const std::string& name, Polygons polygons, double rounding, MeshFile& file) {
   const std::int64_t turned = turn_counter_clockwise(polygons, name);
   if (turned > 0)
     file.changes.push_back("turned " + std::to_string(turned) + " clockwise cells");
   if (file.mesh && may_be_voronoi(*file.mesh, polygons)) {
-    file.not_voronoi = difference_from(voronoi(*file.mesh), polygons, rounding);
+    const Voronoi cells = voronoi(*file.mesh);
+    file.not_voronoi = difference_from(cells, polygons, rounding);
     if (file.not_voronoi.empty())
-      return;
+      return move_to_triangles(cells, polygons, file.fields);
   } else {
     file.not_voronoi = !file.mesh ? "the cells have no centres"
                        : !file.mesh->closed()
@@ -263,6 +279,9 @@ MeshFile planar_mesh_file_of(const std::string& name, const std::string& format,
   MeshFile file = rest_of(format, soup);
   PlanarMesh mesh;
   mesh.points = soup.points.topRows<2>();
+  if (soup.triangles.cols() == 0 && soup.polygons.size() > 0)
+    throw Error(ErrorCode::bad_option,
+                name + ": it holds cells of the sphere; of a plane only triangles are read");
   if (soup.triangles.cols() == 0) {
     file.plane = named(name, [&] { return planar_delaunay(mesh.points); });
     return file;

@@ -252,6 +252,23 @@ std::string difference_from(const Voronoi& voronoi, const Polygons& polygons, do
          " mean cell widths away from that of the Voronoi cell of its centre";
 }
 
+Ids corners_of_vertices(const Voronoi& voronoi, const Polygons& polygons) {
+  Ids corners(voronoi.vertices.cols());
+  for (std::int64_t i = 0; i < polygons.size(); ++i)
+    for (std::int64_t k = voronoi.begin[i]; k < voronoi.begin[i + 1]; ++k) {
+      const std::int32_t vertex = voronoi.vertices_on_cell[k];
+      const Vec3 p = column(voronoi.vertices, vertex);
+      corners[vertex] = *std::min_element(polygons.ids.begin() + polygons.begin[i],
+                                          polygons.ids.begin() + polygons.begin[i + 1],
+                                          [&](std::int32_t a, std::int32_t b) {
+                                            const Vec3 to_a = p - column(polygons.corners, a),
+                                                       to_b = p - column(polygons.corners, b);
+                                            return dot(to_a, to_a) < dot(to_b, to_b);
+                                          });
+    }
+  return corners;
+}
+
 std::int64_t most_corners(const Polygons& polygons) {
   std::int64_t most = 0;
   for (std::int64_t i = 0; i < polygons.size(); ++i)

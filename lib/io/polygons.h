@@ -38,6 +38,10 @@ void require_no_overlap(const Polygons& polygons, const std::string& name);
 /// cell width, and `rounding`.
 std::string difference_from(const Voronoi& voronoi, const Polygons& polygons, double rounding);
 
+/// For each Voronoi vertex the nearest corner of the polygon of one of its cells.
+/// \pre the polygons are the Voronoi cells, see difference_from().
+Ids corners_of_vertices(const Voronoi& voronoi, const Polygons& polygons);
+
 /// The most corners of a polygon.
 std::int64_t most_corners(const Polygons& polygons);
 /// Corner k of a polygon; past the last one -1, or the last.

@@ -6,6 +6,7 @@
 
 #include <calotte/mesh_file.h>
 #include <calotte/read.h>
+#include <calotte/voronoi.h>
 #include <calotte/write.h>
 
 #include <functional>
@@ -178,6 +179,35 @@ TEST_CASE("VTK: cells that calotte writes come back with density and fields") {
       for (const calotte::MeshField& field : file.fields)
         CHECK(equal_bits(field.values, field.name == "c" ? cells : vertices));
     }
+}
+
+TEST_CASE(
+    "VTK: cells that are Voronoi cells become a mesh, with values of corners at its triangles") {
+  const Scratch scratch;
+  const Mesh mesh = closed_meshes()[0].mesh;
+  const calotte::Voronoi cells = calotte::voronoi(mesh);
+  Faces faces{cells.vertices.rowwise().reverse(), {}, {}}; // the corners in another order
+  for (Eigen::Index i = 0; i < mesh.points.cols(); ++i) {
+    Values corners;
+    for (std::int64_t k = cells.begin[i]; k < cells.begin[i + 1]; ++k)
+      corners.push_back(double(cells.vertices.cols() - 1 - cells.vertices_on_cell[k]));
+    faces.add(corners);
+  }
+  const Eigen::VectorXd z = faces.points.row(2);
+  for (const std::string points : {"Float64", "Float32"}) {
+    const MeshFile file = read_text(
+        scratch / "mesh.vtp",
+        vtk_text(
+            "PolyData", faces, {.points = points},
+            [&](VtkText& text) { text.array("Float64", "z", values_of(z)); },
+            [&](VtkText& text) { text.array("Float64", "site", values_of(mesh.points), 3); }));
+    CAPTURE(file.not_voronoi);
+    REQUIRE(!file.polygons);
+    check_equal(*file.mesh, mesh);
+    CHECK((file.fields.at(0).values - cells.vertices.row(2).transpose()).norm() < 1e-13);
+  }
+  CHECK(error_of([&] { calotte::read_planar_mesh(scratch / "mesh.vtp"); }).code() ==
+        ErrorCode::bad_option);
 }
 
 TEST_CASE("VTK: points alone are triangulated; empty pieces, vertices and lines are passed over") {
