@@ -28,7 +28,7 @@ constexpr std::array suffixes{
     Suffix{".ply", Format::ply},         Suffix{".msh", Format::msh},
     Suffix{".txt", Format::triangles},   Suffix{".tri", Format::triangles},
     Suffix{".geojson", Format::geojson}, Suffix{".g", Format::exodus},
-    Suffix{".exo", Format::exodus},     Suffix{".vtk", Format::vtk}};
+    Suffix{".exo", Format::exodus},      Suffix{".vtk", Format::vtk}};
 
 /// The format that stands for those of one suffix.
 Format of_suffix(Format format) {
