@@ -105,10 +105,10 @@ void write(const std::string& path, const PlanarMesh& mesh, const WriteOptions& 
 /// The format in which `write` writes a path: the option, or for by_name the format of the name.
 /// The case of a suffix does not matter. An option other than mpi_scvt may have a name of unknown
 /// suffix.
-/// \throws Error bad_option if by_name meets an unknown suffix; for legacy VTK (.vtk); if the option
-///         contradicts a known suffix, because readers go by the name (.nc has the NetCDF formats,
-///         .vtp has vtp and vtp_cells, .vtu has vtu and vtu_cells); for mpi_scvt under another
-///         name.
+/// \throws Error bad_option if by_name meets an unknown suffix; for legacy VTK (.vtk); if the
+///         option contradicts a known suffix, because readers go by the name (.nc has the NetCDF
+///         formats, .vtp has vtp and vtp_cells, .vtu has vtu and vtu_cells); for mpi_scvt under
+///         another name.
 Format format_of(const std::string& path, Format option = Format::by_name);
 
 /// True if the format stores Voronoi cells and thus requires a closed mesh.
