@@ -19,6 +19,7 @@ import truth
 CALOTTE = os.path.abspath(sys.argv[1])
 ONLY = sys.argv[2] if len(sys.argv) > 2 else ""
 EARTH = 6371229.0
+ORDERED = {"scrip.nc", "esmf.nc", "cells.nc", "minimal.nc", "ugrid.nc"}  # demand counter-clockwise cells
 faults, cases = [], 0
 
 
@@ -168,7 +169,11 @@ def read_right(folder, name, options, case, radius, turned):
     require(turned == ("turned" in out), "info says what was turned", out)
     require(close(float((row(out, "cells / 4 pi") or [0])[0]), 1, 1e-9), "info's area", out)
     code, out, err = calotte(folder, "check", name, *options)
-    require(code == 0, "check", out + err)
+    if turned and name in ORDERED:
+        require(code == 1 and "counter-clockwise" in out
+                and "deviates" in err, "check tells of the order", out + err)
+    else:
+        require(code == 0, "check", out + err)
     require(row(out, "sites") == [str(n)], "check counts sites", out)
     require(close(float((row(out, "area / 4 pi") or [0])[0]), 1, 1e-9), "check's area", out)
     code, out, err = calotte(folder, "convert", name, "out.nc", *options)
