@@ -149,7 +149,7 @@ bool inflate_block(std::string_view compressed, std::uint64_t size, std::string&
     stream.next_out = reinterpret_cast<Bytef*>(out.data() + before + done);
     stream.avail_out = static_cast<uInt>(room);
     result = inflate(&stream, Z_NO_FLUSH);
-    out.resize(out.size() - stream.avail_out);
+    out.erase(out.size() - stream.avail_out);
   }
   return result == Z_STREAM_END && out.size() - before == size;
 }
