@@ -56,6 +56,23 @@ struct CvtOptions {
   /// level. A level that has converged or reached max_iterations is bisected (n -> 4n - 6, see
   /// bisect()) and converges again.
   int bisections = 0;
+  /// Rounds of insertion and contraction on each level, see insert_and_contract(); each is followed
+  /// by a descent. With rounds, all descents but the last end at an l2_scaled norm of 1e-3 or the
+  /// tolerance, whichever is larger. >= 0; default 0.
+  int insertion_rounds = 0;
+  /// Number of generators of the result; > 0 if and only if insertion_rounds is. A level of b
+  /// bisections before the last has 4^-b times as many.
+  std::int64_t cells = 0;
+  /// Adds a finish after the last descent: generators move a little away from their centroids until
+  /// the mesh has the shapes that models ask for. The finish minimises the energy plus the squares
+  /// of excesses over limits: angles of triangles from 49 to 76 degrees, Voronoi edges from 0.38 to
+  /// 0.78 times the length of the Delaunay edges across, and these from 0.82 to 1.25 times the
+  /// spacing that the density demands. It ends when no cotangent and no such ratio exceeds its
+  /// limit by more than 0.035, or after 60 evaluations. Sites with 8 neighbours or more, or 4 or
+  /// fewer, cannot have such shapes; with insertion_rounds, up to four further rounds remove them.
+  /// A run converges if the last descent and the finish do. A mesh within the limits does not
+  /// change. Default false: a pure CVT.
+  bool well_centred = false;
   /// Quadrature points per half kite: 1, 3, 6, 7, 13 or 19; no effect for uniform density.
   int rule = 3;
   /// Rule from the iteration on in which the norm is at most ten times the tolerance or a line
@@ -77,10 +94,13 @@ struct CvtIteration {
   double l2 = 0, linf = 0; ///< Norm::l2 and Norm::linf, not scaled
   double gradient = 0;     ///< Norm::gradient
   double energy = 0;       ///< sum over cells of the integral of rho |x - x_i|^2
-  bool accepted = true;    ///< false if the line search rejected this trial
-  std::int64_t flips = 0;  ///< edge flips after the last move
-  bool rebuilt = false;    ///< the last move required a new triangulation
-  double seconds = 0;      ///< wall-clock time of the evaluation
+  /// In a finish, see CvtOptions::well_centred: the largest excess of a shape over its limit;
+  /// otherwise 0.
+  double misshapen = 0;
+  bool accepted = true;   ///< false if the line search rejected this trial
+  std::int64_t flips = 0; ///< edge flips after the last move
+  bool rebuilt = false;   ///< the last move required a new triangulation
+  double seconds = 0;     ///< wall-clock time of the evaluation
   /// Times summed over the regions' tasks, not wall-clock: copying positions; restoring the
   /// Delaunay property; moments and the move.
   double seconds_exchange = 0, seconds_repair = 0, seconds_moments = 0;
@@ -134,8 +154,9 @@ private:
 /// The progress of a run after an accepted iteration. Valid during the call that it is passed to.
 struct CvtProgress {
   const CvtReport& report;     ///< of the run so far, with the current residual and seconds
-  int iterations_of_level = 0; ///< evaluations of the current level, trials included
+  int iterations_of_level = 0; ///< evaluations of the current descent, trials included
   int bisections_left = 0;     ///< levels that follow the current one
+  int rounds_left = 0;         ///< rounds of insertion on this level after this descent
   const CvtState& state;       ///< for write_checkpoint()
 };
 

@@ -6,6 +6,7 @@
 #include "base/require.h"
 #include "cvt/descent.h"
 #include "cvt/planar_cells.h"
+#include "cvt/stages.h"
 #include "cvt/state.h"
 #include "cvt/worlds.h"
 #include "integrals/quadrature.h"
@@ -23,6 +24,8 @@ namespace calotte {
 namespace cvt_detail {
 namespace {
 
+constexpr double shape_tolerance = 0.035; ///< of an excess over the limits of shape.h
+
 void require_options(const CvtOptions& options) {
   const auto refuse = [](const std::string& what) { throw Error(ErrorCode::bad_option, what); };
   if (!(options.tolerance > 0) || !std::isfinite(options.tolerance))
@@ -37,6 +40,10 @@ void require_options(const CvtOptions& options) {
   if (options.bisections < 0)
     refuse("the number of bisections is " + std::to_string(options.bisections) +
            "; give 0 or more");
+  if (options.insertion_rounds < 0 || options.cells < 0)
+    refuse("insertion_rounds or cells is negative; give 0 or more");
+  if ((options.insertion_rounds > 0) != (options.cells > 0))
+    refuse("insertion needs both insertion_rounds and cells; give both or neither");
   if (options.triangle_divisions < 1 || options.triangle_divisions > 100)
     refuse("triangle_divisions is " + std::to_string(options.triangle_divisions) +
            "; give a number from 1 to 100");
@@ -49,7 +56,7 @@ void require_state(const State& state) {
   const auto n = static_cast<std::size_t>(state.points.cols());
   std::vector<std::uint8_t> seen(n, 0);
   bool good = n >= 1 && state.id.size() == n && state.bisections_left >= 0 &&
-              state.iterations_of_level >= 0;
+              state.rounds_left >= 0 && state.iterations_of_level >= 0;
   for (std::size_t i = 0; good && i < n; ++i) {
     const std::int32_t id = state.id[i];
     good = id >= 0 && static_cast<std::size_t>(id) < n && seen[static_cast<std::size_t>(id)]++ == 0;
@@ -74,7 +81,9 @@ void conclude(State& state, const CvtOptions& options, const CvtIteration& itera
   const bool by_final_rule = options.density.uniform() || iteration.rule == options.final_rule;
   report.residual = norm_of(iteration, options.norm);
   // Near the end the finer rule replaces the coarser one; a run converges with the finer rule only.
-  if (options.norm == Norm::none) {
+  if (state.penalty > 0) {
+    report.converged = iteration.misshapen <= shape_tolerance;
+  } else if (options.norm == Norm::none) {
     report.converged = state.iterations_of_level >= options.max_iterations;
   } else {
     report.converged = by_final_rule && report.residual <= options.tolerance;
@@ -105,6 +114,7 @@ Ending iterate(const World& world, CvtState& whole, Level&& level, const CvtOpti
   const Clock::time_point start = Clock::now();
   const std::unique_ptr<Functional> functional =
       world.functional(state.points, options, std::move(level));
+  functional->penalise_shapes(state.penalty, state.demanded_spacing);
   Descent descent(state, options, *functional);
   const bool resumed = state.iterations_of_level > 0;
   descent.begin();
@@ -112,13 +122,13 @@ Ending iterate(const World& world, CvtState& whole, Level&& level, const CvtOpti
     descent.step();
   for (;; descent.step()) {
     conclude(state, options, descent.here().iteration);
-    const bool ended = level_ended(state, options);
-    if (ended)
+    const bool ended = level_ended(state, options) || descent.stuck();
+    if (ended && state.penalty == 0)
       state.points = descent.here().centroids;
     Clock::time_point now = start;
     state.report.seconds = before + lap(now);
     const bool stopped = callback && callback({state.report, state.iterations_of_level,
-                                               state.bisections_left, whole});
+                                               state.bisections_left, state.rounds_left, whole});
     if (ended || stopped) {
       state.report.regions = functional->regions();
       return {stopped, functional->take_mesh(state.points)};
@@ -126,8 +136,14 @@ Ending iterate(const World& world, CvtState& whole, Level&& level, const CvtOpti
   }
 }
 
-/// Throws, before any work, if the bisections lead to more generators than a mesh can hold.
-template <class World> void require_room(const World& world, const State& state) {
+/// Throws, before any work, if insertion or the bisections lead to fewer or more generators than a
+/// mesh can hold.
+template <class World>
+void require_room(const World& world, const State& state, const CvtOptions& options) {
+  if (options.insertion_rounds > 0 && (options.cells < world.fewest || options.cells > most_points))
+    throw Error(ErrorCode::bad_option, "cells is " + std::to_string(options.cells) +
+                                           "; give at least " + std::to_string(world.fewest) +
+                                           " and at most " + std::to_string(most_points));
   const std::int64_t n = state.points.cols();
   int most = 0;
   for (std::int64_t cells = world.bisected(n); cells <= most_points; cells = world.bisected(cells))
@@ -146,16 +162,18 @@ template <class World> auto mesh_of(const World& world, const State& state, Endi
   return world.mesh(in_order(state), std::move(*ending.mesh));
 }
 
-/// The next level's start.
-template <class World> Level refine(const World& world, State& state, Ending&& ending) {
+/// The start of the descent of a stage.
+template <class World>
+Level begin(const World& world, Stage stage, State& state, const CvtOptions& options,
+            Ending&& ending) {
+  if (stage == Stage::finish) {
+    begin_finish(state);
+    return {};
+  }
   state.memory = {};
-  Level level = world.set_bisected(state, mesh_of(world, state, std::move(ending)));
-  state.site_of_input.clear();
-  --state.bisections_left;
-  state.iterations_of_level = 0;
-  state.final_rule = false;
-  state.report.converged = false;
-  return level;
+  const auto mesh = mesh_of(world, state, std::move(ending));
+  return stage == Stage::bisect ? begin_level(world, state, options, mesh)
+                                : begin_round(world, stage, state, options, mesh);
 }
 
 template <class World>
@@ -166,21 +184,24 @@ typename World::Result run(const World& world, CvtState whole, Level&& level, Cv
   options.density = world.density(options.density);
   require_state(state);
   world.require_points(state);
-  require_room(world, state);
+  require_room(world, state, options);
   Clock::time_point mark = Clock::now();
   const double before = state.report.seconds;
-  Ending ending = iterate(world, whole, std::move(level), options, callback);
-  while (!ending.stopped && state.bisections_left > 0) {
-    level = refine(world, state, std::move(ending));
-    ending = iterate(world, whole, std::move(level), options, callback);
-  }
+  const auto descend = [&](Level&& start) {
+    return iterate(world, whole, std::move(start), options_of_descent(state, options), callback);
+  };
+  Ending ending = descend(std::move(level));
+  for (Stage next = stage_after(state, options); !ending.stopped && next != Stage::end;
+       next = stage_after(state, options))
+    ending = descend(begin(world, next, state, options, std::move(ending)));
   state.memory = {};
   typename World::Result result;
   result.mesh = mesh_of(world, state, std::move(ending));
   if (!state.site_of_input.empty())
     result.mesh.site_of_input = std::move(state.site_of_input);
   result.report = std::move(state.report);
-  result.report.converged = result.report.converged && state.bisections_left == 0;
+  result.report.converged =
+      result.report.converged && state.descended && stage_after(state, options) == Stage::end;
   result.report.seconds = before + lap(mark);
   return result;
 }

@@ -230,7 +230,7 @@ bool Descent::search(const Points3& direction, double slope, Points3& points) {
     Points3 onward = direction;
     functional_.make_tangential(onward, points);
     const double slope_there = inner(onward, there_.gradient);
-    const double rise = there_.iteration.energy / here_.iteration.energy - 1;
+    const double rise = there_.value() / here_.value() - 1;
     const bool lower =
         rise <= rounding && (slope_there <= -0.9 * slope || trial + 1 == most_trials);
     const bool below_rule = !options_.density.uniform() && std::abs(rise) <= rule_error &&
@@ -276,6 +276,10 @@ void Descent::quasi_newton_step() {
   Points3 points;
   if (slope < 0 && search(d, slope, points)) {
     remember(points);
+  } else if (state_.penalty > 0) { // a Lloyd step may raise the penalty
+    stuck_ = state_.memory.steps.empty();
+    forget();
+    return;
   } else { // Lloyd's step always descends; the coarser rule's energy may have misled the search
     forget();
     state_.final_rule = state_.final_rule || options_.norm != Norm::none;

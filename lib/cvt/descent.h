@@ -27,6 +27,9 @@ public:
   /// One step; the state's points are the new ones, evaluated.
   void step();
 
+  /// True if no step from the state's points lowers the value, as far as the method can tell.
+  bool stuck() const { return stuck_; }
+
   /// The evaluation at the state's points.
   const Evaluation& here() const { return here_; }
 
@@ -54,6 +57,7 @@ private:
   DensityEvaluator density_;
   Evaluation here_, there_; ///< at the state's points, and at a trial's
   std::optional<Multigrid> laplacian_;
+  bool stuck_ = false;
 };
 
 } // namespace calotte::cvt_detail

@@ -5,6 +5,7 @@
 #include "base/parallel.h"
 #include "base/points.h"
 #include "cvt/planar_cells.h"
+#include "cvt/shape.h"
 #include "cvt/spherical_cells.h"
 #include "cvt/tessellation.h"
 
@@ -85,6 +86,10 @@ public:
   void evaluate(const Points3& points, bool final_rule, bool with_gradient,
                 Evaluation& out) override;
 
+  void penalise_shapes(double factor, double spacing) override {
+    penalty_ = factor;
+    demanded_spacing_ = spacing;
+  }
   std::vector<CvtRegion> regions() const override { return tessellation_.regions(); }
   Points3 retract(const Points3& x, double step, const Points3& d) const override {
     return tessellation_.cells().retract(x, step, d);
@@ -98,11 +103,14 @@ public:
 private:
   Effort integrate(const Points3& points, const Integrand& integrand, bool with_gradient,
                    Evaluation& out);
+  void add_penalty(const Points3& points, Evaluation& out);
 
   Tessellation<Cells> tessellation_;
   Density density_;
   Integrand coarse_, fine_;
-  int rule_, final_rule_; ///< their numbers of points, 0 where none is used
+  int rule_, final_rule_;       ///< their numbers of points, 0 where none is used
+  double penalty_ = 0;          ///< factor of the penalty of shape.h
+  double demanded_spacing_ = 1; ///< at rho = 1
 };
 
 /// Frees the memory of `out` before sorting and triangulating, which need most of the memory.
@@ -159,7 +167,25 @@ void FunctionalOver<Cells>::evaluate(const Points3& points, bool final_rule, boo
   if (!std::isfinite(iteration.energy))
     throw Error(ErrorCode::bad_option, "the density is zero over a whole cell, or beyond 1e150: "
                                        "make it positive everywhere, and smaller");
+  if (penalty_ > 0)
+    add_penalty(points, out);
   iteration.seconds = lap(mark);
+}
+
+template <class Cells>
+void FunctionalOver<Cells>::add_penalty(const Points3& points, Evaluation& out) {
+  Array<double> inverse_spacing(points.cols());
+  for_each_block(points.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    const Eigen::VectorXd rho = calotte::evaluate(density_, points.middleCols(begin, end - begin));
+    for (std::int64_t i = begin; i != end; ++i)
+      inverse_spacing[i] = std::sqrt(std::sqrt(rho[i - begin])) / demanded_spacing_;
+  });
+  const ShapeTerms terms = add_shape_terms(tessellation_.cells(), tessellation_.mesh(),
+                                           tessellation_.distorted(inverse_spacing),
+                                           inverse_spacing, penalty_, out.gradient);
+  tessellation_.cells().make_tangential(out.gradient, points);
+  out.penalty = penalty_ * terms.value;
+  out.iteration.misshapen = terms.worst;
 }
 
 /// The mesh is that of the last evaluation; at other points it may not be Delaunay.

@@ -29,6 +29,10 @@ struct Evaluation {
   Points3 gradient;       ///< dE/dx, tangential; set on request
   Array<double> mass;     ///< the cells' masses up to a factor h^2; set with the gradient
   Array<SiteTerms> terms;
+  double penalty = 0; ///< for the shapes of a finish; the gradient includes it
+
+  /// What the steps of a descent lower.
+  double value() const { return iteration.energy + penalty; }
 };
 
 /// The energy as a function of the generators, over cells that persist between calls, and the
@@ -42,6 +46,10 @@ public:
   /// \throws Error bad_option for a density that is zero or infinite over a cell; too_few_sites.
   virtual void evaluate(const Points3& points, bool final_rule, bool with_gradient,
                         Evaluation& out) = 0;
+
+  /// Adds a factor times the penalty of shape.h to each evaluation from here on.
+  /// \param spacing that the density demands, times rho^(1/4).
+  virtual void penalise_shapes(double factor, double spacing) = 0;
 
   virtual std::vector<CvtRegion> regions() const = 0;
 

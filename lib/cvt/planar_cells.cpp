@@ -81,6 +81,14 @@ Sites PlanarCells::sites() const {
 
 double PlanarCells::spacing() const { return std::sqrt(area_ / static_cast<double>(generators_)); }
 
+bool PlanarCells::has_circumcentre(std::int32_t a, std::int32_t b, std::int32_t c) const {
+  if (!outline_)
+    return true;
+  const Vec3 u = offset(places_[a], places_[b]), v = offset(places_[a], places_[c]);
+  const Vec2 centre = circumcentre({u.x, u.y}, {v.x, v.y});
+  return outline_->side({places_[a].x + centre.x, places_[a].y + centre.y}) != Side::outside;
+}
+
 void PlanarCells::integrate(const Integrand& integrand, const Patch& patch, const Array<Vec3>& x,
                             Array<CellMoments>& moments,
                             std::vector<std::int32_t>& suspects) const {

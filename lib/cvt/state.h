@@ -31,8 +31,13 @@ struct CvtState::Data {
   std::vector<std::int32_t> id;            ///< of each: its column in the result
   std::vector<std::int32_t> site_of_input; ///< as Mesh's; of the start, or empty after a bisection
   int bisections_left = 0;
+  int rounds_left = 0; ///< of insertion, on this level
   int iterations_of_level = 0;
-  bool final_rule = false; ///< it has taken over
+  bool final_rule = false;     ///< it has taken over
+  double penalty = 0;          ///< of shapes, in the finish; 0 before
+  double demanded_spacing = 1; ///< in the finish: at rho = 1
+  int mends = 0;               ///< rounds of insertion after a finish that failed
+  bool descended = true;       ///< the descent before the finish converged
   cvt_detail::Memory memory;
   CvtReport report;
 };

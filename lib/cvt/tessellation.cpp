@@ -4,6 +4,7 @@
 #include "base/clock.h"
 #include "base/parallel.h"
 #include "cvt/planar_cells.h"
+#include "cvt/shape.h"
 #include "cvt/spherical_cells.h"
 #include "delaunay/divide.h"
 
@@ -183,6 +184,22 @@ Faults Tessellation<Cells>::integrate(const Integrand& integrand, const Receiver
         work.effort.seconds_moments += lap(mark);
       },
       effort);
+}
+
+template <class Cells>
+std::vector<std::int32_t>
+Tessellation<Cells>::distorted(const Array<double>& inverse_spacing) const {
+  const std::int64_t count = mesh_.triangles.cols();
+  std::vector<std::vector<std::int32_t>> parts(static_cast<std::size_t>(block_count(count)));
+  for_each_block(count, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
+    for (auto t = static_cast<std::int32_t>(begin); t != end; ++t)
+      if (is_distorted(cells_, mesh_, inverse_spacing, t))
+        parts[static_cast<std::size_t>(block)].push_back(t);
+  });
+  std::vector<std::int32_t> all;
+  for (const std::vector<std::int32_t>& part : parts)
+    all.insert(all.end(), part.begin(), part.end());
+  return all;
 }
 
 template <class Cells>

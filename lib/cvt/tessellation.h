@@ -83,6 +83,9 @@ public:
   /// a later call overwrites.
   Faults integrate(const Integrand& integrand, const Receiver& receive, Effort& effort);
 
+  /// The triangles whose shape may be beyond the limits of a finish, each once.
+  std::vector<std::int32_t> distorted(const Array<double>& inverse_spacing) const;
+
   /// Ends an evaluation.
   void settle(const Effort& effort) { restless_ = effort.flips > 0 || effort.rebuilt; }
 

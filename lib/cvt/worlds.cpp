@@ -71,6 +71,7 @@ Start begun_at(Sites&& sites, const CvtOptions& options) {
   set_points(state, sites, sites.unit);
   state.site_of_input = std::move(sites.site_of_input);
   state.bisections_left = options.bisections;
+  state.rounds_left = options.insertion_rounds;
   sites.points = state.points;
   return {std::move(state), {by_rank(std::move(sites)), std::nullopt}};
 }
@@ -134,6 +135,15 @@ Level SphericalWorld::set_bisected(State& state, const Mesh& coarse) {
   return {by_rank(std::move(sites)), std::move(mesh)};
 }
 
+Level SphericalWorld::set_exchanged(State& state, const Mesh& mesh, const Density& density,
+                                    std::int64_t inserted, std::int64_t contracted) {
+  Sites sites =
+      make_sites(insert_and_contract(mesh, density, inserted, contracted), Duplicates::refuse, 0);
+  set_points(state, sites, sites.unit);
+  sites.points = state.points;
+  return {by_rank(std::move(sites)), std::nullopt};
+}
+
 // ---- The plane
 
 PlanarWorld::PlanarWorld(const PlanarDomain& domain) : domain_(domain) { require_domain(domain); }
@@ -145,6 +155,7 @@ Start PlanarWorld::begin(const Points2Ref& start, const CvtOptions& options) {
   set_places(state, sites);
   state.site_of_input = std::move(sites.site_of_input);
   state.bisections_left = options.bisections;
+  state.rounds_left = options.insertion_rounds;
   return {std::move(state), {}};
 }
 
@@ -178,6 +189,14 @@ Level PlanarWorld::set_bisected(State& state, const PlanarMesh& coarse) const {
     return {};
   return {std::nullopt,
           bisected_mesh(coarse.triangles, coarse.neighbours, coarse.points.cols(), sites)};
+}
+
+Level PlanarWorld::set_exchanged(State& state, const PlanarMesh& mesh, const Density& density,
+                                 std::int64_t inserted, std::int64_t contracted) const {
+  set_places(state,
+             make_planar_sites(insert_and_contract(mesh, domain_, density, inserted, contracted),
+                               Duplicates::refuse, 0));
+  return {};
 }
 
 bool PlanarWorld::all_inside(const Points3& points) const {

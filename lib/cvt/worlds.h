@@ -28,6 +28,7 @@ struct Start {
 class SphericalWorld {
 public:
   using Result = Cvt;
+  static constexpr std::int64_t fewest = 12; ///< generators
 
   /// \throws Error as make_sites(); too_few_sites.
   static Start begin(Points3&& start, const CvtOptions& options);
@@ -47,6 +48,8 @@ public:
 
   /// The largest number of generators after a bisection of n.
   static std::int64_t bisected(std::int64_t n) { return 4 * n - 6; }
+  /// The number whose bisection is nearest to n.
+  static std::int64_t halved(std::int64_t n) { return (n + 8) / 4; }
 
   /// The Delaunay triangulation of generators, by a new triangulation.
   static Mesh triangulated(Points3&& points);
@@ -57,12 +60,17 @@ public:
   /// Sets the generators of a state to those of a bisected mesh, in curve order; returns the start
   /// of the next level.
   static Level set_bisected(State& state, const Mesh& coarse);
+
+  /// The same after insertion and contraction of edges.
+  static Level set_exchanged(State& state, const Mesh& mesh, const Density& density,
+                             std::int64_t inserted, std::int64_t contracted);
 };
 
 /// The same of a domain in the plane.
 class PlanarWorld {
 public:
   using Result = PlanarCvt;
+  static constexpr std::int64_t fewest = 3;
 
   /// \throws Error as require_domain().
   explicit PlanarWorld(const PlanarDomain& domain);
@@ -75,9 +83,12 @@ public:
     return make_functional(points, domain_, options, std::move(level));
   }
   static std::int64_t bisected(std::int64_t n) { return 4 * n; } // some midpoints may be outside
+  static std::int64_t halved(std::int64_t n) { return (n + 2) / 4; }
   PlanarMesh triangulated(const Points3& points) const;
   PlanarMesh mesh(const Points3& points, Connectivity&& canonical) const; ///< of a periodic box
   Level set_bisected(State& state, const PlanarMesh& coarse) const;
+  Level set_exchanged(State& state, const PlanarMesh& mesh, const Density& density,
+                      std::int64_t inserted, std::int64_t contracted) const;
 
 private:
   bool all_inside(const Points3& points) const;

@@ -25,13 +25,13 @@ using cvt_detail::State;
 constexpr std::string_view format = "calotte checkpoint ";
 
 std::string head() {
-  return std::string(format) + "4, " + (little_endian ? "little" : "big") + "-endian\n";
+  return std::string(format) + "5, " + (little_endian ? "little" : "big") + "-endian\n";
 }
 
 /// One list of fields serves writing and reading.
 template <class Iteration, class Visit> void visit_iteration(Iteration& i, const Visit& visit) {
   visit(i.cells), visit(i.spacing), visit(i.rule), visit(i.l2), visit(i.linf), visit(i.gradient),
-      visit(i.energy);
+      visit(i.energy), visit(i.misshapen);
   visit(i.accepted), visit(i.flips), visit(i.rebuilt), visit(i.seconds);
   visit(i.seconds_exchange), visit(i.seconds_repair), visit(i.seconds_moments);
   visit(i.seconds_solver);
@@ -42,7 +42,8 @@ template <class Region, class Visit> void visit_region(Region& r, const Visit& v
 }
 
 template <class State, class Visit> void visit_scalars(State& s, const Visit& visit) {
-  visit(s.bisections_left), visit(s.iterations_of_level), visit(s.final_rule);
+  visit(s.bisections_left), visit(s.rounds_left), visit(s.iterations_of_level);
+  visit(s.final_rule), visit(s.mends), visit(s.penalty), visit(s.demanded_spacing), visit(s.descended);
   visit(s.report.converged), visit(s.report.residual), visit(s.report.seconds);
   visit(s.memory.since_laplacian), visit(s.memory.flipped), visit(s.memory.momentum);
 }

@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cvt/shape.h"
+
+#include "base/parallel.h"
+#include "base/points.h"
+#include "base/triangle.h"
+#include "cvt/planar_cells.h"
+#include "cvt/spherical_cells.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace calotte::cvt_detail {
+namespace {
+
+constexpr ShapeLimits limits;
+
+/// The angle of a triangle at its vertex c, from a to b counter-clockwise.
+struct Angle {
+  std::int32_t a, b, c;
+};
+
+Angle angle_at(const Connectivity& mesh, std::int32_t t, int v) {
+  return {mesh.triangles(next_vertex(v), t), mesh.triangles(previous_vertex(v), t),
+          mesh.triangles(v, t)};
+}
+
+/// The cotangent N/Q of an angle between the sides u and v, N = u v, Q = |u x v|.
+struct Cotangent {
+  double value, area; ///< area Q of the parallelogram
+  Vec3 u, v, normal;  ///< unit normal
+
+  template <class Cells>
+  Cotangent(const Cells& cells, const Angle& angle)
+      : u(cells.offset(cells.place(angle.c), cells.place(angle.a))),
+        v(cells.offset(cells.place(angle.c), cells.place(angle.b))) {
+    const Vec3 product = cross(u, v);
+    area = norm(product);
+    normal = (1 / area) * product;
+    value = dot(u, v) / area;
+  }
+  Vec3 derivative_a() const { return (1 / area) * (v - value * cross(v, normal)); }
+  Vec3 derivative_b() const { return (1 / area) * (u - value * cross(normal, u)); }
+};
+
+/// A share in the gradient of one generator.
+struct Share {
+  std::int32_t site;
+  Vec3 vector;
+};
+
+/// The penalty of some triangles.
+struct Part {
+  ShapeTerms terms;
+  std::vector<Share> shares;
+
+  /// Adds the square of an excess, and returns its derivative.
+  double add(double excess) {
+    terms.value += excess * excess;
+    terms.worst = std::max(terms.worst, excess);
+    return 2 * excess;
+  }
+  void add_shares(const Angle& angle, const Cotangent& cotangent, double slope) {
+    const Vec3 a = slope * cotangent.derivative_a(), b = slope * cotangent.derivative_b();
+    shares.push_back({angle.a, a});
+    shares.push_back({angle.b, b});
+    shares.push_back({angle.c, -1 * (a + b)});
+  }
+};
+
+/// How far a value is below the least (negative slope) or above the most.
+struct Excess {
+  double size, sign;
+};
+
+Excess excess_of(double value, double least, double most) {
+  if (value < least)
+    return {least - value, -1};
+  return {std::max(value - most, 0.0), 1};
+}
+
+bool beyond_edges(double cotangent) {
+  return cotangent < limits.least_edge || cotangent > limits.most_edge;
+}
+
+/// The vertex of a triangle across from a neighbour.
+int across_from(const Connectivity& mesh, std::int32_t t, std::int32_t neighbour) {
+  return mesh.neighbours(0, t) == neighbour ? 0 : mesh.neighbours(1, t) == neighbour ? 1 : 2;
+}
+
+template <class Cells> class Penalty {
+public:
+  Penalty(const Cells& cells, const Connectivity& mesh, const Array<double>& inverse_spacing)
+      : cells_(cells), mesh_(mesh), inverse_spacing_(inverse_spacing) {}
+
+  void add_triangle(std::int32_t t, Part& part) const {
+    if (!is_inner(t))
+      return;
+    int v = 0;
+    mesh_.triangles.col(t).minCoeff(&v); // the order of the sums
+    for (int k = 0; k < 3; ++k, v = next_vertex(v)) {
+      const Angle angle = angle_at(mesh_, t, v);
+      const Cotangent cotangent(cells_, angle);
+      const Excess excess =
+          excess_of(cotangent.value, limits.least_cotangent, limits.most_cotangent);
+      if (excess.size > 0)
+        part.add_shares(angle, cotangent, excess.sign * part.add(excess.size));
+      add_side(angle, part);
+      if (beyond_edges(cotangent.value))
+        add_edge(t, v, angle, cotangent, part);
+    }
+  }
+
+private:
+  bool is_inner(std::int32_t t) const {
+    const auto ids = mesh_.triangles.col(t);
+    return ids.maxCoeff() < inverse_spacing_.size() &&
+           cells_.has_circumcentre(ids[0], ids[1], ids[2]);
+  }
+
+  /// The length of the side across from a vertex: half of the penalty in each of its triangles.
+  void add_side(const Angle& angle, Part& part) const {
+    const Vec3 side = cells_.offset(cells_.place(angle.a), cells_.place(angle.b));
+    const double length = norm(side),
+                 demanded = (inverse_spacing_[angle.a] + inverse_spacing_[angle.b]) / 2;
+    const Excess excess = excess_of(length * demanded, limits.least_spacing, limits.most_spacing);
+    if (!(excess.size > 0))
+      return;
+    const Vec3 pull = (excess.sign * part.add(excess.size) * demanded / length) * side;
+    part.shares.push_back({angle.a, -1 * pull});
+    part.shares.push_back({angle.b, pull});
+  }
+
+  /// The edge across from a vertex. If both cotangents are beyond the limits, the triangle with the
+  /// lower vertex across adds it.
+  void add_edge(std::int32_t t, int v, const Angle& angle, const Cotangent& cotangent,
+                Part& part) const {
+    const std::int32_t u = mesh_.neighbours(v, t);
+    if (u < 0 || !is_inner(u))
+      return;
+    const Angle other = angle_at(mesh_, u, across_from(mesh_, u, t));
+    const Cotangent beyond(cells_, other);
+    if (beyond_edges(beyond.value) && other.c < angle.c)
+      return;
+    const Excess excess =
+        excess_of((cotangent.value + beyond.value) / 2, limits.least_edge, limits.most_edge);
+    if (!(excess.size > 0))
+      return;
+    const double slope = excess.sign * part.add(excess.size) / 2;
+    part.add_shares(angle, cotangent, slope);
+    part.add_shares(other, beyond, slope);
+  }
+
+  const Cells& cells_;
+  const Connectivity& mesh_;
+  const Array<double>& inverse_spacing_;
+};
+
+/// The vertices of a triangle from the lowest on: a key that no other triangle has.
+std::pair<std::int32_t, std::int32_t> key_of(const Connectivity& mesh, std::int32_t t) {
+  int v = 0;
+  mesh.triangles.col(t).minCoeff(&v);
+  return {mesh.triangles(v, t), mesh.triangles(next_vertex(v), t)};
+}
+
+} // namespace
+
+template <class Cells>
+bool is_distorted(const Cells& cells, const Connectivity& mesh,
+                  const Array<double>& inverse_spacing, std::int32_t triangle) {
+  const auto ids = mesh.triangles.col(triangle);
+  if (ids.maxCoeff() >= inverse_spacing.size())
+    return false;
+  const Vec3 &a = cells.place(ids[0]), &b = cells.place(ids[1]), &c = cells.place(ids[2]);
+  const Vec3 ab = cells.offset(a, b), bc = cells.offset(b, c), ca = cells.offset(c, a);
+  const Vec3 product = cross(ab, bc);
+  const double area = norm(product), low = limits.least_edge * area, high = limits.most_edge * area;
+  const double at_a = -dot(ca, ab), at_b = -dot(ab, bc), at_c = -dot(bc, ca);
+  if (std::min({at_a, at_b, at_c}) < low || std::max({at_a, at_b, at_c}) > high)
+    return true;
+  const auto beyond = [&](const Vec3& side, std::int32_t i, std::int32_t j) {
+    const double demanded = (inverse_spacing[i] + inverse_spacing[j]) / 2,
+                 square = dot(side, side) * demanded * demanded;
+    return square < limits.least_spacing * limits.least_spacing ||
+           square > limits.most_spacing * limits.most_spacing;
+  };
+  return beyond(ab, ids[0], ids[1]) || beyond(bc, ids[1], ids[2]) || beyond(ca, ids[2], ids[0]);
+}
+
+template <class Cells>
+ShapeTerms add_shape_terms(const Cells& cells, const Connectivity& mesh,
+                           std::vector<std::int32_t> triangles,
+                           const Array<double>& inverse_spacing, double factor, Points3& gradient) {
+  constexpr std::int64_t chunk = 512;
+  std::sort(triangles.begin(), triangles.end(),
+            [&](std::int32_t t, std::int32_t u) { return key_of(mesh, t) < key_of(mesh, u); });
+  const std::int64_t count = std::ssize(triangles);
+  std::vector<Part> parts(static_cast<std::size_t>((count + chunk - 1) / chunk));
+  const Penalty<Cells> penalty(cells, mesh, inverse_spacing);
+  for_each_task(std::ssize(parts), [&](std::int64_t k) {
+    for (std::int64_t i = k * chunk; i < std::min(count, (k + 1) * chunk); ++i)
+      penalty.add_triangle(triangles[static_cast<std::size_t>(i)],
+                           parts[static_cast<std::size_t>(k)]);
+  });
+  ShapeTerms all;
+  for (const Part& part : parts) {
+    all.value += part.terms.value;
+    all.worst = std::max(all.worst, part.terms.worst);
+    for (const Share& share : part.shares)
+      set_column(gradient, share.site, column(gradient, share.site) + factor * share.vector);
+  }
+  return all;
+}
+
+template bool is_distorted(const SphericalCells&, const Connectivity&, const Array<double>&,
+                           std::int32_t);
+template bool is_distorted(const PlanarCells&, const Connectivity&, const Array<double>&,
+                           std::int32_t);
+template ShapeTerms add_shape_terms(const SphericalCells&, const Connectivity&,
+                                    std::vector<std::int32_t>, const Array<double>&, double,
+                                    Points3&);
+template ShapeTerms add_shape_terms(const PlanarCells&, const Connectivity&,
+                                    std::vector<std::int32_t>, const Array<double>&, double,
+                                    Points3&);
+
+} // namespace calotte::cvt_detail

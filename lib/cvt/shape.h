@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "base/memory.h"
+#include "cvt/room.h"
+#include "mesh/connectivity.h"
+
+#include <calotte/types.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace calotte::cvt_detail {
+
+/// The limits of shape that a finish keeps, with a margin to what models ask for. Between them lie
+/// regular hexagons, whose cotangents and edges are 1/sqrt(3), and their distortions up to pairs of
+/// cells with 5 and 7 neighbours.
+struct ShapeLimits {
+  /// Cotangents of the triangles' flat angles: 76 to 49 degrees.
+  double least_cotangent = 0.25, most_cotangent = 0.87;
+  /// Voronoi edge over Delaunay edge, which is the mean of the two cotangents across.
+  double least_edge = 0.38, most_edge = 0.78;
+  /// Delaunay edge over the spacing that the density demands there.
+  double least_spacing = 0.82, most_spacing = 1.25;
+};
+
+/// The penalty for shapes beyond the limits.
+struct ShapeTerms {
+  double value = 0; ///< sum of the squares by which the quantities exceed their limits
+  double worst = 0; ///< the largest such excess
+};
+
+/// Computes the penalty, and adds a factor times its derivatives to the gradient. The result has
+/// the same bits for any number of threads and any order of the triangles. In the plane, triangles
+/// with their circumcentre outside the domain do not count, nor do their edges' ratios.
+///
+/// \param triangles all that may be beyond a limit; each once.
+/// \param inverse_spacing 1/h by generator, h the spacing that the density demands.
+template <class Cells>
+ShapeTerms add_shape_terms(const Cells& cells, const Connectivity& mesh,
+                           std::vector<std::int32_t> triangles,
+                           const Array<double>& inverse_spacing, double factor, Points3& gradient);
+
+/// Whether a triangle may be beyond a limit.
+template <class Cells>
+bool is_distorted(const Cells& cells, const Connectivity& mesh,
+                  const Array<double>& inverse_spacing, std::int32_t triangle);
+
+} // namespace calotte::cvt_detail

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cvt/stages.h"
+
+#include <numbers>
+
+namespace calotte::cvt_detail {
+namespace {
+
+/// The spacing at rho = 1 of regular hexagons with the same energy. n times their energy is 5/(18
+/// sqrt 3) I^2, I the integral of rho^(1/2), and sqrt(3)/2 h^2 their area at rho = 1, I/n.
+double spacing_of(const CvtIteration& iteration) {
+  const auto n = static_cast<double>(iteration.cells);
+  const double integral = std::sqrt(iteration.energy * n * 18 * std::numbers::sqrt3 / 5);
+  return std::sqrt(2 / std::numbers::sqrt3 * integral / n);
+}
+
+} // namespace
+
+Stage stage_after(const State& state, const CvtOptions& options) {
+  constexpr int most_mends = 4;
+  const bool inserts = options.insertion_rounds > 0, in_finish = state.penalty > 0;
+  // A round may find too few edges for all generators that are missing.
+  if (inserts && !in_finish &&
+      (state.rounds_left > 0 ||
+       (state.bisections_left == 0 && state.points.cols() != options.cells)))
+    return Stage::insert;
+  if (state.bisections_left > 0)
+    return Stage::bisect;
+  if (options.well_centred && !in_finish)
+    return Stage::finish;
+  if (inserts && in_finish && !state.report.converged && state.mends < most_mends)
+    return Stage::mend;
+  return Stage::end;
+}
+
+CvtOptions options_of_descent(const State& state, const CvtOptions& options) {
+  constexpr int most_in_finish = 60;
+  constexpr double early = 1e-3;
+  CvtOptions here = options;
+  if (state.penalty > 0) {
+    here.method = Method::lbfgs;
+    here.max_iterations = most_in_finish;
+    return here;
+  }
+  const Stage next = stage_after(state, options);
+  if (options.insertion_rounds == 0 || options.norm == Norm::none ||
+      (next != Stage::insert && next != Stage::bisect))
+    return here;
+  here.tolerance = options.norm == Norm::l2_scaled ? std::max(early, options.tolerance) : early;
+  here.norm = Norm::l2_scaled;
+  here.final_rule = options.rule;
+  return here;
+}
+
+void begin_descent(State& state) {
+  state.memory = {};
+  state.iterations_of_level = 0;
+  state.final_rule = false;
+  state.report.converged = false;
+}
+
+void begin_finish(State& state) {
+  constexpr double factor = 30; // of an excess squared, in units of a cell's energy
+  const CvtIteration& last = state.report.iterations.back();
+  state.penalty = factor * last.energy / static_cast<double>(last.cells);
+  state.demanded_spacing = spacing_of(last);
+  state.descended = state.report.converged;
+  begin_descent(state);
+}
+
+} // namespace calotte::cvt_detail

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "cvt/room.h"
+#include "cvt/state.h"
+#include "cvt/tessellation.h"
+#include "generators/insertion.h"
+
+#include <calotte/cvt.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+/// The course of a run: descents, and what happens to the generators between two of them.
+///
+///     descent -> [ insert -> descent ]* -> [ bisect -> descent -> [ insert -> descent ]* ]*
+///             -> [ finish -> [ mend -> descent -> finish ]* ]
+namespace calotte::cvt_detail {
+
+/// What follows a descent.
+enum class Stage {
+  insert, ///< insertion and contraction on the same level
+  bisect, ///< the next level
+  finish, ///< a descent with the penalty of shape.h
+  mend,   ///< an insertion at odd sites, which a finish cannot give good shapes
+  end,
+};
+
+/// The number of generators at the end of the current level of a run with insertion.
+template <class World>
+std::int64_t cells_of_level(const World& world, const State& state, const CvtOptions& options) {
+  std::int64_t cells = options.cells;
+  for (int k = 0; k < state.bisections_left; ++k)
+    cells = world.halved(cells);
+  return cells;
+}
+
+Stage stage_after(const State& state, const CvtOptions& options);
+
+/// The options of the current descent.
+CvtOptions options_of_descent(const State& state, const CvtOptions& options);
+
+void begin_descent(State& state);
+
+/// The next level.
+template <class World, class AnyMesh>
+Level begin_level(const World& world, State& state, const CvtOptions& options,
+                  const AnyMesh& mesh) {
+  Level level = world.set_bisected(state, mesh);
+  --state.bisections_left;
+  state.rounds_left = options.insertion_rounds;
+  state.site_of_input.clear();
+  begin_descent(state);
+  return level;
+}
+
+/// How many edges a round inserts and contracts.
+struct Exchange {
+  std::int64_t inserted, contracted;
+};
+
+/// Half of the dislocations that the density demands while rounds are left; where a mesh is mended,
+/// the odd sites, or without such sites a few dislocations; and the difference to the number of
+/// cells.
+template <class AnyMesh>
+Exchange exchange_of(Stage stage, const State& state, const AnyMesh& mesh, const Density& density,
+                     std::int64_t cells) {
+  constexpr double share = 0.5, mended = 0.05; // of the dislocations
+  constexpr double most = 0.02;                // of the generators
+  const bool mend = stage == Stage::mend;
+  const std::int64_t n = mesh.points.cols();
+  std::int64_t both = mend ? count_odd_sites(mesh) : 0;
+  if (state.rounds_left > 0 || (mend && both == 0))
+    both = static_cast<std::int64_t>(std::ceil(std::min(
+        (mend ? mended : share) * dislocations(mesh, density), most * static_cast<double>(n))));
+  return {both + std::max<std::int64_t>(cells - n, 0), both + std::max<std::int64_t>(n - cells, 0)};
+}
+
+/// A round of insertion and contraction.
+template <class World, class AnyMesh>
+Level begin_round(const World& world, Stage stage, State& state, const CvtOptions& options,
+                  const AnyMesh& mesh) {
+  const Exchange exchange =
+      exchange_of(stage, state, mesh, options.density, cells_of_level(world, state, options));
+  Level level =
+      world.set_exchanged(state, mesh, options.density, exchange.inserted, exchange.contracted);
+  state.rounds_left = std::max(state.rounds_left - 1, 0);
+  state.mends += stage == Stage::mend ? 1 : 0;
+  state.penalty = 0;
+  state.site_of_input.clear();
+  begin_descent(state);
+  return level;
+}
+
+/// Sets the factor of the penalty and the demanded spacing from the last evaluation.
+void begin_finish(State& state);
+
+} // namespace calotte::cvt_detail

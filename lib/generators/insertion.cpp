@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "generators/insertion.h"
+
+#include <calotte/generators.h>
+
+#include "base/parallel.h"
+#include "base/points.h"
+#include "base/require.h"
+#include "density/planar_density.h"
+#include "domain/outline.h"
+#include "domain/periodic_box.h"
+#include "exact/predicates.h"
+#include "generators/room.h"
+#include "mesh/edges.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <span>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace calotte {
+namespace {
+
+using base_detail::column;
+using base_detail::require;
+using namespace domain_detail;
+
+/// An edge, and its length in units of the spacing that the density demands there, up to one
+/// factor.
+struct Edge {
+  double length;
+  std::int32_t a, b; ///< a < b
+};
+
+bool is_longer(const Edge& e, const Edge& f) {
+  return std::tie(f.length, e.a, e.b) < std::tie(e.length, f.a, f.b);
+}
+
+bool is_shorter(const Edge& e, const Edge& f) {
+  return std::tie(e.length, e.a, e.b) < std::tie(f.length, f.a, f.b);
+}
+
+/// rho^(1/4) at columns: 1/h up to a factor.
+Eigen::VectorXd fineness(const Density& density, const Points3& points) {
+  Eigen::VectorXd values(points.cols());
+  base_detail::for_each_block(
+      points.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+        values.segment(begin, end - begin) =
+            evaluate(density, points.middleCols(begin, end - begin)).cwiseSqrt().cwiseSqrt();
+      });
+  return values;
+}
+
+/// The neighbours of each site.
+class Neighbours {
+public:
+  Neighbours(std::int64_t sites, const std::vector<Edge>& edges)
+      : begin_(static_cast<std::size_t>(sites) + 1), ids_(2 * edges.size()) {
+    for (const Edge& edge : edges)
+      for (const std::int32_t end : {edge.a, edge.b})
+        ++begin_[static_cast<std::size_t>(end)];
+    std::int64_t sum = 0;
+    for (std::int64_t& begin : begin_)
+      begin = sum += begin;
+    for (const Edge& edge : edges) {
+      ids_[static_cast<std::size_t>(--begin_[static_cast<std::size_t>(edge.a)])] = edge.b;
+      ids_[static_cast<std::size_t>(--begin_[static_cast<std::size_t>(edge.b)])] = edge.a;
+    }
+  }
+  std::span<const std::int32_t> of(std::int32_t site) const {
+    const auto i = static_cast<std::size_t>(site);
+    return std::span(ids_).subspan(static_cast<std::size_t>(begin_[i]),
+                                   static_cast<std::size_t>(begin_[i + 1] - begin_[i]));
+  }
+
+private:
+  std::vector<std::int64_t> begin_;
+  std::vector<std::int32_t> ids_;
+};
+
+/// Edges that are far from each other: no end of one is an end of another or next to it.
+class Choice {
+public:
+  Choice(std::int64_t sites, const std::vector<Edge>& edges)
+      : neighbours_(sites, edges), blocked_(static_cast<std::size_t>(sites), 0) {}
+
+  /// Up to `count` of the edges, the first ones in an order. Reorders the edges.
+  template <class Before>
+  std::vector<Edge> choose(std::vector<Edge>& edges, std::int64_t count, const Before& before) {
+    std::vector<Edge> chosen;
+    const auto wanted = static_cast<std::size_t>(count);
+    std::size_t sorted = 0;
+    while (chosen.size() < wanted && sorted < edges.size()) {
+      const auto begin = edges.begin() + static_cast<std::ptrdiff_t>(sorted);
+      const std::size_t end = std::min(edges.size(), sorted + 4 * wanted + 64);
+      const auto middle = edges.begin() + static_cast<std::ptrdiff_t>(end);
+      std::nth_element(begin, middle, edges.end(), before);
+      std::sort(begin, middle, before);
+      for (; sorted < end && chosen.size() < wanted; ++sorted)
+        if (take(edges[sorted]))
+          chosen.push_back(edges[sorted]);
+    }
+    return chosen;
+  }
+
+private:
+  bool take(const Edge& edge) {
+    std::uint8_t& a = blocked_[static_cast<std::size_t>(edge.a)];
+    std::uint8_t& b = blocked_[static_cast<std::size_t>(edge.b)];
+    if (a != 0 || b != 0)
+      return false;
+    for (const std::int32_t end : {edge.a, edge.b})
+      for (const std::int32_t site : neighbours_.of(end))
+        blocked_[static_cast<std::size_t>(site)] = 1;
+    a = b = 1;
+    return true;
+  }
+
+  Neighbours neighbours_;
+  std::vector<std::uint8_t> blocked_;
+};
+
+void require_counts(std::int64_t sites, std::int64_t inserted, std::int64_t contracted) {
+  require(inserted >= 0 && contracted >= 0 && sites <= most_points - inserted,
+          "the numbers of edges are " + std::to_string(inserted) + " and " +
+              std::to_string(contracted) + "; give 0 or more, with at most " +
+              std::to_string(most_points) + " points in all");
+}
+
+/// Whether sites are on the hull of an open mesh, where rings are open.
+template <class AnyMesh> std::vector<std::uint8_t> hull_of(const AnyMesh& mesh) {
+  std::vector<std::uint8_t> hull(static_cast<std::size_t>(mesh.points.cols()), 0);
+  for (std::int64_t t = 0; t < mesh.triangles.cols(); ++t)
+    for (int i = 0; i < 3; ++i)
+      if (mesh.neighbours(i, t) < 0)
+        for (const int end : {(i + 1) % 3, (i + 2) % 3})
+          hull[static_cast<std::size_t>(mesh.triangles(end, t))] = 1;
+  return hull;
+}
+
+/// Relaxation does not mend cells with 8 sides or 4: 1 for many, -1 for few, 0 for others.
+template <class AnyMesh> std::vector<std::int8_t> oddities(const AnyMesh& mesh) {
+  constexpr int many = 8, few = 4;
+  std::vector<std::int32_t> degree(static_cast<std::size_t>(mesh.points.cols()), 0);
+  for (std::int64_t t = 0; t < mesh.triangles.cols(); ++t)
+    for (int i = 0; i < 3; ++i)
+      ++degree[static_cast<std::size_t>(mesh.triangles(i, t))];
+  const std::vector<std::uint8_t> hull = hull_of(mesh);
+  std::vector<std::int8_t> odd(degree.size(), 0);
+  for (std::size_t i = 0; i < odd.size(); ++i)
+    if (hull[i] == 0)
+      odd[i] = static_cast<std::int8_t>((degree[i] >= many) - (degree[i] <= few));
+  return odd;
+}
+
+/// The edges, with their lengths relative to the spacing. Those at sites with many neighbours count
+/// as longer, so that an insertion splits these; those at sites with few as shorter.
+template <class AnyMesh, class Space>
+std::vector<Edge> edges_of(const AnyMesh& mesh, const Points3& points, const Density& density,
+                           const Space& space) {
+  constexpr double preference = 2;
+  const Eigen::VectorXd fine = fineness(density, points);
+  const std::vector<std::int8_t> odd = oddities(mesh);
+  std::vector<Edge> edges;
+  edges.reserve(static_cast<std::size_t>(mesh_detail::count_edges(mesh)));
+  mesh_detail::for_each_edge(mesh, [&](std::int32_t a, std::int32_t b) {
+    const int sum = odd[static_cast<std::size_t>(a)] + odd[static_cast<std::size_t>(b)];
+    const double length = norm(space.offset(column(points, a), column(points, b))),
+                 factor = sum > 0   ? preference
+                          : sum < 0 ? 1 / preference
+                                    : 1;
+    edges.push_back({factor * length * (fine[a] + fine[b]), std::min(a, b), std::max(a, b)});
+  });
+  return edges;
+}
+
+/// The points that remain, those of contracted edges moved to the midpoints, then the inserted
+/// ones.
+template <class Middle>
+Points3 exchanged(const Points3& points, const std::vector<Edge>& split,
+                  const std::vector<Edge>& contracted, const Middle& middle) {
+  Points3 moved = points;
+  std::vector<std::uint8_t> gone(static_cast<std::size_t>(points.cols()), 0);
+  for (const Edge& edge : contracted) {
+    base_detail::set_column(moved, edge.a, middle(edge));
+    gone[static_cast<std::size_t>(edge.b)] = 1;
+  }
+  Points3 out(3, points.cols() + std::ssize(split) - std::ssize(contracted));
+  std::int64_t next = 0;
+  for (std::int64_t i = 0; i < points.cols(); ++i)
+    if (gone[static_cast<std::size_t>(i)] == 0)
+      out.col(next++) = moved.col(i);
+  for (const Edge& edge : split)
+    base_detail::set_column(out, next++, middle(edge));
+  return out;
+}
+
+/// \param Space has offset(a, b), middle(a, b) and holds(middle).
+template <class AnyMesh, class Space>
+Points3 exchange(const AnyMesh& mesh, const Points3& points, const Density& density,
+                 const Space& space, std::int64_t inserted, std::int64_t contracted) {
+  require_counts(points.cols(), inserted, contracted);
+  std::vector<Edge> edges = edges_of(mesh, points, density, space);
+  Choice choice(points.cols(), edges);
+  const auto middle = [&](const Edge& edge) {
+    return space.middle(column(points, edge.a), column(points, edge.b));
+  };
+  std::erase_if(edges, [&](const Edge& edge) { return !space.holds(middle(edge)); });
+  const std::vector<Edge> longest = choice.choose(edges, inserted, is_longer),
+                          shortest = choice.choose(edges, contracted, is_shorter);
+  return exchanged(points, longest, shortest, middle);
+}
+
+struct OnSphere {
+  static Vec3 offset(const Vec3& a, const Vec3& b) { return b - a; }
+  static Vec3 middle(const Vec3& a, const Vec3& b) { return normalised(a + b); }
+  static bool holds(const Vec3&) { return true; }
+};
+
+struct InPlane {
+  Vec2 period;
+  const Outline* outline; ///< none of a periodic box
+
+  Vec3 offset(const Vec3& a, const Vec3& b) const {
+    const Vec2 way = nearest_offset(a, b, period);
+    return {way.x, way.y, 0};
+  }
+  Vec3 middle(const Vec3& a, const Vec3& b) const {
+    const Vec3 middle = a + 0.5 * offset(a, b);
+    if (outline != nullptr)
+      return middle;
+    return {wrapped(middle.x, period.x), wrapped(middle.y, period.y), 0};
+  }
+  bool holds(const Vec3& place) const {
+    return outline == nullptr || outline->side({place.x, place.y}) == Side::inside;
+  }
+};
+
+Points3 unit(const Points3& points) {
+  Points3 out(3, points.cols());
+  for (std::int64_t i = 0; i < points.cols(); ++i)
+    base_detail::set_column(out, i, normalised(column(points, i)));
+  return out;
+}
+
+/// Where h changes by a factor 1 + g from one cell to the next, one row of cells in 1/g must end.
+/// Over all directions of an edge, its |change of log h| is 2/pi of g times its length; there are
+/// three edges for each cell, whose area is sqrt(3)/2 h^2.
+template <class AnyMesh>
+double sum_dislocations(const AnyMesh& mesh, const Points3& points, const Density& density) {
+  constexpr double per_edge = std::numbers::sqrt3 / 2 * (std::numbers::pi / 2) / 3;
+  const Eigen::VectorXd fine = fineness(density, points);
+  double sum = 0;
+  mesh_detail::for_each_edge(mesh, [&](std::int32_t a, std::int32_t b) {
+    sum += std::abs(fine[a] - fine[b]) / std::max(fine[a], fine[b]);
+  });
+  return per_edge * sum;
+}
+
+Points3 in_space(const PlanarMesh& mesh) {
+  Points3 places = Points3::Zero(3, mesh.points.cols());
+  places.topRows<2>() = mesh.points;
+  return places;
+}
+
+} // namespace
+
+namespace generators_detail {
+
+double dislocations(const Mesh& mesh, const Density& density) {
+  return sum_dislocations(mesh, unit(mesh.points), density);
+}
+
+double dislocations(const PlanarMesh& mesh, const Density& density) {
+  return sum_dislocations(mesh, in_space(mesh), density);
+}
+
+template <class AnyMesh> std::int64_t count_odd_sites(const AnyMesh& mesh) {
+  const std::vector<std::int8_t> odd = oddities(mesh);
+  return std::ssize(odd) - std::count(odd.begin(), odd.end(), 0);
+}
+
+template std::int64_t count_odd_sites(const Mesh& mesh);
+template std::int64_t count_odd_sites(const PlanarMesh& mesh);
+
+} // namespace generators_detail
+
+Points3 insert_and_contract(const Mesh& mesh, const Density& density, std::int64_t inserted,
+                            std::int64_t contracted) {
+  return exchange(mesh, unit(mesh.points), density, OnSphere(), inserted, contracted);
+}
+
+Points2 insert_and_contract(const PlanarMesh& mesh, const PlanarDomain& domain,
+                            const Density& density, std::int64_t inserted,
+                            std::int64_t contracted) {
+  const std::unique_ptr<const Outline> outline =
+      domain.periodic() ? nullptr : std::make_unique<const Outline>(domain);
+  const InPlane space{{domain.period.x(), domain.period.y()}, outline.get()};
+  return exchange(mesh, in_space(mesh), density_detail::planar_density(density, domain), space,
+                  inserted, contracted)
+      .topRows<2>();
+}
+
+} // namespace calotte

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "generators/room.h"
+
+#include <calotte/density.h>
+#include <calotte/types.h>
+
+#include <cstdint>
+
+namespace calotte::generators_detail {
+
+/// An estimate of the number of dislocations that a mesh needs so that its spacing can follow a
+/// density: the integral of |grad h| / h^2, h the spacing. It grows as sqrt(n), and is 0 for
+/// uniform density.
+double dislocations(const Mesh& mesh, const Density& density);
+
+/// The same in the plane. \pre the density is that of planar_density().
+double dislocations(const PlanarMesh& mesh, const Density& density);
+
+/// The number of sites with 8 neighbours or more, or 4 or fewer, not on the hull. An insertion
+/// prefers edges at the former, a contraction at the latter.
+template <class AnyMesh> std::int64_t count_odd_sites(const AnyMesh& mesh);
+
+} // namespace calotte::generators_detail

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cvt/stages.h"
+
+#include "support/densities.h"
+#include "support/files.h"
+
+#include <calotte/check.h>
+#include <calotte/cvt.h>
+#include <calotte/domain.h>
+#include <calotte/error.h>
+#include <calotte/generators.h>
+#include <calotte/io.h>
+#include <calotte/quality.h>
+
+#include <doctest/doctest.h>
+#include <oneapi/tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <tuple>
+#include <vector>
+
+using namespace calotte;
+using namespace calotte::test;
+
+namespace {
+
+/// A graded run that a model could use.
+CvtOptions graded(std::int64_t cells, int bisections, const Density& density) {
+  CvtOptions options;
+  options.density = density;
+  options.tolerance = 3e-4;
+  options.bisections = bisections;
+  options.insertion_rounds = 2;
+  options.cells = cells;
+  options.well_centred = true;
+  return options;
+}
+
+Points3 start_of(std::int64_t n, const Density& density, std::uint64_t seed = 1) {
+  return random_sphere(n, site_density(density), seed);
+}
+
+Density ellipse() {
+  Density density = tanh_bump({1, 2, -1}, 0.4, 0.25, 1.0 / 256);
+  density.bumps[0].stretch = 3;
+  density.bumps[0].major = {0, 1, 0};
+  return density;
+}
+
+Density two_bumps() {
+  Density density = tanh_bump({1, 0, 0}, 0.5, 0.2, 1.0 / 256);
+  density.bumps.push_back(tanh_bump({1, 1, 0}, 0.3, 0.3, 1.0 / 81).bumps[0]);
+  return density;
+}
+
+/// E n over the limit of regular hexagons everywhere, less 1; its integral is from a fine lattice.
+double excess(const Cvt& grid, const Density& density) {
+  const Points3 lattice = fibonacci_sphere(200000);
+  const double integral = 4 * std::numbers::pi * evaluate(density, lattice).cwiseSqrt().mean();
+  const double limit = 5 / (18 * std::numbers::sqrt3) * integral * integral;
+  return quality(grid.mesh, density).energy * static_cast<double>(grid.mesh.points.cols()) / limit -
+         1;
+}
+
+void check_shapes(const Mesh& mesh) {
+  const Quality q = quality(mesh);
+  CHECK(q.angles.min > 46.5);
+  CHECK(q.angles.max < 78.5);
+  CHECK(q.obtuse == 0);
+  CHECK(q.cell_quality.min > 0.36);
+  for (std::size_t degree = 0; degree < q.degrees.size(); ++degree)
+    if (degree < 5 || degree > 7)
+      CHECK(q.degrees[degree] == 0);
+}
+
+bool equal(const Cvt& a, const Cvt& b) {
+  return a.mesh.points == b.mesh.points && a.mesh.triangles == b.mesh.triangles &&
+         a.report.converged == b.report.converged &&
+         a.report.iterations.size() == b.report.iterations.size();
+}
+
+std::string message_of(const CvtOptions& options) {
+  try {
+    spherical_cvt(fibonacci_sphere(20), options);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+} // namespace
+
+TEST_CASE("stages: insertion reaches any number of cells, from any start") {
+  for (const auto& [start, bisections, cells] : {std::tuple{12, 0, 12},
+                                                 {12, 0, 13},
+                                                 {30, 0, 20},
+                                                 {40, 1, 160},
+                                                 {50, 1, 221},
+                                                 {100, 2, 1500}}) {
+    CAPTURE(start);
+    CAPTURE(cells);
+    CvtOptions options = graded(cells, bisections, two_bumps());
+    options.well_centred = false;
+    const Cvt grid = spherical_cvt(start_of(start, Density{}), options);
+    CHECK(grid.mesh.points.cols() == cells);
+    CHECK(grid.report.converged);
+    CHECK(check(grid.mesh).failure == "");
+    CHECK(grid.report.residual <= options.tolerance);
+  }
+}
+
+TEST_CASE("stages: insertion finds a better minimum than descents alone [slow]") {
+  CvtOptions options = graded(4000, 2, x8());
+  options.well_centred = false;
+  const Points3 start = start_of(252, x8());
+  const double with = excess(spherical_cvt(start, options), x8());
+  options.insertion_rounds = 0;
+  options.cells = 0;
+  const Cvt plain = spherical_cvt(start, options);
+  CHECK(with < 0.85 * excess(plain, x8()));
+  CHECK(with > 0);
+}
+
+TEST_CASE("stages: a finish gives the shapes that models ask for [slow]") {
+  for (const Density& density : {x8(), ellipse(), two_bumps(), Density{}})
+    for (const std::uint64_t seed : {1, 2}) {
+      CAPTURE(seed);
+      const Cvt grid = spherical_cvt(start_of(190, density, seed), graded(3001, 2, density));
+      CHECK(grid.mesh.points.cols() == 3001);
+      CHECK(grid.report.converged);
+      CHECK(grid.report.iterations.back().misshapen <= 0.035);
+      CHECK(check(grid.mesh).failure == "");
+      check_shapes(grid.mesh);
+      CHECK(grid.report.residual < 0.02);
+    }
+}
+
+TEST_CASE("stages: threads and regions have no effect on insertion and finish") {
+  const Points3 start = start_of(160, x8());
+  const auto with = [&](std::size_t threads, int regions) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    CvtOptions options = graded(2500, 2, x8());
+    options.partition.regions = regions;
+    return spherical_cvt(start, options);
+  };
+  const Cvt one = with(1, 1);
+  CHECK(one.report.converged);
+  CHECK(equal(one, with(2, 12)));
+  CHECK(equal(one, with(4, 42)));
+}
+
+TEST_CASE("stages: a run resumes to the same bits within each stage") {
+  const Scratch scratch;
+  const CvtOptions options = graded(700, 1, two_bumps());
+  const Points3 start = start_of(177, two_bumps(), 4);
+  std::vector<CvtState> states;
+  const Cvt whole = spherical_cvt(start, options, [&](const CvtProgress& now) {
+    states.push_back(now.state);
+    return false;
+  });
+  REQUIRE(states.back().data().penalty > 0);
+  REQUIRE(states.size() > 40);
+  for (std::size_t k = 0; k < states.size(); k += k + 12 < states.size() ? 9 : 1) {
+    CAPTURE(k);
+    write_checkpoint(scratch / "run.ckpt", states[k], "same");
+    CHECK(equal(spherical_cvt(read_checkpoint(scratch / "run.ckpt", "same"), options), whole));
+  }
+}
+
+TEST_CASE("stages: a finish leaves a mesh of good shapes as it is") {
+  CvtOptions options;
+  const Cvt pure = spherical_cvt(bisected_icosahedron(3), options);
+  options.well_centred = true;
+  const Cvt finished = spherical_cvt(bisected_icosahedron(3), options);
+  CHECK((pure.mesh.points == finished.mesh.points));
+  CHECK(finished.report.converged);
+  CHECK(finished.report.iterations.size() == pure.report.iterations.size() + 1);
+}
+
+TEST_CASE("stages: in the plane, with a boundary and in a box") {
+  const Density fine = tanh_bump({0.7, 0.5, 0}, 0.2, 0.2, 1.0 / 256);
+  PlanarDomain box;
+  box.period = {2, 1};
+  for (const PlanarDomain& domain : {rectangle({0, 0}, {2, 1}), box}) {
+    CAPTURE(domain.periodic());
+    const Points2 start = random_places(120, domain, site_density(fine, domain), 3);
+    const PlanarCvt grid = planar_cvt(start, domain, graded(1900, 2, fine));
+    CHECK(grid.mesh.points.cols() == 1900);
+    CHECK(grid.report.converged);
+    CHECK(check(grid.mesh).failure == "");
+    const Quality q = quality(grid.mesh, domain, fine);
+    CHECK(q.angles.min > 44);
+    CHECK(q.obtuse == 0);
+  }
+}
+
+TEST_CASE("stages: bad options are errors") {
+  CvtOptions options;
+  options.insertion_rounds = 1;
+  CHECK(message_of(options).find("give both or neither") != std::string::npos);
+  options = {};
+  options.cells = 100;
+  CHECK(message_of(options).find("give both or neither") != std::string::npos);
+  options.insertion_rounds = -1;
+  CHECK(message_of(options).find("give 0 or more") != std::string::npos);
+  options = {};
+  options.insertion_rounds = 1;
+  options.cells = 5;
+  CHECK(message_of(options).find("give at least 12") != std::string::npos);
+}

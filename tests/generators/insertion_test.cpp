@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "generators/insertion.h"
+
+#include "support/densities.h"
+
+#include <calotte/delaunay.h>
+#include <calotte/domain.h>
+#include <calotte/error.h>
+#include <calotte/generators.h>
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <numeric>
+#include <random>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+using namespace calotte;
+using namespace calotte::test;
+
+namespace {
+
+using Place = std::array<double, 3>;
+
+std::set<Place> places_of(const Points3& points) {
+  std::set<Place> places;
+  for (const auto& x : points.colwise())
+    places.insert({x[0], x[1], x[2]});
+  return places;
+}
+
+/// The ends of each edge once, and its length over the spacing up to a factor.
+struct Edge {
+  double length;
+  std::int32_t a, b;
+};
+
+std::vector<Edge> edges_of(const Mesh& mesh, const Density& density) {
+  const Eigen::VectorXd rho = evaluate(density, mesh.points);
+  std::vector<Edge> edges;
+  for (const auto& t : mesh.triangles.colwise())
+    for (int i = 0; i < 3; ++i)
+      if (const std::int32_t a = t[i], b = t[(i + 1) % 3]; a < b)
+        edges.push_back({(mesh.points.col(a) - mesh.points.col(b)).norm() *
+                             (std::pow(rho[a], 0.25) + std::pow(rho[b], 0.25)),
+                         a, b});
+  return edges;
+}
+
+Mesh relaxed(std::int64_t n, const Density& density) {
+  return spherical_delaunay(random_sphere(n, site_density(density), 3));
+}
+
+std::string message_of(const Mesh& mesh, const Density& density, std::int64_t inserted,
+                       std::int64_t contracted) {
+  try {
+    insert_and_contract(mesh, density, inserted, contracted);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+} // namespace
+
+TEST_CASE("insertion: counts, unit columns, and points that stay keep their bits and order") {
+  const Mesh mesh = relaxed(2000, x8());
+  const Points3 points = insert_and_contract(mesh, x8(), 30, 20);
+  REQUIRE(points.cols() == 2010);
+  CHECK(((points.colwise().norm().array() - 1).abs() < 1e-15).all());
+  CHECK(places_of(points).size() == 2010); // distinct
+  std::int64_t from = 0, kept = 0;
+  for (std::int64_t i = 0; i < 1980; ++i) {
+    std::int64_t at = from;
+    while (at < 2000 && !(mesh.points.col(at) - points.col(i)).isZero(1e-15))
+      ++at;
+    if (at < 2000) {
+      from = at + 1;
+      ++kept;
+    }
+  }
+  CHECK(kept == 1960); // and 20 midpoints
+}
+
+TEST_CASE("insertion: the longest edges are split and the shortest contracted") {
+  const auto has = [](const Points3& points, const Eigen::Vector3d& x) {
+    return ((points.colwise() - x).colwise().norm().array() < 1e-14).any();
+  };
+  // In a bisected icosahedron no site is odd, and the longest edge stands out once moved.
+  Points3 points = bisected_icosahedron(3);
+  points.col(100) = (points.col(100) + 0.03 * Eigen::Vector3d(1, 2, 3)).normalized();
+  const Mesh moved = spherical_delaunay(points);
+  REQUIRE(generators_detail::count_odd_sites(moved) == 0);
+  std::vector<Edge> sorted = edges_of(moved, Density{});
+  std::sort(sorted.begin(), sorted.end(),
+            [](const Edge& e, const Edge& f) { return e.length < f.length; });
+  const auto middle_of = [&](const Edge& e) {
+    return Eigen::Vector3d((points.col(e.a) + points.col(e.b)).normalized());
+  };
+  CHECK(has(insert_and_contract(moved, Density{}, 1, 0), middle_of(sorted.back())));
+  CHECK(has(insert_and_contract(moved, Density{}, 0, 1), middle_of(sorted.front())));
+  CHECK(!has(insert_and_contract(moved, Density{}, 0, 1), points.col(sorted.front().b)));
+}
+
+TEST_CASE("insertion: the choice does not depend on the numbers of the points") {
+  const Points3 points = random_sphere(1500, site_density(x8()), 9);
+  std::vector<Eigen::Index> order(1500);
+  std::iota(order.begin(), order.end(), 0);
+  std::shuffle(order.begin(), order.end(), std::mt19937(5));
+  const Points3 shuffled = points(Eigen::all, order);
+  const auto of = [](const Points3& start) {
+    const Points3 out = insert_and_contract(spherical_delaunay(start), x8(), 40, 40);
+    Points3 rounded = (out.array() * 1e12).round(); // a + b and b + a round alike; a midpoint's
+    return places_of(rounded);                      // place in the sum may not
+  };
+  CHECK(of(points) == of(shuffled));
+}
+
+TEST_CASE("insertion: small meshes give what they can") {
+  const Mesh icosahedron = spherical_delaunay(bisected_icosahedron(0));
+  for (const std::int64_t count : {1, 5, 1000}) {
+    const std::int64_t more = insert_and_contract(icosahedron, Density{}, count, 0).cols(),
+                       fewer = insert_and_contract(icosahedron, Density{}, 0, count).cols();
+    CHECK(more >= 13);
+    CHECK(more <= 12 + std::min<std::int64_t>(count, 2));
+    CHECK(fewer <= 11);
+    CHECK(fewer >= 10);
+  }
+}
+
+TEST_CASE("insertion: sites with 8 neighbours lose some") {
+  // A ring of 8 around the pole, in a lattice that is coarse elsewhere.
+  const Points3 base = fibonacci_sphere(400);
+  std::vector<Eigen::Vector3d> kept{{0, 0, 1}};
+  for (int k = 0; k < 8; ++k) {
+    const double angle = k * std::numbers::pi / 4 + 0.1;
+    kept.push_back({0.2 * std::cos(angle), 0.2 * std::sin(angle), std::sqrt(1 - 0.04)});
+  }
+  for (const auto& x : base.colwise())
+    if (x[2] < 0.93)
+      kept.push_back(x);
+  Points3 points(3, std::ssize(kept));
+  for (Eigen::Index i = 0; i < points.cols(); ++i)
+    points.col(i) = kept[static_cast<std::size_t>(i)];
+  const auto pole_of = [](const Mesh& mesh) { return (mesh.triangles.array() == 0).count(); };
+  const Mesh mesh = spherical_delaunay(points);
+  REQUIRE(pole_of(mesh) == 8);
+  const std::int64_t odd = generators_detail::count_odd_sites(mesh);
+  REQUIRE(odd >= 1);
+  const Points3 out = insert_and_contract(mesh, Density{}, odd, 0);
+  const bool near_pole =
+      ((out.rightCols(out.cols() - points.cols()).row(2).array()) > std::sqrt(1 - 0.02)).any();
+  CHECK(near_pole);
+}
+
+TEST_CASE("insertion: dislocations grow as the root of the number, and uniform meshes need none") {
+  CHECK(generators_detail::dislocations(relaxed(1000, Density{}), Density{}) == 0);
+  const double few = generators_detail::dislocations(relaxed(4000, x8()), x8()),
+               many = generators_detail::dislocations(relaxed(16000, x8()), x8());
+  CHECK(many / few == doctest::Approx(2).epsilon(0.05));
+}
+
+TEST_CASE("insertion: in the plane midpoints lie inside the domain or the box") {
+  PlanarDomain corner; // with a reflex corner
+  corner.rings.push_back((Eigen::MatrixXd(2, 6) << 0, 2, 2, 1, 1, 0, 0, 0, 1, 1, 2, 2).finished());
+  const Density fine = tanh_bump({0.5, 0.5, 0}, 0.3, 0.2, 1.0 / 256);
+  const PlanarMesh mesh = planar_delaunay(random_places(600, corner, 2));
+  const Points2 points = insert_and_contract(mesh, corner, fine, 25, 15);
+  CHECK(points.cols() == 610);
+  for (const auto& x : points.colwise()) {
+    CHECK(x.minCoeff() > 0);
+    CHECK((x[0] < 1 || x[1] < 1));
+  }
+  PlanarDomain box;
+  box.period = {3, 2};
+  const PlanarMesh periodic = periodic_delaunay(random_places(500, box, 2), box.period);
+  const Points2 inside = insert_and_contract(periodic, box, fine, 10, 10);
+  CHECK(inside.cols() == 500);
+  CHECK(inside.minCoeff() >= 0);
+  CHECK((inside.row(0).array() < 3).all());
+  CHECK((inside.row(1).array() < 2).all());
+}
+
+TEST_CASE("insertion: bad numbers and densities are errors") {
+  const Mesh mesh = spherical_delaunay(bisected_icosahedron(1));
+  CHECK(message_of(mesh, Density{}, -1, 0).find("give 0 or more") != std::string::npos);
+  CHECK(message_of(mesh, Density{}, 0, -7).find("-7") != std::string::npos);
+  CHECK(message_of(mesh, Density{}, std::int64_t{1} << 30, 0).find("at most") != std::string::npos);
+  CHECK(message_of(mesh, tanh_bump({0, 0, 1}, -1, 1, 0.5), 1, 1).find("beta") != std::string::npos);
+}
