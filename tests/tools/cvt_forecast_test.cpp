@@ -17,7 +17,7 @@ struct Standing {
   int iterations_of_level = 0, bisections_left = 0;
   CvtState state;
 
-  operator CvtProgress() const { return {report, iterations_of_level, bisections_left, state}; }
+  operator CvtProgress() const { return {report, iterations_of_level, bisections_left, 0, state}; }
 };
 
 /// A level of iterations of two seconds each whose norms are factor^k.
