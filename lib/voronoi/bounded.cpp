@@ -4,6 +4,7 @@
 #include "base/require.h"
 #include "domain/clipped_cell.h"
 #include "mesh/ids.h"
+#include "voronoi/groups.h"
 #include "voronoi/open.h"
 #include "voronoi/shore.h"
 
@@ -50,7 +51,7 @@ struct DelaunayEdge {
 }
 
 /// Sorted by their sites.
-std::vector<DelaunayEdge> delaunay_edges(const Triangles& triangles) {
+std::vector<DelaunayEdge> delaunay_edges(const Triangles& triangles, std::int64_t sites) {
   std::vector<DelaunayEdge> sides;
   sides.reserve(static_cast<std::size_t>(triangles.size()));
   for (std::int32_t t = 0; t < triangles.cols(); ++t)
@@ -59,9 +60,12 @@ std::vector<DelaunayEdge> delaunay_edges(const Triangles& triangles) {
       sides.push_back(a < b ? DelaunayEdge{a, b, none, t} : DelaunayEdge{b, a, t, none});
     }
   const auto sites_of = [](const DelaunayEdge& edge) { return std::tie(edge.low, edge.high); };
-  std::sort(sides.begin(), sides.end(), [&](const DelaunayEdge& a, const DelaunayEdge& b) {
-    return sites_of(a) < sites_of(b);
-  });
+  sort_in_groups(
+      sites, [](const DelaunayEdge& side) { return side.low; },
+      [](const DelaunayEdge& a, const DelaunayEdge& b) {
+        return std::tie(a.high, a.left, a.right) < std::tie(b.high, b.left, b.right);
+      },
+      sides);
   std::vector<DelaunayEdge> edges;
   for (const DelaunayEdge& side : sides) {
     if (edges.empty() || sites_of(edges.back()) != sites_of(side)) {
@@ -136,13 +140,27 @@ std::vector<Crossing> crossings_of(const std::vector<std::vector<ShoreVertex>>& 
   return crossings;
 }
 
+/// A neighbour of a triangle, and how often more the boundary turns around it.
+struct Beyond {
+  std::int32_t triangle = none;
+  int more = 0;
+};
+
+void add(std::array<Beyond, 3>& list, const Beyond& beyond) {
+  for (Beyond& place : list)
+    if (place.triangle < 0) {
+      place = beyond;
+      return;
+    }
+}
+
 /// How often the boundary turns around each triangle, which is 0 or 1 by the rings' orientation.
 /// To the left of an edge it turns once more for each crossing that starts there.
 std::vector<std::int8_t> triangles_inside(const std::vector<DelaunayEdge>& edges,
                                           const std::vector<int>& starts, const PlanarMesh& mesh) {
   constexpr std::int8_t unknown = -1;
   std::vector<std::int8_t> inside(static_cast<std::size_t>(mesh.triangles.cols()), unknown);
-  std::vector<std::vector<std::pair<std::int32_t, int>>> beyond(inside.size());
+  std::vector<std::array<Beyond, 3>> beyond(inside.size());
   std::vector<std::int32_t> known;
   const auto set = [&](std::int32_t triangle, int turns) {
     require(turns == 0 || turns == 1,
@@ -157,8 +175,8 @@ std::vector<std::int8_t> triangles_inside(const std::vector<DelaunayEdge>& edges
   for (std::size_t e = 0; e < edges.size(); ++e) {
     const auto [low, high, right, left] = edges[e];
     if (right >= 0 && left >= 0) {
-      beyond[static_cast<std::size_t>(right)].emplace_back(left, starts[e]);
-      beyond[static_cast<std::size_t>(left)].emplace_back(right, -starts[e]);
+      add(beyond[static_cast<std::size_t>(right)], {left, starts[e]});
+      add(beyond[static_cast<std::size_t>(left)], {right, -starts[e]});
     } else if (!is_known(std::max(left, right))) {
       set(std::max(left, right), left >= 0 ? starts[e] : -starts[e]);
     }
@@ -167,7 +185,7 @@ std::vector<std::int8_t> triangles_inside(const std::vector<DelaunayEdge>& edges
     const std::int32_t triangle = known.back();
     known.pop_back();
     for (const auto& [other, more] : beyond[static_cast<std::size_t>(triangle)])
-      if (!is_known(other))
+      if (other >= 0 && !is_known(other))
         set(other, inside[static_cast<std::size_t>(triangle)] + more);
   }
   return inside;
@@ -265,9 +283,10 @@ void append_cell(const Side* begin, const Side* end, std::vector<std::int32_t>& 
 }
 
 void set_cells(std::vector<Side> sides, std::int64_t cells, Voronoi& out) {
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    return std::tie(a.cell, a.from) < std::tie(b.cell, b.from);
-  });
+  sort_in_groups(
+      cells, [](const Side& side) { return side.cell; },
+      [](const Side& a, const Side& b) { return std::tie(a.from, a.to) < std::tie(b.from, b.to); },
+      sides);
   std::vector<std::int32_t> vertices;
   out.begin.resize(cells + 1);
   const Side* side = sides.data();
@@ -302,7 +321,7 @@ void set_vertices(const PlanarMesh& mesh, const std::vector<std::int32_t>& verte
 }
 
 Voronoi bounded(const PlanarMesh& mesh, const Outline& outline) {
-  const std::vector<DelaunayEdge> edges = delaunay_edges(mesh.triangles);
+  const std::vector<DelaunayEdge> edges = delaunay_edges(mesh.triangles, mesh.points.cols());
   const auto rings = walk_shore(outline, mesh.points, neighbours_of(edges, mesh.points.cols()));
   const std::vector<Crossing> crossings = crossings_of(rings, edges, mesh.points);
   std::vector<int> starts(edges.size());

@@ -5,6 +5,7 @@
 #include "base/parallel.h"
 #include "base/points.h"
 #include "exact/predicates.h"
+#include "voronoi/groups.h"
 
 #include <calotte/error.h>
 
@@ -47,9 +48,12 @@ std::vector<Side> sides_of(const Voronoi& of) {
       const auto [low, high] = std::minmax({start_of(of, i, place), of.vertices_on_cell[place]});
       sides.push_back({low, high, i, place});
     }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    return std::tie(a.low, a.high, a.cell, a.place) < std::tie(b.low, b.high, b.cell, b.place);
-  });
+  sort_in_groups(
+      of.vertices.cols(), [](const Side& side) { return side.low; },
+      [](const Side& a, const Side& b) {
+        return std::tie(a.high, a.cell, a.place) < std::tie(b.high, b.cell, b.place);
+      },
+      sides);
   return sides;
 }
 
@@ -60,12 +64,6 @@ struct Edge {
 
   bool inner() const { return cell[1] >= 0; }
 };
-
-bool operator<(const Edge& a, const Edge& b) {
-  if (a.inner() != b.inner())
-    return a.inner();
-  return std::tie(a.cell, a.place) < std::tie(b.cell, b.place);
-}
 
 /// Two sides of one edge run in opposite directions.
 bool fit(const Voronoi& of, const Side& a, const Side& b) {
@@ -93,7 +91,13 @@ std::vector<Edge> edges_of(const Voronoi& of) {
     }
     edges.push_back(edge);
   }
-  std::sort(edges.begin(), edges.end());
+  const std::int64_t cells = of.cells.cols();
+  sort_in_groups(
+      2 * cells, [&](const Edge& edge) { return edge.cell[0] + (edge.inner() ? 0 : cells); },
+      [](const Edge& a, const Edge& b) {
+        return std::tie(a.cell, a.place) < std::tie(b.cell, b.place);
+      },
+      edges);
   return edges;
 }
 
