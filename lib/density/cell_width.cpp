@@ -93,19 +93,37 @@ Corner steepest_of_row(const WidthField& field, std::int64_t j) {
   return steepest;
 }
 
+CALOTTE_VECTOR_WIDTHS
+void densities_of_widths(double least, std::size_t count, double* values) {
+  CALOTTE_VECTOR_LOOP
+  for (std::size_t k = 0; k < count; ++k) {
+    const double ratio = least / values[k], square = ratio * ratio;
+    values[k] = square * square;
+  }
+}
+
 } // namespace
+
+namespace density_detail {
+
+void WidthDensity::operator()(const Eigen::Ref<const Points3>& points,
+                              Eigen::Ref<Eigen::VectorXd> rho) const {
+  evaluate_block(*field_, points, rho);
+  densities_of_widths(field_->least(), static_cast<std::size_t>(rho.size()), rho.data());
+}
+
+void WidthDensity::operator()(const double* x, const double* y, const double* z, std::size_t count,
+                              double* rho) const {
+  (*field_)(x, y, z, count, rho);
+  densities_of_widths(field_->least(), count, rho);
+}
+
+} // namespace density_detail
 
 Density density_of(const CellWidth& cell_width) {
   Density density;
   density.kind = Density::Kind::callable;
-  density.callable = [field = std::make_shared<const WidthField>(cell_width)](
-                         const Eigen::Ref<const Points3>& points, Eigen::Ref<Eigen::VectorXd> rho) {
-    evaluate_block(*field, points, rho);
-    for (double& value : rho) {
-      const double ratio = field->least() / value, square = ratio * ratio;
-      value = square * square;
-    }
-  };
+  density.callable = density_detail::WidthDensity(cell_width);
   return density;
 }
 

@@ -109,7 +109,6 @@ WidthField::WidthField(const CellWidth& cell_width) {
   for (const double longitude : longitudes)
     columns.push_back((longitude - shift) * radians);
   columns.push_back((longitudes[0] - shift + 360) * radians);
-  longitudes_ = Axis(std::move(columns));
 
   std::vector<double> rows;
   const auto add = [&](Eigen::Index row, double latitude) {
@@ -123,6 +122,8 @@ WidthField::WidthField(const CellWidth& cell_width) {
     add(row, latitudes[row]);
   if (latitudes[last] < 90)
     add(last, 90);
+  table_ = WidthTable::make(columns, rows, widths_);
+  longitudes_ = Axis(std::move(columns));
   latitudes_ = Axis(std::move(rows));
   least_ = cell_width.widths.minCoeff();
 }
@@ -156,6 +157,10 @@ double WidthField::interpolate(double longitude, double latitude) const {
 
 void WidthField::operator()(const double* x, const double* y, const double* z, std::size_t count,
                             double* widths) const {
+  if (table_) {
+    (*table_)(x, y, z, count, widths);
+    return;
+  }
   constexpr std::size_t most = 128;
   std::array<double, most> longitudes, latitudes;
   for (std::size_t begin = 0; begin < count; begin += most) {

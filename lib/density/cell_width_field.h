@@ -2,10 +2,13 @@
 #pragma once
 
 #include "density/room.h"
+#include "density/width_table.h"
 
 #include <calotte/cell_width.h>
 
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <vector>
 
 namespace calotte::density_detail {
@@ -60,9 +63,24 @@ private:
   void add_row(const CellWidth& cell_width, Eigen::Index row, double latitude);
 
   Axis longitudes_, latitudes_;
-  std::vector<double> widths_; ///< row by row
+  std::optional<WidthTable> table_; ///< of a regular grid
+  std::vector<double> widths_;      ///< row by row
   std::vector<double> cosines_, sines_;
   double least_ = 0; ///< of the nodes given
+};
+
+/// The callable of a density (h_min/h)^4. DensityEvaluator calls the second operator.
+class WidthDensity {
+public:
+  explicit WidthDensity(const CellWidth& cell_width)
+      : field_(std::make_shared<const WidthField>(cell_width)) {}
+
+  void operator()(const Eigen::Ref<const Points3>& points, Eigen::Ref<Eigen::VectorXd> rho) const;
+  void operator()(const double* x, const double* y, const double* z, std::size_t count,
+                  double* rho) const;
+
+private:
+  std::shared_ptr<const WidthField> field_;
 };
 
 /// The regular grid, poles included, with the largest step of at most `step` degrees that divides

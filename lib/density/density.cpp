@@ -107,10 +107,18 @@ Profile profile_without_place(const Bump& bump, const std::string& name) {
 }
 
 DensityEvaluator::DensityEvaluator(const Density& density)
-    : density_(density), profiles_(profiles_of(density)) {}
+    : density_(density), profiles_(profiles_of(density)) {
+  if (density_.kind == Density::Kind::callable)
+    if (const auto* widths = density_.callable.target<WidthDensity>())
+      widths_ = *widths;
+}
 
 void DensityEvaluator::operator()(std::span<const double> x, std::span<const double> y,
                                   std::span<const double> z, std::span<double> rho) const {
+  if (widths_) {
+    (*widths_)(x.data(), y.data(), z.data(), rho.size(), rho.data());
+    return;
+  }
   if (density_.kind == Density::Kind::callable) {
     call(x, y, z, rho);
     return;

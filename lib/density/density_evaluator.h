@@ -3,10 +3,12 @@
 
 #include "base/elementary.h"
 #include "base/vec3.h"
+#include "density/cell_width_field.h"
 #include "density/room.h"
 
 #include <calotte/density.h>
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -59,6 +61,7 @@ private:
 
   Density density_;
   std::vector<Profile> profiles_;
+  std::optional<WidthDensity> widths_; ///< the callable, if it is that of cell widths
 };
 
 } // namespace calotte::density_detail
