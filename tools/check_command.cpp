@@ -126,7 +126,7 @@ void run(const MeshSource& source) {
   {
     Progress progress;
     progress.stage("reading " + source.path);
-    const MeshFile file = read_mesh_file(source);
+    const MeshFile file = read_mesh_file(source, FieldChoice::none);
     progress.stage("checking " + source.path);
     text = changes_of(source, file);
     if (file.plane || (file.mesh && !(file.polygons && file.mesh->closed()))) {

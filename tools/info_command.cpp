@@ -248,7 +248,7 @@ std::string remarks_of(const Request& request, const Measured& measured) {
 std::string read_and_measure(const Request& request) {
   Progress progress;
   progress.stage("reading " + request.source->path);
-  const MeshFile file = read_mesh_file(*request.source);
+  const MeshFile file = read_mesh_file(*request.source, FieldChoice::none);
   progress.stage("measuring " + request.source->path);
   Measured measured;
   measured.changes = file.changes;

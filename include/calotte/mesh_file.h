@@ -8,6 +8,7 @@
 #include <calotte/voronoi.h>
 #include <calotte/write.h>
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -57,6 +58,13 @@ struct MeshFile {
   std::vector<std::string> ignored; ///< names of variables that were not read
 };
 
+/// Which fields read_mesh_file() reads from NetCDF files; the others are among `ignored`.
+enum class FieldChoice {
+  none,    ///< none, and no variable is among `ignored`
+  scalars, ///< those with one number for each place
+  all,
+};
+
 /// Reads a mesh file of any format, recognised as read_mesh() does, and brings the mesh to
 /// canonical form.
 ///
@@ -67,15 +75,22 @@ struct MeshFile {
 /// \throws Error as read_mesh; parse for a file that contradicts itself, naming the first offender:
 ///         triangles or polygons of both orientations, an edge of more than two of them, or cells
 ///         that overlap.
-MeshFile read_mesh_file(const std::string& path, const Points3* points = nullptr);
+MeshFile read_mesh_file(const std::string& path, const Points3* points = nullptr,
+                        FieldChoice choice = FieldChoice::all);
+
+/// What became of a file's fields.
+struct WrittenFields {
+  std::vector<std::string> dropped; ///< names of those that the format cannot hold
+  /// Those whose names NetCDF refuses, such as "sea level" and "a/b", with their names in the file.
+  std::vector<std::array<std::string, 2>> renamed;
+};
 
 /// Writes what a file holds to another format. The cells keep their shapes: polygons go to formats
 /// of cells only, and not to MPAS, which needs Voronoi cells. Density and fields go along.
 /// \param options its density, if not uniform, replaces the file's.
-/// \returns the names of the fields that the format cannot hold.
 /// \throws Error as write(); bad_option if the format cannot hold the mesh, with the reason.
-std::vector<std::string> write(const std::string& path, const MeshFile& file,
-                               const WriteOptions& options = {});
+WrittenFields write(const std::string& path, const MeshFile& file,
+                    const WriteOptions& options = {});
 
 } // namespace calotte
 CALOTTE_API_END

@@ -183,13 +183,13 @@ Eigen::VectorXd areas_of(const Polygons& polygons) {
   return areas;
 }
 
-std::int64_t turn_counter_clockwise(Polygons& polygons, const std::string& name) {
+std::int64_t turn_counter_clockwise(Polygons& polygons, const std::string& name, bool each) {
   const Eigen::VectorXd areas = areas_of(polygons);
   const std::int64_t clockwise = (areas.array() < 0).count(),
                      counter_clockwise = (areas.array() > 0).count();
   if (clockwise == 0)
     return 0;
-  if (counter_clockwise > 0) {
+  if (counter_clockwise > 0 && !each) {
     const bool rarer_is_clockwise = clockwise <= counter_clockwise;
     const auto first = std::find_if(areas.begin(), areas.end(), [&](double area) {
       return rarer_is_clockwise ? area < 0 : area > 0;
@@ -204,9 +204,17 @@ std::int64_t turn_counter_clockwise(Polygons& polygons, const std::string& name)
                 cell);
   }
   for (std::int64_t i = 0; i < polygons.size(); ++i)
-    std::reverse(polygons.ids.begin() + polygons.begin[i],
-                 polygons.ids.begin() + polygons.begin[i + 1]);
+    if (areas[i] < 0 || counter_clockwise == 0)
+      std::reverse(polygons.ids.begin() + polygons.begin[i],
+                   polygons.ids.begin() + polygons.begin[i + 1]);
   return clockwise;
+}
+
+bool are_areas_of(const Polygons& polygons, const Eigen::VectorXd& values) {
+  constexpr double rounding = 1e-6;
+  const Eigen::VectorXd areas = areas_of(polygons).cwiseAbs();
+  return areas.size() == values.size() &&
+         ((areas - values).array().abs() <= rounding * areas.array()).all();
 }
 
 void require_no_overlap(const Polygons& polygons, const std::string& name) {

@@ -228,7 +228,7 @@ Polygons read_ugrid_faces(const NetcdfReader& file, const Topology& topology) {
   return faces_of(faces, std::move(nodes), std::move(centres));
 }
 
-Soup read_ugrid(const NetcdfReader& file) {
+Soup read_ugrid(const NetcdfReader& file, FieldChoice choice) {
   const Topology topology = topology_of(file);
   const std::vector<std::int64_t> nodes = file.shape_of(topology.nodes[0]);
   if (nodes.size() != 1)
@@ -254,7 +254,7 @@ Soup read_ugrid(const NetcdfReader& file) {
         faces_of(faces, read_lonlats(file, topology.nodes[0], topology.nodes[1]), soup.points);
     soup.corner_rounding = file.is_float(topology.nodes[0]) ? float_rounding : 0;
   }
-  read_fields(file, names_of(file, topology, sites_are_nodes), soup);
+  read_fields(file, names_of(file, topology, sites_are_nodes), choice, soup);
   drop_derived_fields(soup);
   return soup;
 }

@@ -2,6 +2,7 @@
 #include "io/formats.h"
 #include "io/model_grid.h"
 #include "io/ugrid.h"
+#include "io/written_fields.h"
 
 namespace calotte::io_detail {
 namespace {
@@ -76,7 +77,28 @@ void add_face_nodes(GridFile& file, int faces, std::int64_t most, const Node& no
 
 constexpr const char* conventions = "CF-1.8 UGRID-1.0";
 
-/// What is not a field: the names that files of ours have.
+std::string coordinates_of(const std::string& prefix) { return prefix + "_lon " + prefix + "_lat"; }
+
+/// Attributes of a variable of data at faces or nodes. \param prefix of the names of the places'
+/// longitudes and latitudes; empty for none.
+NetcdfAttributes located(const std::string& location, const std::string& prefix) {
+  NetcdfAttributes attributes{{"mesh", mesh_name}, {"location", location}};
+  if (!prefix.empty())
+    attributes.push_back({"coordinates", coordinates_of(prefix)});
+  return attributes;
+}
+
+/// A variable of data at the faces: without one, CDO sees no unstructured grid.
+void add_areas(GridFile& file, int faces, const Eigen::VectorXd& areas, bool face_places) {
+  NetcdfAttributes attributes = located("face", face_places ? face_name : "");
+  attributes.push_back({"units", std::string("radians^2")});
+  attributes.push_back(long_name("area of the face on the unit sphere"));
+  attributes.push_back({"standard_name", std::string("cell_area")});
+  file.doubles("cell_area", {faces}, attributes, values_of(areas));
+}
+
+} // namespace
+
 NetcdfMeshNames ugrid_names(bool of_cells) {
   NetcdfMeshNames names{of_cells ? face_name : node_name,
                         of_cells ? node_name : face_name,
@@ -87,26 +109,6 @@ NetcdfMeshNames ugrid_names(bool of_cells) {
   return names;
 }
 
-/// Attributes of a variable of data at faces or nodes.
-NetcdfAttributes located(const std::string& location) {
-  return {{"mesh", mesh_name}, {"location", location}};
-}
-
-std::string coordinates_of(const std::string& prefix) { return prefix + "_lon " + prefix + "_lat"; }
-
-/// A variable of data at the faces: without one, CDO sees no unstructured grid.
-void add_areas(GridFile& file, int faces, const Eigen::VectorXd& areas, bool face_places) {
-  NetcdfAttributes attributes = located("face");
-  attributes.push_back({"units", std::string("radians^2")});
-  attributes.push_back(long_name("area of the face on the unit sphere"));
-  attributes.push_back({"standard_name", std::string("cell_area")});
-  if (face_places)
-    attributes.push_back({"coordinates", coordinates_of(face_name)});
-  file.doubles("cell_area", {faces}, attributes, values_of(areas));
-}
-
-} // namespace
-
 void write_ugrid(const std::string& path, const CellGrid& grid, const WriteOptions& options) {
   const Polygons& cells = grid.polygons;
   const bool has_centres = cells.centres.cols() > 0, has_sites = grid.sites.cols() > 0;
@@ -114,6 +116,7 @@ void write_ugrid(const std::string& path, const CellGrid& grid, const WriteOptio
   GridFile file(path, options, conventions);
   const int nodes = file.netcdf().dimension(node_name, cells.corners.cols());
   const int faces = file.netcdf().dimension(face_name, cells.size());
+  add_areas(file, faces, grid.area, has_centres); // first: CDO takes its grid for the file's
   add_topology(file, has_sites ? "Voronoi cells of the sites" : "cells", has_sites ? face_name : "",
                has_centres);
   add_lonlats(file, node_name, nodes, "the node, a corner of cells", cells.corners);
@@ -123,9 +126,9 @@ void write_ugrid(const std::string& path, const CellGrid& grid, const WriteOptio
                  [&cells](std::int64_t cell, std::int64_t k) { return corner(cells, cell, k); });
   if (has_sites)
     add_places(file, face_name, faces, sites);
-  add_areas(file, faces, grid.area, has_centres);
   add_fields(file, options,
-             {faces, nodes, has_centres ? coordinates_of(face_name) : "", located("face")},
+             {.cells = {faces, located("face", has_centres ? face_name : "")},
+              .vertices = {nodes, located("node", node_name)}},
              ugrid_names(true));
   file.commit();
 }
@@ -145,7 +148,10 @@ void write_ugrid_triangles(const std::string& path, const Mesh& mesh, const Writ
     return mesh.triangles(k, triangle);
   });
   add_places(file, node_name, nodes, sites);
-  add_fields(file, options, {nodes, faces, "", located("node")}, ugrid_names(false));
+  add_fields(file, options,
+             {.cells = {nodes, located("node", node_name)},
+              .vertices = {faces, located("face", mesh.closed() ? face_name : "")}},
+             ugrid_names(false));
   file.commit();
 }
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/field_order.h"
 #include "io/file.h"
 #include "io/file_names.h"
 #include "io/formats.h"
 #include "io/model_grid.h"
-#include "mesh/canonical_order.h"
+#include "io/written_fields.h"
+#include "io/written_values.h"
 
 #include "base/monitor.h"
 #include "base/points.h"
@@ -41,27 +43,11 @@ template <class AnyMesh> void require_ids(const std::string& path, const AnyMesh
     refuse(path, "the mesh has an id that is not one of its " + std::to_string(sites) + " points");
 }
 
-/// Values that fit the mesh.
-template <class AnyMesh>
-void require_values(const std::string& path, const AnyMesh& mesh, const WriteOptions& options) {
-  const auto require_size = [&](const std::string& what, Eigen::Index size, Eigen::Index expected) {
-    if (size != expected)
-      refuse(path, what + " has " + std::to_string(size) + " values; give one for each of " +
-                       std::to_string(expected));
-  };
-  const Eigen::VectorXd& density = options.site_density;
-  if (density.size() > 0) {
-    require_size("the density of the sites", density.size(), mesh.points.cols());
-    for (Eigen::Index i = 0; i < density.size(); ++i)
-      if (!(density[i] >= 0 && std::isfinite(density[i])))
-        refuse(path, "the density is " + std::to_string(density[i]) + " at site " +
-                         std::to_string(i) + "; give finite numbers that are not negative");
-    if (density.maxCoeff() == 0)
-      refuse(path, "the density is zero at every site; make it positive somewhere");
-  }
-  for (const MeshField& field : options.fields)
-    require_size("the field " + field.name, field.values.size(),
-                 field.location == Location::cells ? mesh.points.cols() : mesh.triangles.cols());
+MeshSizes sizes_of(const Mesh& mesh) {
+  return {mesh.points.cols(), mesh.triangles.cols(), mesh.closed()};
+}
+MeshSizes sizes_of(const PlanarMesh& mesh) {
+  return {mesh.points.cols(), mesh.triangles.cols(), mesh.period.minCoeff() > 0};
 }
 
 void require_mesh(const std::string& path, const Mesh& mesh, Format format) {
@@ -162,33 +148,6 @@ void write_numbered(const std::string& path, const Mesh& mesh, const WriteOption
   }
 }
 
-/// \param name of a variable that holds them. \returns values by new place.
-Eigen::VectorXd permuted(const Eigen::VectorXd& values, std::span<const std::int32_t> place) {
-  Eigen::VectorXd out(values.size());
-  for (Eigen::Index i = 0; i < values.size(); ++i)
-    out[place[static_cast<std::size_t>(i)]] = values[i];
-  return out;
-}
-
-/// The options' values follow the sites and triangles of a mesh to their new places.
-/// \param new_site by old site.
-void renumber_values(const Mesh& mesh, std::span<const std::int32_t> new_site,
-                     WriteOptions& options) {
-  if (options.site_density.size() > 0)
-    options.site_density = permuted(options.site_density, new_site);
-  CanonicalPlaces places;
-  for (MeshField& field : options.fields) {
-    if (field.location == Location::vertices && places.place.size() == 0) {
-      Triangles renumbered;
-      places = order_triangles(mesh.triangles, new_site, renumbered);
-    }
-    field.values =
-        permuted(field.values, field.location == Location::cells
-                                   ? new_site
-                                   : std::span(places.place.begin(), places.place.end()));
-  }
-}
-
 /// The mesh in a file's numbering, and the options' values with it.
 Mesh renumbered_with_values(const Mesh& mesh, Numbering numbering, WriteOptions& options) {
   if (options.site_density.size() == 0 && options.fields.empty())
@@ -216,7 +175,9 @@ void write(const std::string& path, const Mesh& mesh, const WriteOptions& option
   resolved.format = format_of(path, options.format);
   require_options(path, resolved);
   require_mesh(path, mesh, resolved.format);
-  require_values(path, mesh, resolved);
+  require_values(path, sizes_of(mesh), resolved);
+  if (is_netcdf(resolved.format))
+    settle_names(resolved.fields);
   Monitor monitor(options.progress);
   monitor.begin("number", numbered, 1);
   const Numbering numbering = numbering_of(resolved);
@@ -250,7 +211,9 @@ void write(const std::string& path, const PlanarMesh& mesh, const WriteOptions& 
   if (options.numbering == Numbering::curve || options.numbering == Numbering::rcm)
     refuse(path, "the cells of a planar mesh keep their numbers; leave the order out");
   require_ids(path, mesh);
-  require_values(path, mesh, resolved);
+  require_values(path, sizes_of(mesh), resolved);
+  if (is_netcdf(resolved.format))
+    settle_names(resolved.fields);
   resolved.progress = rest_of(options.progress, 0);
   if (resolved.format == Format::mpas)
     write_mpas(path, mesh, resolved);
@@ -308,14 +271,21 @@ void require_polygon_format(const std::string& path, const MeshFile& file, Forma
                        "triangles (.vtp, .vtu, .off, .ply, .msh)");
 }
 
-/// Fields at vertices follow triangles, which are not the polygons' corners.
+/// Whether a field is of polygons: at the cells, or at their corners.
+bool is_of(const Polygons& polygons, const MeshField& field) {
+  return field.location == Location::cells ||
+         (field.location == Location::vertices && has_values_for(field, polygons.corners.cols()));
+}
+
 void write_polygons_of(const std::string& path, const MeshFile& file, WriteOptions options) {
   require_options(path, options);
   require_polygon_format(path, file, options.format);
   std::erase_if(options.fields,
-                [](const MeshField& field) { return field.location != Location::cells; });
+                [&](const MeshField& field) { return !is_of(*file.polygons, field); });
   if (file.density.size() == file.polygons->size())
     options.fields.push_back({.name = "density", .values = file.density});
+  if (is_netcdf(options.format))
+    settle_names(options.fields);
   write_polygons(path, *file.polygons, options);
   Monitor(options.progress).finish("write");
 }
@@ -344,18 +314,20 @@ void require_voronoi(const std::string& path, const Mesh& mesh, Format format) {
 std::vector<std::string> dropped_fields(const MeshFile& file, Format format, bool polygons) {
   std::vector<std::string> dropped;
   for (const MeshField& field : file.fields)
-    if (!holds_field(format, field) || (polygons && field.location == Location::vertices))
+    if (!holds_field(format, field) || (polygons && !is_of(*file.polygons, field)))
       dropped.push_back(field.name);
   return dropped;
 }
 
 } // namespace
 
-std::vector<std::string> write(const std::string& path, const MeshFile& file,
-                               const WriteOptions& options) {
+WrittenFields write(const std::string& path, const MeshFile& file, const WriteOptions& options) {
   WriteOptions resolved = options;
   resolved.format = format_of(path, options.format);
   resolved.fields.insert(resolved.fields.end(), file.fields.begin(), file.fields.end());
+  WrittenFields written;
+  if (is_netcdf(resolved.format))
+    written.renamed = settle_names(resolved.fields);
   const bool polygons = writes_polygons(file, resolved.format);
   if (!polygons && options.density.uniform() && options.site_density.size() == 0)
     resolved.site_density = file.density;
@@ -367,7 +339,8 @@ std::vector<std::string> write(const std::string& path, const MeshFile& file,
     require_voronoi(path, *file.mesh, resolved.format);
     write(path, *file.mesh, resolved);
   }
-  return dropped_fields(file, resolved.format, polygons);
+  written.dropped = dropped_fields(file, resolved.format, polygons);
+  return written;
 }
 
 } // namespace calotte

@@ -21,17 +21,17 @@ std::shared_ptr<MeshSource> add_mesh_source(CLI::App& command, const std::string
   return source;
 }
 
-MeshFile read_mesh_file(const MeshSource& source) {
+MeshFile read_mesh_file(const MeshSource& source, FieldChoice choice) {
   if (source.plane) {
     MeshFile file;
     file.plane = read_planar_mesh(source);
     const bool is_mpas = file.plane->period.minCoeff() > 0; // has density and fields, too
-    return is_mpas ? calotte::read_mesh_file(source.path) : file;
+    return is_mpas ? calotte::read_mesh_file(source.path, nullptr, choice) : file;
   }
   if (source.points.empty())
-    return calotte::read_mesh_file(source.path);
+    return calotte::read_mesh_file(source.path, nullptr, choice);
   const Points3 points = read_point_file(source.points, source.lonlat).points;
-  return calotte::read_mesh_file(source.path, &points);
+  return calotte::read_mesh_file(source.path, &points, choice);
 }
 
 std::string changes_of(const MeshSource& source, const MeshFile& file) {
