@@ -85,10 +85,11 @@ std::optional<std::string> sibling(const std::string& path, std::string_view ste
 
 void refuse_name(const std::string& path) {
   const std::string suffix = suffix_of(path);
-  throw Error(ErrorCode::bad_option,
-              path + ": " + (suffix.empty() ? "no suffix" : "unknown suffix " + in_quotes(suffix)) +
-                  "; a mesh file ends in .nc, .vtp, .vtu, .off, .ply, .msh, .geojson, .g, "
-                  ".exo, .txt or .tri, or is named SaveVertices or nod2d.out");
+  throw Error(
+      ErrorCode::bad_option,
+      path + ": " + (suffix.empty() ? "no suffix" : "unknown suffix " + in_quotes(suffix)) +
+          "; a mesh file ends in .nc, .vtp, .vtu, .vtk (read only), .off, .ply, .msh, .geojson, "
+          ".g, .exo, .txt or .tri, or is named SaveVertices or nod2d.out");
 }
 
 } // namespace io_detail
