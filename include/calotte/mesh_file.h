@@ -35,6 +35,22 @@ struct Polygons {
 /// hemisphere.
 Eigen::VectorXd areas(const Polygons& polygons);
 
+/// Counts of polygons whose shape is not that of a centroidal Voronoi cell.
+struct PolygonShapes {
+  /// Polygons that turn to the right at a corner, by more than 1e-9 radians.
+  std::int64_t not_convex = 0;
+  std::int64_t first_not_convex = -1; ///< the first of them; -1 for none
+  /// Polygons whose centre is farther than 1e-6 widths from their centroid. The width is the square
+  /// root of the area; the centroid is the direction of the area's first moment.
+  std::int64_t not_centroidal = 0;
+  double off_centring = 0;         ///< the largest distance, in widths
+  std::int64_t worst_centred = -1; ///< the polygon that has it; -1 without centres
+};
+
+/// Measures polygons. Those without corners, which are unknown, do not count.
+/// \pre counter-clockwise, each smaller than a hemisphere.
+PolygonShapes shapes(const Polygons& polygons);
+
 /// What a mesh file holds. At least one of `mesh`, `plane` and `polygons` is present.
 struct MeshFile {
   std::string format; ///< for messages, such as "MPAS" or "SCRIP"
