@@ -84,8 +84,19 @@ enum class FieldChoice {
 /// Reads a mesh file of any format, recognised as read_mesh() does, and brings the mesh to
 /// canonical form.
 ///
-/// Clockwise triangles and polygons are turned if all run clockwise. Triangles start at their
-/// lowest vertex and are sorted. `changes` names what was done.
+/// Clockwise triangles and polygons are turned if all run clockwise; in GeoJSON, whose polygons
+/// have either orientation, each is. Triangles start at their lowest vertex and are sorted.
+/// `changes` names what was done.
+///
+/// GeoJSON is a FeatureCollection. Polygons of one ring, longitude and latitude in degrees, are
+/// cells, whose corners agree to 1e-9 degrees; their sides are taken as arcs of great circles. The
+/// properties x, y and z of all features are the cells' centres; other numbers are fields, and
+/// `density` the density. Features without polygons, and Voronoi cells that this library wrote, are
+/// sites.
+///
+/// Values at edges are brought into the order of Location::edges. `changes` names the fields that
+/// are taken for components along the edges, MeshField::directed: those whose name, long_name or
+/// standard_name holds "normal" or "tangent", and u, v and ru.
 ///
 /// \param points as read_mesh's.
 /// \throws Error as read_mesh; parse for a file that contradicts itself, naming the first offender:

@@ -263,6 +263,9 @@ void require_polygon_format(const std::string& path, const MeshFile& file, Forma
     refuse(path, "the format holds triangles, but the mesh consists of cells, and " +
                      file.not_voronoi +
                      "; write ugrid, scrip, esmf, exodus, vtp-cells, vtu-cells or geojson");
+  if (format == Format::scrip && file.polygons->centres.cols() == 0)
+    refuse(path, "SCRIP needs the centre of each cell, but the cells have none; write ugrid, esmf, "
+                 "exodus, vtp-cells, vtu-cells or geojson");
   const auto& begin = file.polygons->begin;
   for (std::int64_t i = 0; i < file.polygons->size(); ++i)
     if (begin[i] == begin[i + 1])
