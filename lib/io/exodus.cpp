@@ -41,8 +41,9 @@ public:
   /// A table of as many nodes for each.
   void add_block(const std::string& name) {
     const std::vector<std::int32_t> ids = file_.ints(name, {-1, -1});
-    const std::int64_t width = file_.shape_of(name)[1];
-    for (std::int64_t e = 0; e < file_.shape_of(name)[0]; ++e)
+    const std::vector<std::int64_t> shape = file_.shape_of(name);
+    const std::int64_t elements = shape[0], width = shape[1];
+    for (std::int64_t e = 0; e < elements; ++e)
       add(name, ids.data() + e * width, width);
   }
 
