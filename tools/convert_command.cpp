@@ -2,6 +2,7 @@
 #include "commands.h"
 #include "options/config_option.h"
 #include "options/density_option.h"
+#include "options/domain_option.h"
 #include "options/files.h"
 #include "options/format_options.h"
 #include "options/mesh_source.h"
@@ -22,6 +23,7 @@ struct Request {
   std::shared_ptr<MeshSource> source;
   std::shared_ptr<DensityWords> density;
   std::shared_ptr<FormatWords> format;
+  std::shared_ptr<DomainWords> domain; ///< of a mesh of the plane
   std::shared_ptr<std::string> config;
   std::string output;
 };
@@ -32,7 +34,8 @@ void require_request(const Request& request) {
   options_of(*request.format, request.output); // throws for a file that cannot be written
   const WidthWords& widths = request.density->widths;
   require_outputs({{"mesh", request.output}},
-                  {source.path, source.points, widths.file, widths.raster, *request.config});
+                  {source.path, source.points, widths.file, widths.raster,
+                   request.domain->file.value_or(""), *request.config});
   if (source.points.empty() && (source.path == "-" || holds_triangles(source.path)))
     throw Error(ErrorCode::bad_option,
                 source.path +
@@ -59,7 +62,8 @@ std::string describe(const MeshFile& file) {
   if (file.plane)
     return std::to_string(file.plane->points.cols()) + " sites, " +
            std::to_string(file.plane->triangles.cols()) + " triangles, a " +
-           (file.plane->period.minCoeff() > 0 ? "periodic plane" : "plane");
+           (file.plane->period.minCoeff() > 0 ? "periodic plane" : "plane") +
+           (file.polygons ? " with clipped cells" : "");
   if (!file.mesh || (file.polygons && file.mesh->closed()))
     return std::to_string(file.polygons->size()) + " cells, not Voronoi cells: " + file.not_voronoi;
   return std::to_string(file.mesh->points.cols()) + " sites, " +
@@ -99,6 +103,24 @@ std::string remarks(const Request& request, const MeshFile& file, const WriteOpt
   return lines;
 }
 
+/// \throws Error bad_option, where the domain of a plane is missing or in vain.
+MeshFile read_input(const Request& request) {
+  MeshFile file = read_mesh_file(*request.source, FieldChoice::all);
+  file.domain = domain_of(*request.domain);
+  if (file.domain && (!file.plane || file.plane->period.minCoeff() > 0))
+    throw Error(ErrorCode::bad_option, request.source->path +
+                                           " holds no mesh of a bounded plane; leave --domain and "
+                                           "--rectangle out");
+  const Format format = options_of(*request.format, request.output).format;
+  if (file.plane && file.plane->period.minCoeff() == 0 && !file.domain && !file.polygons &&
+      holds_cells(format))
+    throw Error(ErrorCode::bad_option,
+                request.output +
+                    ": the cells of a bounded plane need its domain, which clips them; "
+                    "give --domain FILE or --rectangle X0,Y0,X1,Y1");
+  return file;
+}
+
 void run(const Request& request) {
   require_request(request);
   const Density density = density_of(*request.density);
@@ -106,7 +128,7 @@ void run(const Request& request) {
   {
     Progress progress;
     progress.stage("reading " + request.source->path);
-    const MeshFile file = read_mesh_file(*request.source, FieldChoice::all);
+    const MeshFile file = read_input(request);
     progress.stage("writing " + request.output);
     const WriteOptions options = write_options(request, density, file);
     const WrittenFields written = write(request.output, file, options);
@@ -128,6 +150,7 @@ void add_convert(CLI::App& app) {
   command->add_option("OUT,-o,--output", request->output, help_of_output())
       ->type_name("FILE")
       ->required();
+  request->domain = add_bounded_domain(*command);
   request->format =
       add_format(*command, "the radius of the points if all lie on one sphere, else 1");
   request->density = add_density(*command);

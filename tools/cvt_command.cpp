@@ -38,7 +38,8 @@ void require_positive(const std::string& option, double value, const std::string
 /// Rejects options that a planar run does not support.
 void require_plane(const CvtRequest& request, const WriteOptions& options) {
   require_planar_format(request.mesh, request.domain->periodic.has_value(),
-                        format_of(request.mesh, options.format));
+                        format_of(request.mesh, options.format),
+                        !request.domain->periodic.has_value());
   if (request.format->sphere_radius)
     throw Error(ErrorCode::bad_option, "--sphere-radius does not apply to the plane; leave it out");
   if (!request.density->widths.file.empty())
@@ -229,15 +230,32 @@ Outcome tessellate(const CvtRequest& request, Plan& plan, Progress& progress) {
   finish(not_converged);
 }
 
+/// Whether a cell is one polygon is known only now. If not, the triangles keep the run's result.
+void write_plane(const std::string& path, const PlanarMesh& mesh, const PlanarDomain& domain,
+                 const WriteOptions& options) {
+  try {
+    write(path, mesh, domain, options);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::bad_option)
+      throw;
+    const std::string kept = path + ".vtp";
+    write(kept, mesh);
+    throw Error(error.code(), path + ": " + error.what() + "; " + kept + " has the triangles",
+                error.index());
+  }
+}
+
 void write_result(const CvtRequest& request, const Plan& plan, const Outcome& outcome,
                   Progress& progress) {
   progress.stage("writing " + request.mesh);
   WriteOptions options = options_of(*request.format, request.mesh);
   if (!plan.domain)
     options.density = plan.options.density;
+  else if (!plan.options.density.uniform())
+    options.site_density = evaluate(plan.options.density, *plan.domain, outcome.plane.points);
   options.history = history_of(plan.configuration);
   if (plan.domain)
-    write(request.mesh, outcome.plane, options);
+    write_plane(request.mesh, outcome.plane, *plan.domain, options);
   else
     write(request.mesh, outcome.mesh, options);
   if (!request.report.empty())

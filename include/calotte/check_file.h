@@ -38,7 +38,8 @@ struct Deviation {
 /// nominalMinDc, a sum over all cells, must agree to 1e-10, because it alone tells of meshDensity.
 /// Files with coordinates in single precision have a wider tolerance.
 ///
-/// Not checked: what depends on the missing cells of an open MPAS mesh; fields; masks, but for
+/// Not checked: what depends on the missing cells of an open MPAS mesh, and the places of its
+/// vertices on the boundary; fields; masks, but for
 /// values other than 0 and 1; areas in units other than radians^2; centres that are inside their
 /// cells, where most of the cells are not Voronoi cells.
 ///

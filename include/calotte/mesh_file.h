@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <calotte/domain.h>
 #include <calotte/export.h>
 #include <calotte/mesh_field.h>
 #include <calotte/read.h>
@@ -19,20 +20,21 @@ CALOTTE_API_BEGIN
 namespace calotte {
 
 /// n polygons on the sphere, such as the cells of a grid that need not be Voronoi cells. Their
-/// sides are arcs of great circles.
+/// sides are arcs of great circles. Or n polygons in a plane, with z = 0.
 struct Polygons {
-  Points3 corners; ///< 3 x m unit columns
+  Points3 corners; ///< 3 x m unit columns; in a plane in any unit of length
   /// n + 1: polygon i has the corners ids[begin[i]] to ids[begin[i + 1] - 1], counter-clockwise
   /// seen from outside. 0-based.
   Eigen::Matrix<std::int64_t, Eigen::Dynamic, 1> begin;
   Ids ids;
-  Points3 centres; ///< 3 x n unit columns; 3 x 0 if the file gives none
+  Points3 centres;       ///< 3 x n, as the corners; 3 x 0 if the file gives none
+  bool on_sphere = true; ///< false in a plane
 
   std::int64_t size() const { return begin.size() > 0 ? begin.size() - 1 : 0; }
 };
 
-/// Areas of polygons on the unit sphere, steradians. \pre counter-clockwise, each smaller than a
-/// hemisphere.
+/// Areas of polygons on the unit sphere, steradians; in a plane in the square of its unit.
+/// \pre counter-clockwise; on the sphere each smaller than a hemisphere.
 Eigen::VectorXd areas(const Polygons& polygons);
 
 /// Counts of polygons whose shape is not that of a centroidal Voronoi cell.
@@ -59,7 +61,11 @@ struct MeshFile {
   /// cells alone, that of the cells' centres, provided that the cells are their Voronoi cells.
   std::optional<Mesh> mesh;
   std::optional<PlanarMesh> plane;
-  /// The file's cells, unless they are the Voronoi cells of `mesh`.
+  /// The domain of `plane`, which clips its cells. No file holds it: a caller that knows it may set
+  /// it for write().
+  std::optional<PlanarDomain> domain;
+  /// The file's cells, unless they are the Voronoi cells of `mesh`; those of a plane with a
+  /// boundary always.
   std::optional<Polygons> polygons;
   /// Why `polygons` are not Voronoi cells, as a clause; empty without polygons.
   std::string not_voronoi;
@@ -113,7 +119,9 @@ struct WrittenFields {
 };
 
 /// Writes what a file holds to another format. The cells keep their shapes: polygons go to formats
-/// of cells only, and not to MPAS, which needs Voronoi cells. Density and fields go along.
+/// of cells only. MPAS needs Voronoi cells: the polygons of an open mesh are written if each corner
+/// of three cells is the circumcentre of their centres, within a millionth of a cell's width.
+/// Density and fields at cells go along.
 /// \param options its density, if not uniform, replaces the file's.
 /// \throws Error as write(); bad_option if the format cannot hold the mesh, with the reason.
 WrittenFields write(const std::string& path, const MeshFile& file,

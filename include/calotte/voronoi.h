@@ -2,6 +2,7 @@
 #pragma once
 
 #include <calotte/density.h>
+#include <calotte/domain.h>
 #include <calotte/export.h>
 #include <calotte/types.h>
 
@@ -23,37 +24,48 @@ using Pairs = Eigen::Matrix<std::int32_t, 2, Eigen::Dynamic>;
 /// lower cell, then by their higher cell. Ids are 0-based. All orders are counter-clockwise, on the
 /// sphere seen from outside.
 ///
-/// Lengths are arcs on the unit sphere in radians; areas are in steradians. In a periodic plane
-/// lengths are in the unit of the points and areas in its square, points lie in the box with z = 0,
-/// and distances are those between nearest copies.
+/// Lengths are arcs on the unit sphere in radians; areas are in steradians. In a plane lengths are
+/// in the unit of the points and areas in its square, and z = 0. In a periodic plane points lie in
+/// the box, and distances are those between nearest copies.
+///
+/// In a bounded plane the boundary clips the cells. The vertices are the circumcentres inside the
+/// domain, then the ends of Voronoi edges on the boundary and its corners, ring by ring with the
+/// domain to the left. Edges along the boundary have one cell; they follow the edges between two
+/// cells, of which a pair may have several. A missing cell or edge has the id -1.
 struct Voronoi {
-  bool on_sphere = true;        ///< false in a periodic plane
-  Eigen::Vector2d period{0, 0}; ///< of the periodic plane; 0 on the sphere
+  bool on_sphere = true;        ///< false in a plane
+  Eigen::Vector2d period{0, 0}; ///< of a periodic plane; 0 elsewhere
 
-  Points3 cells;    ///< 3 x n: the sites; unit columns on the sphere
-  Points3 edges;    ///< 3 x e: midpoints of the Delaunay edges, which the Voronoi edges cross
+  Points3 cells; ///< 3 x n: the sites; unit columns on the sphere
+  Points3 edges; ///< 3 x e: midpoints of the Delaunay edges, which the Voronoi edges cross; of an
+                 ///< edge on the boundary its own
   Points3 vertices; ///< 3 x m: circumcentres
 
   /// The entries of cell i are begin[i] to begin[i + 1] - 1 of the next three arrays. Edge k lies
-  /// between vertices k - 1 and k; neighbour k is the cell across edge k. The first edge is the one
-  /// towards the lowest neighbour.
+  /// between vertices k - 1 and k; neighbour k is the cell across edge k, -1 on the boundary. The
+  /// first edge is the one towards the lowest neighbour.
   Eigen::Matrix<std::int64_t, Eigen::Dynamic, 1> begin; ///< n + 1
   Ids edges_on_cell, vertices_on_cell, cells_on_cell;
 
-  Triangles cells_on_vertex; ///< 3 x m: the mesh's triangles
-  Triangles edges_on_vertex; ///< 3 x m: cell j lies between edges j and j + 1
+  /// 3 x m: the mesh's triangles; on the boundary one or two cells, then -1.
+  Triangles cells_on_vertex;
+  /// 3 x m: cell j lies between edges j and j + 1. At a vertex of one cell the third is -1.
+  Triangles edges_on_vertex;
 
-  Pairs cells_on_edge;    ///< 2 x e: the lower and the higher cell; the normal points to the second
+  /// 2 x e: the lower and the higher cell; the normal points to the second. The second is -1 on the
+  /// boundary, where the normal leaves the domain.
+  Pairs cells_on_edge;
   Pairs vertices_on_edge; ///< 2 x e: to the right and to the left of that normal
 
-  Eigen::VectorXd dc; ///< e: distance between the two cells
+  Eigen::VectorXd dc; ///< e: distance between the two cells; on the boundary sqrt(3) dv
   Eigen::VectorXd
       dv; ///< e: distance between the two vertices; 0 up to rounding for cocircular sites
   Eigen::VectorXd
       angle; ///< e: angle of the normal from east, -pi to pi; in the plane from x, [0, 2 pi)
 
-  Eigen::VectorXd cell_area;   ///< n
-  Eigen::VectorXd vertex_area; ///< m: area of the triangle, the sum of its kites
+  Eigen::VectorXd cell_area; ///< n
+  /// m: area of the triangle, the sum of its kites; on the boundary of the part that is inside.
+  Eigen::VectorXd vertex_area;
   /// 3 x m areas: kite j is the part of the triangle that is closest to its cell j, with the
   /// corners vertex, edge j, cell j, edge j + 1. Areas are signed: a part is negative if the
   /// circumcentre lies beyond its edge.
@@ -77,12 +89,25 @@ Voronoi voronoi(const Mesh& mesh);
 ///         for a box so narrow that two cells share two edges.
 Voronoi voronoi(const PlanarMesh& mesh);
 
+/// The cells of a planar mesh in its domain, each clipped by the boundary. Their areas sum to that
+/// of the domain within 1e-12. Time: O(n log n) for the cells, and for the boundary its edges and
+/// crossings times the degree of a cell.
+/// \param mesh the Delaunay triangulation of its points, all inside the domain or on its boundary.
+/// \param domain rings, in the unit of the points; or the mesh's periodic box, as above.
+/// \throws Error as require_domain(); bad_option for a mesh of another period, for ids and
+/// triangles
+///         that do not form a triangulation, and with the index of the first point outside the
+///         domain, or of the first cell that is no single polygon, because the boundary cuts it
+///         into several parts or encloses an island in it.
+Voronoi voronoi(const PlanarMesh& mesh, const PlanarDomain& domain);
+
 /// TRiSK weights, which reconstruct the tangential velocity from the normal velocity: v_e is the
 /// sum of weight times u_e' over the other edges e' of the two cells of e, first those of
 /// cells_on_edge(0, e) counter-clockwise from e, then those of cells_on_edge(1, e). (Thuburn,
 /// Ringler, Skamarock and Klemp, J. Comput. Phys. 228, 2009, Eq. 33.) The reconstruction conserves
 /// energy, because weight dc_e / dv_e' is antisymmetric. The weights are 0 for a cell without area,
-/// and for an edge between cells that coincide up to rounding.
+/// and for an edge between cells that coincide up to rounding. An edge on the boundary has those of
+/// its one cell.
 struct TangentialWeights {
   Eigen::Matrix<std::int64_t, Eigen::Dynamic, 1>
       begin;               ///< entries of the k-th edge: begin[k] to begin[k + 1] - 1
@@ -99,7 +124,7 @@ struct CellFields {
   Eigen::VectorXd area; ///< as Voronoi::cell_area
   /// Density at the site, divided by its maximum over the sites; 1 if uniform.
   Eigen::VectorXd density;
-  Eigen::VectorXd spacing; ///< mean distance to the neighbours
+  Eigen::VectorXd spacing; ///< mean of Voronoi::dc over the edges: distance to the neighbours
   Eigen::VectorXd quality; ///< shortest over longest Voronoi edge
   Ids degree;              ///< number of neighbours
 };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <calotte/density.h>
+#include <calotte/domain.h>
 #include <calotte/error.h>
 #include <calotte/export.h>
 #include <calotte/mesh_field.h>
@@ -99,10 +100,21 @@ struct WriteOptions {
 void write(const std::string& path, const Mesh& mesh, const WriteOptions& options = {});
 
 /// Writes a planar mesh in the order of its sites. A periodic mesh supports mpas, mpas_minimal and
-/// triangles; other planar meshes support triangles and, with z = 0, vtp, vtu, off, ply and msh.
-/// \throws Error as above; bad_option for another format, for Numbering::curve and Numbering::rcm,
+/// triangles; other planar meshes support triangles and, with z = 0, vtp, vtu, off, ply and msh,
+/// and formats of cells if the domain is known, see below. \throws Error as above; bad_option for
+/// another format, for Numbering::curve and Numbering::rcm,
 ///         and for a density that is not uniform in an MPAS file.
 void write(const std::string& path, const PlanarMesh& mesh, const WriteOptions& options = {});
+
+/// Writes a planar mesh, or its Voronoi cells clipped by its domain, in the order of its sites. In
+/// addition to the formats above a bounded plane supports mpas, ugrid, vtp_cells, vtu_cells and
+/// geojson. An MPAS file has the boundary that voronoi() describes, with 0 for what is missing.
+/// Coordinates are those of the points, with z = 0; NetCDF files call their unit metre, GeoJSON has
+/// x and y in place of longitude and latitude. Fields at vertices are not written to formats of
+/// cells, whose corners are not those of the triangles. \throws Error as above, and as
+/// voronoi(mesh, domain), before any file is written.
+void write(const std::string& path, const PlanarMesh& mesh, const PlanarDomain& domain,
+           const WriteOptions& options = {});
 
 /// The format in which `write` writes a path: the option, or for by_name the format of the name.
 /// The case of a suffix does not matter. An option other than mpi_scvt may have a name of unknown
@@ -113,15 +125,18 @@ void write(const std::string& path, const PlanarMesh& mesh, const WriteOptions& 
 ///         another name.
 Format format_of(const std::string& path, Format option = Format::by_name);
 
-/// True if the format stores Voronoi cells and thus requires a closed mesh.
+/// True if the format stores Voronoi cells and thus requires a closed mesh, or a domain of the
+/// plane.
 bool holds_cells(Format format);
 
 /// Throws unless `write` supports planar meshes in the format.
 /// \param path for the message.
 /// \param periodic the mesh is that of a periodic box.
 /// \param format not by_name.
+/// \param bounded the domain is known and not periodic, so that it clips the cells.
 /// \throws Error bad_option.
-void require_planar_format(const std::string& path, bool periodic, Format format);
+void require_planar_format(const std::string& path, bool periodic, Format format,
+                           bool bounded = false);
 
 /// Writes bytes to a file, which is complete or absent as described above.
 /// \throws Error file.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cvt/planar_cells.h"
 
-#include "base/first_fault.h"
 #include "base/parallel.h"
 #include "base/points.h"
 #include "delaunay/periodic.h"
@@ -29,14 +28,7 @@ std::array<Vec3, 3> hull_around(const Box2& box) {
 void require_inside(const Points2Ref& places, const PlanarDomain& domain) {
   if (domain.periodic())
     return require_in_box(places, domain.period);
-  const Outline outline(domain);
-  FirstFault outside;
-  for_each_block(places.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-    for (std::int64_t i = begin; i != end; ++i)
-      if (places.col(i).allFinite() && outline.side({places(0, i), places(1, i)}) == Side::outside)
-        outside.at(i);
-  });
-  outside.refuse("point", "is outside of the domain; leave it out, or move it inside");
+  domain_detail::require_inside(places, Outline(domain));
 }
 
 PlanarCells::PlanarCells(const PlanarDomain& domain)

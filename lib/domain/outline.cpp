@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "domain/outline.h"
 
+#include "base/first_fault.h"
+#include "base/parallel.h"
+
 #include <calotte/error.h>
 
 #include <algorithm>
@@ -186,6 +189,20 @@ Outline::Outline(const PlanarDomain& domain) {
   orient();
 }
 
+std::vector<std::vector<Vec2>> Outline::rings() const {
+  std::vector<std::vector<Vec2>> rings;
+  for (std::size_t r = 0; r + 1 < ring_begin_.size(); ++r) {
+    const auto begin = edges_.begin() + ring_begin_[r], end = edges_.begin() + ring_begin_[r + 1];
+    std::vector<Vec2> corners;
+    for (auto edge = begin; edge != end; ++edge)
+      corners.push_back(edge->from);
+    if (compare(begin->to, (begin + 1)->from) != 0) // orient() turned the edges, not their order
+      std::reverse(corners.begin(), corners.end());
+    rings.push_back(std::move(corners));
+  }
+  return rings;
+}
+
 Side Outline::side(const Vec2& place) const {
   if (!(place.x >= box_.low.x && place.x <= box_.high.x && place.y >= box_.low.y &&
         place.y <= box_.high.y))
@@ -198,6 +215,16 @@ Side Outline::side(const Vec2& place) const {
       inside = !inside;
   });
   return boundary ? Side::boundary : inside ? Side::inside : Side::outside;
+}
+
+void require_inside(const Points2Ref& places, const Outline& outline) {
+  FirstFault outside;
+  for_each_block(places.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i != end; ++i)
+      if (places.col(i).allFinite() && outline.side({places(0, i), places(1, i)}) == Side::outside)
+        outside.at(i);
+  });
+  outside.refuse("point", "is outside of the domain; leave it out, or move it inside");
 }
 
 } // namespace calotte::domain_detail

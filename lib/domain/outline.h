@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "base/points.h"
 #include "domain/room.h"
 #include "exact/plane_predicates.h"
 
@@ -35,6 +36,8 @@ public:
   const Box2& box() const { return box_; } ///< the least one around it
   double area() const { return area_; }
   const std::vector<Edge>& edges() const { return edges_; } ///< ring by ring
+  /// The corners of each ring in the order that has the domain to the left.
+  std::vector<std::vector<Vec2>> rings() const;
 
   /// The position of a place relative to the boundary; exact.
   Side side(const Vec2& place) const;
@@ -77,5 +80,8 @@ private:
   std::vector<std::int64_t> begin_;
   std::vector<std::int32_t> listed_;
 };
+
+/// \throws Error bad_option with the index of the first place outside the domain.
+void require_inside(const Points2Ref& places, const Outline& outline);
 
 } // namespace calotte::domain_detail

@@ -68,6 +68,10 @@ bool holds_field(Format format, const MeshField& field);
 
 void write_mpas(const std::string& path, const Mesh& mesh, const WriteOptions& options);
 void write_mpas(const std::string& path, const PlanarMesh& mesh, const WriteOptions& options);
+/// A whole tessellation, which may be open. \param places of its cells: radius times the unit
+/// vectors; in a plane, the cells.
+void write_mpas(const std::string& path, Voronoi voronoi, const Points3& places,
+                const WriteOptions& options);
 void write_mpas_minimal(const std::string& path, const Mesh& mesh, const WriteOptions& options);
 void write_mpas_minimal(const std::string& path, const PlanarMesh& mesh,
                         const WriteOptions& options);

@@ -10,7 +10,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
 // GeoJSON (Butler et al., RFC 7946, 2016): a feature a cell. As a polygon does not tell its site,
 // the site's coordinates are properties.
@@ -74,11 +77,28 @@ std::vector<Vec3> corners_of(const Polygons& cells, std::int64_t cell) {
   return corners;
 }
 
-/// \param voronoi the cells have a density among their own properties.
-std::vector<const MeshField*> cell_fields_of(const WriteOptions& options, bool voronoi) {
+/// In a plane x and y stand in place of longitude and latitude.
+std::vector<std::vector<MapPlace>> rings_of(const Polygons& cells, std::int64_t cell) {
+  const std::vector<Vec3> corners = corners_of(cells, cell);
+  if (cells.on_sphere)
+    return outline_of(corners);
+  std::vector<MapPlace> ring;
+  for (const Vec3& corner : corners)
+    ring.push_back({corner.x, corner.y});
+  return {ring};
+}
+
+constexpr std::array of_polygons{"id", "x", "y", "z", "area"};
+constexpr std::array of_voronoi_cells{"id",      "x",       "y",       "z",     "area",
+                                      "density", "spacing", "quality", "degree"};
+
+/// Those of the cells that have no name of another property.
+std::vector<const MeshField*> cell_fields_of(const WriteOptions& options,
+                                             std::span<const char* const> own_properties) {
   std::vector<const MeshField*> fields;
   for (const MeshField& field : options.fields)
-    if (holds_field(Format::geojson, field) && !(voronoi && field.name == "density"))
+    if (holds_field(Format::geojson, field) &&
+        std::find(own_properties.begin(), own_properties.end(), field.name) == own_properties.end())
       fields.push_back(&field);
   return fields;
 }
@@ -101,7 +121,7 @@ void put_collection(Writer& out, std::int64_t cells, const auto& put_cell) {
 /// \param properties puts those after the id.
 void put_feature(Writer& out, const Polygons& cells, std::int64_t cell, const auto& properties) {
   out.text(R"({"type":"Feature","geometry":)");
-  put_geometry(out, outline_of(corners_of(cells, cell)));
+  put_geometry(out, rings_of(cells, cell));
   out.text(R"(,"properties":{"id":)").number(cell);
   properties();
   out.text("}}");
@@ -128,7 +148,7 @@ void put_geojson(const Sink& sink, const Mesh& mesh, const WriteOptions& options
   Voronoi voronoi = calotte::voronoi(mesh);
   const CellFields fields = fields_of(voronoi, options);
   const Polygons cells = polygons_of(std::move(voronoi));
-  const std::vector<const MeshField*> others = cell_fields_of(options, true);
+  const std::vector<const MeshField*> others = cell_fields_of(options, of_voronoi_cells);
   Writer out(sink);
   put_collection(out, cells.size(), [&](std::int64_t i) {
     put_feature(out, cells, i, [&] {
@@ -145,7 +165,7 @@ void put_geojson(const Sink& sink, const Mesh& mesh, const WriteOptions& options
 
 void put_geojson(const Sink& sink, const Polygons& polygons, const WriteOptions& options) {
   const Eigen::VectorXd areas = areas_of(polygons);
-  const std::vector<const MeshField*> others = cell_fields_of(options, false);
+  const std::vector<const MeshField*> others = cell_fields_of(options, of_polygons);
   Writer out(sink);
   put_collection(out, polygons.size(), [&](std::int64_t i) {
     put_feature(out, polygons, i, [&] {

@@ -179,6 +179,29 @@ void settle_polygons(const std::string& name, Soup soup, MeshFile& file) {
   file.polygons = std::move(polygons);
 }
 
+/// Keeps the polygons: their boundary is the file's alone. Each has a site.
+void settle_clipped(const std::string& name, Polygons polygons, MeshFile& file) {
+  const auto& sites = file.plane->site_of_input;
+  for (std::size_t i = 0; i < sites.size(); ++i)
+    if (sites[i] != static_cast<std::int32_t>(i))
+      refuse(name,
+             "cell " + std::to_string(i) + " and cell " + std::to_string(sites[i]) +
+                 " have one centre",
+             static_cast<std::int64_t>(i));
+  file.changes.push_back("triangulated " + std::to_string(sites.size()) + " points");
+  const std::int64_t turned = turn_counter_clockwise(polygons, name, false);
+  if (turned > 0)
+    file.changes.push_back("turned " + std::to_string(turned) + " clockwise cells");
+  require_no_overlap(polygons, name);
+  std::erase_if(file.fields, [&](const MeshField& field) { // corners are no triangles
+    if (field.location != Location::cells)
+      file.ignored.push_back(field.name);
+    return field.location != Location::cells;
+  });
+  file.not_voronoi = "the boundary of the plane clips them";
+  file.polygons = std::move(polygons);
+}
+
 /// Values by input column become values by site: a site has those of its lowest column.
 void merge_values(const Mesh& mesh, MeshFile& file) {
   const auto columns = std::ssize(mesh.site_of_input);
@@ -290,11 +313,13 @@ MeshFile planar_mesh_file_of(const std::string& name, const std::string& format,
   MeshFile file = rest_of(format, soup);
   PlanarMesh mesh;
   mesh.points = soup.points.topRows<2>();
-  if (soup.triangles.cols() == 0 && soup.polygons.size() > 0)
+  if (soup.triangles.cols() == 0 && soup.polygons.size() > 0 && soup.polygons.on_sphere)
     throw Error(ErrorCode::bad_option,
                 name + ": it holds cells of the sphere; of a plane only triangles are read");
   if (soup.triangles.cols() == 0) {
     file.plane = named(name, [&] { return planar_delaunay(mesh.points); });
+    if (soup.polygons.size() > 0)
+      settle_clipped(name, std::move(soup.polygons), file);
     return file;
   }
   require_ids(name, soup.triangles, mesh.points.cols());

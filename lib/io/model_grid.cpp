@@ -54,6 +54,11 @@ Points3 on_sphere(const Points3& points, double radius) {
   return places;
 }
 
+WriteOptions of_plane(WriteOptions options) {
+  options.sphere_radius = 0; // as planar meshes have it
+  return options;
+}
+
 CellFields fields_of(const Voronoi& voronoi, const WriteOptions& options) {
   if (options.site_density.size() == 0)
     return cell_fields(voronoi, options.density);

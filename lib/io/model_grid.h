@@ -35,10 +35,13 @@ LonLat lonlat_of(const Vec3& place);
 /// \throws Error bad_option for a radius that is not positive and finite.
 Points3 on_sphere(const Points3& points, double radius);
 
+/// Options of a file of a plane.
+WriteOptions of_plane(WriteOptions options);
+
 /// Cells as a file of polygons shall hold them.
 struct CellGrid {
   Polygons polygons;
-  Eigen::VectorXd area; ///< steradians
+  Eigen::VectorXd area; ///< steradians; in a plane the square of its unit
   Points3 sites;        ///< of the cells, with their norms; 3 x 0 where they have none
 };
 

@@ -46,24 +46,24 @@ struct Lines {
   std::string_view text() const { return {room.begin(), static_cast<std::size_t>(size)}; }
 };
 
+/// A line of numbers for each cell, which is empty for a cell without neighbours.
 Lines neighbour_lines(const Voronoi& voronoi, std::int64_t begin, std::int64_t end) {
   constexpr std::int64_t longest = 11; // a blank or a line's end, and ten digits
   Lines lines{Array<char>(longest * (voronoi.begin[end] - voronoi.begin[begin]) + end - begin)};
   char* out = lines.room.begin();
   for (std::int64_t i = begin; i != end; ++i) {
+    const char* const start = out;
     for (std::int64_t k = voronoi.begin[i]; k != voronoi.begin[i + 1]; ++k) {
-      out = std::to_chars(out, out + longest, voronoi.cells_on_cell[k] + 1).ptr;
-      *out++ = ' ';
+      if (voronoi.cells_on_cell[k] < 0)
+        continue;
+      if (out != start)
+        *out++ = ' ';
+      out = std::to_chars(out, out + longest - 1, voronoi.cells_on_cell[k] + 1).ptr;
     }
-    out[-1] = '\n';
+    *out++ = '\n';
   }
   lines.size = out - lines.room.begin();
   return lines;
-}
-
-WriteOptions of_plane(WriteOptions options) {
-  options.sphere_radius = 0; // as planar meshes have it
-  return options;
 }
 
 } // namespace
@@ -78,9 +78,9 @@ NetcdfAttributes described(const std::string& units, const std::string& long_nam
 
 MpasFile::MpasFile(const std::string& path, const MpasMesh& mesh, const WriteOptions& options)
     : GridFile(path, mesh.voronoi.on_sphere ? options : of_plane(options), "CF-1.8 MPAS") {
-  const bool on_sphere = mesh.voronoi.on_sphere;
+  const bool on_sphere = mesh.voronoi.on_sphere, periodic = mesh.voronoi.period.minCoeff() > 0;
   netcdf().attribute({"on_a_sphere", std::string(on_sphere ? "YES" : "NO")});
-  netcdf().attribute({"is_periodic", std::string(on_sphere ? "NO" : "YES")});
+  netcdf().attribute({"is_periodic", std::string(periodic ? "YES" : "NO")});
   netcdf().attribute({"x_period", mesh.voronoi.period[0]});
   netcdf().attribute({"y_period", mesh.voronoi.period[1]});
   netcdf().attribute({"mesh_spec", std::string("1.0")});
@@ -143,7 +143,8 @@ std::string graph_path(const std::string& path) {
 
 void put_graph(const Sink& sink, const Voronoi& voronoi) {
   const std::int64_t cells = voronoi.cells.cols(), blocks = block_count(cells);
-  sink(std::to_string(cells) + " " + std::to_string(voronoi.cells_on_edge.cols()) + "\n");
+  const auto edges = (voronoi.cells_on_edge.row(1).array() >= 0).count();
+  sink(std::to_string(cells) + " " + std::to_string(edges) + "\n");
   constexpr std::int64_t at_once = 32; // blocks, so that not all of the text waits in memory
   std::vector<Lines> texts(at_once);
   for (std::int64_t first = 0; first < blocks; first += at_once) {

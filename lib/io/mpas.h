@@ -8,19 +8,26 @@
 #include <calotte/io.h>
 #include <calotte/voronoi.h>
 
+#include <cstdint>
 #include <functional>
 #include <string>
 
 /// What the full and the minimal MPAS file have in common.
 namespace calotte::io_detail {
 
-/// A mesh as a file shall hold it. All but its cells is made while the file is written.
+/// A mesh as a file shall hold it. All but its cells is made while the file is written, unless it
+/// is made before.
 struct MpasMesh {
-  Voronoi& voronoi;      ///< begun
+  Voronoi& voronoi;      ///< begun, or whole
   const Points3& places; ///< 3 x n: of the cells, radius times the unit vectors; in a plane, z = 0
   double radius;         ///< of the sphere; 1 in a plane
   CellFields& fields;    ///< of voronoi, when that is measured
-  std::function<void()> connect; ///< voronoi
+  std::function<void()> connect; ///< voronoi; empty if that is whole
+
+  bool whole() const { return !connect; }
+  std::int64_t edges() const {
+    return whole() ? voronoi.cells_on_edge.cols() : voronoi.cells_on_vertex.size() / 2;
+  }
 };
 
 /// One of the three kinds of places.

@@ -7,6 +7,7 @@
 
 #include <calotte/error.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -59,7 +60,9 @@ void check_sphere(const MeshFile& file, Deviations& deviations) {
 
 double MpasCheck::rounding(const std::string& variable) const {
   const NetcdfReader& file = deviations.file();
-  const double size = voronoi.on_sphere ? 1 : voronoi.period.maxCoeff();
+  const double size =
+      voronoi.on_sphere ? 1
+                        : std::max(voronoi.period.maxCoeff(), voronoi.cells.cwiseAbs().maxCoeff());
   return file.is_float(variable) || file.is_float("xCell") ? float_digits * size : 0;
 }
 
@@ -80,6 +83,8 @@ void check_mpas(const MeshFile& file, Deviations& deviations) {
   try {
     if (file.mesh)
       check_sphere(file, deviations);
+    else if (file.plane && file.plane->period.minCoeff() == 0)
+      check_open_mpas(file, 1, deviations);
     else if (file.plane)
       check_closed(voronoi(*file.plane), 1, file, deviations);
   } catch (const Error& error) {

@@ -34,8 +34,7 @@ struct MpasCheck {
   /// Whether both cells of an edge of the tessellation are there, and whole.
   bool has_weights(std::int32_t e) const {
     const std::int32_t a = voronoi.cells_on_edge(0, e), b = voronoi.cells_on_edge(1, e);
-    return closed ||
-           (b < voronoi.cells.cols() && voronoi.cell_area[a] > 0 && voronoi.cell_area[b] > 0);
+    return closed || (b >= 0 && voronoi.cell_area[a] > 0 && voronoi.cell_area[b] > 0);
   }
 };
 

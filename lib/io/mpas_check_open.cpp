@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/mpas_check.h"
 
-#include "base/matrix_memory.h"
 #include "base/points.h"
-#include "exact/predicates.h"
 #include "io/mpas_open.h"
-#include "io/polygons.h"
+#include "io/open_cells.h"
+#include "voronoi/open.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numbers>
 #include <utility>
 
 // The part of a tessellation that an open mesh has, in the numbering of its file. Places of
@@ -18,17 +14,6 @@
 
 namespace calotte::io_detail {
 namespace {
-
-/// Stands for the missing cell of an edge: no cell is higher, so that the edge's normal leaves the
-/// one that is there.
-constexpr std::int32_t no_cell = std::numeric_limits<std::int32_t>::max();
-
-double arc(const Vec3& a, const Vec3& b) { return 2 * std::atan2(norm(b - a), norm(a + b)); }
-
-/// As polygons have it.
-double triangle_area(const Vec3& a, const Vec3& b, const Vec3& c) {
-  return 2 * std::atan2(dot(a, cross(b - a, c - a)), 1 + dot(a, b) + dot(b, c) + dot(c, a));
-}
 
 // ---- Ids
 
@@ -40,12 +25,10 @@ void set_edges(const OpenLists& lists, Voronoi& out, MpasNumbering& numbering) {
   numbering.file_edge = Array<std::int32_t>(edges);
   numbering.reversed = Array<std::uint8_t>(edges);
   for (std::int32_t e = 0; e < edges; ++e) {
-    const std::int32_t first = lists.cells_on_edge.at(e, 0);
-    const std::int32_t second =
-        lists.cells_on_edge.at(e, 1) < 0 ? no_cell : lists.cells_on_edge.at(e, 1);
-    const bool reversed = second < first;
+    const std::int32_t first = lists.cells_on_edge.at(e, 0), second = lists.cells_on_edge.at(e, 1);
+    const bool reversed = second >= 0 && second < first;
     for (int k = 0; k < 2; ++k) {
-      out.cells_on_edge(reversed ? 1 - k : k, e) = k == 0 ? first : second;
+      out.cells_on_edge(reversed ? 1 - k : k, e) = lists.cells_on_edge.at(e, k);
       out.vertices_on_edge(reversed ? 1 - k : k, e) = lists.vertices_on_edge.at(e, k);
     }
     numbering.edge[e] = numbering.file_edge[e] = e;
@@ -76,17 +59,16 @@ void set_cells(const OpenLists& lists, Voronoi& out) {
     ids->resize(out.begin[lists.cells]);
   for (std::int64_t i = 0; i < lists.cells; ++i)
     for (std::int64_t k = 0; k < out.begin[i + 1] - out.begin[i]; ++k) {
-      const std::int32_t other = lists.cells_on_cell.at(i, k);
       out.edges_on_cell[out.begin[i] + k] = lists.edges_on_cell.at(i, k);
       out.vertices_on_cell[out.begin[i] + k] = lists.vertices_on_cell.at(i, k);
-      out.cells_on_cell[out.begin[i] + k] = other < 0 ? no_cell : other;
+      out.cells_on_cell[out.begin[i] + k] = lists.cells_on_cell.at(i, k);
     }
 }
 
 // ---- Places and measures
 
 /// The vertices as the file has them, or none.
-Points3 stored_vertices(Deviations& deviations) {
+Points3 stored_vertices(bool on_sphere, Deviations& deviations) {
   const std::int64_t vertices = deviations.file().dimension("nVertices");
   Points3 places(3, std::max<std::int64_t>(vertices, 0));
   for (int row = 0; row < 3; ++row) {
@@ -96,6 +78,8 @@ Points3 stored_vertices(Deviations& deviations) {
     const std::vector<double> values = deviations.file().doubles(name, {vertices});
     places.row(row) = Eigen::Map<const Eigen::RowVectorXd>(values.data(), vertices);
   }
+  if (!on_sphere)
+    return places;
   return places.colwise().normalized();
 }
 
@@ -104,68 +88,24 @@ void place_vertices(Points3 stored, Voronoi& out) {
   for (Eigen::Index v = 0; v < out.cells_on_vertex.cols(); ++v) {
     if (out.cells_on_vertex.col(v).minCoeff() < 0)
       continue;
-    const Vec3& a = column(out.cells, out.cells_on_vertex(0, v));
-    const Vec3 normal = cross(column(out.cells, out.cells_on_vertex(1, v)) - a,
-                              column(out.cells, out.cells_on_vertex(2, v)) - a);
-    set_column(out.vertices, v, (1 / norm(normal)) * normal);
+    set_column(out.vertices, v, circumcentre_of(out, v));
   }
 }
 
-/// The angle from east of a direction at a place.
-double angle_from_east(const Vec3& place, const Vec3& direction) {
-  const Vec3 east{-place.y, place.x, 0};
-  return std::atan2(dot(direction, cross(place, east)), dot(direction, east));
-}
-
-void measure_edges(Voronoi& out) {
-  const std::int64_t edges = out.cells_on_edge.cols();
-  make_room(out.edges, 3, edges);
-  for (Eigen::VectorXd* values : {&out.dc, &out.dv, &out.angle})
-    make_room(*values, edges, 1);
-  for_each_block(edges, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-    for (std::int64_t e = begin; e != end; ++e) {
-      const bool inner = out.cells_on_edge(1, e) != no_cell;
-      const Vec3 &right = column(out.vertices, out.vertices_on_edge(0, e)),
-                 &left = column(out.vertices, out.vertices_on_edge(1, e));
-      const Vec3& from = column(out.cells, out.cells_on_edge(0, e));
-      const Vec3& to = inner ? column(out.cells, out.cells_on_edge(1, e)) : from;
-      const Vec3 middle = normalised(inner ? from + to : right + left);
-      set_column(out.edges, e, middle);
-      out.dv[e] = arc(right, left);
-      out.dc[e] = inner ? arc(from, to) : std::numbers::sqrt3 * out.dv[e];
-      out.angle[e] = angle_from_east(middle, inner ? to - from : cross(left - right, middle));
-    }
-  });
-}
-
-/// The kites of cells that are there, between edges that are.
-void measure_kites(Voronoi& out) {
-  const std::int64_t vertices = out.cells_on_vertex.cols();
-  out.kites.setZero(3, vertices);
-  for_each_block(vertices, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-    for (std::int64_t v = begin; v != end; ++v)
-      for (int j = 0; j < 3; ++j) {
-        const std::int32_t cell = out.cells_on_vertex(j, v), e = out.edges_on_vertex(j, v);
-        std::int32_t next = out.edges_on_vertex((j + 1) % 3, v);
-        if (next < 0) // a list of two edges
-          next = out.edges_on_vertex((j + 2) % 3, v);
-        if (cell < 0 || e < 0 || next < 0)
-          continue;
-        const Vec3 &p = column(out.vertices, v), &c = column(out.cells, cell);
-        out.kites(j, v) = triangle_area(p, column(out.edges, e), c) +
-                          triangle_area(p, c, column(out.edges, next));
-      }
-  });
-  out.vertex_area = out.kites.colwise().sum().transpose();
-}
-
-/// As polygons of their vertices; what a file has for an incomplete cell is -1, whatever its unit.
-void measure_cells(double radius, Voronoi& out) {
-  const Polygons cells{out.vertices, out.begin, out.vertices_on_cell, {}};
-  out.cell_area = areas_of(cells);
+/// What a file has for an incomplete cell is -1, whatever its unit.
+void mark_incomplete_cells(double radius, Voronoi& out) {
   for (double& area : out.cell_area)
     if (!(area > 0))
       area = -1 / (radius * radius);
+}
+
+/// The cells as the file has them.
+Points3 cells_of(const MeshFile& file) {
+  if (file.mesh)
+    return file.mesh->points.colwise().normalized();
+  Points3 cells = Points3::Zero(3, file.plane->points.cols());
+  cells.topRows<2>() = file.plane->points;
+  return cells;
 }
 
 } // namespace
@@ -174,8 +114,9 @@ void check_open_mpas(const MeshFile& file, double radius, Deviations& deviations
   Voronoi part;
   MpasNumbering numbering;
   OpenLists lists;
-  part.cells = file.mesh->points.colwise().normalized();
-  Points3 vertices = stored_vertices(deviations);
+  part.on_sphere = file.mesh.has_value();
+  part.cells = cells_of(file);
+  Points3 vertices = stored_vertices(part.on_sphere, deviations);
   const bool whole = read_open_lists(part.cells.cols(), lists, deviations) && vertices.cols() > 0 &&
                      lists.cells_on_edge.rows() > 0;
   if (whole && !check_open_lists(lists, deviations))
@@ -185,9 +126,8 @@ void check_open_mpas(const MeshFile& file, double radius, Deviations& deviations
     set_vertices(lists, part, numbering);
     set_cells(lists, part);
     place_vertices(std::move(vertices), part);
-    measure_edges(part);
-    measure_kites(part);
-    measure_cells(radius, part);
+    voronoi_detail::measure_open(part);
+    mark_incomplete_cells(radius, part);
   }
   const double width = whole ? part.dc.mean() : 1;
   CellFields fields;

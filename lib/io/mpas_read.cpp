@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace calotte::io_detail {
 namespace {
@@ -92,13 +93,13 @@ bool are_circumcentres(const Points3& sites, const Triangles& triangles, const P
 }
 
 /// The cells as the file has them. A cell with a missing vertex has none here.
-Polygons cells_of(const NetcdfReader& file, const Points3& sites, const Points3& vertices) {
+Polygons cells_of(const NetcdfReader& file, Points3 sites, Points3 vertices) {
   const std::int64_t cells = sites.cols();
   const std::vector<std::int32_t> counts = file.ints("nEdgesOnCell", {cells});
   const std::int64_t width = file.shape_of("verticesOnCell").back();
   const std::vector<std::int32_t> rows =
       ids_of(file, "verticesOnCell", {cells, -1}, "cell", width, "vertex", vertices.cols());
-  Polygons polygons{on_sphere(vertices, 1), {}, {}, on_sphere(sites, 1)};
+  Polygons polygons{std::move(vertices), {}, {}, std::move(sites)};
   polygons.begin.resize(cells + 1);
   std::vector<std::int32_t> ids;
   for (std::int64_t i = 0; i < cells; ++i) {
@@ -126,7 +127,8 @@ void select_vertices(std::vector<MeshField>& fields, const std::vector<std::int3
 double period_of(const NetcdfReader& file, const std::string& name) {
   const double period = file.number("", name, 0);
   if (!(period > 0 && std::isfinite(period)))
-    file.fail(name + " is missing or not positive; only doubly periodic planes are read");
+    file.fail(name + " is missing or not positive; a plane has two periods, or the "
+                     "attribute is_periodic \"NO\"");
   return period;
 }
 
@@ -159,6 +161,27 @@ void read_density_and_fields(const NetcdfReader& file, std::int64_t cells, Field
     soup.density = values_with_fill(file, "meshDensity");
 }
 
+bool has_cells(const NetcdfReader& file) {
+  return file.has_variable("verticesOnCell") && file.has_variable("nEdgesOnCell") &&
+         file.has_variable("xVertex");
+}
+
+/// A plane with a boundary. Its triangles do not cover the hull; its vertices are no triangles.
+MeshFile read_bounded_plane(const NetcdfReader& file, FieldChoice choice) {
+  if (!has_cells(file))
+    file.fail("a plane without periods, but no cells (nEdgesOnCell, verticesOnCell and xVertex); "
+              "make the file again");
+  Soup soup{.points = places_of(file, "Cell")};
+  Points3 vertices = places_of(file, "Vertex");
+  if (!vertices.allFinite())
+    file.fail("a coordinate of the vertices is NaN or infinite; make the file again");
+  vertices.row(2).setZero();
+  read_density_and_fields(file, soup.points.cols(), choice, soup);
+  soup.polygons = cells_of(file, soup.points, std::move(vertices));
+  soup.polygons.on_sphere = false;
+  return planar_mesh_file_of(file.path(), "MPAS", std::move(soup));
+}
+
 } // namespace
 
 bool is_mpas(const NetcdfReader& file) {
@@ -182,13 +205,11 @@ Soup read_mpas(const NetcdfReader& file, FieldChoice choice) {
   const std::int64_t cells = soup.points.cols();
   CompleteVertices complete = complete_vertices(file, cells);
   read_density_and_fields(file, cells, choice, soup);
-  const bool has_cells = file.has_variable("verticesOnCell") && file.has_variable("nEdgesOnCell") &&
-                         file.has_variable("xVertex");
-  if (has_cells) {
+  if (has_cells(file)) {
     const Points3 vertices = places_of(file, "Vertex");
     require_directions(file.path() + ": of the vertices", vertices);
     if (!complete.all || !are_circumcentres(soup.points, complete.triangles, vertices))
-      soup.polygons = cells_of(file, soup.points, vertices);
+      soup.polygons = cells_of(file, on_sphere(soup.points, 1), on_sphere(vertices, 1));
   }
   if (!complete.all)
     select_vertices(soup.fields, complete.vertex);
@@ -200,6 +221,8 @@ MeshFile read_planar_mpas(const NetcdfReader& file, FieldChoice choice) {
   if (!is_planar_mpas(file))
     throw Error(ErrorCode::bad_option, file.path() + " holds a mesh of the sphere, not of the "
                                                      "plane; read it with read_mesh");
+  if (file.text("", "is_periodic").starts_with("NO"))
+    return read_bounded_plane(file, choice);
   PlanarMesh mesh;
   mesh.period = {period_of(file, "x_period"), period_of(file, "y_period")};
   const Points3 places = places_of(file, "Cell");

@@ -20,10 +20,11 @@ struct Dimensions {
   int cells, edges, vertices, max_edges, max_edges2, two, vertex_degree;
 };
 
-Dimensions full_dimensions(NetcdfWriter& file, const Voronoi& voronoi) {
+Dimensions full_dimensions(NetcdfWriter& file, const MpasMesh& mesh) {
+  const Voronoi& voronoi = mesh.voronoi;
   const std::int64_t most = most_corners(voronoi);
   const Dimensions dimensions{.cells = file.dimension("nCells", voronoi.cells.cols()),
-                              .edges = file.dimension("nEdges", voronoi.cells_on_vertex.size() / 2),
+                              .edges = file.dimension("nEdges", mesh.edges()),
                               .vertices =
                                   file.dimension("nVertices", voronoi.cells_on_vertex.cols()),
                               .max_edges = file.dimension("maxEdges", most),
@@ -120,7 +121,10 @@ void put_begun_ids(MpasFile& file, const Dimensions& dimensions, const Voronoi& 
                            "j and j + 1 of edgesOnVertex"),
             id_columns(voronoi.cells_on_vertex));
   file.ints("boundaryVertex", {dimensions.vertices},
-            described("1", "1 where a vertex lies on the boundary of the mesh"), constant(0));
+            described("1", "1 where a vertex lies on the boundary of the mesh"),
+            table<std::int32_t>(1, [&voronoi](std::int64_t v, std::int64_t) {
+              return voronoi.cells_on_vertex.col(v).minCoeff() < 0 ? 1 : 0;
+            }));
 }
 
 void put_cell_ids(MpasFile& file, const Dimensions& dimensions, const Voronoi& voronoi) {
@@ -272,20 +276,27 @@ void write_full(const std::string& path, const MpasMesh& mesh, const WriteOption
   const Voronoi& voronoi = mesh.voronoi;
   OutputFile graph(graph_path(path));
   MpasFile file(path, mesh, options);
-  const Dimensions dimensions = full_dimensions(file.netcdf(), voronoi);
+  const Dimensions dimensions = full_dimensions(file.netcdf(), mesh);
   const bool on_sphere = voronoi.on_sphere;
   put_kind(file, mpas_cell, dimensions.cells, voronoi.cells, mesh.places, 1, on_sphere);
   put_begun_ids(file, dimensions, voronoi);
-  file.after(mesh.connect);
+  file.after([&] {
+    if (!mesh.whole())
+      mesh.connect();
+  });
   put_cell_ids(file, dimensions, voronoi);
   put_edge_ids(file, dimensions, voronoi);
   put_vertex_ids(file, dimensions, voronoi);
-  file.after([&] { measure_vertices(mesh.voronoi); });
+  file.after([&] {
+    if (!mesh.whole())
+      measure_vertices(mesh.voronoi);
+  });
   put_kind(file, mpas_vertex, dimensions.vertices, voronoi.vertices, voronoi.vertices, mesh.radius,
            on_sphere);
   put_vertex_measures(file, dimensions, mesh);
   file.after([&] {
-    measure_edges_and_cells(mesh.voronoi);
+    if (!mesh.whole())
+      measure_edges_and_cells(mesh.voronoi);
     mesh.fields = fields_of(voronoi, options);
     put_graph([&](std::string_view text) { graph.append(text); }, voronoi);
   });
@@ -356,6 +367,13 @@ void write_mpas(const std::string& path, const Mesh& mesh, const WriteOptions& o
 
 void write_mpas(const std::string& path, const PlanarMesh& mesh, const WriteOptions& options) {
   write_plane(path, mesh, options, write_full);
+}
+
+void write_mpas(const std::string& path, Voronoi voronoi, const Points3& places,
+                const WriteOptions& options) {
+  CellFields fields;
+  const double radius = voronoi.on_sphere ? options.sphere_radius : 1;
+  write_full(path, {voronoi, places, radius, fields, {}}, options);
 }
 
 void write_mpas_minimal(const std::string& path, const Mesh& mesh, const WriteOptions& options) {

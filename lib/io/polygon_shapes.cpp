@@ -29,15 +29,15 @@ Ring ring_of(const Polygons& polygons, std::int64_t i) {
 }
 
 /// The sine of the turn to the left at b, on the way from a to c.
-double turn(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 in = b - a, out = c - b;
-  return dot(b, cross(in, out)) / std::sqrt(dot(in, in) * dot(out, out));
+double turn(const Vec3& a, const Vec3& b, const Vec3& c, bool on_sphere) {
+  const Vec3 in = b - a, out = c - b, across = cross(in, out);
+  return (on_sphere ? dot(b, across) : across.z) / std::sqrt(dot(in, in) * dot(out, out));
 }
 
 bool is_convex(const Ring& ring) {
   constexpr double rounding = 1e-9;
   for (std::int64_t k = 0; k < ring.size; ++k)
-    if (turn(ring.at(k), ring.at(k + 1), ring.at(k + 2)) < -rounding)
+    if (turn(ring.at(k), ring.at(k + 1), ring.at(k + 2), ring.polygons.on_sphere) < -rounding)
       return false;
   return true;
 }
@@ -54,9 +54,27 @@ Vec3 first_moment(const Ring& ring) {
   return sum;
 }
 
+/// Of a polygon in a plane: the mean of its triangles' from the first corner, by their areas.
+Vec3 planar_centroid(const Ring& ring) {
+  const Vec3& first = ring.at(0);
+  Vec3 sum{0, 0, 0};
+  double area = 0;
+  for (std::int64_t k = 1; k + 1 < ring.size; ++k) {
+    const Vec3 a = ring.at(k) - first, b = ring.at(k + 1) - first;
+    const double part = cross(a, b).z;
+    sum = sum + part / 3 * (a + b);
+    area += part;
+  }
+  return first + 1 / area * sum;
+}
+
+Vec3 centroid(const Ring& ring) {
+  return ring.polygons.on_sphere ? normalised(first_moment(ring)) : planar_centroid(ring);
+}
+
 /// The distance of a centre from the centroid, in widths.
 double off_centring(const Polygons& polygons, std::int64_t i, double area) {
-  const Vec3 apart = column(polygons.centres, i) - normalised(first_moment(ring_of(polygons, i)));
+  const Vec3 apart = column(polygons.centres, i) - centroid(ring_of(polygons, i));
   return std::sqrt(dot(apart, apart) / area);
 }
 

@@ -28,7 +28,7 @@ const Vec3& place(const Polygons& polygons, std::int64_t k) {
 
 /// 2 atan2(a . b x c, 1 + a.b + b.c + c.a) (Oosterom and Strackee, IEEE Trans. Biomed. Eng. 30,
 /// 1983), with differences in the product, which keep the digits of small triangles.
-double signed_area(const Vec3& a, const Vec3& b, const Vec3& c) {
+double spherical_area(const Vec3& a, const Vec3& b, const Vec3& c) {
   return 2 * std::atan2(dot(a, cross(b - a, c - a)), 1 + dot(a, b) + dot(b, c) + dot(c, a));
 }
 
@@ -36,8 +36,10 @@ double signed_area(const Vec3& a, const Vec3& b, const Vec3& c) {
 double signed_area(const Polygons& polygons, std::int64_t polygon) {
   const std::int64_t first = polygons.begin[polygon], end = polygons.begin[polygon + 1];
   double sum = 0;
-  for (std::int64_t k = first + 1; k + 1 < end; ++k)
-    sum += signed_area(place(polygons, first), place(polygons, k), place(polygons, k + 1));
+  for (std::int64_t k = first + 1; k + 1 < end; ++k) {
+    const Vec3 &a = place(polygons, first), &b = place(polygons, k), &c = place(polygons, k + 1);
+    sum += polygons.on_sphere ? spherical_area(a, b, c) : cross(b - a, c - a).z / 2;
+  }
   return sum;
 }
 
@@ -176,7 +178,7 @@ Distinct distinct_columns(const Points3& columns) {
 
 Polygons polygons_of(Voronoi&& voronoi) {
   return {std::move(voronoi.vertices), std::move(voronoi.begin),
-          std::move(voronoi.vertices_on_cell), std::move(voronoi.cells)};
+          std::move(voronoi.vertices_on_cell), std::move(voronoi.cells), voronoi.on_sphere};
 }
 
 Polygons polygons_of(const Points3& corners, std::int64_t most, Points3 centres) {
@@ -259,6 +261,8 @@ void require_no_overlap(const Polygons& polygons, const std::string& name) {
                       " overlap, as both lie to the left of one side; make the file again",
                   twice->polygon);
   }
+  if (!polygons.on_sphere)
+    return;
   constexpr double whole = 4 * std::numbers::pi, rounding = 1e-6;
   const double area = areas_of(polygons).sum();
   if (area > whole * (1 + rounding))

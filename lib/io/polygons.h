@@ -21,8 +21,8 @@ Polygons polygons_of(Voronoi&& voronoi);
 ///        ends the list.
 Polygons polygons_of(const Points3& corners, std::int64_t most, Points3 centres);
 
-/// Areas on the unit sphere in steradians, positive for counter-clockwise polygons. \pre each is
-/// smaller than a hemisphere.
+/// Areas on the unit sphere in steradians, or in the plane, positive for counter-clockwise
+/// polygons. \pre on the sphere each is smaller than a hemisphere.
 Eigen::VectorXd areas_of(const Polygons& polygons);
 
 /// Turns polygons that run clockwise. \returns how many were turned.

@@ -118,10 +118,18 @@ Points3 directions(const std::string& name, const Points3& points) {
 }
 
 Soup cells_of(const std::string& name, Surface& surface, const SurfaceArray* centres) {
-  if (lies_in_plane(surface.points))
-    throw Error(ErrorCode::bad_option,
-                name + ": z is 0 at all points; of a plane only triangles are read");
   Soup soup;
+  if (lies_in_plane(surface.points)) {
+    if (centres == nullptr)
+      throw Error(ErrorCode::bad_option,
+                  name +
+                      ": z is 0 at all points; of a plane only triangles, and cells with an array "
+                      "site, are read");
+    soup.points = points_of(*centres);
+    soup.polygons = {std::move(surface.points), std::move(surface.begin), std::move(surface.ids),
+                     soup.points, false};
+    return soup;
+  }
   soup.polygons = {directions(name, surface.points), std::move(surface.begin),
                    std::move(surface.ids), Points3(3, 0)};
   if (centres != nullptr) {

@@ -58,7 +58,7 @@ void require_polygons(const std::string& name, const Surface& surface,
 ///
 /// Arrays of one component become fields, `density` of the cells the density. Those that calotte
 /// derives from a mesh are left out.
-/// \throws Error parse; bad_option for polygons in a plane.
+/// \throws Error parse; bad_option for polygons in a plane without centres.
 Soup soup_of(const std::string& name, Surface&& surface);
 
 /// \throws Error parse: what is wrong with an array.

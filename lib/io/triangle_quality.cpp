@@ -56,12 +56,21 @@ void angle_qualities(const double* a, const double* b, const double* c, std::int
 
 } // namespace
 
+bool has_triangle(const Voronoi& voronoi, std::int64_t vertex) {
+  return voronoi.cells_on_vertex.col(vertex).minCoeff() >= 0 &&
+         voronoi.edges_on_vertex.col(vertex).minCoeff() >= 0;
+}
+
 double side_quality(const Voronoi& voronoi, std::int64_t vertex) {
+  if (!has_triangle(voronoi, vertex))
+    return 0;
   const Sides sides = arcs(voronoi, vertex);
   return sides.a / sides.c;
 }
 
 bool is_obtuse(const Voronoi& voronoi, std::int64_t vertex) {
+  if (!has_triangle(voronoi, vertex))
+    return false;
   const auto [a, b, c] = chords(voronoi, vertex);
   return a * a + b * b - c * c < -2e-9 * a * b;
 }
@@ -73,12 +82,15 @@ void fill_angle_qualities(const Voronoi& voronoi, std::int64_t begin, std::int64
   for (std::int64_t first = begin; first < end; first += lanes) {
     const std::int64_t count = std::min(lanes, end - first);
     for (std::int64_t i = 0; i < count; ++i) {
-      const Sides of = arcs(voronoi, first + i);
+      const Sides of = has_triangle(voronoi, first + i) ? arcs(voronoi, first + i) : Sides{1, 1, 1};
       const auto lane = static_cast<std::size_t>(i);
       sides[0][lane] = of.a, sides[1][lane] = of.b, sides[2][lane] = of.c;
     }
     angle_qualities(sides[0].data(), sides[1].data(), sides[2].data(), count,
                     out + (first - begin));
+    for (std::int64_t i = 0; i < count; ++i)
+      if (!has_triangle(voronoi, first + i))
+        out[first - begin + i] = 0;
   }
 }
 

@@ -7,8 +7,11 @@
 
 #include <cstdint>
 
-/// Measures of the triangle around each vertex that MPAS files contain.
+/// Measures of the triangle around each vertex that MPAS files contain; 0 where there is none.
 namespace calotte::io_detail {
+
+/// Whether a vertex has three cells and three edges, as all of a closed mesh have.
+bool has_triangle(const Voronoi& voronoi, std::int64_t vertex);
 
 /// Shortest over longest side.
 double side_quality(const Voronoi& voronoi, std::int64_t vertex);

@@ -16,24 +16,46 @@ std::string three_names(const std::string& prefix) {
   return prefix + "_x " + prefix + "_y " + prefix + "_z";
 }
 
+/// Longitudes and latitudes; in a plane x and y.
+std::string coordinates_of(const std::string& prefix, bool on_sphere) {
+  std::string names = prefix;
+  names.append(on_sphere ? "_lon " : "_x ").append(prefix).append(on_sphere ? "_lat" : "_y");
+  return names;
+}
+
 /// The variable that says what the others are.
 /// \param sites the prefix of the variables of the sites' places; empty for none.
 void add_topology(GridFile& file, const std::string& what, const std::string& sites,
-                  bool face_places) {
+                  bool face_places, bool on_sphere) {
   NetcdfAttributes attributes{
       {"cf_role", std::string("mesh_topology")},
       long_name(what),
       {"units", std::string("1")},
       {"topology_dimension", std::int32_t{2}},
-      {"node_coordinates", node_name + "_lon " + node_name + "_lat"},
+      {"node_coordinates", coordinates_of(node_name, on_sphere)},
       {"face_node_connectivity", face_nodes_name},
       {"face_dimension", face_name},
   };
   if (!sites.empty())
     attributes.push_back({site_coordinates, three_names(sites)});
   if (face_places)
-    attributes.push_back({"face_coordinates", face_name + "_lon " + face_name + "_lat"});
+    attributes.push_back({"face_coordinates", coordinates_of(face_name, on_sphere)});
   file.ints(mesh_name, {}, attributes, constant(0));
+}
+
+/// x and y in a plane. \param of in words.
+void add_projected(GridFile& file, const std::string& prefix, int dimension, const std::string& of,
+                   const Points3& points) {
+  for (int row = 0; row < 2; ++row) {
+    const std::string axis(1, "xy"[row]);
+    std::string name = prefix + "_";
+    name += axis;
+    file.doubles(name, {dimension},
+                 {{"units", std::string("m")},
+                  {"standard_name", "projection_" + axis + "_coordinate"},
+                  long_name(axis + " of " + of)},
+                 row_of(points, row));
+  }
 }
 
 /// Longitudes and latitudes of nodes or faces. \param of in words.
@@ -77,22 +99,23 @@ void add_face_nodes(GridFile& file, int faces, std::int64_t most, const Node& no
 
 constexpr const char* conventions = "CF-1.8 UGRID-1.0";
 
-std::string coordinates_of(const std::string& prefix) { return prefix + "_lon " + prefix + "_lat"; }
-
-/// Attributes of a variable of data at faces or nodes. \param prefix of the names of the places'
-/// longitudes and latitudes; empty for none.
-NetcdfAttributes located(const std::string& location, const std::string& prefix) {
+/// Attributes of a variable of data at faces or nodes. \param coordinates the names of those of
+/// their places; empty for none.
+NetcdfAttributes located(const std::string& location, const std::string& coordinates) {
   NetcdfAttributes attributes{{"mesh", mesh_name}, {"location", location}};
-  if (!prefix.empty())
-    attributes.push_back({"coordinates", coordinates_of(prefix)});
+  if (!coordinates.empty())
+    attributes.push_back({"coordinates", coordinates});
   return attributes;
 }
 
 /// A variable of data at the faces: without one, CDO sees no unstructured grid.
-void add_areas(GridFile& file, int faces, const Eigen::VectorXd& areas, bool face_places) {
-  NetcdfAttributes attributes = located("face", face_places ? face_name : "");
-  attributes.push_back({"units", std::string("radians^2")});
-  attributes.push_back(long_name("area of the face on the unit sphere"));
+void add_areas(GridFile& file, int faces, const Eigen::VectorXd& areas, bool face_places,
+               bool on_sphere) {
+  NetcdfAttributes attributes =
+      located("face", face_places ? coordinates_of(face_name, on_sphere) : "");
+  attributes.push_back({"units", std::string(on_sphere ? "radians^2" : "m2")});
+  attributes.push_back(
+      long_name(on_sphere ? "area of the face on the unit sphere" : "area of the face"));
   attributes.push_back({"standard_name", std::string("cell_area")});
   file.doubles("cell_area", {faces}, attributes, values_of(areas));
 }
@@ -111,25 +134,29 @@ NetcdfMeshNames ugrid_names(bool of_cells) {
 
 void write_ugrid(const std::string& path, const CellGrid& grid, const WriteOptions& options) {
   const Polygons& cells = grid.polygons;
+  const bool on_sphere = cells.on_sphere;
+  const auto add_coordinates = on_sphere ? add_lonlats : add_projected;
   const bool has_centres = cells.centres.cols() > 0, has_sites = grid.sites.cols() > 0;
-  const Points3 sites = on_sphere(grid.sites, options.sphere_radius);
-  GridFile file(path, options, conventions);
+  const Points3 sites = io_detail::on_sphere(grid.sites, options.sphere_radius);
+  GridFile file(path, on_sphere ? options : of_plane(options), conventions);
   const int nodes = file.netcdf().dimension(node_name, cells.corners.cols());
   const int faces = file.netcdf().dimension(face_name, cells.size());
-  add_areas(file, faces, grid.area, has_centres); // first: CDO takes its grid for the file's
+  add_areas(file, faces, grid.area, has_centres,
+            on_sphere); // first: CDO takes its grid for the file's
   add_topology(file, has_sites ? "Voronoi cells of the sites" : "cells", has_sites ? face_name : "",
-               has_centres);
-  add_lonlats(file, node_name, nodes, "the node, a corner of cells", cells.corners);
+               has_centres, on_sphere);
+  add_coordinates(file, node_name, nodes, "the node, a corner of cells", cells.corners);
   if (has_centres)
-    add_lonlats(file, face_name, faces, "the face's site", cells.centres);
+    add_coordinates(file, face_name, faces, "the face's site", cells.centres);
   add_face_nodes(file, faces, most_corners(cells),
                  [&cells](std::int64_t cell, std::int64_t k) { return corner(cells, cell, k); });
   if (has_sites)
     add_places(file, face_name, faces, sites);
-  add_fields(file, options,
-             {.cells = {faces, located("face", has_centres ? face_name : "")},
-              .vertices = {nodes, located("node", node_name)}},
-             ugrid_names(true));
+  add_fields(
+      file, options,
+      {.cells = {faces, located("face", has_centres ? coordinates_of(face_name, on_sphere) : "")},
+       .vertices = {nodes, located("node", coordinates_of(node_name, on_sphere))}},
+      ugrid_names(true));
   file.commit();
 }
 
@@ -140,7 +167,7 @@ void write_ugrid_triangles(const std::string& path, const Mesh& mesh, const Writ
   GridFile file(path, options, conventions);
   const int nodes = file.netcdf().dimension(node_name, sites.cols());
   const int faces = file.netcdf().dimension(face_name, mesh.triangles.cols());
-  add_topology(file, "Delaunay triangles of the sites", node_name, mesh.closed());
+  add_topology(file, "Delaunay triangles of the sites", node_name, mesh.closed(), true);
   add_lonlats(file, node_name, nodes, "the node, a site", directions);
   if (mesh.closed())
     add_lonlats(file, face_name, faces, "the face's circumcentre", centres);
@@ -148,10 +175,11 @@ void write_ugrid_triangles(const std::string& path, const Mesh& mesh, const Writ
     return mesh.triangles(k, triangle);
   });
   add_places(file, node_name, nodes, sites);
-  add_fields(file, options,
-             {.cells = {nodes, located("node", node_name)},
-              .vertices = {faces, located("face", mesh.closed() ? face_name : "")}},
-             ugrid_names(false));
+  add_fields(
+      file, options,
+      {.cells = {nodes, located("node", coordinates_of(node_name, true))},
+       .vertices = {faces, located("face", mesh.closed() ? coordinates_of(face_name, true) : "")}},
+      ugrid_names(false));
   file.commit();
 }
 

@@ -66,11 +66,9 @@ bool can_hold(const NetcdfMeshNames& names, const MeshField& field) {
   return has_place && (is_kept_as_mask(names, field) || !is_name_of_mesh(names, field.name));
 }
 
-/// Whether formats of pictures make data of that name at the cells from the mesh.
-bool is_own_property(const std::string& name) {
-  return name == "area" || name == "spacing" || name == "quality" || name == "degree" ||
-         name == "site";
-}
+/// Whether formats of pictures make data of that name at all cells. Those that they make at Voronoi
+/// cells alone are derived from the mesh.
+bool is_own_property(const std::string& name) { return name == "area" || name == "site"; }
 
 /// Whether GeoJSON has a property of that name besides.
 bool is_place_property(const std::string& name) {

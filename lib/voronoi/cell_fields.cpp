@@ -18,7 +18,7 @@ namespace {
 /// \throws Error bad_option.
 Eigen::VectorXd relative_density(const Voronoi& voronoi, const Density& density) {
   base_detail::require(density.uniform() || voronoi.on_sphere,
-                       "a periodic plane supports uniform density only");
+                       "a plane supports uniform density only");
   if (density.uniform())
     return {};
   Eigen::VectorXd rho = evaluate(density, voronoi.cells);
@@ -45,18 +45,19 @@ CellFields cell_fields(const Voronoi& voronoi, const Density& density) {
   base_detail::for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i) {
       double sum = 0, shortest = std::numeric_limits<double>::infinity(), longest = 0;
+      std::int32_t degree = 0;
       for (std::int64_t place = voronoi.begin[i]; place != voronoi.begin[i + 1]; ++place) {
         const std::int32_t e = voronoi.edges_on_cell[place];
         sum += voronoi.dc[e];
         shortest = std::min(shortest, voronoi.dv[e]);
         longest = std::max(longest, voronoi.dv[e]);
+        degree += voronoi.cells_on_cell[place] >= 0;
       }
-      const auto degree = static_cast<std::int32_t>(voronoi.begin[i + 1] - voronoi.begin[i]);
       if (uniform)
         out.density[i] = 1;
       out.area[i] = voronoi.cell_area[i];
       out.degree[i] = degree;
-      out.spacing[i] = sum / degree;
+      out.spacing[i] = sum / static_cast<double>(voronoi.begin[i + 1] - voronoi.begin[i]);
       out.quality[i] = longest > 0 ? shortest / longest : 0;
     }
   });

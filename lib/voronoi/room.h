@@ -6,7 +6,8 @@
 /// The Voronoi tessellation that is dual to a mesh, as a C-grid model staggers it: edges, kites,
 /// lengths, areas, angles, tangential weights, and fields on the cells.
 ///
-/// In: a closed mesh. Out: flat arrays of connectivity and measures.
+/// In: a closed mesh, or one of the plane with its domain. Out: flat arrays of connectivity and
+/// measures.
 namespace calotte::voronoi_detail {
 using namespace delaunay_detail; // and the rooms below it
 }

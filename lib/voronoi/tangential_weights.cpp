@@ -29,7 +29,8 @@ std::int64_t set_weights_of_cell(const Voronoi& of, std::int32_t edge, std::int3
     passed += of.kites(vertex_at(of.cells_on_vertex, vertex, cell), vertex);
     place = place + 1 == end ? begin : place + 1;
     const std::int32_t other = of.edges_on_cell[place];
-    const double side = cell < of.cells_on_cell[place] ? sign : -sign; // out of the lower cell
+    const std::int32_t beyond = of.cells_on_cell[place];
+    const double side = beyond < 0 || cell < beyond ? sign : -sign; // out of the lower cell
     edges[k] = other;
     weights[k] = side * (half - passed) * scale * of.dv[other];
   }
@@ -41,7 +42,8 @@ std::int64_t set_weights_of_cell(const Voronoi& of, std::int32_t edge, std::int3
 void set_weights(const Voronoi& of, std::int32_t edge, std::int32_t* edges, double* weights) {
   const std::int64_t count =
       set_weights_of_cell(of, edge, of.cells_on_edge(0, edge), 1, edges, weights);
-  set_weights_of_cell(of, edge, of.cells_on_edge(1, edge), -1, edges + count, weights + count);
+  if (const std::int32_t other = of.cells_on_edge(1, edge); other >= 0)
+    set_weights_of_cell(of, edge, other, -1, edges + count, weights + count);
 }
 
 } // namespace voronoi_detail

@@ -9,10 +9,12 @@
 
 namespace calotte::voronoi_detail {
 
-/// The number of an edge's tangential weights.
+/// The number of an edge's tangential weights: of its cells' other edges.
 inline std::int64_t weight_count(const Voronoi& of, std::int64_t edge) {
-  const std::int32_t a = of.cells_on_edge(0, edge), b = of.cells_on_edge(1, edge);
-  return of.begin[a + 1] - of.begin[a] + of.begin[b + 1] - of.begin[b] - 2;
+  std::int64_t count = 0;
+  for (const std::int32_t cell : of.cells_on_edge.col(edge))
+    count += cell < 0 ? 0 : of.begin[cell + 1] - of.begin[cell] - 1;
+  return count;
 }
 
 /// Sets the weights and their edges from index 0 on, in the order of TangentialWeights.

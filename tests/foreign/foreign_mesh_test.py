@@ -236,7 +236,22 @@ def read_open(folder, name, options, case):
     draw(folder, name, options, "triangles")
 
 
-def read_cells(folder, name, case, words):
+def to_open_mpas(folder, name, case):
+    """Voronoi cells with a boundary go to MPAS as they are."""
+    code, out, err = calotte(folder, "convert", name, "open.nc")
+    require(code == 0, "convert to MPAS", err)
+    if code != 0:
+        return
+    areas = netcdf3.File(os.path.join(folder, "open.nc")).values("areaCell")
+    require(len(areas) == len(case.areas) and all(map(lambda a, b: close(a, b, 1e-9), areas, case.areas)),
+            "areaCell of an open mesh")
+    code, out, err = calotte(folder, "check", "open.nc")
+    require(code == 0, "check of the open mesh", out + err)
+    for made in ("open.nc", "open.graph.info"):
+        os.remove(os.path.join(folder, made))
+
+
+def read_cells(folder, name, case, words, voronoi):
     """Cells that are no Voronoi cells of the whole sphere, carried as they are."""
     total = sum(case.areas) / (4 * math.pi)
     code, out, err = calotte(folder, "info", name)
@@ -245,7 +260,10 @@ def read_cells(folder, name, case, words):
     require(close(float((row(out, "cells / 4 pi") or [0])[0]), total, 1e-9), "info's area", out)
     code, out, err = calotte(folder, "check", name)
     require(code == 0 and words in out, "check", out + err)
-    refused(folder, name, [], "MPAS needs Voronoi cells", ("convert",))
+    if voronoi:
+        to_open_mpas(folder, name, case)
+    else:
+        refused(folder, name, [], "MPAS needs Voronoi cells", ("convert",))
     code, out, err = calotte(folder, "convert", name, "copy.nc", "--format", "scrip" if "centres" not in words
                              else "ugrid")
     require(code == 0, "convert to cells", err)
@@ -293,7 +311,8 @@ def run_cells(folder, name, state, case):
     if state == "half turned" and name not in formats.FREE_TURNING:
         refused(folder, name, [], "the file contradicts itself")
     elif state in ("open", "quads") or without_centres:
-        read_cells(folder, name, case, "the cells have no centres" if without_centres else "Voronoi")
+        read_cells(folder, name, case, "the cells have no centres" if without_centres else "Voronoi",
+                   state == "open" and not without_centres)
     else:
         read_right(folder, name, [], case, 1.0, state in ("clockwise", "half turned"))
 

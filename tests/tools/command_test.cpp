@@ -391,7 +391,13 @@ TEST_CASE("planar points in a domain, and the proof that their mesh is Delaunay"
   CHECK(bench.run("check --plane box.nc").out.find("boundary edges  0\narea / box") !=
         std::string::npos);
   CHECK(bench.run("convert lake.vtp lake.off").out.ends_with(", a plane\n"));
+  check_refusal_naming(bench, "convert lake.vtp lake.nc", 2,
+                       "need its domain, which clips them; give --domain FILE");
+  check_refusal_naming(bench, "convert box.nc lake.vtp --domain lake.txt", 2,
+                       "holds no mesh of a bounded plane; leave --domain");
   CHECK(bench.run("convert --plane square.tri --points square.points square.ply").code == 0);
+  CHECK(bench.run("convert square.ply square.nc --rectangle=-1,-1,1,1").code == 0);
+  CHECK(bench.run("check square.nc").code == 0);
   bench.file("bent.off", "OFF\n4 2 0\n0 0 0\n4 0 0\n2 1 0\n2 -1 0\n3 0 1 2\n3 0 3 1\n");
   const Outcome bent = bench.run("check --plane bent.off");
   CHECK(bent.code == 1);

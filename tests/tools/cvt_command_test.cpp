@@ -733,6 +733,18 @@ TEST_CASE("a lake with an island: the mesh, its report, its quality, its picture
   CHECK(bench.run("draw --plane lake.vtp --domain lake.txt --what cells -o lake.png").code == 0);
   CHECK(bench.run("draw --history lake.json -o history.png").code == 0);
 
+  CHECK(bench.run(run + " -o lake.nc").code == 0);
+  CHECK(bench.run("check lake.nc").code == 0);
+  CHECK(bench.run("info --plane lake.nc --domain lake.txt").code == 0);
+  CHECK(bench.run("convert lake.vtp lake.grid.nc --domain lake.txt --format ugrid").code == 0);
+  CHECK(bench.run("convert lake.nc cells.vtp --format vtp-cells").code == 0);
+  bench.file("islet.txt", "0 0\n8 0\n8 8\n0 8\n\n1 1\n1.1 1\n1 1.1\n");
+  const Outcome coarse = bench.run("cvt --domain islet.txt --cells 4 -o coarse.nc");
+  CHECK(coarse.code == 2);
+  CHECK(has(coarse.err, "encloses an island"));
+  CHECK(has(coarse.err, "coarse.nc.vtp has the triangles"));
+  CHECK(bench.run("check --plane coarse.nc.vtp").code == 0);
+
   const Outcome stopped = bench.run(run + " --max-iterations 9 --checkpoint c --checkpoint-every 4 "
                                           "-o other.vtp");
   CHECK(stopped.code == 1);                                     // not converged
@@ -772,7 +784,7 @@ TEST_CASE("options that a planar run does not support are refused before any wor
   };
   const std::string square = "--rectangle 0,0,1,1 ";
   refused(square + "points.txt -o m.vtp", "line 3: point 2 is outside of the domain");
-  refused(square + "--cells 100 -o m.nc", ".vtp");
+  refused(square + "--cells 100 -o m.nc --format scrip", "vtp-cells");
   refused("--periodic 1,1 --cells 100 -o m.vtp", ".nc");
   refused("--periodic 1,1 --cells 102 --bisections 1 -o m.nc", "100 and 104");
   refused(square + "--cells 100 --start fibonacci -o m.vtp", "applies to the sphere only");

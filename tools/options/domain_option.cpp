@@ -49,7 +49,7 @@ CLI::Option* add_periodic(CLI::App& command, std::optional<std::string>& word) {
       ->type_name("WIDTH,HEIGHT");
 }
 
-std::shared_ptr<DomainWords> add_domain(CLI::App& command) {
+std::shared_ptr<DomainWords> add_bounded_domain(CLI::App& command) {
   auto words = std::make_shared<DomainWords>();
   CLI::Option* file =
       command
@@ -58,13 +58,19 @@ std::shared_ptr<DomainWords> add_domain(CLI::App& command) {
                       "of longitude and latitude), or text with a corner x y on each line and a "
                       "blank line or a line > between rings. Rings within rings are holes")
           ->type_name("FILE");
-  CLI::Option* box =
-      command
-          .add_option("--rectangle", words->rectangle,
-                      "Planar domain: the rectangle with this lower left and upper right corner")
-          ->type_name("X0,Y0,X1,Y1")
-          ->excludes(file);
-  add_periodic(command, words->periodic)->excludes(file)->excludes(box);
+  command
+      .add_option("--rectangle", words->rectangle,
+                  "Planar domain: the rectangle with this lower left and upper right corner")
+      ->type_name("X0,Y0,X1,Y1")
+      ->excludes(file);
+  return words;
+}
+
+std::shared_ptr<DomainWords> add_domain(CLI::App& command) {
+  auto words = add_bounded_domain(command);
+  add_periodic(command, words->periodic)
+      ->excludes(command.get_option("--domain"))
+      ->excludes(command.get_option("--rectangle"));
   return words;
 }
 

@@ -23,6 +23,9 @@ struct DomainWords {
 /// Adds --domain, --rectangle and --periodic.
 std::shared_ptr<DomainWords> add_domain(CLI::App& command);
 
+/// Adds --domain and --rectangle only.
+std::shared_ptr<DomainWords> add_bounded_domain(CLI::App& command);
+
 /// The domain of the options; none if no option is given. Reads the file, if there is one.
 /// \throws Error bad_option naming the word and the remedy; as read_domain.
 std::optional<PlanarDomain> domain_of(const DomainWords& words);

@@ -25,8 +25,10 @@ MeshFile read_mesh_file(const MeshSource& source, FieldChoice choice) {
   if (source.plane) {
     MeshFile file;
     file.plane = read_planar_mesh(source);
-    const bool is_mpas = file.plane->period.minCoeff() > 0; // has density and fields, too
-    return is_mpas ? calotte::read_mesh_file(source.path, nullptr, choice) : file;
+    const bool is_mpas = source.points.empty() && is_netcdf_file(source.path);
+    return is_mpas // has density, fields and cells, too
+               ? calotte::read_mesh_file(source.path, nullptr, choice)
+               : file;
   }
   if (source.points.empty())
     return calotte::read_mesh_file(source.path, nullptr, choice);
@@ -51,7 +53,7 @@ Mesh read_mesh(const MeshSource& source) {
 CLI::Option* add_plane(CLI::App& command, MeshSource& source) {
   return command
       .add_flag("--plane", source.plane,
-                "The mesh is planar: .vtp, .vtu, .off, .ply or .msh with z = 0, periodic MPAS, or "
+                "The mesh is planar: .vtp, .vtu, .off, .ply or .msh with z = 0, planar MPAS, or "
                 ".txt and .tri with --points (x y on each line)")
       ->excludes(command.get_option("--lonlat"));
 }

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/open_cells.h"
+
+#include "base/points.h"
+#include "domain/clipped_cell.h"
+#include "exact/predicates.h"
+#include "voronoi/open.h"
+
+#include <calotte/error.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace calotte::io_detail {
+namespace {
+
+/// The corners that are on a cell keep their order.
+void set_cells(const Polygons& polygons, Voronoi& out) {
+  std::vector<std::int32_t> vertex(static_cast<std::size_t>(polygons.corners.cols()), -1);
+  for (const std::int32_t id : polygons.ids)
+    vertex[static_cast<std::size_t>(id)] = 0;
+  std::int32_t count = 0;
+  for (std::int32_t& id : vertex)
+    id = id < 0 ? -1 : count++;
+  out.on_sphere = polygons.on_sphere;
+  out.cells = polygons.centres;
+  out.begin = polygons.begin;
+  out.vertices.resize(3, count);
+  for (std::size_t k = 0; k < vertex.size(); ++k)
+    if (vertex[k] >= 0)
+      out.vertices.col(vertex[k]) = polygons.corners.col(static_cast<Eigen::Index>(k));
+  out.vertices_on_cell.resize(polygons.ids.size());
+  std::transform(polygons.ids.begin(), polygons.ids.end(), out.vertices_on_cell.begin(),
+                 [&](std::int32_t id) { return vertex[static_cast<std::size_t>(id)]; });
+}
+
+/// The distance of a vertex from the circumcentre of its cells, in the unit that it may have.
+double distance_from_circumcentre(const Voronoi& cells, Eigen::Index v, double width) {
+  const Vec3 centre = circumcentre_of(cells, v);
+  const double reach = norm(centre - column(cells.cells, cells.cells_on_vertex(0, v)));
+  return norm(column(cells.vertices, v) - centre) / std::max(width, reach);
+}
+
+/// The first vertex that is no circumcentre.
+std::string first_difference(const Voronoi& cells) {
+  const double width = std::sqrt(
+      cells.cell_area.sum() / static_cast<double>(std::max<Eigen::Index>(cells.cells.cols(), 1)));
+  for (Eigen::Index v = 0; v < cells.vertices.cols(); ++v) {
+    if (cells.cells_on_vertex.col(v).minCoeff() < 0)
+      continue;
+    const double distance = distance_from_circumcentre(cells, v, width);
+    if (!(distance <= 1e-6))
+      return "the common corner of cells " + std::to_string(cells.cells_on_vertex(0, v)) + ", " +
+             std::to_string(cells.cells_on_vertex(1, v)) + " and " +
+             std::to_string(cells.cells_on_vertex(2, v)) + " is " + std::to_string(distance) +
+             " cell widths away from the circumcentre of their centres";
+  }
+  return {};
+}
+
+} // namespace
+
+Vec3 circumcentre_of(const Voronoi& cells, Eigen::Index v) {
+  const Vec3 &a = column(cells.cells, cells.cells_on_vertex(0, v)),
+             &b = column(cells.cells, cells.cells_on_vertex(1, v)),
+             &c = column(cells.cells, cells.cells_on_vertex(2, v));
+  if (cells.on_sphere)
+    return normalised(cross(b - a, c - a));
+  const Vec2 centre = domain_detail::circumcentre({b.x - a.x, b.y - a.y}, {c.x - a.x, c.y - a.y});
+  return {a.x + centre.x, a.y + centre.y, 0};
+}
+
+OpenCells open_cells(const Polygons& polygons) {
+  OpenCells out;
+  if (polygons.centres.cols() != polygons.size()) {
+    out.problem = "the cells have no centres";
+    return out;
+  }
+  set_cells(polygons, out.voronoi);
+  try {
+    voronoi_detail::connect_open(out.voronoi);
+  } catch (const Error& error) {
+    out.problem = error.what();
+    return out;
+  }
+  voronoi_detail::measure_open(out.voronoi);
+  out.problem = first_difference(out.voronoi);
+  return out;
+}
+
+} // namespace calotte::io_detail

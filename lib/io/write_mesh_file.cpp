@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/field_order.h"
+#include "io/file_names.h"
+#include "io/formats.h"
+#include "io/model_grid.h"
+#include "io/open_cells.h"
+#include "io/write_mesh.h"
+#include "io/written_fields.h"
+
+#include "base/monitor.h"
+
+#include <calotte/check.h>
+#include <calotte/mesh_file.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace calotte {
+namespace {
+
+using namespace io_detail;
+
+/// \throws Error bad_option, where the format does not hold cells of any shape.
+void require_polygon_format(const std::string& path, const MeshFile& file, Format format) {
+  const std::string others = "; write " + formats_of_polygons(file.polygons->on_sphere);
+  if (format == Format::mpas_minimal)
+    refuse_to_write(path, "minimal MPAS files need Voronoi cells without a boundary, but " +
+                              file.not_voronoi + others);
+  if (!holds_cells(format))
+    refuse_to_write(path, "the format holds triangles, but the mesh consists of cells, and " +
+                              file.not_voronoi + others);
+  if (format == Format::scrip && file.polygons->centres.cols() == 0)
+    refuse_to_write(path, "SCRIP needs the centre of each cell, but the cells have none; write "
+                          "ugrid, esmf, exodus, vtp-cells, vtu-cells or geojson");
+  const auto& begin = file.polygons->begin;
+  for (std::int64_t i = 0; i < file.polygons->size(); ++i)
+    if (begin[i] == begin[i + 1])
+      refuse_to_write(
+          path, "cell " + std::to_string(i) +
+                    " has an incomplete boundary, which no format of cells can hold; write the "
+                    "triangles (.vtp, .vtu, .off, .ply, .msh)");
+}
+
+/// The points of the cells where these have the polygons' places, which keeps their bits.
+Points3 places_of(const MeshFile& file, double radius) {
+  const Points3& centres = file.polygons->centres;
+  if (!file.polygons->on_sphere)
+    return centres;
+  const bool same = file.mesh && file.mesh->points.cols() == centres.cols();
+  return on_sphere(same ? file.mesh->points : centres, radius);
+}
+
+void write_open_mpas(const std::string& path, const MeshFile& file, const WriteOptions& options) {
+  const OpenCells cells = open_cells(*file.polygons);
+  const bool closed = file.mesh && file.mesh->closed(); // its Voronoi cells are others
+  if (!cells.problem.empty())
+    refuse_to_write(path, "MPAS needs Voronoi cells, but " +
+                              (closed ? file.not_voronoi : cells.problem) + "; write " +
+                              formats_of_polygons(file.polygons->on_sphere));
+  write_mpas(path, cells.voronoi, places_of(file, options.sphere_radius), options);
+}
+
+/// Whether a field is of polygons: at the cells, or, but in MPAS, which numbers them otherwise, at
+/// their corners.
+bool is_of(const Polygons& polygons, const MeshField& field, Format format) {
+  return field.location == Location::cells ||
+         (field.location == Location::vertices && format != Format::mpas &&
+          has_values_for(field, polygons.corners.cols()));
+}
+
+void write_polygons_of(const std::string& path, const MeshFile& file, WriteOptions options) {
+  require_options(path, options);
+  require_polygon_format(path, file, options.format);
+  std::erase_if(options.fields, [&](const MeshField& field) {
+    return !is_of(*file.polygons, field, options.format);
+  });
+  const bool has_density = file.density.size() == file.polygons->size();
+  if (options.format == Format::mpas) {
+    if (has_density && options.density.uniform() && options.site_density.size() == 0)
+      options.site_density = file.density;
+    write_open_mpas(path, file, options);
+  } else {
+    if (has_density)
+      options.fields.push_back({.name = "density", .values = file.density});
+    if (is_netcdf(options.format))
+      settle_names(options.fields);
+    write_polygons(path, cell_grid(*file.polygons), options);
+  }
+  Monitor(options.progress).finish("write");
+}
+
+/// Cells that are not Voronoi cells are written as they are; triangles of the same file only to
+/// formats of triangles.
+bool writes_polygons(const MeshFile& file, Format format) {
+  if (!file.polygons || holds_cells(format))
+    return file.polygons.has_value() && !(file.plane && file.domain);
+  return !file.plane && (!file.mesh || file.mesh->closed());
+}
+
+/// Voronoi cells exist only for a Delaunay triangulation, of which edges between cocircular sites
+/// may be the others.
+void require_voronoi(const std::string& path, const Mesh& mesh, Format format) {
+  if (!holds_cells(format))
+    return;
+  const EdgeCounts edges = count_edges(mesh);
+  if (edges.not_delaunay > 0)
+    refuse_to_write(
+        path, "the mesh has " + std::to_string(edges.not_delaunay) +
+                  " edges that are not Delaunay (the first is from site " +
+                  std::to_string(edges.first[0]) + " to " + std::to_string(edges.first[1]) +
+                  "), so it has no Voronoi cells; write its triangles (.vtp, .vtu, .off, .ply, "
+                  ".msh), or triangulate its points anew");
+}
+
+/// Names of the fields that a format cannot hold.
+std::vector<std::string> dropped_fields(const MeshFile& file, Format format, bool polygons) {
+  const bool clipped = !polygons && file.plane && file.domain && holds_cells(format);
+  std::vector<std::string> dropped;
+  for (const MeshField& field : file.fields)
+    if (!holds_field(format, field) || (clipped && field.location != Location::cells) ||
+        (polygons && !is_of(*file.polygons, field, format)))
+      dropped.push_back(field.name);
+  return dropped;
+}
+
+} // namespace
+
+WrittenFields write(const std::string& path, const MeshFile& file, const WriteOptions& options) {
+  WriteOptions resolved = options;
+  resolved.format = format_of(path, options.format);
+  resolved.fields.insert(resolved.fields.end(), file.fields.begin(), file.fields.end());
+  WrittenFields written;
+  if (is_netcdf(resolved.format))
+    written.renamed = settle_names(resolved.fields);
+  const bool polygons = writes_polygons(file, resolved.format);
+  if (!polygons && options.density.uniform() && options.site_density.size() == 0)
+    resolved.site_density = file.density;
+  if (polygons) {
+    write_polygons_of(path, file, resolved);
+  } else if (file.plane && file.domain) {
+    write(path, *file.plane, *file.domain, resolved);
+  } else if (file.plane) {
+    write(path, *file.plane, resolved);
+  } else {
+    require_voronoi(path, *file.mesh, resolved.format);
+    write(path, *file.mesh, resolved);
+  }
+  written.dropped = dropped_fields(file, resolved.format, polygons);
+  return written;
+}
+
+} // namespace calotte

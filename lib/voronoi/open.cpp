@@ -1,0 +1,302 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "voronoi/open.h"
+
+#include "base/matrix_memory.h"
+#include "base/parallel.h"
+#include "base/points.h"
+#include "exact/predicates.h"
+#include "voronoi/groups.h"
+
+#include <calotte/error.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace calotte::voronoi_detail {
+namespace {
+
+constexpr std::int32_t none = -1;
+
+[[noreturn]] void refuse(const std::string& problem, std::int64_t index) {
+  throw Error(ErrorCode::bad_option, problem, index);
+}
+
+// ---- Edges
+
+/// A side of a cell, between two vertices: place k of the cell's lists runs from vertex k - 1 to k.
+struct Side {
+  std::int32_t low, high; ///< the vertices by number
+  std::int32_t cell;
+  std::int64_t place;
+};
+
+std::int32_t start_of(const Voronoi& of, std::int32_t cell, std::int64_t place) {
+  return of.vertices_on_cell[(place == of.begin[cell] ? of.begin[cell + 1] : place) - 1];
+}
+
+/// Sorted by their vertices, then by cell.
+std::vector<Side> sides_of(const Voronoi& of) {
+  std::vector<Side> sides;
+  sides.reserve(static_cast<std::size_t>(of.vertices_on_cell.size()));
+  for (std::int32_t i = 0; i < of.cells.cols(); ++i)
+    for (std::int64_t place = of.begin[i]; place != of.begin[i + 1]; ++place) {
+      const auto [low, high] = std::minmax({start_of(of, i, place), of.vertices_on_cell[place]});
+      sides.push_back({low, high, i, place});
+    }
+  sort_in_groups(
+      of.vertices.cols(), [](const Side& side) { return side.low; },
+      [](const Side& a, const Side& b) {
+        return std::tie(a.high, a.cell, a.place) < std::tie(b.high, b.cell, b.place);
+      },
+      sides);
+  return sides;
+}
+
+/// An edge, with its place in the lists of its cells.
+struct Edge {
+  std::array<std::int32_t, 2> cell{none, none};
+  std::array<std::int64_t, 2> place{-1, -1};
+
+  bool inner() const { return cell[1] >= 0; }
+};
+
+/// Two sides of one edge run in opposite directions.
+bool fit(const Voronoi& of, const Side& a, const Side& b) {
+  return a.cell != b.cell && start_of(of, a.cell, a.place) == of.vertices_on_cell[b.place];
+}
+
+std::vector<Edge> edges_of(const Voronoi& of) {
+  const std::vector<Side> sides = sides_of(of);
+  const auto same = [&](std::size_t k) {
+    return k + 1 < sides.size() && sides[k].low == sides[k + 1].low &&
+           sides[k].high == sides[k + 1].high;
+  };
+  std::vector<Edge> edges;
+  for (std::size_t k = 0; k < sides.size(); ++k) {
+    const Side& side = sides[k];
+    Edge edge{{side.cell, none}, {side.place, -1}};
+    if (same(k)) {
+      const Side& other = sides[++k];
+      if (same(k) || !fit(of, side, other))
+        refuse("cell " + std::to_string(side.cell) + " and cell " + std::to_string(other.cell) +
+                   " overlap, as they do not lie on opposite sides of their common edge",
+               side.cell);
+      edge.cell[1] = other.cell;
+      edge.place[1] = other.place;
+    }
+    edges.push_back(edge);
+  }
+  const std::int64_t cells = of.cells.cols();
+  sort_in_groups(
+      2 * cells, [&](const Edge& edge) { return edge.cell[0] + (edge.inner() ? 0 : cells); },
+      [](const Edge& a, const Edge& b) {
+        return std::tie(a.cell, a.place) < std::tie(b.cell, b.place);
+      },
+      edges);
+  return edges;
+}
+
+void set_edges(const std::vector<Edge>& edges, Voronoi& out) {
+  const auto count = std::ssize(edges);
+  make_room(out.cells_on_edge, 2, count);
+  make_room(out.vertices_on_edge, 2, count);
+  make_room(out.edges_on_cell, out.vertices_on_cell.size(), 1);
+  make_room(out.cells_on_cell, out.vertices_on_cell.size(), 1);
+  for (std::int32_t e = 0; e < count; ++e) {
+    const Edge& edge = edges[static_cast<std::size_t>(e)];
+    out.cells_on_edge.col(e) << edge.cell[0], edge.cell[1];
+    out.vertices_on_edge.col(e) << start_of(out, edge.cell[0], edge.place[0]),
+        out.vertices_on_cell[edge.place[0]];
+    for (std::size_t k = 0; k < 2; ++k)
+      if (edge.cell[k] >= 0) {
+        out.edges_on_cell[edge.place[k]] = e;
+        out.cells_on_cell[edge.place[k]] = edge.cell[1 - k];
+      }
+  }
+}
+
+// ---- Vertices
+
+/// A cell at a vertex, between the edge that leaves the vertex and the one that arrives there,
+/// counter-clockwise around the vertex.
+struct Sector {
+  std::int32_t cell = none, from = none, to = none;
+};
+
+struct Fan {
+  std::array<Sector, 3> sectors;
+  int count = 0;
+};
+
+std::vector<Fan> fans_of(const Voronoi& of) {
+  std::vector<Fan> fans(static_cast<std::size_t>(of.vertices.cols()));
+  for (std::int32_t i = 0; i < of.cells.cols(); ++i)
+    for (std::int64_t place = of.begin[i]; place != of.begin[i + 1]; ++place) {
+      const std::int32_t v = of.vertices_on_cell[place];
+      Fan& fan = fans[static_cast<std::size_t>(v)];
+      if (fan.count == 3)
+        refuse("vertex " + std::to_string(v) + " is on more than three cells", v);
+      const std::int64_t next = place + 1 == of.begin[i + 1] ? of.begin[i] : place + 1;
+      fan.sectors[static_cast<std::size_t>(fan.count++)] = {i, of.edges_on_cell[next],
+                                                            of.edges_on_cell[place]};
+    }
+  return fans;
+}
+
+/// Which sector follows an edge counter-clockwise; 3 for none.
+int sector_from(const Fan& fan, std::int32_t edge) {
+  for (int k = 0; k < fan.count; ++k)
+    if (fan.sectors[static_cast<std::size_t>(k)].from == edge)
+      return k;
+  return 3;
+}
+
+/// The sector that follows the open part around the vertex; for a complete one, that of the lowest
+/// cell, which is the first.
+int first_sector(const Voronoi& of, const Fan& fan) {
+  for (int k = 0; k < fan.count; ++k)
+    if (of.cells_on_edge(1, fan.sectors[static_cast<std::size_t>(k)].from) < 0)
+      return k;
+  return 0;
+}
+
+void set_vertex(std::int32_t v, const Fan& fan, Voronoi& out) {
+  out.cells_on_vertex.col(v).setConstant(none);
+  out.edges_on_vertex.col(v).setConstant(none);
+  const int first = first_sector(out, fan);
+  const bool complete =
+      out.cells_on_edge(1, fan.sectors[static_cast<std::size_t>(first)].from) >= 0;
+  for (int j = 0, k = first; j < fan.count; ++j) {
+    if (k == 3 || (j > 0 && k == first) || (j == 2 && !complete))
+      refuse("vertex " + std::to_string(v) + " has more than three edges", v);
+    const Sector& sector = fan.sectors[static_cast<std::size_t>(k)];
+    out.cells_on_vertex(j, v) = sector.cell;
+    out.edges_on_vertex(j, v) = sector.from;
+    if (j < 2)
+      out.edges_on_vertex(j + 1, v) = sector.to;
+    k = sector_from(fan, sector.to);
+  }
+  if (complete != (fan.count == 3))
+    refuse("vertex " + std::to_string(v) + " is on two cells only, but not on the boundary", v);
+}
+
+// ---- Measures
+
+struct Sphere {
+  static Vec3 middle(const Vec3& a, const Vec3& b) { return normalised(a + b); }
+  static double length(const Vec3& a, const Vec3& b) {
+    return 2 * std::atan2(norm(b - a), norm(a + b));
+  }
+  /// Oosterom and Strackee (IEEE Trans. Biomed. Eng. 30, 1983), with differences in the product,
+  /// which keep the digits of small triangles.
+  static double area(const Vec3& a, const Vec3& b, const Vec3& c) {
+    return 2 * std::atan2(dot(a, cross(b - a, c - a)), 1 + dot(a, b) + dot(b, c) + dot(c, a));
+  }
+  static Vec3 to_the_right(const Vec3& way, const Vec3& place) { return cross(way, place); }
+  static double angle(const Vec3& place, const Vec3& direction) {
+    const Vec3 east{-place.y, place.x, 0};
+    return std::atan2(dot(direction, cross(place, east)), dot(direction, east));
+  }
+};
+
+struct Plane {
+  static Vec3 middle(const Vec3& a, const Vec3& b) { return a + 0.5 * (b - a); }
+  static double length(const Vec3& a, const Vec3& b) { return norm(b - a); }
+  static double area(const Vec3& a, const Vec3& b, const Vec3& c) {
+    return cross(b - a, c - a).z / 2;
+  }
+  static Vec3 to_the_right(const Vec3& way, const Vec3&) { return {way.y, -way.x, 0}; }
+  static double angle(const Vec3&, const Vec3& direction) {
+    const double angle = std::atan2(direction.y, direction.x);
+    const double turned = angle < 0 ? angle + 2 * std::numbers::pi : angle;
+    return turned < 2 * std::numbers::pi ? turned + 0.0 : 0;
+  }
+};
+
+template <class Space> void measure_edge(const Space& space, std::int64_t e, Voronoi& out) {
+  const bool inner = out.cells_on_edge(1, e) >= 0;
+  const Vec3 &right = column(out.vertices, out.vertices_on_edge(0, e)),
+             &left = column(out.vertices, out.vertices_on_edge(1, e));
+  const Vec3& from = column(out.cells, out.cells_on_edge(0, e));
+  const Vec3& to = inner ? column(out.cells, out.cells_on_edge(1, e)) : from;
+  const Vec3 middle = inner ? space.middle(from, to) : space.middle(right, left);
+  set_column(out.edges, e, middle);
+  out.dv[e] = space.length(right, left);
+  out.dc[e] = inner ? space.length(from, to) : std::numbers::sqrt3 * out.dv[e];
+  out.angle[e] = space.angle(middle, inner ? to - from : space.to_the_right(left - right, middle));
+}
+
+/// The kites of cells that are there, between edges that are.
+template <class Space> void measure_kites(const Space& space, std::int64_t v, Voronoi& out) {
+  out.vertex_area[v] = 0;
+  for (int j = 0; j < 3; ++j) {
+    out.kites(j, v) = 0;
+    const std::int32_t cell = out.cells_on_vertex(j, v), e = out.edges_on_vertex(j, v);
+    std::int32_t next = out.edges_on_vertex((j + 1) % 3, v);
+    if (next < 0) // a list of two edges
+      next = out.edges_on_vertex((j + 2) % 3, v);
+    if (cell < 0 || e < 0 || next < 0)
+      continue;
+    const Vec3 &p = column(out.vertices, v), &c = column(out.cells, cell);
+    out.kites(j, v) =
+        space.area(p, column(out.edges, e), c) + space.area(p, c, column(out.edges, next));
+    out.vertex_area[v] += out.kites(j, v);
+  }
+}
+
+/// The fan of triangles from the site.
+template <class Space> void measure_cell(const Space& space, std::int32_t i, Voronoi& out) {
+  double sum = 0;
+  for (std::int64_t place = out.begin[i]; place != out.begin[i + 1]; ++place)
+    sum += space.area(column(out.cells, i), column(out.vertices, start_of(out, i, place)),
+                      column(out.vertices, out.vertices_on_cell[place]));
+  out.cell_area[i] = sum;
+}
+
+template <class Space> void measure(const Space& space, Voronoi& out) {
+  for_each_block(out.cells_on_edge.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t e = begin; e != end; ++e)
+      measure_edge(space, e, out);
+  });
+  for_each_block(out.cells_on_vertex.cols(),
+                 [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+                   for (std::int64_t v = begin; v != end; ++v)
+                     measure_kites(space, v, out);
+                 });
+  for_each_block(out.cells.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i != end; ++i)
+      measure_cell(space, static_cast<std::int32_t>(i), out);
+  });
+}
+
+} // namespace
+
+void connect_open(Voronoi& out) {
+  set_edges(edges_of(out), out);
+  make_room(out.cells_on_vertex, 3, out.vertices.cols());
+  make_room(out.edges_on_vertex, 3, out.vertices.cols());
+  const std::vector<Fan> fans = fans_of(out);
+  for (std::int32_t v = 0; v < out.vertices.cols(); ++v)
+    set_vertex(v, fans[static_cast<std::size_t>(v)], out);
+}
+
+void measure_open(Voronoi& out) {
+  const std::int64_t edges = out.cells_on_edge.cols(), vertices = out.cells_on_vertex.cols();
+  make_room(out.edges, 3, edges);
+  for (Eigen::VectorXd* values : {&out.dc, &out.dv, &out.angle})
+    make_room(*values, edges, 1);
+  make_room(out.kites, 3, vertices);
+  make_room(out.vertex_area, vertices, 1);
+  make_room(out.cell_area, out.cells.cols(), 1);
+  if (out.on_sphere)
+    measure(Sphere{}, out);
+  else
+    measure(Plane{}, out);
+}
+
+} // namespace calotte::voronoi_detail

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "voronoi/room.h"
+
+#include <calotte/voronoi.h>
+
+/// Tessellations with a boundary, given as polygons.
+namespace calotte::voronoi_detail {
+
+/// Sets the other lists, pairs and triples of ids from `begin` and `vertices_on_cell`. Edges
+/// between two cells come first, sorted by these; those of one cell follow, in the order of cells.
+/// Around a vertex without missing cells the list starts with the lowest. \pre begin and
+/// vertices_on_cell are in range; each vertex is on a cell. \throws Error bad_option, naming the
+/// cell or vertex, for cells that overlap, for a vertex with
+///         more than three edges, and for one between two cells only that is not on the boundary.
+void connect_open(Voronoi& out);
+
+/// Sets edges, lengths, angles and areas from the cells, the vertices and all ids, of which any may
+/// be -1 but those of an edge's first cell, its vertices, and the edges and vertices of cells. An
+/// edge of one cell has its middle between its vertices, and dc = sqrt(3) dv (MPAS-Tools).
+/// \pre cells and vertices are unit columns; in a plane, z = 0.
+void measure_open(Voronoi& out);
+
+} // namespace calotte::voronoi_detail

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "voronoi/shore.h"
+
+#include "domain/clipped_cell.h"
+#include "exact/plane_predicates.h"
+
+#include <calotte/error.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <span>
+#include <utility>
+
+namespace calotte::voronoi_detail {
+namespace {
+
+/// The next cell on the way along an edge of the boundary; none at the end of the edge.
+struct Step {
+  std::int32_t cell = -1;
+  double share = 2; ///< of the edge, where its cell begins
+  double gain = 0;  ///< progress in the direction of the edge
+};
+
+class Walk {
+public:
+  Walk(const Points2& sites, const Neighbours& neighbours)
+      : sites_(sites), neighbours_(neighbours) {}
+
+  /// Goes from a cell at one place to the cell at another. Calls cross(cell, next, place).
+  template <class Cross>
+  std::int32_t go(std::int32_t cell, const Vec2& from, const Vec2& to, const Cross& cross) const {
+    double share = 0;
+    for (Eigen::Index steps = 0; steps <= sites_.cols(); ++steps) {
+      const Step step = step_from(cell, from, to);
+      if (step.cell < 0)
+        return cell;
+      share = std::max(share, step.share);
+      cross(cell, step.cell, share == 1 ? to : from + share * (to - from));
+      cell = step.cell;
+    }
+    throw Error(ErrorCode::internal, "the walk along the domain's boundary has no end");
+  }
+
+  /// Whether two consecutive vertices are one place but for rounding.
+  bool near(const ShoreVertex& a, const ShoreVertex& b) const {
+    const double rounding = 0x1p-50 * (std::abs(a.place.x) + std::abs(a.place.y));
+    return norm(b.place - a.place) <= rounding + relative * norm(a.place - site(a.after));
+  }
+
+  /// The crossings at a place where several cells meet, from one of them to another by the least
+  /// number of cells on the domain's side. None if rounding has put them in another order.
+  std::optional<std::vector<ShoreVertex>> around(const Vec2& place, std::int32_t from,
+                                                 std::int32_t to) const {
+    std::vector<ShoreVertex> path;
+    if (from == to)
+      path.push_back({place, from, from});
+    for (std::int32_t cell = from; cell != to;) {
+      const std::int32_t next = towards(place, cell, to);
+      if (next < 0)
+        return std::nullopt;
+      path.push_back({place, cell, next});
+      cell = next;
+    }
+    return path;
+  }
+
+  Vec2 site(std::int32_t i) const { return {sites_(0, i), sites_(1, i)}; }
+
+private:
+  static constexpr double relative = 0x1p-44; ///< error of an offset or product
+
+  /// The angle by which the way from a place to one site turns right to that to another, 0 to 2 pi.
+  double turn(const Vec2& place, std::int32_t from, std::int32_t to) const {
+    const Vec2 a = site(from) - place, b = site(to) - place;
+    const double angle = -std::atan2(cross(a, b), dot(a, b));
+    return angle < 0 ? angle + 2 * std::numbers::pi : angle;
+  }
+
+  /// The neighbour of a cell that is as near to a place, and comes next to another cell clockwise.
+  std::int32_t towards(const Vec2& place, std::int32_t cell, std::int32_t last) const {
+    const double all = turn(place, cell, last);
+    std::int32_t farthest = -1;
+    double most = 0;
+    for (const std::int32_t other : of(cell)) {
+      if (other == last)
+        return last;
+      const double part = turn(place, cell, other);
+      if (over(cell, other, place) == 0 && part < all && part > most) {
+        farthest = other;
+        most = part;
+      }
+    }
+    return farthest;
+  }
+
+  std::span<const std::int32_t> of(std::int32_t cell) const {
+    const auto at = static_cast<std::size_t>(cell);
+    return std::span(neighbours_.ids)
+        .subspan(static_cast<std::size_t>(neighbours_.begin[at]),
+                 static_cast<std::size_t>(neighbours_.begin[at + 1] - neighbours_.begin[at]));
+  }
+
+  /// Half the difference of squared distances, positive if a is nearer; 0 if rounding could decide.
+  double over(std::int32_t a, std::int32_t b, const Vec2& place) const {
+    if (a > b) // the same value for both
+      return -over(b, a, place);
+    const Vec2 way = site(b) - site(a), there = place - site(a);
+    const double value = dot(way, 0.5 * way - there);
+    return std::abs(value) > relative * norm(way) * (norm(way) + norm(there)) ? value : 0;
+  }
+
+  Step step_from(std::int32_t cell, const Vec2& from, const Vec2& to) const {
+    const Vec2 along = to - from, left{-along.y, along.x};
+    Step first;
+    for (const std::int32_t other : of(cell)) {
+      const Vec2 way = site(other) - site(cell);
+      const double start = over(cell, other, from), end = over(cell, other, to);
+      const bool tie = start == 0 && end == 0;
+      if (tie ? !(dot(left, way) > 0) : !(end < 0 && start > end))
+        continue;
+      const Step step{other, start > 0 ? start / (start - end) : 0, tie ? 0 : dot(along, way)};
+      if (step.share < first.share || (step.share == first.share && step.gain > first.gain))
+        first = step;
+    }
+    return first;
+  }
+
+  const Points2& sites_;
+  const Neighbours& neighbours_;
+};
+
+/// Appends a vertex; a corner where cells meet is one vertex.
+void append(const Walk& walk, const ShoreVertex& vertex, std::vector<ShoreVertex>& ring) {
+  const bool again = !ring.empty() && walk.near(ring.back(), vertex);
+  if (again && !ring.back().crossing())
+    ring.back().after = vertex.after;
+  else if (!again || vertex.crossing())
+    ring.push_back(vertex);
+}
+
+/// The ring may end where it starts.
+void close(const Walk& walk, std::vector<ShoreVertex>& ring) {
+  if (ring.size() < 2 || !walk.near(ring.back(), ring.front()))
+    return;
+  if (!ring.front().crossing())
+    ring.erase(ring.begin());
+  else if (!ring.back().crossing())
+    ring.pop_back();
+}
+
+/// Where the boundary runs through a vertex of cells, those outside of the domain are left out.
+std::vector<ShoreVertex> straightened(const Walk& walk, std::vector<ShoreVertex> ring) {
+  const auto follows = [&](std::size_t k) {
+    return walk.near(ring[k == 0 ? ring.size() - 1 : k - 1], ring[k]);
+  };
+  std::size_t first = 0;
+  while (first < ring.size() && follows(first))
+    ++first;
+  if (first == ring.size())
+    return ring;
+  std::rotate(ring.begin(), ring.begin() + static_cast<std::ptrdiff_t>(first), ring.end());
+  std::vector<ShoreVertex> out;
+  for (std::size_t k = 0, end = 0; k < ring.size(); k = end) {
+    for (end = k + 1; end < ring.size() && follows(end);)
+      ++end;
+    const auto path = end == k + 1
+                          ? std::nullopt
+                          : walk.around(ring[k].place, ring[k].before, ring[end - 1].after);
+    if (path)
+      out.insert(out.end(), path->begin(), path->end());
+    else
+      out.insert(out.end(), ring.begin() + static_cast<std::ptrdiff_t>(k),
+                 ring.begin() + static_cast<std::ptrdiff_t>(end));
+  }
+  return out;
+}
+
+/// \param cell at the first corner; receives that at the end.
+std::vector<ShoreVertex> walk_once(const Walk& walk, const std::vector<Vec2>& corners,
+                                   std::int32_t& cell) {
+  std::vector<ShoreVertex> ring;
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    append(walk, {corners[k], cell, cell}, ring);
+    cell = walk.go(cell, corners[k], corners[k + 1 == corners.size() ? 0 : k + 1],
+                   [&](std::int32_t before, std::int32_t after, const Vec2& place) {
+                     append(walk, {place, before, after}, ring);
+                   });
+  }
+  close(walk, ring);
+  return ring;
+}
+
+/// Where several cells meet at the first corner, the first round shows in which of them it ends.
+std::vector<ShoreVertex> walk_ring(const Walk& walk, const std::vector<Vec2>& corners) {
+  constexpr int most_rounds = 4;
+  const auto ignore = [](std::int32_t, std::int32_t, const Vec2&) {};
+  std::int32_t cell = walk.go(0, walk.site(0), corners.front(), ignore);
+  for (int round = 0; round < most_rounds; ++round) {
+    const std::int32_t start = cell;
+    std::vector<ShoreVertex> ring = walk_once(walk, corners, cell);
+    if (cell == start)
+      return straightened(walk, std::move(ring));
+  }
+  throw Error(ErrorCode::internal, "the walk along the domain's boundary does not return");
+}
+
+} // namespace
+
+std::vector<std::vector<ShoreVertex>> walk_shore(const Outline& outline, const Points2& sites,
+                                                 const Neighbours& neighbours) {
+  const Walk walk(sites, neighbours);
+  std::vector<std::vector<ShoreVertex>> rings;
+  for (const std::vector<Vec2>& corners : outline.rings())
+    rings.push_back(walk_ring(walk, corners));
+  return rings;
+}
+
+} // namespace calotte::voronoi_detail

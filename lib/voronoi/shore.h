@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "domain/outline.h"
+#include "voronoi/room.h"
+
+#include <calotte/types.h>
+
+#include <cstdint>
+#include <vector>
+
+/// The cells along the boundary of a domain of the plane.
+namespace calotte::voronoi_detail {
+
+/// The neighbours of each site in a Delaunay triangulation.
+struct Neighbours {
+  std::vector<std::int64_t> begin; ///< those of site i are at begin[i] to begin[i + 1]
+  std::vector<std::int32_t> ids;
+};
+
+/// A place on the boundary where sides of cells along it meet: a corner of the boundary, or the end
+/// of a Voronoi edge.
+struct ShoreVertex {
+  Vec2 place;
+  /// The cells of the sides that end and start here, with the domain to the left; equal at a corner
+  /// of the boundary within a cell. Others are neighbours.
+  std::int32_t before, after;
+
+  bool crossing() const { return before != after; }
+};
+
+/// The vertices of each ring of the boundary, with the domain to the left.
+///
+/// Along an edge of the boundary the squared distances of sites differ by linear functions, whose
+/// lower envelope is the sequence of cells: from each cell the walk goes on to the neighbour whose
+/// bisector comes first. Each step makes progress in the edge's direction, so that the walk ends,
+/// and the vertices of a ring form a closed walk in the triangulation, whatever the rounding. A
+/// bisector that runs along the boundary but for rounding belongs to the site on the domain's side.
+std::vector<std::vector<ShoreVertex>> walk_shore(const Outline& outline, const Points2& sites,
+                                                 const Neighbours& neighbours);
+
+} // namespace calotte::voronoi_detail
