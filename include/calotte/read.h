@@ -98,8 +98,9 @@ bool is_netcdf_file(const std::string& path);
 Points3 read_sites(const std::string& path);
 
 /// Reads a mesh of the plane: a periodic mesh from an MPAS file (.nc), other meshes from the
-/// formats of write(path, PlanarMesh) and from JIGSAW files of NDIMS=2. Points without triangles
-/// are triangulated by planar_delaunay().
+/// formats of write() for planar meshes and from JIGSAW files of NDIMS=2. Points without triangles,
+/// and the sites of cells that a boundary clips, are triangulated by planar_delaunay();
+/// read_mesh_file() reads the cells, too.
 /// \param points 2 x n, as in read_mesh().
 /// \throws Error as read_mesh(); bad_option for a spherical mesh, which has a z that is not 0.
 PlanarMesh read_planar_mesh(const std::string& path, const Points2* points = nullptr);

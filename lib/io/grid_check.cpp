@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -86,6 +87,8 @@ void check_cover(const StoredGrid& grid, const Sides& sides, const Eigen::Vector
         return Verdict::breaks;
     return Verdict::keeps;
   });
+  if (!grid.polygons.on_sphere)
+    return;
   const double whole = 4 * pi, sum = std::abs(areas.sum());
   if (open.any() || std::abs(sum - whole) <= 1e-9 * whole + grid.rounding)
     return;
@@ -105,11 +108,18 @@ double turn_around(const Polygons& polygons, std::int64_t i, const Vec3& centre)
   for (std::int64_t k = begin; k != end; ++k) {
     const Vec3 from = place(polygons, k) - centre,
                to = place(polygons, k + 1 < end ? k + 1 : begin) - centre;
+    if (!polygons.on_sphere) {
+      turn += std::atan2(cross(from, to).z, dot(from, to));
+      continue;
+    }
     const Vec3 a = cross(centre, from), b = cross(centre, to);
     turn += std::atan2(dot(centre, cross(from, to)), dot(a, b));
   }
   return turn;
 }
+
+/// In a plane a site may be on the boundary, even at a corner.
+constexpr double on_boundary = 1e-3;
 
 void check_inside(const StoredGrid& grid, const Eigen::VectorXd& areas, Deviations& deviations) {
   const Polygons& polygons = grid.polygons;
@@ -117,7 +127,7 @@ void check_inside(const StoredGrid& grid, const Eigen::VectorXd& areas, Deviatio
     if (corners_of(polygons, i) < 3)
       return Verdict::untested;
     const double turn = turn_around(polygons, i, column(polygons.centres, i));
-    return verdict_of((areas[i] < 0 ? -turn : turn) > pi);
+    return verdict_of((areas[i] < 0 ? -turn : turn) > (polygons.on_sphere ? pi : on_boundary));
   });
   if (found.any())
     deviations.add(grid.centres,
@@ -129,7 +139,7 @@ void check_inside(const StoredGrid& grid, const Eigen::VectorXd& areas, Deviatio
 
 /// Distances that are equal but for rounding.
 struct Range {
-  double least = 10, greatest = 0;
+  double least = std::numeric_limits<double>::infinity(), greatest = 0;
   void add(const Vec3& apart) {
     const double distance = norm(apart);
     least = std::min(least, distance);
@@ -244,9 +254,10 @@ void check_polygons(const StoredGrid& grid, const Sides& sides, Deviations& devi
 
 void check_areas(const StoredGrid& grid, const std::string& variable, Deviations& deviations) {
   const std::string units = deviations.file().text(variable, "units");
+  const bool on_sphere = grid.polygons.on_sphere;
   const bool on_unit_sphere =
       units.empty() || units.starts_with("rad") || units.starts_with("ster") || units == "sr";
-  if (!on_unit_sphere || !deviations.has(variable, {grid.polygons.size()}))
+  if ((on_sphere && !on_unit_sphere) || !deviations.has(variable, {grid.polygons.size()}))
     return;
   const Eigen::VectorXd areas = areas_of(grid.polygons);
   const double width = std::sqrt(areas.cwiseAbs().mean());
@@ -258,7 +269,8 @@ void check_areas(const StoredGrid& grid, const std::string& variable, Deviations
                                       const double derived = std::abs(areas[i]);
                                       out.compare(i, *stored, derived, derived, tolerance);
                                     }),
-      "the area on the unit sphere of each cell, whose sides are arcs of great circles");
+      on_sphere ? "the area on the unit sphere of each cell, whose sides are arcs of great circles"
+                : "the area of each cell, whose sides are straight");
 }
 
 void check_mask(const std::string& variable, std::int64_t cells, Deviations& deviations) {

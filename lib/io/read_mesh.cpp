@@ -40,13 +40,19 @@ bool holds_netcdf(const std::string& path) {
             "one of them");
 }
 
+/// Formats that hold points in space may hold a mesh of the plane.
+MeshFile mesh_file_of_any(const std::string& path, const std::string& format, Soup soup) {
+  return lies_in_plane(soup.points) ? planar_mesh_file_of(path, format, std::move(soup))
+                                    : mesh_file_of(path, format, std::move(soup));
+}
+
 MeshFile read_netcdf(const std::string& path, FieldChoice choice) {
   const NetcdfReader file(path);
   if (is_mpas(file))
     return is_planar_mpas(file) ? read_planar_mpas(file, choice)
                                 : mesh_file_of(path, "MPAS", read_mpas(file, choice));
   if (is_ugrid(file))
-    return mesh_file_of(path, "UGRID", read_ugrid(file, choice));
+    return mesh_file_of_any(path, "UGRID", read_ugrid(file, choice));
   if (is_scrip(file))
     return mesh_file_of(path, "SCRIP", read_scrip(file, choice));
   if (is_esmf(file))
@@ -112,12 +118,6 @@ std::string name_of(Format format) {
   }
 }
 
-/// Formats that hold points in space may hold a mesh of the plane.
-MeshFile mesh_file_of_any(const std::string& path, Format format, Soup soup) {
-  return lies_in_plane(soup.points) ? planar_mesh_file_of(path, name_of(format), std::move(soup))
-                                    : mesh_file_of(path, name_of(format), std::move(soup));
-}
-
 MeshFile read_any(const std::string& path, FieldChoice choice) {
   if (std::optional<Soup> centres = read_centres(path))
     return mesh_file_of(path, name_of(Format::mpi_scvt), *std::move(centres));
@@ -128,7 +128,7 @@ MeshFile read_any(const std::string& path, FieldChoice choice) {
     refuse_triangles_alone(path);
   if (*format == Format::fesom)
     return mesh_file_of(path, "FESOM", read_fesom(path));
-  return mesh_file_of_any(path, *format,
+  return mesh_file_of_any(path, name_of(*format),
                           *format == Format::mpi_scvt ? read_mpi_scvt(path)
                                                       : read_stream(path, *format));
 }
@@ -219,8 +219,11 @@ Points3 read_sites(const std::string& path) {
 PlanarMesh read_planar_mesh(const std::string& path, const Points2* points) {
   if (holds_netcdf(path)) {
     const NetcdfReader file(path);
+    if (is_ugrid(file))
+      return std::move(
+          *planar_mesh_file_of(path, "UGRID", read_ugrid(file, FieldChoice::none)).plane);
     if (!is_mpas(file))
-      file.fail("not an MPAS mesh, the only NetCDF format of planar meshes");
+      file.fail("not a mesh of MPAS or UGRID, the NetCDF formats of planar meshes");
     return std::move(*read_planar_mpas(file, FieldChoice::none).plane);
   }
   const Format format = *format_of_name(path);

@@ -21,10 +21,11 @@ inline constexpr const char* site_coordinates = "site_coordinates";
 /// The names that the mesh variable lists.
 struct Topology {
   std::string face_nodes, face_dimension;
-  std::vector<std::string> nodes; ///< longitude and latitude
+  std::vector<std::string> nodes; ///< longitude and latitude; in a plane x and y
   std::vector<std::string> sites; ///< x, y, z; none in files of others
-  std::vector<std::string> faces; ///< longitude and latitude of the faces; may be none
+  std::vector<std::string> faces; ///< those of the faces; may be none
   std::string mesh;               ///< the variable that lists the names
+  bool planar = false;            ///< the nodes have projection coordinates
 };
 
 /// \throws Error parse.
@@ -33,8 +34,8 @@ Topology topology_of(const NetcdfReader& file);
 /// The words of an attribute that lists names.
 std::vector<std::string> names_in(const std::string& text);
 
-/// The faces as polygons on the longitudes and latitudes of their nodes; centres where the file has
-/// longitudes and latitudes of the faces. \throws Error parse.
+/// The faces as polygons on the places of their nodes; centres where the file has places of the
+/// faces. \throws Error parse.
 Polygons read_ugrid_faces(const NetcdfReader& file, const Topology& topology);
 
 } // namespace calotte::io_detail

@@ -22,8 +22,10 @@ std::string mesh_variable(const NetcdfReader& file) {
   return "";
 }
 
-bool is_latitude(const NetcdfReader& file, const std::string& name) {
-  return file.text(name, "standard_name") == "latitude" ||
+/// Latitude, or y.
+bool is_second(const NetcdfReader& file, const std::string& name) {
+  const std::string standard_name = file.text(name, "standard_name");
+  return standard_name == "latitude" || standard_name == "projection_y_coordinate" ||
          file.text(name, "units").find("north") != std::string::npos;
 }
 
@@ -48,11 +50,12 @@ Topology topology_of(const NetcdfReader& file) {
   if (topology.nodes.size() != 2)
     file.fail("the node_coordinates of the mesh variable " + mesh +
               " are not the names of two variables, longitude and latitude; mend the attribute");
-  if (is_latitude(file, topology.nodes[0]))
+  topology.planar = file.text(topology.nodes[0], "standard_name").starts_with("projection_");
+  if (is_second(file, topology.nodes[0]))
     std::swap(topology.nodes[0], topology.nodes[1]);
   if (topology.faces.size() != 2)
     topology.faces.clear();
-  else if (is_latitude(file, topology.faces[0]))
+  else if (is_second(file, topology.faces[0]))
     std::swap(topology.faces[0], topology.faces[1]);
   if (!topology.sites.empty() && topology.sites.size() != 3)
     file.fail(std::string("the ") + site_coordinates + " of the mesh variable " + mesh +
@@ -118,6 +121,22 @@ FaceNodes face_nodes_of(const NetcdfReader& file, const Topology& topology, std:
   return result;
 }
 
+/// Unit vectors; in a plane places with z = 0. \param names of longitude and latitude, or x and y.
+Points3 read_pairs(const NetcdfReader& file, const Topology& topology,
+                   const std::vector<std::string>& names, std::int64_t count = -1) {
+  if (!topology.planar)
+    return read_lonlats(file, names[0], names[1], {count});
+  const std::vector<double> x = file.doubles(names[0], {count}),
+                            y = file.doubles(names[1], {std::ssize(x)});
+  Points3 places = Points3::Zero(3, std::ssize(x));
+  places.row(0) = Eigen::Map<const Eigen::RowVectorXd>(x.data(), places.cols());
+  places.row(1) = Eigen::Map<const Eigen::RowVectorXd>(y.data(), places.cols());
+  if (!places.allFinite())
+    file.fail(names[0] + " and " + names[1] +
+              " hold a number that is no place (NaN or infinite); make the file again");
+  return places;
+}
+
 /// The faces' places as given. \param count -1 for any number.
 Points3 read_places(const NetcdfReader& file, const std::vector<std::string>& names,
                     std::int64_t count) {
@@ -178,8 +197,8 @@ Triangles dual(const NetcdfReader& file, const FaceNodes& faces, std::int64_t no
 }
 
 /// The faces as polygons.
-Polygons faces_of(const FaceNodes& faces, Points3 nodes, Points3 centres) {
-  Polygons polygons{std::move(nodes), {}, {}, std::move(centres)};
+Polygons faces_of(const FaceNodes& faces, Points3 nodes, Points3 centres, bool planar) {
+  Polygons polygons{std::move(nodes), {}, {}, std::move(centres), !planar};
   polygons.begin.resize(faces.cols() + 1);
   polygons.begin[0] = 0;
   for (Eigen::Index face = 0; face < faces.cols(); ++face)
@@ -220,12 +239,12 @@ bool all_triangles(const FaceNodes& faces) {
 bool is_ugrid(const NetcdfReader& file) { return !mesh_variable(file).empty(); }
 
 Polygons read_ugrid_faces(const NetcdfReader& file, const Topology& topology) {
-  Points3 nodes = read_lonlats(file, topology.nodes[0], topology.nodes[1]);
+  Points3 nodes = read_pairs(file, topology, topology.nodes);
   const FaceNodes faces = face_nodes_of(file, topology, nodes.cols());
   Points3 centres;
   if (!topology.faces.empty())
-    centres = read_lonlats(file, topology.faces[0], topology.faces[1], {faces.cols()});
-  return faces_of(faces, std::move(nodes), std::move(centres));
+    centres = read_pairs(file, topology, topology.faces, faces.cols());
+  return faces_of(faces, std::move(nodes), std::move(centres), topology.planar);
 }
 
 Soup read_ugrid(const NetcdfReader& file, FieldChoice choice) {
@@ -244,14 +263,17 @@ Soup read_ugrid(const NetcdfReader& file, FieldChoice choice) {
     soup.points = read_places(file, sites, faces.cols());
     soup.triangles = dual(file, faces, nodes[0]);
   } else if (sites_are_nodes) {
-    soup.points = sites.empty() ? read_lonlats(file, topology.nodes[0], topology.nodes[1])
+    soup.points = sites.empty() ? read_pairs(file, topology, topology.nodes)
                                 : read_places(file, sites, nodes[0]);
     soup.triangles = faces.topRows(3);
   } else {
     if (!topology.faces.empty())
-      soup.points = read_lonlats(file, topology.faces[0], topology.faces[1]);
+      soup.points = read_pairs(file, topology, topology.faces);
+    else if (topology.planar)
+      file.fail("the mesh variable " + topology.mesh +
+                " names no face_coordinates, which cells of a plane need; add the attribute");
     soup.polygons =
-        faces_of(faces, read_lonlats(file, topology.nodes[0], topology.nodes[1]), soup.points);
+        faces_of(faces, read_pairs(file, topology, topology.nodes), soup.points, topology.planar);
     soup.corner_rounding = file.is_float(topology.nodes[0]) ? float_rounding : 0;
   }
   read_fields(file, names_of(file, topology, sites_are_nodes), choice, soup);

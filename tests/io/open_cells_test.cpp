@@ -249,7 +249,20 @@ TEST_CASE("a bounded plane as UGRID: places in the plane, and areas that sum to 
     }
     CHECK(std::abs(total / area(plane.domain) - 1) <= 1e-12);
     CHECK(file.get("mesh_face_x").values.size() == faces.shape[0]);
+    check_none(path);
+    const MeshFile copy = read_mesh_file(path);
+    CHECK(copy.plane->points == plane.mesh.points);
+    CHECK(same_cells(*copy.polygons, polygons_of(voronoi(plane.mesh, plane.domain))));
+    CHECK(write(scratch / "back.nc", copy).empty());
+    check_none(scratch / "back.nc");
   }
+}
+
+TEST_CASE("a variable of a bounded plane's UGRID file that is spoilt alone is found") {
+  const Scratch scratch;
+  const PlanarDomain domain = rectangle({0, 0}, {3, 2});
+  write(scratch / "plane.nc", relaxed(30, domain), domain, {.format = Format::ugrid});
+  check_each_variable(scratch / "plane.nc", Format::ugrid, 3);
 }
 
 TEST_CASE("a bounded plane as cells of VTK and GeoJSON") {

@@ -24,11 +24,11 @@ std::shared_ptr<MeshSource> add_mesh_source(CLI::App& command, const std::string
 MeshFile read_mesh_file(const MeshSource& source, FieldChoice choice) {
   if (source.plane) {
     MeshFile file;
-    file.plane = read_planar_mesh(source);
-    const bool is_mpas = source.points.empty() && is_netcdf_file(source.path);
-    return is_mpas // has density, fields and cells, too
-               ? calotte::read_mesh_file(source.path, nullptr, choice)
-               : file;
+    if (source.points.empty() && is_netcdf_file(source.path)) // has density, fields and cells, too
+      file = calotte::read_mesh_file(source.path, nullptr, choice);
+    if (!file.plane) // or say why there is none
+      file.plane = read_planar_mesh(source);
+    return file;
   }
   if (source.points.empty())
     return calotte::read_mesh_file(source.path, nullptr, choice);
@@ -52,9 +52,10 @@ Mesh read_mesh(const MeshSource& source) {
 
 CLI::Option* add_plane(CLI::App& command, MeshSource& source) {
   return command
-      .add_flag("--plane", source.plane,
-                "The mesh is planar: .vtp, .vtu, .off, .ply or .msh with z = 0, planar MPAS, or "
-                ".txt and .tri with --points (x y on each line)")
+      .add_flag(
+          "--plane", source.plane,
+          "The mesh is planar: .vtp, .vtu, .off, .ply or .msh with z = 0, planar MPAS or UGRID, or "
+          ".txt and .tri with --points (x y on each line)")
       ->excludes(command.get_option("--lonlat"));
 }
 
