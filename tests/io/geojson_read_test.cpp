@@ -250,3 +250,18 @@ TEST_CASE("shapes: convex cells, and how far centres are from centroids") {
   CHECK(calotte::shapes(triangle).worst_centred == -1);
   CHECK(calotte::shapes(Polygons{}).not_convex == 0);
 }
+
+TEST_CASE("shapes in a plane: the corners of an L, its notch and its centroid") {
+  Polygons cell;
+  cell.on_sphere = false;
+  cell.corners.resize(3, 6);
+  cell.corners << 0, 2, 2, 1, 1, 0, 0, 0, 1, 1, 2, 2, 0, 0, 0, 0, 0, 0;
+  cell.ids = calotte::Ids::LinSpaced(6, 0, 5);
+  cell.begin.resize(2);
+  cell.begin << 0, 6;
+  cell.centres = Eigen::Vector3d(5. / 6, 5. / 6, 0); // of three unit squares
+  CHECK(calotte::shapes(cell).not_convex == 1);
+  CHECK(calotte::shapes(cell).off_centring < 1e-15);
+  cell.centres(0, 0) += 0.1 * std::sqrt(3.0);
+  CHECK(calotte::shapes(cell).off_centring == doctest::Approx(0.1));
+}
