@@ -3,6 +3,7 @@
 #include "options/mesh_source.h"
 #include "run/exit_code.h"
 #include "run/progress.h"
+#include "run/shapes.h"
 
 #include <calotte/check.h>
 #include <calotte/check_file.h>
@@ -96,12 +97,13 @@ std::string table(const Findings& found, bool plane) {
   return out.str();
 }
 
-std::string table(const Polygons& polygons, const std::string& not_voronoi) {
+std::string table(const Polygons& polygons, const MeshFile& file) {
   std::ostringstream out;
   out << "cells           " << polygons.size() << "\n"
       << "corners         " << polygons.corners.cols() << "\n"
-      << "Voronoi         no: " << not_voronoi << "\n";
-  return out.str();
+      << "Voronoi         no: " << file.not_voronoi << "\n";
+  const bool counted = !file.mesh || !file.mesh->closed(); // with the open mesh
+  return out.str() + shape_rows(polygons, counted ? std::nullopt : file.mesh, 16);
 }
 
 std::string lines_of(const std::vector<Deviation>& deviations) {
@@ -126,7 +128,7 @@ void run(const MeshSource& source) {
   {
     Progress progress;
     progress.stage("reading " + source.path);
-    const MeshFile file = read_mesh_file(source);
+    const MeshFile file = read_mesh_file(source, FieldChoice::none);
     progress.stage("checking " + source.path);
     text = changes_of(source, file);
     if (file.plane || (file.mesh && !(file.polygons && file.mesh->closed()))) {
@@ -135,7 +137,7 @@ void run(const MeshSource& source) {
       failure = found.failure;
     }
     if (file.polygons)
-      text += table(*file.polygons, file.not_voronoi);
+      text += table(*file.polygons, file);
     const std::vector<Deviation> deviations = check_file(source.path, file);
     text += lines_of(deviations);
     if (failure.empty())

@@ -13,6 +13,7 @@
 #include <calotte/mesh_file.h>
 #include <calotte/version.h>
 
+#include <array>
 #include <iostream>
 
 namespace calotte::tools {
@@ -77,17 +78,26 @@ std::string joined(const std::vector<std::string>& names) {
   return list;
 }
 
+std::string joined(const std::vector<std::array<std::string, 2>>& names) {
+  std::string list;
+  for (const auto& [from, to] : names)
+    list.append(list.empty() ? "\"" : ", \"").append(from).append("\" became ").append(to);
+  return list;
+}
+
 /// What the output does not hold of the input, and a unit that was taken for granted.
 std::string remarks(const Request& request, const MeshFile& file, const WriteOptions& options,
-                    const std::vector<std::string>& dropped) {
+                    const WrittenFields& written) {
   std::string lines;
   if (options.sphere_radius != file.sphere_radius && !request.format->sphere_radius &&
       request.output.ends_with(".nc"))
     lines += request.output + ": the radius " + shortest(file.sphere_radius) +
              " is taken as kilometres and written as " + shortest(options.sphere_radius) +
              " metres\n";
-  if (!dropped.empty())
-    lines += request.output + ": the format does not hold " + joined(dropped) + "\n";
+  if (!written.dropped.empty())
+    lines += request.output + ": the format does not hold " + joined(written.dropped) + "\n";
+  if (!written.renamed.empty())
+    lines += request.output + ": names that NetCDF refuses: " + joined(written.renamed) + "\n";
   if (!file.ignored.empty())
     lines += request.output + ": not converted: " + joined(file.ignored) + "\n";
   return lines;
@@ -95,7 +105,7 @@ std::string remarks(const Request& request, const MeshFile& file, const WriteOpt
 
 /// \throws Error bad_option, where the domain of a plane is missing or in vain.
 MeshFile read_input(const Request& request) {
-  MeshFile file = read_mesh_file(*request.source);
+  MeshFile file = read_mesh_file(*request.source, FieldChoice::all);
   file.domain = domain_of(*request.domain);
   if (file.domain && (!file.plane || file.plane->period.minCoeff() > 0))
     throw Error(ErrorCode::bad_option, request.source->path +
@@ -121,8 +131,8 @@ void run(const Request& request) {
     const MeshFile file = read_input(request);
     progress.stage("writing " + request.output);
     const WriteOptions options = write_options(request, density, file);
-    const std::vector<std::string> dropped = write(request.output, file, options);
-    words = changes_of(*request.source, file) + remarks(request, file, options, dropped) +
+    const WrittenFields written = write(request.output, file, options);
+    words = changes_of(*request.source, file) + remarks(request, file, options, written) +
             request.output + ": " + describe(file) + "\n";
   }
   std::cout << words;

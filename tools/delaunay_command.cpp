@@ -146,7 +146,7 @@ std::string warning_of(const std::string& points, bool closed) {
   if (!closed || !holds_points(points))
     return {};
   try {
-    const MeshFile file = read_mesh_file(points);
+    const MeshFile file = read_mesh_file(points, nullptr, FieldChoice::none);
     if (!file.mesh || file.mesh->closed())
       return {};
     return points + ": its mesh is open, with " + std::to_string(file.mesh->triangles.cols()) +

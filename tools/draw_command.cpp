@@ -252,7 +252,7 @@ void draw_planar_mesh(const DrawArguments& arguments) {
 CellField field_of(const DrawArguments& arguments, const MeshFile& file, std::int64_t cells) {
   const std::string& name = arguments.options.field_name;
   for (const MeshField& field : file.fields) {
-    if (field.name == name && field.values.size() == cells) {
+    if (field.name == name && field.location == Location::cells && field.values.size() == cells) {
       return {field.values, field.long_name, field.units};
     }
   }
@@ -287,7 +287,7 @@ void draw_mesh(const DrawArguments& arguments) {
   }
   DrawOptions options = arguments.options;
   options.density = density_of(*arguments.density);
-  const MeshFile file = read_mesh_file(*arguments.source);
+  const MeshFile file = read_mesh_file(*arguments.source, FieldChoice::scalars);
   if (file.plane) {
     throw Error(ErrorCode::bad_option,
                 arguments.source->path +

@@ -5,6 +5,7 @@
 #include "options/files.h"
 #include "options/mesh_source.h"
 #include "run/progress.h"
+#include "run/shapes.h"
 
 #include <calotte/check.h>
 #include <calotte/error.h>
@@ -204,7 +205,7 @@ void measure_plane(const Request& request, const MeshFile& file, Measured& measu
 }
 
 /// Polygons that are not Voronoi cells: their number of sides and their areas.
-std::string table(const Polygons& polygons) {
+std::string table(const Polygons& polygons, const std::optional<Mesh>& mesh) {
   const Eigen::VectorXd area = areas(polygons);
   std::vector<std::int64_t> sides;
   for (std::int64_t i = 0; i < polygons.size(); ++i) {
@@ -221,10 +222,11 @@ std::string table(const Polygons& polygons) {
   table.row<std::string>("", "min", "mean", "max");
   table.row("cell area, steradians", Range{area.minCoeff(), area.mean(), area.maxCoeff()});
   table.row("cells / 4 pi", area.sum() / (4 * std::numbers::pi), 15);
-  return table.text();
+  return table.text() + shape_rows(polygons, mesh, 22);
 }
 
-std::string to_json(const Polygons& polygons, const Measured& measured) {
+std::string to_json(const Polygons& polygons, const std::optional<Mesh>& mesh,
+                    const Measured& measured) {
   const Eigen::VectorXd area = areas(polygons);
   nlohmann::ordered_json json;
   json["changes"] = measured.changes;
@@ -233,6 +235,7 @@ std::string to_json(const Polygons& polygons, const Measured& measured) {
   json["corners"] = polygons.corners.cols();
   json["cell_area"] = to_json(Range{area.minCoeff(), area.mean(), area.maxCoeff()});
   json["cells_area"] = area.sum() / (4 * std::numbers::pi);
+  add_shapes(polygons, mesh, json);
   return json.dump(2) + "\n";
 }
 
@@ -248,7 +251,7 @@ std::string remarks_of(const Request& request, const Measured& measured) {
 std::string read_and_measure(const Request& request) {
   Progress progress;
   progress.stage("reading " + request.source->path);
-  const MeshFile file = read_mesh_file(*request.source);
+  const MeshFile file = read_mesh_file(*request.source, FieldChoice::none);
   progress.stage("measuring " + request.source->path);
   Measured measured;
   measured.changes = file.changes;
@@ -260,8 +263,10 @@ std::string read_and_measure(const Request& request) {
   else
     measure_sphere(request, file, measured);
   if (!request.report.empty())
-    write_file(request.report, as_polygons ? to_json(*file.polygons, measured) : to_json(measured));
-  return remarks_of(request, measured) + (as_polygons ? table(*file.polygons) : table(measured));
+    write_file(request.report,
+               as_polygons ? to_json(*file.polygons, file.mesh, measured) : to_json(measured));
+  return remarks_of(request, measured) +
+         (as_polygons ? table(*file.polygons, file.mesh) : table(measured));
 }
 
 void run(const Request& request) {

@@ -83,9 +83,10 @@ Eigen::VectorXd evaluate(const Density& density, const PlanarDomain& domain,
 
 /// The density that values at the sites of a mesh give everywhere: rho^(-1/4), which cell widths
 /// are proportional to, is linear on each triangle of unit vectors. Outside an open mesh the
-/// nearest triangle found holds. \param mesh a mesh of the sphere; the density keeps a copy of what
-/// it needs. \param density n values >= 0, finite, by site. \throws Error bad_option for another
-/// number of values, a value out of range, or no triangle.
+/// nearest triangle found holds.
+/// \param mesh a mesh of the sphere; the density keeps a copy of what it needs.
+/// \param density n values >= 0, finite, by site.
+/// \throws Error bad_option for another number of values, a value out of range, or no triangle.
 Density interpolated_density(const Mesh& mesh, const Eigen::VectorXd& density);
 
 } // namespace calotte

@@ -3,22 +3,52 @@
 
 #include <Eigen/Core>
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 namespace calotte {
 
 /// Which part of a mesh a field belongs to.
 enum class Location {
-  cells,    ///< the sites and their cells
-  vertices, ///< the triangles, whose circumcentres are the corners of cells
+  cells, ///< the sites and their cells
+  /// The pairs of sites that share an edge of a closed mesh, in the order of Voronoi: sorted by
+  /// their lower site, then by their higher one.
+  edges,
+  /// The triangles, whose circumcentres are the corners of cells. Of cells that are not Voronoi
+  /// cells: their corners.
+  vertices,
 };
 
-/// One number for each cell or vertex of a mesh, in its order.
+/// A dimension of a field besides that of its location, such as levels or times.
+struct FieldDimension {
+  std::string name;
+  std::int64_t size = 1; ///< >= 1
+};
+
+/// Numbers for each cell, edge or vertex of a mesh, in its order.
 struct MeshField {
   std::string name;
   std::string long_name = {}, units = {}; ///< attributes in NetCDF files; empty for none
   Location location = Location::cells;
-  Eigen::VectorXd values = {}; ///< NaN where a file has its _FillValue
+  /// count() numbers for each place, place after place, and for each place in the order of
+  /// `dimensions`, of which the last is the fastest. NaN where a file has its _FillValue.
+  Eigen::VectorXd values = {};
+  std::vector<FieldDimension> dimensions = {}; ///< none for one number for each place
+  /// How many of the dimensions come before the location's in a file: 1 for (Time, nCells, levels).
+  int leading = 0;
+  bool integer = false; ///< all are 32-bit integers, and NetCDF files store them as such
+  /// At edges: components along the edge's normal, from the lower to the higher site, or along its
+  /// tangent. They change their sign where a numbering exchanges the two sites.
+  bool directed = false;
+
+  /// Numbers for each place: the product of the dimensions' sizes.
+  std::int64_t count() const {
+    std::int64_t product = 1;
+    for (const FieldDimension& dimension : dimensions)
+      product *= dimension.size;
+    return product;
+  }
 };
 
 } // namespace calotte

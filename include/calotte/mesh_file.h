@@ -9,6 +9,7 @@
 #include <calotte/voronoi.h>
 #include <calotte/write.h>
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -35,6 +36,22 @@ struct Polygons {
 /// Areas of polygons on the unit sphere, steradians; in a plane in the square of its unit.
 /// \pre counter-clockwise; on the sphere each smaller than a hemisphere.
 Eigen::VectorXd areas(const Polygons& polygons);
+
+/// Counts of polygons whose shape is not that of a centroidal Voronoi cell.
+struct PolygonShapes {
+  /// Polygons that turn to the right at a corner, by more than 1e-9 radians.
+  std::int64_t not_convex = 0;
+  std::int64_t first_not_convex = -1; ///< the first of them; -1 for none
+  /// Polygons whose centre is farther than 1e-6 widths from their centroid. The width is the square
+  /// root of the area; the centroid is the direction of the area's first moment.
+  std::int64_t not_centroidal = 0;
+  double off_centring = 0;         ///< the largest distance, in widths
+  std::int64_t worst_centred = -1; ///< the polygon that has it; -1 without centres
+};
+
+/// Measures polygons. Those without corners, which are unknown, do not count.
+/// \pre counter-clockwise, each smaller than a hemisphere.
+PolygonShapes shapes(const Polygons& polygons);
 
 /// What a mesh file holds. At least one of `mesh`, `plane` and `polygons` is present.
 struct MeshFile {
@@ -63,27 +80,52 @@ struct MeshFile {
   std::vector<std::string> ignored; ///< names of variables that were not read
 };
 
+/// Which fields read_mesh_file() reads from NetCDF files; the others are among `ignored`.
+enum class FieldChoice {
+  none,    ///< none, and no variable is among `ignored`
+  scalars, ///< those with one number for each place
+  all,
+};
+
 /// Reads a mesh file of any format, recognised as read_mesh() does, and brings the mesh to
 /// canonical form.
 ///
-/// Clockwise triangles and polygons are turned if all run clockwise. Triangles start at their
-/// lowest vertex and are sorted. `changes` names what was done.
+/// Clockwise triangles and polygons are turned if all run clockwise; in GeoJSON, whose polygons
+/// have either orientation, each is. Triangles start at their lowest vertex and are sorted.
+/// `changes` names what was done.
+///
+/// GeoJSON is a FeatureCollection. Polygons of one ring, longitude and latitude in degrees, are
+/// cells, whose corners agree to 1e-9 degrees; their sides are taken as arcs of great circles. The
+/// properties x, y and z of all features are the cells' centres; other numbers are fields, and
+/// `density` the density. Features without polygons, and Voronoi cells that this library wrote, are
+/// sites.
+///
+/// Values at edges are brought into the order of Location::edges. `changes` names the fields that
+/// are taken for components along the edges, MeshField::directed: those whose name, long_name or
+/// standard_name holds "normal" or "tangent", and u, v and ru.
 ///
 /// \param points as read_mesh's.
 /// \throws Error as read_mesh; parse for a file that contradicts itself, naming the first offender:
 ///         triangles or polygons of both orientations, an edge of more than two of them, or cells
 ///         that overlap.
-MeshFile read_mesh_file(const std::string& path, const Points3* points = nullptr);
+MeshFile read_mesh_file(const std::string& path, const Points3* points = nullptr,
+                        FieldChoice choice = FieldChoice::all);
+
+/// What became of a file's fields.
+struct WrittenFields {
+  std::vector<std::string> dropped; ///< names of those that the format cannot hold
+  /// Those whose names NetCDF refuses, such as "sea level" and "a/b", with their names in the file.
+  std::vector<std::array<std::string, 2>> renamed;
+};
 
 /// Writes what a file holds to another format. The cells keep their shapes: polygons go to formats
 /// of cells only. MPAS needs Voronoi cells: the polygons of an open mesh are written if each corner
 /// of three cells is the circumcentre of their centres, within a millionth of a cell's width.
 /// Density and fields at cells go along.
 /// \param options its density, if not uniform, replaces the file's.
-/// \returns the names of the fields that the format cannot hold.
 /// \throws Error as write(); bad_option if the format cannot hold the mesh, with the reason.
-std::vector<std::string> write(const std::string& path, const MeshFile& file,
-                               const WriteOptions& options = {});
+WrittenFields write(const std::string& path, const MeshFile& file,
+                    const WriteOptions& options = {});
 
 } // namespace calotte
 CALOTTE_API_END

@@ -66,8 +66,10 @@ struct WriteOptions {
   Density density = {};
   /// n values >= 0, one of them positive, by site; they replace `density`. Default: none.
   Eigen::VectorXd site_density = {};
-  /// Fields of the mesh, in its order. NetCDF formats, VTK and, at cells, GeoJSON hold them; other
-  /// formats ignore them. Default: none.
+  /// Fields of the mesh, in its order. NetCDF formats hold them at cells, all but SCRIP at
+  /// vertices, full MPAS at edges. VTK holds those at cells and vertices, GeoJSON those at cells,
+  /// with one number for each place. Other formats and places ignore them. In names, NetCDF formats
+  /// replace characters other than letters, digits and _.+-@ by _. Default: none.
   std::vector<MeshField> fields = {};
   /// How the mesh was made, one fact a line; the attribute `history` of NetCDF files. Default:
   /// empty, no attribute.

@@ -2,6 +2,7 @@
 #include "base/points.h"
 #include "io/formats.h"
 #include "io/model_grid.h"
+#include "io/written_fields.h"
 
 #include <limits>
 
@@ -44,11 +45,6 @@ void add_elements(GridFile& file, const Polygons& cells, int elements) {
 NetcdfAttributes degrees(const std::string& of) {
   return {{"units", std::string("degrees")}, {"long_name", "longitude and latitude of " + of}};
 }
-
-const NetcdfMeshNames esmf_names{
-    .cells = "elementCount",
-    .vertices = "nodeCount",
-    .variables = {"nodeCoords", "elementConn", "numElementConn", "centerCoords"}};
 
 /// Longitudes and latitudes in pairs.
 Points3 read_pairs(const NetcdfReader& file, const std::string& name) {
@@ -98,6 +94,15 @@ Polygons read_elements(const NetcdfReader& file, Points3 nodes, Points3 centres)
 
 } // namespace
 
+const NetcdfMeshNames& esmf_names() {
+  static const NetcdfMeshNames names{
+      .cells = "elementCount",
+      .vertices = "nodeCount",
+      .variables = {"nodeCoords", "elementConn", "numElementConn", "centerCoords"},
+      .derived = {"elementArea", "elementMask"}};
+  return names;
+}
+
 void write_esmf(const std::string& path, const CellGrid& grid, const WriteOptions& options) {
   const Polygons& cells = grid.polygons;
   GridFile file(path, options, "CF-1.8");
@@ -121,7 +126,7 @@ void write_esmf(const std::string& path, const CellGrid& grid, const WriteOption
             {{"units", std::string("1")},
              {"long_name", std::string("mask of the elements: 1 takes part")}},
             mask_of(options));
-  add_fields(file, options, {elements, nodes}, esmf_names);
+  add_fields(file, options, {.cells = {elements}, .vertices = {nodes}}, esmf_names());
   file.commit();
 }
 
@@ -137,7 +142,7 @@ Polygons read_esmf_cells(const NetcdfReader& file, const Points3& centres) {
   return read_elements(file, read_pairs(file, "nodeCoords"), centres);
 }
 
-Soup read_esmf(const NetcdfReader& file) {
+Soup read_esmf(const NetcdfReader& file, FieldChoice choice) {
   Soup soup{.points = read_esmf_centres(file)};
   if (file.has_variable("elementConn")) {
     soup.polygons = read_esmf_cells(file, soup.points);
@@ -146,7 +151,7 @@ Soup read_esmf(const NetcdfReader& file) {
     file.fail("it has neither centerCoords, the cells' sites, nor elementConn, their corners; give "
               "a file that has");
   }
-  read_fields(file, esmf_names, soup);
+  read_fields(file, esmf_names(), choice, soup);
   drop_derived_fields(soup);
   return soup;
 }

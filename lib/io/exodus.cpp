@@ -3,6 +3,7 @@
 #include "io/mesh_intake.h"
 #include "io/model_grid.h"
 #include "io/netcdf_fields.h"
+#include "io/written_fields.h"
 
 // Exodus II (Schoof and Yarberry, Sandia report SAND92-2137, 1994), as TempestRemap and HOMME write
 // the cells of grids: one or more blocks of elements, ids from 1, Cartesian coordinates on the unit
@@ -10,13 +11,6 @@
 
 namespace calotte::io_detail {
 namespace {
-
-const NetcdfMeshNames exodus_names{
-    .cells = "num_elem",
-    .vertices = "num_nodes",
-    .variables = {"coord", "coordx", "coordy", "coordz", "coor_names", "time_whole", "qa_records",
-                  "info_records", "elem_map", "eb_status", "eb_prop1", "eb_names", "node_num_map",
-                  "elem_num_map"}};
 
 std::string block_name(const std::string& stem, std::int64_t block) {
   return stem + std::to_string(block);
@@ -47,8 +41,9 @@ public:
   /// A table of as many nodes for each.
   void add_block(const std::string& name) {
     const std::vector<std::int32_t> ids = file_.ints(name, {-1, -1});
-    const std::int64_t width = file_.shape_of(name)[1];
-    for (std::int64_t e = 0; e < file_.shape_of(name)[0]; ++e)
+    const std::vector<std::int64_t> shape = file_.shape_of(name);
+    const std::int64_t elements = shape[0], width = shape[1];
+    for (std::int64_t e = 0; e < elements; ++e)
       add(name, ids.data() + e * width, width);
   }
 
@@ -107,6 +102,17 @@ bool all_triangles(const Polygons& polygons) {
 
 } // namespace
 
+const NetcdfMeshNames& exodus_names() {
+  static const NetcdfMeshNames names{
+      .cells = "num_elem",
+      .vertices = "num_nodes",
+      .variables = {"coord", "coordx", "coordy", "coordz", "coor_names", "time_whole", "qa_records",
+                    "info_records", "elem_map", "eb_status", "eb_prop1", "eb_names", "node_num_map",
+                    "elem_num_map"},
+      .derived = {"connect1"}};
+  return names;
+}
+
 void write_exodus(const std::string& path, const CellGrid& grid, const WriteOptions& options) {
   const Polygons& cells = grid.polygons;
   GridFile file(path, options, "CF-1.8");
@@ -133,7 +139,7 @@ void write_exodus(const std::string& path, const CellGrid& grid, const WriteOpti
             table<std::int32_t>(most, [&cells](std::int64_t cell, std::int64_t k) {
               return corner_or_last(cells, cell, k) + 1;
             }));
-  add_fields(file, options, {elements, nodes}, exodus_names);
+  add_fields(file, options, {.cells = {elements}, .vertices = {nodes}}, exodus_names());
   file.commit();
 }
 
@@ -141,11 +147,11 @@ bool is_exodus(const NetcdfReader& file) {
   return file.dimension("num_el_blk") > 0 && file.dimension("num_nodes") >= 0;
 }
 
-Soup read_exodus(const NetcdfReader& file) {
+Soup read_exodus(const NetcdfReader& file, FieldChoice choice) {
   Points3 nodes = read_nodes(file);
   require_directions(file.path(), nodes);
   Elements elements(file, nodes.cols());
-  NetcdfMeshNames names = exodus_names;
+  NetcdfMeshNames names = exodus_names();
   for (std::int64_t block = 1; block <= file.dimension("num_el_blk"); ++block) {
     const std::string connect = block_name("connect", block),
                       counts = block_name("ebepecnt", block);
@@ -164,7 +170,7 @@ Soup read_exodus(const NetcdfReader& file) {
   } else {
     soup.polygons.corners = on_sphere(soup.polygons.corners, 1);
   }
-  read_fields(file, names, soup);
+  read_fields(file, names, choice, soup);
   return soup;
 }
 

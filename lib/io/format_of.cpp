@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/file_names.h"
 #include "io/formats.h"
-#include "io/model_grid.h"
-#include "io/mpas.h"
 #include "io/text.h"
 
 #include <calotte/error.h>
@@ -87,32 +85,11 @@ std::optional<std::string> sibling(const std::string& path, std::string_view ste
 
 void refuse_name(const std::string& path) {
   const std::string suffix = suffix_of(path);
-  throw Error(ErrorCode::bad_option,
-              path + ": " + (suffix.empty() ? "no suffix" : "unknown suffix " + in_quotes(suffix)) +
-                  "; a mesh file ends in .nc, .vtp, .vtu, .off, .ply, .msh, .geojson, .g, "
-                  ".exo, .txt or .tri, or is named SaveVertices or nod2d.out");
-}
-
-bool holds_field(Format format, const MeshField& field) {
-  switch (format) {
-  case Format::mpas:
-  case Format::mpas_minimal:
-    return can_hold(mpas_names(), field);
-  case Format::ugrid:
-  case Format::ugrid_triangles:
-  case Format::vtp:
-  case Format::vtu:
-  case Format::vtp_cells:
-  case Format::vtu_cells:
-  case Format::exodus:
-    return true;
-  case Format::scrip:
-  case Format::esmf:
-  case Format::geojson:
-    return field.location == Location::cells;
-  default:
-    return false;
-  }
+  throw Error(
+      ErrorCode::bad_option,
+      path + ": " + (suffix.empty() ? "no suffix" : "unknown suffix " + in_quotes(suffix)) +
+          "; a mesh file ends in .nc, .vtp, .vtu, .vtk (read only), .off, .ply, .msh, .geojson, "
+          ".g, .exo, .txt or .tri, or is named SaveVertices or nod2d.out");
 }
 
 } // namespace io_detail

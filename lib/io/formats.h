@@ -7,6 +7,7 @@
 #include <calotte/io.h>
 #include <calotte/mesh_file.h>
 #include <calotte/types.h>
+#include <calotte/voronoi.h>
 
 #include <iosfwd>
 #include <string>
@@ -21,10 +22,13 @@ struct Soup {
   Points3 points = {};      ///< the sites; none where the file holds cells without centres
   Triangles triangles = {}; ///< of the sites; none where these are to be triangulated
   Polygons polygons = {};   ///< the cells, of either orientation; a cell without corners is unknown
+  /// The format leaves the orientation of each cell free, and clockwise ones are turned.
+  bool turns_each = false;
   /// How far a corner may be from its place by the file's digits alone, radians.
   double corner_rounding = 0;
   Eigen::VectorXd density = {}; ///< by site, or empty
   std::vector<MeshField> fields = {};
+  Pairs edges = {};                      ///< the sites of the edges that fields have; -1 for none
   std::vector<std::string> ignored = {}; ///< variables that are neither the mesh's nor fields
 };
 
@@ -57,7 +61,7 @@ Soup get_geojson(std::istream& in, const std::string& name);
 Triangles get_triangles_text(std::istream& in, const std::string& name, std::int64_t points);
 
 /// Whether a format has a place for a field; all that have a place for fields at all have one for
-/// those at cells.
+/// those with one number for each cell.
 bool holds_field(Format format, const MeshField& field);
 
 // ---- Files of their own making. \throws Error bad_option, file.
@@ -89,15 +93,15 @@ bool is_esmf(const NetcdfReader& file);
 bool is_exodus(const NetcdfReader& file);
 bool is_icon(const NetcdfReader& file);
 /// \pre it is. \throws Error parse, file.
-Soup read_mpas(const NetcdfReader& file);
+Soup read_mpas(const NetcdfReader& file, FieldChoice choice = FieldChoice::all);
 Points3 read_mpas_sites(const NetcdfReader& file); ///< without a look at the triangles
 bool is_planar_mpas(const NetcdfReader& file);
-MeshFile read_planar_mpas(const NetcdfReader& file);
-Soup read_ugrid(const NetcdfReader& file);
-Soup read_scrip(const NetcdfReader& file);
-Soup read_esmf(const NetcdfReader& file);
-Soup read_exodus(const NetcdfReader& file);
-Soup read_icon(const NetcdfReader& file);
+MeshFile read_planar_mpas(const NetcdfReader& file, FieldChoice choice = FieldChoice::all);
+Soup read_ugrid(const NetcdfReader& file, FieldChoice choice = FieldChoice::all);
+Soup read_scrip(const NetcdfReader& file, FieldChoice choice = FieldChoice::all);
+Soup read_esmf(const NetcdfReader& file, FieldChoice choice = FieldChoice::all);
+Soup read_exodus(const NetcdfReader& file, FieldChoice choice = FieldChoice::all);
+Soup read_icon(const NetcdfReader& file, FieldChoice choice = FieldChoice::all);
 Soup read_fesom(const std::string& path);
 /// The cells with their corners' lists as the file has them. \pre it has corners, and as many
 /// centres or none.

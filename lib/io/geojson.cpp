@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "base/lonlat.h"
 #include "io/cell_outline.h"
 #include "io/formats.h"
 #include "io/model_grid.h"
@@ -7,7 +6,6 @@
 
 #include "base/points.h"
 
-#include <calotte/error.h>
 #include <calotte/voronoi.h>
 
 #include <nlohmann/json.hpp>
@@ -15,8 +13,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
-#include <istream>
 #include <span>
 
 // GeoJSON (Butler et al., RFC 7946, 2016): a feature a cell. As a polygon does not tell its site,
@@ -24,10 +20,6 @@
 
 namespace calotte::io_detail {
 namespace {
-
-using nlohmann::json;
-
-// ---- Writing
 
 /// A number that readers take for the same double: -0 would be read as the integer 0.
 void put_number(Writer& out, double value) {
@@ -105,7 +97,7 @@ std::vector<const MeshField*> cell_fields_of(const WriteOptions& options,
                                              std::span<const char* const> own_properties) {
   std::vector<const MeshField*> fields;
   for (const MeshField& field : options.fields)
-    if (field.location == Location::cells &&
+    if (holds_field(Format::geojson, field) &&
         std::find(own_properties.begin(), own_properties.end(), field.name) == own_properties.end())
       fields.push_back(&field);
   return fields;
@@ -135,69 +127,18 @@ void put_feature(Writer& out, const Polygons& cells, std::int64_t cell, const au
   out.text("}}");
 }
 
+/// As JSON; bytes that are no UTF-8 become its replacement character.
+std::string quoted(const std::string& text) {
+  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
 void put_fields(Writer& out, const std::vector<const MeshField*>& fields, std::int64_t cell) {
   for (const MeshField* field : fields) {
-    out.text(",").text(json(field->name).dump()).text(":");
-    put_number(out, field->values[cell]);
-  }
-}
-
-// ---- Reading
-
-std::string text_in(const json& object, const char* key) {
-  const auto found = object.find(key);
-  return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
-}
-
-/// The site of a feature: x, y and z of its properties, or else its point.
-Points3 site_of(const json& feature, const std::string& name, std::int64_t index) {
-  const json properties = feature.value("properties", json());
-  Points3 site(3, 1);
-  const std::array<const char*, 3> axes{"x", "y", "z"};
-  const auto is_number = [&](const char* axis) {
-    return properties.is_object() && properties.contains(axis) && properties[axis].is_number();
-  };
-  if (std::all_of(axes.begin(), axes.end(), is_number)) {
-    for (std::size_t i = 0; i < 3; ++i)
-      site(static_cast<Eigen::Index>(i)) = properties[axes[i]].get<double>();
-    return site;
-  }
-  const json geometry = feature.value("geometry", json());
-  if (geometry.is_object() && text_in(geometry, "type") == "Point") {
-    const json place = geometry.value("coordinates", json());
-    if (place.is_array() && place.size() >= 2 && place[0].is_number() && place[1].is_number() &&
-        std::abs(place[1].get<double>()) <= 90) {
-      const Vec3 p = from_lonlat(place[0].get<double>(), place[1].get<double>());
-      site << p.x, p.y, p.z;
-      return site;
-    }
-  }
-  throw Error(ErrorCode::parse,
-              name + ": feature " + std::to_string(index) +
-                  " is not a point that is the site of its cell; give it numbers x, y and z as "
-                  "properties",
-              index);
-}
-
-/// The whole file without its features, of which each is shown to `take` as soon as it is read.
-json parse(std::istream& in, const std::string& name,
-           const std::function<void(const json& feature)>& take) {
-  bool in_features = false;
-  const auto keep = [&](int depth, json::parse_event_t event, json& parsed) {
-    if (event == json::parse_event_t::key && depth == 1)
-      in_features = parsed == "features";
-    if (event != json::parse_event_t::object_end || depth != 2 || !in_features)
-      return true;
-    take(parsed);
-    return false;
-  };
-  try {
-    return json::parse(in, keep);
-  } catch (const json::parse_error& error) {
-    throw Error(ErrorCode::parse, name + ": invalid or incomplete JSON at byte " +
-                                      std::to_string(error.byte) + "; make the file again");
-  } catch (const json::exception&) {
-    throw Error(ErrorCode::parse, name + ": a number is out of range; make the file again");
+    out.text(",").text(quoted(field->name)).text(":");
+    if (field->integer && std::isfinite(field->values[cell]))
+      out.number(static_cast<std::int64_t>(field->values[cell]));
+    else
+      put_number(out, field->values[cell]);
   }
 }
 
@@ -234,23 +175,6 @@ void put_geojson(const Sink& sink, const Polygons& polygons, const WriteOptions&
       put_fields(out, others, i);
     });
   });
-}
-
-Soup get_geojson(std::istream& in, const std::string& name) {
-  std::vector<double> sites;
-  const json rest = parse(in, name, [&](const json& feature) {
-    const auto index = static_cast<std::int64_t>(sites.size() / 3);
-    const Points3 site = site_of(feature, name, index);
-    sites.insert(sites.end(), site.data(), site.data() + 3);
-  });
-  if (!rest.is_object() || text_in(rest, "type") != "FeatureCollection")
-    throw Error(ErrorCode::parse, name + ": no GeoJSON FeatureCollection; give one of the cells");
-  const json features = rest.value("features", json());
-  if (sites.empty() || !features.is_array() || !features.empty())
-    throw Error(ErrorCode::parse, name + ": \"features\" is empty or holds other values than "
-                                         "objects; give one feature for each cell");
-  return {Eigen::Map<const Points3>(sites.data(), 3, static_cast<Eigen::Index>(sites.size() / 3)),
-          {}};
 }
 
 } // namespace calotte::io_detail

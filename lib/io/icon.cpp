@@ -49,7 +49,7 @@ bool is_icon(const NetcdfReader& file) {
          file.has_variable("vlat");
 }
 
-Soup read_icon(const NetcdfReader& file) {
+Soup read_icon(const NetcdfReader& file, FieldChoice choice) {
   Soup soup{.points = read_lonlats(file, "vlon", "vlat")};
   const std::vector<std::int32_t> ids = file.ints("vertex_of_cell", {3, -1});
   const std::int64_t cells = file.shape_of("vertex_of_cell")[1];
@@ -59,7 +59,7 @@ Soup read_icon(const NetcdfReader& file) {
                                 ids.data() + i * cells, cells)
                                 .array() -
                             1;
-  read_fields(file, icon_names, soup);
+  read_fields(file, icon_names, choice, soup);
   return soup;
 }
 

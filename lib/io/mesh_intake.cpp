@@ -2,6 +2,7 @@
 #include "io/mesh_intake.h"
 
 #include "base/points.h"
+#include "io/field_order.h"
 #include "io/polygons.h"
 #include "mesh/adjacency.h"
 #include "mesh/canonical_order.h"
@@ -68,20 +69,30 @@ void orient(const std::string& name, Triangles& triangles, const Orientations& f
 /// Values by triangle follow their triangles.
 void reorder_vertex_fields(std::vector<MeshField>& fields, const CanonicalPlaces& places) {
   for (MeshField& field : fields)
-    if (field.location == Location::vertices && field.values.size() == places.place.size()) {
-      const Eigen::VectorXd old = field.values;
-      for (Eigen::Index t = 0; t < old.size(); ++t)
-        field.values[places.place[t]] = old[t];
-    }
+    if (field.location == Location::vertices && has_values_for(field, places.place.size()))
+      move_values(field, {places.place.begin(), places.place.end()});
 }
 
-void sort(Triangles& triangles, MeshFile& file) {
+/// The corners of polygons, of which one belongs to each triangle, follow their triangles.
+void reorder_corners(Polygons& polygons, const CanonicalPlaces& places) {
+  if (polygons.corners.cols() != places.place.size())
+    return;
+  const Points3 old = polygons.corners;
+  for (Eigen::Index v = 0; v < old.cols(); ++v)
+    polygons.corners.col(places.place[v]) = old.col(v);
+  for (std::int32_t& id : polygons.ids)
+    id = places.place[id];
+}
+
+void sort(Triangles& triangles, Polygons* polygons, MeshFile& file) {
   if (is_canonical(triangles))
     return;
   Triangles sorted;
   const CanonicalPlaces places = order_triangles(triangles, {}, sorted);
   triangles = std::move(sorted);
   reorder_vertex_fields(file.fields, places);
+  if (polygons != nullptr)
+    reorder_corners(*polygons, places);
   file.changes.push_back("sorted " + std::to_string(triangles.cols()) + " triangles");
 }
 
@@ -105,11 +116,12 @@ void require_distinct_vertices(const std::string& name, const Triangles& triangl
 }
 
 /// Orientation, order and neighbours. \pre ids are in range.
+/// \param polygons whose corners belong to the triangles, or none.
 Triangles canonical(const std::string& name, Triangles& triangles, std::int64_t points,
-                    const Orientations& found, MeshFile& file) {
+                    const Orientations& found, MeshFile& file, Polygons* polygons = nullptr) {
   require_distinct_vertices(name, triangles);
   orient(name, triangles, found, file.changes);
-  sort(triangles, file);
+  sort(triangles, polygons, file);
   Triangles neighbours = neighbours_of(triangles, points);
   require_one_surface(name, triangles, neighbours);
   return neighbours;
@@ -135,24 +147,25 @@ bool may_be_voronoi(const Mesh& mesh, const Polygons& polygons) {
 void move_to_triangles(const Voronoi& cells, const Polygons& polygons,
                        std::vector<MeshField>& fields) {
   const auto is_by_corner = [&](const MeshField& field) {
-    return field.location == Location::vertices && field.values.size() == polygons.corners.cols();
+    return field.location == Location::vertices && has_values_for(field, polygons.corners.cols());
   };
   if (std::none_of(fields.begin(), fields.end(), is_by_corner))
     return;
   const Ids corners = corners_of_vertices(cells, polygons);
   for (MeshField& field : fields)
     if (is_by_corner(field))
-      field.values = Eigen::VectorXd(field.values(corners));
+      select_values(field, {corners.data(), static_cast<std::size_t>(corners.size())});
 }
 
 /// Keeps the polygons unless they are the Voronoi cells of the mesh.
-void settle_polygons(const std::string& name, Polygons polygons, double rounding, MeshFile& file) {
-  const std::int64_t turned = turn_counter_clockwise(polygons, name);
+void settle_polygons(const std::string& name, Soup soup, MeshFile& file) {
+  Polygons& polygons = soup.polygons;
+  const std::int64_t turned = turn_counter_clockwise(polygons, name, soup.turns_each);
   if (turned > 0)
     file.changes.push_back("turned " + std::to_string(turned) + " clockwise cells");
   if (file.mesh && may_be_voronoi(*file.mesh, polygons)) {
     const Voronoi cells = voronoi(*file.mesh);
-    file.not_voronoi = difference_from(cells, polygons, rounding);
+    file.not_voronoi = difference_from(cells, polygons, soup.corner_rounding);
     if (file.not_voronoi.empty())
       return move_to_triangles(cells, polygons, file.fields);
   } else {
@@ -176,14 +189,14 @@ void settle_clipped(const std::string& name, Polygons polygons, MeshFile& file) 
                  " have one centre",
              static_cast<std::int64_t>(i));
   file.changes.push_back("triangulated " + std::to_string(sites.size()) + " points");
-  const std::int64_t turned = turn_counter_clockwise(polygons, name);
+  const std::int64_t turned = turn_counter_clockwise(polygons, name, false);
   if (turned > 0)
     file.changes.push_back("turned " + std::to_string(turned) + " clockwise cells");
   require_no_overlap(polygons, name);
   std::erase_if(file.fields, [&](const MeshField& field) { // corners are no triangles
-    if (field.location == Location::vertices)
+    if (field.location != Location::cells)
       file.ignored.push_back(field.name);
-    return field.location == Location::vertices;
+    return field.location != Location::cells;
   });
   file.not_voronoi = "the boundary of the plane clips them";
   file.polygons = std::move(polygons);
@@ -194,18 +207,15 @@ void merge_values(const Mesh& mesh, MeshFile& file) {
   const auto columns = std::ssize(mesh.site_of_input);
   if (columns == mesh.points.cols())
     return;
-  const auto merge = [&](Eigen::VectorXd& values) {
-    if (values.size() != columns)
-      return;
-    const Eigen::VectorXd by_column = values;
-    values.resize(mesh.points.cols());
-    for (auto i = columns; i-- > 0;)
-      values[mesh.site_of_input[static_cast<std::size_t>(i)]] = by_column[i];
-  };
-  merge(file.density);
+  std::vector<std::int32_t> lowest(static_cast<std::size_t>(mesh.points.cols()));
+  for (auto i = columns; i-- > 0;)
+    lowest[static_cast<std::size_t>(mesh.site_of_input[static_cast<std::size_t>(i)])] =
+        static_cast<std::int32_t>(i);
+  if (file.density.size() == columns)
+    file.density = Eigen::VectorXd(file.density(lowest));
   for (MeshField& field : file.fields)
-    if (field.location == Location::cells)
-      merge(field.values);
+    if (field.location == Location::cells && has_values_for(field, columns))
+      select_values(field, lowest);
 }
 
 /// Cells whose centres have no Delaunay triangulation stay polygons.
@@ -280,8 +290,9 @@ MeshFile mesh_file_of(const std::string& name, const std::string& format, Soup s
     require_ids(name, soup.triangles, soup.points.cols());
     Mesh mesh{std::move(soup.points), std::move(soup.triangles), {}, {}};
     mesh.neighbours = canonical(name, mesh.triangles, mesh.points.cols(),
-                                orientations_of(mesh.points, mesh.triangles), file);
+                                orientations_of(mesh.points, mesh.triangles), file, &soup.polygons);
     mesh.site_of_input = themselves(mesh.points.cols());
+    settle_edge_fields(mesh.triangles, soup.edges, file.fields, file.changes, file.ignored);
     file.mesh = std::move(mesh);
   } else if (!has_cells) {
     file.mesh = named(name, [&] { return spherical_delaunay(soup.points); });
@@ -293,7 +304,7 @@ MeshFile mesh_file_of(const std::string& name, const std::string& format, Soup s
   if (file.mesh)
     file.sphere_radius = radius_of(file.mesh->points);
   if (has_cells)
-    settle_polygons(name, std::move(soup.polygons), soup.corner_rounding, file);
+    settle_polygons(name, std::move(soup), file);
   return file;
 }
 
@@ -356,6 +367,7 @@ MeshFile periodic_mesh_file_of(const std::string& name, PlanarMesh mesh, Soup re
   mesh.neighbours = canonical(name, mesh.triangles, mesh.points.cols(),
                               orientations_of(mesh.points, mesh.triangles, mesh.period), file);
   mesh.site_of_input = themselves(mesh.points.cols());
+  settle_edge_fields(mesh.triangles, rest.edges, file.fields, file.changes, file.ignored);
   file.plane = std::move(mesh);
   return file;
 }

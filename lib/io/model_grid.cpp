@@ -139,48 +139,19 @@ void GridFile::commit() {
   file_.commit();
 }
 
-namespace {
-
 bool is_mask(const MeshField& field) {
-  return field.location == Location::cells &&
+  return field.location == Location::cells && field.count() == 1 &&
          (field.name == "grid_imask" || field.name == "elementMask");
 }
 
+namespace {
+
 bool is_area(const MeshField& field) {
-  return field.location == Location::cells &&
+  return field.location == Location::cells && field.count() == 1 &&
          (field.name == "grid_area" || field.name == "elementArea" || field.name == "cell_area");
 }
 
-bool are_areas_of(const Polygons& polygons, const Eigen::VectorXd& values) {
-  constexpr double rounding = 1e-6;
-  const Eigen::VectorXd areas = areas_of(polygons).cwiseAbs();
-  return areas.size() == values.size() &&
-         ((areas - values).array().abs() <= rounding * areas.array()).all();
-}
-
 } // namespace
-
-bool can_hold(const NetcdfMeshNames& names, const MeshField& field) {
-  const bool has_place = field.location == Location::cells || !names.vertices.empty();
-  return has_place && !names.variables.contains(field.name);
-}
-
-void add_fields(GridFile& file, const WriteOptions& options, const FieldPlaces& places,
-                const NetcdfMeshNames& names) {
-  for (const MeshField& field : options.fields) {
-    if (!can_hold(names, field) || is_mask(field))
-      continue;
-    NetcdfAttributes attributes = places.attributes;
-    if (!field.units.empty())
-      attributes.push_back({"units", field.units});
-    if (!field.long_name.empty())
-      attributes.push_back({"long_name", field.long_name});
-    if (!places.coordinates.empty())
-      attributes.push_back({"coordinates", places.coordinates});
-    file.doubles(field.name, {field.location == Location::cells ? places.cells : places.vertices},
-                 attributes, values_of(field.values));
-  }
-}
 
 NetcdfWriter::Fill<std::int32_t> mask_of(const WriteOptions& options) {
   const auto mask = std::find_if(options.fields.begin(), options.fields.end(), is_mask);

@@ -129,21 +129,8 @@ private:
   std::vector<Stage> stages_ = {{[] {}, {}}};
 };
 
-/// Where a file's fields go: dimensions, -1 where the format has none, and the names of the cells'
-/// coordinate variables for the attribute "coordinates", or "".
-struct FieldPlaces {
-  int cells = -1, vertices = -1;
-  std::string coordinates = {};
-  NetcdfAttributes attributes = {}; ///< of each field, besides
-};
-
-/// Announces the options' fields that can_hold().
-void add_fields(GridFile& file, const WriteOptions& options, const FieldPlaces& places,
-                const NetcdfMeshNames& names);
-
-/// Whether a file of a format with such names can hold a field: the location has a dimension, and
-/// no variable of the mesh has the name.
-bool can_hold(const NetcdfMeshNames& names, const MeshField& field);
+/// A mask of SCRIP or ESMF, of which each format has a variable of its own.
+bool is_mask(const MeshField& field);
 
 /// The mask among the options' fields, under the name that SCRIP or ESMF gives it; 1 without.
 NetcdfWriter::Fill<std::int32_t> mask_of(const WriteOptions& options);

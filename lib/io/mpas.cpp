@@ -131,7 +131,9 @@ const NetcdfMeshNames& mpas_names() {
                     "edgesOnVertex",  "cellsOnVertex",   "kiteAreasOnVertex",
                     "meshDensity",    "nominalMinDc",    "cellQuality",
                     "gridSpacing",    "triangleQuality", "triangleAngleQuality",
-                    "obtuseTriangle"}};
+                    "obtuseTriangle"},
+      .edges = "nEdges",
+      .lists = {"advCells", "advCellsForEdge"}};
   return names;
 }
 

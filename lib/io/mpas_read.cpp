@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/field_order.h"
 #include "io/formats.h"
 #include "io/mesh_intake.h"
 #include "io/mpas.h"
@@ -119,12 +120,8 @@ Polygons cells_of(const NetcdfReader& file, Points3 sites, Points3 vertices) {
 
 void select_vertices(std::vector<MeshField>& fields, const std::vector<std::int32_t>& vertices) {
   for (MeshField& field : fields)
-    if (field.location == Location::vertices) {
-      const Eigen::VectorXd all = field.values;
-      field.values.resize(std::ssize(vertices));
-      for (std::size_t k = 0; k < vertices.size(); ++k)
-        field.values[static_cast<Eigen::Index>(k)] = all[vertices[k]];
-    }
+    if (field.location == Location::vertices)
+      select_values(field, vertices);
 }
 
 double period_of(const NetcdfReader& file, const std::string& name) {
@@ -141,8 +138,24 @@ double wrapped(double x, double period) {
   return inside >= 0 && inside < period ? inside : 0;
 }
 
-void read_density_and_fields(const NetcdfReader& file, std::int64_t cells, Soup& soup) {
-  read_fields(file, mpas_names(), soup);
+bool has_edge_fields(const Soup& soup) {
+  return std::any_of(soup.fields.begin(), soup.fields.end(),
+                     [](const MeshField& field) { return field.location == Location::edges; });
+}
+
+/// The cells of the edges, which fields need that are at edges.
+void read_edges(const NetcdfReader& file, std::int64_t cells, Soup& soup) {
+  if (!has_edge_fields(soup) || !file.has_variable("cellsOnEdge"))
+    return;
+  const std::vector<std::int32_t> ids =
+      ids_of(file, "cellsOnEdge", {file.dimension("nEdges"), 2}, "edge", 2, "cell", cells);
+  soup.edges = Eigen::Map<const Pairs>(ids.data(), 2, std::ssize(ids) / 2);
+}
+
+void read_density_and_fields(const NetcdfReader& file, std::int64_t cells, FieldChoice choice,
+                             Soup& soup) {
+  read_fields(file, mpas_names(), choice, soup);
+  read_edges(file, cells, soup);
   if (file.has_variable("meshDensity") &&
       file.shape_of("meshDensity") == std::vector<std::int64_t>{cells})
     soup.density = values_with_fill(file, "meshDensity");
@@ -154,7 +167,7 @@ bool has_cells(const NetcdfReader& file) {
 }
 
 /// A plane with a boundary. Its triangles do not cover the hull; its vertices are no triangles.
-MeshFile read_bounded_plane(const NetcdfReader& file) {
+MeshFile read_bounded_plane(const NetcdfReader& file, FieldChoice choice) {
   if (!has_cells(file))
     file.fail("a plane without periods, but no cells (nEdgesOnCell, verticesOnCell and xVertex); "
               "make the file again");
@@ -163,7 +176,7 @@ MeshFile read_bounded_plane(const NetcdfReader& file) {
   if (!vertices.allFinite())
     file.fail("a coordinate of the vertices is NaN or infinite; make the file again");
   vertices.row(2).setZero();
-  read_density_and_fields(file, soup.points.cols(), soup);
+  read_density_and_fields(file, soup.points.cols(), choice, soup);
   soup.polygons = cells_of(file, soup.points, std::move(vertices));
   soup.polygons.on_sphere = false;
   return planar_mesh_file_of(file.path(), "MPAS", std::move(soup));
@@ -186,12 +199,12 @@ Points3 read_mpas_sites(const NetcdfReader& file) {
   return places_of(file, "Cell");
 }
 
-Soup read_mpas(const NetcdfReader& file) {
+Soup read_mpas(const NetcdfReader& file, FieldChoice choice) {
   Soup soup{.points = read_mpas_sites(file)};
   require_directions(file.path(), soup.points);
   const std::int64_t cells = soup.points.cols();
   CompleteVertices complete = complete_vertices(file, cells);
-  read_density_and_fields(file, cells, soup);
+  read_density_and_fields(file, cells, choice, soup);
   if (has_cells(file)) {
     const Points3 vertices = places_of(file, "Vertex");
     require_directions(file.path() + ": of the vertices", vertices);
@@ -204,12 +217,12 @@ Soup read_mpas(const NetcdfReader& file) {
   return soup;
 }
 
-MeshFile read_planar_mpas(const NetcdfReader& file) {
+MeshFile read_planar_mpas(const NetcdfReader& file, FieldChoice choice) {
   if (!is_planar_mpas(file))
     throw Error(ErrorCode::bad_option, file.path() + " holds a mesh of the sphere, not of the "
                                                      "plane; read it with read_mesh");
   if (file.text("", "is_periodic").starts_with("NO"))
-    return read_bounded_plane(file);
+    return read_bounded_plane(file, choice);
   PlanarMesh mesh;
   mesh.period = {period_of(file, "x_period"), period_of(file, "y_period")};
   const Points3 places = places_of(file, "Cell");
@@ -224,7 +237,7 @@ MeshFile read_planar_mpas(const NetcdfReader& file) {
     file.fail("a vertex of the periodic plane has fewer than three cells; make the file again");
   mesh.triangles = std::move(complete.triangles);
   Soup rest;
-  read_density_and_fields(file, mesh.points.cols(), rest);
+  read_density_and_fields(file, mesh.points.cols(), choice, rest);
   return periodic_mesh_file_of(file.path(), std::move(mesh), std::move(rest));
 }
 

@@ -3,6 +3,7 @@
 #include "io/formats.h"
 #include "io/mpas.h"
 #include "io/triangle_quality.h"
+#include "io/written_fields.h"
 
 #include "base/spherical_angles.h"
 #include "voronoi/geometry.h"
@@ -304,7 +305,10 @@ void write_full(const std::string& path, const MpasMesh& mesh, const WriteOption
   put_weights(file, dimensions, voronoi);
   put_fields(file, dimensions, mesh);
   put_triangle_quality(file, dimensions, voronoi);
-  add_fields(file, options, {dimensions.cells, dimensions.vertices}, mpas_names());
+  add_fields(
+      file, options,
+      {.cells = {dimensions.cells}, .edges = {dimensions.edges}, .vertices = {dimensions.vertices}},
+      mpas_names());
   file.commit();
   graph.commit();
 }
@@ -330,7 +334,7 @@ void write_minimal(const std::string& path, const MpasMesh& mesh, const WriteOpt
   file.doubles("meshDensity", {cells},
                described("1", "density that the mesh was made for, over its maximum"),
                scaled(mesh.fields.density, 1));
-  add_fields(file, options, {cells, vertices}, mpas_names());
+  add_fields(file, options, {.cells = {cells}, .vertices = {vertices}}, mpas_names());
   file.commit();
 }
 

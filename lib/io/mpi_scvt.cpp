@@ -10,8 +10,10 @@
 #include <calotte/density.h>
 #include <calotte/error.h>
 
+#include <cmath>
 #include <filesystem>
 #include <utility>
+#include <vector>
 
 // Files of MPI-SCVT (Jacobsen et al., Geosci. Model Dev. 6, 2013): SaveVertices has a generator
 // x y z a line, SaveTriangles three generators a line, counted from 0 and in no order of turning,
@@ -69,6 +71,29 @@ Triangles triangles_of(const std::string& path, const Points3& points) {
   return {};
 }
 
+/// The density of the file beside the points, where it has a finite number for each that is not
+/// negative; otherwise the file is ignored.
+void read_density(const std::string& path, Soup& soup) {
+  const std::string file = beside(path, density_name);
+  if (std::error_code error; !std::filesystem::is_regular_file(file, error))
+    return;
+  std::ifstream in = open_input(file);
+  LineReader lines(in, file);
+  std::vector<double> values;
+  std::string_view line;
+  bool valid = true;
+  while (valid && lines.next_content(line)) {
+    double value = 0;
+    valid =
+        parse_columns(line, 1, &value).outcome == Outcome::ok && value >= 0 && std::isfinite(value);
+    values.push_back(value);
+  }
+  if (valid && std::ssize(values) == soup.points.cols())
+    soup.density = Eigen::Map<const Eigen::VectorXd>(values.data(), std::ssize(values));
+  else
+    soup.ignored.push_back(std::string(density_name));
+}
+
 } // namespace
 
 void write_mpi_scvt(const std::string& path, const Mesh& mesh, const WriteOptions& options) {
@@ -95,6 +120,7 @@ void write_mpi_scvt(const std::string& path, const Mesh& mesh, const WriteOption
 Soup read_mpi_scvt(const std::string& path) {
   Soup soup{read_points(path), {}};
   soup.triangles = triangles_of(path, soup.points);
+  read_density(path, soup);
   return soup;
 }
 

@@ -2,27 +2,103 @@
 #include "io/netcdf_fields.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 namespace calotte::io_detail {
 namespace {
 
-/// The location of a variable whose only dimension not of size 1 is that of a location; nothing
-/// for any other, and for text.
-std::optional<Location> location_of(const NetcdfReader& file, const NetcdfMeshNames& names,
-                                    const std::string& variable) {
-  const std::vector<std::string> dimensions = file.dimensions_of(variable);
-  if (dimensions.empty() || !file.is_numeric(variable))
-    return std::nullopt;
-  for (const std::string& other : dimensions)
-    if (&other != &dimensions.back() && file.dimension(other) != 1)
-      return std::nullopt;
-  if (dimensions.back() == names.cells)
+/// All dimensions of the variables that describe the mesh.
+std::set<std::string> mesh_dimensions(const NetcdfReader& file, const NetcdfMeshNames& names) {
+  std::set<std::string> dimensions{names.cells, names.edges, names.vertices};
+  for (const std::string& name : names.variables)
+    if (file.has_variable(name))
+      for (std::string& dimension : file.dimensions_of(name))
+        dimensions.insert(std::move(dimension));
+  return dimensions;
+}
+
+std::optional<Location> location_of(const NetcdfMeshNames& names, const std::string& dimension) {
+  if (dimension == names.cells)
     return Location::cells;
-  if (!names.vertices.empty() && dimensions.back() == names.vertices)
+  if (!names.edges.empty() && dimension == names.edges)
+    return Location::edges;
+  if (!names.vertices.empty() && dimension == names.vertices)
     return Location::vertices;
   return std::nullopt;
+}
+
+/// A field without values, or nothing for a variable that is none.
+std::optional<MeshField> field_of(const NetcdfReader& file, const NetcdfMeshNames& names,
+                                  const std::set<std::string>& of_mesh, const std::string& name) {
+  if (!file.is_numeric(name) || names.lists.contains(name))
+    return std::nullopt;
+  MeshField field{.name = name};
+  bool located = false;
+  for (const std::string& dimension : file.dimensions_of(name)) {
+    const std::optional<Location> location = location_of(names, dimension);
+    const std::int64_t size = file.dimension(dimension);
+    if (location && !located) {
+      field.location = *location;
+      field.leading = static_cast<int>(field.dimensions.size());
+      located = true;
+    } else if (of_mesh.contains(dimension) || size < 1) {
+      return std::nullopt;
+    } else {
+      field.dimensions.push_back({dimension, size});
+    }
+  }
+  return located ? std::optional(std::move(field)) : std::nullopt;
+}
+
+/// From the order of a file, in which leading dimensions come before the location's.
+Eigen::VectorXd by_place(const MeshField& field, Eigen::VectorXd values) {
+  std::int64_t before = 1;
+  for (int d = 0; d < field.leading; ++d)
+    before *= field.dimensions[static_cast<std::size_t>(d)].size;
+  const std::int64_t after = field.count() / before, places = values.size() / field.count();
+  if (before == 1)
+    return values;
+  Eigen::VectorXd out(values.size());
+  for (std::int64_t b = 0; b < before; ++b)
+    for (std::int64_t i = 0; i < places; ++i)
+      out.segment((i * before + b) * after, after) =
+          values.segment((b * places + i) * after, after);
+  return out;
+}
+
+/// Whether all are numbers that NetCDF's int can hold, besides its own _FillValue.
+bool fit_int(const Eigen::VectorXd& values) {
+  using Limits = std::numeric_limits<std::int32_t>;
+  return std::all_of(values.begin(), values.end(), [](double value) {
+    return std::isnan(value) || (value >= Limits::min() + 2.0 && value <= Limits::max());
+  });
+}
+
+/// Whether a variable at edges is said to be a component along them.
+bool is_directed(const NetcdfReader& file, const std::string& name) {
+  constexpr std::array<std::string_view, 3> velocities{"u", "v", "ru"}; // of MPAS-Atmosphere
+  if (std::find(velocities.begin(), velocities.end(), name) != velocities.end())
+    return true;
+  std::string words =
+      name + " " + file.text(name, "long_name") + " " + file.text(name, "standard_name");
+  std::transform(words.begin(), words.end(), words.begin(), [](char c) {
+    return 'A' <= c && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  });
+  return words.find("normal") != std::string::npos || words.find("tangent") != std::string::npos;
+}
+
+void read_values(const NetcdfReader& file, MeshField& field) {
+  field.long_name = file.text(field.name, "long_name");
+  field.units = file.text(field.name, "units");
+  field.values = by_place(field, values_with_fill(file, field.name));
+  const bool packed = file.number(field.name, "scale_factor", 1) != 1 ||
+                      file.number(field.name, "add_offset", 0) != 0;
+  field.integer = file.is_integer(field.name) && !packed && fit_int(field.values);
+  field.directed = field.location == Location::edges && is_directed(file, field.name);
 }
 
 } // namespace
@@ -30,22 +106,30 @@ std::optional<Location> location_of(const NetcdfReader& file, const NetcdfMeshNa
 Eigen::VectorXd values_with_fill(const NetcdfReader& file, const std::string& name) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const std::vector<double> read = file.doubles(name, file.shape_of(name));
-  const double fill = file.number(name, "_FillValue", none);
+  const double fill = file.number(name, "_FillValue", none),
+               factor = file.number(name, "scale_factor", 1),
+               offset = file.number(name, "add_offset", 0);
   const Eigen::Map<const Eigen::VectorXd> values(read.data(), std::ssize(read));
-  return (values.array() == fill).select(none, values);
+  if (factor == 1 && offset == 0)
+    return (values.array() == fill).select(none, values);
+  return (values.array() == fill).select(none, offset + factor * values.array());
 }
 
-void read_fields(const NetcdfReader& file, const NetcdfMeshNames& names, Soup& soup) {
+void read_fields(const NetcdfReader& file, const NetcdfMeshNames& names, FieldChoice choice,
+                 Soup& soup) {
+  if (choice == FieldChoice::none)
+    return;
+  const std::set<std::string> of_mesh = mesh_dimensions(file, names);
   for (const std::string& name : file.variables()) {
     if (names.variables.contains(name))
       continue;
-    const std::optional<Location> location = location_of(file, names, name);
-    if (!location) {
+    std::optional<MeshField> field = field_of(file, names, of_mesh, name);
+    if (!field || (choice == FieldChoice::scalars && field->count() > 1)) {
       soup.ignored.push_back(name);
       continue;
     }
-    soup.fields.push_back({name, file.text(name, "long_name"), file.text(name, "units"), *location,
-                           values_with_fill(file, name)});
+    read_values(file, *field);
+    soup.fields.push_back(*std::move(field));
   }
 }
 

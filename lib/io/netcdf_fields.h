@@ -14,13 +14,22 @@ namespace calotte::io_detail {
 struct NetcdfMeshNames {
   std::string cells, vertices;     ///< dimensions; empty for none
   std::set<std::string> variables; ///< that are not fields
+  std::string edges = {};          ///< a dimension; empty for none
+  /// Variables that refer to cells by number, which other formats number otherwise: neither read
+  /// nor written.
+  std::set<std::string> lists = {};
+  std::set<std::string> derived = {}; ///< that writers make themselves; they may be read as fields
 };
 
-/// Reads all variables with one number for each cell or vertex into the soup's fields, and lists
-/// all others that do not describe the mesh as ignored. \throws Error parse, file.
-void read_fields(const NetcdfReader& file, const NetcdfMeshNames& names, Soup& soup);
+/// Reads the variables with numbers for each cell, edge or vertex into the soup's fields, and lists
+/// all others that do not describe the mesh as ignored. A dimension of the mesh's own variables,
+/// such as the edges of a cell, whose order another file would not keep, makes no field.
+/// \throws Error parse, file.
+void read_fields(const NetcdfReader& file, const NetcdfMeshNames& names, FieldChoice choice,
+                 Soup& soup);
 
-/// The values of a variable, NaN where it has its _FillValue. \throws Error parse, file.
+/// The values of a variable, NaN where it has its _FillValue, unpacked by its scale_factor and
+/// add_offset. \throws Error parse, file.
 Eigen::VectorXd values_with_fill(const NetcdfReader& file, const std::string& name);
 
 } // namespace calotte::io_detail

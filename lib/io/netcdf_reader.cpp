@@ -194,6 +194,11 @@ bool NetcdfReader::is_numeric(const std::string& variable) const {
   return type != NC_CHAR && type != NC_STRING && type >= NC_BYTE && type <= NC_UINT64;
 }
 
+bool NetcdfReader::is_integer(const std::string& variable) const {
+  const int type = type_of(variable);
+  return is_numeric(variable) && type != NC_FLOAT && type != NC_DOUBLE;
+}
+
 bool NetcdfReader::is_float(const std::string& variable) const {
   return type_of(variable) == NC_FLOAT;
 }

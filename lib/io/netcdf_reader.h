@@ -27,6 +27,8 @@ public:
   std::int64_t dimension(const std::string& name) const;
   /// Whether a variable holds numbers; characters and strings are none. \pre it exists.
   bool is_numeric(const std::string& variable) const;
+  /// Whether a variable holds integers of any size. \pre it exists.
+  bool is_integer(const std::string& variable) const;
   /// Whether a variable's numbers have fewer digits than doubles: NC_FLOAT. \pre it exists.
   bool is_float(const std::string& variable) const;
   /// A text attribute of a variable, or with "" of the file; "" where there is none.

@@ -129,6 +129,7 @@ struct NetcdfWriter::State {
   struct Dimension {
     std::string name;
     std::int64_t size;
+    bool of_fields = false;
   };
   struct Variable {
     std::string name;
@@ -257,8 +258,24 @@ NetcdfWriter::NetcdfWriter(const std::string& path, ProgressCallback progress) {
 NetcdfWriter::~NetcdfWriter() = default;
 
 int NetcdfWriter::dimension(const std::string& name, std::int64_t size) {
-  state_->dimensions.push_back({name, size});
+  state_->dimensions.push_back({.name = name, .size = size});
   return static_cast<int>(state_->dimensions.size()) - 1;
+}
+
+int NetcdfWriter::field_dimension(const std::string& name, std::int64_t size) {
+  std::vector<State::Dimension>& all = state_->dimensions;
+  for (std::string free = name;; free.append(1, '_').append(std::to_string(size))) {
+    const auto known = std::find_if(all.begin(), all.end(),
+                                    [&](const State::Dimension& d) { return d.name == free; });
+    if (known == all.end()) {
+      all.push_back({.name = free, .size = size, .of_fields = true});
+      return static_cast<int>(all.size()) - 1;
+    }
+    if (known->size == 0)
+      *known = {.name = free, .size = size, .of_fields = true};
+    if (known->of_fields && known->size == size)
+      return static_cast<int>(known - all.begin());
+  }
 }
 
 int NetcdfWriter::variable(const std::string& name, NetcdfType type,

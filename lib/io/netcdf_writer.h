@@ -37,6 +37,9 @@ public:
 
   /// \returns its id. A size of 0 makes it unlimited; no variable may have it.
   int dimension(const std::string& name, std::int64_t size);
+  /// A dimension of that name and size which fields share. One that is unlimited gets the size; the
+  /// name grows if the file has another dimension of that name. \returns its id.
+  int field_dimension(const std::string& name, std::int64_t size);
   /// \param dimensions ids, the slowest first; none for a scalar. \returns its id.
   int variable(const std::string& name, NetcdfType type, const std::vector<int>& dimensions,
                const NetcdfAttributes& attributes = {});

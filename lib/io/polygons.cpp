@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
 #include <numbers>
 #include <tuple>
 #include <utility>
@@ -43,25 +45,38 @@ double signed_area(const Polygons& polygons, std::int64_t polygon) {
 
 std::string name_of(std::int64_t polygon) { return "cell " + std::to_string(polygon); }
 
-/// A side of a polygon, in its direction.
+/// A side of a polygon from a corner, in its direction.
 struct Side {
-  std::int32_t from, to;
+  std::int32_t to;
   std::int32_t polygon;
 
   bool operator<(const Side& other) const {
-    return std::tie(from, to, polygon) < std::tie(other.from, other.to, other.polygon);
+    return std::tie(to, polygon) < std::tie(other.to, other.polygon);
   }
 };
 
-std::vector<Side> sides_of(const Polygons& polygons) {
+/// All sides by their first corner: those from corner c are begin[c] to begin[c + 1] - 1.
+struct Sides {
+  std::vector<std::int64_t> begin;
   std::vector<Side> sides;
-  sides.reserve(static_cast<std::size_t>(polygons.ids.size()));
-  for (std::int32_t i = 0; i < polygons.size(); ++i)
-    for (std::int64_t k = polygons.begin[i]; k < polygons.begin[i + 1]; ++k) {
+};
+
+Sides sides_of(const Polygons& polygons) {
+  const auto corners = static_cast<std::size_t>(polygons.corners.cols());
+  Sides out{std::vector<std::int64_t>(corners + 1),
+            std::vector<Side>(static_cast<std::size_t>(polygons.ids.size()))};
+  for (const std::int32_t id : polygons.ids)
+    ++out.begin[static_cast<std::size_t>(id)];
+  std::int64_t end = 0;
+  for (std::int64_t& count : out.begin) // the end of each corner's, which filling turns into begins
+    count = end += count;
+  for (auto i = static_cast<std::int32_t>(polygons.size()); i-- > 0;)
+    for (std::int64_t k = polygons.begin[i + 1]; k-- > polygons.begin[i];) {
       const std::int64_t next = k + 1 < polygons.begin[i + 1] ? k + 1 : polygons.begin[i];
-      sides.push_back({polygons.ids[k], polygons.ids[next], i});
+      const std::int64_t place = --out.begin[static_cast<std::size_t>(polygons.ids[k])];
+      out.sides[static_cast<std::size_t>(place)] = {polygons.ids[next], i};
     }
-  return sides;
+  return out;
 }
 
 /// The square of the distance from a point to the nearest of some columns.
@@ -133,17 +148,29 @@ std::vector<std::int64_t> sorted_columns(const Points3& columns) {
   return order;
 }
 
+/// In the order in which they first come, so that neighbours are near each other in memory.
 Distinct distinct_columns(const Points3& columns) {
   const std::vector<std::int64_t> order = sorted_columns(columns);
-  Distinct distinct{Points3(3, std::ssize(order)),
-                    std::vector<std::int32_t>(static_cast<std::size_t>(columns.cols()), -1)};
-  std::int32_t count = 0;
+  const auto count = static_cast<std::size_t>(columns.cols());
+  std::vector<std::int32_t> group(count, -1);
+  std::int32_t groups = 0;
   for (std::size_t k = 0; k < order.size(); ++k) {
-    if (k == 0 || !equal(column(columns, order[k]), column(columns, order[k - 1])))
-      distinct.points.col(count++) = columns.col(order[k]);
-    distinct.id[static_cast<std::size_t>(order[k])] = count - 1;
+    groups += k == 0 || !equal(column(columns, order[k]), column(columns, order[k - 1]));
+    group[static_cast<std::size_t>(order[k])] = groups - 1;
   }
-  distinct.points.conservativeResize(Eigen::NoChange, count);
+  Distinct distinct{Points3(3, groups), std::vector<std::int32_t>(count, -1)};
+  std::vector<std::int32_t> id(static_cast<std::size_t>(groups), -1);
+  std::int32_t next = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (group[i] < 0)
+      continue;
+    std::int32_t& known = id[static_cast<std::size_t>(group[i])];
+    if (known < 0) {
+      known = next++;
+      distinct.points.col(known) = columns.col(static_cast<Eigen::Index>(i));
+    }
+    distinct.id[i] = known;
+  }
   return distinct;
 }
 
@@ -185,13 +212,13 @@ Eigen::VectorXd areas_of(const Polygons& polygons) {
   return areas;
 }
 
-std::int64_t turn_counter_clockwise(Polygons& polygons, const std::string& name) {
+std::int64_t turn_counter_clockwise(Polygons& polygons, const std::string& name, bool each) {
   const Eigen::VectorXd areas = areas_of(polygons);
   const std::int64_t clockwise = (areas.array() < 0).count(),
                      counter_clockwise = (areas.array() > 0).count();
   if (clockwise == 0)
     return 0;
-  if (counter_clockwise > 0) {
+  if (counter_clockwise > 0 && !each) {
     const bool rarer_is_clockwise = clockwise <= counter_clockwise;
     const auto first = std::find_if(areas.begin(), areas.end(), [&](double area) {
       return rarer_is_clockwise ? area < 0 : area > 0;
@@ -206,21 +233,34 @@ std::int64_t turn_counter_clockwise(Polygons& polygons, const std::string& name)
                 cell);
   }
   for (std::int64_t i = 0; i < polygons.size(); ++i)
-    std::reverse(polygons.ids.begin() + polygons.begin[i],
-                 polygons.ids.begin() + polygons.begin[i + 1]);
+    if (areas[i] < 0 || counter_clockwise == 0)
+      std::reverse(polygons.ids.begin() + polygons.begin[i],
+                   polygons.ids.begin() + polygons.begin[i + 1]);
   return clockwise;
 }
 
+bool are_areas_of(const Polygons& polygons, const Eigen::VectorXd& values) {
+  constexpr double rounding = 1e-6;
+  const Eigen::VectorXd areas = areas_of(polygons).cwiseAbs();
+  return areas.size() == values.size() &&
+         ((areas - values).array().abs() <= rounding * areas.array()).all();
+}
+
 void require_no_overlap(const Polygons& polygons, const std::string& name) {
-  std::vector<Side> sides = sides_of(polygons);
-  std::sort(sides.begin(), sides.end());
-  for (std::size_t k = 1; k < sides.size(); ++k)
-    if (sides[k].from == sides[k - 1].from && sides[k].to == sides[k - 1].to)
+  Sides all = sides_of(polygons);
+  for (std::size_t corner = 0; corner + 1 < all.begin.size(); ++corner) {
+    const auto first = all.sides.begin() + all.begin[corner],
+               last = all.sides.begin() + all.begin[corner + 1];
+    std::sort(first, last);
+    const auto twice = std::adjacent_find(
+        first, last, [](const Side& one, const Side& other) { return one.to == other.to; });
+    if (twice != last)
       throw Error(ErrorCode::parse,
-                  name + ": " + name_of(sides[k - 1].polygon) + " and " +
-                      name_of(sides[k].polygon) +
+                  name + ": " + name_of(twice->polygon) + " and " +
+                      name_of(std::next(twice)->polygon) +
                       " overlap, as both lie to the left of one side; make the file again",
-                  sides[k - 1].polygon);
+                  twice->polygon);
+  }
   if (!polygons.on_sphere)
     return;
   constexpr double whole = 4 * std::numbers::pi, rounding = 1e-6;

@@ -25,9 +25,13 @@ Polygons polygons_of(const Points3& corners, std::int64_t most, Points3 centres)
 /// polygons. \pre on the sphere each is smaller than a hemisphere.
 Eigen::VectorXd areas_of(const Polygons& polygons);
 
-/// Turns polygons that all run clockwise. \returns how many were turned.
+/// Turns polygons that run clockwise. \returns how many were turned.
+/// \param each they may be of either orientation.
 /// \throws Error parse, where both orientations occur; names the first polygon of the rarer one.
-std::int64_t turn_counter_clockwise(Polygons& polygons, const std::string& name);
+std::int64_t turn_counter_clockwise(Polygons& polygons, const std::string& name, bool each);
+
+/// Whether values are the areas of polygons but for rounding.
+bool are_areas_of(const Polygons& polygons, const Eigen::VectorXd& values);
 
 /// \throws Error parse, where two polygons run through one side in the same direction, or all
 /// together are larger than the sphere. \pre counter-clockwise.

@@ -46,21 +46,21 @@ MeshFile mesh_file_of_any(const std::string& path, const std::string& format, So
                                     : mesh_file_of(path, format, std::move(soup));
 }
 
-MeshFile read_netcdf(const std::string& path) {
+MeshFile read_netcdf(const std::string& path, FieldChoice choice) {
   const NetcdfReader file(path);
   if (is_mpas(file))
-    return is_planar_mpas(file) ? read_planar_mpas(file)
-                                : mesh_file_of(path, "MPAS", read_mpas(file));
+    return is_planar_mpas(file) ? read_planar_mpas(file, choice)
+                                : mesh_file_of(path, "MPAS", read_mpas(file, choice));
   if (is_ugrid(file))
-    return mesh_file_of_any(path, "UGRID", read_ugrid(file));
+    return mesh_file_of_any(path, "UGRID", read_ugrid(file, choice));
   if (is_scrip(file))
-    return mesh_file_of(path, "SCRIP", read_scrip(file));
+    return mesh_file_of(path, "SCRIP", read_scrip(file, choice));
   if (is_esmf(file))
-    return mesh_file_of(path, "ESMF", read_esmf(file));
+    return mesh_file_of(path, "ESMF", read_esmf(file, choice));
   if (is_exodus(file))
-    return mesh_file_of(path, "Exodus", read_exodus(file));
+    return mesh_file_of(path, "Exodus", read_exodus(file, choice));
   if (is_icon(file))
-    return mesh_file_of(path, "ICON", read_icon(file));
+    return mesh_file_of(path, "ICON", read_icon(file, choice));
   refuse_netcdf(file);
 }
 
@@ -118,11 +118,11 @@ std::string name_of(Format format) {
   }
 }
 
-MeshFile read_any(const std::string& path) {
+MeshFile read_any(const std::string& path, FieldChoice choice) {
   if (std::optional<Soup> centres = read_centres(path))
     return mesh_file_of(path, name_of(Format::mpi_scvt), *std::move(centres));
   if (holds_netcdf(path))
-    return read_netcdf(path);
+    return read_netcdf(path, choice);
   const std::optional<Format> format = format_of_name(path);
   if (*format == Format::triangles)
     refuse_triangles_alone(path);
@@ -160,15 +160,15 @@ Points3 sites_of(const std::string& path) {
   if (is_mpas(file))
     return read_mpas_sites(file);
   if (is_ugrid(file))
-    return read_ugrid(file).points;
+    return read_ugrid(file, FieldChoice::none).points;
   if (is_scrip(file))
-    return read_scrip(file).points;
+    return read_scrip(file, FieldChoice::none).points;
   if (is_esmf(file))
-    return read_esmf(file).points;
+    return read_esmf(file, FieldChoice::none).points;
   if (is_exodus(file))
-    return read_exodus(file).points;
+    return read_exodus(file, FieldChoice::none).points;
   if (is_icon(file))
-    return read_icon(file).points;
+    return read_icon(file, FieldChoice::none).points;
   refuse_netcdf(file);
 }
 
@@ -184,15 +184,15 @@ bool is_netcdf_file(const std::string& path) {
   return bytes.starts_with("CDF") || bytes == "\x89HDF";
 }
 
-MeshFile read_mesh_file(const std::string& path, const Points3* points) {
+MeshFile read_mesh_file(const std::string& path, const Points3* points, FieldChoice choice) {
   if (!points || format_of_name(path) != Format::triangles)
-    return read_any(path);
+    return read_any(path, choice);
   std::ifstream in = open_input(path);
   return mesh_file_of_columns(path, *points, get_triangles_text(in, path, points->cols()));
 }
 
 Mesh read_mesh(const std::string& path, const Points3* points) {
-  MeshFile file = read_mesh_file(path, points);
+  MeshFile file = read_mesh_file(path, points, FieldChoice::none);
   if (file.plane)
     throw Error(
         ErrorCode::bad_option,
@@ -220,10 +220,11 @@ PlanarMesh read_planar_mesh(const std::string& path, const Points2* points) {
   if (holds_netcdf(path)) {
     const NetcdfReader file(path);
     if (is_ugrid(file))
-      return std::move(*planar_mesh_file_of(path, "UGRID", read_ugrid(file)).plane);
+      return std::move(
+          *planar_mesh_file_of(path, "UGRID", read_ugrid(file, FieldChoice::none)).plane);
     if (!is_mpas(file))
       file.fail("not a mesh of MPAS or UGRID, the NetCDF formats of planar meshes");
-    return std::move(*read_planar_mpas(file).plane);
+    return std::move(*read_planar_mpas(file, FieldChoice::none).plane);
   }
   const Format format = *format_of_name(path);
   if (format != Format::vtk)

@@ -4,6 +4,7 @@
 #include "io/model_grid.h"
 #include "io/netcdf_fields.h"
 #include "io/polygons.h"
+#include "io/written_fields.h"
 
 // The grid file of SCRIP, a package for conservative remapping (Jones, Mon. Weather Rev. 127,
 // 1999), which CDO, ESMF, NCO and TempestRemap read, too: each cell has copies of its corners.
@@ -32,12 +33,17 @@ NetcdfWriter::Fill<double> corner_angles(const Polygons& cells, double LonLat::*
   });
 }
 
-const NetcdfMeshNames scrip_names{.cells = "grid_size",
-                                  .vertices = "",
-                                  .variables = {"grid_dims", "grid_center_lat", "grid_center_lon",
-                                                "grid_corner_lat", "grid_corner_lon"}};
-
 } // namespace
+
+const NetcdfMeshNames& scrip_names() {
+  static const NetcdfMeshNames names{.cells = "grid_size",
+                                     .vertices = "",
+                                     .variables = {"grid_dims", "grid_center_lat",
+                                                   "grid_center_lon", "grid_corner_lat",
+                                                   "grid_corner_lon"},
+                                     .derived = {"grid_area", "grid_imask"}};
+  return names;
+}
 
 void write_scrip(const std::string& path, const CellGrid& grid, const WriteOptions& options) {
   const Polygons& cells = grid.polygons;
@@ -66,7 +72,7 @@ void write_scrip(const std::string& path, const CellGrid& grid, const WriteOptio
                corner_angles(cells, &LonLat::latitude));
   file.doubles("grid_corner_lon", {size, corners}, angle("longitude", corner),
                corner_angles(cells, &LonLat::longitude));
-  add_fields(file, options, {size, -1, coordinates}, scrip_names);
+  add_fields(file, options, {.cells = {size, {{"coordinates", coordinates}}}}, scrip_names());
   // Last: CDO takes the first variable of data for the grid that it is asked about.
   file.ints("grid_dims", {rank}, {{"units", unit}, {"long_name", std::string("number of cells")}},
             constant(cells.size()));
@@ -84,13 +90,13 @@ Polygons read_scrip_cells(const NetcdfReader& file, const Points3& centres) {
   return polygons_of(corners, most, centres);
 }
 
-Soup read_scrip(const NetcdfReader& file) {
+Soup read_scrip(const NetcdfReader& file, FieldChoice choice) {
   Soup soup{.points = read_lonlats(file, "grid_center_lon", "grid_center_lat")};
   if (file.has_variable("grid_corner_lon")) {
     soup.polygons = read_scrip_cells(file, soup.points);
     soup.corner_rounding = file.is_float("grid_corner_lon") ? float_rounding : 0;
   }
-  read_fields(file, scrip_names, soup);
+  read_fields(file, scrip_names(), choice, soup);
   drop_derived_fields(soup);
   return soup;
 }

@@ -247,7 +247,7 @@ Polygons read_ugrid_faces(const NetcdfReader& file, const Topology& topology) {
   return faces_of(faces, std::move(nodes), std::move(centres), topology.planar);
 }
 
-Soup read_ugrid(const NetcdfReader& file) {
+Soup read_ugrid(const NetcdfReader& file, FieldChoice choice) {
   const Topology topology = topology_of(file);
   const std::vector<std::int64_t> nodes = file.shape_of(topology.nodes[0]);
   if (nodes.size() != 1)
@@ -276,7 +276,7 @@ Soup read_ugrid(const NetcdfReader& file) {
         faces_of(faces, read_pairs(file, topology, topology.nodes), soup.points, topology.planar);
     soup.corner_rounding = file.is_float(topology.nodes[0]) ? float_rounding : 0;
   }
-  read_fields(file, names_of(file, topology, sites_are_nodes), soup);
+  read_fields(file, names_of(file, topology, sites_are_nodes), choice, soup);
   drop_derived_fields(soup);
   return soup;
 }

@@ -2,6 +2,7 @@
 #include "io/formats.h"
 #include "io/model_grid.h"
 #include "io/ugrid.h"
+#include "io/written_fields.h"
 
 namespace calotte::io_detail {
 namespace {
@@ -98,7 +99,29 @@ void add_face_nodes(GridFile& file, int faces, std::int64_t most, const Node& no
 
 constexpr const char* conventions = "CF-1.8 UGRID-1.0";
 
-/// What is not a field: the names that files of ours have.
+/// Attributes of a variable of data at faces or nodes. \param coordinates the names of those of
+/// their places; empty for none.
+NetcdfAttributes located(const std::string& location, const std::string& coordinates) {
+  NetcdfAttributes attributes{{"mesh", mesh_name}, {"location", location}};
+  if (!coordinates.empty())
+    attributes.push_back({"coordinates", coordinates});
+  return attributes;
+}
+
+/// A variable of data at the faces: without one, CDO sees no unstructured grid.
+void add_areas(GridFile& file, int faces, const Eigen::VectorXd& areas, bool face_places,
+               bool on_sphere) {
+  NetcdfAttributes attributes =
+      located("face", face_places ? coordinates_of(face_name, on_sphere) : "");
+  attributes.push_back({"units", std::string(on_sphere ? "radians^2" : "m2")});
+  attributes.push_back(
+      long_name(on_sphere ? "area of the face on the unit sphere" : "area of the face"));
+  attributes.push_back({"standard_name", std::string("cell_area")});
+  file.doubles("cell_area", {faces}, attributes, values_of(areas));
+}
+
+} // namespace
+
 NetcdfMeshNames ugrid_names(bool of_cells) {
   NetcdfMeshNames names{of_cells ? face_name : node_name,
                         of_cells ? node_name : face_name,
@@ -109,26 +132,6 @@ NetcdfMeshNames ugrid_names(bool of_cells) {
   return names;
 }
 
-/// Attributes of a variable of data at faces or nodes.
-NetcdfAttributes located(const std::string& location) {
-  return {{"mesh", mesh_name}, {"location", location}};
-}
-
-/// A variable of data at the faces: without one, CDO sees no unstructured grid.
-void add_areas(GridFile& file, int faces, const Eigen::VectorXd& areas, bool face_places,
-               bool on_sphere) {
-  NetcdfAttributes attributes = located("face");
-  attributes.push_back({"units", std::string(on_sphere ? "radians^2" : "m2")});
-  attributes.push_back(
-      long_name(on_sphere ? "area of the face on the unit sphere" : "area of the face"));
-  attributes.push_back({"standard_name", std::string("cell_area")});
-  if (face_places)
-    attributes.push_back({"coordinates", coordinates_of(face_name, on_sphere)});
-  file.doubles("cell_area", {faces}, attributes, values_of(areas));
-}
-
-} // namespace
-
 void write_ugrid(const std::string& path, const CellGrid& grid, const WriteOptions& options) {
   const Polygons& cells = grid.polygons;
   const bool on_sphere = cells.on_sphere;
@@ -138,6 +141,8 @@ void write_ugrid(const std::string& path, const CellGrid& grid, const WriteOptio
   GridFile file(path, on_sphere ? options : of_plane(options), conventions);
   const int nodes = file.netcdf().dimension(node_name, cells.corners.cols());
   const int faces = file.netcdf().dimension(face_name, cells.size());
+  add_areas(file, faces, grid.area, has_centres,
+            on_sphere); // first: CDO takes its grid for the file's
   add_topology(file, has_sites ? "Voronoi cells of the sites" : "cells", has_sites ? face_name : "",
                has_centres, on_sphere);
   add_coordinates(file, node_name, nodes, "the node, a corner of cells", cells.corners);
@@ -147,10 +152,10 @@ void write_ugrid(const std::string& path, const CellGrid& grid, const WriteOptio
                  [&cells](std::int64_t cell, std::int64_t k) { return corner(cells, cell, k); });
   if (has_sites)
     add_places(file, face_name, faces, sites);
-  add_areas(file, faces, grid.area, has_centres, on_sphere);
   add_fields(
       file, options,
-      {faces, nodes, has_centres ? coordinates_of(face_name, on_sphere) : "", located("face")},
+      {.cells = {faces, located("face", has_centres ? coordinates_of(face_name, on_sphere) : "")},
+       .vertices = {nodes, located("node", coordinates_of(node_name, on_sphere))}},
       ugrid_names(true));
   file.commit();
 }
@@ -170,7 +175,11 @@ void write_ugrid_triangles(const std::string& path, const Mesh& mesh, const Writ
     return mesh.triangles(k, triangle);
   });
   add_places(file, node_name, nodes, sites);
-  add_fields(file, options, {nodes, faces, "", located("node")}, ugrid_names(false));
+  add_fields(
+      file, options,
+      {.cells = {nodes, located("node", coordinates_of(node_name, true))},
+       .vertices = {faces, located("face", mesh.closed() ? coordinates_of(face_name, true) : "")}},
+      ugrid_names(false));
   file.commit();
 }
 

@@ -5,7 +5,8 @@
 #include "io/formats.h"
 #include "io/model_grid.h"
 #include "io/polygons.h"
-#include "mesh/canonical_order.h"
+#include "io/written_fields.h"
+#include "io/written_values.h"
 
 #include "base/monitor.h"
 #include "base/points.h"
@@ -33,28 +34,11 @@ template <class AnyMesh> void require_ids(const std::string& path, const AnyMesh
                               " points");
 }
 
-/// Values that fit the mesh.
-template <class AnyMesh>
-void require_values(const std::string& path, const AnyMesh& mesh, const WriteOptions& options) {
-  const auto require_size = [&](const std::string& what, Eigen::Index size, Eigen::Index expected) {
-    if (size != expected)
-      refuse_to_write(path, what + " has " + std::to_string(size) +
-                                " values; give one for each of " + std::to_string(expected));
-  };
-  const Eigen::VectorXd& density = options.site_density;
-  if (density.size() > 0) {
-    require_size("the density of the sites", density.size(), mesh.points.cols());
-    for (Eigen::Index i = 0; i < density.size(); ++i)
-      if (!(density[i] >= 0 && std::isfinite(density[i])))
-        refuse_to_write(path, "the density is " + std::to_string(density[i]) + " at site " +
-                                  std::to_string(i) +
-                                  "; give finite numbers that are not negative");
-    if (density.maxCoeff() == 0)
-      refuse_to_write(path, "the density is zero at every site; make it positive somewhere");
-  }
-  for (const MeshField& field : options.fields)
-    require_size("the field " + field.name, field.values.size(),
-                 field.location == Location::cells ? mesh.points.cols() : mesh.triangles.cols());
+MeshSizes sizes_of(const Mesh& mesh) {
+  return {mesh.points.cols(), mesh.triangles.cols(), mesh.closed()};
+}
+MeshSizes sizes_of(const PlanarMesh& mesh) {
+  return {mesh.points.cols(), mesh.triangles.cols(), mesh.period.minCoeff() > 0};
 }
 
 void require_mesh(const std::string& path, const Mesh& mesh, Format format) {
@@ -120,33 +104,6 @@ void write_numbered(const std::string& path, const Mesh& mesh, const WriteOption
   }
 }
 
-/// \param name of a variable that holds them. \returns values by new place.
-Eigen::VectorXd permuted(const Eigen::VectorXd& values, std::span<const std::int32_t> place) {
-  Eigen::VectorXd out(values.size());
-  for (Eigen::Index i = 0; i < values.size(); ++i)
-    out[place[static_cast<std::size_t>(i)]] = values[i];
-  return out;
-}
-
-/// The options' values follow the sites and triangles of a mesh to their new places.
-/// \param new_site by old site.
-void renumber_values(const Mesh& mesh, std::span<const std::int32_t> new_site,
-                     WriteOptions& options) {
-  if (options.site_density.size() > 0)
-    options.site_density = permuted(options.site_density, new_site);
-  CanonicalPlaces places;
-  for (MeshField& field : options.fields) {
-    if (field.location == Location::vertices && places.place.size() == 0) {
-      Triangles renumbered;
-      places = order_triangles(mesh.triangles, new_site, renumbered);
-    }
-    field.values =
-        permuted(field.values, field.location == Location::cells
-                                   ? new_site
-                                   : std::span(places.place.begin(), places.place.end()));
-  }
-}
-
 /// The mesh in a file's numbering, and the options' values with it.
 Mesh renumbered_with_values(const Mesh& mesh, Numbering numbering, WriteOptions& options) {
   if (options.site_density.size() == 0 && options.fields.empty())
@@ -179,7 +136,9 @@ void write(const std::string& path, const Mesh& mesh, const WriteOptions& option
   resolved.format = format_of(path, options.format);
   require_options(path, resolved);
   require_mesh(path, mesh, resolved.format);
-  require_values(path, mesh, resolved);
+  require_values(path, sizes_of(mesh), resolved);
+  if (is_netcdf(resolved.format))
+    settle_names(resolved.fields);
   Monitor monitor(options.progress);
   monitor.begin("number", numbered, 1);
   const Numbering numbering = numbering_of(resolved);
@@ -222,7 +181,9 @@ void write(const std::string& path, const PlanarMesh& mesh, const WriteOptions& 
   require_planar_format(path, mesh.period.minCoeff() > 0, resolved.format);
   require_input_numbering(path, options.numbering);
   require_ids(path, mesh);
-  require_values(path, mesh, resolved);
+  require_values(path, sizes_of(mesh), resolved);
+  if (is_netcdf(resolved.format))
+    settle_names(resolved.fields);
   resolved.progress = rest_of(options.progress, 0);
   if (resolved.format == Format::mpas)
     write_mpas(path, mesh, resolved);
@@ -267,7 +228,9 @@ void write(const std::string& path, const PlanarMesh& mesh, const PlanarDomain& 
   require_options(path, resolved);
   require_input_numbering(path, options.numbering);
   require_ids(path, mesh);
-  require_values(path, mesh, resolved);
+  require_values(path, sizes_of(mesh), resolved);
+  if (is_netcdf(resolved.format))
+    settle_names(resolved.fields);
   std::erase_if(resolved.fields,
                 [](const MeshField& field) { return field.location != Location::cells; });
   resolved.progress = rest_of(options.progress, 0);

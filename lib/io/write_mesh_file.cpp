@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/field_order.h"
+#include "io/file_names.h"
 #include "io/formats.h"
 #include "io/model_grid.h"
 #include "io/open_cells.h"
 #include "io/write_mesh.h"
+#include "io/written_fields.h"
 
 #include "base/monitor.h"
 
@@ -27,6 +30,9 @@ void require_polygon_format(const std::string& path, const MeshFile& file, Forma
   if (!holds_cells(format))
     refuse_to_write(path, "the format holds triangles, but the mesh consists of cells, and " +
                               file.not_voronoi + others);
+  if (format == Format::scrip && file.polygons->centres.cols() == 0)
+    refuse_to_write(path, "SCRIP needs the centre of each cell, but the cells have none; write "
+                          "ugrid, esmf, exodus, vtp-cells, vtu-cells or geojson");
   const auto& begin = file.polygons->begin;
   for (std::int64_t i = 0; i < file.polygons->size(); ++i)
     if (begin[i] == begin[i + 1])
@@ -55,12 +61,20 @@ void write_open_mpas(const std::string& path, const MeshFile& file, const WriteO
   write_mpas(path, cells.voronoi, places_of(file, options.sphere_radius), options);
 }
 
-/// Fields at vertices follow triangles, which are not the polygons' corners.
+/// Whether a field is of polygons: at the cells, or, but in MPAS, which numbers them otherwise, at
+/// their corners.
+bool is_of(const Polygons& polygons, const MeshField& field, Format format) {
+  return field.location == Location::cells ||
+         (field.location == Location::vertices && format != Format::mpas &&
+          has_values_for(field, polygons.corners.cols()));
+}
+
 void write_polygons_of(const std::string& path, const MeshFile& file, WriteOptions options) {
   require_options(path, options);
   require_polygon_format(path, file, options.format);
-  std::erase_if(options.fields,
-                [](const MeshField& field) { return field.location != Location::cells; });
+  std::erase_if(options.fields, [&](const MeshField& field) {
+    return !is_of(*file.polygons, field, options.format);
+  });
   const bool has_density = file.density.size() == file.polygons->size();
   if (options.format == Format::mpas) {
     if (has_density && options.density.uniform() && options.site_density.size() == 0)
@@ -69,6 +83,8 @@ void write_polygons_of(const std::string& path, const MeshFile& file, WriteOptio
   } else {
     if (has_density)
       options.fields.push_back({.name = "density", .values = file.density});
+    if (is_netcdf(options.format))
+      settle_names(options.fields);
     write_polygons(path, cell_grid(*file.polygons), options);
   }
   Monitor(options.progress).finish("write");
@@ -99,21 +115,24 @@ void require_voronoi(const std::string& path, const Mesh& mesh, Format format) {
 
 /// Names of the fields that a format cannot hold.
 std::vector<std::string> dropped_fields(const MeshFile& file, Format format, bool polygons) {
-  polygons = polygons || (file.plane && file.domain && holds_cells(format));
+  const bool clipped = !polygons && file.plane && file.domain && holds_cells(format);
   std::vector<std::string> dropped;
   for (const MeshField& field : file.fields)
-    if (!holds_field(format, field) || (polygons && field.location == Location::vertices))
+    if (!holds_field(format, field) || (clipped && field.location != Location::cells) ||
+        (polygons && !is_of(*file.polygons, field, format)))
       dropped.push_back(field.name);
   return dropped;
 }
 
 } // namespace
 
-std::vector<std::string> write(const std::string& path, const MeshFile& file,
-                               const WriteOptions& options) {
+WrittenFields write(const std::string& path, const MeshFile& file, const WriteOptions& options) {
   WriteOptions resolved = options;
   resolved.format = format_of(path, options.format);
   resolved.fields.insert(resolved.fields.end(), file.fields.begin(), file.fields.end());
+  WrittenFields written;
+  if (is_netcdf(resolved.format))
+    written.renamed = settle_names(resolved.fields);
   const bool polygons = writes_polygons(file, resolved.format);
   if (!polygons && options.density.uniform() && options.site_density.size() == 0)
     resolved.site_density = file.density;
@@ -127,7 +146,8 @@ std::vector<std::string> write(const std::string& path, const MeshFile& file,
     require_voronoi(path, *file.mesh, resolved.format);
     write(path, *file.mesh, resolved);
   }
-  return dropped_fields(file, resolved.format, polygons);
+  written.dropped = dropped_fields(file, resolved.format, polygons);
+  return written;
 }
 
 } // namespace calotte

@@ -4,10 +4,12 @@
 Each writer takes a path and a case: `points`, `triangles` (of points), and for formats of cells
 `corners`, `cells` (lists of corners) and `centres`; `base` is the first index where a format leaves it
 free."""
+import json
 import math
 import struct
 
 import netcdf3
+import truth
 
 
 def lon(p):
@@ -133,6 +135,82 @@ def icon(path, case):
                    "vertex_of_cell": (("nv", "cell"), flat(turned), {})})
 
 
+def mpi_scvt(path, case):
+    """Its triangles are in no order of turning."""
+    text(path, [line(p) for p in case.points])
+    text(path.replace("Vertices", "Triangles"), [line(t) for t in case.triangles])
+
+
+def mpas_full(path, case):
+    """All lists, places and measures of a closed mesh, which run as the triangles do."""
+    corners = [circumcentre(*(case.points[i] for i in t)) for t in case.triangles]
+    rings = [[] for _ in case.points]
+    for v, triangle in enumerate(case.triangles):
+        for i in triangle:
+            rings[i].append(v)
+    turned = [truth.area(*(truth.unit(case.points[i]) for i in t)) < 0 for t in case.triangles]
+    rings = [ordered(truth.unit(case.points[i]), corners, ring, turned[ring[0]])
+             for i, ring in enumerate(rings)]
+    edges, at = [], {}
+    for i, ring in enumerate(rings):
+        for k, v in enumerate(ring):
+            before = ring[k - 1]
+            (other,) = (set(case.triangles[v]) & set(case.triangles[before])) - {i}
+            if (key := (min(i, other), max(i, other))) not in at:
+                at[key] = len(edges)
+                edges.append((i, other, before, v))
+    most = max(map(len, rings))
+    beyond = [[(set(case.triangles[v]) & set(case.triangles[ring[k - 1]]) - {i}).pop()
+               for k, v in enumerate(ring)] for i, ring in enumerate(rings)]
+
+    def padded(rows):
+        return flat([[i + 1 for i in row] + [0] * (most - len(row)) for row in rows])
+
+    def arc(a, b):
+        return case.radius * 2 * math.asin(math.dist(truth.unit(a), truth.unit(b)) / 2)
+
+    cell, edge, vertex = ("nCells",), ("nEdges",), ("nVertices",)
+    variables = {}
+    for kind, dims, places in (("Cell", cell, case.points), ("Vertex", vertex, corners)):
+        for k, axis in enumerate("xyz"):
+            scale = 1.0 if kind == "Cell" else case.radius
+            variables[axis + kind] = (dims, [scale * p[k] for p in places], {})
+        variables["lon" + kind] = (dims, [math.radians(lon(p)) for p in places], {"units": "radians"})
+        variables["lat" + kind] = (dims, [math.radians(lat(p)) for p in places], {"units": "radians"})
+    variables.update({
+        "nEdgesOnCell": (cell, [len(ring) for ring in rings], {}),
+        "verticesOnCell": (("nCells", "maxEdges"), padded(rings), {}),
+        "cellsOnCell": (("nCells", "maxEdges"), padded(beyond), {}),
+        "edgesOnCell": (("nCells", "maxEdges"),
+                        padded([[at[min(i, j), max(i, j)] for j in row] for i, row in enumerate(beyond)]), {}),
+        "cellsOnVertex": (("nVertices", "vertexDegree"), [i + 1 for i in flat(case.triangles)], {}),
+        "cellsOnEdge": (("nEdges", "TWO"), flat([(e[0] + 1, e[1] + 1) for e in edges]), {}),
+        "verticesOnEdge": (("nEdges", "TWO"), flat([(e[2] + 1, e[3] + 1) for e in edges]), {}),
+        "areaCell": (cell, [case.radius ** 2 * abs(truth.polygon_area([corners[v] for v in ring]))
+                            for ring in rings], {}),
+        "dcEdge": (edge, [arc(case.points[e[0]], case.points[e[1]]) for e in edges], {}),
+        "dvEdge": (edge, [arc(corners[e[2]], corners[e[3]]) for e in edges], {}),
+        "flow": (edge, [p - q for p, q in ((case.points[e[1]][0], case.points[e[0]][0]) for e in edges)],
+                 {"long_name": "difference of x along the normal"})})
+    netcdf3.write(path, {"nCells": len(rings), "nEdges": len(edges), "nVertices": len(corners),
+                         "maxEdges": most, "TWO": 2, "vertexDegree": 3}, variables,
+                  {"on_a_sphere": "YES", "is_periodic": "NO", "sphere_radius": float(case.radius)})
+
+
+def circumcentre(a, b, c):
+    a, b, c = truth.unit(a), truth.unit(b), truth.unit(c)
+    centre = truth.unit(truth.cross(truth.minus(b, a), truth.minus(c, a)))
+    return centre if truth.dot(centre, a) > 0 else tuple(-x for x in centre)
+
+
+def ordered(centre, corners, ring, clockwise):
+    """The corners around a place, by their direction from there."""
+    east = truth.unit(truth.cross(centre, (0.1, 0.2, 0.97)))
+    north = truth.cross(centre, east)
+    return sorted(ring, reverse=clockwise,
+                  key=lambda v: math.atan2(truth.dot(corners[v], north), truth.dot(corners[v], east)))
+
+
 def exodus_triangles(path, case):
     exodus(path, case.points, case.triangles, "TRI3")
 
@@ -210,12 +288,41 @@ def ugrid_cells(path, case):
                                   {"start_index": case.base, "_FillValue": -1}), **places})
 
 
+def rings_of(case):
+    """Longitudes and latitudes that do not jump; a ring around a pole is closed along the pole."""
+    for cell in case.cells:
+        ring = [[lon(case.corners[k]), lat(case.corners[k])] for k in cell + cell[:1]]
+        for last, here in zip(ring, ring[1:]):
+            here[0] += 360 * round((last[0] - here[0]) / 360)
+        if abs(ring[-1][0] - ring[0][0]) > 1:
+            pole = math.copysign(90, ring[0][1])
+            ring += [[ring[-1][0], pole], [ring[0][0], pole], list(ring[0])]
+        yield ring
+
+
+def geojson(path, case):
+    features = [{"type": "Feature", "geometry": {"type": "Polygon", "coordinates": [ring]},
+                 "properties": dict(zip("xyz", centre), name=f"cell {i}", size=area)}
+                for i, (ring, centre, area) in enumerate(zip(rings_of(case), case.centres, case.areas))]
+    text(path, [json.dumps({"type": "FeatureCollection", "features": features})])
+
+
+def geojson_shapes(path, case):
+    text(path, [json.dumps({"type": "FeatureCollection", "features": [
+        {"type": "Feature", "geometry": {"type": "Polygon", "coordinates": [ring]}, "properties": {}}
+        for ring in rings_of(case)]})])
+
+
 TRIANGLES = {"mesh.off": off, "mesh.msh": msh, "ellipsoid.msh": msh_ellipsoid, "nod2d.out": fesom,
              "mesh.tri": columns, "ascii.ply": ply_ascii, "little.ply": ply_binary("<"),
              "big.ply": ply_binary(">"), "mesh.vtp": vtk_xml("PolyData", "Polys", "NumberOfPolys", False),
              "mesh.vtu": vtk_xml("UnstructuredGrid", "Cells", "NumberOfCells", True),
              "legacy.vtk": vtk_legacy, "ugrid.nc": ugrid_triangles, "icon.nc": icon,
-             "triangles.g": exodus_triangles, "minimal.nc": mpas_minimal}
-CELLS = {"cells.g": exodus_cells, "scrip.nc": scrip, "esmf.nc": esmf, "cells.nc": ugrid_cells}
+             "triangles.g": exodus_triangles, "minimal.nc": mpas_minimal,
+             "full.nc": mpas_full, "SaveVertices": mpi_scvt}
+CELLS = {"cells.g": exodus_cells, "scrip.nc": scrip, "esmf.nc": esmf, "cells.nc": ugrid_cells,
+         "cells.geojson": geojson, "shapes.geojson": geojson_shapes}
+WITHOUT_CENTRES = {"cells.g", "shapes.geojson"}
+FREE_TURNING = {"cells.geojson", "shapes.geojson"}  # of each cell
 ANGLES = {"ellipsoid.msh", "nod2d.out", "ugrid.nc", "icon.nc"}  # hold no radius
 FREE_BASE = {"ugrid.nc", "esmf.nc", "cells.nc"}

@@ -402,8 +402,10 @@ TEST_CASE("unknown suffixes, folders that do not exist and full disks leave noth
   };
   CHECK(error(scratch / "mesh.stl").code() == ErrorCode::bad_option);
   CHECK(std::string(error(scratch / "mesh").what())
-            .ends_with("mesh: no suffix; a mesh file ends in .nc, .vtp, .vtu, .off, .ply, .msh, "
-                       ".geojson, .g, .exo, .txt or .tri, or is named SaveVertices or nod2d.out"));
+            .ends_with(
+                "mesh: no suffix; a mesh file ends in .nc, .vtp, .vtu, .vtk (read only), .off, "
+                ".ply, .msh, .geojson, .g, .exo, .txt or .tri, or is named SaveVertices or "
+                "nod2d.out"));
   CHECK(error(scratch / "absent/mesh.vtp").code() == ErrorCode::file);
   CHECK(error_of([&] { calotte::read_points(scratch / "absent.txt"); }).code() == ErrorCode::file);
   CHECK(error_of([&] { calotte::read_points(scratch.folder.string()); }).code() == ErrorCode::file);

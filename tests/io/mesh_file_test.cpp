@@ -80,8 +80,9 @@ TEST_CASE("a name tells its format, in any case; an option tells it too, and mus
   for (const char* name : {"mesh", "mesh.stl", "", "vtp", "a.vtp/mesh", "SaveTriangles"})
     CHECK(error_of([&] { calotte::format_of(name); }).code() == ErrorCode::bad_option);
   CHECK(std::string(error_of([&] { format_of("mesh.stl"); }).what()) ==
-        "mesh.stl: unknown suffix \".stl\"; a mesh file ends in .nc, .vtp, .vtu, .off, .ply, .msh, "
-        ".geojson, .g, .exo, .txt or .tri, or is named SaveVertices or nod2d.out");
+        "mesh.stl: unknown suffix \".stl\"; a mesh file ends in .nc, .vtp, .vtu, .vtk (read only), "
+        ".off, "
+        ".ply, .msh, .geojson, .g, .exo, .txt or .tri, or is named SaveVertices or nod2d.out");
 }
 
 TEST_CASE("every format's file is read as the mesh that was written") {

@@ -224,6 +224,33 @@ TEST_CASE("cells that are no Voronoi cells keep their shapes from format to form
   }
 }
 
+TEST_CASE("values at the corners of cells that are no Voronoi cells go along") {
+  const Scratch scratch;
+  MeshFile file = file_of(cube_of_quads(3));
+  file.fields = {{.name = "height",
+                  .location = Location::vertices,
+                  .values = file.polygons->corners.row(2).transpose()},
+                 {.name = "part",
+                  .values = Eigen::VectorXd::LinSpaced(file.polygons->size(), 0, 53),
+                  .dimensions = {},
+                  .leading = 0,
+                  .integer = true}};
+  for (const auto& [format, name] : {std::pair{Format::ugrid, "a.nc"},
+                                     {Format::esmf, "b.nc"},
+                                     {Format::exodus, "c.g"},
+                                     {Format::vtp_cells, "d.vtp"},
+                                     {Format::vtu_cells, "e.vtu"}}) {
+    CAPTURE(name);
+    CHECK(calotte::write(scratch / name, file, {.format = format}).dropped.empty());
+    file = calotte::read_mesh_file(scratch / name);
+    REQUIRE(file.polygons);
+    REQUIRE(file.fields.size() == 2);
+    CHECK((file.fields[0].values - file.polygons->corners.row(2).transpose()).norm() < 1e-13);
+    CHECK(file.fields[1].values == Eigen::VectorXd::LinSpaced(file.polygons->size(), 0, 53));
+  }
+  CHECK(calotte::write(scratch / "f.geojson", file).dropped == std::vector<std::string>{"height"});
+}
+
 TEST_CASE("polygons: all clockwise are turned, both orientations and overlaps are refused") {
   const Scratch scratch;
   const auto turn = [](Polygons& quads, Eigen::Index cell) {
@@ -288,14 +315,15 @@ TEST_CASE("fields and densities go from format to format in the order of the cel
   calotte::write(scratch / "full.nc", mesh, options);
   const MeshFile full = calotte::read_mesh_file(scratch / "full.nc");
   check_values(full, scale);
-  CHECK(calotte::write(scratch / "minimal.nc", full, {.format = Format::mpas_minimal}).empty());
+  CHECK(calotte::write(scratch / "minimal.nc", full, {.format = Format::mpas_minimal})
+            .dropped.empty());
   check_values(calotte::read_mesh_file(scratch / "minimal.nc"), scale);
-  CHECK(calotte::write(scratch / "cells.nc", full, {.format = Format::scrip}) ==
+  CHECK(calotte::write(scratch / "cells.nc", full, {.format = Format::scrip}).dropped ==
         std::vector<std::string>{"turning"});
   const MeshFile scrip = calotte::read_mesh_file(scratch / "cells.nc");
   CHECK(scrip.mesh);
   CHECK(!scrip.polygons);
-  CHECK(calotte::write(scratch / "mesh.off", full) ==
+  CHECK(calotte::write(scratch / "mesh.off", full).dropped ==
         std::vector<std::string>{"height", "turning"});
 }
 

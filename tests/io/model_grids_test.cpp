@@ -229,7 +229,7 @@ Polygons scrip_polygons(const NetcdfReader& file) {
 // ---- Round trips
 
 using Write = void (*)(const std::string&, const Mesh&, const WriteOptions&);
-using Read = Soup (*)(const NetcdfReader&);
+using Read = Soup (*)(const NetcdfReader&, calotte::FieldChoice);
 
 // The cells of a mesh as files of polygons.
 void write_ugrid(const std::string& path, const Mesh& mesh, const WriteOptions& options) {
@@ -245,7 +245,7 @@ void write_esmf(const std::string& path, const Mesh& mesh, const WriteOptions& o
 Soup written_and_read(const std::string& path, const Mesh& mesh, Write write, Read read,
                       const WriteOptions& options = {}) {
   write(path, mesh, options);
-  return read(NetcdfReader(path));
+  return read(NetcdfReader(path), calotte::FieldChoice::all);
 }
 
 /// The norms that the file has.
@@ -288,7 +288,7 @@ struct Patch {
 /// One line that starts with the path and holds these words.
 void check_bad(const std::string& path, Read read, const std::string& words) {
   CAPTURE(words);
-  const Error error = test::error_of([&] { read(NetcdfReader(path)); });
+  const Error error = test::error_of([&] { read(NetcdfReader(path), calotte::FieldChoice::all); });
   const std::string message = error.what();
   CAPTURE(message);
   CHECK(error.code() == ErrorCode::parse);

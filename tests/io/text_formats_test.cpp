@@ -6,6 +6,7 @@
 #include <calotte/density.h>
 #include <calotte/domain.h>
 #include <calotte/io.h>
+#include <calotte/mesh_file.h>
 #include <calotte/voronoi.h>
 
 #include <nlohmann/json.hpp>
@@ -13,6 +14,8 @@
 #include <cmath>
 #include <numbers>
 #include <sstream>
+#include <string>
+#include <vector>
 
 using calotte::Error;
 using calotte::ErrorCode;
@@ -180,6 +183,11 @@ TEST_CASE("MPI-SCVT: meshes come back bit for bit, and the density stands beside
         REQUIRE(value == doctest::Approx(expected[i]).epsilon(1e-13));
       }
       CHECK_FALSE(bool(lines >> value));
+      CHECK((calotte::read_mesh_file(path).density - expected).norm() < 1e-13 * expected.norm());
+      const std::string densities = replaced(path, "SaveVertices", "SaveDensity");
+      write_text(densities, read_file(densities) + "1\n");
+      CHECK(calotte::read_mesh_file(path).density.size() == 0);
+      CHECK(calotte::read_mesh_file(path).ignored == std::vector<std::string>{"SaveDensity"});
     }
   }
   CHECK(scratch.files() == 9);

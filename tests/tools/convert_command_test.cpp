@@ -7,9 +7,12 @@
 
 #include <doctest/doctest.h>
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -309,4 +312,55 @@ TEST_CASE("the points of an open mesh are triangulated with a warning") {
                        "sphere\nclosed.off: 6 sites, 8 triangles, closed\n");
   CHECK(bench.run("delaunay closed.off -o again.off").out ==
         "again.off: 6 sites, 8 triangles, closed\n");
+}
+
+namespace {
+
+/// A cube's faces in longitude and latitude, seen from above: four of the sides, and the caps.
+void make_cube(const Bench& bench) {
+  std::ostringstream text;
+  text << R"({"type":"FeatureCollection","features":[)";
+  const auto add = [&](const std::vector<int>& places, const char* centre) {
+    text << (text.tellp() > 50 ? "," : "")
+         << R"({"type":"Feature","geometry":{"type":"Polygon","coordinates":[[)";
+    for (std::size_t k = 0; k <= places.size(); k += 2)
+      text << (k > 0 ? "," : "") << "[" << places[k % places.size()] << ","
+           << places[(k + 1) % places.size()] << "]";
+    text << R"(]]},"properties":{"sea level":)" << text.tellp() << R"(,"name":"face",)" << centre
+         << "}}";
+  };
+  add({-45, -30, 45, -30, 45, 30, -45, 30}, R"("x":1,"y":0,"z":0)");
+  add({45, -30, 135, -30, 135, 30, 45, 30}, R"("x":0.1,"y":1,"z":0)"); // not its centroid
+  add({135, -30, 225, -30, 225, 30, 135, 30}, R"("x":-1,"y":0,"z":0)");
+  add({225, -30, 315, -30, 315, 30, 225, 30}, R"("x":0,"y":-1,"z":0)");
+  add({45, 30, 135, 30, 225, 30, 315, 30}, R"("x":0,"y":0,"z":1)");
+  add({-45, -30, 225, -30, 135, -30, 180, -80, 45, -30}, R"("x":0,"y":0,"z":-1)"); // a notch
+  text << "]}";
+  bench.file("cube.geojson", text.str());
+}
+
+} // namespace
+
+TEST_CASE("cells that are no Voronoi cells: what info, check and convert say of them") {
+  const Bench bench;
+  make_cube(bench);
+  const Outcome info = bench.run("info cube.geojson --report report.json");
+  CHECK(info.code == 0);
+  CHECK(info.out.find("not convex            1; the first is cell 5\n") != std::string::npos);
+  CHECK(info.out.find("not centroidal        2; the farthest centre is ") != std::string::npos);
+  CHECK(info.out.find("not Delaunay          0 edges\n") != std::string::npos);
+  const auto report = nlohmann::json::parse(calotte::read_file(in_folder(bench, "report.json")));
+  CHECK(report["not_convex"] == 1);
+  CHECK(report["first_not_convex"] == 5);
+  CHECK(report["not_centroidal"] == 2);
+  CHECK(report["off_centring"]["cell"] == 5);
+  CHECK(report["off_centring"]["max"] > 0.1);
+  CHECK(report["not_delaunay"] == 0);
+  const Outcome check = bench.run("check cube.geojson");
+  CHECK(check.out.find("not convex      1; the first is cell 5\n") != std::string::npos);
+  const Outcome made = bench.run("convert cube.geojson cube.nc --format ugrid");
+  CHECK(made.code == 0);
+  CHECK(made.out.starts_with("cube.nc: names that NetCDF refuses: \"sea level\" became sea_level\n"
+                             "cube.nc: not converted: name\n"
+                             "cube.nc: 6 cells, not Voronoi cells: "));
 }

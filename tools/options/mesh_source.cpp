@@ -21,19 +21,19 @@ std::shared_ptr<MeshSource> add_mesh_source(CLI::App& command, const std::string
   return source;
 }
 
-MeshFile read_mesh_file(const MeshSource& source) {
+MeshFile read_mesh_file(const MeshSource& source, FieldChoice choice) {
   if (source.plane) {
     MeshFile file;
     if (source.points.empty() && is_netcdf_file(source.path)) // has density, fields and cells, too
-      file = calotte::read_mesh_file(source.path);
+      file = calotte::read_mesh_file(source.path, nullptr, choice);
     if (!file.plane) // or say why there is none
       file.plane = read_planar_mesh(source);
     return file;
   }
   if (source.points.empty())
-    return calotte::read_mesh_file(source.path);
+    return calotte::read_mesh_file(source.path, nullptr, choice);
   const Points3 points = read_point_file(source.points, source.lonlat).points;
-  return calotte::read_mesh_file(source.path, &points);
+  return calotte::read_mesh_file(source.path, &points, choice);
 }
 
 std::string changes_of(const MeshSource& source, const MeshFile& file) {

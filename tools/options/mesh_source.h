@@ -26,7 +26,7 @@ CLI::Option* add_plane(CLI::App& command, MeshSource& source);
 
 /// A mesh of the sphere or, with --plane or where the file holds no other, of the plane.
 /// \throws Error as read_mesh_file and read_points do.
-MeshFile read_mesh_file(const MeshSource& source);
+MeshFile read_mesh_file(const MeshSource& source, FieldChoice choice);
 
 /// The lines that say what reading changed, each after the file's name.
 std::string changes_of(const MeshSource& source, const MeshFile& file);

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/parallel.h"
+#include "base/points.h"
+#include "exact/predicates.h"
+#include "io/room.h"
+
+#include <calotte/mesh_file.h>
+
+#include <cmath>
+#include <vector>
+
+namespace calotte {
+namespace {
+
+using namespace io_detail;
+
+/// A polygon's corners in a circle.
+struct Ring {
+  const Polygons& polygons;
+  std::int64_t begin, size;
+
+  const Vec3& at(std::int64_t k) const {
+    return column(polygons.corners, polygons.ids[begin + k % size]);
+  }
+};
+
+Ring ring_of(const Polygons& polygons, std::int64_t i) {
+  return {polygons, polygons.begin[i], polygons.begin[i + 1] - polygons.begin[i]};
+}
+
+/// The sine of the turn to the left at b, on the way from a to c.
+double turn(const Vec3& a, const Vec3& b, const Vec3& c, bool on_sphere) {
+  const Vec3 in = b - a, out = c - b, across = cross(in, out);
+  return (on_sphere ? dot(b, across) : across.z) / std::sqrt(dot(in, in) * dot(out, out));
+}
+
+bool is_convex(const Ring& ring) {
+  constexpr double rounding = 1e-9;
+  for (std::int64_t k = 0; k < ring.size; ++k)
+    if (turn(ring.at(k), ring.at(k + 1), ring.at(k + 2), ring.polygons.on_sphere) < -rounding)
+      return false;
+  return true;
+}
+
+/// The integral of the place over a polygon: half the sum of its sides' normals times their arcs.
+Vec3 first_moment(const Ring& ring) {
+  Vec3 sum{0, 0, 0};
+  for (std::int64_t k = 0; k < ring.size; ++k) {
+    const Vec3 &a = ring.at(k), &b = ring.at(k + 1), side = b - a, normal = cross(a, side);
+    const double sine = std::sqrt(dot(normal, normal));
+    if (sine > 0)
+      sum = sum + std::asin(std::sqrt(dot(side, side)) / 2) / sine * normal;
+  }
+  return sum;
+}
+
+/// Of a polygon in a plane: the mean of its triangles' from the first corner, by their areas.
+Vec3 planar_centroid(const Ring& ring) {
+  const Vec3& first = ring.at(0);
+  Vec3 sum{0, 0, 0};
+  double area = 0;
+  for (std::int64_t k = 1; k + 1 < ring.size; ++k) {
+    const Vec3 a = ring.at(k) - first, b = ring.at(k + 1) - first;
+    const double part = cross(a, b).z;
+    sum = sum + part / 3 * (a + b);
+    area += part;
+  }
+  return first + 1 / area * sum;
+}
+
+Vec3 centroid(const Ring& ring) {
+  return ring.polygons.on_sphere ? normalised(first_moment(ring)) : planar_centroid(ring);
+}
+
+/// The distance of a centre from the centroid, in widths.
+double off_centring(const Polygons& polygons, std::int64_t i, double area) {
+  const Vec3 apart = column(polygons.centres, i) - centroid(ring_of(polygons, i));
+  return std::sqrt(dot(apart, apart) / area);
+}
+
+/// Of a block of polygons.
+PolygonShapes shapes_of(const Polygons& polygons, const Eigen::VectorXd& areas, std::int64_t begin,
+                        std::int64_t end) {
+  constexpr double rounding = 1e-6;
+  PolygonShapes found;
+  for (std::int64_t i = begin; i != end; ++i) {
+    const Ring ring = ring_of(polygons, i);
+    if (ring.size == 0)
+      continue;
+    if (!is_convex(ring) && found.not_convex++ == 0)
+      found.first_not_convex = i;
+    if (polygons.centres.cols() == 0)
+      continue;
+    const double distance = off_centring(polygons, i, areas[i]);
+    found.not_centroidal += !(distance <= rounding);
+    if (found.worst_centred < 0 || distance > found.off_centring) {
+      found.off_centring = distance;
+      found.worst_centred = i;
+    }
+  }
+  return found;
+}
+
+void add(const PolygonShapes& of_block, PolygonShapes& all) {
+  if (all.not_convex == 0)
+    all.first_not_convex = of_block.first_not_convex;
+  all.not_convex += of_block.not_convex;
+  all.not_centroidal += of_block.not_centroidal;
+  if (of_block.worst_centred >= 0 &&
+      (all.worst_centred < 0 || of_block.off_centring > all.off_centring)) {
+    all.off_centring = of_block.off_centring;
+    all.worst_centred = of_block.worst_centred;
+  }
+}
+
+} // namespace
+
+PolygonShapes shapes(const Polygons& polygons) {
+  const std::int64_t count = polygons.size();
+  const Eigen::VectorXd area = areas(polygons);
+  std::vector<PolygonShapes> blocks(static_cast<std::size_t>(block_count(count)));
+  for_each_block(count, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
+    blocks[static_cast<std::size_t>(block)] = shapes_of(polygons, area, begin, end);
+  });
+  PolygonShapes all;
+  for (const PolygonShapes& block : blocks)
+    add(block, all);
+  return all;
+}
+
+} // namespace calotte

@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/files.h"
+#include "support/meshes.h"
+
+#include <calotte/delaunay.h>
+#include <calotte/generators.h>
+#include <calotte/mesh_file.h>
+
+#include <Eigen/Geometry>
+
+#include <cmath>
+#include <numbers>
+#include <sstream>
+#include <string>
+#include <vector>
+
+using calotte::ErrorCode;
+using calotte::MeshFile;
+using calotte::Points3;
+using calotte::Polygons;
+using calotte::PolygonShapes;
+using namespace calotte::test;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// All values after one another.
+template <class... Values> std::string text_of(const Values&... values) {
+  std::ostringstream text;
+  text.precision(9);
+  (text << ... << values);
+  return text.str();
+}
+
+std::string collection(const std::vector<std::string>& features) {
+  std::string text = R"({"type":"FeatureCollection","features":[)";
+  for (const std::string& feature : features)
+    text += (&feature == &features[0] ? "" : ",") + feature;
+  return text + "]}";
+}
+
+std::string cell(const std::string& ring, const std::string& properties = "{}",
+                 const std::string& type = "Polygon") {
+  return R"({"type":"Feature","properties":)" + properties + R"(,"geometry":{"type":")" + type +
+         R"(","coordinates":)" + ring + "}}";
+}
+
+/// The eighths of the sphere, as boxes of longitude and latitude; those of the south clockwise.
+std::vector<std::string> eighths() {
+  std::vector<std::string> features;
+  for (const std::string north : {"90", "-90"})
+    for (int k = 0; k < 4; ++k) {
+      const int west = 90 * k - 180, east = west + 90;
+      const std::string ring = text_of("[[[", west, ",0],[", east, ",0],[", east, ",", north, "],[",
+                                       west, ",", north, "],[", west, ",0]]]");
+      const std::string depth = k == 2 ? "null" : text_of(k, ".5");
+      const std::string properties =
+          text_of(R"({"name":"k","height":)", k, R"(,"depth":)", depth, "}");
+      features.push_back(cell(ring, properties));
+    }
+  return features;
+}
+
+std::string problem_of(const std::string& path, const std::vector<std::string>& features) {
+  write_text(path, collection(features));
+  const calotte::Error error = error_of([&] { calotte::read_mesh_file(path); });
+  CHECK(error.code() == ErrorCode::parse);
+  return std::string(error.what()).substr(path.size() + 2);
+}
+
+/// A regular polygon around the direction of a vector.
+Polygons regular(const Eigen::Vector3d& around, int corners, double radius) {
+  const Eigen::Vector3d p = around.normalized(),
+                        u = p.cross(Eigen::Vector3d(0.3, 0.4, 0.5)).normalized(), v = p.cross(u);
+  Polygons polygon;
+  polygon.corners.resize(3, corners);
+  polygon.ids.resize(corners);
+  for (int k = 0; k < corners; ++k) {
+    const double angle = 2 * pi * k / corners;
+    polygon.corners.col(k) =
+        std::cos(radius) * p + std::sin(radius) * (std::cos(angle) * u + std::sin(angle) * v);
+    polygon.ids[k] = k;
+  }
+  polygon.begin.resize(2);
+  polygon.begin << 0, corners;
+  polygon.centres = p;
+  return polygon;
+}
+
+/// The integral of the place over a triangle, by parts ever smaller.
+Eigen::Vector3d moment(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
+                       int depth) {
+  if (depth == 0) {
+    const double area = 2 * std::atan2(a.dot(b.cross(c)), 1 + a.dot(b) + b.dot(c) + c.dot(a));
+    return area * (a + b + c).normalized();
+  }
+  const Eigen::Vector3d ab = (a + b).normalized(), bc = (b + c).normalized(),
+                        ca = (c + a).normalized();
+  return moment(a, ab, ca, depth - 1) + moment(ab, b, bc, depth - 1) +
+         moment(ca, bc, c, depth - 1) + moment(ab, bc, ca, depth - 1);
+}
+
+} // namespace
+
+TEST_CASE("GeoJSON: polygons are cells of either orientation, their numbers fields") {
+  const Scratch scratch;
+  write_text(scratch / "cells.geojson", collection(eighths()));
+  const MeshFile file = calotte::read_mesh_file(scratch / "cells.geojson");
+  REQUIRE(file.polygons);
+  CHECK(!file.mesh);
+  CHECK(file.not_voronoi == "the cells have no centres");
+  CHECK(file.changes == std::vector<std::string>{"turned 4 clockwise cells"});
+  CHECK(file.polygons->corners.cols() == 6);
+  for (const double area : calotte::areas(*file.polygons))
+    CHECK(area == doctest::Approx(pi / 2));
+  REQUIRE(file.fields.size() == 2);
+  CHECK(file.fields[0].name == "depth");
+  CHECK(file.fields[0].values[3] == 3.5);
+  CHECK(std::isnan(file.fields[0].values[2]));
+  CHECK(file.fields[1].name == "height");
+  CHECK(file.fields[1].integer);
+  CHECK(file.fields[1].values[7] == 3);
+  CHECK(file.ignored == std::vector<std::string>{"name"});
+  const calotte::Error error = error_of(
+      [&] { calotte::write(scratch / "none.nc", file, {.format = calotte::Format::scrip}); });
+  CHECK(error.code() == ErrorCode::bad_option);
+  CHECK(std::string(error.what()).find("SCRIP needs the centre of each cell") != std::string::npos);
+  calotte::write(scratch / "cells.nc", file, {.format = calotte::Format::esmf});
+  const MeshFile back = calotte::read_mesh_file(scratch / "cells.nc");
+  CHECK((calotte::areas(*back.polygons) - calotte::areas(*file.polygons)).norm() < 1e-13);
+  CHECK(back.fields.size() == 2);
+}
+
+TEST_CASE("GeoJSON: a ring around a pole, from any of its places on") {
+  const Scratch scratch;
+  const std::vector<std::string> places{"[-180,80]", "[-60,80]", "[60,80]",
+                                        "[180,80]",  "[180,90]", "[-180,90]"};
+  for (std::size_t first = 0; first < places.size(); ++first) {
+    std::string ring = "[[";
+    for (std::size_t k = 0; k <= places.size(); ++k)
+      ring += (k > 0 ? "," : "") + places[(first + k) % places.size()];
+    CAPTURE(ring);
+    write_text(scratch / "cap.geojson", collection({cell(ring + "]]")}));
+    const MeshFile file = calotte::read_mesh_file(scratch / "cap.geojson");
+    REQUIRE(file.polygons);
+    CHECK(file.polygons->ids.size() == 3);
+    CHECK(file.polygons->corners.row(2).minCoeff() == doctest::Approx(std::sin(80 * pi / 180)));
+    CHECK(calotte::areas(*file.polygons)[0] > 0);
+  }
+}
+
+TEST_CASE("GeoJSON: cells with a place are compared with the Voronoi cells of their places") {
+  const Scratch scratch;
+  const calotte::Mesh mesh = calotte::spherical_delaunay(
+      columns({{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}));
+  // The faces of a cube, of which two are cut by the meridian of 180 degrees, in whole rings.
+  const double latitude = 180 / pi * std::asin(1 / std::sqrt(3.0));
+  const auto at = [&](int east, int side) { return text_of("[", east, ",", side * latitude, "]"); };
+  std::vector<std::string> faces;
+  for (int k = 0; k < 4; ++k) {
+    const int west = 90 * k - 45, east = west + 90;
+    const std::string ring = text_of("[[", at(west, -1), ",", at(east, -1), ",", at(east, 1), ",",
+                                     at(west, 1), ",", at(west, -1), "]]");
+    faces.push_back(cell(ring, text_of(R"({"x":)", mesh.points(0, k), R"(,"y":)", mesh.points(1, k),
+                                       R"(,"z":0,"density":2})")));
+  }
+  for (const int side : {1, -1})
+    faces.push_back(cell(text_of("[[", at(45, side), ",", at(135, side), ",", at(225, side), ",",
+                                 at(315, side), ",", at(45, side), "]]"),
+                         text_of(R"({"x":0,"y":0,"z":)", side, R"(,"density":2})")));
+  write_text(scratch / "cube.geojson", collection(faces));
+  const MeshFile cube = calotte::read_mesh_file(scratch / "cube.geojson");
+  REQUIRE(cube.mesh);
+  CHECK(!cube.polygons); // six digits of a degree are enough
+  CHECK(cube.density == Eigen::VectorXd::Constant(6, 2));
+  faces[0] =
+      cell(text_of("[[", at(-45, -1), ",", at(45, -1), ",", at(45, 1), ",", at(-45, 1), "]]"),
+           R"({"x":1,"y":0.1,"z":0,"density":2})");
+  write_text(scratch / "cube.geojson", collection(faces));
+  CHECK(calotte::read_mesh_file(scratch / "cube.geojson").polygons);
+}
+
+TEST_CASE("GeoJSON: Voronoi cells that calotte writes come back with density and fields") {
+  const Scratch scratch;
+  const calotte::Mesh mesh = calotte::spherical_delaunay(calotte::random_sphere(60, 2));
+  calotte::WriteOptions options;
+  options.site_density = 1 + mesh.points.row(0).transpose().array();
+  options.fields = {{.name = "height", .values = mesh.points.row(1).transpose()}};
+  calotte::write(scratch / "cells.geojson", mesh, options);
+  const MeshFile file = calotte::read_mesh_file(scratch / "cells.geojson");
+  CHECK(equal_bits(file.mesh->points, mesh.points));
+  CHECK(file.density == options.site_density / options.site_density.maxCoeff());
+  REQUIRE(file.fields.size() == 1);
+  CHECK(file.fields[0].values == options.fields[0].values);
+}
+
+TEST_CASE("GeoJSON: what is no cell of one ring is refused by its feature") {
+  const Scratch scratch;
+  const std::string path = scratch / "cells.geojson", ring = "[[0,0],[9,0],[9,9],[0,0]]";
+  const std::string good = cell("[" + ring + "]");
+  CHECK(problem_of(path, {good, cell("[[" + ring + "]]", "{}", "MultiPolygon")}) ==
+        "feature 1 is a MultiPolygon; only cells of one ring are read, so give it as one Polygon, "
+        "whose longitudes may exceed 180 degrees");
+  CHECK(problem_of(path, {cell("[" + ring + "," + ring + "]")}) ==
+        "feature 0 has a hole; only cells of one ring are read");
+  CHECK(problem_of(path, {good, good, cell("[[[0,0],[9,0],[0,0]]]")}) ==
+        "feature 2 has a ring of fewer than 3 places; leave it out");
+  CHECK(problem_of(path, {cell("[[[0,0],[9,91],[9,9],[0,0]]]")}) ==
+        "feature 0 has a position that is no longitude and latitude in degrees; correct it");
+  CHECK(problem_of(path, {cell("[]")}) ==
+        "feature 0 has no ring of positions; give GeoJSON as RFC 7946 has it");
+  CHECK(problem_of(path, {good, cell("[0,0]", "{}", "Point")}) ==
+        "feature 1 is no polygon, unlike those before it");
+  CHECK(problem_of(path, {cell("[0,0]", "{}", "Point"), good}) ==
+        "feature 1 is a cell, unlike those before it");
+  CHECK(problem_of(path, {cell("[[0,0],[9,9]]", "{}", "LineString")})
+            .starts_with("feature 0 is neither a polygon nor a point"));
+  CHECK(problem_of(path, {good, good}).find("cell 0 and cell 1 overlap") != std::string::npos);
+}
+
+TEST_CASE("shapes: convex cells, and how far centres are from centroids") {
+  for (const double radius : {0.3, 1e-4}) {
+    CAPTURE(radius);
+    Polygons hexagon = regular({1, -2, 3}, 6, radius);
+    const double width = std::sqrt(calotte::areas(hexagon)[0]);
+    CHECK(calotte::shapes(hexagon).not_convex == 0);
+    CHECK(calotte::shapes(hexagon).not_centroidal == 0);
+    CHECK(calotte::shapes(hexagon).off_centring < 1e-6);
+    const Eigen::Vector3d aside = hexagon.centres.col(0).cross(hexagon.corners.col(1)).normalized();
+    hexagon.centres.col(0) = (hexagon.centres.col(0) + 0.01 * width * aside).normalized();
+    const PolygonShapes shifted = calotte::shapes(hexagon);
+    CHECK(shifted.not_centroidal == 1);
+    CHECK(shifted.off_centring == doctest::Approx(0.01).epsilon(1e-4));
+    CHECK(shifted.worst_centred == 0);
+    hexagon.corners.col(2) = regular({1, -2, 3}, 6, 0.3 * radius).corners.col(2); // a notch
+    CHECK(calotte::shapes(hexagon).not_convex == 1);
+    CHECK(calotte::shapes(hexagon).first_not_convex == 0);
+  }
+  Polygons triangle = regular({0, 1, 1}, 3, 0.5);
+  triangle.corners.col(0) = Eigen::Vector3d(0.5, 0.1, 0.9).normalized();
+  if (calotte::areas(triangle)[0] < 0)
+    std::swap(triangle.ids[1], triangle.ids[2]);
+  triangle.centres =
+      moment(triangle.corners.col(triangle.ids[0]), triangle.corners.col(triangle.ids[1]),
+             triangle.corners.col(triangle.ids[2]), 7)
+          .normalized();
+  CHECK(calotte::shapes(triangle).off_centring < 1e-5);
+  triangle.centres.resize(3, 0);
+  CHECK(calotte::shapes(triangle).worst_centred == -1);
+  CHECK(calotte::shapes(Polygons{}).not_convex == 0);
+}
+
+TEST_CASE("shapes in a plane: the corners of an L, its notch and its centroid") {
+  Polygons cell;
+  cell.on_sphere = false;
+  cell.corners.resize(3, 6);
+  cell.corners << 0, 2, 2, 1, 1, 0, 0, 0, 1, 1, 2, 2, 0, 0, 0, 0, 0, 0;
+  cell.ids = calotte::Ids::LinSpaced(6, 0, 5);
+  cell.begin.resize(2);
+  cell.begin << 0, 6;
+  cell.centres = Eigen::Vector3d(5. / 6, 5. / 6, 0); // of three unit squares
+  CHECK(calotte::shapes(cell).not_convex == 1);
+  CHECK(calotte::shapes(cell).off_centring < 1e-15);
+  cell.centres(0, 0) += 0.1 * std::sqrt(3.0);
+  CHECK(calotte::shapes(cell).off_centring == doctest::Approx(0.1));
+}

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "run/shapes.h"
+
+#include <calotte/check.h>
+
+#include <nlohmann/json.hpp>
+
+#include <iomanip>
+#include <sstream>
+
+namespace calotte::tools {
+
+std::string shape_rows(const Polygons& polygons, const std::optional<Mesh>& mesh, int width) {
+  const PolygonShapes found = shapes(polygons);
+  std::ostringstream out;
+  const auto row = [&](const char* name) -> std::ostream& {
+    return out << std::left << std::setw(width) << name;
+  };
+  row("not convex") << found.not_convex;
+  if (found.not_convex > 0)
+    out << "; the first is cell " << found.first_not_convex;
+  out << "\n";
+  if (found.worst_centred >= 0) {
+    row("not centroidal") << found.not_centroidal;
+    if (found.not_centroidal > 0)
+      out << "; the farthest centre is " << std::setprecision(6) << found.off_centring
+          << " widths from the centroid, of cell " << found.worst_centred;
+    out << "\n";
+  }
+  if (mesh)
+    row("not Delaunay") << count_edges(*mesh).not_delaunay << " edges\n";
+  return out.str();
+}
+
+void add_shapes(const Polygons& polygons, const std::optional<Mesh>& mesh,
+                nlohmann::ordered_json& report) {
+  const PolygonShapes found = shapes(polygons);
+  report["not_convex"] = found.not_convex;
+  if (found.not_convex > 0)
+    report["first_not_convex"] = found.first_not_convex;
+  if (found.worst_centred >= 0) {
+    report["not_centroidal"] = found.not_centroidal;
+    report["off_centring"] = {{"max", found.off_centring}, {"cell", found.worst_centred}};
+  }
+  if (mesh)
+    report["not_delaunay"] = count_edges(*mesh).not_delaunay;
+}
+
+} // namespace calotte::tools

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <calotte/mesh_file.h>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <optional>
+#include <string>
+
+/// How cells that are not Voronoi cells differ from those of a CVT, for info and check.
+namespace calotte::tools {
+
+/// Rows of a table, whose names have so many characters.
+/// \param mesh of the cells' centres, if there is one.
+std::string shape_rows(const Polygons& polygons, const std::optional<Mesh>& mesh, int width);
+
+/// The same numbers for a report.
+void add_shapes(const Polygons& polygons, const std::optional<Mesh>& mesh,
+                nlohmann::ordered_json& report);
+
+} // namespace calotte::tools
