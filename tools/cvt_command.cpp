@@ -49,7 +49,7 @@ void require_plane(const CvtRequest& request, const WriteOptions& options) {
 
 /// Checks all options that can fail, before any work.
 void require_request(const CvtRequest& request) {
-  require_positive("--tolerance", request.tolerance, "one such as 1e-6");
+  require_positive("--tolerance", tolerance_of(request), "one such as 1e-6");
   require_positive("--checkpoint-minutes", request.checkpoint_minutes, "one such as 10");
   if (request.relaxation != 1 && request.method != "lloyd")
     throw Error(ErrorCode::bad_option, "--relaxation applies to --method lloyd only; leave it out");
@@ -151,6 +151,10 @@ Plan prepare(CvtRequest& request, Progress& progress) {
   const std::vector<std::string> notes = settle_cells(request, resolution.widths);
   progress.stage("making the start");
   plan.start = open_start(request);
+  if (start_kind(request) == "multilevel") {
+    plan.options.insertion_rounds = rounds_of(request);
+    plan.options.cells = *request.cells;
+  }
   plan.configuration = configuration_of(request, plan.options, plan.start);
   if (!request.resume.empty()) {
     plan.state = read_checkpoint(request.resume, plan.configuration);
@@ -223,8 +227,15 @@ Outcome tessellate(const CvtRequest& request, Plan& plan, Progress& progress) {
 
 [[noreturn]] void finish_not_converged(const CvtRequest& request, const CvtReport& report) {
   std::cout.flush();
+  if (well_centred(request) && report.iterations.back().misshapen > 0) {
+    std::cerr << "calotte: not converged: the finish left a shape " +
+                     formatted("%.2g", report.iterations.back().misshapen) +
+                     " beyond its limit; the mesh is written; give more cells, or make the density "
+                     "smoother\n";
+    finish(not_converged);
+  }
   std::cerr << "calotte: not converged: " + residual_words(request, report) +
-                   " is above the tolerance " + shortest(request.tolerance) + " after " +
+                   " is above the tolerance " + shortest(tolerance_of(request)) + " after " +
                    std::to_string(request.max_iterations) +
                    " iterations; the mesh is written; increase --max-iterations\n";
   finish(not_converged);

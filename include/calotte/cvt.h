@@ -56,9 +56,10 @@ struct CvtOptions {
   /// level. A level that has converged or reached max_iterations is bisected (n -> 4n - 6, see
   /// bisect()) and converges again.
   int bisections = 0;
-  /// Rounds of insertion and contraction on each level, see insert_and_contract(); each is followed
-  /// by a descent. With rounds, all descents but the last end at an l2_scaled norm of 1e-3 or the
-  /// tolerance, whichever is larger. >= 0; default 0.
+  /// Rounds of insertion and contraction on the last level, see insert_and_contract(), and up to
+  /// four times as many on coarser levels; each is followed by a descent. With rounds, all descents
+  /// but the last end at an l2_scaled norm of 1e-3 or the tolerance, whichever is larger. >= 0;
+  /// default 0.
   int insertion_rounds = 0;
   /// Number of generators of the result; > 0 if and only if insertion_rounds is. A level of b
   /// bisections before the last has 4^-b times as many.
@@ -68,10 +69,10 @@ struct CvtOptions {
   /// of excesses over limits: angles of triangles from 49 to 76 degrees, Voronoi edges from 0.38 to
   /// 0.78 times the length of the Delaunay edges across, and these from 0.82 to 1.25 times the
   /// spacing that the density demands. It ends when no cotangent and no such ratio exceeds its
-  /// limit by more than 0.035, or after 60 evaluations. Sites with 8 neighbours or more, or 4 or
-  /// fewer, cannot have such shapes; with insertion_rounds, up to four further rounds remove them.
-  /// A run converges if the last descent and the finish do. A mesh within the limits does not
-  /// change. Default false: a pure CVT.
+  /// limit by more than 0.035, or after 60 evaluations; it has converged if none does by 0.07.
+  /// Sites with 8 neighbours or more, or 4 or fewer, cannot have such shapes; with
+  /// insertion_rounds, up to four further rounds remove them. A run converges if the last descent
+  /// and the finish do. A mesh within the limits does not change. Default false: a pure CVT.
   bool well_centred = false;
   /// Quadrature points per half kite: 1, 3, 6, 7, 13 or 19; no effect for uniform density.
   int rule = 3;
@@ -97,6 +98,10 @@ struct CvtIteration {
   /// In a finish, see CvtOptions::well_centred: the largest excess of a shape over its limit;
   /// otherwise 0.
   double misshapen = 0;
+  /// In a finish: the number of generators farther than 0.01 of the demanded spacing from their
+  /// centroids, and the largest such distance over the spacing; otherwise 0.
+  std::int64_t displaced = 0;
+  double displacement = 0;
   bool accepted = true;   ///< false if the line search rejected this trial
   std::int64_t flips = 0; ///< edge flips after the last move
   bool rebuilt = false;   ///< the last move required a new triangulation
@@ -249,6 +254,23 @@ struct Continuation {
 /// \throws Error bad_option for cells < 12 or > 2^30, an ill-formed density, or as random_sphere(n,
 ///         density, seed) where it draws.
 Continuation continuation(std::int64_t cells, const Density& density, std::uint64_t seed = 1);
+
+/// The start of a run with CvtOptions::insertion_rounds, for any number of cells: random points
+/// that follow site_density(), and as many bisections as leave at least 160 of them, or `cells`
+/// itself. \param cells value for CvtOptions::cells, 12 to 2^30. \throws Error as above.
+Continuation multilevel(std::int64_t cells, const Density& density, std::uint64_t seed = 1);
+
+/// The same in the plane.
+struct PlanarContinuation {
+  Points2 start;      ///< 2 x n places
+  int bisections = 0; ///< value for CvtOptions::bisections
+};
+
+/// \param cells 3 to 2^30.
+/// \throws Error bad_option for a number out of range, or as random_places(n, domain, density,
+/// seed).
+PlanarContinuation multilevel(std::int64_t cells, const PlanarDomain& domain,
+                              const Density& density, std::uint64_t seed = 1);
 
 } // namespace calotte
 CALOTTE_API_END

@@ -4,6 +4,7 @@
 
 #include "base/require.h"
 #include "cvt/room.h"
+#include "cvt/worlds.h"
 
 #include <optional>
 
@@ -17,6 +18,15 @@ std::optional<int> icosahedral_level(std::int64_t n) {
   for (; tens % 4 == 0 && tens > 10; tens /= 4)
     ++level;
   return tens == 10 ? std::optional(level) : std::nullopt;
+}
+
+/// Halves the number of cells along both axes while enough are left. Returns how often.
+template <class World> int coarsen(std::int64_t& cells) {
+  constexpr std::int64_t least = 160;
+  int levels = 0;
+  for (; World::halved(cells) >= least; cells = World::halved(cells))
+    ++levels;
+  return levels;
 }
 
 } // namespace
@@ -37,6 +47,23 @@ Continuation continuation(std::int64_t cells, const Density& density, std::uint6
   else
     result.start =
         density.uniform() ? fibonacci_sphere(n) : random_sphere(n, site_density(density), seed);
+  return result;
+}
+
+Continuation multilevel(std::int64_t cells, const Density& density, std::uint64_t seed) {
+  base_detail::require_count(cells, cvt_detail::SphericalWorld::fewest, "the number of cells");
+  Continuation result;
+  result.bisections = coarsen<cvt_detail::SphericalWorld>(cells);
+  result.start = random_sphere(cells, site_density(density), seed);
+  return result;
+}
+
+PlanarContinuation multilevel(std::int64_t cells, const PlanarDomain& domain,
+                              const Density& density, std::uint64_t seed) {
+  base_detail::require_count(cells, cvt_detail::PlanarWorld::fewest, "the number of cells");
+  PlanarContinuation result;
+  result.bisections = coarsen<cvt_detail::PlanarWorld>(cells);
+  result.start = random_places(cells, domain, site_density(density, domain), seed);
   return result;
 }
 

@@ -24,7 +24,9 @@ namespace calotte {
 namespace cvt_detail {
 namespace {
 
-constexpr double shape_tolerance = 0.035; ///< of an excess over the limits of shape.h
+/// Of an excess over the limits of shape.h: a finish ends at the first, and has converged below the
+/// second.
+constexpr double shape_tolerance = 0.035, accepted_shape = 0.07;
 
 void require_options(const CvtOptions& options) {
   const auto refuse = [](const std::string& what) { throw Error(ErrorCode::bad_option, what); };
@@ -125,6 +127,8 @@ Ending iterate(const World& world, CvtState& whole, Level&& level, const CvtOpti
     const bool ended = level_ended(state, options) || descent.stuck();
     if (ended && state.penalty == 0)
       state.points = descent.here().centroids;
+    if (ended && state.penalty > 0)
+      state.report.converged = descent.here().iteration.misshapen <= accepted_shape;
     Clock::time_point now = start;
     state.report.seconds = before + lap(now);
     const bool stopped = callback && callback({state.report, state.iterations_of_level,

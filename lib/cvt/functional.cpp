@@ -73,6 +73,19 @@ void make_room(Evaluation& out, Eigen::Index n, bool with_gradient) {
   }
 }
 
+/// Counts the generators away from their centroids.
+void count_displaced(const Array<SiteTerms>& terms, const Array<double>& inverse_spacing,
+                     CvtIteration& iteration) {
+  constexpr double least = 0.01;
+  double most = 0;
+  for (std::int64_t i = 0; i < terms.size(); ++i) {
+    const double square = terms[i].square * inverse_spacing[i] * inverse_spacing[i];
+    iteration.displaced += square > least * least;
+    most = std::max(most, square);
+  }
+  iteration.displacement = std::sqrt(most);
+}
+
 template <class Cells> class FunctionalOver final : public Functional {
 public:
   FunctionalOver(Cells cells, const Points3& points, const CvtOptions& options, Level&& level)
@@ -184,6 +197,7 @@ void FunctionalOver<Cells>::add_penalty(const Points3& points, Evaluation& out) 
                                            tessellation_.distorted(inverse_spacing),
                                            inverse_spacing, penalty_, out.gradient);
   tessellation_.cells().make_tangential(out.gradient, points);
+  count_displaced(out.terms, inverse_spacing, out.iteration);
   out.penalty = penalty_ * terms.value;
   out.iteration.misshapen = terms.worst;
 }

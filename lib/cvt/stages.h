@@ -43,13 +43,19 @@ CvtOptions options_of_descent(const State& state, const CvtOptions& options);
 
 void begin_descent(State& state);
 
+/// Coarser levels, where rounds are cheap, have more of them.
+inline int rounds_of_level(const State& state, const CvtOptions& options) {
+  constexpr int most = 4; // times those of the last level
+  return options.insertion_rounds * std::min(state.bisections_left + 1, most);
+}
+
 /// The next level.
 template <class World, class AnyMesh>
 Level begin_level(const World& world, State& state, const CvtOptions& options,
                   const AnyMesh& mesh) {
   Level level = world.set_bisected(state, mesh);
   --state.bisections_left;
-  state.rounds_left = options.insertion_rounds;
+  state.rounds_left = rounds_of_level(state, options);
   state.site_of_input.clear();
   begin_descent(state);
   return level;

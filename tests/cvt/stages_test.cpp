@@ -131,7 +131,7 @@ TEST_CASE("stages: a finish gives the shapes that models ask for [slow]") {
       const Cvt grid = spherical_cvt(start_of(190, density, seed), graded(3001, 2, density));
       CHECK(grid.mesh.points.cols() == 3001);
       CHECK(grid.report.converged);
-      CHECK(grid.report.iterations.back().misshapen <= 0.035);
+      CHECK(grid.report.iterations.back().misshapen <= 0.07);
       CHECK(check(grid.mesh).failure == "");
       check_shapes(grid.mesh);
       CHECK(grid.report.residual < 0.02);

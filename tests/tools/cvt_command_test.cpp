@@ -241,7 +241,8 @@ TEST_CASE("bad usage is refused before any work") {
   check_usage("--cells 12 --lonlat" + out,
               "--lonlat applies to a file of points only; leave it out");
   check_usage("--cells 12 --start fibonacci --seed 2" + out,
-              "--seed applies to the starts continuation, random and density only; leave it out");
+              "--seed applies to the starts multilevel, continuation, random and density only; "
+              "leave it out");
   check_usage("--cells 42 --bisections 1" + out,
               "--start continuation chooses the bisections; leave --bisections out");
   const std::string icosahedral = "--start icosahedron makes 10 x 4^k + 2 cells, not ";
@@ -255,10 +256,11 @@ TEST_CASE("bad usage is refused before any work") {
               "--bisections 1 does not lead to 100 cells; the nearest counts are 98 and 102");
   check_usage("--cells 30 --start random --bisections 1" + out,
               "--bisections 1 does not lead to 30 cells; the nearest count is 42");
-  check_usage("--cells 12 --start there" + out,
-              "--start: there not in {continuation,random,density,fibonacci,spiral,icosahedron,"
-              "hexagonal}" +
-                  see);
+  check_usage(
+      "--cells 12 --start there" + out,
+      "--start: there not in {multilevel,continuation,random,density,fibonacci,spiral,icosahedron,"
+      "hexagonal}" +
+          see);
   for (const std::string tolerance : {"0", "-1e-06", "nan", "inf"})
     check_usage("never --tolerance=" + tolerance + out,
                 "--tolerance " + tolerance + " is not a positive number; give one such as 1e-6");
@@ -384,7 +386,9 @@ TEST_CASE("the examples run, from anywhere, and write beside themselves") {
     const Outcome made =
         bench.run("cvt --config examples/" + run + ".toml --cells 162 --max-iterations 30");
     CAPTURE(made.err);
-    CHECK((made.code == 0 || has(made.err, "increase --max-iterations")));
+    // So few cells cannot follow the densities with good shapes.
+    CHECK((made.code == 0 || has(made.err, "increase --max-iterations") ||
+           has(made.err, "give more cells")));
     CHECK(!has(made.err, "warning"));
     CHECK(made.out.starts_with(mesh + ": 162 cells, "));
     CHECK(bench.run((plane ? "check --plane " : "check ") + mesh).code == 0);
@@ -794,4 +798,40 @@ TEST_CASE("options that a planar run does not support are refused before any wor
           "unknown key \"lon\"; the keys are x, y");
   refused(square + "--cells 100 --cell-width w.nc -o m.vtp", "--cell-width applies to the sphere");
   refused("--cells 5 -o m.vtp", "at least 12");
+}
+
+TEST_CASE("a graded run reaches its number of cells and ends with good shapes") {
+  const Bench bench;
+  const std::string density = "--density tanh:lon=270,lat=30,beta=30deg,alpha=0.30,gamma=x3 ";
+  const Outcome made = bench.run("cvt --cells 1111 " + density + "-o a.vtp --report a.json");
+  CHECK(made.code == 0);
+  CHECK(made.err.empty());
+  CHECK(has(made.out, "a.vtp: 1111 cells, well-centred, "));
+  CHECK(has(made.out, " generators more than 0.01 of the spacing from their centroids (at most "));
+  const std::string report = bench.file("a.json");
+  CHECK(has(report, "\"stop\": \"well-centred\""));
+  CHECK(has(report, "\"tolerance\": 0.0003"));
+  CHECK(has(report, "\"converged\": true"));
+  const std::string last = report.substr(report.rfind("\"misshapen\": "));
+  CHECK(std::stod(last.substr(last.find(' '))) <= 0.07);
+  const Outcome pure =
+      bench.run("cvt --cells 1111 " + density + "--stop tolerance --tolerance 1e-4 -o b.vtp");
+  CHECK(has(pure.out, "b.vtp: 1111 cells, converged, "));
+  CHECK(!has(pure.out, "from their centroids"));
+}
+
+TEST_CASE("the options of a graded run are checked") {
+  const Bench bench;
+  const auto refused = [&](const std::string& options, const std::string& message) {
+    CAPTURE(options);
+    const Outcome outcome = bench.run("cvt " + options + " -o mesh.vtp");
+    CHECK(outcome.code == 2);
+    CHECK(has(outcome.err, message));
+    CHECK(!fs::exists(bench.folder() / "mesh.vtp"));
+  };
+  refused("--cells 100 --insertion-rounds 2", "applies to --start multilevel only");
+  refused("--cells 100 --start multilevel --bisections 2", "chooses the bisections");
+  refused("--cells 11 --start multilevel", "give at least 12");
+  refused("--cells 100 --stop well-centered", "--stop");
+  refused("--cells 100 --stop well-centred --iterations 3", "--stop");
 }

@@ -14,8 +14,8 @@ const std::string bump = "tanh:lon=270,lat=30,beta=30deg,alpha=0.20,gamma=x2";
 
 /// A run's mesh and report.
 void make_run(const Bench& bench, const std::string& name) {
-  const Outcome outcome = bench.run("cvt --cells 162 --tolerance 1e-2 --density " + bump + " -o " +
-                                    name + ".vtp --report " + name + ".json");
+  const Outcome outcome = bench.run("cvt --cells 162 --stop tolerance --tolerance 1e-2 --density " +
+                                    bump + " -o " + name + ".vtp --report " + name + ".json");
   CAPTURE(outcome.err);
   REQUIRE(outcome.code == 0);
 }

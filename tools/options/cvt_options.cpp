@@ -58,12 +58,15 @@ void add_start(CLI::App& command, CvtRequest& request) {
   command
       .add_option(
           "--start", request.start,
-          "Initial generators without a file. On the sphere: continuation (default; converges a "
-          "coarse grid, bisects it and converges again, in turn), random (uniform), density "
-          "(random, distributed as the cells of an optimal grid), fibonacci, spiral or "
-          "icosahedron. In the plane: density (default), random or hexagonal")
-      ->check(CLI::IsMember({"continuation", "random", "density", "fibonacci", "spiral",
-                             "icosahedron", "hexagonal"}));
+          "Initial generators without a file: multilevel (converges a coarse grid, bisects it and "
+          "converges again, in turn; inserts and removes cells where the density demands it; the "
+          "default on the sphere unless the density is uniform), continuation (the same without "
+          "insertion, for the sphere; the default if the density is uniform), density (random, "
+          "distributed as the cells of an optimal grid; the default in the plane), random "
+          "(uniform), fibonacci, spiral or icosahedron (on the sphere), or hexagonal (in the "
+          "plane)")
+      ->check(CLI::IsMember({"multilevel", "continuation", "random", "density", "fibonacci",
+                             "spiral", "icosahedron", "hexagonal"}));
   command.add_option("--seed", request.seed, "Seed of random points, >= 0; default: 1")
       ->transform(whole_number(0, std::numeric_limits<std::uint64_t>::max()));
   command
@@ -71,6 +74,12 @@ void add_start(CLI::App& command, CvtRequest& request) {
                   "Number of bisections, 0 to 13; default: 0. Each refines the converged grid, "
                   "which then converges again. --cells is the number after the last bisection")
       ->transform(whole_number(0, 13));
+  command
+      .add_option(
+          "--insertion-rounds", request.insertion_rounds,
+          "Rounds of insertion and removal of cells on the last level of --start multilevel; 1 "
+          "to 100; default: 2")
+      ->transform(whole_number(1, 100));
 }
 
 void add_method(CLI::App& command, CvtRequest& request) {
@@ -89,6 +98,15 @@ void add_method(CLI::App& command, CvtRequest& request) {
 }
 
 void add_end(CLI::App& command, CvtRequest& request) {
+  CLI::Option* stop =
+      command
+          .add_option("--stop", request.stop,
+                      "The end of the run: tolerance (a pure CVT: the norm is at most the "
+                      "tolerance), or well-centred (a finish follows, which gives the shapes that "
+                      "models ask for: no obtuse triangle, angles of 47 to 79 degrees, no short "
+                      "edge; some generators then stand away from their centroids). Default: "
+                      "well-centred with --start multilevel, else tolerance")
+          ->check(CLI::IsMember({"tolerance", "well-centred"}));
   CLI::Option* norm =
       command
           .add_option("--norm", request.norm,
@@ -98,10 +116,9 @@ void add_end(CLI::App& command, CvtRequest& request) {
                       "cell area), or gradient (of the energy)")
           ->check(CLI::IsMember({"l2", "linf", "l2-scaled", "linf-scaled", "gradient"}))
           ->capture_default_str();
-  CLI::Option* tolerance = command
-                               .add_option("--tolerance", request.tolerance,
-                                           "Stop when the norm is at most this value; > 0")
-                               ->capture_default_str();
+  CLI::Option* tolerance = command.add_option("--tolerance", request.given_tolerance,
+                                              "Stop when the norm is at most this value; > 0; "
+                                              "default: 3e-4 before a finish, else 1e-6");
   CLI::Option* limit = command
                            .add_option("--max-iterations", request.max_iterations,
                                        "Maximum number of iterations per level, >= 1. A run that "
@@ -113,6 +130,7 @@ void add_end(CLI::App& command, CvtRequest& request) {
                   "Number of iterations per level, >= 1, instead of a tolerance. Each trial of a "
                   "step counts; the last step is completed")
       ->transform(whole_number(1, std::numeric_limits<int>::max()))
+      ->excludes(stop)
       ->excludes(norm)
       ->excludes(tolerance)
       ->excludes(limit);
@@ -165,6 +183,30 @@ void add_files(CLI::App& command, CvtRequest& request) {
 
 } // namespace
 
+std::string start_kind(const CvtRequest& request) {
+  if (!request.points.empty())
+    return "points";
+  if (request.start)
+    return *request.start;
+  if (planar(request))
+    return "density";
+  const std::vector<std::string> names = density_names(*request.density);
+  const bool uniform = names.size() == 1 && names.front() == "uniform";
+  return uniform || request.iterations || request.bisections ? "continuation" : "multilevel";
+}
+
+bool well_centred(const CvtRequest& request) {
+  if (request.stop)
+    return *request.stop == "well-centred";
+  return start_kind(request) == "multilevel" && !request.iterations;
+}
+
+double tolerance_of(const CvtRequest& request) {
+  constexpr double before_finish = 3e-4;
+  return request.given_tolerance.value_or(well_centred(request) ? before_finish
+                                                                : CvtOptions{}.tolerance);
+}
+
 std::string norm_word(const CvtRequest& request) {
   return request.iterations ? "none" : request.norm;
 }
@@ -174,7 +216,8 @@ CvtOptions options_of(const CvtRequest& request) {
   options.method = methods.at(request.method);
   options.relaxation = request.relaxation;
   options.norm = norms.at(norm_word(request));
-  options.tolerance = request.tolerance;
+  options.tolerance = tolerance_of(request);
+  options.well_centred = well_centred(request);
   options.max_iterations = request.iterations.value_or(request.max_iterations);
   options.rule = request.rule;
   options.final_rule = request.final_rule;

@@ -22,15 +22,17 @@ struct CvtRequest {
   std::shared_ptr<DomainWords> domain; ///< of a plane, where one is given
   std::optional<int> cells;            ///< of the result
   bool cells_of_widths = false;        ///< --cells auto: the number that the cell widths imply
-  std::optional<std::string> start;    ///< default continuation, in the plane density
+  std::optional<std::string> start;    ///< default: see start_kind()
   std::optional<std::uint64_t> seed;
   std::optional<int> bisections;
+  std::optional<int> insertion_rounds; ///< of a multilevel start
 
   std::shared_ptr<DensityWords> density;
   std::string method = "auto";
   double relaxation = 1;
   std::string norm = "l2-scaled";
-  double tolerance = CvtOptions{}.tolerance;
+  std::optional<std::string> stop; ///< default: see well_centred()
+  std::optional<double> given_tolerance;
   int max_iterations = CvtOptions{}.max_iterations;
   std::optional<int> iterations;
   int rule = CvtOptions{}.rule, final_rule = CvtOptions{}.final_rule;
@@ -47,6 +49,16 @@ struct CvtRequest {
 
 /// True for a run in the plane.
 inline bool planar(const CvtRequest& request) { return request.domain->given(); }
+
+/// The kind of start. Default: multilevel on the sphere for a density that is not uniform,
+/// continuation for a uniform one; density in the plane.
+std::string start_kind(const CvtRequest& request);
+
+/// Whether the run ends with a finish. Default: that of a multilevel start does.
+bool well_centred(const CvtRequest& request);
+
+/// The value of --tolerance, whose default depends on the end of the run.
+double tolerance_of(const CvtRequest& request);
 
 /// The value of --norm; "none" for a run of --iterations.
 std::string norm_word(const CvtRequest& request);

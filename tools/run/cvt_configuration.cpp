@@ -23,7 +23,8 @@ std::string configuration_of(const CvtRequest& request, const CvtOptions& option
     add("iterations", std::to_string(*request.iterations));
   } else {
     add("norm", request.norm);
-    add("tolerance", shortest(request.tolerance));
+    add("stop", well_centred(request) ? "well-centred" : "tolerance");
+    add("tolerance", shortest(tolerance_of(request)));
     add("max-iterations", std::to_string(request.max_iterations));
   }
   if (!options.density.uniform()) {

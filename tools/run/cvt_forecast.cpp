@@ -90,12 +90,25 @@ std::string describe(const CvtProgress& progress, const CvtOptions& options,
   std::string text = std::to_string(last.cells) + " cells, iteration " +
                      std::to_string(progress.iterations_of_level);
   std::array<char, 64> number{};
-  if (options.norm != Norm::none) {
+  if (options.norm != Norm::none && last.misshapen == 0) {
     std::snprintf(number.data(), number.size(), " %.2e of %.0e", progress.report.residual,
                   options.tolerance);
     text += ", " + norm + number.data();
   }
-  if (const auto end = forecast(progress, options))
+  const bool inserts =
+                 options.insertion_rounds > 0, // whose descents end at tolerances of their own
+      finishes = last.misshapen > 0;
+  if (finishes) {
+    std::snprintf(number.data(), number.size(), ", shapes %.2g beyond their limits",
+                  last.misshapen);
+    text += number.data();
+  }
+  if (inserts && progress.rounds_left > 0)
+    text += ", then " + std::to_string(progress.rounds_left) +
+            (progress.rounds_left == 1 ? " round of insertion" : " rounds of insertion");
+  if (const auto end = forecast(progress, options);
+      end && !finishes &&
+      (!inserts || (progress.rounds_left == 0 && progress.bisections_left == 0)))
     text += (end->converges ? ", about " : ", ") + duration(end->seconds) + " to the " +
             (end->converges ? "tolerance" : "last iteration");
   if (progress.bisections_left > 0)

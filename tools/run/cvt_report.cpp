@@ -20,6 +20,9 @@ Json to_json(const CvtIteration& iteration) {
           {"linf", iteration.linf},
           {"gradient", iteration.gradient},
           {"energy", iteration.energy},
+          {"misshapen", iteration.misshapen},
+          {"displaced", iteration.displaced},
+          {"displacement", iteration.displacement},
           {"accepted", iteration.accepted},
           {"flips", iteration.flips},
           {"rebuilt", iteration.rebuilt},
@@ -50,7 +53,8 @@ std::string to_json(const CvtRequest& request, const CvtReport& report, std::int
   json["density"] = density_names(*request.density);
   json["method"] = request.method;
   json["norm"] = norm_word(request);
-  json["tolerance"] = request.tolerance;
+  json["stop"] = well_centred(request) ? "well-centred" : "tolerance";
+  json["tolerance"] = tolerance_of(request);
   json["converged"] = report.converged;
   json["residual"] = report.residual;
   json["cells"] = cells;
@@ -71,7 +75,9 @@ std::string summary(const CvtRequest& request, const CvtReport& report, std::int
   const auto iterations = std::ssize(report.iterations);
   std::string line = request.mesh + ": " + std::to_string(cells) + " cells, ";
   if (!request.iterations)
-    line += report.converged ? "converged, " : "not converged, ";
+    line += !report.converged       ? "not converged, "
+            : well_centred(request) ? "well-centred, "
+                                    : "converged, ";
   line += std::to_string(iterations) + (iterations == 1 ? " iteration" : " iterations");
   if (before > 0)
     line += " (" + std::to_string(before) + " before it was resumed)";
@@ -81,6 +87,12 @@ std::string summary(const CvtRequest& request, const CvtReport& report, std::int
     const CvtIteration& last = report.iterations.back();
     line += std::string(", energy x cells ") + (planar(request) ? "/ area^2 " : "") +
             formatted("%.7g", last.energy * static_cast<double>(last.cells) / (area * area));
+  }
+  if (iterations > 0 && report.iterations.back().displaced > 0) {
+    const CvtIteration& last = report.iterations.back();
+    line += ", " + std::to_string(last.displaced) +
+            " generators more than 0.01 of the spacing from their centroids (at most " +
+            formatted("%.2g", last.displacement) + ")";
   }
   return line + ", " + formatted("%.2f", report.seconds) + " s";
 }

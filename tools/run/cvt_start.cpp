@@ -23,13 +23,12 @@ constexpr std::int64_t fewest = 12; ///< cells of a CVT
   throw Error(ErrorCode::bad_option, problem);
 }
 
-std::string kind_of(const CvtRequest& request) {
-  const char* const usual = planar(request) ? "density" : "continuation";
-  return request.points.empty() ? request.start.value_or(usual) : "points";
+bool seeded(const std::string& kind) {
+  return kind == "multilevel" || kind == "continuation" || kind == "random" || kind == "density";
 }
 
-bool seeded(const std::string& kind) {
-  return kind == "continuation" || kind == "random" || kind == "density";
+bool chooses_bisections(const std::string& kind) {
+  return kind == "multilevel" || kind == "continuation";
 }
 
 /// The number of cells after bisections of n: n -> 4n - 6.
@@ -92,16 +91,18 @@ void require_planar_cells(const CvtRequest& request) {
 
 /// Rejects options that a planar run does not support, and those that only a planar run supports.
 void require_kind(const CvtRequest& request) {
-  const std::string kind = kind_of(request);
-  const bool both = kind == "random" || kind == "density", plane = planar(request);
+  const std::string kind = start_kind(request);
+  const bool both = kind == "multilevel" || kind == "random" || kind == "density",
+             plane = planar(request);
   if (plane && !both && kind != "hexagonal")
-    refuse("--start " + kind + " applies to the sphere only; give density, random or hexagonal");
+    refuse("--start " + kind +
+           " applies to the sphere only; give multilevel, density, random or hexagonal");
   if (!plane && kind == "hexagonal")
     refuse("--start hexagonal applies to the plane only; give --domain, --rectangle or --periodic");
 }
 
 void require_cells(const CvtRequest& request) {
-  const std::string kind = kind_of(request);
+  const std::string kind = start_kind(request);
   require_kind(request);
   if (request.cells_of_widths && request.density->widths.file.empty())
     refuse("--cells auto requires cell widths; give --cell-width FILE, or a number of cells");
@@ -110,19 +111,24 @@ void require_cells(const CvtRequest& request) {
   if (request.lonlat)
     refuse("--lonlat applies to a file of points only; leave it out");
   if (request.seed && !seeded(kind))
-    refuse("--seed applies to the starts continuation, random and density only; leave it out");
-  if (request.bisections && kind == "continuation")
-    refuse("--start continuation chooses the bisections; leave --bisections out");
+    refuse("--seed applies to the starts multilevel, continuation, random and density only; leave "
+           "it out");
+  if (request.bisections && chooses_bisections(kind))
+    refuse("--start " + kind + " chooses the bisections; leave --bisections out");
+  if (request.insertion_rounds && kind != "multilevel")
+    refuse("--insertion-rounds applies to --start multilevel only; leave it out");
   if (!request.cells) // see settle_cells
     return;
-  if (planar(request))
+  if (planar(request) && kind != "multilevel")
     require_planar_cells(request);
+  else if (planar(request))
+    return;
   else if (*request.cells < fewest)
     refuse("--cells " + std::to_string(*request.cells) + " is too few; give at least " +
            std::to_string(fewest));
   else if (kind == "icosahedron")
     require_icosahedral(*request.cells, request.bisections.value_or(0));
-  else if (kind != "continuation")
+  else if (!chooses_bisections(kind))
     require_bisected(*request.cells, request.bisections.value_or(0));
 }
 
@@ -134,6 +140,7 @@ void require_file(const CvtRequest& request) {
   exclude(request.cells.has_value() || request.cells_of_widths, "--cells");
   exclude(request.start.has_value(), "--start");
   exclude(request.seed.has_value(), "--seed");
+  exclude(request.insertion_rounds.has_value(), "--insertion-rounds");
   if (planar(request) && request.lonlat)
     refuse("--lonlat applies to the sphere only; leave it out");
 }
@@ -182,7 +189,7 @@ PlanarPointFile planar_points_of(const std::string& path) {
 }
 
 CvtStart announce(const CvtRequest& request) {
-  const std::string kind = kind_of(request);
+  const std::string kind = start_kind(request);
   CvtStart start;
   start.configuration = "start " + kind + "\ncells " + std::to_string(*request.cells) + "\n" +
                         (seeded(kind) ? "seed " + std::to_string(seed_of(request)) + "\n" : "");
@@ -212,7 +219,23 @@ CvtStart read(const CvtRequest& request) {
   return start;
 }
 
+/// Sets the points and bisections of a start that insertion leads to any number of cells.
+void make_multilevel(const CvtRequest& request, const Density& density,
+                     const std::optional<PlanarDomain>& domain, CvtStart& start) {
+  if (domain) {
+    PlanarContinuation from = multilevel(*request.cells, *domain, density, seed_of(request));
+    start.bisections = from.bisections;
+    start.places = std::move(from.start);
+  } else {
+    Continuation from = multilevel(*request.cells, density, seed_of(request));
+    start.bisections = from.bisections;
+    start.points = std::move(from.start);
+  }
+}
+
 } // namespace
+
+int rounds_of(const CvtRequest& request) { return request.insertion_rounds.value_or(2); }
 
 void require_start(const CvtRequest& request) {
   if (request.points.empty())
@@ -226,7 +249,8 @@ std::vector<std::string> settle_cells(CvtRequest& request, const std::optional<C
     return {};
   const WidthWords& words = request.density->widths;
   if (request.cells_of_widths) {
-    request.cells = static_cast<int>(cells_for(*widths, words, kind_of(request) == "continuation"));
+    request.cells =
+        static_cast<int>(cells_for(*widths, words, start_kind(request) == "continuation"));
     require_cells(request);
   }
   return notes_on(*widths, words, request.cells);
@@ -235,7 +259,9 @@ std::vector<std::string> settle_cells(CvtRequest& request, const std::optional<C
 CvtStart open_start(const CvtRequest& request) {
   CvtStart start = request.points.empty() ? announce(request) : read(request);
   start.bisections = request.bisections.value_or(0);
-  if (kind_of(request) != "continuation") // whose bisections follow from cells and density
+  if (const std::string kind = start_kind(request); kind == "multilevel")
+    start.configuration += "insertion-rounds " + std::to_string(rounds_of(request)) + "\n";
+  else if (!chooses_bisections(kind)) // whose bisections follow from cells and density
     start.configuration += "bisections " + std::to_string(start.bisections) + "\n";
   if (planar(request))
     start.configuration += domain_configuration(*request.domain);
@@ -246,8 +272,12 @@ void generate_points(const CvtRequest& request, const Density& density,
                      const std::optional<PlanarDomain>& domain, CvtStart& start) {
   if (!request.points.empty())
     return;
-  const std::string kind = kind_of(request);
+  const std::string kind = start_kind(request);
   const std::int64_t cells = *request.cells;
+  if (kind == "multilevel") {
+    make_multilevel(request, density, domain, start);
+    return;
+  }
   if (domain) {
     start.places =
         generate(kind, cells >> (2 * start.bisections), *domain, density, seed_of(request));

@@ -21,6 +21,9 @@ struct CvtStart {
   std::string configuration;
 };
 
+/// The rounds of insertion on each level of a multilevel start.
+int rounds_of(const CvtRequest& request);
+
 /// Validates the options of the start before any work.
 /// \throws Error bad_option.
 void require_start(const CvtRequest& request);
