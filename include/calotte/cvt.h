@@ -58,7 +58,8 @@ struct CvtOptions {
   int bisections = 0;
   /// Rounds of insertion and contraction on the last level, see insert_and_contract(), and up to
   /// four times as many on coarser levels; each is followed by a descent. With rounds, all descents
-  /// but the last end at an l2_scaled norm of 1e-3 or the tolerance, whichever is larger. >= 0;
+  /// but the last end at an l2_scaled norm of 1e-3 or the tolerance, whichever is larger, or after
+  /// 200 evaluations. >= 0;
   /// default 0.
   int insertion_rounds = 0;
   /// Number of generators of the result; > 0 if and only if insertion_rounds is. A level of b
@@ -78,7 +79,8 @@ struct CvtOptions {
   int rule = 3;
   /// Rule from the iteration on in which the norm is at most ten times the tolerance or a line
   /// search fails; same values as `rule`. A run converges with this rule only. No effect for
-  /// uniform density and with Norm::none.
+  /// uniform density and with Norm::none. With insertion_rounds and a tolerance of 1e-5 or more,
+  /// `rule` takes its place.
   int final_rule = 6;
   int triangle_divisions = 1; ///< divides each half kite into this number squared; 1 to 100
   Duplicates duplicates = Duplicates::merge; ///< of the start, see DelaunayOptions
@@ -90,8 +92,10 @@ struct CvtOptions {
 /// the unit sphere, in the plane in the unit of the domain.
 struct CvtIteration {
   std::int64_t cells = 0;
-  double spacing = 0;      ///< h, the square root of the mean cell area
-  int rule = 0;            ///< quadrature points per half kite; 0 for exact moments
+  double spacing = 0; ///< h, the square root of the mean cell area
+  /// Quadrature points per half kite; 0 for exact moments; -1 for a density that is linear between
+  /// the generators, as in a run with insertion_rounds except at its end.
+  int rule = 0;
   double l2 = 0, linf = 0; ///< Norm::l2 and Norm::linf, not scaled
   double gradient = 0;     ///< Norm::gradient
   double energy = 0;       ///< sum over cells of the integral of rho |x - x_i|^2

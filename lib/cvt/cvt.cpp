@@ -89,7 +89,8 @@ void conclude(State& state, const CvtOptions& options, const CvtIteration& itera
     report.converged = state.iterations_of_level >= options.max_iterations;
   } else {
     report.converged = by_final_rule && report.residual <= options.tolerance;
-    state.final_rule = state.final_rule || report.residual <= 10 * options.tolerance;
+    const double margin = options.rule == rule_at_sites ? 1 : 10;
+    state.final_rule = state.final_rule || report.residual <= margin * options.tolerance;
   }
 }
 

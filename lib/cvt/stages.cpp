@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cvt/stages.h"
 
+#include "integrals/integrand.h"
+
 #include <numbers>
 
 namespace calotte::cvt_detail {
@@ -34,21 +36,28 @@ Stage stage_after(const State& state, const CvtOptions& options) {
 }
 
 CvtOptions options_of_descent(const State& state, const CvtOptions& options) {
-  constexpr int most_in_finish = 60;
-  constexpr double early = 1e-3;
+  constexpr int most_in_finish = 60, most_early = 200;
+  constexpr double early = 1e-3, fine = 1e-5;
+  constexpr std::int64_t resolving = 2000; // generators, between which a density is nearly linear
   CvtOptions here = options;
   if (state.penalty > 0) {
     here.method = Method::lbfgs;
     here.max_iterations = most_in_finish;
     return here;
   }
-  const Stage next = stage_after(state, options);
-  if (options.insertion_rounds == 0 || options.norm == Norm::none ||
-      (next != Stage::insert && next != Stage::bisect))
+  if (options.insertion_rounds == 0 || options.norm == Norm::none)
     return here;
+  if (state.points.cols() >= resolving)
+    here.rule = rule_at_sites;
+  const Stage next = stage_after(state, options);
+  if (next != Stage::insert && next != Stage::bisect) {
+    here.final_rule = options.tolerance < fine ? options.final_rule : options.rule;
+    return here;
+  }
   here.tolerance = options.norm == Norm::l2_scaled ? std::max(early, options.tolerance) : early;
   here.norm = Norm::l2_scaled;
-  here.final_rule = options.rule;
+  here.final_rule = here.rule;
+  here.max_iterations = std::min(options.max_iterations, most_early);
   return here;
 }
 

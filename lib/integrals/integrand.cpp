@@ -28,10 +28,12 @@ std::vector<QuadratureRule::Node> composite(const QuadratureRule& rule, int divi
 } // namespace
 
 Integrand make_integrand(const Density& density, int rule, int divisions) {
-  const QuadratureRule& nodes = quadrature_rule(rule);
+  constexpr int points_at_sites = 3;
+  const bool at_sites = rule == rule_at_sites;
+  const QuadratureRule& nodes = quadrature_rule(at_sites ? points_at_sites : rule);
   if (density.uniform())
-    return {DensityEvaluator(density), true, {}};
-  return {DensityEvaluator(density), false, composite(nodes, divisions)};
+    return {DensityEvaluator(density), true, false, {}};
+  return {DensityEvaluator(density), false, at_sites, composite(nodes, divisions)};
 }
 
 } // namespace calotte::integrals_detail

@@ -16,11 +16,16 @@ namespace calotte::integrals_detail {
 struct Integrand {
   DensityEvaluator density;
   bool uniform = true;
+  /// The density is evaluated at the sites only, and linear on each triangle; not in a plane.
+  bool at_sites = false;
   /// The nodes on all parts of a half kite; weights sum to 1. Empty for uniform density.
   std::vector<QuadratureRule::Node> nodes;
 };
 
-/// \param rule a number of points, see quadrature_rule().
+/// The rule of Integrand::at_sites.
+inline constexpr int rule_at_sites = -1;
+
+/// \param rule a number of points, see quadrature_rule(), or rule_at_sites.
 /// \param divisions 1 to 100.
 /// \throws Error bad_option for an ill-formed density, or a rule that does not exist.
 Integrand make_integrand(const Density& density, int rule, int divisions);

@@ -7,7 +7,9 @@
 #include "integrals/rows.h"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
+#include <span>
 
 namespace calotte::integrals_detail {
 namespace {
@@ -46,6 +48,23 @@ void scatter_mass(const Batch& batch, const VertexTerms& terms, Array<double>& m
       mass[batch.locals[lane][v]] += terms.mass[v][lane];
 }
 
+/// The density at the sites.
+Array<double> densities(const Integrand& integrand, const Array<Vec3>& x) {
+  constexpr std::int64_t batch = 128;
+  Array<double> rho(x.size());
+  std::array<std::array<double, batch>, 3> rows;
+  for (std::int64_t begin = 0; begin < x.size(); begin += batch) {
+    const auto count = static_cast<std::size_t>(std::min(batch, x.size() - begin));
+    for (std::size_t j = 0; j < count; ++j) {
+      const Vec3& site = x[begin + static_cast<std::int64_t>(j)];
+      rows[0][j] = site.x, rows[1][j] = site.y, rows[2][j] = site.z;
+    }
+    const auto row = [&](std::size_t i) { return std::span<const double>(rows[i]).first(count); };
+    integrand.density(row(0), row(1), row(2), std::span(rho.begin() + begin, count));
+  }
+  return rho;
+}
+
 } // namespace
 
 void integrate(const Integrand& integrand, const Patch& patch, const Array<Vec3>& x,
@@ -54,10 +73,13 @@ void integrate(const Integrand& integrand, const Patch& patch, const Array<Vec3>
   std::fill(moments.begin(), moments.end(), CellMoments{{0, 0, 0}, 0});
   if (mass != nullptr)
     std::fill(mass->begin(), mass->end(), 0.0);
+  const Array<double> rho = integrand.at_sites ? densities(integrand, x) : Array<double>();
   TriangleRows rows;
   VertexTerms terms;
   for (std::size_t first = 0; first < patch.corners.size(); first += lanes) {
-    const Batch batch = gather(patch, x, first);
+    Batch batch = gather(patch, x, first);
+    if (integrand.at_sites)
+      gather_density(rho, batch);
     checked_rows(batch, first, rows, suspects);
     if (integrand.uniform)
       uniform_terms(batch, rows, mass != nullptr, terms);

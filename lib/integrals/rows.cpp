@@ -19,6 +19,12 @@ Batch gather(const Patch& patch, const Array<Vec3>& x, std::size_t first) {
   return batch;
 }
 
+void gather_density(const Array<double>& rho, Batch& batch) {
+  for (std::size_t lane = 0; lane < lanes; ++lane)
+    for (std::size_t v = 0; v < 3; ++v)
+      batch.rho[v][lane] = rho[batch.locals[std::min(lane, batch.count - 1)][v]];
+}
+
 namespace {
 
 // The product of a corner's two sides is positive if its angle is acute. It errs by some 8
@@ -270,6 +276,37 @@ void node_rows(const QuadratureRule::Node& node, const Rows3& first, const Rows3
   }
 }
 
+/// The density at the circumcentre, linear on the triangle, between the least and the greatest of
+/// the corners. The circumcentre is the sum of (1 - cot B cot C)/2 times corner A.
+CALOTTE_VECTOR_WIDTHS
+void centre_density(const Batch& batch, const TriangleRows& rows, Row& rho) {
+  CALOTTE_VECTOR_LOOP
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    const double a = batch.rho[0][lane], b = batch.rho[1][lane], c = batch.rho[2][lane];
+    const double cot_a = rows.cotangent[0][lane], cot_b = rows.cotangent[1][lane],
+                 cot_c = rows.cotangent[2][lane];
+    const double sum =
+        0.5 * ((1 - cot_b * cot_c) * a + (1 - cot_c * cot_a) * b + (1 - cot_a * cot_b) * c);
+    const double ab_low = a < b ? a : b, ab_high = a < b ? b : a;
+    const double low = ab_low < c ? ab_low : c, high = ab_high < c ? c : ab_high;
+    const double above = sum < low ? low : sum;
+    rho[lane] = above > high ? high : above;
+  }
+}
+
+/// The density at a node on the half kites of an edge's first end and of its second.
+CALOTTE_VECTOR_WIDTHS
+void node_densities(const QuadratureRule::Node& node, const Row& first, const Row& second,
+                    const Row& centre, NodeRows& out) {
+  const double near = node.a + 0.5 * node.b, far = 0.5 * node.b, middle = node.c;
+  CALOTTE_VECTOR_LOOP
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    const double c = middle * centre[lane];
+    out.half[0].rho[lane] = near * first[lane] + far * second[lane] + c;
+    out.half[1].rho[lane] = far * first[lane] + near * second[lane] + c;
+  }
+}
+
 /// Adds a node's terms on the half kite of one end to those of that vertex.
 CALOTTE_VECTOR_WIDTHS
 void add_node(const NodeRows& node, const HalfRows& half, Rows3& first, Row& energy, Row& mass) {
@@ -290,15 +327,21 @@ void kite_terms(const Batch& batch, const TriangleRows& rows, const Integrand& i
   PlaneRows plane;
   NodeRows at_node;
   plane_rows(rows, plane);
+  alignas(64) Row at_centre;
+  if (integrand.at_sites)
+    centre_density(batch, rows, at_centre);
   for (std::size_t e = 0; e < 3; ++e) {
     const std::array<std::size_t, 2> ends{(e + 1) % 3, (e + 2) % 3};
     for (const QuadratureRule::Node& node : integrand.nodes) {
       node_rows(node, batch.corner[ends[0]], batch.corner[ends[1]], plane, rows.quarter[e],
                 rows.cotangent[e], at_node);
+      if (integrand.at_sites)
+        node_densities(node, batch.rho[ends[0]], batch.rho[ends[1]], at_centre, at_node);
       for (std::size_t h = 0; h < 2; ++h) {
         HalfRows& half = at_node.half[h];
         const std::size_t v = ends[h];
-        integrand.density(half.x[0], half.x[1], half.x[2], half.rho);
+        if (!integrand.at_sites)
+          integrand.density(half.x[0], half.x[1], half.x[2], half.rho);
         add_node(at_node, half, terms.first[v], terms.energy[v], terms.mass[v]);
       }
     }

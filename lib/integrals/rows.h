@@ -32,6 +32,7 @@ inline void put(const Vec3& value, Rows3& rows, std::size_t lane) {
 /// Up to `lanes` consecutive triangles of a patch; the last fills the lanes that are left.
 struct alignas(64) Batch {
   std::array<Rows3, 3> corner; ///< [vertex][x, y, z]
+  Rows3 rho;                   ///< [vertex]: the density there; set by gather_density()
   std::size_t count;
   const std::array<std::int32_t, 3>* locals; ///< of the first: local numbers of its corners
 };
@@ -54,6 +55,9 @@ struct alignas(64) VertexTerms {
 };
 
 Batch gather(const Patch& patch, const Array<Vec3>& x, std::size_t first);
+
+/// Sets the density at the corners. \param rho by local number.
+void gather_density(const Array<double>& rho, Batch& batch);
 
 /// True if the clearance of all lanes is positive.
 bool triangle_rows(const Batch& batch, TriangleRows& out);

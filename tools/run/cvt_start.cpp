@@ -235,7 +235,7 @@ void make_multilevel(const CvtRequest& request, const Density& density,
 
 } // namespace
 
-int rounds_of(const CvtRequest& request) { return request.insertion_rounds.value_or(2); }
+int rounds_of(const CvtRequest& request) { return request.insertion_rounds.value_or(1); }
 
 void require_start(const CvtRequest& request) {
   if (request.points.empty())
