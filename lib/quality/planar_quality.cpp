@@ -6,6 +6,7 @@
 #include "cvt/planar_cells.h"
 #include "density/planar_density.h"
 #include "domain/clipped_cell.h"
+#include "quality/demand.h"
 #include "quality/parts.h"
 
 #include <calotte/check.h>
@@ -67,7 +68,9 @@ private:
   std::int64_t generators_;
 };
 
-Quality measure(const Points3& points, const PlanarDomain& domain) {
+/// \param inverse_spacing by generator.
+Quality measure(const Points3& points, const PlanarDomain& domain,
+                Array<double>&& inverse_spacing) {
   PlanarCells cells(domain);
   cells.move(points);
   const Connectivity mesh = cells.signs().triangulate();
@@ -77,6 +80,7 @@ Quality measure(const Points3& points, const PlanarDomain& domain) {
                   mesh.neighbours,
                   make_vertex_rings(mesh.triangles, mesh.neighbours, n),
                   Shapes(m),
+                  std::move(inverse_spacing),
                   {},
                   {}};
   for_each_block(m, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
@@ -111,6 +115,14 @@ Evaluation evaluated(const Points3& points, const PlanarDomain& domain, const De
   return result;
 }
 
+/// The integral of rho^(1/2) over the domain, by the rule of the cells.
+double root_integral(const Points3& points, const PlanarDomain& domain, const Density& planar) {
+  double sum = 0;
+  for (const double mass : evaluated(points, domain, site_density(planar)).mass)
+    sum += mass;
+  return sum;
+}
+
 } // namespace
 } // namespace quality_detail
 
@@ -128,18 +140,20 @@ Quality quality(const PlanarMesh& mesh, const PlanarDomain& domain, const Densit
   Points3 points = Points3::Zero(3, mesh.points.cols());
   points.topRows<2>() = mesh.points;
   require_inside(mesh.points, domain);
-  Quality result = measure(points, domain);
   const Evaluation uniform = evaluated(points, domain, Density{}),
                    of_density =
                        density.uniform() ? Evaluation{} : evaluated(points, domain, planar);
   const CvtIteration& measured = (density.uniform() ? uniform : of_density).iteration;
+  const double whole = area(domain),
+               root = density.uniform() ? whole : root_integral(points, domain, planar);
+  Quality result = measure(points, domain, inverse_spacings(points, planar, root));
   Tally areas;
   for (const double cell : uniform.mass)
     areas.add(cell);
   result.cell_area = areas.range();
   result.residual = measured.l2 / measured.spacing;
-  result.energy = measured.energy;
-  result.cells_area = areas.sum / area(domain);
+  set_energy(result, measured.energy, root);
+  result.cells_area = areas.sum / whole;
   return result;
 }
 
