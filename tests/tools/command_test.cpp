@@ -104,7 +104,8 @@ TEST_CASE("bad usage is refused before any work") {
   check_usage("delaunay never -o mesh.vtp --report mesh.vtp",
               "mesh.vtp is both mesh and report; give the report another name");
   check_usage(
-      "", "delaunay, cvt, points, check, info, draw or convert is required; see calotte --help");
+      "",
+      "delaunay, cvt, plan, points, check, info, draw or convert is required; see calotte --help");
   check_usage("triangulate",
               "The following argument was not expected: triangulate; see calotte --help");
   check_usage("check mesh.tri",
@@ -287,7 +288,8 @@ TEST_CASE("every kind of points") {
 
 TEST_CASE("help names the exit codes, for the command and for each of its parts") {
   const Bench bench;
-  for (const char* part : {"", "delaunay", "cvt", "points", "check", "info", "draw", "convert"}) {
+  for (const char* part :
+       {"", "delaunay", "cvt", "plan", "points", "check", "info", "draw", "convert"}) {
     const Outcome help = bench.run(std::string(part) + " --help");
     CHECK(help.code == 0);
     CHECK(help.out.find("1  the mesh failed its check") != std::string::npos);
