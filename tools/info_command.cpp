@@ -3,8 +3,8 @@
 #include "options/density_option.h"
 #include "options/domain_option.h"
 #include "options/files.h"
+#include "options/format_options.h"
 #include "options/mesh_source.h"
-#include "options/numbers.h"
 #include "run/progress.h"
 #include "run/shapes.h"
 
@@ -17,7 +17,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <iomanip>
 #include <iostream>
 #include <numbers>
@@ -215,13 +214,6 @@ PlanarDomain domain_of(const Request& request, const PlanarMesh& mesh) {
                                          "give --domain, --rectangle or --periodic");
 }
 
-std::string name_of(const DensityWords& words) {
-  std::string name;
-  for (const std::string& part : density_names(words))
-    name += (name.empty() ? "" : " and ") + part;
-  return name;
-}
-
 /// The radius that is given, that of a NetCDF file, or the one that the widths refer to.
 std::optional<double> radius_of(const Request& request, const MeshFile& file) {
   constexpr double metres = 1000; // a km
@@ -237,7 +229,7 @@ std::optional<double> radius_of(const Request& request, const MeshFile& file) {
 /// The density that is given, or else that of the file.
 Density density_of(const Request& request, const MeshFile& file, Measured& measured) {
   const Density given = density_of(*request.density, request.source->plane);
-  measured.density = name_of(*request.density);
+  measured.density = density_name(*request.density);
   if (!given.uniform() || file.density.size() == 0 || !file.mesh ||
       file.density.minCoeff() == file.density.maxCoeff())
     return given;
@@ -270,7 +262,7 @@ void measure_sphere(const Request& request, const MeshFile& file, Measured& meas
 
 void measure_plane(const Request& request, const MeshFile& file, Measured& measured) {
   const PlanarDomain domain = domain_of(request, *file.plane);
-  measured.density = name_of(*request.density);
+  measured.density = density_name(*request.density);
   measured.quality = quality(*file.plane, domain, density_of(*request.density, true));
   measured.domain_area = area(domain);
 }
@@ -341,11 +333,7 @@ std::string read_and_measure(const Request& request) {
 }
 
 void require_radius(const Request& request) {
-  const double radius = request.sphere_radius.value_or(1);
-  if (!(radius > 0) || !std::isfinite(radius))
-    throw Error(ErrorCode::bad_option,
-                "--sphere-radius " + shortest(radius) +
-                    " is not a positive number; give one such as 6371229, in metres");
+  require_sphere_radius(request.sphere_radius.value_or(1));
   if (request.sphere_radius && request.source->plane)
     throw Error(ErrorCode::bad_option, "--sphere-radius does not apply with --plane; leave it out");
 }

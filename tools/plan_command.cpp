@@ -4,6 +4,7 @@
 #include "draw/picture.h"
 #include "options/density_option.h"
 #include "options/files.h"
+#include "options/format_options.h"
 #include "options/numbers.h"
 #include "options/partition_options.h"
 #include "run/cvt_costs.h"
@@ -28,7 +29,6 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 constexpr double metres = 1000; // a km
-constexpr double steep = 0.03;  // what most models recommend at most
 
 struct Request {
   std::shared_ptr<DensityWords> density;
@@ -54,13 +54,6 @@ struct Plan {
   throw Error(ErrorCode::bad_option, problem);
 }
 
-std::string name_of(const DensityWords& words) {
-  std::string name;
-  for (const std::string& part : density_names(words))
-    name += (name.empty() ? "" : " and ") + part;
-  return name;
-}
-
 /// Widths in km: all quantities follow from the file's nodes.
 void plan_widths(const Request& request, const CellWidth& widths, Plan& plan) {
   const WidthWords& words = request.density->widths;
@@ -83,7 +76,7 @@ void plan_density(const Request& request, const Density& density, Plan& plan) {
 
 Plan plan_of(const Request& request, const Resolution& resolution) {
   Plan plan;
-  plan.density = name_of(*request.density);
+  plan.density = density_name(*request.density);
   if (resolution.widths)
     plan_widths(request, *resolution.widths, plan);
   else
@@ -94,13 +87,6 @@ Plan plan_of(const Request& request, const Resolution& resolution) {
 }
 
 // ---- Output
-
-/// "270.0 E 30.0 N".
-std::string place(const Gradient& gradient) {
-  return formatted("%.1f", std::abs(gradient.longitude)) +
-         (gradient.longitude < 0 ? " W " : " E ") + formatted("%.1f", std::abs(gradient.latitude)) +
-         (gradient.latitude < 0 ? " S" : " N");
-}
 
 std::string interval(double low, double high) {
   return formatted("%.4g", low) + " to " + formatted("%.4g", high);
@@ -123,8 +109,8 @@ std::string duration(double seconds) {
 std::string gradient_words(const Gradient& gradient) {
   if (!(gradient.slope > 0))
     return "0";
-  return formatted("%.2g", gradient.slope) + " at " + place(gradient) +
-         (gradient.slope > steep ? ", above 0.03, the limit for most models" : "");
+  return formatted("%.2g", gradient.slope) + " at " + place_of(gradient) +
+         (gradient.slope > steepest_width ? ", above 0.03, the limit for most models" : "");
 }
 
 std::string table(const Plan& plan) {
@@ -196,10 +182,7 @@ void require_request(const Request& request) {
   if (!request.cells && widths.file.empty())
     refuse("a density has no unit, and implies no number of cells; give --cells N, or "
            "--cell-width FILE");
-  const double radius = request.sphere_radius.value_or(1);
-  if (!(radius > 0) || !std::isfinite(radius))
-    refuse("--sphere-radius " + shortest(radius) +
-           " is not a positive number; give one such as 6371229, in metres");
+  require_sphere_radius(request.sphere_radius.value_or(1));
   if (request.sphere_radius && !widths.file.empty())
     refuse("--sphere-radius does not apply to widths in km; give --earth-radius, in km");
   if (!request.picture.empty())
