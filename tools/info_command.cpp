@@ -141,7 +141,7 @@ private:
   template <class Value> void line(const std::string& name, const std::array<Value, 7>& values) {
     out_ << std::left << std::setw(22) << name << std::setprecision(4);
     for (std::size_t k = 0; k < values.size(); ++k)
-      out_ << std::setw(k + 1 < values.size() ? 9 : 0) << values[k];
+      out_ << std::setw(k + 1 < values.size() ? 11 : 0) << values[k];
     out_ << "\n";
   }
 

@@ -164,26 +164,24 @@ struct EdgePart {
 inline Percentiles percentiles(std::vector<double>& values) {
   if (values.empty())
     return {};
-  auto first = values.begin(); // all before are smaller
-  const auto at = [&](double percent) {
-    const double rank = std::ceil(percent / 100 * static_cast<double>(values.size()));
-    const auto place =
-        values.begin() + std::max<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(rank) - 1, 0);
-    if (place >= first) {
-      std::nth_element(first, place, values.end());
-      first = place;
-    }
-    return *place;
+  const auto rank = [&](double percent) {
+    const double count = std::ceil(percent / 100 * static_cast<double>(values.size()));
+    return values.begin() + static_cast<std::ptrdiff_t>(count) - 1;
+  };
+  const auto settle = [&](double after, double percent, double before) {
+    const auto first = after > 0 ? rank(after) : values.begin(),
+               end = before < 100 ? rank(before) + 1 : values.end();
+    std::nth_element(first, rank(percent), end);
+    return *rank(percent);
   };
   Percentiles result;
-  for (const auto& [value, percent] : {std::pair(&result.min, 0.0),
-                                       {&result.p1, 1.0},
-                                       {&result.p5, 5.0},
-                                       {&result.p50, 50.0},
-                                       {&result.p95, 95.0},
-                                       {&result.p99, 99.0},
-                                       {&result.max, 100.0}})
-    *value = at(percent);
+  result.p50 = settle(0, 50, 100);
+  result.p5 = settle(0, 5, 50);
+  result.p1 = settle(0, 1, 5);
+  result.p95 = settle(50, 95, 100);
+  result.p99 = settle(95, 99, 100);
+  result.min = *std::min_element(values.begin(), rank(1) + 1);
+  result.max = *std::max_element(rank(99), values.end());
   return result;
 }
 

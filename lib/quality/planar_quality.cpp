@@ -68,13 +68,11 @@ private:
   std::int64_t generators_;
 };
 
+/// \param mesh of the n generators and the hull.
 /// \param inverse_spacing by generator.
-Quality measure(const Points3& points, const PlanarDomain& domain,
-                Array<double>&& inverse_spacing) {
-  PlanarCells cells(domain);
-  cells.move(points);
-  const Connectivity mesh = cells.signs().triangulate();
-  const std::int64_t n = points.cols(), m = mesh.triangles.cols();
+Quality measure(const PlanarCells& cells, const Connectivity& mesh, const PlanarDomain& domain,
+                std::int64_t n, Array<double>&& inverse_spacing) {
+  const std::int64_t m = mesh.triangles.cols();
   const Vec2 period = domain.periodic() ? Vec2{domain.period.x(), domain.period.y()} : Vec2{0, 0};
   Subject subject{mesh.triangles,
                   mesh.neighbours,
@@ -106,19 +104,32 @@ Quality measure(const Points3& points, const PlanarDomain& domain,
   return measure_shapes(subject, n);
 }
 
-/// The evaluation of a density with the finer rule.
-Evaluation evaluated(const Points3& points, const PlanarDomain& domain, const Density& density) {
+/// The evaluation of a density.
+/// \param mesh of the generators and the hull.
+Evaluation evaluated(const Points3& points, const Connectivity& mesh, const PlanarDomain& domain,
+                     const Density& density, int rule = 6, int divisions = 1) {
   CvtOptions options;
   options.density = density;
+  options.final_rule = rule;
+  options.triangle_divisions = divisions;
+  Level level;
+  level.mesh = mesh;
   Evaluation result;
-  make_functional(points, domain, options)->evaluate(points, true, true, result);
+  make_functional(points, domain, options, std::move(level))->evaluate(points, true, true, result);
   return result;
 }
 
-/// The integral of rho^(1/2) over the domain, by the rule of the cells.
-double root_integral(const Points3& points, const PlanarDomain& domain, const Density& planar) {
+/// The integral of rho^(1/2) over the domain. Errors of 1e-6 remain with few points a cell, if
+/// there are many cells: in the sum most of them cancel.
+double root_integral(const Points3& points, const Connectivity& mesh, const PlanarDomain& domain,
+                     const Density& planar) {
+  if (planar.uniform())
+    return area(domain);
+  constexpr Eigen::Index many = 10000;
+  const bool few = points.cols() < many;
   double sum = 0;
-  for (const double mass : evaluated(points, domain, site_density(planar)).mass)
+  for (const double mass :
+       evaluated(points, mesh, domain, site_density(planar), few ? 6 : 3, few ? 2 : 1).mass)
     sum += mass;
   return sum;
 }
@@ -140,20 +151,23 @@ Quality quality(const PlanarMesh& mesh, const PlanarDomain& domain, const Densit
   Points3 points = Points3::Zero(3, mesh.points.cols());
   points.topRows<2>() = mesh.points;
   require_inside(mesh.points, domain);
-  const Evaluation uniform = evaluated(points, domain, Density{}),
+  PlanarCells cells(domain);
+  cells.move(points);
+  const Connectivity closed = cells.signs().triangulate();
+  const Evaluation uniform = evaluated(points, closed, domain, Density{}),
                    of_density =
-                       density.uniform() ? Evaluation{} : evaluated(points, domain, planar);
+                       density.uniform() ? Evaluation{} : evaluated(points, closed, domain, planar);
   const CvtIteration& measured = (density.uniform() ? uniform : of_density).iteration;
-  const double whole = area(domain),
-               root = density.uniform() ? whole : root_integral(points, domain, planar);
-  Quality result = measure(points, domain, inverse_spacings(points, planar, root));
+  const double root = root_integral(points, closed, domain, planar);
+  Quality result =
+      measure(cells, closed, domain, points.cols(), inverse_spacings(points, planar, root));
   Tally areas;
   for (const double cell : uniform.mass)
     areas.add(cell);
   result.cell_area = areas.range();
   result.residual = measured.l2 / measured.spacing;
   set_energy(result, measured.energy, root);
-  result.cells_area = areas.sum / whole;
+  result.cells_area = areas.sum / area(domain);
   return result;
 }
 

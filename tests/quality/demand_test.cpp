@@ -192,6 +192,16 @@ TEST_CASE("in a plane the limit is that of the domain, and follows its unit") {
   const PlanarDomain square = rectangle({0, 0}, {1, 1});
   CHECK(quality(mesh, square).limit == doctest::Approx(limit_of(1)).epsilon(1e-12));
   CHECK(quality(mesh, square, linear).limit == doctest::Approx(limit_of(1.5)).epsilon(1e-9));
+  const Density bump = tanh_bump({0.4, 0.5, 0}, 0.15, 0.05, 1.0 / 256);
+  constexpr int side = 2000; // of a lattice of midpoints
+  Eigen::Matrix2Xd row(2, side);
+  double sum = 0;
+  for (int j = 0; j < side; ++j) {
+    for (int i = 0; i < side; ++i)
+      row.col(i) << (i + 0.5) / side, (j + 0.5) / side;
+    sum += evaluate(bump, square, row).cwiseSqrt().sum() / side / side;
+  }
+  CHECK(quality(mesh, square, bump).limit == doctest::Approx(limit_of(sum)).epsilon(2e-6));
   const Quality small = quality(mesh, square),
                 large = quality(planar_delaunay(Points2(1000 * places)),
                                 rectangle({0, 0}, {1000, 1000}));
