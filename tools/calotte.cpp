@@ -57,6 +57,7 @@ void run(CLI::App& app, int argc, char** argv) {
   app.require_subcommand(0, 1);
   add_delaunay(app);
   add_cvt(app);
+  add_plan(app);
   add_points(app);
   add_check(app);
   add_info(app);
@@ -64,7 +65,7 @@ void run(CLI::App& app, int argc, char** argv) {
   add_convert(app);
   app.parse(argc, argv);
   if (app.get_subcommands().empty())
-    throw CLI::RequiredError("delaunay, cvt, points, check, info, draw or convert");
+    throw CLI::RequiredError("delaunay, cvt, plan, points, check, info, draw or convert");
 }
 
 /// A message of the library, with the option that is its remedy here.

@@ -11,6 +11,7 @@ namespace calotte::tools {
 
 void add_delaunay(CLI::App& app);
 void add_cvt(CLI::App& app);
+void add_plan(CLI::App& app);
 void add_points(CLI::App& app);
 void add_check(CLI::App& app);
 void add_info(CLI::App& app);

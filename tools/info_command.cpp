@@ -3,6 +3,7 @@
 #include "options/density_option.h"
 #include "options/domain_option.h"
 #include "options/files.h"
+#include "options/format_options.h"
 #include "options/mesh_source.h"
 #include "run/progress.h"
 #include "run/shapes.h"
@@ -15,6 +16,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <iomanip>
 #include <iostream>
 #include <numbers>
@@ -28,6 +30,7 @@ struct Request {
   std::shared_ptr<MeshSource> source;
   std::shared_ptr<DensityWords> density;
   std::shared_ptr<DomainWords> domain; ///< of a mesh of the plane
+  std::optional<double> sphere_radius; ///< metres
   std::string report;
 };
 
@@ -35,6 +38,8 @@ struct Request {
 struct Measured {
   Quality quality;
   std::optional<double> domain_area; ///< of a plane
+  std::optional<double> radius_km;   ///< of the sphere, if known
+  std::string density = "uniform";   ///< its name
   bool cells = true; ///< false for a mesh without Voronoi cells: its triangles alone are measured
   std::vector<std::string> changes; ///< that reading made
   std::vector<std::string> remarks; ///< about the mesh, one line each
@@ -46,15 +51,28 @@ nlohmann::ordered_json to_json(const Range& range) {
   return {{"min", range.min}, {"mean", range.mean}, {"max", range.max}};
 }
 
+nlohmann::ordered_json to_json(const Percentiles& values) {
+  return {{"min", values.min}, {"p1", values.p1},   {"p5", values.p5},  {"p50", values.p50},
+          {"p95", values.p95}, {"p99", values.p99}, {"max", values.max}};
+}
+
 void add_cells(const Quality& quality, nlohmann::ordered_json& json) {
   json["sigma"] = to_json(quality.sigma);
   json["cell_quality"] = to_json(quality.cell_quality);
   json["cell_area"] = to_json(quality.cell_area);
   json["area_ratio"] = ratio(quality.cell_area);
   json["off_centring"] = to_json(quality.off_centring);
+  json["dv_over_dc"] = to_json(quality.dv_over_dc);
+  json["short_voronoi_edges"] = quality.short_edges;
   json["residual"] = quality.residual;
   json["energy"] = quality.energy;
   json["energy_times_cells"] = quality.energy * static_cast<double>(quality.cells);
+  json["limit"] = quality.limit;
+  json["excess"] = quality.excess;
+  json["dc_over_h"] = to_json(quality.dc_over_h);
+  json["unfit_edges"] = quality.unfit_edges;
+  json["bad_cells"] = quality.bad_cells;
+  json["bad_spacing"] = to_json(quality.bad_spacing);
   json["cells_area"] = quality.cells_area;
 }
 
@@ -75,8 +93,12 @@ std::string to_json(const Measured& measured) {
   json["spacing"] = to_json(quality.spacing);
   json["triangle_quality"] = to_json(quality.triangle_quality);
   json["angles"] = to_json(quality.angles);
-  if (measured.cells)
+  if (measured.radius_km)
+    json["least_dc_km"] = quality.spacing.min * *measured.radius_km;
+  if (measured.cells) {
+    json["density"] = measured.density;
     add_cells(quality, json);
+  }
   if (measured.domain_area)
     json["domain_area"] = *measured.domain_area;
   else
@@ -107,9 +129,22 @@ public:
   void row(const std::string& name, const Range& range) {
     row(name, range.min, range.mean, range.max);
   }
+  /// Two lines: the names of the percentiles, and their values.
+  void row(const std::string& name, const Percentiles& values) {
+    line<std::string>("", {"min", "1%", "5%", "50%", "95%", "99%", "max"});
+    line<double>(
+        name, {values.min, values.p1, values.p5, values.p50, values.p95, values.p99, values.max});
+  }
   std::string text() const { return out_.str(); }
 
 private:
+  template <class Value> void line(const std::string& name, const std::array<Value, 7>& values) {
+    out_ << std::left << std::setw(22) << name << std::setprecision(4);
+    for (std::size_t k = 0; k < values.size(); ++k)
+      out_ << std::setw(k + 1 < values.size() ? 11 : 0) << values[k];
+    out_ << "\n";
+  }
+
   std::ostringstream out_;
 };
 
@@ -121,11 +156,21 @@ void add_cell_rows(const Measured& measured, Table& table) {
   table.row("cell quality", quality.cell_quality);
   table.row(plane ? "cell area" : "cell area, steradians", quality.cell_area);
   table.row("off-centring", quality.off_centring);
+  table.row("dv / dc", quality.dv_over_dc);
   table.row("area ratio", ratio(quality.cell_area));
+  table.row("dv / dc below 0.2", quality.short_edges);
+  table.row("density", measured.density);
   table.row("residual / h", quality.residual);
   table.row("energy", quality.energy, 7);
   table.row(plane ? "energy * cells / A^2" : "energy * cells",
             quality.energy * static_cast<double>(quality.cells) / (area * area), 7);
+  table.row("its limit", quality.limit / (area * area), 7);
+  table.row("excess, percent", 100 * quality.excess, 4);
+  table.row("dc / h", quality.dc_over_h);
+  table.row("outside 0.75 to 1.4", quality.unfit_edges);
+  table.row("cells to object to", quality.bad_cells);
+  if (quality.bad_cells > 0)
+    table.row("their spacing", quality.bad_spacing);
   table.row(plane ? "cells / domain" : "cells / 4 pi", quality.cells_area, 15);
 }
 
@@ -138,6 +183,8 @@ std::string table(const Measured& measured) {
   table.row("degree: cells", degrees(quality));
   table.row<std::string>("", "min", "mean", "max");
   table.row(plane ? "spacing" : "spacing, radians", quality.spacing);
+  if (measured.radius_km)
+    table.row("least dc, km", quality.spacing.min * *measured.radius_km);
   table.row("triangle quality", quality.triangle_quality);
   table.row("angles, degrees", quality.angles);
   table.row("obtuse triangles", quality.obtuse);
@@ -167,12 +214,26 @@ PlanarDomain domain_of(const Request& request, const PlanarMesh& mesh) {
                                          "give --domain, --rectangle or --periodic");
 }
 
+/// The radius that is given, that of a NetCDF file, or the one that the widths refer to.
+std::optional<double> radius_of(const Request& request, const MeshFile& file) {
+  constexpr double metres = 1000; // a km
+  if (request.sphere_radius)
+    return *request.sphere_radius / metres;
+  if (file.sphere_radius != 1 && is_netcdf_file(request.source->path))
+    return file.sphere_radius / metres;
+  if (!request.density->widths.file.empty())
+    return request.density->widths.radius;
+  return std::nullopt;
+}
+
 /// The density that is given, or else that of the file.
 Density density_of(const Request& request, const MeshFile& file, Measured& measured) {
   const Density given = density_of(*request.density, request.source->plane);
+  measured.density = density_name(*request.density);
   if (!given.uniform() || file.density.size() == 0 || !file.mesh ||
       file.density.minCoeff() == file.density.maxCoeff())
     return given;
+  measured.density = "of the file";
   measured.remarks.emplace_back("the density is the file's, interpolated between the sites");
   return interpolated_density(*file.mesh, file.density);
 }
@@ -193,6 +254,7 @@ bool has_voronoi_cells(const Mesh& mesh, Measured& measured) {
 
 void measure_sphere(const Request& request, const MeshFile& file, Measured& measured) {
   const Mesh& mesh = *file.mesh;
+  measured.radius_km = radius_of(request, file);
   measured.cells = has_voronoi_cells(mesh, measured);
   measured.quality =
       measured.cells ? quality(mesh, density_of(request, file, measured)) : triangle_quality(mesh);
@@ -200,6 +262,7 @@ void measure_sphere(const Request& request, const MeshFile& file, Measured& meas
 
 void measure_plane(const Request& request, const MeshFile& file, Measured& measured) {
   const PlanarDomain domain = domain_of(request, *file.plane);
+  measured.density = density_name(*request.density);
   measured.quality = quality(*file.plane, domain, density_of(*request.density, true));
   measured.domain_area = area(domain);
 }
@@ -269,10 +332,17 @@ std::string read_and_measure(const Request& request) {
          (as_polygons ? table(*file.polygons, file.mesh) : table(measured));
 }
 
+void require_radius(const Request& request) {
+  require_sphere_radius(request.sphere_radius.value_or(1));
+  if (request.sphere_radius && request.source->plane)
+    throw Error(ErrorCode::bad_option, "--sphere-radius does not apply with --plane; leave it out");
+}
+
 void run(const Request& request) {
   if (request.domain->given() && !request.source->plane)
     throw Error(ErrorCode::bad_option,
                 "a domain requires --plane; add --plane, or leave the domain out");
+  require_radius(request);
   require_report(request);
   std::cout << read_and_measure(request);
 }
@@ -288,6 +358,9 @@ void add_info(CLI::App& app) {
   add_plane(*command, *request->source);
   request->domain = add_domain(*command);
   request->density = add_density(*command);
+  command->add_option("--sphere-radius", request->sphere_radius,
+                      "Radius of the sphere in metres, > 0, for the least dc in km; default: the "
+                      "one in a NetCDF file, or --earth-radius with --cell-width");
   command->add_option("--report", request->report, "Write the same quantities to this JSON file");
   command->callback([request] { run(*request); });
 }

@@ -17,6 +17,16 @@ struct Range {
   double min = 0, mean = 0, max = 0;
 };
 
+/// Extremes of a quantity, and the values that 1, 5, 50, 95 and 99 percent of all are not above
+/// (the least such value that occurs); all 0 if there is nothing to measure.
+struct Percentiles {
+  double min = 0, p1 = 0, p5 = 0, p50 = 0, p95 = 0, p99 = 0, max = 0;
+};
+
+/// Limits beyond which models object to an edge.
+inline constexpr double short_voronoi_edge = 0.2;             ///< of dv/dc
+inline constexpr double least_fit = 0.75, greatest_fit = 1.4; ///< of dc/h
+
 /// Quality of a closed mesh and its Voronoi cells. Lengths are arcs on the unit sphere in radians;
 /// areas are in steradians. Means give equal weight to every edge, cell, triangle or corner. A
 /// Voronoi edge joins the circumcentres of two triangles. It, or its extension, bisects the
@@ -54,12 +64,32 @@ struct Quality {
   /// of flat regular hexagons of equal size is 5 (4 pi)^2 / (18 sqrt 3) = 25.325.
   double energy = 0;
 
+  /// Energy times n of flat regular hexagons of equal integrals of rho^(1/2), 5/(18 sqrt 3)
+  /// (integral of rho^(1/2))^2: the limit of a CVT of many cells (Gersho, IEEE Trans. Inf. Theory
+  /// 25, 1979). In a plane, the integral over the domain.
+  double limit = 0;
+  double excess = 0; ///< energy n / limit - 1
+
+  /// Per edge: its length (the distance dc between two cells) over the spacing h = sqrt(2/(sqrt(3)
+  /// n) integral of rho^(1/2)) rho^(-1/4) that the density demands of n cells; 1/h is the mean of
+  /// the two ends.
+  Percentiles dc_over_h;
+  /// Per edge: length dv of the Voronoi edge over that of the Delaunay edge, both arcs on the
+  /// sphere; 1/sqrt(3) for regular hexagons, 0 where cocircular sites share a corner.
+  Range dv_over_dc;
+  std::int64_t short_edges = 0; ///< number of edges with dv/dc below short_voronoi_edge
+  std::int64_t unfit_edges = 0; ///< number of edges with dc/h outside least_fit to greatest_fit
+  /// Number of cells that a model may object to: with a side or a neighbour counted above, or with
+  /// a corner that is the centre of an obtuse triangle.
+  std::int64_t bad_cells = 0;
+  Range bad_spacing; ///< mean distance of each of these cells to its neighbours
+
   double cells_area = 0, triangles_area = 0; ///< sum of areas / 4 pi; 1 up to rounding
 };
 
-/// Measures a mesh. Areas are exact up to rounding, and so are the residual and the energy for
-/// uniform density; for other densities these two use the 6-point rule. The result has the same
-/// bits for any number of threads.
+/// Measures a mesh. Areas are exact up to rounding, and so are the residual, the energy and its
+/// limit for uniform density; for other densities these use the 6-point rule. The result has the
+/// same bits for any number of threads.
 ///
 /// \param mesh the closed Delaunay triangulation of its points, which are directions of any norm.
 /// \param density default: uniform.
@@ -77,9 +107,9 @@ Quality triangle_quality(const Mesh& mesh);
 
 /// Measures a mesh of generators in a planar domain. Lengths and areas are in the domain's unit, h
 /// = sqrt(area / n), cells_area is divided by the domain's area, and triangles_area is 0. The
-/// domain clips the cells. cell_area, residual and energy include all cells; sigma, cell_quality
-/// and degrees only the unclipped ones. Triangles are those with their circumcentre inside the
-/// domain; edges are theirs.
+/// domain clips the cells. cell_area, residual and energy include all cells; sigma, cell_quality,
+/// degrees and bad_cells only the unclipped ones. Triangles are those with their circumcentre
+/// inside the domain; edges are theirs, and a Voronoi edge counts if it joins two of them.
 ///
 /// \param mesh the Delaunay triangulation of its points; periodic if the domain is.
 /// \param domain contains all generators.

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <numbers>
@@ -65,11 +66,18 @@ struct Subject {
   const Triangles& neighbours;
   VertexRings rings; ///< of the sites with cells
   Shapes shapes;
+  Array<double> inverse_spacing; ///< by site: 1/h of the density; none to leave it out
   Array<std::uint8_t>
       inside;                ///< by triangle: whether it is one of the domain's; of all others none
   Array<std::uint8_t> whole; ///< by site: whether the domain holds its cell; of all others none
 
   bool has(std::int64_t triangle) const { return inside.size() == 0 || inside[triangle] != 0; }
+  /// Edge length over the spacing demanded, for the edge across from a triangle's vertex.
+  double fit(std::int64_t triangle, int vertex) const {
+    const double demanded = inverse_spacing[triangles(next_vertex(vertex), triangle)] +
+                            inverse_spacing[triangles(previous_vertex(vertex), triangle)];
+    return shapes[triangle].side[static_cast<std::size_t>(vertex)] * demanded / 2;
+  }
   bool has_whole(std::int64_t site) const { return whole.size() == 0 || whole[site] != 0; }
 };
 
@@ -118,25 +126,64 @@ struct TrianglePart {
   }
 };
 
+inline bool is_obtuse(const Shape& shape) {
+  return *std::max_element(shape.angle.begin(), shape.angle.end()) >
+         std::numbers::pi / 2 + rounding_of_lattices;
+}
+
+inline bool is_short(const Edge& edge) { return edge.voronoi < short_voronoi_edge * edge.arc; }
+
+inline bool is_unfit(double fit) { return !(fit >= least_fit && fit <= greatest_fit); }
+
 inline void add_triangle(TrianglePart& part, const Shape& shape) {
   const auto& [a, b, c] = shape.side;
   part.quality.add((b + c - a) * (c + a - b) * (a + b - c) / (a * b * c));
   for (const double angle : shape.angle)
     part.angles.add(angle);
-  part.obtuse += *std::max_element(shape.angle.begin(), shape.angle.end()) >
-                 std::numbers::pi / 2 + rounding_of_lattices;
+  part.obtuse += is_obtuse(shape);
 }
 
 // ---- Edges
 
 struct EdgePart {
-  Tally spacing, off_centring;
+  Tally spacing, off_centring, ratio; ///< ratio of the Voronoi edge to the Delaunay edge
+  std::int64_t short_edges = 0, unfit_edges = 0;
+  std::vector<double> fits;
 
   void join(const EdgePart& other) {
     spacing.join(other.spacing);
     off_centring.join(other.off_centring);
+    ratio.join(other.ratio);
+    short_edges += other.short_edges;
+    unfit_edges += other.unfit_edges;
+    fits.insert(fits.end(), other.fits.begin(), other.fits.end());
   }
 };
+
+/// \param values are reordered.
+inline Percentiles percentiles(std::vector<double>& values) {
+  if (values.empty())
+    return {};
+  const auto rank = [&](double percent) {
+    const double count = std::ceil(percent / 100 * static_cast<double>(values.size()));
+    return values.begin() + static_cast<std::ptrdiff_t>(count) - 1;
+  };
+  const auto settle = [&](double after, double percent, double before) {
+    const auto first = after > 0 ? rank(after) : values.begin(),
+               end = before < 100 ? rank(before) + 1 : values.end();
+    std::nth_element(first, rank(percent), end);
+    return *rank(percent);
+  };
+  Percentiles result;
+  result.p50 = settle(0, 50, 100);
+  result.p5 = settle(0, 5, 50);
+  result.p1 = settle(0, 1, 5);
+  result.p95 = settle(50, 95, 100);
+  result.p99 = settle(95, 99, 100);
+  result.min = *std::min_element(values.begin(), rank(1) + 1);
+  result.max = *std::max_element(rank(99), values.end());
+  return result;
+}
 
 /// The edges that triangle t shares with a triangle of a higher number.
 inline void add_edges(EdgePart& part, const Subject& subject, std::int64_t t) {
@@ -148,7 +195,15 @@ inline void add_edges(EdgePart& part, const Subject& subject, std::int64_t t) {
     const int w = neighbours(0, other) == t ? 0 : neighbours(1, other) == t ? 1 : 2;
     const Edge edge = edge_of(subject.shapes, t, v, other, w);
     part.spacing.add(edge.arc);
-    if (edge.voronoi > 0 && subject.has(t) && subject.has(other))
+    if (subject.inverse_spacing.size() > 0) {
+      part.fits.push_back(subject.fit(t, v));
+      part.unfit_edges += is_unfit(part.fits.back());
+    }
+    if (!subject.has(t) || !subject.has(other))
+      continue;
+    part.ratio.add(edge.voronoi / edge.arc);
+    part.short_edges += is_short(edge);
+    if (edge.voronoi > 0)
       part.off_centring.add(edge.offset / edge.voronoi);
   }
 }
@@ -156,7 +211,7 @@ inline void add_edges(EdgePart& part, const Subject& subject, std::int64_t t) {
 // ---- Cells
 
 struct CellPart {
-  Tally sigma, quality;
+  Tally sigma, quality, bad_spacing;
   std::vector<std::int64_t> degrees;
 
   void count(std::size_t degree, std::int64_t cells) {
@@ -167,6 +222,7 @@ struct CellPart {
   void join(const CellPart& other) {
     sigma.join(other.sigma);
     quality.join(other.quality);
+    bad_spacing.join(other.bad_spacing);
     for (std::size_t degree = 0; degree < other.degrees.size(); ++degree)
       count(degree, other.degrees[degree]);
   }
@@ -176,28 +232,34 @@ inline void add_cell(CellPart& part, const Subject& subject, std::int64_t site) 
   const VertexRings& rings = subject.rings;
   const std::int64_t begin = rings.begin[site], end = rings.begin[site + 1];
   Tally arcs, voronoi;
+  bool bad = false;
   Corner before = rings.corners[end - 1];
   for (std::int64_t s = begin; s != end; ++s) {
     const Corner corner = rings.corners[s];
-    const Edge edge = edge_of(subject.shapes, corner.triangle, previous_vertex(corner.vertex),
-                              before.triangle, next_vertex(before.vertex));
+    const int across = previous_vertex(corner.vertex);
+    const Edge edge = edge_of(subject.shapes, corner.triangle, across, before.triangle,
+                              next_vertex(before.vertex));
+    bad = bad || is_short(edge) || is_unfit(subject.fit(corner.triangle, across)) ||
+          is_obtuse(subject.shapes[corner.triangle]);
     arcs.add(edge.arc);
     voronoi.add(edge.voronoi);
     before = corner;
   }
   part.sigma.add(arcs.min / arcs.max);
   part.quality.add(voronoi.min / voronoi.max);
+  if (bad)
+    part.bad_spacing.add(arcs.sum / static_cast<double>(arcs.count));
   part.count(static_cast<std::size_t>(end - begin), 1);
 }
 
-/// Sets all measures except residual, energy and areas.
+/// Sets all measures except residual, energy, its limit and areas.
 inline Quality measure_shapes(const Subject& subject, std::int64_t cells) {
   const std::int64_t m = subject.shapes.size();
   const auto triangles = join_blocks<TrianglePart>(m, [&](TrianglePart& part, std::int64_t t) {
     if (subject.has(t))
       add_triangle(part, subject.shapes[t]);
   });
-  const auto edges = join_blocks<EdgePart>(
+  auto edges = join_blocks<EdgePart>(
       m, [&](EdgePart& part, std::int64_t t) { add_edges(part, subject, t); });
   auto of_cells = join_blocks<CellPart>(cells, [&](CellPart& part, std::int64_t i) {
     if (subject.has_whole(i))
@@ -214,6 +276,12 @@ inline Quality measure_shapes(const Subject& subject, std::int64_t cells) {
   result.angles = triangles.angles.range(180 / std::numbers::pi);
   result.obtuse = triangles.obtuse;
   result.off_centring = edges.off_centring.range();
+  result.dv_over_dc = edges.ratio.range();
+  result.dc_over_h = percentiles(edges.fits);
+  result.short_edges = edges.short_edges;
+  result.unfit_edges = edges.unfit_edges;
+  result.bad_cells = of_cells.bad_spacing.count;
+  result.bad_spacing = of_cells.bad_spacing.range();
   return result;
 }
 

@@ -6,6 +6,7 @@
 #include "cvt/planar_cells.h"
 #include "density/planar_density.h"
 #include "domain/clipped_cell.h"
+#include "quality/demand.h"
 #include "quality/parts.h"
 
 #include <calotte/check.h>
@@ -67,16 +68,17 @@ private:
   std::int64_t generators_;
 };
 
-Quality measure(const Points3& points, const PlanarDomain& domain) {
-  PlanarCells cells(domain);
-  cells.move(points);
-  const Connectivity mesh = cells.signs().triangulate();
-  const std::int64_t n = points.cols(), m = mesh.triangles.cols();
+/// \param mesh of the n generators and the hull.
+/// \param inverse_spacing by generator.
+Quality measure(const PlanarCells& cells, const Connectivity& mesh, const PlanarDomain& domain,
+                std::int64_t n, Array<double>&& inverse_spacing) {
+  const std::int64_t m = mesh.triangles.cols();
   const Vec2 period = domain.periodic() ? Vec2{domain.period.x(), domain.period.y()} : Vec2{0, 0};
   Subject subject{mesh.triangles,
                   mesh.neighbours,
                   make_vertex_rings(mesh.triangles, mesh.neighbours, n),
                   Shapes(m),
+                  std::move(inverse_spacing),
                   {},
                   {}};
   for_each_block(m, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
@@ -102,13 +104,34 @@ Quality measure(const Points3& points, const PlanarDomain& domain) {
   return measure_shapes(subject, n);
 }
 
-/// The evaluation of a density with the finer rule.
-Evaluation evaluated(const Points3& points, const PlanarDomain& domain, const Density& density) {
+/// The evaluation of a density.
+/// \param mesh of the generators and the hull.
+Evaluation evaluated(const Points3& points, const Connectivity& mesh, const PlanarDomain& domain,
+                     const Density& density, int rule = 6, int divisions = 1) {
   CvtOptions options;
   options.density = density;
+  options.final_rule = rule;
+  options.triangle_divisions = divisions;
+  Level level;
+  level.mesh = mesh;
   Evaluation result;
-  make_functional(points, domain, options)->evaluate(points, true, true, result);
+  make_functional(points, domain, options, std::move(level))->evaluate(points, true, true, result);
   return result;
+}
+
+/// The integral of rho^(1/2) over the domain. Errors of 1e-6 remain with few points a cell, if
+/// there are many cells: in the sum most of them cancel.
+double root_integral(const Points3& points, const Connectivity& mesh, const PlanarDomain& domain,
+                     const Density& planar) {
+  if (planar.uniform())
+    return area(domain);
+  constexpr Eigen::Index many = 10000;
+  const bool few = points.cols() < many;
+  double sum = 0;
+  for (const double mass :
+       evaluated(points, mesh, domain, site_density(planar), few ? 6 : 3, few ? 2 : 1).mass)
+    sum += mass;
+  return sum;
 }
 
 } // namespace
@@ -128,17 +151,22 @@ Quality quality(const PlanarMesh& mesh, const PlanarDomain& domain, const Densit
   Points3 points = Points3::Zero(3, mesh.points.cols());
   points.topRows<2>() = mesh.points;
   require_inside(mesh.points, domain);
-  Quality result = measure(points, domain);
-  const Evaluation uniform = evaluated(points, domain, Density{}),
+  PlanarCells cells(domain);
+  cells.move(points);
+  const Connectivity closed = cells.signs().triangulate();
+  const Evaluation uniform = evaluated(points, closed, domain, Density{}),
                    of_density =
-                       density.uniform() ? Evaluation{} : evaluated(points, domain, planar);
+                       density.uniform() ? Evaluation{} : evaluated(points, closed, domain, planar);
   const CvtIteration& measured = (density.uniform() ? uniform : of_density).iteration;
+  const double root = root_integral(points, closed, domain, planar);
+  Quality result =
+      measure(cells, closed, domain, points.cols(), inverse_spacings(points, planar, root));
   Tally areas;
   for (const double cell : uniform.mass)
     areas.add(cell);
   result.cell_area = areas.range();
   result.residual = measured.l2 / measured.spacing;
-  result.energy = measured.energy;
+  set_energy(result, measured.energy, root);
   result.cells_area = areas.sum / area(domain);
   return result;
 }

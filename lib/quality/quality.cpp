@@ -4,6 +4,7 @@
 #include "base/points.h"
 #include "exact/predicates.h"
 #include "integrals/moments.h"
+#include "quality/demand.h"
 #include "quality/parts.h"
 
 #include <calotte/check.h>
@@ -134,18 +135,24 @@ std::vector<std::int64_t> inner_degrees(const Mesh& mesh) {
 }
 
 Quality measure(const Mesh& mesh, const Density& density) {
-  Quality result = measure_shapes(
-      {mesh.triangles, mesh.neighbours, make_vertex_rings(mesh), make_shapes(mesh), {}, {}},
-      mesh.points.cols());
   const MomentPart moments = add_moments(mesh, density);
   if (const std::int64_t i = moments.without_centroid; i >= 0)
     throw Error(ErrorCode::bad_option,
                 "the density is zero over the whole cell of site " + std::to_string(i) +
                     ": make it positive everywhere",
                 i);
+  const double root = root_integral(mesh, density);
+  Quality result = measure_shapes({mesh.triangles,
+                                   mesh.neighbours,
+                                   make_vertex_rings(mesh),
+                                   make_shapes(mesh),
+                                   inverse_spacings(mesh.points, density, root),
+                                   {},
+                                   {}},
+                                  mesh.points.cols());
   result.cell_area = moments.area.range();
   result.residual = std::sqrt(moments.squares / (4 * pi)); // sqrt(squares/n) over sqrt(4 pi/n)
-  result.energy = moments.energy;
+  set_energy(result, moments.energy, root);
   result.cells_area = moments.area.sum / (4 * pi);
   return result;
 }
@@ -169,8 +176,9 @@ Quality triangle_quality(const Mesh& mesh) {
                                            "; triangulate the points anew");
   const Mesh unit = with_unit_columns(mesh);
   Quality result =
-      measure_shapes({unit.triangles, unit.neighbours, {}, make_shapes(unit), {}, {}}, 0);
-  result.off_centring = {};
+      measure_shapes({unit.triangles, unit.neighbours, {}, make_shapes(unit), {}, {}, {}}, 0);
+  result.off_centring = result.dv_over_dc = {};
+  result.short_edges = 0;
   result.cells = mesh.points.cols();
   result.degrees = inner_degrees(mesh);
   result.triangles_area = found.area / (4 * pi);

@@ -104,7 +104,8 @@ TEST_CASE("bad usage is refused before any work") {
   check_usage("delaunay never -o mesh.vtp --report mesh.vtp",
               "mesh.vtp is both mesh and report; give the report another name");
   check_usage(
-      "", "delaunay, cvt, points, check, info, draw or convert is required; see calotte --help");
+      "",
+      "delaunay, cvt, plan, points, check, info, draw or convert is required; see calotte --help");
   check_usage("triangulate",
               "The following argument was not expected: triangulate; see calotte --help");
   check_usage("check mesh.tri",
@@ -287,7 +288,8 @@ TEST_CASE("every kind of points") {
 
 TEST_CASE("help names the exit codes, for the command and for each of its parts") {
   const Bench bench;
-  for (const char* part : {"", "delaunay", "cvt", "points", "check", "info", "draw", "convert"}) {
+  for (const char* part :
+       {"", "delaunay", "cvt", "plan", "points", "check", "info", "draw", "convert"}) {
     const Outcome help = bench.run(std::string(part) + " --help");
     CHECK(help.code == 0);
     CHECK(help.out.find("1  the mesh failed its check") != std::string::npos);
@@ -317,10 +319,31 @@ TEST_CASE("info prints a table of the mesh as a grid, and reports the same as JS
         "area ratio            1\n", "obtuse triangles      0\n"})
     CHECK(shown.out.find(row) != std::string::npos);
   const std::string report = contents(bench.folder() / "report.json");
-  for (const char* key :
-       {"cells", "triangles", "degrees", "obtuse", "spacing", "sigma", "cell_quality", "cell_area",
-        "area_ratio", "triangle_quality", "angles", "off_centring", "residual", "energy",
-        "energy_times_cells", "cells_area", "triangles_area"})
+  for (const char* key : {"cells",
+                          "triangles",
+                          "degrees",
+                          "obtuse",
+                          "spacing",
+                          "sigma",
+                          "cell_quality",
+                          "cell_area",
+                          "area_ratio",
+                          "triangle_quality",
+                          "angles",
+                          "off_centring",
+                          "residual",
+                          "energy",
+                          "energy_times_cells",
+                          "cells_area",
+                          "triangles_area",
+                          "limit",
+                          "excess",
+                          "dc_over_h",
+                          "p50",
+                          "dv_over_dc",
+                          "short_voronoi_edges",
+                          "unfit_edges",
+                          "bad_cells"})
     CHECK(report.find(std::string("\"").append(key).append("\": ")) != std::string::npos);
 }
 
@@ -334,10 +357,27 @@ TEST_CASE("info measures against a density") {
   CHECK(uniform.out == bench.run("info mesh.vtp").out);
   CHECK(bump.code == 0);
   const auto before = [](const Outcome& outcome) {
-    return outcome.out.substr(0, outcome.out.find("residual"));
+    return outcome.out.substr(0, outcome.out.find("density"));
   };
   CHECK(before(bump) == before(uniform)); // parts that do not depend on the density
   CHECK(bump.out != uniform.out);
+}
+
+TEST_CASE("info converts the least distance to km where a radius is known") {
+  const Bench bench;
+  CHECK(bench.run("points icosahedron 0 -o points.txt").code == 0);
+  CHECK(bench.run("delaunay points.txt -o mesh.vtp").code == 0);
+  CHECK(bench.run("convert mesh.vtp mesh.nc --sphere-radius 1000000").code == 0);
+  CHECK(bench.run("info mesh.vtp").out.find("least dc, km") == std::string::npos);
+  const std::string row = "least dc, km          1107.15\n"; // atan(2)
+  CHECK(bench.run("info mesh.nc").out.find(row) != std::string::npos);
+  const Outcome given = bench.run("info mesh.vtp --sphere-radius 1e6 --report report.json");
+  CHECK(given.out.find(row) != std::string::npos);
+  CHECK(bench.file("report.json").find("\"least_dc_km\": 1107.14871") != std::string::npos);
+  CHECK(bench.run("info mesh.nc --sphere-radius 1e3").out.find("least dc, km          1.10715\n") !=
+        std::string::npos);
+  check_refusal(bench, "info mesh.vtp --sphere-radius -1", 2,
+                "--sphere-radius -1 is not a positive number; give one such as 6371229, in metres");
 }
 
 TEST_CASE("info measures the triangles of an open mesh, and refuses a report in its place") {

@@ -19,13 +19,6 @@ namespace {
   throw Error(ErrorCode::bad_option, problem);
 }
 
-/// "12.5 E 48.2 S".
-std::string place(const Gradient& gradient) {
-  return formatted("%.1f", std::abs(gradient.longitude)) +
-         (gradient.longitude < 0 ? " W " : " E ") + formatted("%.1f", std::abs(gradient.latitude)) +
-         (gradient.latitude < 0 ? " S" : " N");
-}
-
 /// Validates a number of km, for an option's check.
 CLI::Validator kilometres() {
   return {[](std::string& text) -> std::string {
@@ -108,9 +101,14 @@ std::string width_configuration(const WidthWords& words) {
   return text;
 }
 
+std::string place_of(const Gradient& gradient) {
+  return formatted("%.1f", std::abs(gradient.longitude)) +
+         (gradient.longitude < 0 ? " W " : " E ") + formatted("%.1f", std::abs(gradient.latitude)) +
+         (gradient.latitude < 0 ? " S" : " N");
+}
+
 std::vector<std::string> notes_on(const CellWidth& widths, const WidthWords& words,
                                   std::optional<std::int64_t> cells) {
-  constexpr double steep = 0.03;
   const double implied = implied_cells(widths, words.radius);
   std::vector<std::string> notes{
       words.file + ": cells " + formatted("%.4g", widths.widths.minCoeff()) + " to " +
@@ -124,9 +122,9 @@ std::vector<std::string> notes_on(const CellWidth& widths, const WidthWords& wor
   const Gradient gradient = largest_gradient(widths, words.radius);
   const std::string slope = formatted("%.2g", gradient.slope);
   notes.front() += "; largest gradient " + slope + " km per km";
-  if (gradient.slope > steep)
+  if (gradient.slope > steepest_width)
     notes.push_back("warning: the cell width changes by " + slope + " km per km at " +
-                    place(gradient) +
+                    place_of(gradient) +
                     ", above 0.03, the limit for most models; make the transition wider");
   return notes;
 }

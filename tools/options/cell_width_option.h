@@ -37,6 +37,12 @@ CellWidth read_widths(const WidthWords& words);
 /// \throws Error file.
 std::string width_configuration(const WidthWords& words);
 
+/// The largest gradient of cell widths that most models accept, km per km.
+inline constexpr double steepest_width = 0.03;
+
+/// "12.5 E 48.2 S".
+std::string place_of(const Gradient& gradient);
+
 /// A summary of widths in km before a run: their range, the cells that they imply and their largest
 /// gradient; also a warning, on its own line, if that exceeds the value that models recommend.
 /// \param cells number of cells of the run, if known: it scales all widths.

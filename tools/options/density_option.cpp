@@ -262,6 +262,13 @@ std::vector<std::string> density_names(const DensityWords& words) {
   return words.densities.empty() ? std::vector<std::string>{"uniform"} : words.densities;
 }
 
+std::string density_name(const DensityWords& words) {
+  std::string name;
+  for (const std::string& part : density_names(words))
+    name += (name.empty() ? "" : " and ") + part;
+  return name;
+}
+
 std::string density_configuration(const DensityWords& words) {
   if (words.widths.given())
     return width_configuration(words.widths);

@@ -42,6 +42,8 @@ Density density_of(const DensityWords& words, bool planar = false);
 
 /// The parts of its name in reports and pictures: "uniform", the words of a bump, a file.
 std::vector<std::string> density_names(const DensityWords& words);
+/// These in one line, joined by "and".
+std::string density_name(const DensityWords& words);
 
 /// The input that determines it, lines "name value" for a run's configuration; for a file, its
 /// contents.

@@ -75,16 +75,21 @@ bool is_netcdf(Format format) {
 }
 
 void require_radius(double radius, Format format, const std::string& path) {
-  const std::string given = "--sphere-radius " + shortest(radius);
-  if (!(radius > 0) || !std::isfinite(radius))
-    throw Error(ErrorCode::bad_option,
-                given + " is not a positive number; give one such as 6371229, in metres");
+  require_sphere_radius(radius);
   if (radius != 1 && !is_netcdf(format))
-    throw Error(ErrorCode::bad_option, given + " applies to NetCDF files only, not to " + path +
+    throw Error(ErrorCode::bad_option, "--sphere-radius " + shortest(radius) +
+                                           " applies to NetCDF files only, not to " + path +
                                            "; leave it out, or give a name that ends in .nc");
 }
 
 } // namespace
+
+void require_sphere_radius(double metres) {
+  if (!(metres > 0) || !std::isfinite(metres))
+    throw Error(ErrorCode::bad_option,
+                "--sphere-radius " + shortest(metres) +
+                    " is not a positive number; give one such as 6371229, in metres");
+}
 
 std::shared_ptr<FormatWords> add_format(CLI::App& command, const std::string& default_radius) {
   auto words = std::make_shared<FormatWords>();

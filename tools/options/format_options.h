@@ -37,6 +37,10 @@ bool holds_triangles(const std::string& path);
 /// The help of an option for a mesh that is written in the format of its name or of --format.
 std::string help_of_output();
 
+/// \param metres the value of --sphere-radius.
+/// \throws Error bad_option for a radius that is not positive and finite.
+void require_sphere_radius(double metres);
+
 /// Without density and history, for a file of this name.
 /// \throws Error bad_option, before any work: for a name that is no mesh's, or of another format
 ///         than --format; for a radius that is not positive, or not 1 where the format takes points

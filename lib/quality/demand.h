@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "base/memory.h"
+#include "quality/room.h"
+
+#include <calotte/density.h>
+#include <calotte/quality.h>
+#include <calotte/types.h>
+
+#include <cstdint>
+
+/// What a density demands of n cells: the spacing at each site, and the least energy.
+namespace calotte::quality_detail {
+
+/// The integral of rho^(1/2) over the sphere: the 6-point rule on each triangle of the mesh, and on
+/// parts of it where the mesh is coarse.
+/// \param mesh closed, of unit columns.
+/// \throws Error bad_option as DensityEvaluator.
+double root_integral(const Mesh& mesh, const Density& density);
+
+/// Sets the energy, its limit and the excess over it.
+/// \param root_integral of rho^(1/2) over the domain.
+void set_energy(Quality& quality, double energy, double root_integral);
+
+/// 1/h by site, h = sqrt(2 r / (sqrt(3) n)) rho^(-1/4): regular hexagons with these distances
+/// between their centres fill the domain.
+/// \param points 3 x n, as the density takes them.
+/// \param root_integral r, of rho^(1/2) over the domain.
+/// \throws Error bad_option as DensityEvaluator.
+Array<double> inverse_spacings(const Points3& points, const Density& density, double root_integral);
+
+} // namespace calotte::quality_detail

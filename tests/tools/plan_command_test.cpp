@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/command.h"
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <numbers>
+#include <string>
+
+using namespace calotte::test;
+
+namespace {
+
+constexpr double pi = std::numbers::pi, radius = 6371;
+const std::string bump = "tanh:lon=270,lat=30,beta=30deg,alpha=0.20,gamma=x8";
+
+/// A raster in JIGSAW's format, of widths by latitude in degrees.
+std::string raster(const std::function<double(double)>& width) {
+  constexpr int columns = 8, rows = 37;
+  std::string text = "mshid=3;ellipsoid-grid\nndims=2\ncoord=1;8\n";
+  for (int i = 0; i < columns; ++i)
+    text += std::to_string((-180 + 45 * i) * pi / 180) + "\n";
+  text += "coord=2;37\n";
+  for (int j = 0; j < rows; ++j)
+    text += std::to_string((-90 + 5 * j) * pi / 180) + "\n";
+  text += "value=" + std::to_string(columns * rows) + ";1\n";
+  for (int i = 0; i < columns; ++i)
+    for (int j = 0; j < rows; ++j)
+      text += std::to_string(width(-90 + 5 * j)) + "\n";
+  return text;
+}
+
+nlohmann::json plan(const Bench& bench, const std::string& arguments) {
+  const Outcome outcome = bench.run("plan " + arguments + " --report plan.json");
+  CAPTURE(outcome.err);
+  CHECK(outcome.code == 0);
+  CHECK(outcome.err.empty());
+  return nlohmann::json::parse(bench.file("plan.json"));
+}
+
+double number(const nlohmann::json& json, const char* group, const char* key) {
+  return json.at(group).at(key).get<double>();
+}
+
+} // namespace
+
+TEST_CASE("widths in km: the cells that they imply, or a factor on them") {
+  const Bench bench;
+  bench.file("even.msh", raster([](double) { return 240; }));
+  const double cells = 4 * pi * radius * radius * 2 / (std::sqrt(3.0) * 240 * 240);
+  const nlohmann::json all = plan(bench, "--cell-width even.msh");
+  CHECK(all["cells"] == std::llround(cells));
+  CHECK(all["implied_cells"].get<double>() == doctest::Approx(cells));
+  CHECK(number(all, "width_km", "min") == doctest::Approx(240).epsilon(1e-4));
+  CHECK(number(all, "gradient", "slope") < 1e-12);
+  const nlohmann::json quarter =
+      plan(bench, "--cell-width even.msh --cells " + std::to_string(std::llround(cells / 4)));
+  CHECK(quarter["width_factor"].get<double>() == doctest::Approx(2).epsilon(1e-3));
+  CHECK(number(quarter, "width_km", "max") == doctest::Approx(480).epsilon(1e-3));
+  CHECK(number(quarter, "width_degrees", "max") ==
+        doctest::Approx(480 / radius * 180 / pi).epsilon(1e-3));
+}
+
+TEST_CASE("the steepest gradient of widths grows with the factor on them") {
+  const Bench bench;
+  // 5 km per degree, and 10 from 30 to 35 N
+  bench.file("steps.msh",
+             raster([](double latitude) { return 500 + 5 * latitude + (latitude > 30 ? 25 : 0); }));
+  const nlohmann::json json = plan(bench, "--cell-width steps.msh");
+  const double expected = 10 / (radius * pi / 180);
+  const double factor = json["width_factor"].get<double>();
+  CHECK(number(json, "gradient", "slope") == doctest::Approx(factor * expected).epsilon(1e-4));
+  CHECK(number(json, "gradient", "latitude") == doctest::Approx(30).epsilon(0.2));
+  const Outcome shown = bench.run("plan --cell-width steps.msh");
+  CHECK(shown.out.find("above 0.03, the limit for most models") != std::string::npos);
+}
+
+TEST_CASE("a density: spacings and their gradient are those of a profile in closed form") {
+  const Bench bench;
+  const auto rho = [](double t) {
+    constexpr double gamma = 1.0 / 4096;
+    return (std::tanh((pi / 6 - t) / 0.2) + 1) / (2 * (1 - gamma)) + gamma;
+  };
+  constexpr int parts = 100000;
+  double root = 0, slope = 0;
+  for (int k = 0; k < parts; ++k) {
+    const double t = (k + 0.5) * pi / parts, step = pi / parts / 2;
+    root += 2 * pi * std::sqrt(rho(t)) * std::sin(t) * pi / parts;
+    slope = std::max(slope, (std::pow(rho(t + step), -0.25) - std::pow(rho(t - step), -0.25)) /
+                                (2 * step));
+  }
+  const double unit = std::sqrt(2 / std::sqrt(3.0) * root / 10242);
+  const nlohmann::json json = plan(bench, "--cells 10242 --density " + bump);
+  CHECK_FALSE(json.contains("width_km"));
+  const double degrees = 180 / pi;
+  CHECK(number(json, "width_degrees", "min") ==
+        doctest::Approx(unit * std::pow(rho(0), -0.25) * degrees).epsilon(1e-4));
+  CHECK(number(json, "width_degrees", "max") ==
+        doctest::Approx(unit * std::pow(rho(pi), -0.25) * degrees).epsilon(1e-4));
+  CHECK(number(json, "gradient", "slope") == doctest::Approx(unit * slope).epsilon(1e-4));
+  const nlohmann::json in_km = plan(bench, "--cells 10242 --sphere-radius 1e6 --density " + bump);
+  CHECK(number(in_km, "width_km", "min") ==
+        doctest::Approx(1000 * unit * std::pow(rho(0), -0.25)).epsilon(1e-4));
+  CHECK(number(plan(bench, "--cells 12 --density uniform"), "gradient", "slope") < 1e-9);
+}
+
+TEST_CASE("file sizes are those of the files that cvt writes") {
+  const Bench bench;
+  const nlohmann::json json = plan(bench, "--cells 2562 --density uniform");
+  CHECK(bench.run("points icosahedron 4 -o points.txt").code == 0);
+  constexpr double head = 20000;
+  for (const auto& [name, key] :
+       {std::pair("mesh.nc", "mpas_bytes"), std::pair("mesh.vtp", "vtp_bytes")}) {
+    CHECK(bench.run(std::string("delaunay points.txt -o ") + name).code == 0);
+    const auto size = static_cast<double>(std::filesystem::file_size(bench.folder() / name));
+    CHECK(size >= number(json, "estimates", key));
+    CHECK(size <= number(json, "estimates", key) + head);
+  }
+}
+
+TEST_CASE("the estimates are for the number of threads, and grow with the cells") {
+  const Bench bench;
+  const nlohmann::json one = plan(bench, "--cells 40962 --density uniform --threads 1"),
+                       four = plan(bench, "--cells 40962 --density uniform --threads 4"),
+                       more = plan(bench, "--cells 163842 --density uniform --threads 1");
+  CHECK(one["estimates"]["threads"] == 1);
+  CHECK(four["estimates"]["threads"] == 4);
+  CHECK(number(four, "estimates", "seconds") < number(one, "estimates", "seconds") / 2);
+  for (const char* key : {"seconds", "memory_bytes", "mpas_bytes", "vtp_bytes"})
+    CHECK(number(more, "estimates", key) > 2 * number(one, "estimates", key));
+}
+
+TEST_CASE("the widths are drawn on a map") {
+  const Bench bench;
+  CHECK(bench.run("plan --cells 642 --density " + bump + " -o widths.png").code == 0);
+  CHECK(bench.file("widths.png").starts_with("\x89PNG"));
+  bench.file("even.msh", raster([](double latitude) { return 300 + latitude; }));
+  CHECK(bench.run("plan --cell-width even.msh -o widths.svg").code == 0);
+  CHECK(bench.file("widths.svg").find("<svg") != std::string::npos);
+}
+
+TEST_CASE("bad input ends in one line, and nothing is written") {
+  const Bench bench;
+  const std::string files = " -o widths.png --report plan.json";
+  check_refusal(bench, "plan --density uniform" + files, 2,
+                "a density has no unit, and implies no number of cells; give --cells N, or "
+                "--cell-width FILE");
+  check_refusal(bench, "plan --cells auto" + files, 2,
+                "a density has no unit, and implies no number of cells; give --cells N, or "
+                "--cell-width FILE");
+  check_refusal(bench, "plan --cells 11" + files, 2,
+                "--cells: \"11\" is not an integer from 12 to 1073741824; see calotte plan --help");
+  check_refusal(bench, "plan --cells 100 --sphere-radius 0" + files, 2,
+                "--sphere-radius 0 is not a positive number; give one such as 6371229, in metres");
+  check_refusal(bench, "plan --cell-width a.nc --sphere-radius 6371229" + files, 2,
+                "--sphere-radius does not apply to widths in km; give --earth-radius, in km");
+  check_refusal_naming(bench, "plan --cell-width absent.nc" + files, 3, "absent.nc");
+  check_refusal_naming(bench, "plan --cells 100 -o widths.gif", 2, "widths.gif");
+  check_refusal(bench, "plan --cells 100 -o same.png --report same.png", 2,
+                "same.png is both picture and report; give the report another name");
+  bench.file("metres.msh", raster([](double) { return 30000; }));
+  check_refusal(bench, "plan --cell-width metres.msh" + files, 2,
+                "--cells auto: metres.msh requires 1 cells, but a grid has 12 to 1073741824; "
+                "give widths in km");
+}

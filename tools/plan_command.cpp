@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "commands.h"
+#include "draw/draw.h"
+#include "draw/picture.h"
+#include "options/density_option.h"
+#include "options/files.h"
+#include "options/format_options.h"
+#include "options/numbers.h"
+#include "options/partition_options.h"
+#include "run/cvt_costs.h"
+#include "run/progress.h"
+#include "run/spacing_survey.h"
+
+#include <calotte/error.h>
+#include <calotte/read.h>
+
+#include <nlohmann/json.hpp>
+#include <tbb/task_arena.h>
+
+#include <cmath>
+#include <iomanip>
+#include <iostream>
+#include <numbers>
+#include <optional>
+#include <sstream>
+
+namespace calotte::tools {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+constexpr double metres = 1000; // a km
+
+struct Request {
+  std::shared_ptr<DensityWords> density;
+  std::optional<std::int64_t> cells; ///< or those that the widths imply
+  std::optional<double> sphere_radius;
+  std::optional<int> threads;
+  std::string picture, report;
+};
+
+/// The grid that a run would make.
+struct Plan {
+  std::string density; ///< its name
+  std::int64_t cells = 0;
+  double implied = 0; ///< cells that widths in km imply; 0 for a density
+  double factor = 1;  ///< of the widths of the file, in this grid
+  SpacingSurvey spacing;
+  std::optional<double> radius_km; ///< of the sphere, if known
+  int threads = 1;
+  CvtCosts costs;
+};
+
+[[noreturn]] void refuse(const std::string& problem) {
+  throw Error(ErrorCode::bad_option, problem);
+}
+
+/// Widths in km: all quantities follow from the file's nodes.
+void plan_widths(const Request& request, const CellWidth& widths, Plan& plan) {
+  const WidthWords& words = request.density->widths;
+  plan.implied = implied_cells(widths, words.radius);
+  plan.cells = request.cells ? *request.cells : cells_for(widths, words, false);
+  plan.factor = std::sqrt(plan.implied / static_cast<double>(plan.cells));
+  plan.radius_km = words.radius;
+  const double unit = plan.factor / words.radius; // of a width in km
+  plan.spacing = {unit * widths.widths.minCoeff(), unit * widths.widths.minCoeff(),
+                  unit * widths.widths.maxCoeff(), largest_gradient(widths, words.radius)};
+  plan.spacing.steepest.slope *= plan.factor;
+}
+
+void plan_density(const Request& request, const Density& density, Plan& plan) {
+  plan.cells = *request.cells;
+  if (request.sphere_radius)
+    plan.radius_km = *request.sphere_radius / metres;
+  plan.spacing = survey_spacing(density, plan.cells);
+}
+
+Plan plan_of(const Request& request, const Resolution& resolution) {
+  Plan plan;
+  plan.density = density_name(*request.density);
+  if (resolution.widths)
+    plan_widths(request, *resolution.widths, plan);
+  else
+    plan_density(request, resolution.density, plan);
+  plan.threads = tbb::this_task_arena::max_concurrency();
+  plan.costs = cvt_costs(plan.cells, resolution.density, plan.threads);
+  return plan;
+}
+
+// ---- Output
+
+std::string interval(double low, double high) {
+  return formatted("%.4g", low) + " to " + formatted("%.4g", high);
+}
+
+std::string bytes(double count) {
+  constexpr double mega = 1e6, giga = 1e9;
+  return count < giga ? formatted("%.3g", count / mega) + " MB"
+                      : formatted("%.3g", count / giga) + " GB";
+}
+
+std::string duration(double seconds) {
+  constexpr double minute = 60, hour = 3600;
+  if (seconds < 2 * minute)
+    return formatted("%.2g", seconds) + " s";
+  return seconds < 2 * hour ? formatted("%.2g", seconds / minute) + " min"
+                            : formatted("%.2g", seconds / hour) + " h";
+}
+
+std::string gradient_words(const Gradient& gradient) {
+  if (!(gradient.slope > 0))
+    return "0";
+  return formatted("%.2g", gradient.slope) + " at " + place_of(gradient) +
+         (gradient.slope > steepest_width ? ", above 0.03, the limit for most models" : "");
+}
+
+std::string table(const Plan& plan) {
+  std::ostringstream out;
+  const auto row = [&out](const std::string& name, const std::string& value) {
+    out << std::left << std::setw(22) << name << value << "\n";
+  };
+  row("density", plan.density);
+  row("cells", std::to_string(plan.cells));
+  if (plan.implied > 0) {
+    row("cells of the widths", formatted("%.0f", plan.implied));
+    row("factor on the widths", formatted("%.4g", plan.factor));
+  }
+  if (plan.radius_km)
+    row("cell width, km",
+        interval(plan.spacing.least * *plan.radius_km, plan.spacing.greatest * *plan.radius_km));
+  row("cell width, degrees", interval(plan.spacing.least / degree, plan.spacing.greatest / degree));
+  row("steepest gradient", gradient_words(plan.spacing.steepest));
+  out << "estimates for " << plan.threads
+      << (plan.threads == 1 ? " thread, within a factor of 3:\n"
+                            : " threads, within a factor of 3:\n");
+  row("  time of cvt", duration(plan.costs.seconds));
+  row("  memory", bytes(plan.costs.memory));
+  row("  MPAS file (.nc)", bytes(plan.costs.mpas_file));
+  row("  triangles (.vtp)", bytes(plan.costs.vtp_file));
+  return out.str();
+}
+
+std::string to_json(const Plan& plan) {
+  nlohmann::ordered_json json;
+  json["density"] = plan.density;
+  json["cells"] = plan.cells;
+  if (plan.implied > 0) {
+    json["implied_cells"] = plan.implied;
+    json["width_factor"] = plan.factor;
+  }
+  if (plan.radius_km)
+    json["width_km"] = {{"min", plan.spacing.least * *plan.radius_km},
+                        {"max", plan.spacing.greatest * *plan.radius_km}};
+  json["width_degrees"] = {{"min", plan.spacing.least / degree},
+                           {"max", plan.spacing.greatest / degree}};
+  json["gradient"] = {{"slope", plan.spacing.steepest.slope},
+                      {"longitude", plan.spacing.steepest.longitude},
+                      {"latitude", plan.spacing.steepest.latitude}};
+  json["estimates"] = {{"threads", plan.threads},
+                       {"seconds", plan.costs.seconds},
+                       {"memory_bytes", plan.costs.memory},
+                       {"mpas_bytes", plan.costs.mpas_file},
+                       {"vtp_bytes", plan.costs.vtp_file}};
+  return json.dump(2) + "\n";
+}
+
+/// The spacings on the map, in km if the radius is known, else in degrees.
+void draw_widths(const Request& request, const Density& density, const Plan& plan) {
+  const double unit = plan.spacing.unit * plan.radius_km.value_or(1 / degree);
+  const auto values = [&](const Points3& x) -> Eigen::VectorXd {
+    return unit * evaluate(density, x).array().max(1e-150).pow(-0.25);
+  };
+  draw(request.picture,
+       SphereField{values, plan.density + ", " + std::to_string(plan.cells) + " cells",
+                   plan.radius_km ? "cell width, km" : "cell width, degrees"},
+       Look{.projection = Projection::plate_carree, .graticule = true});
+}
+
+// ---- The command
+
+void require_request(const Request& request) {
+  const WidthWords& widths = request.density->widths;
+  if (!request.cells && widths.file.empty())
+    refuse("a density has no unit, and implies no number of cells; give --cells N, or "
+           "--cell-width FILE");
+  require_sphere_radius(request.sphere_radius.value_or(1));
+  if (request.sphere_radius && !widths.file.empty())
+    refuse("--sphere-radius does not apply to widths in km; give --earth-radius, in km");
+  if (!request.picture.empty())
+    picture_format(request.picture);
+  require_outputs({{"picture", request.picture}, {"report", request.report}},
+                  {widths.file, widths.raster});
+}
+
+/// Writes the picture and the report, too.
+Plan make_plan(const Request& request) {
+  Progress progress;
+  progress.stage("reading the density");
+  const Resolution resolution = resolution_of(*request.density);
+  Plan plan;
+  with_threads(request.threads, [&] {
+    plan = plan_of(request, resolution);
+    progress.stage("drawing " + request.picture);
+    if (!request.picture.empty())
+      draw_widths(request, resolution.density, plan);
+  });
+  if (!request.report.empty())
+    write_file(request.report, to_json(plan));
+  return plan;
+}
+
+void run(const Request& request) {
+  require_request(request);
+  std::cout << table(make_plan(request));
+}
+
+void add_cells(CLI::App& command, Request& request) {
+  const auto set = [&request](const std::string& text) {
+    if (text != "auto")
+      request.cells = std::stoi(text);
+  };
+  const CLI::Validator number = whole_number(12, 1 << 30);
+  const auto check = [number](std::string& text) {
+    return text == "auto" ? std::string() : number(text);
+  };
+  command
+      .add_option_function<std::string>(
+          "--cells", set,
+          "Number of cells, 12 to 1073741824; it scales the widths. Or auto (default): computed "
+          "from the cell widths")
+      ->transform(CLI::Validator(check, ""))
+      ->type_name("N|auto");
+}
+
+} // namespace
+
+void add_plan(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "plan", "Describes the grid that calotte cvt would make on the sphere, without making it: "
+              "cells, widths and their gradient, and estimates of time, memory and file sizes.");
+  auto request = std::make_shared<Request>();
+  request->density = add_density(*command);
+  add_cells(*command, *request);
+  command->add_option("--sphere-radius", request->sphere_radius,
+                      "Radius of the sphere in metres, > 0, for spacings of a density in km");
+  command
+      ->add_option("--threads", request->threads,
+                   "Number of threads of the run, 1 to 4096; default: all")
+      ->transform(whole_number(1, 4096));
+  command
+      ->add_option("-o,--output", request->picture,
+                   "Draw the cell widths on a map of longitude and latitude: .png, .svg or .pdf")
+      ->type_name("FILE");
+  command->add_option("--report", request->report, "Write the same quantities to this JSON file")
+      ->type_name("FILE");
+  command->callback([request] { run(*request); });
+}
+
+} // namespace calotte::tools

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "run/cvt_costs.h"
+
+#include "run/progress.h"
+
+#include <calotte/generators.h>
+
+#include <algorithm>
+
+namespace calotte::tools {
+namespace {
+
+/// Neighbours of a cell that MPAS files leave room for: those of the pairs of 5 and 7 in a graded
+/// grid.
+constexpr int most_neighbours = 7;
+
+/// The arrays of a complete file, see lib/io/mpas_write.cpp, of n cells, 2n - 4 vertices and 3n - 6
+/// edges. Cells, vertices and edges have five coordinates and a number each.
+double mpas_bytes(double cells, int neighbours) {
+  constexpr double real = 8, integer = 4, place = 5 * real + integer;
+  const double of_cell = place + integer * (1 + 3 * neighbours) + 4 * real,
+               of_vertex = place + integer * (3 + 1 + 3 + 1) + real * (1 + 3 + 2),
+               of_edge =
+                   place + integer * (2 + 2 + 1) + 3 * real + 2 * neighbours * (integer + real);
+  return cells * of_cell + (2 * cells - 4) * of_vertex + (3 * cells - 6) * of_edge;
+}
+
+/// Points and their fields (four numbers and the count of neighbours), three corners and an offset
+/// a triangle.
+double vtp_bytes(double cells) {
+  constexpr double of_point = 3 * 8 + 4 * 8 + 4, of_triangle = 4 * 8;
+  return cells * of_point + (2 * cells - 4) * of_triangle;
+}
+
+/// Seconds of a thread to evaluate the density at a point.
+double seconds_of_point(const Density& density) {
+  constexpr std::int64_t points = 1 << 14;
+  constexpr int rounds = 3;
+  const Points3 places = fibonacci_sphere(points);
+  double least = 1;
+  for (int round = 0; round < rounds; ++round)
+    least = std::min(least, seconds_of([&] { evaluate(density, places); }));
+  return least / points;
+}
+
+// Fits of runs on one thread of an AMD EPYC virtual machine: uniform, x8 as a bump and as a raster,
+// widths by latitude and along a coast, with 46 082 and 184 322 cells, two rounds of insertion and
+// a finish. They took 130 to 630 evaluations, 290 to 540 ns of a cell each.
+
+constexpr double evaluations = 250;        ///< weighted by cells over those of the result
+constexpr double seconds_of_cell = 280e-9; ///< per evaluation, without the density
+constexpr double points_of_cell = 36;      ///< at which the density is evaluated
+constexpr double efficiency = 0.9;         ///< of each further thread
+constexpr double memory_of_cell = 2000, memory_of_program = 40e6; ///< bytes
+
+} // namespace
+
+CvtCosts cvt_costs(std::int64_t cells, const Density& density, int threads) {
+  const auto n = static_cast<double>(cells);
+  const bool uniform = density.uniform();
+  const double of_cell =
+      seconds_of_cell + (uniform ? 0 : points_of_cell * seconds_of_point(density));
+  CvtCosts costs;
+  costs.seconds = evaluations * n * of_cell / (1 + efficiency * (threads - 1));
+  costs.memory = memory_of_program + memory_of_cell * n;
+  costs.mpas_file = mpas_bytes(n, uniform ? 6 : most_neighbours);
+  costs.vtp_file = vtp_bytes(n);
+  return costs;
+}
+
+} // namespace calotte::tools

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "run/spacing_survey.h"
+
+#include <calotte/generators.h>
+
+#include <Eigen/Geometry>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+namespace calotte::tools {
+namespace {
+
+constexpr std::int64_t lattice = 165'000;
+constexpr double apart = 0.0087; // radians
+
+using Values = std::function<Eigen::VectorXd(const Points3&)>;
+
+/// The columns of a basis of the tangent plane.
+Eigen::Matrix<double, 3, 2> tangents(const Eigen::Vector3d& x) {
+  Eigen::Matrix<double, 3, 2> basis;
+  basis.col(0) = x.unitOrthogonal();
+  basis.col(1) = x.cross(basis.col(0));
+  return basis;
+}
+
+/// |grad h| by differences over a hundredth of a degree each way.
+Eigen::VectorXd slopes(const Values& spacing, const Points3& x) {
+  constexpr double step = 1.75e-4;
+  Eigen::VectorXd squares = Eigen::VectorXd::Zero(x.cols());
+  for (int axis = 0; axis < 2; ++axis) {
+    Points3 ahead(3, x.cols()), behind(3, x.cols());
+    for (Eigen::Index i = 0; i < x.cols(); ++i) {
+      const Eigen::Vector3d way = step * tangents(x.col(i)).col(axis);
+      ahead.col(i) = (x.col(i) + way).normalized();
+      behind.col(i) = (x.col(i) - way).normalized();
+    }
+    squares += ((spacing(ahead) - spacing(behind)) / (2 * step)).cwiseAbs2();
+  }
+  return squares.cwiseSqrt();
+}
+
+struct Peak {
+  Eigen::Vector3d place;
+  double value;
+};
+
+Peak highest(const Values& values, const Points3& x) {
+  const Eigen::VectorXd all = values(x);
+  Eigen::Index best = 0;
+  all.maxCoeff(&best);
+  return {x.col(best), all[best]};
+}
+
+/// The maximum near a place, by lattices of a third of the width each.
+Peak climb(const Values& values, Peak peak) {
+  constexpr int rounds = 8, side = 4;
+  double reach = apart;
+  for (int round = 0; round < rounds; ++round, reach /= 3) {
+    Points3 around(3, (2 * side + 1) * (2 * side + 1));
+    const Eigen::Matrix<double, 3, 2> basis = tangents(peak.place);
+    Eigen::Index column = 0;
+    for (int i = -side; i <= side; ++i)
+      for (int j = -side; j <= side; ++j)
+        around.col(column++) =
+            (peak.place + reach / side * (basis * Eigen::Vector2d(i, j))).normalized();
+    const Peak found = highest(values, around);
+    if (found.value > peak.value)
+      peak = found;
+  }
+  return peak;
+}
+
+} // namespace
+
+SpacingSurvey survey_spacing(const Density& density, std::int64_t cells) {
+  const Points3 places = fibonacci_sphere(lattice);
+  const double root = 4 * std::numbers::pi * evaluate(density, places).cwiseSqrt().mean();
+  SpacingSurvey survey;
+  survey.unit = std::sqrt(2 / std::numbers::sqrt3 * root / static_cast<double>(cells));
+  const Values spacing = [&](const Points3& x) -> Eigen::VectorXd {
+    return survey.unit * evaluate(density, x).array().max(1e-150).pow(-0.25);
+  };
+  const Values negative = [&](const Points3& x) -> Eigen::VectorXd { return -spacing(x); };
+  const Values slope = [&](const Points3& x) { return slopes(spacing, x); };
+  survey.least = -climb(negative, highest(negative, places)).value;
+  survey.greatest = climb(spacing, highest(spacing, places)).value;
+  const Peak steepest = climb(slope, highest(slope, places));
+  constexpr double degrees = 180 / std::numbers::pi;
+  const Eigen::Vector3d& p = steepest.place;
+  survey.steepest = {steepest.value, std::atan2(p.y(), p.x()) * degrees,
+                     std::atan2(p.z(), std::hypot(p.x(), p.y())) * degrees};
+  return survey;
+}
+
+} // namespace calotte::tools

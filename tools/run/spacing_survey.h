@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <calotte/cell_width.h>
+#include <calotte/density.h>
+
+#include <cstdint>
+
+namespace calotte::tools {
+
+/// The spacings that a density demands of a number of cells, on the unit sphere in radians.
+struct SpacingSurvey {
+  double unit = 0;                ///< spacing where the density is 1
+  double least = 0, greatest = 0; ///< over the sphere
+  Gradient steepest;              ///< of the spacing, radians per radian
+};
+
+/// Surveys a density by its values on a lattice of points 0.5 degrees apart, and finer ones around
+/// the extremes: features smaller than that may be missed. A regular hexagon of width h has the
+/// area sqrt(3)/2 h^2.
+/// \param cells > 0.
+/// \throws Error as evaluate().
+SpacingSurvey survey_spacing(const Density& density, std::int64_t cells);
+
+} // namespace calotte::tools
