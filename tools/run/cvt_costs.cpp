@@ -43,15 +43,25 @@ double seconds_of_point(const Density& density) {
   return least / points;
 }
 
-// Fits of runs on one thread of an AMD EPYC virtual machine: uniform, x8 as a bump and as a raster,
-// widths by latitude and along a coast, with 46 082 and 184 322 cells, two rounds of insertion and
-// a finish. They took 130 to 630 evaluations, 290 to 540 ns of a cell each.
+// Fits of default runs on an AMD EPYC virtual machine, seconds of all threads together: x8 as a
+// bump and as a raster, and widths by latitude, with 46 000 cells, took the time of 210 to 300
+// evaluations; widths along a coast, with gradients six times above what models recommend, that of
+// 900. An evaluation took 290 to 540 ns of a cell.
 
-constexpr double evaluations = 250;        ///< weighted by cells over those of the result
+/// In units of the result's cells; uniform from a bisected icosahedron, and all others.
+constexpr double evaluations_icosahedral = 30, evaluations = 300;
 constexpr double seconds_of_cell = 280e-9; ///< per evaluation, without the density
 constexpr double points_of_cell = 36;      ///< at which the density is evaluated
 constexpr double efficiency = 0.9;         ///< of each further thread
-constexpr double memory_of_cell = 2000, memory_of_program = 40e6; ///< bytes
+constexpr double memory_of_cell = 1800, memory_of_program = 30e6; ///< bytes
+
+/// Whether bisected icosahedra have so many points, 10 x 4^k + 2.
+bool is_icosahedral(std::int64_t cells) {
+  std::int64_t count = 12;
+  while (count < cells)
+    count = 4 * count - 6;
+  return count == cells;
+}
 
 } // namespace
 
@@ -61,7 +71,8 @@ CvtCosts cvt_costs(std::int64_t cells, const Density& density, int threads) {
   const double of_cell =
       seconds_of_cell + (uniform ? 0 : points_of_cell * seconds_of_point(density));
   CvtCosts costs;
-  costs.seconds = evaluations * n * of_cell / (1 + efficiency * (threads - 1));
+  costs.seconds = (uniform && is_icosahedral(cells) ? evaluations_icosahedral : evaluations) * n *
+                  of_cell / (1 + efficiency * (threads - 1));
   costs.memory = memory_of_program + memory_of_cell * n;
   costs.mpas_file = mpas_bytes(n, uniform ? 6 : most_neighbours);
   costs.vtp_file = vtp_bytes(n);
