@@ -121,7 +121,7 @@ CvtIteration iteration_of(const Part& part) {
   iteration.spacing = part.value.contains("spacing") // older reports are for the sphere
                           ? part.at("spacing").number()
                           : std::sqrt(4 * std::numbers::pi / static_cast<double>(iteration.cells));
-  iteration.rule = static_cast<int>(std::min<std::int64_t>(part.at("rule").count(0), 1000));
+  iteration.rule = static_cast<int>(std::min<std::int64_t>(part.at("rule").count(-1), 1000));
   iteration.l2 = part.at("l2").number();
   iteration.linf = part.at("linf").number();
   iteration.energy = part.at("energy").number();

@@ -119,7 +119,7 @@ TEST_CASE("a file that is no report is refused in a line that names the file and
     json& iteration = report["iterations"][3];
     iteration.erase(key);
     check_refused(folder, report.dump(), place + " is missing");
-    for (const json& bad : {json("1"), json(nullptr), json(-1), json::array({1})}) {
+    for (const json& bad : {json("1"), json(nullptr), json(-2), json::array({1})}) {
       iteration[key] = bad;
       check_refused(folder, report.dump(), place + " is ");
     }
