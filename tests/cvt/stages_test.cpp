@@ -163,7 +163,7 @@ TEST_CASE("stages: a run resumes to the same bits within each stage") {
   });
   REQUIRE(states.back().data().penalty > 0);
   REQUIRE(states.size() > 40);
-  for (std::size_t k = 0; k < states.size(); k += k + 12 < states.size() ? 9 : 1) {
+  for (std::size_t k = 0; k < states.size(); k += k + 6 < states.size() ? 19 : 1) {
     CAPTURE(k);
     write_checkpoint(scratch / "run.ckpt", states[k], "same");
     CHECK(equal(spherical_cvt(read_checkpoint(scratch / "run.ckpt", "same"), options), whole));
@@ -180,7 +180,7 @@ TEST_CASE("stages: a finish leaves a mesh of good shapes as it is") {
   CHECK(finished.report.iterations.size() == pure.report.iterations.size() + 1);
 }
 
-TEST_CASE("stages: in the plane, with a boundary and in a box") {
+TEST_CASE("stages: in the plane, with a boundary and in a box [slow]") {
   const Density fine = tanh_bump({0.7, 0.5, 0}, 0.2, 0.2, 1.0 / 256);
   PlanarDomain box;
   box.period = {2, 1};

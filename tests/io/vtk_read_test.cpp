@@ -305,7 +305,7 @@ TEST_CASE("VTK: a file that is cut anywhere, or whose bytes change, is read or r
                       text = vtk_text("UnstructuredGrid", faces_of(mesh), style);
     write_text(path, text);
     CHECK(done_when_cut(path, [&] { calotte::read_mesh(path); }) == 0);
-    for (int k = 0; k < 300; ++k) {
+    for (int k = 0; k < 100; ++k) {
       std::string other = text;
       for (int changes = 0; changes < 3; ++changes)
         other[random() % other.size()] = static_cast<char>(random());
