@@ -235,7 +235,11 @@ void make_multilevel(const CvtRequest& request, const Density& density,
 
 } // namespace
 
-int rounds_of(const CvtRequest& request) { return request.insertion_rounds.value_or(1); }
+/// On a fine grid one round leaves cells sheared over longer distances.
+int rounds_of(const CvtRequest& request) {
+  constexpr std::int64_t fine = 400'000;
+  return request.insertion_rounds.value_or(request.cells.value_or(0) > fine ? 3 : 1);
+}
 
 void require_start(const CvtRequest& request) {
   if (request.points.empty())
