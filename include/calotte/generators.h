@@ -78,9 +78,10 @@ Points3 bisect(const Mesh& mesh);
 ///
 /// In a graded mesh of minimal CVT energy, pairs of cells with 5 and 7 neighbours (dislocations)
 /// let rows of cells end. A descent cannot create them; this function can.
+/// \param mesh of columns of any norm.
 /// \param inserted, contracted numbers of edges, >= 0.
-/// \returns the points that remain, in their order, a midpoint in the place of the lower end of a
-///          contracted edge, then the inserted midpoints.
+/// \returns unit columns: the points that remain, in their order, a midpoint in the place of the
+///          lower end of a contracted edge, then the inserted midpoints.
 /// \throws Error bad_option for a negative number, more than 2^30 points, an id out of range, or an
 ///         ill-formed density.
 Points3 insert_and_contract(const Mesh& mesh, const Density& density, std::int64_t inserted,

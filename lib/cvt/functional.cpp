@@ -74,7 +74,7 @@ void make_room(Evaluation& out, Eigen::Index n, bool with_gradient) {
 }
 
 /// Counts the generators away from their centroids.
-void count_displaced(const Array<SiteTerms>& terms, const Array<double>& inverse_spacing,
+void count_displaced(const Array<SiteTerms>& terms, const Eigen::VectorXd& inverse_spacing,
                      CvtIteration& iteration) {
   constexpr double least = 0.01;
   double most = 0;
@@ -187,12 +187,8 @@ void FunctionalOver<Cells>::evaluate(const Points3& points, bool final_rule, boo
 
 template <class Cells>
 void FunctionalOver<Cells>::add_penalty(const Points3& points, Evaluation& out) {
-  Array<double> inverse_spacing(points.cols());
-  for_each_block(points.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-    const Eigen::VectorXd rho = calotte::evaluate(density_, points.middleCols(begin, end - begin));
-    for (std::int64_t i = begin; i != end; ++i)
-      inverse_spacing[i] = std::sqrt(std::sqrt(rho[i - begin])) / demanded_spacing_;
-  });
+  const Eigen::VectorXd inverse_spacing =
+      calotte::evaluate(density_, points).cwiseSqrt().cwiseSqrt() / demanded_spacing_;
   const ShapeTerms terms = add_shape_terms(tessellation_.cells(), tessellation_.mesh(),
                                            tessellation_.distorted(inverse_spacing),
                                            inverse_spacing, penalty_, out.gradient);

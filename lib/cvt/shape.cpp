@@ -92,7 +92,7 @@ int across_from(const Connectivity& mesh, std::int32_t t, std::int32_t neighbour
 
 template <class Cells> class Penalty {
 public:
-  Penalty(const Cells& cells, const Connectivity& mesh, const Array<double>& inverse_spacing)
+  Penalty(const Cells& cells, const Connectivity& mesh, const Eigen::VectorXd& inverse_spacing)
       : cells_(cells), mesh_(mesh), inverse_spacing_(inverse_spacing) {}
 
   void add_triangle(std::int32_t t, Part& part) const {
@@ -125,6 +125,8 @@ private:
     const Vec3 side = cells_.offset(cells_.place(angle.a), cells_.place(angle.b));
     const double length = norm(side),
                  demanded = (inverse_spacing_[angle.a] + inverse_spacing_[angle.b]) / 2;
+    if (!(demanded > 0)) // where the density is 0, no length is too short
+      return;
     const Excess excess = excess_of(length * demanded, limits.least_spacing, limits.most_spacing);
     if (!(excess.size > 0))
       return;
@@ -155,7 +157,7 @@ private:
 
   const Cells& cells_;
   const Connectivity& mesh_;
-  const Array<double>& inverse_spacing_;
+  const Eigen::VectorXd& inverse_spacing_;
 };
 
 /// The vertices of a triangle from the lowest on: a key that no other triangle has.
@@ -169,7 +171,7 @@ std::pair<std::int32_t, std::int32_t> key_of(const Connectivity& mesh, std::int3
 
 template <class Cells>
 bool is_distorted(const Cells& cells, const Connectivity& mesh,
-                  const Array<double>& inverse_spacing, std::int32_t triangle) {
+                  const Eigen::VectorXd& inverse_spacing, std::int32_t triangle) {
   const auto ids = mesh.triangles.col(triangle);
   if (ids.maxCoeff() >= inverse_spacing.size())
     return false;
@@ -183,16 +185,16 @@ bool is_distorted(const Cells& cells, const Connectivity& mesh,
   const auto beyond = [&](const Vec3& side, std::int32_t i, std::int32_t j) {
     const double demanded = (inverse_spacing[i] + inverse_spacing[j]) / 2,
                  square = dot(side, side) * demanded * demanded;
-    return square < limits.least_spacing * limits.least_spacing ||
-           square > limits.most_spacing * limits.most_spacing;
+    return demanded > 0 && (square < limits.least_spacing * limits.least_spacing ||
+                            square > limits.most_spacing * limits.most_spacing);
   };
   return beyond(ab, ids[0], ids[1]) || beyond(bc, ids[1], ids[2]) || beyond(ca, ids[2], ids[0]);
 }
 
 template <class Cells>
-ShapeTerms add_shape_terms(const Cells& cells, const Connectivity& mesh,
-                           std::vector<std::int32_t> triangles,
-                           const Array<double>& inverse_spacing, double factor, Points3& gradient) {
+ShapeTerms
+add_shape_terms(const Cells& cells, const Connectivity& mesh, std::vector<std::int32_t> triangles,
+                const Eigen::VectorXd& inverse_spacing, double factor, Points3& gradient) {
   constexpr std::int64_t chunk = 512;
   std::sort(triangles.begin(), triangles.end(),
             [&](std::int32_t t, std::int32_t u) { return key_of(mesh, t) < key_of(mesh, u); });
@@ -214,15 +216,15 @@ ShapeTerms add_shape_terms(const Cells& cells, const Connectivity& mesh,
   return all;
 }
 
-template bool is_distorted(const SphericalCells&, const Connectivity&, const Array<double>&,
+template bool is_distorted(const SphericalCells&, const Connectivity&, const Eigen::VectorXd&,
                            std::int32_t);
-template bool is_distorted(const PlanarCells&, const Connectivity&, const Array<double>&,
+template bool is_distorted(const PlanarCells&, const Connectivity&, const Eigen::VectorXd&,
                            std::int32_t);
 template ShapeTerms add_shape_terms(const SphericalCells&, const Connectivity&,
-                                    std::vector<std::int32_t>, const Array<double>&, double,
+                                    std::vector<std::int32_t>, const Eigen::VectorXd&, double,
                                     Points3&);
 template ShapeTerms add_shape_terms(const PlanarCells&, const Connectivity&,
-                                    std::vector<std::int32_t>, const Array<double>&, double,
+                                    std::vector<std::int32_t>, const Eigen::VectorXd&, double,
                                     Points3&);
 
 } // namespace calotte::cvt_detail

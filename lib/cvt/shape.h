@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "base/memory.h"
 #include "cvt/room.h"
 #include "mesh/connectivity.h"
 
@@ -37,13 +36,13 @@ struct ShapeTerms {
 /// \param triangles all that may be beyond a limit; each once.
 /// \param inverse_spacing 1/h by generator, h the spacing that the density demands.
 template <class Cells>
-ShapeTerms add_shape_terms(const Cells& cells, const Connectivity& mesh,
-                           std::vector<std::int32_t> triangles,
-                           const Array<double>& inverse_spacing, double factor, Points3& gradient);
+ShapeTerms
+add_shape_terms(const Cells& cells, const Connectivity& mesh, std::vector<std::int32_t> triangles,
+                const Eigen::VectorXd& inverse_spacing, double factor, Points3& gradient);
 
 /// Whether a triangle may be beyond a limit.
 template <class Cells>
 bool is_distorted(const Cells& cells, const Connectivity& mesh,
-                  const Array<double>& inverse_spacing, std::int32_t triangle);
+                  const Eigen::VectorXd& inverse_spacing, std::int32_t triangle);
 
 } // namespace calotte::cvt_detail

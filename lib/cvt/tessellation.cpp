@@ -188,7 +188,7 @@ Faults Tessellation<Cells>::integrate(const Integrand& integrand, const Receiver
 
 template <class Cells>
 std::vector<std::int32_t>
-Tessellation<Cells>::distorted(const Array<double>& inverse_spacing) const {
+Tessellation<Cells>::distorted(const Eigen::VectorXd& inverse_spacing) const {
   const std::int64_t count = mesh_.triangles.cols();
   std::vector<std::vector<std::int32_t>> parts(static_cast<std::size_t>(block_count(count)));
   for_each_block(count, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {

@@ -84,7 +84,7 @@ public:
   Faults integrate(const Integrand& integrand, const Receiver& receive, Effort& effort);
 
   /// The triangles whose shape may be beyond the limits of a finish, each once.
-  std::vector<std::int32_t> distorted(const Array<double>& inverse_spacing) const;
+  std::vector<std::int32_t> distorted(const Eigen::VectorXd& inverse_spacing) const;
 
   /// Ends an evaluation.
   void settle(const Effort& effort) { restless_ = effort.flips > 0 || effort.rebuilt; }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <calotte/density.h>
 
+#include "base/parallel.h"
 #include "base/points.h"
 #include "density/density_evaluator.h"
 #include "exact/predicates.h"
@@ -138,6 +139,23 @@ void DensityEvaluator::operator()(std::span<const double> x, std::span<const dou
   }
 }
 
+void DensityEvaluator::operator()(const Vec3* columns, std::int64_t count, double* rho) const {
+  constexpr std::int64_t most = 512;
+  std::array<std::array<double, most>, 3> rows;
+  for (std::int64_t begin = 0; begin < count; begin += most) {
+    const std::int64_t size = std::min(most, count - begin);
+    for (std::int64_t j = 0; j < size; ++j) {
+      const Vec3& x = columns[begin + j];
+      const auto at = static_cast<std::size_t>(j);
+      rows[0][at] = x.x, rows[1][at] = x.y, rows[2][at] = x.z;
+    }
+    const auto row = [&](std::size_t i) {
+      return std::span<const double>(rows[i]).first(static_cast<std::size_t>(size));
+    };
+    (*this)(row(0), row(1), row(2), {rho + begin, static_cast<std::size_t>(size)});
+  }
+}
+
 DensityEvaluator::Bounds DensityEvaluator::bounds(const Vec3& middle, double reach) const {
   constexpr double slack = 1e-14; // for an angle and for a value: more than the rounding error
   Bounds bounds;
@@ -196,17 +214,15 @@ Density site_density(const Density& density) {
 Eigen::VectorXd evaluate(const Density& density, const PointsRef& points) {
   const base_detail::Points3Ref x = base_detail::directions_of(points);
   const density_detail::DensityEvaluator evaluator(density);
-  constexpr Eigen::Index batch = 512;
   Eigen::VectorXd rho(x.cols());
-  std::array<std::array<double, batch>, 3> rows{};
-  for (Eigen::Index begin = 0; begin < x.cols(); begin += batch) {
-    const auto count = static_cast<std::size_t>(std::min(batch, x.cols() - begin));
-    for (std::size_t j = 0; j < count; ++j)
-      for (std::size_t i = 0; i < 3; ++i)
-        rows[i][j] = x(static_cast<Eigen::Index>(i), begin + static_cast<Eigen::Index>(j));
-    const auto row = [&](std::size_t i) { return std::span(rows[i]).first(count); };
-    evaluator(row(0), row(1), row(2), std::span(rho.data() + begin, count));
-  }
+  base_detail::for_each_block(x.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    if (x.outerStride() == 3) {
+      evaluator(&base_detail::column(x, begin), end - begin, rho.data() + begin);
+      return;
+    }
+    const Points3 part = x.middleCols(begin, end - begin);
+    evaluator(&base_detail::column(part, 0), end - begin, rho.data() + begin);
+  });
   return rho;
 }
 

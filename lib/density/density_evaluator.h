@@ -8,6 +8,7 @@
 
 #include <calotte/density.h>
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -44,6 +45,9 @@ public:
   /// \throws Error bad_option if a value of a callable is negative, infinite or NaN.
   void operator()(std::span<const double> x, std::span<const double> y, std::span<const double> z,
                   std::span<double> rho) const;
+
+  /// The same at `count` columns.
+  void operator()(const Vec3* columns, std::int64_t count, double* rho) const;
 
   struct Bounds {
     double least = 0, greatest = 0;

@@ -8,6 +8,7 @@
 #include "base/split_mix.h"
 #include "base/vec3.h"
 #include "density/sampling.h"
+#include "generators/midpoints.h"
 #include "generators/room.h"
 #include "mesh/edges.h"
 
@@ -31,6 +32,7 @@ using base_detail::require;
 using base_detail::require_count;
 using base_detail::SplitMix;
 using base_detail::Vec3;
+using generators_detail::midpoint;
 using generators_detail::most_points;
 
 void put(Points3& points, std::int64_t column, const Vec3& p) {
@@ -59,35 +61,6 @@ CosSin cos_sin(std::uint64_t turns) {
   const std::uint64_t rest = turns % eighth;
   const std::uint64_t part = octant % 2 == 0 ? rest : eighth - rest;
   return cos_sin_of_octant(octant, static_cast<double>(part) * 0x1p-61);
-}
-
-// ---- Midpoints
-
-/// Adds the smaller two first: the sum is the same for any order of the coordinates.
-double symmetric_sum(double a, double b, double c) {
-  const double largest = std::max({a, b, c});
-  if (largest == a)
-    return (b + c) + a;
-  return largest == b ? (a + c) + b : (a + b) + c;
-}
-
-/// The direction of a vector whose square neither overflows nor underflows.
-Vec3 unit(const Vec3& a) {
-  const double length = std::sqrt(symmetric_sum(a.x * a.x, a.y * a.y, a.z * a.z));
-  return {a.x / length, a.y / length, a.z / length};
-}
-
-Vec3 unit_of_any_norm(const Vec3& a) {
-  const double largest = std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)});
-  if (largest > 0x1p-400 && largest < 0x1p400)
-    return unit(a);
-  const double scale = largest < 1 ? 0x1p600 : 0x1p-600;
-  return unit(scale * a);
-}
-
-/// The midpoint of the shorter arc, the same bits from a to b as from b to a.
-Vec3 midpoint(const Vec3& a, const Vec3& b) {
-  return unit(unit_of_any_norm(a) + unit_of_any_norm(b));
 }
 
 // ---- The bisected icosahedron

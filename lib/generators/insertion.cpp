@@ -3,14 +3,12 @@
 
 #include <calotte/generators.h>
 
-#include "base/parallel.h"
 #include "base/points.h"
 #include "base/require.h"
 #include "density/planar_density.h"
 #include "domain/outline.h"
 #include "domain/periodic_box.h"
-#include "exact/predicates.h"
-#include "generators/room.h"
+#include "generators/midpoints.h"
 #include "mesh/edges.h"
 
 #include <algorithm>
@@ -29,6 +27,7 @@ namespace {
 using base_detail::column;
 using base_detail::require;
 using namespace domain_detail;
+using namespace generators_detail;
 
 /// An edge, and its length in units of the spacing that the density demands there, up to one
 /// factor.
@@ -47,13 +46,7 @@ bool is_shorter(const Edge& e, const Edge& f) {
 
 /// rho^(1/4) at columns: 1/h up to a factor.
 Eigen::VectorXd fineness(const Density& density, const Points3& points) {
-  Eigen::VectorXd values(points.cols());
-  base_detail::for_each_block(
-      points.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-        values.segment(begin, end - begin) =
-            evaluate(density, points.middleCols(begin, end - begin)).cwiseSqrt().cwiseSqrt();
-      });
-  return values;
+  return evaluate(density, points).cwiseSqrt().cwiseSqrt();
 }
 
 /// The neighbours of each site.
@@ -218,7 +211,7 @@ Points3 exchange(const AnyMesh& mesh, const Points3& points, const Density& dens
 
 struct OnSphere {
   static Vec3 offset(const Vec3& a, const Vec3& b) { return b - a; }
-  static Vec3 middle(const Vec3& a, const Vec3& b) { return normalised(a + b); }
+  static Vec3 middle(const Vec3& a, const Vec3& b) { return midpoint(a, b); }
   static bool holds(const Vec3&) { return true; }
 };
 
@@ -231,10 +224,9 @@ struct InPlane {
     return {way.x, way.y, 0};
   }
   Vec3 middle(const Vec3& a, const Vec3& b) const {
-    const Vec3 middle = a + 0.5 * offset(a, b);
     if (outline != nullptr)
-      return middle;
-    return {wrapped(middle.x, period.x), wrapped(middle.y, period.y), 0};
+      return {a.x / 2 + b.x / 2, a.y / 2 + b.y / 2, 0};
+    return {middle_in_box(a.x, b.x, period.x), middle_in_box(a.y, b.y, period.y), 0};
   }
   bool holds(const Vec3& place) const {
     return outline == nullptr || outline->side({place.x, place.y}) == Side::inside;
@@ -244,7 +236,7 @@ struct InPlane {
 Points3 unit(const Points3& points) {
   Points3 out(3, points.cols());
   for (std::int64_t i = 0; i < points.cols(); ++i)
-    base_detail::set_column(out, i, normalised(column(points, i)));
+    base_detail::set_column(out, i, unit_of_any_norm(column(points, i)));
   return out;
 }
 
@@ -257,7 +249,8 @@ double sum_dislocations(const AnyMesh& mesh, const Points3& points, const Densit
   const Eigen::VectorXd fine = fineness(density, points);
   double sum = 0;
   mesh_detail::for_each_edge(mesh, [&](std::int32_t a, std::int32_t b) {
-    sum += std::abs(fine[a] - fine[b]) / std::max(fine[a], fine[b]);
+    if (const double larger = std::max(fine[a], fine[b]); larger > 0)
+      sum += std::abs(fine[a] - fine[b]) / larger;
   });
   return per_edge * sum;
 }

@@ -6,6 +6,7 @@
 #include "density/planar_density.h"
 #include "density/sampling.h"
 #include "domain/outline.h"
+#include "generators/midpoints.h"
 #include "generators/room.h"
 #include "mesh/edges.h"
 
@@ -24,6 +25,7 @@ using base_detail::require_count;
 using domain_detail::Outline;
 using domain_detail::Side;
 using exact_detail::Vec2;
+using generators_detail::middle_in_box;
 using generators_detail::most_points;
 
 constexpr double rise = std::numbers::sqrt3 / 2; ///< of rows, over the spacing
@@ -190,15 +192,6 @@ Points2 lattice_of_box(std::int64_t n, const Eigen::Vector2d& period) {
 }
 
 // ---- Bisection
-
-/// The middle of the shorter way from one place in a box to another, in the box.
-double middle_in_box(double a, double b, double length) {
-  const double middle = a / 2 + b / 2;
-  if (std::abs(a - b) <= length / 2)
-    return middle;
-  const double across = middle < length / 2 ? middle + length / 2 : middle - length / 2;
-  return across < length ? across : 0;
-}
 
 Points2 bisected_box(const PlanarMesh& mesh) {
   const std::int64_t n = mesh.points.cols();

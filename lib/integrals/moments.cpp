@@ -7,9 +7,7 @@
 #include "integrals/rows.h"
 
 #include <algorithm>
-#include <array>
 #include <cstring>
-#include <span>
 
 namespace calotte::integrals_detail {
 namespace {
@@ -50,18 +48,8 @@ void scatter_mass(const Batch& batch, const VertexTerms& terms, Array<double>& m
 
 /// The density at the sites.
 Array<double> densities(const Integrand& integrand, const Array<Vec3>& x) {
-  constexpr std::int64_t batch = 128;
   Array<double> rho(x.size());
-  std::array<std::array<double, batch>, 3> rows;
-  for (std::int64_t begin = 0; begin < x.size(); begin += batch) {
-    const auto count = static_cast<std::size_t>(std::min(batch, x.size() - begin));
-    for (std::size_t j = 0; j < count; ++j) {
-      const Vec3& site = x[begin + static_cast<std::int64_t>(j)];
-      rows[0][j] = site.x, rows[1][j] = site.y, rows[2][j] = site.z;
-    }
-    const auto row = [&](std::size_t i) { return std::span<const double>(rows[i]).first(count); };
-    integrand.density(row(0), row(1), row(2), std::span(rho.begin() + begin, count));
-  }
+  integrand.density(x.begin(), x.size(), rho.begin());
   return rho;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "quality/demand.h"
 
+#include "base/hexagons.h"
 #include "base/parallel.h"
 #include "base/points.h"
 #include "density/density_evaluator.h"
@@ -95,35 +96,14 @@ double root_integral(const Mesh& mesh, const Density& density) {
 
 void set_energy(Quality& quality, double energy, double root_integral) {
   quality.energy = energy;
-  quality.limit = 5 / (18 * std::numbers::sqrt3) * root_integral * root_integral;
+  quality.limit = hexagon_energy * root_integral * root_integral;
   quality.excess = energy * static_cast<double>(quality.cells) / quality.limit - 1;
 }
 
-Array<double> inverse_spacings(const Points3& points, const Density& density,
-                               double root_integral) {
-  const std::int64_t n = points.cols();
-  const double h =
-      std::sqrt(2 / std::numbers::sqrt3 * root_integral / static_cast<double>(n)); // where rho = 1
-  const DensityEvaluator evaluator(density);
-  Array<double> inverse(n);
-  for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-    std::array<std::array<double, batch>, 3> rows;
-    for (std::int64_t first = begin; first < end; first += batch) {
-      const std::size_t count = std::min(batch, static_cast<std::size_t>(end - first));
-      for (std::size_t j = 0; j < count; ++j) {
-        const Vec3& p = column(points, first + static_cast<std::int64_t>(j));
-        rows[0][j] = p.x;
-        rows[1][j] = p.y;
-        rows[2][j] = p.z;
-      }
-      const std::span rho(&inverse[first], count);
-      evaluator(std::span(rows[0]).first(count), std::span(rows[1]).first(count),
-                std::span(rows[2]).first(count), rho);
-      for (double& value : rho)
-        value = std::sqrt(std::sqrt(value)) / h;
-    }
-  });
-  return inverse;
+Eigen::VectorXd inverse_spacings(const Points3& points, const Density& density,
+                                 double root_integral) {
+  const double h = hexagon_width(root_integral / static_cast<double>(points.cols())); // at rho = 1
+  return evaluate(density, points).cwiseSqrt().cwiseSqrt() / h;
 }
 
 } // namespace calotte::quality_detail

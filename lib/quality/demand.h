@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "base/memory.h"
 #include "quality/room.h"
 
 #include <calotte/density.h>
@@ -28,6 +27,7 @@ void set_energy(Quality& quality, double energy, double root_integral);
 /// \param points 3 x n, as the density takes them.
 /// \param root_integral r, of rho^(1/2) over the domain.
 /// \throws Error bad_option as DensityEvaluator.
-Array<double> inverse_spacings(const Points3& points, const Density& density, double root_integral);
+Eigen::VectorXd inverse_spacings(const Points3& points, const Density& density,
+                                 double root_integral);
 
 } // namespace calotte::quality_detail

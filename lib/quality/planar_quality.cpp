@@ -71,7 +71,7 @@ private:
 /// \param mesh of the n generators and the hull.
 /// \param inverse_spacing by generator.
 Quality measure(const PlanarCells& cells, const Connectivity& mesh, const PlanarDomain& domain,
-                std::int64_t n, Array<double>&& inverse_spacing) {
+                std::int64_t n, Eigen::VectorXd&& inverse_spacing) {
   const std::int64_t m = mesh.triangles.cols();
   const Vec2 period = domain.periodic() ? Vec2{domain.period.x(), domain.period.y()} : Vec2{0, 0};
   Subject subject{mesh.triangles,

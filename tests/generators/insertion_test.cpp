@@ -167,6 +167,17 @@ TEST_CASE("insertion: dislocations grow as the root of the number, and uniform m
   CHECK(many / few == doctest::Approx(2).epsilon(0.05));
 }
 
+TEST_CASE("insertion: where the density is 0, nothing is demanded") {
+  const Density half = rising(0);
+  const Mesh mesh = spherical_delaunay(fibonacci_sphere(1000));
+  const double demanded = generators_detail::dislocations(mesh, half);
+  CHECK(demanded > 0);
+  CHECK(demanded < 1000);
+  const Points3 points = insert_and_contract(mesh, half, 20, 20);
+  CHECK(points.cols() == 1000);
+  CHECK(points.allFinite());
+}
+
 TEST_CASE("insertion: in the plane midpoints lie inside the domain or the box") {
   PlanarDomain corner; // with a reflex corner
   corner.rings.push_back((Eigen::MatrixXd(2, 6) << 0, 2, 2, 1, 1, 0, 0, 0, 1, 1, 2, 2).finished());
