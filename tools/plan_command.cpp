@@ -218,17 +218,12 @@ void add_cells(CLI::App& command, Request& request) {
     if (text != "auto")
       request.cells = std::stoi(text);
   };
-  const CLI::Validator number = whole_number(12, 1 << 30);
-  const auto check = [number](std::string& text) {
-    return text == "auto" ? std::string() : number(text);
-  };
   command
       .add_option_function<std::string>(
           "--cells", set,
           "Number of cells, 12 to 1073741824; it scales the widths. Or auto (default): computed "
           "from the cell widths")
-      ->transform(CLI::Validator(check, ""))
-      ->type_name("N|auto");
+      ->transform(whole_number_or_auto(12, 1 << 30));
 }
 
 } // namespace

@@ -58,7 +58,9 @@ void require_state(const State& state) {
   const auto n = static_cast<std::size_t>(state.points.cols());
   std::vector<std::uint8_t> seen(n, 0);
   bool good = n >= 1 && state.id.size() == n && state.bisections_left >= 0 &&
-              state.rounds_left >= 0 && state.iterations_of_level >= 0;
+              state.rounds_left >= 0 && state.mends >= 0 && state.iterations_of_level >= 0 &&
+              std::isfinite(state.penalty) && state.penalty >= 0 &&
+              std::isfinite(state.demanded_spacing) && state.demanded_spacing > 0;
   for (std::size_t i = 0; good && i < n; ++i) {
     const std::int32_t id = state.id[i];
     good = id >= 0 && static_cast<std::size_t>(id) < n && seen[static_cast<std::size_t>(id)]++ == 0;
@@ -82,12 +84,12 @@ void conclude(State& state, const CvtOptions& options, const CvtIteration& itera
   CvtReport& report = state.report;
   const bool by_final_rule = options.density.uniform() || iteration.rule == options.final_rule;
   report.residual = norm_of(iteration, options.norm);
-  // Near the end the finer rule replaces the coarser one; a run converges with the finer rule only.
   if (state.penalty > 0) {
     report.converged = iteration.misshapen <= shape_tolerance;
   } else if (options.norm == Norm::none) {
     report.converged = state.iterations_of_level >= options.max_iterations;
   } else {
+    // Near the end the finer rule replaces the coarser one; a run converges with the finer only.
     report.converged = by_final_rule && report.residual <= options.tolerance;
     const double margin = options.rule == rule_at_sites ? 1 : 10;
     state.final_rule = state.final_rule || report.residual <= margin * options.tolerance;
@@ -96,6 +98,14 @@ void conclude(State& state, const CvtOptions& options, const CvtIteration& itera
 
 bool level_ended(const State& state, const CvtOptions& options) {
   return state.report.converged || state.iterations_of_level >= options.max_iterations;
+}
+
+/// A CVT's generators are the centroids of its cells; a finish keeps its own.
+void end_descent(State& state, const Evaluation& last) {
+  if (state.penalty > 0)
+    state.report.converged = last.iteration.misshapen <= accepted_shape;
+  else
+    state.points = last.centroids;
 }
 
 /// How a level ended.
@@ -126,10 +136,8 @@ Ending iterate(const World& world, CvtState& whole, Level&& level, const CvtOpti
   for (;; descent.step()) {
     conclude(state, options, descent.here().iteration);
     const bool ended = level_ended(state, options) || descent.stuck();
-    if (ended && state.penalty == 0)
-      state.points = descent.here().centroids;
-    if (ended && state.penalty > 0)
-      state.report.converged = descent.here().iteration.misshapen <= accepted_shape;
+    if (ended)
+      end_descent(state, descent.here());
     Clock::time_point now = start;
     state.report.seconds = before + lap(now);
     const bool stopped = callback && callback({state.report, state.iterations_of_level,
@@ -193,7 +201,8 @@ typename World::Result run(const World& world, CvtState whole, Level&& level, Cv
   Clock::time_point mark = Clock::now();
   const double before = state.report.seconds;
   const auto descend = [&](Level&& start) {
-    return iterate(world, whole, std::move(start), options_of_descent(state, options), callback);
+    return iterate(world, whole, std::move(start),
+                   options_of_descent(state, options, World::at_sites), callback);
   };
   Ending ending = descend(std::move(level));
   for (Stage next = stage_after(state, options); !ending.stopped && next != Stage::end;
@@ -211,12 +220,18 @@ typename World::Result run(const World& world, CvtState whole, Level&& level, Cv
   return result;
 }
 
+template <class World>
+typename World::Result run(const World& world, Start&& begun, const CvtOptions& options,
+                           const CvtCallback& callback) {
+  begun.state.rounds_left = rounds_of_level(begun.state, options);
+  return run(world, CvtState(std::move(begun.state)), std::move(begun.level), options, callback);
+}
+
 template <class Points>
 Cvt run_from(Points&& start, const CvtOptions& options, const CvtCallback& callback) {
   require_options(options);
   SphericalWorld::density(options.density);
-  Start begun = SphericalWorld::begin(std::forward<Points>(start), options);
-  return run(SphericalWorld(), CvtState(std::move(begun.state)), std::move(begun.level), options,
+  return run(SphericalWorld(), SphericalWorld::begin(std::forward<Points>(start), options), options,
              callback);
 }
 
@@ -265,9 +280,7 @@ PlanarCvt planar_cvt(const PointsRef& start, const PlanarDomain& domain, const C
   const cvt_detail::PlanarWorld plane(domain);
   plane.density(options.density);
   cvt_detail::require_inside(places, domain);
-  cvt_detail::Start begun = cvt_detail::PlanarWorld::begin(places, options);
-  return cvt_detail::run(plane, CvtState(std::move(begun.state)), std::move(begun.level), options,
-                         callback);
+  return cvt_detail::run(plane, cvt_detail::PlanarWorld::begin(places, options), options, callback);
 }
 
 } // namespace calotte

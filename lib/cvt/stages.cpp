@@ -1,19 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cvt/stages.h"
 
+#include "base/hexagons.h"
 #include "integrals/integrand.h"
-
-#include <numbers>
 
 namespace calotte::cvt_detail {
 namespace {
 
-/// The spacing at rho = 1 of regular hexagons with the same energy. n times their energy is 5/(18
-/// sqrt 3) I^2, I the integral of rho^(1/2), and sqrt(3)/2 h^2 their area at rho = 1, I/n.
+/// The spacing at rho = 1 of regular hexagons with the same energy. n times their energy is that of
+/// a hexagon times I^2, I the integral of rho^(1/2), and their area at rho = 1 is I/n.
 double spacing_of(const CvtIteration& iteration) {
   const auto n = static_cast<double>(iteration.cells);
-  const double integral = std::sqrt(iteration.energy * n * 18 * std::numbers::sqrt3 / 5);
-  return std::sqrt(2 / std::numbers::sqrt3 * integral / n);
+  return hexagon_width(std::sqrt(iteration.energy * n / hexagon_energy) / n);
 }
 
 } // namespace
@@ -35,7 +33,7 @@ Stage stage_after(const State& state, const CvtOptions& options) {
   return Stage::end;
 }
 
-CvtOptions options_of_descent(const State& state, const CvtOptions& options) {
+CvtOptions options_of_descent(const State& state, const CvtOptions& options, bool at_sites) {
   constexpr int most_in_finish = 60, most_early = 200;
   constexpr double early = 1e-3, fine = 1e-5;
   constexpr std::int64_t resolving = 2000; // generators, between which a density is nearly linear
@@ -47,7 +45,7 @@ CvtOptions options_of_descent(const State& state, const CvtOptions& options) {
   }
   if (options.insertion_rounds == 0 || options.norm == Norm::none)
     return here;
-  if (state.points.cols() >= resolving)
+  if (at_sites && state.points.cols() >= resolving)
     here.rule = rule_at_sites;
   const Stage next = stage_after(state, options);
   if (next != Stage::insert && next != Stage::bisect) {

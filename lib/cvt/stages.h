@@ -39,7 +39,8 @@ std::int64_t cells_of_level(const World& world, const State& state, const CvtOpt
 Stage stage_after(const State& state, const CvtOptions& options);
 
 /// The options of the current descent.
-CvtOptions options_of_descent(const State& state, const CvtOptions& options);
+/// \param at_sites whether the cells can be integrated with rule_at_sites.
+CvtOptions options_of_descent(const State& state, const CvtOptions& options, bool at_sites);
 
 void begin_descent(State& state);
 

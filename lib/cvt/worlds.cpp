@@ -4,7 +4,6 @@
 #include "base/parallel.h"
 #include "base/points.h"
 #include "cvt/planar_cells.h"
-#include "cvt/stages.h"
 #include "delaunay/sites.h"
 #include "density/planar_density.h"
 #include "domain/periodic_box.h"
@@ -72,7 +71,6 @@ Start begun_at(Sites&& sites, const CvtOptions& options) {
   set_points(state, sites, sites.unit);
   state.site_of_input = std::move(sites.site_of_input);
   state.bisections_left = options.bisections;
-  state.rounds_left = rounds_of_level(state, options);
   sites.points = state.points;
   return {std::move(state), {by_rank(std::move(sites)), std::nullopt}};
 }
@@ -156,7 +154,6 @@ Start PlanarWorld::begin(const Points2Ref& start, const CvtOptions& options) {
   set_places(state, sites);
   state.site_of_input = std::move(sites.site_of_input);
   state.bisections_left = options.bisections;
-  state.rounds_left = rounds_of_level(state, options);
   return {std::move(state), {}};
 }
 

@@ -29,6 +29,7 @@ class SphericalWorld {
 public:
   using Result = Cvt;
   static constexpr std::int64_t fewest = 12; ///< generators
+  static constexpr bool at_sites = true;     ///< its cells can be integrated with rule_at_sites
 
   /// \throws Error as make_sites(); too_few_sites.
   static Start begin(Points3&& start, const CvtOptions& options);
@@ -71,6 +72,7 @@ class PlanarWorld {
 public:
   using Result = PlanarCvt;
   static constexpr std::int64_t fewest = 3;
+  static constexpr bool at_sites = false;
 
   /// \throws Error as require_domain().
   explicit PlanarWorld(const PlanarDomain& domain);

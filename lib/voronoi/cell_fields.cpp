@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <calotte/voronoi.h>
 
+#include "base/hexagons.h"
 #include "base/matrix_memory.h"
 #include "base/parallel.h"
 #include "base/require.h"
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace calotte {
 namespace {
@@ -69,7 +69,7 @@ double nominal_spacing(const CellFields& fields) {
   double sum = 0; // in the order of the cells: the same bits for any number of threads
   for (Eigen::Index i = 0; i < fields.area.size(); ++i)
     sum += fields.area[i] * std::sqrt(fields.density[i]);
-  return std::sqrt(2 / std::numbers::sqrt3 * sum / n);
+  return base_detail::hexagon_width(sum / n);
 }
 
 } // namespace calotte

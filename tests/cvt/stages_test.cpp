@@ -138,6 +138,37 @@ TEST_CASE("stages: a finish gives the shapes that models ask for [slow]") {
     }
 }
 
+TEST_CASE("stages: in each descent every accepted step lowers the energy") {
+  CvtOptions options = graded(2500, 2, x8());
+  options.triangle_divisions = 2;
+  int descents = 0, steps = 0;
+  double before = 0;
+  std::tuple<int, int, int> rule_and_stage;
+  spherical_cvt(start_of(160, x8()), options, [&](const CvtProgress& now) {
+    const CvtIteration& here = now.report.iterations.back();
+    const cvt_detail::State& state = now.state.data();
+    if (state.penalty > 0) // a finish minimises another function
+      return false;
+    const std::tuple now_in(here.rule, now.bisections_left, now.rounds_left);
+    const bool same = now.iterations_of_level > 1 && now_in == rule_and_stage;
+    if (same)
+      CHECK(here.energy <= before * (1 + 1e-7));
+    (same ? steps : descents) += 1;
+    before = here.energy;
+    rule_and_stage = now_in;
+    return false;
+  });
+  CHECK(descents > 8);
+  CHECK(steps > 40);
+}
+
+TEST_CASE("stages: a density of 0 on a part of the sphere leaves its edges without a demand") {
+  const Cvt grid = spherical_cvt(fibonacci_sphere(600), graded(900, 0, rising(0.999)));
+  CHECK(grid.mesh.points.cols() == 900);
+  CHECK(grid.mesh.points.allFinite());
+  CHECK(check(grid.mesh).failure == "");
+}
+
 TEST_CASE("stages: threads and regions have no effect on insertion and finish") {
   const Points3 start = start_of(160, x8());
   const auto with = [&](std::size_t threads, int regions) {

@@ -32,17 +32,12 @@ void add_cells(CLI::App& command, CvtRequest& request) {
     if (!request.cells_of_widths)
       request.cells = std::stoi(text);
   };
-  const CLI::Validator number = whole_number(3, 1 << 30);
-  const auto check = [number](std::string& text) {
-    return text == "auto" ? std::string() : number(text);
-  };
   command
       .add_option_function<std::string>(
           "--cells", set,
           "Number of cells of the result, 3 to 1073741824 (on the sphere >= 12), or auto: computed "
           "from the cell widths. Approximate after bisections of a domain with a boundary")
-      ->transform(CLI::Validator(check, ""))
-      ->type_name("N|auto");
+      ->transform(whole_number_or_auto(3, 1 << 30));
 }
 
 void add_start(CLI::App& command, CvtRequest& request) {

@@ -36,4 +36,11 @@ CLI::Validator whole_number(std::uint64_t least, std::uint64_t most) {
           "N"};
 }
 
+CLI::Validator whole_number_or_auto(std::uint64_t least, std::uint64_t most) {
+  const auto check = [number = whole_number(least, most)](std::string& text) {
+    return text == "auto" ? std::string() : number(text);
+  };
+  return {check, "N|auto"};
+}
+
 } // namespace calotte::tools

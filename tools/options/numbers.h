@@ -19,4 +19,7 @@ std::string formatted(const char* format, double value);
 /// Whole numbers in a range, for an option's transform: decimal, also with leading zeros.
 CLI::Validator whole_number(std::uint64_t least, std::uint64_t most);
 
+/// The same, or the word auto.
+CLI::Validator whole_number_or_auto(std::uint64_t least, std::uint64_t most);
+
 } // namespace calotte::tools
