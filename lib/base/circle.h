@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "base/vector_loops.h"
+
 #include <utility>
 
 namespace calotte::base_detail {
@@ -10,6 +12,18 @@ struct CosSin {
   double cos, sin;
 };
 
+/// The cosine and sine of part pi/4, 0 to 1. No branch prevents vector code in a loop around it.
+CALOTTE_INLINE CosSin cos_sin_of_part(double part) {
+  const double x = part * 0x1.921fb54442d18p-1, y = x * x;
+  double cosine = 1, sine = 1; // Taylor's series: the next term is below 2^-60
+  for (int k = 18; k >= 2; k -= 2) {
+    cosine = 1 - y * (1.0 / (k * (k - 1))) * cosine;
+    sine = 1 - y * (1.0 / (k * (k + 1))) * sine;
+  }
+  constexpr double middle = 0x1.6a09e667f3bcdp-1; // at 1: equal, whatever the series rounds to
+  return {part == 1 ? middle : cosine, part == 1 ? middle : x * sine};
+}
+
 /// The cosine and sine of (octant + part) pi/4; in an odd octant, `part` is measured from its far
 /// end. Points of equal part are mirror images to the last bit, so that lattices have the symmetry
 /// of the circle, and multiples of pi/2 are exact. The function uses only + - *, each rounded once,
@@ -17,17 +31,7 @@ struct CosSin {
 /// \param octant 0 to 7.
 /// \param part 0 to 1.
 inline CosSin cos_sin_of_octant(int octant, double part) {
-  CosSin p{0x1.6a09e667f3bcdp-1,
-           0x1.6a09e667f3bcdp-1}; // at 1: equal, whatever the series rounds to
-  if (part != 1) {
-    const double x = part * 0x1.921fb54442d18p-1, y = x * x;
-    double cosine = 1, sine = 1; // Taylor's series: the next term is below 2^-60
-    for (int k = 18; k >= 2; k -= 2) {
-      cosine = 1 - y * (1.0 / (k * (k - 1))) * cosine;
-      sine = 1 - y * (1.0 / (k * (k + 1))) * sine;
-    }
-    p = {cosine, x * sine};
-  }
+  CosSin p = cos_sin_of_part(part);
   if (octant % 2 == 1)
     std::swap(p.cos, p.sin);
   if (octant / 2 % 2 == 1)

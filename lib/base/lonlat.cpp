@@ -2,30 +2,74 @@
 #include "base/lonlat.h"
 
 #include "base/circle.h"
+#include "base/vector_loops.h"
 
+#include <array>
 #include <cmath>
 
 namespace calotte::base_detail {
 namespace {
 
-/// std::remainder and std::fmod are exact, and so is the reduction to an octant, except for the
-/// last subtraction, which rounds once.
-CosSin cos_sin(double degrees) {
-  const double turned = std::remainder(degrees, 360.0), angle = std::abs(turned);
-  const double rest = std::fmod(angle, 45.0);
-  const int octant = static_cast<int>(std::lround((angle - rest) / 45));
-  CosSin p = cos_sin_of_octant(octant, (octant % 2 == 0 ? rest : 45 - rest) / 45);
-  if (turned < 0)
-    p.sin = -p.sin;
-  return p;
+/// Whole turns beyond these angles need std::remainder, which is slow.
+constexpr double near = 540;
+
+/// \param degrees below `near` in size.
+CALOTTE_INLINE double turned_near(double degrees) {
+  const double size = std::abs(degrees);
+  return size <= 180 ? degrees : degrees - std::copysign(360.0, degrees); // exact
+}
+
+/// The reduction to an octant is exact but for one subtraction, which rounds once.
+/// \param turned from -180 to 180 degrees.
+CALOTTE_INLINE CosSin cos_sin(double turned) {
+  const double angle = std::abs(turned);
+  double octant = static_cast<double>(static_cast<int>(angle * (1.0 / 45)));
+  octant -= 45 * octant > angle ? 1.0 : 0.0; // the product was rounded
+  octant += angle - 45 * octant >= 45 ? 1.0 : 0.0;
+  const double rest = angle - 45 * octant;
+  const bool odd = octant == 1 || octant == 3;
+  const CosSin p = cos_sin_of_part((odd ? 45 - rest : rest) / 45);
+  const double c = odd ? p.sin : p.cos, s = odd ? p.cos : p.sin;
+  const bool second = octant == 2 || octant == 3; // quarter of the circle
+  const double cosine = octant == 4 ? -c
+                        : second    ? -s
+                                    : c,
+               sine = octant == 4 ? -s
+                      : second    ? c
+                                  : s;
+  return {cosine, turned < 0 ? -sine : sine};
+}
+
+/// Adding 0 turns -0 into 0, so that equal places have equal bits.
+CALOTTE_INLINE Vec3 place(const CosSin& east, const CosSin& north) {
+  return {north.cos * east.cos + 0.0, north.cos * east.sin + 0.0, north.sin + 0.0};
+}
+
+CALOTTE_VECTOR_WIDTHS
+void set_near(const double* longitudes, const double* latitudes, std::int64_t n, Vec3* out) {
+  CALOTTE_VECTOR_LOOP
+  for (std::int64_t i = 0; i < n; ++i)
+    out[i] = place(cos_sin(turned_near(longitudes[i])), cos_sin(latitudes[i]));
 }
 
 } // namespace
 
+double turned_back(double degrees) {
+  return std::abs(degrees) < near ? turned_near(degrees) : std::remainder(degrees, 360.0);
+}
+
 Vec3 from_lonlat(double longitude, double latitude) {
-  const CosSin east = cos_sin(longitude), north = cos_sin(latitude);
-  // Adding 0 turns -0 into 0, so that equal places have equal bits.
-  return {north.cos * east.cos + 0.0, north.cos * east.sin + 0.0, north.sin + 0.0};
+  return place(cos_sin(turned_back(longitude)), cos_sin(latitude));
+}
+
+void from_lonlats(const double* longitudes, const double* latitudes, std::int64_t n, Vec3* out) {
+  bool all_near = true;
+  for (std::int64_t i = 0; i < n; ++i)
+    all_near &= std::abs(longitudes[i]) < near;
+  if (all_near)
+    return set_near(longitudes, latitudes, n, out);
+  for (std::int64_t i = 0; i < n; ++i)
+    out[i] = from_lonlat(longitudes[i], latitudes[i]);
 }
 
 } // namespace calotte::base_detail

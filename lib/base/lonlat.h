@@ -3,6 +3,8 @@
 
 #include "base/vec3.h"
 
+#include <cstdint>
+
 namespace calotte::base_detail {
 
 /// The unit vector at a longitude (any finite value) and a latitude (-90 to 90) in degrees. It is
@@ -10,5 +12,11 @@ namespace calotte::base_detail {
 /// all longitudes at a pole. No coordinate is -0. Only + - * / round here, so that every machine
 /// gives the same bits.
 Vec3 from_lonlat(double longitude, double latitude);
+
+/// The same at n places.
+void from_lonlats(const double* longitudes, const double* latitudes, std::int64_t n, Vec3* out);
+
+/// An angle in degrees from -180 to 180, which differs by whole turns. Exact.
+double turned_back(double degrees);
 
 } // namespace calotte::base_detail

@@ -10,6 +10,7 @@
 #include <new>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #ifdef __linux__
 #include <sys/mman.h>
@@ -118,6 +119,15 @@ template <class T> void give_back(Array<T>& array) {
          static_cast<std::size_t>(sysconf(_SC_PAGESIZE)), MADV_DONTNEED);
 #endif
   array = {};
+}
+
+/// A vector of n zeros.
+template <class T> std::vector<T> zeros(std::int64_t n) {
+  std::vector<T> values;
+  values.reserve(static_cast<std::size_t>(n));
+  prefer_huge_pages(values.data(), static_cast<std::size_t>(n) * sizeof(T));
+  values.resize(static_cast<std::size_t>(n));
+  return values;
 }
 
 } // namespace calotte::base_detail

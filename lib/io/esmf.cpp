@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/memory.h"
 #include "base/points.h"
 #include "io/formats.h"
 #include "io/model_grid.h"
@@ -49,13 +50,15 @@ NetcdfAttributes degrees(const std::string& of) {
 /// Longitudes and latitudes in pairs.
 Points3 read_pairs(const NetcdfReader& file, const std::string& name) {
   const std::vector<double> pairs = file.doubles(name, {-1, 2});
-  const double scale = degrees_per_unit(file, name);
-  std::vector<double> longitudes, latitudes;
-  for (std::size_t i = 0; i < pairs.size(); i += 2) {
-    longitudes.push_back(scale * pairs[i]);
-    latitudes.push_back(scale * pairs[i + 1]);
+  const double factor = degrees_per_unit(file, name);
+  const std::int64_t count = std::ssize(pairs) / 2;
+  LonLats places{zeros<double>(count), zeros<double>(count)};
+  for (std::size_t i = 0; i < places.longitudes.size(); ++i) {
+    places.longitudes[i] = factor * pairs[2 * i];
+    places.latitudes[i] = factor * pairs[2 * i + 1];
   }
-  return from_lonlats(file, name, longitudes, latitudes);
+  places = checked(file, name, std::move(places));
+  return from_degrees(places.longitudes, places.latitudes);
 }
 
 /// The elements' corners. What follows the number that numElementConn gives is padding, whatever
@@ -68,13 +71,13 @@ Polygons read_elements(const NetcdfReader& file, Points3 nodes, Points3 centres)
   const auto start = static_cast<std::int32_t>(file.number("elementConn", "start_index", 1));
   Polygons polygons{std::move(nodes), {}, {}, std::move(centres)};
   polygons.begin.resize(elements + 1);
-  std::vector<std::int32_t> ids;
+  polygons.begin[0] = 0;
+  polygons.ids.resize(std::ssize(all));
   const auto fail = [&](std::int64_t element, const std::string& problem) {
     file.fail("element " + std::to_string(element) + " (0-based) " + problem +
               "; make the file again");
   };
   for (std::int64_t i = 0; i < elements; ++i) {
-    polygons.begin[i] = std::ssize(ids);
     const std::int32_t count = counts[static_cast<std::size_t>(i)];
     if (count < 3 || count > most)
       fail(i, "has " + std::to_string(count) + " nodes in numElementConn");
@@ -84,11 +87,11 @@ Polygons read_elements(const NetcdfReader& file, Points3 nodes, Points3 centres)
         fail(i, "has node " + std::to_string(id + start) + " in elementConn, which is not one of " +
                     std::to_string(polygons.corners.cols()) + " from " + std::to_string(start) +
                     " on");
-      ids.push_back(id);
+      polygons.ids[polygons.begin[i] + k] = id;
     }
+    polygons.begin[i + 1] = polygons.begin[i] + count;
   }
-  polygons.begin[elements] = std::ssize(ids);
-  polygons.ids = Eigen::Map<const Ids>(ids.data(), std::ssize(ids));
+  polygons.ids.conservativeResize(polygons.begin[elements]);
   return polygons;
 }
 

@@ -63,6 +63,12 @@ void move_values(MeshField& field, std::span<const std::int32_t> place) {
   field.values = std::move(moved);
 }
 
+void move_vertex_values(std::vector<MeshField>& fields, std::span<const std::int32_t> place) {
+  for (MeshField& field : fields)
+    if (field.location == Location::vertices && has_values_for(field, std::ssize(place)))
+      move_values(field, place);
+}
+
 void select_values(MeshField& field, std::span<const std::int32_t> from) {
   Eigen::VectorXd selected(field.count() * std::ssize(from));
   const auto all = columns_of(field.values, field.count());

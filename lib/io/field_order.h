@@ -21,6 +21,9 @@ bool has_values_for(const MeshField& field, std::int64_t places);
 /// \param place by old place: the new one, each once.
 void move_values(MeshField& field, std::span<const std::int32_t> place);
 
+/// The same for all fields with values for so many triangles.
+void move_vertex_values(std::vector<MeshField>& fields, std::span<const std::int32_t> place);
+
 /// \param from by new place: the old one.
 void select_values(MeshField& field, std::span<const std::int32_t> from);
 

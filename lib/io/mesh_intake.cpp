@@ -2,6 +2,7 @@
 #include "io/mesh_intake.h"
 
 #include "base/points.h"
+#include "io/dual.h"
 #include "io/field_order.h"
 #include "io/polygons.h"
 #include "mesh/adjacency.h"
@@ -66,13 +67,6 @@ void orient(const std::string& name, Triangles& triangles, const Orientations& f
   changes.push_back("turned " + std::to_string(found.clockwise) + " clockwise triangles");
 }
 
-/// Values by triangle follow their triangles.
-void reorder_vertex_fields(std::vector<MeshField>& fields, const CanonicalPlaces& places) {
-  for (MeshField& field : fields)
-    if (field.location == Location::vertices && has_values_for(field, places.place.size()))
-      move_values(field, {places.place.begin(), places.place.end()});
-}
-
 /// The corners of polygons, of which one belongs to each triangle, follow their triangles.
 void reorder_corners(Polygons& polygons, const CanonicalPlaces& places) {
   if (polygons.corners.cols() != places.place.size())
@@ -90,7 +84,7 @@ void sort(Triangles& triangles, Polygons* polygons, MeshFile& file) {
   Triangles sorted;
   const CanonicalPlaces places = order_triangles(triangles, {}, sorted);
   triangles = std::move(sorted);
-  reorder_vertex_fields(file.fields, places);
+  move_vertex_values(file.fields, {places.place.begin(), places.place.end()});
   if (polygons != nullptr)
     reorder_corners(*polygons, places);
   file.changes.push_back("sorted " + std::to_string(triangles.cols()) + " triangles");
@@ -157,12 +151,15 @@ void move_to_triangles(const Voronoi& cells, const Polygons& polygons,
       select_values(field, {corners.data(), static_cast<std::size_t>(corners.size())});
 }
 
+void turn_cells(const std::string& name, Polygons& polygons, bool each, MeshFile& file) {
+  const std::int64_t turned = turn_counter_clockwise(polygons, name, each);
+  if (turned > 0)
+    file.changes.push_back("turned " + std::to_string(turned) + " clockwise cells");
+}
+
 /// Keeps the polygons unless they are the Voronoi cells of the mesh.
 void settle_polygons(const std::string& name, Soup soup, MeshFile& file) {
   Polygons& polygons = soup.polygons;
-  const std::int64_t turned = turn_counter_clockwise(polygons, name, soup.turns_each);
-  if (turned > 0)
-    file.changes.push_back("turned " + std::to_string(turned) + " clockwise cells");
   if (file.mesh && may_be_voronoi(*file.mesh, polygons)) {
     const Voronoi cells = voronoi(*file.mesh);
     file.not_voronoi = difference_from(cells, polygons, soup.corner_rounding);
@@ -189,9 +186,7 @@ void settle_clipped(const std::string& name, Polygons polygons, MeshFile& file) 
                  " have one centre",
              static_cast<std::int64_t>(i));
   file.changes.push_back("triangulated " + std::to_string(sites.size()) + " points");
-  const std::int64_t turned = turn_counter_clockwise(polygons, name, false);
-  if (turned > 0)
-    file.changes.push_back("turned " + std::to_string(turned) + " clockwise cells");
+  turn_cells(name, polygons, false, file);
   require_no_overlap(polygons, name);
   std::erase_if(file.fields, [&](const MeshField& field) { // corners are no triangles
     if (field.location != Location::cells)
@@ -286,6 +281,8 @@ MeshFile mesh_file_of(const std::string& name, const std::string& format, Soup s
   require_directions(name, soup.points);
   MeshFile file = rest_of(format, soup);
   const bool has_cells = soup.polygons.size() > 0;
+  if (has_cells)
+    turn_cells(name, soup.polygons, soup.turns_each, file);
   if (soup.triangles.cols() > 0) {
     require_ids(name, soup.triangles, soup.points.cols());
     Mesh mesh{std::move(soup.points), std::move(soup.triangles), {}, {}};
@@ -299,11 +296,15 @@ MeshFile mesh_file_of(const std::string& name, const std::string& format, Soup s
     merge_values(*file.mesh, file);
     file.changes.push_back("triangulated " + std::to_string(soup.points.cols()) + " points");
   } else if (soup.points.cols() > 0) {
-    triangulate_centres(soup.points, file);
+    file.mesh = mesh_of_cells(soup.points, soup.polygons, soup.corner_rounding, file.fields);
+    if (file.mesh)
+      soup.polygons = {};
+    else
+      triangulate_centres(soup.points, file);
   }
   if (file.mesh)
     file.sphere_radius = radius_of(file.mesh->points);
-  if (has_cells)
+  if (soup.polygons.size() > 0)
     settle_polygons(name, std::move(soup), file);
   return file;
 }

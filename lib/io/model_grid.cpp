@@ -2,6 +2,7 @@
 #include "io/model_grid.h"
 
 #include "base/lonlat.h"
+#include "base/matrix_memory.h"
 #include "base/parallel.h"
 #include "base/points.h"
 #include "base/spherical_angles.h"
@@ -171,8 +172,9 @@ void drop_derived_fields(Soup& soup) {
 }
 
 void scale(std::vector<double>& values, double factor) {
-  for (double& value : values)
-    value *= factor;
+  if (factor != 1)
+    for (double& value : values)
+      value *= factor;
 }
 
 double degrees_per_unit(const NetcdfReader& file, const std::string& variable) {
@@ -185,34 +187,42 @@ double degrees_per_unit(const NetcdfReader& file, const std::string& variable) {
             "; only degrees and radians of longitude and latitude are read");
 }
 
-Points3 from_lonlats(const NetcdfReader& file, const std::string& variables,
-                     const std::vector<double>& longitudes, const std::vector<double>& latitudes) {
+LonLats checked(const NetcdfReader& file, const std::string& variables, LonLats places) {
   constexpr double pole = 90 * (1 + 0x1p-50); // from radians, a pole may come a rounding beyond it
-  const auto is_place = [&](std::size_t i) {
-    return std::isfinite(longitudes[i]) && std::abs(latitudes[i]) <= pole;
-  };
-  for (std::size_t i = 0; i < longitudes.size(); ++i)
-    if (!is_place(i))
+  for (std::size_t i = 0; i < places.longitudes.size(); ++i) {
+    double& latitude = places.latitudes[i];
+    if (!std::isfinite(places.longitudes[i]) || !(std::abs(latitude) <= pole))
       file.fail(variables + " hold no place on the sphere at index " + std::to_string(i) +
-                " (0-based): longitude " + std::to_string(longitudes[i]) + ", latitude " +
-                std::to_string(latitudes[i]) + " degrees; make the file again");
-  Points3 points(3, std::ssize(longitudes));
+                " (0-based): longitude " + std::to_string(places.longitudes[i]) + ", latitude " +
+                std::to_string(latitude) + " degrees; make the file again");
+    latitude = std::clamp(latitude, -90.0, 90.0);
+  }
+  return places;
+}
+
+LonLats read_degrees(const NetcdfReader& file, const std::string& longitude,
+                     const std::string& latitude, const std::vector<std::int64_t>& shape) {
+  LonLats places{file.doubles(longitude, shape), {}};
+  places.latitudes = file.doubles(latitude, file.shape_of(longitude));
+  scale(places.longitudes, degrees_per_unit(file, longitude));
+  scale(places.latitudes, degrees_per_unit(file, latitude));
+  return checked(file, longitude + " and " + latitude, std::move(places));
+}
+
+Points3 from_degrees(const std::vector<double>& longitudes, const std::vector<double>& latitudes) {
+  Points3 points;
+  make_room(points, 3, std::ssize(longitudes));
   for_each_block(points.cols(), [&](std::int64_t /*block*/, std::int64_t begin, std::int64_t end) {
-    for (std::int64_t i = begin; i != end; ++i)
-      set_column(points, i,
-                 from_lonlat(longitudes[static_cast<std::size_t>(i)],
-                             std::clamp(latitudes[static_cast<std::size_t>(i)], -90.0, 90.0)));
+    from_lonlats(longitudes.data() + begin, latitudes.data() + begin, end - begin,
+                 reinterpret_cast<Vec3*>(points.data()) + begin);
   });
   return points;
 }
 
 Points3 read_lonlats(const NetcdfReader& file, const std::string& longitude,
                      const std::string& latitude, const std::vector<std::int64_t>& shape) {
-  std::vector<double> east = file.doubles(longitude, shape);
-  std::vector<double> north = file.doubles(latitude, file.shape_of(longitude));
-  scale(east, degrees_per_unit(file, longitude));
-  scale(north, degrees_per_unit(file, latitude));
-  return from_lonlats(file, longitude + " and " + latitude, east, north);
+  const LonLats places = read_degrees(file, longitude, latitude, shape);
+  return from_degrees(places.longitudes, places.latitudes);
 }
 
 } // namespace calotte::io_detail

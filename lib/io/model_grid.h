@@ -150,12 +150,23 @@ double degrees_per_unit(const NetcdfReader& file, const std::string& variable);
 
 void scale(std::vector<double>& values, double factor);
 
-/// Unit columns. \param variables are named in messages. \throws Error parse, for a place that is
-/// not finite or beyond a pole.
-Points3 from_lonlats(const NetcdfReader& file, const std::string& variables,
-                     const std::vector<double>& longitudes, const std::vector<double>& latitudes);
+/// Places in degrees, as many of each.
+struct LonLats {
+  std::vector<double> longitudes, latitudes; ///< finite; from -90 to 90
+};
 
-/// The same from a variable each, of that shape. \throws Error parse, file.
+/// \param variables are named in messages. \throws Error parse, for a place that is not finite or
+/// beyond a pole.
+LonLats checked(const NetcdfReader& file, const std::string& variables, LonLats places);
+
+/// From a variable each, of that shape. \throws Error parse, file.
+LonLats read_degrees(const NetcdfReader& file, const std::string& longitude,
+                     const std::string& latitude, const std::vector<std::int64_t>& shape = {-1});
+
+/// Unit columns.
+Points3 from_degrees(const std::vector<double>& longitudes, const std::vector<double>& latitudes);
+
+/// From a variable each, of that shape. \throws Error parse, file.
 Points3 read_lonlats(const NetcdfReader& file, const std::string& longitude,
                      const std::string& latitude, const std::vector<std::int64_t>& shape = {-1});
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/dual.h"
 #include "io/field_order.h"
 #include "io/formats.h"
 #include "io/mesh_intake.h"
@@ -74,22 +75,8 @@ CompleteVertices complete_vertices(const NetcdfReader& file, std::int64_t cells)
 
 /// Whether each vertex is the circumcentre of its cells: within a millionth of the mean cell width,
 /// or of the circumcentre's distance from the cells, whichever is larger.
-bool are_circumcentres(const Points3& sites, const Triangles& triangles, const Points3& vertices) {
-  const double width = std::sqrt(4 * std::numbers::pi /
-                                 static_cast<double>(std::max<Eigen::Index>(sites.cols(), 1)));
-  return holds_for_blocks(triangles.cols(), [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t t = begin; t != end; ++t) {
-      const Vec3 a = normalised(column(sites, triangles(0, t))),
-                 b = normalised(column(sites, triangles(1, t))),
-                 c = normalised(column(sites, triangles(2, t)));
-      const Vec3 normal = cross(b - a, c - a), v = normalised(column(vertices, t));
-      const Vec3 centre = std::copysign(1, dot(normal, a)) * normalised(normal);
-      const Vec3 apart = v - centre, reach = centre - a;
-      if (!(dot(apart, apart) <= 1e-12 * std::max(width * width, dot(reach, reach))))
-        return false;
-    }
-    return true;
-  });
+bool are_cell_corners(const Points3& sites, const Triangles& triangles, const Points3& vertices) {
+  return are_circumcentres(sites, triangles, vertices, corner_tolerance(sites.cols(), 0), 1e-6);
 }
 
 /// The cells as the file has them. A cell with a missing vertex has none here.
@@ -208,7 +195,7 @@ Soup read_mpas(const NetcdfReader& file, FieldChoice choice) {
   if (has_cells(file)) {
     const Points3 vertices = places_of(file, "Vertex");
     require_directions(file.path() + ": of the vertices", vertices);
-    if (!complete.all || !are_circumcentres(soup.points, complete.triangles, vertices))
+    if (!complete.all || !are_cell_corners(soup.points, complete.triangles, vertices))
       soup.polygons = cells_of(file, on_sphere(soup.points, 1), on_sphere(vertices, 1));
   }
   if (!complete.all)

@@ -95,7 +95,7 @@ std::vector<T> get_values(const NetcdfReader& file, int id, const std::string& n
       file.fail(name + " is too large; make the file again");
   std::vector<T> values;
   try {
-    values.resize(static_cast<std::size_t>(count));
+    values = zeros<T>(count);
   } catch (const std::exception&) {
     file.fail(name + " is too large for this machine's memory; read it on a larger one");
   }

@@ -26,21 +26,38 @@ const Vec3& place(const Polygons& polygons, std::int64_t k) {
   return column(polygons.corners, polygons.ids[k]);
 }
 
-/// 2 atan2(a . b x c, 1 + a.b + b.c + c.a) (Oosterom and Strackee, IEEE Trans. Biomed. Eng. 30,
-/// 1983), with differences in the product, which keep the digits of small triangles.
-double spherical_area(const Vec3& a, const Vec3& b, const Vec3& c) {
-  return 2 * std::atan2(dot(a, cross(b - a, c - a)), 1 + dot(a, b) + dot(b, c) + dot(c, a));
+/// The triangles of the fan from the first corner, one after the other.
+template <class Add>
+void for_each_triangle(const Polygons& polygons, std::int64_t polygon, const Add& add) {
+  const std::int64_t first = polygons.begin[polygon], end = polygons.begin[polygon + 1];
+  for (std::int64_t k = first + 1; k + 1 < end; ++k)
+    add(place(polygons, first), place(polygons, k), place(polygons, k + 1));
 }
 
-/// The fan of triangles from the first corner.
-double signed_area(const Polygons& polygons, std::int64_t polygon) {
-  const std::int64_t first = polygons.begin[polygon], end = polygons.begin[polygon + 1];
+/// A triangle's area is 2 atan2(a . b x c, 1 + a.b + b.c + c.a) (Oosterom and Strackee, IEEE Trans.
+/// Biomed. Eng. 30, 1983), with differences in the product, which keep the digits of small
+/// triangles. Multiplied as complex numbers, the fan's sum their angles.
+double spherical_area(const Polygons& polygons, std::int64_t polygon) {
+  double x = 1, y = 0;
+  for_each_triangle(polygons, polygon, [&](const Vec3& a, const Vec3& b, const Vec3& c) {
+    const double sine = dot(a, cross(b - a, c - a)) / 4,
+                 cosine = (1 + dot(a, b) + dot(b, c) + dot(c, a)) / 4, before = x;
+    x = before * cosine - y * sine;
+    y = before * sine + y * cosine;
+  });
+  return 2 * std::atan2(y, x);
+}
+
+double planar_area(const Polygons& polygons, std::int64_t polygon) {
   double sum = 0;
-  for (std::int64_t k = first + 1; k + 1 < end; ++k) {
-    const Vec3 &a = place(polygons, first), &b = place(polygons, k), &c = place(polygons, k + 1);
-    sum += polygons.on_sphere ? spherical_area(a, b, c) : cross(b - a, c - a).z / 2;
-  }
+  for_each_triangle(polygons, polygon, [&](const Vec3& a, const Vec3& b, const Vec3& c) {
+    sum += cross(b - a, c - a).z / 2;
+  });
   return sum;
+}
+
+double signed_area(const Polygons& polygons, std::int64_t polygon) {
+  return polygons.on_sphere ? spherical_area(polygons, polygon) : planar_area(polygons, polygon);
 }
 
 std::string name_of(std::int64_t polygon) { return "cell " + std::to_string(polygon); }
@@ -79,6 +96,10 @@ Sides sides_of(const Polygons& polygons) {
   return out;
 }
 
+double mean_width(std::int64_t cells) {
+  return std::sqrt(4 * std::numbers::pi / static_cast<double>(std::max<std::int64_t>(cells, 1)));
+}
+
 /// The square of the distance from a point to the nearest of some columns.
 double nearest(const Vec3& p, const Points3& points, const Ids& ids, std::int64_t begin,
                std::int64_t end) {
@@ -104,74 +125,29 @@ double distance(const Voronoi& voronoi, const Polygons& polygons, std::int64_t c
   return std::sqrt(most);
 }
 
-bool before(const Vec3& a, const Vec3& b) {
-  return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
-}
-bool equal(const Vec3& a, const Vec3& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
-
-/// For each column the number of its place among the distinct ones, -1 for a column of zeros.
-struct Distinct {
-  Points3 points;
-  std::vector<std::int32_t> id;
-};
-
-/// A column by its first coordinate, which tells most columns apart without a look at them.
-struct ColumnKey {
-  double x;
-  std::int64_t index;
-};
-
-/// Sorts parts side by side, then merges them.
-template <class Less> void sort_in_parts(std::vector<ColumnKey>& keys, const Less& less) {
-  constexpr std::int64_t parts = 16; // a power of 2
-  const auto at = [&](std::int64_t part) { return keys.begin() + std::ssize(keys) * part / parts; };
-  for_each_task(parts, [&](std::int64_t k) { std::sort(at(k), at(k + 1), less); });
-  for (std::int64_t width = 1; width < parts; width *= 2)
-    for_each_task(parts / (2 * width), [&](std::int64_t k) {
-      const std::int64_t first = 2 * width * k;
-      std::inplace_merge(at(first), at(first + width), at(first + 2 * width), less);
-    });
-}
-
-/// The columns that are not zero, in the order of before().
-std::vector<std::int64_t> sorted_columns(const Points3& columns) {
-  std::vector<ColumnKey> keys;
-  for (Eigen::Index i = 0; i < columns.cols(); ++i)
-    if (!equal(column(columns, i), {0, 0, 0}))
-      keys.push_back({columns(0, i), i});
-  sort_in_parts(keys, [&](const ColumnKey& a, const ColumnKey& b) {
-    return a.x != b.x ? a.x < b.x : before(column(columns, a.index), column(columns, b.index));
+/// The turn of a polygon: 1 counter-clockwise, -1 clockwise, 0 of no area. The triangles of most
+/// fans all turn one way, and their areas need not be known.
+int turn_of(const Polygons& polygons, std::int64_t polygon) {
+  bool left = false, right = false;
+  for_each_triangle(polygons, polygon, [&](const Vec3& a, const Vec3& b, const Vec3& c) {
+    const Vec3 normal = cross(b - a, c - a);
+    const double turn = polygons.on_sphere ? dot(a, normal) : normal.z;
+    left = left || turn > 0;
+    right = right || turn < 0;
   });
-  std::vector<std::int64_t> order(keys.size());
-  std::transform(keys.begin(), keys.end(), order.begin(),
-                 [](const ColumnKey& key) { return key.index; });
-  return order;
+  if (left != right)
+    return left ? 1 : -1;
+  const double area = signed_area(polygons, polygon);
+  return area > 0 ? 1 : area < 0 ? -1 : 0;
 }
 
-/// In the order in which they first come, so that neighbours are near each other in memory.
-Distinct distinct_columns(const Points3& columns) {
-  const std::vector<std::int64_t> order = sorted_columns(columns);
-  const auto count = static_cast<std::size_t>(columns.cols());
-  std::vector<std::int32_t> group(count, -1);
-  std::int32_t groups = 0;
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    groups += k == 0 || !equal(column(columns, order[k]), column(columns, order[k - 1]));
-    group[static_cast<std::size_t>(order[k])] = groups - 1;
-  }
-  Distinct distinct{Points3(3, groups), std::vector<std::int32_t>(count, -1)};
-  std::vector<std::int32_t> id(static_cast<std::size_t>(groups), -1);
-  std::int32_t next = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    if (group[i] < 0)
-      continue;
-    std::int32_t& known = id[static_cast<std::size_t>(group[i])];
-    if (known < 0) {
-      known = next++;
-      distinct.points.col(known) = columns.col(static_cast<Eigen::Index>(i));
-    }
-    distinct.id[i] = known;
-  }
-  return distinct;
+Array<int> turns_of(const Polygons& polygons) {
+  Array<int> turns(polygons.size());
+  for_each_block(turns.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i != end; ++i)
+      turns[i] = turn_of(polygons, i);
+  });
+  return turns;
 }
 
 } // namespace
@@ -181,25 +157,22 @@ Polygons polygons_of(Voronoi&& voronoi) {
           std::move(voronoi.vertices_on_cell), std::move(voronoi.cells), voronoi.on_sphere};
 }
 
-Polygons polygons_of(const Points3& corners, std::int64_t most, Points3 centres) {
-  Distinct distinct = distinct_columns(corners);
-  const std::int64_t count = most > 0 ? corners.cols() / most : 0;
-  Polygons polygons{std::move(distinct.points), {}, {}, std::move(centres)};
+Polygons polygons_of(const std::vector<std::int32_t>& corners, std::int64_t most, Points3 places,
+                     Points3 centres) {
+  const std::int64_t count = most > 0 ? std::ssize(corners) / most : 0;
+  Polygons polygons{std::move(places), {}, Ids(std::ssize(corners)), std::move(centres)};
   polygons.begin.resize(count + 1);
-  std::vector<std::int32_t> ids;
+  polygons.begin[0] = 0;
   for (std::int64_t i = 0; i < count; ++i) {
-    const auto first = static_cast<std::ptrdiff_t>(ids.size());
-    polygons.begin[i] = first;
-    for (std::int64_t k = 0; k < most; ++k) {
-      const std::int32_t id = distinct.id[static_cast<std::size_t>(i * most + k)];
-      if (id >= 0 && (std::ssize(ids) == first || ids.back() != id))
-        ids.push_back(id);
-    }
-    while (std::ssize(ids) > first + 1 && ids.back() == ids[static_cast<std::size_t>(first)])
-      ids.pop_back();
+    std::int32_t *const first = polygons.ids.data() + polygons.begin[i],
+                        *const end = std::unique_copy(corners.begin() + i * most,
+                                                      corners.begin() + (i + 1) * most, first);
+    polygons.begin[i + 1] = polygons.begin[i] + (end - first);
+    while (polygons.begin[i + 1] > polygons.begin[i] + 1 &&
+           polygons.ids[polygons.begin[i + 1] - 1] == *first)
+      --polygons.begin[i + 1];
   }
-  polygons.begin[count] = std::ssize(ids);
-  polygons.ids = Eigen::Map<const Ids>(ids.data(), std::ssize(ids));
+  polygons.ids.conservativeResize(polygons.begin[count]);
   return polygons;
 }
 
@@ -213,17 +186,15 @@ Eigen::VectorXd areas_of(const Polygons& polygons) {
 }
 
 std::int64_t turn_counter_clockwise(Polygons& polygons, const std::string& name, bool each) {
-  const Eigen::VectorXd areas = areas_of(polygons);
-  const std::int64_t clockwise = (areas.array() < 0).count(),
-                     counter_clockwise = (areas.array() > 0).count();
+  const Array<int> turns = turns_of(polygons);
+  const std::int64_t clockwise = std::count(turns.begin(), turns.end(), -1),
+                     counter_clockwise = std::count(turns.begin(), turns.end(), 1);
   if (clockwise == 0)
     return 0;
   if (counter_clockwise > 0 && !each) {
     const bool rarer_is_clockwise = clockwise <= counter_clockwise;
-    const auto first = std::find_if(areas.begin(), areas.end(), [&](double area) {
-      return rarer_is_clockwise ? area < 0 : area > 0;
-    });
-    const std::int64_t cell = first - areas.begin();
+    const std::int64_t cell =
+        std::find(turns.begin(), turns.end(), rarer_is_clockwise ? -1 : 1) - turns.begin();
     throw Error(ErrorCode::parse,
                 name + ": " + name_of(cell) + " runs " +
                     (rarer_is_clockwise ? "clockwise" : "counter-clockwise") +
@@ -233,7 +204,7 @@ std::int64_t turn_counter_clockwise(Polygons& polygons, const std::string& name,
                 cell);
   }
   for (std::int64_t i = 0; i < polygons.size(); ++i)
-    if (areas[i] < 0 || counter_clockwise == 0)
+    if (turns[i] < 0 || counter_clockwise == 0)
       std::reverse(polygons.ids.begin() + polygons.begin[i],
                    polygons.ids.begin() + polygons.begin[i + 1]);
   return clockwise;
@@ -271,13 +242,16 @@ void require_no_overlap(const Polygons& polygons, const std::string& name) {
                                       " times the sphere's; make the file again");
 }
 
+double corner_tolerance(std::int64_t cells, double rounding) {
+  return 1e-6 * mean_width(cells) + rounding;
+}
+
 std::string difference_from(const Voronoi& voronoi, const Polygons& polygons, double rounding) {
   const std::int64_t count = polygons.size();
   if (voronoi.cells.cols() != count)
     return "there are " + std::to_string(count) + " cells, but " +
            std::to_string(voronoi.cells.cols()) + " distinct centres";
-  const double width = std::sqrt(4 * std::numbers::pi / static_cast<double>(count));
-  const double tolerance = 1e-6 * width + rounding;
+  const double width = mean_width(count), tolerance = corner_tolerance(count, rounding);
   std::vector<std::int64_t> first(static_cast<std::size_t>(block_count(count)), -1);
   for_each_block(count, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
     std::int64_t& found = first[static_cast<std::size_t>(block)];

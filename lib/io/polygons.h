@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 /// Cells as polygons: their orientation, their areas, and whether they are Voronoi cells.
 namespace calotte::io_detail {
@@ -15,11 +16,11 @@ namespace calotte::io_detail {
 /// The cells of a tessellation, which is used up.
 Polygons polygons_of(Voronoi&& voronoi);
 
-/// Polygons from a list of corners for each, in which equal corners are one, and consecutive equal
-/// ones count once.
-/// \param corners 3 x (n * most): those of polygon i from column i * most on; a column of zeros
-///        ends the list.
-Polygons polygons_of(const Points3& corners, std::int64_t most, Points3 centres);
+/// Polygons from rows of corners, in which consecutive equal ones count once.
+/// \param corners those of polygon i from i * most on.
+/// \param places of the corners.
+Polygons polygons_of(const std::vector<std::int32_t>& corners, std::int64_t most, Points3 places,
+                     Points3 centres);
 
 /// Areas on the unit sphere in steradians, or in the plane, positive for counter-clockwise
 /// polygons. \pre on the sphere each is smaller than a hemisphere.
@@ -37,9 +38,13 @@ bool are_areas_of(const Polygons& polygons, const Eigen::VectorXd& values);
 /// together are larger than the sphere. \pre counter-clockwise.
 void require_no_overlap(const Polygons& polygons, const std::string& name);
 
+/// Corners of cells on the unit sphere are equal if they are closer: a millionth of the mean cell
+/// width, and the rounding of the file.
+double corner_tolerance(std::int64_t cells, double rounding);
+
 /// Why polygons are not the Voronoi cells of their centres, as a clause that names the first such
-/// cell; empty if they are. Corners count as equal if they are closer than a millionth of the mean
-/// cell width, and `rounding`.
+/// cell; empty if they are. Corners count as
+/// equal within corner_tolerance().
 std::string difference_from(const Voronoi& voronoi, const Polygons& polygons, double rounding);
 
 /// For each Voronoi vertex the nearest corner of the polygon of one of its cells.

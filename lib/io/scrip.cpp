@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/points.h"
+#include "io/distinct_places.h"
 #include "io/formats.h"
 #include "io/model_grid.h"
 #include "io/netcdf_fields.h"
@@ -85,9 +86,11 @@ bool is_scrip(const NetcdfReader& file) {
 
 Polygons read_scrip_cells(const NetcdfReader& file, const Points3& centres) {
   const std::int64_t most = file.shape_of("grid_corner_lon").back();
-  const Points3 corners =
-      read_lonlats(file, "grid_corner_lon", "grid_corner_lat", {centres.cols(), most});
-  return polygons_of(corners, most, centres);
+  const LonLats corners =
+      read_degrees(file, "grid_corner_lon", "grid_corner_lat", {centres.cols(), most});
+  const DistinctPlaces distinct = distinct_places(corners.longitudes, corners.latitudes);
+  return polygons_of(distinct.id, most, from_degrees(distinct.longitudes, distinct.latitudes),
+                     centres);
 }
 
 Soup read_scrip(const NetcdfReader& file, FieldChoice choice) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/dual.h"
 #include "io/formats.h"
 #include "io/model_grid.h"
 #include "io/netcdf_fields.h"
@@ -150,52 +151,6 @@ Points3 read_places(const NetcdfReader& file, const std::vector<std::string>& na
   return places;
 }
 
-/// A face at a node, and the nodes before and after it along the face.
-struct FaceAtNode {
-  std::int32_t face, before, after;
-};
-
-/// The triangle of the faces around a node, counter-clockwise from the lowest: the next face is
-/// across the edge to the node before.
-bool turn_around(std::array<FaceAtNode, 3>& faces) {
-  std::sort(faces.begin(), faces.end(),
-            [](const FaceAtNode& a, const FaceAtNode& b) { return a.face < b.face; });
-  if (faces[1].after != faces[0].before)
-    std::swap(faces[1], faces[2]);
-  for (std::size_t k = 0; k < 3; ++k)
-    if (faces[(k + 1) % 3].after != faces[k].before)
-      return false;
-  return true;
-}
-
-/// One triangle of faces a node.
-Triangles dual(const NetcdfReader& file, const FaceNodes& faces, std::int64_t nodes) {
-  std::vector<std::array<FaceAtNode, 3>> at(static_cast<std::size_t>(nodes));
-  std::vector<std::uint8_t> count(at.size());
-  const auto fail = [&file](std::int64_t node) {
-    file.fail("the faces around node " + std::to_string(node) +
-              " (0-based) are not three that share edges; make the file again");
-  };
-  for (std::int32_t face = 0; face < faces.cols(); ++face) {
-    const auto corners = static_cast<Eigen::Index>((faces.col(face).array() >= 0).count());
-    for (Eigen::Index k = 0; k < corners; ++k) {
-      const auto node = static_cast<std::size_t>(faces(k, face));
-      if (count[node] == 3)
-        fail(faces(k, face));
-      at[node][count[node]++] = {face, faces((k + corners - 1) % corners, face),
-                                 faces((k + 1) % corners, face)};
-    }
-  }
-  Triangles triangles(3, nodes);
-  for (std::int64_t node = 0; node < nodes; ++node) {
-    std::array<FaceAtNode, 3>& around = at[static_cast<std::size_t>(node)];
-    if (count[static_cast<std::size_t>(node)] != 3 || !turn_around(around))
-      fail(node);
-    triangles.col(node) << around[0].face, around[1].face, around[2].face;
-  }
-  return triangles;
-}
-
 /// The faces as polygons.
 Polygons faces_of(const FaceNodes& faces, Points3 nodes, Points3 centres, bool planar) {
   Polygons polygons{std::move(nodes), {}, {}, std::move(centres), !planar};
@@ -208,6 +163,15 @@ Polygons faces_of(const FaceNodes& faces, Points3 nodes, Points3 centres, bool p
     polygons.ids.segment(polygons.begin[face], polygons.begin[face + 1] - polygons.begin[face]) =
         faces.col(face).head(polygons.begin[face + 1] - polygons.begin[face]);
   return polygons;
+}
+
+/// One triangle of faces a node.
+Triangles dual(const NetcdfReader& file, const FaceNodes& faces, std::int64_t nodes) {
+  Dual dual = dual_of(faces_of(faces, {}, {}, false), nodes);
+  if (dual.failed >= 0)
+    file.fail("the faces around node " + std::to_string(dual.failed) +
+              " (0-based) are not three that share edges; make the file again");
+  return std::move(dual.triangles);
 }
 
 /// Everything that the mesh variable names is not a field.

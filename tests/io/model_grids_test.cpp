@@ -5,10 +5,13 @@
 #include "support/meshes.h"
 
 #include "base/lonlat.h"
+#include "io/distinct_places.h"
+#include "io/dual.h"
 #include "io/formats.h"
 #include "io/model_grid.h"
 #include "io/netcdf_reader.h"
 #include "io/netcdf_writer.h"
+#include "io/polygons.h"
 
 #include <calotte/delaunay.h>
 #include <calotte/error.h>
@@ -17,11 +20,13 @@
 #include <doctest/doctest.h>
 #include <netcdf.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -478,6 +483,99 @@ TEST_CASE("SCRIP and ESMF give the sites back, but for rounding") {
       CHECK((soup.points - on_sphere(c.mesh, 1)).cwiseAbs().maxCoeff() < 2e-15);
     }
   }
+}
+
+TEST_CASE("equal places are one: whole turns, both signs of zero, all longitudes at a pole") {
+  const std::vector<double> longitudes{10, 370, -350, 10, 180, -180, 540, 0, 77, -0.0, 0, 10},
+      latitudes{5, 5, 5, -5, 0, -0.0, 0, 90, 90, 0, 0, 5};
+  const io_detail::DistinctPlaces places = io_detail::distinct_places(longitudes, latitudes);
+  CHECK(places.id == std::vector<std::int32_t>{0, 0, 0, 1, 2, 2, 2, 3, 3, 4, 4, 0});
+  CHECK(places.longitudes == std::vector<double>{10, 10, 180, 0, 0});
+  CHECK(places.latitudes == std::vector<double>{5, -5, 0, 90, 0});
+  CHECK(io_detail::distinct_places({}, {}).id.empty());
+
+  std::vector<double> east, north; // a thousand, three times
+  for (int i = 0; i < 3000; ++i) {
+    east.push_back(0.1 * (i % 1000));
+    north.push_back(0.01 * (i % 1000));
+  }
+  const io_detail::DistinctPlaces many = io_detail::distinct_places(east, north);
+  REQUIRE(many.longitudes.size() == 1000);
+  for (std::size_t i = 0; i < 3000; ++i)
+    CHECK(many.id[i] == static_cast<std::int32_t>(i % 1000));
+}
+
+TEST_CASE("places computed together have the bits of single ones") {
+  std::vector<double> longitudes, latitudes;
+  for (int i = -2000; i <= 2000; ++i)
+    for (const double off : {0.0, 1e-13, -1e-13, 0.3}) {
+      longitudes.push_back(0.5 * i + off);
+      latitudes.push_back(std::clamp(0.045 * i + off, -90.0, 90.0));
+    }
+  for (const double far : {0.0, 1e6}) { // beyond a few turns the loop is another
+    longitudes.back() += far;
+    std::vector<Vec3> places(longitudes.size());
+    base_detail::from_lonlats(longitudes.data(), latitudes.data(), std::ssize(longitudes),
+                              places.data());
+    bool same = true;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const Vec3 p = base_detail::from_lonlat(longitudes[i], latitudes[i]);
+      const Vec3 turned = base_detail::from_lonlat(longitudes[i] - 720, latitudes[i]);
+      same = same && p.x == places[i].x && p.y == places[i].y && p.z == places[i].z;
+      CHECK(norm(p - turned) < 1e-12);
+      CHECK(std::abs(p.z - std::sin(latitudes[i] * pi / 180)) < 4e-16);
+      CHECK(std::abs(p.x - std::cos(latitudes[i] * pi / 180) *
+                               std::cos(std::remainder(longitudes[i], 360) * pi / 180)) < 1e-15);
+    }
+    CHECK(same);
+  }
+}
+
+TEST_CASE("the mesh of Voronoi cells is found without a triangulation, and of no other cells") {
+  int found = 0;
+  for (const NamedMesh& c : meshes()) {
+    CAPTURE(c.name);
+    const Points3 centres = c.mesh.points;
+    const calotte::Polygons cells = io_detail::polygons_of(voronoi(c.mesh));
+    const auto mesh_of = [&](Points3 sites, const calotte::Polygons& polygons) {
+      std::vector<MeshField> fields{
+          {.name = "t",
+           .location = Location::vertices,
+           .values = Eigen::VectorXd::LinSpaced(polygons.corners.cols(), 0, 1)}};
+      const Points3 given = sites;
+      const std::optional<Mesh> mesh = io_detail::mesh_of_cells(sites, polygons, 0, fields);
+      if (!mesh)
+        CHECK(test::same_bits(sites, given)); // they stay the caller's
+      else
+        for (Eigen::Index v = 0; v < fields[0].values.size(); ++v) {
+          const auto corner = static_cast<Eigen::Index>(
+              std::lround(fields[0].values[v] * static_cast<double>(polygons.corners.cols() - 1)));
+          const auto ids = mesh->triangles.col(v);
+          const Eigen::Vector3d p = polygons.corners.col(corner);
+          CHECK(std::abs(p.dot(given.col(ids[0]).normalized() - given.col(ids[2]).normalized())) <
+                1e-6);
+        }
+      return mesh;
+    };
+    if (const std::optional<Mesh> mesh = mesh_of(centres, cells)) {
+      ++found;
+      CHECK(test::same_bits(mesh->triangles, c.mesh.triangles));
+      CHECK(test::same_bits(mesh->neighbours, c.mesh.neighbours));
+      CHECK(test::same_bits(mesh->points, centres));
+    }
+    calotte::Polygons other = cells;
+    other.corners.col(0) =
+        (cells.corners.col(0) + 0.01 * centres.col(1).stableNormalized()).normalized();
+    CHECK(!mesh_of(centres, other)); // a corner that moved
+    other = cells;
+    std::swap(other.ids[0], other.ids[1]);
+    CHECK(!mesh_of(centres, other)); // a cell that crosses itself
+    Points3 moved = centres;
+    moved.col(0).swap(moved.col(1));
+    CHECK(!mesh_of(moved, cells));
+    CHECK(!mesh_of(centres.leftCols(3), cells));
+  }
+  CHECK(found >= 8); // of 13: some of the others have corners that coincide
 }
 
 TEST_CASE("cells need a closed mesh, triangles do not") {

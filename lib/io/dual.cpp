@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/dual.h"
+
+#include "base/matrix_memory.h"
+#include "base/parallel.h"
+#include "base/points.h"
+#include "exact/predicates.h"
+#include "io/field_order.h"
+#include "io/polygons.h"
+#include "mesh/canonical_order.h"
+
+#include <calotte/check.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace calotte::io_detail {
+namespace {
+
+/// A polygon at a corner, and the corners before and after it along the polygon.
+struct AtCorner {
+  std::int32_t polygon, before, after;
+};
+
+/// The polygons around a corner, in turn from the lowest: the next one is across the side to the
+/// corner before. Their own order of numbers is that in which they come.
+bool turn_around(std::array<AtCorner, 3>& around) {
+  if (around[1].after != around[0].before)
+    std::swap(around[1], around[2]);
+  return around[1].after == around[0].before && around[2].after == around[1].before &&
+         around[0].after == around[2].before;
+}
+
+Vec3 unit(const Vec3& p) {
+  constexpr double rounding = 1e-15;
+  return std::abs(dot(p, p) - 1) <= rounding ? p : normalised(p);
+}
+
+} // namespace
+
+Dual dual_of(const Polygons& polygons, std::int64_t corners) {
+  Array<std::array<AtCorner, 3>> at(corners); // filled below before it is read
+  std::vector<std::uint8_t> count(static_cast<std::size_t>(corners));
+  for (std::int32_t i = 0; i < polygons.size(); ++i) {
+    const std::int64_t begin = polygons.begin[i], end = polygons.begin[i + 1];
+    for (std::int64_t k = begin; k != end; ++k) {
+      const auto corner = static_cast<std::size_t>(polygons.ids[k]);
+      if (count[corner] < 3)
+        at[polygons.ids[k]][count[corner]] = {i, polygons.ids[k == begin ? end - 1 : k - 1],
+                                              polygons.ids[k + 1 == end ? begin : k + 1]};
+      count[corner] = std::min<std::uint8_t>(count[corner], 3) + 1;
+    }
+  }
+  Dual dual;
+  make_room(dual.triangles, 3, corners);
+  make_room(dual.neighbours, 3, corners);
+  for (std::int64_t v = 0; v < corners; ++v) {
+    std::array<AtCorner, 3>& around = at[v];
+    if (count[static_cast<std::size_t>(v)] != 3 || !turn_around(around)) {
+      dual.failed = v;
+      return dual;
+    }
+    for (int k = 0; k < 3; ++k) { // the side after polygon k leads to the corner before it
+      dual.triangles(k, v) = around[static_cast<std::size_t>(k)].polygon;
+      dual.neighbours((k + 2) % 3, v) = around[static_cast<std::size_t>(k)].before;
+    }
+  }
+  return dual;
+}
+
+bool are_circumcentres(const Points3& sites, const Triangles& triangles, const Points3& vertices,
+                       double distance, double share) {
+  return holds_for_blocks(triangles.cols(), [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t t = begin; t != end; ++t) {
+      const Vec3 a = unit(column(sites, triangles(0, t))), b = unit(column(sites, triangles(1, t))),
+                 c = unit(column(sites, triangles(2, t)));
+      const Vec3 normal = cross(b - a, c - a), v = unit(column(vertices, t));
+      const Vec3 centre = std::copysign(1, dot(normal, a)) * normalised(normal);
+      const Vec3 apart = v - centre, reach = centre - a;
+      if (!(dot(apart, apart) <= std::max(distance * distance, share * share * dot(reach, reach))))
+        return false;
+    }
+    return true;
+  });
+}
+
+std::optional<Mesh> mesh_of_cells(Points3& centres, const Polygons& polygons, double rounding,
+                                  std::vector<MeshField>& fields) {
+  const std::int64_t sites = polygons.size(), corners = polygons.corners.cols();
+  if (centres.cols() != sites || corners != 2 * sites - 4)
+    return {};
+  Dual dual = dual_of(polygons, corners);
+  if (dual.failed >= 0 || !are_circumcentres(centres, dual.triangles, polygons.corners,
+                                             corner_tolerance(sites, rounding), 0))
+    return {};
+  Mesh mesh{std::move(centres), {}, {}, themselves(sites)};
+  const CanonicalPlaces places = order_triangles(dual.triangles, {}, mesh.triangles);
+  order_neighbours(dual.neighbours, places, mesh.neighbours);
+  if (!check(mesh).failure.empty()) {
+    centres = std::move(mesh.points);
+    return {};
+  }
+  move_vertex_values(fields, {places.place.begin(), places.place.end()});
+  return mesh;
+}
+
+} // namespace calotte::io_detail
