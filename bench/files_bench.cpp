@@ -2,7 +2,8 @@
 // Times writing a full MPAS mesh compared with the triangulation, in rounds: the triangulation, its
 // numbering along the curve, the connectivity alone, the file of the renumbered mesh, including its
 // connectivity, on the disk, and the same number of bytes written in the same way without
-// computation, which is the limit of the disk.
+// computation, which is the limit of the disk. Then reading: the mesh in each binary format, from a
+// warm cache on one thread; a row's name gives the size of its file.
 
 #include "base/parallel.h"
 #include "io/file.h"
@@ -13,6 +14,7 @@
 #include <calotte/delaunay.h>
 #include <calotte/generators.h>
 #include <calotte/io.h>
+#include <calotte/mesh_file.h>
 #include <calotte/voronoi.h>
 
 #include <CLI/CLI.hpp>
@@ -20,6 +22,7 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
@@ -29,6 +32,7 @@
 #include <random>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 namespace calotte::bench {
@@ -80,11 +84,17 @@ struct Workload {
   Workload() = default;
   Workload(const Workload&) = delete;
   Workload& operator=(const Workload&) = delete;
-  ~Workload() { files.remove(); }
+  ~Workload() {
+    files.remove();
+    std::error_code absent;
+    if (!read_folder.empty())
+      std::filesystem::remove_all(read_folder, absent);
+  }
 
   std::optional<tbb::global_control> limit;
   Mesh as_bisected, mesh; ///< the same, numbered along the curve
   Files files;
+  std::filesystem::path read_folder; ///< made for the files to read
 };
 
 void write_mesh(Files& files, const Mesh& mesh) {
@@ -114,6 +124,40 @@ void write_bytes(const Files& files) {
   file.commit();
 }
 
+/// The files to read: of each a name, by which its row goes, and its format.
+struct ReadFile {
+  const char* name;
+  Format format;
+};
+constexpr std::array<ReadFile, 10> read_files{{{"mpas.nc", Format::mpas},
+                                               {"mpas-minimal.nc", Format::mpas_minimal},
+                                               {"ugrid.nc", Format::ugrid},
+                                               {"ugrid-triangles.nc", Format::ugrid_triangles},
+                                               {"scrip.nc", Format::scrip},
+                                               {"esmf.nc", Format::esmf},
+                                               {"exodus.g", Format::exodus},
+                                               {"triangles.vtp", Format::vtp},
+                                               {"cells.vtp", Format::vtp_cells},
+                                               {"triangles.ply", Format::ply}}};
+
+/// Writes the files to a folder, and gives a row that reads it for each.
+std::vector<RoundRow> reading_rows(const std::filesystem::path& folder, const Mesh& mesh) {
+  std::vector<RoundRow> rows;
+  std::filesystem::create_directory(folder);
+  for (const ReadFile& file : read_files) {
+    const std::string path = folder / file.name;
+    write(path, mesh, {.format = file.format});
+    const auto megabytes = (std::filesystem::file_size(path) + 500000) / 1000000;
+    rows.push_back(row_of(
+        "read " + std::string(file.name) + " of " + std::to_string(megabytes) + " MB, one thread",
+        [path] {
+          const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+          benchmark::DoNotOptimize(read_mesh_file(path));
+        }));
+  }
+  return rows;
+}
+
 void register_all(const Options& options, Workload& work) {
   work.limit.emplace(tbb::global_control::max_allowed_parallelism,
                      static_cast<std::size_t>(options.threads));
@@ -122,7 +166,7 @@ void register_all(const Options& options, Workload& work) {
   work.files = Files(options.folder);
   write_mesh(work.files, work.mesh); // reports the number of bytes
   const auto remove = [&work] { work.files.remove(); };
-  const std::vector<RoundRow> rows = {
+  std::vector<RoundRow> rows = {
       row_of("delaunay", [&work] { spherical_delaunay(work.mesh.points); }),
       row_of("renumbered", [&work] { renumbered(work.as_bisected, Numbering::curve); }),
       row_of("voronoi", [&work] { voronoi(work.mesh); }),
@@ -130,6 +174,9 @@ void register_all(const Options& options, Workload& work) {
           "write", [&work] { write_mesh(work.files, work.mesh); }, remove),
       row_of(
           "the same bytes", [&work] { write_bytes(work.files); }, remove)};
+  for (RoundRow& row : reading_rows(
+           work.read_folder = work.files.mesh.parent_path() / "files_bench_read", work.mesh))
+    rows.push_back(std::move(row));
   for (int round = 0; round < options.rounds; ++round)
     register_round("bisection", work.mesh.points.cols(), round, rows);
 }
