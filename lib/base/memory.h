@@ -121,11 +121,16 @@ template <class T> void give_back(Array<T>& array) {
   array = {};
 }
 
+/// Memory for n values, on huge pages.
+template <class T> void reserve_huge(std::vector<T>& values, std::int64_t n) {
+  values.reserve(static_cast<std::size_t>(n));
+  prefer_huge_pages(values.data(), static_cast<std::size_t>(n) * sizeof(T));
+}
+
 /// A vector of n zeros.
 template <class T> std::vector<T> zeros(std::int64_t n) {
   std::vector<T> values;
-  values.reserve(static_cast<std::size_t>(n));
-  prefer_huge_pages(values.data(), static_cast<std::size_t>(n) * sizeof(T));
+  reserve_huge(values, n);
   values.resize(static_cast<std::size_t>(n));
   return values;
 }

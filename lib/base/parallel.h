@@ -51,6 +51,19 @@ template <class Body> void for_each_block(std::int64_t n, const Body& body) {
   });
 }
 
+/// The same for smaller slices: loops of little work over few items, which must still use all
+/// threads.
+inline std::int64_t slice_count(std::int64_t n) {
+  constexpr std::int64_t slice = 1 << 11;
+  return (n + slice - 1) / slice;
+}
+template <class Body> void for_each_slice(std::int64_t n, const Body& body) {
+  const std::int64_t slices = slice_count(n);
+  for_each_task(slices, [&](std::int64_t slice) {
+    body(slice, n * slice / slices, n * (slice + 1) / slices);
+  });
+}
+
 /// True if holds(begin, end) is true for all blocks of [0, n).
 template <class Holds> bool holds_for_blocks(std::int64_t n, const Holds& holds) {
   std::atomic<bool> all = true;

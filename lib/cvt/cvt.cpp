@@ -25,7 +25,7 @@ namespace cvt_detail {
 namespace {
 
 /// Of an excess over the limits of shape.h: a finish ends at the first, and has converged below the
-/// second.
+/// second, at which it ends where its penalty has been raised.
 constexpr double shape_tolerance = 0.035, accepted_shape = 0.07;
 
 void require_options(const CvtOptions& options) {
@@ -85,7 +85,7 @@ void conclude(State& state, const CvtOptions& options, const CvtIteration& itera
   const bool by_final_rule = options.density.uniform() || iteration.rule == options.final_rule;
   report.residual = norm_of(iteration, options.norm);
   if (state.penalty > 0) {
-    report.converged = iteration.misshapen <= shape_tolerance;
+    report.converged = iteration.misshapen <= (state.stiff ? accepted_shape : shape_tolerance);
   } else if (options.norm == Norm::none) {
     report.converged = state.iterations_of_level >= options.max_iterations;
   } else {
@@ -97,7 +97,8 @@ void conclude(State& state, const CvtOptions& options, const CvtIteration& itera
 }
 
 bool level_ended(const State& state, const CvtOptions& options) {
-  return state.report.converged || state.iterations_of_level >= options.max_iterations;
+  return state.report.converged || state.iterations_of_level >= options.max_iterations ||
+         state.stuck || has_stalled(state);
 }
 
 /// A CVT's generators are the centroids of its cells; a finish keeps its own.
@@ -135,7 +136,7 @@ Ending iterate(const World& world, CvtState& whole, Level&& level, const CvtOpti
     descent.step();
   for (;; descent.step()) {
     conclude(state, options, descent.here().iteration);
-    const bool ended = level_ended(state, options) || descent.stuck();
+    const bool ended = level_ended(state, options);
     if (ended)
       end_descent(state, descent.here());
     Clock::time_point now = start;
@@ -181,6 +182,10 @@ Level begin(const World& world, Stage stage, State& state, const CvtOptions& opt
             Ending&& ending) {
   if (stage == Stage::finish) {
     begin_finish(state);
+    return {};
+  }
+  if (stage == Stage::stiffen) {
+    begin_stiffened(state);
     return {};
   }
   state.memory = {};

@@ -145,33 +145,36 @@ void Descent::make_laplacian() {
   forget();
 }
 
-/// Multiplies by B^-1, B the graph Laplacian or twice the masses.
-void Descent::precondition(Points3& vectors) const {
+/// Multiplies by the initial inverse of the second derivative: that of the graph Laplacian, whose
+/// scale is right; or of twice the masses, times a factor with which it agrees with the last step
+/// and the change of the gradient along it.
+void Descent::precondition(Points3& vectors) {
   if (method() == Method::lbfgs_laplacian) {
     vectors = laplacian_->solve(vectors);
     return;
   }
+  const Memory& memory = state_.memory;
+  double factor = 1;
+  if (!memory.steps.empty()) {
+    Points3 change = memory.changes.back();
+    functional_.make_tangential(change, state_.points);
+    divide_by_masses(change);
+    factor = memory.curvatures.back() / inner(memory.changes.back(), change);
+  }
+  divide_by_masses(vectors);
+  multiply(vectors, factor);
+}
+
+/// Divides each vector by twice its cell's mass.
+void Descent::divide_by_masses(Points3& vectors) const {
   for_each_block(vectors.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i)
       set_column(vectors, i, (0.5 / here_.mass[i]) * column(vectors, i));
   });
 }
 
-/// Multiplies by gamma B^-1; gamma is such that this, as the inverse of the second derivative,
-/// agrees with the last step and the change of the gradient along it.
-void Descent::apply_initial_inverse(Points3& vectors) const {
-  precondition(vectors);
-  const Memory& memory = state_.memory;
-  if (memory.steps.empty())
-    return;
-  Points3 change = memory.changes.back();
-  functional_.make_tangential(change, state_.points);
-  precondition(change);
-  multiply(vectors, memory.curvatures.back() / inner(memory.changes.back(), change));
-}
-
 /// Minus the inverse of the approximate second derivative, times the gradient.
-Points3 Descent::direction() const {
+Points3 Descent::direction() {
   const Memory& memory = state_.memory;
   const std::size_t pairs = memory.steps.size();
   Points3 d = here_.gradient;
@@ -181,7 +184,7 @@ Points3 Descent::direction() const {
     add(d, -shares[k], memory.changes[k]);
   }
   functional_.make_tangential(d, state_.points);
-  apply_initial_inverse(d);
+  precondition(d);
   functional_.make_tangential(d, state_.points);
   for (std::size_t k = 0; k < pairs; ++k)
     add(d, shares[k] - inner(memory.changes[k], d) / memory.curvatures[k], memory.steps[k]);
@@ -277,7 +280,7 @@ void Descent::quasi_newton_step() {
   if (slope < 0 && search(d, slope, points)) {
     remember(points);
   } else if (state_.penalty > 0) { // a Lloyd step may raise the penalty
-    stuck_ = state_.memory.steps.empty();
+    state_.stuck = state_.memory.steps.empty();
     forget();
     return;
   } else { // Lloyd's step always descends; the coarser rule's energy may have misled the search
@@ -285,6 +288,13 @@ void Descent::quasi_newton_step() {
     state_.final_rule = state_.final_rule || options_.norm != Norm::none;
     points = here_.centroids;
     evaluate(points, there_);
+    // A density that is linear between the generators moves with them.
+    const bool rose = there_.iteration.energy > (1 + rule_error) * here_.iteration.energy;
+    if (here_.iteration.rule == rule_at_sites && rose) {
+      state_.report.iterations.back().accepted = false;
+      state_.stuck = options_.final_rule == rule_at_sites || options_.norm == Norm::none;
+      return;
+    }
   }
   state_.report.iterations[first].seconds_solver = seconds;
   accept(std::move(points));

@@ -27,9 +27,6 @@ public:
   /// One step; the state's points are the new ones, evaluated.
   void step();
 
-  /// True if no step from the state's points lowers the value, as far as the method can tell.
-  bool stuck() const { return stuck_; }
-
   /// The evaluation at the state's points.
   const Evaluation& here() const { return here_; }
 
@@ -42,9 +39,9 @@ private:
   bool step_or_lloyd(Points3&& next);
   void nesterov_step();
   void quasi_newton_step();
-  Points3 direction() const;
-  void precondition(Points3& vectors) const;
-  void apply_initial_inverse(Points3& vectors) const;
+  Points3 direction();
+  void precondition(Points3& vectors);
+  void divide_by_masses(Points3& vectors) const;
   void make_laplacian();
   void remember(const Points3& points);
   void forget();
@@ -57,7 +54,6 @@ private:
   DensityEvaluator density_;
   Evaluation here_, there_; ///< at the state's points, and at a trial's
   std::optional<Multigrid> laplacian_;
-  bool stuck_ = false;
 };
 
 } // namespace calotte::cvt_detail

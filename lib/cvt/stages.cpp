@@ -4,6 +4,10 @@
 #include "base/hexagons.h"
 #include "integrals/integrand.h"
 
+#include <algorithm>
+#include <limits>
+#include <vector>
+
 namespace calotte::cvt_detail {
 namespace {
 
@@ -16,8 +20,29 @@ double spacing_of(const CvtIteration& iteration) {
 
 } // namespace
 
+const CvtIteration& last_accepted(const State& state) {
+  const std::vector<CvtIteration>& all = state.report.iterations;
+  return *std::find_if(all.rbegin(), all.rend() - 1,
+                       [](const CvtIteration& iteration) { return iteration.accepted; });
+}
+
+bool has_stalled(const State& state) {
+  constexpr int window = 10;
+  constexpr double progress = 0.95;
+  if (state.penalty == 0 || state.iterations_of_level < 2 * window)
+    return false;
+  const auto end = state.report.iterations.end() - window;
+  double before = std::numeric_limits<double>::infinity();
+  for (auto i = end + window - state.iterations_of_level; i != end; ++i)
+    if (i->accepted)
+      before = std::min(before, i->misshapen);
+  return last_accepted(state).misshapen > progress * before;
+}
+
 Stage stage_after(const State& state, const CvtOptions& options) {
   constexpr int most_mends = 4;
+  constexpr double mendable =
+      0.11; // an excess: larger ones are at sites that a penalty cannot move
   const bool inserts = options.insertion_rounds > 0, in_finish = state.penalty > 0;
   // A round may find too few edges for all generators that are missing.
   if (inserts && !in_finish &&
@@ -28,7 +53,10 @@ Stage stage_after(const State& state, const CvtOptions& options) {
     return Stage::bisect;
   if (options.well_centred && !in_finish)
     return Stage::finish;
-  if (inserts && in_finish && !state.report.converged && state.mends < most_mends)
+  const bool fell_short = in_finish && !state.report.converged;
+  if (fell_short && !state.stiff && last_accepted(state).misshapen < mendable)
+    return Stage::stiffen;
+  if (fell_short && inserts && state.mends < most_mends)
     return Stage::mend;
   return Stage::end;
 }
@@ -48,7 +76,8 @@ CvtOptions options_of_descent(const State& state, const CvtOptions& options, boo
   if (at_sites && state.points.cols() >= resolving)
     here.rule = rule_at_sites;
   const Stage next = stage_after(state, options);
-  if (next != Stage::insert && next != Stage::bisect) {
+  const bool mended = state.mends > 0; // in few places: the finish descends once more
+  if (next != Stage::insert && next != Stage::bisect && !mended) {
     here.final_rule = options.tolerance < fine ? options.final_rule : options.rule;
     return here;
   }
@@ -63,15 +92,23 @@ void begin_descent(State& state) {
   state.memory = {};
   state.iterations_of_level = 0;
   state.final_rule = false;
+  state.stuck = false;
   state.report.converged = false;
 }
 
 void begin_finish(State& state) {
-  constexpr double factor = 30; // of an excess squared, in units of a cell's energy
+  constexpr double factor = 60; // of an excess squared, in units of a cell's energy
   const CvtIteration& last = state.report.iterations.back();
   state.penalty = factor * last.energy / static_cast<double>(last.cells);
   state.demanded_spacing = spacing_of(last);
   state.descended = state.report.converged;
+  begin_descent(state);
+}
+
+void begin_stiffened(State& state) {
+  constexpr double factor = 4;
+  state.penalty *= factor;
+  state.stiff = true;
   begin_descent(state);
 }
 

@@ -15,15 +15,16 @@
 /// The course of a run: descents, and what happens to the generators between two of them.
 ///
 ///     descent -> [ insert -> descent ]* -> [ bisect -> descent -> [ insert -> descent ]* ]*
-///             -> [ finish -> [ mend -> descent -> finish ]* ]
+///             -> [ finish -> stiffen -> [ mend -> descent -> finish -> stiffen ]* ]
 namespace calotte::cvt_detail {
 
 /// What follows a descent.
 enum class Stage {
-  insert, ///< insertion and contraction on the same level
-  bisect, ///< the next level
-  finish, ///< a descent with the penalty of shape.h
-  mend,   ///< an insertion at odd sites, which a finish cannot give good shapes
+  insert,  ///< insertion and contraction on the same level
+  bisect,  ///< the next level
+  finish,  ///< a descent with the penalty of shape.h
+  stiffen, ///< the finish goes on with a larger penalty, where it fell short
+  mend,    ///< an insertion at odd sites, which a finish cannot give good shapes
   end,
 };
 
@@ -35,6 +36,12 @@ std::int64_t cells_of_level(const World& world, const State& state, const CvtOpt
     cells = world.halved(cells);
   return cells;
 }
+
+/// The last evaluation of the run that was accepted. \pre there is one.
+const CvtIteration& last_accepted(const State& state);
+
+/// Whether ten evaluations of a finish have hardly improved the worst shape.
+bool has_stalled(const State& state);
 
 Stage stage_after(const State& state, const CvtOptions& options);
 
@@ -95,6 +102,7 @@ Level begin_round(const World& world, Stage stage, State& state, const CvtOption
   state.rounds_left = std::max(state.rounds_left - 1, 0);
   state.mends += stage == Stage::mend ? 1 : 0;
   state.penalty = 0;
+  state.stiff = false;
   state.site_of_input.clear();
   begin_descent(state);
   return level;
@@ -102,5 +110,8 @@ Level begin_round(const World& world, Stage stage, State& state, const CvtOption
 
 /// Sets the factor of the penalty and the demanded spacing from the last evaluation.
 void begin_finish(State& state);
+
+/// Raises the factor.
+void begin_stiffened(State& state);
 
 } // namespace calotte::cvt_detail

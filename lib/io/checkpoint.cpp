@@ -25,7 +25,7 @@ using cvt_detail::State;
 constexpr std::string_view format = "calotte checkpoint ";
 
 std::string head() {
-  return std::string(format) + "5, " + (little_endian ? "little" : "big") + "-endian\n";
+  return std::string(format) + "6, " + (little_endian ? "little" : "big") + "-endian\n";
 }
 
 /// One list of fields serves writing and reading.
@@ -43,8 +43,8 @@ template <class Region, class Visit> void visit_region(Region& r, const Visit& v
 
 template <class State, class Visit> void visit_scalars(State& s, const Visit& visit) {
   visit(s.bisections_left), visit(s.rounds_left), visit(s.iterations_of_level);
-  visit(s.final_rule), visit(s.mends), visit(s.penalty), visit(s.demanded_spacing),
-      visit(s.descended);
+  visit(s.final_rule), visit(s.stuck), visit(s.stiff), visit(s.mends), visit(s.penalty),
+      visit(s.demanded_spacing), visit(s.descended);
   visit(s.report.converged), visit(s.report.residual), visit(s.report.seconds);
   visit(s.memory.since_laplacian), visit(s.memory.flipped), visit(s.memory.momentum);
 }
