@@ -4,193 +4,18 @@
 #include "draw/history.h"
 #include "draw/picture.h"
 #include "draw/spacing_law.h"
-#include "options/density_option.h"
-#include "options/domain_option.h"
+#include "draw_options.h"
+#include "options/coastlines_option.h"
 #include "options/files.h"
-#include "options/mesh_source.h"
 
 #include <calotte/error.h>
 
-#include <algorithm>
-#include <charconv>
-#include <cmath>
+#include <filesystem>
 #include <iostream>
-#include <map>
-#include <string_view>
-#include <utility>
 
 namespace calotte::tools {
 
 namespace {
-
-struct DrawArguments {
-  std::shared_ptr<MeshSource> source;
-  std::shared_ptr<DensityWords> density;
-  std::vector<const CLI::Option*> density_options; ///< all options that add_density adds
-  const CLI::Option* what = nullptr;
-  const CLI::Option* colour = nullptr;
-  std::string output;
-  DrawOptions options;
-  std::vector<std::string> reports; ///< drawn instead of a mesh
-  bool spacing_law = false;
-  std::shared_ptr<DomainWords> domain; ///< with --plane
-
-  bool has_density() const { return !density->densities.empty() || density->widths.given(); }
-};
-
-/// Removes a number and the text after it from the input; false if there is none.
-bool take_number(std::string_view& text, double& value) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  text.remove_prefix(static_cast<std::size_t>(end - text.data()));
-  return error == std::errc();
-}
-
-LonLat parse_view(std::string_view text) {
-  LonLat view;
-  std::string_view rest = text;
-  bool good = take_number(rest, view.longitude) && rest.starts_with(',');
-  if (good) {
-    rest.remove_prefix(1);
-    good = take_number(rest, view.latitude) && rest.empty() && std::abs(view.latitude) <= 90 &&
-           std::abs(view.longitude) <= 360;
-  }
-  if (!good) {
-    throw Error(
-        ErrorCode::bad_option,
-        "--view " + std::string(text) +
-            " is not a location; give longitude and latitude in degrees, as in --view 15,-30");
-  }
-  return view;
-}
-
-/// An option whose value is one of several words.
-template <class Value>
-void add_choice(CLI::App& command, const std::string& names, Value& value,
-                const std::vector<std::pair<std::string, Value>>& choices,
-                const std::string& help) {
-  std::vector<std::string> words;
-  words.reserve(choices.size());
-  for (const auto& choice : choices) {
-    words.push_back(choice.first);
-  }
-  const auto choose = [&value, choices](const std::string& word) {
-    const auto is_it = [&](const auto& choice) { return choice.first == word; };
-    value = std::find_if(choices.begin(), choices.end(), is_it)->second;
-  };
-  command.add_option_function<std::string>(names, choose, help)
-      ->check(CLI::IsMember(words))
-      ->type_name("WORD")
-      ->default_str(words.front());
-}
-
-constexpr const char* field_prefix = "field:";
-
-/// --colour: a word, or field:NAME.
-void add_colour(CLI::App& command, DrawArguments& arguments) {
-  static const std::map<std::string, Colouring> words = {
-      {"spacing", Colouring::spacing}, {"angle", Colouring::angle}, {"valence", Colouring::valence},
-      {"degree", Colouring::valence},  {"area", Colouring::area},   {"quality", Colouring::quality},
-      {"density", Colouring::density}, {"none", Colouring::none}};
-  const auto check = [](const std::string& text) -> std::string {
-    const bool field = text.starts_with(field_prefix) && text != field_prefix;
-    return field || words.contains(text)
-               ? ""
-               : "\"" + text +
-                     "\" is not one of spacing, angle, valence (or degree), "
-                     "area, quality, density, field:NAME, none";
-  };
-  DrawOptions& options = arguments.options;
-  const auto choose = [&options](const std::string& text) {
-    const auto word = words.find(text);
-    options.colouring = word == words.end() ? Colouring::field : word->second;
-    options.field_name =
-        word == words.end() ? text.substr(std::string_view(field_prefix).size()) : "";
-  };
-  arguments.colour =
-      command
-          .add_option_function<std::string>(
-              "--colour,--color", choose,
-              "Quantity that determines the colour: spacing (mean distance to the neighbours), "
-              "angle (smallest angle), valence or degree (number of neighbours), area, quality (of "
-              "a cell: shortest side over longest; of a triangle: 1 if equilateral), density (of "
-              "--density), none, or field:NAME (a variable of a NetCDF mesh with one number for "
-              "each cell)")
-          ->check(check)
-          ->type_name("WORD")
-          ->default_str("spacing");
-}
-
-void add_look(CLI::App& command, DrawArguments& arguments) {
-  Look& look = arguments.options.look;
-  add_choice<Projection>(command, "--projection", look.projection,
-                         {{"globe", Projection::globe}, {"plate-carree", Projection::plate_carree}},
-                         "Map projection: globe (the visible hemisphere) or plate-carree (the "
-                         "whole sphere, longitude and latitude as x and y)");
-  const auto look_from = [&look](const std::string& text) { look.view = parse_view(text); };
-  command
-      .add_option_function<std::string>(
-          "--view", look_from,
-          "Centre of the map in degrees; latitude from -90 to 90. Default of globe: 15,25, or the "
-          "centre of an open mesh. plate-carree uses only the longitude; default: 0")
-      ->type_name("LON,LAT");
-  command.add_flag("--graticule", look.graticule, "Draw meridians and parallels every 30 degrees");
-  command.add_option("--size", look.size, "Width in pixels (points in SVG and PDF)")
-      ->check(CLI::Range(64, 16384))
-      ->capture_default_str();
-  DrawOptions& options = arguments.options;
-  add_choice<Shapes>(
-      command, "--what", options.shapes,
-      {{"triangles", Shapes::triangles}, {"cells", Shapes::cells}, {"both", Shapes::both}},
-      "Shapes: triangles (Delaunay), cells (Voronoi), or both (edges of the triangles on the "
-      "cells)");
-  arguments.what = command.get_option("--what");
-  add_colour(command, arguments);
-}
-
-void add_density_options(CLI::App& command, DrawArguments& arguments) {
-  const std::vector<const CLI::Option*> others = std::as_const(command).get_options();
-  arguments.density = add_density(command);
-  for (const CLI::Option* option : std::as_const(command).get_options()) {
-    if (std::find(others.begin(), others.end(), option) == others.end()) {
-      arguments.density_options.push_back(option);
-    }
-  }
-}
-
-/// The pictures that are no map, and the options that they do not support.
-void add_plots(CLI::App& command, DrawArguments& arguments) {
-  CLI::Option* history = command
-                             .add_option("--history", arguments.reports,
-                                         "Draw the convergence of runs against evaluations and "
-                                         "seconds, from reports of calotte cvt --report; no MESH")
-                             ->type_name("REPORT ...")
-                             ->expected(1, static_cast<int>(most_histories));
-  CLI::Option* law = command.add_flag(
-      "--spacing-law", arguments.spacing_law,
-      "Draw the spacings of the cells against those that --density prescribes, instead of a map");
-  for (const char* name : {"--projection", "--view", "--graticule", "--what", "--colour"}) {
-    law->excludes(command.get_option(name));
-    history->excludes(command.get_option(name));
-  }
-  for (const char* name : {"MESH", "--points", "--lonlat", "--spacing-law"}) {
-    history->excludes(command.get_option(name));
-  }
-  for (const CLI::Option* option : arguments.density_options) {
-    history->excludes(command.get_option(option->get_name()));
-  }
-}
-
-/// --plane, the domain, and the options that they exclude.
-void add_plane_options(CLI::App& command, DrawArguments& arguments) {
-  CLI::Option* plane = add_plane(command, *arguments.source);
-  arguments.domain = add_domain(command);
-  for (const char* name : {"--domain", "--rectangle", "--periodic"}) {
-    command.get_option(name)->needs(plane);
-  }
-  for (const char* name : {"--projection", "--view", "--graticule", "--spacing-law", "--history"}) {
-    plane->excludes(command.get_option(name));
-  }
-}
 
 void draw_reports(const DrawArguments& arguments) {
   std::vector<History> histories;
@@ -259,6 +84,17 @@ CellField field_of(const DrawArguments& arguments, const MeshFile& file, std::in
   return read_cell_field(arguments.source->path, name, cells);
 }
 
+/// The options of a picture of a file's mesh.
+DrawOptions options_for(const DrawArguments& arguments, const MeshFile& file) {
+  DrawOptions options = arguments.options;
+  options.radius_km = radius_km(*arguments.source, file);
+  if (!options.radius_km && !arguments.density->widths.file.empty())
+    options.radius_km = arguments.density->widths.radius;
+  options.name = std::filesystem::path(arguments.source->path).filename();
+  options.look.coastlines = shows_coastlines(arguments.coastlines, options.radius_km);
+  return options;
+}
+
 /// Cells that are not Voronoi cells have no triangles and no spacing law.
 void draw_cells(const DrawArguments& arguments, const MeshFile& file) {
   const Polygons& cells = *file.polygons;
@@ -268,7 +104,7 @@ void draw_cells(const DrawArguments& arguments, const MeshFile& file) {
       (arguments.what->count() > 0 && arguments.options.shapes != Shapes::cells)) {
     throw Error(ErrorCode::bad_option, not_voronoi + "; draw them with --what cells");
   }
-  DrawOptions options = arguments.options;
+  DrawOptions options = options_for(arguments, file);
   if (options.colouring == Colouring::field) {
     options.field = field_of(arguments, file, cells.size());
   }
@@ -285,9 +121,10 @@ void draw_mesh(const DrawArguments& arguments) {
     draw_planar_mesh(arguments);
     return;
   }
-  DrawOptions options = arguments.options;
-  options.density = density_of(*arguments.density);
+  const Density density = density_of(*arguments.density);
   const MeshFile file = read_mesh_file(*arguments.source, FieldChoice::scalars);
+  DrawOptions options = options_for(arguments, file);
+  options.density = density;
   if (file.plane) {
     throw Error(ErrorCode::bad_option,
                 arguments.source->path +
@@ -351,7 +188,11 @@ void draw_density(const DrawArguments& arguments) {
         ErrorCode::bad_option,
         "a picture of a density is coloured by density or spacing; give one of these, or a mesh");
   }
-  draw(arguments.output, field_of(arguments), arguments.options.look);
+  Look look = arguments.options.look;
+  const WidthWords& widths = arguments.density->widths;
+  look.coastlines = shows_coastlines(
+      arguments.coastlines, widths.file.empty() ? std::nullopt : std::optional(widths.radius));
+  draw(arguments.output, field_of(arguments), look);
   std::cout << arguments.output << ": picture of a density\n";
 }
 
@@ -374,17 +215,7 @@ void run(const DrawArguments& arguments) {
 void add_draw(CLI::App& app) {
   CLI::App* command = app.add_subcommand("draw", "Draws a mesh or a density on a map, the spacing "
                                                  "law of a mesh, or the convergence of CVT runs.");
-  auto arguments = std::make_shared<DrawArguments>();
-  arguments->source = add_mesh_source(*command);
-  command->get_option("MESH")->required(false); // a density or a report replaces it
-  command->add_option("-o,--output", arguments->output, "Output picture: .png, .svg or .pdf")
-      ->required()
-      ->type_name("FILE");
-  add_look(*command, *arguments);
-  add_density_options(*command, *arguments);
-  add_plots(*command, *arguments);
-  add_plane_options(*command, *arguments);
-  command->callback([arguments] { run(*arguments); });
+  command->callback([arguments = add_draw_options(*command)] { run(*arguments); });
 }
 
 } // namespace calotte::tools

@@ -219,8 +219,8 @@ std::optional<double> radius_of(const Request& request, const MeshFile& file) {
   constexpr double metres = 1000; // a km
   if (request.sphere_radius)
     return *request.sphere_radius / metres;
-  if (file.sphere_radius != 1 && is_netcdf_file(request.source->path))
-    return file.sphere_radius / metres;
+  if (const std::optional<double> of_file = radius_km(*request.source, file))
+    return of_file;
   if (!request.density->widths.file.empty())
     return request.density->widths.radius;
   return std::nullopt;

@@ -2,6 +2,7 @@
 #include "commands.h"
 #include "draw/draw.h"
 #include "draw/picture.h"
+#include "options/coastlines_option.h"
 #include "options/density_option.h"
 #include "options/files.h"
 #include "options/format_options.h"
@@ -35,6 +36,7 @@ struct Request {
   std::optional<std::int64_t> cells; ///< or those that the widths imply
   std::optional<double> sphere_radius;
   std::optional<int> threads;
+  std::optional<bool> coastlines; ///< of the picture
   std::string picture, report;
 };
 
@@ -172,7 +174,9 @@ void draw_widths(const Request& request, const Density& density, const Plan& pla
   draw(request.picture,
        SphereField{values, plan.density + ", " + std::to_string(plan.cells) + " cells",
                    plan.radius_km ? "cell width, km" : "cell width, degrees"},
-       Look{.projection = Projection::plate_carree, .graticule = true});
+       Look{.projection = Projection::plate_carree,
+            .graticule = true,
+            .coastlines = shows_coastlines(request.coastlines, plan.radius_km)});
 }
 
 // ---- The command
@@ -245,6 +249,7 @@ void add_plan(CLI::App& app) {
       ->add_option("-o,--output", request->picture,
                    "Draw the cell widths on a map of longitude and latitude: .png, .svg or .pdf")
       ->type_name("FILE");
+  add_coastlines(*command, request->coastlines);
   command->add_option("--report", request->report, "Write the same quantities to this JSON file")
       ->type_name("FILE");
   command->callback([request] { run(*request); });

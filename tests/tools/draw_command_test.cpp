@@ -3,7 +3,9 @@
 
 #include <doctest/doctest.h>
 
+#include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 using namespace calotte::test;
@@ -99,6 +101,36 @@ TEST_CASE("a mesh is drawn on either map, by its shapes and by what they are col
     CHECK(outcome.err.empty());
     CHECK(outcome.out == "a.png: picture of 162 sites, 320 triangles\n");
     CHECK(bench.file("a.png").starts_with("\x89PNG"));
+  }
+}
+
+TEST_CASE("maps show the coastlines of the earth, unless asked not to or the radius is another's") {
+  const Bench bench;
+  const auto picture = [&](const std::string& arguments) {
+    const Outcome outcome = bench.run("draw -o a.png --size 200 " + arguments);
+    CAPTURE(outcome.err);
+    REQUIRE(outcome.code == 0);
+    return bench.file("a.png");
+  };
+  // A file of its own for each radius, since the title names it.
+  const auto make = [&](const std::string& folder, const std::string& radius) {
+    std::filesystem::create_directory(bench.folder() / folder);
+    REQUIRE(bench.run("cvt --cells 42 -o " + folder + "/a.nc --sphere-radius " + radius).code == 0);
+    return folder + "/a.nc";
+  };
+  for (const std::string look : {"", " --projection plate-carree"}) {
+    for (const auto& [radius, earth] :
+         {std::pair("1", true), {"6371229", true}, {"6400000", true}, {"3389500", false}}) {
+      CAPTURE(radius);
+      const std::string mesh = make(radius, radius) + look;
+      const std::string with = picture(mesh + " --coastlines");
+      const std::string without = picture(mesh + " --no-coastlines");
+      CHECK(with != without);
+      CHECK(picture(mesh) == (earth ? with : without));
+    }
+    const std::string field = "--density " + bump + look;
+    CHECK(picture(field) == picture(field + " --coastlines"));
+    CHECK(picture(field) != picture(field + " --no-coastlines"));
   }
 }
 

@@ -137,6 +137,8 @@ TEST_CASE("the widths are drawn on a map") {
   const Bench bench;
   CHECK(bench.run("plan --cells 642 --density " + bump + " -o widths.png").code == 0);
   CHECK(bench.file("widths.png").starts_with("\x89PNG"));
+  CHECK(bench.run("plan --cells 642 --density " + bump + " --no-coastlines -o bare.png").code == 0);
+  CHECK(bench.file("bare.png") != bench.file("widths.png"));
   bench.file("even.msh", raster([](double latitude) { return 300 + latitude; }));
   CHECK(bench.run("plan --cell-width even.msh -o widths.svg").code == 0);
   CHECK(bench.file("widths.svg").find("<svg") != std::string::npos);

@@ -50,6 +50,7 @@ struct Look {
   /// carree the central longitude, default 0.
   std::optional<LonLat> view = {};
   bool graticule = false; ///< faint meridians and parallels, labelled
+  bool coastlines = true; ///< of the earth
   int size = 1200;        ///< width in pixels; in points for SVG and PDF. 64 to 16384
 };
 
@@ -58,8 +59,10 @@ struct DrawOptions {
   Shapes shapes = Shapes::triangles;
   Colouring colouring = Colouring::spacing;
   Density density = {};
-  CellField field = {};        ///< by site
-  std::string field_name = {}; ///< for the legend
+  CellField field = {};                 ///< by site
+  std::string field_name = {};          ///< for the legend
+  std::string name = {};                ///< of the mesh, such as its file's, for the title
+  std::optional<double> radius_km = {}; ///< of the sphere; without it lengths are in degrees
 };
 
 /// Draws a mesh of the sphere with a title and a legend. The points may have any norm. The file is

@@ -101,6 +101,10 @@ void draw_border(cairo_t* context, const Page& page, Projection projection) {
 
 void draw_surroundings_of_map(cairo_t* context, const Page& page, const Surroundings& around) {
   const bool globe = around.look.projection == Projection::globe;
+  if (around.look.coastlines) {
+    draw_coastlines(context, around.frame, around.look.projection, page.map.width,
+                    std::max(0.7, 0.055 * page.text));
+  }
   if (around.look.graticule) {
     draw_graticule(context, around.frame, around.look.projection, page.map.width,
                    std::max(0.6, 0.04 * page.text));

@@ -20,6 +20,12 @@ bool holds_pole(const Facet& f, double sign) {
 
 } // namespace
 
+Vector3d limb_between(const Vector3d& a, const Vector3d& b) {
+  Vector3d crossing = (b.z() * a - a.z() * b) * (b.z() > a.z() ? 1 : -1);
+  crossing.z() = 0;
+  return crossing.normalized();
+}
+
 double Orthographic::height(const std::vector<Vector3d>& corners) {
   double sum = 0;
   for (const Vector3d& p : corners) {
@@ -38,9 +44,7 @@ std::vector<Vector3d> Orthographic::clipped(const std::vector<Vector3d>& polygon
       result.push_back(a);
     }
     if ((a.z() >= 0) != (b.z() >= 0)) {
-      Vector3d crossing = (b.z() * a - a.z() * b) * (b.z() > a.z() ? 1 : -1);
-      crossing.z() = 0;
-      result.emplace_back(crossing.normalized());
+      result.push_back(limb_between(a, b));
     }
   }
   return result;

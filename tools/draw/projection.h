@@ -58,6 +58,9 @@ inline double middle_of(int sample, int samples, double half) {
   return ((2 * sample + 1.0) / samples - 1) * half;
 }
 
+/// Where the arc between a direction before the limb and one behind it crosses the limb, z = 0.
+Vector3d limb_between(const Vector3d& a, const Vector3d& b);
+
 struct Orthographic {
   static constexpr double half_width = 1;
   static constexpr double half_height = 1;

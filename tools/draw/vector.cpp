@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "draw/vector.h"
 
+#include "draw/coastlines.h"
 #include "draw/projection.h"
 #include "draw/text.h"
 
@@ -165,9 +166,9 @@ template <class Map> std::int64_t count_visible(const Painting& painting) {
   return count;
 }
 
-// ---- Graticule
+// ---- Lines on the earth
 
-/// The line through places on the earth, in its visible part.
+/// Adds the line through places on the earth, in its visible part.
 template <class Map>
 void add_places(cairo_t* context, const Eigen::Matrix3d& frame, const std::vector<LonLat>& places,
                 double scale) {
@@ -176,13 +177,21 @@ void add_places(cairo_t* context, const Eigen::Matrix3d& frame, const std::vecto
     add_copies<Map>(context, way, scale, false);
     way.clear();
   };
+  Vector3d before = Vector3d::Zero();
   for (const LonLat& lonlat : places) {
     const Vector3d p = frame * direction_of(lonlat);
-    if (!Map::shows(p)) {
+    const bool first = &lonlat == &places.front();
+    if (Map::shows(p)) {
+      if (way.empty()) {
+        before = first ? p : limb_between(before, p);
+        way.push_back(Map::place(before));
+      }
+      add_arc<Map>(way, before, p, scale);
+    } else if (!way.empty()) {
+      add_arc<Map>(way, before, limb_between(before, p), scale);
       flush();
-      continue;
     }
-    way.push_back(way.empty() ? Map::place(p) : place_near<Map>(p, way.back()));
+    before = p;
   }
   flush();
 }
@@ -201,6 +210,24 @@ void add_graticule(cairo_t* context, const Eigen::Matrix3d& frame, double scale)
       add_places<Map>(context, frame, parallel, scale);
     }
   }
+}
+
+template <class Map>
+void add_coastlines(cairo_t* context, const Eigen::Matrix3d& frame, double scale) {
+  for (const std::vector<LonLat>& line : coastlines()) {
+    add_places<Map>(context, frame, line, scale);
+  }
+}
+
+/// A dark line between light ones, visible on any background.
+void stroke_outlined(cairo_t* context, double line, double dark, double light) {
+  cairo_set_line_join(context, CAIRO_LINE_JOIN_ROUND);
+  cairo_set_source_rgba(context, 1, 1, 1, light);
+  cairo_set_line_width(context, 2.2 * line);
+  cairo_stroke_preserve(context);
+  cairo_set_source_rgba(context, 0, 0, 0, dark);
+  cairo_set_line_width(context, line);
+  cairo_stroke(context);
 }
 
 } // namespace
@@ -245,13 +272,19 @@ void draw_graticule(cairo_t* context, const Eigen::Matrix3d& frame, Projection p
   cairo_clip(context);
   with_map(projection,
            [&]<class Map>() { add_graticule<Map>(context, frame, width / (2 * Map::half_width)); });
-  // A light outline around dark lines, visible on any background.
-  cairo_set_source_rgba(context, 1, 1, 1, 0.2);
-  cairo_set_line_width(context, 2.2 * line);
-  cairo_stroke_preserve(context);
-  cairo_set_source_rgba(context, 0, 0, 0, 0.35);
-  cairo_set_line_width(context, line);
-  cairo_stroke(context);
+  stroke_outlined(context, line, 0.35, 0.2);
+  cairo_restore(context);
+}
+
+void draw_coastlines(cairo_t* context, const Eigen::Matrix3d& frame, Projection projection,
+                     double width, double line) {
+  cairo_save(context);
+  add_border(context, projection, width);
+  cairo_clip(context);
+  with_map(projection, [&]<class Map>() {
+    add_coastlines<Map>(context, frame, width / (2 * Map::half_width));
+  });
+  stroke_outlined(context, line, 0.8, 0.6);
   cairo_restore(context);
 }
 

@@ -29,4 +29,8 @@ inline constexpr int graticule_step = 30; ///< degrees
 void draw_graticule(cairo_t* context, const Eigen::Matrix3d& frame, Projection projection,
                     double width, double line);
 
+/// The coastlines of the earth, parameters as above.
+void draw_coastlines(cairo_t* context, const Eigen::Matrix3d& frame, Projection projection,
+                     double width, double line);
+
 } // namespace calotte::tools

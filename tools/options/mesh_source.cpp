@@ -36,6 +36,13 @@ MeshFile read_mesh_file(const MeshSource& source, FieldChoice choice) {
   return calotte::read_mesh_file(source.path, &points, choice);
 }
 
+std::optional<double> radius_km(const MeshSource& source, const MeshFile& file) {
+  constexpr double metres = 1000; // a km
+  if (file.sphere_radius == 1 || !is_netcdf_file(source.path))
+    return std::nullopt;
+  return file.sphere_radius / metres;
+}
+
 std::string changes_of(const MeshSource& source, const MeshFile& file) {
   std::string lines;
   for (const std::string& change : file.changes)

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace calotte::tools {
@@ -27,6 +28,9 @@ CLI::Option* add_plane(CLI::App& command, MeshSource& source);
 /// A mesh of the sphere or, with --plane or where the file holds no other, of the plane.
 /// \throws Error as read_mesh_file and read_points do.
 MeshFile read_mesh_file(const MeshSource& source, FieldChoice choice);
+
+/// The radius of the sphere, km, if the file is known to give one in metres: NetCDF.
+std::optional<double> radius_km(const MeshSource& source, const MeshFile& file);
 
 /// The lines that say what reading changed, each after the file's name.
 std::string changes_of(const MeshSource& source, const MeshFile& file);

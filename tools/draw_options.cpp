@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "draw_options.h"
+
+#include "draw/history.h"
+#include "options/coastlines_option.h"
+
+#include <calotte/error.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <string_view>
+#include <utility>
+
+namespace calotte::tools {
+
+namespace {
+
+/// Removes a number and the text after it from the input; false if there is none.
+bool take_number(std::string_view& text, double& value) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+  return error == std::errc();
+}
+
+LonLat parse_view(std::string_view text) {
+  LonLat view;
+  std::string_view rest = text;
+  bool good = take_number(rest, view.longitude) && rest.starts_with(',');
+  if (good) {
+    rest.remove_prefix(1);
+    good = take_number(rest, view.latitude) && rest.empty() && std::abs(view.latitude) <= 90 &&
+           std::abs(view.longitude) <= 360;
+  }
+  if (!good) {
+    throw Error(
+        ErrorCode::bad_option,
+        "--view " + std::string(text) +
+            " is not a location; give longitude and latitude in degrees, as in --view 15,-30");
+  }
+  return view;
+}
+
+/// An option whose value is one of several words.
+template <class Value>
+void add_choice(CLI::App& command, const std::string& names, Value& value,
+                const std::vector<std::pair<std::string, Value>>& choices,
+                const std::string& help) {
+  std::vector<std::string> words;
+  words.reserve(choices.size());
+  for (const auto& choice : choices) {
+    words.push_back(choice.first);
+  }
+  const auto choose = [&value, choices](const std::string& word) {
+    const auto is_it = [&](const auto& choice) { return choice.first == word; };
+    value = std::find_if(choices.begin(), choices.end(), is_it)->second;
+  };
+  command.add_option_function<std::string>(names, choose, help)
+      ->check(CLI::IsMember(words))
+      ->type_name("WORD")
+      ->default_str(words.front());
+}
+
+constexpr const char* field_prefix = "field:";
+
+/// --colour: a word, or field:NAME.
+void add_colour(CLI::App& command, DrawArguments& arguments) {
+  static const std::map<std::string, Colouring> words = {
+      {"spacing", Colouring::spacing}, {"angle", Colouring::angle}, {"valence", Colouring::valence},
+      {"degree", Colouring::valence},  {"area", Colouring::area},   {"quality", Colouring::quality},
+      {"density", Colouring::density}, {"none", Colouring::none}};
+  const auto check = [](const std::string& text) -> std::string {
+    const bool field = text.starts_with(field_prefix) && text != field_prefix;
+    return field || words.contains(text)
+               ? ""
+               : "\"" + text +
+                     "\" is not one of spacing, angle, valence (or degree), "
+                     "area, quality, density, field:NAME, none";
+  };
+  DrawOptions& options = arguments.options;
+  const auto choose = [&options](const std::string& text) {
+    const auto word = words.find(text);
+    options.colouring = word == words.end() ? Colouring::field : word->second;
+    options.field_name =
+        word == words.end() ? text.substr(std::string_view(field_prefix).size()) : "";
+  };
+  arguments.colour =
+      command
+          .add_option_function<std::string>(
+              "--colour,--color", choose,
+              "Quantity that determines the colour: spacing (mean distance to the neighbours), "
+              "angle (smallest angle), valence or degree (number of neighbours), area, quality (of "
+              "a cell: shortest side over longest; of a triangle: 1 if equilateral), density (of "
+              "--density), none, or field:NAME (a variable of a NetCDF mesh with one number for "
+              "each cell)")
+          ->check(check)
+          ->type_name("WORD")
+          ->default_str("spacing");
+}
+
+void add_look(CLI::App& command, DrawArguments& arguments) {
+  Look& look = arguments.options.look;
+  add_choice<Projection>(command, "--projection", look.projection,
+                         {{"globe", Projection::globe}, {"plate-carree", Projection::plate_carree}},
+                         "Map projection: globe (the visible hemisphere) or plate-carree (the "
+                         "whole sphere, longitude and latitude as x and y)");
+  const auto look_from = [&look](const std::string& text) { look.view = parse_view(text); };
+  command
+      .add_option_function<std::string>(
+          "--view", look_from,
+          "Centre of the map in degrees; latitude from -90 to 90. Default of globe: 15,25, or the "
+          "centre of an open mesh. plate-carree uses only the longitude; default: 0")
+      ->type_name("LON,LAT");
+  command.add_flag("--graticule", look.graticule, "Draw meridians and parallels every 30 degrees");
+  add_coastlines(command, arguments.coastlines);
+  command.add_option("--size", look.size, "Width in pixels (points in SVG and PDF)")
+      ->check(CLI::Range(64, 16384))
+      ->capture_default_str();
+  DrawOptions& options = arguments.options;
+  add_choice<Shapes>(
+      command, "--what", options.shapes,
+      {{"triangles", Shapes::triangles}, {"cells", Shapes::cells}, {"both", Shapes::both}},
+      "Shapes: triangles (Delaunay), cells (Voronoi), or both (edges of the triangles on the "
+      "cells)");
+  arguments.what = command.get_option("--what");
+  add_colour(command, arguments);
+}
+
+void add_density_options(CLI::App& command, DrawArguments& arguments) {
+  const std::vector<const CLI::Option*> others = std::as_const(command).get_options();
+  arguments.density = add_density(command);
+  for (const CLI::Option* option : std::as_const(command).get_options()) {
+    if (std::find(others.begin(), others.end(), option) == others.end()) {
+      arguments.density_options.push_back(option);
+    }
+  }
+}
+
+/// The pictures that are no map, and the options that they do not support.
+void add_plots(CLI::App& command, DrawArguments& arguments) {
+  CLI::Option* history = command
+                             .add_option("--history", arguments.reports,
+                                         "Draw the convergence of runs against evaluations and "
+                                         "seconds, from reports of calotte cvt --report; no MESH")
+                             ->type_name("REPORT ...")
+                             ->expected(1, static_cast<int>(most_histories));
+  CLI::Option* law = command.add_flag(
+      "--spacing-law", arguments.spacing_law,
+      "Draw the spacings of the cells against those that --density prescribes, instead of a map");
+  for (const char* name :
+       {"--projection", "--view", "--graticule", "--coastlines", "--what", "--colour"}) {
+    law->excludes(command.get_option(name));
+    history->excludes(command.get_option(name));
+  }
+  for (const char* name : {"MESH", "--points", "--lonlat", "--spacing-law"}) {
+    history->excludes(command.get_option(name));
+  }
+  for (const CLI::Option* option : arguments.density_options) {
+    history->excludes(command.get_option(option->get_name()));
+  }
+}
+
+/// --plane, the domain, and the options that they exclude.
+void add_plane_options(CLI::App& command, DrawArguments& arguments) {
+  CLI::Option* plane = add_plane(command, *arguments.source);
+  arguments.domain = add_domain(command);
+  for (const char* name : {"--domain", "--rectangle", "--periodic"}) {
+    command.get_option(name)->needs(plane);
+  }
+  for (const char* name :
+       {"--projection", "--view", "--graticule", "--coastlines", "--spacing-law", "--history"}) {
+    plane->excludes(command.get_option(name));
+  }
+}
+
+} // namespace
+
+std::shared_ptr<DrawArguments> add_draw_options(CLI::App& command) {
+  auto arguments = std::make_shared<DrawArguments>();
+  arguments->source = add_mesh_source(command);
+  command.get_option("MESH")->required(false); // a density or a report replaces it
+  command.add_option("-o,--output", arguments->output, "Output picture: .png, .svg or .pdf")
+      ->required()
+      ->type_name("FILE");
+  add_look(command, *arguments);
+  add_density_options(command, *arguments);
+  add_plots(command, *arguments);
+  add_plane_options(command, *arguments);
+  return arguments;
+}
+
+} // namespace calotte::tools

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "draw/draw.h"
+#include "options/density_option.h"
+#include "options/domain_option.h"
+#include "options/mesh_source.h"
+
+#include <CLI/CLI.hpp>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace calotte::tools {
+
+/// The options of calotte draw.
+struct DrawArguments {
+  std::shared_ptr<MeshSource> source;
+  std::shared_ptr<DensityWords> density;
+  std::vector<const CLI::Option*> density_options; ///< all options that add_density adds
+  const CLI::Option* what = nullptr;
+  const CLI::Option* colour = nullptr;
+  std::string output;
+  DrawOptions options;
+  std::optional<bool> coastlines;   ///< as asked for
+  std::vector<std::string> reports; ///< drawn instead of a mesh
+  bool spacing_law = false;
+  std::shared_ptr<DomainWords> domain; ///< with --plane
+
+  bool has_density() const { return !density->densities.empty() || density->widths.given(); }
+};
+
+/// Adds the options. Their values are set when the command line is read.
+std::shared_ptr<DrawArguments> add_draw_options(CLI::App& command);
+
+} // namespace calotte::tools

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "options/coastlines_option.h"
+
+#include <calotte/cell_width.h>
+
+#include <cmath>
+#include <cstdint>
+
+namespace calotte::tools {
+
+void add_coastlines(CLI::App& command, std::optional<bool>& asked) {
+  command.add_flag_function(
+      "--coastlines,!--no-coastlines", [&asked](std::int64_t count) { asked = count > 0; },
+      "Draw the coastlines of the earth, or do not; default: draw them, unless a file or an "
+      "option gives a radius that is not the earth's within 1%");
+}
+
+bool shows_coastlines(std::optional<bool> asked, std::optional<double> radius_km) {
+  constexpr double tolerance = 0.01; // models of the earth differ by less
+  const bool earth =
+      !radius_km || std::abs(*radius_km - earth_radius_km) <= tolerance * earth_radius_km;
+  return asked.value_or(earth);
+}
+
+} // namespace calotte::tools
