@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "draw/page.h"
 
-#include "draw/projection.h"
 #include "draw/text.h"
 #include "draw/vector.h"
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace calotte::tools {
 
@@ -64,7 +64,23 @@ void haloed_text(cairo_t* context, double x, double baseline, const std::string&
   cairo_fill(context);
 }
 
-/// The crossings of a globe's graticule with its meridian and its parallel nearest to the middle.
+/// Latitudes outside a globe's rim, where the parallels meet it.
+void rim_labels(cairo_t* context, const Page& page, const LonLat& view) {
+  const double radius = page.map.width / 2.0;
+  const double size = label_letters * page.text;
+  set_colour(context, text_colour);
+  for (int latitude = -60; latitude <= 60; latitude += graticule_step) {
+    if (const std::optional<Place> place = rim_place(view, latitude)) {
+      const double x = (radius + 0.4 * size) * place->u;
+      const double y = -(radius + 0.4 * size) * place->v;
+      marked_text(context, x, y + 0.36 * size * (1 - place->v), latitude_label(latitude),
+                  0.5 - 0.5 * place->u);
+    }
+  }
+}
+
+/// On a globe longitudes stand along one of three parallels near the equator; latitudes at the rim, or,
+/// of a parallel around the pole that does not meet it, between two meridians.
 void globe_labels(cairo_t* context, const Page& page, const Look& look,
                   const Eigen::Matrix3d& frame) {
   const double radius = page.map.width / 2.0;
@@ -73,7 +89,7 @@ void globe_labels(cairo_t* context, const Page& page, const Look& look,
   const auto nearest = [](double degrees) {
     return graticule_step * static_cast<int>(std::lround(degrees / graticule_step));
   };
-  const int latitude = std::clamp(nearest(view.latitude), -60, 60);
+  const int latitude = std::clamp(nearest(view.latitude), -30, 30); // meridians crowd at 60
   const int longitude = nearest(view.longitude);
   const auto label = [&](int lon, int lat, const std::string& text) {
     const Eigen::Vector3d p = frame * direction_of(LonLat{1.0 * lon, 1.0 * lat});
@@ -83,13 +99,14 @@ void globe_labels(cairo_t* context, const Page& page, const Look& look,
   };
   select_font(context, size);
   for (int lon = -180; lon < 180; lon += graticule_step) {
-    if ((lon - longitude) % 360 != 0) {
-      label(lon, latitude, longitude_label(lon));
-    }
+    label(lon, latitude, longitude_label(lon));
   }
   for (int lat = -60; lat <= 60; lat += graticule_step) {
-    label(longitude, lat, latitude_label(lat));
+    if (!rim_place(view, lat)) {
+      label(longitude + graticule_step / 2, lat, latitude_label(lat));
+    }
   }
+  rim_labels(context, page, view);
 }
 
 void draw_border(cairo_t* context, const Page& page, Projection projection) {
@@ -130,14 +147,24 @@ void arrange(Page& page, double below, bool with_legend) {
 
 } // namespace
 
+std::optional<Place> rim_place(const LonLat& view, double latitude) {
+  constexpr double degree = std::numbers::pi / 180;
+  const double up = std::sin(latitude * degree), most = std::cos(view.latitude * degree);
+  if (!(std::abs(up) < 0.995 * most)) {
+    return std::nullopt;
+  }
+  return Place{-std::sqrt(1 - up / most * (up / most)), up / most};
+}
+
 Page page_of(const Look& look, bool with_legend) {
   const bool globe = look.projection == Projection::globe;
   Page page;
   page.width = look.size;
   page.text = std::clamp(look.size / (globe ? 46.0 : 56.0), 7.0, 40.0);
   page.labelled = look.size >= 280;
-  const double margin = globe ? 0.035 * look.size : page.labelled ? 3.2 * page.text : page.text;
-  page.map = globe ? map_size(look.projection, 2 * static_cast<int>(0.465 * look.size))
+  const double margin = page.labelled ? 3.2 * page.text : page.text;
+  const double part = page.labelled && look.graticule ? 0.435 : 0.465; // latitudes are beside it
+  page.map = globe ? map_size(look.projection, 2 * static_cast<int>(part * look.size))
                    : map_size(look.projection, static_cast<int>(look.size - 2 * margin));
   arrange(page, globe || !page.labelled ? 0 : 1.2 * page.text, with_legend);
   return page;

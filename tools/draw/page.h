@@ -2,11 +2,13 @@
 #pragma once
 
 #include "draw/legend.h"
+#include "draw/projection.h"
 #include "draw/raster.h"
 
 #include <cairo.h>
 
 #include <functional>
+#include <optional>
 #include <string>
 
 namespace calotte::tools {
@@ -23,6 +25,11 @@ struct Page {
 };
 
 Page page_of(const Look& look, bool with_legend);
+
+/// The place on the left half of a globe's rim, the unit circle, where a parallel meets it; none if
+/// the parallel lies on one side of the globe.
+/// \param latitude of the parallel, degrees.
+std::optional<Place> rim_place(const LonLat& view, double latitude);
 
 /// For a plane.
 /// \param aspect the map's height over its width.

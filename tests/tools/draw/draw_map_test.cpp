@@ -310,6 +310,48 @@ TEST_CASE("a graticule changes only the map") {
   }
 }
 
+TEST_CASE("a parallel meets the rim of a globe at its latitude, on the left, or not at all") {
+  for (const double latitude : {-60., -30., 0., 30., 60.}) {
+    for (const LonLat& view : {LonLat{15, 25}, LonLat{-100, -80}, LonLat{70, 0}, LonLat{0, 90}}) {
+      CAPTURE(latitude);
+      CAPTURE(view.latitude);
+      const std::optional<Place> place = rim_place(view, latitude);
+      // Seen from a pole, the equator is the rim.
+      CHECK(place.has_value() ==
+            (latitude == 0 || std::abs(latitude) < 90 - std::abs(view.latitude)));
+      if (place) {
+        const Vector3d rim(place->u, place->v, 0);
+        CHECK(rim.norm() == doctest::Approx(1));
+        CHECK(rim.x() < 0);
+        const Vector3d on_earth = frame_of(view).transpose() * rim;
+        CHECK(std::asin(on_earth.z()) == doctest::Approx(latitude * degree));
+      }
+    }
+  }
+}
+
+TEST_CASE("the labels of a globe's latitudes stand outside its rim and inside the page") {
+  const Folder folder;
+  const SphereField field = {
+      [](const Points3& x) -> Eigen::VectorXd { return x.row(2).transpose(); }, "", ""};
+  for (const int size : {300, 1200}) {
+    Look look = {.view = LonLat{0, 0}, .graticule = true, .size = size};
+    draw(folder.file("a.png"), field, look);
+    const Picture picture(folder.file("a.png"));
+    const Page page = page_of(look, true);
+    int beside = 0;
+    for (int y = static_cast<int>(page.text * 2.6); y < page.legend_top - page.text; ++y) {
+      CHECK(picture.at(1, y) == 0xffffff);
+      CHECK(picture.at(size - 2, y) == 0xffffff);
+      for (int x = 0; x < page.middle_x; ++x) {
+        const double r = std::hypot(x + 0.5 - page.middle_x, y + 0.5 - page.middle_y);
+        beside += r > page.map.width / 2.0 + 3 && picture.at(x, y) != 0xffffff ? 1 : 0;
+      }
+    }
+    CHECK(beside > 5 * page.text); // five labels
+  }
+}
+
 // ---- Fields of files
 
 namespace {
