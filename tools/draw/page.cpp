@@ -79,8 +79,8 @@ void rim_labels(cairo_t* context, const Page& page, const LonLat& view) {
   }
 }
 
-/// On a globe longitudes stand along one of three parallels near the equator; latitudes at the rim, or,
-/// of a parallel around the pole that does not meet it, between two meridians.
+/// On a globe longitudes stand along one of three parallels near the equator; latitudes at the rim,
+/// or, of a parallel around the pole that does not meet it, between two meridians.
 void globe_labels(cairo_t* context, const Page& page, const Look& look,
                   const Eigen::Matrix3d& frame) {
   const double radius = page.map.width / 2.0;

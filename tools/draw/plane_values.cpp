@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "draw/legend_of.h"
+#include "draw/plane.h"
+#include "draw/values.h"
+
+#include <calotte/voronoi.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+
+namespace calotte::tools {
+
+using Eigen::Vector2d;
+
+namespace {
+
+/// The power of the scene's unit in a quantity: 1 for lengths, 2 for areas, otherwise 0.
+double power_of(Colouring colouring) {
+  return colouring == Colouring::spacing ? 1 : colouring == Colouring::area ? 2 : 0;
+}
+
+/// Of a domain, a density depends on the period only.
+Eigen::VectorXd by_site(const PlanarMesh& mesh, const DrawOptions& options) {
+  if (options.colouring == Colouring::density) {
+    const bool periodic = mesh.period.minCoeff() > 0;
+    const Eigen::VectorXd density =
+        evaluate(options.density, periodic ? periodic_box(mesh.period) : rectangle({0, 0}, {1, 1}),
+                 mesh.points);
+    return density / density.maxCoeff();
+  }
+  if (options.colouring != Colouring::field) {
+    return {};
+  }
+  require_field(options, mesh.points.cols());
+  return options.field.values;
+}
+
+/// The part of a segment within the window; none if it misses the window.
+std::optional<std::array<Vector2d, 2>> within(const Window& window, const Vector2d& from,
+                                              const Vector2d& to) {
+  double first = 0;
+  double last = 1;
+  for (int i = 0; i < 2; ++i) {
+    const double way = to[i] - from[i];
+    const double enter = ((way > 0 ? window.low : window.high)[i] - from[i]) / way;
+    const double leave = ((way > 0 ? window.high : window.low)[i] - from[i]) / way;
+    if (way != 0) {
+      first = std::max(first, enter);
+      last = std::min(last, leave);
+    } else if (from[i] < window.low[i] || from[i] > window.high[i]) {
+      return std::nullopt;
+    }
+  }
+  if (!(first <= last)) {
+    return std::nullopt;
+  }
+  return std::array<Vector2d, 2>{from + first * (to - from), from + last * (to - from)};
+}
+
+/// True if two cells meet in the visible part: tests some places of their common side.
+class Meeting {
+public:
+  Meeting(const std::optional<PlanarDomain>& domain, const Window& window) : window_(window) {
+    if (domain) {
+      inside_ = containing(*domain);
+    }
+  }
+
+  bool operator()(const Vector2d& from, const Vector2d& to) const {
+    constexpr int places = 16;
+    const auto side = within(window_, from, to);
+    if (!side || !inside_) {
+      return side.has_value();
+    }
+    for (int i = 0; i <= places; ++i) {
+      const Vector2d place = (*side)[0] + (i / double(places)) * ((*side)[1] - (*side)[0]);
+      if (inside_(place)) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+private:
+  Window window_;
+  std::function<bool(const Vector2d&)> inside_;
+};
+
+/// For an open mesh: mean distances to the neighbours, or their number. Neighbours are sites whose
+/// cells meet the site's own inside the domain; triangles reach across bays and islands.
+std::vector<double> values_by_neighbours(const PlanarMesh& mesh, Colouring colouring,
+                                         const std::optional<PlanarDomain>& domain,
+                                         const Scene& scene, const Window& window) {
+  const Meeting meet(domain, window);
+  const double half = window.extent().maxCoeff() / 2;
+  const auto corner = [&](std::int32_t t) -> Vector2d {
+    return window.middle() + half * scene.circumcentres.col(t).head<2>();
+  };
+  const auto sites = static_cast<std::size_t>(mesh.points.cols());
+  std::vector<double> sums(sites);
+  std::vector<double> counts(sites);
+  for (std::int32_t t = 0; t < scene.mesh->triangles.cols(); ++t) {
+    for (int i = 0; i < 3; ++i) {
+      const auto a = static_cast<std::size_t>(scene.mesh->triangles((i + 1) % 3, t));
+      const auto b = static_cast<std::size_t>(scene.mesh->triangles((i + 2) % 3, t));
+      const std::int32_t other = scene.mesh->neighbours(i, t);
+      if (other < t || a >= sites || b >= sites || !meet(corner(t), corner(other))) {
+        continue;
+      }
+      const double distance = (mesh.points.col(static_cast<Eigen::Index>(a)) -
+                               mesh.points.col(static_cast<Eigen::Index>(b)))
+                                  .norm();
+      for (const std::size_t end : {a, b}) {
+        sums[end] += distance;
+        ++counts[end];
+      }
+    }
+  }
+  if (colouring == Colouring::valence) {
+    return counts;
+  }
+  for (std::size_t i = 0; i < sites; ++i) {
+    sums[i] /= counts[i]; // NaN for a cell that meets no other
+  }
+  return sums;
+}
+
+} // namespace
+
+std::vector<double> values_of_cells(const PlanarMesh& mesh, const DrawOptions& options,
+                                    const std::optional<PlanarDomain>& domain, const Scene& scene,
+                                    const Window& window) {
+  const bool tessellated =
+      options.colouring == Colouring::area || options.colouring == Colouring::quality;
+  const bool periodic = is_periodic(mesh);
+  if (tessellated && periodic) {
+    const Voronoi cells = voronoi(mesh);
+    const Eigen::VectorXd values =
+        options.colouring == Colouring::area ? cells.cell_area : cell_fields(cells).quality;
+    return {values.data(), values.data() + values.size()};
+  }
+  if (!periodic &&
+      (options.colouring == Colouring::spacing || options.colouring == Colouring::valence)) {
+    return values_by_neighbours(mesh, options.colouring, domain, scene, window);
+  }
+  const Drawn own(mesh);
+  const Scene own_scene = scene_of(own, Shapes::cells, window);
+  // In a box the values of copies are used as well as the sites' own.
+  Eigen::VectorXd given = by_site(mesh, options);
+  std::vector<double> values;
+  if (periodic) {
+    given.conservativeResize(given.size() > 0 ? scene.sites.cols() : 0);
+    values = values_of(scene, options.colouring, given);
+    values.resize(static_cast<std::size_t>(mesh.points.cols()));
+  } else {
+    values = values_of(own_scene, options.colouring, given);
+  }
+  const double unit = std::pow(window.extent().maxCoeff() / 2, power_of(options.colouring));
+  std::for_each(values.begin(), values.end(), [unit](double& value) { value *= unit; });
+  return values;
+}
+
+std::vector<double> values_of_triangles(const PlanarMesh& mesh, const DrawOptions& options,
+                                        const Drawn& drawn, const Scene& scene,
+                                        const Window& window) {
+  const Eigen::VectorXd given = by_site(mesh, options);
+  Eigen::VectorXd of_places(given.size() > 0 ? scene.sites.cols() : 0);
+  for (Eigen::Index i = 0; i < of_places.size(); ++i) {
+    of_places[i] = given[drawn.site[static_cast<std::size_t>(i)]];
+  }
+  std::vector<double> values = values_of(scene, options.colouring, of_places);
+  const double unit = std::pow(window.extent().maxCoeff() / 2, power_of(options.colouring));
+  std::for_each(values.begin(), values.end(), [unit](double& value) { value *= unit; });
+  return values;
+}
+
+} // namespace calotte::tools
