@@ -4,6 +4,7 @@
 #include "draw/history.h"
 #include "draw/picture.h"
 #include "draw/spacing_law.h"
+#include "draw/title.h"
 #include "draw_options.h"
 #include "options/coastlines_option.h"
 #include "options/files.h"
@@ -26,6 +27,10 @@ void draw_reports(const DrawArguments& arguments) {
   draw_history(arguments.output, histories, arguments.options.look.size);
   std::cout << arguments.output << ": convergence of " << histories.size()
             << (histories.size() == 1 ? " run\n" : " runs\n");
+}
+
+std::string file_name(const MeshSource& source) {
+  return std::filesystem::path(source.path).filename();
 }
 
 /// Throws for a density without an option that uses it, and for a missing density.
@@ -64,6 +69,7 @@ void draw_planar_mesh(const DrawArguments& arguments) {
   const std::optional<PlanarDomain> domain = domain_of(*arguments.domain);
   DrawOptions options = arguments.options;
   options.density = density_of(*arguments.density, true);
+  options.name = file_name(*arguments.source);
   const PlanarMesh mesh = read_planar_mesh(*arguments.source);
   if (options.colouring == Colouring::field) {
     options.field = read_field(arguments.source->path, options.field_name, mesh);
@@ -90,7 +96,7 @@ DrawOptions options_for(const DrawArguments& arguments, const MeshFile& file) {
   options.radius_km = radius_km(*arguments.source, file);
   if (!options.radius_km && !arguments.density->widths.file.empty())
     options.radius_km = arguments.density->widths.radius;
-  options.name = std::filesystem::path(arguments.source->path).filename();
+  options.name = file_name(*arguments.source);
   options.look.coastlines = shows_coastlines(arguments.coastlines, options.radius_km);
   return options;
 }
@@ -169,8 +175,10 @@ SphereField field_of(const DrawArguments& arguments) {
   const bool asked = arguments.colour->count() > 0;
   const bool density_asked = asked && arguments.options.colouring == Colouring::density;
   if (resolution.widths && !density_asked) {
-    const double least = resolution.widths->widths.minCoeff();
-    return {spacings_by(density, least), title, "cell width, km"};
+    const Eigen::MatrixXd& widths = resolution.widths->widths;
+    return {spacings_by(density, widths.minCoeff()),
+            title + ", " + range_text(widths.minCoeff(), widths.maxCoeff(), "km"),
+            "cell width, km"};
   }
   if (asked && !density_asked) {
     return {spacings_by(density, 1), title, "spacing by the density, over that where it is 1"};

@@ -2,6 +2,8 @@
 #include "commands.h"
 #include "draw/draw.h"
 #include "draw/picture.h"
+#include "draw/text.h"
+#include "draw/title.h"
 #include "options/coastlines_option.h"
 #include "options/density_option.h"
 #include "options/files.h"
@@ -167,12 +169,15 @@ std::string to_json(const Plan& plan) {
 
 /// The spacings on the map, in km if the radius is known, else in degrees.
 void draw_widths(const Request& request, const Density& density, const Plan& plan) {
-  const double unit = plan.spacing.unit * plan.radius_km.value_or(1 / degree);
+  const double radius = plan.radius_km.value_or(1 / degree);
+  const double unit = plan.spacing.unit * radius;
   const auto values = [&](const Points3& x) -> Eigen::VectorXd {
     return unit * evaluate(density, x).array().max(1e-150).pow(-0.25);
   };
+  const std::string range = range_text(radius * plan.spacing.least, radius * plan.spacing.greatest,
+                                       plan.radius_km ? "km" : "\u00b0");
   draw(request.picture,
-       SphereField{values, plan.density + ", " + std::to_string(plan.cells) + " cells",
+       SphereField{values, plan.density + ", " + grouped(plan.cells) + " cells, " + range,
                    plan.radius_km ? "cell width, km" : "cell width, degrees"},
        Look{.projection = Projection::plate_carree,
             .graticule = true,

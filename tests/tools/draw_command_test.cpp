@@ -134,6 +134,23 @@ TEST_CASE("maps show the coastlines of the earth, unless asked not to or the rad
   }
 }
 
+TEST_CASE("a picture names the file and says its spacing in km if the file has a radius") {
+  const Bench bench;
+  const auto mesh = [&](const std::string& name, const std::string& radius) {
+    REQUIRE(bench.run("cvt --cells 42 -o " + name + " --sphere-radius " + radius).code == 0);
+    return name;
+  };
+  const auto picture = [&](const std::string& arguments) {
+    REQUIRE(bench.run("draw -o a.png --size 200 " + arguments).code == 0);
+    return bench.file("a.png");
+  };
+  const std::string one = picture(mesh("a.nc", "1") + " --colour degree");
+  const std::string earth = picture(mesh("a.nc", "6371229") + " --colour degree");
+  CHECK(earth != one);
+  CHECK(earth == picture("a.nc --colour degree"));
+  CHECK(earth != picture(mesh("b.nc", "6371229") + " --colour degree"));
+}
+
 TEST_CASE("a density alone gives a picture of it, or of the spacings that it implies") {
   const Bench bench;
   const std::vector<std::string> looks = {"", "--projection plate-carree --graticule",

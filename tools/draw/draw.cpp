@@ -7,6 +7,7 @@
 #include "draw/picture.h"
 #include "draw/raster.h"
 #include "draw/text.h"
+#include "draw/title.h"
 #include "draw/values.h"
 #include "draw/vector.h"
 
@@ -26,9 +27,14 @@ constexpr std::int64_t field_samples = 100000; ///< whose extremes define the co
 
 bool has_boundary(const Mesh& mesh) { return (mesh.neighbours.array() < 0).any(); }
 
-std::string title_of(const Mesh& mesh) {
-  return grouped(mesh.points.cols()) + " sites, " + grouped(mesh.triangles.cols()) + " triangles" +
-         (has_boundary(mesh) ? ", open boundary" : "");
+std::string title_of(const Scene& scene, const DrawOptions& options) {
+  const Mesh& mesh = *scene.mesh;
+  const std::string parts =
+      grouped(mesh.points.cols()) + " cells" +
+      (options.shapes == Shapes::triangles ? ", " + grouped(mesh.triangles.cols()) + " triangles"
+                                           : "") +
+      (has_boundary(mesh) ? ", open boundary" : "");
+  return mesh_title(options, parts, "spacing", mean_distances(scene));
 }
 
 /// A number in marked text.
@@ -56,7 +62,9 @@ std::string caption_of(const DrawOptions& options, double mean, bool plane) {
   switch (options.colouring) {
   case Colouring::spacing:
     return std::string(cells ? "mean distance to the neighbours" : "mean side of the triangle") +
-           (plane ? "" : ", degrees (1\u00b0 = 0.01745 radians)");
+           (plane               ? ""
+            : options.radius_km ? ", km"
+                                : ", degrees (1\u00b0 = 0.01745 radians)");
   case Colouring::angle:
     return cells ? "smallest angle around the site, degrees"
                  : "smallest angle of the triangle, degrees";
@@ -103,8 +111,13 @@ Legend make_legend(Painting& painting, const DrawOptions& options) {
   if (options.colouring == Colouring::area) {
     std::for_each(painting.values.begin(), painting.values.end(), [mean](double& v) { v /= mean; });
   }
+  const bool in_km = options.colouring == Colouring::spacing && options.radius_km;
+  if (in_km && !painting.scene.flat) {
+    const double radius = *options.radius_km;
+    std::for_each(painting.values.begin(), painting.values.end(), [=](double& v) { v *= radius; });
+  }
   painting.scale = make_scale(painting.values, options.colouring);
-  painting.scale.lengths = painting.scene.flat;
+  painting.scale.lengths = painting.scene.flat || in_km;
   return {painting.scale, classes_of(painting), caption_of(options, mean, painting.scene.flat)};
 }
 
@@ -232,7 +245,7 @@ void draw(const std::string& path, const Mesh& mesh, const DrawOptions& options)
   require_picture(path, options.look.size);
   const Look look = seen(options.look, mesh);
   Painting painting = make_painting(mesh, options, *look.view);
-  draw_painting(path, painting, options, look, title_of(mesh));
+  draw_painting(path, painting, options, look, title_of(painting.scene, options));
 }
 
 void draw(const std::string& path, const Polygons& polygons, const DrawOptions& asked) {
@@ -247,7 +260,8 @@ void draw(const std::string& path, const Polygons& polygons, const DrawOptions& 
   painting.scene = make_scene(polygons, *look.view);
   painting.values = values_of(polygons, options);
   painting.widths = widths_of(painting.scene, Shapes::cells);
-  const std::string title = grouped(polygons.size()) + " cells";
+  const std::string title = mesh_title(options, grouped(polygons.size()) + " cells", "width",
+                                       {painting.widths.begin(), painting.widths.end()});
   draw_painting(path, painting, options, look, title);
 }
 

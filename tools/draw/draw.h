@@ -65,8 +65,8 @@ struct DrawOptions {
   std::optional<double> radius_km = {}; ///< of the sphere; without it lengths are in degrees
 };
 
-/// Draws a mesh of the sphere with a title and a legend. The points may have any norm. The file is
-/// written beside its place and renamed when whole.
+/// Draws a mesh of the sphere with a legend and a title: name, number of cells, range of spacing.
+/// The points may have any norm. The file is written beside its place and renamed when whole.
 /// \throws Error bad_option, also for cells' area or quality of an open mesh, and for a density or
 ///         field that does not fit; file.
 void draw(const std::string& path, const Mesh& mesh, const DrawOptions& options = {});

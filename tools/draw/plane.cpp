@@ -5,6 +5,7 @@
 #include "draw/page.h"
 #include "draw/picture.h"
 #include "draw/text.h"
+#include "draw/title.h"
 #include "draw/vector.h"
 
 #include <calotte/error.h>
@@ -53,9 +54,20 @@ Painting make_painting(const PlanarMesh& mesh, const Drawn& drawn, const DrawOpt
   return painting;
 }
 
-std::string title_of(const PlanarMesh& mesh) {
-  return grouped(mesh.points.cols()) + " sites, " + grouped(mesh.triangles.cols()) + " triangles" +
-         (is_periodic(mesh) ? ", periodic" : "");
+/// The spacing is that of the cells for triangles too, as some of these reach across bays.
+std::string title_of(const PlanarMesh& mesh, const DrawOptions& asked,
+                     const std::optional<PlanarDomain>& domain, const Window& window) {
+  DrawOptions options = asked;
+  options.colouring = Colouring::spacing;
+  const Drawn drawn = drawn_of(mesh, Shapes::cells, window);
+  const Scene scene = scene_of(drawn, Shapes::cells, window);
+  const std::string parts =
+      grouped(mesh.points.cols()) + " cells" +
+      (options.shapes == Shapes::triangles ? ", " + grouped(mesh.triangles.cols()) + " triangles"
+                                           : "") +
+      (is_periodic(mesh) ? ", periodic" : "");
+  return mesh_title(options, parts, "spacing",
+                    values_of_cells(mesh, options, domain, scene, window), true);
 }
 
 // ---- The map
@@ -112,10 +124,11 @@ void draw(const std::string& path, const PlanarMesh& mesh,
   const Drawn drawn = drawn_of(mesh, options.shapes, window);
   Painting painting = make_painting(mesh, drawn, options, domain, window);
   const Legend legend = make_legend(painting, options);
+  const std::string title = title_of(mesh, options, domain, window);
   const Page page = page_of_plane(options.look.size, window.extent().y() / window.extent().x(),
                                   options.colouring != Colouring::none);
   write_picture(path, page.width, page.height, [&](cairo_t* context) {
-    draw_page(context, page, title_of(mesh), legend, [&] {
+    draw_page(context, page, title, legend, [&] {
       paint_plane(context, page, painting, domain, window, options.shapes != Shapes::triangles);
     });
   });

@@ -19,7 +19,7 @@ struct Scale {
   Colouring colouring = Colouring::none;
   double low = 0, high = 1; ///< the values at the colour bar's ends
   bool logarithmic = false;
-  bool lengths = false;              ///< spacings are a plane's, not arcs in radians
+  bool lengths = false;              ///< spacings are a plane's or in km, not arcs in radians
   bool below = false, above = false; ///< true if values beyond an end have the colour of the end
 
   /// The position of a value on the bar, 0 to 1.

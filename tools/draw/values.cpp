@@ -71,26 +71,6 @@ double triangle_value(const Corners& corners, Colouring colouring, const std::ve
   return oddest_valence(corners, valence);
 }
 
-/// The mean distance to the neighbours: each edge is visited in two triangles, or counts twice.
-std::vector<double> mean_distances(const Scene& scene) {
-  std::vector<double> sums(static_cast<std::size_t>(scene.sites.cols()));
-  std::vector<double> counts(sums.size());
-  for (Eigen::Index t = 0; t < scene.mesh->triangles.cols(); ++t) {
-    const Corners corners(scene, t);
-    for (int i = 0; i < 3; ++i) {
-      const double weight = scene.mesh->neighbours((i + 2) % 3, t) < 0 ? 2 : 1;
-      for (const int end : {corners.id[i], corners.id[(i + 1) % 3]}) {
-        sums[static_cast<std::size_t>(end)] += weight * corners.side(i);
-        counts[static_cast<std::size_t>(end)] += weight;
-      }
-    }
-  }
-  for (std::size_t i = 0; i < sums.size(); ++i) {
-    sums[i] /= counts[i];
-  }
-  return sums;
-}
-
 std::vector<double> smallest_angles(const Scene& scene) {
   std::vector<double> values(static_cast<std::size_t>(scene.sites.cols()), std::numbers::pi);
   for (Eigen::Index t = 0; t < scene.mesh->triangles.cols(); ++t) {
@@ -140,6 +120,26 @@ std::vector<double> cell_values(const Scene& scene, Colouring colouring,
 }
 
 } // namespace
+
+std::vector<double> mean_distances(const Scene& scene) {
+  std::vector<double> sums(static_cast<std::size_t>(scene.sites.cols()));
+  std::vector<double> counts(sums.size());
+  // Each edge is visited in two triangles, or counts twice.
+  for (Eigen::Index t = 0; t < scene.mesh->triangles.cols(); ++t) {
+    const Corners corners(scene, t);
+    for (int i = 0; i < 3; ++i) {
+      const double weight = scene.mesh->neighbours((i + 2) % 3, t) < 0 ? 2 : 1;
+      for (const int end : {corners.id[i], corners.id[(i + 1) % 3]}) {
+        sums[static_cast<std::size_t>(end)] += weight * corners.side(i);
+        counts[static_cast<std::size_t>(end)] += weight;
+      }
+    }
+  }
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    sums[i] /= counts[i];
+  }
+  return sums;
+}
 
 std::vector<double> values_of(const Scene& scene, Colouring colouring,
                               const Eigen::VectorXd& by_site) {

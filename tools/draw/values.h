@@ -9,6 +9,9 @@
 
 namespace calotte::tools {
 
+/// For each site the mean distance to its neighbours, in radians; in a plane in the scene's unit.
+std::vector<double> mean_distances(const Scene& scene);
+
 /// For each shape the quantity that colours it, NaN if it has none (an open cell of the sphere; the
 /// domain closes those of a plane).
 /// \param by_site for Colouring::density and field: n values.

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "draw/draw.h"
+
+#include <string>
+#include <vector>
+
+namespace calotte::tools {
+
+/// A range in three digits, such as "30 to 240 km" or "1.8° to 2.3°"; one number if the digits of
+/// both ends agree.
+std::string range_text(double low, double high, const std::string& unit);
+
+/// The title of a picture of a mesh, marked text: its name, its parts and the range of a length,
+/// such as "a.nc: 10 242 cells, spacing 206 to 251 km".
+/// \param lengths in radians, for the title in km if the radius is known, otherwise in degrees; of
+///        a flat mesh in its own unit. NaN is left out.
+std::string mesh_title(const DrawOptions& options, const std::string& parts,
+                       const std::string& length, const std::vector<double>& lengths,
+                       bool flat = false);
+
+} // namespace calotte::tools
