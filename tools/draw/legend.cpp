@@ -27,6 +27,31 @@ int common_exponent(const Axis& axis) {
   return exponent >= 5 || exponent < -2 ? exponent : 0;
 }
 
+double unit_of(const Scale& scale) { return is_angle(scale) ? std::numbers::pi / 180 : 1; }
+
+/// A round number below the axis, in steps of a power of ten above its length, if the labels would
+/// otherwise agree in their first three digits.
+double offset_of(const Axis& axis) {
+  const double range = axis.high - axis.low;
+  if (axis.logarithmic || range > 1e-3 * std::max(std::abs(axis.low), std::abs(axis.high))) {
+    return 0;
+  }
+  const double step = std::pow(10, std::ceil(std::log10(range)));
+  return std::floor(axis.low / step) * step;
+}
+
+/// True if neighbouring labels are at least `gap` apart.
+bool apart(const std::vector<Tick>& ticks, double bar_width, double gap,
+           const std::function<double(const std::string&)>& width_of) {
+  for (std::size_t i = 1; i < ticks.size(); ++i) {
+    const double widths = width_of(ticks[i - 1].label) + width_of(ticks[i].label);
+    if ((ticks[i].place - ticks[i - 1].place) * bar_width < widths / 2 + gap) {
+      return false;
+    }
+  }
+  return true;
+}
+
 /// The layout of the bar.
 struct Bar {
   double left, top, width, height;
@@ -52,7 +77,7 @@ void bar_path(cairo_t* context, const Scale& scale, const Bar& bar) {
 void fill_bar(cairo_t* context, const Scale& scale, const Bar& bar) {
   cairo_pattern_t* pattern = cairo_pattern_create_linear(bar.left, 0, bar.left + bar.width, 0);
   for (int i = 0; i <= 10; ++i) {
-    const Rgb c = viridis(i / 10.0);
+    const Rgb c = viridis(scale.constant ? 0.5 : i / 10.0);
     cairo_pattern_add_color_stop_rgb(pattern, i / 10.0, c.r, c.g, c.b);
   }
   bar_path(context, scale, bar);
@@ -89,11 +114,29 @@ void draw_ticks(cairo_t* context, const BarTicks& bar_ticks, const Bar& bar, dou
   }
 }
 
+/// The offset of the labels, in the space left of the bar.
+void draw_offset(cairo_t* context, const Scale& scale, double offset, const Bar& bar, double text) {
+  const std::string label = number_text(offset, 15) + (is_angle(scale) ? "\u00b0" : "") + "\u2009+";
+  const double room = bar.left - 1.8 * bar.height;
+  fitted_text(context, 0.3 * bar.height + room / 2, bar.bottom(), label, 0.92 * text, room);
+}
+
 void colour_bar(cairo_t* context, const Scale& scale, const Bar& bar, double text) {
-  const int most = std::clamp(static_cast<int>(bar.width / (3.6 * text)), 2, 8);
   fill_bar(context, scale, bar);
   select_font(context, 0.92 * text);
-  draw_ticks(context, bar_ticks(scale, most), bar, text);
+  if (scale.constant) {
+    set_colour(context, text_colour);
+    marked_text(context, bar.left + bar.width / 2, bar.bottom() + 1.35 * text, constant_text(scale),
+                0.5);
+    return;
+  }
+  const BarTicks ticks =
+      fitted_ticks(scale, bar.width, 0.7 * text,
+                   [context](const std::string& label) { return marked_width(context, label); });
+  draw_ticks(context, ticks, bar, text);
+  if (ticks.offset != 0) {
+    draw_offset(context, scale, ticks.offset, bar, text);
+  }
 }
 
 /// A swatch, a name and a count for each class, in one line that is shrunk to fit.
@@ -129,9 +172,12 @@ void class_legend(cairo_t* context, const std::vector<ValenceClass>& classes, do
 } // namespace
 
 BarTicks bar_ticks(const Scale& scale, int most) {
-  const double unit = is_angle(scale) ? std::numbers::pi / 180 : 1;
+  const double unit = unit_of(scale);
   Axis axis = {scale.low / unit, scale.high / unit, scale.logarithmic};
   BarTicks bar;
+  bar.offset = offset_of(axis);
+  axis.low -= bar.offset;
+  axis.high -= bar.offset;
   bar.exponent = common_exponent(axis);
   const double power = std::pow(10, bar.exponent);
   axis.low /= power;
@@ -141,6 +187,40 @@ BarTicks bar_ticks(const Scale& scale, int most) {
     tick.label += is_angle(scale) ? "\u00b0" : "";
   }
   return bar;
+}
+
+BarTicks fitted_ticks(const Scale& scale, double bar_width, double gap,
+                      const std::function<double(const std::string&)>& width_of) {
+  constexpr int most_labels = 8;
+  for (int most = most_labels; most >= 2; --most) {
+    BarTicks bar = bar_ticks(scale, most);
+    if (bar.ticks.labelled.size() <= most_labels &&
+        apart(bar.ticks.labelled, bar_width, gap, width_of)) {
+      return bar;
+    }
+  }
+  BarTicks bar = bar_ticks(scale, 2);
+  std::vector<Tick>& labelled = bar.ticks.labelled;
+  for (std::size_t i = 1; i < labelled.size();) {
+    if (apart({labelled[i - 1], labelled[i]}, bar_width, gap, width_of)) {
+      ++i;
+    } else {
+      bar.ticks.unlabelled.push_back(labelled[i].place);
+      labelled.erase(labelled.begin() + static_cast<std::ptrdiff_t>(i));
+    }
+  }
+  return bar;
+}
+
+std::string constant_text(const Scale& scale) {
+  const double unit = unit_of(scale);
+  const std::string degrees = is_angle(scale) ? "\u00b0" : "";
+  const double middle = scale.least + (scale.greatest - scale.least) / 2;
+  if (scale.least == scale.greatest) {
+    return "constant " + number_text(middle / unit, 6) + degrees;
+  }
+  return number_text(middle / unit, 6) + degrees + " \u00b1 " +
+         number_text((scale.greatest - scale.least) / 2 / unit, 1) + degrees;
 }
 
 void draw_legend(cairo_t* context, const Legend& legend, double page_width, double top,

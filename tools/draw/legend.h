@@ -6,6 +6,7 @@
 
 #include <cairo.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -21,13 +22,25 @@ struct Legend {
 };
 
 /// Round values along the colour bar: of angles (spacing, angle) in degrees, of numbers that are
-/// very large or small in units of a power of ten.
+/// very large or small in units of a power of ten. A value is its label times this power, plus the
+/// offset.
 struct BarTicks {
   AxisTicks ticks;
   int exponent = 0;
+  double offset = 0; ///< not 0 where labels would agree in their first three digits
 };
 
 BarTicks bar_ticks(const Scale& scale, int most);
+
+/// The ticks of a bar on which no label touches another; as many labels as fit, at most 8.
+/// \param gap between labels, in the unit of the width.
+/// \param width_of a label, in the unit of the bar's width.
+BarTicks fitted_ticks(const Scale& scale, double bar_width, double gap,
+                      const std::function<double(const std::string&)>& width_of);
+
+/// What the legend says of a scale that is constant: "constant 1.5", or "1.5 +- 1e-9" if the values
+/// differ; marked text.
+std::string constant_text(const Scale& scale);
 
 /// Draws the legend below y = top, centred on a page of that width; about 4 letters high.
 void draw_legend(cairo_t* context, const Legend& legend, double page_width, double top,

@@ -78,11 +78,12 @@ Scale make_scale(const std::vector<double>& values, Colouring colouring) {
     return scale;
   }
   const auto [least, greatest] = std::minmax_element(known.begin(), known.end());
-  scale.low = *least;
-  scale.high = *greatest;
+  scale.low = scale.least = *least;
+  scale.high = scale.greatest = *greatest;
   scale.logarithmic = is_magnitude(colouring) && scale.low > 0 && scale.high > 4 * scale.low;
-  if (scale.high - scale.low <= 1e-6 * std::abs(scale.high)) {
-    // All values are equal up to rounding: one colour, in the middle of a bar of positive width.
+  scale.constant = scale.high - scale.low <= 1e-6 * std::abs(scale.high);
+  if (scale.constant) {
+    // One colour, in the middle of a bar of positive width.
     const double margin = std::max(0.05 * std::abs(scale.high), 1e-300);
     scale.low -= margin;
     scale.high += margin;

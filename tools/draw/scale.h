@@ -17,7 +17,9 @@ struct Rgb {
 /// Maps values to colours.
 struct Scale {
   Colouring colouring = Colouring::none;
-  double low = 0, high = 1; ///< the values at the colour bar's ends
+  double low = 0, high = 1;       ///< the values at the colour bar's ends
+  double least = 0, greatest = 1; ///< the extreme values
+  bool constant = false;          ///< true if they differ by at most a millionth: one colour
   bool logarithmic = false;
   bool lengths = false;              ///< spacings are a plane's or in km, not arcs in radians
   bool below = false, above = false; ///< true if values beyond an end have the colour of the end

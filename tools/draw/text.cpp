@@ -4,6 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <regex>
 #include <utility>
 #include <vector>
@@ -91,6 +93,18 @@ std::string grouped(std::int64_t number) {
     text.insert(static_cast<std::size_t>(at), "\u2009");
   }
   return text;
+}
+
+std::string number_text(double value, int digits) {
+  char buffer[48];
+  std::snprintf(buffer, sizeof buffer, "%.*g", digits, std::abs(value));
+  std::string text = buffer;
+  if (const std::size_t e = text.find('e'); e != std::string::npos) {
+    const int exponent = std::stoi(text.substr(e + 1));
+    text = (text.substr(0, e) == "1" ? "" : text.substr(0, e) + "\u2009\u00d7\u2009") + "10^{" +
+           (exponent < 0 ? "\u2212" : "") + std::to_string(std::abs(exponent)) + "}";
+  }
+  return (value < 0 ? "\u2212" : "") + text;
 }
 
 std::string shown(const std::string& name) {

@@ -29,6 +29,9 @@ void fitted_text(cairo_t* context, double x, double baseline, const std::string&
 /// A number with groups of three digits: 2621442 as 2 621 442.
 std::string grouped(std::int64_t number);
 
+/// A number with at most this many digits, marked text: 1.5, 6.4 x 10^{21}.
+std::string number_text(double value, int digits);
+
 /// Converts a file's text or name to text that can be shown.
 std::string shown(const std::string& text);
 

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "draw/legend.h"
+#include "draw/page.h"
+#include "draw/text.h"
+#include "support/pictures.h"
+
+#include <calotte/delaunay.h>
+#include <calotte/generators.h>
+
+#include <cairo.h>
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+using namespace calotte;
+using namespace calotte::test;
+using namespace calotte::tools;
+
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+/// Ranges of all kinds: wide and narrow, of large and small numbers, of both signs.
+const std::vector<std::pair<double, double>> ranges = {
+    {42.7, 341.3},      {1, 100},           {0.0123, 0.0125}, {1e-9, 1.4e-9},  {2e7, 5e7},
+    {-0.02, 0.04},      {1234.5, 1234.9},   {1, 1 + 1e-5},    {-1 - 1e-5, -1}, {1e-12, 1},
+    {273.151, 273.152}, {6371220, 6371229}, {-1e5, 1e5},      {0.97, 1.03},    {3, 9}};
+
+/// The letters of a label, each as wide as a digit.
+double letters(const std::string& label) {
+  double count = 0;
+  for (const char c : label) {
+    count += (c & 0xc0) != 0x80 ? 0.55 : 0;
+  }
+  return count;
+}
+
+} // namespace
+
+TEST_CASE("labels of a colour bar never touch, and differ") {
+  for (const auto& [low, high] : ranges) {
+    for (const Colouring colouring : {Colouring::field, Colouring::angle, Colouring::spacing}) {
+      const Scale scale = make_scale({low, high}, colouring);
+      for (const double width : {4., 9., 14., 22., 28., 40.}) {
+        CAPTURE(low);
+        CAPTURE(high);
+        CAPTURE(width);
+        const AxisTicks ticks = fitted_ticks(scale, width, 0.7, letters).ticks;
+        CHECK(ticks.labelled.size() <= 8);
+        CHECK(ticks.labelled.size() >= (width > 20 ? 2 : 1));
+        std::set<std::string> labels;
+        double end = -1e9;
+        for (const Tick& tick : ticks.labelled) {
+          const double half = letters(tick.label) / 2;
+          CHECK(tick.place * width - half >= end);
+          end = tick.place * width + half + 0.7 - 1e-9;
+          labels.insert(tick.label);
+        }
+        CHECK(labels.size() == ticks.labelled.size());
+      }
+    }
+  }
+}
+
+TEST_CASE("labels of a narrow range are differences from a number beside the bar") {
+  for (const auto& [low, high] : ranges) {
+    CAPTURE(low);
+    CAPTURE(high);
+    const Scale scale = make_scale({low, high}, Colouring::field);
+    const BarTicks bar = fitted_ticks(scale, 28, 0.7, letters);
+    CHECK((bar.offset != 0) == (high - low <= 1e-3 * std::max(std::abs(low), std::abs(high))));
+    for (const Tick& tick : bar.ticks.labelled) {
+      if (bar.offset != 0) {
+        const double label = std::stod(tick.label);
+        const double value = label * std::pow(10, bar.exponent) + bar.offset;
+        CHECK(scale.place(value) == doctest::Approx(tick.place).epsilon(1e-4));
+        CHECK(tick.label.size() <= 5);
+      }
+    }
+  }
+}
+
+TEST_CASE("a scale of equal values says that they are constant, or how much they differ") {
+  const auto text = [](double low, double high, Colouring colouring) {
+    const Scale scale = make_scale({low, high, std::nan("")}, colouring);
+    CHECK(scale.constant);
+    CHECK(scale.place(low) == doctest::Approx(0.5).epsilon(1e-4));
+    return constant_text(scale);
+  };
+  CHECK(text(1.234, 1.234, Colouring::field) == "constant 1.234");
+  CHECK(text(0, 0, Colouring::field) == "constant 0");
+  CHECK(text(-2e-12, -2e-12, Colouring::field) ==
+        "constant \u22122\u2009\u00d7\u200910^{\u221212}");
+  CHECK(text(2 - 3e-8, 2 + 3e-8, Colouring::field) == "2 \u00b1 3\u2009\u00d7\u200910^{\u22128}");
+  CHECK(text(1.5 * degree, 1.5 * degree, Colouring::spacing) == "constant 1.5\u00b0");
+  CHECK(!make_scale({1, 1 + 1e-5}, Colouring::field).constant);
+  CHECK(!make_scale({0, 1e-300}, Colouring::field).constant);
+}
+
+TEST_CASE("the bar of a constant field has one colour, that of the field") {
+  const Folder folder;
+  const Mesh mesh = spherical_delaunay(fibonacci_sphere(50));
+  DrawOptions options = {.look = {.coastlines = false, .size = 400},
+                         .shapes = Shapes::cells,
+                         .colouring = Colouring::field,
+                         .field_name = "a"};
+  const Page page = page_of(options.look, true);
+  const int y = static_cast<int>(page.legend_top + 0.45 * page.text); // the bar's middle
+  const auto colours = [&](double last) {
+    options.field.values = Eigen::VectorXd::Constant(50, 3);
+    options.field.values[49] = last;
+    draw(folder.file("a.png"), mesh, options);
+    const Picture picture(folder.file("a.png"));
+    std::set<std::uint32_t> found;
+    for (int x = 100; x < 300; ++x) {
+      found.insert(picture.at(x, y));
+    }
+    return found;
+  };
+  CHECK(colours(3) == std::set{packed(viridis(0.5))});
+  CHECK(colours(4).size() > 50);
+}
+
+TEST_CASE("a number is text in digits, or with a power of ten") {
+  CHECK(number_text(1.5, 6) == "1.5");
+  CHECK(number_text(-0.25, 6) == "\u22120.25");
+  CHECK(number_text(6371229, 15) == "6371229");
+  CHECK(number_text(1e21, 6) == "10^{21}");
+  CHECK(number_text(-6.4e-9, 6) == "\u22126.4\u2009\u00d7\u200910^{\u22129}");
+}
