@@ -116,5 +116,11 @@ Quality triangle_quality(const Mesh& mesh);
 /// \throws Error as above; bad_option as require_domain(), or for a generator outside the domain.
 Quality quality(const PlanarMesh& mesh, const PlanarDomain& domain, const Density& density = {});
 
+/// For each generator in a planar domain whether the boundary clips its cell, or the generator lies
+/// outside the domain. quality() leaves these cells out of `degrees`.
+/// \param mesh its points only; periodic if the domain is, which then clips no cell.
+/// \throws Error as require_domain(); bad_option for a domain of another period.
+std::vector<bool> clipped_cells(const PlanarMesh& mesh, const PlanarDomain& domain);
+
 } // namespace calotte
 CALOTTE_API_END

@@ -15,6 +15,8 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace calotte {
 namespace quality_detail {
@@ -47,12 +49,22 @@ public:
     const Vec2 centre = at(triangles(0, t)) + centre_of(triangles, t, 0);
     return outline_.side(centre) != Side::outside;
   }
+  /// True if the site is inside, and the boundary passes through no interior of its cell.
   bool whole(const Triangles& triangles, const VertexRings& rings, std::int64_t site) const {
-    double reach = 0;
-    for (std::int64_t s = rings.begin[site]; s != rings.begin[site + 1]; ++s)
-      reach = std::max(
-          reach, norm(centre_of(triangles, rings.corners[s].triangle, rings.corners[s].vertex)));
-    return !near_shore(outline_, at(static_cast<std::int32_t>(site)), reach);
+    const Vec2 here = at(static_cast<std::int32_t>(site));
+    std::vector<CellCorner> cell;
+    for (std::int64_t s = rings.begin[site]; s != rings.begin[site + 1]; ++s) {
+      const Corner corner = rings.corners[s];
+      cell.push_back({centre_of(triangles, corner.triangle, corner.vertex),
+                      at(triangles(previous_vertex(corner.vertex), corner.triangle)) - here});
+    }
+    if (outline_.side(here) == Side::outside)
+      return false;
+    if (!near_shore(outline_, here, cell))
+      return true;
+    const std::vector<CellSide> sides = clipped_cell(outline_, here, std::move(cell));
+    return std::none_of(sides.begin(), sides.end(),
+                        [](const CellSide& side) { return side.shore; });
   }
 
 private:
@@ -67,6 +79,18 @@ private:
   Outline outline_;
   std::int64_t generators_;
 };
+
+/// For each of n generators 1 if the boundary does not clip its cell, otherwise 0.
+/// \param mesh of the generators and the hull; \param rings of the generators.
+Array<std::uint8_t> whole_cells(const Insides& insides, const Connectivity& mesh,
+                                const VertexRings& rings, std::int64_t n) {
+  Array<std::uint8_t> whole(n);
+  for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i != end; ++i)
+      whole[i] = insides.whole(mesh.triangles, rings, i) ? 1 : 0;
+  });
+  return whole;
+}
 
 /// \param mesh of the n generators and the hull.
 /// \param inverse_spacing by generator.
@@ -92,14 +116,10 @@ Quality measure(const PlanarCells& cells, const Connectivity& mesh, const Planar
     return measure_shapes(subject, n);
   const Insides insides(cells, domain, n);
   subject.inside = Array<std::uint8_t>(m);
-  subject.whole = Array<std::uint8_t>(n);
+  subject.whole = whole_cells(insides, mesh, subject.rings, n);
   for_each_block(m, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t t = begin; t != end; ++t)
       subject.inside[t] = insides.triangle(mesh.triangles, t) ? 1 : 0;
-  });
-  for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-    for (std::int64_t i = begin; i != end; ++i)
-      subject.whole[i] = insides.whole(mesh.triangles, subject.rings, i) ? 1 : 0;
   });
   return measure_shapes(subject, n);
 }
@@ -117,6 +137,17 @@ Evaluation evaluated(const Points3& points, const Connectivity& mesh, const Plan
   Evaluation result;
   make_functional(points, domain, options, std::move(level))->evaluate(points, true, true, result);
   return result;
+}
+
+void require_period(const PlanarMesh& mesh, const PlanarDomain& domain) {
+  require(mesh.period == domain.period,
+          "the mesh and the domain have different periods; give the domain of the mesh");
+}
+
+Points3 with_z(const Points2& places) {
+  Points3 points = Points3::Zero(3, places.cols());
+  points.topRows<2>() = places;
+  return points;
 }
 
 /// The integral of rho^(1/2) over the domain. Errors of 1e-6 remain with few points a cell, if
@@ -140,16 +171,14 @@ double root_integral(const Points3& points, const Connectivity& mesh, const Plan
 Quality quality(const PlanarMesh& mesh, const PlanarDomain& domain, const Density& density) {
   using namespace quality_detail;
   require_domain(domain);
-  require(mesh.period == domain.period,
-          "the mesh and the domain have different periods; give the domain of the mesh");
+  require_period(mesh, domain);
   const Density planar = planar_density(density, domain);
   if (const Check found = check(mesh); !found.passed())
     throw Error(ErrorCode::bad_option,
                 "the mesh is not the Delaunay triangulation of its points, so it has no Voronoi "
                 "cells: " +
                     found.failure + "; triangulate the points anew");
-  Points3 points = Points3::Zero(3, mesh.points.cols());
-  points.topRows<2>() = mesh.points;
+  const Points3 points = with_z(mesh.points);
   require_inside(mesh.points, domain);
   PlanarCells cells(domain);
   cells.move(points);
@@ -169,6 +198,25 @@ Quality quality(const PlanarMesh& mesh, const PlanarDomain& domain, const Densit
   set_energy(result, measured.energy, root);
   result.cells_area = areas.sum / area(domain);
   return result;
+}
+
+std::vector<bool> clipped_cells(const PlanarMesh& mesh, const PlanarDomain& domain) {
+  using namespace quality_detail;
+  require_domain(domain);
+  require_period(mesh, domain);
+  const std::int64_t n = mesh.points.cols();
+  std::vector<bool> clipped(static_cast<std::size_t>(n));
+  if (domain.periodic() || n == 0)
+    return clipped;
+  PlanarCells cells(domain);
+  cells.move(with_z(mesh.points));
+  const Connectivity closed = cells.signs().triangulate();
+  const Array<std::uint8_t> whole =
+      whole_cells(Insides(cells, domain, n), closed,
+                  make_vertex_rings(closed.triangles, closed.neighbours, n), n);
+  for (std::size_t i = 0; i < clipped.size(); ++i)
+    clipped[i] = whole[static_cast<std::int64_t>(i)] == 0;
+  return clipped;
 }
 
 } // namespace calotte

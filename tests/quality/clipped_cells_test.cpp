@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/clouds.h"
+
+#include <calotte/delaunay.h>
+#include <calotte/error.h>
+#include <calotte/generators.h>
+#include <calotte/quality.h>
+#include <calotte/voronoi.h>
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+using namespace calotte;
+using namespace calotte::test;
+
+namespace {
+
+/// A square with a corner at every multiple of 90 degrees from `turn`.
+PlanarDomain square(double turn) {
+  PlanarDomain domain;
+  Points2 corners(2, 4);
+  for (int i = 0; i < 4; ++i) {
+    const double angle = turn + std::numbers::pi / 2 * i;
+    corners.col(i) << std::cos(angle), std::sin(angle);
+  }
+  domain.rings.emplace_back(corners);
+  return domain;
+}
+
+std::int64_t sum(const std::vector<std::int64_t>& counts) {
+  std::int64_t total = 0;
+  for (const std::int64_t count : counts)
+    total += count;
+  return total;
+}
+
+} // namespace
+
+TEST_CASE("a cell is clipped if a side of it is on the boundary, however the boundary runs") {
+  for (const double turn : {0.0, 0.3, std::numbers::pi / 4}) {
+    CAPTURE(turn);
+    const PlanarDomain domain = square(turn);
+    const PlanarMesh mesh = planar_delaunay(random_places(400, domain, 5));
+    const std::vector<bool> clipped = clipped_cells(mesh, domain);
+    const Voronoi cells = voronoi(mesh, domain);
+    std::int64_t whole = 0;
+    for (Eigen::Index i = 0; i < 400; ++i) {
+      const auto ids =
+          cells.cells_on_cell.segment(cells.begin[i], cells.begin[i + 1] - cells.begin[i]);
+      CHECK(clipped[static_cast<std::size_t>(i)] == (ids.array() < 0).any());
+      whole += clipped[static_cast<std::size_t>(i)] ? 0 : 1;
+    }
+    CHECK(sum(quality(mesh, domain).degrees) == whole);
+    CHECK(whole > 280);
+  }
+}
+
+TEST_CASE("clipped cells: none in a periodic box, and all outside the domain") {
+  const PlanarDomain box = periodic_box({2, 1});
+  const PlanarMesh periodic = periodic_delaunay(random_places(300, box, 3), box.period);
+  CHECK(clipped_cells(periodic, box) == std::vector<bool>(300, false));
+  CHECK_THROWS_AS(clipped_cells(periodic, square(0)), Error);
+  const PlanarMesh mesh = planar_delaunay(random_places(50, rectangle({0, 0}, {1, 1}), 3));
+  CHECK(clipped_cells(mesh, rectangle({2, 2}, {3, 3})) == std::vector<bool>(50, true));
+}
