@@ -2,6 +2,7 @@
 #include "draw/draw.h"
 
 #include "draw/legend_of.h"
+#include "draw/markers.h"
 #include "draw/page.h"
 #include "draw/painting.h"
 #include "draw/picture.h"
@@ -177,6 +178,10 @@ Painting make_painting(const Mesh& mesh, const DrawOptions& options, const LonLa
   if (options.shapes == Shapes::both) {
     painting.triangle_widths = widths_of(painting.scene, Shapes::triangles);
   }
+  if (options.colouring == Colouring::valence) {
+    painting.markers = markers_of(painting.scene, site_valences(painting.scene),
+                                  widths_of(painting.scene, Shapes::cells));
+  }
   return painting;
 }
 
@@ -221,6 +226,7 @@ void paint_mesh(cairo_t* context, const Page& page, const Painting& painting, Pr
   } else {
     paint_image(context, page.map, raster_map(painting, projection, image_size(context, page.map)));
   }
+  draw_markers(context, painting, projection, page.map.width, marker_radius(page));
 }
 
 } // namespace
@@ -260,6 +266,9 @@ void draw(const std::string& path, const Polygons& polygons, const DrawOptions& 
   painting.scene = make_scene(polygons, *look.view);
   painting.values = values_of(polygons, options);
   painting.widths = widths_of(painting.scene, Shapes::cells);
+  if (options.colouring == Colouring::valence) {
+    painting.markers = markers_of(painting.scene, painting.values, painting.widths);
+  }
   const std::string title = mesh_title(options, grouped(polygons.size()) + " cells", "width",
                                        {painting.widths.begin(), painting.widths.end()});
   draw_painting(path, painting, options, look, title);

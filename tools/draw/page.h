@@ -7,6 +7,7 @@
 
 #include <cairo.h>
 
+#include <algorithm>
 #include <functional>
 #include <optional>
 #include <string>
@@ -34,6 +35,9 @@ std::optional<Place> rim_place(const LonLat& view, double latitude);
 /// For a plane.
 /// \param aspect the map's height over its width.
 Page page_of_plane(int size, double aspect, bool with_legend);
+
+/// The radius of one of few dots that mark cells too small to see, pixels.
+inline double marker_radius(const Page& page) { return std::max(2.0, 0.2 * page.text); }
 
 /// The texts around the map.
 struct Surroundings {

@@ -12,12 +12,20 @@
 
 namespace calotte::tools {
 
+/// A site whose number of neighbours is not 6.
+struct Marker {
+  Eigen::Vector3d place; ///< in the scene
+  double valence = 0;
+  float width = 0; ///< of its cell
+};
+
 /// A scene with the values that fill its shapes.
 struct Painting {
   Scene scene;
   std::vector<double> values;         ///< by shape; NaN: not painted
   std::vector<float> widths;          ///< by shape, on the unit sphere
   std::vector<float> triangle_widths; ///< of the triangles drawn over cells; empty where none are
+  std::vector<Marker> markers = {};   ///< for Colouring::valence
   Scale scale;
 };
 

@@ -2,13 +2,16 @@
 #include "draw/plane.h"
 
 #include "draw/legend_of.h"
+#include "draw/markers.h"
 #include "draw/page.h"
 #include "draw/picture.h"
 #include "draw/text.h"
 #include "draw/title.h"
+#include "draw/values.h"
 #include "draw/vector.h"
 
 #include <calotte/error.h>
+#include <calotte/quality.h>
 
 #include <algorithm>
 #include <cmath>
@@ -33,15 +36,23 @@ void hide_far_triangles(const Drawn& drawn, std::vector<float>& widths) {
   }
 }
 
+PlanarDomain box_around(const Points2& places) {
+  return rectangle(places.rowwise().minCoeff(), places.rowwise().maxCoeff());
+}
+
 Painting make_painting(const PlanarMesh& mesh, const Drawn& drawn, const DrawOptions& options,
                        const std::optional<PlanarDomain>& domain, const Window& window) {
   Painting painting;
   painting.scene = scene_of(drawn, options.shapes, window);
+  std::vector<bool> clipped;
+  if (options.colouring == Colouring::valence && !is_periodic(mesh)) {
+    clipped = clipped_cells(mesh, domain ? *domain : box_around(mesh.points));
+  }
   if (options.shapes == Shapes::triangles) {
-    painting.values = values_of_triangles(mesh, options, drawn, painting.scene, window);
+    painting.values = values_of_triangles(mesh, options, clipped, drawn, painting.scene, window);
   } else {
     const std::vector<double> values =
-        values_of_cells(mesh, options, domain, painting.scene, window);
+        values_of_cells(mesh, options, domain, clipped, painting.scene, window);
     for (const std::int32_t site : drawn.site) {
       painting.values.push_back(site < 0 ? nothing : values[static_cast<std::size_t>(site)]);
     }
@@ -50,6 +61,12 @@ Painting make_painting(const PlanarMesh& mesh, const Drawn& drawn, const DrawOpt
   if (options.shapes == Shapes::both) {
     painting.triangle_widths = widths_of(painting.scene, Shapes::triangles);
     hide_far_triangles(drawn, painting.triangle_widths);
+  }
+  if (options.colouring == Colouring::valence) {
+    std::vector<double> valences = site_valences(painting.scene, by_place(drawn, clipped));
+    valences.resize(static_cast<std::size_t>(mesh.points.cols())); // without copies and far sites
+    painting.markers =
+        markers_of(painting.scene, valences, widths_of(painting.scene, Shapes::cells));
   }
   return painting;
 }
@@ -67,7 +84,7 @@ std::string title_of(const PlanarMesh& mesh, const DrawOptions& asked,
                                            : "") +
       (is_periodic(mesh) ? ", periodic" : "");
   return mesh_title(options, parts, "spacing",
-                    values_of_cells(mesh, options, domain, scene, window), true);
+                    values_of_cells(mesh, options, domain, {}, scene, window), true);
 }
 
 // ---- The map
@@ -100,7 +117,10 @@ void paint_plane(cairo_t* context, const Page& page, const Painting& painting,
   set_colour(context, globe_colour);
   cairo_fill_preserve(context);
   cairo_clip(context);
-  flat_map(context, painting, scale * window.extent().maxCoeff() / 2);
+  const double unit = scale * window.extent().maxCoeff() / 2; // of the scene
+  flat_map(context, painting, unit);
+  draw_flat_markers(context, painting, unit, scale * scale * window.extent().prod(),
+                    marker_radius(page));
   cairo_restore(context);
   add_outline(context, domain, window, scale);
   set_colour(context, domain && !domain->periodic() ? text_colour : map_border_colour);

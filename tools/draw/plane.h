@@ -44,15 +44,20 @@ Drawn drawn_of(const PlanarMesh& mesh, Shapes shapes, const Window& window);
 
 Scene scene_of(const Drawn& drawn, Shapes shapes, const Window& window);
 
+/// The values of a list for the sites, for each place; true for a far site. Empty if that is.
+std::vector<bool> by_place(const Drawn& drawn, const std::vector<bool>& by_site);
+
 /// The values of the mesh's own cells, in the unit of the mesh.
+/// \param clipped by site, the cells at the boundary for Colouring::valence; otherwise empty.
 /// \param scene of cells.
 std::vector<double> values_of_cells(const PlanarMesh& mesh, const DrawOptions& options,
-                                    const std::optional<PlanarDomain>& domain, const Scene& scene,
+                                    const std::optional<PlanarDomain>& domain,
+                                    const std::vector<bool>& clipped, const Scene& scene,
                                     const Window& window);
 
 /// The values of the scene's triangles, in the unit of the mesh.
 std::vector<double> values_of_triangles(const PlanarMesh& mesh, const DrawOptions& options,
-                                        const Drawn& drawn, const Scene& scene,
-                                        const Window& window);
+                                        const std::vector<bool>& clipped, const Drawn& drawn,
+                                        const Scene& scene, const Window& window);
 
 } // namespace calotte::tools

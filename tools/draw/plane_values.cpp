@@ -88,11 +88,10 @@ private:
   std::function<bool(const Vector2d&)> inside_;
 };
 
-/// For an open mesh: mean distances to the neighbours, or their number. Neighbours are sites whose
-/// cells meet the site's own inside the domain; triangles reach across bays and islands.
-std::vector<double> values_by_neighbours(const PlanarMesh& mesh, Colouring colouring,
-                                         const std::optional<PlanarDomain>& domain,
-                                         const Scene& scene, const Window& window) {
+/// For an open mesh: mean distances to the neighbours. Neighbours are sites whose cells meet the
+/// site's own inside the domain; triangles reach across bays and islands.
+std::vector<double> spacings(const PlanarMesh& mesh, const std::optional<PlanarDomain>& domain,
+                             const Scene& scene, const Window& window) {
   const Meeting meet(domain, window);
   const double half = window.extent().maxCoeff() / 2;
   const auto corner = [&](std::int32_t t) -> Vector2d {
@@ -118,9 +117,6 @@ std::vector<double> values_by_neighbours(const PlanarMesh& mesh, Colouring colou
       }
     }
   }
-  if (colouring == Colouring::valence) {
-    return counts;
-  }
   for (std::size_t i = 0; i < sites; ++i) {
     sums[i] /= counts[i]; // NaN for a cell that meets no other
   }
@@ -130,7 +126,8 @@ std::vector<double> values_by_neighbours(const PlanarMesh& mesh, Colouring colou
 } // namespace
 
 std::vector<double> values_of_cells(const PlanarMesh& mesh, const DrawOptions& options,
-                                    const std::optional<PlanarDomain>& domain, const Scene& scene,
+                                    const std::optional<PlanarDomain>& domain,
+                                    const std::vector<bool>& clipped, const Scene& scene,
                                     const Window& window) {
   const bool tessellated =
       options.colouring == Colouring::area || options.colouring == Colouring::quality;
@@ -141,9 +138,8 @@ std::vector<double> values_of_cells(const PlanarMesh& mesh, const DrawOptions& o
         options.colouring == Colouring::area ? cells.cell_area : cell_fields(cells).quality;
     return {values.data(), values.data() + values.size()};
   }
-  if (!periodic &&
-      (options.colouring == Colouring::spacing || options.colouring == Colouring::valence)) {
-    return values_by_neighbours(mesh, options.colouring, domain, scene, window);
+  if (!periodic && options.colouring == Colouring::spacing) {
+    return spacings(mesh, domain, scene, window);
   }
   const Drawn own(mesh);
   const Scene own_scene = scene_of(own, Shapes::cells, window);
@@ -155,22 +151,31 @@ std::vector<double> values_of_cells(const PlanarMesh& mesh, const DrawOptions& o
     values = values_of(scene, options.colouring, given);
     values.resize(static_cast<std::size_t>(mesh.points.cols()));
   } else {
-    values = values_of(own_scene, options.colouring, given);
+    values = values_of(own_scene, options.colouring, given, clipped);
   }
   const double unit = std::pow(window.extent().maxCoeff() / 2, power_of(options.colouring));
   std::for_each(values.begin(), values.end(), [unit](double& value) { value *= unit; });
   return values;
 }
 
+std::vector<bool> by_place(const Drawn& drawn, const std::vector<bool>& by_site) {
+  std::vector<bool> result(by_site.empty() ? 0 : drawn.site.size());
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    result[i] = drawn.site[i] < 0 || by_site[static_cast<std::size_t>(drawn.site[i])];
+  }
+  return result;
+}
+
 std::vector<double> values_of_triangles(const PlanarMesh& mesh, const DrawOptions& options,
-                                        const Drawn& drawn, const Scene& scene,
-                                        const Window& window) {
+                                        const std::vector<bool>& clipped, const Drawn& drawn,
+                                        const Scene& scene, const Window& window) {
   const Eigen::VectorXd given = by_site(mesh, options);
   Eigen::VectorXd of_places(given.size() > 0 ? scene.sites.cols() : 0);
   for (Eigen::Index i = 0; i < of_places.size(); ++i) {
     of_places[i] = given[drawn.site[static_cast<std::size_t>(i)]];
   }
-  std::vector<double> values = values_of(scene, options.colouring, of_places);
+  std::vector<double> values =
+      values_of(scene, options.colouring, of_places, by_place(drawn, clipped));
   const double unit = std::pow(window.extent().maxCoeff() / 2, power_of(options.colouring));
   std::for_each(values.begin(), values.end(), [unit](double& value) { value *= unit; });
   return values;

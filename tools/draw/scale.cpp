@@ -19,8 +19,11 @@ Rgb hex(std::uint32_t rgb) {
   return {channel(16), channel(8), channel(0)};
 }
 
-/// Grey for the regular 6, blue below, red above, so that defects stand out.
+/// Grey for the regular 6 and the boundary, blue below, red above, so that defects stand out.
 Rgb valence_colour(double valence) {
+  if (valence == boundary_valence) {
+    return hex(0xc3cad1);
+  }
   static constexpr std::array<std::uint32_t, 7> colours = {0x0b2a5b, 0x2166ac, 0x74add1, 0xeceef0,
                                                            0xf4a261, 0xd1495b, 0x7a0c2e};
   const int v = std::clamp(static_cast<int>(valence), least_class, greatest_class);
@@ -111,12 +114,17 @@ std::vector<ValenceClass> valence_classes(const std::vector<double>& values) {
   std::map<int, std::int64_t> counts;
   for (const double v : values) {
     if (std::isfinite(v)) {
-      ++counts[std::clamp(static_cast<int>(v), least_class, greatest_class)];
+      ++counts[v == boundary_valence
+                   ? 0
+                   : std::clamp(static_cast<int>(v), least_class, greatest_class)];
     }
   }
   std::vector<ValenceClass> classes;
   for (const auto& [valence, count] : counts) {
-    const std::string label = std::to_string(valence) + (valence == greatest_class ? "+" : "");
+    const std::string label =
+        valence == boundary_valence
+            ? "at the boundary"
+            : std::to_string(valence) + (valence == greatest_class ? "+" : "");
     classes.push_back({valence_colour(valence), label, count});
   }
   return classes;

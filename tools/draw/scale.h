@@ -37,6 +37,9 @@ Scale make_scale(const std::vector<double>& values, Colouring colouring);
 /// The colour bar's colour from 0 to 1: viridis (van der Walt and Smith, 2015).
 Rgb viridis(double place);
 
+/// The value of a cell that the boundary of a plane clips, in place of its number of neighbours.
+inline constexpr double boundary_valence = 0;
+
 /// One class of valences: its colour, its name, its number of shapes.
 struct ValenceClass {
   Rgb colour;
@@ -44,7 +47,7 @@ struct ValenceClass {
   std::int64_t count = 0;
 };
 
-/// The classes that occur, in rising order.
+/// The classes that occur: the boundary, then the others in rising order.
 std::vector<ValenceClass> valence_classes(const std::vector<double>& values);
 
 } // namespace calotte::tools

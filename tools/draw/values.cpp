@@ -23,35 +23,19 @@ std::vector<bool> closed_stars(const Scene& scene) {
   return closed;
 }
 
-/// For open stars of a plane, too.
-std::vector<int> valences(const Scene& scene) {
-  std::vector<int> count(static_cast<std::size_t>(scene.sites.cols()));
-  for (Eigen::Index t = 0; t < scene.mesh->triangles.cols(); ++t) {
-    for (const std::int32_t site : scene.mesh->triangles.col(t)) {
-      ++count[static_cast<std::size_t>(site)];
-    }
-  }
-  if (scene.flat) {
-    const std::vector<bool> closed = closed_stars(scene);
-    for (std::size_t i = 0; i < count.size(); ++i) {
-      count[i] += closed[i] ? 0 : 1;
-    }
-  }
-  return count;
-}
-
-/// The valence furthest from 6 among a triangle's corners.
-int oddest_valence(const Corners& corners, const std::vector<int>& valence) {
-  int furthest = 6;
+/// The valence furthest from 6 among a triangle's corners. A corner at a boundary has none.
+double oddest_valence(const Corners& corners, const std::vector<double>& valence) {
+  double furthest = 6;
   for (const int id : corners.id) {
-    const int v = valence[static_cast<std::size_t>(id)];
-    furthest = std::abs(v - 6) > std::abs(furthest - 6) ? v : furthest;
+    const double v = valence[static_cast<std::size_t>(id)];
+    const bool counts = v > 0; // not NaN
+    furthest = counts && std::abs(v - 6) > std::abs(furthest - 6) ? v : furthest;
   }
   return furthest;
 }
 
-double triangle_value(const Corners& corners, Colouring colouring, const std::vector<int>& valence,
-                      const Eigen::VectorXd& by_site) {
+double triangle_value(const Corners& corners, Colouring colouring,
+                      const std::vector<double>& valence, const Eigen::VectorXd& by_site) {
   switch (colouring) {
   case Colouring::spacing:
     return corners.mean_side();
@@ -100,7 +84,8 @@ std::vector<double> tessellation_values(const Scene& scene, Colouring colouring)
 }
 
 std::vector<double> cell_values(const Scene& scene, Colouring colouring,
-                                const std::vector<int>& valence, const Eigen::VectorXd& by_site) {
+                                const std::vector<double>& valence,
+                                const Eigen::VectorXd& by_site) {
   switch (colouring) {
   case Colouring::spacing:
     return mean_distances(scene);
@@ -116,7 +101,7 @@ std::vector<double> cell_values(const Scene& scene, Colouring colouring,
   case Colouring::none:
     break;
   }
-  return {valence.begin(), valence.end()};
+  return valence;
 }
 
 } // namespace
@@ -141,9 +126,25 @@ std::vector<double> mean_distances(const Scene& scene) {
   return sums;
 }
 
+std::vector<double> site_valences(const Scene& scene, const std::vector<bool>& clipped) {
+  std::vector<double> count(static_cast<std::size_t>(scene.sites.cols()));
+  for (Eigen::Index t = 0; t < scene.mesh->triangles.cols(); ++t) {
+    for (const std::int32_t site : scene.mesh->triangles.col(t)) {
+      ++count[static_cast<std::size_t>(site)];
+    }
+  }
+  const std::vector<bool> closed = closed_stars(scene);
+  for (std::size_t i = 0; i < count.size(); ++i) {
+    if (!closed[i] || (!clipped.empty() && clipped[i])) {
+      count[i] = scene.flat ? boundary_valence : nothing;
+    }
+  }
+  return count;
+}
+
 std::vector<double> values_of(const Scene& scene, Colouring colouring,
-                              const Eigen::VectorXd& by_site) {
-  const std::vector<int> valence = valences(scene);
+                              const Eigen::VectorXd& by_site, const std::vector<bool>& clipped) {
+  const std::vector<double> valence = site_valences(scene, clipped);
   if (scene.shapes == Shapes::cells) {
     std::vector<double> values = cell_values(scene, colouring, valence, by_site);
     if (scene.flat) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "draw/scale.h"
 #include "draw/shapes.h"
 
 #include <Eigen/Core>
@@ -12,11 +13,18 @@ namespace calotte::tools {
 /// For each site the mean distance to its neighbours, in radians; in a plane in the scene's unit.
 std::vector<double> mean_distances(const Scene& scene);
 
+/// For each site the number of its neighbours; where its triangles do not surround it, or its cell
+/// is clipped, boundary_valence in a plane and NaN on the sphere.
+/// \param clipped by site; empty if no cell is.
+std::vector<double> site_valences(const Scene& scene, const std::vector<bool>& clipped = {});
+
 /// For each shape the quantity that colours it, NaN if it has none (an open cell of the sphere; the
 /// domain closes those of a plane).
 /// \param by_site for Colouring::density and field: n values.
+/// \param clipped for Colouring::valence of a plane, as above.
 /// \throws Error bad_option for the area or quality of cells of an open mesh.
 std::vector<double> values_of(const Scene& scene, Colouring colouring,
-                              const Eigen::VectorXd& by_site = {});
+                              const Eigen::VectorXd& by_site = {},
+                              const std::vector<bool>& clipped = {});
 
 } // namespace calotte::tools

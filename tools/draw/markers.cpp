@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "draw/markers.h"
+
+#include "draw/projection.h"
+#include "draw/text.h"
+#include "draw/vector.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace calotte::tools {
+
+namespace {
+
+constexpr double few_cover = 0.02, most_cover = 0.2; ///< parts of the map that dots may cover
+constexpr double least_radius = 1;                   ///< pixels
+constexpr Rgb rim_colour = {0.07, 0.09, 0.13};
+
+void dot(cairo_t* context, const Place& at, double radius, const Rgb& colour) {
+  cairo_new_path(context);
+  cairo_arc(context, at.u, -at.v, radius, 0, 2 * std::numbers::pi);
+  set_colour(context, colour);
+  cairo_fill_preserve(context);
+  cairo_set_source_rgba(context, rim_colour.r, rim_colour.g, rim_colour.b, 0.6);
+  cairo_set_line_width(context, 0.2 * radius);
+  cairo_stroke(context);
+}
+
+template <class Map>
+void draw_dots(cairo_t* context, const Painting& painting, double scale, double area,
+               double radius) {
+  std::vector<const Marker*> small;
+  for (const Marker& marker : painting.markers) {
+    if (marker.width * scale < 2 * radius && Map::shows_some({marker.place})) {
+      small.push_back(&marker);
+    }
+  }
+  const double share = area / (std::numbers::pi * static_cast<double>(small.size()));
+  radius = std::min(std::clamp(std::sqrt(few_cover * share), 0.4 * radius, radius),
+                    std::sqrt(most_cover * share));
+  if (radius < least_radius) {
+    return;
+  }
+  for (const Marker* marker : small) {
+    if (marker->width * scale < 2 * radius) {
+      const Place place = Map::place(marker->place);
+      dot(context, {scale * place.u, scale * place.v}, radius,
+          painting.scale.colour(marker->valence));
+    }
+  }
+}
+
+} // namespace
+
+std::vector<Marker> markers_of(const Scene& scene, const std::vector<double>& valences,
+                               const std::vector<float>& widths) {
+  std::vector<Marker> markers;
+  for (std::size_t i = 0; i < valences.size(); ++i) {
+    if (valences[i] > 0 && valences[i] != 6) { // not NaN
+      markers.push_back({scene.sites.col(static_cast<Eigen::Index>(i)), valences[i], widths[i]});
+    }
+  }
+  return markers;
+}
+
+void draw_markers(cairo_t* context, const Painting& painting, Projection projection, double width,
+                  double radius) {
+  cairo_save(context);
+  add_border(context, projection, width);
+  cairo_clip(context);
+  const bool globe = projection == Projection::globe;
+  const double area = width * width * (globe ? std::numbers::pi / 4 : 0.5);
+  with_map(projection, [&]<class Map>() {
+    draw_dots<Map>(context, painting, width / (2 * Map::half_width), area, radius);
+  });
+  cairo_restore(context);
+}
+
+void draw_flat_markers(cairo_t* context, const Painting& painting, double scale, double area,
+                       double radius) {
+  draw_dots<Flat>(context, painting, scale, area, radius);
+}
+
+} // namespace calotte::tools
