@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cvt/stages.h"
 
-#include "base/hexagons.h"
+#include "density/hexagons.h"
 #include "integrals/integrand.h"
 
 #include <algorithm>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "quality/demand.h"
 
-#include "base/hexagons.h"
 #include "base/parallel.h"
 #include "base/points.h"
 #include "density/density_evaluator.h"
+#include "density/hexagons.h"
 #include "integrals/integrand.h"
 
 #include <algorithm>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <calotte/voronoi.h>
 
-#include "base/hexagons.h"
 #include "base/matrix_memory.h"
 #include "base/parallel.h"
 #include "base/require.h"
+#include "density/hexagons.h"
 #include "voronoi/room.h"
 
 #include <algorithm>
@@ -69,7 +69,7 @@ double nominal_spacing(const CellFields& fields) {
   double sum = 0; // in the order of the cells: the same bits for any number of threads
   for (Eigen::Index i = 0; i < fields.area.size(); ++i)
     sum += fields.area[i] * std::sqrt(fields.density[i]);
-  return base_detail::hexagon_width(sum / n);
+  return density_detail::hexagon_width(sum / n);
 }
 
 } // namespace calotte

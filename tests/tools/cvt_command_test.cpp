@@ -727,7 +727,7 @@ TEST_CASE("a lake with an island: the mesh, its report, its quality, its picture
                           "tanh:x=7,y=1,beta=1,alpha=1,gamma=x2 --tolerance 1e-3";
   const Outcome done = bench.run(run + " -o lake.vtp --report lake.json");
   CHECK(done.code == 0);
-  CHECK(has(done.out, "lake.vtp: 300 cells, converged"));
+  CHECK(has(done.out, "lake.vtp: 300 cells, well-centred"));
   CHECK(has(done.out, "energy x cells / area^2"));
   CHECK(has(bench.file("lake.json"), quoted("spacing")));
   CHECK(bench.run("check --plane lake.vtp").code == 0);

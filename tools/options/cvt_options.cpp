@@ -55,10 +55,11 @@ void add_start(CLI::App& command, CvtRequest& request) {
           "--start", request.start,
           "Initial generators without a file: multilevel (converges a coarse grid, bisects it and "
           "converges again, in turn; inserts and removes cells where the density demands it; the "
-          "default on the sphere unless the density is uniform), continuation (the same without "
-          "insertion, for the sphere; the default if the density is uniform), density (random, "
-          "distributed as the cells of an optimal grid; the default in the plane), random "
-          "(uniform), fibonacci, spiral or icosahedron (on the sphere), or hexagonal (in the "
+          "default unless the density is uniform), continuation (the same without insertion, for "
+          "the sphere; the default there if the density is uniform), density (random, distributed "
+          "as the cells of an optimal grid; the default in the plane if the density is uniform), "
+          "random (uniform), fibonacci, spiral or icosahedron (on the sphere), or hexagonal (in "
+          "the "
           "plane)")
       ->check(CLI::IsMember({"multilevel", "continuation", "random", "density", "fibonacci",
                              "spiral", "icosahedron", "hexagonal"}));
@@ -73,7 +74,7 @@ void add_start(CLI::App& command, CvtRequest& request) {
       .add_option(
           "--insertion-rounds", request.insertion_rounds,
           "Rounds of insertion and removal of cells on the last level of --start multilevel; 1 "
-          "to 100; default: 1, above 400 000 cells 3. Coarser levels have up to four times as many")
+          "to 100; default: 1, above 100 000 cells 3. Coarser levels have up to four times as many")
       ->transform(whole_number(1, 100));
 }
 
@@ -183,11 +184,11 @@ std::string start_kind(const CvtRequest& request) {
     return "points";
   if (request.start)
     return *request.start;
-  if (planar(request))
-    return "density";
   const std::vector<std::string> names = density_names(*request.density);
   const bool uniform = names.size() == 1 && names.front() == "uniform";
-  return uniform || request.iterations || request.bisections ? "continuation" : "multilevel";
+  if (!uniform && !request.iterations && !request.bisections)
+    return "multilevel";
+  return planar(request) ? "density" : "continuation";
 }
 
 bool well_centred(const CvtRequest& request) {

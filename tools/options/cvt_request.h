@@ -50,8 +50,8 @@ struct CvtRequest {
 /// True for a run in the plane.
 inline bool planar(const CvtRequest& request) { return request.domain->given(); }
 
-/// The kind of start. Default: multilevel on the sphere for a density that is not uniform,
-/// continuation for a uniform one; density in the plane.
+/// The kind of start. Default: multilevel for a density that is not uniform, otherwise continuation
+/// on the sphere and density in the plane.
 std::string start_kind(const CvtRequest& request);
 
 /// Whether the run ends with a finish. Default: that of a multilevel start does.
