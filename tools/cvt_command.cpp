@@ -225,15 +225,18 @@ Outcome tessellate(const CvtRequest& request, Plan& plan, Progress& progress) {
   finish(outcome.signal == SIGINT ? interrupted : terminated);
 }
 
+/// The mesh is a good CVT, but the widths change too steeply for good shapes.
+void warn_of_shapes(const CvtReport& report) {
+  std::cout.flush();
+  std::cerr
+      << "calotte: warning: the finish left a shape " +
+             formatted("%.2g", report.iterations.back().misshapen) +
+             " beyond its limit, so that the mesh is not well-centred; calotte info shows its "
+             "angles; give more cells, or make the density smoother\n";
+}
+
 [[noreturn]] void finish_not_converged(const CvtRequest& request, const CvtReport& report) {
   std::cout.flush();
-  if (well_centred(request) && report.iterations.back().misshapen > 0) {
-    std::cerr << "calotte: not converged: the finish left a shape " +
-                     formatted("%.2g", report.iterations.back().misshapen) +
-                     " beyond its limit; the mesh is written; give more cells, or make the density "
-                     "smoother\n";
-    finish(not_converged);
-  }
   std::cerr << "calotte: not converged: " + residual_words(request, report) +
                    " is above the tolerance " + shortest(tolerance_of(request)) + " after " +
                    std::to_string(request.max_iterations) +
@@ -296,6 +299,8 @@ void run(CvtRequest request) {
                    "\n";
   if (!outcome.report.converged)
     finish_not_converged(request, outcome.report);
+  if (well_centred(request) && !outcome.report.well_centred)
+    warn_of_shapes(outcome.report);
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 their files: NetCDF as MPAS-Tools writes it, and JIGSAW's .msh."""
 
 import math
+import random
 import sys
 from pathlib import Path
 
@@ -91,6 +92,22 @@ def coast():
     return width
 
 
+def sharp_step():
+    """40 km in a cap and 160 km beyond it, within 120 km: no grid can follow."""
+
+    def width(x, _):
+        distance = RADIUS * (angle(x, CENTRE) - 0.5)
+        return 100 + 60 * math.tanh(distance / 60)
+
+    return width
+
+
+def noisy(width):
+    """With noise of 10% at each node."""
+    noise = random.Random(1)
+    return lambda x, latitude: width(x, latitude) * (1 + 0.1 * noise.uniform(-1, 1))
+
+
 WIDTHS = {
     "x4": bump(4),
     "x8": bump(8),
@@ -99,6 +116,8 @@ WIDTHS = {
     "two-bumps": two_bumps(),
     "latitude": by_latitude,
     "coast": coast(),
+    "step": sharp_step(),
+    "noise": noisy(bump(8)),
 }
 
 

@@ -70,10 +70,11 @@ struct CvtOptions {
   /// of excesses over limits: angles of triangles from 49 to 76 degrees, Voronoi edges from 0.38 to
   /// 0.78 times the length of the Delaunay edges across, and these from 0.82 to 1.25 times the
   /// spacing that the density demands. It ends when no cotangent and no such ratio exceeds its
-  /// limit by more than 0.035, or after 60 evaluations; it has converged if none does by 0.07.
-  /// Sites with 8 neighbours or more, or 4 or fewer, cannot have such shapes; with
-  /// insertion_rounds, up to four further rounds remove them. A run converges if the last descent
-  /// and the finish do. A mesh within the limits does not change. Default false: a pure CVT.
+  /// limit by more than 0.035, after 60 evaluations, or after ten that hardly improve the worst
+  /// shape; the mesh is well-centred if none does by 0.07. Near that the finish goes on once with
+  /// squares of four times the weight. Sites with 8 neighbours or more, or 4 or fewer, cannot have
+  /// such shapes; with insertion_rounds, up to four further rounds remove them. A mesh within the
+  /// limits does not change. Default false: a pure CVT.
   bool well_centred = false;
   /// Quadrature points per half kite: 1, 3, 6, 7, 13 or 19; no effect for uniform density.
   int rule = 3;
@@ -127,8 +128,10 @@ double norm_of(const CvtIteration& iteration, Norm norm);
 
 /// The course of a run.
 struct CvtReport {
-  /// The norm of the last level is at most the tolerance; with Norm::none, all iterations are done.
+  /// The norm of the last level, before a finish, is at most the tolerance; with Norm::none, all
+  /// iterations are done.
   bool converged = false;
+  bool well_centred = false;            ///< a finish brought all shapes within their limits
   double residual = 0;                  ///< the selected norm at the end of the run
   std::vector<CvtIteration> iterations; ///< all evaluations, of all levels, in order
   std::vector<CvtRegion> regions;       ///< of the last level

@@ -213,14 +213,16 @@ typename World::Result run(const World& world, CvtState whole, Level&& level, Cv
   for (Stage next = stage_after(state, options); !ending.stopped && next != Stage::end;
        next = stage_after(state, options))
     ending = descend(begin(world, next, state, options, std::move(ending)));
+  const bool ended = stage_after(state, options) == Stage::end;
   state.memory = {};
   typename World::Result result;
   result.mesh = mesh_of(world, state, std::move(ending));
   if (!state.site_of_input.empty())
     result.mesh.site_of_input = std::move(state.site_of_input);
   result.report = std::move(state.report);
+  result.report.well_centred = ended && state.penalty > 0 && result.report.converged;
   result.report.converged =
-      result.report.converged && state.descended && stage_after(state, options) == Stage::end;
+      ended && (options.well_centred ? state.descended : result.report.converged);
   result.report.seconds = before + lap(mark);
   return result;
 }

@@ -101,7 +101,8 @@ void begin_finish(State& state) {
   const CvtIteration& last = state.report.iterations.back();
   state.penalty = factor * last.energy / static_cast<double>(last.cells);
   state.demanded_spacing = spacing_of(last);
-  state.descended = state.report.converged;
+  if (state.mends == 0)
+    state.descended = state.report.converged;
   begin_descent(state);
 }
 

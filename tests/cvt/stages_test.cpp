@@ -79,6 +79,7 @@ void check_shapes(const Mesh& mesh) {
 bool equal(const Cvt& a, const Cvt& b) {
   return a.mesh.points == b.mesh.points && a.mesh.triangles == b.mesh.triangles &&
          a.report.converged == b.report.converged &&
+         a.report.well_centred == b.report.well_centred &&
          a.report.iterations.size() == b.report.iterations.size();
 }
 
@@ -131,6 +132,7 @@ TEST_CASE("stages: a finish gives the shapes that models ask for [slow]") {
       const Cvt grid = spherical_cvt(start_of(190, density, seed), graded(3001, 2, density));
       CHECK(grid.mesh.points.cols() == 3001);
       CHECK(grid.report.converged);
+      CHECK(grid.report.well_centred);
       CHECK(grid.report.iterations.back().misshapen <= 0.07);
       CHECK(check(grid.mesh).failure == "");
       check_shapes(grid.mesh);
@@ -179,6 +181,7 @@ TEST_CASE("stages: threads and regions have no effect on insertion and finish") 
   };
   const Cvt one = with(1, 1);
   CHECK(one.report.converged);
+  CHECK(one.report.well_centred);
   CHECK(equal(one, with(2, 12)));
   CHECK(equal(one, with(4, 42)));
 }
@@ -208,6 +211,8 @@ TEST_CASE("stages: a finish leaves a mesh of good shapes as it is") {
   const Cvt finished = spherical_cvt(bisected_icosahedron(3), options);
   CHECK((pure.mesh.points == finished.mesh.points));
   CHECK(finished.report.converged);
+  CHECK(finished.report.well_centred);
+  CHECK(!pure.report.well_centred);
   CHECK(finished.report.iterations.size() == pure.report.iterations.size() + 1);
 }
 

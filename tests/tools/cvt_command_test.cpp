@@ -820,6 +820,16 @@ TEST_CASE("a graded run reaches its number of cells and ends with good shapes") 
   CHECK(!has(pure.out, "from their centroids"));
 }
 
+TEST_CASE("widths that no grid can follow end in a grid and warnings") {
+  const Bench bench;
+  const Outcome made = bench.run("cvt --cells 1500 --density "
+                                 "tanh:lon=270,lat=30,beta=30deg,alpha=0.02,gamma=x6 -o a.vtp");
+  CHECK(made.code == 0);
+  CHECK(has(made.out, "a.vtp: 1500 cells, converged, "));
+  CHECK(has(made.err, "warning: the finish left a shape "));
+  CHECK(bench.run("check a.vtp").code == 0);
+}
+
 TEST_CASE("the options of a graded run are checked") {
   const Bench bench;
   const auto refused = [&](const std::string& options, const std::string& message) {

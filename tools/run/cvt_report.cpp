@@ -56,6 +56,7 @@ std::string to_json(const CvtRequest& request, const CvtReport& report, std::int
   json["stop"] = well_centred(request) ? "well-centred" : "tolerance";
   json["tolerance"] = tolerance_of(request);
   json["converged"] = report.converged;
+  json["well_centred"] = report.well_centred;
   json["residual"] = report.residual;
   json["cells"] = cells;
   json["area"] = area;
@@ -75,9 +76,9 @@ std::string summary(const CvtRequest& request, const CvtReport& report, std::int
   const auto iterations = std::ssize(report.iterations);
   std::string line = request.mesh + ": " + std::to_string(cells) + " cells, ";
   if (!request.iterations)
-    line += !report.converged       ? "not converged, "
-            : well_centred(request) ? "well-centred, "
-                                    : "converged, ";
+    line += !report.converged     ? "not converged, "
+            : report.well_centred ? "well-centred, "
+                                  : "converged, ";
   line += std::to_string(iterations) + (iterations == 1 ? " iteration" : " iterations");
   if (before > 0)
     line += " (" + std::to_string(before) + " before it was resumed)";
