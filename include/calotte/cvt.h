@@ -59,8 +59,7 @@ struct CvtOptions {
   /// Rounds of insertion and contraction on the last level, see insert_and_contract(), and up to
   /// four times as many on coarser levels; each is followed by a descent. With rounds, all descents
   /// but the last end at an l2_scaled norm of 1e-3 or the tolerance, whichever is larger, or after
-  /// 200 evaluations. >= 0;
-  /// default 0.
+  /// 120 evaluations. >= 0; default 0.
   int insertion_rounds = 0;
   /// Number of generators of the result; > 0 if and only if insertion_rounds is. A level of b
   /// bisections before the last has 4^-b times as many.
@@ -68,13 +67,14 @@ struct CvtOptions {
   /// Adds a finish after the last descent: generators move a little away from their centroids until
   /// the mesh has the shapes that models ask for. The finish minimises the energy plus the squares
   /// of excesses over limits: angles of triangles from 49 to 76 degrees, Voronoi edges from 0.38 to
-  /// 0.78 times the length of the Delaunay edges across, and these from 0.82 to 1.25 times the
+  /// 0.78 times the length of the Delaunay edges across, and these from 0.84 to 1.25 times the
   /// spacing that the density demands. It ends when no cotangent and no such ratio exceeds its
   /// limit by more than 0.035, after 60 evaluations, or after ten that hardly improve the worst
   /// shape; the mesh is well-centred if none does by 0.07. Near that the finish goes on once with
   /// squares of four times the weight. Sites with 8 neighbours or more, or 4 or fewer, cannot have
   /// such shapes; with insertion_rounds, up to four further rounds remove them. A mesh within the
-  /// limits does not change. Default false: a pure CVT.
+  /// limits does not change. A descent before a finish also converges when 60 evaluations have not
+  /// halved its norm. Default false: a pure CVT.
   bool well_centred = false;
   /// Quadrature points per half kite: 1, 3, 6, 7, 13 or 19; no effect for uniform density.
   int rule = 3;

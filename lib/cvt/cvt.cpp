@@ -90,9 +90,10 @@ void conclude(State& state, const CvtOptions& options, const CvtIteration& itera
     report.converged = state.iterations_of_level >= options.max_iterations;
   } else {
     // Near the end the finer rule replaces the coarser one; a run converges with the finer only.
-    report.converged = by_final_rule && report.residual <= options.tolerance;
+    const bool crept = creeps(state, options);
+    report.converged = by_final_rule && (report.residual <= options.tolerance || crept);
     const double margin = options.rule == rule_at_sites ? 1 : 10;
-    state.final_rule = state.final_rule || report.residual <= margin * options.tolerance;
+    state.final_rule = state.final_rule || report.residual <= margin * options.tolerance || crept;
   }
 }
 
@@ -120,6 +121,9 @@ template <class World>
 Ending iterate(const World& world, CvtState& whole, Level&& level, const CvtOptions& options,
                const CvtCallback& callback) {
   State& state = whole.data();
+  if (state.penalty == 0 && options.norm != Norm::none) // the tolerance may be another now
+    state.report.converged = state.report.converged &&
+                             (state.report.residual <= options.tolerance || creeps(state, options));
   if (level_ended(state, options)) {
     state.report.converged = state.report.converged || options.norm == Norm::none;
     return {};

@@ -26,6 +26,25 @@ const CvtIteration& last_accepted(const State& state) {
                        [](const CvtIteration& iteration) { return iteration.accepted; });
 }
 
+bool creeps(const State& state, const CvtOptions& options) {
+  constexpr std::ptrdiff_t window = 60;
+  constexpr double progress = 0.5;
+  const std::vector<CvtIteration>& all = state.report.iterations;
+  if (!options.well_centred || options.norm == Norm::none || state.penalty > 0 ||
+      state.iterations_of_level <= window)
+    return false;
+  double before = std::numeric_limits<double>::infinity(), now = before;
+  for (std::ptrdiff_t k = 1; k <= state.iterations_of_level; ++k) {
+    const CvtIteration& iteration = *(all.end() - k);
+    if (iteration.rule != all.back().rule) // another functional
+      break;
+    if (iteration.accepted)
+      (k <= window ? now : before) =
+          std::min(k <= window ? now : before, norm_of(iteration, options.norm));
+  }
+  return before < std::numeric_limits<double>::infinity() && now > progress * before;
+}
+
 bool has_stalled(const State& state) {
   constexpr int window = 10;
   constexpr double progress = 0.95;
@@ -62,7 +81,7 @@ Stage stage_after(const State& state, const CvtOptions& options) {
 }
 
 CvtOptions options_of_descent(const State& state, const CvtOptions& options, bool at_sites) {
-  constexpr int most_in_finish = 60, most_early = 200;
+  constexpr int most_in_finish = 60, most_early = 120;
   constexpr double early = 1e-3, fine = 1e-5;
   constexpr std::int64_t resolving = 2000; // generators, between which a density is nearly linear
   CvtOptions here = options;
@@ -83,6 +102,7 @@ CvtOptions options_of_descent(const State& state, const CvtOptions& options, boo
   }
   here.tolerance = options.norm == Norm::l2_scaled ? std::max(early, options.tolerance) : early;
   here.norm = Norm::l2_scaled;
+  here.well_centred = false; // its end by creeping is for the last descent
   here.final_rule = here.rule;
   here.max_iterations = std::min(options.max_iterations, most_early);
   return here;

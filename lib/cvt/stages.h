@@ -40,6 +40,10 @@ std::int64_t cells_of_level(const World& world, const State& state, const CvtOpt
 /// The last evaluation of the run that was accepted. \pre there is one.
 const CvtIteration& last_accepted(const State& state);
 
+/// Whether 60 evaluations of a descent before a finish have not halved the norm: generators glide
+/// on along defects, where widths change too steeply or are noisy, and the grid hardly gets better.
+bool creeps(const State& state, const CvtOptions& options);
+
 /// Whether ten evaluations of a finish have hardly improved the worst shape.
 bool has_stalled(const State& state);
 
@@ -75,8 +79,8 @@ struct Exchange {
 };
 
 /// Half of the dislocations that the density demands while rounds are left; where a mesh is mended,
-/// the odd sites, or without such sites a few dislocations; and the difference to the number of
-/// cells.
+/// the odd sites and the bad angles, or without any a few dislocations; and the difference to the
+/// number of cells.
 template <class AnyMesh>
 Exchange exchange_of(Stage stage, const State& state, const AnyMesh& mesh, const Density& density,
                      std::int64_t cells) {
@@ -84,7 +88,7 @@ Exchange exchange_of(Stage stage, const State& state, const AnyMesh& mesh, const
   constexpr double most = 0.02;                // of the generators
   const bool mend = stage == Stage::mend;
   const std::int64_t n = mesh.points.cols();
-  std::int64_t both = mend ? count_odd_sites(mesh) : 0;
+  std::int64_t both = mend ? count_odd_sites(mesh) + count_bad_angles(mesh) : 0;
   if (state.rounds_left > 0 || (mend && both == 0))
     both = static_cast<std::int64_t>(std::ceil(std::min(
         (mend ? mended : share) * dislocations(mesh, density), most * static_cast<double>(n))));
@@ -97,8 +101,8 @@ Level begin_round(const World& world, Stage stage, State& state, const CvtOption
                   const AnyMesh& mesh) {
   const Exchange exchange =
       exchange_of(stage, state, mesh, options.density, cells_of_level(world, state, options));
-  Level level =
-      world.set_exchanged(state, mesh, options.density, exchange.inserted, exchange.contracted);
+  Level level = world.set_exchanged(state, mesh, options.density, exchange.inserted,
+                                    exchange.contracted, stage == Stage::mend);
   state.rounds_left = std::max(state.rounds_left - 1, 0);
   state.mends += stage == Stage::mend ? 1 : 0;
   state.penalty = 0;

@@ -7,6 +7,7 @@
 #include "delaunay/sites.h"
 #include "density/planar_density.h"
 #include "domain/periodic_box.h"
+#include "generators/insertion.h"
 #include "mesh/canonical_order.h"
 #include "mesh/subdivide.h"
 
@@ -135,9 +136,9 @@ Level SphericalWorld::set_bisected(State& state, const Mesh& coarse) {
 }
 
 Level SphericalWorld::set_exchanged(State& state, const Mesh& mesh, const Density& density,
-                                    std::int64_t inserted, std::int64_t contracted) {
+                                    std::int64_t inserted, std::int64_t contracted, bool mend) {
   Sites sites =
-      make_sites(insert_and_contract(mesh, density, inserted, contracted), Duplicates::refuse, 0);
+      make_sites(exchanged(mesh, density, inserted, contracted, mend), Duplicates::refuse, 0);
   set_points(state, sites, sites.unit);
   sites.points = state.points;
   return {by_rank(std::move(sites)), std::nullopt};
@@ -190,10 +191,9 @@ Level PlanarWorld::set_bisected(State& state, const PlanarMesh& coarse) const {
 }
 
 Level PlanarWorld::set_exchanged(State& state, const PlanarMesh& mesh, const Density& density,
-                                 std::int64_t inserted, std::int64_t contracted) const {
-  set_places(state,
-             make_planar_sites(insert_and_contract(mesh, domain_, density, inserted, contracted),
-                               Duplicates::refuse, 0));
+                                 std::int64_t inserted, std::int64_t contracted, bool mend) const {
+  set_places(state, make_planar_sites(exchanged(mesh, domain_, density, inserted, contracted, mend),
+                                      Duplicates::refuse, 0));
   return {};
 }
 

@@ -63,8 +63,9 @@ public:
   static Level set_bisected(State& state, const Mesh& coarse);
 
   /// The same after insertion and contraction of edges.
+  /// \param mend at bad angles first.
   static Level set_exchanged(State& state, const Mesh& mesh, const Density& density,
-                             std::int64_t inserted, std::int64_t contracted);
+                             std::int64_t inserted, std::int64_t contracted, bool mend);
 };
 
 /// The same of a domain in the plane.
@@ -90,7 +91,7 @@ public:
   PlanarMesh mesh(const Points3& points, Connectivity&& canonical) const; ///< of a periodic box
   Level set_bisected(State& state, const PlanarMesh& coarse) const;
   Level set_exchanged(State& state, const PlanarMesh& mesh, const Density& density,
-                      std::int64_t inserted, std::int64_t contracted) const;
+                      std::int64_t inserted, std::int64_t contracted, bool mend) const;
 
 private:
   bool all_inside(const Points3& points) const;

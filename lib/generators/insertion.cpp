@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <numbers>
 #include <span>
@@ -151,6 +152,28 @@ template <class AnyMesh> std::vector<std::int8_t> oddities(const AnyMesh& mesh) 
   return odd;
 }
 
+/// 1 for an angle near a right one, -1 for one below 47 degrees, 0 for others.
+int misshape(const Vec3& u, const Vec3& v) {
+  constexpr double near_right = 0.18, narrow = 0.93; // cotangents
+  const double cosine = dot(u, v), sine = norm(cross(u, v));
+  return (cosine < near_right * sine) - (cosine > narrow * sine);
+}
+
+/// Calls visit(a, b, misshape) for the edges across from bad angles.
+template <class AnyMesh, class Space, class Visit>
+void for_each_bad_edge(const AnyMesh& mesh, const Points3& points, const Space& space,
+                       const Visit& visit) {
+  for (std::int64_t t = 0; t < mesh.triangles.cols(); ++t)
+    for (int i = 0; i < 3; ++i) {
+      const std::int32_t a = mesh.triangles((i + 1) % 3, t), b = mesh.triangles((i + 2) % 3, t);
+      const Vec3& at = column(points, mesh.triangles(i, t));
+      const int bad =
+          misshape(space.offset(at, column(points, a)), space.offset(at, column(points, b)));
+      if (bad != 0 && mesh.neighbours(i, t) >= 0)
+        visit(std::min(a, b), std::max(a, b), bad);
+    }
+}
+
 /// The edges, with their lengths relative to the spacing. Those at sites with many neighbours count
 /// as longer, so that an insertion splits these; those at sites with few as shorter.
 template <class AnyMesh, class Space>
@@ -170,6 +193,22 @@ std::vector<Edge> edges_of(const AnyMesh& mesh, const Points3& points, const Den
     edges.push_back({factor * length * (fine[a] + fine[b]), std::min(a, b), std::max(a, b)});
   });
   return edges;
+}
+
+/// Edges across from large angles count as longer, those across from small ones as shorter, than
+/// all that are not.
+template <class AnyMesh, class Space>
+void prefer_bad_edges(const AnyMesh& mesh, const Points3& points, const Space& space,
+                      std::vector<Edge>& edges) {
+  constexpr double preference = 2;
+  std::map<std::pair<std::int32_t, std::int32_t>, int> bad;
+  for_each_bad_edge(mesh, points, space, [&](std::int32_t a, std::int32_t b, int sign) {
+    bad[{a, b}] = sign;
+  });
+  if (!bad.empty())
+    for (Edge& edge : edges)
+      if (const auto at = bad.find({edge.a, edge.b}); at != bad.end())
+        edge.length *= at->second > 0 ? preference : 1 / preference;
 }
 
 /// The points that remain, those of contracted edges moved to the midpoints, then the inserted
@@ -196,9 +235,11 @@ Points3 exchanged(const Points3& points, const std::vector<Edge>& split,
 /// \param Space has offset(a, b), middle(a, b) and holds(middle).
 template <class AnyMesh, class Space>
 Points3 exchange(const AnyMesh& mesh, const Points3& points, const Density& density,
-                 const Space& space, std::int64_t inserted, std::int64_t contracted) {
+                 const Space& space, std::int64_t inserted, std::int64_t contracted, bool mend) {
   require_counts(points.cols(), inserted, contracted);
   std::vector<Edge> edges = edges_of(mesh, points, density, space);
+  if (mend)
+    prefer_bad_edges(mesh, points, space, edges);
   Choice choice(points.cols(), edges);
   const auto middle = [&](const Edge& edge) {
     return space.middle(column(points, edge.a), column(points, edge.b));
@@ -281,22 +322,45 @@ template <class AnyMesh> std::int64_t count_odd_sites(const AnyMesh& mesh) {
 template std::int64_t count_odd_sites(const Mesh& mesh);
 template std::int64_t count_odd_sites(const PlanarMesh& mesh);
 
+std::int64_t count_bad_angles(const Mesh& mesh) {
+  std::int64_t count = 0;
+  for_each_bad_edge(mesh, mesh.points, OnSphere(), [&](auto, auto, int) { ++count; });
+  return count;
+}
+
+std::int64_t count_bad_angles(const PlanarMesh& mesh) {
+  std::int64_t count = 0;
+  for_each_bad_edge(mesh, in_space(mesh), InPlane{{mesh.period.x(), mesh.period.y()}, nullptr},
+                    [&](auto, auto, int) { ++count; });
+  return count;
+}
+
+Points3 exchanged(const Mesh& mesh, const Density& density, std::int64_t inserted,
+                  std::int64_t contracted, bool mend) {
+  return exchange(mesh, unit(mesh.points), density, OnSphere(), inserted, contracted, mend);
+}
+
+Points2 exchanged(const PlanarMesh& mesh, const PlanarDomain& domain, const Density& density,
+                  std::int64_t inserted, std::int64_t contracted, bool mend) {
+  const std::unique_ptr<const Outline> outline =
+      domain.periodic() ? nullptr : std::make_unique<const Outline>(domain);
+  const InPlane space{{domain.period.x(), domain.period.y()}, outline.get()};
+  return exchange(mesh, in_space(mesh), density_detail::planar_density(density, domain), space,
+                  inserted, contracted, mend)
+      .topRows<2>();
+}
+
 } // namespace generators_detail
 
 Points3 insert_and_contract(const Mesh& mesh, const Density& density, std::int64_t inserted,
                             std::int64_t contracted) {
-  return exchange(mesh, unit(mesh.points), density, OnSphere(), inserted, contracted);
+  return generators_detail::exchanged(mesh, density, inserted, contracted, false);
 }
 
 Points2 insert_and_contract(const PlanarMesh& mesh, const PlanarDomain& domain,
                             const Density& density, std::int64_t inserted,
                             std::int64_t contracted) {
-  const std::unique_ptr<const Outline> outline =
-      domain.periodic() ? nullptr : std::make_unique<const Outline>(domain);
-  const InPlane space{{domain.period.x(), domain.period.y()}, outline.get()};
-  return exchange(mesh, in_space(mesh), density_detail::planar_density(density, domain), space,
-                  inserted, contracted)
-      .topRows<2>();
+  return generators_detail::exchanged(mesh, domain, density, inserted, contracted, false);
 }
 
 } // namespace calotte

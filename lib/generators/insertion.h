@@ -4,6 +4,7 @@
 #include "generators/room.h"
 
 #include <calotte/density.h>
+#include <calotte/domain.h>
 #include <calotte/types.h>
 
 #include <cstdint>
@@ -21,5 +22,16 @@ double dislocations(const PlanarMesh& mesh, const Density& density);
 /// The number of sites with 8 neighbours or more, or 4 or fewer, not on the hull. An insertion
 /// prefers edges at the former, a contraction at the latter.
 template <class AnyMesh> std::int64_t count_odd_sites(const AnyMesh& mesh);
+
+/// How many angles of triangles are near a right angle, or below 47 degrees.
+std::int64_t count_bad_angles(const Mesh& mesh);
+std::int64_t count_bad_angles(const PlanarMesh& mesh);
+
+/// As insert_and_contract().
+/// \param mend edges across from such angles come first.
+Points3 exchanged(const Mesh& mesh, const Density& density, std::int64_t inserted,
+                  std::int64_t contracted, bool mend);
+Points2 exchanged(const PlanarMesh& mesh, const PlanarDomain& domain, const Density& density,
+                  std::int64_t inserted, std::int64_t contracted, bool mend);
 
 } // namespace calotte::generators_detail
