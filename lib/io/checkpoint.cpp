@@ -12,9 +12,9 @@
 #include <algorithm>
 #include <type_traits>
 
-// The head, which names format, version and order of bytes; the configuration; the fields of
-// CvtState::Data as they stand, each array after its length as Int64; and the CRC-32 of all
-// that.
+// The head, which names format, version and order of bytes; the configuration; the command; the
+// fields of CvtState::Data as they stand, each array after its length as Int64; and the CRC-32 of
+// all that.
 
 namespace calotte {
 namespace {
@@ -74,11 +74,13 @@ struct Put {
   }
 };
 
-void put_checkpoint(const Sink& sink, const State& state, const std::string& configuration) {
+void put_checkpoint(const Sink& sink, const State& state, const std::string& configuration,
+                    const std::string& command) {
   Writer out(sink);
   const auto raw = [&](const auto& value) { out.raw(value); };
   out.text(head());
   out.raw(std::ssize(configuration)).text(configuration);
+  out.raw(std::ssize(command)).text(command);
   visit_arrays(state, Put{&out});
   visit_scalars(state, raw);
   out.raw(std::ssize(state.report.iterations));
@@ -146,8 +148,8 @@ State take_state(Bytes& bytes) {
   return state;
 }
 
-/// What stands between head and checksum. \throws Error parse.
-std::string_view body_of(const std::string& path, std::string_view content) {
+/// What stands after the head. \throws Error parse.
+std::string_view after_head(const std::string& path, std::string_view content) {
   const Bytes bytes(content, path);
   const std::string expected = head();
   const std::string_view start = content.substr(0, expected.size());
@@ -159,14 +161,20 @@ std::string_view body_of(const std::string& path, std::string_view content) {
                  "there or start anew");
     bytes.fail("not a checkpoint; give the file that a run wrote as its checkpoint");
   }
+  return content.substr(expected.size());
+}
+
+/// What stands between head and checksum. \throws Error parse.
+std::string_view body_of(const std::string& path, std::string_view content) {
+  const std::string_view body = after_head(path, content);
   boost::crc_32_type checksum;
   constexpr std::size_t size = sizeof checksum.checksum();
-  const std::size_t checked = content.size() < expected.size() + size ? 0 : content.size() - size;
+  const std::size_t checked = body.size() < size ? 0 : content.size() - size;
   checksum.process_bytes(content.data(), checked);
   if (checked == 0 ||
       load<decltype(checksum.checksum())>(content.data() + checked) != checksum.checksum())
-    bytes.fail("the checkpoint is cut short or damaged; use another or start anew");
-  return content.substr(expected.size(), checked - expected.size());
+    Bytes(content, path).fail("the checkpoint is cut short or damaged; use another or start anew");
+  return body.substr(0, body.size() - size);
 }
 
 /// The next line, taken off the text.
@@ -193,14 +201,14 @@ void require_same(const std::string& path, std::string_view theirs, std::string_
 } // namespace
 
 void write_checkpoint(const std::string& path, const CvtState& state,
-                      const std::string& configuration) {
+                      const std::string& configuration, const std::string& command) {
   OutputFile file(path);
   boost::crc_32_type checksum;
   const auto sink = [&](std::string_view bytes) {
     checksum.process_bytes(bytes.data(), bytes.size());
     file.append(bytes);
   };
-  put_checkpoint(sink, state.data(), configuration);
+  put_checkpoint(sink, state.data(), configuration, command);
   const auto sum = checksum.checksum();
   file.append({reinterpret_cast<const char*>(&sum), sizeof sum});
   file.commit();
@@ -212,7 +220,19 @@ CvtState read_checkpoint(const std::string& path, const std::string& configurati
   Bytes bytes(body_of(path, content), path);
   const std::int64_t words = take_count(bytes);
   require_same(path, bytes.take(words), configuration);
+  bytes.take(take_count(bytes)); // the command
   return CvtState(take_state(bytes));
+}
+
+std::string read_checkpoint_command(const std::string& path) {
+  constexpr std::size_t most = std::size_t{1} << 20;
+  std::ifstream in = open_input(path);
+  std::string start(most, '\0');
+  in.read(start.data(), static_cast<std::streamsize>(most));
+  start.resize(static_cast<std::size_t>(in.gcount()));
+  Bytes bytes(start.size() < most ? body_of(path, start) : after_head(path, start), path);
+  bytes.take(take_count(bytes)); // the configuration
+  return std::string(bytes.take(take_count(bytes)));
 }
 
 } // namespace calotte

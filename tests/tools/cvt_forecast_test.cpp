@@ -123,17 +123,39 @@ TEST_CASE("the norms are those of the report") {
   CHECK(norm_of(iteration, Norm::linf_scaled) == doctest::Approx(2 / h));
 }
 
+TEST_CASE("the time left is a range that holds the levels that follow") {
+  CvtOptions options;
+  options.norm = Norm::l2;
+  options.tolerance = std::pow(0.9, 300.5);
+  Standing state = decaying(101, 0.9);
+  const double rest = 2 * (301 - 100), level = 2 * 101 + rest;
+  auto left = remaining(state, options);
+  REQUIRE(left);
+  CHECK(left->least == doctest::Approx(0.7 * rest));
+  CHECK(left->most == doctest::Approx(1.4 * rest));
+  state.bisections_left = 2;
+  options.insertion_rounds = 1; // two descents on the last level, three and four before it
+  options.tolerance = std::max(options.tolerance, 1e-30);
+  left = remaining(state, options);
+  REQUIRE(left);
+  CHECK(left->least < left->most);
+  CHECK(left->most > 1.99 * 2 * 101 * (4 * 3.0 / 4 + 4 * 3.0 / 4 * 4 * 2.0 / 3));
+  CHECK(level > rest);
+  CHECK(!remaining(decaying(9, 0.9), options));
+}
+
 TEST_CASE("progress names the level, the norm and the prediction") {
   Standing state = decaying(101, 0.9);
   state.bisections_left = 2;
   CvtOptions options;
   options.norm = Norm::l2;
   options.tolerance = std::pow(0.9, 110);
-  CHECK(describe(state, options, "l2") ==
-        "12 cells, iteration 101, l2 2.66e-05 of 9e-06, about 20 s to the tolerance, then 2 finer "
-        "levels");
+  CHECK(describe(state, options, "l2")
+            .starts_with("12 cells, iteration 101, l2 2.66e-05 of 9e-06, energy x cells 0, then 2 "
+                         "finer levels, "));
   options.norm = Norm::none;
   state.bisections_left = 0;
   options.max_iterations = 4000;
-  CHECK(describe(state, options, "none") == "12 cells, iteration 101, 2.2 h to the last iteration");
+  CHECK(describe(state, options, "none") ==
+        "12 cells, iteration 101, energy x cells 0, 91 min to 3.0 h left");
 }

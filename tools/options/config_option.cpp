@@ -11,6 +11,7 @@
 #include <map>
 #include <set>
 #include <sstream>
+#include <utility>
 #include <vector>
 
 namespace calotte::tools {
@@ -113,8 +114,9 @@ std::vector<std::string> known_names(CLI::App& command) {
 /// Applies the settings of a file to a command's options.
 class Application {
 public:
-  Application(CLI::App& command, const std::string& path)
-      : command_(command), path_(path), folder_(std::filesystem::path(path).parent_path()) {
+  /// \param folder base of relative file names.
+  Application(CLI::App& command, const std::string& path, std::filesystem::path folder)
+      : command_(command), path_(path), folder_(std::move(folder)) {
     for (CLI::Option* option : command.get_options())
       if (!option->empty())
         given_.insert(option);
@@ -206,7 +208,7 @@ std::shared_ptr<std::string> add_config(CLI::App& command) {
           "--config",
           [&command, path](const std::string& file) {
             *path = file;
-            Application application(command, file);
+            Application application(command, file, std::filesystem::path(file).parent_path());
             for (const ConfigSetting& setting : read_config(file))
               application.apply(setting);
           },
@@ -215,6 +217,32 @@ std::shared_ptr<std::string> add_config(CLI::App& command) {
       ->type_name("FILE")
       ->configurable(false);
   return path;
+}
+
+std::string given_options(const CLI::App& command) {
+  std::string lines;
+  for (const CLI::Option* option : command.get_options())
+    if (!option->empty() && option->get_configurable() && !option->get_lnames().empty())
+      for (const std::string& value : option->results())
+        lines += option->get_lnames().front() + "\t" + (is_flag(*option) ? "true" : value) + "\n";
+  return lines;
+}
+
+void apply_options(CLI::App& command, const std::string& lines, const std::string& path) {
+  std::vector<ConfigSetting> settings;
+  std::istringstream in(lines);
+  for (std::string line; std::getline(in, line);) {
+    const std::size_t tab = line.find('\t');
+    const std::string key = line.substr(0, tab);
+    const CLI::Option* option = command.get_option_no_throw("--" + key);
+    const Kind kind = option != nullptr && is_flag(*option) ? Kind::truth : Kind::text;
+    if (settings.empty() || settings.back().key != key)
+      settings.push_back({key, std::ssize(settings) + 1, {}});
+    settings.back().values.push_back({kind, tab == std::string::npos ? "" : line.substr(tab + 1)});
+  }
+  Application application(command, path, {});
+  for (const ConfigSetting& setting : settings)
+    application.apply(setting);
 }
 
 } // namespace calotte::tools

@@ -24,4 +24,11 @@ namespace calotte::tools {
 ///         Error file, parse, and bad_option naming the file, the line and the nearest known name.
 std::shared_ptr<std::string> add_config(CLI::App& command);
 
+/// All options given to a command, by the command line or a file, one value a line.
+std::string given_options(const CLI::App& command);
+
+/// Applies such lines, unless the command line or a TOML file overrules them, as add_config() does.
+/// \param path the file that holds them, for messages.
+void apply_options(CLI::App& command, const std::string& lines, const std::string& path);
+
 } // namespace calotte::tools

@@ -5,6 +5,8 @@
 #include "options/format_options.h"
 #include "options/numbers.h"
 
+#include <calotte/io.h>
+
 #include <limits>
 #include <map>
 #include <string>
@@ -169,12 +171,18 @@ void add_files(CLI::App& command, CvtRequest& request) {
       .add_option("--checkpoint-minutes", request.checkpoint_minutes,
                   "Minutes between checkpoints, if they pass before --checkpoint-every; > 0")
       ->capture_default_str();
-  command
-      .add_option("--resume", request.resume,
-                  "Continue from this checkpoint of the same command; threads, regions and files "
-                  "may differ")
-      ->type_name("FILE");
   request.config = add_config(command);
+  command
+      .add_option_function<std::string>(
+          "--resume",
+          [&command, &request](const std::string& file) {
+            request.resume = file;
+            apply_options(command, read_checkpoint_command(file), file);
+          },
+          "Continue from this checkpoint, which holds the options of its command. Threads, "
+          "regions, files and the rule that stops the run may be given anew")
+      ->type_name("FILE")
+      ->configurable(false);
 }
 
 } // namespace

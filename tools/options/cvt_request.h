@@ -42,6 +42,7 @@ struct CvtRequest {
   std::shared_ptr<FormatWords> format;
   std::string mesh, report;
   std::string checkpoint, resume;
+  std::string options; ///< all that are given, for a checkpoint
   int checkpoint_every = 100;
   double checkpoint_minutes = 10;
   std::shared_ptr<std::string> config;

@@ -8,6 +8,18 @@
 #include <sstream>
 
 namespace calotte::tools {
+namespace {
+
+std::string stopping_rule(const CvtRequest& request) {
+  if (request.iterations)
+    return "iterations " + std::to_string(*request.iterations) + "\n";
+  return "norm " + request.norm + "\nstop " +
+         (well_centred(request) ? "well-centred" : "tolerance") + "\ntolerance " +
+         shortest(tolerance_of(request)) + "\nmax-iterations " +
+         std::to_string(request.max_iterations) + "\n";
+}
+
+} // namespace
 
 std::string configuration_of(const CvtRequest& request, const CvtOptions& options,
                              const CvtStart& start) {
@@ -19,14 +31,6 @@ std::string configuration_of(const CvtRequest& request, const CvtOptions& option
   add("method", request.method);
   if (options.method == Method::lloyd)
     add("relaxation", shortest(request.relaxation));
-  if (request.iterations) {
-    add("iterations", std::to_string(*request.iterations));
-  } else {
-    add("norm", request.norm);
-    add("stop", well_centred(request) ? "well-centred" : "tolerance");
-    add("tolerance", shortest(tolerance_of(request)));
-    add("max-iterations", std::to_string(request.max_iterations));
-  }
   if (!options.density.uniform()) {
     add("rule", std::to_string(request.rule));
     add("final-rule", std::to_string(request.final_rule));
@@ -37,13 +41,16 @@ std::string configuration_of(const CvtRequest& request, const CvtOptions& option
   return text;
 }
 
-std::string history_of(const std::string& configuration) {
-  std::istringstream lines(configuration);
+std::string history_of(const CvtRequest& request, const std::string& configuration,
+                       const CvtReport& report) {
+  std::istringstream lines(configuration + stopping_rule(request));
   std::string history, fact;
   std::getline(lines, history); // "calotte VERSION"
   history += " cvt";
   for (const char* separator = ": "; std::getline(lines, fact); separator = "; ")
     history += separator + fact;
+  if (!report.converged)
+    history += "; not converged, " + request.norm + " " + formatted("%.3g", report.residual);
   return history;
 }
 

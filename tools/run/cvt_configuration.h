@@ -10,12 +10,14 @@
 
 namespace calotte::tools {
 
-/// All input that determines the bits of the result, one line each; see write_checkpoint().
-/// Threads, regions and files have no effect on them.
+/// All input that determines the course of a run, one line each; see write_checkpoint(). Threads,
+/// regions and files have no effect on it, and a resumed run may stop by another rule.
 std::string configuration_of(const CvtRequest& request, const CvtOptions& options,
                              const CvtStart& start);
 
-/// The same on one line, as provenance in output files: equal runs have equal lines.
-std::string history_of(const std::string& configuration);
+/// The same and the stopping rule on one line, as provenance in output files: equal runs have equal
+/// lines. A run that did not converge says so.
+std::string history_of(const CvtRequest& request, const std::string& configuration,
+                       const CvtReport& report);
 
 } // namespace calotte::tools

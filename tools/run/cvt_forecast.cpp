@@ -84,36 +84,84 @@ std::optional<Forecast> forecast(const CvtProgress& progress, const CvtOptions& 
   return Forecast{seconds * std::min(to_tolerance, to_limit), to_tolerance <= to_limit};
 }
 
+namespace {
+
+/// Seconds spent on the current level, all of its descents.
+double spent_on_level(const CvtProgress& progress) {
+  const std::vector<CvtIteration>& all = progress.report.iterations;
+  const auto cells = static_cast<double>(all.back().cells);
+  double seconds = 0;
+  for (auto i = all.rbegin(); i != all.rend(); ++i) {
+    if (std::abs(static_cast<double>(i->cells) / cells - 1) > 0.5)
+      break;
+    seconds += i->seconds + i->seconds_solver;
+  }
+  return seconds;
+}
+
+/// The options of the descents that other levels follow in a run with insertion, see
+/// CvtOptions::insertion_rounds.
+CvtOptions early(CvtOptions options) {
+  options.tolerance = std::max(options.tolerance, 1e-3);
+  options.max_iterations = std::min(options.max_iterations, 200);
+  return options;
+}
+
+/// A level of four times as many cells takes four times as long, and has fewer rounds of insertion.
+double next_level(int bisections_left, const CvtOptions& options) {
+  constexpr int most_rounds = 4; // times those of the last level
+  const auto descents = [&](int left) {
+    return 1.0 + options.insertion_rounds * std::min(left + 1, most_rounds);
+  };
+  return 4 * descents(bisections_left - 1) / descents(bisections_left);
+}
+
+} // namespace
+
+std::optional<Remaining> remaining(const CvtProgress& progress, const CvtOptions& options) {
+  const bool inserts = options.insertion_rounds > 0;
+  const bool last = progress.bisections_left == 0 && progress.rounds_left == 0;
+  const auto descent = forecast(progress, inserts && !last ? early(options) : options);
+  if (!descent)
+    return std::nullopt;
+  if (last && !inserts)
+    return Remaining{0.7 * descent->seconds, 1.4 * descent->seconds};
+  double level = spent_on_level(progress) + descent->seconds, later = descent->seconds;
+  later += progress.rounds_left * descent->seconds;
+  level += progress.rounds_left * descent->seconds;
+  for (int left = progress.bisections_left; left > 0; --left)
+    later += level *= next_level(left, options);
+  if (options.well_centred)
+    later += 0.2 * level;
+  return Remaining{0.5 * later, 2 * later};
+}
+
 std::string describe(const CvtProgress& progress, const CvtOptions& options,
                      const std::string& norm) {
   const CvtIteration& last = progress.report.iterations.back();
   std::string text = std::to_string(last.cells) + " cells, iteration " +
                      std::to_string(progress.iterations_of_level);
   std::array<char, 64> number{};
-  if (options.norm != Norm::none && last.misshapen == 0) {
-    std::snprintf(number.data(), number.size(), " %.2e of %.0e", progress.report.residual,
-                  options.tolerance);
-    text += ", " + norm + number.data();
-  }
-  const bool inserts =
-                 options.insertion_rounds > 0, // whose descents end at tolerances of their own
-      finishes = last.misshapen > 0;
+  const bool finishes = last.misshapen > 0;
   if (finishes) {
     std::snprintf(number.data(), number.size(), ", shapes %.2g beyond their limits",
                   last.misshapen);
     text += number.data();
+  } else if (options.norm != Norm::none) {
+    std::snprintf(number.data(), number.size(), " %.2e of %.0e", progress.report.residual,
+                  options.tolerance);
+    text += ", " + norm + number.data();
   }
-  if (inserts && progress.rounds_left > 0)
-    text += ", then " + std::to_string(progress.rounds_left) +
-            (progress.rounds_left == 1 ? " round of insertion" : " rounds of insertion");
-  if (const auto end = forecast(progress, options);
-      end && !finishes &&
-      (!inserts || (progress.rounds_left == 0 && progress.bisections_left == 0)))
-    text += (end->converges ? ", about " : ", ") + duration(end->seconds) + " to the " +
-            (end->converges ? "tolerance" : "last iteration");
+  std::snprintf(number.data(), number.size(), ", energy x cells %.6g",
+                last.energy * static_cast<double>(last.cells));
+  text += number.data();
   if (progress.bisections_left > 0)
     text += ", then " + std::to_string(progress.bisections_left) +
             (progress.bisections_left == 1 ? " finer level" : " finer levels");
+  if (const auto left = remaining(progress, options); left && !finishes) {
+    const std::string least = duration(left->least), most = duration(left->most);
+    text += ", " + (least == most ? least : least + " to " + most) + " left";
+  }
   return text;
 }
 

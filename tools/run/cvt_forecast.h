@@ -21,7 +21,17 @@ struct Forecast {
 /// prediction before 10 iterations.
 std::optional<Forecast> forecast(const CvtProgress& progress, const CvtOptions& options);
 
-/// The progress line of a run.
+/// Seconds that the rest of a run takes.
+struct Remaining {
+  double least = 0, most = 0;
+};
+
+/// From the forecast of the descent and, if levels follow, the times of the current one. A wide
+/// range as long as levels or rounds of insertion follow.
+std::optional<Remaining> remaining(const CvtProgress& progress, const CvtOptions& options);
+
+/// The line of a run's progress and of its log: the level, the iteration, the norm, the energy, and
+/// the time left.
 std::string describe(const CvtProgress& progress, const CvtOptions& options,
                      const std::string& norm);
 

@@ -2,17 +2,37 @@
 #include "run/interruption.h"
 
 #include <atomic>
+#include <cerrno>
+#include <cstdint>
+#include <ctime>
 
 namespace calotte::tools {
 namespace {
 
 std::atomic<int> noted = 0;
-static_assert(std::atomic<int>::is_always_lock_free, "a handler of signals may use nothing else");
+std::atomic<std::int64_t> noted_at = 0; ///< nanoseconds
+static_assert(std::atomic<int>::is_always_lock_free &&
+                  std::atomic<std::int64_t>::is_always_lock_free,
+              "a handler of signals may use nothing else");
 
+std::int64_t nanoseconds() {
+  timespec now{};
+  ::clock_gettime(CLOCK_MONOTONIC, &now);
+  return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
+}
+
+/// Terminals, shells, timeout and schedulers may send several signals at once.
 extern "C" void calotte_note_signal(int signal) {
-  noted = signal;
-  std::signal(SIGINT, SIG_DFL);
-  std::signal(SIGTERM, SIG_DFL);
+  constexpr std::int64_t together = 1'000'000'000;
+  const int error = errno;
+  if (noted == 0) {
+    noted_at = nanoseconds();
+    noted = signal;
+  } else if (nanoseconds() - noted_at > together) {
+    std::signal(signal, SIG_DFL);
+    std::raise(signal); // delivered when this handler returns
+  }
+  errno = error;
 }
 
 } // namespace

@@ -5,8 +5,9 @@
 
 namespace calotte::tools {
 
-/// During its lifetime, the first SIGINT or SIGTERM is recorded instead of ending the process; a
-/// second one ends it at once. One object at a time.
+/// During its lifetime, the first SIGINT or SIGTERM is recorded instead of ending the process.
+/// Others within a second count as the same; a later one ends the process at once. One object at a
+/// time.
 class Interruption {
 public:
   Interruption();

@@ -2,6 +2,7 @@
 #include "run/progress.h"
 
 #include <cstdio>
+#include <cstdlib>
 
 #include <unistd.h>
 
@@ -9,6 +10,12 @@ namespace calotte::tools {
 namespace {
 
 constexpr const char* clear_to_end = "\033[K";
+
+/// Short runs in scripts have no log. The variable is for tests.
+std::chrono::duration<double> silence() {
+  const char* const seconds = std::getenv("CALOTTE_LOG_AFTER");
+  return std::chrono::duration<double>(seconds == nullptr ? 10 : std::atof(seconds));
+}
 
 } // namespace
 
@@ -27,9 +34,22 @@ Progress::~Progress() {
     thread_.join();
 }
 
-void Progress::stage(const std::string& name) {
+void Progress::stage(const std::string& name, const std::string& level) {
   const std::lock_guard lock(mutex_);
   stage_ = name;
+  if (!thread_.joinable() && !level.empty())
+    log(level);
+}
+
+void Progress::log(const std::string& level) {
+  using namespace std::chrono_literals;
+  const auto now = std::chrono::steady_clock::now();
+  if (now - start_ < silence() || (level == logged_level_ && now - logged_ < 1min))
+    return;
+  logged_level_ = level;
+  logged_ = now;
+  const std::chrono::duration<double> elapsed = now - start_;
+  std::fprintf(stderr, "calotte: %s (%.1f s)\n", stage_.c_str(), elapsed.count());
 }
 
 void Progress::say(const std::string& line) {

@@ -9,8 +9,9 @@
 
 namespace calotte::tools {
 
-/// A line on standard error that names the stage and the seconds so far: only on a terminal, only
-/// after a second; removed at the end.
+/// A line on standard error that names the stage and the seconds so far. On a terminal it is
+/// renewed, after the first second, and removed at the end. Elsewhere it is a log: a line for each
+/// level of a run, and each minute, after the first ten seconds.
 class Progress {
 public:
   Progress();
@@ -18,18 +19,22 @@ public:
   Progress& operator=(const Progress&) = delete;
   ~Progress();
 
-  void stage(const std::string& name);
+  /// \param level of a run, in words; empty for other stages.
+  void stage(const std::string& name, const std::string& level = {});
 
   /// Prints a permanent line on standard error, on a terminal or not.
   void say(const std::string& line);
 
 private:
   void show();
+  void log(const std::string& level);
 
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::mutex mutex_;
   std::condition_variable ended_;
   std::string stage_;
+  std::string logged_level_; ///< of the last line of the log
+  std::chrono::steady_clock::time_point logged_ = start_;
   bool end_ = false;
   std::thread thread_; ///< last, so that it starts after all other members exist
 };
