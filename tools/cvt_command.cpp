@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands.h"
+#include "options/config_option.h"
 #include "options/cvt_options.h"
 #include "options/cvt_request.h"
 #include "options/files.h"
 #include "options/numbers.h"
 #include "options/point_file.h"
 #include "run/cvt_configuration.h"
+#include "run/cvt_costs.h"
 #include "run/cvt_forecast.h"
 #include "run/cvt_report.h"
 #include "run/cvt_start.h"
@@ -20,6 +22,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <iostream>
 #include <numbers>
 #include <optional>
@@ -47,6 +50,13 @@ void require_plane(const CvtRequest& request, const WriteOptions& options) {
                 "--cell-width applies to the sphere only; give --density or --density-raster");
 }
 
+/// The name of the file that is written beside a full MPAS file; empty for other formats.
+std::string graph_of(const std::string& mesh, Format format) {
+  if (format_of(mesh, format) != Format::mpas)
+    return "";
+  return std::filesystem::path(mesh).replace_extension(".graph.info");
+}
+
 /// Checks all options that can fail, before any work.
 void require_request(const CvtRequest& request) {
   require_positive("--tolerance", tolerance_of(request), "one such as 1e-6");
@@ -62,14 +72,21 @@ void require_request(const CvtRequest& request) {
   const std::vector<std::string> inputs{
       request.points, centres_file(*request.partition),  widths.file,
       widths.raster,  request.domain->file.value_or(""), *request.config};
-  require_outputs(
-      {{"mesh", request.mesh}, {"report", request.report}, {"checkpoint", request.checkpoint}},
-      inputs);
+  require_outputs({{"mesh", request.mesh},
+                   {"graph of the mesh", graph_of(request.mesh, options.format)},
+                   {"report", request.report},
+                   {"checkpoint", request.checkpoint}},
+                  inputs);
   // A run may overwrite the checkpoint from which it resumed.
   require_outputs({{"mesh", request.mesh}, {"report", request.report}}, {request.resume});
 }
 
 // ---- The run
+
+/// Where the state of an interrupted run goes.
+std::string checkpoint_of(const CvtRequest& request) {
+  return request.checkpoint.empty() ? request.mesh + ".checkpoint" : request.checkpoint;
+}
 
 /// Writes the state of a run to a file at intervals.
 class Keeper {
@@ -89,7 +106,7 @@ public:
   void keep(const CvtState& state) {
     iterations_ = state.report().iterations.size();
     time_ = Clock::now();
-    write_checkpoint(request_.checkpoint, state, configuration_);
+    write_checkpoint(checkpoint_of(request_), state, configuration_, request_.options);
   }
 
 private:
@@ -107,28 +124,32 @@ struct Outcome {
   std::int64_t cells = 0;
   double area = 0;        ///< of the sphere or the domain
   int signal = 0;         ///< the signal that ended it early
+  bool kept = false;      ///< its state then
   std::size_t before = 0; ///< iterations of the earlier parts of a resumed run
   int threads = 0;
 };
 
+/// Returns false and prints a line if a full disk, for example, prevents it.
+bool keep(const CvtState& state, Keeper& keeper, Progress& progress, const std::string& then) {
+  try {
+    keeper.keep(state);
+  } catch (const Error& error) {
+    progress.say("calotte: " + std::string(error.what()) + then);
+    return false;
+  }
+  return true;
+}
+
 /// Shows progress, writes checkpoints, and ends the run after a signal.
 bool after_iteration(const CvtProgress& now, const CvtRequest& request, const CvtOptions& options,
-                     Keeper& keeper, Progress& progress, int& signal) {
-  progress.stage(describe(now, options, norm_word(request)));
-  signal = Interruption::signal();
-  if (signal != 0) {
-    if (!request.checkpoint.empty())
-      keeper.keep(now.state);
-    return true;
-  }
-  if (!keeper.due(now.report))
-    return false;
-  try {
-    keeper.keep(now.state);
-  } catch (const Error& error) { // a full disk may have space again by then
-    progress.say("calotte: " + std::string(error.what()) + " (the run continues)");
-  }
-  return false;
+                     Keeper& keeper, Progress& progress, Outcome& outcome) {
+  progress.stage(describe(now, options, norm_word(request)), std::to_string(now.bisections_left));
+  outcome.signal = Interruption::signal();
+  if (outcome.signal != 0)
+    outcome.kept = keep(now.state, keeper, progress, "");
+  else if (keeper.due(now.report)) // a full disk may have space again by the next time
+    keep(now.state, keeper, progress, " (the run continues)");
+  return outcome.signal != 0;
 }
 
 /// The input of a run.
@@ -149,6 +170,11 @@ Plan prepare(CvtRequest& request, Progress& progress) {
   Resolution resolution = resolution_of(*request.density, planar(request));
   plan.options.density = std::move(resolution.density);
   const std::vector<std::string> notes = settle_cells(request, resolution.widths);
+  if (request.cells)
+    require_space(
+        request.mesh,
+        file_bytes(format_of(request.mesh, options_of(*request.format, request.mesh).format),
+                   *request.cells, plan.options.density.uniform()));
   progress.stage("making the start");
   plan.start = open_start(request);
   if (start_kind(request) == "multilevel") {
@@ -196,7 +222,7 @@ Outcome tessellate(const CvtRequest& request, Plan& plan, Progress& progress) {
   outcome.before = plan.state ? plan.state->report().iterations.size() : 0;
   Keeper keeper(request, plan.configuration, outcome.before);
   const CvtCallback callback = [&](const CvtProgress& now) {
-    return after_iteration(now, request, plan.options, keeper, progress, outcome.signal);
+    return after_iteration(now, request, plan.options, keeper, progress, outcome);
   };
   progress.stage("triangulating the start");
   try {
@@ -215,13 +241,16 @@ Outcome tessellate(const CvtRequest& request, Plan& plan, Progress& progress) {
 /// Prints where a signal ended the run and how to resume it.
 [[noreturn]] void finish_interrupted(const CvtRequest& request, const Outcome& outcome) {
   const std::vector<CvtIteration>& iterations = outcome.report.iterations;
-  std::cerr
-      << std::string("calotte: stopped by ") + (outcome.signal == SIGINT ? "SIGINT" : "SIGTERM") +
-             " after iteration " + std::to_string(iterations.size()) + ", at " +
-             std::to_string(iterations.back().cells) + " cells; " +
-             (request.checkpoint.empty()
-                  ? "the state is not saved; run with --checkpoint FILE to be able to resume\n"
-                  : "to continue, repeat the command with --resume " + request.checkpoint + "\n");
+  const std::string residual = residual_words(request, outcome.report);
+  std::cerr << std::string("calotte: stopped by ") +
+                   (outcome.signal == SIGINT ? "SIGINT" : "SIGTERM") + " after iteration " +
+                   std::to_string(iterations.size()) + ", at " +
+                   std::to_string(iterations.back().cells) + " cells" +
+                   (residual.empty() ? "" : ", " + residual) + "; the mesh is written as it is; " +
+                   (outcome.kept
+                        ? "to continue: calotte cvt --resume " + checkpoint_of(request) + "\n"
+                        : "to continue from it: calotte cvt " + request.mesh +
+                              ", with the options of the run\n");
   finish(outcome.signal == SIGINT ? interrupted : terminated);
 }
 
@@ -267,7 +296,7 @@ void write_result(const CvtRequest& request, const Plan& plan, const Outcome& ou
     options.density = plan.options.density;
   else if (!plan.options.density.uniform())
     options.site_density = evaluate(plan.options.density, *plan.domain, outcome.plane.points);
-  options.history = history_of(plan.configuration);
+  options.history = history_of(request, plan.configuration, outcome.report);
   if (plan.domain)
     write_plane(request.mesh, outcome.plane, *plan.domain, options);
   else
@@ -277,15 +306,13 @@ void write_result(const CvtRequest& request, const Plan& plan, const Outcome& ou
                to_json(request, outcome.report, outcome.cells, outcome.area, outcome.threads));
 }
 
-/// Between the first iteration and the end of writing, a signal ends the run with its output
-/// complete.
+/// From here on a signal ends the run after the current iteration, with its output complete.
 Outcome tessellate_and_write(CvtRequest& request) {
   Progress progress;
   Plan plan = prepare(request, progress);
   const Interruption interruption;
   Outcome outcome = tessellate(request, plan, progress);
-  if (outcome.signal == 0)
-    write_result(request, plan, outcome, progress);
+  write_result(request, plan, outcome, progress);
   return outcome;
 }
 
@@ -297,6 +324,11 @@ void run(CvtRequest request) {
   std::cout << summary(request, outcome.report, outcome.cells, planar(request) ? outcome.area : 1,
                        static_cast<std::int64_t>(outcome.before)) +
                    "\n";
+  if (request.cells && outcome.cells != *request.cells)
+    std::cerr << "calotte: " + std::to_string(outcome.cells) + " cells instead of " +
+                     std::to_string(*request.cells) +
+                     ": bisections of a domain with a boundary leave out midpoints outside it; "
+                     "--start multilevel gives exactly as many\n";
   if (!outcome.report.converged)
     finish_not_converged(request, outcome.report);
   if (well_centred(request) && !outcome.report.well_centred)
@@ -311,7 +343,10 @@ void add_cvt(CLI::App& app) {
              "density. The mesh has the same bits for any number of threads and regions. A resumed "
              "run gives the same bits as an uninterrupted one.");
   const std::shared_ptr<CvtRequest> request = add_cvt_options(*command);
-  command->callback([request] { run(*request); });
+  command->callback([request, command] {
+    request->options = given_options(*command);
+    run(*request);
+  });
 }
 
 } // namespace calotte::tools

@@ -101,6 +101,17 @@ std::string width_configuration(const WidthWords& words) {
   return text;
 }
 
+/// A number with two digits, or as many as tell it from another one.
+std::string distinct_from(double other, double value) {
+  std::string text;
+  for (int digits = 2; digits <= 17; ++digits) {
+    text = formatted(("%." + std::to_string(digits) + "g").c_str(), value);
+    if (std::stod(text) != other)
+      break;
+  }
+  return text;
+}
+
 std::string place_of(const Gradient& gradient) {
   return formatted("%.1f", std::abs(gradient.longitude)) +
          (gradient.longitude < 0 ? " W " : " E ") + formatted("%.1f", std::abs(gradient.latitude)) +
@@ -120,12 +131,13 @@ std::vector<std::string> notes_on(const CellWidth& widths, const WidthWords& wor
     notes.front() += "; with " + std::to_string(*cells) + " cells, widths are " +
                      formatted("%.3g", scale) + " times as large";
   const Gradient gradient = largest_gradient(widths, words.radius);
-  const std::string slope = formatted("%.2g", gradient.slope);
+  const std::string limit = shortest(steepest_width),
+                    slope = distinct_from(steepest_width, gradient.slope);
   notes.front() += "; largest gradient " + slope + " km per km";
   if (gradient.slope > steepest_width)
     notes.push_back("warning: the cell width changes by " + slope + " km per km at " +
-                    place_of(gradient) +
-                    ", above 0.03, the limit for most models; make the transition wider");
+                    place_of(gradient) + ", above " + limit + ", the limit for most models; " +
+                    (words.transition ? "increase --transition" : "make the widths smoother"));
   return notes;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "options/files.h"
 
+#include "options/numbers.h"
+
 #include <calotte/error.h>
 
 #include <boost/crc.hpp>
@@ -53,6 +55,18 @@ void require_outputs(const std::vector<Output>& outputs, const std::vector<std::
                                                output->what + "; give the " + output->what +
                                                " another name");
   }
+}
+
+void require_space(const std::string& path, double bytes) {
+  std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  std::error_code unknown;
+  const auto space = std::filesystem::space(folder.empty() ? "." : folder, unknown);
+  const auto gigabytes = [](double size) { return formatted("%.3g", size / 1e9) + " GB"; };
+  if (!unknown && static_cast<double>(space.available) < bytes)
+    throw Error(ErrorCode::file, "cannot write " + path + ": it will have about " +
+                                     gigabytes(bytes) + ", but the disk has " +
+                                     gigabytes(static_cast<double>(space.available)) +
+                                     " left; make room or write elsewhere");
 }
 
 std::string checksum_of(const std::string& path) {

@@ -26,6 +26,10 @@ struct Output {
 /// \throws Error file, bad_option.
 void require_outputs(const std::vector<Output>& outputs, const std::vector<std::string>& inputs);
 
+/// Throws if the disk has no space for a file of so many bytes.
+/// \throws Error file.
+void require_space(const std::string& path, double bytes);
+
 /// A fingerprint of a file's bytes for configurations: a checksum and their number.
 /// \throws Error file.
 std::string checksum_of(const std::string& path);

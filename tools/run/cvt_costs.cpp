@@ -74,9 +74,16 @@ CvtCosts cvt_costs(std::int64_t cells, const Density& density, int threads) {
   costs.seconds = (uniform && is_icosahedral(cells) ? evaluations_icosahedral : evaluations) * n *
                   of_cell / (1 + efficiency * (threads - 1));
   costs.memory = memory_of_program + memory_of_cell * n;
-  costs.mpas_file = mpas_bytes(n, uniform ? 6 : most_neighbours);
-  costs.vtp_file = vtp_bytes(n);
+  costs.mpas_file = file_bytes(Format::mpas, cells, uniform);
+  costs.vtp_file = file_bytes(Format::vtp, cells, uniform);
   return costs;
+}
+
+double file_bytes(Format format, std::int64_t cells, bool uniform) {
+  const auto n = static_cast<double>(cells);
+  if (format == Format::mpas)
+    return mpas_bytes(n, uniform ? 6 : most_neighbours);
+  return format == Format::vtp ? vtp_bytes(n) : 0;
 }
 
 } // namespace calotte::tools

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <calotte/density.h>
+#include <calotte/write.h>
 
 #include <cstdint>
 
@@ -25,5 +26,8 @@ struct CvtCosts {
 /// \param threads >= 1.
 /// \throws Error as evaluate().
 CvtCosts cvt_costs(std::int64_t cells, const Density& density, int threads);
+
+/// The size alone of a file in a format; 0 where it is not known.
+double file_bytes(Format format, std::int64_t cells, bool uniform);
 
 } // namespace calotte::tools

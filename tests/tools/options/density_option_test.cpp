@@ -225,7 +225,7 @@ TEST_CASE("the widths' notes tell their range, number and gradient, and warn of 
   notes = notes_on(widths, words.widths, {});
   REQUIRE(notes.size() == 2);
   CHECK(notes[1] == "warning: the cell width changes by 0.071 km per km at 90.0 E 0.0 N, above "
-                    "0.03, the limit for most models; make the transition wider");
+                    "0.03, the limit for most models; make the widths smoother");
   widths.widths.setConstant(100000);
   CHECK_THROWS_AS(cells_for(widths, words.widths, true), Error);
   widths.widths.setConstant(0.1);
