@@ -154,7 +154,13 @@ def is_empty(text):
     return text.count("\n") <= 2
 
 
-def compose(results, network, figures):
+WIDTHS = """\
+`bench/widths --jigsaw PATH -o bench-report/raw/widths.md` makes this table; PATH is the user's own
+build of JIGSAW, with `optm_qlim=0.9375`.
+"""
+
+
+def compose(results, network, figures, widths=""):
     facts, lines = machine_facts(results), requirements(results, network)
     head = HEAD.format(
         summary=summary(facts, lines),
@@ -171,6 +177,8 @@ def compose(results, network, figures):
         text += [f"## {title}", note_of(title, network), body]
         if figure in figures:
             text.append(f"![{title}](plots/{figure}.png)\n")
+    if widths:
+        text += ["## Grids from cell widths", WIDTHS, widths]
     text += ["## Commands", COMMANDS, commands_table(results)]
     return "\n\n".join(part.strip() for part in text if part) + "\n"
 
@@ -178,4 +186,6 @@ def compose(results, network, figures):
 def write(results, network, folder):
     """RESULTS.md and plots/ in the folder."""
     figures = plots.draw_all(results, network, folder / "plots")
-    (folder / "RESULTS.md").write_text(compose(results, network, figures))
+    widths = folder / "raw" / "widths.md"
+    text = widths.read_text() if widths.exists() else ""
+    (folder / "RESULTS.md").write_text(compose(results, network, figures, text))
