@@ -32,13 +32,4 @@ struct BorrowedName {
 /// parts.
 const std::vector<BorrowedName>& borrowed_names();
 
-/// Converts underscores to hyphens, as in the names of the command line.
-std::string hyphenated(std::string name);
-
-/// The number of letters to change, add or remove to make one of the other (Levenshtein).
-std::size_t edit_distance(const std::string& a, const std::string& b);
-
-/// The nearest of the names; "" if all are too different.
-std::string nearest_name(const std::string& name, const std::vector<std::string>& names);
-
 } // namespace calotte::tools

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "options/config_option.h"
 
+#include "help/nearest_name.h"
 #include "options/config_file.h"
 #include "options/config_names.h"
 
@@ -133,8 +134,8 @@ public:
     } else {
       const std::string nearest = nearest_name(key, known_names(command_));
       refuse(setting, "unknown option \"" + setting.key + "\"; " +
-                          (nearest.empty() ? "see" : "did you mean " + nearest + "? See") +
-                          " calotte " + command_.get_name() + " --help");
+                          remedy_for(key, known_names(command_), "",
+                                     "calotte " + command_.get_name() + " --help"));
     }
   }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "options/config_option.h"
 
-#include "options/config_names.h"
+#include "help/nearest_name.h"
 #include "support/files.h"
 
 #include <calotte/error.h>
