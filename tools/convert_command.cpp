@@ -50,7 +50,11 @@ bool is_in_kilometres(double radius) { return radius > 6300 && radius < 6400; }
 
 WriteOptions write_options(const Request& request, const Density& density, const MeshFile& file) {
   WriteOptions options = options_of(*request.format, request.output);
-  if (!request.format->sphere_radius)
+  const WidthWords& widths = request.density->widths;
+  if (!request.format->sphere_radius && file.sphere_radius == 1 && !file.plane && widths.in_km() &&
+      is_mpas(options.format))
+    options.sphere_radius = model_radius(widths);
+  else if (!request.format->sphere_radius)
     options.sphere_radius =
         is_in_kilometres(file.sphere_radius) ? kilometre * file.sphere_radius : file.sphere_radius;
   options.density = density;
@@ -89,7 +93,7 @@ std::string joined(const std::vector<std::array<std::string, 2>>& names) {
 std::string remarks(const Request& request, const MeshFile& file, const WriteOptions& options,
                     const WrittenFields& written) {
   std::string lines;
-  if (options.sphere_radius != file.sphere_radius && !request.format->sphere_radius &&
+  if (is_in_kilometres(file.sphere_radius) && !request.format->sphere_radius &&
       request.output.ends_with(".nc"))
     lines += request.output + ": the radius " + shortest(file.sphere_radius) +
              " is taken as kilometres and written as " + shortest(options.sphere_radius) +

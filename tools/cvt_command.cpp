@@ -45,7 +45,7 @@ void require_plane(const CvtRequest& request, const WriteOptions& options) {
                         !request.domain->periodic.has_value());
   if (request.format->sphere_radius)
     throw Error(ErrorCode::bad_option, "--sphere-radius does not apply to the plane; leave it out");
-  if (!request.density->widths.file.empty())
+  if (request.density->widths.in_km())
     throw Error(ErrorCode::bad_option,
                 "--cell-width applies to the sphere only; give --density or --density-raster");
 }
@@ -64,8 +64,7 @@ void require_request(const CvtRequest& request) {
   if (request.relaxation != 1 && request.method != "lloyd")
     throw Error(ErrorCode::bad_option, "--relaxation applies to --method lloyd only; leave it out");
   require_start(request);
-  const WriteOptions options = // throws for a file that cannot be written
-      options_of(*request.format, request.mesh);
+  const WriteOptions options = write_options(request); // throws for a file that cannot be written
   if (planar(request))
     require_plane(request, options);
   const WidthWords& widths = request.density->widths;
@@ -291,7 +290,7 @@ void write_plane(const std::string& path, const PlanarMesh& mesh, const PlanarDo
 void write_result(const CvtRequest& request, const Plan& plan, const Outcome& outcome,
                   Progress& progress) {
   progress.stage("writing " + request.mesh);
-  WriteOptions options = options_of(*request.format, request.mesh);
+  WriteOptions options = write_options(request);
   if (!plan.domain)
     options.density = plan.options.density;
   else if (!plan.options.density.uniform())

@@ -94,7 +94,7 @@ CellField field_of(const DrawArguments& arguments, const MeshFile& file, std::in
 DrawOptions options_for(const DrawArguments& arguments, const MeshFile& file) {
   DrawOptions options = arguments.options;
   options.radius_km = radius_km(*arguments.source, file);
-  if (!options.radius_km && !arguments.density->widths.file.empty())
+  if (!options.radius_km && arguments.density->widths.in_km())
     options.radius_km = arguments.density->widths.radius;
   options.name = file_name(*arguments.source);
   options.look.coastlines = shows_coastlines(arguments.coastlines, options.radius_km);
@@ -198,8 +198,8 @@ void draw_density(const DrawArguments& arguments) {
   }
   Look look = arguments.options.look;
   const WidthWords& widths = arguments.density->widths;
-  look.coastlines = shows_coastlines(
-      arguments.coastlines, widths.file.empty() ? std::nullopt : std::optional(widths.radius));
+  look.coastlines = shows_coastlines(arguments.coastlines,
+                                     widths.in_km() ? std::optional(widths.radius) : std::nullopt);
   draw(arguments.output, field_of(arguments), look);
   std::cout << arguments.output << ": picture of a density\n";
 }

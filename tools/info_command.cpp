@@ -3,8 +3,9 @@
 #include "options/density_option.h"
 #include "options/domain_option.h"
 #include "options/files.h"
-#include "options/format_options.h"
 #include "options/mesh_source.h"
+#include "options/sphere_radius_option.h"
+#include "options/units_option.h"
 #include "run/progress.h"
 #include "run/shapes.h"
 
@@ -31,6 +32,7 @@ struct Request {
   std::shared_ptr<DensityWords> density;
   std::shared_ptr<DomainWords> domain; ///< of a mesh of the plane
   std::optional<double> sphere_radius; ///< metres
+  std::optional<std::string> units;    ///< --units
   std::string report;
 };
 
@@ -39,11 +41,16 @@ struct Measured {
   Quality quality;
   std::optional<double> domain_area; ///< of a plane
   std::optional<double> radius_km;   ///< of the sphere, if known
+  Unit unit;                         ///< of distances on it
   std::string density = "uniform";   ///< its name
   bool cells = true; ///< false for a mesh without Voronoi cells: its triangles alone are measured
   std::vector<std::string> changes; ///< that reading made
   std::vector<std::string> remarks; ///< about the mesh, one line each
 };
+
+Range scaled(const Range& range, double factor) {
+  return {range.min * factor, range.mean * factor, range.max * factor};
+}
 
 double ratio(const Range& range) { return range.max / range.min; }
 
@@ -93,8 +100,11 @@ std::string to_json(const Measured& measured) {
   json["spacing"] = to_json(quality.spacing);
   json["triangle_quality"] = to_json(quality.triangle_quality);
   json["angles"] = to_json(quality.angles);
-  if (measured.radius_km)
+  if (measured.radius_km) {
+    json["radius_km"] = *measured.radius_km;
+    json["spacing_km"] = to_json(scaled(quality.spacing, *measured.radius_km));
     json["least_dc_km"] = quality.spacing.min * *measured.radius_km;
+  }
   if (measured.cells) {
     json["density"] = measured.density;
     add_cells(quality, json);
@@ -154,7 +164,8 @@ void add_cell_rows(const Measured& measured, Table& table) {
   const double area = measured.domain_area.value_or(1);
   table.row("sigma", quality.sigma);
   table.row("cell quality", quality.cell_quality);
-  table.row(plane ? "cell area" : "cell area, steradians", quality.cell_area);
+  table.row(plane ? "cell area" : "cell area, " + measured.unit.area,
+            scaled(quality.cell_area, measured.unit.of_steradian));
   table.row("off-centring", quality.off_centring);
   table.row("dv / dc", quality.dv_over_dc);
   table.row("area ratio", ratio(quality.cell_area));
@@ -170,7 +181,7 @@ void add_cell_rows(const Measured& measured, Table& table) {
   table.row("outside 0.75 to 1.4", quality.unfit_edges);
   table.row("cells to object to", quality.bad_cells);
   if (quality.bad_cells > 0)
-    table.row("their spacing", quality.bad_spacing);
+    table.row("their spacing", scaled(quality.bad_spacing, measured.unit.of_radian));
   table.row(plane ? "cells / domain" : "cells / 4 pi", quality.cells_area, 15);
 }
 
@@ -182,9 +193,8 @@ std::string table(const Measured& measured) {
   table.row("triangles", quality.triangles);
   table.row("degree: cells", degrees(quality));
   table.row<std::string>("", "min", "mean", "max");
-  table.row(plane ? "spacing" : "spacing, radians", quality.spacing);
-  if (measured.radius_km)
-    table.row("least dc, km", quality.spacing.min * *measured.radius_km);
+  table.row(plane ? "spacing" : "spacing, " + measured.unit.name,
+            scaled(quality.spacing, measured.unit.of_radian));
   table.row("triangle quality", quality.triangle_quality);
   table.row("angles, degrees", quality.angles);
   table.row("obtuse triangles", quality.obtuse);
@@ -221,7 +231,7 @@ std::optional<double> radius_of(const Request& request, const MeshFile& file) {
     return *request.sphere_radius / metres;
   if (const std::optional<double> of_file = radius_km(*request.source, file))
     return of_file;
-  if (!request.density->widths.file.empty())
+  if (request.density->widths.in_km())
     return request.density->widths.radius;
   return std::nullopt;
 }
@@ -255,6 +265,7 @@ bool has_voronoi_cells(const Mesh& mesh, Measured& measured) {
 void measure_sphere(const Request& request, const MeshFile& file, Measured& measured) {
   const Mesh& mesh = *file.mesh;
   measured.radius_km = radius_of(request, file);
+  measured.unit = unit_of(request.units, measured.radius_km);
   measured.cells = has_voronoi_cells(mesh, measured);
   measured.quality =
       measured.cells ? quality(mesh, density_of(request, file, measured)) : triangle_quality(mesh);
@@ -268,7 +279,7 @@ void measure_plane(const Request& request, const MeshFile& file, Measured& measu
 }
 
 /// Polygons that are not Voronoi cells: their number of sides and their areas.
-std::string table(const Polygons& polygons, const std::optional<Mesh>& mesh) {
+std::string table(const Polygons& polygons, const std::optional<Mesh>& mesh, const Unit& unit) {
   const Eigen::VectorXd area = areas(polygons);
   std::vector<std::int64_t> sides;
   for (std::int64_t i = 0; i < polygons.size(); ++i) {
@@ -283,7 +294,8 @@ std::string table(const Polygons& polygons, const std::optional<Mesh>& mesh) {
   table.row("corners", polygons.corners.cols());
   table.row("sides: cells", degrees(counts));
   table.row<std::string>("", "min", "mean", "max");
-  table.row("cell area, steradians", Range{area.minCoeff(), area.mean(), area.maxCoeff()});
+  table.row("cell area, " + unit.area,
+            scaled({area.minCoeff(), area.mean(), area.maxCoeff()}, unit.of_steradian));
   table.row("cells / 4 pi", area.sum() / (4 * std::numbers::pi), 15);
   return table.text() + shape_rows(polygons, mesh, 22);
 }
@@ -319,9 +331,10 @@ std::string read_and_measure(const Request& request) {
   Measured measured;
   measured.changes = file.changes;
   const bool as_polygons = !file.plane && file.polygons && !(file.mesh && !file.mesh->closed());
-  if (as_polygons)
+  if (as_polygons) {
     measured.remarks.push_back("the cells are not Voronoi cells: " + file.not_voronoi);
-  else if (file.plane)
+    measured.unit = unit_of(request.units, radius_of(request, file));
+  } else if (file.plane)
     measure_plane(request, file, measured);
   else
     measure_sphere(request, file, measured);
@@ -329,13 +342,15 @@ std::string read_and_measure(const Request& request) {
     write_file(request.report,
                as_polygons ? to_json(*file.polygons, file.mesh, measured) : to_json(measured));
   return remarks_of(request, measured) +
-         (as_polygons ? table(*file.polygons, file.mesh) : table(measured));
+         (as_polygons ? table(*file.polygons, file.mesh, measured.unit) : table(measured));
 }
 
 void require_radius(const Request& request) {
   require_sphere_radius(request.sphere_radius.value_or(1));
   if (request.sphere_radius && request.source->plane)
     throw Error(ErrorCode::bad_option, "--sphere-radius does not apply with --plane; leave it out");
+  if (request.units && request.source->plane)
+    throw Error(ErrorCode::bad_option, "--units does not apply with --plane; leave it out");
 }
 
 void run(const Request& request) {
@@ -358,10 +373,12 @@ void add_info(CLI::App& app) {
   add_plane(*command, *request->source);
   request->domain = add_domain(*command);
   request->density = add_density(*command);
-  command->add_option("--sphere-radius", request->sphere_radius,
-                      "Radius of the sphere in metres, > 0, for the least dc in km; default: the "
-                      "one in a NetCDF file, or --earth-radius with --cell-width");
-  command->add_option("--report", request->report, "Write the same quantities to this JSON file");
+  add_sphere_radius(*command, request->sphere_radius,
+                    "Radius of the sphere, for distances in km: metres, > 0, or earth (6371229 m); "
+                    "default: the one in a NetCDF file, or --earth-radius with --cell-width");
+  add_units(*command, request->units);
+  command->add_option("--report", request->report, "Write the same quantities to this JSON file")
+      ->type_name("FILE");
   command->callback([request] { run(*request); });
 }
 

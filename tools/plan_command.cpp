@@ -7,9 +7,10 @@
 #include "options/coastlines_option.h"
 #include "options/density_option.h"
 #include "options/files.h"
-#include "options/format_options.h"
 #include "options/numbers.h"
 #include "options/partition_options.h"
+#include "options/sphere_radius_option.h"
+#include "options/warning.h"
 #include "run/cvt_costs.h"
 #include "run/progress.h"
 #include "run/spacing_survey.h"
@@ -45,6 +46,7 @@ struct Request {
 /// The grid that a run would make.
 struct Plan {
   std::string density; ///< its name
+  std::string doubt;   ///< about widths that may be in metres, or ""
   std::int64_t cells = 0;
   double implied = 0; ///< cells that widths in km imply; 0 for a density
   double factor = 1;  ///< of the widths of the file, in this grid
@@ -81,10 +83,12 @@ void plan_density(const Request& request, const Density& density, Plan& plan) {
 Plan plan_of(const Request& request, const Resolution& resolution) {
   Plan plan;
   plan.density = density_name(*request.density);
-  if (resolution.widths)
+  if (resolution.widths) {
     plan_widths(request, *resolution.widths, plan);
-  else
+    plan.doubt = doubt_of(*resolution.widths, request.density->widths);
+  } else {
     plan_density(request, resolution.density, plan);
+  }
   plan.threads = tbb::this_task_arena::max_concurrency();
   plan.costs = cvt_costs(plan.cells, resolution.density, plan.threads);
   return plan;
@@ -188,11 +192,11 @@ void draw_widths(const Request& request, const Density& density, const Plan& pla
 
 void require_request(const Request& request) {
   const WidthWords& widths = request.density->widths;
-  if (!request.cells && widths.file.empty())
-    refuse("a density has no unit, and implies no number of cells; give --cells N, or "
-           "--cell-width FILE");
+  if (!request.cells && !widths.in_km())
+    refuse("a density has no unit, and implies no number of cells; give --cells N, or widths in "
+           "km (--cell-width 60km)");
   require_sphere_radius(request.sphere_radius.value_or(1));
-  if (request.sphere_radius && !widths.file.empty())
+  if (request.sphere_radius && widths.in_km())
     refuse("--sphere-radius does not apply to widths in km; give --earth-radius, in km");
   if (!request.picture.empty())
     picture_format(request.picture);
@@ -219,7 +223,10 @@ Plan make_plan(const Request& request) {
 
 void run(const Request& request) {
   require_request(request);
-  std::cout << table(make_plan(request));
+  const Plan plan = make_plan(request);
+  if (!plan.doubt.empty())
+    warn(plan.doubt);
+  std::cout << table(plan);
 }
 
 void add_cells(CLI::App& command, Request& request) {
@@ -244,8 +251,10 @@ void add_plan(CLI::App& app) {
   auto request = std::make_shared<Request>();
   request->density = add_density(*command);
   add_cells(*command, *request);
-  command->add_option("--sphere-radius", request->sphere_radius,
-                      "Radius of the sphere in metres, > 0, for spacings of a density in km");
+  add_sphere_radius(
+      *command, request->sphere_radius,
+      "Radius of the sphere, for the widths of a density in km: metres, > 0, or earth "
+      "(6371229 m)");
   command
       ->add_option("--threads", request->threads,
                    "Number of threads of the run, 1 to 4096; default: all")

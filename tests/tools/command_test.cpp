@@ -315,7 +315,7 @@ TEST_CASE("info prints a table of the mesh as a grid, and reports the same as JS
   CHECK(shown.err.empty());
   for (const char* row :
        {"cells                 12\n", "triangles             20\n", "degree: cells         5: 12\n",
-        "sigma                 1  ", "spacing, radians      1.10715       1.10715       1.10715\n",
+        "sigma                 1  ", "spacing, degrees      63.4349       63.4349       63.4349\n",
         "area ratio            1\n", "obtuse triangles      0\n"})
     CHECK(shown.out.find(row) != std::string::npos);
   const std::string report = contents(bench.folder() / "report.json");
@@ -363,18 +363,18 @@ TEST_CASE("info measures against a density") {
   CHECK(bump.out != uniform.out);
 }
 
-TEST_CASE("info converts the least distance to km where a radius is known") {
+TEST_CASE("info converts distances to km where a radius is known") {
   const Bench bench;
   CHECK(bench.run("points icosahedron 0 -o points.txt").code == 0);
   CHECK(bench.run("delaunay points.txt -o mesh.vtp").code == 0);
   CHECK(bench.run("convert mesh.vtp mesh.nc --sphere-radius 1000000").code == 0);
-  CHECK(bench.run("info mesh.vtp").out.find("least dc, km") == std::string::npos);
-  const std::string row = "least dc, km          1107.15\n"; // atan(2)
+  CHECK(bench.run("info mesh.vtp").out.find("km") == std::string::npos);
+  const std::string row = "spacing, km           1107.15       1107.15       1107.15\n"; // atan(2)
   CHECK(bench.run("info mesh.nc").out.find(row) != std::string::npos);
   const Outcome given = bench.run("info mesh.vtp --sphere-radius 1e6 --report report.json");
   CHECK(given.out.find(row) != std::string::npos);
   CHECK(bench.file("report.json").find("\"least_dc_km\": 1107.14871") != std::string::npos);
-  CHECK(bench.run("info mesh.nc --sphere-radius 1e3").out.find("least dc, km          1.10715\n") !=
+  CHECK(bench.run("info mesh.nc --sphere-radius 1e3").out.find("spacing, km           1.10715 ") !=
         std::string::npos);
   check_refusal(bench, "info mesh.vtp --sphere-radius -1", 2,
                 "--sphere-radius -1 is not a positive number; give one such as 6371229, in metres");

@@ -230,7 +230,8 @@ TEST_CASE("bad usage is refused before any work") {
   check_usage("never -o mesh.vtp --sphere-radius 6371229",
               "--sphere-radius 6371229 applies to NetCDF files only, not to mesh.vtp; "
               "leave it out, or give a name that ends in .nc");
-  check_usage(out, "no start: give a file of points, or the number of cells (--cells N)");
+  check_usage(out, "no start: give a file of points, or the number of cells (--cells N), or cell "
+                   "widths (--cell-width 60km)");
   check_usage("never --cells 12" + out, "the start is the file never; leave --cells out");
   check_usage("never --start random" + out, "the start is the file never; leave --start out");
   check_usage("never --seed 2" + out, "the start is the file never; leave --seed out");
@@ -423,7 +424,7 @@ TEST_CASE("cell widths determine the number of cells, give warnings, and belong 
   widths("2500");
   CHECK(has(bench.run(run).err, "calotte: warning: the cell width changes by 0.11 km per km at "));
   check_refusal(bench, "cvt --cells auto -o mesh.vtp", 2,
-                "--cells auto requires cell widths; give --cell-width FILE, or a number of cells");
+                "--cells auto requires cell widths; give --cell-width, or a number of cells");
   check_refusal_naming(bench,
                        "cvt --cells auto --cell-width widths.msh --start icosahedron -o other.vtp",
                        2, "makes 10 x 4^k + 2 cells, not 186");

@@ -148,11 +148,11 @@ TEST_CASE("bad input ends in one line, and nothing is written") {
   const Bench bench;
   const std::string files = " -o widths.png --report plan.json";
   check_refusal(bench, "plan --density uniform" + files, 2,
-                "a density has no unit, and implies no number of cells; give --cells N, or "
-                "--cell-width FILE");
+                "a density has no unit, and implies no number of cells; give --cells N, or widths "
+                "in km (--cell-width 60km)");
   check_refusal(bench, "plan --cells auto" + files, 2,
-                "a density has no unit, and implies no number of cells; give --cells N, or "
-                "--cell-width FILE");
+                "a density has no unit, and implies no number of cells; give --cells N, or widths "
+                "in km (--cell-width 60km)");
   check_refusal(bench, "plan --cells 11" + files, 2,
                 "--cells: \"11\" is not an integer from 12 to 1073741824; see calotte plan --help");
   check_refusal(bench, "plan --cells 100 --sphere-radius 0" + files, 2,

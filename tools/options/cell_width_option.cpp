@@ -7,10 +7,9 @@
 #include <calotte/error.h>
 #include <calotte/read.h>
 
-#include <charconv>
 #include <cmath>
 #include <filesystem>
-#include <system_error>
+#include <utility>
 
 namespace calotte::tools {
 namespace {
@@ -19,22 +18,57 @@ namespace {
   throw Error(ErrorCode::bad_option, problem);
 }
 
-/// Validates a number of km, for an option's check.
-CLI::Validator kilometres() {
-  return {[](std::string& text) -> std::string {
-            double value = 0;
-            const char* const end = text.data() + text.size();
-            const auto [stop, problem] = std::from_chars(text.data(), end, value);
-            const bool good =
-                problem == std::errc() && stop == end && value > 0 && std::isfinite(value);
-            return good ? "" : "\"" + text + "\" is not a positive number; give km";
-          },
-          "KM"};
-}
-
 bool is_geojson(const std::string& path) {
   const std::string suffix = std::filesystem::path(path).extension();
   return suffix == ".geojson" || suffix == ".json";
+}
+
+/// \param text of --cell-width, checked by width_or_file().
+void set_widths(WidthWords& words, const std::string& text) {
+  const std::optional<Measure> width = measure_of(text);
+  words.uniform = width ? std::optional(width->value) : std::nullopt;
+  words.file = width ? "" : text;
+}
+
+/// A width in km, or any text that is none: the name of a file.
+CLI::Validator width_or_file() {
+  return {[width = kilometres()](std::string& text) {
+            return measure_of(text) ? width(text) : std::string();
+          },
+          ""};
+}
+
+/// One width at all nodes of the coarsest grid.
+CellWidth uniform_widths(double km) {
+  return {Eigen::Vector2d(0, 180), Eigen::Vector2d(-90, 90), Eigen::MatrixXd::Constant(2, 2, km)};
+}
+
+/// The number of cells of a bisected icosahedron within 1 percent of a number; 0 if there is none.
+std::int64_t icosahedral(double cells) {
+  constexpr double tolerance = 0.01;
+  std::int64_t count = 12;
+  while (static_cast<double>(count) < (1 - tolerance) * cells)
+    count = 4 * count - 6;
+  return std::abs(static_cast<double>(count) / cells - 1) < tolerance ? count : 0;
+}
+
+/// The cells that a uniform width requires, and the width in a grid of another number.
+std::string note_on_uniform(double implied, const WidthWords& words,
+                            std::optional<std::int64_t> cells) {
+  std::string note =
+      "cells " + name_of(words) + " wide require " + formatted("%.0f", implied) + " cells";
+  if (cells && *cells != std::llround(implied))
+    note += "; the " + std::to_string(*cells) + " cells of the grid are " +
+            formatted("%.4g", *words.uniform * std::sqrt(implied / static_cast<double>(*cells))) +
+            " km wide";
+  return note;
+}
+
+std::vector<std::string> with_doubt(std::vector<std::string> notes, const CellWidth& widths,
+                                    const WidthWords& words) {
+  if (const std::string doubt = doubt_of(widths, words); !doubt.empty())
+    notes.push_back("warning: " + doubt);
+  return notes;
 }
 
 } // namespace
@@ -42,14 +76,16 @@ bool is_geojson(const std::string& path) {
 void add_cell_width(CLI::App& command, WidthWords& words, CLI::Option* density) {
   CLI::Option* const file =
       command
-          .add_option("--cell-width", words.file,
-                      "Cell widths in km, instead of a density: a NetCDF raster cellWidth(lat, "
-                      "lon) (.nc), JIGSAW's spacings (.msh), or polygons (.geojson)")
-          ->type_name("FILE")
+          .add_option_function<std::string>(
+              "--cell-width", [&words](const std::string& text) { set_widths(words, text); },
+              "Cell widths in km, instead of a density: one width, such as 60km, or a file. Files: "
+              "NetCDF cellWidth(lat, lon) (.nc), JIGSAW's spacings (.msh), or polygons (.geojson)")
+          ->transform(width_or_file())
+          ->type_name("KM|FILE")
           ->excludes(density);
   const auto add = [&](const std::string& name, std::optional<double>& value,
                        const std::string& help) {
-    command.add_option(name, value, help)->check(kilometres())->needs(file);
+    command.add_option(name, value, help)->transform(kilometres())->needs(file);
   };
   add("--inside-width", words.inside,
       "Width within polygons that have no property cellWidth, in km; > 0");
@@ -59,7 +95,7 @@ void add_cell_width(CLI::App& command, WidthWords& words, CLI::Option* density) 
   command
       .add_option("--earth-radius", words.radius,
                   "Radius of the sphere to which the widths refer, in km; > 0")
-      ->check(kilometres())
+      ->transform(kilometres())
       ->needs(file)
       ->capture_default_str();
   command
@@ -71,15 +107,21 @@ void add_cell_width(CLI::App& command, WidthWords& words, CLI::Option* density) 
       ->excludes(file);
 }
 
+std::string name_of(const WidthWords& words) {
+  return words.uniform ? shortest(*words.uniform) + " km" : words.file;
+}
+
 CellWidth read_widths(const WidthWords& words) {
   if (!words.raster.empty())
     return read_density_raster(words.raster);
-  if (!is_geojson(words.file))
+  if (words.uniform || !is_geojson(words.file))
     for (const auto& [value, name] : {std::pair{words.inside, "--inside-width"},
                                       {words.outside, "--outside-width"},
                                       {words.transition, "--transition"}})
       if (value)
-        refuse(words.file + " holds no polygons; leave " + name + " out");
+        refuse(name_of(words) + " holds no polygons; leave " + name + " out");
+  if (words.uniform)
+    return uniform_widths(*words.uniform);
   return read_cell_width(words.file, {.inside = words.inside.value_or(0),
                                       .outside = words.outside.value_or(0),
                                       .transition = words.transition.value_or(0),
@@ -89,7 +131,8 @@ CellWidth read_widths(const WidthWords& words) {
 std::string width_configuration(const WidthWords& words) {
   if (!words.raster.empty())
     return "density-raster of " + checksum_of(words.raster) + "\n";
-  std::string text = "cell-width of " + checksum_of(words.file) + "\n";
+  std::string text =
+      "cell-width " + (words.uniform ? name_of(words) : "of " + checksum_of(words.file)) + "\n";
   const auto add = [&](const std::string& name, const std::optional<double>& value) {
     if (value)
       text += name + " " + shortest(*value) + "\n";
@@ -118,9 +161,20 @@ std::string place_of(const Gradient& gradient) {
          (gradient.latitude < 0 ? " S" : " N");
 }
 
+std::string doubt_of(const CellWidth& widths, const WidthWords& words) {
+  constexpr double widest = 2000; // km; a coarser grid of the Earth has fewer than 150 cells
+  const double most = widths.widths.maxCoeff();
+  if (most <= widest)
+    return "";
+  return (words.uniform ? "" : words.file + ": ") + "cells " + formatted("%.6g", most) +
+         " km wide are large; if these are metres, give km";
+}
+
 std::vector<std::string> notes_on(const CellWidth& widths, const WidthWords& words,
                                   std::optional<std::int64_t> cells) {
   const double implied = implied_cells(widths, words.radius);
+  if (words.uniform)
+    return with_doubt({note_on_uniform(implied, words, cells)}, widths, words);
   std::vector<std::string> notes{
       words.file + ": cells " + formatted("%.4g", widths.widths.minCoeff()) + " to " +
       formatted("%.4g", widths.widths.maxCoeff()) + " km wide, on " +
@@ -138,7 +192,7 @@ std::vector<std::string> notes_on(const CellWidth& widths, const WidthWords& wor
     notes.push_back("warning: the cell width changes by " + slope + " km per km at " +
                     place_of(gradient) + ", above " + limit + ", the limit for most models; " +
                     (words.transition ? "increase --transition" : "make the widths smoother"));
-  return notes;
+  return with_doubt(std::move(notes), widths, words);
 }
 
 std::int64_t cells_for(const CellWidth& widths, const WidthWords& words, bool bisected) {
@@ -146,8 +200,10 @@ std::int64_t cells_for(const CellWidth& widths, const WidthWords& words, bool bi
   constexpr std::int64_t coarsest = 642; // see continuation()
   const double implied = std::round(implied_cells(widths, words.radius));
   if (!(implied >= fewest && implied <= most))
-    refuse("--cells auto: " + words.file + " requires " + formatted("%.4g", implied) +
+    refuse("--cells auto: " + name_of(words) + " requires " + formatted("%.4g", implied) +
            " cells, but a grid has 12 to 1073741824; give widths in km");
+  if (const std::int64_t regular = words.uniform ? icosahedral(implied) : 0; regular > 0)
+    return regular;
   const auto cells = static_cast<std::int64_t>(implied);
   std::int64_t parts = 1; // of a coarse grid's cell
   while (bisected && (cells - 2) / (4 * parts) >= coarsest - 2)

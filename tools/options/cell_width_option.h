@@ -15,11 +15,14 @@ namespace calotte::tools {
 /// The values of the options for cell widths.
 struct WidthWords {
   std::string file;                                  ///< of cell widths, or ""
+  std::optional<double> uniform;                     ///< km, of all cells, instead of the file
   std::string raster;                                ///< of a density, or ""
   std::optional<double> inside, outside, transition; ///< km, of polygons
   double radius = earth_radius_km;                   ///< km
 
-  bool given() const { return !file.empty() || !raster.empty(); }
+  /// Whether there are widths in km, which imply a number of cells.
+  bool in_km() const { return !file.empty() || uniform; }
+  bool given() const { return in_km() || !raster.empty(); }
 };
 
 /// Adds --cell-width, --inside-width, --outside-width, --transition, --earth-radius and
@@ -27,7 +30,11 @@ struct WidthWords {
 /// \param density the option that they replace.
 void add_cell_width(CLI::App& command, WidthWords& words, CLI::Option* density);
 
-/// Reads widths from either file; those of a density raster have no unit.
+/// The name of widths in km, for messages: the file, or "60 km".
+/// \pre words.in_km().
+std::string name_of(const WidthWords& words);
+
+/// Reads widths from either file, or makes uniform ones; those of a density raster have no unit.
 /// \pre words.given().
 /// \throws Error as read_cell_width; bad_option for polygons' widths without polygons.
 CellWidth read_widths(const WidthWords& words);
@@ -49,7 +56,11 @@ std::string place_of(const Gradient& gradient);
 std::vector<std::string> notes_on(const CellWidth& widths, const WidthWords& words,
                                   std::optional<std::int64_t> cells);
 
-/// The number of cells that widths in km imply.
+/// A remark on widths that may be in metres, above 2000 km; "" for others.
+std::string doubt_of(const CellWidth& widths, const WidthWords& words);
+
+/// The number of cells that widths in km imply; for a uniform width that of a bisected icosahedron,
+/// the most regular grid, if that differs by less than 1 percent.
 /// \param bisected rounds it, by less than a thousandth, to the nearest number that a continuation
 ///         reaches from a coarse grid: few numbers can be bisected to.
 /// \throws Error bad_option if no CVT has so many or so few.

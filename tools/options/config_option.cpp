@@ -4,6 +4,7 @@
 #include "help/nearest_name.h"
 #include "options/config_file.h"
 #include "options/config_names.h"
+#include "options/numbers.h"
 
 #include <calotte/error.h>
 
@@ -35,7 +36,8 @@ bool takes_file(const CLI::Option& option) { return type_of(option).ends_with("F
 /// True if a number is invalid as its value.
 bool takes_text_alone(const CLI::Option& option) {
   const std::string name = option.get_type_name();
-  return takes_file(option) || name == "TEXT" || name.starts_with("TEXT:{");
+  return (takes_file(option) && !name.starts_with("KM|")) || name == "TEXT" ||
+         name.starts_with("TEXT:{");
 }
 
 std::string kind_of(const CLI::Option& option) {
@@ -65,11 +67,11 @@ std::string mismatch(const CLI::Option& option, const std::vector<ConfigValue>& 
   return "";
 }
 
-/// A word that an option accepts instead of a file.
+/// A word, or a number of km, that an option accepts instead of a file.
 bool is_word(const CLI::Option& option, const std::string& value) {
   std::istringstream words(type_of(option));
   for (std::string word; std::getline(words, word, '|');)
-    if (word == value)
+    if (word == value || (word == "KM" && measure_of(value)))
       return true;
   return value == "-";
 }
@@ -132,7 +134,6 @@ public:
     } else if (CLI::Option* option = option_of(command_, key)) {
       apply(setting, setting.values, *option);
     } else {
-      const std::string nearest = nearest_name(key, known_names(command_));
       refuse(setting, "unknown option \"" + setting.key + "\"; " +
                           remedy_for(key, known_names(command_), "",
                                      "calotte " + command_.get_name() + " --help"));

@@ -38,7 +38,8 @@ void add_cells(CLI::App& command, CvtRequest& request) {
       .add_option_function<std::string>(
           "--cells", set,
           "Number of cells of the result, 3 to 1073741824 (on the sphere >= 12), or auto: computed "
-          "from the cell widths. Approximate after bisections of a domain with a boundary")
+          "from the cell widths, the default with --cell-width. Approximate after bisections of a "
+          "domain with a boundary")
       ->transform(whole_number_or_auto(3, 1 << 30));
 }
 
@@ -192,11 +193,14 @@ std::string start_kind(const CvtRequest& request) {
     return "points";
   if (request.start)
     return *request.start;
-  const std::vector<std::string> names = density_names(*request.density);
-  const bool uniform = names.size() == 1 && names.front() == "uniform";
-  if (!uniform && !request.iterations && !request.bisections)
+  if (!is_uniform(*request.density) && !request.iterations && !request.bisections)
     return "multilevel";
   return planar(request) ? "density" : "continuation";
+}
+
+bool cells_follow(const CvtRequest& request) {
+  return request.cells_of_widths ||
+         (request.points.empty() && !request.cells && request.density->widths.in_km());
 }
 
 bool well_centred(const CvtRequest& request) {
@@ -230,6 +234,14 @@ CvtOptions options_of(const CvtRequest& request) {
   options.duplicates = start.duplicates;
   options.merge_within = start.merge_within;
   options.partition = std::move(start.partition);
+  return options;
+}
+
+WriteOptions write_options(const CvtRequest& request) {
+  WriteOptions options = options_of(*request.format, request.mesh);
+  const WidthWords& widths = request.density->widths;
+  if (!request.format->sphere_radius && widths.in_km() && is_mpas(options.format))
+    options.sphere_radius = model_radius(widths);
   return options;
 }
 

@@ -55,6 +55,10 @@ inline bool planar(const CvtRequest& request) { return request.domain->given(); 
 /// on the sphere and density in the plane.
 std::string start_kind(const CvtRequest& request);
 
+/// Whether the cell widths determine the number of cells: --cells auto, or widths in km without a
+/// file of points and without --cells.
+bool cells_follow(const CvtRequest& request);
+
 /// Whether the run ends with a finish. Default: that of a multilevel start does.
 bool well_centred(const CvtRequest& request);
 
@@ -67,5 +71,10 @@ std::string norm_word(const CvtRequest& request);
 /// The options of the run except the bisections, which belong to the start, and the density.
 /// \throws Error bad_option.
 CvtOptions options_of(const CvtRequest& request);
+
+/// The options of the mesh file, without density and history. An MPAS file of a grid whose widths
+/// are in km has the Earth's radius unless another is given.
+/// \throws Error as options_of(FormatWords) does.
+WriteOptions write_options(const CvtRequest& request);
 
 } // namespace calotte::tools

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "options/density_option.h"
 
+#include "options/numbers.h"
+#include "options/warning.h"
+
 #include <calotte/error.h>
 #include <calotte/io.h>
 #include <calotte/planar_raster.h>
@@ -109,6 +112,9 @@ double positive_angle(const BumpWords& words, const std::string& key) {
   const auto value = number(text);
   if (!value || *value <= 0)
     refuse_value(words, key, "is not a positive angle; give radians, or degrees as 30deg");
+  if (!in_degrees && *value > std::numbers::pi)
+    warn("--density \"" + words.text + "\": " + key + " is " + shortest(*value) +
+         " radians, more than pi; for degrees give " + key + "=" + shortest(*value) + "deg");
   return in_degrees ? *value * std::numbers::pi / 180 : *value;
 }
 
@@ -244,8 +250,8 @@ Resolution resolution_of(const DensityWords& words, bool planar) {
   if (planar)
     return {calotte::density_of(read_planar_raster(words.widths.raster)), {}};
   CellWidth widths = read_widths(words.widths);
-  Density density = calotte::density_of(widths);
-  if (words.widths.file.empty()) // a density raster's widths have no unit
+  Density density = words.widths.uniform ? Density{} : calotte::density_of(widths);
+  if (!words.widths.in_km()) // a density raster's widths have no unit
     return {std::move(density), {}};
   return {std::move(density), std::move(widths)};
 }
@@ -254,7 +260,14 @@ Density density_of(const DensityWords& words, bool planar) {
   return resolution_of(words, planar).density;
 }
 
+bool is_uniform(const DensityWords& words) {
+  const std::vector<std::string> names = density_names(words);
+  return words.widths.uniform || (names.size() == 1 && names.front() == "uniform");
+}
+
 std::vector<std::string> density_names(const DensityWords& words) {
+  if (words.widths.uniform)
+    return {"uniform, " + name_of(words.widths)};
   if (!words.widths.file.empty())
     return {"cell widths of " + words.widths.file};
   if (!words.widths.raster.empty())

@@ -40,6 +40,9 @@ Resolution resolution_of(const DensityWords& words, bool planar = false);
 /// The same without the widths.
 Density density_of(const DensityWords& words, bool planar = false);
 
+/// Whether the options prescribe cells of one size.
+bool is_uniform(const DensityWords& words);
+
 /// The parts of its name in reports and pictures: "uniform", the words of a bump, a file.
 std::vector<std::string> density_names(const DensityWords& words);
 /// These in one line, joined by "and".

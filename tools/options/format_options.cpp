@@ -5,7 +5,6 @@
 
 #include <calotte/error.h>
 
-#include <cmath>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -84,13 +83,6 @@ void require_radius(double radius, Format format, const std::string& path) {
 
 } // namespace
 
-void require_sphere_radius(double metres) {
-  if (!(metres > 0) || !std::isfinite(metres))
-    throw Error(ErrorCode::bad_option,
-                "--sphere-radius " + shortest(metres) +
-                    " is not a positive number; give one such as 6371229, in metres");
-}
-
 std::shared_ptr<FormatWords> add_format(CLI::App& command, const std::string& default_radius) {
   auto words = std::make_shared<FormatWords>();
   std::vector<std::string> known;
@@ -102,9 +94,10 @@ std::shared_ptr<FormatWords> add_format(CLI::App& command, const std::string& de
                   "mpas-minimal (for MpasMeshConverter.x), ugrid (cells), ugrid-triangles, scrip "
                   "and esmf. VTK: vtp and vtu (triangles), vtp-cells and vtu-cells (Voronoi cells)")
       ->check(CLI::IsMember(known));
-  command.add_option("--sphere-radius", words->sphere_radius,
-                     "Radius of the sphere in NetCDF files, > 0; MPAS uses metres; default: " +
-                         default_radius);
+  add_sphere_radius(command, words->sphere_radius,
+                    "Radius of the sphere in NetCDF files: metres, > 0, or earth (6371229 m); "
+                    "default: " +
+                        default_radius);
   command
       .add_option("--order", words->order,
                   "Numbering of the cells: curve (along a space-filling curve; default of NetCDF "
@@ -112,6 +105,8 @@ std::shared_ptr<FormatWords> add_format(CLI::App& command, const std::string& de
       ->check(CLI::IsMember({"curve", "rcm", "input"}));
   return words;
 }
+
+bool is_mpas(Format format) { return format == Format::mpas || format == Format::mpas_minimal; }
 
 bool holds_points(const std::string& path) {
   if (starts_as(path, "RegionTriangulation"))

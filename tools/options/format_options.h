@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "options/sphere_radius_option.h"
+
 #include <calotte/io.h>
 
 #include <CLI/CLI.hpp>
@@ -37,9 +39,8 @@ bool holds_triangles(const std::string& path);
 /// The help of an option for a mesh that is written in the format of its name or of --format.
 std::string help_of_output();
 
-/// \param metres the value of --sphere-radius.
-/// \throws Error bad_option for a radius that is not positive and finite.
-void require_sphere_radius(double metres);
+/// Whether the format is MPAS's, which models read: its lengths are in metres.
+bool is_mpas(Format format);
 
 /// Without density and history, for a file of this name.
 /// \throws Error bad_option, before any work: for a name that is no mesh's, or of another format

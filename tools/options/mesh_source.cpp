@@ -3,6 +3,7 @@
 
 #include "options/format_options.h"
 #include "options/point_file.h"
+#include "options/sphere_radius_option.h"
 
 namespace calotte::tools {
 
@@ -30,8 +31,12 @@ MeshFile read_mesh_file(const MeshSource& source, FieldChoice choice) {
       file.plane = read_planar_mesh(source);
     return file;
   }
-  if (source.points.empty())
-    return calotte::read_mesh_file(source.path, nullptr, choice);
+  if (source.points.empty()) {
+    MeshFile file = calotte::read_mesh_file(source.path, nullptr, choice);
+    if (is_netcdf_file(source.path))
+      warn_of_radius(file.sphere_radius, source.path);
+    return file;
+  }
   const Points3 points = read_point_file(source.points, source.lonlat).points;
   return calotte::read_mesh_file(source.path, &points, choice);
 }

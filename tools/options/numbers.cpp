@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "options/numbers.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <limits>
 #include <system_error>
@@ -18,6 +20,34 @@ std::string formatted(const char* format, double value) {
   std::array<char, 64> text{};
   std::snprintf(text.data(), text.size(), format, value);
   return text.data();
+}
+
+std::optional<Measure> measure_of(const std::string& text) {
+  const char *begin = text.data(), *const end = begin + text.size();
+  const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+  if (text.empty() || letter(*begin)) // no inf or nan
+    return std::nullopt;
+  Measure measure;
+  auto [stop, problem] = std::from_chars(begin, end, measure.value);
+  if (problem != std::errc() || stop[-1] == '.') // 60.nc is a file
+    return std::nullopt;
+  stop = std::find_if(stop, end, [](char c) { return c != ' '; });
+  if (!std::all_of(stop, end, letter))
+    return std::nullopt;
+  measure.unit.assign(stop, end);
+  return measure;
+}
+
+CLI::Validator kilometres() {
+  return {[](std::string& text) -> std::string {
+            const std::optional<Measure> width = measure_of(text);
+            if (!width || (!width->unit.empty() && width->unit != "km") || !(width->value > 0) ||
+                !std::isfinite(width->value))
+              return "\"" + text + "\" is not a positive number; give km, such as 60km";
+            text = shortest(width->value);
+            return "";
+          },
+          "KM"};
 }
 
 CLI::Validator whole_number(std::uint64_t least, std::uint64_t most) {

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 /// Numbers in the text of options and files.
@@ -15,6 +16,18 @@ std::string shortest(double value);
 /// Formats a number as printf does; at most 63 characters.
 /// \param format with one conversion of a double.
 std::string formatted(const char* format, double value);
+
+/// A number with a unit.
+struct Measure {
+  double value = 0;
+  std::string unit; ///< letters, or "" if there are none
+};
+
+/// Reads a number and a unit: "60km", "60 km", "60"; nothing for other text, such as a file's name.
+std::optional<Measure> measure_of(const std::string& text);
+
+/// Positive numbers of km, for an option's transform: "60", "60km".
+CLI::Validator kilometres();
 
 /// Whole numbers in a range, for an option's transform: decimal, also with leading zeros.
 CLI::Validator whole_number(std::uint64_t least, std::uint64_t most);

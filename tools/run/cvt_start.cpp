@@ -104,10 +104,11 @@ void require_kind(const CvtRequest& request) {
 void require_cells(const CvtRequest& request) {
   const std::string kind = start_kind(request);
   require_kind(request);
-  if (request.cells_of_widths && request.density->widths.file.empty())
-    refuse("--cells auto requires cell widths; give --cell-width FILE, or a number of cells");
-  if (!request.cells && !request.cells_of_widths)
-    refuse("no start: give a file of points, or the number of cells (--cells N)");
+  if (request.cells_of_widths && !request.density->widths.in_km())
+    refuse("--cells auto requires cell widths; give --cell-width, or a number of cells");
+  if (!request.cells && !cells_follow(request))
+    refuse("no start: give a file of points, or the number of cells (--cells N), or cell widths "
+           "(--cell-width 60km)");
   if (request.lonlat)
     refuse("--lonlat applies to a file of points only; leave it out");
   if (request.seed && !seeded(kind))
@@ -252,7 +253,7 @@ std::vector<std::string> settle_cells(CvtRequest& request, const std::optional<C
   if (!widths)
     return {};
   const WidthWords& words = request.density->widths;
-  if (request.cells_of_widths) {
+  if (cells_follow(request)) {
     request.cells =
         static_cast<int>(cells_for(*widths, words, start_kind(request) == "continuation"));
     require_cells(request);

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/command.h"
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+#include <string>
+
+using namespace calotte::test;
+
+namespace {
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+Outcome good(const Bench& bench, const std::string& arguments) {
+  CAPTURE(arguments);
+  Outcome outcome = bench.run(arguments);
+  CAPTURE(outcome.err);
+  CHECK(outcome.code == 0);
+  return outcome;
+}
+
+std::string small_radius(const std::string& origin, const std::string& radius) {
+  return "calotte: warning: " + origin + ": a sphere with a radius of " + radius +
+         " m is small; if these are km, give --sphere-radius " + radius +
+         "000, or --sphere-radius earth (6371229 m)\n";
+}
+
+/// The warnings of a command.
+std::string warnings(const Outcome& outcome) {
+  std::string lines, rest = outcome.err;
+  while (!rest.empty()) {
+    const std::size_t end = rest.find('\n') + 1;
+    if (rest.starts_with("calotte: warning: "))
+      lines += rest.substr(0, end);
+    rest = rest.substr(end);
+  }
+  return lines;
+}
+
+} // namespace
+
+TEST_CASE("a width in km makes a uniform grid of the Earth, with the number of cells it implies") {
+  const Bench bench;
+  const Outcome made =
+      good(bench, "cvt --cell-width 960km -o mesh.nc"); // 639 cells; 642 are regular
+  CHECK(made.out.starts_with("mesh.nc: 642 cells, converged, "));
+  CHECK(made.err == "calotte: cells 960 km wide require 639 cells; the 642 cells of the grid are "
+                    "957.8 km wide\n");
+  const std::string mesh = bench.file("mesh.nc");
+  for (const char* same : {"960", "'960 km'", "960.0km"}) {
+    good(bench, std::string("cvt -o mesh.nc --cell-width ") + same);
+    CHECK((bench.file("mesh.nc") == mesh));
+  }
+  good(bench, "cvt --cells 642 -o mesh.vtp --cell-width 960km");
+  good(bench, "cvt --cells 642 -o plain.vtp");
+  CHECK(bench.file("mesh.vtp") == bench.file("plain.vtp"));
+  CHECK(has(good(bench, "cvt --cell-width 1000km -o other.vtp").out, " 589 cells, "));
+  CHECK(has(good(bench, "cvt --cell-width 300km --earth-radius 1000 -o small.vtp").out,
+            " 162 cells, "));
+}
+
+TEST_CASE("60 km are 163 842 cells, and 120 km 40 962") {
+  const Bench bench;
+  CHECK(has(good(bench, "plan --cell-width 60km").out, "\ncells                 163842\n"));
+  CHECK(has(good(bench, "plan --cell-width 60").out, "\ncell width, km        59.96 to 59.96\n"));
+  CHECK(has(good(bench, "plan --cell-width 120km").out, "\ncells                 40962\n"));
+  CHECK(has(good(bench, "plan --cell-width 60km --cells 40962").out,
+            "\ncell width, km        119.9 to 119.9\n"));
+}
+
+TEST_CASE("a file of options takes a width in km as a number or as text") {
+  const Bench bench;
+  for (const char* width : {"960", "\"960km\"", "\"960 km\""}) {
+    bench.file("grid.toml", "cell_width = " + std::string(width) +
+                                "\noutput = \"grid.vtp\"\nsphere_radius = 1\niterations = 3\n");
+    CHECK(good(bench, "cvt --config grid.toml").out.starts_with("grid.vtp: 642 cells, "));
+  }
+  bench.file("grid.toml", "cells = 12\noutput = \"grid.nc\"\nsphere_radius = \"earth\"\n");
+  good(bench, "cvt --config grid.toml");
+  CHECK(has(good(bench, "info grid.nc").out, "spacing, km           7053"));
+}
+
+TEST_CASE("widths that are none are refused") {
+  const Bench bench;
+  for (const std::string width : {"60m", "0km", "0", "60 miles"})
+    check_refusal(bench, "cvt -o mesh.vtp --cell-width '" + width + "'", 2,
+                  "--cell-width: \"" + width +
+                      "\" is not a positive number; give km, such as 60km; see calotte cvt --help");
+  check_refusal_naming(bench, "cvt -o mesh.vtp --cell-width 60.nc", 3, "60.nc"); // a file
+  check_refusal(bench, "cvt -o mesh.vtp --cell-width 960km --transition 100km", 2,
+                "960 km holds no polygons; leave --transition out");
+  check_refusal(bench, "cvt -o mesh.vtp --cell-width 60km --rectangle 0,0,1,1", 2,
+                "--cell-width applies to the sphere only; give --density or --density-raster");
+}
+
+TEST_CASE("MPAS files of grids in km have the Earth's radius by default, others 1") {
+  const Bench bench;
+  const auto spacing = [&](const std::string& arguments) {
+    good(bench, "cvt --cell-width 7000km --iterations 1 -o mesh.nc " + arguments);
+    const std::string shown = good(bench, "info mesh.nc").out;
+    const std::size_t from = shown.find("spacing, ");
+    return shown.substr(from, shown.find(' ', from + 22) - from);
+  };
+  CHECK(spacing("") == "spacing, km           7053.9"); // atan(2) times 6371.229
+  CHECK(spacing("--format mpas-minimal") == "spacing, km           7053.9");
+  CHECK(spacing("--sphere-radius earth") == "spacing, km           7053.9");
+  CHECK(spacing("--sphere-radius 1") == "spacing, degrees      63.4349");
+  CHECK(spacing("--sphere-radius 2e6") == "spacing, km           2214.3");
+  CHECK(spacing("--format ugrid") == "spacing, degrees      63.4349");
+  good(bench, "cvt --cells 12 -o unit.nc");
+  CHECK(has(good(bench, "info unit.nc").out, "spacing, degrees "));
+  good(bench, "convert unit.nc earth.nc --cell-width 7000km");
+  CHECK(has(good(bench, "info earth.nc").out, "spacing, km           7053.9"));
+}
+
+TEST_CASE("info speaks in km, degrees or radians") {
+  const Bench bench;
+  good(bench, "cvt --cells 12 -o unit.vtp");
+  const auto shown = [&](const std::string& arguments) {
+    return good(bench, "info unit.vtp " + arguments + " --report report.json").out;
+  };
+  CHECK(has(shown(""), "\nspacing, degrees      63.4349 "));
+  CHECK(!has(bench.file("report.json"), "spacing_km"));
+  CHECK(has(shown("--units radians"), "\nspacing, radians      1.10715 "));
+  CHECK(has(shown(""), "\ncell area, steradians 1.0472 "));
+  CHECK(has(shown("--sphere-radius 1e6"), "\nspacing, km           1107.15 "));
+  CHECK(has(shown("--sphere-radius 1e6"), "\ncell area, km^2       1.0472e+06"));
+  CHECK(has(shown("--sphere-radius earth"), "\nspacing, km           7053.9 "));
+  const nlohmann::json report = nlohmann::json::parse(bench.file("report.json"));
+  CHECK(report["radius_km"] == 6371.229);
+  CHECK(report["spacing_km"]["min"].get<double>() == doctest::Approx(7053.9));
+  CHECK(report["spacing"]["min"].get<double>() == doctest::Approx(1.10715));
+  CHECK(has(shown("--sphere-radius earth --units degrees"), "\nspacing, degrees      63.4349 "));
+  CHECK(has(shown("--cell-width 7000km"), "\nspacing, km           7053.64"));
+  check_refusal(bench, "info unit.vtp --units km", 2,
+                "--units km requires the radius of the sphere; give --sphere-radius earth, or a "
+                "radius in metres");
+  check_refusal(bench, "info unit.vtp --plane --units km", 2,
+                "--units does not apply with --plane; leave it out");
+}
+
+TEST_CASE("a radius that may be in km gives a warning, where it is given and where it is read") {
+  const Bench bench;
+  const std::string run = "cvt --cells 12 -o mesh.nc --sphere-radius ";
+  CHECK(good(bench, run + "6371").err == small_radius("--sphere-radius", "6371"));
+  CHECK(good(bench, "info mesh.nc").err == small_radius("mesh.nc", "6371"));
+  CHECK(good(bench, "draw mesh.nc -o mesh.png").err == small_radius("mesh.nc", "6371"));
+  CHECK(good(bench, run + "1000").err == small_radius("--sphere-radius", "1000"));
+  for (const char* radius : {"1", "999", "10001", "6371000", "earth"}) {
+    CHECK(good(bench, run + radius).err.empty());
+    CHECK(good(bench, "info mesh.nc").err.empty());
+  }
+}
+
+TEST_CASE("a radius that is no number is refused") {
+  const Bench bench;
+  check_refusal(bench, "cvt --cells 12 -o mesh.nc --sphere-radius moon", 2,
+                "--sphere-radius: \"moon\" is not a number; give metres, or earth; see calotte cvt "
+                "--help");
+}
+
+TEST_CASE("widths that may be in metres give a warning") {
+  const Bench bench;
+  const std::string large = " km wide are large; if these are metres, give km\n";
+  CHECK(good(bench, "plan --cell-width 3000").err == "calotte: warning: cells 3000" + large);
+  CHECK(warnings(good(bench, "cvt --cell-width 60000 --cells 42 -o mesh.vtp")) ==
+        "calotte: warning: cells 60000" + large);
+  CHECK(good(bench, "plan --cell-width 2000").err.empty());
+}
+
+TEST_CASE("an angle of a density that may be in degrees gives a warning") {
+  const Bench bench;
+  const auto warned = [&](const std::string& angles) {
+    return warnings(good(bench, "plan --cells 100 --density tanh:lon=0,lat=0,gamma=x2," + angles));
+  };
+  const std::string start = "calotte: warning: --density \"tanh:lon=0,lat=0,gamma=x2,";
+  CHECK(warned("beta=30,alpha=0.2") ==
+        start + "beta=30,alpha=0.2\": beta is 30 radians, more than pi; for degrees give "
+                "beta=30deg\n");
+  CHECK(warned("beta=30deg,alpha=10") ==
+        start + "beta=30deg,alpha=10\": alpha is 10 radians, more than pi; for degrees give "
+                "alpha=10deg\n");
+  CHECK(warned("beta=30deg,alpha=10deg").empty());
+  CHECK(warned("beta=3.1,alpha=3.1").empty());
+  const Outcome plane =
+      good(bench, "cvt --rectangle 0,0,100,100 --cells 50 --iterations 1 --density "
+                  "tanh:x=3,y=4,beta=30,alpha=10,gamma=x2 -o mesh.vtp");
+  CHECK(warnings(plane).empty()); // lengths
+}
