@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands.h"
+#include "help/help.h"
+#include "help/unknown_word.h"
 #include "run/exit_code.h"
 
 #include <calotte/error.h>
@@ -15,21 +17,6 @@
 
 namespace calotte::tools {
 namespace {
-
-constexpr const char* footer =
-    R"(Results go to standard output, messages to standard error. Exit codes:
-  0  success
-  1  the mesh failed its check, or the run did not converge (the mesh is written)
-  2  invalid options or input
-  3  a file cannot be opened, read or written
-  4  internal error
-  130, 143  stopped by SIGINT or SIGTERM; --resume continues a run with --checkpoint)";
-
-/// The command line that prints the help for the given arguments.
-std::string help_of(const CLI::App& app) {
-  const auto commands = app.get_subcommands();
-  return "calotte " + (commands.empty() ? "" : commands.back()->get_name() + " ") + "--help";
-}
 
 /// Replaces line ends, so that a message is one line.
 void complain(std::string message) {
@@ -52,7 +39,7 @@ ExitCode exit_code(ErrorCode code) {
 }
 
 void run(CLI::App& app, int argc, char** argv) {
-  app.footer(footer); // before the subcommands, which inherit it
+  set_main_help(app); // before the subcommands, which inherit its options
   app.set_version_flag("--version", std::string("calotte " CALOTTE_VERSION));
   app.require_subcommand(0, 1);
   add_delaunay(app);
@@ -63,6 +50,7 @@ void run(CLI::App& app, int argc, char** argv) {
   add_info(app);
   add_draw(app);
   add_convert(app);
+  add_help(app);
   app.parse(argc, argv);
   if (app.get_subcommands().empty())
     throw CLI::RequiredError("delaunay, cvt, plan, points, check, info, draw or convert");
@@ -81,18 +69,37 @@ std::string with_option(const std::string& message) {
   return message;
 }
 
+/// The message about a command line that cannot be read. A misspelt option comes first: the option
+/// that it stands for may be the one that is missing.
+std::string message_of(const CLI::App& app, const CLI::ParseError& error) {
+  const bool extras = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
+  if (extras || dynamic_cast<const CLI::RequiredError*>(&error) != nullptr)
+    if (const std::string unknown = unknown_word(app); !unknown.empty())
+      return unknown;
+  return std::string(error.what()) + "; see " + help_of(app);
+}
+
+/// Shows the help or the version, unless these belong to a command that is unknown.
+ExitCode show(CLI::App& app, const CLI::Success& request) {
+  if (app.get_subcommands().empty() && !app.remaining().empty()) {
+    complain(unknown_word(app));
+    return bad_input;
+  }
+  app.exit(request);
+  return done;
+}
+
 /// Runs the command, and converts an exception to one line and an exit code.
 ExitCode guarded_run(CLI::App& app, int argc, char** argv) {
   try {
     run(app, argc, argv);
     return done;
   } catch (const CLI::Success& request) { // --help, --version
-    app.exit(request);
-    return done;
+    return show(app, request);
   } catch (const CLI::RuntimeError& finished) {
     return static_cast<ExitCode>(finished.get_exit_code());
   } catch (const CLI::ParseError& error) {
-    complain(std::string(error.what()) + "; see " + help_of(app));
+    complain(message_of(app, error));
     return bad_input;
   } catch (const Error& error) {
     const bool bug = error.code() == ErrorCode::internal;

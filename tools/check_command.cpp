@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands.h"
+#include "help/help.h"
 #include "options/mesh_source.h"
 #include "run/exit_code.h"
 #include "run/progress.h"
@@ -160,6 +161,9 @@ void add_check(CLI::App& app) {
       "compares the other variables of a NetCDF file with it.");
   auto source = add_mesh_source(*command);
   add_plane(*command, *source);
+  set_help(*command,
+           {.common = {},
+            .examples = {"calotte check mesh.nc", "calotte check mesh.tri --points points.txt"}});
   command->callback([source] { run(*source); });
 }
 

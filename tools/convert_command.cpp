@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands.h"
+#include "help/help.h"
 #include "options/config_option.h"
 #include "options/density_option.h"
 #include "options/domain_option.h"
@@ -159,6 +160,11 @@ void add_convert(CLI::App& app) {
       add_format(*command, "the radius of the points if all lie on one sphere, else 1");
   request->density = add_density(*command);
   request->config = add_config(*command);
+  set_help(*command,
+           {.common = {"IN", "OUT", "--points", "--plane", "--domain", "--format",
+                       "--sphere-radius", "--order", "--density", "--cell-width", "--config"},
+            .examples = {"calotte convert mesh.vtp mesh.nc --sphere-radius earth",
+                         "calotte convert mesh.nc grid.nc --format scrip"}});
   command->callback([request] { run(*request); });
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands.h"
+#include "help/help.h"
 #include "options/config_option.h"
 #include "options/cvt_options.h"
 #include "options/cvt_request.h"
@@ -342,6 +343,13 @@ void add_cvt(CLI::App& app) {
              "density. The mesh has the same bits for any number of threads and regions. A resumed "
              "run gives the same bits as an uninterrupted one.");
   const std::shared_ptr<CvtRequest> request = add_cvt_options(*command);
+  set_help(*command, {.common = {"START", "--cells", "--density", "--cell-width", "--tolerance",
+                                 "--max-iterations", "--output", "--sphere-radius", "--report",
+                                 "--checkpoint", "--resume", "--config", "--threads"},
+                      .examples = {"calotte cvt --cell-width 60km -o earth.nc",
+                                   "calotte cvt --cells 40962 -o uniform.nc --sphere-radius earth",
+                                   "calotte cvt --cells 40962 -o x8.vtp --density "
+                                   "tanh:lon=270,lat=30,beta=30deg,alpha=0.20,gamma=x8"}});
   command->callback([request, command] {
     request->options = given_options(*command);
     run(*request);

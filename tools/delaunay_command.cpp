@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands.h"
+#include "help/help.h"
 #include "options/config_option.h"
 #include "options/domain_option.h"
 #include "options/files.h"
@@ -196,7 +197,7 @@ void add_delaunay(CLI::App& app) {
   command
       ->add_option("POINTS,--points", request->points,
                    "Input points: text with x y z on each line (vectors of any length), - for "
-                   "standard input, or the points of a mesh: " +
+                   "standard input, or the points of a mesh. Meshes: " +
                        std::string(mesh_suffixes))
       ->type_name("FILE")
       ->required();
@@ -217,6 +218,11 @@ void add_delaunay(CLI::App& app) {
   command->add_option("--report", request->report, "Write times and counts to this JSON file")
       ->type_name("FILE");
   request->config = add_config(*command);
+  set_help(*command, {.common = {"POINTS", "--output", "--lonlat", "--plane", "--periodic",
+                                 "--threads", "--duplicates", "--merge-within", "--format",
+                                 "--sphere-radius", "--report", "--config"},
+                      .examples = {"calotte delaunay points.txt -o mesh.vtp",
+                                   "calotte delaunay stations.csv --lonlat -o mesh.nc"}});
   command->callback([request] { run(*request); });
 }
 

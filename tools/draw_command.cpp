@@ -6,6 +6,7 @@
 #include "draw/spacing_law.h"
 #include "draw/title.h"
 #include "draw_options.h"
+#include "help/help.h"
 #include "options/coastlines_option.h"
 #include "options/files.h"
 
@@ -223,7 +224,13 @@ void run(const DrawArguments& arguments) {
 void add_draw(CLI::App& app) {
   CLI::App* command = app.add_subcommand("draw", "Draws a mesh or a density on a map, the spacing "
                                                  "law of a mesh, or the convergence of CVT runs.");
-  command->callback([arguments = add_draw_options(*command)] { run(*arguments); });
+  const std::shared_ptr<DrawArguments> arguments = add_draw_options(*command);
+  set_help(*command, {.common = {"MESH", "--output", "--what", "--colour", "--projection", "--view",
+                                 "--graticule", "--size", "--density", "--cell-width", "--history",
+                                 "--spacing-law", "--plane"},
+                      .examples = {"calotte draw mesh.nc -o globe.png --what cells --view 285,38",
+                                   "calotte draw --history report.json -o convergence.png"}});
+  command->callback([arguments] { run(*arguments); });
 }
 
 } // namespace calotte::tools

@@ -2,6 +2,7 @@
 #include "draw_options.h"
 
 #include "draw/history.h"
+#include "help/help.h"
 #include "options/coastlines_option.h"
 
 #include <calotte/error.h>
@@ -89,17 +90,19 @@ void add_colour(CLI::App& command, DrawArguments& arguments) {
       command
           .add_option_function<std::string>(
               "--colour,--color", choose,
-              "Quantity that determines the colour: spacing (mean distance to the neighbours), "
-              "angle (smallest angle), valence or degree (number of neighbours), area, quality (of "
-              "a cell: shortest side over longest; of a triangle: 1 if equilateral), density (of "
-              "--density), none, or field:NAME (a variable of a NetCDF mesh with one number for "
-              "each cell)")
+              "Quantity that determines the colour: spacing, angle, valence (or degree), area, "
+              "quality, density, none or field:NAME. spacing is the mean distance to the "
+              "neighbours, angle the smallest angle, valence the number of neighbours; quality of "
+              "a cell is its shortest side over the longest, of a triangle 1 if equilateral; "
+              "density is that of --density; field:NAME is a variable of a NetCDF mesh with one "
+              "number for each cell")
           ->check(check)
           ->type_name("WORD")
           ->default_str("spacing");
 }
 
 void add_look(CLI::App& command, DrawArguments& arguments) {
+  const OptionGroup group(command, "Map");
   Look& look = arguments.options.look;
   add_choice<Projection>(command, "--projection", look.projection,
                          {{"globe", Projection::globe}, {"plate-carree", Projection::plate_carree}},
@@ -114,7 +117,7 @@ void add_look(CLI::App& command, DrawArguments& arguments) {
       ->type_name("LON,LAT");
   command.add_flag("--graticule", look.graticule, "Draw meridians and parallels every 30 degrees");
   add_coastlines(command, arguments.coastlines);
-  command.add_option("--size", look.size, "Width in pixels (points in SVG and PDF)")
+  command.add_option("--size", look.size, "Width in pixels (points in SVG and PDF), 64 to 16384")
       ->check(CLI::Range(64, 16384))
       ->capture_default_str();
   DrawOptions& options = arguments.options;
@@ -139,6 +142,7 @@ void add_density_options(CLI::App& command, DrawArguments& arguments) {
 
 /// The pictures that are no map, and the options that they do not support.
 void add_plots(CLI::App& command, DrawArguments& arguments) {
+  const OptionGroup group(command, "Plots");
   CLI::Option* history = command
                              .add_option("--history", arguments.reports,
                                          "Draw the convergence of runs against evaluations and "
@@ -163,6 +167,7 @@ void add_plots(CLI::App& command, DrawArguments& arguments) {
 
 /// --plane, the domain, and the options that they exclude.
 void add_plane_options(CLI::App& command, DrawArguments& arguments) {
+  const OptionGroup group(command, "Plane");
   CLI::Option* plane = add_plane(command, *arguments.source);
   arguments.domain = add_domain(command);
   for (const char* name : {"--domain", "--rectangle", "--periodic"}) {
@@ -178,6 +183,7 @@ void add_plane_options(CLI::App& command, DrawArguments& arguments) {
 
 std::shared_ptr<DrawArguments> add_draw_options(CLI::App& command) {
   auto arguments = std::make_shared<DrawArguments>();
+  const OptionGroup group(command, "Files");
   arguments->source = add_mesh_source(command);
   command.get_option("MESH")->required(false); // a density or a report replaces it
   command.add_option("-o,--output", arguments->output, "Output picture: .png, .svg or .pdf")

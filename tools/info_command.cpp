@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands.h"
+#include "help/help.h"
 #include "options/density_option.h"
 #include "options/domain_option.h"
 #include "options/files.h"
@@ -379,6 +380,11 @@ void add_info(CLI::App& app) {
   add_units(*command, request->units);
   command->add_option("--report", request->report, "Write the same quantities to this JSON file")
       ->type_name("FILE");
+  set_help(*command,
+           {.common = {"MESH", "--points", "--plane", "--domain", "--density", "--cell-width",
+                       "--sphere-radius", "--units", "--report"},
+            .examples = {"calotte info mesh.nc",
+                         "calotte info mesh.vtp --sphere-radius earth --cell-width 60km"}});
   command->callback([request] { run(*request); });
 }
 

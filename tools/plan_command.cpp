@@ -4,6 +4,7 @@
 #include "draw/picture.h"
 #include "draw/text.h"
 #include "draw/title.h"
+#include "help/help.h"
 #include "options/coastlines_option.h"
 #include "options/density_option.h"
 #include "options/files.h"
@@ -266,6 +267,12 @@ void add_plan(CLI::App& app) {
   add_coastlines(*command, request->coastlines);
   command->add_option("--report", request->report, "Write the same quantities to this JSON file")
       ->type_name("FILE");
+  set_help(*command,
+           {.common = {"--cells", "--density", "--cell-width", "--outside-width", "--transition",
+                       "--sphere-radius", "--threads", "--output", "--report"},
+            .examples = {
+                "calotte plan --cell-width 60km",
+                "calotte plan --cell-width coast.geojson --outside-width 120 --transition 4000"}});
   command->callback([request] { run(*request); });
 }
 

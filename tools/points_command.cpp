@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands.h"
+#include "help/help.h"
 #include "options/domain_option.h"
 #include "options/files.h"
 #include "options/format_options.h"
@@ -116,11 +117,15 @@ void add_points(CLI::App& app) {
                    "for hexagonal an approximate number")
       ->required();
   command->add_option("-o,--output", request->output, "Output file; - for standard output")
+      ->type_name("FILE")
       ->required();
   command->add_option("--seed", request->seed, "Seed of random points, >= 0; default: 1")
       ->transform(whole_number(0, std::numeric_limits<std::uint64_t>::max()));
   command->add_flag("--poles", request->poles, "Add both poles to latlon");
   request->domain = add_domain(*command);
+  set_help(*command, {.common = {},
+                      .examples = {"calotte points fibonacci 100000 -o points.txt",
+                                   "calotte points random 1000 --seed 2 -o -"}});
   command->callback([request] { run(*request); });
 }
 

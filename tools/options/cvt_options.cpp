@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "options/cvt_options.h"
 
+#include "help/help.h"
 #include "options/config_option.h"
 #include "options/format_options.h"
 #include "options/numbers.h"
@@ -47,8 +48,8 @@ void add_start(CLI::App& command, CvtRequest& request) {
   command
       .add_option("START,--points", request.points,
                   "Initial generators: text with x y z on each line (in the plane x y), - for "
-                  "standard input, or the points of a mesh: " +
-                      std::string(mesh_suffixes) + ". Without a file give --cells")
+                  "standard input, or the points of a mesh. Without a file give --cells. Meshes: " +
+                      std::string(mesh_suffixes))
       ->type_name("FILE");
   command.add_flag("--lonlat", request.lonlat,
                    "The points of START are longitude and latitude in degrees");
@@ -156,6 +157,8 @@ void add_quadrature(CLI::App& command, CvtRequest& request) {
 
 void add_files(CLI::App& command, CvtRequest& request) {
   command.add_option("-o,--output", request.mesh, help_of_output())->type_name("FILE")->required();
+  request.format = add_format(
+      command, "1; for MPAS the Earth's with --cell-width, or 1000 times --earth-radius if given");
   command
       .add_option("--report", request.report, "Write the data of every iteration to this JSON file")
       ->type_name("FILE");
@@ -172,6 +175,10 @@ void add_files(CLI::App& command, CvtRequest& request) {
       .add_option("--checkpoint-minutes", request.checkpoint_minutes,
                   "Minutes between checkpoints, if they pass before --checkpoint-every; > 0")
       ->capture_default_str();
+}
+
+/// Files that hold options: they apply to all that were added before.
+void add_saved(CLI::App& command, CvtRequest& request) {
   request.config = add_config(command);
   command
       .add_option_function<std::string>(
@@ -247,15 +254,25 @@ WriteOptions write_options(const CvtRequest& request) {
 
 std::shared_ptr<CvtRequest> add_cvt_options(CLI::App& command) {
   auto request = std::make_shared<CvtRequest>();
-  add_start(command, *request);
-  request->domain = add_domain(command);
+  {
+    const OptionGroup group(command, "Start");
+    add_start(command, *request);
+    request->domain = add_domain(command);
+  }
   request->density = add_density(command);
-  add_method(command, *request);
-  add_end(command, *request);
-  add_quadrature(command, *request);
-  request->partition = add_partition(command);
-  request->format = add_format(command);
+  {
+    const OptionGroup group(command, "Stop");
+    add_end(command, *request);
+  }
+  {
+    const OptionGroup group(command, "Method");
+    add_method(command, *request);
+    add_quadrature(command, *request);
+  }
+  const OptionGroup group(command, "Output");
   add_files(command, *request);
+  request->partition = add_partition(command);
+  add_saved(command, *request);
   return request;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "options/density_option.h"
 
+#include "help/help.h"
 #include "options/numbers.h"
 #include "options/warning.h"
 
@@ -222,20 +223,12 @@ Density bumps_of(const DensityWords& words, bool planar) {
 
 std::shared_ptr<DensityWords> add_density(CLI::App& command) {
   auto words = std::make_shared<DensityWords>();
+  const OptionGroup group(command, "Widths and density");
   CLI::Option* const density =
       command
-          .add_option(
-              "--density", words->densities,
-              "Density: uniform (default), or a bump such as " + std::string(example) +
-                  ": about 1 within the angle beta of the centre lon, lat and gamma far from it, "
-                  "with a transition of width alpha. lon and lat are in degrees; beta and alpha in "
-                  "radians or as 30deg, > 0; gamma is in (0, 1), or x8 for spacings that differ by "
-                  "a factor of 8. stretch=2,azimuth=45 makes an ellipse: stretch >= 1 is the ratio "
-                  "of its axes, azimuth the direction of the long axis in degrees clockwise from "
-                  "north. In the plane: " +
-                  in_plane.example +
-                  ", with lengths in the unit of the domain, and stretch=2,angle=45, "
-                  "counter-clockwise from x. Repeat the option for several bumps")
+          .add_option("--density", words->densities,
+                      "Density: uniform (default), or a bump; see calotte help density. Such as " +
+                          std::string(example) + ". Repeat the option for several bumps")
           ->allow_extra_args(false);
   command.add_option("--join", words->join, "Combination of several bumps")
       ->check(CLI::IsMember({"maximum", "sum"}))

@@ -44,8 +44,8 @@ CLI::Option* add_periodic(CLI::App& command, std::optional<std::string>& word) {
   return command
       .add_option(
           "--periodic", word,
-          "Doubly periodic plane: a box with this WIDTH and HEIGHT, > 0, and its lower left corner "
-          "at 0 0, which contains all points. Meshes of it are .nc (MPAS), .txt or .tri")
+          "Doubly periodic plane: a box with this WIDTH and HEIGHT, > 0. It contains all points; "
+          "its lower left corner is at 0 0. Meshes of it are .nc (MPAS), .txt or .tri")
       ->type_name("WIDTH,HEIGHT");
 }
 
@@ -54,9 +54,10 @@ std::shared_ptr<DomainWords> add_bounded_domain(CLI::App& command) {
   CLI::Option* file =
       command
           .add_option("--domain", words->file,
-                      "Planar domain inside polygons: GeoJSON (.geojson, .json; x and y in place "
-                      "of longitude and latitude), or text with a corner x y on each line and a "
-                      "blank line or a line > between rings. Rings within rings are holes")
+                      "Planar domain inside the polygons of a file. GeoJSON (.geojson, .json; x "
+                      "and y in place of longitude and latitude), or text with a corner x y on "
+                      "each line and a blank line or a line > between rings. Rings within rings "
+                      "are holes")
           ->type_name("FILE");
   command
       .add_option("--rectangle", words->rectangle,

@@ -11,8 +11,8 @@ std::shared_ptr<MeshSource> add_mesh_source(CLI::App& command, const std::string
   auto source = std::make_shared<MeshSource>();
   command
       .add_option(names, source->path,
-                  "Input mesh: " + std::string(mesh_suffixes) +
-                      ", SaveVertices (MPI-SCVT), or .txt and .tri with --points")
+                  "Input mesh; .txt and .tri require --points. Names: " +
+                      std::string(mesh_suffixes) + ", SaveVertices (MPI-SCVT), or .txt and .tri")
       ->type_name("FILE")
       ->required();
   command.add_option("--points", source->points, "Points to which a .txt or .tri file refers")
@@ -66,8 +66,8 @@ CLI::Option* add_plane(CLI::App& command, MeshSource& source) {
   return command
       .add_flag(
           "--plane", source.plane,
-          "The mesh is planar: .vtp, .vtu, .off, .ply or .msh with z = 0, planar MPAS or UGRID, or "
-          ".txt and .tri with --points (x y on each line)")
+          "The mesh is planar. Formats: .vtp, .vtu, .off, .ply or .msh with z = 0, planar MPAS or "
+          "UGRID, or .txt and .tri with --points (x y on each line)")
       ->excludes(command.get_option("--lonlat"));
 }
 

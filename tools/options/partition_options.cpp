@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "options/partition_options.h"
 
+#include "help/help.h"
 #include "options/numbers.h"
 #include "options/point_file.h"
 
@@ -37,6 +38,7 @@ Points3 read_centres(const PartitionWords& words, bool plane) {
 
 std::shared_ptr<PartitionWords> add_partition(CLI::App& command) {
   auto words = std::make_shared<PartitionWords>();
+  const OptionGroup group(command, "Parallel");
   command.add_option("--threads", words->threads, "Number of threads, 1 to 4096; default: all")
       ->transform(whole_number(1, 4096));
   command

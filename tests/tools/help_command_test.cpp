@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/command.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <sstream>
+#include <string>
+#include <vector>
+
+using namespace calotte::test;
+
+namespace {
+
+const std::vector<std::string> commands{"delaunay", "cvt",  "plan", "points",
+                                        "check",    "info", "draw", "convert"};
+
+/// The text of a help, checked to succeed.
+std::string shown(const Bench& bench, const std::string& arguments) {
+  CAPTURE(arguments);
+  const Outcome help = bench.run(arguments);
+  CHECK(help.code == 0);
+  CHECK(help.err.empty());
+  return help.out;
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::istringstream in(text);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);)
+    lines.push_back(line);
+  return lines;
+}
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+} // namespace
+
+TEST_CASE("help has at most 40 lines of 100 columns, and ends with examples") {
+  const Bench bench;
+  std::vector<std::string> all = commands;
+  all.insert(all.end(), {"", "help"});
+  for (const std::string& command : all) {
+    const std::string text = shown(bench, command + " --help");
+    const std::vector<std::string> lines = lines_of(text);
+    CHECK(lines.size() <= 40);
+    for (const std::string& line : lines)
+      CHECK(line.size() <= 100);
+    CHECK(has(text, "\nExamples:\n  calotte " + command) != command.empty());
+  }
+}
+
+TEST_CASE("--help shows common options, --help-all the others and the exit codes, in groups") {
+  const Bench bench;
+  const std::string some = shown(bench, "cvt --help"), all = shown(bench, "cvt --help-all");
+  for (const char* group :
+       {"\nStart:\n", "\nWidths and density:\n", "\nStop:\n", "\nOutput:\n", "\nParallel:\n"}) {
+    CHECK(has(some, group));
+    CHECK(has(all, group));
+  }
+  for (const char* option :
+       {"  --cells N|auto ", "  --cell-width KM|FILE ", "  -o,--output FILE "}) {
+    CHECK(has(some, option));
+    CHECK(has(all, option));
+  }
+  for (const char* option : {"  --triangle-divisions ", "  --merge-within ", "  --relaxation "}) {
+    CHECK(!has(some, option));
+    CHECK(has(all, option));
+  }
+  CHECK(has(some, "calotte cvt --help-all"));
+  CHECK(has(all, "Requires --cell-width"));
+  for (const std::string& command : commands)
+    CHECK(has(shown(bench, command + " --help-all"), "1  the mesh failed its check"));
+  CHECK(has(shown(bench, "--help"), "1  the mesh failed its check"));
+  for (const std::string& line : lines_of(all))
+    CHECK(line.size() <= 100);
+}
+
+TEST_CASE("calotte help shows the same as --help") {
+  const Bench bench;
+  CHECK(shown(bench, "help") == shown(bench, "--help"));
+  for (const std::string& command : commands)
+    CHECK(shown(bench, "help " + command) == shown(bench, command + " --help"));
+  check_refusal(bench, "help cvtt", 2, "no help on \"cvtt\"; did you mean cvt? See calotte --help");
+  check_refusal(bench, "help densities", 2,
+                "no help on \"densities\"; did you mean density? See calotte --help");
+}
+
+TEST_CASE("the syntax of a density stands in one place, to which the options refer") {
+  const Bench bench;
+  const std::string topic = shown(bench, "help density");
+  CHECK(has(topic, "stretch"));
+  for (const std::string& line : lines_of(topic))
+    CHECK(line.size() <= 100);
+  for (const char* command : {"cvt", "plan", "info", "draw", "convert"})
+    for (const char* option : {" --help", " --help-all"}) {
+      const std::string help = shown(bench, std::string(command).append(option));
+      CHECK(has(help, "calotte help density"));
+      CHECK(!has(help, "stretch"));
+    }
+  CHECK(has(shown(bench, "help exit-codes"), "1  the mesh failed its check"));
+}
+
+TEST_CASE("a misspelt option or command is answered with the nearest one") {
+  const Bench bench;
+  const auto check = [&](const std::string& arguments, const std::string& message) {
+    check_refusal(bench, arguments, 2, message);
+  };
+  check("cvtt", "unknown command cvtt; did you mean cvt? See calotte --help");
+  check("cvtt --cells 12 -o mesh.vtp",
+        "unknown command cvtt; did you mean cvt? See calotte --help");
+  check("cvtt --help", "unknown command cvtt; did you mean cvt? See calotte --help");
+  check("grid", "unknown command grid; see calotte --help");
+  check("--verison", "unknown option --verison; did you mean --version? See calotte --help");
+  const std::string tolerance =
+      "unknown option --tolerence; did you mean --tolerance? See calotte cvt --help";
+  check("cvt --cells 12 -o mesh.vtp --tolerence 1e-5", tolerance);
+  check("cvt --cells 12 -o mesh.vtp --tolerence=1e-5", tolerance);
+  check("cvt --cells 12 --tolerence 1e-5", tolerance); // no output: the smaller mistake
+  check("cvt --cells 12 --outptu mesh.vtp",
+        "unknown option --outptu; did you mean --output? See calotte cvt --help");
+  check("cvt --cells 12 --max_iteration 3 -o mesh.vtp",
+        "unknown option --max_iteration; did you mean --max-iterations? See calotte cvt --help");
+  check("cvt --cells 12 -o mesh.vtp --frobnicate",
+        "unknown option --frobnicate; see calotte cvt --help");
+}
