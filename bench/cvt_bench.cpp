@@ -203,7 +203,7 @@ void print_results(std::ostream& out, const std::vector<SetResults>& results,
                    const Options& options) {
   print_iterations(out, results, "calotte");
   if (options.density_samples > 0)
-    print_density_costs(out, density_costs(x8_density(), {32, 512}, options.density_samples));
+    print_density_costs(out, density_costs({32, 512}, options.density_samples));
 }
 
 } // namespace

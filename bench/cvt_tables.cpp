@@ -91,11 +91,12 @@ void print_iterations(std::ostream& out, const std::vector<SetResults>& results,
 }
 
 void print_density_costs(std::ostream& out, const std::vector<DensityCost>& costs) {
-  out << "\n### One evaluation of the x8 bump, one thread\n\n"
-      << "| points in a row | median ns | quartiles | min - max |\n| --: | --: | --: | --: |\n";
+  out << "\n### One evaluation of the x8 density, one thread\n\n"
+      << "| density | points in a row | median ns | quartiles | min - max |\n"
+      << "| --- | --: | --: | --: | --: |\n";
   for (const DensityCost& cost : costs)
-    out << "| " << cost.row << " | " << fixed(median(cost.nanoseconds), 2) << " | "
-        << range_text(cost.nanoseconds, 0.25, 0.75, 2) << " | "
+    out << "| " << cost.density << " | " << cost.row << " | " << fixed(median(cost.nanoseconds), 2)
+        << " | " << range_text(cost.nanoseconds, 0.25, 0.75, 2) << " | "
         << range_text(cost.nanoseconds, 0, 1, 2) << " |\n";
 }
 
