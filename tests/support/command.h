@@ -50,8 +50,9 @@ public:
   /// \param arguments in the shell's syntax, redirections included.
   /// \param before a command for the shell, ended by a semicolon.
   pid_t start(const std::string& arguments, const std::string& before = "") const {
-    const std::string line = "cd '" + folder().string() + "' && { " + before + " exec '" +
-                             CALOTTE_COMMAND "' " + arguments + "; } >'" +
+    // On a busy machine any run may last long enough for a log.
+    const std::string line = "cd '" + folder().string() + "' && { export CALOTTE_LOG_AFTER=1e9; " +
+                             before + " exec '" + CALOTTE_COMMAND "' " + arguments + "; } >'" +
                              (scratch_ / "out").string() + "' 2>'" + (scratch_ / "err").string() +
                              "'";
     const pid_t process = ::fork();
