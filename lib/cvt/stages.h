@@ -84,11 +84,15 @@ struct Exchange {
 template <class AnyMesh>
 Exchange exchange_of(Stage stage, const State& state, const AnyMesh& mesh, const Density& density,
                      std::int64_t cells) {
-  constexpr double share = 0.5, mended = 0.05; // of the dislocations
-  constexpr double most = 0.02;                // of the generators
+  constexpr double share = 0.5, mended = 0.05, most_mended = 0.1; // of the dislocations
+  constexpr double most = 0.02;                                   // of the generators
   const bool mend = stage == Stage::mend;
   const std::int64_t n = mesh.points.cols();
-  std::int64_t both = mend ? count_odd_sites(mesh) + count_bad_angles(mesh) : 0;
+  std::int64_t both = 0;
+  if (mend) // where no grid can follow the widths, mends at all bad angles would make it worse
+    both = count_odd_sites(mesh) +
+           std::min(count_bad_angles(mesh),
+                    static_cast<std::int64_t>(most_mended * dislocations(mesh, density)));
   if (state.rounds_left > 0 || (mend && both == 0))
     both = static_cast<std::int64_t>(std::ceil(std::min(
         (mend ? mended : share) * dislocations(mesh, density), most * static_cast<double>(n))));

@@ -882,6 +882,21 @@ TEST_CASE("a graded run reaches its number of cells and ends with good shapes") 
   CHECK(!has(pure.out, "from their centroids"));
 }
 
+TEST_CASE("on a terminal a line shows the level and a range of the time left [slow]") {
+  const Bench bench; // script(1) gives the command a terminal
+  const Outcome outcome =
+      bench.run("", "exec script -qefc \"'" CALOTTE_COMMAND "' cvt --cells 20000 --start density "
+                    "--density " +
+                        bump +
+                        " --rule 19 --iterations 60 --threads 1 -o mesh.vtp\" "
+                        "/dev/null </dev/null;");
+  CHECK(outcome.code == 0);
+  CHECK(has(outcome.out, "\rcalotte: 20000 cells, iteration "));
+  CHECK(has(outcome.out, ", energy x cells "));
+  CHECK(has(outcome.out, " s left ("));
+  CHECK(has(outcome.out, "mesh.vtp: 20000 cells, "));
+}
+
 TEST_CASE("what can fail at the end is tried before the run") {
   const Bench bench;
   fs::create_directory(bench.folder() / "mesh.graph.info");
