@@ -34,7 +34,8 @@ struct Place {
 class Table {
 public:
   Table(std::size_t most, DistinctPlaces& places)
-      : places_(places), mask_(std::bit_ceil(2 * most + 2) - 1), slots_(zeros<Slot>(static_cast<std::int64_t>(mask_) + 1)) {}
+      : places_(places), mask_(std::bit_ceil(2 * most + 2) - 1),
+        slots_(zeros<Slot>(static_cast<std::int64_t>(mask_) + 1)) {}
 
   void fetch(std::uint64_t hash) const { __builtin_prefetch(&slots_[hash & mask_], 1); }
 

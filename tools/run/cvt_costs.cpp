@@ -43,10 +43,10 @@ double seconds_of_point(const Density& density) {
   return least / points;
 }
 
-// Fits of default runs on an AMD EPYC virtual machine, seconds of all threads together: x8 and widths
-// by latitude as rasters, with 46 000 to 744 000 cells, took the time of 100 to 170 evaluations;
-// widths along a coast, with gradients six times above what models recommend, that of 260. An
-// evaluation took 290 to 540 ns of a cell.
+// Fits of default runs on an AMD EPYC virtual machine, seconds of all threads together: x8 and
+// widths by latitude as rasters, with 46 000 to 744 000 cells, took the time of 100 to 170
+// evaluations; widths along a coast, with gradients six times above what models recommend, that of
+// 260. An evaluation took 290 to 540 ns of a cell.
 
 /// In units of the result's cells; uniform from a bisected icosahedron, and all others.
 constexpr double evaluations_icosahedral = 30, evaluations = 150;
