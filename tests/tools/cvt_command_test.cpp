@@ -590,6 +590,31 @@ TEST_CASE("a checkpoint knows its command: --resume alone continues to the same 
   CHECK((bench.file("other.vtp") == whole));
 }
 
+TEST_CASE("a graded run resumes to the same bits after a signal in any of its phases [slow]") {
+  const Bench bench;
+  const std::string run = "cvt --cells 10000 --density "
+                          "tanh:lon=270,lat=30,beta=30deg,alpha=0.30,gamma=x3 -o mesh.vtp";
+  CHECK(bench.run(run).code == 0);
+  const std::string whole = bench.file("mesh.vtp");
+  int interrupted = 0;
+  for (int milliseconds = 20; milliseconds < 2000; milliseconds += milliseconds) {
+    CAPTURE(milliseconds);
+    const pid_t process = bench.start(run);
+    wait_until([&] { return handles(process, SIGINT); });
+    std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+    ::kill(process, SIGINT);
+    const int code = bench.finish(process).code;
+    if (code == 0) // it had ended
+      continue;
+    CHECK(code == 130);
+    ++interrupted;
+    CHECK(bench.run("check mesh.vtp").code == 0);
+    CHECK(bench.run("cvt --resume mesh.vtp.checkpoint").code == 0);
+    CHECK((bench.file("mesh.vtp") == whole));
+  }
+  CHECK(interrupted >= 2);
+}
+
 TEST_CASE("a resumed run may stop by another rule, with the bits of a run that has it") {
   const Bench bench;
   const std::string run = "cvt --cells 162 --start random --seed 5 ";
