@@ -25,7 +25,11 @@ using cvt_detail::State;
 constexpr std::string_view format = "calotte checkpoint ";
 
 std::string head() {
-  return std::string(format) + "6, " + (little_endian ? "little" : "big") + "-endian\n";
+  std::string line(format);
+  line += "6, ";
+  line += little_endian ? "little" : "big";
+  line += "-endian\n";
+  return line;
 }
 
 /// One list of fields serves writing and reading.
