@@ -171,10 +171,8 @@ Plan prepare(CvtRequest& request, Progress& progress) {
   plan.options.density = std::move(resolution.density);
   const std::vector<std::string> notes = settle_cells(request, resolution.widths);
   if (request.cells)
-    require_space(
-        request.mesh,
-        file_bytes(format_of(request.mesh, options_of(*request.format, request.mesh).format),
-                   *request.cells, plan.options.density.uniform()));
+    require_space(request.mesh, file_bytes(format_of(request.mesh, write_options(request).format),
+                                           *request.cells, plan.options.density.uniform()));
   progress.stage("making the start");
   plan.start = open_start(request);
   if (start_kind(request) == "multilevel") {

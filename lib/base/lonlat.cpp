@@ -4,7 +4,6 @@
 #include "base/circle.h"
 #include "base/vector_loops.h"
 
-#include <array>
 #include <cmath>
 
 namespace calotte::base_detail {

@@ -24,7 +24,7 @@ enum class Stage {
   bisect,  ///< the next level
   finish,  ///< a descent with the penalty of shape.h
   stiffen, ///< the finish goes on with a larger penalty, where it fell short
-  mend,    ///< an insertion at odd sites, which a finish cannot give good shapes
+  mend,    ///< an insertion at odd sites and bad angles, which a finish cannot mend
   end,
 };
 

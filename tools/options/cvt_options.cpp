@@ -63,8 +63,7 @@ void add_start(CLI::App& command, CvtRequest& request) {
           "the sphere; the default there if the density is uniform), density (random, distributed "
           "as the cells of an optimal grid; the default in the plane if the density is uniform), "
           "random (uniform), fibonacci, spiral or icosahedron (on the sphere), or hexagonal (in "
-          "the "
-          "plane)")
+          "the plane)")
       ->check(CLI::IsMember({"multilevel", "continuation", "random", "density", "fibonacci",
                              "spiral", "icosahedron", "hexagonal"}));
   command.add_option("--seed", request.seed, "Seed of random points, >= 0; default: 1")
