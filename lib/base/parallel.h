@@ -39,7 +39,7 @@ template <class Body> void for_each_task(std::int64_t n, const Body& body) {
 /// The number of blocks that for_each_block and exclusive_scan cut n items into: a function of n
 /// alone.
 inline std::int64_t block_count(std::int64_t n) {
-  constexpr std::int64_t block = 1 << 14;
+  constexpr std::int64_t block = 1 << 11; // so that loops over few items use all threads, too
   return (n + block - 1) / block;
 }
 
@@ -48,19 +48,6 @@ template <class Body> void for_each_block(std::int64_t n, const Body& body) {
   const std::int64_t blocks = block_count(n);
   for_each_task(blocks, [&](std::int64_t block) {
     body(block, n * block / blocks, n * (block + 1) / blocks);
-  });
-}
-
-/// The same for smaller slices: loops of little work over few items, which must still use all
-/// threads.
-inline std::int64_t slice_count(std::int64_t n) {
-  constexpr std::int64_t slice = 1 << 11;
-  return (n + slice - 1) / slice;
-}
-template <class Body> void for_each_slice(std::int64_t n, const Body& body) {
-  const std::int64_t slices = slice_count(n);
-  for_each_task(slices, [&](std::int64_t slice) {
-    body(slice, n * slice / slices, n * (slice + 1) / slices);
   });
 }
 

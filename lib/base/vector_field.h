@@ -13,6 +13,9 @@ double inner(const Points3& a, const Points3& b);
 /// y + a x.
 void add(Points3& y, double a, const Points3& x);
 
+/// Sets y to y + a x; returns its inner product with b.
+double inner_of_sum(Points3& y, double a, const Points3& x, const Points3& b);
+
 void multiply(Points3& y, double a);
 
 /// Subtracts from each vector its component along x, unit columns.

@@ -85,7 +85,8 @@ void conclude(State& state, const CvtOptions& options, const CvtIteration& itera
   const bool by_final_rule = options.density.uniform() || iteration.rule == options.final_rule;
   report.residual = norm_of(iteration, options.norm);
   if (state.penalty > 0) {
-    report.converged = iteration.misshapen <= (state.stiff ? accepted_shape : shape_tolerance);
+    report.converged =
+        iteration.misshapen <= (state.stiffened > 0 ? accepted_shape : shape_tolerance);
   } else if (options.norm == Norm::none) {
     report.converged = state.iterations_of_level >= options.max_iterations;
   } else {

@@ -179,15 +179,25 @@ Points3 Descent::direction() {
   const std::size_t pairs = memory.steps.size();
   Points3 d = here_.gradient;
   std::vector<double> shares(pairs);
+  double product = pairs == 0 ? 0 : inner(memory.steps.back(), d); // of d with the next vector
   for (std::size_t k = pairs; k-- > 0;) {
-    shares[k] = inner(memory.steps[k], d) / memory.curvatures[k];
-    add(d, -shares[k], memory.changes[k]);
+    shares[k] = product / memory.curvatures[k];
+    if (k > 0)
+      product = inner_of_sum(d, -shares[k], memory.changes[k], memory.steps[k - 1]);
+    else
+      add(d, -shares[k], memory.changes[k]);
   }
   functional_.make_tangential(d, state_.points);
   precondition(d);
   functional_.make_tangential(d, state_.points);
-  for (std::size_t k = 0; k < pairs; ++k)
-    add(d, shares[k] - inner(memory.changes[k], d) / memory.curvatures[k], memory.steps[k]);
+  product = pairs == 0 ? 0 : inner(memory.changes.front(), d);
+  for (std::size_t k = 0; k < pairs; ++k) {
+    const double share = shares[k] - product / memory.curvatures[k];
+    if (k + 1 < pairs)
+      product = inner_of_sum(d, share, memory.steps[k], memory.changes[k + 1]);
+    else
+      add(d, share, memory.steps[k]);
+  }
   functional_.make_tangential(d, state_.points);
   multiply(d, -1);
   return d;

@@ -66,7 +66,7 @@ template <class SetRow>
 Rows<double> make_rows(std::int64_t rows, std::int64_t columns, std::int64_t expected,
                        const SetRow& set_row) {
   constexpr std::int64_t most_parts = 64; // each with a place for every column
-  const std::int64_t parts = std::min(most_parts, slice_count(rows));
+  const std::int64_t parts = std::min(most_parts, block_count(rows));
   Rows<double> out;
   out.begin = Array<std::int32_t>(rows + 1);
   std::vector<RowSums> part;
@@ -114,7 +114,7 @@ Rows<double> product(const Rows<double>& left, const Rows<double>& right, std::i
 /// The elements on the diagonal.
 Array<double> diagonal_of(const Rows<double>& matrix) {
   Array<double> diagonal(matrix.size());
-  for_each_slice(matrix.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+  for_each_block(matrix.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i)
       for (std::int32_t k = matrix.begin[i]; k != matrix.begin[i + 1]; ++k)
         if (matrix.column[k] == i)
@@ -127,7 +127,7 @@ Array<double> diagonal_of(const Rows<double>& matrix) {
 Array<double> norms_of_aggregates(const Array<double>& constant) {
   const std::int64_t rows = constant.size(), aggregates = aggregates_of(rows);
   Array<double> norms(aggregates);
-  for_each_slice(aggregates, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+  for_each_block(aggregates, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t a = begin; a != end; ++a) {
       const std::int64_t last = a + 1 == aggregates ? rows : aggregate_rows * (a + 1);
       double sum = 0;
@@ -195,7 +195,7 @@ Rows<double> scaled(const SparseMatrix& matrix, const Array<double>& factor) {
   std::copy_n(matrix.outerIndexPtr(), matrix.rows() + 1, out.begin.begin());
   out.column = Array<std::int32_t>(matrix.nonZeros());
   out.value = Array<double>(matrix.nonZeros());
-  for_each_slice(matrix.rows(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+  for_each_block(matrix.rows(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i)
       for (std::int32_t k = out.begin[i]; k != out.begin[i + 1]; ++k) {
         out.column[k] = matrix.innerIndexPtr()[k];
@@ -223,7 +223,7 @@ auto row_times(const Rows<float>& matrix, std::int64_t row, const Vectors& x) {
 
 /// Sets out[i] = value(i) for all of its elements.
 template <class Vectors, class Value> void set_all(Vectors& out, const Value& value) {
-  for_each_slice(out.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+  for_each_block(out.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i)
       out[i] = value(i);
   });
@@ -232,7 +232,7 @@ template <class Vectors, class Value> void set_all(Vectors& out, const Value& va
 } // namespace
 
 Multigrid::Multigrid(SparseMatrix given) : scale_(given.rows()) {
-  for_each_slice(given.rows(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+  for_each_block(given.rows(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i)
       scale_[i] = 1 / std::sqrt(given.coeff(i, i));
   });
@@ -271,11 +271,11 @@ Multigrid::Multigrid(SparseMatrix given) : scale_(given.rows()) {
 Points3 Multigrid::solve(const Points3& right) {
   Vectors& top = levels_.empty() ? coarsest_ : levels_.front().right;
   const std::int64_t n = right.cols();
-  std::vector<double> most(static_cast<std::size_t>(slice_count(n)), 0);
-  for_each_slice(n, [&](std::int64_t slice, std::int64_t begin, std::int64_t end) {
+  std::vector<double> most(static_cast<std::size_t>(block_count(n)), 0);
+  for_each_block(n, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i)
-      most[static_cast<std::size_t>(slice)] = std::max(
-          most[static_cast<std::size_t>(slice)], scale_[i] * right.col(i).cwiseAbs().maxCoeff());
+      most[static_cast<std::size_t>(block)] = std::max(
+          most[static_cast<std::size_t>(block)], scale_[i] * right.col(i).cwiseAbs().maxCoeff());
   });
   // Single precision has few exponents: the largest number becomes about 1.
   const double largest = *std::max_element(most.begin(), most.end());
@@ -289,7 +289,7 @@ Points3 Multigrid::solve(const Points3& right) {
   cycle(0);
   const Vectors& solved = levels_.empty() ? coarsest_ : levels_.front().x;
   Points3 solution(3, n);
-  for_each_slice(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+  for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i)
       set_column(solution, i,
                  (scale_[i] * largest) * Vec3{solved[i][0], solved[i][1], solved[i][2]});

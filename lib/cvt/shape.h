@@ -20,7 +20,7 @@ struct ShapeLimits {
   /// Voronoi edge over Delaunay edge, which is the mean of the two cotangents across.
   double least_edge = 0.38, most_edge = 0.78;
   /// Delaunay edge over the spacing that the density demands there.
-  double least_spacing = 0.84, most_spacing = 1.25;
+  double least_spacing = 0.86, most_spacing = 1.25;
 };
 
 /// The penalty for shapes beyond the limits.

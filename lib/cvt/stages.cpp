@@ -59,7 +59,7 @@ bool has_stalled(const State& state) {
 }
 
 Stage stage_after(const State& state, const CvtOptions& options) {
-  constexpr int most_mends = 4;
+  constexpr int most_mends = 4, most_stiffened = 2;
   constexpr double mendable =
       0.11; // an excess: larger ones are at sites that a penalty cannot move
   const bool inserts = options.insertion_rounds > 0, in_finish = state.penalty > 0;
@@ -73,7 +73,7 @@ Stage stage_after(const State& state, const CvtOptions& options) {
   if (options.well_centred && !in_finish)
     return Stage::finish;
   const bool fell_short = in_finish && !state.report.converged;
-  if (fell_short && !state.stiff && last_accepted(state).misshapen < mendable)
+  if (fell_short && state.stiffened < most_stiffened && last_accepted(state).misshapen < mendable)
     return Stage::stiffen;
   if (fell_short && inserts && state.mends < most_mends)
     return Stage::mend;
@@ -88,6 +88,8 @@ CvtOptions options_of_descent(const State& state, const CvtOptions& options, boo
   if (state.penalty > 0) {
     here.method = Method::lbfgs;
     here.max_iterations = most_in_finish;
+    if (at_sites && state.points.cols() >= resolving)
+      here.rule = rule_at_sites;
     return here;
   }
   if (options.insertion_rounds == 0 || options.norm == Norm::none)
@@ -129,7 +131,7 @@ void begin_finish(State& state) {
 void begin_stiffened(State& state) {
   constexpr double factor = 4;
   state.penalty *= factor;
-  state.stiff = true;
+  ++state.stiffened;
   begin_descent(state);
 }
 

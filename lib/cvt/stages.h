@@ -24,7 +24,7 @@ enum class Stage {
   bisect,  ///< the next level
   finish,  ///< a descent with the penalty of shape.h
   stiffen, ///< the finish goes on with a larger penalty, where it fell short
-  mend,    ///< an insertion at odd sites and bad angles, which a finish cannot mend
+  mend,    ///< an insertion at odd sites and bad edges, which a finish cannot mend
   end,
 };
 
@@ -79,7 +79,7 @@ struct Exchange {
 };
 
 /// Half of the dislocations that the density demands while rounds are left; where a mesh is mended,
-/// the odd sites and the bad angles, or without any a few dislocations; and the difference to the
+/// the odd sites and the bad edges, or without any a few dislocations; and the difference to the
 /// number of cells.
 template <class AnyMesh>
 Exchange exchange_of(Stage stage, const State& state, const AnyMesh& mesh, const Density& density,
@@ -89,9 +89,9 @@ Exchange exchange_of(Stage stage, const State& state, const AnyMesh& mesh, const
   const bool mend = stage == Stage::mend;
   const std::int64_t n = mesh.points.cols();
   std::int64_t both = 0;
-  if (mend) // where no grid can follow the widths, mends at all bad angles would make it worse
+  if (mend) // where no grid can follow the widths, mends at all bad edges would make it worse
     both = count_odd_sites(mesh) +
-           std::min(count_bad_angles(mesh),
+           std::min(count_bad_edges(mesh, density),
                     static_cast<std::int64_t>(most_mended * dislocations(mesh, density)));
   if (state.rounds_left > 0 || (mend && both == 0))
     both = static_cast<std::int64_t>(std::ceil(std::min(
@@ -110,7 +110,7 @@ Level begin_round(const World& world, Stage stage, State& state, const CvtOption
   state.rounds_left = std::max(state.rounds_left - 1, 0);
   state.mends += stage == Stage::mend ? 1 : 0;
   state.penalty = 0;
-  state.stiff = false;
+  state.stiffened = 0;
   state.site_of_input.clear();
   begin_descent(state);
   return level;

@@ -8,6 +8,7 @@
 #include "density/planar_density.h"
 #include "domain/outline.h"
 #include "domain/periodic_box.h"
+#include "generators/bad_edges.h"
 #include "generators/midpoints.h"
 #include "mesh/edges.h"
 
@@ -152,28 +153,6 @@ template <class AnyMesh> std::vector<std::int8_t> oddities(const AnyMesh& mesh) 
   return odd;
 }
 
-/// 1 for an angle near a right one, -1 for one below 47 degrees, 0 for others.
-int misshape(const Vec3& u, const Vec3& v) {
-  constexpr double near_right = 0.18, narrow = 0.93; // cotangents
-  const double cosine = dot(u, v), sine = norm(cross(u, v));
-  return (cosine < near_right * sine) - (cosine > narrow * sine);
-}
-
-/// Calls visit(a, b, misshape) for the edges across from bad angles.
-template <class AnyMesh, class Space, class Visit>
-void for_each_bad_edge(const AnyMesh& mesh, const Points3& points, const Space& space,
-                       const Visit& visit) {
-  for (std::int64_t t = 0; t < mesh.triangles.cols(); ++t)
-    for (int i = 0; i < 3; ++i) {
-      const std::int32_t a = mesh.triangles((i + 1) % 3, t), b = mesh.triangles((i + 2) % 3, t);
-      const Vec3& at = column(points, mesh.triangles(i, t));
-      const int bad =
-          misshape(space.offset(at, column(points, a)), space.offset(at, column(points, b)));
-      if (bad != 0 && mesh.neighbours(i, t) >= 0)
-        visit(std::min(a, b), std::max(a, b), bad);
-    }
-}
-
 /// The edges, with their lengths relative to the spacing. Those at sites with many neighbours count
 /// as longer, so that an insertion splits these; those at sites with few as shorter.
 template <class AnyMesh, class Space>
@@ -195,20 +174,17 @@ std::vector<Edge> edges_of(const AnyMesh& mesh, const Points3& points, const Den
   return edges;
 }
 
-/// Edges across from large angles count as longer, those across from small ones as shorter, than
-/// all that are not.
-template <class AnyMesh, class Space>
-void prefer_bad_edges(const AnyMesh& mesh, const Points3& points, const Space& space,
-                      std::vector<Edge>& edges) {
+/// Edges that are too long for their shape count as longer, those too short as shorter, than all
+/// that are well shaped.
+void prefer(const std::vector<BadEdge>& bad_edges, std::vector<Edge>& edges) {
   constexpr double preference = 2;
-  std::map<std::pair<std::int32_t, std::int32_t>, int> bad;
-  for_each_bad_edge(mesh, points, space, [&](std::int32_t a, std::int32_t b, int sign) {
-    bad[{a, b}] = sign;
-  });
+  std::map<std::pair<std::int32_t, std::int32_t>, bool> bad;
+  for (const BadEdge& edge : bad_edges)
+    bad[{edge.a, edge.b}] = edge.too_long;
   if (!bad.empty())
     for (Edge& edge : edges)
       if (const auto at = bad.find({edge.a, edge.b}); at != bad.end())
-        edge.length *= at->second > 0 ? preference : 1 / preference;
+        edge.length *= at->second ? preference : 1 / preference;
 }
 
 /// The points that remain, those of contracted edges moved to the midpoints, then the inserted
@@ -239,7 +215,7 @@ Points3 exchange(const AnyMesh& mesh, const Points3& points, const Density& dens
   require_counts(points.cols(), inserted, contracted);
   std::vector<Edge> edges = edges_of(mesh, points, density, space);
   if (mend)
-    prefer_bad_edges(mesh, points, space, edges);
+    prefer(bad_edges(mesh, points, fineness(density, points), space), edges);
   Choice choice(points.cols(), edges);
   const auto middle = [&](const Edge& edge) {
     return space.middle(column(points, edge.a), column(points, edge.b));
@@ -322,17 +298,15 @@ template <class AnyMesh> std::int64_t count_odd_sites(const AnyMesh& mesh) {
 template std::int64_t count_odd_sites(const Mesh& mesh);
 template std::int64_t count_odd_sites(const PlanarMesh& mesh);
 
-std::int64_t count_bad_angles(const Mesh& mesh) {
-  std::int64_t count = 0;
-  for_each_bad_edge(mesh, mesh.points, OnSphere(), [&](auto, auto, int) { ++count; });
-  return count;
+std::int64_t count_bad_edges(const Mesh& mesh, const Density& density) {
+  const Points3 points = unit(mesh.points);
+  return std::ssize(bad_edges(mesh, points, fineness(density, points), OnSphere()));
 }
 
-std::int64_t count_bad_angles(const PlanarMesh& mesh) {
-  std::int64_t count = 0;
-  for_each_bad_edge(mesh, in_space(mesh), InPlane{{mesh.period.x(), mesh.period.y()}, nullptr},
-                    [&](auto, auto, int) { ++count; });
-  return count;
+std::int64_t count_bad_edges(const PlanarMesh& mesh, const Density& density) {
+  const Points3 points = in_space(mesh);
+  const InPlane space{{mesh.period.x(), mesh.period.y()}, nullptr};
+  return std::ssize(bad_edges(mesh, points, fineness(density, points), space));
 }
 
 Points3 exchanged(const Mesh& mesh, const Density& density, std::int64_t inserted,

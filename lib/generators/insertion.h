@@ -23,12 +23,14 @@ double dislocations(const PlanarMesh& mesh, const Density& density);
 /// prefers edges at the former, a contraction at the latter.
 template <class AnyMesh> std::int64_t count_odd_sites(const AnyMesh& mesh);
 
-/// How many angles of triangles are near a right angle, or below 47 degrees.
-std::int64_t count_bad_angles(const Mesh& mesh);
-std::int64_t count_bad_angles(const PlanarMesh& mesh);
+/// How many edges are long or short for their shape or for the density, so that relaxation does not
+/// mend them.
+std::int64_t count_bad_edges(const Mesh& mesh, const Density& density);
+/// The same in the plane. \pre the density is that of planar_density().
+std::int64_t count_bad_edges(const PlanarMesh& mesh, const Density& density);
 
 /// As insert_and_contract().
-/// \param mend edges across from such angles come first.
+/// \param mend such edges come first.
 Points3 exchanged(const Mesh& mesh, const Density& density, std::int64_t inserted,
                   std::int64_t contracted, bool mend);
 Points2 exchanged(const PlanarMesh& mesh, const PlanarDomain& domain, const Density& density,

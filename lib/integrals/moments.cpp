@@ -90,12 +90,12 @@ void find_suspects(const Patch& patch, const Array<Vec3>& x, std::vector<std::in
 Moments mesh_moments(const Mesh& mesh, const Density& density, int rule, int divisions) {
   const Integrand integrand = make_integrand(density, rule, divisions);
   const std::int64_t n = mesh.points.cols();
+  constexpr std::int64_t patch_sites = 1 << 14; // consecutive ones
   Array<std::int32_t> owner(n);
-  for_each_block(n, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
-    std::fill(owner.begin() + begin, owner.begin() + end, static_cast<std::int32_t>(block));
-  });
-  const Ownership ownership =
-      make_ownership(std::move(owner), static_cast<std::int32_t>(block_count(n)));
+  for (std::int64_t i = 0; i < n; ++i)
+    owner[i] = static_cast<std::int32_t>(i / patch_sites);
+  const Ownership ownership = make_ownership(
+      std::move(owner), static_cast<std::int32_t>((n + patch_sites - 1) / patch_sites));
   const std::vector<Patch> patches = make_patches(mesh.triangles, ownership);
   Moments result{Array<double>(n), Array<Vec3>(n), Array<double>(n)};
   for_each_task(std::ssize(patches), [&](std::int64_t k) {

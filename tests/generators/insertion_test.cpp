@@ -207,17 +207,18 @@ TEST_CASE("insertion: bad numbers and densities are errors") {
   CHECK(message_of(mesh, tanh_bump({0, 0, 1}, -1, 1, 0.5), 1, 1).find("beta") != std::string::npos);
 }
 
-TEST_CASE("insertion: a mend splits and contracts the edges across from bad angles first") {
-  const Mesh mesh = relaxed(2000, Density{}); // random, so that many angles are bad
-  const std::int64_t bad = generators_detail::count_bad_angles(mesh);
+TEST_CASE("insertion: a mend splits and contracts badly shaped edges first") {
+  const Mesh mesh = relaxed(2000, Density{}); // random, so that many edges are bad
+  const std::int64_t bad = generators_detail::count_bad_edges(mesh, Density{});
   CHECK(bad > 1000);
-  CHECK(generators_detail::count_bad_angles(spherical_delaunay(bisected_icosahedron(3))) == 0);
+  CHECK(generators_detail::count_bad_edges(spherical_delaunay(bisected_icosahedron(3)),
+                                           Density{}) == 0);
   Points3 sheared = bisected_icosahedron(3);
   const Eigen::Vector3i corner = spherical_delaunay(sheared).triangles.col(300); // neighbours
   sheared.col(corner[0]) =
       (0.6 * sheared.col(corner[0]) + 0.4 * sheared.col(corner[1])).normalized();
   const Mesh dented = spherical_delaunay(sheared);
-  CHECK(generators_detail::count_bad_angles(dented) > 0);
+  CHECK(generators_detail::count_bad_edges(dented, Density{}) > 0);
   const Points3 mended = generators_detail::exchanged(dented, Density{}, 1, 1, true);
   CHECK(mended.cols() == sheared.cols());
   std::int64_t fresh = 0, near = 0;

@@ -239,7 +239,7 @@ void make_multilevel(const CvtRequest& request, const Density& density,
 /// On a fine grid one round leaves cells sheared over longer distances.
 int rounds_of(const CvtRequest& request) {
   constexpr std::int64_t fine = 100'000;
-  return request.insertion_rounds.value_or(request.cells.value_or(0) > fine ? 3 : 1);
+  return request.insertion_rounds.value_or(request.cells.value_or(0) > fine ? 4 : 1);
 }
 
 void require_start(const CvtRequest& request) {
