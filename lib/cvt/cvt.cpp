@@ -90,11 +90,12 @@ void conclude(State& state, const CvtOptions& options, const CvtIteration& itera
   } else if (options.norm == Norm::none) {
     report.converged = state.iterations_of_level >= options.max_iterations;
   } else {
-    // Near the end the finer rule replaces the coarser one; a run converges with the finer only.
+    // Near the end the finer rule replaces the coarser one; a run converges with the finer only,
+    // unless it creeps.
     const bool crept = creeps(state, options);
-    report.converged = by_final_rule && (report.residual <= options.tolerance || crept);
+    report.converged = (by_final_rule && report.residual <= options.tolerance) || crept;
     const double margin = options.rule == rule_at_sites ? 1 : 10;
-    state.final_rule = state.final_rule || report.residual <= margin * options.tolerance || crept;
+    state.final_rule = state.final_rule || report.residual <= margin * options.tolerance;
   }
 }
 

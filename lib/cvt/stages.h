@@ -78,22 +78,17 @@ struct Exchange {
   std::int64_t inserted, contracted;
 };
 
-/// Half of the dislocations that the density demands while rounds are left; where a mesh is mended,
-/// the odd sites and the bad edges, or without any a few dislocations; and the difference to the
-/// number of cells.
+/// Half of the dislocations that the density demands while rounds are left, and a twentieth where a
+/// mesh is mended: where no grid can follow the widths, mends of all bad edges would make it worse.
+/// And the difference to the number of cells.
 template <class AnyMesh>
 Exchange exchange_of(Stage stage, const State& state, const AnyMesh& mesh, const Density& density,
                      std::int64_t cells) {
-  constexpr double share = 0.5, mended = 0.05, most_mended = 0.1; // of the dislocations
-  constexpr double most = 0.02;                                   // of the generators
-  const bool mend = stage == Stage::mend;
+  constexpr double share = 0.5, mended = 0.05; // of the dislocations
+  constexpr double most = 0.02;                // of the generators
   const std::int64_t n = mesh.points.cols();
   std::int64_t both = 0;
-  if (mend) // where no grid can follow the widths, mends at all bad edges would make it worse
-    both = count_odd_sites(mesh) +
-           std::min(count_bad_edges(mesh, density),
-                    static_cast<std::int64_t>(most_mended * dislocations(mesh, density)));
-  if (state.rounds_left > 0 || (mend && both == 0))
+  if (const bool mend = stage == Stage::mend; mend || state.rounds_left > 0)
     both = static_cast<std::int64_t>(std::ceil(std::min(
         (mend ? mended : share) * dislocations(mesh, density), most * static_cast<double>(n))));
   return {both + std::max<std::int64_t>(cells - n, 0), both + std::max<std::int64_t>(n - cells, 0)};

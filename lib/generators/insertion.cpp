@@ -174,17 +174,29 @@ std::vector<Edge> edges_of(const AnyMesh& mesh, const Points3& points, const Den
   return edges;
 }
 
-/// Edges that are too long for their shape count as longer, those too short as shorter, than all
-/// that are well shaped.
-void prefer(const std::vector<BadEdge>& bad_edges, std::vector<Edge>& edges) {
-  constexpr double preference = 2;
+/// The edges of an exchange.
+struct Chosen {
+  std::vector<Edge> split, contracted;
+
+  bool none() const { return split.empty() && contracted.empty(); }
+  std::int64_t surplus() const { return std::ssize(split) - std::ssize(contracted); }
+};
+
+void append(const std::vector<Edge>& more, std::vector<Edge>& edges) {
+  edges.insert(edges.end(), more.begin(), more.end());
+}
+
+/// Up to `most` bad edges of each kind.
+Chosen choose_bad(const std::vector<BadEdge>& bad_edges, const std::vector<Edge>& edges,
+                  std::int64_t most, Choice& choice) {
   std::map<std::pair<std::int32_t, std::int32_t>, bool> bad;
   for (const BadEdge& edge : bad_edges)
     bad[{edge.a, edge.b}] = edge.too_long;
-  if (!bad.empty())
-    for (Edge& edge : edges)
-      if (const auto at = bad.find({edge.a, edge.b}); at != bad.end())
-        edge.length *= at->second ? preference : 1 / preference;
+  std::vector<Edge> too_long, too_short;
+  for (const Edge& edge : edges)
+    if (const auto at = bad.find({edge.a, edge.b}); at != bad.end())
+      (at->second ? too_long : too_short).push_back(edge);
+  return {choice.choose(too_long, most, is_longer), choice.choose(too_short, most, is_shorter)};
 }
 
 /// The points that remain, those of contracted edges moved to the midpoints, then the inserted
@@ -214,16 +226,24 @@ Points3 exchange(const AnyMesh& mesh, const Points3& points, const Density& dens
                  const Space& space, std::int64_t inserted, std::int64_t contracted, bool mend) {
   require_counts(points.cols(), inserted, contracted);
   std::vector<Edge> edges = edges_of(mesh, points, density, space);
-  if (mend)
-    prefer(bad_edges(mesh, points, fineness(density, points), space), edges);
   Choice choice(points.cols(), edges);
   const auto middle = [&](const Edge& edge) {
     return space.middle(column(points, edge.a), column(points, edge.b));
   };
   std::erase_if(edges, [&](const Edge& edge) { return !space.holds(middle(edge)); });
-  const std::vector<Edge> longest = choice.choose(edges, inserted, is_longer),
-                          shortest = choice.choose(edges, contracted, is_shorter);
-  return exchanged(points, longest, shortest, middle);
+  Chosen chosen;
+  if (mend)
+    chosen = choose_bad(bad_edges(mesh, points, fineness(density, points), space), edges,
+                        std::min(inserted, contracted), choice);
+  const std::int64_t more = inserted - contracted - chosen.surplus();
+  if (chosen.none())
+    chosen = {choice.choose(edges, inserted, is_longer),
+              choice.choose(edges, contracted, is_shorter)};
+  else if (more > 0)
+    append(choice.choose(edges, more, is_longer), chosen.split);
+  else
+    append(choice.choose(edges, -more, is_shorter), chosen.contracted);
+  return exchanged(points, chosen.split, chosen.contracted, middle);
 }
 
 struct OnSphere {

@@ -30,7 +30,9 @@ std::int64_t count_bad_edges(const Mesh& mesh, const Density& density);
 std::int64_t count_bad_edges(const PlanarMesh& mesh, const Density& density);
 
 /// As insert_and_contract().
-/// \param mend such edges come first.
+/// \param mend takes up to the smaller of the two numbers of such edges of each kind, far from each
+///        other, and further edges only for the difference of the numbers; without such edges as
+///        ever.
 Points3 exchanged(const Mesh& mesh, const Density& density, std::int64_t inserted,
                   std::int64_t contracted, bool mend);
 Points2 exchanged(const PlanarMesh& mesh, const PlanarDomain& domain, const Density& density,
