@@ -6,6 +6,7 @@
 #include <calotte/error.h>
 #include <calotte/export.h>
 #include <calotte/options.h>
+#include <calotte/region.h>
 #include <calotte/types.h>
 
 #include <concepts>
@@ -67,11 +68,11 @@ struct CvtOptions {
   /// Adds a finish after the last descent: generators move a little away from their centroids until
   /// the mesh has the shapes that models ask for. The finish minimises the energy plus the squares
   /// of excesses over limits: angles of triangles from 49 to 76 degrees, Voronoi edges from 0.38 to
-  /// 0.78 times the length of the Delaunay edges across, and these from 0.84 to 1.25 times the
+  /// 0.78 times the length of the Delaunay edges across, and these from 0.86 to 1.25 times the
   /// spacing that the density demands. It ends when no cotangent and no such ratio exceeds its
   /// limit by more than 0.035, after 60 evaluations, or after ten that hardly improve the worst
-  /// shape; the mesh is well-centred if none does by 0.07. Near that the finish goes on once with
-  /// squares of four times the weight. Sites with 8 neighbours or more, or 4 or fewer, cannot have
+  /// shape; the mesh is well-centred if none does by 0.07. Near that the finish goes on, up to
+  /// twice, with squares of four times the weight. Sites with 8 neighbours or more, or 4 or fewer, cannot have
   /// such shapes; with insertion_rounds, up to four further rounds remove them. A mesh within the
   /// limits does not change. A descent before a finish also converges when 60 evaluations have not
   /// halved its norm. Default false: a pure CVT.
@@ -217,6 +218,21 @@ CALOTTE_API_SPECIALISATION Cvt spherical_cvt(Points3&& start, const CvtOptions& 
 /// \throws Error as above; bad_option for an incomplete state.
 Cvt spherical_cvt(CvtState state, const CvtOptions& options, const CvtCallback& callback = {});
 
+/// The same in a region of the sphere, whose boundary clips the cells. Generators stay inside: where
+/// the centroid of a cell lies outside the region, its generator moves to the nearest point inside.
+/// A bisection adds the midpoints of the edges that lie inside.
+///
+/// The mesh has the Delaunay triangles of the generators whose circumcentre lies in the region. It
+/// is open along the boundary, within about a cell of it; a generator may be in no triangle.
+///
+/// \param start 3 x n directions inside the region, 4 distinct at least.
+/// \throws Error as above and as require_region(); bad_option with the index of a generator outside
+///         the region.
+Cvt spherical_cvt(const PointsRef& start, const Region& region, const CvtOptions& options = {},
+                  const CvtCallback& callback = {});
+Cvt spherical_cvt(CvtState state, const Region& region, const CvtOptions& options,
+                  const CvtCallback& callback = {});
+
 /// A centroidal Voronoi tessellation of a planar domain.
 struct PlanarCvt {
   /// Delaunay triangulation of the generators, in the order of the start (after bisections, the
@@ -266,6 +282,11 @@ Continuation continuation(std::int64_t cells, const Density& density, std::uint6
 /// that follow site_density(), and as many bisections as leave at least 160 of them, or `cells`
 /// itself. \param cells value for CvtOptions::cells, 12 to 2^30. \throws Error as above.
 Continuation multilevel(std::int64_t cells, const Density& density, std::uint64_t seed = 1);
+
+/// The same in a region; `cells` from 4 on.
+/// \throws Error as above and as require_region().
+Continuation multilevel(std::int64_t cells, const Region& region, const Density& density,
+                        std::uint64_t seed = 1);
 
 /// The same in the plane.
 struct PlanarContinuation {

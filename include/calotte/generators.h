@@ -4,6 +4,7 @@
 #include <calotte/density.h>
 #include <calotte/domain.h>
 #include <calotte/export.h>
+#include <calotte/region.h>
 #include <calotte/types.h>
 
 #include <cstdint>
@@ -36,6 +37,11 @@ Points3 random_sphere(std::int64_t n, std::uint64_t seed = 1);
 /// \throws Error bad_option if the density is ill-formed; negative, infinite or NaN somewhere; zero
 ///         everywhere; or a callable without a maximum.
 Points3 random_sphere(std::int64_t n, const Density& density, std::uint64_t seed = 1);
+
+/// The same in a region.
+/// \throws Error as above and as require_region().
+Points3 random_sphere(std::int64_t n, const Region& region, const Density& density = {},
+                      std::uint64_t seed = 1);
 
 /// The Fibonacci lattice, from north to south: z_i = 1 - (2i + 1)/n, longitude i times the golden
 /// angle pi (3 - sqrt 5).

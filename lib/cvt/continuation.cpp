@@ -4,6 +4,7 @@
 
 #include "base/require.h"
 #include "cvt/room.h"
+#include "cvt/region_world.h"
 #include "cvt/worlds.h"
 
 #include <optional>
@@ -55,6 +56,17 @@ Continuation multilevel(std::int64_t cells, const Density& density, std::uint64_
   Continuation result;
   result.bisections = coarsen<cvt_detail::SphericalWorld>(cells);
   result.start = random_sphere(cells, site_density(density), seed);
+  return result;
+}
+
+Continuation multilevel(std::int64_t cells, const Region& region, const Density& density,
+                        std::uint64_t seed) {
+  if (region.whole())
+    return multilevel(cells, density, seed);
+  base_detail::require_count(cells, cvt_detail::RegionWorld::fewest, "the number of cells");
+  Continuation result;
+  result.bisections = coarsen<cvt_detail::RegionWorld>(cells);
+  result.start = random_sphere(cells, region, site_density(density), seed);
   return result;
 }
 

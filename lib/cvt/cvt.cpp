@@ -6,6 +6,7 @@
 #include "base/require.h"
 #include "cvt/descent.h"
 #include "cvt/planar_cells.h"
+#include "cvt/region_world.h"
 #include "cvt/stages.h"
 #include "cvt/state.h"
 #include "cvt/worlds.h"
@@ -279,6 +280,29 @@ Cvt spherical_cvt(const PointsRef& start, const CvtOptions& options, const CvtCa
 template <>
 Cvt spherical_cvt(Points3&& start, const CvtOptions& options, const CvtCallback& callback) {
   return cvt_detail::run_from(std::move(start), options, callback);
+}
+
+Cvt spherical_cvt(const PointsRef& start, const Region& region, const CvtOptions& options,
+                  const CvtCallback& callback) {
+  if (region.whole())
+    return spherical_cvt(start, options, callback);
+  const base_detail::Points3Ref points = base_detail::directions_of(start, "planar_cvt()");
+  cvt_detail::require_options(options);
+  const cvt_detail::RegionWorld world(region);
+  cvt_detail::RegionWorld::density(options.density);
+  Cvt result = cvt_detail::run(world, world.begin(points, options), options, callback);
+  result.mesh = world.inner(std::move(result.mesh));
+  return result;
+}
+
+Cvt spherical_cvt(CvtState state, const Region& region, const CvtOptions& options,
+                  const CvtCallback& callback) {
+  if (region.whole())
+    return spherical_cvt(std::move(state), options, callback);
+  const cvt_detail::RegionWorld world(region);
+  Cvt result = cvt_detail::run(world, std::move(state), {}, options, callback);
+  result.mesh = world.inner(std::move(result.mesh));
+  return result;
 }
 
 PlanarCvt planar_cvt(CvtState state, const PlanarDomain& domain, const CvtOptions& options,

@@ -5,6 +5,7 @@
 #include "base/parallel.h"
 #include "base/points.h"
 #include "cvt/planar_cells.h"
+#include "cvt/region_cells.h"
 #include "cvt/shape.h"
 #include "cvt/spherical_cells.h"
 #include "cvt/tessellation.h"
@@ -225,6 +226,12 @@ std::unique_ptr<Functional> make_functional(const Points3& points, const CvtOpti
 std::unique_ptr<Functional> make_functional(const Points3& points, const PlanarDomain& domain,
                                             const CvtOptions& options, Level&& level) {
   return std::make_unique<FunctionalOver<PlanarCells>>(PlanarCells(domain), points, options,
+                                                       std::move(level));
+}
+
+std::unique_ptr<Functional> make_functional(const Points3& points, const Region& region,
+                                            const CvtOptions& options, Level&& level) {
+  return std::make_unique<FunctionalOver<RegionCells>>(RegionCells(region), points, options,
                                                        std::move(level));
 }
 

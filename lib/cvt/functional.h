@@ -8,6 +8,7 @@
 
 #include <calotte/cvt.h>
 #include <calotte/domain.h>
+#include <calotte/region.h>
 
 #include <memory>
 #include <optional>
@@ -74,6 +75,10 @@ std::unique_ptr<Functional> make_functional(const Points3& points, const CvtOpti
 /// In a planar domain, for columns with z = 0, which may leave a periodic box.
 /// \pre the density of the options is that of planar_density().
 std::unique_ptr<Functional> make_functional(const Points3& points, const PlanarDomain& domain,
+                                            const CvtOptions& options, Level&& level = {});
+
+/// In a region of the sphere, for unit columns.
+std::unique_ptr<Functional> make_functional(const Points3& points, const Region& region,
                                             const CvtOptions& options, Level&& level = {});
 
 } // namespace calotte::cvt_detail

@@ -87,6 +87,29 @@ private:
   const Points3* points_;
 };
 
+/// In a region, whose boundary clips cells.
+class RegionEdges {
+public:
+  RegionEdges(const Points3& places, double area) : points_(&places), area_(area) {}
+
+  EdgeTerms edge(std::int32_t i, std::int32_t j, std::int32_t c, std::int32_t d) const {
+    const auto at = [&](std::int32_t site) { return column(*points_, site); };
+    return terms_of(near(spherical_edge(at(i), at(j), at(c))),
+                    near(spherical_edge(at(j), at(i), at(d))));
+  }
+  double held(std::int32_t, double rho, double area) const {
+    return rho * area * area * (4 * std::numbers::pi) / area_;
+  }
+
+private:
+  static HalfEdge near(const HalfEdge& edge) {
+    return {edge.length, std::clamp(edge.delta, -edge.length / 2, edge.length / 2)};
+  }
+
+  const Points3* points_;
+  double area_;
+};
+
 /// For cells that the domain clips, only the parts inside count.
 class PlanarEdges {
 public:
@@ -253,6 +276,15 @@ SparseMatrix graph_laplacian(const Points3& points, const Connectivity& mesh,
                       make_vertex_rings(mesh.triangles, mesh.neighbours, points.cols()),
                       evaluate(density, points)};
   return make_matrix(source, SphericalEdges(points));
+}
+
+SparseMatrix graph_laplacian(const Points3& places, std::int64_t generators, double area,
+                             const Connectivity& mesh, const Density& density) {
+  require_countable(generators);
+  const Source source{mesh.triangles,
+                      make_vertex_rings(mesh.triangles, mesh.neighbours, generators),
+                      evaluate(density, Points3(places.leftCols(generators)))};
+  return make_matrix(source, RegionEdges(places, area));
 }
 
 SparseMatrix graph_laplacian(const PlanarSites& sites, const Connectivity& mesh,

@@ -32,6 +32,12 @@ using SparseMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor, std::int32_t>;
 SparseMatrix graph_laplacian(const Points3& points, const Connectivity& mesh,
                              const Density& density);
 
+/// The same for the generators in a region, of which the hull's places follow. Circumcentres beyond
+/// half of an edge's length from it count as if they were there: the boundary clips such cells.
+/// \param area of the region.
+SparseMatrix graph_laplacian(const Points3& places, std::int64_t generators, double area,
+                             const Connectivity& mesh, const Density& density);
+
 /// A domain of the plane, with generators in it.
 struct PlanarSites {
   const Array<Vec3>& places; ///< as PlaneSigns takes them

@@ -5,6 +5,7 @@
 #include "base/points.h"
 #include "base/triangle.h"
 #include "cvt/planar_cells.h"
+#include "cvt/region_cells.h"
 #include "cvt/spherical_cells.h"
 
 #include <algorithm>
@@ -224,6 +225,12 @@ template ShapeTerms add_shape_terms(const SphericalCells&, const Connectivity&,
                                     std::vector<std::int32_t>, const Eigen::VectorXd&, double,
                                     Points3&);
 template ShapeTerms add_shape_terms(const PlanarCells&, const Connectivity&,
+                                    std::vector<std::int32_t>, const Eigen::VectorXd&, double,
+                                    Points3&);
+
+template bool is_distorted(const RegionCells&, const Connectivity&, const Eigen::VectorXd&,
+                           std::int32_t);
+template ShapeTerms add_shape_terms(const RegionCells&, const Connectivity&,
                                     std::vector<std::int32_t>, const Eigen::VectorXd&, double,
                                     Points3&);
 

@@ -4,6 +4,7 @@
 #include "base/clock.h"
 #include "base/parallel.h"
 #include "cvt/planar_cells.h"
+#include "cvt/region_cells.h"
 #include "cvt/shape.h"
 #include "cvt/spherical_cells.h"
 #include "delaunay/divide.h"
@@ -222,5 +223,6 @@ template <class Cells> std::vector<CvtRegion> Tessellation<Cells>::regions() con
 
 template class Tessellation<SphericalCells>;
 template class Tessellation<PlanarCells>;
+template class Tessellation<RegionCells>;
 
 } // namespace calotte::cvt_detail

@@ -47,6 +47,20 @@ bool holds(const Box& box, const Witness& witness) {
          witness.y < box.y + box.side;
 }
 
+/// A cap that holds the places of a box.
+struct Around {
+  Vec3 middle;
+  double reach;
+};
+
+/// The disc is convex: a point in the disc and in the box is no farther from the box's middle,
+/// after that is moved into the disc, than half a diagonal.
+Around around_box(const Box& box) {
+  const auto [x, y] = Hemispheres::nearest(box.x + 0.5 * box.side, box.y + 0.5 * box.side);
+  const double half_chord = std::min(1.0, std::sqrt(0.5) * box.side);
+  return {on_sphere(x, y, box.south), 2 * arc_sine(half_chord)};
+}
+
 } // namespace
 
 Vec3 on_sphere(double x, double y, bool south) {
@@ -63,12 +77,22 @@ std::array<double, 2> Hemispheres::nearest(double x, double y) {
   return length > 1 ? std::array{x / length, y / length} : std::array{x, y};
 }
 
-/// The disc is convex: a point in the disc and in the box is no farther from the box's middle,
-/// after that is moved into the disc, than half a diagonal.
 Bounds Hemispheres::bounds(const DensityEvaluator& density, const Box& box) {
-  const auto [x, y] = nearest(box.x + 0.5 * box.side, box.y + 0.5 * box.side);
-  const double half_chord = std::min(1.0, std::sqrt(0.5) * box.side);
-  return density.bounds(on_sphere(x, y, box.south), 2 * arc_sine(half_chord));
+  const Around around = around_box(box);
+  return density.bounds(around.middle, around.reach);
+}
+
+Shown RegionMap::shown(const Box& box) const {
+  const Shown shown = Hemispheres::shown(box);
+  if (shown == Shown::none)
+    return shown;
+  const Around around = around_box(box);
+  bool crossed = false;
+  outline_->for_each_edge_near(around.middle, around.reach,
+                               [&](const SphericalOutline::Edge&) { crossed = true; });
+  if (crossed)
+    return Shown::part;
+  return outline_->side(around.middle) == Side::outside ? Shown::none : shown;
 }
 
 PlanarMap::PlanarMap(const PlanarDomain& domain)
@@ -252,6 +276,7 @@ template <class Map> Bounds EnvelopeOf<Map>::sampled_bounds(const Box& box) cons
 }
 
 template class EnvelopeOf<Hemispheres>;
+template class EnvelopeOf<RegionMap>;
 template class EnvelopeOf<PlanarMap>;
 
 } // namespace calotte::density_detail

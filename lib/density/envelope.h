@@ -5,6 +5,7 @@
 #include "density/density_evaluator.h"
 #include "density/room.h"
 #include "domain/outline.h"
+#include "domain/spherical_outline.h"
 
 #include <calotte/density.h>
 
@@ -47,6 +48,32 @@ struct Hemispheres {
   /// True if bounds() is certain for a density that is not a callable.
   static bool is_certain(const Density&) { return true; }
   static DensityEvaluator::Bounds bounds(const DensityEvaluator& density, const Box& box);
+};
+
+/// The part of these maps that shows a region.
+class RegionMap {
+public:
+  static constexpr const char* name = "region";
+
+  /// \param outline must outlive the map.
+  RegionMap(const SphericalOutline& outline, bool uniform)
+      : outline_(&outline), uniform_(uniform) {}
+
+  static std::vector<Box> squares() { return Hemispheres::squares(); }
+  Shown shown(const Box& box) const;
+  static Vec3 place(double x, double y, bool south) { return on_sphere(x, y, south); }
+  bool holds(double x, double y, const Vec3& place) const {
+    return Hemispheres::holds(x, y, place) && outline_->side(place) == Side::inside;
+  }
+  static std::array<double, 2> nearest(double x, double y) { return Hemispheres::nearest(x, y); }
+  static bool is_certain(const Density&) { return true; }
+  DensityEvaluator::Bounds bounds(const DensityEvaluator& density, const Box& box) const {
+    return uniform_ ? DensityEvaluator::Bounds{1, 1} : Hemispheres::bounds(density, box);
+  }
+
+private:
+  const SphericalOutline* outline_;
+  bool uniform_;
 };
 
 /// A domain of the plane, its longer extent from -1 to 1.
@@ -126,6 +153,7 @@ private:
 };
 
 extern template class EnvelopeOf<Hemispheres>;
+extern template class EnvelopeOf<RegionMap>;
 extern template class EnvelopeOf<PlanarMap>;
 
 using Envelope = EnvelopeOf<Hemispheres>;

@@ -165,6 +165,12 @@ Points3 draw(std::int64_t n, const Density& density, std::uint64_t seed) {
   return draw_from(Envelope(density), n, seed);
 }
 
+Points3 draw(std::int64_t n, const Density& density, const SphericalOutline& outline,
+             std::uint64_t seed) {
+  return draw_from(EnvelopeOf<RegionMap>(density, RegionMap(outline, density.uniform())),
+                   n, seed);
+}
+
 Points2 draw(std::int64_t n, const Density& density, const PlanarDomain& domain,
              std::uint64_t seed) {
   const EnvelopeOf<PlanarMap> envelope(density, PlanarMap(domain));

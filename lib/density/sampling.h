@@ -2,6 +2,7 @@
 #pragma once
 
 #include "density/room.h"
+#include "domain/spherical_outline.h"
 
 #include <calotte/density.h>
 #include <calotte/domain.h>
@@ -21,6 +22,10 @@ namespace calotte::density_detail {
 ///
 /// \throws Error bad_option as random_sphere(n, density, seed).
 Points3 draw(std::int64_t n, const Density& density, std::uint64_t seed);
+
+/// The same in a region of the sphere, also for uniform density.
+Points3 draw(std::int64_t n, const Density& density, const SphericalOutline& outline,
+             std::uint64_t seed);
 
 /// The same in a domain of the plane. \param density uniform, or a callable of places (x, y, 0).
 /// \throws Error bad_option as random_places(n, domain, density, seed).

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "domain/clipped_cell.h"
 
+#include "domain/tangent_shore.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,19 +11,19 @@
 namespace calotte::domain_detail {
 namespace {
 
-/// A convex polygon's part where normal.x <= offset. The new side has no generator beyond it.
+/// A convex polygon's part where normal.x <= offset.
+/// \param beyond the generator across the new side, or 0.
 std::vector<CellCorner> cut(const std::vector<CellCorner>& polygon, const Vec2& normal,
-                            double offset) {
-  constexpr Vec2 none{0, 0};
+                            double offset, const Vec2& beyond = {0, 0}) {
   std::vector<CellCorner> part;
   for (std::size_t k = 0; k < polygon.size(); ++k) {
     const CellCorner &a = polygon[k], &b = polygon[k + 1 == polygon.size() ? 0 : k + 1];
     const double over_a = dot(normal, a.place) - offset, over_b = dot(normal, b.place) - offset;
     if (over_a <= 0)
-      part.push_back({a.place, over_a == 0 && over_b > 0 ? none : a.beyond});
+      part.push_back({a.place, over_a == 0 && over_b > 0 ? beyond : a.beyond});
     if ((over_a < 0) != (over_b < 0) && over_a != 0 && over_b != 0)
       part.push_back({a.place + (over_a / (over_a - over_b)) * (b.place - a.place),
-                      over_b > 0 ? none : a.beyond});
+                      over_b > 0 ? beyond : a.beyond});
   }
   return part;
 }
@@ -52,7 +54,8 @@ Box2 box_around(const std::vector<CellCorner>& polygon, const Vec2& site) {
   return {low - margin + site, high + margin + site};
 }
 
-std::vector<Outline::Edge> shore_near(const Outline& outline, const Box2& box) {
+template <class Shore>
+std::vector<Outline::Edge> shore_near(const Shore& outline, const Box2& box) {
   std::vector<Outline::Edge> shore;
   outline.for_each_edge_near(box, [&](const Outline::Edge& edge) { shore.push_back(edge); });
   return shore;
@@ -106,7 +109,8 @@ public:
   /// True if the domain contains the part; its middle decides. If the boundary is so close that
   /// rounding could move it across the middle, a place farther inside decides, together with the
   /// edges between the two, which are those that add_shore() counts as the cell's.
-  bool inside(const Outline& outline, const Vec2& site,
+  template <class Shore>
+  bool inside(const Shore& outline, const Vec2& site,
               const std::vector<Outline::Edge>& shore) const {
     const double noise =
         noise_ + 1e-14 * std::max(std::abs(site.x) + std::abs(site.y), norm(middle_));
@@ -148,7 +152,8 @@ private:
 
 /// The parts of a cell's side inside the domain. They end at the places where add_shore() ends the
 /// edges that cross the side.
-void add_inner(const Outline& outline, const Vec2& site, const std::vector<Outline::Edge>& shore,
+template <class Shore>
+void add_inner(const Shore& outline, const Vec2& site, const std::vector<Outline::Edge>& shore,
                const CellCorner& corner, const Vec2& to, std::vector<Crossing>& crossings,
                std::vector<CellSide>& sides) {
   const Bisector bisector{corner.beyond};
@@ -191,7 +196,8 @@ public:
   }
 
   /// The inward direction of an edge, and of a corner that points into the cell.
-  std::optional<Vec2> inside(const Outline& outline, const Vec2& site) const {
+  template <class Shore>
+  std::optional<Vec2> inside(const Shore& outline, const Vec2& site) const {
     const Vec2 onward = place_ - to_;
     const double length = norm(onward), reach = norm(place_) + length;
     for (double share = 1e-9; share < 0.1 && length > 0 && std::isfinite(least_); share *= 8) {
@@ -227,7 +233,13 @@ bool near_shore(const Outline& outline, const Vec2& site, const std::vector<Cell
   return near_shore(outline, site, std::sqrt(reach2));
 }
 
-std::vector<CellSide> clipped_cell(const Outline& outline, const Vec2& site,
+std::vector<CellCorner> cut_by_bisector(const std::vector<CellCorner>& polygon,
+                                        const Vec2& beyond) {
+  return cut(polygon, beyond, dot(beyond, beyond) / 2, beyond);
+}
+
+template <class Shore>
+std::vector<CellSide> clipped_cell(const Shore& outline, const Vec2& site,
                                    std::vector<CellCorner> cell) {
   cell = cut_to_box(std::move(cell), outline.box(), site);
   std::vector<CellSide> sides;
@@ -252,7 +264,8 @@ std::vector<CellSide> parts_inside(const Outline& outline, const Vec2& site,
   return parts;
 }
 
-std::optional<Vec2> nearest_inside(const Outline& outline, const Vec2& site,
+template <class Shore>
+std::optional<Vec2> nearest_inside(const Shore& outline, const Vec2& site,
                                    const std::vector<CellSide>& sides, const Vec2& outside) {
   Nearest nearest(outside);
   for (const CellSide& side : sides)
@@ -261,14 +274,25 @@ std::optional<Vec2> nearest_inside(const Outline& outline, const Vec2& site,
   return nearest.inside(outline, site);
 }
 
-std::optional<Vec2> nearest_inside(const Outline& outline, const Vec2& site, const Vec2& outside) {
+template <class Shore>
+std::optional<Vec2> nearest_inside(const Shore& outline, const Vec2& site, const Vec2& outside) {
   Nearest nearest(outside);
   const double radius = norm(outside);
   const Vec2 corner{radius, radius}, there = site + outside;
-  outline.for_each_edge_near({there - corner, there + corner}, [&](const Outline::Edge& edge) {
+  outline.for_each_edge_near({there - corner, there + corner}, [&](const auto& edge) {
     nearest.look_at(edge.from - site, edge.to - site);
   });
   return nearest.inside(outline, site);
 }
+
+template std::vector<CellSide> clipped_cell(const Outline&, const Vec2&, std::vector<CellCorner>);
+template std::vector<CellSide> clipped_cell(const TangentShore&, const Vec2&,
+                                            std::vector<CellCorner>);
+template std::optional<Vec2> nearest_inside(const Outline&, const Vec2&,
+                                            const std::vector<CellSide>&, const Vec2&);
+template std::optional<Vec2> nearest_inside(const TangentShore&, const Vec2&,
+                                            const std::vector<CellSide>&, const Vec2&);
+template std::optional<Vec2> nearest_inside(const Outline&, const Vec2&, const Vec2&);
+template std::optional<Vec2> nearest_inside(const TangentShore&, const Vec2&, const Vec2&);
 
 } // namespace calotte::domain_detail

@@ -29,10 +29,15 @@ struct CellCorner {
   Vec2 place, beyond;
 };
 
+/// The functions below take the boundary as an Outline, or as a TangentShore with the site 0.
+
 /// True if the domain's boundary, by the boxes of its edges, comes within `reach` of a site. If it
 /// does not come as near as the farthest corner of a cell, the cell lies inside the domain.
 bool near_shore(const Outline& outline, const Vec2& site, double reach);
 bool near_shore(const Outline& outline, const Vec2& site, const std::vector<CellCorner>& cell);
+
+/// The part of a convex polygon on the cell's side of the bisector with a generator.
+std::vector<CellCorner> cut_by_bisector(const std::vector<CellCorner>& polygon, const Vec2& beyond);
 
 /// A side of the part of a cell in the domain, which lies to the left of the direction from p to q.
 struct CellSide {
@@ -42,7 +47,8 @@ struct CellSide {
 
 /// The sides of the intersection of a domain and a Voronoi cell, in any order.
 /// \param cell corners of the whole cell, counter-clockwise, relative to the generator at `site`.
-std::vector<CellSide> clipped_cell(const Outline& outline, const Vec2& site,
+template <class Shore>
+std::vector<CellSide> clipped_cell(const Shore& outline, const Vec2& site,
                                    std::vector<CellCorner> cell);
 
 /// The parts of a cell's side, from a corner to the next, inside the domain.
@@ -52,10 +58,12 @@ std::vector<CellSide> parts_inside(const Outline& outline, const Vec2& site,
 /// The place inside the domain that is nearest to one outside, moved towards the generator by a
 /// billionth of the distance and relative to the generator. Only the boundary within the cell
 /// counts. None if the boundary can nowhere be entered.
-std::optional<Vec2> nearest_inside(const Outline& outline, const Vec2& site,
+template <class Shore>
+std::optional<Vec2> nearest_inside(const Shore& outline, const Vec2& site,
                                    const std::vector<CellSide>& sides, const Vec2& outside);
 
 /// The same for all of the domain's boundary no farther from the place than the generator.
-std::optional<Vec2> nearest_inside(const Outline& outline, const Vec2& site, const Vec2& outside);
+template <class Shore>
+std::optional<Vec2> nearest_inside(const Shore& outline, const Vec2& site, const Vec2& outside);
 
 } // namespace calotte::domain_detail

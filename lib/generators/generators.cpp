@@ -8,6 +8,7 @@
 #include "base/split_mix.h"
 #include "base/vec3.h"
 #include "density/sampling.h"
+#include "domain/spherical_outline.h"
 #include "generators/midpoints.h"
 #include "generators/room.h"
 #include "mesh/edges.h"
@@ -216,6 +217,14 @@ Points3 random_sphere(std::int64_t n, std::uint64_t seed) {
 Points3 random_sphere(std::int64_t n, const Density& density, std::uint64_t seed) {
   require_count(n, 1, "the number of points");
   return density.uniform() ? random_sphere(n, seed) : density_detail::draw(n, density, seed);
+}
+
+Points3 random_sphere(std::int64_t n, const Region& region, const Density& density,
+                      std::uint64_t seed) {
+  if (region.whole())
+    return random_sphere(n, density, seed);
+  require_count(n, 1, "the number of points");
+  return density_detail::draw(n, density, domain_detail::SphericalOutline(region), seed);
 }
 
 Points3 fibonacci_sphere(std::int64_t n) {

@@ -252,6 +252,12 @@ struct OnSphere {
   static bool holds(const Vec3&) { return true; }
 };
 
+struct InRegion : OnSphere {
+  const SphericalOutline* outline;
+
+  bool holds(const Vec3& place) const { return outline->side(place) == Side::inside; }
+};
+
 struct InPlane {
   Vec2 period;
   const Outline* outline; ///< none of a periodic box
@@ -332,6 +338,12 @@ std::int64_t count_bad_edges(const PlanarMesh& mesh, const Density& density) {
 Points3 exchanged(const Mesh& mesh, const Density& density, std::int64_t inserted,
                   std::int64_t contracted, bool mend) {
   return exchange(mesh, unit(mesh.points), density, OnSphere(), inserted, contracted, mend);
+}
+
+Points3 exchanged(const Mesh& mesh, const SphericalOutline& outline, const Density& density,
+                  std::int64_t inserted, std::int64_t contracted, bool mend) {
+  return exchange(mesh, unit(mesh.points), density, InRegion{{}, &outline}, inserted, contracted,
+                  mend);
 }
 
 Points2 exchanged(const PlanarMesh& mesh, const PlanarDomain& domain, const Density& density,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "domain/spherical_outline.h"
 #include "generators/room.h"
 
 #include <calotte/density.h>
@@ -35,6 +36,9 @@ std::int64_t count_bad_edges(const PlanarMesh& mesh, const Density& density);
 ///        ever.
 Points3 exchanged(const Mesh& mesh, const Density& density, std::int64_t inserted,
                   std::int64_t contracted, bool mend);
+/// The same where midpoints must lie in a region.
+Points3 exchanged(const Mesh& mesh, const SphericalOutline& outline, const Density& density,
+                  std::int64_t inserted, std::int64_t contracted, bool mend);
 Points2 exchanged(const PlanarMesh& mesh, const PlanarDomain& domain, const Density& density,
                   std::int64_t inserted, std::int64_t contracted, bool mend);
 

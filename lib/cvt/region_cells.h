@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "cvt/laplacian.h"
+#include "cvt/room.h"
+#include "cvt/signs.h"
+#include "cvt/spherical_cells.h"
+#include "delaunay/regions.h"
+#include "delaunay/sites.h"
+#include "domain/spherical_outline.h"
+#include "integrals/integrand.h"
+#include "integrals/moments.h"
+#include "integrals/patches.h"
+
+#include <calotte/region.h>
+#include <calotte/types.h>
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace calotte::cvt_detail {
+
+/// The cells of generators in a region of the sphere, with the functions of SphericalCells.
+///
+/// Generators are unit columns. Further places follow them, far outside the region: the hull, which
+/// does not move. All generators then have closed stars, and the region clips their cells.
+class RegionCells {
+public:
+  using Signs = SphereSigns;
+  using Pull = SphericalCells::Pull;
+
+  /// \pre not the whole sphere. \throws Error as require_region().
+  explicit RegionCells(const Region& region);
+
+  void move(const Points3& points);
+
+  std::int64_t places() const { return places_.cols(); }
+  static Vec3 offset(const Vec3& from, const Vec3& to) { return to - from; }
+  const Vec3& place(std::int32_t site) const { return column(places_, site); }
+  static bool has_hull() { return true; }
+  bool has_circumcentre(std::int32_t a, std::int32_t b, std::int32_t c) const;
+  Signs signs() const { return Signs(places_); }
+  Sites sites() const; ///< of the generators; equal ones merged
+  /// Includes the hull.
+  Connectivity triangulate(Sites&&, Regions&&) const { return signs().triangulate(); }
+  double spacing() const;
+
+  /// See region_moments.h.
+  void integrate(const Integrand& integrand, const Patch& patch, const Array<Vec3>& x,
+                 Array<CellMoments>& moments, std::vector<std::int32_t>& suspects) const;
+  static void find_suspects(const Patch& patch, const Array<Vec3>& x,
+                            std::vector<std::int32_t>& suspects) {
+    integrals_detail::find_suspects(patch, x, suspects);
+  }
+
+  static Pull pull(const Vec3& x, const CellMoments& cell) { return SphericalCells::pull(x, cell); }
+
+  /// Moves generators that would leave the region to the nearest place inside.
+  Points3 retract(const Points3& x, double step, const Points3& d) const;
+  static void make_tangential(Points3& vectors, const Points3& x) {
+    SphericalCells::make_tangential(vectors, x);
+  }
+  SparseMatrix laplacian(const Connectivity& mesh, const Density& density) const;
+
+private:
+  std::shared_ptr<const SphericalOutline> outline_;
+  Points3 hull_;
+  std::int64_t generators_ = 0;
+  Points3 places_;
+};
+
+} // namespace calotte::cvt_detail
