@@ -3,6 +3,7 @@
 
 #include <calotte/density.h>
 #include <calotte/export.h>
+#include <calotte/region.h>
 
 #include <Eigen/Core>
 
@@ -42,6 +43,11 @@ Eigen::VectorXd evaluate(const CellWidth& cell_width, const PointsRef& points);
 /// \param radius_km radius of the sphere, > 0 and finite; default that of the Earth.
 /// \throws Error as density_of; bad_option for a radius out of range.
 double implied_cells(const CellWidth& cell_width, double radius_km = earth_radius_km);
+
+/// The same over a region, within about 0.2%: a mean over 2^18 random places.
+/// \throws Error as above and as require_region().
+double implied_cells(const CellWidth& cell_width, const Region& region,
+                     double radius_km = earth_radius_km);
 
 /// The gradient of the cell width at one location.
 struct Gradient {

@@ -5,6 +5,8 @@
 #include "base/parallel.h"
 #include "base/points.h"
 #include "density/cell_width_field.h"
+#include "density/sampling.h"
+#include "domain/spherical_outline.h"
 
 #include <calotte/error.h>
 
@@ -148,6 +150,17 @@ double implied_cells(const CellWidth& cell_width, double radius_km) {
   for (const double row : rows)
     sum += row;
   return 2 / std::numbers::sqrt3 * radius_km * radius_km * sum;
+}
+
+double implied_cells(const CellWidth& cell_width, const Region& region, double radius_km) {
+  if (region.whole())
+    return implied_cells(cell_width, radius_km);
+  require_radius(radius_km);
+  constexpr std::int64_t samples = 1 << 18;
+  const domain_detail::SphericalOutline outline(region);
+  const Points3 places = density_detail::draw(samples, Density{}, outline, 1);
+  const double mean = evaluate(cell_width, places).array().square().inverse().mean();
+  return 2 / std::numbers::sqrt3 * radius_km * radius_km * outline.area() * mean;
 }
 
 Gradient largest_gradient(const CellWidth& cell_width, double radius_km) {

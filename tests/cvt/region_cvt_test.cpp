@@ -3,6 +3,7 @@
 #include <calotte/cvt.h>
 #include <calotte/generators.h>
 #include <calotte/region.h>
+#include <calotte/write.h>
 
 #include "cvt/region_cells.h"
 #include "domain/spherical_outline.h"
@@ -91,4 +92,23 @@ TEST_CASE("region: the cells' areas sum to the region's") {
     for (Eigen::Index i = 0; i < grid.mesh.points.cols(); ++i)
       CHECK(outline.side(base_detail::column(grid.mesh.points, i)) == domain_detail::Side::inside);
   }
+}
+
+TEST_CASE("scratch") {
+  const Region region = cap(270, 30, 12);
+  const Density density = tanh_bump(at(270, 30), 0.07, 0.06, 1.0 / 4096);
+  const std::int64_t n = 20000;
+  CvtOptions options;
+  options.density = density;
+  options.insertion_rounds = 1;
+  options.cells = n;
+  options.well_centred = true;
+  options.tolerance = 3e-4;
+  const Continuation from = multilevel(n, region, density);
+  options.bisections = from.bisections;
+  const Cvt grid = spherical_cvt(from.start, region, options);
+  MESSAGE(grid.report.converged << grid.report.well_centred << " it " << grid.report.iterations.size() << " s " << grid.report.seconds << " n " << grid.mesh.points.cols()<<" mis "<<grid.report.iterations.back().misshapen);
+  int rebuilt = 0; double mom=0,rep=0,all=0,sol=0; for (const auto& i : grid.report.iterations) {rebuilt += i.rebuilt;mom+=i.seconds_moments;rep+=i.seconds_repair;all+=i.seconds;sol+=i.seconds_solver;}
+  MESSAGE("rebuilt " << rebuilt<<" mom "<<mom<<" rep "<<rep<<" all "<<all<<" sol "<<sol);
+  write("/tmp/w/region.vtp", grid.mesh);
 }
