@@ -4,13 +4,13 @@
 #include "domain/arc_tree.h"
 #include "domain/arcs.h"
 #include "domain/outline.h"
+#include "domain/rings.h"
 #include "domain/room.h"
 #include "domain/side_cells.h"
 
 #include <calotte/region.h>
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 namespace calotte::domain_detail {
@@ -44,22 +44,11 @@ public:
   }
 
 private:
-  /// The rings' edges one after the other.
-  struct Rings {
-    std::vector<Arc> edges;
-    std::vector<std::int32_t> begin; ///< of each ring's edges; at the end their number
-  };
+  explicit SphericalOutline(const Rings& rings);
 
-  static Rings rings_of(const Region& region);
-  explicit SphericalOutline(Rings rings);
-  SideCells::Corner corner_of(std::size_t ring) const; ///< the first corner of a ring
-  std::size_t ring_of(std::int32_t edge) const;
-  std::string name_of(std::int32_t edge) const;
-
-  std::vector<std::int32_t> ring_begin_;
   ArcTree tree_;
   SideCells cells_;
-  double area_ = 0;
+  double area_;
 };
 
 } // namespace calotte::domain_detail
