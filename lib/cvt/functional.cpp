@@ -137,8 +137,13 @@ Effort FunctionalOver<Cells>::integrate(const Points3& points, const Integrand& 
     out = {};
     tessellation_.divide();
   }
+  bool turned = false; // a second time, flips have not sufficed
   const auto mend = [&](const Faults& faults) {
-    if (faults.none() || tessellation_.mend(faults, effort))
+    if (faults.none())
+      return;
+    const bool again = turned && !faults.overturned.empty();
+    turned = turned || !faults.overturned.empty();
+    if (!again && tessellation_.mend(faults, effort))
       return;
     out = {};
     tessellation_.rebuild(effort);
@@ -156,7 +161,7 @@ Effort FunctionalOver<Cells>::integrate(const Points3& points, const Integrand& 
   };
   if (tessellation_.restless())
     mend(tessellation_.find_faults(effort));
-  // After a repair no fault is left, so that this integrates at most twice.
+  // After a repair few faults are left, and none after a new triangulation.
   for (Faults faults = integrate_all(); !faults.none(); faults = integrate_all())
     mend(faults);
   tessellation_.settle(effort);

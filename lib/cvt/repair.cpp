@@ -52,23 +52,51 @@ void flip(Connectivity& mesh, const TriangleEdge& edge, std::vector<TriangleEdge
     pending.push_back(outer);
 }
 
-/// Flips until all edges are Delaunay; empty if that takes more than `most` flips.
+void flip_and_count(Connectivity& mesh, const TriangleEdge& edge,
+                    std::vector<TriangleEdge>& pending, Repair& result) {
+  ++result.flips;
+  result.changed.push_back(edge.triangle);
+  result.changed.push_back(mesh.neighbours(edge.across, edge.triangle));
+  flip(mesh, edge, pending);
+}
+
+/// Flips an edge of an overturned triangle such that both triangles are valid, as where a site has
+/// moved across the opposite edge. False if there is none.
 template <class Signs>
-std::optional<Repair> flip_all(Connectivity& mesh, const Signs& signs,
-                               std::vector<TriangleEdge> pending, std::int64_t most) {
-  Repair result;
+bool turn_back(Connectivity& mesh, const Signs& signs, std::int32_t t,
+               std::vector<TriangleEdge>& pending, Repair& result) {
+  const Corners corners = corners_of(mesh, t);
+  if (signs.is_counter_clockwise(corners)) // by a flip of another triangle
+    return true;
+  for (int v = 0; v < 3; ++v) {
+    const std::int32_t u = mesh.neighbours(v, t);
+    if (u < 0)
+      continue;
+    const std::int32_t a = mesh.triangles(v, t), b = mesh.triangles(next_vertex(v), t),
+                       c = mesh.triangles(previous_vertex(v), t),
+                       d = mesh.triangles(index_of(mesh, u, t), u);
+    if (a != d && signs.is_counter_clockwise({a, b, d}) && signs.is_counter_clockwise({d, c, a})) {
+      flip_and_count(mesh, {t, v}, pending, result);
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Flips until all edges are Delaunay; false if that takes more than `most` flips.
+template <class Signs>
+bool flip_all(Connectivity& mesh, const Signs& signs, std::vector<TriangleEdge> pending,
+              std::int64_t most, Repair& result) {
   while (!pending.empty()) {
     const TriangleEdge edge = pending.back();
     pending.pop_back();
     if (is_delaunay(mesh, signs, edge))
       continue;
-    if (++result.flips > most)
-      return std::nullopt;
-    result.changed.push_back(edge.triangle);
-    result.changed.push_back(mesh.neighbours(edge.across, edge.triangle));
-    flip(mesh, edge, pending);
+    if (result.flips >= most)
+      return false;
+    flip_and_count(mesh, edge, pending, result);
   }
-  return result;
+  return true;
 }
 
 } // namespace
@@ -77,7 +105,8 @@ template <class Signs>
 void add_faults(const Connectivity& mesh, const Signs& signs, std::int32_t triangle,
                 Faults& faults) {
   const Corners corners = corners_of(mesh, triangle);
-  faults.overturned = faults.overturned || !signs.is_counter_clockwise(corners);
+  if (!signs.is_counter_clockwise(corners))
+    faults.overturned.push_back(triangle);
   for (int v = 0; v < 3; ++v)
     if (!signs.is_clearly_acute(corners, v) && !is_delaunay(mesh, signs, {triangle, v}))
       faults.edges.push_back({triangle, v});
@@ -87,9 +116,14 @@ template <class Signs>
 std::optional<Repair> repair(Connectivity& mesh, const Signs& signs, const Faults& faults) {
   // A flip costs about as much as three sites of a new triangulation, which runs in parallel.
   const std::int64_t most = signs.sites() / 16;
-  if (faults.overturned)
+  Repair result;
+  std::vector<TriangleEdge> pending = faults.edges;
+  for (const std::int32_t t : faults.overturned)
+    if (!turn_back(mesh, signs, t, pending, result))
+      return std::nullopt;
+  if (!flip_all(mesh, signs, std::move(pending), most, result))
     return std::nullopt;
-  return flip_all(mesh, signs, faults.edges, most);
+  return result;
 }
 
 template void add_faults(const Connectivity&, const SphereSigns&, std::int32_t, Faults&);

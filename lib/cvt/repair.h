@@ -23,8 +23,8 @@ struct TriangleEdge {
 /// overturned triangles whose edges are all Delaunay is that triangulation (Delaunay, 1934).
 struct Faults {
   std::vector<TriangleEdge> edges; ///< that are not Delaunay, by the exact predicate
-  bool overturned = false;         ///< some triangle is
-  bool none() const { return edges.empty() && !overturned; }
+  std::vector<std::int32_t> overturned; ///< triangles
+  bool none() const { return edges.empty() && overturned.empty(); }
 };
 
 /// Adds the faults of one triangle, and of its edges across from corners that are not clearly
@@ -38,8 +38,10 @@ struct Repair {
   std::vector<std::int32_t> changed; ///< triangles that flips made others; may repeat
 };
 
-/// Makes the mesh Delaunay by flips, starting from the faulty edges. Empty if a triangle is
-/// overturned or the flips would take longer than a new triangulation; the mesh is then unusable.
+/// Makes the mesh Delaunay by flips: first of an edge of each overturned triangle that makes two
+/// valid ones, then from the faulty edges on. Empty if a triangle stays overturned or the flips
+/// would take longer than a new triangulation; the mesh is then unusable. After flips of overturned
+/// triangles others may be overturned, which the caller must find.
 template <class Signs>
 std::optional<Repair> repair(Connectivity& mesh, const Signs& signs, const Faults& faults);
 

@@ -125,7 +125,8 @@ Faults Tessellation<Cells>::run_tasks(const Task& task, Effort& effort) {
   Faults all;
   for (const Work& work : work_) {
     all.edges.insert(all.edges.end(), work.faults.edges.begin(), work.faults.edges.end());
-    all.overturned = all.overturned || work.faults.overturned;
+    all.overturned.insert(all.overturned.end(), work.faults.overturned.begin(),
+                          work.faults.overturned.end());
     effort.seconds_exchange += work.effort.seconds_exchange;
     effort.seconds_repair += work.effort.seconds_repair;
     effort.seconds_moments += work.effort.seconds_moments;
@@ -209,7 +210,8 @@ std::optional<Connectivity> Tessellation<Cells>::take_mesh(const Points3& points
   Effort unused;
   const Faults faults = find_faults(unused);
   patches_.clear();
-  if (!faults.none() && !repair(mesh_, cells_.signs(), faults))
+  if (!faults.overturned.empty() ||
+      (!faults.none() && !repair(mesh_, cells_.signs(), faults)))
     return std::nullopt;
   return std::move(mesh_);
 }
