@@ -20,6 +20,7 @@
 #include <calotte/progress.h>
 #include <calotte/quality.h>
 #include <calotte/read.h>
+#include <calotte/region.h>
 #include <calotte/renumber.h>
 #include <calotte/types.h>
 #include <calotte/version.h>

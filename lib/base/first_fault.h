@@ -19,10 +19,16 @@ public:
     while (index < known && !first_.compare_exchange_weak(known, index, std::memory_order_relaxed))
       ;
   }
+  /// The least index, or -1 if there is no fault.
+  std::int64_t index() const {
+    const std::int64_t index = first_.load(std::memory_order_relaxed);
+    return index == none ? -1 : index;
+  }
   /// \throws Error bad_option "<thing> <index> <fault>" if there is a fault.
   void refuse(const std::string& thing, const std::string& fault) const {
-    if (const std::int64_t index = first_.load(std::memory_order_relaxed); index != none)
-      throw Error(ErrorCode::bad_option, thing + ' ' + std::to_string(index) + ' ' + fault, index);
+    if (index() >= 0)
+      throw Error(ErrorCode::bad_option, thing + ' ' + std::to_string(index()) + ' ' + fault,
+                  index());
   }
 
 private:

@@ -4,9 +4,10 @@
 #include "mesh/room.h"
 
 /// Domains of the plane: polygons with holes and doubly periodic boxes, exact tests of inside and
-/// outside, and Voronoi cells clipped by the boundary.
+/// outside, and Voronoi cells clipped by the boundary. Regions of the sphere: polygons of arcs of
+/// great circles, and the same tests.
 ///
-/// In: rings of corners and a period. Out: outlines with a search grid, and clipped cells.
+/// In: rings of corners and a period. Out: outlines with search grids, and clipped cells.
 namespace calotte::domain_detail {
 using namespace mesh_detail; // and the rooms below it
 }

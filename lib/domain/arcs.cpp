@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "domain/arcs.h"
+
+#include <cmath>
+
+namespace calotte::domain_detail {
+
+bool on_arc(const Arc& arc, const Vec3& place, int turning) {
+  return turning == 0 && (same_direction(arc.from, place) || same_direction(arc.to, place) ||
+                          between(View{}, arc.from, place, arc.to));
+}
+
+bool meet(const Arc& a, const Arc& b) {
+  const int b_from = turn(a.from, a.to, b.from), b_to = turn(a.from, a.to, b.to),
+            a_from = turn(b.from, b.to, a.from), a_to = turn(b.from, b.to, a.to);
+  // Opposite signs alone would hold for the arc on the other side of the sphere, too.
+  if (b_from != 0 && b_to == -b_from && a_from == -b_from && a_to == b_from)
+    return true;
+  return on_arc(a, b.from, b_from) || on_arc(a, b.to, b_to) || on_arc(b, a.from, a_from) ||
+         on_arc(b, a.to, a_to);
+}
+
+bool fold(const Arc& a, const Arc& b) { return on_arc(a, b.to) || on_arc(b, a.from); }
+
+bool reaches_from_left(const Vec3& start, const Arc& before, const Arc& after) {
+  const bool left_of_before = turn(before.from, before.to, start) > 0,
+             left_of_after = turn(after.from, after.to, start) > 0;
+  return turn(before.from, before.to, after.to) < 0 ? left_of_before || left_of_after
+                                                    : left_of_before && left_of_after;
+}
+
+Box3 joined(const Box3& a, const Box3& b) {
+  return {
+      {std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y), std::min(a.low.z, b.low.z)},
+      {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y), std::max(a.high.z, b.high.z)}};
+}
+
+// An arc of the chord c bulges by 1 - sqrt(1 - c^2/4) <= c^2/4 beyond its chord.
+Box3 box_of(const Arc& arc) {
+  const Vec3 chord = arc.to - arc.from;
+  const double bulge = 0.25 * dot(chord, chord) + 1e-14;
+  const Vec3 margin{bulge, bulge, bulge};
+  const Box3 ends = joined({arc.from, arc.from}, {arc.to, arc.to});
+  return {ends.low - margin, ends.high + margin};
+}
+
+double square_from(const Arc& arc, const Vec3& p) {
+  const Vec3 across = cross(arc.from + arc.to, arc.to - arc.from); // without cancellation
+  const Vec3 normal = (1 / norm(across)) * across;
+  if (dot(cross(normal, arc.from), p) >= 0 && dot(cross(arc.to, normal), p) >= 0) {
+    const double sine = dot(normal, p), square = std::min(1.0, sine * sine);
+    return 2 * square / (1 + std::sqrt(1 - square));
+  }
+  const Vec3 a = p - arc.from, b = p - arc.to;
+  return std::min(dot(a, a), dot(b, b));
+}
+
+} // namespace calotte::domain_detail

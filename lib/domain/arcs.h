@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "domain/room.h"
+#include "exact/predicates.h"
+
+#include <algorithm>
+
+/// Arcs of great circles and exact decisions on them.
+namespace calotte::domain_detail {
+
+/// The shorter arc of a great circle between two unit vectors, which are neither equal nor opposite
+/// directions. It contains both ends.
+struct Arc {
+  Vec3 from, to;
+};
+
+/// A direction as a unit vector. A vector whose norm is 1 up to round-off keeps its bits, so that
+/// the function changes no result of its own.
+inline Vec3 as_unit(const Vec3& x) {
+  constexpr double tolerance = 0x1p-47; // of a square; normalised() errs by less than 2^-49
+  const double excess = dot(x, x) - 1;
+  return excess >= -tolerance && excess <= tolerance ? x : normalised(x);
+}
+
+/// orientation() of unit vectors: the sign of det(a, b, c) for the stored doubles.
+inline int turn(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const int sign = orientation_filter(a, b, c);
+  return sign != 0 ? sign : orientation(a, b, c);
+}
+
+/// True if a direction lies on the arc; exact.
+/// \param turning turn(arc.from, arc.to, place), if it is known.
+bool on_arc(const Arc& arc, const Vec3& place, int turning);
+inline bool on_arc(const Arc& arc, const Vec3& place) {
+  return on_arc(arc, place, turn(arc.from, arc.to, place));
+}
+
+/// True if the path from one direction to another crosses the arc. The path is an arc, or empty;
+/// where it passes through ends of arcs, it keeps to the right of them. The parity of the crossings
+/// of a closed polygon is therefore right for any polygon; exact.
+/// \pre neither end of the path lies on the arc; they are not opposite.
+inline bool crosses(const Vec3& start, const Vec3& end, const Arc& arc) {
+  const bool from_left = turn(start, end, arc.from) >= 0, to_left = turn(start, end, arc.to) >= 0;
+  if (from_left == to_left)
+    return false;
+  const int way = from_left ? 1 : -1;
+  return turn(arc.from, arc.to, end) == way && turn(arc.from, arc.to, start) == -way;
+}
+
+/// True if two arcs have a common place; exact.
+bool meet(const Arc& a, const Arc& b);
+
+/// True if two arcs have more in common than the end of a, where b begins; exact.
+bool fold(const Arc& a, const Arc& b);
+
+/// True if the last part of a path to the corner between two arcs, which the path does not touch,
+/// lies to the left of both arcs' common boundary; exact.
+/// \pre neither great circle of an arc contains `start`.
+bool reaches_from_left(const Vec3& start, const Arc& before, const Arc& after);
+
+/// A box of space.
+struct Box3 {
+  Vec3 low{4, 4, 4}, high{-4, -4, -4}; ///< default: empty
+};
+
+Box3 joined(const Box3& a, const Box3& b);
+
+/// A box that contains an arc, with a margin for round-off.
+Box3 box_of(const Arc& arc);
+
+inline bool overlap(const Box3& a, const Box3& b) {
+  return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y &&
+         a.low.z <= b.high.z && b.low.z <= a.high.z;
+}
+
+/// The square of the distance from a place to a box; 0 inside it.
+inline double square_from(const Box3& box, const Vec3& p) {
+  const Vec3 beyond{std::max({0.0, box.low.x - p.x, p.x - box.high.x}),
+                    std::max({0.0, box.low.y - p.y, p.y - box.high.y}),
+                    std::max({0.0, box.low.z - p.z, p.z - box.high.z})};
+  return dot(beyond, beyond);
+}
+
+/// The square of the chord between a unit vector and the nearest place of an arc; rounded.
+double square_from(const Arc& arc, const Vec3& p);
+
+} // namespace calotte::domain_detail

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <calotte/region.h>
+
+#include "base/circle.h"
+#include "base/points.h"
+#include "base/require.h"
+#include "domain/spherical_outline.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <utility>
+
+namespace calotte {
+namespace {
+
+using namespace domain_detail;
+
+constexpr double least_angle = 1e-6;
+constexpr double half_turn = std::numbers::pi, quarter_turn = 0.5 * std::numbers::pi;
+
+std::string in_words(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
+}
+
+/// Cosine and sine of an angle from 0 to pi; the same bits on every machine.
+CosSin cos_sin(double angle) {
+  constexpr double octant_width = 0.25 * std::numbers::pi;
+  const int octant = std::min(3, static_cast<int>(angle / octant_width));
+  const double begin = octant * octant_width;
+  const double from_end = octant % 2 == 0 ? angle - begin : begin + octant_width - angle;
+  return cos_sin_of_octant(octant, std::clamp(from_end / octant_width, 0.0, 1.0));
+}
+
+/// Cosine and sine of i/n of a turn.
+CosSin part_of_turn(std::int64_t i, std::int64_t n) {
+  const auto octant = static_cast<int>(8 * i / n);
+  const std::int64_t rest = 8 * i % n; // of n
+  return cos_sin_of_octant(octant, static_cast<double>(octant % 2 == 0 ? rest : n - rest) /
+                                       static_cast<double>(n));
+}
+
+/// The directions of east and north at a place; at a pole, those at longitude 0.
+struct Compass {
+  Vec3 up, east, north;
+};
+
+Compass compass_at(const Eigen::Vector3d& place, const std::string& what) {
+  require(place.allFinite() && !place.isZero(0),
+          "the " + what +
+              "'s centre is no direction; give three finite numbers that are not all 0");
+  const Vec3 up = as_unit({place.x(), place.y(), place.z()});
+  const double sideways = std::sqrt(up.x * up.x + up.y * up.y);
+  const Vec3 east = sideways > 0 ? Vec3{-up.y / sideways, up.x / sideways, 0} : Vec3{0, 1, 0};
+  return {up, east, cross(up, east)};
+}
+
+void require_corners(int corners) {
+  require(corners >= 8 && corners <= 1 << 24,
+          "the number of corners is " + std::to_string(corners) + "; give 8 to 16777216");
+}
+
+/// The ring of place(cosine, sine) for the angles of a regular polygon.
+template <class Place> Points3 ring_of(int corners, const Place& place) {
+  Points3 ring(3, corners);
+  for (int i = 0; i < corners; ++i)
+    set_column(ring, i, as_unit(place(part_of_turn(i, corners))));
+  return ring;
+}
+
+/// The parallel of a latitude, eastward.
+Points3 parallel(double latitude, int corners) {
+  const CosSin north = cos_sin(std::abs(latitude));
+  return ring_of(corners, [&](const CosSin& east) {
+    return Vec3{north.cos * east.cos, north.cos * east.sin, std::copysign(north.sin, latitude)};
+  });
+}
+
+Points3 reversed(const Points3& ring) { return ring.rowwise().reverse(); }
+
+/// The sides of rings as if the region were to the left of the first one.
+SideCells sides_of(const Rings& rings) {
+  return {simple(rings, ArcTree(rings.arcs)).arcs, rings.corner_of(0)};
+}
+
+/// Reverses rings that do not have the inside, or else the outside, to their left.
+Region turned(std::vector<Points3> corners, const Rings& rings, const SideCells& cells,
+              bool inside) {
+  for (std::size_t r = 0; r < corners.size(); ++r)
+    if (cells.inside_is_left(rings.corner_of(r)) != inside)
+      corners[r] = reversed(corners[r]);
+  return {std::move(corners)};
+}
+
+} // namespace
+
+Region circle(const Eigen::Vector3d& centre, double radius, int corners) {
+  const auto [up, east, north] = compass_at(centre, "circle");
+  require(radius >= least_angle && radius <= half_turn - least_angle,
+          "the circle's radius is " + in_words(radius) + "; give 1e-6 to pi - 1e-6 radians");
+  require_corners(corners);
+  const CosSin away = cos_sin(radius);
+  return {{ring_of(corners, [&, up = up, east = east, north = north](const CosSin& turn) {
+    return away.cos * up + away.sin * (turn.cos * north - turn.sin * east);
+  })}};
+}
+
+// A plane that touches the sphere at the centre shows the ellipse as an ellipse of the semi-axes
+// tan(semi_major) and tan(semi_minor), as great circles are its lines.
+Region ellipse(const Eigen::Vector3d& centre, double semi_major, double semi_minor, double bearing,
+               int corners) {
+  const auto [up, east, north] = compass_at(centre, "ellipse");
+  require(semi_minor >= least_angle && semi_minor <= semi_major &&
+              semi_major <= quarter_turn - least_angle,
+          "the ellipse's semi-axes are " + in_words(semi_major) + " and " + in_words(semi_minor) +
+              "; give the major one first, and 1e-6 to pi/2 - 1e-6 radians for both");
+  require(std::isfinite(bearing), "the ellipse's bearing is not finite; give radians from north");
+  require_corners(corners);
+  const double turned = std::remainder(bearing, 2 * half_turn);
+  CosSin along = cos_sin(std::abs(turned));
+  along.sin = std::copysign(along.sin, turned);
+  const CosSin a = cos_sin(semi_major), b = cos_sin(semi_minor);
+  const Vec3 major = (a.sin / a.cos) * (along.cos * north + along.sin * east),
+             minor = (b.sin / b.cos) * (along.sin * north - along.cos * east);
+  return {{ring_of(corners, [&, up = up](const CosSin& turn) {
+    return up + turn.cos * major + turn.sin * minor;
+  })}};
+}
+
+Region channel(double lower, double upper, int corners) {
+  const auto is_pole = [](double latitude) { return std::abs(latitude) >= quarter_turn - 1e-15; };
+  const auto valid = [&](double latitude) {
+    return std::abs(latitude) <= quarter_turn - least_angle ||
+           (std::abs(latitude) <= quarter_turn && is_pole(latitude));
+  };
+  require(valid(lower) && valid(upper) && upper - lower >= least_angle,
+          "the channel's latitudes are " + in_words(lower) + " and " + in_words(upper) +
+              "; give the lower one first, -pi/2 to pi/2 radians, 1e-6 or more from each other and "
+              "from a pole that is not one of them");
+  require(!is_pole(lower) || !is_pole(upper),
+          "the channel from pole to pole is the whole sphere; give no region");
+  require_corners(corners);
+  Region region;
+  if (!is_pole(lower))
+    region.rings.push_back(parallel(lower, corners));
+  if (!is_pole(upper))
+    region.rings.push_back(reversed(parallel(upper, corners)));
+  return region;
+}
+
+Region region_around(std::vector<Points3> corners, const Eigen::Vector3d& place) {
+  require(!corners.empty(), "the region has no rings; give one at least");
+  require(place.allFinite() && !place.isZero(0),
+          "the place inside the region is no direction; give three finite numbers that are not "
+          "all 0");
+  const Rings rings = rings_of(corners);
+  const SideCells cells = sides_of(rings);
+  const Side side = cells.side(as_unit({place.x(), place.y(), place.z()}));
+  require(side != Side::boundary,
+          "the place that is to be inside the region is on its boundary; give another");
+  return turned(std::move(corners), rings, cells, side == Side::inside);
+}
+
+Region smaller_region(std::vector<Points3> corners) {
+  require(!corners.empty(), "the region has no rings; give one at least");
+  const Rings rings = rings_of(corners);
+  Region region = turned(std::move(corners), rings, sides_of(rings), true);
+  if (area(region) > 2 * half_turn)
+    for (Points3& ring : region.rings)
+      ring = reversed(ring);
+  return region;
+}
+
+void require_region(const Region& region) {
+  if (!region.whole())
+    SphericalOutline{region};
+}
+
+double area(const Region& region) {
+  return region.whole() ? 4 * half_turn : SphericalOutline(region).area();
+}
+
+bool contains(const Region& region, const Eigen::Vector3d& place) {
+  return containing(region)(place);
+}
+
+std::function<bool(const Eigen::Vector3d&)> containing(const Region& region) {
+  const auto is_direction = [](const Eigen::Vector3d& place) {
+    return place.allFinite() && !place.isZero(0);
+  };
+  if (region.whole())
+    return is_direction;
+  return [is_direction,
+          outline = std::make_shared<SphericalOutline>(region)](const Eigen::Vector3d& place) {
+    return is_direction(place) && outline->side({place.x(), place.y(), place.z()}) != Side::outside;
+  };
+}
+
+} // namespace calotte

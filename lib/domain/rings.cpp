@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "domain/rings.h"
+
+#include "base/first_fault.h"
+#include "base/parallel.h"
+#include "base/points.h"
+
+#include <calotte/error.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace calotte::domain_detail {
+namespace {
+
+std::string corner_name(std::int64_t ring, std::int64_t corner) {
+  return "ring " + std::to_string(ring) + ", corner " + std::to_string(corner);
+}
+
+void append_arc(const Points3& corners, std::int64_t r, std::int64_t i, std::vector<Arc>& arcs) {
+  const Arc arc{as_unit(column(corners, i)), as_unit(column(corners, (i + 1) % corners.cols()))};
+  if (same_direction(arc.from, arc.to))
+    refuse_region(corner_name(r, i) + " and the next are one place; leave one of them out", r);
+  if (same_direction(arc.from, -arc.to))
+    refuse_region(corner_name(r, i) +
+                      " and the next are opposite, and half circles in every direction join them; "
+                      "add a corner between them",
+                  r);
+  arcs.push_back(arc);
+}
+
+void append_ring(const Points3& corners, std::int64_t r, std::vector<Arc>& arcs) {
+  const Eigen::Index count = corners.cols();
+  if (count < 3)
+    refuse_region("ring " + std::to_string(r) + " has " + std::to_string(count) +
+                      (count == 1 ? " corner" : " corners") +
+                      " and encloses nothing; give three at least",
+                  r);
+  for (Eigen::Index i = 0; i < count; ++i)
+    if (!corners.col(i).allFinite() || (corners.col(i).array() == 0).all())
+      refuse_region(
+          corner_name(r, i) + " is no direction; give three finite numbers that are not all 0", r);
+  for (Eigen::Index i = 0; i < count; ++i)
+    append_arc(corners, r, i, arcs);
+}
+
+/// True if two arcs of rings have more in common than rings allow.
+bool conflict(const Rings& rings, std::int32_t e, std::int32_t f) {
+  const std::size_t r = rings.ring_of(e);
+  const auto after = [&](std::int32_t arc) {
+    return arc + 1 == rings.begin[r + 1] ? rings.begin[r] : arc + 1;
+  };
+  const Arc &a = rings.arcs[static_cast<std::size_t>(e)],
+            &b = rings.arcs[static_cast<std::size_t>(f)];
+  if (e == f)
+    return false;
+  if (f == after(e))
+    return fold(a, b);
+  return rings.ring_of(f) == r && e == after(f) ? fold(b, a) : meet(a, b);
+}
+
+constexpr std::int32_t none = std::numeric_limits<std::int32_t>::max();
+
+/// The first arc that conflicts with one, or none.
+std::int32_t first_conflict(const Rings& rings, const ArcTree& tree, std::int32_t e) {
+  std::int32_t first = none;
+  const Box3 own = box_of(rings.arcs[static_cast<std::size_t>(e)]);
+  tree.visit([&](const Box3& box) { return overlap(box, own); },
+             [&](std::int32_t f) {
+               if (f < first && conflict(rings, e, f))
+                 first = f;
+             });
+  return first;
+}
+
+} // namespace
+
+void refuse_region(const std::string& what, std::int64_t ring) {
+  throw Error(ErrorCode::bad_option, "the region: " + what, ring);
+}
+
+std::size_t Rings::ring_of(std::int32_t arc) const {
+  return static_cast<std::size_t>(std::upper_bound(begin.begin(), begin.end(), arc) -
+                                  begin.begin() - 1);
+}
+
+std::string Rings::name_of(std::int32_t arc) const {
+  const std::size_t ring = ring_of(arc);
+  return corner_name(static_cast<std::int64_t>(ring), arc - begin[ring]);
+}
+
+Rings rings_of(const std::vector<Points3>& corners) {
+  Rings rings;
+  for (std::size_t r = 0; r < corners.size(); ++r) {
+    append_ring(corners[r], static_cast<std::int64_t>(r), rings.arcs);
+    require_count(std::ssize(rings.arcs), 3, "the region's number of corners");
+    rings.begin.push_back(static_cast<std::int32_t>(rings.arcs.size()));
+  }
+  return rings;
+}
+
+const Rings& simple(const Rings& rings, const ArcTree& tree) {
+  FirstFault fault;
+  for_each_block(std::ssize(rings.arcs), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t e = begin; e != end; ++e)
+      if (first_conflict(rings, tree, static_cast<std::int32_t>(e)) != none) {
+        fault.at(e);
+        return;
+      }
+  });
+  if (fault.index() < 0)
+    return rings;
+  const auto e = static_cast<std::int32_t>(fault.index());
+  refuse_region("the edges from " + rings.name_of(e) + " and from " +
+                    rings.name_of(first_conflict(rings, tree, e)) +
+                    " meet; rings may neither cross nor touch themselves or each other",
+                static_cast<std::int64_t>(rings.ring_of(e)));
+}
+
+} // namespace calotte::domain_detail

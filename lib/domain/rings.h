@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "domain/arc_tree.h"
+#include "domain/arcs.h"
+#include "domain/room.h"
+#include "domain/side_cells.h"
+
+#include <calotte/types.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace calotte::domain_detail {
+
+/// Closed rings of arcs on the sphere, one after the other.
+struct Rings {
+  std::vector<Arc> arcs;
+  std::vector<std::int32_t> begin{0}; ///< of each ring's arcs; at the end their number
+
+  std::size_t count() const { return begin.size() - 1; }
+  std::size_t ring_of(std::int32_t arc) const;
+
+  /// "ring 2, corner 5": where an arc begins.
+  std::string name_of(std::int32_t arc) const;
+
+  /// The first corner of a ring.
+  SideCells::Corner corner_of(std::size_t ring) const { return {begin[ring + 1] - 1, begin[ring]}; }
+};
+
+/// The rings of corners, 3 x n directions each, rounded to unit vectors.
+/// \throws Error bad_option, naming ring and corner: fewer than three corners; a corner that is no
+///         direction; equal or opposite neighbours. Its index() is the ring.
+Rings rings_of(const std::vector<Points3>& corners);
+
+/// Throws where arcs meet elsewhere than in the corner that joins them.
+/// \throws Error bad_option, naming ring and corner of the first arc that meets another. Its
+///         index() is the ring.
+/// \return the rings.
+const Rings& simple(const Rings& rings, const ArcTree& tree);
+
+/// Ends in an error on a region.
+/// \throws Error bad_option, always.
+[[noreturn]] void refuse_region(const std::string& what, std::int64_t ring = -1);
+
+} // namespace calotte::domain_detail

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "domain/arcs.h"
+#include "domain/outline.h"
+#include "domain/room.h"
+
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace calotte::domain_detail {
+
+/// The sides of closed polygons on the sphere, prepared for many queries: squares on the faces of a
+/// cube, bisected until few arcs pass through each. A square without arcs lies on one side. In any
+/// other the side of one direction is known, the square's probe; the parity of the crossings of the
+/// path from there decides.
+class SideCells {
+public:
+  /// Two consecutive arcs, by index.
+  struct Corner {
+    std::int32_t before, after;
+  };
+
+  /// \param arcs simple polygons that do not meet.
+  /// \param corner the inside is to its left.
+  SideCells(std::vector<Arc> arcs, Corner corner);
+
+  const std::vector<Arc>& arcs() const { return arcs_; }
+
+  /// The position of a direction relative to the polygons; exact.
+  /// \param place unit vector.
+  Side side(const Vec3& place) const;
+
+  /// True if the inside is to the left of a corner; exact.
+  bool inside_is_left(Corner corner) const;
+
+private:
+  /// The square [u, u + size] x [v, v + size] of a face of the cube [-1,1]^3.
+  struct Square {
+    int face;
+    double u, v, size;
+  };
+  struct Node {
+    Vec3 probe;
+    std::int32_t children;   ///< the first of four, or -1
+    std::int64_t begin, end; ///< of listed_, in a square that is not bisected
+    bool inside;             ///< the probe
+  };
+  using Ids = std::vector<std::int32_t>;
+  /// A node under construction, with the arcs that may pass through its square.
+  struct Part {
+    std::int32_t node;
+    Square square;
+    Ids ids;
+  };
+  struct Found {
+    const Node& node;
+    Square square;
+  };
+
+  const Arc& arc(std::int32_t id) const { return arcs_[static_cast<std::size_t>(id)]; }
+  static Vec3 probe_in(const Square& square, int number);
+  static Square quarter_of(const Square& square, int quarter);
+  static bool reaches(const Arc& arc, const Square& square);
+  Ids those_in(const Square& square, const Ids& ids) const;
+  bool on_any(const Vec3& place, std::span<const std::int32_t> ids) const;
+  bool crosses_oddly(const Vec3& start, const Vec3& end, std::span<const std::int32_t> ids) const;
+  Vec3 free_probe(const Square& square, std::span<const std::int32_t> ids, int& number) const;
+  std::pair<Vec3, bool> probe_at_corner(Corner corner, const Square& square,
+                                        std::span<const std::int32_t> ids) const;
+  std::vector<Part> bisected(const std::vector<Part>& parts);
+  Part child_of(const Part& part, int child);
+  void keep(const Part& part);
+  Found find(const Vec3& place) const;
+  std::span<const std::int32_t> ids_of(const Node& node) const;
+
+  std::vector<Arc> arcs_;
+  std::vector<Node> nodes_; ///< the first six are the faces
+  std::vector<std::int32_t> listed_;
+};
+
+} // namespace calotte::domain_detail

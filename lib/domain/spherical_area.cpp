@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "domain/spherical_area.h"
+
+#include "base/double_double.h"
+#include "base/spherical_angles.h"
+
+#include <algorithm>
+#include <numbers>
+#include <vector>
+
+namespace calotte::domain_detail {
+namespace {
+
+constexpr DoubleDouble sphere{4 * std::numbers::pi, 4 * 1.2246467991473532e-16};
+
+/// The signed area of the triangle between a place and an arc, positive if they run
+/// counter-clockwise. It loses digits where the arc comes near the opposite of the place.
+///
+/// tan(area/2) = det(o,a,b) / ((o+a).(o+b)) (Van Oosterom and Strackee, 1983); the determinant is
+/// one of small differences.
+double triangle_area(const Vec3& o, const Arc& arc) {
+  const Vec3& a = arc.from;
+  const Vec3 side = dot(o, a) > 0 ? a - o : a + o;
+  return 2 * longitude_of(dot(o + a, o + arc.to), dot(o, cross(side, arc.to - a)));
+}
+
+/// Places to sum triangles from: the mean direction of the arcs, and those of a cube's faces, edges
+/// and corners.
+std::vector<Vec3> origins(std::span<const Arc> arcs) {
+  Vec3 sum{0, 0, 0};
+  for (const Arc& arc : arcs)
+    sum = sum + norm(arc.to - arc.from) * (arc.from + arc.to);
+  std::vector<Vec3> places;
+  if (norm(sum) > 0)
+    places.push_back(normalised(sum));
+  for (const double x : {-1.0, 0.0, 1.0})
+    for (const double y : {-1.0, 0.0, 1.0})
+      for (const double z : {-1.0, 0.0, 1.0})
+        if (x != 0 || y != 0 || z != 0)
+          places.push_back(normalised({x, y, z}));
+  return places;
+}
+
+/// The one whose opposite is farthest from all arcs.
+Vec3 best_origin(std::span<const Arc> arcs) {
+  Vec3 best{0, 0, 1};
+  double farthest = -1;
+  for (const Vec3& place : origins(arcs)) {
+    double nearest = 4;
+    for (auto arc = arcs.begin(); arc != arcs.end() && nearest > farthest; ++arc)
+      nearest = std::min(nearest, square_from(*arc, -place));
+    if (nearest > farthest) {
+      farthest = nearest;
+      best = place;
+    }
+  }
+  return best;
+}
+
+/// The sum of the triangles between an origin and arcs: the area to the left of the arcs, less 4 pi
+/// if the origin's opposite is to the left.
+DoubleDouble sum_from(const Vec3& origin, std::span<const Arc> arcs) {
+  DoubleDouble sum;
+  for (const Arc& arc : arcs)
+    sum = sum + DoubleDouble{triangle_area(origin, arc), 0};
+  return sum;
+}
+
+} // namespace
+
+double area_inside(const SideCells& cells) {
+  const Vec3 origin = best_origin(cells.arcs());
+  const DoubleDouble sum = sum_from(origin, cells.arcs());
+  return cells.side(-origin) == Side::inside ? (sum + sphere).hi : sum.hi;
+}
+
+double area_to_the_left(std::span<const Arc> arcs) {
+  DoubleDouble sum = sum_from(best_origin(arcs), arcs);
+  while (sum.hi < 0)
+    sum = sum + sphere;
+  while (sum.hi >= sphere.hi)
+    sum = sum - sphere;
+  return sum.hi;
+}
+
+} // namespace calotte::domain_detail

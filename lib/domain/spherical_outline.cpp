@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "domain/spherical_outline.h"
+
+#include "domain/spherical_area.h"
+
+#include <string>
+#include <utility>
+
+namespace calotte::domain_detail {
+
+SphericalOutline::SphericalOutline(const Region& region)
+    : SphericalOutline(rings_of(region.rings)) {}
+
+SphericalOutline::SphericalOutline(const Rings& rings)
+    : tree_(rings.arcs), cells_(simple(rings, tree_).arcs, rings.corner_of(0)),
+      area_(area_inside(cells_)) {
+  for (std::size_t r = 1; r < rings.count(); ++r)
+    if (!cells_.inside_is_left(rings.corner_of(r)))
+      refuse_region("it is to the left of ring 0 and to the right of ring " + std::to_string(r) +
+                        "; give rings that all have it to their left: an outer boundary "
+                        "counter-clockwise, a hole clockwise",
+                    static_cast<std::int64_t>(r));
+}
+
+} // namespace calotte::domain_detail

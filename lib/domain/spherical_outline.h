@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "domain/arc_tree.h"
+#include "domain/arcs.h"
+#include "domain/outline.h"
+#include "domain/rings.h"
+#include "domain/room.h"
+#include "domain/side_cells.h"
+
+#include <calotte/region.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace calotte::domain_detail {
+
+/// The boundary of a region of the sphere, prepared for many queries. It is not changed afterwards:
+/// any number of threads may call it.
+class SphericalOutline {
+public:
+  /// The region lies to the left of an arc, which is shorter than a half circle; unit vectors.
+  using Edge = Arc;
+
+  /// \pre the region is not the whole sphere. \throws Error as require_region().
+  explicit SphericalOutline(const Region& region);
+
+  double area() const { return area_; }                            ///< steradians
+  const std::vector<Edge>& edges() const { return cells_.arcs(); } ///< ring by ring
+
+  /// The position of a direction relative to the boundary; exact for the stored corners. Directions
+  /// whose norm is not 1 up to round-off are rounded to unit vectors first, as the corners are.
+  Side side(const Vec3& place) const { return cells_.side(as_unit(place)); }
+
+  /// Calls body(edge) once for each edge that may come within a distance of a place. It calls it
+  /// for all edges that do, and few others. The order of the calls is a function of the edges and
+  /// the place.
+  /// \param place unit vector. \param reach angle in radians.
+  template <class Body>
+  void for_each_edge_near(const Vec3& place, double reach, const Body& body) const {
+    const double chord = reach + 1e-14; // a chord is shorter than its arc
+    tree_.visit([&](const Box3& box) { return square_from(box, place) <= chord * chord; },
+                [&](std::int32_t e) { body(edges()[static_cast<std::size_t>(e)]); });
+  }
+
+private:
+  explicit SphericalOutline(const Rings& rings);
+
+  ArcTree tree_;
+  SideCells cells_;
+  double area_;
+};
+
+} // namespace calotte::domain_detail

@@ -1,0 +1,406 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/lonlat.h"
+#include "base/points.h"
+#include "domain/spherical_outline.h"
+
+#include "support/exact.h"
+#include "support/random.h"
+
+#include <calotte/error.h>
+#include <calotte/generators.h>
+#include <calotte/region.h>
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace {
+
+using namespace calotte;
+using base_detail::Vec3;
+using domain_detail::Side;
+using domain_detail::SphericalOutline;
+
+constexpr double pi = std::numbers::pi, degree = pi / 180;
+
+Eigen::Vector3d vector(const Vec3& p) { return {p.x, p.y, p.z}; }
+Eigen::Vector3d lonlat(double longitude, double latitude) {
+  return vector(base_detail::from_lonlat(longitude, latitude));
+}
+
+Points3 ring_of(const std::vector<std::array<double, 2>>& lonlats) {
+  Points3 ring(3, std::ssize(lonlats));
+  for (std::size_t i = 0; i < lonlats.size(); ++i)
+    ring.col(static_cast<Eigen::Index>(i)) = lonlat(lonlats[i][0], lonlats[i][1]);
+  return ring;
+}
+
+Points3 reversed(const Points3& ring) { return ring.rowwise().reverse(); }
+
+Region complement(const Region& region) {
+  Region other;
+  for (const Points3& ring : region.rings)
+    other.rings.push_back(reversed(ring));
+  return other;
+}
+
+// ---- The sides without an index, in exact arithmetic
+
+int sign_of_det(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const double value = dot(cross(a, b), c);
+  return std::abs(value) > 1e-12 ? (value > 0) - (value < 0) : exact::orientation(a, b, c);
+}
+
+/// True if p lies on the arc, given that it lies on its great circle.
+bool within(const Vec3& a, const Vec3& b, const Vec3& p) {
+  const exact::Integers u = exact::integers(a), v = exact::integers(b), w = exact::integers(p);
+  const exact::Integers normal{u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x};
+  return sgn(exact::det(u, w, normal)) >= 0 && sgn(exact::det(w, v, normal)) >= 0;
+}
+
+/// Crossings of the path from a place inside, which must be in general position.
+Side brute_side(const std::vector<SphericalOutline::Edge>& edges, const Vec3& known,
+                const Vec3& place) {
+  bool inside = true;
+  for (const auto& [a, b] : edges) {
+    const int end = sign_of_det(a, b, place);
+    if (end == 0 && within(a, b, place))
+      return Side::boundary;
+    const int start = sign_of_det(a, b, known);
+    REQUIRE(start != 0);
+    if (start == end)
+      continue;
+    const int from = sign_of_det(known, place, a), to = sign_of_det(known, place, b);
+    if (start == -end)
+      REQUIRE(from * to != 0);
+    inside ^= from == -start && to == start && end == -start;
+  }
+  return inside ? Side::inside : Side::outside;
+}
+
+// ---- Regions
+
+struct Shape {
+  std::string name;
+  Region region;
+  Vec3 known; ///< inside, in general position
+};
+
+Region archipelago(int islands) {
+  const Points3 centres = fibonacci_sphere(islands);
+  Region region;
+  for (int i = 0; i < islands; ++i)
+    region.rings.push_back(circle(centres.col(i), 0.01 + 0.04 * (i % 7) / 7, 8 + i % 11).rings[0]);
+  return region;
+}
+
+/// Teeth of 3 degrees, with walls of 1e-7 degrees between.
+Region comb() {
+  std::vector<std::array<double, 2>> corners{{-20, -10}, {41, -10}, {41, 0}};
+  for (int tooth = 19; tooth >= 0; --tooth) {
+    const double west = 3.0 * tooth - 20, east = west + 3 - 1e-7;
+    corners.insert(corners.end(), {{east, 0}, {east, 40}, {west, 40}, {west, 0}});
+  }
+  return {{ring_of(corners)}};
+}
+
+std::vector<Shape> shapes() {
+  const Vec3 generic{0.31234, 0.41357, 0.21579};
+  return {
+      {"hemisphere", {{ring_of({{0, 0}, {120, 0}, {240, 0}})}}, generic},
+      {"western hemisphere",
+       {{ring_of({{0, 0}, {0, 90}, {180, 0}, {0, -90}})}},
+       {-0.31, -0.4, 0.2}},
+      {"cap of 1 degree", circle(lonlat(20, 30), 1 * degree), base_detail::from_lonlat(20.1, 30.2)},
+      {"cap of 170 degrees", circle(lonlat(20, 30), 170 * degree, 100), generic},
+      {"ring around a pole",
+       {{ring_of({{0, 60}, {90, 50}, {180, 70}, {270, 40}})}},
+       {.01, .02, .9}},
+      {"over the date line",
+       {{ring_of({{170, -10}, {-170, -20}, {-160, 10}, {175, 20}})}},
+       base_detail::from_lonlat(179.123, 1.2345)},
+      {"channel with an island",
+       {{channel(-0.4, 0.5, 24).rings[0], channel(-0.4, 0.5, 24).rings[1],
+         reversed(ring_of({{10, -5}, {30, -5}, {30, 15}, {10, 15}})),
+         ring_of({{15, 0}, {20, 0}, {20, 5}})}},
+       base_detail::from_lonlat(18.76, 1.2345)},
+      {"archipelago", archipelago(200), {0, 0, 0}},
+      {"comb", comb(), base_detail::from_lonlat(0.1234, -3.3217)}};
+}
+
+std::vector<Vec3> places_for(const SphericalOutline& outline, test::Random& random) {
+  std::vector<Vec3> places;
+  for (int i = 0; i < 150; ++i)
+    places.push_back(random.direction());
+  for (int i = 0; i < 60; ++i) // on lines between cells of an index, and on axes
+    places.push_back(
+        exact_detail::normalised({1.0 * random.integer(-4, 4), 1.0 * random.integer(-4, 4), 4}));
+  const auto edges = static_cast<int>(outline.edges().size());
+  for (int i = 0; i < 60; ++i) {
+    const auto& [a, b] = outline.edges()[static_cast<std::size_t>(random.integer(0, edges - 1))];
+    const Vec3 middle = exact_detail::normalised(a + b);
+    const double off = std::pow(10, random.real(-17, -3));
+    places.insert(places.end(),
+                  {a, middle, exact_detail::normalised(middle + off * random.direction()),
+                   exact_detail::normalised(a + off * random.direction())});
+  }
+  return places;
+}
+
+TEST_CASE("the side of a place is that of a search over all edges in exact arithmetic") {
+  test::Random random(1);
+  for (Shape& shape : shapes()) {
+    CAPTURE(shape.name);
+    if (shape.name == "archipelago")
+      shape.known = base_detail::column(fibonacci_sphere(200), 3);
+    const SphericalOutline outline(shape.region), other(complement(shape.region));
+    int boundary = 0;
+    for (const Vec3& place : places_for(outline, random)) {
+      CAPTURE(place.x);
+      CAPTURE(place.y);
+      CAPTURE(place.z);
+      const Side side = brute_side(outline.edges(), shape.known, place);
+      REQUIRE(outline.side(place) == side);
+      REQUIRE(other.side(place) == (side == Side::inside    ? Side::outside
+                                    : side == Side::outside ? Side::inside
+                                                            : Side::boundary));
+      boundary += side == Side::boundary;
+    }
+    CHECK(boundary >= 60); // the corners, at least
+    CHECK(outline.area() + other.area() == doctest::Approx(4 * pi).epsilon(1e-15));
+  }
+}
+
+TEST_CASE("places exactly on meridians, on the equator and on diagonals are on the boundary") {
+  const SphericalOutline octant({{ring_of({{0, 0}, {90, 0}, {0, 90}})}});
+  CHECK(octant.area() == doctest::Approx(pi / 2).epsilon(1e-15));
+  test::Random random(2);
+  for (int i = 0; i < 1000; ++i) {
+    const double x = random.real(0, 1), y = random.real(0, 1);
+    REQUIRE(octant.side({x, y, 0}) == Side::boundary);
+    REQUIRE(octant.side({0, x, y}) == Side::boundary);
+    REQUIRE(octant.side({x, y, 1e-300}) == Side::inside);
+    REQUIRE(octant.side({x, y, -1e-300}) == Side::outside);
+    REQUIRE(octant.side({x, y, -1 - x}) == Side::outside);
+  }
+  const Region diagonal{{(Points3(3, 3) << 1, 1, 1, 0, 1, 1, 0, 0, 1).finished()}};
+  for (int i = 1; i < 100; ++i) { // x >= y >= z >= 0
+    CHECK(contains(diagonal, {100, 100, 1.0 * i}));
+    CHECK(contains(diagonal, {100, 1.0 * i, 1.0 * i}));
+    CHECK_FALSE(contains(diagonal, {1, i * 1e-10, std::nextafter(i * 1e-10, 1)}));
+  }
+}
+
+TEST_CASE("areas are those of formulas") {
+  for (const double radius : {1e-6, 1 * degree, 1.0, pi / 2, 170 * degree, pi - 1e-6})
+    for (const int corners : {8, 360, 5000}) {
+      const double t = std::tan(radius / 2), angle = 2 * pi / corners;
+      const double expected =
+          2 * corners * std::atan2(t * t * std::sin(angle), 1 + t * t * std::cos(angle));
+      const Eigen::Vector3d centre(0.3, -0.5, 0.7);
+      const double found = area(circle(centre, radius, corners));
+      CHECK(std::abs(found - expected) <= 1e-14 + 1e-12 * std::min(expected, 4 * pi - expected));
+      if (radius < 1e-5)
+        CHECK(found == doctest::Approx(expected).epsilon(1e-9));
+    }
+  CHECK(area(Region{}) == 4 * pi);
+  CHECK(area(channel(-pi / 2, 0)) == doctest::Approx(2 * pi).epsilon(1e-15));
+  CHECK(area(channel(0.3, 0.7, 20'000)) ==
+        doctest::Approx(2 * pi * (std::sin(0.7) - std::sin(0.3))).epsilon(1e-7));
+  // A planar ellipse of this size differs by its square.
+  CHECK(area(ellipse({1, 2, 3}, 3e-4, 1e-4, 0.5, 5000)) ==
+        doctest::Approx(pi * 3e-8).epsilon(1e-6));
+  double sum = 0;
+  for (int face = 0; face < 8; ++face) {
+    const double x = face & 1 ? -1 : 1, y = face & 2 ? -1 : 1, z = face & 4 ? -1 : 1;
+    Points3 ring = (Points3(3, 3) << x, 0, 0, 0, y, 0, 0, 0, z).finished();
+    sum += area(Region{{x * y * z > 0 ? ring : reversed(ring)}});
+  }
+  CHECK(sum == doctest::Approx(4 * pi).epsilon(1e-15));
+}
+
+TEST_CASE("the ends of an ellipse's axes, and the corners of a circle and a channel") {
+  const Eigen::Vector3d centre = lonlat(30, 40);
+  const Points3 ring = ellipse(centre, 0.5, 0.2, 90 * degree, 8).rings[0];
+  CHECK(ring.col(0).dot(centre) == doctest::Approx(std::cos(0.5)));
+  CHECK(ring.col(2).dot(centre) == doctest::Approx(std::cos(0.2)));
+  CHECK(ring.col(0).dot(Eigen::Vector3d(-0.5, std::sqrt(0.75), 0)) ==
+        doctest::Approx(std::sin(0.5))); // east
+  CHECK(ring.col(2).z() > centre.z());   // north: the ring is counter-clockwise
+  const double focus = std::acos(std::cos(0.5) / std::cos(0.2)); // distance from the centre
+  const Eigen::Vector3d east(-0.5, std::sqrt(0.75), 0);
+  const Region fine = ellipse(centre, 0.5, 0.2, 90 * degree, 100);
+  for (Eigen::Index i = 0; i < 100; ++i) {
+    const auto distance = [&](double side) {
+      return std::acos(
+          fine.rings[0].col(i).dot(std::cos(focus) * centre + side * std::sin(focus) * east));
+    };
+    CHECK(distance(1) + distance(-1) == doctest::Approx(1.0).epsilon(1e-12));
+  }
+  CHECK(circle(centre, 0.1, 8).rings[0].col(0).isApprox(lonlat(30, 40 + 0.1 / degree), 1e-14));
+  CHECK(circle(lonlat(0, 90), 0.1, 8)
+            .rings[0]
+            .col(0)
+            .isApprox(lonlat(180, 90 - 0.1 / degree), 1e-14));
+  CHECK(channel(-1, pi / 2).rings.size() == 1);
+  CHECK(contains(channel(-1, pi / 2), {0, 0, 1}));
+  CHECK_FALSE(contains(channel(-1, 1), {0, 0, -1}));
+}
+
+TEST_CASE("a rotation of the axes changes neither sides nor areas") {
+  const Region region = archipelago(30);
+  Region rotated = region;
+  for (Points3& ring : rotated.rings) { // x y z -> y z x
+    const Points3 old = ring;
+    ring.row(0) = old.row(1);
+    ring.row(1) = old.row(2);
+    ring.row(2) = old.row(0);
+  }
+  const SphericalOutline a(region), b(rotated);
+  CHECK(a.area() == doctest::Approx(b.area()).epsilon(1e-14));
+  test::Random random(4);
+  for (int i = 0; i < 20'000; ++i) {
+    const Vec3 p = random.direction();
+    REQUIRE(a.side(p) == b.side({p.y, p.z, p.x}));
+  }
+}
+
+TEST_CASE("all edges within a distance are reported once, and few others") {
+  const Region region{
+      {circle({1, 2, 3}, 0.6, 5000).rings[0], reversed(ring_of({{60, 50}, {70, 50}, {65, 60}}))}};
+  const SphericalOutline outline(region);
+  test::Random random(5);
+  for (int i = 0; i < 200; ++i) {
+    const Vec3 place =
+        exact_detail::normalised(Vec3{1, 2, 3} + random.real(0, 4) * random.direction());
+    const double reach = std::pow(10, random.real(-5, 0.5)), chord = 2 * std::sin(reach / 2);
+    std::vector<const SphericalOutline::Edge*> told;
+    outline.for_each_edge_near(place, reach, [&](const auto& edge) { told.push_back(&edge); });
+    std::sort(told.begin(), told.end());
+    REQUIRE(std::adjacent_find(told.begin(), told.end()) == told.end());
+    int missing = 0, far = 0;
+    for (const auto& edge : outline.edges()) {
+      const double distance = std::sqrt(domain_detail::square_from(edge, place)),
+                   length = norm(edge.to - edge.from);
+      const bool listed = std::binary_search(told.begin(), told.end(), &edge);
+      missing += !listed && (distance <= chord * (1 - 1e-12) || reach >= pi);
+      far += listed && reach < pi && distance > 2 * reach + 2 * length;
+    }
+    REQUIRE(missing == 0);
+    REQUIRE(far == 0);
+  }
+}
+
+TEST_CASE("rings of any orientation: around a place, or the smaller part") {
+  for (Shape& shape : shapes()) {
+    CAPTURE(shape.name);
+    if (shape.name == "archipelago")
+      shape.known = base_detail::column(fibonacci_sphere(200), 3);
+    std::vector<Points3> mixed = shape.region.rings;
+    for (std::size_t r = 0; r < mixed.size(); r += 2)
+      mixed[r] = reversed(mixed[r]);
+    CHECK(region_around(mixed, vector(shape.known)).rings == shape.region.rings);
+    const bool smaller = area(shape.region) <= 2 * pi;
+    if (shape.name.find("hemisphere") == std::string::npos)
+      CHECK((smaller_region(mixed).rings == shape.region.rings) == smaller);
+    else
+      CHECK(smaller_region(shape.region.rings).rings == shape.region.rings);
+  }
+}
+
+// ---- Errors
+
+template <class Call> std::string refusal(const Call& call) {
+  try {
+    call();
+  } catch (const Error& error) {
+    CHECK(error.code() == ErrorCode::bad_option);
+    return error.what();
+  }
+  return "";
+}
+
+std::string refusal_of(const std::vector<Points3>& rings) {
+  return refusal([&] { require_region({rings}); });
+}
+
+bool holds(const std::string& text, const std::string& part) {
+  CAPTURE(text);
+  return text.find(part) != std::string::npos;
+}
+
+TEST_CASE("rings that bound no region are refused, with ring and corner") {
+  const Points3 triangle = ring_of({{0, 0}, {40, 0}, {20, 40}}),
+                inner = ring_of({{15, 5}, {25, 5}, {20, 15}});
+  CHECK(refusal_of({}) == "");
+  CHECK(refusal_of({triangle}) == "");
+  CHECK(refusal_of({triangle, reversed(inner)}) == "");
+  CHECK(refusal_of({triangle, inner}) ==
+        "the region: it is to the left of ring 0 and to the right of ring 1; give rings that all "
+        "have it to their left: an outer boundary counter-clockwise, a hole clockwise");
+  CHECK(refusal_of({triangle, reversed(inner), reversed(ring_of({{19, 8}, {21, 8}, {20, 10}}))}) !=
+        "");
+  CHECK(holds(refusal_of({triangle, Points3(3, 0)}), "ring 1 has 0 corners"));
+  CHECK(holds(refusal_of({triangle.leftCols(1)}), "ring 0 has 1 corner and"));
+  Points3 bad = triangle;
+  bad.col(2).setZero();
+  CHECK(holds(refusal_of({inner, bad}), "ring 1, corner 2 is no direction"));
+  bad(1, 1) = NAN;
+  CHECK(holds(refusal_of({bad}), "ring 0, corner 1 is no direction"));
+  CHECK(holds(refusal_of({ring_of({{0, 0}, {40, 0}, {20, 40}, {0, 0}})}),
+              "ring 0, corner 3 and the next are one place"));
+  CHECK(holds(refusal_of({ring_of({{0, 0}, {90, 10}, {270, -10}})}),
+              "ring 0, corner 1 and the next are opposite"));
+  const auto meet = [](const std::vector<Points3>& rings) {
+    return holds(refusal_of(rings), " meet; rings may neither cross nor touch");
+  };
+  CHECK(refusal_of({ring_of({{0, 0}, {20, 20}, {20, 0}, {0, 20}})}) ==
+        "the region: the edges from ring 0, corner 0 and from ring 0, corner 2 meet; rings may "
+        "neither cross nor touch themselves or each other");
+  CHECK(meet({ring_of({{0, 0}, {20, 0}, {10, 0}, {10, 10}})}));      // folds back
+  CHECK(meet({ring_of({{0, 0}, {20, 0}, {40, 0}})}));                // no area
+  CHECK(meet({triangle, ring_of({{20, 40}, {10, 60}, {0, 60}})}));   // touch in a corner
+  CHECK(meet({triangle, ring_of({{20, 0}, {20, -20}, {30, -20}})})); // corner on an edge
+  CHECK(meet({triangle, triangle}));                                 // twice the same
+  CHECK(meet({triangle, reversed(triangle)}));                       // nothing between
+  CHECK(meet(
+      {ring_of({{0, 0}, {20, -10}, {40, 0}, {20, 0}, {10, 10}, {0, 10}, {20, 0}})})); // twice there
+  CHECK(holds(refusal([&] { region_around({triangle}, lonlat(10, 0)); }), "is on its boundary"));
+  CHECK(holds(refusal([&] { region_around({}, lonlat(10, 0)); }), "no rings"));
+  CHECK(holds(refusal([&] { region_around({triangle}, {0, 0, 0}); }), "is no direction"));
+  CHECK(holds(refusal([&] { smaller_region({}); }), "no rings"));
+}
+
+TEST_CASE("values out of range") {
+  CHECK(holds(refusal([] { circle({0, 0, 0}, 1); }), "the circle's centre is no direction"));
+  CHECK(holds(refusal([] { circle({1, 0, 0}, 4); }), "the circle's radius is 4; give 1e-6"));
+  CHECK(holds(refusal([] { circle({1, 0, 0}, NAN); }), "the circle's radius is nan"));
+  CHECK(holds(refusal([] { circle({1, 0, 0}, 1, 7); }), "the number of corners is 7"));
+  CHECK(holds(refusal([] { ellipse({NAN, 0, 0}, 1, 1, 0); }), "the ellipse's centre is no"));
+  CHECK(holds(refusal([] {
+                ellipse({1, 0, 0}, 1, 1.1, 0);
+              }),
+              "the ellipse's semi-axes are 1 and 1.1"));
+  CHECK(holds(refusal([] { ellipse({1, 0, 0}, 1.6, 1, 0); }), "the ellipse's semi-axes are 1.6"));
+  CHECK(holds(refusal([] { ellipse({1, 0, 0}, 1, 1, INFINITY); }), "the ellipse's bearing"));
+  CHECK(holds(refusal([] { channel(1, 0.5); }), "the channel's latitudes are 1 and 0.5"));
+  CHECK(holds(refusal([] { channel(0, 2); }), "the channel's latitudes are 0 and 2"));
+  CHECK(holds(refusal([] { channel(-pi / 2, pi / 2); }), "is the whole sphere"));
+}
+
+TEST_CASE("the whole sphere contains each direction and nothing else") {
+  CHECK(contains(Region{}, {1, 2, 3}));
+  CHECK_FALSE(contains(Region{}, {0, 0, 0}));
+  CHECK_FALSE(contains(Region{}, {NAN, 0, 0}));
+  CHECK_FALSE(contains(circle({1, 0, 0}, 3), {0, 0, 0}));
+  CHECK(contains(circle({1, 0, 0}, 3), {1e-170, 0, 0}));
+  CHECK(contains(circle({1, 0, 0}, 1e-6), {5e180, 1e170, 0}));
+}
+
+} // namespace
