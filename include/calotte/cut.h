@@ -4,6 +4,7 @@
 #include <calotte/export.h>
 #include <calotte/limited_area.h>
 #include <calotte/progress.h>
+#include <calotte/region.h>
 
 #include <Eigen/Core>
 
@@ -61,11 +62,15 @@ struct CutReport {
 /// NAME.graph.info is written beside NAME.nc. Both are complete or absent. The file is a classic
 /// one, with 64-bit offsets if possible.
 /// \param source an MPAS file with connectivity, written by any program.
-/// \param inside whether a direction, given as a place on the sphere of the source, lies in the
-///        region. Several threads call it at once.
-/// \throws Error bad_option as limited_area_mask(), for a source that holds no such mesh, for a
-///         radius that is not positive and finite, and for a variable with two of the dimensions;
-///         parse; cancelled; file.
+/// \throws Error bad_option as require_region() and limited_area_mask(), for a source that holds no
+///         such mesh, for a radius that is not positive and finite, and for a variable with two of
+///         the dimensions; parse; cancelled; file.
+CutReport cut(const std::string& source, const std::string& target, const Region& region,
+              const CutOptions& options = {});
+
+/// The same with another kind of region.
+/// \param inside whether a place on the sphere of the source lies in the region. Several threads
+///        call it at once.
 CutReport cut(const std::string& source, const std::string& target,
               const std::function<bool(const Eigen::Vector3d&)>& inside,
               const CutOptions& options = {});

@@ -129,6 +129,11 @@ CutReport report_of(const MpasPart& part, const Masks& masks, int rings) {
 } // namespace
 } // namespace io_detail
 
+CutReport cut(const std::string& source, const std::string& target, const Region& region,
+              const CutOptions& options) {
+  return cut(source, target, containing(region), options);
+}
+
 CutReport cut(const std::string& source_path, const std::string& target,
               const std::function<bool(const Eigen::Vector3d&)>& inside,
               const CutOptions& options) {
