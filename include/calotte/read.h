@@ -6,6 +6,7 @@
 #include <calotte/error.h>
 #include <calotte/export.h>
 #include <calotte/planar_raster.h>
+#include <calotte/region.h>
 #include <calotte/types.h>
 
 #include <cstdint>
@@ -61,6 +62,35 @@ Points2 read_planar_points(const std::string& path, std::vector<std::int64_t>* l
 /// \throws Error parse, naming the line, or the feature and its ring; as require_domain(), with the
 ///         file's name; file.
 PlanarDomain read_domain(const std::string& path);
+
+/// Reads a region of the sphere. The name selects the format. An edge is the shorter arc of a great
+/// circle between two corners; a parallel needs corners at short intervals. Corners that repeat the
+/// one before are ignored, and a ring may repeat its first corner at its end.
+///
+/// .geojson, .json: Polygon and MultiPolygon geometries, alone or in features or collections, in
+/// longitude (any, the edge takes the shorter way) and latitude in degrees; all of them are one
+/// region. As RFC 7946 has it, an outer ring runs counter-clockwise. One that has more than half of
+/// the sphere to its left is an error, unless its feature names a place inside by the property
+/// "inside": [longitude, latitude]. With that place any ring of the feature may run either way;
+/// without it holes may. Edges that two polygons, or one, have in both directions are no boundary:
+/// polygons that are cut at a longitude of 180 degrees or along a line to a pole are joined.
+///
+/// .pts: a point file of MPAS-Limited-Area, of the type custom, circle, ellipse or channel.
+/// Circles, ellipses and channels have 360 corners; metres are those of a sphere of radius 6371229
+/// m. A custom polygon may run either way: its inside is the side of the line Point. The case of
+/// keywords does not matter.
+///
+/// SaveBoundaries..., of MPI-SCVT: on each line a corner, longitude and latitude in degrees or x y
+/// z. The file SaveLoopCounts... beside it has on each line the first and the last corner of a
+/// loop, counted from 1, or the number of its corners; without it there is one loop. Loops may run
+/// either way: the region is the smaller one of the two parts into which they cut the sphere.
+/// \param name the name of the stream in messages, which selects the format; of SaveBoundaries a
+///        stream has one loop.
+/// \throws Error parse, naming the line, or the feature and its ring; as require_region(), with the
+///         file's name; bad_option for an unknown suffix, or an outer ring that runs clockwise;
+///         file.
+Region read_region(const std::string& path);
+Region read_region(std::istream& in, const std::string& name);
 
 /// Reads a mesh of the sphere in any format that `write` supports, also from other programs. The
 /// name selects the format as in `write`. A file of suffix .nc, or a NetCDF file of unknown suffix,

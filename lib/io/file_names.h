@@ -19,6 +19,8 @@ inline constexpr std::string_view triangles_name = "SaveTriangles";
 inline constexpr std::string_view density_name = "SaveDensity";
 inline constexpr std::string_view centres_name = "RegionList";
 inline constexpr std::string_view centre_triangles_name = "RegionTriangulation";
+inline constexpr std::string_view boundaries_name = "SaveBoundaries";
+inline constexpr std::string_view loop_counts_name = "SaveLoopCounts";
 
 // FESOM's names.
 inline constexpr std::string_view fesom_nodes_name = "nod2d.out";

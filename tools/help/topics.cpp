@@ -35,6 +35,36 @@ Instead of --density:
 calotte plan describes the grid that a density or widths lead to; calotte draw shows them on a map.
 )";
 
+constexpr const char* region =
+    R"(A region is a part of the sphere. It is given as a shape or as a file.
+
+  circle=LON,LAT,RADIUS                 a circle around a centre: circle=-105,40,1000km
+  ellipse=LON,LAT,MAJOR,MINOR,BEARING   semi-axes; the bearing of the major axis in degrees
+                                        clockwise from north: ellipse=138,38,1580km,1000km,45
+  channel=LOWER,UPPER                   the band between two latitudes: channel=-23.5,23.5
+
+LON, LAT, LOWER and UPPER are in degrees; west and south are negative. RADIUS, MAJOR and MINOR have a
+unit: km or m on the Earth, or deg. Circles, ellipses and parallels become polygons of 360 corners.
+
+Files:
+
+  .geojson, .json   Polygon and MultiPolygon geometries in longitude and latitude
+  .pts              point files of MPAS-Limited-Area: custom, circle, ellipse and channel
+  SaveBoundaries    loops of MPI-SCVT, with SaveLoopCounts beside it
+
+An edge of a polygon is the shorter arc of a great circle between two corners. Give corners along a
+parallel: the arc from 130 W to 65 W at 50 N passes 4.7 degrees north of the parallel. Polygons may
+lie over the date line and around a pole.
+
+The outer ring of a GeoJSON polygon runs counter-clockwise. If it has more than half of the sphere to
+its left, its feature must name a place inside:
+
+  "properties": {"inside": [-100, 40]}
+
+In a .pts file the line Point: is a place inside. MPI-SCVT's loops cut the sphere in two parts, of
+which the smaller one is the region.
+)";
+
 constexpr const char* codes =
     R"(Results go to standard output, messages to standard error. Exit codes:
   0  success
@@ -50,6 +80,7 @@ constexpr const char* codes =
 const std::vector<Topic>& topics() {
   static const std::vector<Topic> all{
       {"density", "Syntax of --density, and of widths in km", density},
+      {"region", "Syntax of --region: shapes and files", region},
       {"exit-codes", "Meaning of the exit codes", codes}};
   return all;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "options/density_option.h"
+#include "options/region_option.h"
 
 #include <calotte/error.h>
 
@@ -247,4 +248,55 @@ TEST_CASE("options of widths that do not go together are refused") {
   check_usage({"--transition", "100"});
   for (const std::string width : {"0", "-1", "nan", "inf", "1m", ""})
     check_usage({"--cell-width", "a.geojson", "--outside-width", width});
+}
+
+/// The message of a rejection of a word of --region.
+std::string refused_region(const std::string& word) {
+  try {
+    region_of(word);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "not refused";
+}
+
+TEST_CASE("--region: shapes") {
+  const Eigen::Vector3d west(0, -1, 0);
+  CHECK(region_of("circle=-90,0,637.1km").rings == circle(west, 0.1).rings);
+  CHECK(region_of("circle=270,0,637100m").rings == circle(west, 0.1).rings);
+  CHECK(region_of("circle=-90,0,30deg").rings == circle(west, std::numbers::pi / 6).rings);
+  CHECK(region_of("circle=-90,0,100km", 1000).rings == circle(west, 0.1).rings);
+  CHECK(region_of("ellipse=-90deg,0,1274.2km,637.1km,90").rings ==
+        ellipse(west, 0.2, 0.1, std::numbers::pi / 2).rings);
+  CHECK(region_of("channel=-90,45").rings ==
+        channel(-std::numbers::pi / 2, std::numbers::pi / 4).rings);
+}
+
+TEST_CASE("--region: words that are refused") {
+  CHECK(refused_region("circle=1,2") ==
+        "--region circle=1,2: the number of values is 2 instead of 3; give "
+        "circle=LON,LAT,RADIUS, as in circle=-105,40,1000km");
+  CHECK(refused_region("circle=1,2,3,4").find("is 4 instead of 3") != std::string::npos);
+  CHECK(refused_region("circle=1,100,3km").find("\"100\" is no angle from -90 to 90 degrees") !=
+        std::string::npos);
+  for (const std::string radius : {"3", "-3km", "0km", "km", "3miles", "", "nan"})
+    CHECK(refused_region("circle=1,2," + radius)
+              .find("\"" + radius + "\" is no positive length such as 1000km or 30deg") !=
+          std::string::npos);
+  CHECK(refused_region("circle=1,2,200deg") ==
+        "the circle's radius is 3.49066; give 1e-6 to pi - 1e-6 radians");
+  CHECK(refused_region("ellipse=1,2,3km,4km,0").find("give the major one first") !=
+        std::string::npos);
+  CHECK(refused_region("channel=20,10").find("give the lower one first") != std::string::npos);
+  CHECK(refused_region("channel=20") == "--region channel=20: the number of values is 1 instead of "
+                                        "2; give channel=LOWER,UPPER, as in channel=-23.5,23.5");
+  CHECK(refused_region("R.txt").starts_with("R.txt: the name determines no format of regions"));
+  CHECK(refused_region("absent.geojson").find("absent.geojson") != std::string::npos);
+}
+
+TEST_CASE("--region: a configuration names the corners") {
+  const Region region = region_of("channel=-90,45");
+  CHECK(
+      region_configuration(region).starts_with("region of 1 rings and 360 corners with checksum "));
+  CHECK(region_configuration(region) != region_configuration(region_of("channel=-90,46")));
 }

@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/lonlat.h"
+
+#include "support/files.h"
+
+#include <calotte/error.h>
+#include <calotte/read.h>
+#include <calotte/region.h>
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace calotte;
+
+constexpr double pi = std::numbers::pi, degree = pi / 180, earth = 6371229;
+
+Eigen::Vector3d lonlat(double longitude, double latitude) {
+  const base_detail::Vec3 p = base_detail::from_lonlat(longitude, latitude);
+  return {p.x, p.y, p.z};
+}
+
+Region read(const std::string& name, const std::string& text) {
+  std::istringstream in(text);
+  return read_region(in, name);
+}
+
+Region geojson(const std::string& text) { return read("R.geojson", text); }
+
+/// A polygon of positions "[0,0],[1,0],[1,1]" for each ring.
+std::string polygon(const std::vector<std::string>& rings) {
+  std::string text = R"({"type":"Polygon","coordinates":[)";
+  for (std::size_t r = 0; r < rings.size(); ++r)
+    text += (r > 0 ? ",[" : "[") + rings[r] + "]";
+  return text + "]}";
+}
+
+std::string feature(const std::string& geometry, const std::string& properties = "{}") {
+  return R"({"type":"Feature","properties":)" + properties + R"(,"geometry":)" + geometry + "}";
+}
+
+std::string collection(const std::vector<std::string>& features) {
+  std::string text = R"({"type":"FeatureCollection","features":[)";
+  for (std::size_t f = 0; f < features.size(); ++f)
+    text += (f > 0 ? "," : "") + features[f];
+  return text + "]}";
+}
+
+std::string refusal(const std::string& name, const std::string& text,
+                    ErrorCode code = ErrorCode::parse) {
+  const Error error = test::error_of([&] { read(name, text); });
+  CHECK(error.code() == code);
+  return error.what();
+}
+
+bool holds(const std::string& text, const std::string& part) {
+  INFO(text);
+  return text.find(part) != std::string::npos;
+}
+
+const std::string square = "[0,0],[20,0],[20,20],[0,20],[0,0]",
+                  inner = "[5,5],[10,5],[10,10],[5,10]",
+                  inner_clockwise = "[5,10],[10,10],[10,5],[5,5]";
+
+TEST_CASE("GeoJSON: a polygon with a hole, of any winding of the hole") {
+  for (const std::string& hole : {inner, inner_clockwise}) {
+    const Region region = geojson(polygon({square, hole}));
+    CHECK(region.rings.size() == 2);
+    CHECK(region.rings[0].cols() == 4);
+    CHECK(contains(region, lonlat(2, 3)));
+    CHECK_FALSE(contains(region, lonlat(7, 8)));
+    CHECK(contains(region, lonlat(5, 5)));
+    CHECK_FALSE(contains(region, lonlat(-100, 8)));
+  }
+  const double whole = area(geojson(polygon({square}))), hole = area(geojson(polygon({inner})));
+  CHECK(area(geojson(polygon({square, inner}))) == doctest::Approx(whole - hole).epsilon(1e-14));
+}
+
+TEST_CASE("GeoJSON: over the date line in each style, and round a pole") {
+  for (const std::string& text : {std::string("[170,-10],[-170,-10],[-170,10],[170,10]"),
+                                  std::string("[170,-10],[190,-10],[190,10],[170,10]"),
+                                  std::string("[-190,-10],[-170,-10],[-170,10],[-190,10]")}) {
+    const Region region = geojson(polygon({text}));
+    CHECK(region.rings == geojson(polygon({"[170,-10],[190,-10],[190,10],[170,10]"})).rings);
+    CHECK(contains(region, lonlat(180, 0)));
+    CHECK_FALSE(contains(region, lonlat(0, 0)));
+  }
+  const std::string east = "[170,-10],[180,-11],[180,11],[170,10]",
+                    west = "[-180,-11],[-170,-10],[-170,10],[-180,11]";
+  const Region cut = geojson(collection({feature(polygon({east})), feature(polygon({west}))}));
+  CHECK(cut.rings.size() == 1);
+  CHECK(cut.rings[0].cols() == 6);
+  CHECK(contains(cut, lonlat(180, 0)));
+  CHECK(area(cut) ==
+        doctest::Approx(area(geojson(polygon({east}))) + area(geojson(polygon({west}))))
+            .epsilon(1e-14));
+
+  const Region pole =
+      geojson(polygon({"[180,-60],[120,-61],[60,-60],[0,-62],[-60,-60],[-120,-61],[-180,-60]"}));
+  CHECK_FALSE(contains(pole, lonlat(0, 90)));
+  CHECK(contains(pole, lonlat(0, -90)));
+  const Region spiked = geojson(polygon({"[180,-60],[120,-61],[60,-60],[0,-62],[-60,-60],[-120,-61]"
+                                         ",[-180,-60],[-180,-90],[180,-90]"}));
+  CHECK(spiked.rings.size() == 1);
+  CHECK(area(spiked) == doctest::Approx(area(pole)).epsilon(1e-14));
+  CHECK(contains(spiked, lonlat(180, -80)));
+
+  // A channel whose sides meet at 180 degrees.
+  const Region tropics = geojson(
+      polygon({"[-180,-10],[-60,-10],[60,-10],[180,-10],[180,10],[60,10],[-60,10],[-180,10]"}));
+  CHECK(tropics.rings.size() == 2);
+  CHECK(contains(tropics, lonlat(180, 0)));
+  CHECK_FALSE(contains(tropics, lonlat(0, 90)));
+}
+
+TEST_CASE("GeoJSON: several polygons, and what is not one region") {
+  const std::string other = "[30,0],[40,0],[40,10],[30,10]";
+  const Region two =
+      geojson(R"({"type":"MultiPolygon","coordinates":[[[)" + square + "]],[[" + other + "]]]}");
+  CHECK(two.rings.size() == 2);
+  CHECK(contains(two, lonlat(35, 5)));
+  // An island in a lake.
+  const Region island = geojson(
+      collection({feature(polygon({square, inner})), feature(polygon({"[6,6],[8,6],[8,8]"}))}));
+  CHECK(contains(island, lonlat(7.5, 6.5)));
+  CHECK(refusal("R.geojson", collection({feature(polygon({square})), feature(polygon({inner}))}),
+                ErrorCode::bad_option) == "R.geojson: the region: it is to the left of ring 0 and "
+                                          "to the right of ring 1; give rings that all have it to "
+                                          "their left: an outer boundary counter-clockwise, a hole "
+                                          "clockwise (ring 1 is in the file: feature 1: ring 0)");
+  CHECK(holds(
+      refusal("R.geojson", polygon({"[0,0],[10,10],[10,0],[0,10]"}), ErrorCode::bad_option),
+      "R.geojson: the region: the edges from ring 0, corner 0 and from ring 0, corner 2 meet"));
+  CHECK(
+      holds(refusal("R.geojson", polygon({square, "[30,0],[40,0],[40,10]"}), ErrorCode::bad_option),
+            "to the right of ring 1"));
+  CHECK(
+      holds(refusal("R.geojson", collection({feature(polygon({"[0,0],[90,0],[180,0],[-90,0]"})),
+                                             feature(polygon({"[-90,0],[180,0],[90,0],[0,0]"}))})),
+            "R.geojson: its polygons cover the sphere"));
+}
+
+TEST_CASE("GeoJSON: a place inside decides, otherwise the orientation of the outer ring") {
+  const std::string clockwise = "[0,20],[20,20],[20,0],[0,0]";
+  CHECK(refusal("R.geojson", collection({feature(polygon({clockwise}))}), ErrorCode::bad_option) ==
+        "R.geojson: feature 0: ring 0 has more than half of the sphere to its left: it runs "
+        "clockwise, or its inside is that large; reverse it, or name the inside by a property "
+        "\"inside\": [longitude, latitude] of its feature");
+  for (const std::string& outer : {square, clockwise})
+    for (const std::string& hole : {inner, inner_clockwise}) {
+      const Region land = geojson(feature(polygon({outer, hole}), R"({"inside":[2,3]})"));
+      CHECK(contains(land, lonlat(2, 3)));
+      CHECK_FALSE(contains(land, lonlat(7, 8)));
+      CHECK_FALSE(contains(land, lonlat(90, 8)));
+      const Region water = geojson(feature(polygon({outer, hole}), R"({"inside":[90,8]})"));
+      CHECK_FALSE(contains(water, lonlat(2, 3)));
+      CHECK(contains(water, lonlat(7, 8)));
+      CHECK(area(land) + area(water) == doctest::Approx(4 * pi).epsilon(1e-15));
+    }
+  CHECK(holds(refusal("R.geojson", feature(polygon({square}), R"({"inside":[0,5]})"),
+                      ErrorCode::bad_option),
+              "R.geojson: the place that is to be inside the region is on its boundary"));
+  CHECK(holds(refusal("R.geojson", feature(polygon({square}), R"({"inside":"here"})")),
+              "its property \"inside\" is not a position [longitude, latitude]; give degrees"));
+  CHECK(holds(refusal("R.geojson", feature(polygon({square}), R"({"inside":[5,95]})")),
+              "its property \"inside\" is [5.0, 95.0], no longitude"));
+}
+
+TEST_CASE("GeoJSON: positions") {
+  CHECK(holds(refusal("R.geojson", polygon({square, "[0,0],[0,91],[1,1]"})),
+              "R.geojson: position 1 of ring 1 is [0.0, 91.0], no longitude and latitude in "
+              "degrees; correct it"));
+  CHECK(holds(refusal("R.json", polygon({"[0,0],[0,1e999],[1,1]"})),
+              "a number that no double can hold"));
+  CHECK(holds(refusal("R.geojson", polygon({"[-180,-20],[180,-20],[180,20],[-180,20]"})),
+              "ring 0 has fewer than 3 distinct places; an edge is the shorter arc of a great "
+              "circle, so give more places "
+              "along a parallel"));
+  CHECK(holds(refusal("R.geojson", polygon({"[0,0],[180,0],[90,10]"}), ErrorCode::bad_option),
+              "ring 0, corner 0 and the next are opposite"));
+  CHECK(geojson(polygon({"[0,0],[0,0],[20,0],[20,20],[20,20],[0,0],[0,0]"})).rings[0].cols() == 3);
+}
+
+// ---- MPAS-Limited-Area
+
+TEST_CASE(".pts: circles, ellipses and channels") {
+  const Region circular = read(
+      "india.pts", "Name: india\nType: circle\nPoint: 20.0, 80.0\nradius: 2000000.0   # Meters\n");
+  CHECK(circular.rings == circle(lonlat(80, 20), 2e6 / earth).rings);
+  const Region oval =
+      read("japan.PTS", "name: japan\nTYPE:Ellipse\r\n point : 38 , 138\nSemi-major-axis: "
+                        "1580000\nSemi-minor-axis: 1e6\nOrientation-angle: 45\n");
+  CHECK(oval.rings == ellipse(lonlat(138, 38), 1.58e6 / earth, 1e6 / earth, 45 * degree).rings);
+  for (const std::string& text :
+       {std::string("ulat: 23.4\nllat: -10\n"), std::string("Upper-lat: 23.4\nLower-lat: -10\n")})
+    CHECK(read("tropics.pts", "Name: tropics\nType: channel\n" + text).rings ==
+          channel(-10 * degree, 23.4 * degree).rings);
+}
+
+TEST_CASE(".pts: a polygon around its point, of any winding") {
+  const std::string head = "Name: conus\nType: custom\nPoint: 40.0, -100.0\n",
+                    corners = "50.0, -129.0\n50.0, -65.0\n20.0, -65.0\n20.0, -129.0\n",
+                    reverse = "20.0, -129.0\n20.0 -65.0\n50.0, -65.0\n50.0, -129.0\n20,-129\n";
+  const Region region = read("conus.custom.pts", head + corners);
+  CHECK(contains(region, lonlat(-100, 40)));
+  CHECK(area(region) < 1);
+  CHECK(area(read("conus.pts", head + reverse)) == doctest::Approx(area(region)).epsilon(1e-14));
+  const Region rest = read("conus.pts", "Type: custom\nPoint: -40, 100\n" + corners);
+  CHECK(area(rest) + area(region) == doctest::Approx(4 * pi).epsilon(1e-15));
+
+  CHECK(holds(refusal("a.pts", "Type: custom\n" + corners),
+              "a.pts: a region of the type custom has no line \"Point:\"; add a place inside it"));
+  CHECK(
+      holds(refusal("a.pts", head + "50, -129\n50 -65\n20\n"), "a.pts line 6: \"20\" is no place"));
+  CHECK(holds(refusal("a.pts", head + "50, -129\n50 -65\n", ErrorCode::bad_option),
+              "a.pts: the region: ring 0 has 2 corners"));
+  CHECK(holds(
+      refusal("a.pts", head + "50, -129\n20, -65\n50, -65\n20, -129\n", ErrorCode::bad_option),
+      "meet; rings may neither"));
+}
+
+TEST_CASE(".pts: lines that are none") {
+  CHECK(holds(refusal("a.pts", "Typ: circle\n"),
+              "a.pts line 1: \"typ\" is no keyword; write Name, Type"));
+  CHECK(holds(refusal("a.pts", "Name: x\n"),
+              "a.pts: no line \"Type:\"; write Type: custom, circle, ellipse or channel"));
+  CHECK(holds(refusal("a.pts", "Type: square\n"),
+              "a.pts: the type \"square\" is unknown; write Type: custom"));
+  CHECK(holds(refusal("a.pts", "Type: circle\nPoint: 1, 2\n"),
+              "a.pts: a region of the type circle has no line \"radius:\"; add it"));
+  CHECK(holds(refusal("a.pts", "Type: circle\nRadius: 385.5 km\n"),
+              "a.pts line 2: \"385.5 km\" is no radius; write a number of metres from 10 to "
+              "20000000, without the unit"));
+  CHECK(holds(refusal("a.pts", "Type: channel\nUpper-lat: 100\n"),
+              "\"100\" is no upper-lat; write a number of degrees from -90 to 90"));
+  CHECK(holds(
+      refusal("a.pts", "Type: channel\nUpper-lat: 10\nLower-lat: 20\n", ErrorCode::bad_option),
+      "a.pts: the channel's latitudes are"));
+  CHECK(holds(refusal("a.pts", "Type: circle\nPoint: 1, 2\nRadius: 1000\n1, 2\n"),
+              "a.pts: it has corners, which only Type: custom takes"));
+  CHECK(holds(refusal("a.pts", "Point: 100, 2\n"),
+              "a.pts line 1: \"100, 2\" is no place; write latitude"));
+}
+
+// ---- MPI-SCVT
+
+TEST_CASE("SaveBoundaries: loops of either winding are the smaller part of the sphere") {
+  const test::Scratch folder;
+  const std::string loops = "0 0\n20 0\n20 20\n0 20\n  5.0  5.0 \n 10 5\n10 10\n5 10\n5 5\n";
+  test::write_text(folder / "SaveBoundaries.two", loops);
+  for (const std::string& counts : {std::string("  1  4\n 5 9\n"), std::string("4\n5\n")}) {
+    test::write_text(folder / "SaveLoopCounts.two", counts);
+    const Region region = read_region(folder / "SaveBoundaries.two");
+    CHECK(region.rings.size() == 2);
+    CHECK(region.rings[1].cols() == 4);
+    CHECK(contains(region, lonlat(2, 2)));
+    CHECK_FALSE(contains(region, lonlat(7, 7)));
+    CHECK(area(region) == doctest::Approx(area(geojson(polygon({square, inner})))).epsilon(1e-14));
+  }
+  test::write_text(folder / "SaveBoundaries", "1 0 0\n0 0 1\n0 1 0\n"); // clockwise, no counts
+  CHECK(area(read_region(folder / "SaveBoundaries")) == doctest::Approx(pi / 2).epsilon(1e-15));
+
+  const auto refused = [&](const std::string& counts) {
+    test::write_text(folder / "SaveLoopCounts.two", counts);
+    const Error error = test::error_of([&] { read_region(folder / "SaveBoundaries.two"); });
+    CHECK(error.code() == ErrorCode::parse);
+    return std::string(error.what());
+  };
+  CHECK(holds(refused("1 4\n5 10\n"),
+              "SaveLoopCounts.two line 2: \"5 10\" is no loop of three or more of the 9 points"));
+  CHECK(holds(refused("0 4\n"), "is no loop of three or more"));
+  CHECK(holds(refused("1 2\n"), "is no loop of three or more"));
+  CHECK(holds(refused("1 4.5\n"),
+              "is no loop; write the numbers of its first and last point, counted from 1"));
+  CHECK(holds(refused("# none\n"), "no loops"));
+  test::write_text(folder / "SaveLoopCounts.two", "1 4\n5 7\n8 9\n");
+  CHECK_THROWS_AS(read_region(folder / "SaveBoundaries.two"), Error);
+}
+
+TEST_CASE("SaveBoundaries: MPI-SCVT's circle, points of a cap around a place on the equator") {
+  std::string text;
+  const Region exact = circle(lonlat(180, 0), 15 * degree, 1999);
+  for (const Eigen::Vector3d p : exact.rings[0].colwise()) {
+    char line[80];
+    std::snprintf(line, sizeof line, "%10.5f%10.5f\n", std::atan2(-p.y(), -p.x()) / degree + 180,
+                  std::asin(p.z()) / degree);
+    text += line;
+  }
+  const Region region = read("SaveBoundaries.circle", text);
+  CHECK(region.rings[0].cols() == 1999);
+  CHECK(area(region) == doctest::Approx(2 * pi * (1 - std::cos(15 * degree))).epsilon(1e-5));
+  CHECK(contains(region, lonlat(180, 0)));
+}
+
+TEST_CASE("SaveBoundaries: lines that are no points") {
+  CHECK(holds(refusal("SaveBoundaries", "1 2\n3\n"),
+              "SaveBoundaries line 2: \"3\" is no point; write longitude and latitude"));
+  CHECK(holds(refusal("SaveBoundaries", "1 2\n3 100\n"),
+              "line 2: \"3 100\" is no longitude and latitude"));
+  CHECK(holds(refusal("SaveBoundaries", "0 0 0\n"), "the zero vector has no direction"));
+  CHECK(
+      holds(refusal("SaveBoundaries", "1 2\n3 10\n"), "SaveBoundaries: 2 points enclose nothing"));
+  CHECK(holds(refusal("SaveBoundaries", "0 0\n10 10\n10 0\n0 10\n", ErrorCode::bad_option),
+              "meet; rings may neither cross nor touch themselves or each other (ring 0 begins "
+              "in line 1)");
+}
+
+TEST_CASE("names and files") {
+  CHECK(holds(refusal("region.txt", "", ErrorCode::bad_option),
+              "region.txt: the name determines no format of regions"));
+  CHECK(test::error_of([] { read_region("/nowhere/R.geojson"); }).code() == ErrorCode::file);
+  CHECK(holds(refusal("R.geojson", "{"), "R.geojson: no JSON"));
+}
+
+} // namespace

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "options/region_option.h"
+
+#include "options/numbers.h"
+
+#include <calotte/error.h>
+#include <calotte/read.h>
+
+#include <boost/crc.hpp>
+
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <sstream>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace calotte::tools {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+/// A word of the option and its parts after the equals sign.
+struct Word {
+  std::string text, form; ///< form: what to write instead, for messages
+  std::vector<std::string> parts;
+};
+
+[[noreturn]] void refuse(const Word& word, const std::string& problem) {
+  throw Error(ErrorCode::bad_option,
+              "--region " + word.text + ": " + problem + "; give " + word.form);
+}
+
+std::vector<std::string> split(std::string_view text) {
+  std::vector<std::string> parts;
+  for (std::size_t comma = text.find(','); comma != std::string_view::npos;
+       comma = text.find(',')) {
+    parts.emplace_back(text.substr(0, comma));
+    text.remove_prefix(comma + 1);
+  }
+  parts.emplace_back(text);
+  return parts;
+}
+
+/// A number of degrees, with or without the unit.
+double degrees(const Word& word, std::size_t part, double limit) {
+  const std::optional<Measure> angle = measure_of(word.parts[part]);
+  if (!angle || !(angle->unit.empty() || angle->unit == "deg") ||
+      !(std::abs(angle->value) <= limit))
+    refuse(word, "\"" + word.parts[part] + "\" is no angle from " + shortest(-limit) + " to " +
+                     shortest(limit) + " degrees");
+  return angle->value;
+}
+
+/// A length on the sphere as an angle: its unit is km, m or deg.
+double length(const Word& word, std::size_t part, double radius_km) {
+  const std::optional<Measure> size = measure_of(word.parts[part]);
+  const std::string unit = size ? size->unit : "";
+  const double angle = unit == "km"    ? size->value / radius_km
+                       : unit == "m"   ? size->value / 1000 / radius_km
+                       : unit == "deg" ? size->value * degree
+                                       : 0;
+  if (!(angle > 0))
+    refuse(word, "\"" + word.parts[part] + "\" is no positive length such as 1000km or 30deg");
+  return angle;
+}
+
+/// The first two parts as a direction, as points in a file become one.
+Eigen::Vector3d centre(const Word& word) {
+  const double longitude = degrees(word, 0, 720), latitude = degrees(word, 1, 90);
+  std::istringstream in(shortest(longitude) + " " + shortest(latitude));
+  return read_points(in, "--region", Columns::lonlat).col(0);
+}
+
+Region made_of(const Word& word, std::string_view shape, double radius_km) {
+  if (shape == "circle")
+    return circle(centre(word), length(word, 2, radius_km));
+  if (shape == "ellipse")
+    return ellipse(centre(word), length(word, 2, radius_km), length(word, 3, radius_km),
+                   degrees(word, 4, 360) * degree);
+  return channel(degrees(word, 0, 90) * degree, degrees(word, 1, 90) * degree);
+}
+
+} // namespace
+
+Region region_of(const std::string& word, double radius_km) {
+  static const std::vector<std::pair<std::string, std::string>> shapes{
+      {"circle", "circle=LON,LAT,RADIUS, as in circle=-105,40,1000km"},
+      {"ellipse", "ellipse=LON,LAT,MAJOR,MINOR,BEARING, as in ellipse=138,38,1580km,1000km,45"},
+      {"channel", "channel=LOWER,UPPER, as in channel=-23.5,23.5"}};
+  for (const auto& [shape, form] : shapes)
+    if (word.starts_with(shape + "=")) {
+      const Word parsed{word, form, split(std::string_view(word).substr(shape.size() + 1))};
+      const std::size_t expected = split(form.substr(0, form.find(", as"))).size();
+      if (parsed.parts.size() != expected)
+        refuse(parsed, "the number of values is " + std::to_string(parsed.parts.size()) +
+                           " instead of " + std::to_string(expected));
+      return made_of(parsed, shape, radius_km);
+    }
+  return read_region(word);
+}
+
+std::string region_configuration(const Region& region) {
+  boost::crc_32_type checksum;
+  Eigen::Index corners = 0;
+  for (const Points3& ring : region.rings) {
+    checksum.process_bytes(ring.data(), static_cast<std::size_t>(ring.size()) * sizeof(double));
+    corners += ring.cols();
+  }
+  return "region of " + std::to_string(region.rings.size()) + " rings and " +
+         std::to_string(corners) + " corners with checksum " + std::to_string(checksum.checksum()) +
+         "\n";
+}
+
+} // namespace calotte::tools
