@@ -5,6 +5,7 @@
 #include <calotte/cell_width.h>
 #include <calotte/check.h>
 #include <calotte/check_file.h>
+#include <calotte/cut.h>
 #include <calotte/cvt.h>
 #include <calotte/delaunay.h>
 #include <calotte/density.h>
@@ -13,6 +14,7 @@
 #include <calotte/export.h>
 #include <calotte/generators.h>
 #include <calotte/io.h>
+#include <calotte/limited_area.h>
 #include <calotte/options.h>
 #include <calotte/planar_raster.h>
 #include <calotte/progress.h>

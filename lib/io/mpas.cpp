@@ -47,18 +47,19 @@ struct Lines {
 };
 
 /// A line of numbers for each cell, which is empty for a cell without neighbours.
-Lines neighbour_lines(const Voronoi& voronoi, std::int64_t begin, std::int64_t end) {
+Lines neighbour_lines(const Offsets& begins, const Ids& cells_on_cell, std::int64_t begin,
+                      std::int64_t end) {
   constexpr std::int64_t longest = 11; // a blank or a line's end, and ten digits
-  Lines lines{Array<char>(longest * (voronoi.begin[end] - voronoi.begin[begin]) + end - begin)};
+  Lines lines{Array<char>(longest * (begins[end] - begins[begin]) + end - begin)};
   char* out = lines.room.begin();
   for (std::int64_t i = begin; i != end; ++i) {
     const char* const start = out;
-    for (std::int64_t k = voronoi.begin[i]; k != voronoi.begin[i + 1]; ++k) {
-      if (voronoi.cells_on_cell[k] < 0)
+    for (std::int64_t k = begins[i]; k != begins[i + 1]; ++k) {
+      if (cells_on_cell[k] < 0)
         continue;
       if (out != start)
         *out++ = ' ';
-      out = std::to_chars(out, out + longest - 1, voronoi.cells_on_cell[k] + 1).ptr;
+      out = std::to_chars(out, out + longest - 1, cells_on_cell[k] + 1).ptr;
     }
     *out++ = '\n';
   }
@@ -113,6 +114,14 @@ std::string fingerprint(const MpasMesh& mesh) {
   return hexadecimal(mixed(places ^ mixed(triangles)));
 }
 
+std::string fingerprint(const Array<std::int32_t>& kept, const std::string& parent) {
+  std::uint64_t word =
+      mixed_words(kept.size(), [&](std::int64_t i) { return static_cast<std::uint64_t>(kept[i]); });
+  for (const char c : parent)
+    word = mixed(word ^ static_cast<unsigned char>(c));
+  return hexadecimal(word);
+}
+
 const NetcdfMeshNames& mpas_names() {
   static const NetcdfMeshNames names{
       .cells = "nCells",
@@ -142,8 +151,13 @@ std::string graph_path(const std::string& path) {
 }
 
 void put_graph(const Sink& sink, const Voronoi& voronoi) {
-  const std::int64_t cells = voronoi.cells.cols(), blocks = block_count(cells);
-  const auto edges = (voronoi.cells_on_edge.row(1).array() >= 0).count();
+  put_graph(sink, voronoi.begin, voronoi.cells_on_cell,
+            (voronoi.cells_on_edge.row(1).array() >= 0).count());
+}
+
+void put_graph(const Sink& sink, const Offsets& begin, const Ids& cells_on_cell,
+               std::int64_t edges) {
+  const std::int64_t cells = begin.size() - 1, blocks = block_count(cells);
   sink(std::to_string(cells) + " " + std::to_string(edges) + "\n");
   constexpr std::int64_t at_once = 32; // blocks, so that not all of the text waits in memory
   std::vector<Lines> texts(at_once);
@@ -151,8 +165,8 @@ void put_graph(const Sink& sink, const Voronoi& voronoi) {
     const std::int64_t count = std::min(at_once, blocks - first);
     for_each_task(count, [&](std::int64_t k) {
       const std::int64_t block = first + k;
-      texts[static_cast<std::size_t>(k)] =
-          neighbour_lines(voronoi, cells * block / blocks, cells * (block + 1) / blocks);
+      texts[static_cast<std::size_t>(k)] = neighbour_lines(
+          begin, cells_on_cell, cells * block / blocks, cells * (block + 1) / blocks);
     });
     for (std::int64_t k = 0; k < count; ++k)
       sink(texts[static_cast<std::size_t>(k)].text());

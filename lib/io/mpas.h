@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "base/memory.h"
 #include "io/model_grid.h"
 #include "io/room.h"
 #include "io/text.h"
 
 #include <calotte/io.h>
+#include <calotte/limited_area.h>
 #include <calotte/voronoi.h>
 
 #include <cstdint>
@@ -61,11 +63,17 @@ const NetcdfMeshNames& mpas_names();
 /// 16 hexadecimal digits that differ where meshes do.
 std::string fingerprint(const MpasMesh& mesh);
 
+/// The same for a part of a mesh. \param kept 0-based ids of its cells. \param parent of the mesh.
+std::string fingerprint(const Array<std::int32_t>& kept, const std::string& parent);
+
 /// NAME.graph.info for NAME.nc.
 std::string graph_path(const std::string& path);
 
 /// The text of a graph.info file, as METIS reads it: the numbers of cells and of edges, then a
 /// line of each cell's neighbours, 1-based. It comes in pieces.
 void put_graph(const Sink& sink, const Voronoi& voronoi);
+/// The same. \param cells_on_cell -1 for a missing neighbour.
+void put_graph(const Sink& sink, const Offsets& begin, const Ids& cells_on_cell,
+               std::int64_t edges);
 
 } // namespace calotte::io_detail

@@ -2,11 +2,15 @@
 #include "io/mpas_check.h"
 
 #include "base/points.h"
+#include "io/mpas.h"
 #include "io/mpas_open.h"
 #include "io/open_cells.h"
 #include "voronoi/open.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
 #include <utility>
 
 // The part of a tessellation that an open mesh has, in the numbering of its file. Places of
@@ -26,7 +30,7 @@ void set_edges(const OpenLists& lists, Voronoi& out, MpasNumbering& numbering) {
   numbering.reversed = Array<std::uint8_t>(edges);
   for (std::int32_t e = 0; e < edges; ++e) {
     const std::int32_t first = lists.cells_on_edge.at(e, 0), second = lists.cells_on_edge.at(e, 1);
-    const bool reversed = second >= 0 && second < first;
+    const bool reversed = second >= 0 && (first < 0 || second < first);
     for (int k = 0; k < 2; ++k) {
       out.cells_on_edge(reversed ? 1 - k : k, e) = lists.cells_on_edge.at(e, k);
       out.vertices_on_edge(reversed ? 1 - k : k, e) = lists.vertices_on_edge.at(e, k);
@@ -67,16 +71,16 @@ void set_cells(const OpenLists& lists, Voronoi& out) {
 
 // ---- Places and measures
 
-/// The vertices as the file has them, or none.
-Points3 stored_vertices(bool on_sphere, Deviations& deviations) {
-  const std::int64_t vertices = deviations.file().dimension("nVertices");
-  Points3 places(3, std::max<std::int64_t>(vertices, 0));
+/// The vertices, or edges, as the file has them, or none.
+Points3 stored_places(const MpasKind& kind, std::int64_t count, bool on_sphere,
+                      Deviations& deviations) {
+  Points3 places(3, std::max<std::int64_t>(count, 0));
   for (int row = 0; row < 3; ++row) {
-    const std::string name = std::string(1, "xyz"[row]) + "Vertex";
-    if (!deviations.has(name, {vertices}))
+    const std::string name = std::string(1, "xyz"[row]) + kind.name;
+    if (!deviations.has(name, {count}))
       return {};
-    const std::vector<double> values = deviations.file().doubles(name, {vertices});
-    places.row(row) = Eigen::Map<const Eigen::RowVectorXd>(values.data(), vertices);
+    const std::vector<double> values = deviations.file().doubles(name, {count});
+    places.row(row) = Eigen::Map<const Eigen::RowVectorXd>(values.data(), count);
   }
   if (!on_sphere)
     return places;
@@ -90,6 +94,27 @@ void place_vertices(Points3 stored, Voronoi& out) {
       continue;
     set_column(out.vertices, v, circumcentre_of(out, v));
   }
+}
+
+/// A file that was cut from another keeps the edges towards missing cells where they were, and
+/// their lengths; programs that compute these anew take the middle of the vertices. \returns the
+/// places of the edges that were kept; NaN for others.
+Points3 cut_edges(const Voronoi& part, double radius, Deviations& deviations) {
+  const std::int64_t edges = part.cells_on_edge.cols();
+  Points3 places = stored_places(mpas_edge, edges, part.on_sphere, deviations);
+  if (places.cols() == 0 || !deviations.has("dcEdge", {edges}))
+    return {};
+  const std::vector<double> lengths = deviations.file().doubles("dcEdge", {edges});
+  for (std::int64_t e = 0; e < edges; ++e) {
+    const double dc = lengths[static_cast<std::size_t>(e)] / radius,
+                 dv = norm(column(part.vertices, part.vertices_on_edge(0, e)) -
+                           column(part.vertices, part.vertices_on_edge(1, e))),
+                 way = norm(column(places, e) - column(part.cells, part.cells_on_edge(0, e)));
+    if (part.cells_on_edge(1, e) >= 0 ||
+        !(std::abs(dc - 2 * way) < std::abs(dc - std::numbers::sqrt3 * dv)))
+      places.col(e).setConstant(std::numeric_limits<double>::quiet_NaN());
+  }
+  return places;
 }
 
 /// What a file has for an incomplete cell is -1, whatever its unit.
@@ -116,7 +141,8 @@ void check_open_mpas(const MeshFile& file, double radius, Deviations& deviations
   OpenLists lists;
   part.on_sphere = file.mesh.has_value();
   part.cells = cells_of(file);
-  Points3 vertices = stored_vertices(part.on_sphere, deviations);
+  Points3 vertices = stored_places(mpas_vertex, deviations.file().dimension("nVertices"),
+                                   part.on_sphere, deviations);
   const bool whole = read_open_lists(part.cells.cols(), lists, deviations) && vertices.cols() > 0 &&
                      lists.cells_on_edge.rows() > 0;
   if (whole && !check_open_lists(lists, deviations))
@@ -126,7 +152,7 @@ void check_open_mpas(const MeshFile& file, double radius, Deviations& deviations
     set_vertices(lists, part, numbering);
     set_cells(lists, part);
     place_vertices(std::move(vertices), part);
-    voronoi_detail::measure_open(part);
+    voronoi_detail::measure_open(part, cut_edges(part, radius, deviations));
     mark_incomplete_cells(radius, part);
   }
   const double width = whole ? part.dc.mean() : 1;

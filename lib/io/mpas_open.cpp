@@ -86,12 +86,11 @@ Verdict vertex_verdict(const OpenLists& lists, std::int64_t v) {
 
 bool check_edges(const OpenLists& lists, Deviations& deviations) {
   const std::int64_t edges = lists.cells_on_edge.rows();
-  const bool pairs = check_law("cellsOnEdge", "edges", "have no first cell, or one cell twice",
+  const bool pairs = check_law("cellsOnEdge", "edges", "have no cell, or one cell twice",
                                broken(edges,
                                       [&](std::int64_t e) {
-                                        return verdict_of(lists.cells_on_edge.at(e, 0) >= 0 &&
-                                                          lists.cells_on_edge.at(e, 0) !=
-                                                              lists.cells_on_edge.at(e, 1));
+                                        return verdict_of(lists.cells_on_edge.at(e, 0) !=
+                                                          lists.cells_on_edge.at(e, 1));
                                       }),
                                deviations);
   return check_law("verticesOnEdge", "edges",

@@ -126,9 +126,10 @@ void add_ends(int id, std::vector<NetcdfExtent>& extents) {
     const Shape& shape = shapes[v];
     NetcdfExtent& extent = extents[v];
     std::int64_t before_last = 0;
-    const std::int64_t stride = record_variables == 1 ? shape.bytes : record;
+    if (shape.of_records)
+      extent.stride = record_variables == 1 ? shape.bytes : record;
     if (shape.of_records && records > 0)
-      overflow |= __builtin_mul_overflow(stride, records - 1, &before_last);
+      overflow |= __builtin_mul_overflow(extent.stride, records - 1, &before_last);
     overflow |= shape.bytes < 0 ||
                 __builtin_add_overflow(before_last, extent.begin, &before_last) ||
                 __builtin_add_overflow(before_last, shape.bytes, &extent.end);
@@ -152,7 +153,7 @@ NetcdfLayout classic_layout(int id, const std::string& path) {
     in.seekg(layout.header + walk.variable(v));
     in.read(reinterpret_cast<char*>(bytes), walk.offset_size);
     layout.header += walk.variable(v) + walk.offset_size;
-    layout.variables.push_back({big_endian(bytes, walk.offset_size), 0});
+    layout.variables.push_back({.begin = big_endian(bytes, walk.offset_size)});
   }
   add_ends(id, layout.variables);
   return layout;

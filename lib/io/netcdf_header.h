@@ -14,6 +14,7 @@ namespace calotte::io_detail {
 /// A classic file's variable: value 0 stands at byte `begin`, the last one ends before byte `end`.
 struct NetcdfExtent {
   std::int64_t begin = 0, end = 0;
+  std::int64_t stride = 0; ///< bytes from a record to the next; 0 without records
 };
 
 struct NetcdfLayout {

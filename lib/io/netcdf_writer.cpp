@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/netcdf_writer.h"
 
-#include "base/elementary.h"
 #include "base/parallel.h"
+#include "io/big_endian.h"
 #include "io/file.h"
 #include "io/netcdf_header.h"
 #include "io/netcdf_library.h"
@@ -12,8 +12,6 @@
 #include <netcdf.h>
 
 #include <algorithm>
-#include <bit>
-#include <cstring>
 #include <mutex>
 #include <type_traits>
 #include <utility>
@@ -21,25 +19,36 @@
 namespace calotte::io_detail {
 namespace {
 
-nc_type type_of(NetcdfType type) {
-  switch (type) {
-  case NetcdfType::int8:
-    return NC_BYTE;
-  case NetcdfType::int32:
-    return NC_INT;
-  default:
-    return NC_DOUBLE;
-  }
-}
+struct TypeFacts {
+  nc_type code;
+  std::int64_t size;
+  bool cdf5 = false;
+};
 
-std::int64_t size_of(NetcdfType type) {
+TypeFacts facts_of(NetcdfType type) {
   switch (type) {
+  case NetcdfType::text:
+    return {NC_CHAR, 1};
   case NetcdfType::int8:
-    return 1;
+    return {NC_BYTE, 1};
+  case NetcdfType::int16:
+    return {NC_SHORT, 2};
   case NetcdfType::int32:
-    return 4;
+    return {NC_INT, 4};
+  case NetcdfType::float32:
+    return {NC_FLOAT, 4};
+  case NetcdfType::float64:
+    return {NC_DOUBLE, 8};
+  case NetcdfType::uint8:
+    return {NC_UBYTE, 1, true};
+  case NetcdfType::uint16:
+    return {NC_USHORT, 2, true};
+  case NetcdfType::uint32:
+    return {NC_UINT, 4, true};
+  case NetcdfType::int64:
+    return {NC_INT64, 8, true};
   default:
-    return 8;
+    return {NC_UINT64, 8, true};
   }
 }
 
@@ -56,45 +65,12 @@ int put_attribute(int id, int variable, const NetcdfAttribute& attribute) {
     return nc_put_att_double(id, variable, name, NC_DOUBLE, 1, number);
   if (const auto* number = std::get_if<std::int32_t>(&attribute.value))
     return nc_put_att_int(id, variable, name, NC_INT, 1, number);
+  if (const auto* values = std::get_if<NetcdfValues>(&attribute.value))
+    return nc_put_att(id, variable, name, facts_of(values->type).code,
+                      values->bytes.size() / static_cast<std::size_t>(size_of(values->type)),
+                      values->bytes.data());
   return nc_put_att_schar(id, variable, name, NC_BYTE, 1,
                           std::get_if<std::int8_t>(&attribute.value));
-}
-
-/// Of words of 4 or 8 bytes.
-template <class Word>
-CALOTTE_INLINE void reverse_words(const char* values, std::int64_t count, char* out) {
-  constexpr std::int64_t size = sizeof(Word);
-  for (std::int64_t i = 0; i < count; ++i) {
-    Word word;
-    std::memcpy(&word, values + size * i, size);
-    if constexpr (size == 8)
-      word = __builtin_bswap64(word);
-    else
-      word = __builtin_bswap32(word);
-    std::memcpy(out + size * i, &word, size);
-  }
-}
-
-CALOTTE_VECTOR_WIDTHS
-void reverse_each_8(const char* values, std::int64_t count, char* out) {
-  reverse_words<std::uint64_t>(values, count, out);
-}
-
-CALOTTE_VECTOR_WIDTHS
-void reverse_each_4(const char* values, std::int64_t count, char* out) {
-  reverse_words<std::uint32_t>(values, count, out);
-}
-
-/// The classic formats store numbers with the most significant byte first.
-/// \param out need not be aligned.
-template <class T> void to_big_endian(const T* values, std::int64_t count, char* out) {
-  const auto* const bytes = reinterpret_cast<const char*>(values);
-  if constexpr (sizeof(T) == 1 || std::endian::native == std::endian::big)
-    std::memcpy(out, bytes, static_cast<std::size_t>(count) * sizeof(T));
-  else if constexpr (sizeof(T) == 8)
-    reverse_each_8(bytes, count, out);
-  else
-    reverse_each_4(bytes, count, out);
 }
 
 /// body(begin, end) for consecutive ranges of [first, last) of rows of so many bytes each.
@@ -121,7 +97,16 @@ void for_each_block_of_rows(std::int64_t rows, std::int64_t row_bytes, const Bod
 /// Number of bytes filled at once, so that their conversion finds them in the cache.
 constexpr std::int64_t fill_bytes = 1 << 17;
 
+bool needs_cdf5(const NetcdfAttributes& attributes) {
+  return std::any_of(attributes.begin(), attributes.end(), [](const NetcdfAttribute& attribute) {
+    const auto* values = std::get_if<NetcdfValues>(&attribute.value);
+    return values != nullptr && facts_of(values->type).cdf5;
+  });
+}
+
 } // namespace
+
+std::int64_t size_of(NetcdfType type) { return facts_of(type).size; }
 
 /// The C library writes the header; tasks of this library convert and write the values. The library
 /// would do it serially and take three times as long for a large mesh.
@@ -130,6 +115,7 @@ struct NetcdfWriter::State {
     std::string name;
     std::int64_t size;
     bool of_fields = false;
+    bool of_records = false;
   };
   struct Variable {
     std::string name;
@@ -138,6 +124,7 @@ struct NetcdfWriter::State {
     NetcdfAttributes attributes;
     std::int64_t rows = 1, row_values = 1; ///< values in a row
     std::int64_t offset = -1;              ///< in the file, after begin()
+    std::int64_t stride = 0;               ///< bytes from a record to the next; 0 without records
     bool is_put = false;
     std::int64_t row_bytes() const { return row_values * size_of(type); }
     std::int64_t bytes() const { return rows * row_bytes(); }
@@ -169,10 +156,13 @@ struct NetcdfWriter::State {
   explicit State(const std::string& path) : file(path) {}
 
   void require(int code) const;
+  int format() const;
   void define(int id) const;
+  void extend_to_last_record(int id) const;
   template <class T> void put(int variable, const Fill<T>& fill);
   void put(int ints, int doubles, const PairFill& fill);
-  template <class T> Variable& start(int variable);
+  void put(int variable, std::int64_t piece_bytes, const FillBytes& fill);
+  Variable& start(int variable, NetcdfType type);
 
   OutputFile file;
   ProgressCallback progress; ///< given to the file when its size is known
@@ -195,11 +185,12 @@ void NetcdfWriter::State::define(int id) const {
   for (const Dimension& dimension : dimensions) {
     int unused;
     const auto size = static_cast<std::size_t>(dimension.size);
-    require(nc_def_dim(id, dimension.name.c_str(), size == 0 ? NC_UNLIMITED : size, &unused));
+    require(nc_def_dim(id, dimension.name.c_str(),
+                       size == 0 || dimension.of_records ? NC_UNLIMITED : size, &unused));
   }
   for (const Variable& variable : variables) {
     int v;
-    require(nc_def_var(id, variable.name.c_str(), type_of(variable.type),
+    require(nc_def_var(id, variable.name.c_str(), facts_of(variable.type).code,
                        static_cast<int>(variable.dimensions.size()), variable.dimensions.data(),
                        &v));
     for (const NetcdfAttribute& attribute : variable.attributes)
@@ -210,16 +201,42 @@ void NetcdfWriter::State::define(int id) const {
   require(nc_enddef(id));
 }
 
-template <class T> NetcdfWriter::State::Variable& NetcdfWriter::State::start(int variable) {
+int NetcdfWriter::State::format() const {
+  std::vector<std::int64_t> bytes;
+  bool cdf5 = needs_cdf5(attributes);
+  for (const Variable& variable : variables) {
+    bytes.push_back(variable.bytes());
+    cdf5 = cdf5 || facts_of(variable.type).cdf5 || needs_cdf5(variable.attributes);
+  }
+  return cdf5 || io_detail::needs_cdf5(bytes) ? NC_64BIT_DATA : NC_64BIT_OFFSET;
+}
+
+/// The library counts the records by what is written.
+void NetcdfWriter::State::extend_to_last_record(int id) const {
+  for (std::size_t v = 0; v < variables.size(); ++v) {
+    const Variable& variable = variables[v];
+    const bool of_records = !variable.dimensions.empty() &&
+                            dimensions[static_cast<std::size_t>(variable.dimensions[0])].of_records;
+    if (!of_records || variable.bytes() == 0)
+      continue;
+    std::vector<std::size_t> last(variable.dimensions.size(), 0);
+    last[0] = static_cast<std::size_t>(variable.rows - 1);
+    const std::int64_t zero = 0;
+    require(nc_put_var1(id, static_cast<int>(v), last.data(), &zero));
+    return;
+  }
+}
+
+NetcdfWriter::State::Variable& NetcdfWriter::State::start(int variable, NetcdfType type) {
   Variable& of = variables.at(static_cast<std::size_t>(variable));
-  if (of.type != netcdf_type<T> || of.offset < 0 || of.is_put)
+  if (of.type != type || of.offset < 0 || of.is_put)
     throw Error(ErrorCode::internal, of.name + " is put as another type, twice or before begin()");
   of.is_put = true;
   return of;
 }
 
 template <class T> void NetcdfWriter::State::put(int variable, const Fill<T>& fill) {
-  const Variable& of = start<T>(variable);
+  const Variable& of = start(variable, netcdf_type<T>);
   for_each_block_of_rows(of.rows, of.row_bytes(), [&](std::int64_t first, std::int64_t last) {
     RowBlock<T> block(file, of, first, last);
     for_each_rows(first, last, of.row_bytes(), fill_bytes,
@@ -232,7 +249,8 @@ template <class T> void NetcdfWriter::State::put(int variable, const Fill<T>& fi
 }
 
 void NetcdfWriter::State::put(int ints, int doubles, const PairFill& fill) {
-  const Variable &of_ints = start<std::int32_t>(ints), &of_doubles = start<double>(doubles);
+  const Variable &of_ints = start(ints, NetcdfType::int32),
+                 &of_doubles = start(doubles, NetcdfType::float64);
   const std::int64_t row_bytes = of_ints.row_bytes() + of_doubles.row_bytes();
   for_each_block_of_rows(
       of_ints.rows, of_doubles.row_bytes(), [&](std::int64_t first, std::int64_t last) {
@@ -249,6 +267,21 @@ void NetcdfWriter::State::put(int ints, int doubles, const PairFill& fill) {
       });
 }
 
+void NetcdfWriter::State::put(int variable, std::int64_t piece_bytes, const FillBytes& fill) {
+  const Variable& of = start(variable, variables.at(static_cast<std::size_t>(variable)).type);
+  if (of.bytes() == 0)
+    return;
+  const std::int64_t records = of.stride > 0 ? of.rows : 1, bytes = of.bytes() / records,
+                     pieces = bytes / piece_bytes;
+  for (std::int64_t record = 0; record < records; ++record)
+    for_each_block_of_rows(pieces, piece_bytes, [&](std::int64_t begin, std::int64_t end) {
+      OutputBlock block = file.block(of.offset + record * of.stride + begin * piece_bytes,
+                                     (end - begin) * piece_bytes);
+      fill(record * pieces + begin, record * pieces + end, block.begin());
+      file.put(std::move(block));
+    });
+}
+
 NetcdfWriter::NetcdfWriter(const std::string& path, ProgressCallback progress) {
   require_regular_output(path);
   state_ = std::make_unique<State>(path);
@@ -259,6 +292,11 @@ NetcdfWriter::~NetcdfWriter() = default;
 
 int NetcdfWriter::dimension(const std::string& name, std::int64_t size) {
   state_->dimensions.push_back({.name = name, .size = size});
+  return static_cast<int>(state_->dimensions.size()) - 1;
+}
+
+int NetcdfWriter::record_dimension(const std::string& name, std::int64_t records) {
+  state_->dimensions.push_back({.name = name, .size = records, .of_records = true});
   return static_cast<int>(state_->dimensions.size()) - 1;
 }
 
@@ -294,17 +332,13 @@ void NetcdfWriter::attribute(NetcdfAttribute attribute) {
 }
 
 void NetcdfWriter::begin() {
-  std::vector<std::int64_t> bytes;
-  for (const State::Variable& variable : state_->variables)
-    bytes.push_back(variable.bytes());
-  const int format = needs_cdf5(bytes) ? NC_64BIT_DATA : NC_64BIT_OFFSET;
-
   const std::lock_guard lock(netcdf_mutex());
   const std::string& path = state_->file.temporary();
   int id = -1;
-  state_->require(nc_create(netcdf_path(path).c_str(), NC_CLOBBER | format, &id));
+  state_->require(nc_create(netcdf_path(path).c_str(), NC_CLOBBER | state_->format(), &id));
   try {
     state_->define(id);
+    state_->extend_to_last_record(id);
     state_->require(nc_sync(id));
   } catch (...) {
     nc_abort(id);
@@ -316,7 +350,8 @@ void NetcdfWriter::begin() {
   for (std::size_t v = 0; v < layout.variables.size(); ++v) {
     State::Variable& variable = state_->variables[v];
     variable.offset = layout.variables[v].begin;
-    size = std::max(size, variable.offset + variable.bytes());
+    variable.stride = layout.variables[v].stride;
+    size = std::max(size, layout.variables[v].end);
   }
   state_->file.reserve(size);
   state_->file.watch(std::move(state_->progress), size);
@@ -330,6 +365,10 @@ void NetcdfWriter::put(int variable, const Fill<std::int8_t>& fill) { state_->pu
 
 void NetcdfWriter::put(int ints, int doubles, const PairFill& fill) {
   state_->put(ints, doubles, fill);
+}
+
+void NetcdfWriter::put(int variable, std::int64_t piece_bytes, const FillBytes& fill) {
+  state_->put(variable, piece_bytes, fill);
 }
 
 void NetcdfWriter::commit() {

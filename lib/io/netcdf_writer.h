@@ -15,17 +15,39 @@
 /// NetCDF files written through the C library, whose codes become this library's errors.
 namespace calotte::io_detail {
 
-enum class NetcdfType { int8, int32, float64 };
+/// The types of the classic formats; the last five exist in CDF-5 only.
+enum class NetcdfType {
+  text, ///< characters
+  int8,
+  int16,
+  int32,
+  float32,
+  float64,
+  uint8,
+  uint16,
+  uint32,
+  int64,
+  uint64
+};
+
+/// Bytes of a value.
+std::int64_t size_of(NetcdfType type);
+
+/// Several numbers of one type, in the machine's order of bytes.
+struct NetcdfValues {
+  NetcdfType type;
+  std::string bytes;
+};
 
 struct NetcdfAttribute {
   std::string name;
-  std::variant<std::string, double, std::int32_t, std::int8_t> value;
+  std::variant<std::string, double, std::int32_t, std::int8_t, NetcdfValues> value;
 };
 using NetcdfAttributes = std::vector<NetcdfAttribute>;
 
-/// A classic NetCDF file that is being written: 64-bit offsets, or CDF-5 if a variable takes 4 GiB.
-/// Define dimensions, variables and attributes first, call begin(), which writes the header, then
-/// put each variable once. The path appears at commit(). Every method
+/// A classic NetCDF file that is being written: 64-bit offsets, or CDF-5 if a variable takes 4 GiB
+/// or a type requires it. Define dimensions, variables and attributes first, call begin(), which
+/// writes the header, then put each variable once. The path appears at commit(). Every method
 /// \throws Error file.
 class NetcdfWriter {
 public:
@@ -37,6 +59,9 @@ public:
 
   /// \returns its id. A size of 0 makes it unlimited; no variable may have it.
   int dimension(const std::string& name, std::int64_t size);
+  /// An unlimited dimension of so many records, the first of the variables that have it. These are
+  /// put as bytes. At most one. \returns its id.
+  int record_dimension(const std::string& name, std::int64_t records);
   /// A dimension of that name and size which fields share. One that is unlimited gets the size; the
   /// name grows if the file has another dimension of that name. \returns its id.
   int field_dimension(const std::string& name, std::int64_t size);
@@ -59,6 +84,12 @@ public:
   using PairFill = std::function<void(std::int64_t begin, std::int64_t end, std::int32_t* ints,
                                       double* doubles)>;
   void put(int ints, int doubles, const PairFill& fill);
+
+  /// fill(begin, end, out) writes the pieces begin to end - 1 of the variable, of so many bytes
+  /// each, as the file holds them: the most significant byte of each value first. A piece is at
+  /// most a record. Several threads call it at once.
+  using FillBytes = std::function<void(std::int64_t begin, std::int64_t end, char* out)>;
+  void put(int variable, std::int64_t piece_bytes, const FillBytes& fill);
 
   void commit();
 

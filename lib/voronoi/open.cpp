@@ -218,17 +218,40 @@ struct Plane {
   }
 };
 
-template <class Space> void measure_edge(const Space& space, std::int64_t e, Voronoi& out) {
-  const bool inner = out.cells_on_edge(1, e) >= 0;
-  const Vec3 &right = column(out.vertices, out.vertices_on_edge(0, e)),
-             &left = column(out.vertices, out.vertices_on_edge(1, e));
-  const Vec3& from = column(out.cells, out.cells_on_edge(0, e));
-  const Vec3& to = inner ? column(out.cells, out.cells_on_edge(1, e)) : from;
-  const Vec3 middle = inner ? space.middle(from, to) : space.middle(right, left);
-  set_column(out.edges, e, middle);
-  out.dv[e] = space.length(right, left);
-  out.dc[e] = inner ? space.length(from, to) : std::numbers::sqrt3 * out.dv[e];
-  out.angle[e] = space.angle(middle, inner ? to - from : space.to_the_right(left - right, middle));
+/// The place, length and angle of an edge.
+struct EdgeMeasure {
+  Vec3 middle;
+  double dc;
+  Vec3 normal;
+};
+
+/// \param cut the place of an edge that halves the way to a missing cell; null for other edges.
+template <class Space>
+EdgeMeasure measured(const Space& space, std::int64_t e, const Vec3* cut, const Voronoi& of) {
+  const Vec3& from = column(of.cells, of.cells_on_edge(0, e));
+  if (cut != nullptr)
+    return {*cut, 2 * space.length(from, *cut), *cut - from};
+  if (of.cells_on_edge(1, e) >= 0) {
+    const Vec3& to = column(of.cells, of.cells_on_edge(1, e));
+    return {space.middle(from, to), space.length(from, to), to - from};
+  }
+  const Vec3 &right = column(of.vertices, of.vertices_on_edge(0, e)),
+             &left = column(of.vertices, of.vertices_on_edge(1, e));
+  const Vec3 middle = space.middle(right, left);
+  return {middle, std::numbers::sqrt3 * space.length(right, left),
+          space.to_the_right(left - right, middle)};
+}
+
+template <class Space>
+void measure_edge(const Space& space, std::int64_t e, const Points3& cut_edges, Voronoi& out) {
+  const bool cut =
+      out.cells_on_edge(1, e) < 0 && cut_edges.cols() > 0 && cut_edges.col(e).allFinite();
+  const EdgeMeasure edge = measured(space, e, cut ? &column(cut_edges, e) : nullptr, out);
+  set_column(out.edges, e, edge.middle);
+  out.dv[e] = space.length(column(out.vertices, out.vertices_on_edge(0, e)),
+                           column(out.vertices, out.vertices_on_edge(1, e)));
+  out.dc[e] = edge.dc;
+  out.angle[e] = space.angle(edge.middle, edge.normal);
 }
 
 /// The kites of cells that are there, between edges that are.
@@ -258,10 +281,10 @@ template <class Space> void measure_cell(const Space& space, std::int32_t i, Vor
   out.cell_area[i] = sum;
 }
 
-template <class Space> void measure(const Space& space, Voronoi& out) {
+template <class Space> void measure(const Space& space, const Points3& cut_edges, Voronoi& out) {
   for_each_block(out.cells_on_edge.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t e = begin; e != end; ++e)
-      measure_edge(space, e, out);
+      measure_edge(space, e, cut_edges, out);
   });
   for_each_block(out.cells_on_vertex.cols(),
                  [&](std::int64_t, std::int64_t begin, std::int64_t end) {
@@ -285,7 +308,7 @@ void connect_open(Voronoi& out) {
     set_vertex(v, fans[static_cast<std::size_t>(v)], out);
 }
 
-void measure_open(Voronoi& out) {
+void measure_open(Voronoi& out, const Points3& cut_edges) {
   const std::int64_t edges = out.cells_on_edge.cols(), vertices = out.cells_on_vertex.cols();
   make_room(out.edges, 3, edges);
   for (Eigen::VectorXd* values : {&out.dc, &out.dv, &out.angle})
@@ -294,9 +317,9 @@ void measure_open(Voronoi& out) {
   make_room(out.vertex_area, vertices, 1);
   make_room(out.cell_area, out.cells.cols(), 1);
   if (out.on_sphere)
-    measure(Sphere{}, out);
+    measure(Sphere{}, cut_edges, out);
   else
-    measure(Plane{}, out);
+    measure(Plane{}, cut_edges, out);
 }
 
 } // namespace calotte::voronoi_detail

@@ -19,7 +19,9 @@ void connect_open(Voronoi& out);
 /// Sets edges, lengths, angles and areas from the cells, the vertices and all ids, of which any may
 /// be -1 but those of an edge's first cell, its vertices, and the edges and vertices of cells. An
 /// edge of one cell has its middle between its vertices, and dc = sqrt(3) dv (MPAS-Tools).
+/// \param cut_edges 3 x e: an edge of one cell with a finite column lies there, and halves the way
+///        to the cell that is missing. Default: none.
 /// \pre cells and vertices are unit columns; in a plane, z = 0.
-void measure_open(Voronoi& out);
+void measure_open(Voronoi& out, const Points3& cut_edges = {});
 
 } // namespace calotte::voronoi_detail

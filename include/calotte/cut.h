@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <calotte/export.h>
+#include <calotte/limited_area.h>
+#include <calotte/progress.h>
+#include <calotte/region.h>
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// Limited-area grids cut from global ones.
+CALOTTE_API_BEGIN
+namespace calotte {
+
+struct CutOptions {
+  int rings = limited_area_rings; ///< of boundary cells, 0 to limited_area_rings
+  /// Radius of the sphere of the new file, > 0. MPAS-Atmosphere expects grids on the unit sphere; a
+  /// file of static or initial fields keeps the radius that these were made with. Default: 1; none
+  /// keeps that of the source.
+  std::optional<double> sphere_radius = 1;
+  /// How the file was made; precedes the source's attribute `history`. Default: empty.
+  std::string history = {};
+  /// Stage: write. A cancelled run leaves no file. Default: none.
+  ProgressCallback progress = {};
+};
+
+struct CutReport {
+  std::int64_t cells = 0, edges = 0, vertices = 0; ///< of the new mesh
+  std::vector<std::int64_t> cells_by_mask;         ///< rings + 1: inside, then by ring
+  /// Variables of the source that the new file does not have: strings, types of users, and lists
+  /// that the model makes itself (advCells, advCellsForEdge).
+  std::vector<std::string> left_out;
+};
+
+/// Cuts a limited-area grid from an MPAS file of the sphere, as limited_area_mask() selects its
+/// cells, and carries all fields along.
+///
+/// The new file holds the selected cells with every edge and vertex that touches one, in the order
+/// of the source, and:
+///
+/// - each variable with a dimension nCells, nEdges or nVertices, without the rows left out, of any
+///   type and with any other dimensions; all others, all attributes and dimensions;
+/// - ids numbered anew from 1 on, 0 for a missing cell, edge or vertex at its place in the list;
+///   the weights of missing edges in weightsOnEdge are 0. Else all values keep their bits; measures
+///   at the boundary, such as kiteAreasOnVertex, are those of the source;
+/// - boundaryVertex 1 where a vertex lacks a cell, if the source has the variable;
+/// - bdyMaskCell, bdyMaskEdge and bdyMaskVertex, see limited_area_mask() and least_mask();
+/// - meshDensity divided by its maximum, and nominalMinDc of that maximum, computed by
+///   nominal_spacing() if the source has none;
+/// - lengths and areas on a sphere of sphere_radius, if that is not the source's: coordinates,
+///   dcEdge, dvEdge, areaCell, areaTriangle, kiteAreasOnVertex, gridSpacing, nominalMinDc, defc_a,
+///   defc_b, deriv_two, cell_gradient_coef_x and cell_gradient_coef_y;
+/// - the attributes on_a_sphere "YES", sphere_radius, is_periodic "NO", mesh_spec "1.1", file_id
+///   and parent_id, to which the source's file_id is added.
+///
+/// NAME.graph.info is written beside NAME.nc. Both are complete or absent. The file is a classic
+/// one, with 64-bit offsets if possible.
+/// \param source an MPAS file with connectivity, written by any program.
+/// \throws Error bad_option as require_region() and limited_area_mask(), for a source that holds no
+///         such mesh, for a radius that is not positive and finite, and for a variable with two of
+///         the dimensions; parse; cancelled; file.
+CutReport cut(const std::string& source, const std::string& target, const Region& region,
+              const CutOptions& options = {});
+
+/// The same with another kind of region.
+/// \param inside whether a place on the sphere of the source lies in the region. Several threads
+///        call it at once.
+CutReport cut(const std::string& source, const std::string& target,
+              const std::function<bool(const Eigen::Vector3d&)>& inside,
+              const CutOptions& options = {});
+
+} // namespace calotte
+CALOTTE_API_END

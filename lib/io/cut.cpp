@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <calotte/cut.h>
+
+#include "base/parallel.h"
+#include "base/require.h"
+#include "io/file.h"
+#include "io/mpas.h"
+#include "io/mpas_subset.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace calotte {
+namespace io_detail {
+namespace {
+
+std::vector<std::uint8_t> flags_of(const Points3& places,
+                                   const std::function<bool(const Eigen::Vector3d&)>& inside) {
+  std::vector<std::uint8_t> flags(static_cast<std::size_t>(places.cols()));
+  for_each_block(places.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i < end; ++i)
+      flags[static_cast<std::size_t>(i)] = inside(places.col(i)) ? 1 : 0;
+  });
+  return flags;
+}
+
+Ids mask_of(const MpasSource& source, const std::function<bool(const Eigen::Vector3d&)>& inside,
+            int rings) {
+  const Offsets begin = source.begins();
+  return limited_area_mask(begin, source.lists("cellsOnCell", begin, source.cells()),
+                           flags_of(source.places(), inside), rings);
+}
+
+/// The masks of the kept cells, edges and vertices.
+struct Masks {
+  Ids cells, edges, vertices;
+};
+
+Masks masks_of(const MpasPart& part, const Ids& of_all) {
+  Masks masks{Ids(part.cells.count()), {}, {}};
+  for (std::int64_t i = 0; i < part.cells.count(); ++i)
+    masks.cells[i] = of_all[part.cells.old[i]];
+  masks.edges = least_mask(part.begin, part.edges_on_cell, masks.cells, part.edges.count());
+  masks.vertices =
+      least_mask(part.begin, part.vertices_on_cell, masks.cells, part.vertices.count());
+  return masks;
+}
+
+void add_masks(const Masks& masks, int rings, NetcdfSubset& subset) {
+  const auto add = [&](const std::string& kind, const std::string& dimension, const Ids& mask,
+                       const std::string& meaning) {
+    const std::string name = "bdyMask" + kind;
+    subset.left_out.push_back(name); // of an earlier cut
+    subset.added.push_back({name, dimension, meaning, [&mask](std::int64_t i) { return mask[i]; }});
+  };
+  add("Cell", "nCells", masks.cells,
+      "0 in the region, 1 to " + std::to_string(rings) + " in the rings of boundary cells");
+  add("Edge", "nEdges", masks.edges, "least bdyMaskCell of the cells on each edge");
+  add("Vertex", "nVertices", masks.vertices, "least bdyMaskCell of the cells on each vertex");
+}
+
+// ---- Density
+
+/// The values of a variable with one for each cell, of the kept ones; empty if the file has none.
+Eigen::VectorXd kept_values(const MpasSource& source, const std::string& name, const Kept& kept) {
+  const NetcdfReader& file = source.netcdf().reader();
+  if (!file.has_variable(name) || file.shape_of(name) != std::vector<std::int64_t>{source.cells()})
+    return {};
+  const std::vector<double> all = file.doubles(name, {source.cells()});
+  Eigen::VectorXd values(kept.count());
+  for (std::int64_t i = 0; i < kept.count(); ++i)
+    values[i] = all[static_cast<std::size_t>(kept.old[i])];
+  return values;
+}
+
+/// The density has the maximum 1 over the kept cells; its nominal spacing is that of the maximum.
+void add_density(const MpasSource& source, const MpasPart& part, double radius,
+                 NetcdfSubset& subset) {
+  Eigen::VectorXd density = kept_values(source, "meshDensity", part.cells);
+  const double greatest = density.size() > 0 ? density.maxCoeff() : 0;
+  if (!(greatest > 0 && std::isfinite(greatest)))
+    return;
+  density /= greatest;
+  add_division(source, "meshDensity", greatest, subset);
+  if (source.netcdf().find("nominalMinDc") >= 0)
+    return add_division(source, "nominalMinDc", std::pow(greatest, 0.25), subset);
+  const Eigen::VectorXd area = kept_values(source, "areaCell", part.cells);
+  if (area.size() > 0)
+    subset.numbers.push_back(
+        {"nominalMinDc", "m", "nominal distance of neighbouring generators where meshDensity is 1",
+         nominal_spacing({area, density, {}, {}, {}}) * radius / source.radius()});
+}
+
+// ---- The file
+
+void add_attributes(double radius, NetcdfSubset& subset) {
+  const auto set = [&](const std::string& name, const auto& value) {
+    subset.attributes[name] = {name, value};
+  };
+  set("on_a_sphere", std::string("YES"));
+  set("sphere_radius", radius);
+  set("is_periodic", std::string("NO"));
+  set("mesh_spec", std::string("1.1"));
+}
+
+std::vector<std::string> write_part(const MpasSource& source, const MpasPart& part,
+                                    const NetcdfSubset& subset, const std::string& target,
+                                    const ProgressCallback& progress) {
+  OutputFile graph(graph_path(target));
+  NetcdfWriter file(target, progress);
+  const std::int64_t inner = (part.cells_on_cell.array() >= 0).count() / 2;
+  put_graph([&](std::string_view text) { graph.append(text); }, part.begin, part.cells_on_cell,
+            inner);
+  std::vector<std::string> refused = put_subset(source.netcdf(), subset, file);
+  file.commit();
+  graph.commit();
+  return refused;
+}
+
+CutReport report_of(const MpasPart& part, const Masks& masks, int rings) {
+  CutReport report{part.cells.count(), part.edges.count(), part.vertices.count(), {}, {}};
+  report.cells_by_mask.resize(static_cast<std::size_t>(rings) + 1);
+  for (const std::int32_t mask : masks.cells)
+    ++report.cells_by_mask[static_cast<std::size_t>(mask)];
+  return report;
+}
+
+} // namespace
+} // namespace io_detail
+
+CutReport cut(const std::string& source, const std::string& target, const Region& region,
+              const CutOptions& options) {
+  return cut(source, target, containing(region), options);
+}
+
+CutReport cut(const std::string& source_path, const std::string& target,
+              const std::function<bool(const Eigen::Vector3d&)>& inside,
+              const CutOptions& options) {
+  using namespace io_detail;
+  const MpasSource source(source_path);
+  const double radius = options.sphere_radius.value_or(source.radius());
+  require(radius > 0 && std::isfinite(radius),
+          "the radius of the sphere is not positive and finite; give another");
+  const Ids mask = mask_of(source, inside, options.rings);
+  const MpasPart part = part_of(source, mask);
+  const Masks masks = masks_of(part, mask);
+  NetcdfSubset subset = subset_of(source, part);
+  add_masks(masks, options.rings, subset);
+  add_radius(source, radius, subset);
+  add_density(source, part, radius, subset);
+  add_attributes(radius, subset);
+  add_history(source, part, options.history, subset);
+  CutReport report = report_of(part, masks, options.rings);
+  report.left_out = write_part(source, part, subset, target, options.progress);
+  for (const char* name : {"advCells", "advCellsForEdge"})
+    if (source.netcdf().find(name) >= 0)
+      report.left_out.emplace_back(name);
+  return report;
+}
+
+} // namespace calotte
