@@ -16,6 +16,7 @@
 #include "run/interruption.h"
 #include "run/progress.h"
 
+#include <calotte/cut.h>
 #include <calotte/error.h>
 #include <calotte/io.h>
 
@@ -51,6 +52,26 @@ void require_plane(const CvtRequest& request, const WriteOptions& options) {
                 "--cell-width applies to the sphere only; give --density or --density-raster");
 }
 
+/// Rejects formats and options that a run in a region does not support.
+void require_region_format(const CvtRequest& request, const WriteOptions& options) {
+  const auto refuse = [](const std::string& what) { throw Error(ErrorCode::bad_option, what); };
+  if (request.limited_area && request.region.empty())
+    refuse("--limited-area requires a region; give --region");
+  if (request.region.empty())
+    return;
+  if (planar(request))
+    refuse("--region applies to the sphere only; leave it out, or the domain of the plane");
+  const Format format = format_of(request.mesh, options.format);
+  if (request.limited_area && format != Format::mpas)
+    refuse(request.mesh + ": a limited-area grid is an MPAS file; give a name that ends in .nc");
+  const bool triangles = format == Format::vtp || format == Format::vtu || format == Format::off ||
+                         format == Format::ply || format == Format::triangles ||
+                         format == Format::msh || format == Format::ugrid_triangles;
+  if (!request.limited_area && !triangles)
+    refuse(request.mesh + ": this format has cells, which are open along the region's boundary; "
+                          "give --limited-area, or a file of triangles such as .vtp");
+}
+
 /// The name of the file that is written beside a full MPAS file; empty for other formats.
 std::string graph_of(const std::string& mesh, Format format) {
   if (format_of(mesh, format) != Format::mpas)
@@ -68,6 +89,7 @@ void require_request(const CvtRequest& request) {
   const WriteOptions options = write_options(request); // throws for a file that cannot be written
   if (planar(request))
     require_plane(request, options);
+  require_region_format(request, options);
   const WidthWords& widths = request.density->widths;
   const std::vector<std::string> inputs{
       request.points, centres_file(*request.partition),  widths.file,
@@ -122,7 +144,8 @@ struct Outcome {
   Mesh mesh;        ///< on the sphere
   PlanarMesh plane; ///< or in the plane
   std::int64_t cells = 0;
-  double area = 0;        ///< of the sphere or the domain
+  std::string grid;       ///< a line about a limited-area grid
+  double area = 0;        ///< of the sphere, the region or the domain
   int signal = 0;         ///< the signal that ended it early
   bool kept = false;      ///< its state then
   std::size_t before = 0; ///< iterations of the earlier parts of a resumed run
@@ -156,6 +179,7 @@ bool after_iteration(const CvtProgress& now, const CvtRequest& request, const Cv
 struct Plan {
   CvtOptions options;
   std::optional<PlanarDomain> domain; ///< of a plane
+  std::optional<RunRegion> region;    ///< of the sphere
   CvtStart start;
   std::string configuration;
   std::optional<CvtState> state; ///< where it goes on
@@ -169,12 +193,13 @@ Plan prepare(CvtRequest& request, Progress& progress) {
   progress.stage("reading the density");
   Resolution resolution = resolution_of(*request.density, planar(request));
   plan.options.density = std::move(resolution.density);
-  const std::vector<std::string> notes = settle_cells(request, resolution.widths);
+  plan.region = region_of_run(request, resolution.widths);
+  const std::vector<std::string> notes = settle_cells(request, resolution.widths, plan.region);
   if (request.cells)
     require_space(request.mesh, file_bytes(format_of(request.mesh, write_options(request).format),
                                            *request.cells, plan.options.density.uniform()));
   progress.stage("making the start");
-  plan.start = open_start(request);
+  plan.start = open_start(request, plan.region);
   if (start_kind(request) == "multilevel") {
     plan.options.insertion_rounds = rounds_of(request);
     plan.options.cells = *request.cells;
@@ -186,7 +211,7 @@ Plan prepare(CvtRequest& request, Progress& progress) {
   }
   for (const std::string& note : notes)
     progress.say("calotte: " + note);
-  generate_points(request, plan.options.density, plan.domain, plan.start);
+  generate_points(request, plan.options.density, plan.domain, plan.region, plan.start);
   plan.options.bisections = plan.start.bisections;
   if (!plan.start.note.empty())
     progress.say("calotte: " + plan.start.note);
@@ -205,12 +230,13 @@ void run_plan(Plan& plan, const CvtCallback& callback, Outcome& outcome) {
     outcome.cells = outcome.plane.points.cols();
     outcome.area = area(*plan.domain);
   } else {
-    Cvt result = plan.state ? spherical_cvt(std::move(*plan.state), options, callback)
-                            : spherical_cvt(plan.start.points, options, callback);
+    const Region region = plan.region ? plan.region->meshed : Region{};
+    Cvt result = plan.state ? spherical_cvt(std::move(*plan.state), region, options, callback)
+                            : spherical_cvt(plan.start.points, region, options, callback);
     outcome.mesh = std::move(result.mesh);
     outcome.report = std::move(result.report);
     outcome.cells = outcome.mesh.points.cols();
-    outcome.area = 4 * std::numbers::pi;
+    outcome.area = area(region);
   }
 }
 
@@ -286,7 +312,21 @@ void write_plane(const std::string& path, const PlanarMesh& mesh, const PlanarDo
   }
 }
 
-void write_result(const CvtRequest& request, const Plan& plan, const Outcome& outcome,
+/// Writes a limited-area grid; the outcome receives its number of cells.
+void write_region(const CvtRequest& request, const RunRegion& region, Outcome& outcome,
+                  const WriteOptions& options) {
+  CutOptions cut;
+  cut.sphere_radius = request.format->sphere_radius.value_or(1);
+  cut.history = options.history;
+  const CutReport report = write_limited_area(request.mesh, outcome.mesh.points, region.meshed,
+                                              region.region, options, cut);
+  outcome.grid = request.mesh + ": " + std::to_string(report.cells) + " cells, " +
+                 std::to_string(report.cells_by_mask.front()) + " in the region and " +
+                 std::to_string(report.cells - report.cells_by_mask.front()) +
+                 " in the rings around it\n";
+}
+
+void write_result(const CvtRequest& request, const Plan& plan, Outcome& outcome,
                   Progress& progress) {
   progress.stage("writing " + request.mesh);
   WriteOptions options = write_options(request);
@@ -295,7 +335,9 @@ void write_result(const CvtRequest& request, const Plan& plan, const Outcome& ou
   else if (!plan.options.density.uniform())
     options.site_density = evaluate(plan.options.density, *plan.domain, outcome.plane.points);
   options.history = history_of(request, plan.configuration, outcome.report);
-  if (plan.domain)
+  if (request.limited_area)
+    write_region(request, *plan.region, outcome, options);
+  else if (plan.domain)
     write_plane(request.mesh, outcome.plane, *plan.domain, options);
   else
     write(request.mesh, outcome.mesh, options);
@@ -321,7 +363,7 @@ void run(CvtRequest request) {
     finish_interrupted(request, outcome);
   std::cout << summary(request, outcome.report, outcome.cells, planar(request) ? outcome.area : 1,
                        static_cast<std::int64_t>(outcome.before)) +
-                   "\n";
+                   "\n" + outcome.grid;
   if (request.cells && outcome.cells != *request.cells)
     std::cerr << "calotte: " + std::to_string(outcome.cells) + " cells instead of " +
                      std::to_string(*request.cells) +

@@ -5,6 +5,7 @@
 #include <calotte/limited_area.h>
 #include <calotte/progress.h>
 #include <calotte/region.h>
+#include <calotte/write.h>
 
 #include <Eigen/Core>
 
@@ -74,6 +75,18 @@ CutReport cut(const std::string& source, const std::string& target, const Region
 CutReport cut(const std::string& source, const std::string& target,
               const std::function<bool(const Eigen::Vector3d&)>& inside,
               const CutOptions& options = {});
+
+/// Writes the limited-area grid of generators, of a run in a region that is wider than the grid's:
+/// the cells of the grid's region with their rings, as cut() does. The whole tessellation stands in
+/// a file beside the new one for a while.
+/// \param generators 3 x n unit columns in `meshed`.
+/// \param meshed a region that holds the grid's and its rings, such as widened(); or the whole
+///        sphere.
+/// \param written what write() adds to an MPAS file; its sphere_radius has no effect.
+/// \throws Error as cut(), and as write().
+CutReport write_limited_area(const std::string& target, const Points3& generators,
+                             const Region& meshed, const Region& region,
+                             const WriteOptions& written = {}, const CutOptions& options = {});
 
 } // namespace calotte
 CALOTTE_API_END

@@ -72,10 +72,10 @@ struct CvtOptions {
   /// spacing that the density demands. It ends when no cotangent and no such ratio exceeds its
   /// limit by more than 0.035, after 60 evaluations, or after ten that hardly improve the worst
   /// shape; the mesh is well-centred if none does by 0.07. Near that the finish goes on, up to
-  /// twice, with squares of four times the weight. Sites with 8 neighbours or more, or 4 or fewer, cannot have
-  /// such shapes; with insertion_rounds, up to four further rounds remove them. A mesh within the
-  /// limits does not change. A descent before a finish also converges when 60 evaluations have not
-  /// halved its norm. Default false: a pure CVT.
+  /// twice, with squares of four times the weight. Sites with 8 neighbours or more, or 4 or fewer,
+  /// cannot have such shapes; with insertion_rounds, up to four further rounds remove them. A mesh
+  /// within the limits does not change. A descent before a finish also converges when 60
+  /// evaluations have not halved its norm. Default false: a pure CVT.
   bool well_centred = false;
   /// Quadrature points per half kite: 1, 3, 6, 7, 13 or 19; no effect for uniform density.
   int rule = 3;
@@ -218,9 +218,9 @@ CALOTTE_API_SPECIALISATION Cvt spherical_cvt(Points3&& start, const CvtOptions& 
 /// \throws Error as above; bad_option for an incomplete state.
 Cvt spherical_cvt(CvtState state, const CvtOptions& options, const CvtCallback& callback = {});
 
-/// The same in a region of the sphere, whose boundary clips the cells. Generators stay inside: where
-/// the centroid of a cell lies outside the region, its generator moves to the nearest point inside.
-/// A bisection adds the midpoints of the edges that lie inside.
+/// The same in a region of the sphere, whose boundary clips the cells. Generators stay inside:
+/// where the centroid of a cell lies outside the region, its generator moves to the nearest point
+/// inside. A bisection adds the midpoints of the edges that lie inside.
 ///
 /// The mesh has the Delaunay triangles of the generators whose circumcentre lies in the region. It
 /// is open along the boundary, within about a cell of it; a generator may be in no triangle.

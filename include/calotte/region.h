@@ -84,5 +84,12 @@ bool contains(const Region& region, const Eigen::Vector3d& place);
 /// \throws Error as require_region().
 std::function<bool(const Eigen::Vector3d&)> containing(const Region& region);
 
+/// A region that holds all places within a distance of another one, and few more: the boundary
+/// moves outwards in a stereographic projection about the middle of the region. The whole sphere if
+/// the result would reach farther than 2 radians from there.
+/// \param distance angle in radians, > 0 and finite.
+/// \throws Error as require_region(); bad_option for a distance out of range.
+Region widened(const Region& region, double distance);
+
 } // namespace calotte
 CALOTTE_API_END

@@ -3,8 +3,8 @@
 #include <calotte/generators.h>
 
 #include "base/require.h"
-#include "cvt/room.h"
 #include "cvt/region_world.h"
+#include "cvt/room.h"
 #include "cvt/worlds.h"
 
 #include <optional>

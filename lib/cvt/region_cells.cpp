@@ -13,10 +13,6 @@
 #include <vector>
 
 namespace calotte::cvt_detail {
-namespace {
-
-/// Directions outside a region and not near its boundary. Together with generators that are spread
-/// over the region, they leave no hemisphere empty.
 Points3 hull_around(const SphericalOutline& outline) {
   constexpr int level = 1; // 42 directions
   constexpr double distance = 0.5;
@@ -31,8 +27,6 @@ Points3 hull_around(const SphericalOutline& outline) {
   }
   return directions(Eigen::all, far);
 }
-
-} // namespace
 
 RegionCells::RegionCells(const Region& region)
     : outline_(std::make_shared<const SphericalOutline>(region)), hull_(hull_around(*outline_)) {}
@@ -75,8 +69,7 @@ Points3 RegionCells::retract(const Points3& x, double step, const Points3& d) co
       const TangentPlane plane(column(x, i));
       const TangentShore shore(*outline_, plane);
       const Vec2 to = plane.projected(column(result, i));
-      const Vec3 inside =
-          plane.lifted(nearest_inside(shore, Vec2{0, 0}, to).value_or(Vec2{0, 0}));
+      const Vec3 inside = plane.lifted(nearest_inside(shore, Vec2{0, 0}, to).value_or(Vec2{0, 0}));
       set_column(result, i, (1 / norm(inside)) * inside);
     }
   });

@@ -21,6 +21,10 @@
 
 namespace calotte::cvt_detail {
 
+/// Directions outside a region and not near its boundary. Together with generators that are spread
+/// over the region, they leave no hemisphere empty.
+Points3 hull_around(const SphericalOutline& outline);
+
 /// The cells of generators in a region of the sphere, with the functions of SphericalCells.
 ///
 /// Generators are unit columns. Further places follow them, far outside the region: the hull, which

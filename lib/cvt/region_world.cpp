@@ -69,9 +69,8 @@ std::int64_t drop_small_fans(const Triangles& triangles, std::int64_t points,
     auto fans = fans_at(triangles, neighbours, site, around[static_cast<std::size_t>(site)]);
     if (fans.size() < 2)
       continue;
-    const auto largest = std::max_element(
-        fans.begin(), fans.end(),
-        [](const auto& a, const auto& b) {
+    const auto largest =
+        std::max_element(fans.begin(), fans.end(), [](const auto& a, const auto& b) {
           return a.size() != b.size() ? a.size() < b.size()
                                       : *std::max_element(a.begin(), a.end()) <
                                             *std::max_element(b.begin(), b.end());
@@ -176,9 +175,8 @@ Level RegionWorld::set_bisected(State& state, const Mesh& coarse) const {
 
 Level RegionWorld::set_exchanged(State& state, const Mesh& mesh, const Density& density,
                                  std::int64_t inserted, std::int64_t contracted, bool mend) const {
-  set_generators(state,
-                 make_sites(exchanged(mesh, *outline_, density, inserted, contracted, mend),
-                            Duplicates::refuse, 0));
+  set_generators(state, make_sites(exchanged(mesh, *outline_, density, inserted, contracted, mend),
+                                   Duplicates::refuse, 0));
   return {};
 }
 

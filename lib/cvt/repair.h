@@ -22,7 +22,7 @@ struct TriangleEdge {
 /// The reasons why a mesh is not the Delaunay triangulation of its points. A mesh without
 /// overturned triangles whose edges are all Delaunay is that triangulation (Delaunay, 1934).
 struct Faults {
-  std::vector<TriangleEdge> edges; ///< that are not Delaunay, by the exact predicate
+  std::vector<TriangleEdge> edges;      ///< that are not Delaunay, by the exact predicate
   std::vector<std::int32_t> overturned; ///< triangles
   bool none() const { return edges.empty() && overturned.empty(); }
 };

@@ -210,8 +210,7 @@ std::optional<Connectivity> Tessellation<Cells>::take_mesh(const Points3& points
   Effort unused;
   const Faults faults = find_faults(unused);
   patches_.clear();
-  if (!faults.overturned.empty() ||
-      (!faults.none() && !repair(mesh_, cells_.signs(), faults)))
+  if (!faults.overturned.empty() || (!faults.none() && !repair(mesh_, cells_.signs(), faults)))
     return std::nullopt;
   return std::move(mesh_);
 }

@@ -167,8 +167,7 @@ Points3 draw(std::int64_t n, const Density& density, std::uint64_t seed) {
 
 Points3 draw(std::int64_t n, const Density& density, const SphericalOutline& outline,
              std::uint64_t seed) {
-  return draw_from(EnvelopeOf<RegionMap>(density, RegionMap(outline, density.uniform())),
-                   n, seed);
+  return draw_from(EnvelopeOf<RegionMap>(density, RegionMap(outline, density.uniform())), n, seed);
 }
 
 Points2 draw(std::int64_t n, const Density& density, const PlanarDomain& domain,

@@ -196,8 +196,7 @@ public:
   }
 
   /// The inward direction of an edge, and of a corner that points into the cell.
-  template <class Shore>
-  std::optional<Vec2> inside(const Shore& outline, const Vec2& site) const {
+  template <class Shore> std::optional<Vec2> inside(const Shore& outline, const Vec2& site) const {
     const Vec2 onward = place_ - to_;
     const double length = norm(onward), reach = norm(place_) + length;
     for (double share = 1e-9; share < 0.1 && length > 0 && std::isfinite(least_); share *= 8) {

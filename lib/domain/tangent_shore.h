@@ -86,9 +86,9 @@ private:
     if (from < least && to < least)
       return std::nullopt;
     const auto end = [&](const Vec3& x, double height, const Vec3& other, double beyond) {
-      return height >= least ? plane_->projected(x)
-                             : plane_->projected(x + ((least - height) / (beyond - height)) *
-                                                         (other - x));
+      return height >= least
+                 ? plane_->projected(x)
+                 : plane_->projected(x + ((least - height) / (beyond - height)) * (other - x));
     };
     return Outline::Edge{end(edge.from, from, edge.to, to), end(edge.to, to, edge.from, from)};
   }

@@ -105,10 +105,16 @@ Polygons polygons_of(const Region& region, const Stereographic& map) {
   return polygons;
 }
 
-Points3 lifted(const Polygon::ring_type& ring, const Stereographic& map) {
-  Points3 out(3, static_cast<Eigen::Index>(ring.size()));
-  for (std::size_t k = 0; k < ring.size(); ++k)
-    base_detail::set_column(out, static_cast<Eigen::Index>(k), map.lifted(ring[k]));
+/// \param least distance between corners; others are left out, which rounding could make one.
+Points3 lifted(const Polygon::ring_type& ring, double least, const Stereographic& map) {
+  Polygon::ring_type corners;
+  for (const Place& place : ring)
+    if (corners.empty() || (bg::distance(place, corners.back()) > least &&
+                            bg::distance(place, corners.front()) > least))
+      corners.push_back(place);
+  Points3 out(3, static_cast<Eigen::Index>(corners.size()));
+  for (std::size_t k = 0; k < corners.size(); ++k)
+    base_detail::set_column(out, static_cast<Eigen::Index>(k), map.lifted(corners[k]));
   return out;
 }
 
@@ -136,11 +142,12 @@ Region widened(const Region& region, double distance) {
              bg::strategy::buffer::distance_symmetric<double>(offset),
              bg::strategy::buffer::side_straight(), bg::strategy::buffer::join_round(24),
              bg::strategy::buffer::end_flat(), bg::strategy::buffer::point_circle(24));
+  const double least = 1e-3 * offset;
   Region result;
   for (const Polygon& polygon : wide) {
-    result.rings.push_back(lifted(polygon.outer(), map));
+    result.rings.push_back(lifted(polygon.outer(), least, map));
     for (const Polygon::ring_type& hole : polygon.inners())
-      result.rings.push_back(lifted(hole, map));
+      result.rings.push_back(lifted(hole, least, map));
   }
   return result;
 }

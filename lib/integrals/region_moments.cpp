@@ -20,7 +20,8 @@ double angle_of(double sine, double cosine) { return longitude_of(cosine, sine);
 // ---- A cell in the plane that touches the sphere at its site
 
 /// The Voronoi cell, cut to a square.
-std::vector<CellCorner> tangent_cell(const TangentPlane& plane, const std::vector<Vec3>& neighbours) {
+std::vector<CellCorner> tangent_cell(const TangentPlane& plane,
+                                     const std::vector<Vec3>& neighbours) {
   constexpr double r = TangentShore::reach;
   std::vector<CellCorner> cell{{{-r, -r}, {}}, {{r, -r}, {}}, {{r, r}, {}}, {{-r, r}, {}}};
   for (const Vec3& neighbour : neighbours) {
@@ -188,8 +189,7 @@ std::vector<std::vector<Vec3>> neighbours_of(const std::vector<std::int32_t>& si
   std::vector<std::vector<Vec3>> neighbours(sites.size());
   for (const std::array<std::int32_t, 3>& t : patch.corners)
     for (int v = 0; v < 3; ++v)
-      if (const std::int32_t k =
-              place[static_cast<std::size_t>(t[static_cast<std::size_t>(v)])];
+      if (const std::int32_t k = place[static_cast<std::size_t>(t[static_cast<std::size_t>(v)])];
           k >= 0) // each neighbour is once the next corner
         neighbours[static_cast<std::size_t>(k)].push_back(
             x[t[static_cast<std::size_t>(next_vertex(v))]]);
@@ -205,16 +205,15 @@ void integrate(const Integrand& integrand, const RegionField& field, const Patch
   const std::vector<std::int32_t> sites = clipped_sites(field, patch, x);
   const std::vector<std::vector<Vec3>> neighbours = neighbours_of(sites, patch, x);
   for (std::size_t k = 0; k < sites.size(); ++k)
-    moments[sites[k]] =
-        clipped_moments(integrand, *field.outline, x[sites[k]], neighbours[k]);
+    moments[sites[k]] = clipped_moments(integrand, *field.outline, x[sites[k]], neighbours[k]);
 }
 
 double clipped_area(const SphericalOutline& outline, const Vec3& site,
                     const std::vector<Vec3>& neighbours) {
   const TangentPlane plane(site);
   double area = 0;
-  for (const CellSide& side : clipped_cell(TangentShore(outline, plane), Vec2{0, 0},
-                                           tangent_cell(plane, neighbours)))
+  for (const CellSide& side :
+       clipped_cell(TangentShore(outline, plane), Vec2{0, 0}, tangent_cell(plane, neighbours)))
     area += area_of(side);
   return area;
 }

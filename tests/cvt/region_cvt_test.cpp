@@ -107,8 +107,20 @@ TEST_CASE("scratch") {
   const Continuation from = multilevel(n, region, density);
   options.bisections = from.bisections;
   const Cvt grid = spherical_cvt(from.start, region, options);
-  MESSAGE(grid.report.converged << grid.report.well_centred << " it " << grid.report.iterations.size() << " s " << grid.report.seconds << " n " << grid.mesh.points.cols()<<" mis "<<grid.report.iterations.back().misshapen);
-  int rebuilt = 0; double mom=0,rep=0,all=0,sol=0; for (const auto& i : grid.report.iterations) {rebuilt += i.rebuilt;mom+=i.seconds_moments;rep+=i.seconds_repair;all+=i.seconds;sol+=i.seconds_solver;}
-  MESSAGE("rebuilt " << rebuilt<<" mom "<<mom<<" rep "<<rep<<" all "<<all<<" sol "<<sol);
+  MESSAGE(grid.report.converged << grid.report.well_centred << " it "
+                                << grid.report.iterations.size() << " s " << grid.report.seconds
+                                << " n " << grid.mesh.points.cols() << " mis "
+                                << grid.report.iterations.back().misshapen);
+  int rebuilt = 0;
+  double mom = 0, rep = 0, all = 0, sol = 0;
+  for (const auto& i : grid.report.iterations) {
+    rebuilt += i.rebuilt;
+    mom += i.seconds_moments;
+    rep += i.seconds_repair;
+    all += i.seconds;
+    sol += i.seconds_solver;
+  }
+  MESSAGE("rebuilt " << rebuilt << " mom " << mom << " rep " << rep << " all " << all << " sol "
+                     << sol);
   write("/tmp/w/region.vtp", grid.mesh);
 }

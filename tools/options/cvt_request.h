@@ -20,6 +20,8 @@ struct CvtRequest {
   std::string points; ///< the file of the start, or none
   bool lonlat = false;
   std::shared_ptr<DomainWords> domain; ///< of a plane, where one is given
+  std::string region;                  ///< a part of the sphere, or none
+  bool limited_area = false;           ///< with rings around the region, as MPAS wants them
   std::optional<int> cells;            ///< of the result
   bool cells_of_widths = false;        ///< --cells auto: the number that the cell widths imply
   std::optional<std::string> start;    ///< default: see start_kind()
@@ -51,8 +53,8 @@ struct CvtRequest {
 /// True for a run in the plane.
 inline bool planar(const CvtRequest& request) { return request.domain->given(); }
 
-/// The kind of start. Default: multilevel for a density that is not uniform, otherwise continuation
-/// on the sphere and density in the plane.
+/// The kind of start. Default: multilevel for a density that is not uniform and for a region,
+/// otherwise continuation on the sphere and density in the plane.
 std::string start_kind(const CvtRequest& request);
 
 /// Whether the cell widths determine the number of cells: --cells auto, or widths in km without a

@@ -2,15 +2,20 @@
 #include "run/cvt_start.h"
 
 #include "options/format_options.h"
+#include "options/numbers.h"
 #include "options/point_file.h"
+#include "options/region_option.h"
 
 #include <calotte/error.h>
 #include <calotte/generators.h>
 #include <calotte/io.h>
+#include <calotte/limited_area.h>
 
 #include <boost/crc.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <initializer_list>
 #include <limits>
 #include <utility>
 
@@ -94,6 +99,9 @@ void require_kind(const CvtRequest& request) {
   const std::string kind = start_kind(request);
   const bool both = kind == "multilevel" || kind == "random" || kind == "density",
              plane = planar(request);
+  if (!request.region.empty() && !both)
+    refuse("--start " + kind +
+           " applies to the whole sphere only; give multilevel, density or random");
   if (plane && !both && kind != "hexagonal")
     refuse("--start " + kind +
            " applies to the sphere only; give multilevel, density, random or hexagonal");
@@ -122,7 +130,7 @@ void require_cells(const CvtRequest& request) {
     return;
   if (planar(request) && kind != "multilevel")
     require_planar_cells(request);
-  else if (planar(request))
+  else if (planar(request) || !request.region.empty())
     return;
   else if (*request.cells < fewest)
     refuse("--cells " + std::to_string(*request.cells) + " is too few; give at least " +
@@ -222,16 +230,46 @@ CvtStart read(const CvtRequest& request) {
 
 /// Sets the points and bisections of a start that insertion leads to any number of cells.
 void make_multilevel(const CvtRequest& request, const Density& density,
-                     const std::optional<PlanarDomain>& domain, CvtStart& start) {
+                     const std::optional<PlanarDomain>& domain,
+                     const std::optional<RunRegion>& region, CvtStart& start) {
   if (domain) {
     PlanarContinuation from = multilevel(*request.cells, *domain, density, seed_of(request));
     start.bisections = from.bisections;
     start.places = std::move(from.start);
   } else {
-    Continuation from = multilevel(*request.cells, density, seed_of(request));
+    Continuation from =
+        multilevel(*request.cells, region ? region->meshed : Region{}, density, seed_of(request));
     start.bisections = from.bisections;
     start.points = std::move(from.start);
   }
+}
+
+/// The distance in radians for the rings of a limited-area grid and a few cells more, of the widest
+/// cells along some boundaries.
+double margin_of(const CellWidth& widths, double radius_km,
+                 std::initializer_list<const Region*> boundaries) {
+  constexpr int beyond = 4; // cells, so that the rings have whole cells
+  double widest = 0;
+  for (const Region* region : boundaries)
+    for (const Points3& ring : region->rings)
+      widest = std::max(widest, evaluate(widths, ring.colwise().normalized()).maxCoeff());
+  return (limited_area_rings + beyond) * widest / radius_km;
+}
+
+/// Sets the number of cells to that of the widths in a region.
+std::vector<std::string> settle_region(CvtRequest& request, const CellWidth& widths,
+                                       const RunRegion& region) {
+  if (!cells_follow(request))
+    return {};
+  constexpr double least = 40, most = 1 << 30;
+  const double implied =
+      std::round(implied_cells(widths, region.meshed, request.density->widths.radius));
+  if (!(implied >= least && implied <= most))
+    refuse("--region " + request.region + ": the widths require " + formatted("%.4g", implied) +
+           " cells, but a grid has 40 to 1073741824; give other widths or a larger region");
+  request.cells = static_cast<int>(implied);
+  return {request.region + " requires " + std::to_string(*request.cells) + " cells" +
+          (request.limited_area ? ", with those of the rings and some beyond" : "")};
 }
 
 } // namespace
@@ -251,9 +289,29 @@ void require_start(const CvtRequest& request) {
     require_file(request);
 }
 
-std::vector<std::string> settle_cells(CvtRequest& request, const std::optional<CellWidth>& widths) {
+std::optional<RunRegion> region_of_run(const CvtRequest& request,
+                                       const std::optional<CellWidth>& widths) {
+  if (request.region.empty())
+    return std::nullopt;
+  const WidthWords& words = request.density->widths;
+  Region region = region_of(request.region, words.radius);
+  if (!request.limited_area)
+    return RunRegion{region, region};
+  if (!widths)
+    refuse("--limited-area requires cell widths, from which the rings around the region follow; "
+           "give --cell-width");
+  Region meshed = region;
+  for (int k = 0; k < 3; ++k) // the widths may grow outwards
+    meshed = widened(region, margin_of(*widths, words.radius, {&region, &meshed}));
+  return RunRegion{std::move(region), std::move(meshed)};
+}
+
+std::vector<std::string> settle_cells(CvtRequest& request, const std::optional<CellWidth>& widths,
+                                      const std::optional<RunRegion>& region) {
   if (!widths)
     return {};
+  if (region)
+    return settle_region(request, *widths, *region);
   const WidthWords& words = request.density->widths;
   if (cells_follow(request)) {
     request.cells =
@@ -263,7 +321,7 @@ std::vector<std::string> settle_cells(CvtRequest& request, const std::optional<C
   return notes_on(*widths, words, request.cells);
 }
 
-CvtStart open_start(const CvtRequest& request) {
+CvtStart open_start(const CvtRequest& request, const std::optional<RunRegion>& region) {
   CvtStart start = request.points.empty() ? announce(request) : read(request);
   start.bisections = request.bisections.value_or(0);
   if (const std::string kind = start_kind(request); kind == "multilevel")
@@ -272,22 +330,31 @@ CvtStart open_start(const CvtRequest& request) {
     start.configuration += "bisections " + std::to_string(start.bisections) + "\n";
   if (planar(request))
     start.configuration += domain_configuration(*request.domain);
+  if (region)
+    start.configuration += region_configuration(region->meshed);
   return start;
 }
 
 void generate_points(const CvtRequest& request, const Density& density,
-                     const std::optional<PlanarDomain>& domain, CvtStart& start) {
+                     const std::optional<PlanarDomain>& domain,
+                     const std::optional<RunRegion>& region, CvtStart& start) {
   if (!request.points.empty())
     return;
   const std::string kind = start_kind(request);
   const std::int64_t cells = *request.cells;
   if (kind == "multilevel") {
-    make_multilevel(request, density, domain, start);
+    make_multilevel(request, density, domain, region, start);
     return;
   }
   if (domain) {
     start.places =
         generate(kind, cells >> (2 * start.bisections), *domain, density, seed_of(request));
+    return;
+  }
+  if (region) {
+    start.points =
+        random_sphere(cells >> (2 * start.bisections), region->meshed,
+                      kind == "density" ? site_density(density) : Density{}, seed_of(request));
     return;
   }
   if (kind != "continuation") {

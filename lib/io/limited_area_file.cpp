@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <calotte/cut.h>
+
+#include "cvt/region_cells.h"
+#include "domain/spherical_outline.h"
+#include "io/mpas.h"
+
+#include <calotte/delaunay.h>
+#include <calotte/write.h>
+
+#include <filesystem>
+#include <string>
+#include <utility>
+
+namespace calotte {
+namespace {
+
+/// A file that is removed, with its graph, when it has served.
+class Scrap {
+public:
+  explicit Scrap(std::string path) : path_(std::move(path)) {}
+  Scrap(const Scrap&) = delete;
+  Scrap& operator=(const Scrap&) = delete;
+  ~Scrap() {
+    std::error_code ignored;
+    std::filesystem::remove(path_, ignored);
+    std::filesystem::remove(io_detail::graph_path(path_), ignored);
+  }
+  const std::string& path() const { return path_; }
+
+private:
+  std::string path_;
+};
+
+/// The generators, and places far from their region, so that no hemisphere is empty.
+Points3 spanning(const Points3& generators, const Region& meshed) {
+  if (meshed.whole())
+    return generators;
+  const Points3 hull = cvt_detail::hull_around(domain_detail::SphericalOutline(meshed));
+  Points3 all(3, generators.cols() + hull.cols());
+  all << generators, hull;
+  return all;
+}
+
+} // namespace
+
+CutReport write_limited_area(const std::string& target, const Points3& generators,
+                             const Region& meshed, const Region& region,
+                             const WriteOptions& written, const CutOptions& options) {
+  const Scrap whole(target + ".whole.nc");
+  WriteOptions mpas = written;
+  mpas.format = Format::mpas;
+  mpas.sphere_radius = 1;
+  write(whole.path(), spherical_delaunay(spanning(generators, meshed)), mpas);
+  return cut(whole.path(), target, region, options);
+}
+
+} // namespace calotte
