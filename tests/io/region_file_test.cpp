@@ -309,7 +309,7 @@ TEST_CASE("SaveBoundaries: lines that are no points") {
       holds(refusal("SaveBoundaries", "1 2\n3 10\n"), "SaveBoundaries: 2 points enclose nothing"));
   CHECK(holds(refusal("SaveBoundaries", "0 0\n10 10\n10 0\n0 10\n", ErrorCode::bad_option),
               "meet; rings may neither cross nor touch themselves or each other (ring 0 begins "
-              "in line 1)");
+              "in line 1)"));
 }
 
 TEST_CASE("names and files") {
