@@ -344,8 +344,8 @@ TEST_CASE("rings that bound no region are refused, with ring and corner") {
   CHECK(refusal_of({triangle, inner}) ==
         "the region: it is to the left of ring 0 and to the right of ring 1; give rings that all "
         "have it to their left: an outer boundary counter-clockwise, a hole clockwise");
-  CHECK(refusal_of({triangle, reversed(inner), reversed(ring_of({{19, 8}, {21, 8}, {20, 10}}))}) !=
-        "");
+  const Points3 innermost = ring_of({{19, 8}, {21, 8}, {20, 10}});
+  CHECK(refusal_of({triangle, reversed(inner), reversed(innermost)}) != "");
   CHECK(holds(refusal_of({triangle, Points3(3, 0)}), "ring 1 has 0 corners"));
   CHECK(holds(refusal_of({triangle.leftCols(1)}), "ring 0 has 1 corner and"));
   Points3 bad = triangle;
