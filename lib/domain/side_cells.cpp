@@ -23,9 +23,9 @@ Vec3 SideCells::probe_in(const Square& square, int number) {
       curve_detail::from_cube({square.face, at(square.u, u_step), at(square.v, v_step)}));
 }
 
-SideCells::Square SideCells::quarter_of(const Square& square, int child) {
+SideCells::Square SideCells::quarter_of(const Square& square, int quarter) {
   const double half = 0.5 * square.size;
-  return {square.face, square.u + (child % 2) * half, square.v + (child / 2) * half, half};
+  return {square.face, square.u + (quarter % 2) * half, square.v + (quarter < 2 ? 0 : half), half};
 }
 
 /// True if an arc passes through a square; true also for some arcs within the margin of it. The
