@@ -45,7 +45,8 @@ std::string help_on(const CLI::App& app, const std::string& name) {
 void add_help(CLI::App& app) {
   CLI::App* command = app.add_subcommand("help", "Shows the help of a command or on a topic.");
   auto name = std::make_shared<std::string>();
-  command->add_option("NAME", *name, "A command, density, region or exit-codes; default: all commands");
+  command->add_option("NAME", *name,
+                      "A command, density, region or exit-codes; default: all commands");
   set_help(*command, {{}, {"calotte help cvt", "calotte help density"}});
   command->callback([&app, name] { std::cout << help_on(app, *name); });
 }

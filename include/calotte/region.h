@@ -41,7 +41,7 @@ Region ellipse(const Eigen::Vector3d& centre, double semi_major, double semi_min
                int corners = 360);
 
 /// The band between two latitudes, as polygons with corners on the parallels at equal longitudes.
-/// Each arc between corners is poleward of its parallel, by 120 m on the Earth at most for 360
+/// Each arc between corners is poleward of its parallel, by 122 m on the Earth at most for 360
 /// corners.
 /// \param lower, upper radians, -pi/2 to pi/2; 1e-6 or more from each other and from a pole that is
 ///        not one of them. A band up to a pole contains it.

@@ -11,8 +11,10 @@ bool on_arc(const Arc& arc, const Vec3& place, int turning) {
 }
 
 bool meet(const Arc& a, const Arc& b) {
-  const int b_from = turn(a.from, a.to, b.from), b_to = turn(a.from, a.to, b.to),
-            a_from = turn(b.from, b.to, a.from), a_to = turn(b.from, b.to, a.to);
+  const int b_from = turn(a.from, a.to, b.from), b_to = turn(a.from, a.to, b.to);
+  if (b_from * b_to > 0)
+    return false;
+  const int a_from = turn(b.from, b.to, a.from), a_to = turn(b.from, b.to, a.to);
   // Opposite signs alone would hold for the arc on the other side of the sphere, too.
   if (b_from != 0 && b_to == -b_from && a_from == -b_from && a_to == b_from)
     return true;

@@ -169,7 +169,8 @@ Region smaller_region(std::vector<Points3> corners) {
   require(!corners.empty(), "the region has no rings; give one at least");
   const Rings rings = rings_of(corners);
   Region region = turned(std::move(corners), rings, sides_of(rings), true);
-  if (area(region) > 2 * half_turn)
+  constexpr double roundoff_of_areas = 1e-12;
+  if (area(region) > 2 * half_turn + roundoff_of_areas)
     for (Points3& ring : region.rings)
       ring = reversed(ring);
   return region;

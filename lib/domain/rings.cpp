@@ -44,19 +44,19 @@ void append_ring(const Points3& corners, std::int64_t r, std::vector<Arc>& arcs)
     append_arc(corners, r, i, arcs);
 }
 
-/// True if two arcs of rings have more in common than rings allow.
+/// The arc after one of its ring.
+std::int32_t next_of(const Rings& rings, std::int32_t arc) {
+  const std::size_t ring = rings.ring_of(arc);
+  return arc + 1 == rings.begin[ring + 1] ? rings.begin[ring] : arc + 1;
+}
+
+/// True if two arcs have more in common than rings allow.
 bool conflict(const Rings& rings, std::int32_t e, std::int32_t f) {
-  const std::size_t r = rings.ring_of(e);
-  const auto after = [&](std::int32_t arc) {
-    return arc + 1 == rings.begin[r + 1] ? rings.begin[r] : arc + 1;
-  };
   const Arc &a = rings.arcs[static_cast<std::size_t>(e)],
             &b = rings.arcs[static_cast<std::size_t>(f)];
-  if (e == f)
+  if (e == f || !meet(a, b))
     return false;
-  if (f == after(e))
-    return fold(a, b);
-  return rings.ring_of(f) == r && e == after(f) ? fold(b, a) : meet(a, b);
+  return f == next_of(rings, e) ? fold(a, b) : e == next_of(rings, f) ? fold(b, a) : true;
 }
 
 constexpr std::int32_t none = std::numeric_limits<std::int32_t>::max();

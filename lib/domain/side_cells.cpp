@@ -23,9 +23,9 @@ Vec3 SideCells::probe_in(const Square& square, int number) {
       curve_detail::from_cube({square.face, at(square.u, u_step), at(square.v, v_step)}));
 }
 
-SideCells::Square SideCells::quarter_of(const Square& square, int child) {
+SideCells::Square SideCells::quarter_of(const Square& square, int quarter) {
   const double half = 0.5 * square.size;
-  return {square.face, square.u + (child % 2) * half, square.v + (child / 2) * half, half};
+  return {square.face, square.u + (quarter % 2) * half, square.v + (quarter < 2 ? 0 : half), half};
 }
 
 /// True if an arc passes through a square; true also for some arcs within the margin of it. The
@@ -120,18 +120,18 @@ SideCells::SideCells(std::vector<Arc> arcs, Corner corner) : arcs_(std::move(arc
     const Vec3 probe = free_probe(whole(face), all, number);
     known[static_cast<std::size_t>(face)] = {probe, inside ^ crosses_oddly(start, probe, all)};
   }
+  nodes_.resize(6);
   std::vector<Part> parts;
   for (int face = 0; face < 6; ++face) {
     const auto& [probe, inside] = known[static_cast<std::size_t>(face)];
-    nodes_.push_back({probe, -1, 0, 0, inside});
-    parts.push_back({face, whole(face), those_in(whole(face), all)});
+    parts.push_back({face, whole(face), probe, inside, those_in(whole(face), all)});
   }
   while (!parts.empty())
     parts = bisected(parts);
 }
 
-/// Bisects the squares of one level through which many arcs pass, and keeps the lists of the
-/// others. Where bisection lengthens the lists too much, all are kept.
+/// Bisects the squares of one level through which many arcs pass, and keeps the others. Where
+/// bisection lengthens the lists too much, all are kept.
 std::vector<SideCells::Part> SideCells::bisected(const std::vector<Part>& parts) {
   constexpr std::size_t few = 6, most_listings = 64;
   constexpr double least_size = 0x1p-39;
@@ -143,71 +143,76 @@ std::vector<SideCells::Part> SideCells::bisected(const std::vector<Part>& parts)
     if (part.ids.size() <= few || part.square.size <= least_size ||
         listings > most_listings * arcs_.size() + 1024)
       keep(part);
-    else
+    else {
+      nodes_[static_cast<std::size_t>(part.node)] = static_cast<std::int32_t>(nodes_.size());
       for (int child = 0; child < 4; ++child) {
         next.push_back(child_of(part, child));
         listings += next.back().ids.size();
       }
+    }
   return next;
 }
 
-/// Adds a child's node, the first child's before the others'.
 SideCells::Part SideCells::child_of(const Part& part, int child) {
-  const auto number = static_cast<std::int32_t>(nodes_.size());
-  Node& parent = nodes_[static_cast<std::size_t>(part.node)];
-  if (child == 0)
-    parent.children = number;
   const Square square = quarter_of(part.square, child);
-  Part made{number, square, those_in(square, part.ids)};
-  int probe_number = 0;
-  const Vec3 probe = free_probe(square, made.ids, probe_number);
-  const bool inside = parent.inside ^ crosses_oddly(parent.probe, probe, part.ids);
-  nodes_.push_back({probe, -1, 0, 0, inside});
-  return made;
+  Ids ids = those_in(square, part.ids);
+  int number = 0;
+  const Vec3 probe = free_probe(square, ids, number);
+  const bool inside = part.inside ^ crosses_oddly(part.probe, probe, part.ids);
+  nodes_.push_back(all_outside);
+  return {static_cast<std::int32_t>(nodes_.size() - 1), square, probe, inside, std::move(ids)};
 }
 
 void SideCells::keep(const Part& part) {
-  Node& node = nodes_[static_cast<std::size_t>(part.node)];
-  node.begin = static_cast<std::int64_t>(listed_.size());
+  std::int32_t& node = nodes_[static_cast<std::size_t>(part.node)];
+  if (part.ids.empty()) {
+    node = part.inside ? all_inside : all_outside;
+    return;
+  }
+  node = first_cell - static_cast<std::int32_t>(cells_.size());
+  const auto begin = std::ssize(listed_);
   listed_.insert(listed_.end(), part.ids.begin(), part.ids.end());
-  node.end = static_cast<std::int64_t>(listed_.size());
+  cells_.push_back({part.probe, begin, std::ssize(listed_), part.inside});
 }
 
 SideCells::Found SideCells::find(const Vec3& place) const {
   const curve_detail::CubePoint at = curve_detail::to_cube(place);
   Square square{at.face, -1, -1, 2};
-  const Node* node = &nodes_[static_cast<std::size_t>(at.face)];
-  while (node->children >= 0) {
+  std::int32_t node = nodes_[static_cast<std::size_t>(at.face)];
+  while (node >= 0) {
     square.size *= 0.5;
     const bool right = at.u >= square.u + square.size, upper = at.v >= square.v + square.size;
     square.u += right ? square.size : 0;
     square.v += upper ? square.size : 0;
-    node = &nodes_[static_cast<std::size_t>(node->children + right + 2 * upper)];
+    node = nodes_[static_cast<std::size_t>(node + right + 2 * upper)];
   }
-  return {*node, square};
+  return {node, square};
 }
 
-std::span<const std::int32_t> SideCells::ids_of(const Node& node) const {
-  return {listed_.data() + node.begin, listed_.data() + node.end};
+std::span<const std::int32_t> SideCells::ids_of(const Cell& cell) const {
+  return {listed_.data() + cell.begin, listed_.data() + cell.end};
 }
 
 Side SideCells::side(const Vec3& place) const {
-  const Node& node = find(place).node;
-  bool inside = node.inside;
-  for (const std::int32_t id : ids_of(node)) {
+  const std::int32_t node = find(place).node;
+  if (node > first_cell)
+    return node == all_inside ? Side::inside : Side::outside;
+  const Cell& cell = cell_of(node);
+  bool inside = cell.inside;
+  for (const std::int32_t id : ids_of(cell)) {
     const Arc& each = arc(id);
     if (on_arc(each, place))
       return Side::boundary;
-    inside ^= crosses(node.probe, place, each);
+    inside ^= crosses(cell.probe, place, each);
   }
   return inside ? Side::inside : Side::outside;
 }
 
 bool SideCells::inside_is_left(Corner corner) const {
   const Found found = find(arc(corner.after).from);
-  const std::span<const std::int32_t> ids = ids_of(found.node);
-  const auto [probe, left] = probe_at_corner(corner, found.square, ids);
-  return left == (found.node.inside ^ crosses_oddly(found.node.probe, probe, ids));
+  const Cell& cell = cell_of(found.node); // the corner's arcs pass through it
+  const auto [probe, left] = probe_at_corner(corner, found.square, ids_of(cell));
+  return left == (cell.inside ^ crosses_oddly(cell.probe, probe, ids_of(cell)));
 }
 
 } // namespace calotte::domain_detail

@@ -42,21 +42,23 @@ private:
     int face;
     double u, v, size;
   };
-  struct Node {
+  /// A square that is not bisected, through which arcs may pass.
+  struct Cell {
     Vec3 probe;
-    std::int32_t children;   ///< the first of four, or -1
-    std::int64_t begin, end; ///< of listed_, in a square that is not bisected
+    std::int64_t begin, end; ///< of listed_
     bool inside;             ///< the probe
   };
   using Ids = std::vector<std::int32_t>;
-  /// A node under construction, with the arcs that may pass through its square.
+  /// A square under construction.
   struct Part {
     std::int32_t node;
     Square square;
-    Ids ids;
+    Vec3 probe;
+    bool inside; ///< the probe
+    Ids ids;     ///< of the arcs that may pass through the square
   };
   struct Found {
-    const Node& node;
+    std::int32_t node; ///< its content
     Square square;
   };
 
@@ -74,10 +76,17 @@ private:
   Part child_of(const Part& part, int child);
   void keep(const Part& part);
   Found find(const Vec3& place) const;
-  std::span<const std::int32_t> ids_of(const Node& node) const;
+  const Cell& cell_of(std::int32_t node) const {
+    return cells_[static_cast<std::size_t>(first_cell - node)];
+  }
+  std::span<const std::int32_t> ids_of(const Cell& cell) const;
 
   std::vector<Arc> arcs_;
-  std::vector<Node> nodes_; ///< the first six are the faces
+  /// The squares, the six faces first: of a bisected one the first of four nodes, of one through
+  /// which no arc passes `all_inside` or `all_outside`, of others first_cell - index.
+  std::vector<std::int32_t> nodes_;
+  static constexpr std::int32_t all_inside = -1, all_outside = -2, first_cell = -3;
+  std::vector<Cell> cells_;
   std::vector<std::int32_t> listed_;
 };
 

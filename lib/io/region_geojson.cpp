@@ -27,7 +27,8 @@ double area_to_the_left_of(const SphericalRing& ring) {
   return area_to_the_left(arcs);
 }
 
-constexpr double hemisphere = 2 * std::numbers::pi;
+/// An area above that of a hemisphere, whose two sides are equal up to round-off.
+constexpr double beyond_hemisphere = 2 * std::numbers::pi + 1e-9;
 
 /// One file's polygons as the rings of a region.
 class Collector {
@@ -101,7 +102,7 @@ private:
   /// An outer ring has its polygon to the left, a hole too. The polygon is the smaller side of its
   /// outer ring; a hole is the smaller side of its own and may run either way.
   void orient(RegionRing& ring, bool outer, std::int64_t number) {
-    const bool larger = area_to_the_left_of(ring.corners) > hemisphere;
+    const bool larger = area_to_the_left_of(ring.corners) > beyond_hemisphere;
     if (!outer && !larger)
       std::reverse(ring.corners.begin(), ring.corners.end());
     if (outer && larger && doubt_.empty())

@@ -120,6 +120,12 @@ TEST_CASE("GeoJSON: over the date line in each style, and round a pole") {
   CHECK_FALSE(contains(tropics, lonlat(0, 90)));
 }
 
+TEST_CASE("GeoJSON: a hemisphere is to the left of its ring, whichever way it runs") {
+  CHECK(contains(geojson(polygon({"[0,0],[120,0],[-120,0]"})), lonlat(0, 90)));
+  CHECK(contains(geojson(polygon({"[0,0],[-120,0],[120,0]"})), lonlat(0, -90)));
+  CHECK(contains(geojson(polygon({"[10,-30],[10,50],[-170,40],[-170,-50]"})), lonlat(-80, 0)));
+}
+
 TEST_CASE("GeoJSON: several polygons, and what is not one region") {
   const std::string other = "[30,0],[40,0],[40,10],[30,10]";
   const Region two =
@@ -309,7 +315,18 @@ TEST_CASE("SaveBoundaries: lines that are no points") {
       holds(refusal("SaveBoundaries", "1 2\n3 10\n"), "SaveBoundaries: 2 points enclose nothing"));
   CHECK(holds(refusal("SaveBoundaries", "0 0\n10 10\n10 0\n0 10\n", ErrorCode::bad_option),
               "meet; rings may neither cross nor touch themselves or each other (ring 0 begins "
-              "in line 1)");
+              "in line 1)"));
+}
+
+TEST_CASE("a file cut short is read or refused, with one line") {
+  const test::Scratch folder;
+  const auto cut = [&](const std::string& name, const std::string& text) {
+    test::write_text(folder / name, text);
+    return test::done_when_cut(folder / name, [&] { read_region(folder / name); });
+  };
+  CHECK(cut("R.geojson", collection({feature(polygon({square, inner}))})) == 0);
+  CHECK(cut("R.pts", "Type: custom\nPoint: 1, 1\n0, 0\n0, 20\n20, 20\n") > 0);
+  CHECK(cut("SaveBoundaries", "0 0\n20 0\n20 20\n0 20\n") > 0);
 }
 
 TEST_CASE("names and files") {
