@@ -105,7 +105,7 @@ TEST_CASE("bad usage is refused before any work") {
               "mesh.vtp is both mesh and report; give the report another name");
   check_usage(
       "",
-      "delaunay, cvt, plan, points, check, info, draw or convert is required; see calotte --help");
+      "delaunay, cvt, plan, points, check, info, draw, convert or cut is required; see calotte --help");
   check_usage("triangulate", "unknown command triangulate; see calotte --help");
   check_usage("check mesh.tri",
               "mesh.tri holds triangles only; give the points they refer to (--points FILE)");

@@ -364,3 +364,37 @@ TEST_CASE("cells that are no Voronoi cells: what info, check and convert say of 
                              "cube.nc: not converted: name\n"
                              "cube.nc: 6 cells, not Voronoi cells: "));
 }
+
+TEST_CASE("cut: a limited-area grid, which other commands read") {
+  const Bench bench;
+  REQUIRE(bench.run("points fibonacci 2000 -o points.txt").code == 0);
+  REQUIRE(bench.run("delaunay points.txt -o global.nc --sphere-radius earth").code == 0);
+  const Outcome made =
+      bench.run("cut global.nc --region circle=10,50,1500km -o region.nc --rings 2");
+  CHECK(made.err.empty());
+  CHECK(made.code == 0);
+  CHECK(made.out == "region.nc: 79 cells, 27 in the region and 52 in 2 rings around it, 270 edges, "
+                    "192 vertices\n");
+  CHECK(bench.names().contains("region.graph.info"));
+  CHECK(bench.run("check region.nc").code == 0);
+  CHECK(bench.run("cut global.nc --region channel=-20,20 -o band.nc --keep-radius").code == 0);
+  CHECK(bench.run("info band.nc").out.find("spacing, km ") != std::string::npos);
+}
+
+TEST_CASE("cut refuses what makes no grid") {
+  const Bench bench;
+  REQUIRE(bench.run("points fibonacci 200 -o points.txt").code == 0);
+  REQUIRE(bench.run("delaunay points.txt -o global.nc").code == 0);
+  const auto check = [&](const std::string& arguments, int code, const std::string& part) {
+    check_refusal_naming(bench, arguments, code, part);
+  };
+  check("cut global.nc --region circle=0,0,30deg -o region.vtp", 2,
+        "region.vtp: the grid is an MPAS file; give a name that ends in .nc");
+  check("cut global.nc --region circle=0,0,30deg -o global.nc", 2, "global.nc");
+  check("cut global.nc --region circle=0,0,1km -o region.nc", 2, "none of the 200 cells");
+  check("cut global.nc --region circle=0,0,60deg -o region.nc", 2, "hold all 200 cells");
+  check("cut global.nc --region circle=0,0,60deg -o region.nc --rings 8", 2, "from 0 to 7");
+  check("cut absent.nc --region circle=0,0,60deg -o region.nc", 3, "absent.nc");
+  check("cut points.txt --region circle=0,0,60deg -o region.nc", 2, "points.txt");
+  check("cut global.nc -o region.nc", 2, "--region is required");
+}

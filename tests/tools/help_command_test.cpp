@@ -12,8 +12,8 @@ using namespace calotte::test;
 
 namespace {
 
-const std::vector<std::string> commands{"delaunay", "cvt",  "plan", "points",
-                                        "check",    "info", "draw", "convert"};
+const std::vector<std::string> commands{"delaunay", "cvt",  "plan",    "points", "check",
+                                        "info",     "draw", "convert", "cut"};
 
 /// The text of a help, checked to succeed.
 std::string shown(const Bench& bench, const std::string& arguments) {

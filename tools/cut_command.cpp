@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "commands.h"
+#include "help/help.h"
+#include "options/files.h"
+#include "options/region_option.h"
+#include "options/sphere_radius_option.h"
+#include "run/progress.h"
+
+#include <calotte/cut.h>
+#include <calotte/error.h>
+#include <calotte/version.h>
+
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace calotte::tools {
+namespace {
+
+struct Request {
+  std::string source, region, output;
+  int rings = limited_area_rings;
+  std::optional<double> sphere_radius;
+  bool keep_radius = false;
+};
+
+/// Checks all options that can fail, before any input is read.
+void require_request(const Request& request) {
+  if (std::filesystem::path(request.output).extension() != ".nc")
+    throw Error(ErrorCode::bad_option,
+                request.output + ": the grid is an MPAS file; give a name that ends in .nc");
+  if (request.sphere_radius)
+    require_sphere_radius(*request.sphere_radius);
+  const bool is_file = request.region.find('=') == std::string::npos;
+  require_outputs({{"grid", request.output}}, {request.source, is_file ? request.region : ""});
+}
+
+CutOptions options_of(const Request& request) {
+  CutOptions options;
+  options.rings = request.rings;
+  if (request.keep_radius)
+    options.sphere_radius.reset();
+  else
+    options.sphere_radius = request.sphere_radius.value_or(1);
+  options.history = "calotte " CALOTTE_VERSION " cut: " + request.source + " --region " +
+                    request.region + " --rings " + std::to_string(request.rings);
+  return options;
+}
+
+std::string describe(const Request& request, const CutReport& report) {
+  const std::int64_t inside = report.cells_by_mask.front();
+  std::string lines;
+  for (const std::string& name : report.left_out)
+    lines += request.output + ": without the variable " + name + "\n";
+  return lines + request.output + ": " + std::to_string(report.cells) + " cells, " +
+         std::to_string(inside) + " in the region and " + std::to_string(report.cells - inside) +
+         " in " + std::to_string(request.rings) + " rings around it, " +
+         std::to_string(report.edges) + " edges, " + std::to_string(report.vertices) +
+         " vertices\n";
+}
+
+void run(const Request& request) {
+  require_request(request);
+  CutReport report;
+  {
+    Progress progress;
+    progress.stage("reading " + request.region);
+    const Region region = region_of(request.region);
+    progress.stage("cutting " + request.source);
+    report = cut(request.source, request.output, region, options_of(request));
+  }
+  std::cout << describe(request, report);
+}
+
+} // namespace
+
+void add_cut(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "cut", "Cuts a limited-area grid from a global MPAS file, with all its fields.");
+  auto request = std::make_shared<Request>();
+  command
+      ->add_option("GLOBAL,-i,--input", request->source,
+                   "MPAS file of the sphere with connectivity, of any program, with any fields.")
+      ->type_name("FILE")
+      ->required();
+  command
+      ->add_option("--region", request->region,
+                   "Region whose cells the grid holds: those with their generators in it. A shape "
+                   "such as circle=-105,40,1000km, or a file; see calotte help region.")
+      ->type_name("SHAPE|FILE")
+      ->required();
+  command
+      ->add_option("-o,--output", request->output,
+                   "The MPAS file of the grid. NAME.graph.info is written beside NAME.nc.")
+      ->type_name("FILE")
+      ->required();
+  command
+      ->add_option("--rings", request->rings,
+                   "Rings of boundary cells around the region, 0 to 7. Default: 7, which "
+                   "MPAS-Atmosphere needs: 5 of relaxation (bdyMaskCell 1 to 5) and 2 specified.")
+      ->type_name("N");
+  add_sphere_radius(*command, request->sphere_radius,
+                    "Radius of the sphere of the grid: metres, > 0, or earth (6371229 m). Lengths "
+                    "and areas are converted. Default: 1, which MPAS-Atmosphere needs for grids.");
+  command
+      ->add_flag("--keep-radius", request->keep_radius,
+                 "Keep the radius of the global file. Use it for files of static or initial "
+                 "fields, whose lengths and areas the model takes as they are.")
+      ->excludes("--sphere-radius");
+  set_help(*command,
+           {.common = {},
+            .examples = {"calotte cut x1.40962.grid.nc --region circle=-105,40,1000km -o region.nc",
+                         "calotte cut x1.40962.static.nc --region area.geojson --keep-radius "
+                         "-o area.static.nc"}});
+  command->callback([request] { run(*request); });
+}
+
+} // namespace calotte::tools
