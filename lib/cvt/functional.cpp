@@ -236,8 +236,8 @@ std::unique_ptr<Functional> make_functional(const Points3& points, const PlanarD
 
 std::unique_ptr<Functional> make_functional(const Points3& points, const Region& region,
                                             const CvtOptions& options, Level&& level) {
-  return std::make_unique<FunctionalOver<RegionCells>>(RegionCells(region), points, options,
-                                                       std::move(level));
+  return std::make_unique<FunctionalOver<RegionCells>>(
+      RegionCells(region, options.density, points.cols()), points, options, std::move(level));
 }
 
 } // namespace calotte::cvt_detail

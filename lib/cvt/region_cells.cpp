@@ -3,17 +3,20 @@
 
 #include "base/parallel.h"
 #include "base/points.h"
+#include "density/sampling.h"
 #include "domain/clipped_cell.h"
 #include "domain/tangent_shore.h"
 #include "integrals/region_moments.h"
 
 #include <calotte/generators.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace calotte::cvt_detail {
-Points3 hull_around(const SphericalOutline& outline) {
+Points3 far_hull(const SphericalOutline& outline) {
   constexpr int level = 1; // 42 directions
   constexpr double distance = 0.5;
   const Points3 directions = bisected_icosahedron(level);
@@ -28,8 +31,106 @@ Points3 hull_around(const SphericalOutline& outline) {
   return directions(Eigen::all, far);
 }
 
+namespace {
+
+/// The spacing that a density demands of a number of generators.
+class Demand {
+public:
+  Demand(const SphericalOutline& outline, const Density& density, std::int64_t generators)
+      : density_(&density) {
+    constexpr std::int64_t samples = 4096;
+    const Points3 places = density_detail::draw(samples, Density{}, outline, 1);
+    const double mean = evaluate(density, places).cwiseSqrt().mean();
+    integral_ = mean * outline.area() / static_cast<double>(generators);
+  }
+  /// Infinite where the density is 0.
+  double spacing(const Vec3& x) const {
+    const Points3 place = Eigen::Vector3d(x.x, x.y, x.z);
+    return std::sqrt(integral_ / std::sqrt(evaluate(*density_, place)[0]));
+  }
+
+private:
+  const Density* density_;
+  double integral_;
+};
+
+/// Places outside the boundary, at four spacings from it and about two from each other.
+class Row {
+public:
+  Row(const SphericalOutline& outline, const Demand& demand) : outline_(outline), demand_(demand) {}
+
+  std::vector<Vec3> places() {
+    const auto& edges = outline_.edges();
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+      const Vec3 left = left_of(edges[e]);
+      if (e > 0 && same(edges[e - 1].to, edges[e].from))
+        add(edges[e].from, left + left_of(edges[e - 1])); // the gap at a convex corner
+      walk(edges[e], left);
+    }
+    return std::move(places_);
+  }
+
+private:
+  static constexpr double widest = 0.1; ///< radians; beyond, the far hull suffices
+
+  static bool same(const Vec3& a, const Vec3& b) {
+    return a.x == b.x && a.y == b.y && a.z == b.z;
+  }
+  static Vec3 left_of(const SphericalOutline::Edge& edge) {
+    const Vec3 left = cross(edge.from, edge.to);
+    return (1 / norm(left)) * left;
+  }
+
+  void walk(const SphericalOutline::Edge& edge, const Vec3& left) {
+    const Vec3 along = cross(left, edge.from);
+    const double length = 2 * std::asin(std::min(1.0, norm(edge.to - edge.from) / 2));
+    double at = next_ - since_;
+    for (; at < length; at += next_) {
+      const Vec3 x = std::cos(at) * edge.from + std::sin(at) * along;
+      next_ = std::min(2 * demand_.spacing(x), widest);
+      add(x, left);
+      since_ = -at;
+    }
+    since_ += length;
+  }
+
+  void add(const Vec3& x, const Vec3& left) {
+    const double distance = 4 * demand_.spacing(x);
+    if (!(distance < 4 * widest))
+      return;
+    const Vec3 place = std::cos(distance) * x - (std::sin(distance) / norm(left)) * left;
+    bool near = outline_.side(place) != Side::outside;
+    outline_.for_each_edge_near((1 / norm(place)) * place, 0.7 * distance,
+                                [&](const SphericalOutline::Edge&) { near = true; });
+    if (!near)
+      places_.push_back((1 / norm(place)) * place);
+  }
+
+  const SphericalOutline& outline_;
+  const Demand& demand_;
+  double since_ = 0, next_ = 0;
+  std::vector<Vec3> places_;
+};
+
+Points3 hull_of(const SphericalOutline& outline, const Density& density, std::int64_t generators) {
+  const Points3 far = far_hull(outline);
+  const Demand demand(outline, density, generators);
+  const std::vector<Vec3> row = Row(outline, demand).places();
+  Points3 hull(3, far.cols() + std::ssize(row));
+  hull.leftCols(far.cols()) = far;
+  for (std::size_t k = 0; k < row.size(); ++k)
+    set_column(hull, far.cols() + static_cast<Eigen::Index>(k), row[k]);
+  return hull;
+}
+
+} // namespace
+
+RegionCells::RegionCells(const Region& region, const Density& density, std::int64_t generators)
+    : outline_(std::make_shared<const SphericalOutline>(region)),
+      hull_(hull_of(*outline_, density, generators)) {}
+
 RegionCells::RegionCells(const Region& region)
-    : outline_(std::make_shared<const SphericalOutline>(region)), hull_(hull_around(*outline_)) {}
+    : outline_(std::make_shared<const SphericalOutline>(region)), hull_(far_hull(*outline_)) {}
 
 void RegionCells::move(const Points3& points) {
   generators_ = points.cols();

@@ -12,6 +12,7 @@
 #include "integrals/moments.h"
 #include "integrals/patches.h"
 
+#include <calotte/density.h>
 #include <calotte/region.h>
 #include <calotte/types.h>
 
@@ -23,19 +24,23 @@ namespace calotte::cvt_detail {
 
 /// Directions outside a region and not near its boundary. Together with generators that are spread
 /// over the region, they leave no hemisphere empty.
-Points3 hull_around(const SphericalOutline& outline);
+Points3 far_hull(const SphericalOutline& outline);
 
 /// The cells of generators in a region of the sphere, with the functions of SphericalCells.
 ///
-/// Generators are unit columns. Further places follow them, far outside the region: the hull, which
-/// does not move. All generators then have closed stars, and the region clips their cells.
+/// Generators are unit columns. Further places follow them, outside the region: the hull, which does
+/// not move. All generators then have closed stars, and the region clips their cells. The hull is
+/// the far one and a row of places four cells outside the boundary: without these, generators along
+/// the boundary form flat triangles with each other, which overturn at every step.
 class RegionCells {
 public:
   using Signs = SphereSigns;
   using Pull = SphericalCells::Pull;
 
-  /// \pre not the whole sphere. \throws Error as require_region().
+  /// With the far hull only. \pre not the whole sphere. \throws Error as require_region().
   explicit RegionCells(const Region& region);
+  /// For a run of so many generators.
+  RegionCells(const Region& region, const Density& density, std::int64_t generators);
 
   void move(const Points3& points);
 

@@ -36,7 +36,7 @@ private:
 Points3 spanning(const Points3& generators, const Region& meshed) {
   if (meshed.whole())
     return generators;
-  const Points3 hull = cvt_detail::hull_around(domain_detail::SphericalOutline(meshed));
+  const Points3 hull = cvt_detail::far_hull(domain_detail::SphericalOutline(meshed));
   Points3 all(3, generators.cols() + hull.cols());
   all << generators, hull;
   return all;
