@@ -137,7 +137,8 @@ Region widened(const Region& region, double distance) {
     return {};
   const Stereographic map(centre);
   Polygons wide;
-  const double offset = distance * Stereographic::scale(reach);
+  constexpr double inscribed = 1.02; // corners become polygons, here of 24 corners for a circle
+  const double offset = inscribed * distance * Stereographic::scale(reach);
   bg::buffer(polygons_of(region, map), wide,
              bg::strategy::buffer::distance_symmetric<double>(offset),
              bg::strategy::buffer::side_straight(), bg::strategy::buffer::join_round(24),

@@ -147,19 +147,20 @@ CellMoments clipped_moments(const Integrand& integrand, const SphericalOutline& 
 
 // ---- The cells of a patch
 
-/// The largest distance of a site's circumcentres, an angle, by local number; that of others is 0.
+/// The largest distance of a site's circumcentres, an angle, by local number.
 std::vector<double> reaches(const Patch& patch, const Array<Vec3>& x) {
   std::vector<double> reach(static_cast<std::size_t>(patch.owned), 0);
   for (const std::array<std::int32_t, 3>& t : patch.corners) {
     const Vec3 normal = cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]]);
-    const Vec3 centre = (1 / norm(normal)) * normal;
-    const Vec3 apart = centre - x[t[0]];
-    const double radius = 2 * std::asin(std::min(norm(apart) / 2, 1.0));
+    const Vec3 apart = (1 / norm(normal)) * normal - x[t[0]];
+    const double square = dot(apart, apart);
     for (const std::int32_t site : t)
       if (site < patch.owned)
         reach[static_cast<std::size_t>(site)] =
-            std::max(reach[static_cast<std::size_t>(site)], radius);
+            std::max(reach[static_cast<std::size_t>(site)], square);
   }
+  for (double& chord : reach)
+    chord = 2 * std::asin(std::min(std::sqrt(chord) / 2, 1.0));
   return reach;
 }
 

@@ -2,21 +2,27 @@
 #include <calotte/check.h>
 #include <calotte/cvt.h>
 #include <calotte/generators.h>
+#include <calotte/io.h>
 #include <calotte/region.h>
-#include <calotte/write.h>
 
+#include "base/points.h"
 #include "cvt/region_cells.h"
 #include "domain/spherical_outline.h"
 #include "integrals/region_moments.h"
+#include "support/files.h"
 
 #include <Eigen/Geometry>
 #include <doctest/doctest.h>
+#include <tbb/global_control.h>
 
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <utility>
 #include <vector>
 
 using namespace calotte;
+using calotte::test::Scratch;
 
 namespace {
 
@@ -27,19 +33,6 @@ Eigen::Vector3d at(double lon, double lat) {
           std::cos(lat * degree) * std::sin(lon * degree), std::sin(lat * degree)};
 }
 
-/// A regular polygon around a place, of a radius in degrees; counter-clockwise.
-Region cap(double lon, double lat, double radius, int corners = 64) {
-  const Eigen::Vector3d c = at(lon, lat), e = Eigen::Vector3d(0, 0, 1).cross(c).normalized(),
-                        n = c.cross(e);
-  Points3 ring(3, corners);
-  for (int k = 0; k < corners; ++k) {
-    const double a = 2 * std::numbers::pi * k / corners;
-    ring.col(k) = std::cos(radius * degree) * c +
-                  std::sin(radius * degree) * (std::cos(a) * e + std::sin(a) * n);
-  }
-  return {{ring}};
-}
-
 Region polygon(const std::vector<std::pair<double, double>>& corners) {
   Points3 ring(3, static_cast<Eigen::Index>(corners.size()));
   for (std::size_t k = 0; k < corners.size(); ++k)
@@ -47,6 +40,48 @@ Region polygon(const std::vector<std::pair<double, double>>& corners) {
   return {{ring}};
 }
 
+Region archipelago() {
+  Region region;
+  for (int k = 0; k < 200; ++k)
+    region.rings.push_back(
+        circle(at(6.0 * (k % 20), -30 + 6.0 * (k / 20)), (1 + 0.1 * (k % 7)) * degree, 12)
+            .rings[0]);
+  return region;
+}
+
+/// Walls of 0.2 degrees between bays.
+Region comb() {
+  std::vector<std::pair<double, double>> corners{{0, 0}, {20, 0}};
+  for (int tooth = 9; tooth >= 0; --tooth) {
+    corners.push_back({2.0 * tooth + 2, 10});
+    corners.push_back({2.0 * tooth + 0.4, 10});
+    corners.push_back({2.0 * tooth + 0.3, 1});
+    corners.push_back({2.0 * tooth + 0.2, 10});
+  }
+  corners.push_back({0, 10});
+  return polygon(corners);
+}
+
+Region with_hole() {
+  Region region = circle(at(90, 85), 25 * degree); // holds the pole
+  const Points3 hole = circle(at(0, 90), 8 * degree, 40).rings[0];
+  region.rings.push_back(hole.rowwise().reverse());
+  return region;
+}
+
+std::vector<std::pair<std::string, Region>> regions() {
+  return {{"hemisphere", circle(at(10, 20), 90 * degree)},
+          {"a degree", circle(at(10, 20), degree)},
+          {"170 degrees", circle(at(10, 20), 170 * degree)},
+          {"pole", polygon({{0, 60}, {90, 60}, {180, 60}, {-90, 60}})},
+          {"date line", polygon({{170, -10}, {-170, -12}, {-165, 15}, {172, 11}})},
+          {"bay", polygon({{0, 0}, {40, 0}, {40, 30}, {21, 30}, {20, 3}, {19, 30}, {0, 30}})},
+          {"hole", with_hole()},
+          {"comb", comb()},
+          {"archipelago", archipelago()}};
+}
+
+/// The sum of the areas of the cells, clipped by the region.
 double sum_of_cells(const Region& region, const Points3& points) {
   const domain_detail::SphericalOutline outline(region);
   cvt_detail::RegionCells cells(region);
@@ -65,62 +100,149 @@ double sum_of_cells(const Region& region, const Points3& points) {
   return sum;
 }
 
-} // namespace
+bool energies_fall(const CvtReport& report) {
+  double before = report.iterations.front().energy;
+  for (const CvtIteration& iteration : report.iterations)
+    if (iteration.accepted) {
+      if (!(iteration.energy <= before * (1 + 1e-9)))
+        return false;
+      before = iteration.energy;
+    }
+  return true;
+}
 
-TEST_CASE("region: the cells' areas sum to the region's") {
-  const std::vector<std::pair<const char*, Region>> regions = {
-      {"hemisphere", cap(10, 20, 90)},
-      {"1 degree", cap(10, 20, 1)},
-      {"170 degrees", cap(10, 20, 170)},
-      {"pole", polygon({{0, 60}, {90, 60}, {180, 60}, {-90, 60}})},
-      {"date line", polygon({{170, -10}, {-170, -12}, {-165, 15}, {172, 11}})},
-      {"bay", polygon({{0, 0}, {40, 0}, {40, 30}, {21, 30}, {20, 3}, {19, 30}, {0, 30}})}};
-  for (const auto& [name, region] : regions) {
-    CAPTURE(name);
-    const Points3 start = random_sphere(400, region);
-    const double whole = domain_detail::SphericalOutline(region).area();
-    CHECK(std::abs(sum_of_cells(region, start) / whole - 1) < 1e-12);
-    CvtOptions options;
-    options.tolerance = 1e-5;
-    const Cvt grid = spherical_cvt(start, region, options);
-    CHECK(grid.report.converged);
-    MESSAGE(name << " iterations " << grid.report.iterations.size() << " E n/A^2 "
-                 << grid.report.iterations.back().energy * 400 / whole / whole);
-    CHECK(std::abs(sum_of_cells(region, grid.mesh.points) / whole - 1) < 1e-12);
-    CHECK(check_surface(grid.mesh).failure == "");
-    const domain_detail::SphericalOutline outline(region);
-    for (Eigen::Index i = 0; i < grid.mesh.points.cols(); ++i)
-      CHECK(outline.side(base_detail::column(grid.mesh.points, i)) == domain_detail::Side::inside);
+CvtOptions graded(std::int64_t cells, int bisections) {
+  CvtOptions options;
+  options.density = tanh_bump(at(20, 40), 6 * degree, 4 * degree, 1.0 / 81);
+  options.insertion_rounds = 1;
+  options.cells = cells;
+  options.bisections = bisections;
+  options.well_centred = true;
+  options.tolerance = 3e-4;
+  return options;
+}
+
+bool equal(const Cvt& a, const Cvt& b) {
+  return a.mesh.points == b.mesh.points && a.mesh.triangles == b.mesh.triangles;
+}
+
+std::string message_of(const Points3& start, const Region& region) {
+  try {
+    spherical_cvt(start, region);
+    return "";
+  } catch (const Error& error) {
+    return error.what();
   }
 }
 
-TEST_CASE("scratch") {
-  const Region region = cap(270, 30, 12);
-  const Density density = tanh_bump(at(270, 30), 0.07, 0.06, 1.0 / 4096);
-  const std::int64_t n = 20000;
-  CvtOptions options;
-  options.density = density;
-  options.insertion_rounds = 1;
-  options.cells = n;
-  options.well_centred = true;
-  options.tolerance = 3e-4;
-  const Continuation from = multilevel(n, region, density);
-  options.bisections = from.bisections;
-  const Cvt grid = spherical_cvt(from.start, region, options);
-  MESSAGE(grid.report.converged << grid.report.well_centred << " it "
-                                << grid.report.iterations.size() << " s " << grid.report.seconds
-                                << " n " << grid.mesh.points.cols() << " mis "
-                                << grid.report.iterations.back().misshapen);
-  int rebuilt = 0;
-  double mom = 0, rep = 0, all = 0, sol = 0;
-  for (const auto& i : grid.report.iterations) {
-    rebuilt += i.rebuilt;
-    mom += i.seconds_moments;
-    rep += i.seconds_repair;
-    all += i.seconds;
-    sol += i.seconds_solver;
+} // namespace
+
+TEST_CASE("region: the cells' areas sum to the region's, and generators stay inside") {
+  for (const auto& [name, region] : regions()) {
+    CAPTURE(name);
+    const Points3 start = random_sphere(300, region);
+    const double whole = area(region);
+    CHECK(std::abs(sum_of_cells(region, start) / whole - 1) < 1e-12);
+    CvtOptions options;
+    options.max_iterations = 25;
+    const Cvt grid = spherical_cvt(start, region, options);
+    CHECK(grid.mesh.points.cols() == 300);
+    CHECK(std::abs(sum_of_cells(region, grid.mesh.points) / whole - 1) < 1e-12);
+    CHECK(check_surface(grid.mesh).failure == "");
+    CHECK(energies_fall(grid.report));
+    const auto inside = containing(region);
+    for (Eigen::Index i = 0; i < grid.mesh.points.cols(); ++i)
+      CHECK(inside(grid.mesh.points.col(i)));
   }
-  MESSAGE("rebuilt " << rebuilt << " mom " << mom << " rep " << rep << " all " << all << " sol "
-                     << sol);
-  write("/tmp/w/region.vtp", grid.mesh);
+}
+
+TEST_CASE("region: a pure CVT converges near the limit of hexagons") {
+  const Region region = circle(at(10, 20), 30 * degree);
+  CvtOptions options;
+  options.tolerance = 1e-6;
+  const Cvt grid = spherical_cvt(random_sphere(300, region), region, options);
+  CHECK(grid.report.converged);
+  const double whole = area(region), hexagons = 5 / (18 * std::sqrt(3.0)) * whole * whole / 300,
+               energy = grid.report.iterations.back().energy;
+  CHECK(energy > 0.99 * hexagons); // the limit holds for flat cells
+  CHECK(energy < 1.05 * hexagons);
+}
+
+TEST_CASE("region: uniform density by closed forms and by quadrature") {
+  const Region region = circle(at(200, -70), 5 * degree);
+  const Points3 start = random_sphere(200, region);
+  CvtOptions options;
+  options.norm = Norm::none;
+  options.max_iterations = 1;
+  options.method = Method::lloyd;
+  const Cvt exact = spherical_cvt(start, region, options);
+  options.density.kind = Density::Kind::callable;
+  options.density.callable = [](const Eigen::Ref<const Points3>&, Eigen::Ref<Eigen::VectorXd> rho) {
+    rho.setOnes();
+  };
+  options.rule = options.final_rule = 19;
+  const Cvt ruled = spherical_cvt(start, region, options);
+  CHECK((exact.mesh.points - ruled.mesh.points).cwiseAbs().maxCoeff() < 1e-11);
+}
+
+TEST_CASE("region: a graded grid has the same bits for all threads and regions, and resumes [slow]") {
+  const Region region = circle(at(20, 40), 14 * degree);
+  const Continuation from = multilevel(1500, region, graded(1500, 0).density);
+  const auto with = [&](std::size_t threads, int regions) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    CvtOptions options = graded(1500, from.bisections);
+    options.partition.regions = regions;
+    return spherical_cvt(from.start, region, options);
+  };
+  const Cvt one = with(1, 1);
+  CHECK(one.mesh.points.cols() == 1500);
+  CHECK(one.report.converged);
+  CHECK(one.report.well_centred);
+  CHECK(equal(one, with(2, 12)));
+  CHECK(equal(one, with(4, 42)));
+  const Scratch scratch;
+  std::vector<CvtState> states;
+  const CvtOptions options = graded(1500, from.bisections);
+  spherical_cvt(from.start, region, options, [&](const CvtProgress& now) {
+    states.push_back(now.state);
+    return false;
+  });
+  for (std::size_t k = 5; k < states.size(); k += states.size() / 4) {
+    write_checkpoint(scratch / "run.ckpt", states[k], "same");
+    CHECK(equal(spherical_cvt(read_checkpoint(scratch / "run.ckpt", "same"), region, options),
+                one));
+  }
+}
+
+TEST_CASE("region: a wider one holds all places within the distance") {
+  for (const auto& [name, region] : regions()) {
+    if (name == "170 degrees" || name == "hemisphere")
+      continue;
+    CAPTURE(name);
+    const Region wide = widened(region, 3 * degree);
+    REQUIRE(!wide.whole());
+    CHECK(area(wide) > area(region));
+    const auto inside = containing(wide);
+    for (const Points3& ring : region.rings)
+      for (Eigen::Index k = 0; k < ring.cols(); ++k)
+        for (int a = 0; a < 8; ++a) {
+          const Eigen::Vector3d x = ring.col(k).normalized(), east = x.unitOrthogonal(),
+                                north = x.cross(east);
+          const double angle = a * std::numbers::pi / 4;
+          CHECK(inside(std::cos(3 * degree) * x +
+                       std::sin(3 * degree) * (std::cos(angle) * east + std::sin(angle) * north)));
+        }
+  }
+  CHECK(widened(circle(at(0, 0), 170 * degree), 0.1).whole());
+  CHECK_THROWS_AS(widened(circle(at(0, 0), 1), -1), Error);
+}
+
+TEST_CASE("region: bad input is an error") {
+  const Region region = circle(at(0, 0), 10 * degree);
+  Points3 start = random_sphere(20, region);
+  start.col(7) = at(90, 0);
+  CHECK(message_of(start, region).find("generator 7 is outside the region") == 0);
+  CHECK(message_of(random_sphere(3, region), region).find("at least 4") != std::string::npos);
+  CHECK(message_of(start, Region{{region.rings[0].leftCols(2)}}).find("corners") !=
+        std::string::npos);
 }
