@@ -3,7 +3,9 @@
 #include "support/files.h"
 #include "support/global_file.h"
 
+#include <calotte/check_file.h>
 #include <calotte/cut.h>
+#include <calotte/cvt.h>
 #include <calotte/delaunay.h>
 #include <calotte/domain.h>
 #include <calotte/generators.h>
@@ -130,6 +132,35 @@ void check_cut(const std::string& source, const std::string& target, double angl
   check_attributes(pair, radius);
   check_graph(pair.after, std::filesystem::path(target).replace_extension(".graph.info"));
   check_none(target);
+}
+
+using Place = std::pair<double, double>;
+
+/// The neighbours of each cell, all by longitude and latitude.
+std::map<Place, std::set<Place>> neighbours_of(const Contents& file) {
+  const auto place = [&](int i) {
+    return Place{file.at("lonCell", static_cast<std::size_t>(i)),
+                 file.at("latCell", static_cast<std::size_t>(i))};
+  };
+  std::map<Place, std::set<Place>> neighbours;
+  for (std::size_t i = 0; i < file.dimensions.at("nCells"); ++i)
+    for (std::size_t k = 0; k < static_cast<std::size_t>(file.at("nEdgesOnCell", i)); ++k)
+      if (const int other = file.id("cellsOnCell", i, k); other >= 0)
+        neighbours[place(static_cast<int>(i))].insert(place(other));
+  return neighbours;
+}
+
+/// The least mask of the cells at each edge or vertex is its own.
+void check_least_masks(const Contents& file, const Kind& kind, const std::string& cells_on) {
+  int wrong = 0;
+  for (std::size_t i = 0; i < file.dimensions.at(kind.dimension); ++i) {
+    double least = 100;
+    for (std::size_t k = 0; k < file.variables.at(cells_on).width(); ++k)
+      if (const int cell = file.id(cells_on, i, k); cell >= 0)
+        least = std::min(least, file.at("bdyMaskCell", static_cast<std::size_t>(cell)));
+    wrong += file.at("bdyMask" + kind.name, i) != least;
+  }
+  CHECK(wrong == 0);
 }
 
 CutOptions history() {
@@ -299,4 +330,40 @@ TEST_CASE("a cancelled run leaves no file") {
   const Error error = error_of([&] { cut(source, target, within(0.5), options); });
   CHECK(error.code() == ErrorCode::cancelled);
   CHECK(scratch.files() == files);
+}
+
+TEST_CASE("a grid made in a region keeps all rules, and is that cut from a global mesh") {
+  const Scratch scratch;
+  const Region region = circle(centre, 0.14), meshed = widened(region, 11 * 0.012);
+  CvtOptions options;
+  options.max_iterations = 60;
+  const Points3 generators =
+      spherical_cvt(random_sphere(1900, meshed), meshed, options).mesh.points;
+  const std::string made = scratch / "made.nc", global = scratch / "global.nc",
+                    cut_out = scratch / "cut.nc";
+  write_limited_area(made, generators, meshed, region);
+  const Contents file = contents_of(made);
+  const std::vector<int> distance = distances(file, flags_of(file, containing(region)));
+  for (std::size_t i = 0; i < distance.size(); ++i)
+    REQUIRE(file.at("bdyMaskCell", i) == distance[i]);
+  CHECK(*std::max_element(distance.begin(), distance.end()) == 7);
+  check_least_masks(file, kinds[1], "cellsOnEdge");
+  check_least_masks(file, kinds[2], "cellsOnVertex");
+  check_boundary(file);
+  check_graph(file, scratch / "made.graph.info");
+  check_none(made);
+  for (std::size_t e = 0; e < file.dimensions.at("nEdges"); ++e)
+    CHECK(file.at("dvEdge", e) < 0.02); // whole cells, none that reaches beyond the meshed region
+  Points3 all(3, generators.cols() + 300);
+  all.leftCols(generators.cols()) = generators;
+  const Region far = widened(meshed, 0.1);
+  Eigen::Index next = generators.cols();
+  const Points3 others = random_sphere(400, 7);
+  for (const auto& x : others.colwise())
+    if (next < all.cols() && !contains(far, x))
+      all.col(next++) = x;
+  write(global, spherical_delaunay(Points3(all.leftCols(next))));
+  cut(global, cut_out, region);
+  CHECK((neighbours_of(file) == neighbours_of(contents_of(cut_out))));
+  CHECK(!std::filesystem::exists(made + ".whole.nc"));
 }
