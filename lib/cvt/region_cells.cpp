@@ -54,10 +54,12 @@ private:
   double integral_;
 };
 
-/// Places outside the boundary, at four spacings from it and about two from each other.
+/// Places outside the boundary, at some spacings from it, and at half of that from each other.
 class Row {
 public:
-  Row(const SphericalOutline& outline, const Demand& demand) : outline_(outline), demand_(demand) {}
+  /// \param spacings distance from the boundary.
+  Row(const SphericalOutline& outline, const Demand& demand, double spacings)
+      : outline_(outline), demand_(demand), spacings_(spacings) {}
 
   std::vector<Vec3> places() {
     const auto& edges = outline_.edges();
@@ -71,11 +73,9 @@ public:
   }
 
 private:
-  static constexpr double widest = 0.1; ///< radians; beyond, the far hull suffices
+  static constexpr double farthest = 0.4; ///< radians; beyond, the far hull suffices
 
-  static bool same(const Vec3& a, const Vec3& b) {
-    return a.x == b.x && a.y == b.y && a.z == b.z;
-  }
+  static bool same(const Vec3& a, const Vec3& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
   static Vec3 left_of(const SphericalOutline::Edge& edge) {
     const Vec3 left = cross(edge.from, edge.to);
     return (1 / norm(left)) * left;
@@ -87,7 +87,7 @@ private:
     double at = next_ - since_;
     for (; at < length; at += next_) {
       const Vec3 x = std::cos(at) * edge.from + std::sin(at) * along;
-      next_ = std::min(2 * demand_.spacing(x), widest);
+      next_ = std::min(spacings_ / 2 * demand_.spacing(x), farthest);
       add(x, left);
       since_ = -at;
     }
@@ -95,8 +95,8 @@ private:
   }
 
   void add(const Vec3& x, const Vec3& left) {
-    const double distance = 4 * demand_.spacing(x);
-    if (!(distance < 4 * widest))
+    const double distance = spacings_ * demand_.spacing(x);
+    if (!(distance < farthest))
       return;
     const Vec3 place = std::cos(distance) * x - (std::sin(distance) / norm(left)) * left;
     bool near = outline_.side(place) != Side::outside;
@@ -108,22 +108,29 @@ private:
 
   const SphericalOutline& outline_;
   const Demand& demand_;
+  double spacings_;
   double since_ = 0, next_ = 0;
   std::vector<Vec3> places_;
 };
 
+} // namespace
+
 Points3 hull_of(const SphericalOutline& outline, const Density& density, std::int64_t generators) {
-  const Points3 far = far_hull(outline);
+  constexpr double nearest = 4; // spacings
   const Demand demand(outline, density, generators);
-  const std::vector<Vec3> row = Row(outline, demand).places();
-  Points3 hull(3, far.cols() + std::ssize(row));
+  std::vector<Vec3> places;
+  std::vector<Vec3> row = Row(outline, demand, nearest).places();
+  for (double spacings = 2 * nearest; !row.empty(); spacings *= 2) {
+    places.insert(places.end(), row.begin(), row.end());
+    row = Row(outline, demand, spacings).places();
+  }
+  const Points3 far = far_hull(outline);
+  Points3 hull(3, far.cols() + std::ssize(places));
   hull.leftCols(far.cols()) = far;
-  for (std::size_t k = 0; k < row.size(); ++k)
-    set_column(hull, far.cols() + static_cast<Eigen::Index>(k), row[k]);
+  for (std::size_t k = 0; k < places.size(); ++k)
+    set_column(hull, far.cols() + static_cast<Eigen::Index>(k), places[k]);
   return hull;
 }
-
-} // namespace
 
 RegionCells::RegionCells(const Region& region, const Density& density, std::int64_t generators)
     : outline_(std::make_shared<const SphericalOutline>(region)),

@@ -26,12 +26,16 @@ namespace calotte::cvt_detail {
 /// over the region, they leave no hemisphere empty.
 Points3 far_hull(const SphericalOutline& outline);
 
+/// The same, and rows of places along the boundary, at 4, 8, 16, ... times the spacing that a
+/// density demands of so many generators there. All then have few neighbours.
+Points3 hull_of(const SphericalOutline& outline, const Density& density, std::int64_t generators);
+
 /// The cells of generators in a region of the sphere, with the functions of SphericalCells.
 ///
-/// Generators are unit columns. Further places follow them, outside the region: the hull, which does
-/// not move. All generators then have closed stars, and the region clips their cells. The hull is
-/// the far one and a row of places four cells outside the boundary: without these, generators along
-/// the boundary form flat triangles with each other, which overturn at every step.
+/// Generators are unit columns. Further places follow them, outside the region: the hull, which
+/// does not move. All generators then have closed stars, and the region clips their cells. The hull
+/// is that of hull_of(): with the far hull only, generators along the boundary form flat triangles
+/// with each other, which overturn at every step.
 class RegionCells {
 public:
   using Signs = SphereSigns;

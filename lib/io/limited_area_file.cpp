@@ -33,10 +33,11 @@ private:
 };
 
 /// The generators, and places far from their region, so that no hemisphere is empty.
-Points3 spanning(const Points3& generators, const Region& meshed) {
+Points3 spanning(const Points3& generators, const Region& meshed, const Density& density) {
   if (meshed.whole())
     return generators;
-  const Points3 hull = cvt_detail::far_hull(domain_detail::SphericalOutline(meshed));
+  const Points3 hull =
+      cvt_detail::hull_of(domain_detail::SphericalOutline(meshed), density, generators.cols());
   Points3 all(3, generators.cols() + hull.cols());
   all << generators, hull;
   return all;
@@ -51,7 +52,7 @@ CutReport write_limited_area(const std::string& target, const Points3& generator
   WriteOptions mpas = written;
   mpas.format = Format::mpas;
   mpas.sphere_radius = 1;
-  write(whole.path(), spherical_delaunay(spanning(generators, meshed)), mpas);
+  write(whole.path(), spherical_delaunay(spanning(generators, meshed, written.density)), mpas);
   return cut(whole.path(), target, region, options);
 }
 
