@@ -66,7 +66,7 @@ public:
     for (std::size_t e = 0; e < edges.size(); ++e) {
       const Vec3 left = left_of(edges[e]);
       if (e > 0 && same(edges[e - 1].to, edges[e].from))
-        add(edges[e].from, left + left_of(edges[e - 1])); // the gap at a convex corner
+        add_corner(edges[e].from, left_of(edges[e - 1]), left);
       walk(edges[e], left);
     }
     return std::move(places_);
@@ -79,6 +79,13 @@ private:
   static Vec3 left_of(const SphericalOutline::Edge& edge) {
     const Vec3 left = cross(edge.from, edge.to);
     return (1 / norm(left)) * left;
+  }
+
+  /// Fills the gap at a convex corner.
+  void add_corner(const Vec3& x, const Vec3& before, const Vec3& after) {
+    constexpr double slight = 0.88; // cosine of half a radian
+    if (dot(before, after) < slight)
+      add(x, before + after);
   }
 
   void walk(const SphericalOutline::Edge& edge, const Vec3& left) {
