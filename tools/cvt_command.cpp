@@ -91,9 +91,14 @@ void require_request(const CvtRequest& request) {
     require_plane(request, options);
   require_region_format(request, options);
   const WidthWords& widths = request.density->widths;
-  const std::vector<std::string> inputs{
-      request.points, centres_file(*request.partition),  widths.file,
-      widths.raster,  request.domain->file.value_or(""), *request.config};
+  const bool shape = request.region.find('=') != std::string::npos;
+  const std::vector<std::string> inputs{request.points,
+                                        centres_file(*request.partition),
+                                        widths.file,
+                                        widths.raster,
+                                        request.domain->file.value_or(""),
+                                        *request.config,
+                                        shape ? "" : request.region};
   require_outputs({{"mesh", request.mesh},
                    {"graph of the mesh", graph_of(request.mesh, options.format)},
                    {"report", request.report},

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 // The part of a tessellation that an open mesh has, in the numbering of its file. Places of
@@ -100,6 +99,7 @@ void place_vertices(Points3 stored, Voronoi& out) {
 /// their lengths; programs that compute these anew take the middle of the vertices. \returns the
 /// places of the edges that were kept; NaN for others.
 Points3 cut_edges(const Voronoi& part, double radius, Deviations& deviations) {
+  constexpr double halves_agree = 1e-5; // the edge is half way to the missing cell
   const std::int64_t edges = part.cells_on_edge.cols();
   Points3 places = stored_places(mpas_edge, edges, part.on_sphere, deviations);
   if (places.cols() == 0 || !deviations.has("dcEdge", {edges}))
@@ -107,11 +107,9 @@ Points3 cut_edges(const Voronoi& part, double radius, Deviations& deviations) {
   const std::vector<double> lengths = deviations.file().doubles("dcEdge", {edges});
   for (std::int64_t e = 0; e < edges; ++e) {
     const double dc = lengths[static_cast<std::size_t>(e)] / radius,
-                 dv = norm(column(part.vertices, part.vertices_on_edge(0, e)) -
-                           column(part.vertices, part.vertices_on_edge(1, e))),
-                 way = norm(column(places, e) - column(part.cells, part.cells_on_edge(0, e)));
-    if (part.cells_on_edge(1, e) >= 0 ||
-        !(std::abs(dc - 2 * way) < std::abs(dc - std::numbers::sqrt3 * dv)))
+                 chord = norm(column(places, e) - column(part.cells, part.cells_on_edge(0, e))),
+                 way = part.on_sphere ? 2 * std::asin(std::min(chord / 2, 1.0)) : chord;
+    if (part.cells_on_edge(1, e) >= 0 || !(std::abs(dc - 2 * way) < halves_agree * dc))
       places.col(e).setConstant(std::numeric_limits<double>::quiet_NaN());
   }
   return places;

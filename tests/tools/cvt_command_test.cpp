@@ -967,3 +967,39 @@ TEST_CASE("the options of a graded run are checked") {
   refused("--cells 100 --stop well-centered", "--stop");
   refused("--cells 100 --stop well-centred --iterations 3", "--stop");
 }
+
+TEST_CASE("a limited-area grid in one command, the same after a resumption") {
+  const Bench bench;
+  const std::string grid = "cvt --region circle=10,50,500km --cell-width 60km --limited-area -o ";
+  const Outcome made = bench.run(grid + "a.nc --checkpoint a.state --checkpoint-every 30");
+  CAPTURE(made.err);
+  REQUIRE(made.code == 0);
+  CHECK(has(made.out, " in the region and "));
+  CHECK(has(bench.run("check a.nc").out, "Delaunay        yes, every edge"));
+  CHECK(fs::exists(bench.folder() / "a.graph.info"));
+  CHECK(!fs::exists(bench.folder() / "a.nc.whole.nc"));
+  CHECK(bench.run("cvt --resume a.state -o b.nc").code == 0);
+  CHECK(bench.file("a.graph.info") == bench.file("b.graph.info"));
+  CHECK(bench.run("cvt --region circle=10,50,500km --cell-width 60km -o c.vtp").code == 0);
+  CHECK(has(bench.run("check c.vtp").out, "Delaunay        yes, every edge"));
+}
+
+TEST_CASE("the options of a region are checked before any work") {
+  const Bench bench;
+  const std::string region = "cvt --region circle=10,50,500km ";
+  check_refusal_naming(bench, "cvt --cell-width 60km --limited-area -o a.nc", 2,
+                       "--limited-area requires a region; give --region");
+  check_refusal_naming(bench, region + "--cells 500 --limited-area -o a.nc", 2,
+                       "--limited-area requires cell widths");
+  check_refusal_naming(bench, region + "--cell-width 60km --limited-area -o a.vtp", 2,
+                       "a.vtp: a limited-area grid is an MPAS file");
+  check_refusal_naming(bench, region + "--cell-width 60km -o a.nc", 2,
+                       "open along the region's boundary; give --limited-area");
+  check_refusal_naming(bench, region + "--cells 500 --rectangle 0,0,1,1 -o a.vtp", 2,
+                       "--region applies to the sphere only");
+  check_refusal_naming(bench, region + "--cells 500 --start fibonacci -o a.vtp", 2,
+                       "applies to the whole sphere only");
+  check_refusal_naming(bench, "cvt --region no.geojson --cells 500 -o a.vtp", 3, "no.geojson");
+  check_refusal_naming(bench, "cvt --region circle=10,50,3km --cell-width 60km -o a.vtp", 2,
+                       "the widths require 0 cells");
+}
