@@ -213,7 +213,8 @@ Page page_of(const Look& look, bool with_legend, const MapWindow& window) {
   page.width = look.size;
   page.text = std::clamp(look.size / (disk ? 46.0 : 56.0), 7.0, 40.0);
   page.labelled = look.size >= 280;
-  const double margin = page.labelled ? 3.2 * page.text : page.text;
+  const double letters = window.whole() ? 3.2 : 3.8; // "120°W" beside an enlarged map
+  const double margin = page.labelled ? letters * page.text : page.text;
   const double part = page.labelled && look.graticule ? 0.435 : 0.465; // latitudes are beside it
   page.map = disk ? map_size(look.projection, 2 * static_cast<int>(part * look.size))
                   : map_size(look.projection, static_cast<int>(look.size - 2 * margin));
