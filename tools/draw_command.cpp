@@ -9,15 +9,19 @@
 #include "help/help.h"
 #include "options/coastlines_option.h"
 #include "options/files.h"
+#include "options/region_option.h"
 
 #include <calotte/error.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 
 namespace calotte::tools {
 
 namespace {
+
+constexpr const char* limited_area_mask_name = "bdyMaskCell";
 
 void draw_reports(const DrawArguments& arguments) {
   std::vector<History> histories;
@@ -81,14 +85,41 @@ void draw_planar_mesh(const DrawArguments& arguments) {
 }
 
 /// A field of the file, read with the cells.
-CellField field_of(const DrawArguments& arguments, const MeshFile& file, std::int64_t cells) {
-  const std::string& name = arguments.options.field_name;
+CellField field_of(const DrawOptions& options, const std::string& path, const MeshFile& file,
+                   std::int64_t cells) {
+  const std::string& name = options.field_name;
   for (const MeshField& field : file.fields) {
     if (field.name == name && field.location == Location::cells && field.values.size() == cells) {
       return {field.values, field.long_name, field.units};
     }
   }
-  return read_cell_field(arguments.source->path, name, cells);
+  return read_cell_field(path, name, cells);
+}
+
+/// Sets the region whose boundary is drawn, if one is given.
+void set_region(const DrawArguments& arguments, std::optional<double> radius_km, Look& look) {
+  if (!arguments.region.empty()) {
+    look.region = region_of(arguments.region, radius_km.value_or(earth_radius_km));
+  }
+}
+
+bool shows_field(const DrawOptions& options) {
+  return options.colouring == Colouring::field || options.colouring == Colouring::region;
+}
+
+/// The cells of a limited-area grid show its zones, unless another colouring is given.
+void choose_colouring(const DrawArguments& arguments, const MeshFile& file, DrawOptions& options) {
+  const auto is_mask = [](const MeshField& field) {
+    return field.name == limited_area_mask_name && field.location == Location::cells &&
+           field.values.size() > 0 && field.values.maxCoeff() > 0;
+  };
+  if (arguments.colour->count() == 0 && options.shapes != Shapes::triangles && file.mesh &&
+      !file.mesh->closed() && std::any_of(file.fields.begin(), file.fields.end(), is_mask)) {
+    options.colouring = Colouring::region;
+  }
+  if (options.colouring == Colouring::region) {
+    options.field_name = limited_area_mask_name;
+  }
 }
 
 /// The options of a picture of a file's mesh.
@@ -99,6 +130,8 @@ DrawOptions options_for(const DrawArguments& arguments, const MeshFile& file) {
     options.radius_km = arguments.density->widths.radius;
   options.name = file_name(*arguments.source);
   options.look.coastlines = shows_coastlines(arguments.coastlines, options.radius_km);
+  set_region(arguments, options.radius_km, options.look);
+  choose_colouring(arguments, file, options);
   return options;
 }
 
@@ -112,8 +145,8 @@ void draw_cells(const DrawArguments& arguments, const MeshFile& file) {
     throw Error(ErrorCode::bad_option, not_voronoi + "; draw them with --what cells");
   }
   DrawOptions options = options_for(arguments, file);
-  if (options.colouring == Colouring::field) {
-    options.field = field_of(arguments, file, cells.size());
+  if (shows_field(options)) {
+    options.field = field_of(options, arguments.source->path, file, cells.size());
   }
   draw(arguments.output, cells, options);
   std::cout << changes_of(*arguments.source, file) << arguments.output << ": picture of "
@@ -142,7 +175,10 @@ void draw_mesh(const DrawArguments& arguments) {
     return;
   }
   const Mesh& mesh = *file.mesh;
-  if (options.colouring == Colouring::field) {
+  if (file.polygons && file.polygons->size() == mesh.points.cols()) {
+    options.cells = &*file.polygons;
+  }
+  if (shows_field(options)) {
     options.field = read_field(arguments.source->path, options.field_name, mesh);
   }
   if (arguments.spacing_law) {
@@ -201,6 +237,7 @@ void draw_density(const DrawArguments& arguments) {
   const WidthWords& widths = arguments.density->widths;
   look.coastlines = shows_coastlines(arguments.coastlines,
                                      widths.in_km() ? std::optional(widths.radius) : std::nullopt);
+  set_region(arguments, widths.in_km() ? std::optional(widths.radius) : std::nullopt, look);
   draw(arguments.output, field_of(arguments), look);
   std::cout << arguments.output << ": picture of a density\n";
 }
@@ -226,8 +263,8 @@ void add_draw(CLI::App& app) {
                                                  "law of a mesh, or the convergence of CVT runs.");
   const std::shared_ptr<DrawArguments> arguments = add_draw_options(*command);
   set_help(*command, {.common = {"MESH", "--output", "--what", "--colour", "--projection", "--view",
-                                 "--graticule", "--size", "--density", "--cell-width", "--history",
-                                 "--spacing-law", "--plane"},
+                                 "--zoom", "--graticule", "--region", "--size", "--density",
+                                 "--cell-width", "--history", "--spacing-law", "--plane"},
                       .examples = {"calotte draw mesh.nc -o globe.png --what cells --view 285,38",
                                    "calotte draw --history report.json -o convergence.png"}});
   command->callback([arguments] { run(*arguments); });

@@ -68,16 +68,18 @@ constexpr const char* field_prefix = "field:";
 /// --colour: a word, or field:NAME.
 void add_colour(CLI::App& command, DrawArguments& arguments) {
   static const std::map<std::string, Colouring> words = {
-      {"spacing", Colouring::spacing}, {"angle", Colouring::angle}, {"valence", Colouring::valence},
-      {"degree", Colouring::valence},  {"area", Colouring::area},   {"quality", Colouring::quality},
-      {"density", Colouring::density}, {"none", Colouring::none}};
+      {"spacing", Colouring::spacing}, {"angle", Colouring::angle},
+      {"valence", Colouring::valence}, {"degree", Colouring::valence},
+      {"area", Colouring::area},       {"quality", Colouring::quality},
+      {"density", Colouring::density}, {"region", Colouring::region},
+      {"none", Colouring::none}};
   const auto check = [](const std::string& text) -> std::string {
     const bool field = text.starts_with(field_prefix) && text != field_prefix;
     return field || words.contains(text)
                ? ""
                : "\"" + text +
                      "\" is not one of spacing, angle, valence (or degree), "
-                     "area, quality, density, field:NAME, none";
+                     "area, quality, density, region, field:NAME, none";
   };
   DrawOptions& options = arguments.options;
   const auto choose = [&options](const std::string& text) {
@@ -91,14 +93,42 @@ void add_colour(CLI::App& command, DrawArguments& arguments) {
           .add_option_function<std::string>(
               "--colour,--color", choose,
               "Quantity that determines the colour: spacing, angle, valence (or degree), area, "
-              "quality, density, none or field:NAME. spacing is the mean distance to the "
+              "quality, density, region, none or field:NAME. spacing is the mean distance to the "
               "neighbours, angle the smallest angle, valence the number of neighbours; quality of "
               "a cell is its shortest side over the longest, of a triangle 1 if equilateral; "
-              "density is that of --density; field:NAME is a variable of a NetCDF mesh with one "
-              "number for each cell")
+              "density is that of --density; region shows the region, relaxation and specified "
+              "zone of "
+              "a limited-area grid (bdyMaskCell), and is the default for its cells; field:NAME is "
+              "a "
+              "variable of a NetCDF mesh with one number for each cell")
           ->check(check)
           ->type_name("WORD")
           ->default_str("spacing");
+}
+
+/// --zoom: auto, whole or a number.
+void add_zoom(CLI::App& command, std::optional<double>& zoom) {
+  const auto choose = [&zoom](const std::string& word) {
+    double number = 1;
+    std::string_view rest = word;
+    if (word == "auto") {
+      zoom.reset();
+    } else if (word == "whole" ||
+               (take_number(rest, number) && rest.empty() && number >= 1 && number <= most_zoom)) {
+      zoom = number;
+    } else {
+      throw Error(ErrorCode::bad_option, "--zoom " + word +
+                                             " is no enlargement; give auto, whole or a number "
+                                             "from 1 to 2000, as in --zoom 5");
+    }
+  };
+  command
+      .add_option_function<std::string>(
+          "--zoom", choose,
+          "Enlargement of the map: auto, whole or a number from 1 to 2000. auto: an open mesh that "
+          "covers a small part of the map fills the picture; whole, or 1: the whole map")
+      ->type_name("WORD")
+      ->default_str("auto");
 }
 
 void add_look(CLI::App& command, DrawArguments& arguments) {
@@ -113,9 +143,18 @@ void add_look(CLI::App& command, DrawArguments& arguments) {
       .add_option_function<std::string>(
           "--view", look_from,
           "Centre of the map in degrees; latitude from -90 to 90. Default of globe: 15,25, or the "
-          "centre of an open mesh. plate-carree uses only the longitude; default: 0")
+          "centre of an open mesh. plate-carree uses the latitude only where enlarged; default: "
+          "0,0")
       ->type_name("LON,LAT");
-  command.add_flag("--graticule", look.graticule, "Draw meridians and parallels every 30 degrees");
+  add_zoom(command, look.zoom);
+  command.add_flag("--graticule", look.graticule,
+                   "Draw meridians and parallels: every 30 degrees, or closer on an enlarged map");
+  command
+      .add_option(
+          "--region", arguments.region,
+          "Draw the boundary of a region: circle=LON,LAT,RADIUS, ellipse=..., channel=... or "
+          "a file; see calotte help region")
+      ->type_name("REGION");
   add_coastlines(command, arguments.coastlines);
   command.add_option("--size", look.size, "Width in pixels (points in SVG and PDF), 64 to 16384")
       ->check(CLI::Range(64, 16384))
@@ -152,8 +191,8 @@ void add_plots(CLI::App& command, DrawArguments& arguments) {
   CLI::Option* law = command.add_flag(
       "--spacing-law", arguments.spacing_law,
       "Draw the spacings of the cells against those that --density prescribes, instead of a map");
-  for (const char* name :
-       {"--projection", "--view", "--graticule", "--coastlines", "--what", "--colour"}) {
+  for (const char* name : {"--projection", "--view", "--zoom", "--graticule", "--region",
+                           "--coastlines", "--what", "--colour"}) {
     law->excludes(command.get_option(name));
     history->excludes(command.get_option(name));
   }
@@ -173,8 +212,8 @@ void add_plane_options(CLI::App& command, DrawArguments& arguments) {
   for (const char* name : {"--domain", "--rectangle", "--periodic"}) {
     command.get_option(name)->needs(plane);
   }
-  for (const char* name :
-       {"--projection", "--view", "--graticule", "--coastlines", "--spacing-law", "--history"}) {
+  for (const char* name : {"--projection", "--view", "--zoom", "--graticule", "--region",
+                           "--coastlines", "--spacing-law", "--history"}) {
     plane->excludes(command.get_option(name));
   }
 }

@@ -25,6 +25,7 @@ struct DrawArguments {
   std::string output;
   DrawOptions options;
   std::optional<bool> coastlines;   ///< as asked for
+  std::string region;               ///< whose boundary is drawn, as asked for
   std::vector<std::string> reports; ///< drawn instead of a mesh
   bool spacing_law = false;
   std::shared_ptr<DomainWords> domain; ///< with --plane

@@ -7,23 +7,17 @@
 #include "options/mesh_source.h"
 #include "options/sphere_radius_option.h"
 #include "options/units_option.h"
+#include "run/mesh_measures.h"
 #include "run/progress.h"
-#include "run/shapes.h"
 
 #include <calotte/check.h>
 #include <calotte/error.h>
+#include <calotte/limited_area.h>
 #include <calotte/mesh_file.h>
 #include <calotte/quality.h>
 
-#include <nlohmann/json.hpp>
-
-#include <algorithm>
-#include <array>
-#include <iomanip>
 #include <iostream>
-#include <numbers>
 #include <optional>
-#include <sstream>
 
 namespace calotte::tools {
 namespace {
@@ -36,175 +30,6 @@ struct Request {
   std::optional<std::string> units;    ///< --units
   std::string report;
 };
-
-/// The quality of a mesh, and the area of its domain.
-struct Measured {
-  Quality quality;
-  std::optional<double> domain_area; ///< of a plane
-  std::optional<double> radius_km;   ///< of the sphere, if known
-  Unit unit;                         ///< of distances on it
-  std::string density = "uniform";   ///< its name
-  bool cells = true; ///< false for a mesh without Voronoi cells: its triangles alone are measured
-  std::vector<std::string> changes; ///< that reading made
-  std::vector<std::string> remarks; ///< about the mesh, one line each
-};
-
-Range scaled(const Range& range, double factor) {
-  return {range.min * factor, range.mean * factor, range.max * factor};
-}
-
-double ratio(const Range& range) { return range.max / range.min; }
-
-nlohmann::ordered_json to_json(const Range& range) {
-  return {{"min", range.min}, {"mean", range.mean}, {"max", range.max}};
-}
-
-nlohmann::ordered_json to_json(const Percentiles& values) {
-  return {{"min", values.min}, {"p1", values.p1},   {"p5", values.p5},  {"p50", values.p50},
-          {"p95", values.p95}, {"p99", values.p99}, {"max", values.max}};
-}
-
-void add_cells(const Quality& quality, nlohmann::ordered_json& json) {
-  json["sigma"] = to_json(quality.sigma);
-  json["cell_quality"] = to_json(quality.cell_quality);
-  json["cell_area"] = to_json(quality.cell_area);
-  json["area_ratio"] = ratio(quality.cell_area);
-  json["off_centring"] = to_json(quality.off_centring);
-  json["dv_over_dc"] = to_json(quality.dv_over_dc);
-  json["short_voronoi_edges"] = quality.short_edges;
-  json["residual"] = quality.residual;
-  json["energy"] = quality.energy;
-  json["energy_times_cells"] = quality.energy * static_cast<double>(quality.cells);
-  json["limit"] = quality.limit;
-  json["excess"] = quality.excess;
-  json["dc_over_h"] = to_json(quality.dc_over_h);
-  json["unfit_edges"] = quality.unfit_edges;
-  json["bad_cells"] = quality.bad_cells;
-  json["bad_spacing"] = to_json(quality.bad_spacing);
-  json["cells_area"] = quality.cells_area;
-}
-
-std::string to_json(const Measured& measured) {
-  const Quality& quality = measured.quality;
-  nlohmann::ordered_json json;
-  if (!measured.changes.empty())
-    json["changes"] = measured.changes;
-  if (!measured.remarks.empty())
-    json["remarks"] = measured.remarks;
-  json["cells"] = quality.cells;
-  json["triangles"] = quality.triangles;
-  json["degrees"] = nlohmann::ordered_json::object();
-  for (std::size_t degree = 0; degree < quality.degrees.size(); ++degree)
-    if (quality.degrees[degree] > 0)
-      json["degrees"][std::to_string(degree)] = quality.degrees[degree];
-  json["obtuse"] = quality.obtuse;
-  json["spacing"] = to_json(quality.spacing);
-  json["triangle_quality"] = to_json(quality.triangle_quality);
-  json["angles"] = to_json(quality.angles);
-  if (measured.radius_km) {
-    json["radius_km"] = *measured.radius_km;
-    json["spacing_km"] = to_json(scaled(quality.spacing, *measured.radius_km));
-    json["least_dc_km"] = quality.spacing.min * *measured.radius_km;
-  }
-  if (measured.cells) {
-    json["density"] = measured.density;
-    add_cells(quality, json);
-  }
-  if (measured.domain_area)
-    json["domain_area"] = *measured.domain_area;
-  else
-    json["triangles_area"] = quality.triangles_area;
-  return json.dump(2) + "\n";
-}
-
-std::string degrees(const Quality& quality) {
-  std::string list;
-  for (std::size_t degree = 0; degree < quality.degrees.size(); ++degree)
-    if (quality.degrees[degree] > 0)
-      list += (list.empty() ? "" : ", ") + std::to_string(degree) + ": " +
-              std::to_string(quality.degrees[degree]);
-  return list;
-}
-
-/// Aligned rows of names and values.
-class Table {
-public:
-  template <class Value> void row(const std::string& name, const Value& value, int digits = 6) {
-    out_ << std::left << std::setw(22) << name << std::setprecision(digits) << value << "\n";
-  }
-  template <class Value>
-  void row(const std::string& name, const Value& min, const Value& mean, const Value& max) {
-    out_ << std::left << std::setw(22) << name << std::setprecision(6) << std::setw(14) << min
-         << std::setw(14) << mean << max << "\n";
-  }
-  void row(const std::string& name, const Range& range) {
-    row(name, range.min, range.mean, range.max);
-  }
-  /// Two lines: the names of the percentiles, and their values.
-  void row(const std::string& name, const Percentiles& values) {
-    line<std::string>("", {"min", "1%", "5%", "50%", "95%", "99%", "max"});
-    line<double>(
-        name, {values.min, values.p1, values.p5, values.p50, values.p95, values.p99, values.max});
-  }
-  std::string text() const { return out_.str(); }
-
-private:
-  template <class Value> void line(const std::string& name, const std::array<Value, 7>& values) {
-    out_ << std::left << std::setw(22) << name << std::setprecision(4);
-    for (std::size_t k = 0; k < values.size(); ++k)
-      out_ << std::setw(k + 1 < values.size() ? 11 : 0) << values[k];
-    out_ << "\n";
-  }
-
-  std::ostringstream out_;
-};
-
-void add_cell_rows(const Measured& measured, Table& table) {
-  const Quality& quality = measured.quality;
-  const bool plane = measured.domain_area.has_value();
-  const double area = measured.domain_area.value_or(1);
-  table.row("sigma", quality.sigma);
-  table.row("cell quality", quality.cell_quality);
-  table.row(plane ? "cell area" : "cell area, " + measured.unit.area,
-            scaled(quality.cell_area, measured.unit.of_steradian));
-  table.row("off-centring", quality.off_centring);
-  table.row("dv / dc", quality.dv_over_dc);
-  table.row("area ratio", ratio(quality.cell_area));
-  table.row("dv / dc below 0.2", quality.short_edges);
-  table.row("density", measured.density);
-  table.row("residual / h", quality.residual);
-  table.row("energy", quality.energy, 7);
-  table.row(plane ? "energy * cells / A^2" : "energy * cells",
-            quality.energy * static_cast<double>(quality.cells) / (area * area), 7);
-  table.row("its limit", quality.limit / (area * area), 7);
-  table.row("excess, percent", 100 * quality.excess, 4);
-  table.row("dc / h", quality.dc_over_h);
-  table.row("outside 0.75 to 1.4", quality.unfit_edges);
-  table.row("cells to object to", quality.bad_cells);
-  if (quality.bad_cells > 0)
-    table.row("their spacing", scaled(quality.bad_spacing, measured.unit.of_radian));
-  table.row(plane ? "cells / domain" : "cells / 4 pi", quality.cells_area, 15);
-}
-
-std::string table(const Measured& measured) {
-  const Quality& quality = measured.quality;
-  const bool plane = measured.domain_area.has_value();
-  Table table;
-  table.row("cells", quality.cells);
-  table.row("triangles", quality.triangles);
-  table.row("degree: cells", degrees(quality));
-  table.row<std::string>("", "min", "mean", "max");
-  table.row(plane ? "spacing" : "spacing, " + measured.unit.name,
-            scaled(quality.spacing, measured.unit.of_radian));
-  table.row("triangle quality", quality.triangle_quality);
-  table.row("angles, degrees", quality.angles);
-  table.row("obtuse triangles", quality.obtuse);
-  if (measured.cells)
-    add_cell_rows(measured, table);
-  if (!plane)
-    table.row("triangles / 4 pi", quality.triangles_area, 15);
-  return table.text();
-}
 
 /// The report replaces no input.
 void require_report(const Request& request) {
@@ -249,27 +74,50 @@ Density density_of(const Request& request, const MeshFile& file, Measured& measu
   return interpolated_density(*file.mesh, file.density);
 }
 
-/// Whether a mesh has Voronoi cells that cover the sphere; if not, a remark tells why.
-bool has_voronoi_cells(const Mesh& mesh, Measured& measured) {
-  const EdgeCounts edges = count_edges(mesh);
-  if (edges.boundary > 0)
-    measured.remarks.push_back("the mesh is open: " + std::to_string(edges.boundary) +
-                               " boundary edges in " + std::to_string(edges.loops) +
-                               (edges.loops == 1 ? " loop" : " loops") +
-                               "; its triangles are measured");
+/// Finds the boundary and whether a mesh has Voronoi cells; remarks tell why cells are left out.
+void find_boundary(const EdgeCounts& edges, Measured& measured) {
+  measured.cells = edges.not_delaunay == 0;
+  if (edges.boundary > 0) {
+    measured.open = edges;
+    measured.remarks.push_back(
+        "the mesh is open: " + std::to_string(edges.boundary) + " boundary edges in " +
+        std::to_string(edges.loops) + (edges.loops == 1 ? " loop" : " loops") + "; its triangles" +
+        (measured.cells ? " and whole cells are measured" : " are measured"));
+  }
   if (edges.not_delaunay > 0)
     measured.remarks.push_back(std::to_string(edges.not_delaunay) +
                                " edges are not Delaunay; the triangles are measured");
-  return edges.boundary == 0 && edges.not_delaunay == 0;
+}
+
+/// The cells by bdyMaskCell; none if the file does not have it.
+std::vector<std::int64_t> masks_of(const std::string& path, std::int64_t cells) {
+  std::vector<std::int64_t> counts;
+  if (!is_netcdf_file(path))
+    return counts;
+  try {
+    for (const double mask : read_cell_field(path, "bdyMaskCell", cells).values) {
+      if (!(mask >= 0 && mask <= limited_area_rings))
+        return {};
+      counts.resize(limited_area_rings + 1);
+      ++counts[static_cast<std::size_t>(mask)];
+    }
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::bad_option) // no such variable
+      throw;
+  }
+  return counts;
 }
 
 void measure_sphere(const Request& request, const MeshFile& file, Measured& measured) {
   const Mesh& mesh = *file.mesh;
   measured.radius_km = radius_of(request, file);
   measured.unit = unit_of(request.units, measured.radius_km);
-  measured.cells = has_voronoi_cells(mesh, measured);
-  measured.quality =
-      measured.cells ? quality(mesh, density_of(request, file, measured)) : triangle_quality(mesh);
+  find_boundary(count_edges(mesh), measured);
+  if (measured.open)
+    measured.masks = masks_of(request.source->path, mesh.points.cols());
+  measured.quality = !measured.cells ? triangle_quality(mesh)
+                     : measured.open ? open_quality(mesh)
+                                     : quality(mesh, density_of(request, file, measured));
 }
 
 void measure_plane(const Request& request, const MeshFile& file, Measured& measured) {
@@ -277,42 +125,6 @@ void measure_plane(const Request& request, const MeshFile& file, Measured& measu
   measured.density = density_name(*request.density);
   measured.quality = quality(*file.plane, domain, density_of(*request.density, true));
   measured.domain_area = area(domain);
-}
-
-/// Polygons that are not Voronoi cells: their number of sides and their areas.
-std::string table(const Polygons& polygons, const std::optional<Mesh>& mesh, const Unit& unit) {
-  const Eigen::VectorXd area = areas(polygons);
-  std::vector<std::int64_t> sides;
-  for (std::int64_t i = 0; i < polygons.size(); ++i) {
-    const auto count = static_cast<std::size_t>(polygons.begin[i + 1] - polygons.begin[i]);
-    sides.resize(std::max(sides.size(), count + 1));
-    ++sides[count];
-  }
-  Quality counts;
-  counts.degrees = sides;
-  Table table;
-  table.row("cells", polygons.size());
-  table.row("corners", polygons.corners.cols());
-  table.row("sides: cells", degrees(counts));
-  table.row<std::string>("", "min", "mean", "max");
-  table.row("cell area, " + unit.area,
-            scaled({area.minCoeff(), area.mean(), area.maxCoeff()}, unit.of_steradian));
-  table.row("cells / 4 pi", area.sum() / (4 * std::numbers::pi), 15);
-  return table.text() + shape_rows(polygons, mesh, 22);
-}
-
-std::string to_json(const Polygons& polygons, const std::optional<Mesh>& mesh,
-                    const Measured& measured) {
-  const Eigen::VectorXd area = areas(polygons);
-  nlohmann::ordered_json json;
-  json["changes"] = measured.changes;
-  json["remarks"] = measured.remarks;
-  json["cells"] = polygons.size();
-  json["corners"] = polygons.corners.cols();
-  json["cell_area"] = to_json(Range{area.minCoeff(), area.mean(), area.maxCoeff()});
-  json["cells_area"] = area.sum() / (4 * std::numbers::pi);
-  add_shapes(polygons, mesh, json);
-  return json.dump(2) + "\n";
 }
 
 std::string remarks_of(const Request& request, const Measured& measured) {
@@ -367,7 +179,7 @@ void run(const Request& request) {
 
 void add_info(CLI::App& app) {
   CLI::App* command =
-      app.add_subcommand("info", "Measures a closed mesh or a planar mesh: spacing, quality of "
+      app.add_subcommand("info", "Measures a mesh of the sphere or the plane: spacing, quality of "
                                  "cells and triangles, and distance from a CVT.");
   auto request = std::make_shared<Request>();
   request->source = add_mesh_source(*command);

@@ -105,6 +105,16 @@ Quality quality(const Mesh& mesh, const Density& density = {});
 /// \throws Error bad_option, for a mesh that fails check_surface().
 Quality triangle_quality(const Mesh& mesh);
 
+/// Measures an open Delaunay triangulation, such as that of a limited-area grid: what
+/// triangle_quality() measures, and the Voronoi cells as far as triangles surround them. Edges of
+/// two triangles have dv_over_dc, off_centring and short_edges. Sites with a closed ring of
+/// triangles have sigma, cell_quality, cell_area, bad_cells (by short edges and obtuse triangles
+/// alone) and bad_spacing; cells_area is the sum of their areas.
+/// \pre no edge but those whose opposite sites are cocircular fails to be Delaunay: see
+///      count_edges().
+/// \throws Error bad_option, for a mesh that fails check_surface().
+Quality open_quality(const Mesh& mesh);
+
 /// Measures a mesh of generators in a planar domain. Lengths and areas are in the domain's unit, h
 /// = sqrt(area / n), cells_area is divided by the domain's area, and triangles_area is 0. The
 /// domain clips the cells. cell_area, residual and energy include all cells; sigma, cell_quality,

@@ -14,6 +14,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -134,6 +135,68 @@ std::vector<std::int64_t> inner_degrees(const Mesh& mesh) {
   return inner.degrees;
 }
 
+// ---- Open meshes
+
+/// The sides of a cell, as far as triangles surround it.
+struct Sides {
+  Tally arcs, voronoi; ///< lengths of its Delaunay and Voronoi edges
+  double area = 0;
+  bool open = false;
+  bool bad = false; ///< has a short side, or the centre of an obtuse triangle as a corner
+};
+
+/// The part of a triangle that is nearer to one end of a side than to its other vertices, on that
+/// side's side of the circumcentre; signed (see Shape::delta).
+double half_kite(double side, double delta) {
+  return 2 * std::atan(std::tan(side / 4) * std::tan(delta / 2));
+}
+
+void add_side(const Mesh& mesh, const Shapes& shapes, std::int64_t t, int v,
+              std::vector<Sides>& cells) {
+  const std::int32_t other = mesh.neighbours(v, t);
+  const auto& [angle, side, delta] = shapes[t];
+  const auto corner = static_cast<std::size_t>(v);
+  std::optional<Edge> edge;
+  if (other > t) {
+    const int w = mesh.neighbours(0, other) == t ? 0 : mesh.neighbours(1, other) == t ? 1 : 2;
+    edge = edge_of(shapes, t, v, other, w);
+  }
+  for (const int end : {next_vertex(v), previous_vertex(v)}) {
+    Sides& cell = cells[static_cast<std::size_t>(mesh.triangles(end, t))];
+    cell.area += half_kite(side[corner], delta[corner]);
+    cell.open = cell.open || other < 0;
+    cell.bad = cell.bad || is_obtuse(shapes[t]) || (edge && is_short(*edge));
+    if (edge) {
+      cell.arcs.add(edge->arc);
+      cell.voronoi.add(edge->voronoi);
+    }
+  }
+}
+
+/// Measures the cells that triangles surround.
+void add_whole_cells(const Mesh& mesh, const Shapes& shapes, Quality& result) {
+  std::vector<Sides> cells(static_cast<std::size_t>(mesh.points.cols()));
+  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
+    for (int v = 0; v < 3; ++v)
+      add_side(mesh, shapes, t, v, cells);
+  Tally sigma, quality, area, bad;
+  for (const Sides& cell : cells) {
+    if (cell.open || cell.arcs.count == 0)
+      continue;
+    sigma.add(cell.arcs.min / cell.arcs.max);
+    quality.add(cell.voronoi.min / cell.voronoi.max);
+    area.add(cell.area);
+    if (cell.bad)
+      bad.add(cell.arcs.sum / static_cast<double>(cell.arcs.count));
+  }
+  result.sigma = sigma.range();
+  result.cell_quality = quality.range();
+  result.cell_area = area.range();
+  result.bad_cells = bad.count;
+  result.bad_spacing = bad.range();
+  result.cells_area = area.sum / (4 * pi);
+}
+
 Quality measure(const Mesh& mesh, const Density& density) {
   const MomentPart moments = add_moments(mesh, density);
   if (const std::int64_t i = moments.without_centroid; i >= 0)
@@ -168,21 +231,35 @@ Quality quality(const Mesh& mesh, const Density& density) {
   return result;
 }
 
-Quality triangle_quality(const Mesh& mesh) {
-  using namespace quality_detail;
+namespace quality_detail {
+namespace {
+
+/// \param cells whether the Voronoi cells are measured, too.
+Quality measure_open(const Mesh& mesh, bool cells) {
   const Check found = check_surface(mesh);
   if (!found.passed())
     throw Error(ErrorCode::bad_option, "the triangles do not form a surface: " + found.failure +
                                            "; triangulate the points anew");
   const Mesh unit = with_unit_columns(mesh);
-  Quality result =
-      measure_shapes({unit.triangles, unit.neighbours, {}, make_shapes(unit), {}, {}, {}}, 0);
-  result.off_centring = result.dv_over_dc = {};
-  result.short_edges = 0;
+  const Subject subject{unit.triangles, unit.neighbours, {}, make_shapes(unit), {}, {}, {}};
+  Quality result = measure_shapes(subject, 0);
+  if (cells) {
+    add_whole_cells(unit, subject.shapes, result);
+  } else {
+    result.off_centring = result.dv_over_dc = {};
+    result.short_edges = 0;
+  }
   result.cells = mesh.points.cols();
   result.degrees = inner_degrees(mesh);
   result.triangles_area = found.area / (4 * pi);
   return result;
 }
+
+} // namespace
+} // namespace quality_detail
+
+Quality triangle_quality(const Mesh& mesh) { return quality_detail::measure_open(mesh, false); }
+
+Quality open_quality(const Mesh& mesh) { return quality_detail::measure_open(mesh, true); }
 
 } // namespace calotte

@@ -7,6 +7,7 @@
 #include <calotte/cell_width.h>
 #include <calotte/delaunay.h>
 #include <calotte/generators.h>
+#include <calotte/voronoi.h>
 
 #include <doctest/doctest.h>
 #include <tbb/global_control.h>
@@ -244,4 +245,34 @@ TEST_CASE("an open mesh has no limit, and no cells to object to") {
   CHECK(q.dc_over_h.max == 0);
   CHECK(q.dv_over_dc.max == 0);
   CHECK(q.short_edges + q.unfit_edges + q.bad_cells == 0);
+}
+
+TEST_CASE("a closed mesh without one triangle has the cells of the closed one, but three") {
+  const Mesh closed = spherical_delaunay(random_sphere(300, 7));
+  Mesh open = closed;
+  const Eigen::Index last = open.triangles.cols() - 1;
+  for (const std::int32_t other : closed.neighbours.col(last))
+    for (int v = 0; v < 3; ++v)
+      if (open.neighbours(v, other) == last)
+        open.neighbours(v, other) = -1;
+  open.triangles.conservativeResize(3, last);
+  open.neighbours.conservativeResize(3, last);
+  const Voronoi cells = voronoi(closed);
+  const CellFields fields = cell_fields(cells);
+  double area = 0, least_area = 1, least_quality = 1;
+  for (Eigen::Index i = 0; i < closed.points.cols(); ++i) {
+    if ((closed.triangles.col(last).array() == i).any())
+      continue;
+    area += fields.area[i] / (4 * pi);
+    least_area = std::min(least_area, fields.area[i]);
+    least_quality = std::min(least_quality, fields.quality[i]);
+  }
+  const Quality q = open_quality(open);
+  CHECK(q.cells == 300);
+  CHECK(q.cells_area == doctest::Approx(area).epsilon(1e-12));
+  CHECK(q.cell_area.min == doctest::Approx(least_area).epsilon(1e-11));
+  CHECK(q.cell_quality.min == doctest::Approx(least_quality).epsilon(1e-9));
+  CHECK(q.dv_over_dc.max > 0.5);
+  CHECK(q.residual == 0);
+  CHECK(triangle_quality(open).bad_cells == 0);
 }

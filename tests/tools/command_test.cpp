@@ -5,9 +5,11 @@
 #include <calotte/io.h>
 
 #include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <filesystem>
+#include <numeric>
 #include <string>
 
 #include <sys/stat.h>
@@ -103,9 +105,8 @@ TEST_CASE("bad usage is refused before any work") {
   check_usage("delaunay -o mesh.vtp", "--points is required; see calotte delaunay --help");
   check_usage("delaunay never -o mesh.vtp --report mesh.vtp",
               "mesh.vtp is both mesh and report; give the report another name");
-  check_usage(
-      "",
-      "delaunay, cvt, plan, points, check, info, draw, convert or cut is required; see calotte --help");
+  check_usage("", "delaunay, cvt, plan, points, check, info, draw, convert or cut is required; see "
+                  "calotte --help");
   check_usage("triangulate", "unknown command triangulate; see calotte --help");
   check_usage("check mesh.tri",
               "mesh.tri holds triangles only; give the points they refer to (--points FILE)");
@@ -368,15 +369,38 @@ TEST_CASE("info converts distances to km where a radius is known") {
                 "--sphere-radius -1 is not a positive number; give one such as 6371229, in metres");
 }
 
-TEST_CASE("info measures the triangles of an open mesh, and refuses a report in its place") {
+TEST_CASE("info counts the cells of a limited-area grid by their masks, and measures whole ones") {
+  const Bench bench;
+  REQUIRE(
+      bench.run("cvt --region circle=0,90,900km --cell-width 150km --limited-area -o a.nc").code ==
+      0);
+  const Outcome info = bench.run("info a.nc --sphere-radius earth --report report.json");
+  CAPTURE(info.out);
+  CHECK(info.code == 0);
+  CHECK(info.out.find("\n  relaxation, 1 to 5  ") != std::string::npos);
+  CHECK(info.out.find("\nboundary loops        1\n") != std::string::npos);
+  CHECK(info.out.find("\ndv / dc ") != std::string::npos);
+  CHECK(info.out.find("\nspacing, km ") != std::string::npos);
+  const auto report = nlohmann::json::parse(bench.file("report.json"));
+  const auto masks = report["cells_by_mask"].get<std::vector<int>>();
+  CHECK(masks.size() == 8);
+  CHECK(std::accumulate(masks.begin(), masks.end(), 0) == report["cells"]);
+  CHECK(report["cells_inside"] == masks[0]);
+  CHECK(report["cells_specified"] == masks[6] + masks[7]);
+  CHECK(report["whole_cells"] < report["cells"]);
+  CHECK(report["dv_over_dc"]["mean"] == doctest::Approx(0.577).epsilon(0.05));
+}
+
+TEST_CASE("info measures an open mesh, and refuses a report in its place") {
   const Bench bench;
   bench.file("points.txt", "0 0 1\n1 0 1\n0 1 1\n-1 -1 1\n");
   CHECK(bench.run("delaunay points.txt -o mesh.vtp").code == 0);
   const Outcome open = bench.run("info mesh.vtp --report report.json");
   CHECK(open.code == 0);
-  CHECK(open.out.starts_with(
-      "mesh.vtp: the mesh is open: 3 boundary edges in 1 loop; its triangles are measured\n"));
-  CHECK(contents(bench.folder() / "report.json").find("\"cell_area\"") == std::string::npos);
+  CHECK(open.out.starts_with("mesh.vtp: the mesh is open: 3 boundary edges in 1 loop; its "
+                             "triangles and whole cells are measured\n"));
+  CHECK(bench.file("report.json").find("\"whole_cells\": 1,") != std::string::npos);
+  CHECK(bench.file("report.json").find("\"residual\"") == std::string::npos);
   check_refusal(bench, "info mesh.vtp --report mesh.vtp", 2,
                 "mesh.vtp is both input and output; give the output another name");
   check_refusal(bench, "info mesh.vtp --report absent/report.json", 3,

@@ -57,11 +57,11 @@ TEST_CASE("the options of one picture are refused for another, before anything i
   check_usage(
       "a.vtp -o a.png --colour blue",
       "--colour: \"blue\" is not one of spacing, angle, valence (or degree), area, quality, "
-      "density, field:NAME, none");
+      "density, region, field:NAME, none");
   check_usage(
       "a.vtp -o a.png --colour field:",
       "--colour: \"field:\" is not one of spacing, angle, valence (or degree), area, quality, "
-      "density, field:NAME, none");
+      "density, region, field:NAME, none");
   check_usage("-o a.png --density uniform --what cells", "--what: MESH is required");
   check_usage("a.vtp -o a.png --spacing-law --density uniform --view 1,2",
               "--view excludes --spacing-law");
@@ -179,6 +179,41 @@ TEST_CASE("a mesh file's variables colour its cells; an unknown one names those 
   CHECK(unknown.err.find("areaCell") != std::string::npos);
   CHECK(unknown.err.find("areaTriangle") == std::string::npos);
   check_refusal_naming(bench, "draw a.vtp -o b.png --colour field:area", 2, "a.vtp");
+}
+
+TEST_CASE("a limited-area grid fills the picture and shows its zones") {
+  const Bench bench;
+  const std::string circle = "--region circle=179,-18,900km";
+  REQUIRE(bench.run("cvt " + circle + " --cell-width 150km --limited-area -o a.nc").code == 0);
+  const auto picture = [&](const std::string& options) {
+    const Outcome outcome = bench.run("draw a.nc -o a.png --size 300 " + options);
+    CAPTURE(outcome.err);
+    REQUIRE(outcome.code == 0);
+    return bench.file("a.png");
+  };
+  for (const std::string map : {"", " --projection plate-carree"}) {
+    const std::string zones = picture("--what cells" + map);
+    CHECK(zones == picture("--what cells --colour region --zoom auto" + map));
+    CHECK(zones != picture("--what cells --colour spacing" + map));
+    CHECK(zones != picture("--what cells " + circle + map));
+    const std::string whole = picture("--what cells --zoom whole" + map);
+    CHECK(zones != whole);
+    CHECK(whole == picture("--what cells --zoom 1" + map));
+    CHECK(whole != picture("--what cells --zoom 2" + map));
+    CHECK(picture(map) == picture("--colour spacing" + map)); // triangles
+  }
+  for (const std::string zoom : {"0.5", "3000", "2x", "globe"}) {
+    check_refusal(bench, "draw a.nc -o b.png --zoom " + zoom, 2,
+                  "--zoom " + zoom +
+                      " is no enlargement; give auto, whole or a number from 1 to 2000, as in "
+                      "--zoom 5");
+  }
+  check_refusal_naming(bench, "draw a.nc -o b.png --region circle=1,2", 2, "--region");
+  make_run(bench, "b");
+  check_refusal_naming(bench, "draw b.vtp -o b.png --colour region", 2, "b.vtp");
+  REQUIRE(bench.run("draw b.vtp -o b.png --size 200").code == 0);
+  REQUIRE(bench.run("draw b.vtp -o c.png --size 200 --zoom whole").code == 0);
+  CHECK(bench.file("b.png") == bench.file("c.png"));
 }
 
 TEST_CASE("a file that is no report is named, and nothing is written") {

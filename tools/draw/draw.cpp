@@ -11,6 +11,7 @@
 #include "draw/title.h"
 #include "draw/values.h"
 #include "draw/vector.h"
+#include "draw/view.h"
 
 #include <calotte/error.h>
 #include <calotte/generators.h>
@@ -82,6 +83,8 @@ std::string caption_of(const DrawOptions& options, double mean, bool plane) {
     return "density over its greatest at a site" + corners;
   case Colouring::field:
     return field_caption(options) + corners;
+  case Colouring::region:
+    return "bdyMaskCell: in the region 0, relaxation zone 1 to 5, specified zone 6 and 7";
   case Colouring::none:
     break;
   }
@@ -101,8 +104,14 @@ double mean_of(const std::vector<double>& values) {
 }
 
 std::vector<ValenceClass> classes_of(const Painting& painting) {
-  return painting.scale.colouring == Colouring::valence ? valence_classes(painting.values)
-                                                        : std::vector<ValenceClass>();
+  switch (painting.scale.colouring) {
+  case Colouring::valence:
+    return valence_classes(painting.values);
+  case Colouring::region:
+    return mask_classes(painting.values);
+  default:
+    return {};
+  }
 }
 
 } // namespace
@@ -135,7 +144,7 @@ namespace {
 
 /// The values per site of the colourings that have such values.
 Eigen::VectorXd by_site(const Mesh& mesh, const DrawOptions& options) {
-  if (options.colouring == Colouring::field) {
+  if (options.colouring == Colouring::field || options.colouring == Colouring::region) {
     require_field(options, mesh.points.cols());
     return options.field.values;
   }
@@ -155,24 +164,34 @@ Eigen::VectorXd by_site(const Mesh& mesh, const DrawOptions& options) {
   return rho / greatest;
 }
 
-/// Fills in defaults of the view.
-Look seen(const Look& look, const LonLat& middle) {
-  Look result = look;
-  if (look.projection == Projection::plate_carree) {
-    result.view = {look.view.value_or(LonLat{}).longitude, 0};
-  } else {
-    result.view = look.view.value_or(middle);
+constexpr LonLat usual_middle = {15, 25};
+
+View view_of(const DrawOptions& options, const Mesh& mesh) {
+  if (!has_boundary(mesh)) {
+    return view_of(options.look, usual_middle);
   }
-  return result;
+  const bool cells = options.cells != nullptr && options.shapes != Shapes::triangles;
+  return view_around(options.look, middle(mesh), cells ? options.cells->corners : mesh.points);
 }
 
-Look seen(const Look& look, const Mesh& mesh) {
-  return seen(look, has_boundary(mesh) ? middle(mesh) : LonLat{15, 25});
+/// The look with the view that is drawn.
+Look seen(Look look, const View& view) {
+  look.view = view.middle;
+  return look;
+}
+
+/// \throws Error bad_option unless there is a cell for each site.
+void require_cells(const DrawOptions& options, const Mesh& mesh) {
+  if (options.cells != nullptr && options.cells->size() != mesh.points.cols()) {
+    throw Error(ErrorCode::bad_option, "there are " + std::to_string(options.cells->size()) +
+                                           " cells for " + std::to_string(mesh.points.cols()) +
+                                           " sites; give the cells of the mesh");
+  }
 }
 
 Painting make_painting(const Mesh& mesh, const DrawOptions& options, const LonLat& view) {
   Painting painting;
-  painting.scene = make_scene(mesh, options.shapes, view);
+  painting.scene = make_scene(mesh, options.shapes, view, options.cells);
   painting.values = values_of(painting.scene, options.colouring, by_site(mesh, options));
   painting.widths = widths_of(painting.scene, painting.scene.shapes);
   if (options.shapes == Shapes::both) {
@@ -194,6 +213,7 @@ std::vector<double> values_of(const Polygons& polygons, const DrawOptions& optio
   case Colouring::area:
     return by_cell(areas(polygons));
   case Colouring::field:
+  case Colouring::region:
     require_field(options, polygons.size());
     return by_cell(options.field.values);
   case Colouring::valence:
@@ -219,29 +239,26 @@ MapSize image_size(cairo_t* context, const MapSize& map) {
   return {scale * map.width, scale * map.height};
 }
 
-void paint_mesh(cairo_t* context, const Page& page, const Painting& painting, Projection projection,
-                bool paths) {
+void paint_mesh(cairo_t* context, const Page& page, const Painting& painting,
+                const MapWindow& window, bool paths) {
   if (paths) {
-    vector_map(context, painting, projection, page.map.width);
+    vector_map(context, painting, window, page.map.width);
   } else {
-    paint_image(context, page.map, raster_map(painting, projection, image_size(context, page.map)));
+    paint_image(context, page.map, raster_map(painting, window, image_size(context, page.map)));
   }
-  draw_markers(context, painting, projection, page.map.width, marker_radius(page));
+  draw_markers(context, painting, window, page.map.width, marker_radius(page));
 }
 
-} // namespace
-
-namespace {
-
 void draw_painting(const std::string& path, Painting& painting, const DrawOptions& options,
-                   const Look& look, const std::string& title) {
+                   const View& view, const std::string& title) {
   const Legend legend = make_legend(painting, options);
-  const Page page = page_of(look, options.colouring != Colouring::none);
+  const Look look = seen(options.look, view);
+  const Page page = page_of(look, options.colouring != Colouring::none, view.window);
   const bool paths = picture_format(path) != PictureFormat::png &&
-                     visible_shapes(painting, look.projection) <= most_paths;
+                     visible_shapes(painting, view.window) <= most_paths;
   write_picture(path, page.width, page.height, [&](cairo_t* context) {
-    draw_page(context, page, {look, painting.scene.frame, title, legend},
-              [&] { paint_mesh(context, page, painting, look.projection, paths); });
+    draw_page(context, page, {look, painting.scene.frame, title, legend, view.window},
+              [&] { paint_mesh(context, page, painting, view.window, paths); });
   });
 }
 
@@ -249,9 +266,10 @@ void draw_painting(const std::string& path, Painting& painting, const DrawOption
 
 void draw(const std::string& path, const Mesh& mesh, const DrawOptions& options) {
   require_picture(path, options.look.size);
-  const Look look = seen(options.look, mesh);
-  Painting painting = make_painting(mesh, options, *look.view);
-  draw_painting(path, painting, options, look, title_of(painting.scene, options));
+  require_cells(options, mesh);
+  const View view = view_of(options, mesh);
+  Painting painting = make_painting(mesh, options, view.middle);
+  draw_painting(path, painting, options, view, title_of(painting.scene, options));
 }
 
 void draw(const std::string& path, const Polygons& polygons, const DrawOptions& asked) {
@@ -261,9 +279,9 @@ void draw(const std::string& path, const Polygons& polygons, const DrawOptions& 
   if (options.colouring == Colouring::spacing) {
     options.colouring = Colouring::area;
   }
-  const Look look = seen(options.look, LonLat{15, 25});
+  const View view = view_around(options.look, usual_middle, polygons.corners);
   Painting painting;
-  painting.scene = make_scene(polygons, *look.view);
+  painting.scene = make_scene(polygons, view.middle);
   painting.values = values_of(polygons, options);
   painting.widths = widths_of(painting.scene, Shapes::cells);
   if (options.colouring == Colouring::valence) {
@@ -271,22 +289,24 @@ void draw(const std::string& path, const Polygons& polygons, const DrawOptions& 
   }
   const std::string title = mesh_title(options, grouped(polygons.size()) + " cells", "width",
                                        {painting.widths.begin(), painting.widths.end()});
-  draw_painting(path, painting, options, look, title);
+  draw_painting(path, painting, options, view, title);
 }
 
 void draw(const std::string& path, const SphereField& field, const Look& asked) {
   require_picture(path, asked.size);
-  const Look look = seen(asked, LonLat{15, 25});
+  const View view = view_of(asked, usual_middle);
+  const Look look = seen(asked, view);
   const Eigen::VectorXd samples = field.values(fibonacci_sphere(field_samples));
   const Scale scale =
       make_scale({samples.data(), samples.data() + samples.size()}, Colouring::density);
-  const FieldPainting painting = {field.values, scale, frame_of(*look.view)};
-  const Page page = page_of(look, true);
+  const FieldPainting painting = {field.values, scale, frame_of(view.middle)};
+  const Page page = page_of(look, true, view.window);
+  const Legend legend = {scale, {}, field.caption};
   write_picture(path, page.width, page.height, [&](cairo_t* context) {
-    draw_page(context, page,
-              {look, painting.frame, unmarked(field.title), {scale, {}, field.caption}}, [&] {
+    draw_page(context, page, {look, painting.frame, unmarked(field.title), legend, view.window},
+              [&] {
                 paint_image(context, page.map,
-                            raster_map(painting, look.projection, image_size(context, page.map)));
+                            raster_map(painting, view.window, image_size(context, page.map)));
               });
   });
 }

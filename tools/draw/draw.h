@@ -4,6 +4,7 @@
 #include <calotte/density.h>
 #include <calotte/domain.h>
 #include <calotte/mesh_file.h>
+#include <calotte/region.h>
 #include <calotte/types.h>
 
 #include <functional>
@@ -20,7 +21,8 @@ enum class Projection {
 /// The shapes that a picture shows.
 enum class Shapes {
   triangles, ///< the Delaunay triangles
-  cells,     ///< the Voronoi cells; cells without bound at an open boundary are omitted
+  cells,     ///< the Voronoi cells; cells without bound at an open boundary are omitted,
+             ///< unless DrawOptions::cells gives their shapes
   both,      ///< the cells, with the triangles' edges on top
 };
 
@@ -34,6 +36,7 @@ enum class Colouring {
   quality, ///< shortest over longest side of a cell, closed meshes only; Quality::triangle_quality
   density, ///< DrawOptions::density, divided by its maximum over the sites
   field,   ///< DrawOptions::field
+  region,  ///< DrawOptions::field as bdyMaskCell: inside, relaxation, specified zone
   none,
 };
 
@@ -43,12 +46,18 @@ struct LonLat {
   double latitude = 0;
 };
 
+inline constexpr double most_zoom = 2000;
+
 /// The style of a picture of the sphere.
 struct Look {
   Projection projection = Projection::globe;
   /// Centre of the view of the globe, default 15 E 25 N or the middle of an open mesh; for plate
-  /// carree the central longitude, default 0.
+  /// carree the central longitude, default 0, and, where enlarged, the latitude.
   std::optional<LonLat> view = {};
+  /// Enlargement of the map, 1 (all of it) to most_zoom. Default: 1, or for an open mesh that
+  /// covers a small part of the map as much as lets it fill the picture.
+  std::optional<double> zoom = {};
+  Region region = {};     ///< whose boundary is drawn; the whole sphere for none
   bool graticule = false; ///< faint meridians and parallels, labelled
   bool coastlines = true; ///< of the earth
   int size = 1200;        ///< width in pixels; in points for SVG and PDF. 64 to 16384
@@ -63,6 +72,8 @@ struct DrawOptions {
   std::string field_name = {};          ///< for the legend
   std::string name = {};                ///< of the mesh, such as its file's, for the title
   std::optional<double> radius_km = {}; ///< of the sphere; without it lengths are in degrees
+  /// The cells of an open mesh, one for each site, if known: also those at the boundary are drawn.
+  const Polygons* cells = nullptr;
 };
 
 /// Draws a mesh of the sphere with a legend and a title: name, number of cells, range of spacing.

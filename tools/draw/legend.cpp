@@ -225,7 +225,7 @@ std::string constant_text(const Scale& scale) {
 
 void draw_legend(cairo_t* context, const Legend& legend, double page_width, double top,
                  double text) {
-  if (legend.scale.colouring == Colouring::valence) {
+  if (has_classes(legend.scale.colouring)) {
     class_legend(context, legend.classes, page_width, top, text);
   } else {
     const Bar bar = {0.19 * page_width, top, 0.62 * page_width, 0.9 * text};

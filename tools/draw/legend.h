@@ -17,7 +17,7 @@ inline constexpr Rgb map_border_colour = {0.45, 0.48, 0.52}; ///< and the legend
 /// The meaning of the colours.
 struct Legend {
   Scale scale;
-  std::vector<ValenceClass> classes = {}; ///< of Colouring::valence
+  std::vector<ValenceClass> classes = {}; ///< where has_classes()
   std::string caption = {};
 };
 

@@ -28,11 +28,12 @@ void dot(cairo_t* context, const Place& at, double radius, const Rgb& colour) {
 }
 
 template <class Map>
-void draw_dots(cairo_t* context, const Painting& painting, double scale, double area,
-               double radius) {
+void draw_dots(cairo_t* context, const Painting& painting, const MapWindow& window, double scale,
+               double area, double radius) {
   std::vector<const Marker*> small;
   for (const Marker& marker : painting.markers) {
-    if (marker.width * scale < 2 * radius && Map::shows_some({marker.place})) {
+    if (marker.width * scale < 2 * radius && Map::shows_some({marker.place}) &&
+        Map::may_show({marker.place}, window)) {
       small.push_back(&marker);
     }
   }
@@ -64,22 +65,25 @@ std::vector<Marker> markers_of(const Scene& scene, const std::vector<double>& va
   return markers;
 }
 
-void draw_markers(cairo_t* context, const Painting& painting, Projection projection, double width,
+void draw_markers(cairo_t* context, const Painting& painting, const MapWindow& window, double width,
                   double radius) {
   cairo_save(context);
-  add_border(context, projection, width);
+  add_border(context, window, width);
   cairo_clip(context);
-  const bool globe = projection == Projection::globe;
-  const double area = width * width * (globe ? std::numbers::pi / 4 : 0.5);
-  with_map(projection, [&]<class Map>() {
-    draw_dots<Map>(context, painting, width / (2 * Map::half_width), area, radius);
+  const bool disk = window.projection == Projection::globe && window.whole();
+  const bool square = window.projection == Projection::globe && !disk;
+  const double area = width * width * (disk ? std::numbers::pi / 4 : square ? 1 : 0.5);
+  with_map(window.projection, [&]<class Map>() {
+    const double scale = window.scale<Map>(width);
+    cairo_translate(context, 0, scale * window.middle);
+    draw_dots<Map>(context, painting, window, scale, area, radius);
   });
   cairo_restore(context);
 }
 
 void draw_flat_markers(cairo_t* context, const Painting& painting, double scale, double area,
                        double radius) {
-  draw_dots<Flat>(context, painting, scale, area, radius);
+  draw_dots<Flat>(context, painting, {}, scale, area, radius);
 }
 
 } // namespace calotte::tools

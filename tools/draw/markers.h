@@ -17,9 +17,9 @@ std::vector<Marker> markers_of(const Scene& scene, const std::vector<double>& va
 
 /// Dots of one size, in the colours of their valences, where cells are smaller than a dot. Many
 /// dots are smaller than few, so that they cover at most a fifth of the map; below a radius of one
-/// pixel none is drawn. \param width of the map, around the origin; \param radius of few dots,
+/// pixel none is drawn. \param width of the window, around the origin; \param radius of few dots,
 /// pixels.
-void draw_markers(cairo_t* context, const Painting& painting, Projection projection, double width,
+void draw_markers(cairo_t* context, const Painting& painting, const MapWindow& window, double width,
                   double radius);
 
 /// The same in a plane, at that number of pixels per unit, within the clip path.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "draw/page.h"
 
+#include "draw/degrees.h"
 #include "draw/text.h"
 #include "draw/vector.h"
 
@@ -13,21 +14,6 @@ namespace calotte::tools {
 namespace {
 
 constexpr double label_letters = 0.8; ///< of degrees, of the other letters
-
-std::string longitude_label(int longitude) {
-  const int east = (longitude % 360 + 540) % 360 - 180; // -180 to 179
-  return std::to_string(std::abs(east)) + "\u00b0" +
-         (east == 0 || east == -180 ? ""
-          : east > 0                ? "E"
-                                    : "W");
-}
-
-std::string latitude_label(int latitude) {
-  return std::to_string(std::abs(latitude)) + "\u00b0" +
-         (latitude == 0  ? ""
-          : latitude > 0 ? "N"
-                         : "S");
-}
 
 /// Along the lower and the left edge of a plate carree.
 void edge_labels(cairo_t* context, const Page& page, const Eigen::Matrix3d& frame) {
@@ -109,24 +95,89 @@ void globe_labels(cairo_t* context, const Page& page, const Look& look,
   rim_labels(context, page, view);
 }
 
-void draw_border(cairo_t* context, const Page& page, Projection projection) {
-  add_border(context, projection, page.map.width);
+/// Labels at the edges of an enlarged map, with ticks, and inside it.
+void window_labels(cairo_t* context, const Page& page, const MapWindow& window,
+                   const std::vector<DegreeLabel>& labels) {
+  using At = DegreeLabel::At;
+  const double size = label_letters * page.text, tick = 0.25 * page.text;
+  const double scale =
+      with_map(window.projection, [&]<class Map>() { return window.scale<Map>(page.map.width); });
+  select_font(context, size);
+  cairo_set_line_width(context, std::max(0.8, 0.05 * page.text));
+  for (const DegreeLabel& label : labels) {
+    const double x = scale * label.place.u, y = scale * (window.middle - label.place.v);
+    if (label.at == At::inside) {
+      haloed_text(context, x, y + 0.35 * size, label.text, size);
+      continue;
+    }
+    const int right = label.at == At::right ? 1 : label.at == At::left ? -1 : 0;
+    const int down = label.at == At::bottom ? 1 : 0;
+    cairo_move_to(context, x, y);
+    cairo_line_to(context, x + right * tick, y + down * tick);
+    set_colour(context, map_border_colour);
+    cairo_stroke(context);
+    set_colour(context, text_colour);
+    const double gap = 1.4 * tick;
+    const double baseline = y + down * gap + (down > 0 ? 0.8 : 0.35) * size;
+    marked_text(context, x + right * gap, baseline, label.text, 0.5 - 0.5 * right);
+  }
+}
+
+void draw_border(cairo_t* context, const Page& page, const MapWindow& window) {
+  add_border(context, window, page.map.width);
   set_colour(context, map_border_colour);
   cairo_set_line_width(context, std::max(0.8, 0.05 * page.text));
   cairo_stroke(context);
 }
 
+/// The boundary of a region, each ring a closed line.
+void draw_region(cairo_t* context, const Page& page, const Surroundings& around) {
+  EarthLines lines;
+  for (const Points3& ring : around.look.region.rings) {
+    std::vector<Eigen::Vector3d> line;
+    for (Eigen::Index i = 0; i <= ring.cols(); ++i) {
+      line.push_back(direction_of(Eigen::Vector3d(ring.col(i % ring.cols()))));
+    }
+    lines.push_back(std::move(line));
+  }
+  constexpr Rgb colour = {0.82, 0.07, 0.38};
+  draw_lines(context, lines, around.frame, around.window, page.map.width,
+             {std::max(1.2, 0.12 * page.text), 1, 0.8, colour});
+}
+
+void draw_enlarged(cairo_t* context, const Page& page, const Surroundings& around) {
+  const Degrees degrees = degrees_of(around.window, around.frame);
+  if (around.look.graticule) {
+    draw_lines(context, degrees.lines, around.frame, around.window, page.map.width,
+               {std::max(0.6, 0.04 * page.text), 0.35, 0.2});
+  }
+  if (!around.look.region.whole()) {
+    draw_region(context, page, around);
+  }
+  draw_border(context, page, around.window);
+  if (page.labelled) {
+    window_labels(context, page, around.window, degrees.labels);
+  }
+}
+
 void draw_surroundings_of_map(cairo_t* context, const Page& page, const Surroundings& around) {
   const bool globe = around.look.projection == Projection::globe;
   if (around.look.coastlines) {
-    draw_coastlines(context, around.frame, around.look.projection, page.map.width,
+    draw_coastlines(context, around.frame, around.window, page.map.width,
                     std::max(0.7, 0.055 * page.text));
   }
+  if (!around.window.whole()) {
+    draw_enlarged(context, page, around);
+    return;
+  }
   if (around.look.graticule) {
-    draw_graticule(context, around.frame, around.look.projection, page.map.width,
+    draw_graticule(context, around.frame, around.window, page.map.width,
                    std::max(0.6, 0.04 * page.text));
   }
-  draw_border(context, page, around.look.projection);
+  if (!around.look.region.whole()) {
+    draw_region(context, page, around);
+  }
+  draw_border(context, page, around.window);
   if (!globe && page.labelled) {
     edge_labels(context, page, around.frame);
   } else if (globe && around.look.graticule && page.labelled) {
@@ -156,17 +207,18 @@ std::optional<Place> rim_place(const LonLat& view, double latitude) {
   return Place{-std::sqrt(1 - up / most * (up / most)), up / most};
 }
 
-Page page_of(const Look& look, bool with_legend) {
-  const bool globe = look.projection == Projection::globe;
+Page page_of(const Look& look, bool with_legend, const MapWindow& window) {
+  const bool disk = look.projection == Projection::globe && window.whole();
   Page page;
   page.width = look.size;
-  page.text = std::clamp(look.size / (globe ? 46.0 : 56.0), 7.0, 40.0);
+  page.text = std::clamp(look.size / (disk ? 46.0 : 56.0), 7.0, 40.0);
   page.labelled = look.size >= 280;
-  const double margin = page.labelled ? 3.2 * page.text : page.text;
+  const double letters = window.whole() ? 3.2 : 3.8; // "120°W" beside an enlarged map
+  const double margin = page.labelled ? letters * page.text : page.text;
   const double part = page.labelled && look.graticule ? 0.435 : 0.465; // latitudes are beside it
-  page.map = globe ? map_size(look.projection, 2 * static_cast<int>(part * look.size))
-                   : map_size(look.projection, static_cast<int>(look.size - 2 * margin));
-  arrange(page, globe || !page.labelled ? 0 : 1.2 * page.text, with_legend);
+  page.map = disk ? map_size(look.projection, 2 * static_cast<int>(part * look.size))
+                  : map_size(look.projection, static_cast<int>(look.size - 2 * margin));
+  arrange(page, disk || !page.labelled ? 0 : 1.2 * page.text, with_legend);
   return page;
 }
 

@@ -25,7 +25,8 @@ struct Page {
   bool labelled = false; ///< true if there is space for degrees at the map's edge
 };
 
-Page page_of(const Look& look, bool with_legend);
+/// \param window not used of plate carree.
+Page page_of(const Look& look, bool with_legend, const MapWindow& window = {});
 
 /// The place on the left half of a globe's rim, the unit circle, where a parallel meets it; none if
 /// the parallel lies on one side of the globe.
@@ -44,7 +45,8 @@ struct Surroundings {
   Look look;
   Eigen::Matrix3d frame; ///< from places on the earth to directions of the scene
   std::string title;
-  Legend legend; ///< no value for Colouring::none
+  Legend legend;    ///< no value for Colouring::none
+  MapWindow window; ///< of the look's map
 };
 
 /// Draws the page. paint() draws the map around the origin, in pixels.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "draw/projection.h"
 #include "draw/scale.h"
 #include "draw/shapes.h"
 
@@ -55,16 +56,18 @@ struct Layer {
 
 std::vector<Layer> layers_of(const Painting& painting);
 
-/// Calls visit(shape, corners) for every painted shape of a layer that is on the map in part.
+/// Calls visit(shape, corners) for every painted shape of a layer that is on the map in part,
+/// except for those that are known to be outside the window.
 template <class Map, class Visit>
-void for_each_visible(const Painting& painting, const Layer& layer, Visit visit) {
+void for_each_visible(const Painting& painting, const Layer& layer, const MapWindow& window,
+                      Visit visit) {
   std::vector<Eigen::Vector3d> corners;
   for (std::size_t shape = 0; shape < layer.widths->size(); ++shape) {
     if (layer.filled && std::isnan(painting.values[shape])) {
       continue;
     }
     outline_of(painting.scene, layer.shapes, static_cast<std::int64_t>(shape), corners);
-    if (Map::shows_some(corners)) {
+    if (Map::shows_some(corners) && Map::may_show(corners, window)) {
       visit(shape, corners);
     }
   }

@@ -34,6 +34,24 @@ double Orthographic::height(const std::vector<Vector3d>& corners) {
   return sum / static_cast<double>(corners.size());
 }
 
+bool Orthographic::may_show(const std::vector<Vector3d>& corners, const MapWindow& window) {
+  const double half = window.half_width<Orthographic>();
+  const auto beyond = [&](const auto& coordinate) {
+    return std::all_of(corners.begin(), corners.end(),
+                       [&](const Vector3d& p) { return coordinate(p) > half; });
+  };
+  return window.whole() || !(beyond([](const Vector3d& p) { return p.x(); }) ||
+                             beyond([](const Vector3d& p) { return -p.x(); }) ||
+                             beyond([](const Vector3d& p) { return p.y(); }) ||
+                             beyond([](const Vector3d& p) { return -p.y(); }));
+}
+
+bool Orthographic::direction(const Place& place, Vector3d& p) {
+  const double z2 = 1 - place.u * place.u - place.v * place.v;
+  p = {place.u, place.v, std::sqrt(std::max(0.0, z2))};
+  return z2 > 0;
+}
+
 /// The cut runs along the limb.
 std::vector<Vector3d> Orthographic::clipped(const std::vector<Vector3d>& polygon) {
   std::vector<Vector3d> result;
@@ -83,13 +101,19 @@ Bounds PlateCarree::bounds(const Facet& f) {
   return {left - fuzz, right + fuzz, bounds.bottom - fuzz, bounds.top + fuzz};
 }
 
-PlateCarree::Rays::Rays(int columns, int rows) {
+bool PlateCarree::direction(const Place& place, Vector3d& p) {
+  const double c = std::cos(place.v);
+  p = {c * std::sin(place.u), std::sin(place.v), c * std::cos(place.u)};
+  return std::abs(place.v) <= half_height;
+}
+
+PlateCarree::Rays::Rays(int columns, int rows, const MapWindow& window) {
   for (int column = 0; column < columns; ++column) {
-    const double u = middle_of(column, columns, half_width);
+    const double u = middle_of(column, columns, window.half_width<PlateCarree>());
     columns_.push_back({std::sin(u), std::cos(u)});
   }
   for (int row = 0; row < rows; ++row) {
-    const double v = -middle_of(row, rows, half_height);
+    const double v = window.middle - middle_of(row, rows, window.half_height<PlateCarree>());
     rows_.push_back({std::sin(v), std::cos(v)});
   }
 }

@@ -20,10 +20,12 @@
 ///   place(p)                 of any direction that the map shows
 ///   tangents(p)              how p turns as u and v grow
 ///   shows(p), shows_some(c)  whether a point, or any part of a convex polygon, is on the map
+///   may_show(c, window)      false where a polygon is known to be outside a window
 ///   height(corners)          1 where a shape is seen from above, 0 where from the side
 ///   clipped(corners)         the part of a convex polygon that is on the map
+///   direction(place, p)      the direction at a place; false where there is none
 ///   bounds(facet)            a part of the map outside of which the facet is not
-///   Rays                     the directions of an image's samples
+///   Rays                     the directions of the samples of an image of a window
 namespace calotte::tools {
 
 using Eigen::Vector3d;
@@ -53,6 +55,26 @@ struct Facet {
   }
 };
 
+/// The part of a map that a picture shows: all of it, or an enlarged rectangle.
+struct MapWindow {
+  Projection projection = Projection::globe;
+  double zoom = 1;   ///< >= 1; the window is this much smaller than the map in both directions
+  double middle = 0; ///< v at its middle; u is 0 there
+
+  MapWindow() = default;
+  MapWindow(Projection map) : projection(map) {} // the whole map
+  MapWindow(Projection map, double enlargement, double middle_v)
+      : projection(map), zoom(enlargement), middle(middle_v) {}
+
+  bool whole() const { return zoom == 1; }
+  template <class Map> double half_width() const { return Map::half_width / zoom; }
+  template <class Map> double half_height() const { return Map::half_height / zoom; }
+  /// Pixels per unit of the map, for a picture of this width.
+  template <class Map> double scale(double width) const {
+    return width / (2 * Map::half_width) * zoom;
+  }
+};
+
 /// u or v of the middle of a sample, for a number of samples that fill a map.
 inline double middle_of(int sample, int samples, double half) {
   return ((2 * sample + 1.0) / samples - 1) * half;
@@ -75,17 +97,23 @@ struct Orthographic {
   static bool shows_some(const std::vector<Vector3d>& corners) {
     return std::any_of(corners.begin(), corners.end(), [](const Vector3d& p) { return p.z() > 0; });
   }
+  /// False if a convex polygon is known to lie beyond one side of the window. x and y of a point
+  /// inside it are at least as far out as those of the corners.
+  static bool may_show(const std::vector<Vector3d>& corners, const MapWindow& window);
   static double height(const std::vector<Vector3d>& corners);
   static std::vector<Vector3d> clipped(const std::vector<Vector3d>& polygon);
   static Bounds bounds(const Facet& facet);
+  /// A place of the map. False where it is beyond the limb.
+  static bool direction(const Place& place, Vector3d& p);
 
   class Rays {
   public:
-    Rays(int columns, int rows) : columns_(columns), rows_(rows) {}
+    Rays(int columns, int rows, const MapWindow& window = {})
+        : columns_(columns), rows_(rows), half_(window.half_width<Orthographic>()) {}
     /// False where the sample is not on the map.
     bool at(int row, int column, Vector3d& p) const {
-      const double x = middle_of(column, columns_, half_width);
-      const double y = -middle_of(row, rows_, half_height);
+      const double x = middle_of(column, columns_, half_);
+      const double y = -middle_of(row, rows_, half_);
       const double z2 = 1 - x * x - y * y;
       if (z2 <= 0) {
         return false;
@@ -96,6 +124,7 @@ struct Orthographic {
 
   private:
     int columns_, rows_;
+    double half_; ///< of the window's width and height
   };
 };
 
@@ -113,13 +142,15 @@ struct PlateCarree {
   }
   static bool shows(const Vector3d&) { return true; }
   static bool shows_some(const std::vector<Vector3d>& corners) { return !corners.empty(); }
+  static bool may_show(const std::vector<Vector3d>&, const MapWindow&) { return true; }
   static double height(const std::vector<Vector3d>&) { return 1; }
   static std::vector<Vector3d> clipped(const std::vector<Vector3d>& polygon) { return polygon; }
   static Bounds bounds(const Facet& facet);
+  static bool direction(const Place& place, Vector3d& p);
 
   class Rays {
   public:
-    Rays(int columns, int rows);
+    Rays(int columns, int rows, const MapWindow& window = {});
     bool at(int row, int column, Vector3d& p) const {
       const auto [sin_v, cos_v] = rows_[static_cast<std::size_t>(row)];
       const auto [sin_u, cos_u] = columns_[static_cast<std::size_t>(column)];
@@ -141,6 +172,7 @@ struct Flat {
 
   static Place place(const Vector3d& p) { return {p.x(), p.y()}; }
   static bool shows_some(const std::vector<Vector3d>& corners) { return !corners.empty(); }
+  static bool may_show(const std::vector<Vector3d>&, const MapWindow&) { return true; }
   static double height(const std::vector<Vector3d>&) { return 1; }
   static std::vector<Vector3d> clipped(const std::vector<Vector3d>& polygon) { return polygon; }
 };

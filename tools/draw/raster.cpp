@@ -21,14 +21,24 @@ Rgb unpack(std::uint32_t rgb) {
 
 /// Samples of a map, row by row from the top.
 template <class Map> struct Samples {
-  Samples(const MapSize& size, int samples)
-      : per_pixel(samples), columns(size.width * samples), rows(size.height * samples),
-        rays(columns, rows), rgb(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows),
-                                 pack(globe_colour)) {}
+  Samples(const MapSize& size, int samples, const MapWindow& part)
+      : window(part), per_pixel(samples), columns(size.width * samples),
+        rows(size.height * samples), rays(columns, rows, part),
+        rgb(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows),
+            pack(globe_colour)) {}
 
-  double scale() const { return columns / (2 * Map::half_width); } ///< samples in the map's unit
-  int column_of(double u) const { return clamped((u / Map::half_width + 1) / 2, columns); }
-  int row_of(double v) const { return clamped((1 - v / Map::half_height) / 2, rows); }
+  /// Samples in the map's unit.
+  double scale() const { return window.template scale<Map>(columns); }
+  int column_of(double u) const {
+    return clamped((u / window.template half_width<Map>() + 1) / 2, columns);
+  }
+  int row_of(double v) const {
+    return clamped((1 - (v - window.middle) / window.template half_height<Map>()) / 2, rows);
+  }
+  bool shows(const Bounds& b) const {
+    const double half = window.template half_width<Map>();
+    return b.left < half && b.right > -half;
+  }
   std::uint32_t& at(int row, int column) {
     return rgb[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
                static_cast<std::size_t>(column)];
@@ -40,6 +50,7 @@ template <class Map> struct Samples {
     return static_cast<int>(std::clamp(std::floor(part * count), 0.0, count - 1.0));
   }
 
+  MapWindow window;
   int per_pixel; ///< along one axis
   int columns, rows;
   typename Map::Rays rays;
@@ -123,10 +134,12 @@ void paint_within(Samples<Map>& samples, const Bounds& bounds, const Facet& f, c
 template <class Map>
 void paint_facet(Samples<Map>& samples, const Facet& facet, const Paint& paint) {
   const Bounds bounds = Map::bounds(facet);
-  paint_within(samples, bounds, facet, paint);
+  if (samples.shows(bounds)) {
+    paint_within(samples, bounds, facet, paint);
+  }
   for (const double shift : {-Map::period, Map::period}) {
     const Bounds copy = {bounds.left + shift, bounds.right + shift, bounds.bottom, bounds.top};
-    if (shift != 0 && copy.left < Map::half_width && copy.right > -Map::half_width) {
+    if (shift != 0 && samples.shows(copy)) {
       paint_within(samples, copy, facet, paint);
     }
   }
@@ -136,7 +149,8 @@ template <class Map>
 void paint_layer(Samples<Map>& samples, const Painting& painting, const Layer& layer) {
   const double scale = samples.scale() / samples.per_pixel;
   for_each_visible<Map>(
-      painting, layer, [&](std::size_t shape, const std::vector<Vector3d>& corners) {
+      painting, layer, samples.window,
+      [&](std::size_t shape, const std::vector<Vector3d>& corners) {
         Paint paint(layer.line(shape, scale, Map::height(corners)), corners);
         if (layer.filled) {
           paint.filled = true;
@@ -230,16 +244,19 @@ template <class Map> cairo_surface_t* average(const Samples<Map>& samples, const
   return surface;
 }
 
-template <class Map> cairo_surface_t* raster(const Painting& painting, const MapSize& size) {
-  Samples<Map> samples(size, std::clamp(most_samples / size.width, 1, 4));
+template <class Map>
+cairo_surface_t* raster(const Painting& painting, const MapWindow& window, const MapSize& size) {
+  Samples<Map> samples(size, std::clamp(most_samples / size.width, 1, 4), window);
   for (const Layer& layer : layers_of(painting)) {
     paint_layer(samples, painting, layer);
   }
   return average(samples, size);
 }
 
-template <class Map> cairo_surface_t* raster(const FieldPainting& painting, const MapSize& size) {
-  Samples<Map> samples(size, std::clamp(most_samples / size.width, 1, 2));
+template <class Map>
+cairo_surface_t* raster(const FieldPainting& painting, const MapWindow& window,
+                        const MapSize& size) {
+  Samples<Map> samples(size, std::clamp(most_samples / size.width, 1, 2), window);
   paint_field(samples, painting);
   return average(samples, size);
 }
@@ -251,13 +268,16 @@ MapSize map_size(Projection projection, int width) {
                                          : MapSize{width / 4 * 4, width / 4 * 2};
 }
 
-cairo_surface_t* raster_map(const Painting& painting, Projection projection, const MapSize& size) {
-  return with_map(projection, [&]<class Map>() { return raster<Map>(painting, size); });
+cairo_surface_t* raster_map(const Painting& painting, const MapWindow& window,
+                            const MapSize& size) {
+  return with_map(window.projection,
+                  [&]<class Map>() { return raster<Map>(painting, window, size); });
 }
 
-cairo_surface_t* raster_map(const FieldPainting& painting, Projection projection,
+cairo_surface_t* raster_map(const FieldPainting& painting, const MapWindow& window,
                             const MapSize& size) {
-  return with_map(projection, [&]<class Map>() { return raster<Map>(painting, size); });
+  return with_map(window.projection,
+                  [&]<class Map>() { return raster<Map>(painting, window, size); });
 }
 
 } // namespace calotte::tools

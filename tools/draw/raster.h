@@ -15,10 +15,10 @@ struct MapSize {
 /// The largest map of at most that width with an even number of pixels in both directions.
 MapSize map_size(Projection projection, int width);
 
-/// The map in an image of this size, whose pixels average 1 to 16 samples each; a sample lies in
-/// exactly one shape, so no seam shows, and the cost hardly depends on the number of shapes.
-/// Transparent beyond the map.
-cairo_surface_t* raster_map(const Painting& painting, Projection projection, const MapSize& size);
+/// A window of the map in an image of this size, whose pixels average 1 to 16 samples each; a
+/// sample lies in exactly one shape, so no seam shows, and the cost hardly depends on the number of
+/// shapes. Transparent beyond the map.
+cairo_surface_t* raster_map(const Painting& painting, const MapWindow& window, const MapSize& size);
 
 /// A field, evaluated at up to four samples a pixel.
 struct FieldPainting {
@@ -27,7 +27,7 @@ struct FieldPainting {
   Eigen::Matrix3d frame; ///< from places on the earth to directions of the scene
 };
 
-cairo_surface_t* raster_map(const FieldPainting& painting, Projection projection,
+cairo_surface_t* raster_map(const FieldPainting& painting, const MapWindow& window,
                             const MapSize& size);
 
 } // namespace calotte::tools

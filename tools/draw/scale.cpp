@@ -30,6 +30,14 @@ Rgb valence_colour(double valence) {
   return hex(colours[static_cast<std::size_t>(v - least_class)]);
 }
 
+/// Viridis' green for the region, oranges to red for the relaxation zone, greys for the specified
+/// zone.
+Rgb mask_colour(double mask) {
+  static constexpr std::array<std::uint32_t, 8> colours = {0x9fcfb5, 0xfdd9a0, 0xfcb96a, 0xf6953f,
+                                                           0xe06f1f, 0xb94a0c, 0x8b93a1, 0x565d6b};
+  return hex(colours[static_cast<std::size_t>(std::clamp(mask, 0.0, colours.size() - 1.0))]);
+}
+
 /// Quantities that may range over powers of ten.
 bool is_magnitude(Colouring colouring) {
   return colouring == Colouring::spacing || colouring == Colouring::area ||
@@ -68,7 +76,9 @@ Rgb Scale::colour(double value) const {
   if (colouring == Colouring::none) {
     return plain;
   }
-  return colouring == Colouring::valence ? valence_colour(value) : viridis(place(value));
+  return colouring == Colouring::valence  ? valence_colour(value)
+         : colouring == Colouring::region ? mask_colour(value)
+                                          : viridis(place(value));
 }
 
 Scale make_scale(const std::vector<double>& values, Colouring colouring) {
@@ -77,7 +87,7 @@ Scale make_scale(const std::vector<double>& values, Colouring colouring) {
   std::vector<double> known;
   std::copy_if(values.begin(), values.end(), std::back_inserter(known),
                [](double v) { return std::isfinite(v); });
-  if (known.empty() || colouring == Colouring::none || colouring == Colouring::valence) {
+  if (known.empty() || colouring == Colouring::none || has_classes(colouring)) {
     return scale;
   }
   const auto [least, greatest] = std::minmax_element(known.begin(), known.end());
@@ -96,6 +106,10 @@ Scale make_scale(const std::vector<double>& values, Colouring colouring) {
     trim(scale, known);
   }
   return scale;
+}
+
+bool has_classes(Colouring colouring) {
+  return colouring == Colouring::valence || colouring == Colouring::region;
 }
 
 Rgb viridis(double place) {
@@ -126,6 +140,20 @@ std::vector<ValenceClass> valence_classes(const std::vector<double>& values) {
             ? "at the boundary"
             : std::to_string(valence) + (valence == greatest_class ? "+" : "");
     classes.push_back({valence_colour(valence), label, count});
+  }
+  return classes;
+}
+
+std::vector<ValenceClass> mask_classes(const std::vector<double>& values) {
+  std::map<int, std::int64_t> counts;
+  for (const double mask : values) {
+    if (std::isfinite(mask)) {
+      ++counts[static_cast<int>(mask)];
+    }
+  }
+  std::vector<ValenceClass> classes;
+  for (const auto& [mask, count] : counts) {
+    classes.push_back({mask_colour(mask), std::to_string(mask), count});
   }
   return classes;
 }

@@ -34,13 +34,16 @@ struct Scale {
 /// range.
 Scale make_scale(const std::vector<double>& values, Colouring colouring);
 
+/// Whether the values are a few classes of a colour each, with a legend of these.
+bool has_classes(Colouring colouring);
+
 /// The colour bar's colour from 0 to 1: viridis (van der Walt and Smith, 2015).
 Rgb viridis(double place);
 
 /// The value of a cell that the boundary of a plane clips, in place of its number of neighbours.
 inline constexpr double boundary_valence = 0;
 
-/// One class of valences: its colour, its name, its number of shapes.
+/// One class of valences or masks: its colour, its name, its number of shapes.
 struct ValenceClass {
   Rgb colour;
   std::string label;
@@ -49,5 +52,8 @@ struct ValenceClass {
 
 /// The classes that occur: the boundary, then the others in rising order.
 std::vector<ValenceClass> valence_classes(const std::vector<double>& values);
+
+/// The values of bdyMaskCell that occur, in rising order.
+std::vector<ValenceClass> mask_classes(const std::vector<double>& values);
 
 } // namespace calotte::tools

@@ -135,7 +135,7 @@ Eigen::Matrix3d frame_of(const LonLat& view) {
   return frame;
 }
 
-Scene make_scene(const Mesh& mesh, Shapes shapes, const LonLat& view) {
+Scene make_scene(const Mesh& mesh, Shapes shapes, const LonLat& view, const Polygons* cells) {
   Scene scene;
   scene.mesh = &mesh;
   scene.shapes = shapes == Shapes::triangles ? Shapes::triangles : Shapes::cells;
@@ -145,6 +145,10 @@ Scene make_scene(const Mesh& mesh, Shapes shapes, const LonLat& view) {
     scene.sites.col(i) = scene.frame * direction_of(Vector3d(mesh.points.col(i)));
   }
   link(scene);
+  if (cells != nullptr && scene.shapes == Shapes::cells) {
+    scene.polygons = cells;
+    scene.circumcentres = scene.frame * cells->corners;
+  }
   return scene;
 }
 
@@ -207,7 +211,7 @@ void outline_of(const Scene& scene, Shapes shapes, std::int64_t shape,
 }
 
 std::vector<float> widths_of(const Scene& scene, Shapes shapes) {
-  if (scene.polygons != nullptr) {
+  if (scene.polygons != nullptr && shapes != Shapes::triangles) {
     const Eigen::VectorXf widths = areas(*scene.polygons).cwiseAbs().cwiseSqrt().cast<float>();
     return {widths.begin(), widths.end()};
   }

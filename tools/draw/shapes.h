@@ -17,7 +17,7 @@ struct Scene {
   Points3 sites;
   Points3 circumcentres;                 ///< of the triangles, where there are cells
   std::vector<std::int32_t> triangle_of; ///< for each site one of its triangles, or -1
-  const Mesh* mesh = nullptr;            ///< null where there are polygons
+  const Mesh* mesh = nullptr;            ///< null for polygons alone
   const Polygons* polygons = nullptr; ///< cells of any shape, whose corners are the circumcentres
   Shapes shapes = Shapes::triangles;  ///< that are filled: triangles or cells
   Eigen::Matrix3d frame = Eigen::Matrix3d::Identity(); ///< from places on the earth
@@ -30,7 +30,9 @@ struct Scene {
 };
 
 /// The mesh rotated so that `view` is in the middle, north up. Rounded: for pictures only.
-Scene make_scene(const Mesh& mesh, Shapes shapes, const LonLat& view);
+/// \param cells shapes of the cells in place of those that follow from the triangles, if any.
+Scene make_scene(const Mesh& mesh, Shapes shapes, const LonLat& view,
+                 const Polygons* cells = nullptr);
 
 /// Cells of any shape in the same view.
 Scene make_scene(const Polygons& polygons, const LonLat& view);

@@ -48,6 +48,8 @@ double triangle_value(const Corners& corners, Colouring colouring,
   case Colouring::density:
   case Colouring::field:
     return (by_site[corners.id[0]] + by_site[corners.id[1]] + by_site[corners.id[2]]) / 3;
+  case Colouring::region:
+    return std::max({by_site[corners.id[0]], by_site[corners.id[1]], by_site[corners.id[2]]});
   case Colouring::valence:
   case Colouring::none:
     break;
@@ -72,8 +74,30 @@ std::vector<double> as_vector(const Eigen::VectorXd& values) {
   return {values.data(), values.data() + values.size()};
 }
 
+/// Shortest over longest side.
+std::vector<double> side_ratios(const Scene& scene) {
+  const Polygons& polygons = *scene.polygons;
+  std::vector<double> ratios;
+  for (std::int64_t i = 0; i < polygons.size(); ++i) {
+    double shortest = HUGE_VAL, longest = 0;
+    const std::int64_t begin = polygons.begin[i], end = polygons.begin[i + 1];
+    for (std::int64_t k = begin; k < end; ++k) {
+      const auto next = polygons.ids[k + 1 < end ? k + 1 : begin];
+      const double side =
+          (polygons.corners.col(polygons.ids[k]) - polygons.corners.col(next)).norm();
+      shortest = std::min(shortest, side);
+      longest = std::max(longest, side);
+    }
+    ratios.push_back(shortest / longest);
+  }
+  return ratios;
+}
+
 std::vector<double> tessellation_values(const Scene& scene, Colouring colouring) {
   const bool area = colouring == Colouring::area;
+  if (scene.polygons != nullptr) {
+    return area ? as_vector(areas(*scene.polygons)) : side_ratios(scene);
+  }
   if (!scene.mesh->closed()) {
     throw Error(ErrorCode::bad_option,
                 std::string("the mesh has an open boundary, so that its cells have no ") +
@@ -96,6 +120,7 @@ std::vector<double> cell_values(const Scene& scene, Colouring colouring,
     return tessellation_values(scene, colouring);
   case Colouring::density:
   case Colouring::field:
+  case Colouring::region:
     return as_vector(by_site);
   case Colouring::valence:
   case Colouring::none:
@@ -133,6 +158,13 @@ std::vector<double> site_valences(const Scene& scene, const std::vector<bool>& c
       ++count[static_cast<std::size_t>(site)];
     }
   }
+  if (const Polygons* polygons = scene.polygons) {
+    for (std::size_t i = 0; i < count.size(); ++i) {
+      const auto site = static_cast<Eigen::Index>(i);
+      count[i] = static_cast<double>(polygons->begin[site + 1] - polygons->begin[site]);
+    }
+    return count;
+  }
   const std::vector<bool> closed = closed_stars(scene);
   for (std::size_t i = 0; i < count.size(); ++i) {
     if (!closed[i] || (!clipped.empty() && clipped[i])) {
@@ -147,7 +179,7 @@ std::vector<double> values_of(const Scene& scene, Colouring colouring,
   const std::vector<double> valence = site_valences(scene, clipped);
   if (scene.shapes == Shapes::cells) {
     std::vector<double> values = cell_values(scene, colouring, valence, by_site);
-    if (scene.flat) {
+    if (scene.flat || scene.polygons != nullptr) {
       return values;
     }
     const std::vector<bool> closed = closed_stars(scene);

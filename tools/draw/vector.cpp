@@ -120,8 +120,9 @@ void add_outline(cairo_t* context, const std::vector<Vector3d>& polygon, double 
 }
 
 template <class Map>
-void fill_layer(cairo_t* context, const Painting& painting, const Layer& layer, double scale) {
-  for_each_visible<Map>(painting, layer,
+void fill_layer(cairo_t* context, const Painting& painting, const Layer& layer,
+                const MapWindow& window, double scale) {
+  for_each_visible<Map>(painting, layer, window,
                         [&](std::size_t shape, const std::vector<Vector3d>& corners) {
                           set_colour(context, painting.scale.colour(painting.values[shape]));
                           add_inside<Map>(context, corners, scale);
@@ -133,8 +134,9 @@ void fill_layer(cairo_t* context, const Painting& painting, const Layer& layer, 
 }
 
 template <class Map>
-void stroke_layer(cairo_t* context, const Painting& painting, const Layer& layer, double scale) {
-  for_each_visible<Map>(painting, layer,
+void stroke_layer(cairo_t* context, const Painting& painting, const Layer& layer,
+                  const MapWindow& window, double scale) {
+  for_each_visible<Map>(painting, layer, window,
                         [&](std::size_t shape, const std::vector<Vector3d>& corners) {
                           const Line line = layer.line(shape, scale, Map::height(corners));
                           if (line.alpha > 0) {
@@ -148,19 +150,21 @@ void stroke_layer(cairo_t* context, const Painting& painting, const Layer& layer
                         });
 }
 
-template <class Map> void draw_layers(cairo_t* context, const Painting& painting, double scale) {
+template <class Map>
+void draw_layers(cairo_t* context, const Painting& painting, const MapWindow& window,
+                 double scale) {
   for (const Layer& layer : layers_of(painting)) {
     if (layer.filled) {
-      fill_layer<Map>(context, painting, layer, scale);
+      fill_layer<Map>(context, painting, layer, window, scale);
     }
-    stroke_layer<Map>(context, painting, layer, scale);
+    stroke_layer<Map>(context, painting, layer, window, scale);
   }
 }
 
-template <class Map> std::int64_t count_visible(const Painting& painting) {
+template <class Map> std::int64_t count_visible(const Painting& painting, const MapWindow& window) {
   std::int64_t count = 0;
   for (const Layer& layer : layers_of(painting)) {
-    for_each_visible<Map>(painting, layer,
+    for_each_visible<Map>(painting, layer, window,
                           [&](std::size_t, const std::vector<Vector3d>&) { ++count; });
   }
   return count;
@@ -168,19 +172,17 @@ template <class Map> std::int64_t count_visible(const Painting& painting) {
 
 // ---- Lines on the earth
 
-/// Adds the line through places on the earth, in its visible part.
+/// Adds the line through directions of the scene, in its visible part.
 template <class Map>
-void add_places(cairo_t* context, const Eigen::Matrix3d& frame, const std::vector<LonLat>& places,
-                double scale) {
+void add_line(cairo_t* context, const std::vector<Vector3d>& line, double scale) {
   Way way;
   const auto flush = [&] {
     add_copies<Map>(context, way, scale, false);
     way.clear();
   };
   Vector3d before = Vector3d::Zero();
-  for (const LonLat& lonlat : places) {
-    const Vector3d p = frame * direction_of(lonlat);
-    const bool first = &lonlat == &places.front();
+  for (const Vector3d& p : line) {
+    const bool first = &p == &line.front();
     if (Map::shows(p)) {
       if (way.empty()) {
         before = first ? p : limb_between(before, p);
@@ -196,64 +198,90 @@ void add_places(cairo_t* context, const Eigen::Matrix3d& frame, const std::vecto
   flush();
 }
 
-template <class Map>
-void add_graticule(cairo_t* context, const Eigen::Matrix3d& frame, double scale) {
-  for (int line = -180; line < 180; line += graticule_step) {
-    std::vector<LonLat> meridian;
-    std::vector<LonLat> parallel;
-    for (int at = -180; at <= 180; ++at) {
-      meridian.push_back({1.0 * line, at / 2.0 * 0.999}); // short of the poles
-      parallel.push_back({1.0 * at, 1.0 * line});
+/// Adds lines in a window of the map. Arcs that are known to be outside are left out.
+void add_lines(cairo_t* context, const EarthLines& lines, const Eigen::Matrix3d& frame,
+               const MapWindow& window, double width) {
+  with_map(window.projection, [&]<class Map>() {
+    const double scale = window.scale<Map>(width);
+    cairo_translate(context, 0, scale * window.middle);
+    std::vector<Vector3d> seen;
+    const auto flush = [&] {
+      add_line<Map>(context, seen, scale);
+      seen.clear();
+    };
+    for (const std::vector<Vector3d>& line : lines) {
+      for (const Vector3d& place : line) {
+        const Vector3d p = frame * place;
+        if (!seen.empty() && !Map::may_show({seen.back(), p}, window)) {
+          flush();
+        }
+        seen.push_back(p);
+      }
+      flush();
     }
-    add_places<Map>(context, frame, meridian, scale);
-    if (std::abs(line) < 90) {
-      add_places<Map>(context, frame, parallel, scale);
-    }
-  }
+  });
 }
 
-template <class Map>
-void add_coastlines(cairo_t* context, const Eigen::Matrix3d& frame, double scale) {
-  for (const std::vector<LonLat>& line : coastlines()) {
-    add_places<Map>(context, frame, line, scale);
+std::vector<Vector3d> directions_of(const std::vector<LonLat>& places) {
+  std::vector<Vector3d> line;
+  for (const LonLat& place : places) {
+    line.push_back(direction_of(place));
   }
+  return line;
 }
 
 /// A dark line between light ones, visible on any background.
-void stroke_outlined(cairo_t* context, double line, double dark, double light) {
+void stroke_outlined(cairo_t* context, const Stroke& stroke) {
   cairo_set_line_join(context, CAIRO_LINE_JOIN_ROUND);
-  cairo_set_source_rgba(context, 1, 1, 1, light);
-  cairo_set_line_width(context, 2.2 * line);
+  cairo_set_source_rgba(context, 1, 1, 1, stroke.light);
+  cairo_set_line_width(context, 2.2 * stroke.width);
   cairo_stroke_preserve(context);
-  cairo_set_source_rgba(context, 0, 0, 0, dark);
-  cairo_set_line_width(context, line);
+  cairo_set_source_rgba(context, stroke.colour.r, stroke.colour.g, stroke.colour.b, stroke.dark);
+  cairo_set_line_width(context, stroke.width);
   cairo_stroke(context);
 }
 
 } // namespace
 
-std::int64_t visible_shapes(const Painting& painting, Projection projection) {
-  return with_map(projection, [&]<class Map>() { return count_visible<Map>(painting); });
+std::int64_t visible_shapes(const Painting& painting, const MapWindow& window) {
+  return with_map(window.projection,
+                  [&]<class Map>() { return count_visible<Map>(painting, window); });
 }
 
-void add_border(cairo_t* context, Projection projection, double width) {
-  if (projection == Projection::globe) {
-    cairo_new_sub_path(context);
-    cairo_arc(context, 0, 0, width / 2, 0, 2 * std::numbers::pi);
-  } else {
+void add_border(cairo_t* context, const MapWindow& window, double width) {
+  if (window.projection != Projection::globe) {
     cairo_rectangle(context, -width / 2, -width / 4, width, width / 2);
+    return;
   }
+  cairo_new_sub_path(context);
+  if (window.whole()) {
+    cairo_arc(context, 0, 0, width / 2, 0, 2 * std::numbers::pi);
+    return;
+  }
+  const double limb = window.zoom * width / 2;
+  if (limb * limb >= width * width / 2) {
+    cairo_rectangle(context, -width / 2, -width / 2, width, width);
+    return;
+  }
+  const double side = std::acos(1 / window.zoom); // half of the angle in which a side is seen
+  for (int corner = 0; corner < 4; ++corner) {
+    const double turn = corner * std::numbers::pi / 2;
+    cairo_arc(context, 0, 0, limb, turn + side, turn + std::numbers::pi / 2 - side);
+  }
+  cairo_close_path(context);
 }
 
-void vector_map(cairo_t* context, const Painting& painting, Projection projection, double width) {
+void vector_map(cairo_t* context, const Painting& painting, const MapWindow& window, double width) {
   cairo_save(context);
   cairo_set_line_join(context, CAIRO_LINE_JOIN_ROUND);
-  add_border(context, projection, width);
+  add_border(context, window, width);
   set_colour(context, globe_colour);
   cairo_fill_preserve(context);
   cairo_clip(context);
-  with_map(projection, [&]<class Map>() {
-    draw_layers<Map>(context, painting, width / (2 * Map::half_width));
+  with_map(window.projection, [&]<class Map>() {
+    const double scale = window.scale<Map>(width);
+    cairo_translate(context, 0, scale * window.middle);
+    draw_layers<Map>(context, painting, window, scale);
   });
   cairo_restore(context);
 }
@@ -261,31 +289,53 @@ void vector_map(cairo_t* context, const Painting& painting, Projection projectio
 void flat_map(cairo_t* context, const Painting& painting, double scale) {
   cairo_save(context);
   cairo_set_line_join(context, CAIRO_LINE_JOIN_ROUND);
-  draw_layers<Flat>(context, painting, scale);
+  draw_layers<Flat>(context, painting, {}, scale);
   cairo_restore(context);
 }
 
-void draw_graticule(cairo_t* context, const Eigen::Matrix3d& frame, Projection projection,
+EarthLines graticule_lines() {
+  EarthLines lines;
+  for (int line = -180; line < 180; line += graticule_step) {
+    std::vector<LonLat> meridian;
+    std::vector<LonLat> parallel;
+    for (int at = -180; at <= 180; ++at) {
+      meridian.push_back({1.0 * line, at / 2.0 * 0.999}); // short of the poles
+      parallel.push_back({1.0 * at, 1.0 * line});
+    }
+    lines.push_back(directions_of(meridian));
+    if (std::abs(line) < 90) {
+      lines.push_back(directions_of(parallel));
+    }
+  }
+  return lines;
+}
+
+EarthLines coast_lines() {
+  EarthLines lines;
+  for (const std::vector<LonLat>& line : coastlines()) {
+    lines.push_back(directions_of(line));
+  }
+  return lines;
+}
+
+void draw_lines(cairo_t* context, const EarthLines& lines, const Eigen::Matrix3d& frame,
+                const MapWindow& window, double width, const Stroke& stroke) {
+  cairo_save(context);
+  add_border(context, window, width);
+  cairo_clip(context);
+  add_lines(context, lines, frame, window, width);
+  stroke_outlined(context, stroke);
+  cairo_restore(context);
+}
+
+void draw_graticule(cairo_t* context, const Eigen::Matrix3d& frame, const MapWindow& window,
                     double width, double line) {
-  cairo_save(context);
-  add_border(context, projection, width);
-  cairo_clip(context);
-  with_map(projection,
-           [&]<class Map>() { add_graticule<Map>(context, frame, width / (2 * Map::half_width)); });
-  stroke_outlined(context, line, 0.35, 0.2);
-  cairo_restore(context);
+  draw_lines(context, graticule_lines(), frame, window, width, {line, 0.35, 0.2});
 }
 
-void draw_coastlines(cairo_t* context, const Eigen::Matrix3d& frame, Projection projection,
+void draw_coastlines(cairo_t* context, const Eigen::Matrix3d& frame, const MapWindow& window,
                      double width, double line) {
-  cairo_save(context);
-  add_border(context, projection, width);
-  cairo_clip(context);
-  with_map(projection, [&]<class Map>() {
-    add_coastlines<Map>(context, frame, width / (2 * Map::half_width));
-  });
-  stroke_outlined(context, line, 0.8, 0.6);
-  cairo_restore(context);
+  draw_lines(context, coast_lines(), frame, window, width, {line, 0.8, 0.6});
 }
 
 } // namespace calotte::tools

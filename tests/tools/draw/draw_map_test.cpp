@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "draw/degrees.h"
 #include "draw/page.h"
 #include "draw/raster.h"
 #include "draw/values.h"
 #include "draw/vector.h"
+#include "draw/view.h"
 #include "io/netcdf_writer.h"
 #include "support/clouds.h"
 #include "support/pictures.h"
@@ -118,12 +120,12 @@ Image raster(const Painting& painting, Projection projection, const MapSize& siz
   return {raster_map(painting, projection, size), cairo_surface_destroy};
 }
 
-Image vector(const Painting& painting, Projection projection, const MapSize& size) {
+Image vector(const Painting& painting, const MapWindow& window, const MapSize& size) {
   Image image(cairo_image_surface_create(CAIRO_FORMAT_RGB24, size.width, size.height),
               cairo_surface_destroy);
   cairo_t* context = cairo_create(image.get());
   cairo_translate(context, size.width / 2.0, size.height / 2.0);
-  vector_map(context, painting, projection, size.width);
+  vector_map(context, painting, window, size.width);
   cairo_destroy(context);
   return image;
 }
@@ -223,6 +225,100 @@ TEST_CASE("a tilted globe shows the cells of the nearest sites") {
     };
     CHECK(for_each_inner_pixel(mesh, Shapes::cells, Projection::globe, view, size, look) > 1000);
     CHECK(wrong == 0);
+  }
+}
+
+TEST_CASE("an enlarged map shows the cells of the nearest sites") {
+  const Mesh mesh = spherical_delaunay(random_sphere(400, 5));
+  const Locator locator(mesh, Shapes::cells);
+  for (const MapWindow& window :
+       {MapWindow(Projection::globe, 1.2, 0), MapWindow(Projection::globe, 5, 0),
+        MapWindow(Projection::plate_carree, 4, 0.7)}) {
+    const Projection projection = window.projection;
+    const LonLat view = {170, projection == Projection::globe ? 60. : 0.};
+    const MapSize size = map_size(projection, 160);
+    const Painting painting = painting_of(mesh, Shapes::cells, view);
+    const Image pixels(raster_map(painting, window, size), cairo_surface_destroy);
+    const Image paths = vector(painting, window, size);
+    const auto shape_at = [&](double x, double y) {
+      const double up = window.middle / std::numbers::pi * size.height;
+      const auto place =
+          place_of(size, projection, view,
+                   (x + 0.5 - size.width / 2.0) / window.zoom + size.width / 2.0 - 0.5,
+                   (y + 0.5 - size.height / 2.0) / window.zoom + size.height / 2.0 - 0.5 - up);
+      return place ? locator.at(*place) : -1;
+    };
+    int wrong = 0, inner = 0;
+    for (int x = 0; x < size.width; ++x) {
+      for (int y = 0; y < size.height; ++y) {
+        const int own = shape_at(x, y);
+        if (own >= 0 && shape_at(x - 3, y) == own && shape_at(x + 3, y) == own &&
+            shape_at(x, y - 3) == own && shape_at(x, y + 3) == own) {
+          ++inner;
+          wrong += has_colour(pixel(pixels, x, y), colour_of(painting, own)) ? 0 : 1;
+          wrong += has_colour(pixel(paths, x, y), colour_of(painting, own)) ? 0 : 1;
+        }
+      }
+    }
+    CHECK(inner > 2000);
+    CHECK(wrong < inner / 100); // where three cells meet
+  }
+}
+
+TEST_CASE("a mesh of a small part of the sphere fills the picture, another one does not") {
+  const auto cap = [](double radius, const LonLat& centre) {
+    const Points3 all = fibonacci_sphere(4000);
+    Points3 inside(3, 4000);
+    Eigen::Index count = 0;
+    for (const auto& x : all.colwise()) {
+      if (x.dot(direction_of(centre)) > std::cos(radius * degree)) {
+        inside.col(count++) = x;
+      }
+    }
+    return Points3(inside.leftCols(count));
+  };
+  for (const LonLat& centre : {LonLat{20, 40}, LonLat{179, -30}, LonLat{0, 90}}) {
+    CAPTURE(centre.longitude);
+    for (const double radius : {10., 20., 80., 170.}) {
+      CAPTURE(radius);
+      const View view = view_around({}, {centre}, cap(radius, centre));
+      CHECK(view.window.whole() == (radius > 30));
+      CHECK(direction_of(view.middle).dot(direction_of(centre)) > std::cos(1.5 * degree));
+      if (radius < 30) {
+        CHECK(view.window.zoom ==
+              doctest::Approx(1 / (1.07 * std::sin(radius * degree))).epsilon(0.2));
+      }
+    }
+    const View flat =
+        view_around({.projection = Projection::plate_carree}, {centre}, cap(10, centre));
+    CHECK(flat.window.whole() == (centre.latitude == 90));
+    CHECK(flat.middle.latitude == 0);
+    CHECK(view_around({.zoom = 1}, {centre}, cap(10, centre)).window.whole());
+  }
+}
+
+TEST_CASE("labels of an enlarged map stand where their degrees are") {
+  for (const LonLat& middle : {LonLat{-105, 40}, LonLat{180, -18}, LonLat{0, 90}}) {
+    for (const double zoom : {1.6, 5., 300.}) {
+      CAPTURE(middle.longitude);
+      CAPTURE(zoom);
+      const Eigen::Matrix3d frame = frame_of(middle);
+      const Degrees degrees = degrees_of({Projection::globe, zoom, 0}, frame);
+      CHECK(degrees.lines.size() >= 4);
+      CHECK(degrees.labels.size() >= 3);
+      CHECK(degrees.labels.size() <= 40);
+      for (const DegreeLabel& label : degrees.labels) {
+        CAPTURE(label.text);
+        Vector3d p;
+        REQUIRE(Orthographic::direction(label.place, p));
+        p = frame.transpose() * p;
+        const double number = std::stod(label.text);
+        const bool latitude = label.text.ends_with("N") || label.text.ends_with("S") ||
+                              (label.at == DegreeLabel::At::left && middle.latitude < 90);
+        const double value = latitude ? std::asin(p.z()) : std::atan2(p.y(), p.x());
+        CHECK(std::abs(value) / degree == doctest::Approx(number).epsilon(0.02));
+      }
+    }
   }
 }
 

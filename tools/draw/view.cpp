@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "draw/view.h"
+
+#include "draw/shapes.h"
+
+#include <optional>
+
+namespace calotte::tools {
+
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+constexpr double margin = 1.07;    ///< of the picture, over the mesh
+constexpr double least_zoom = 1.5; ///< a mesh that would be enlarged less is drawn on a whole map
+
+LonLat lonlat_of(const Vector3d& p) {
+  const LonLat place = {std::atan2(p.y(), p.x()) / degree,
+                        std::atan2(p.z(), std::hypot(p.x(), p.y())) / degree};
+  constexpr double polar = 89.5; // any longitude is as good there
+  return std::abs(place.latitude) < polar ? place : LonLat{0, std::copysign(90, place.latitude)};
+}
+
+/// The bounds of places on the map with this middle; none if the map does not show them all.
+template <class Map> std::optional<Bounds> bounds_of(const Points3& places, const LonLat& middle) {
+  const Eigen::Matrix3d frame = frame_of(middle);
+  Bounds bounds = {HUGE_VAL, -HUGE_VAL, HUGE_VAL, -HUGE_VAL};
+  for (Eigen::Index i = 0; i < places.cols(); ++i) {
+    const Vector3d p = frame * direction_of(Vector3d(places.col(i)));
+    if (!Map::shows(p)) {
+      return std::nullopt;
+    }
+    const Place place = Map::place(p);
+    bounds = {std::min(bounds.left, place.u), std::max(bounds.right, place.u),
+              std::min(bounds.bottom, place.v), std::max(bounds.top, place.v)};
+  }
+  return bounds;
+}
+
+/// The direction on the earth of the middle of the places' bounds.
+template <class Map> Vector3d centre_of(const Bounds& bounds, const LonLat& middle) {
+  Vector3d p;
+  Map::direction({(bounds.left + bounds.right) / 2, (bounds.bottom + bounds.top) / 2}, p);
+  return frame_of(middle).transpose() * p;
+}
+
+/// The centre of the view given, or else of the map's bounds of the places. An orthographic map
+/// changes with its middle, so that the second takes a few steps.
+template <class Map>
+LonLat centre_around(const Look& look, const LonLat& start, const Points3& places) {
+  LonLat centre = look.view.value_or(start);
+  constexpr int steps = 6;
+  for (int step = 0; step < steps && !look.view; ++step) {
+    const LonLat middle = Map::period > 0 ? LonLat{centre.longitude, 0} : centre;
+    if (const std::optional<Bounds> bounds = bounds_of<Map>(places, middle)) {
+      centre = lonlat_of(centre_of<Map>(*bounds, middle));
+    }
+  }
+  return centre;
+}
+
+template <class Map> View centred(const Look& look, const LonLat& centre, double zoom) {
+  if (Map::period == 0) {
+    return {centre, {look.projection, zoom, 0}};
+  }
+  const double most = Map::half_height * (1 - 1 / zoom);
+  return {{centre.longitude, 0},
+          {look.projection, zoom, std::clamp(centre.latitude * degree, -most, most)}};
+}
+
+/// How far a map whose window has that centre can be enlarged; 0 if it does not show all places.
+template <class Map> double zoom_around(const View& view, double latitude, const Points3& places) {
+  const std::optional<Bounds> bounds = bounds_of<Map>(places, view.middle);
+  if (!bounds) {
+    return 0;
+  }
+  const double v = Map::period > 0 ? latitude * degree : 0;
+  const double width = std::max(-bounds->left, bounds->right);
+  const double height = std::max(v - bounds->bottom, bounds->top - v);
+  const double zoom =
+      std::min(Map::half_width / (margin * width), Map::half_height / (margin * height));
+  return std::min(zoom, most_zoom);
+}
+
+} // namespace
+
+View view_of(const Look& look, const LonLat& middle) {
+  const bool flat = look.projection == Projection::plate_carree;
+  const LonLat view = look.view.value_or(flat ? LonLat{} : middle);
+  return with_map(look.projection,
+                  [&]<class Map>() { return centred<Map>(look, view, look.zoom.value_or(1)); });
+}
+
+View view_around(const Look& look, const LonLat& middle, const Points3& places) {
+  return with_map(look.projection, [&]<class Map>() {
+    const LonLat centre = centre_around<Map>(look, middle, places);
+    const double fitting = zoom_around<Map>(centred<Map>(look, centre, 1), centre.latitude, places);
+    const double zoom = look.zoom.value_or(fitting < least_zoom ? 1 : fitting);
+    return zoom == 1 ? view_of(look, middle) : centred<Map>(look, centre, zoom);
+  });
+}
+
+} // namespace calotte::tools

@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "run/mesh_measures.h"
+
+#include "run/shapes.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <iomanip>
+#include <numbers>
+#include <numeric>
+#include <sstream>
+
+namespace calotte::tools {
+namespace {
+
+Range scaled(const Range& range, double factor) {
+  return {range.min * factor, range.mean * factor, range.max * factor};
+}
+
+double ratio(const Range& range) { return range.max / range.min; }
+
+nlohmann::ordered_json to_json(const Range& range) {
+  return {{"min", range.min}, {"mean", range.mean}, {"max", range.max}};
+}
+
+nlohmann::ordered_json to_json(const Percentiles& values) {
+  return {{"min", values.min}, {"p1", values.p1},   {"p5", values.p5},  {"p50", values.p50},
+          {"p95", values.p95}, {"p99", values.p99}, {"max", values.max}};
+}
+
+void add_cells(const Quality& quality, nlohmann::ordered_json& json) {
+  json["sigma"] = to_json(quality.sigma);
+  json["cell_quality"] = to_json(quality.cell_quality);
+  json["cell_area"] = to_json(quality.cell_area);
+  json["area_ratio"] = ratio(quality.cell_area);
+  json["off_centring"] = to_json(quality.off_centring);
+  json["dv_over_dc"] = to_json(quality.dv_over_dc);
+  json["short_voronoi_edges"] = quality.short_edges;
+  json["residual"] = quality.residual;
+  json["energy"] = quality.energy;
+  json["energy_times_cells"] = quality.energy * static_cast<double>(quality.cells);
+  json["limit"] = quality.limit;
+  json["excess"] = quality.excess;
+  json["dc_over_h"] = to_json(quality.dc_over_h);
+  json["unfit_edges"] = quality.unfit_edges;
+  json["bad_cells"] = quality.bad_cells;
+  json["bad_spacing"] = to_json(quality.bad_spacing);
+  json["cells_area"] = quality.cells_area;
+}
+
+/// Sites with a closed ring of triangles.
+std::int64_t whole_cells(const Quality& quality) {
+  return std::accumulate(quality.degrees.begin(), quality.degrees.end(), std::int64_t(0));
+}
+
+/// Cells whose bdyMaskCell is in a range.
+std::int64_t cells_of(const std::vector<std::int64_t>& masks, std::size_t first, std::size_t last) {
+  std::int64_t count = 0;
+  for (std::size_t mask = first; mask <= last && mask < masks.size(); ++mask)
+    count += masks[mask];
+  return count;
+}
+
+void add_boundary(const Measured& measured, nlohmann::ordered_json& json) {
+  json["boundary_edges"] = measured.open->boundary;
+  json["boundary_loops"] = measured.open->loops;
+  json["whole_cells"] = whole_cells(measured.quality);
+  if (measured.masks.empty())
+    return;
+  json["cells_by_mask"] = measured.masks;
+  json["cells_inside"] = cells_of(measured.masks, 0, 0);
+  json["cells_of_relaxation"] = cells_of(measured.masks, 1, 5);
+  json["cells_specified"] = cells_of(measured.masks, 6, 7);
+}
+
+/// The measures of cells that an open mesh has.
+void add_whole_cells(const Quality& quality, nlohmann::ordered_json& json) {
+  json["sigma"] = to_json(quality.sigma);
+  json["cell_quality"] = to_json(quality.cell_quality);
+  json["cell_area"] = to_json(quality.cell_area);
+  json["area_ratio"] = ratio(quality.cell_area);
+  json["off_centring"] = to_json(quality.off_centring);
+  json["dv_over_dc"] = to_json(quality.dv_over_dc);
+  json["short_voronoi_edges"] = quality.short_edges;
+  json["bad_cells"] = quality.bad_cells;
+  json["bad_spacing"] = to_json(quality.bad_spacing);
+}
+
+/// The counts that are not 0, each after its index.
+std::string counts_text(const std::vector<std::int64_t>& counts) {
+  std::string list;
+  for (std::size_t i = 0; i < counts.size(); ++i)
+    if (counts[i] > 0)
+      list += (list.empty() ? "" : ", ") + std::to_string(i) + ": " + std::to_string(counts[i]);
+  return list;
+}
+
+std::string degrees(const Quality& quality) { return counts_text(quality.degrees); }
+
+/// Aligned rows of names and values.
+class Table {
+public:
+  template <class Value> void row(const std::string& name, const Value& value, int digits = 6) {
+    out_ << std::left << std::setw(22) << name << std::setprecision(digits) << value << "\n";
+  }
+  template <class Value>
+  void row(const std::string& name, const Value& min, const Value& mean, const Value& max) {
+    out_ << std::left << std::setw(22) << name << std::setprecision(6) << std::setw(14) << min
+         << std::setw(14) << mean << max << "\n";
+  }
+  void row(const std::string& name, const Range& range) {
+    row(name, range.min, range.mean, range.max);
+  }
+  /// Two lines: the names of the percentiles, and their values.
+  void row(const std::string& name, const Percentiles& values) {
+    line<std::string>("", {"min", "1%", "5%", "50%", "95%", "99%", "max"});
+    line<double>(
+        name, {values.min, values.p1, values.p5, values.p50, values.p95, values.p99, values.max});
+  }
+  std::string text() const { return out_.str(); }
+
+private:
+  template <class Value> void line(const std::string& name, const std::array<Value, 7>& values) {
+    out_ << std::left << std::setw(22) << name << std::setprecision(4);
+    for (std::size_t k = 0; k < values.size(); ++k)
+      out_ << std::setw(k + 1 < values.size() ? 11 : 0) << values[k];
+    out_ << "\n";
+  }
+
+  std::ostringstream out_;
+};
+
+/// The shapes of cells, which those of an open mesh have, too.
+void add_shape_rows(const Measured& measured, Table& table) {
+  const Quality& quality = measured.quality;
+  table.row("sigma", quality.sigma);
+  table.row("cell quality", quality.cell_quality);
+  table.row(measured.domain_area ? "cell area" : "cell area, " + measured.unit.area,
+            scaled(quality.cell_area, measured.unit.of_steradian));
+  table.row("off-centring", quality.off_centring);
+  table.row("dv / dc", quality.dv_over_dc);
+  table.row("area ratio", ratio(quality.cell_area));
+  table.row("dv / dc below 0.2", quality.short_edges);
+}
+
+void add_bad_cells(const Measured& measured, Table& table) {
+  table.row("cells to object to", measured.quality.bad_cells);
+  if (measured.quality.bad_cells > 0)
+    table.row("their spacing", scaled(measured.quality.bad_spacing, measured.unit.of_radian));
+}
+
+/// The boundary of an open mesh, and its cells by bdyMaskCell.
+void add_boundary_rows(const Measured& measured, Table& table) {
+  if (!measured.masks.empty()) {
+    table.row("  in the region", cells_of(measured.masks, 0, 0));
+    table.row("  relaxation, 1 to 5", cells_of(measured.masks, 1, 5));
+    table.row("  specified, 6 and 7", cells_of(measured.masks, 6, 7));
+    table.row("bdyMaskCell: cells", counts_text(measured.masks));
+  }
+  table.row("boundary edges", measured.open->boundary);
+  table.row("boundary loops", measured.open->loops);
+  table.row("whole cells", whole_cells(measured.quality));
+}
+
+void add_cell_rows(const Measured& measured, Table& table) {
+  const Quality& quality = measured.quality;
+  const bool plane = measured.domain_area.has_value();
+  const double area = measured.domain_area.value_or(1);
+  add_shape_rows(measured, table);
+  table.row("density", measured.density);
+  table.row("residual / h", quality.residual);
+  table.row("energy", quality.energy, 7);
+  table.row(plane ? "energy * cells / A^2" : "energy * cells",
+            quality.energy * static_cast<double>(quality.cells) / (area * area), 7);
+  table.row("its limit", quality.limit / (area * area), 7);
+  table.row("excess, percent", 100 * quality.excess, 4);
+  table.row("dc / h", quality.dc_over_h);
+  table.row("outside 0.75 to 1.4", quality.unfit_edges);
+  add_bad_cells(measured, table);
+  table.row(plane ? "cells / domain" : "cells / 4 pi", quality.cells_area, 15);
+}
+
+} // namespace
+
+std::string to_json(const Measured& measured) {
+  const Quality& quality = measured.quality;
+  nlohmann::ordered_json json;
+  if (!measured.changes.empty())
+    json["changes"] = measured.changes;
+  if (!measured.remarks.empty())
+    json["remarks"] = measured.remarks;
+  json["cells"] = quality.cells;
+  json["triangles"] = quality.triangles;
+  json["degrees"] = nlohmann::ordered_json::object();
+  for (std::size_t degree = 0; degree < quality.degrees.size(); ++degree)
+    if (quality.degrees[degree] > 0)
+      json["degrees"][std::to_string(degree)] = quality.degrees[degree];
+  json["obtuse"] = quality.obtuse;
+  json["spacing"] = to_json(quality.spacing);
+  json["triangle_quality"] = to_json(quality.triangle_quality);
+  json["angles"] = to_json(quality.angles);
+  if (measured.radius_km) {
+    json["radius_km"] = *measured.radius_km;
+    json["spacing_km"] = to_json(scaled(quality.spacing, *measured.radius_km));
+    json["least_dc_km"] = quality.spacing.min * *measured.radius_km;
+  }
+  if (measured.open)
+    add_boundary(measured, json);
+  if (measured.cells && measured.open) {
+    add_whole_cells(quality, json);
+  } else if (measured.cells) {
+    json["density"] = measured.density;
+    add_cells(quality, json);
+  }
+  if (measured.domain_area)
+    json["domain_area"] = *measured.domain_area;
+  else
+    json["triangles_area"] = quality.triangles_area;
+  return json.dump(2) + "\n";
+}
+
+std::string table(const Measured& measured) {
+  const Quality& quality = measured.quality;
+  const bool plane = measured.domain_area.has_value();
+  Table table;
+  table.row("cells", quality.cells);
+  if (measured.open)
+    add_boundary_rows(measured, table);
+  table.row("triangles", quality.triangles);
+  table.row("degree: cells", degrees(quality));
+  table.row<std::string>("", "min", "mean", "max");
+  table.row(plane ? "spacing" : "spacing, " + measured.unit.name,
+            scaled(quality.spacing, measured.unit.of_radian));
+  table.row("triangle quality", quality.triangle_quality);
+  table.row("angles, degrees", quality.angles);
+  table.row("obtuse triangles", quality.obtuse);
+  if (measured.cells && measured.open) {
+    add_shape_rows(measured, table);
+    add_bad_cells(measured, table);
+  } else if (measured.cells) {
+    add_cell_rows(measured, table);
+  }
+  if (!plane)
+    table.row("triangles / 4 pi", quality.triangles_area, 15);
+  return table.text();
+}
+
+std::string table(const Polygons& polygons, const std::optional<Mesh>& mesh, const Unit& unit) {
+  const Eigen::VectorXd area = areas(polygons);
+  std::vector<std::int64_t> sides;
+  for (std::int64_t i = 0; i < polygons.size(); ++i) {
+    const auto count = static_cast<std::size_t>(polygons.begin[i + 1] - polygons.begin[i]);
+    sides.resize(std::max(sides.size(), count + 1));
+    ++sides[count];
+  }
+  Quality counts;
+  counts.degrees = sides;
+  Table table;
+  table.row("cells", polygons.size());
+  table.row("corners", polygons.corners.cols());
+  table.row("sides: cells", degrees(counts));
+  table.row<std::string>("", "min", "mean", "max");
+  table.row("cell area, " + unit.area,
+            scaled({area.minCoeff(), area.mean(), area.maxCoeff()}, unit.of_steradian));
+  table.row("cells / 4 pi", area.sum() / (4 * std::numbers::pi), 15);
+  return table.text() + shape_rows(polygons, mesh, 22);
+}
+
+std::string to_json(const Polygons& polygons, const std::optional<Mesh>& mesh,
+                    const Measured& measured) {
+  const Eigen::VectorXd area = areas(polygons);
+  nlohmann::ordered_json json;
+  json["changes"] = measured.changes;
+  json["remarks"] = measured.remarks;
+  json["cells"] = polygons.size();
+  json["corners"] = polygons.corners.cols();
+  json["cell_area"] = to_json(Range{area.minCoeff(), area.mean(), area.maxCoeff()});
+  json["cells_area"] = area.sum() / (4 * std::numbers::pi);
+  add_shapes(polygons, mesh, json);
+  return json.dump(2) + "\n";
+}
+
+} // namespace calotte::tools
