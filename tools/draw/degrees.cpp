@@ -173,10 +173,9 @@ private:
   /// \param values of the degrees at the last step of an edge, which ends at t.
   void add_crossings(DegreeLabel::At edge, bool parallels, const std::array<double, 2>& values,
                      double t, std::vector<DegreeLabel>& labels) const {
-    const auto [low, high] = std::minmax(values[0], values[1]);
-    const double above = low;
+    const double low = std::min(values[0], values[1]), high = std::max(values[0], values[1]);
     for_each_multiple(low, high, parallels ? latitudes_ : longitudes_, [&](double value) {
-      if (value == above && low != high) {
+      if (value == low && low != high) {
         return; // the end of the step before
       }
       const double part = high > low ? (value - values[0]) / (values[1] - values[0]) : 0;
