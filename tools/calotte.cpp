@@ -51,10 +51,12 @@ void run(CLI::App& app, int argc, char** argv) {
   add_draw(app);
   add_convert(app);
   add_cut(app);
+  add_cull(app);
   add_help(app);
   app.parse(argc, argv);
   if (app.get_subcommands().empty())
-    throw CLI::RequiredError("delaunay, cvt, plan, points, check, info, draw, convert or cut");
+    throw CLI::RequiredError(
+        "delaunay, cvt, plan, points, check, info, draw, convert, cut or cull");
 }
 
 /// A message of the library, with the option that is its remedy here.

@@ -18,6 +18,7 @@ void add_info(CLI::App& app);
 void add_draw(CLI::App& app);
 void add_convert(CLI::App& app);
 void add_cut(CLI::App& app);
+void add_cull(CLI::App& app);
 void add_help(CLI::App& app); ///< last: it shows the help of the others
 
 } // namespace calotte::tools

@@ -5,6 +5,7 @@
 #include <calotte/cell_width.h>
 #include <calotte/check.h>
 #include <calotte/check_file.h>
+#include <calotte/cull.h>
 #include <calotte/cut.h>
 #include <calotte/cvt.h>
 #include <calotte/delaunay.h>
@@ -15,6 +16,7 @@
 #include <calotte/generators.h>
 #include <calotte/io.h>
 #include <calotte/limited_area.h>
+#include <calotte/ocean.h>
 #include <calotte/options.h>
 #include <calotte/planar_raster.h>
 #include <calotte/progress.h>

@@ -5,6 +5,7 @@
 #include <calotte/domain.h>
 #include <calotte/error.h>
 #include <calotte/export.h>
+#include <calotte/ocean.h>
 #include <calotte/planar_raster.h>
 #include <calotte/region.h>
 #include <calotte/types.h>
@@ -134,6 +135,24 @@ Points3 read_sites(const std::string& path);
 /// \param points 2 x n, as in read_mesh().
 /// \throws Error as read_mesh(); bad_option for a spherical mesh, which has a z that is not 0.
 PlanarMesh read_planar_mesh(const std::string& path, const Points2* points = nullptr);
+
+/// Reads areas of land.
+///
+/// GeoJSON: Polygon and MultiPolygon geometries of longitude and latitude in degrees, alone or in
+/// features or collections. The edges are arcs of great circles. The land of a polygon is the
+/// smaller side of its outer ring without the smaller sides of its holes; the orientation of the
+/// rings does not matter. Polygons may share edges, but not overlap.
+///
+/// NetCDF: a binned file of GSHHG as GMT reads it, binned_GSHHS_c.nc to binned_GSHHS_f.nc. The land
+/// includes lakes, and the ice shelves of Antarctica.
+/// \throws Error parse, naming the feature or the variable; file.
+Coast read_coast(const std::string& path);
+
+/// Reads lines on the sphere from GeoJSON: LineString and MultiLineString geometries of longitude
+/// and latitude in degrees, alone or in features or collections.
+/// \returns for each line its places, unit columns.
+/// \throws Error parse, naming the feature; file.
+std::vector<Points3> read_lines(const std::string& path);
 
 /// Reads all bytes of a file.
 /// \throws Error file.

@@ -3,8 +3,6 @@
 
 #include "base/parallel.h"
 #include "base/require.h"
-#include "io/file.h"
-#include "io/mpas.h"
 #include "io/mpas_subset.h"
 
 #include <algorithm>
@@ -104,20 +102,6 @@ void add_attributes(double radius, NetcdfSubset& subset) {
   set("mesh_spec", std::string("1.1"));
 }
 
-std::vector<std::string> write_part(const MpasSource& source, const MpasPart& part,
-                                    const NetcdfSubset& subset, const std::string& target,
-                                    const ProgressCallback& progress) {
-  OutputFile graph(graph_path(target));
-  NetcdfWriter file(target, progress);
-  const std::int64_t inner = (part.cells_on_cell.array() >= 0).count() / 2;
-  put_graph([&](std::string_view text) { graph.append(text); }, part.begin, part.cells_on_cell,
-            inner);
-  std::vector<std::string> refused = put_subset(source.netcdf(), subset, file);
-  file.commit();
-  graph.commit();
-  return refused;
-}
-
 CutReport report_of(const MpasPart& part, const Masks& masks, int rings) {
   CutReport report{part.cells.count(), part.edges.count(), part.vertices.count(), {}, {}};
   report.cells_by_mask.resize(static_cast<std::size_t>(rings) + 1);
@@ -153,9 +137,6 @@ CutReport cut(const std::string& source_path, const std::string& target,
   add_history(source, part, options.history, subset);
   CutReport report = report_of(part, masks, options.rings);
   report.left_out = write_part(source, part, subset, target, options.progress);
-  for (const char* name : {"advCells", "advCellsForEdge"})
-    if (source.netcdf().find(name) >= 0)
-      report.left_out.emplace_back(name);
   return report;
 }
 

@@ -45,6 +45,35 @@ double radius_of(const NetcdfReader& file) {
   return radius;
 }
 
+Points3 read_places(const NetcdfReader& file, const std::string& kind, std::int64_t count) {
+  Points3 places(3, count);
+  for (int row = 0; row < 3; ++row) {
+    const std::vector<double> values = file.doubles(std::string(1, "xyz"[row]) + kind, {count});
+    places.row(row) = Eigen::Map<const Eigen::RowVectorXd>(values.data(), count);
+  }
+  return places;
+}
+
+/// Throws unless edge k of each cell lies between vertices k - 1 and k, also for the other cell.
+void require_edges(const NetcdfReader& file, std::int64_t edges, const Voronoi& cells) {
+  if (cells.edges_on_cell.minCoeff() < 0 || cells.vertices_on_cell.minCoeff() < 0)
+    file.fail("a cell lacks an edge or a vertex; give a global mesh");
+  Pairs ends = Pairs::Constant(2, edges, -1);
+  for (std::int64_t i = 0; i + 1 < cells.begin.size(); ++i)
+    for (std::int64_t k = cells.begin[i]; k < cells.begin[i + 1]; ++k) {
+      const std::int32_t
+          end = cells.vertices_on_cell[k],
+          start = cells.vertices_on_cell[(k == cells.begin[i] ? cells.begin[i + 1] : k) - 1];
+      const Eigen::Vector2i pair(std::min(start, end), std::max(start, end));
+      auto known = ends.col(cells.edges_on_cell[k]);
+      if (known[0] >= 0 && known != pair)
+        file.fail("edgesOnCell and verticesOnCell of cell " + std::to_string(i + 1) +
+                  " (1-based) do not correspond: edge k lies between vertices k - 1 and k; make "
+                  "the file again");
+      known = pair;
+    }
+}
+
 template <class T>
 void take_row(const NetcdfSource& file, const std::string& variable, std::int64_t row,
               const T* stored, std::int64_t count, std::int64_t bound, std::int32_t* out) {
@@ -98,14 +127,10 @@ MpasSource::MpasSource(const std::string& path) : netcdf_(path) {
                 std::to_string(width) + "; make the file again");
 }
 
-Points3 MpasSource::places() const {
-  Points3 places(3, cells_);
-  for (int row = 0; row < 3; ++row) {
-    const std::vector<double> values =
-        netcdf_.reader().doubles(std::string(1, "xyz"[row]) + "Cell", {cells_});
-    places.row(row) = Eigen::Map<const Eigen::RowVectorXd>(values.data(), cells_);
-  }
-  return places;
+Points3 MpasSource::places() const { return read_places(netcdf_.reader(), "Cell", cells_); }
+
+Points3 MpasSource::vertex_places() const {
+  return read_places(netcdf_.reader(), "Vertex", vertices_);
 }
 
 Offsets MpasSource::begins() const {
@@ -160,6 +185,18 @@ Ids MpasSource::lists(const std::string& variable, const Offsets& begin, std::in
     }
   });
   return ids;
+}
+
+Voronoi tessellation_of(const MpasSource& source) {
+  Voronoi cells;
+  cells.cells = source.places().colwise().normalized();
+  cells.vertices = source.vertex_places().colwise().normalized();
+  cells.begin = source.begins();
+  cells.edges_on_cell = source.lists("edgesOnCell", cells.begin, source.edges());
+  cells.vertices_on_cell = source.lists("verticesOnCell", cells.begin, source.vertices());
+  cells.cells_on_cell = source.lists("cellsOnCell", cells.begin, source.cells());
+  require_edges(source.netcdf().reader(), source.edges(), cells);
+  return cells;
 }
 
 MpasPart part_of(const MpasSource& source, const Ids& keep) {

@@ -28,6 +28,7 @@ public:
   double radius() const { return radius_; } ///< of its sphere
 
   Points3 places() const; ///< 3 x n, of the generators, as the file has them
+  Points3 vertex_places() const;
 
   /// Offsets of the lists of all cells, or of the given ones.
   Offsets begins() const;
@@ -44,6 +45,10 @@ private:
   double radius_ = 1;
   std::vector<std::int32_t> counts_; ///< nEdgesOnCell
 };
+
+/// The cells as polygons: places, vertices and the lists of the cells.
+/// \throws Error parse, for an incomplete cell, and for lists of a cell that do not correspond.
+Voronoi tessellation_of(const MpasSource& source);
 
 /// The part of a mesh that is kept.
 struct MpasPart {

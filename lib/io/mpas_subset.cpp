@@ -2,6 +2,7 @@
 #include "io/mpas_subset.h"
 
 #include "io/big_endian.h"
+#include "io/file.h"
 #include "io/mpas.h"
 
 #include <calotte/error.h>
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 
 namespace calotte::io_detail {
 namespace {
@@ -31,6 +33,9 @@ constexpr IdVariable id_variables[] = {
 constexpr IdVariable number_variables[] = {{"indexToCellID", &MpasPart::cells},
                                            {"indexToEdgeID", &MpasPart::edges},
                                            {"indexToVertexID", &MpasPart::vertices}};
+
+/// Lists of cells that start with their length.
+constexpr const char* made_by_models[] = {"advCells", "advCellsForEdge"};
 
 /// work(values, count) on values of the machine's order in place of those of the file.
 template <class T, class Work> void on_values(char* bytes, std::int64_t count, const Work& work) {
@@ -200,7 +205,7 @@ NetcdfSubset subset_of(const MpasSource& source, const MpasPart& part) {
   for (const IdVariable& numbers : number_variables)
     add_change(file, numbers.name, subset, [&](int v) { return numbers_of(file, v); });
   add_change(file, "boundaryVertex", subset, [&](int v) { return boundary_of(file, v, part); });
-  subset.left_out = {"advCells", "advCellsForEdge"};
+  subset.left_out.assign(std::begin(made_by_models), std::end(made_by_models));
   if (file.find("edgesOnEdge") >= 0)
     add_change(file, "weightsOnEdge", subset, [&](int v) { return weights_of(file, v, part); });
   return subset;
@@ -237,6 +242,23 @@ void add_history(const MpasSource& source, const MpasPart& part, const std::stri
   set("file_id", fingerprint(part.cells.old, parent));
   set("parent_id", before("parent_id", parent));
   set("source", "calotte " CALOTTE_VERSION);
+}
+
+std::vector<std::string> write_part(const MpasSource& source, const MpasPart& part,
+                                    const NetcdfSubset& subset, const std::string& path,
+                                    const ProgressCallback& progress) {
+  OutputFile graph(graph_path(path));
+  NetcdfWriter file(path, progress);
+  const std::int64_t inner = (part.cells_on_cell.array() >= 0).count() / 2;
+  put_graph([&](std::string_view text) { graph.append(text); }, part.begin, part.cells_on_cell,
+            inner);
+  std::vector<std::string> refused = put_subset(source.netcdf(), subset, file);
+  file.commit();
+  graph.commit();
+  for (const char* name : made_by_models)
+    if (source.netcdf().find(name) >= 0)
+      refused.emplace_back(name);
+  return refused;
 }
 
 } // namespace calotte::io_detail

@@ -6,6 +6,7 @@
 #include "io/room.h"
 
 #include <string>
+#include <vector>
 
 /// MPAS files of which cells are left out.
 namespace calotte::io_detail {
@@ -27,5 +28,12 @@ void add_division(const MpasSource& source, const std::string& variable, double 
 /// \param history of the new file; "" for none.
 void add_history(const MpasSource& source, const MpasPart& part, const std::string& history,
                  NetcdfSubset& subset);
+
+/// Writes the file and NAME.graph.info beside it; both are complete or absent.
+/// \returns the variables of the source that it does not have.
+/// \throws Error as put_subset(); cancelled.
+std::vector<std::string> write_part(const MpasSource& source, const MpasPart& part,
+                                    const NetcdfSubset& subset, const std::string& path,
+                                    const ProgressCallback& progress);
 
 } // namespace calotte::io_detail

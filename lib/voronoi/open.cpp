@@ -6,6 +6,7 @@
 #include "base/points.h"
 #include "exact/predicates.h"
 #include "voronoi/groups.h"
+#include "voronoi/triangle_area.h"
 
 #include <calotte/error.h>
 
@@ -192,11 +193,7 @@ struct Sphere {
   static double length(const Vec3& a, const Vec3& b) {
     return 2 * std::atan2(norm(b - a), norm(a + b));
   }
-  /// Oosterom and Strackee (IEEE Trans. Biomed. Eng. 30, 1983), with differences in the product,
-  /// which keep the digits of small triangles.
-  static double area(const Vec3& a, const Vec3& b, const Vec3& c) {
-    return 2 * std::atan2(dot(a, cross(b - a, c - a)), 1 + dot(a, b) + dot(b, c) + dot(c, a));
-  }
+  static double area(const Vec3& a, const Vec3& b, const Vec3& c) { return triangle_area(a, b, c); }
   static Vec3 to_the_right(const Vec3& way, const Vec3& place) { return cross(way, place); }
   static double angle(const Vec3& place, const Vec3& direction) {
     const Vec3 east{-place.y, place.x, 0};

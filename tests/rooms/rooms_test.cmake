@@ -14,8 +14,8 @@ set(headers_of_base error export mesh_field options points progress types versio
 set(headers_of_mesh check renumber)
 set(headers_of_domain region)
 set(headers_of_density cell_width planar_raster)
-set(headers_of_voronoi limited_area)
-set(headers_of_io calotte check_file checkpoint cut mesh_file read write)
+set(headers_of_voronoi limited_area ocean)
+set(headers_of_io calotte check_file checkpoint cull cut mesh_file read write)
 
 foreach(room ${rooms})
   foreach(header ${room} ${headers_of_${room}})

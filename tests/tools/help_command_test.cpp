@@ -13,7 +13,7 @@ using namespace calotte::test;
 namespace {
 
 const std::vector<std::string> commands{"delaunay", "cvt",  "plan",    "points", "check",
-                                        "info",     "draw", "convert", "cut"};
+                                        "info",     "draw", "convert", "cut",    "cull"};
 
 /// The text of a help, checked to succeed.
 std::string shown(const Bench& bench, const std::string& arguments) {

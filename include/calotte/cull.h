@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <calotte/export.h>
+#include <calotte/ocean.h>
+#include <calotte/progress.h>
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+/// Ocean grids: global ones without their cells of land.
+CALOTTE_API_BEGIN
+namespace calotte {
+
+/// A field that tells the sea from the land.
+struct SeaField {
+  std::string path;     ///< NetCDF file; empty for the source
+  std::string variable; ///< one number for each cell; empty for no field
+  /// Cells with least <= value < most may be sea; others, and those without a number, are land.
+  /// Default: below 0, as for a topography.
+  double least = -std::numeric_limits<double>::infinity();
+  double most = 0;
+};
+
+struct CullOptions {
+  Coast coast = {};           ///< Default: none, no land.
+  double land_fraction = 0.5; ///< cells with a larger fraction of land are land; 0 to less than 1
+  SeaField field = {};        ///< in addition to the coast. Default: none.
+  /// Lines that stay open: all cells on them are sea. Each 3 x places, unit columns, joined by arcs
+  /// of great circles. Default: none.
+  std::vector<Points3> passages = {};
+  std::vector<Points3> barriers = {}; ///< lines whose cells are land, unless on a passage
+  /// Cells with a single neighbour in the sea become land, repeatedly. Default: true.
+  bool fill = true;
+  Points3 seeds = {}; ///< places in the sea, unit columns. Default: none, its largest part.
+  /// File for what is culled: the variables cullCell and regionCellMasks (1 for land), and
+  /// landFraction if there is a coast, by cell of the source. Default: empty, no file.
+  std::string mask_path = {};
+  std::string history = {};       ///< how the file was made; precedes that of the source
+  ProgressCallback progress = {}; ///< stage: write. A cancelled run leaves no file.
+};
+
+struct CullReport {
+  std::int64_t cells = 0, edges = 0, vertices = 0; ///< of the new mesh
+  std::int64_t land = 0;                           ///< cells that the coast and the field make land
+  SeaReport sea;                                   ///< what followed
+  std::vector<std::string> left_out;               ///< variables, as CutReport::left_out
+};
+
+/// Leaves the cells of land out of an MPAS file of the sphere, see sea_cells(), and carries all
+/// fields along, as cut() does. The new file holds the sea's cells, with every edge and vertex that
+/// touches one, in the order of the source. As MPAS-Tools leaves them:
+///
+/// - edges have their first cell: where that of the source is land, the cells of cellsOnEdge and
+/// the
+///   vertices of verticesOnEdge are exchanged. angleEdge turns by pi, edgeNormalVectors and the
+///   weights in weightsOnEdge to and from such edges change their sign;
+/// - kiteAreasOnVertex is 0 for cells of land; areaTriangle is the sum of the kites;
+/// - the variables mapCulledToBaseCell, mapCulledToBaseEdge and mapCulledToBaseVertex hold the
+///   0-based ids of the source;
+/// - other measures at the boundary, the density and the radius are those of the source.
+///
+/// NAME.graph.info is written beside NAME.nc.
+/// \throws Error bad_option as land_fractions(), cells_on_lines() and sea_cells(); for a source
+/// that
+///         holds no mesh of the sphere with connectivity, a fraction out of range, and neither a
+///         coast nor a field nor a barrier; parse; cancelled; file.
+CullReport cull(const std::string& source, const std::string& target,
+                const CullOptions& options = {});
+
+} // namespace calotte
+CALOTTE_API_END

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <calotte/export.h>
+#include <calotte/limited_area.h>
+#include <calotte/types.h>
+#include <calotte/voronoi.h>
+
+#include <cstdint>
+#include <vector>
+
+/// The cells of an ocean grid: what land covers of each, and which are sea.
+CALOTTE_API_BEGIN
+namespace calotte {
+
+/// The boundaries of areas of land that do not overlap. Parts of them may coincide, as where
+/// polygons are cut along a meridian.
+struct Coast {
+  /// Rings, each 3 x corners, unit columns, joined by arcs shorter than a half circle. Land is to
+  /// the left, seen from outside the sphere.
+  std::vector<Points3> rings;
+  double area = 0; ///< of the land, steradians
+};
+
+/// The fraction of each cell that is land, from the exact intersections of the coast's arcs with
+/// the cells, whose sides are arcs between their vertices. The areas sum to that of the land within
+/// 1e-10. The arcs are turned by 1e-12 radians so that none passes through a vertex. The result has
+/// the same bits for any number of threads.
+/// \param cells a closed tessellation of the sphere; only its cells, vertices, begin and lists of
+///        cells are read.
+/// \returns n fractions from 0 to 1.
+/// \throws Error bad_option, for cells that do not cover the sphere; for an area that is not that
+///         of the rings, and for places covered twice.
+Eigen::VectorXd land_fractions(const Voronoi& cells, const Coast& coast);
+
+/// The cells that lines cross, in increasing order. Successive cells of a line share an edge.
+/// \param lines each 3 x places, unit columns, joined by arcs shorter than a half circle.
+/// \throws Error bad_option, for cells that do not cover the sphere, or a line without a place.
+std::vector<std::int32_t> cells_on_lines(const Voronoi& cells, const std::vector<Points3>& lines);
+
+/// What makes sea of cells that are no land.
+struct SeaOptions {
+  std::vector<std::int32_t> opened = {}; ///< cells that are sea, even on land. Default: none.
+  std::vector<std::int32_t> closed = {}; ///< cells that are land, unless opened. Default: none.
+  bool fill = true; ///< cells with a single neighbour in the sea, or none, become land, repeatedly
+  /// The sea is what is connected with one of these cells. Default: none, the largest part.
+  std::vector<std::int32_t> seeds = {};
+};
+
+struct SeaReport {
+  std::int64_t opened = 0;  ///< cells of land that became sea
+  std::int64_t closed = 0;  ///< cells of the sea that became land
+  std::int64_t filled = 0;  ///< cells with a single neighbour in the sea, or none
+  std::int64_t parts = 0;   ///< of the sea before the others were left out
+  std::int64_t severed = 0; ///< cells in parts without a seed
+};
+
+/// The cells of a connected sea: first closed and opened cells, then filled ones, then the parts
+/// without a seed, are decided. A cell that is filled lies on no way between two others, so that an
+/// opened passage stays open.
+/// \param begin n + 1 offsets.
+/// \param cells_on_cell 0-based neighbours; -1 for a missing one, which counts as land.
+/// \param land n flags: 1 for land.
+/// \returns by cell: 0 for the sea, -1 for land.
+/// \throws Error bad_option, if no cell is sea, and naming the first seed that is on land.
+Ids sea_cells(const Offsets& begin, const Ids& cells_on_cell, const std::vector<std::uint8_t>& land,
+              const SeaOptions& options = {}, SeaReport* report = nullptr);
+
+} // namespace calotte
+CALOTTE_API_END

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <calotte/cull.h>
+
+#include "base/points.h"
+#include "base/require.h"
+#include "io/mpas_cull.h"
+#include "voronoi/cell_walk.h"
+
+#include <calotte/read.h>
+
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace calotte {
+namespace io_detail {
+namespace {
+
+void require_options(const CullOptions& options) {
+  require(options.land_fraction >= 0 && options.land_fraction < 1,
+          "the fraction of land is not from 0 to less than 1; give one such as 0.5");
+  require(!options.coast.rings.empty() || !options.field.variable.empty() ||
+              !options.barriers.empty(),
+          "there is no land; give a coast, a field or a barrier");
+}
+
+/// The cells of the source, as far as options need them.
+struct Ground {
+  Offsets begin;
+  Ids cells_on_cell;
+  std::optional<Voronoi> cells; ///< for coasts and lines
+};
+
+Ground ground_of(const MpasSource& source, const CullOptions& options) {
+  if (options.coast.rings.empty() && options.passages.empty() && options.barriers.empty() &&
+      options.seeds.cols() == 0) {
+    const Offsets begin = source.begins();
+    return {begin, source.lists("cellsOnCell", begin, source.cells()), {}};
+  }
+  Voronoi cells = tessellation_of(source);
+  return {cells.begin, cells.cells_on_cell, std::move(cells)};
+}
+
+/// Of a cell that is land by the coast or by the field.
+struct Land {
+  std::vector<std::uint8_t> flags;
+  Eigen::VectorXd fractions; ///< empty without a coast
+};
+
+Land land_of(const std::string& source, const Ground& ground, const CullOptions& options) {
+  const std::int64_t n = ground.begin.size() - 1;
+  Land land{std::vector<std::uint8_t>(static_cast<std::size_t>(n), 0), {}};
+  if (!options.coast.rings.empty())
+    land.fractions = land_fractions(*ground.cells, options.coast);
+  const SeaField& field = options.field;
+  Eigen::VectorXd values;
+  if (!field.variable.empty())
+    values = read_cell_field(field.path.empty() ? source : field.path, field.variable, n).values;
+  for (std::int64_t i = 0; i < n; ++i) {
+    const bool by_coast = land.fractions.size() > 0 && land.fractions[i] > options.land_fraction;
+    const bool by_field =
+        values.size() > 0 && !(values[i] >= field.least && values[i] < field.most);
+    land.flags[static_cast<std::size_t>(i)] = by_coast || by_field ? 1 : 0;
+  }
+  return land;
+}
+
+std::vector<std::int32_t> cells_at(const Voronoi& cells, const Points3& places) {
+  const voronoi_detail::CellWalk walk(cells);
+  std::vector<std::int32_t> found;
+  for (Eigen::Index k = 0; k < places.cols(); ++k)
+    found.push_back(walk.locate(0, column(places, k)));
+  return found;
+}
+
+SeaOptions sea_options(const Ground& ground, const CullOptions& options) {
+  SeaOptions sea;
+  sea.fill = options.fill;
+  if (!options.passages.empty())
+    sea.opened = cells_on_lines(*ground.cells, options.passages);
+  if (!options.barriers.empty())
+    sea.closed = cells_on_lines(*ground.cells, options.barriers);
+  if (options.seeds.cols() > 0)
+    sea.seeds = cells_at(*ground.cells, options.seeds);
+  return sea;
+}
+
+void add_maps(const MpasPart& part, NetcdfSubset& subset) {
+  const auto add = [&](const std::string& kind, const std::string& dimension, const Kept& kept) {
+    const std::string name = "mapCulledToBase" + kind;
+    subset.left_out.push_back(name); // of an earlier cull
+    subset.added.push_back({name, dimension, "0-based id in the mesh before culling",
+                            [&kept](std::int64_t i) { return kept.old[i]; }});
+  };
+  add("Cell", "nCells", part.cells);
+  add("Edge", "nEdges", part.edges);
+  add("Vertex", "nVertices", part.vertices);
+}
+
+/// The masks that MPAS-Tools culls by.
+void write_mask(const std::string& path, const Ids& sea, const Eigen::VectorXd& fractions) {
+  NetcdfWriter file(path);
+  const int cells = file.dimension("nCells", sea.size()), regions = file.dimension("nRegions", 1);
+  const auto define = [&](const std::string& name, NetcdfType type, std::vector<int> dimensions,
+                          const std::string& long_name) {
+    return file.variable(name, type, dimensions,
+                         {{"units", std::string("1")}, {"long_name", long_name}});
+  };
+  const int cull = define("cullCell", NetcdfType::int32, {cells}, "1 for cells that are culled"),
+            masks = define("regionCellMasks", NetcdfType::int32, {cells, regions},
+                           "1 for cells of land");
+  const int fraction = fractions.size() > 0 ? define("landFraction", NetcdfType::float64, {cells},
+                                                     "fraction of each cell that is land")
+                                            : -1;
+  file.begin();
+  const NetcdfWriter::Fill<std::int32_t> flags = [&](std::int64_t begin, std::int64_t end,
+                                                     std::int32_t* out) {
+    for (std::int64_t i = begin; i < end; ++i)
+      *out++ = sea[i] < 0 ? 1 : 0;
+  };
+  file.put(cull, flags);
+  file.put(masks, flags);
+  if (fraction >= 0)
+    file.put(fraction,
+             NetcdfWriter::Fill<double>([&](std::int64_t begin, std::int64_t end, double* out) {
+               std::copy_n(fractions.data() + begin, end - begin, out);
+             }));
+  file.commit();
+}
+
+void add_attributes(const MpasSource& source, NetcdfSubset& subset) {
+  subset.attributes["on_a_sphere"] = {"on_a_sphere", std::string("YES")};
+  subset.attributes["sphere_radius"] = {"sphere_radius", source.radius()};
+}
+
+} // namespace
+} // namespace io_detail
+
+CullReport cull(const std::string& source_path, const std::string& target,
+                const CullOptions& options) {
+  using namespace io_detail;
+  require_options(options);
+  const MpasSource source(source_path);
+  const Ground ground = ground_of(source, options);
+  const Land land = land_of(source_path, ground, options);
+  CullReport report;
+  report.land = std::count(land.flags.begin(), land.flags.end(), 1);
+  const Ids sea = sea_cells(ground.begin, ground.cells_on_cell, land.flags,
+                            sea_options(ground, options), &report.sea);
+  const MpasPart part = part_of(source, sea);
+  const ReversedEdges reversed = reversed_edges(source, part);
+  NetcdfSubset subset = subset_of(source, part);
+  add_reversals(source, part, reversed, subset);
+  add_kites(source, part, subset);
+  add_maps(part, subset);
+  add_attributes(source, subset);
+  add_history(source, part, options.history, subset);
+  report.cells = part.cells.count();
+  report.edges = part.edges.count();
+  report.vertices = part.vertices.count();
+  report.left_out = write_part(source, part, subset, target, options.progress);
+  if (!options.mask_path.empty())
+    write_mask(options.mask_path, sea, land.fractions);
+  return report;
+}
+
+} // namespace calotte

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "voronoi/cell_walk.h"
+
+#include "base/points.h"
+
+#include <calotte/error.h>
+
+namespace calotte::voronoi_detail {
+
+/// On the cell's side of an edge. The great circle runs from the lower vertex to the higher one; it
+/// belongs to its left side.
+bool CellWalk::is_inside(std::int32_t cell, std::int64_t place, const Vec3& x) const {
+  const std::int32_t a = start(cell, place), b = end(place);
+  const Vec3 &from = column(cells_.vertices, a), &to = column(cells_.vertices, b);
+  return a < b ? turn(from, to, x) >= 0 : turn(to, from, x) < 0;
+}
+
+std::int64_t CellWalk::exit_of(std::int32_t cell, const Arc& arc) const {
+  const std::int64_t first = cells_.begin[cell], last = cells_.begin[cell + 1];
+  const auto is_left = [&](std::int32_t vertex) {
+    return turn(arc.from, arc.to, column(cells_.vertices, vertex)) >= 0;
+  };
+  bool inside = true;
+  for (std::int64_t k = first; inside && k < last; ++k)
+    inside = is_inside(cell, k, arc.to);
+  if (inside)
+    return -1;
+  bool left = is_left(end(last - 1));
+  for (std::int64_t k = first; k < last; ++k) {
+    const bool was_left = left;
+    left = is_left(end(k));
+    if (!was_left && left && !is_inside(cell, k, arc.to))
+      return k;
+  }
+  lose();
+}
+
+std::int32_t CellWalk::locate(std::int32_t near, const Vec3& place) const {
+  std::int32_t cell = near;
+  double nearest = dot(column(cells_.cells, cell), place);
+  for (bool moved = true; moved;) {
+    moved = false;
+    const std::int32_t here = cell;
+    for (std::int64_t k = cells_.begin[here]; k < cells_.begin[here + 1]; ++k) {
+      const std::int32_t other = cells_.cells_on_cell[k];
+      const double cosine = other < 0 ? -2 : dot(column(cells_.cells, other), place);
+      if (cosine > nearest) {
+        nearest = cosine;
+        cell = other;
+        moved = true;
+      }
+    }
+  }
+  const Vec3& generator = column(cells_.cells, cell);
+  if (generator.x == place.x && generator.y == place.y && generator.z == place.z)
+    return cell;
+  return walk(cell, {generator, place}, [](std::int32_t, std::int64_t) {});
+}
+
+void CellWalk::lose() {
+  throw Error(ErrorCode::bad_option, "a line leaves the cells of the mesh, which do not cover the "
+                                     "sphere; give a global mesh");
+}
+
+} // namespace calotte::voronoi_detail

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "domain/arcs.h"
+#include "voronoi/room.h"
+
+#include <calotte/voronoi.h>
+
+#include <cstdint>
+
+namespace calotte::voronoi_detail {
+
+/// Walks along arcs from cell to cell of a closed tessellation of the sphere. The cells are the
+/// polygons of its vertices; which side of an edge a place is on is exact, and the same for both
+/// cells. The walk passes through edges only.
+///
+/// A place on an edge, or an arc through a vertex, may have no such walk: a caller turns its arcs a
+/// little.
+class CellWalk {
+public:
+  /// \pre cells and vertices are unit columns; the neighbours of cells are theirs across the edges.
+  explicit CellWalk(const Voronoi& cells) : cells_(cells) {}
+
+  /// The cell that contains a unit vector. \param near a cell; the time is the number of cells on
+  /// the way from it.
+  /// \throws Error bad_option, if there is no walk.
+  std::int32_t locate(std::int32_t near, const Vec3& place) const;
+
+  /// Walks along an arc from the cell that contains its start.
+  /// \param cross called as cross(cell, k) before the walk leaves a cell through the edge at place
+  ///        k of its lists.
+  /// \returns the cell that contains the end.
+  /// \throws Error bad_option, if there is no walk, as in a mesh that does not cover the sphere.
+  template <class Cross>
+  std::int32_t walk(std::int32_t cell, const Arc& arc, const Cross& cross) const {
+    for (std::int64_t steps = 0; steps <= cells_.cells.cols(); ++steps) {
+      const std::int64_t exit = exit_of(cell, arc);
+      if (exit < 0)
+        return cell;
+      cross(cell, exit);
+      cell = cells_.cells_on_cell[exit];
+      if (cell < 0)
+        break;
+    }
+    lose();
+  }
+
+  /// The vertices of the edge at a place of a cell's lists, counter-clockwise.
+  std::int32_t start(std::int32_t cell, std::int64_t place) const {
+    const std::int64_t before = place == cells_.begin[cell] ? cells_.begin[cell + 1] : place;
+    return cells_.vertices_on_cell[before - 1];
+  }
+  std::int32_t end(std::int64_t place) const { return cells_.vertices_on_cell[place]; }
+
+private:
+  /// The place of the edge through which the arc leaves a cell; -1 if it ends there.
+  std::int64_t exit_of(std::int32_t cell, const Arc& arc) const;
+  bool is_inside(std::int32_t cell, std::int64_t place, const Vec3& x) const;
+  [[noreturn]] static void lose();
+
+  const Voronoi& cells_;
+};
+
+} // namespace calotte::voronoi_detail

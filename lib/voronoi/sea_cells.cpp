@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <calotte/ocean.h>
+
+#include "base/require.h"
+#include "voronoi/room.h"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace calotte {
+namespace {
+
+using base_detail::require;
+
+constexpr std::int32_t land = -1, sea = 0;
+
+/// Sets cells. \returns the number of those that were something else.
+std::int64_t set(const std::vector<std::int32_t>& cells, std::int32_t value, Ids& of_cell) {
+  std::int64_t changed = 0;
+  for (const std::int32_t cell : cells) {
+    require(cell >= 0 && cell < of_cell.size(), "there is no cell " + std::to_string(cell));
+    changed += of_cell[cell] != value;
+    of_cell[cell] = value;
+  }
+  return changed;
+}
+
+/// Makes land of cells of the sea with fewer than two neighbours in it. \returns their number.
+std::int64_t fill(const Offsets& begin, const Ids& cells_on_cell, Ids& of_cell) {
+  const auto is_dead_end = [&](std::int32_t cell) {
+    int neighbours = 0;
+    for (std::int64_t k = begin[cell]; k < begin[cell + 1]; ++k)
+      neighbours += cells_on_cell[k] >= 0 && of_cell[cells_on_cell[k]] == sea;
+    return of_cell[cell] == sea && neighbours < 2;
+  };
+  std::vector<std::int32_t> ends;
+  for (std::int32_t cell = 0; cell < of_cell.size(); ++cell)
+    if (is_dead_end(cell))
+      ends.push_back(cell);
+  std::int64_t filled = 0;
+  while (!ends.empty()) {
+    const std::int32_t cell = ends.back();
+    ends.pop_back();
+    filled += of_cell[cell] == sea;
+    of_cell[cell] = land;
+    for (std::int64_t k = begin[cell]; k < begin[cell + 1]; ++k)
+      if (cells_on_cell[k] >= 0 && is_dead_end(cells_on_cell[k]))
+        ends.push_back(cells_on_cell[k]);
+  }
+  return filled;
+}
+
+/// The parts of the sea.
+struct Parts {
+  Ids of_cell;                    ///< -1 for land
+  std::vector<std::int64_t> size; ///< cells of each
+};
+
+Parts parts_of(const Offsets& begin, const Ids& cells_on_cell, const Ids& of_cell) {
+  Parts parts{Ids::Constant(of_cell.size(), -1), {}};
+  std::vector<std::int32_t> stack;
+  for (std::int32_t first = 0; first < of_cell.size(); ++first) {
+    if (of_cell[first] != sea || parts.of_cell[first] >= 0)
+      continue;
+    const auto part = static_cast<std::int32_t>(parts.size.size());
+    parts.size.push_back(0);
+    parts.of_cell[first] = part;
+    stack.assign(1, first);
+    while (!stack.empty()) {
+      const std::int32_t cell = stack.back();
+      stack.pop_back();
+      ++parts.size.back();
+      for (std::int64_t k = begin[cell]; k < begin[cell + 1]; ++k)
+        if (const std::int32_t other = cells_on_cell[k];
+            other >= 0 && of_cell[other] == sea && parts.of_cell[other] < 0) {
+          parts.of_cell[other] = part;
+          stack.push_back(other);
+        }
+    }
+  }
+  return parts;
+}
+
+/// Whether each part is kept: those of the seeds, or the largest.
+std::vector<bool> kept_parts(const Parts& parts, const std::vector<std::int32_t>& seeds) {
+  std::vector<bool> kept(parts.size.size());
+  if (seeds.empty())
+    kept[static_cast<std::size_t>(std::max_element(parts.size.begin(), parts.size.end()) -
+                                  parts.size.begin())] = true;
+  for (std::size_t k = 0; k < seeds.size(); ++k) {
+    const std::int32_t part = parts.of_cell[seeds[k]];
+    require(part >= 0, "seed " + std::to_string(k) + " is on land, in cell " +
+                           std::to_string(seeds[k]) + "; give a place in the sea");
+    kept[static_cast<std::size_t>(part)] = true;
+  }
+  return kept;
+}
+
+} // namespace
+
+Ids sea_cells(const Offsets& begin, const Ids& cells_on_cell,
+              const std::vector<std::uint8_t>& is_land, const SeaOptions& options,
+              SeaReport* report) {
+  Ids of_cell(begin.size() - 1);
+  for (std::int64_t i = 0; i < of_cell.size(); ++i)
+    of_cell[i] = is_land[static_cast<std::size_t>(i)] != 0 ? land : sea;
+  SeaReport counts;
+  counts.closed = set(options.closed, land, of_cell);
+  counts.opened = set(options.opened, sea, of_cell);
+  if (options.fill)
+    counts.filled = fill(begin, cells_on_cell, of_cell);
+  const Parts parts = parts_of(begin, cells_on_cell, of_cell);
+  require(!parts.size.empty(), "no cell is sea; check the land");
+  const std::vector<bool> kept = kept_parts(parts, options.seeds);
+  counts.parts = std::ssize(parts.size);
+  for (std::int64_t i = 0; i < of_cell.size(); ++i)
+    if (of_cell[i] == sea && !kept[static_cast<std::size_t>(parts.of_cell[i])]) {
+      of_cell[i] = land;
+      ++counts.severed;
+    }
+  if (report != nullptr)
+    *report = counts;
+  return of_cell;
+}
+
+} // namespace calotte

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "commands.h"
+#include "help/help.h"
+#include "options/files.h"
+#include "run/progress.h"
+
+#include <calotte/cull.h>
+#include <calotte/error.h>
+#include <calotte/read.h>
+#include <calotte/version.h>
+
+#include <filesystem>
+#include <iostream>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace calotte::tools {
+namespace {
+
+struct Request {
+  std::string source, output, mask;
+  std::vector<std::string> land, passages, barriers, seeds;
+  std::string field, field_file;
+  std::optional<double> below, from;
+  double land_fraction = CullOptions{}.land_fraction;
+  bool no_fill = false;
+
+  std::vector<std::string> inputs() const {
+    std::vector<std::string> all{source, field_file};
+    for (const auto* files : {&land, &passages, &barriers})
+      all.insert(all.end(), files->begin(), files->end());
+    return all;
+  }
+};
+
+/// Checks all options that can fail, before any input is read.
+void require_request(const Request& request) {
+  if (std::filesystem::path(request.output).extension() != ".nc")
+    throw Error(ErrorCode::bad_option,
+                request.output + ": the grid is an MPAS file; give a name that ends in .nc");
+  if (request.land.empty() && request.field.empty() && request.barriers.empty())
+    throw Error(ErrorCode::bad_option,
+                "there is no land; give --land FILE, --field NAME or --barrier FILE");
+  require_outputs({{"grid", request.output}, {"mask", request.mask}}, request.inputs());
+}
+
+/// All polygons of several files.
+Coast coast_of(const std::vector<std::string>& files) {
+  Coast all;
+  for (const std::string& file : files) {
+    const Coast coast = read_coast(file);
+    all.area += coast.area;
+    all.rings.insert(all.rings.end(), coast.rings.begin(), coast.rings.end());
+  }
+  return all;
+}
+
+std::vector<Points3> lines_of(const std::vector<std::string>& files) {
+  std::vector<Points3> all;
+  for (const std::string& file : files) {
+    const std::vector<Points3> lines = read_lines(file);
+    all.insert(all.end(), lines.begin(), lines.end());
+  }
+  return all;
+}
+
+/// Places "LON,LAT".
+Points3 places_of(const std::vector<std::string>& words) {
+  if (words.empty())
+    return {};
+  std::string lines;
+  for (const std::string& word : words)
+    lines += word + "\n";
+  std::istringstream in(lines);
+  return read_points(in, "--seed", Columns::lonlat);
+}
+
+CullOptions options_of(const Request& request) {
+  CullOptions options;
+  options.coast = coast_of(request.land);
+  options.land_fraction = request.land_fraction;
+  options.field = {request.field_file, request.field};
+  if (request.from)
+    options.field.least = *request.from;
+  if (request.from || request.below)
+    options.field.most = request.below.value_or(std::numeric_limits<double>::infinity());
+  options.passages = lines_of(request.passages);
+  options.barriers = lines_of(request.barriers);
+  options.fill = !request.no_fill;
+  options.seeds = places_of(request.seeds);
+  options.mask_path = request.mask;
+  options.history = "calotte " CALOTTE_VERSION " cull: " + request.source;
+  for (const std::string& file : request.inputs())
+    if (!file.empty() && file != request.source)
+      options.history += ", " + file;
+  return options;
+}
+
+std::string describe(const Request& request, const CullReport& report) {
+  const auto line = [](const std::string& name, std::int64_t cells) {
+    std::string text = name;
+    text.resize(28, ' ');
+    return text + std::to_string(cells) + "\n";
+  };
+  const SeaReport& sea = report.sea;
+  std::string lines;
+  for (const std::string& name : report.left_out)
+    lines += request.output + ": without the variable " + name + "\n";
+  lines += line("cells of land", report.land);
+  if (!request.barriers.empty())
+    lines += line("closed by barriers", sea.closed);
+  if (!request.passages.empty())
+    lines += line("opened by passages", sea.opened);
+  if (!request.no_fill)
+    lines += line("filled, of one neighbour", sea.filled);
+  lines += line("parts of the sea", sea.parts);
+  lines += line("cells in parts left out", sea.severed);
+  return lines + request.output + ": " + std::to_string(report.cells) + " cells, " +
+         std::to_string(report.edges) + " edges, " + std::to_string(report.vertices) +
+         " vertices\n";
+}
+
+void run(const Request& request) {
+  require_request(request);
+  CullReport report;
+  {
+    Progress progress;
+    progress.stage("reading the land");
+    const CullOptions options = options_of(request);
+    progress.stage("culling " + request.source);
+    report = cull(request.source, request.output, options);
+  }
+  std::cout << describe(request, report);
+}
+
+void add_land(CLI::App& command, Request& request) {
+  const OptionGroup group(command, "Land");
+  command
+      .add_option("--land", request.land,
+                  "GeoJSON polygons of land, such as Natural Earth's. They may share edges, but "
+                  "not overlap. May be repeated.")
+      ->type_name("FILE");
+  command
+      .add_option("--land-fraction", request.land_fraction,
+                  "Cells with a larger fraction of land are land, 0 to less than 1. The fractions "
+                  "are exact. Default: 0.5.")
+      ->type_name("F");
+  command
+      .add_option("--field", request.field,
+                  "Variable with a number for each cell that tells the sea from the land. Cells "
+                  "without a number are land.")
+      ->type_name("NAME");
+  command
+      .add_option("--field-file", request.field_file,
+                  "NetCDF file of that variable. Default: the global file.")
+      ->type_name("FILE")
+      ->needs("--field");
+  command
+      .add_option("--sea-below", request.below,
+                  "The sea has values below this one. Default: 0 for a topography, unlimited with "
+                  "--sea-from.")
+      ->type_name("X")
+      ->needs("--field");
+  command
+      .add_option("--sea-from", request.from,
+                  "The sea has values from this one on, such as 0.5 of ocean_frac. Default: "
+                  "unlimited.")
+      ->type_name("X")
+      ->needs("--field");
+}
+
+void add_sea(CLI::App& command, Request& request) {
+  const OptionGroup group(command, "Sea");
+  command
+      .add_option("--passage", request.passages,
+                  "GeoJSON lines whose cells are sea, such as straits. Successive cells share an "
+                  "edge. May be repeated.")
+      ->type_name("FILE");
+  command
+      .add_option("--barrier", request.barriers,
+                  "GeoJSON lines whose cells are land, unless a passage opens them. May be "
+                  "repeated.")
+      ->type_name("FILE");
+  command
+      .add_option("--seed", request.seeds,
+                  "Place in the sea, in degrees. The grid holds what is connected with a seed. May "
+                  "be repeated. Default: the largest part of the sea.")
+      ->type_name("LON,LAT");
+  command.add_flag("--no-fill", request.no_fill,
+                   "Keep cells with a single neighbour in the sea. Default: they become land, "
+                   "repeatedly.");
+}
+
+} // namespace
+
+void add_cull(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "cull", "Makes an ocean grid: leaves the cells of land out of a global MPAS file.");
+  auto request = std::make_shared<Request>();
+  command
+      ->add_option("GLOBAL,-i,--input", request->source,
+                   "MPAS file of the sphere with connectivity, of any program, with any fields.")
+      ->type_name("FILE")
+      ->required();
+  add_land(*command, *request);
+  add_sea(*command, *request);
+  {
+    const OptionGroup group(*command, "Output");
+    command
+        ->add_option("-o,--output", request->output,
+                     "The MPAS file of the grid, with the ids of the global cells, edges and "
+                     "vertices. NAME.graph.info is written beside NAME.nc.")
+        ->type_name("FILE")
+        ->required();
+    command
+        ->add_option("--mask", request->mask,
+                     "NetCDF file of masks by global cell: cullCell and regionCellMasks, as "
+                     "MPAS-Tools reads them, and landFraction.")
+        ->type_name("FILE");
+  }
+  set_help(*command,
+           {.common = {},
+            .examples = {"calotte cull global.nc --land ne_10m_land.geojson -o ocean.nc",
+                         "calotte cull global.nc --field ter --sea-below 0 --seed -150,0 -o "
+                         "ocean.nc"}});
+  command->callback([request] { run(*request); });
+}
+
+} // namespace calotte::tools
