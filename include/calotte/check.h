@@ -54,11 +54,11 @@ Check check(const Mesh& mesh, const ProgressCallback& progress = {});
 Check check(const PlanarMesh& mesh, const ProgressCallback& progress = {});
 
 /// Proves less, for a mesh that need be neither Delaunay nor convex, such as a region cut from a
-/// larger mesh: ids, canonical order and neighbours as above; every triangle counter-clockwise; the
-/// triangles at each site a single cycle that turns around it once, or a single fan; and the areas
-/// of a closed mesh sum to 4 pi. Sites in no triangle are allowed. Such triangles do not overlap
-/// near any site or edge.
-/// \throws Error cancelled.
+/// larger mesh, or an ocean: ids, canonical order and neighbours as above; every triangle
+/// counter-clockwise; the triangles at each site a single cycle that turns around it once, a single
+/// fan, or several fans where the boundary passes more than once; and the areas of a closed mesh
+/// sum to 4 pi. Sites in no triangle are allowed. Such triangles do not overlap near any edge, nor
+/// near a site of one cycle or fan. \throws Error cancelled.
 Check check_surface(const Mesh& mesh, const ProgressCallback& progress = {});
 
 /// Counts of what keeps a mesh from being the Delaunay triangulation of its points, or closed.

@@ -101,7 +101,7 @@ void exchange_pairs(const MpasSource& source, const std::string& variable,
       });
 }
 
-/// By kept edge: 1 if one of its kept cells has a reversed edge.
+/// By kept edge: 1 if a cell there has or may have a reversed edge.
 std::vector<std::uint8_t> near_reversed(const MpasPart& part, const ReversedEdges& reversed) {
   std::vector<std::uint8_t> near(reversed.size(), 0);
   for (std::int64_t i = 0; i < part.cells.count(); ++i) {
@@ -111,6 +111,9 @@ std::vector<std::uint8_t> near_reversed(const MpasPart& part, const ReversedEdge
     for (std::int64_t k = part.begin[i]; any && k < part.begin[i + 1]; ++k)
       near[static_cast<std::size_t>(part.edges_on_cell[k])] = 1;
   }
+  for (std::size_t e = 0; e < near.size(); ++e)
+    if (part.cells_at_edge[e] < 2) // the other cell is left out, but not all of its edges
+      near[e] = 1;
   return near;
 }
 

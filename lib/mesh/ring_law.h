@@ -38,7 +38,9 @@ inline RingStarts make_ring_starts(const Faces& s) {
 /// left half plane or in the right one; the walk has turned around once each time it comes from the
 /// right to the left. A fan of at most half a turn has all on the left, the last perhaps behind:
 /// the boundary is convex there.
-/// \param convex whether the boundary must be; a fan may else turn by up to a whole turn.
+/// \param convex whether the boundary must be; a fan may else turn by up to a whole turn, and a
+/// site
+///        where the boundary passes more than once has several fans, of which one is examined.
 template <class Surface>
 std::string ring_failure(const Surface& s, const RingStarts& rings, std::int32_t site,
                          bool convex = true) {
@@ -66,7 +68,7 @@ std::string ring_failure(const Surface& s, const RingStarts& rings, std::int32_t
   const bool is_fan = exists(last);
   if (is_fan && convex && (reflex || way < 0))
     return "the boundary is not convex at " + name;
-  if (walked < size)
+  if (walked < size && (convex || !is_fan))
     return "the triangles at " + name + " are not a single cycle or fan";
   if (is_fan && turns > 0)
     return "the triangles at " + name + " overlap";

@@ -15,22 +15,19 @@ bool CellWalk::is_inside(std::int32_t cell, std::int64_t place, const Vec3& x) c
   return a < b ? turn(from, to, x) >= 0 : turn(to, from, x) < 0;
 }
 
+/// The great circle of the arc leaves a cell through the edge, counter-clockwise, that passes to
+/// its left; the arc ends before it or beyond.
 std::int64_t CellWalk::exit_of(std::int32_t cell, const Arc& arc) const {
   const std::int64_t first = cells_.begin[cell], last = cells_.begin[cell + 1];
   const auto is_left = [&](std::int32_t vertex) {
     return turn(arc.from, arc.to, column(cells_.vertices, vertex)) >= 0;
   };
-  bool inside = true;
-  for (std::int64_t k = first; inside && k < last; ++k)
-    inside = is_inside(cell, k, arc.to);
-  if (inside)
-    return -1;
   bool left = is_left(end(last - 1));
   for (std::int64_t k = first; k < last; ++k) {
     const bool was_left = left;
     left = is_left(end(k));
-    if (!was_left && left && !is_inside(cell, k, arc.to))
-      return k;
+    if (!was_left && left)
+      return is_inside(cell, k, arc.to) ? -1 : k;
   }
   lose();
 }

@@ -161,6 +161,7 @@ inline bool is_found(const std::string& path) {
 
 /// An MPAS file in memory; ids are 1-based.
 struct Mpas {
+  Mpas() = default;
   explicit Mpas(const std::string& path) {
     for (Variable& variable : Patch(path).all())
       variables.emplace(variable.name, std::move(variable));

@@ -398,3 +398,36 @@ TEST_CASE("cut refuses what makes no grid") {
   check("cut points.txt --region circle=0,0,60deg -o region.nc", 2, "points.txt");
   check("cut global.nc -o region.nc", 2, "--region is required");
 }
+
+TEST_CASE("cull: an ocean grid, and what became of its cells") {
+  const Bench bench;
+  REQUIRE(bench.run("points fibonacci 2000 -o points.txt").code == 0);
+  REQUIRE(bench.run("delaunay points.txt -o global.nc --sphere-radius earth").code == 0);
+  bench.file("land.geojson", R"({"type":"Polygon","coordinates":[[[0,-60],[30,-60],[40,0],[30,60],)"
+                             R"([0,60],[-10,0],[0,-60]]]})");
+  bench.file("strait.geojson", R"({"type":"LineString","coordinates":[[-20,10],[50,10]]})");
+  const Outcome made = bench.run("cull global.nc --land land.geojson -o ocean.nc --mask mask.nc");
+  CHECK(made.err.empty());
+  CHECK(made.code == 0);
+  CHECK(made.out.starts_with("cells of land               "));
+  CHECK(made.out.find("\nparts of the sea            1\n") != std::string::npos);
+  CHECK(bench.names().contains("ocean.graph.info"));
+  CHECK(bench.names().contains("mask.nc"));
+  CHECK(bench.run("check ocean.nc").code == 0);
+  const Outcome open =
+      bench.run("cull global.nc --land land.geojson --passage strait.geojson -o open.nc");
+  CHECK(open.out.find("\nopened by passages          ") != std::string::npos);
+  CHECK(bench.run("check open.nc").code == 0);
+  CHECK(bench.run("info open.nc").code == 0);
+  CHECK(bench.run("cull global.nc --field latCell --sea-below 1 --seed 0,-90 -o south.nc").code ==
+        0);
+  const auto check = [&](const std::string& arguments, int code, const std::string& part) {
+    check_refusal_naming(bench, arguments, code, part);
+  };
+  check("cull global.nc -o bad.nc", 2, "there is no land; give --land FILE");
+  check("cull global.nc --land land.geojson -o global.nc", 2, "global.nc");
+  check("cull global.nc --land strait.geojson -o bad.nc", 2, "LineString");
+  check("cull global.nc --land land.geojson --passage land.geojson -o bad.nc", 2, "Polygon");
+  check("cull global.nc --land land.geojson --seed 10,10 -o bad.nc", 2, "seed 0 is on land");
+  check("cull global.nc --sea-below 1 -o bad.nc", 2, "--field");
+}
