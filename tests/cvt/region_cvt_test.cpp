@@ -185,7 +185,8 @@ TEST_CASE("region: uniform density by closed forms and by quadrature") {
   CHECK((exact.mesh.points - ruled.mesh.points).cwiseAbs().maxCoeff() < 1e-11);
 }
 
-TEST_CASE("region: a graded grid has the same bits for all threads and regions, and resumes [slow]") {
+TEST_CASE(
+    "region: a graded grid has the same bits for all threads and regions, and resumes [slow]") {
   const Region region = circle(at(20, 40), 14 * degree);
   const Continuation from = multilevel(1500, region, graded(1500, 0).density);
   const auto with = [&](std::size_t threads, int regions) {
@@ -209,8 +210,8 @@ TEST_CASE("region: a graded grid has the same bits for all threads and regions, 
   });
   for (std::size_t k = 5; k < states.size(); k += states.size() / 4) {
     write_checkpoint(scratch / "run.ckpt", states[k], "same");
-    CHECK(equal(spherical_cvt(read_checkpoint(scratch / "run.ckpt", "same"), region, options),
-                one));
+    CHECK(
+        equal(spherical_cvt(read_checkpoint(scratch / "run.ckpt", "same"), region, options), one));
   }
 }
 
