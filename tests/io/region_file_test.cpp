@@ -325,8 +325,8 @@ TEST_CASE("a file cut short is read or refused, with one line") {
     return test::done_when_cut(folder / name, [&] { read_region(folder / name); });
   };
   CHECK(cut("R.geojson", collection({feature(polygon({square, inner}))})) == 0);
-  CHECK(cut("R.pts", "Type: custom\nPoint: 1, 1\n0, 0\n0, 20\n20, 20\n") > 0);
-  CHECK(cut("SaveBoundaries", "0 0\n20 0\n20 20\n0 20\n") > 0);
+  CHECK(cut("R.pts", "Type: custom\nPoint: 1, 1\n0, 0\n0, 20\n20, 20.000000000000\n") > 0);
+  CHECK(cut("SaveBoundaries", "0 0\n20 0\n20 20\n0 20.000000000000\n") > 0);
 }
 
 TEST_CASE("names and files") {
