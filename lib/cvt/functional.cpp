@@ -234,10 +234,11 @@ std::unique_ptr<Functional> make_functional(const Points3& points, const PlanarD
                                                        std::move(level));
 }
 
-std::unique_ptr<Functional> make_functional(const Points3& points, const Region& region,
-                                            const CvtOptions& options, Level&& level) {
-  return std::make_unique<FunctionalOver<RegionCells>>(
-      RegionCells(region, options.density, points.cols()), points, options, std::move(level));
+std::unique_ptr<Functional> make_functional(const Points3& points,
+                                            std::shared_ptr<const SphericalOutline> outline,
+                                            const CvtOptions& options) {
+  RegionCells cells(std::move(outline), options.density, points);
+  return std::make_unique<FunctionalOver<RegionCells>>(std::move(cells), points, options, Level());
 }
 
 } // namespace calotte::cvt_detail

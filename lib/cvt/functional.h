@@ -5,10 +5,10 @@
 #include "cvt/laplacian.h"
 #include "cvt/room.h"
 #include "cvt/tessellation.h"
+#include "domain/spherical_outline.h"
 
 #include <calotte/cvt.h>
 #include <calotte/domain.h>
-#include <calotte/region.h>
 
 #include <memory>
 #include <optional>
@@ -78,7 +78,8 @@ std::unique_ptr<Functional> make_functional(const Points3& points, const PlanarD
                                             const CvtOptions& options, Level&& level = {});
 
 /// In a region of the sphere, for unit columns.
-std::unique_ptr<Functional> make_functional(const Points3& points, const Region& region,
-                                            const CvtOptions& options, Level&& level = {});
+std::unique_ptr<Functional> make_functional(const Points3& points,
+                                            std::shared_ptr<const SphericalOutline> outline,
+                                            const CvtOptions& options);
 
 } // namespace calotte::cvt_detail

@@ -3,6 +3,7 @@
 
 #include "base/parallel.h"
 #include "base/points.h"
+#include "base/triangle.h"
 #include "density/sampling.h"
 #include "domain/clipped_cell.h"
 #include "domain/tangent_shore.h"
@@ -16,6 +17,9 @@
 #include <vector>
 
 namespace calotte::cvt_detail {
+namespace {
+
+/// The directions of a hull.
 Points3 far_hull(const SphericalOutline& outline) {
   constexpr int level = 1; // 42 directions
   constexpr double distance = 0.5;
@@ -30,8 +34,6 @@ Points3 far_hull(const SphericalOutline& outline) {
   }
   return directions(Eigen::all, far);
 }
-
-namespace {
 
 /// The spacing that a density demands of a number of generators.
 class Demand {
@@ -63,11 +65,13 @@ public:
 
   std::vector<Vec3> places() {
     const auto& edges = outline_.edges();
+    std::size_t ring = 0; // its first edge
     for (std::size_t e = 0; e < edges.size(); ++e) {
       const Vec3 left = left_of(edges[e]);
-      if (e > 0 && same(edges[e - 1].to, edges[e].from))
-        add_corner(edges[e].from, left_of(edges[e - 1]), left);
       walk(edges[e], left);
+      const bool last = e + 1 == edges.size() || !same(edges[e].to, edges[e + 1].from);
+      add_corner(edges[e].to, left, left_of(edges[last ? ring : e + 1]));
+      ring = last ? e + 1 : ring;
     }
     return std::move(places_);
   }
@@ -139,12 +143,41 @@ Points3 hull_of(const SphericalOutline& outline, const Density& density, std::in
   return hull;
 }
 
-RegionCells::RegionCells(const Region& region, const Density& density, std::int64_t generators)
-    : outline_(std::make_shared<const SphericalOutline>(region)),
-      hull_(hull_of(*outline_, density, generators)) {}
+RegionCells::RegionCells(std::shared_ptr<const SphericalOutline> outline)
+    : outline_(std::move(outline)), hull_(far_hull(*outline_)) {}
 
-RegionCells::RegionCells(const Region& region)
-    : outline_(std::make_shared<const SphericalOutline>(region)), hull_(far_hull(*outline_)) {}
+RegionCells::RegionCells(std::shared_ptr<const SphericalOutline> outline, const Density& density,
+                         const Points3& start)
+    : outline_(std::move(outline)), hull_(hull_of(*outline_, density, start.cols())) {
+  do
+    move(start);
+  while (drop_intruders());
+}
+
+/// Removes the places of rows whose cells meet the region. False if there are none.
+bool RegionCells::drop_intruders() {
+  const Connectivity mesh = signs().triangulate();
+  std::vector<std::vector<Vec3>> neighbours(static_cast<std::size_t>(hull_.cols()));
+  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
+    for (int v = 0; v < 3; ++v)
+      if (const std::int64_t k = mesh.triangles(v, t) - generators_; k >= 0)
+        neighbours[static_cast<std::size_t>(k)].push_back(place(mesh.triangles(next_vertex(v), t)));
+  const std::int64_t directions = far_hull(*outline_).cols();
+  std::vector<std::uint8_t> stays(neighbours.size(), 1);
+  for_each_block(hull_.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t k = std::max(begin, directions); k < end; ++k)
+      stays[static_cast<std::size_t>(k)] =
+          clipped_area(*outline_, column(hull_, k), neighbours[static_cast<std::size_t>(k)]) == 0;
+  });
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index k = 0; k < hull_.cols(); ++k)
+    if (stays[static_cast<std::size_t>(k)] != 0)
+      kept.push_back(k);
+  if (std::ssize(kept) == hull_.cols())
+    return false;
+  hull_ = Points3(hull_(Eigen::all, kept));
+  return true;
+}
 
 void RegionCells::move(const Points3& points) {
   generators_ = points.cols();

@@ -13,7 +13,6 @@
 #include "integrals/patches.h"
 
 #include <calotte/density.h>
-#include <calotte/region.h>
 #include <calotte/types.h>
 
 #include <cstdint>
@@ -22,12 +21,10 @@
 
 namespace calotte::cvt_detail {
 
-/// Directions outside a region and not near its boundary. Together with generators that are spread
-/// over the region, they leave no hemisphere empty.
-Points3 far_hull(const SphericalOutline& outline);
-
-/// The same, and rows of places along the boundary, at 4, 8, 16, ... times the spacing that a
-/// density demands of so many generators there. All then have few neighbours.
+/// Places outside a region: directions that are not near its boundary, and rows along it, at 4, 8,
+/// 16, ... times the spacing that a density demands of so many generators there. Together with
+/// generators that are spread over the region, they leave no hemisphere empty. All have few
+/// neighbours.
 Points3 hull_of(const SphericalOutline& outline, const Density& density, std::int64_t generators);
 
 /// The cells of generators in a region of the sphere, with the functions of SphericalCells.
@@ -41,10 +38,12 @@ public:
   using Signs = SphereSigns;
   using Pull = SphericalCells::Pull;
 
-  /// With the far hull only. \pre not the whole sphere. \throws Error as require_region().
-  explicit RegionCells(const Region& region);
-  /// For a run of so many generators.
-  RegionCells(const Region& region, const Density& density, std::int64_t generators);
+  /// With the hull's directions only, for any generators.
+  explicit RegionCells(std::shared_ptr<const SphericalOutline> outline);
+  /// For a run that starts from some generators. Without those of the hull's rows whose cells meet
+  /// the region, such as beside an island that no generator is near.
+  RegionCells(std::shared_ptr<const SphericalOutline> outline, const Density& density,
+              const Points3& start);
 
   void move(const Points3& points);
 
@@ -77,6 +76,8 @@ public:
   SparseMatrix laplacian(const Connectivity& mesh, const Density& density) const;
 
 private:
+  bool drop_intruders();
+
   std::shared_ptr<const SphericalOutline> outline_;
   Points3 hull_;
   std::int64_t generators_ = 0;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cvt/region_world.h"
 
+#include "base/first_fault.h"
+#include "base/parallel.h"
 #include "base/points.h"
 #include "base/triangle.h"
 #include "cvt/region_cells.h"
@@ -91,27 +93,33 @@ Mesh mesh_of(Points3&& points, Triangles&& triangles) {
 }
 
 /// Sets the state's generators, in curve order.
-void set_generators(State& state, const Sites& sites) {
-  const std::int64_t n = sites.size();
-  state.points.resize(3, n);
-  state.id.assign(sites.id.begin(), sites.id.end());
-  for (std::int64_t r = 0; r < n; ++r)
-    set_column(state.points, r, sites.unit[r]);
+void set_generators(State& state, const Sites& sites) { set_points(state, sites, sites.unit); }
+
+bool all_inside(const SphericalOutline& outline, const Points3& points) {
+  return holds_for_blocks(points.cols(), [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i != end; ++i)
+      if (outline.side(column(points, i)) == Side::outside)
+        return false;
+    return true;
+  });
+}
+
+/// \throws Error bad_option with the index of the first point outside.
+void require_inside(const SphericalOutline& outline, const Points3Ref& points) {
+  FirstFault outside;
+  for_each_block(points.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i != end; ++i)
+      if (outline.side(column(points, i)) == Side::outside)
+        outside.at(i);
+  });
+  outside.refuse("generator", "is outside the region; give points inside it, or a larger region");
 }
 
 } // namespace
 
-RegionWorld::RegionWorld(const Region& region)
-    : region_(region), outline_(std::make_shared<const SphericalOutline>(region)) {}
-
 Start RegionWorld::begin(const Points3Ref& start, const CvtOptions& options) const {
   Sites sites = make_sites(start, options.duplicates, options.merge_within);
-  for (Eigen::Index i = 0; i < start.cols(); ++i)
-    if (outline_->side(column(start, i)) == Side::outside)
-      throw Error(ErrorCode::bad_option,
-                  "generator " + std::to_string(i) +
-                      " is outside the region; give points inside it, or a larger region",
-                  i);
+  require_inside(*outline_, start);
   if (sites.size() < fewest)
     throw Error(ErrorCode::too_few_sites, "there are " + std::to_string(sites.size()) +
                                               " distinct generators: give at least " +
@@ -125,15 +133,13 @@ Start RegionWorld::begin(const Points3Ref& start, const CvtOptions& options) con
 
 void RegionWorld::require_points(const State& state) const {
   if (state.points.cols() < fewest ||
-      !((state.points.colwise().squaredNorm().array() - 1).abs() < 1e-12).all())
+      !((state.points.colwise().squaredNorm().array() - 1).abs() < 1e-12).all() ||
+      !all_inside(*outline_, state.points))
     refuse_state();
-  for (Eigen::Index i = 0; i < state.points.cols(); ++i)
-    if (outline_->side(column(state.points, i)) == Side::outside)
-      refuse_state();
 }
 
 Mesh RegionWorld::triangulated(Points3&& points) const {
-  RegionCells cells(region_);
+  RegionCells cells(outline_);
   cells.move(points);
   const Connectivity all = cells.signs().triangulate();
   std::vector<std::uint8_t> keep(static_cast<std::size_t>(all.triangles.cols()));
@@ -143,7 +149,7 @@ Mesh RegionWorld::triangulated(Points3&& points) const {
 }
 
 Mesh RegionWorld::inner(Mesh&& mesh) const {
-  RegionCells cells(region_);
+  RegionCells cells(outline_);
   cells.move(mesh.points);
   std::vector<std::uint8_t> keep(static_cast<std::size_t>(mesh.triangles.cols()));
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)

@@ -20,7 +20,8 @@ public:
   static constexpr bool at_sites = true;
 
   /// \pre not the whole sphere. \throws Error as require_region().
-  explicit RegionWorld(const Region& region);
+  explicit RegionWorld(const Region& region)
+      : outline_(std::make_shared<const SphericalOutline>(region)) {}
 
   /// \throws Error as SphericalWorld; bad_option with the index of the first point outside.
   Start begin(const Points3Ref& start, const CvtOptions& options) const;
@@ -28,7 +29,7 @@ public:
   void require_points(const State& state) const;
   std::unique_ptr<Functional> functional(const Points3& points, const CvtOptions& options,
                                          Level&&) const {
-    return make_functional(points, region_, options);
+    return make_functional(points, outline_, options);
   }
   static std::int64_t bisected(std::int64_t n) { return 4 * n; } // some midpoints may be outside
   static std::int64_t halved(std::int64_t n) { return (n + 2) / 4; }
@@ -43,7 +44,6 @@ public:
   Mesh inner(Mesh&& mesh) const;
 
 private:
-  Region region_;
   std::shared_ptr<const SphericalOutline> outline_;
 };
 

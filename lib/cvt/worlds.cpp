@@ -22,19 +22,6 @@
 namespace calotte::cvt_detail {
 namespace {
 
-/// \param sites their given points are those of the state: unit columns.
-void set_points(State& state, const Sites& sites, const Array<Vec3>& points) {
-  const std::int64_t n = sites.size();
-  state.points.resize(3, n);
-  state.id.resize(static_cast<std::size_t>(n));
-  for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-    for (std::int64_t r = begin; r != end; ++r) {
-      set_column(state.points, r, points[r]);
-      state.id[static_cast<std::size_t>(r)] = sites.id[r];
-    }
-  });
-}
-
 /// The sites by rank alone, as the state has them.
 Sites by_rank(Sites&& sites) {
   sites.site_of_input = {};
@@ -87,6 +74,18 @@ void require_triangle(const Sites& sites) {
 }
 
 } // namespace
+
+void set_points(State& state, const Sites& sites, const Array<Vec3>& points) {
+  const std::int64_t n = sites.size();
+  state.points.resize(3, n);
+  state.id.resize(static_cast<std::size_t>(n));
+  for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t r = begin; r != end; ++r) {
+      set_column(state.points, r, points[r]);
+      state.id[static_cast<std::size_t>(r)] = sites.id[r];
+    }
+  });
+}
 
 void refuse_state() {
   throw Error(

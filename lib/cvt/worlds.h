@@ -18,6 +18,10 @@ namespace calotte::cvt_detail {
 /// \throws Error bad_option: the state is not one that a run has left.
 [[noreturn]] void refuse_state();
 
+/// Sets the generators of a state, in the order of the sites.
+/// \param points by rank: unit vectors, or places with z = 0.
+void set_points(State& state, const Sites& sites, const Array<Vec3>& points);
+
 /// The start of a run.
 struct Start {
   State state;

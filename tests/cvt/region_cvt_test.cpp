@@ -16,6 +16,7 @@
 #include <tbb/global_control.h>
 
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -81,10 +82,11 @@ std::vector<std::pair<std::string, Region>> regions() {
           {"archipelago", archipelago()}};
 }
 
-/// The sum of the areas of the cells, clipped by the region.
-double sum_of_cells(const Region& region, const Points3& points) {
-  const domain_detail::SphericalOutline outline(region);
-  cvt_detail::RegionCells cells(region);
+/// The sum of the areas of the cells, as a run has them, clipped by the region.
+double sum_of_cells(const Region& region, const Points3& points, const Density& density = {}) {
+  const auto shared = std::make_shared<const domain_detail::SphericalOutline>(region);
+  const domain_detail::SphericalOutline& outline = *shared;
+  cvt_detail::RegionCells cells(shared, density, points);
   cells.move(points);
   const mesh_detail::Connectivity mesh = cells.signs().triangulate();
   std::vector<std::vector<base_detail::Vec3>> around(static_cast<std::size_t>(points.cols()));
@@ -156,6 +158,16 @@ TEST_CASE("region: the cells' areas sum to the region's, and generators stay ins
   }
 }
 
+TEST_CASE("region: generators that start in a corner spread over all of it") {
+  const Region region = circle(at(10, 20), 30 * degree);
+  const Points3 corner = random_sphere(150, circle(at(30, 20), degree));
+  CvtOptions options;
+  options.tolerance = 1e-3;
+  const Cvt grid = spherical_cvt(corner, region, options);
+  CHECK(grid.report.converged);
+  CHECK(std::abs(sum_of_cells(region, grid.mesh.points) / area(region) - 1) < 1e-12);
+}
+
 TEST_CASE("region: a pure CVT converges near the limit of hexagons") {
   const Region region = circle(at(10, 20), 30 * degree);
   CvtOptions options;
@@ -199,6 +211,8 @@ TEST_CASE(
   CHECK(one.mesh.points.cols() == 1500);
   CHECK(one.report.converged);
   CHECK(one.report.well_centred);
+  CHECK(std::abs(sum_of_cells(region, one.mesh.points, graded(1500, 0).density) / area(region) -
+                 1) < 1e-12);
   CHECK(equal(one, with(2, 12)));
   CHECK(equal(one, with(4, 42)));
   const Scratch scratch;
