@@ -2,6 +2,7 @@
 #include "commands.h"
 #include "help/help.h"
 #include "options/files.h"
+#include "options/global_option.h"
 #include "run/progress.h"
 
 #include <calotte/cull.h>
@@ -9,7 +10,6 @@
 #include <calotte/read.h>
 #include <calotte/version.h>
 
-#include <filesystem>
 #include <iostream>
 #include <limits>
 #include <memory>
@@ -39,9 +39,7 @@ struct Request {
 
 /// Checks all options that can fail, before any input is read.
 void require_request(const Request& request) {
-  if (std::filesystem::path(request.output).extension() != ".nc")
-    throw Error(ErrorCode::bad_option,
-                request.output + ": the grid is an MPAS file; give a name that ends in .nc");
+  require_mpas_name(request.output);
   if (request.land.empty() && request.field.empty() && request.barriers.empty())
     throw Error(ErrorCode::bad_option,
                 "there is no land; give --land FILE, --field NAME or --barrier FILE");
@@ -201,11 +199,7 @@ void add_cull(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "cull", "Makes an ocean grid: leaves the cells of land out of a global MPAS file.");
   auto request = std::make_shared<Request>();
-  command
-      ->add_option("GLOBAL,-i,--input", request->source,
-                   "MPAS file of the sphere with connectivity, of any program, with any fields.")
-      ->type_name("FILE")
-      ->required();
+  add_global(*command, request->source);
   add_land(*command, *request);
   add_sea(*command, *request);
   {

@@ -2,6 +2,7 @@
 #include "commands.h"
 #include "help/help.h"
 #include "options/files.h"
+#include "options/global_option.h"
 #include "options/region_option.h"
 #include "options/sphere_radius_option.h"
 #include "run/progress.h"
@@ -10,7 +11,6 @@
 #include <calotte/error.h>
 #include <calotte/version.h>
 
-#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -28,9 +28,7 @@ struct Request {
 
 /// Checks all options that can fail, before any input is read.
 void require_request(const Request& request) {
-  if (std::filesystem::path(request.output).extension() != ".nc")
-    throw Error(ErrorCode::bad_option,
-                request.output + ": the grid is an MPAS file; give a name that ends in .nc");
+  require_mpas_name(request.output);
   if (request.sphere_radius)
     require_sphere_radius(*request.sphere_radius);
   const bool is_file = request.region.find('=') == std::string::npos;
@@ -80,11 +78,7 @@ void add_cut(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "cut", "Cuts a limited-area grid from a global MPAS file, with all its fields.");
   auto request = std::make_shared<Request>();
-  command
-      ->add_option("GLOBAL,-i,--input", request->source,
-                   "MPAS file of the sphere with connectivity, of any program, with any fields.")
-      ->type_name("FILE")
-      ->required();
+  add_global(*command, request->source);
   command
       ->add_option("--region", request->region,
                    "Region whose cells the grid holds: those with their generators in it. A shape "

@@ -5,6 +5,7 @@
 #include "options/cvt_options.h"
 #include "options/cvt_request.h"
 #include "options/files.h"
+#include "options/global_option.h"
 #include "options/numbers.h"
 #include "options/point_file.h"
 #include "run/cvt_configuration.h"
@@ -62,8 +63,8 @@ void require_region_format(const CvtRequest& request, const WriteOptions& option
   if (planar(request))
     refuse("--region applies to the sphere only; leave it out, or the domain of the plane");
   const Format format = format_of(request.mesh, options.format);
-  if (request.limited_area && format != Format::mpas)
-    refuse(request.mesh + ": a limited-area grid is an MPAS file; give a name that ends in .nc");
+  if (request.limited_area)
+    require_mpas_name(request.mesh);
   const bool triangles = format == Format::vtp || format == Format::vtu || format == Format::off ||
                          format == Format::ply || format == Format::triangles ||
                          format == Format::msh || format == Format::ugrid_triangles;

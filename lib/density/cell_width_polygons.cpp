@@ -5,8 +5,9 @@
 #include "base/lonlat.h"
 #include "base/parallel.h"
 #include "base/vec3.h"
-#include "curve/hilbert.h"
 #include "density/cell_width_field.h"
+#include "domain/arc_tree.h"
+#include "domain/arcs.h"
 
 #include <calotte/error.h>
 
@@ -139,29 +140,6 @@ private:
 
 // ---- Distance
 
-/// A short arc of a great circle.
-struct Arc {
-  Vec3 from, to;
-  Vec3 normal;                ///< of the great circle, a unit vector
-  Vec3 after_from, before_to; ///< a point that is on the inner side of both is nearest to within
-};
-
-Arc arc_between(const Vec3& from, const Vec3& to) {
-  const Vec3 across = cross(from + to, to - from); // twice from x to, without cancellation
-  const Vec3 normal = (1 / norm(across)) * across;
-  return {from, to, normal, cross(normal, from), cross(to, normal)};
-}
-
-/// The square of the chord between a unit vector and the nearest point of an arc.
-double square_from(const Arc& arc, const Vec3& p) {
-  if (dot(arc.after_from, p) >= 0 && dot(arc.before_to, p) >= 0) {
-    const double sine = dot(arc.normal, p), square = std::min(1.0, sine * sine);
-    return 2 * square / (1 + std::sqrt(1 - square));
-  }
-  const Vec3 a = p - arc.from, b = p - arc.to;
-  return std::min(dot(a, a), dot(b, b));
-}
-
 /// True if the part of an edge from `start` to `end` (0 to 1) has polygons on one side only.
 bool is_boundary(const Inside& inside, const Edge& edge, double start, double end) {
   constexpr double aside = 1e-6; // degrees: a tenth of a metre
@@ -195,34 +173,8 @@ void add_arcs(const Inside& inside, const Edge& edge, std::vector<Arc>& arcs) {
     const bool is_point = !(dot(apart, apart) > 1e-24); // at a pole, or repeated
     if (!is_point && is_boundary(inside, edge, static_cast<double>(part) / parts,
                                  static_cast<double>(part + 1) / parts))
-      arcs.push_back(arc_between(from, to));
+      arcs.push_back({from, to});
   }
-}
-
-struct Box {
-  Vec3 low, high;
-};
-
-Box joined(const Box& a, const Box& b) {
-  return {
-      {std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y), std::min(a.low.z, b.low.z)},
-      {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y), std::max(a.high.z, b.high.z)}};
-}
-
-/// An arc bulges beyond its chord by at most an eighth of the chord's square.
-Box box_of(const Arc& arc) {
-  const Vec3 chord = arc.to - arc.from;
-  const double bulge = 0.2 * dot(chord, chord) + 1e-15;
-  const Vec3 margin{bulge, bulge, bulge};
-  const Box ends = joined({arc.from, arc.from}, {arc.to, arc.to});
-  return {ends.low - margin, ends.high + margin};
-}
-
-double square_from(const Box& box, const Vec3& p) {
-  const Vec3 beyond{std::max({0.0, box.low.x - p.x, p.x - box.high.x}),
-                    std::max({0.0, box.low.y - p.y, p.y - box.high.y}),
-                    std::max({0.0, box.low.z - p.z, p.z - box.high.z})};
-  return dot(beyond, beyond);
 }
 
 std::vector<Arc> boundary_arcs(const Inside& inside) {
@@ -239,57 +191,23 @@ std::vector<Arc> boundary_arcs(const Inside& inside) {
   return arcs;
 }
 
-/// Distances to the boundary of polygons. Its arcs are sorted along a space-filling curve, below a
-/// binary tree of boxes: node k has the children 2k and 2k + 1.
+/// Distances to the boundary of polygons.
 class Boundary {
 public:
-  explicit Boundary(const Inside& inside) {
-    std::vector<std::pair<std::uint64_t, Arc>> keyed;
-    for (const Arc& arc : boundary_arcs(inside))
-      keyed.emplace_back(curve_key(to_cube(arc.from)), arc);
-    std::stable_sort(keyed.begin(), keyed.end(),
-                     [](const auto& a, const auto& b) { return a.first < b.first; });
-    for (const auto& [key, arc] : keyed)
-      arcs_.push_back(arc);
-    while (leaves_ * arcs_of_leaf < arcs_.size())
-      leaves_ *= 2;
-    boxes_.resize(2 * leaves_, {{4, 4, 4}, {-4, -4, -4}}); // empty box
-    for (std::size_t leaf = 0; leaf < leaves_; ++leaf)
-      for (std::size_t a = first_of(leaf); a < first_of(leaf + 1); ++a)
-        boxes_[leaves_ + leaf] = joined(boxes_[leaves_ + leaf], box_of(arcs_[a]));
-    for (std::size_t node = leaves_ - 1; node > 0; --node)
-      boxes_[node] = joined(boxes_[2 * node], boxes_[2 * node + 1]);
-  }
+  explicit Boundary(const Inside& inside) : arcs_(boundary_arcs(inside)), tree_(arcs_) {}
 
   /// The square of the chord from a unit vector to the boundary, at most `far`.
   double square(const Vec3& p, double far) const {
-    visit(1, p, far);
+    tree_.visit([&](const Box3& box) { return square_from(box, p) < far; },
+                [&](std::int32_t arc) {
+                  far = std::min(far, square_from(arcs_[static_cast<std::size_t>(arc)], p));
+                });
     return far;
   }
 
 private:
-  static constexpr std::size_t arcs_of_leaf = 4;
-
-  std::size_t first_of(std::size_t leaf) const { return leaf * arcs_.size() / leaves_; }
-
-  void visit(std::size_t node, const Vec3& p, double& nearest) const {
-    if (square_from(boxes_[node], p) >= nearest)
-      return;
-    if (node >= leaves_) {
-      const std::size_t leaf = node - leaves_;
-      for (std::size_t a = first_of(leaf); a < first_of(leaf + 1); ++a)
-        nearest = std::min(nearest, square_from(arcs_[a], p));
-      return;
-    }
-    const std::size_t child = 2 * node;
-    const bool first = square_from(boxes_[child], p) <= square_from(boxes_[child + 1], p);
-    visit(first ? child : child + 1, p, nearest);
-    visit(first ? child + 1 : child, p, nearest);
-  }
-
   std::vector<Arc> arcs_;
-  std::vector<Box> boxes_;
-  std::size_t leaves_ = 1;
+  ArcTree tree_;
 };
 
 // ---- Widths

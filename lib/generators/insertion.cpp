@@ -316,25 +316,6 @@ double dislocations(const PlanarMesh& mesh, const Density& density) {
   return sum_dislocations(mesh, in_space(mesh), density);
 }
 
-template <class AnyMesh> std::int64_t count_odd_sites(const AnyMesh& mesh) {
-  const std::vector<std::int8_t> odd = oddities(mesh);
-  return std::ssize(odd) - std::count(odd.begin(), odd.end(), 0);
-}
-
-template std::int64_t count_odd_sites(const Mesh& mesh);
-template std::int64_t count_odd_sites(const PlanarMesh& mesh);
-
-std::int64_t count_bad_edges(const Mesh& mesh, const Density& density) {
-  const Points3 points = unit(mesh.points);
-  return std::ssize(bad_edges(mesh, points, fineness(density, points), OnSphere()));
-}
-
-std::int64_t count_bad_edges(const PlanarMesh& mesh, const Density& density) {
-  const Points3 points = in_space(mesh);
-  const InPlane space{{mesh.period.x(), mesh.period.y()}, nullptr};
-  return std::ssize(bad_edges(mesh, points, fineness(density, points), space));
-}
-
 Points3 exchanged(const Mesh& mesh, const Density& density, std::int64_t inserted,
                   std::int64_t contracted, bool mend) {
   return exchange(mesh, unit(mesh.points), density, OnSphere(), inserted, contracted, mend);

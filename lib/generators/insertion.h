@@ -20,16 +20,6 @@ double dislocations(const Mesh& mesh, const Density& density);
 /// The same in the plane. \pre the density is that of planar_density().
 double dislocations(const PlanarMesh& mesh, const Density& density);
 
-/// The number of sites with 8 neighbours or more, or 4 or fewer, not on the hull. An insertion
-/// prefers edges at the former, a contraction at the latter.
-template <class AnyMesh> std::int64_t count_odd_sites(const AnyMesh& mesh);
-
-/// How many edges are long or short for their shape or for the density, so that relaxation does not
-/// mend them.
-std::int64_t count_bad_edges(const Mesh& mesh, const Density& density);
-/// The same in the plane. \pre the density is that of planar_density().
-std::int64_t count_bad_edges(const PlanarMesh& mesh, const Density& density);
-
 /// As insert_and_contract().
 /// \param mend takes up to the smaller of the two numbers of such edges of each kind, far from each
 ///        other, and further edges only for the difference of the numbers; without such edges as

@@ -155,3 +155,33 @@ TEST_CASE("repair finds the Delaunay triangulation of moved points; patches are 
     }
   }
 }
+
+TEST_CASE("repair turns triangles back where sites have crossed an opposite edge") {
+  const Points3 start = bisected_icosahedron(4); // 2562 sites
+  const double h = std::sqrt(4 * std::numbers::pi / static_cast<double>(start.cols()));
+  std::int64_t overturned = 0, repairs = 0;
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    Connectivity mesh = connectivity(start);
+    std::mt19937 random(seed);
+    Points3 points = start;
+    const Points3 aside = random_sphere(4, seed);
+    for (Eigen::Index i = 0; i < 4; ++i) { // a few sites, as an iteration leaves them
+      const auto site = static_cast<Eigen::Index>(random() % 2562);
+      points.col(site) = (start.col(site) + 1.3 * h * aside.col(i)).normalized();
+    }
+    Faults faults = all_faults(mesh, points);
+    overturned += static_cast<std::int64_t>(faults.overturned.size());
+    bool done = true;
+    for (int pass = 0; pass < 5 && done && !faults.none(); ++pass) {
+      done = repair(mesh, SphereSigns(points), faults).has_value();
+      faults = all_faults(mesh, points);
+    }
+    if (!done)
+      continue; // a triangle stayed overturned: the caller triangulates
+    ++repairs;
+    CHECK(faults.none());
+    CHECK(all_triangles(mesh.triangles) == all_triangles(spherical_delaunay(points).triangles));
+  }
+  CHECK(overturned > 40);
+  CHECK(repairs > 10);
+}

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "generators/bad_edges.h"
 #include "generators/insertion.h"
 
 #include "support/densities.h"
@@ -68,6 +69,25 @@ std::string message_of(const Mesh& mesh, const Density& density, std::int64_t in
   return "";
 }
 
+/// Sites with 8 neighbours or more, or 4 or fewer, of a closed mesh.
+std::int64_t odd_sites(const Mesh& mesh) {
+  std::vector<int> degree(static_cast<std::size_t>(mesh.points.cols()), 0);
+  for (const std::int32_t site : mesh.triangles.reshaped())
+    ++degree[static_cast<std::size_t>(site)];
+  return std::count_if(degree.begin(), degree.end(), [](int d) { return d >= 8 || d <= 4; });
+}
+
+struct Chords {
+  static base_detail::Vec3 offset(const base_detail::Vec3& a, const base_detail::Vec3& b) {
+    return b - a;
+  }
+};
+
+std::int64_t bad_edges(const Mesh& mesh) {
+  const Eigen::VectorXd fineness = Eigen::VectorXd::Ones(mesh.points.cols());
+  return std::ssize(generators_detail::bad_edges(mesh, mesh.points, fineness, Chords()));
+}
+
 } // namespace
 
 TEST_CASE("insertion: counts, unit columns, and points that stay keep their bits and order") {
@@ -97,7 +117,7 @@ TEST_CASE("insertion: the longest edges are split and the shortest contracted") 
   Points3 points = bisected_icosahedron(3);
   points.col(100) = (points.col(100) + 0.03 * Eigen::Vector3d(1, 2, 3)).normalized();
   const Mesh moved = spherical_delaunay(points);
-  REQUIRE(generators_detail::count_odd_sites(moved) == 0);
+  REQUIRE(odd_sites(moved) == 0);
   std::vector<Edge> sorted = edges_of(moved, Density{});
   std::sort(sorted.begin(), sorted.end(),
             [](const Edge& e, const Edge& f) { return e.length < f.length; });
@@ -152,7 +172,7 @@ TEST_CASE("insertion: sites with 8 neighbours lose some") {
   const auto pole_of = [](const Mesh& mesh) { return (mesh.triangles.array() == 0).count(); };
   const Mesh mesh = spherical_delaunay(points);
   REQUIRE(pole_of(mesh) == 8);
-  const std::int64_t odd = generators_detail::count_odd_sites(mesh);
+  const std::int64_t odd = odd_sites(mesh);
   REQUIRE(odd >= 1);
   const Points3 out = insert_and_contract(mesh, Density{}, odd, 0);
   const bool near_pole =
@@ -209,16 +229,15 @@ TEST_CASE("insertion: bad numbers and densities are errors") {
 
 TEST_CASE("insertion: a mend splits and contracts badly shaped edges first") {
   const Mesh mesh = relaxed(2000, Density{}); // random, so that many edges are bad
-  const std::int64_t bad = generators_detail::count_bad_edges(mesh, Density{});
+  const std::int64_t bad = bad_edges(mesh);
   CHECK(bad > 1000);
-  CHECK(generators_detail::count_bad_edges(spherical_delaunay(bisected_icosahedron(3)),
-                                           Density{}) == 0);
+  CHECK(bad_edges(spherical_delaunay(bisected_icosahedron(3))) == 0);
   Points3 sheared = bisected_icosahedron(3);
   const Eigen::Vector3i corner = spherical_delaunay(sheared).triangles.col(300); // neighbours
   sheared.col(corner[0]) =
       (0.6 * sheared.col(corner[0]) + 0.4 * sheared.col(corner[1])).normalized();
   const Mesh dented = spherical_delaunay(sheared);
-  CHECK(generators_detail::count_bad_edges(dented, Density{}) > 0);
+  CHECK(bad_edges(dented) > 0);
   const Points3 mended = generators_detail::exchanged(dented, Density{}, 1, 1, true);
   CHECK(mended.cols() == sheared.cols());
   std::int64_t fresh = 0, near = 0;

@@ -992,7 +992,7 @@ TEST_CASE("the options of a region are checked before any work") {
   check_refusal_naming(bench, region + "--cells 500 --limited-area -o a.nc", 2,
                        "--limited-area requires cell widths");
   check_refusal_naming(bench, region + "--cell-width 60km --limited-area -o a.vtp", 2,
-                       "a.vtp: a limited-area grid is an MPAS file");
+                       "a.vtp: the grid is an MPAS file");
   check_refusal_naming(bench, region + "--cell-width 60km -o a.nc", 2,
                        "open along the region's boundary; give --limited-area");
   check_refusal_naming(bench, region + "--cells 500 --rectangle 0,0,1,1 -o a.vtp", 2,

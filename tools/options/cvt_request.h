@@ -21,7 +21,7 @@ struct CvtRequest {
   bool lonlat = false;
   std::shared_ptr<DomainWords> domain; ///< of a plane, where one is given
   std::string region;                  ///< a part of the sphere, or none
-  bool limited_area = false;           ///< with rings around the region, as MPAS wants them
+  bool limited_area = false;           ///< adds the rings of boundary cells
   std::optional<int> cells;            ///< of the result
   bool cells_of_widths = false;        ///< --cells auto: the number that the cell widths imply
   std::optional<std::string> start;    ///< default: see start_kind()

@@ -30,7 +30,8 @@ nlohmann::ordered_json to_json(const Percentiles& values) {
           {"p95", values.p95}, {"p99", values.p99}, {"max", values.max}};
 }
 
-void add_cells(const Quality& quality, nlohmann::ordered_json& json) {
+/// The shapes of cells, of which an open mesh has those of whole ones.
+void add_shapes(const Quality& quality, nlohmann::ordered_json& json) {
   json["sigma"] = to_json(quality.sigma);
   json["cell_quality"] = to_json(quality.cell_quality);
   json["cell_area"] = to_json(quality.cell_area);
@@ -38,6 +39,10 @@ void add_cells(const Quality& quality, nlohmann::ordered_json& json) {
   json["off_centring"] = to_json(quality.off_centring);
   json["dv_over_dc"] = to_json(quality.dv_over_dc);
   json["short_voronoi_edges"] = quality.short_edges;
+}
+
+void add_cells(const Quality& quality, nlohmann::ordered_json& json) {
+  add_shapes(quality, json);
   json["residual"] = quality.residual;
   json["energy"] = quality.energy;
   json["energy_times_cells"] = quality.energy * static_cast<double>(quality.cells);
@@ -77,13 +82,7 @@ void add_boundary(const Measured& measured, nlohmann::ordered_json& json) {
 
 /// The measures of cells that an open mesh has.
 void add_whole_cells(const Quality& quality, nlohmann::ordered_json& json) {
-  json["sigma"] = to_json(quality.sigma);
-  json["cell_quality"] = to_json(quality.cell_quality);
-  json["cell_area"] = to_json(quality.cell_area);
-  json["area_ratio"] = ratio(quality.cell_area);
-  json["off_centring"] = to_json(quality.off_centring);
-  json["dv_over_dc"] = to_json(quality.dv_over_dc);
-  json["short_voronoi_edges"] = quality.short_edges;
+  add_shapes(quality, json);
   json["bad_cells"] = quality.bad_cells;
   json["bad_spacing"] = to_json(quality.bad_spacing);
 }

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <string>
+
+/// The global MPAS file from which a command takes a part, and the name of that part.
+namespace calotte::tools {
+
+/// Adds the positional option GLOBAL.
+void add_global(CLI::App& command, std::string& path);
+
+/// \throws Error bad_option unless the name is that of a complete MPAS file.
+void require_mpas_name(const std::string& output);
+
+} // namespace calotte::tools
