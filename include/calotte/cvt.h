@@ -58,9 +58,9 @@ struct CvtOptions {
   /// bisect()) and converges again.
   int bisections = 0;
   /// Rounds of insertion and contraction on the last level, see insert_and_contract(), and up to
-  /// four times as many on coarser levels; each is followed by a descent. With rounds, all descents
-  /// but the last end at an l2_scaled norm of 1e-3 or the tolerance, whichever is larger, or after
-  /// 120 evaluations. >= 0; default 0.
+  /// 14 on coarser levels; each is followed by a descent. A round after a descent of more than 15
+  /// evaluations counts for two. With rounds, all descents but the last end at an l2_scaled norm of
+  /// 1e-3 or the tolerance, whichever is larger, or after 120 evaluations. >= 0; default 0.
   int insertion_rounds = 0;
   /// Number of generators of the result; > 0 if and only if insertion_rounds is. A level of b
   /// bisections before the last has 4^-b times as many.
@@ -279,8 +279,8 @@ struct Continuation {
 Continuation continuation(std::int64_t cells, const Density& density, std::uint64_t seed = 1);
 
 /// The start of a run with CvtOptions::insertion_rounds, for any number of cells: random points
-/// that follow site_density(), and as many bisections as leave at least 160 of them, or `cells`
-/// itself. \param cells value for CvtOptions::cells, 12 to 2^30. \throws Error as above.
+/// that follow site_density(), and as many bisections as leave at least 160 of them, and 12 in each
+/// hemisphere on average, or `cells` itself. \param cells value for CvtOptions::cells, 12 to 2^30. \throws Error as above.
 Continuation multilevel(std::int64_t cells, const Density& density, std::uint64_t seed = 1);
 
 /// The same in a region; `cells` from 4 on.

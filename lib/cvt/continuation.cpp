@@ -6,7 +6,10 @@
 #include "cvt/region_world.h"
 #include "cvt/room.h"
 #include "cvt/worlds.h"
+#include "generators/room.h"
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 
 namespace calotte {
@@ -21,13 +24,31 @@ std::optional<int> icosahedral_level(std::int64_t n) {
   return tens == 10 ? std::optional(level) : std::nullopt;
 }
 
+constexpr std::int64_t fewest_at_start = 160;
+
 /// Halves the number of cells along both axes while enough are left. Returns how often.
-template <class World> int coarsen(std::int64_t& cells) {
-  constexpr std::int64_t least = 160;
+template <class World>
+int coarsen(std::int64_t& cells, std::int64_t least = fewest_at_start) {
   int levels = 0;
   for (; World::halved(cells) >= least; cells = World::halved(cells))
     ++levels;
   return levels;
+}
+
+/// How many points that follow a density spread over the sphere: on average 12 lie in the emptiest
+/// hemisphere. A descent from fewer may lose the last of these, so that no triangulation exists.
+std::int64_t spreading(const Density& sites) {
+  constexpr double in_hemisphere = 12;
+  const Points3 samples = bisected_icosahedron(5), directions = bisected_icosahedron(1);
+  const Eigen::VectorXd weights = evaluate(sites, samples);
+  double least = 1; // share of a hemisphere
+  for (const auto& direction : directions.colwise()) {
+    const auto inside = (direction.transpose() * samples).array() > 0;
+    least = std::min(least, inside.select(weights.transpose().array(), 0).sum() / weights.sum());
+  }
+  return least * static_cast<double>(generators_detail::most_points) > in_hemisphere
+             ? static_cast<std::int64_t>(std::ceil(in_hemisphere / least))
+             : generators_detail::most_points;
 }
 
 } // namespace
@@ -54,8 +75,10 @@ Continuation continuation(std::int64_t cells, const Density& density, std::uint6
 Continuation multilevel(std::int64_t cells, const Density& density, std::uint64_t seed) {
   base_detail::require_count(cells, cvt_detail::SphericalWorld::fewest, "the number of cells");
   Continuation result;
-  result.bisections = coarsen<cvt_detail::SphericalWorld>(cells);
-  result.start = random_sphere(cells, site_density(density), seed);
+  const Density sites = site_density(density);
+  result.bisections =
+      coarsen<cvt_detail::SphericalWorld>(cells, std::max(fewest_at_start, spreading(sites)));
+  result.start = random_sphere(cells, sites, seed);
   return result;
 }
 

@@ -57,8 +57,16 @@ void begin_descent(State& state);
 
 /// Coarser levels, where rounds are cheap, have more of them.
 inline int rounds_of_level(const State& state, const CvtOptions& options) {
-  constexpr int most = 4; // times those of the last level
-  return options.insertion_rounds * std::min(state.bisections_left + 1, most);
+  constexpr int most = 14;
+  return std::min(options.insertion_rounds * (state.bisections_left + 1),
+                  std::max(options.insertion_rounds, most));
+}
+
+/// A round after a descent of more than 15 evaluations counts for two: where widths are steep, a
+/// round takes long and gains less.
+inline int count_of_round(const State& state) {
+  constexpr int steep = 15;
+  return state.iterations_of_level > steep ? 2 : 1;
 }
 
 /// The next level.
@@ -102,7 +110,7 @@ Level begin_round(const World& world, Stage stage, State& state, const CvtOption
       exchange_of(stage, state, mesh, options.density, cells_of_level(world, state, options));
   Level level = world.set_exchanged(state, mesh, options.density, exchange.inserted,
                                     exchange.contracted, stage == Stage::mend);
-  state.rounds_left = std::max(state.rounds_left - 1, 0);
+  state.rounds_left = std::max(state.rounds_left - count_of_round(state), 0);
   state.mends += stage == Stage::mend ? 1 : 0;
   state.penalty = 0;
   state.stiffened = 0;

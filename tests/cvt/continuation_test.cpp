@@ -108,6 +108,44 @@ TEST_CASE("drawn starts of a peaked density span the sphere, and converge") {
   }
 }
 
+namespace {
+
+/// Widths that are in proportion to 1 near a point and to `ratio` far away.
+Density steep(double ratio) {
+  Density density;
+  density.kind = Density::Kind::callable;
+  density.callable = [ratio](const PointsRef& points, Eigen::Ref<Eigen::VectorXd> values) {
+    const Eigen::Vector3d centre = Eigen::Vector3d(1, -2, 2) / 3;
+    for (Eigen::Index i = 0; i < points.cols(); ++i)
+      values[i] = std::pow(std::clamp(60 * (points.col(i) - centre).norm() - 20, 1.0, ratio), -4);
+  };
+  return density;
+}
+
+} // namespace
+
+TEST_CASE(
+    "multilevel: starts of steep densities span the sphere for all seeds, and so does a run") {
+  for (const double ratio : {1.0, 16.0, 80.0}) {
+    for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+      CAPTURE(ratio);
+      CAPTURE(seed);
+      const Continuation from = multilevel(3000, steep(ratio), seed);
+      CHECK(from.start.cols() >= 160);
+      CHECK(spherical_delaunay(from.start).closed());
+      CvtOptions options;
+      options.density = steep(ratio);
+      options.bisections = from.bisections;
+      options.insertion_rounds = 1;
+      options.cells = 3000;
+      options.tolerance = 1e-2;
+      const Cvt grid = spherical_cvt(from.start, options);
+      CHECK(grid.mesh.closed());
+      CHECK(grid.mesh.points.cols() == 3000);
+    }
+  }
+}
+
 // ---- The plane
 
 namespace {

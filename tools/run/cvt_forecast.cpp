@@ -109,9 +109,10 @@ CvtOptions early(CvtOptions options) {
 
 /// A level of four times as many cells takes four times as long, and has fewer rounds of insertion.
 double next_level(int bisections_left, const CvtOptions& options) {
-  constexpr int most_rounds = 4; // times those of the last level
+  constexpr int most_rounds = 14; // on coarser levels, see CvtOptions::insertion_rounds
   const auto descents = [&](int left) {
-    return 1.0 + options.insertion_rounds * std::min(left + 1, most_rounds);
+    return 1.0 + std::min(options.insertion_rounds * (left + 1),
+                          std::max(options.insertion_rounds, most_rounds));
   };
   return 4 * descents(bisections_left - 1) / descents(bisections_left);
 }

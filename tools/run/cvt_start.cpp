@@ -274,12 +274,12 @@ std::vector<std::string> settle_region(CvtRequest& request, const CellWidth& wid
 
 } // namespace
 
-/// On a fine grid one round leaves cells sheared over longer distances; on the finest ones a fourth
-/// gains less than it costs.
+/// On a fine grid few rounds leave cells sheared over long distances; on the finest ones further
+/// rounds gain less than they cost.
 int rounds_of(const CvtRequest& request) {
   constexpr std::int64_t fine = 100'000, finest = 400'000;
   const std::int64_t cells = request.cells.value_or(0);
-  return request.insertion_rounds.value_or(cells > finest ? 3 : cells > fine ? 4 : 1);
+  return request.insertion_rounds.value_or(cells > finest ? 5 : cells > fine ? 10 : 2);
 }
 
 void require_start(const CvtRequest& request) {
