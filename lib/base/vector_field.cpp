@@ -5,6 +5,8 @@
 #include "base/points.h"
 #include "base/vector_loops.h"
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace calotte::base_detail {
@@ -28,25 +30,34 @@ template <class Value> void set_columns(Points3& points, const Value& value) {
 }
 
 /// The sum of a_i b_i in eight partial sums: the same bits for any vector width.
-CALOTTE_VECTOR_WIDTHS double inner_of(const double* a, const double* b, std::int64_t n) {
+template <class A>
+CALOTTE_INLINE double sum_of_products(const A* a, const double* b, std::int64_t n) {
   constexpr int lanes = 8;
   double sums[lanes] = {};
   std::int64_t i = 0;
   for (; i + lanes <= n; i += lanes)
     for (int k = 0; k < lanes; ++k)
-      sums[k] += a[i + k] * b[i + k];
+      sums[k] += static_cast<double>(a[i + k]) * b[i + k];
   for (int k = 0; i < n; ++i, ++k)
-    sums[k] += a[i] * b[i];
+    sums[k] += static_cast<double>(a[i]) * b[i];
   double total = 0;
   for (const double sum : sums)
     total += sum;
   return total;
 }
 
-CALOTTE_VECTOR_WIDTHS void add_to(double* y, double a, const double* x, std::int64_t n) {
+CALOTTE_VECTOR_WIDTHS double inner_of(const double* a, const double* b, std::int64_t n) {
+  return sum_of_products(a, b, n);
+}
+
+CALOTTE_VECTOR_WIDTHS double inner_of(const float* a, const double* b, std::int64_t n) {
+  return sum_of_products(a, b, n);
+}
+
+CALOTTE_VECTOR_WIDTHS void add_to(double* y, double a, const float* x, std::int64_t n) {
   CALOTTE_VECTOR_LOOP
   for (std::int64_t i = 0; i < n; ++i)
-    y[i] += a * x[i];
+    y[i] += a * static_cast<double>(x[i]);
 }
 
 /// Sums sum(begin, end), over the coordinates of blocks.
@@ -69,17 +80,42 @@ double inner(const Points3& a, const Points3& b) {
   });
 }
 
-void add(Points3& y, double a, const Points3& x) {
+CompactField compacted(const Points3& vectors) {
+  const auto n = static_cast<double>(std::max<Eigen::Index>(vectors.cols(), 1));
+  CompactField field;
+  field.scale = std::sqrt(inner(vectors, vectors) / n);
+  const double inverse = field.scale > 0 ? 1 / field.scale : 0;
+  field.values.resize(3, vectors.cols());
+  for_each_block(vectors.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = 3 * begin; i != 3 * end; ++i)
+      field.values.data()[i] = static_cast<float>(inverse * vectors.data()[i]);
+  });
+  return field;
+}
+
+Points3 expanded(const CompactField& field) {
+  Points3 vectors = Points3::Zero(3, field.values.cols());
+  add(vectors, 1, field);
+  return vectors;
+}
+
+double inner(const CompactField& a, const Points3& b) {
+  return a.scale * sum_blocks(b.cols(), [&](std::int64_t begin, std::int64_t end) {
+           return inner_of(a.values.data() + begin, b.data() + begin, end - begin);
+         });
+}
+
+void add(Points3& y, double a, const CompactField& x) {
   for_each_block(y.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-    add_to(y.data() + 3 * begin, a, x.data() + 3 * begin, 3 * (end - begin));
+    add_to(y.data() + 3 * begin, a * x.scale, x.values.data() + 3 * begin, 3 * (end - begin));
   });
 }
 
-double inner_of_sum(Points3& y, double a, const Points3& x, const Points3& b) {
-  return sum_blocks(y.cols(), [&](std::int64_t begin, std::int64_t end) {
-    add_to(y.data() + begin, a, x.data() + begin, end - begin);
-    return inner_of(y.data() + begin, b.data() + begin, end - begin);
-  });
+double inner_of_sum(Points3& y, double a, const CompactField& x, const CompactField& b) {
+  return b.scale * sum_blocks(y.cols(), [&](std::int64_t begin, std::int64_t end) {
+           add_to(y.data() + begin, a * x.scale, x.values.data() + begin, end - begin);
+           return inner_of(b.values.data() + begin, y.data() + begin, end - begin);
+         });
 }
 
 void multiply(Points3& y, double a) {

@@ -10,11 +10,23 @@ namespace calotte::base_detail {
 
 double inner(const Points3& a, const Points3& b);
 
+/// Vectors in single precision, times a factor that keeps them in its range. For vectors that a
+/// method reads often and that need not be exact: half of the memory to read.
+struct CompactField {
+  Eigen::Matrix<float, 3, Eigen::Dynamic> values; ///< of a root mean square of about 1
+  double scale = 0;
+};
+
+CompactField compacted(const Points3& vectors);
+Points3 expanded(const CompactField& field);
+
+double inner(const CompactField& a, const Points3& b);
+
 /// y + a x.
-void add(Points3& y, double a, const Points3& x);
+void add(Points3& y, double a, const CompactField& x);
 
 /// Sets y to y + a x; returns its inner product with b.
-double inner_of_sum(Points3& y, double a, const Points3& x, const Points3& b);
+double inner_of_sum(Points3& y, double a, const CompactField& x, const CompactField& b);
 
 void multiply(Points3& y, double a);
 

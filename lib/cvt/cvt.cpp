@@ -67,9 +67,9 @@ void require_state(const State& state) {
     good = id >= 0 && static_cast<std::size_t>(id) < n && seen[static_cast<std::size_t>(id)]++ == 0;
   }
   const Memory& memory = state.memory;
-  for (const std::vector<Points3>* list : {&memory.steps, &memory.changes})
-    for (const Points3& points : *list)
-      good = good && points.cols() == state.points.cols();
+  for (const auto* list : {&memory.steps, &memory.changes})
+    for (const base_detail::CompactField& field : *list)
+      good = good && field.values.cols() == state.points.cols() && std::isfinite(field.scale);
   good = good && memory.steps.size() == memory.changes.size() &&
          memory.steps.size() == memory.curvatures.size();
   for (const Points3* points : {&memory.laplacian_at, &memory.before})

@@ -156,7 +156,7 @@ void Descent::precondition(Points3& vectors) {
   const Memory& memory = state_.memory;
   double factor = 1;
   if (!memory.steps.empty()) {
-    Points3 change = memory.changes.back();
+    Points3 change = expanded(memory.changes.back());
     functional_.make_tangential(change, state_.points);
     divide_by_masses(change);
     factor = memory.curvatures.back() / inner(memory.changes.back(), change);
@@ -274,8 +274,8 @@ void Descent::remember(const Points3& points) {
     memory.changes.erase(memory.changes.begin());
     memory.curvatures.erase(memory.curvatures.begin());
   }
-  memory.steps.push_back(std::move(step));
-  memory.changes.push_back(std::move(change));
+  memory.steps.push_back(compacted(step));
+  memory.changes.push_back(compacted(change));
   memory.curvatures.push_back(curvature);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "base/vector_field.h"
 #include "cvt/room.h"
 
 #include <calotte/cvt.h>
@@ -12,7 +13,8 @@ namespace calotte::cvt_detail {
 
 /// The memory of a method.
 struct Memory {
-  std::vector<Points3> steps, changes; ///< of generators, and of the gradient then; oldest first
+  /// Of generators, and of the gradient then; oldest first.
+  std::vector<base_detail::CompactField> steps, changes;
   std::vector<double> curvatures;      ///< their inner products
   Points3 laplacian_at;                ///< generators that the graph Laplacian was made for
   int since_laplacian = 0;             ///< evaluations

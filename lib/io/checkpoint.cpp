@@ -20,13 +20,14 @@ namespace calotte {
 namespace {
 
 using namespace io_detail;
+using base_detail::CompactField;
 using cvt_detail::State;
 
 constexpr std::string_view format = "calotte checkpoint ";
 
 std::string head() {
   std::string line(format);
-  line += "7, ";
+  line += "8, ";
   line += little_endian ? "little" : "big";
   line += "-endian\n";
   return line;
@@ -71,10 +72,12 @@ struct Put {
   template <class T> void operator()(const std::vector<T>& values) const {
     out->raw(std::ssize(values)).text(bytes_of(values.data(), std::ssize(values)));
   }
-  void operator()(const std::vector<Points3>& list) const {
+  void operator()(const std::vector<CompactField>& list) const {
     out->raw(std::ssize(list));
-    for (const Points3& points : list)
-      (*this)(points);
+    for (const CompactField& field : list)
+      out->raw(field.scale)
+          .raw(std::int64_t{field.values.cols()})
+          .text(bytes_of(field.values.data(), field.values.size()));
   }
 };
 
@@ -121,21 +124,29 @@ std::int64_t take_count(Bytes& bytes) {
 /// Takes an array with its length.
 struct TakeArray {
   Bytes* bytes;
-  void operator()(Points3& points) const {
-    const std::int64_t count = take_count(*bytes);
-    const std::string_view raw = bytes->take(24 * count);
-    points.resize(3, count);
-    std::copy(raw.begin(), raw.end(), reinterpret_cast<char*>(points.data()));
-  }
+  void operator()(Points3& points) const { take_columns(points); }
   template <class T> void operator()(std::vector<T>& values) const {
     const std::int64_t count = take_count(*bytes);
     const std::string_view raw = bytes->take(static_cast<std::int64_t>(sizeof(T)) * count);
     values.resize(static_cast<std::size_t>(count));
     std::copy(raw.begin(), raw.end(), reinterpret_cast<char*>(values.data()));
   }
-  void operator()(std::vector<Points3>& list) const {
-    for (std::int64_t k = take_count(*bytes); k > 0; --k)
-      (*this)(list.emplace_back());
+  void operator()(std::vector<CompactField>& list) const {
+    for (std::int64_t k = take_count(*bytes); k > 0; --k) {
+      CompactField& field = list.emplace_back();
+      Take{bytes}(field.scale);
+      take_columns(field.values);
+    }
+  }
+
+private:
+  /// The columns of a matrix of three rows, after their number.
+  template <class Matrix> void take_columns(Matrix& matrix) const {
+    const std::int64_t count = take_count(*bytes);
+    const std::string_view raw =
+        bytes->take(static_cast<std::int64_t>(3 * sizeof(typename Matrix::Scalar)) * count);
+    matrix.resize(3, count);
+    std::copy(raw.begin(), raw.end(), reinterpret_cast<char*>(matrix.data()));
   }
 };
 

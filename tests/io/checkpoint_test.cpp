@@ -48,8 +48,8 @@ State some_state() {
   state.iterations_of_level = 17;
   state.final_rule = true;
   for (std::uint64_t seed = 2; seed < 5; ++seed) {
-    state.memory.steps.push_back(random_sphere(30, seed));
-    state.memory.changes.push_back(-0.5 * random_sphere(30, seed));
+    state.memory.steps.push_back(base_detail::compacted(random_sphere(30, seed)));
+    state.memory.changes.push_back(base_detail::compacted(-0.5 * random_sphere(30, seed)));
     state.memory.curvatures.push_back(1 / static_cast<double>(seed));
   }
   state.memory.laplacian_at = random_sphere(30, 5);
@@ -94,9 +94,12 @@ void check_equal(const CvtIteration& a, const CvtIteration& b) {
   CHECK(a.seconds_solver == b.seconds_solver);
 }
 
-bool equal(const std::vector<Points3>& a, const std::vector<Points3>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](const Points3& x, const Points3& y) { return equal(x, y); });
+using Fields = std::vector<base_detail::CompactField>;
+
+bool equal(const Fields& a, const Fields& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) {
+    return x.scale == y.scale && x.values.cols() == y.values.cols() && x.values == y.values;
+  });
 }
 
 void check_equal(const Memory& a, const Memory& b) {
