@@ -16,6 +16,7 @@
 #include <calotte/generators.h>
 #include <calotte/io.h>
 #include <calotte/limited_area.h>
+#include <calotte/lonlat.h>
 #include <calotte/ocean.h>
 #include <calotte/options.h>
 #include <calotte/planar_raster.h>

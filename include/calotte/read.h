@@ -118,9 +118,6 @@ Mesh read_mesh(const std::string& path, const Points3* points = nullptr);
 /// Whether a regular file starts as NetCDF files do, classic or HDF5; false for any other path.
 bool is_netcdf_file(const std::string& path);
 
-/// Whether a regular file starts as NetCDF files do, classic or HDF5; false for any other path.
-bool is_netcdf_file(const std::string& path);
-
 /// Reads the points of such a file, 3 x n, and ignores its triangles. In a UGRID file without sites
 /// the points are the nodes. The function also reads the region centres of MPI-SCVT: from
 /// RegionList, or for a name that starts with RegionTriangulation from the RegionList beside it.

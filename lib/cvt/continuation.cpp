@@ -72,6 +72,11 @@ Continuation continuation(std::int64_t cells, const Density& density, std::uint6
   return result;
 }
 
+int insertion_rounds(std::int64_t cells) {
+  constexpr std::int64_t fine = 100'000, finest = 400'000;
+  return cells > finest ? 5 : cells > fine ? 10 : 2;
+}
+
 Continuation multilevel(std::int64_t cells, const Density& density, std::uint64_t seed) {
   base_detail::require_count(cells, cvt_detail::SphericalWorld::fewest, "the number of cells");
   Continuation result;

@@ -274,12 +274,8 @@ std::vector<std::string> settle_region(CvtRequest& request, const CellWidth& wid
 
 } // namespace
 
-/// On a fine grid few rounds leave cells sheared over long distances; on the finest ones further
-/// rounds gain less than they cost.
 int rounds_of(const CvtRequest& request) {
-  constexpr std::int64_t fine = 100'000, finest = 400'000;
-  const std::int64_t cells = request.cells.value_or(0);
-  return request.insertion_rounds.value_or(cells > finest ? 5 : cells > fine ? 10 : 2);
+  return request.insertion_rounds.value_or(insertion_rounds(request.cells.value_or(0)));
 }
 
 void require_start(const CvtRequest& request) {

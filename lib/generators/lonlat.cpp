@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <calotte/lonlat.h>
+
+#include "base/lonlat.h"
+#include "base/points.h"
+#include "base/require.h"
+
+#include <calotte/error.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+namespace calotte {
+namespace {
+
+[[noreturn]] void refuse(ErrorCode code, Eigen::Index i, const char* problem) {
+  throw Error(code, "point " + std::to_string(i) + ": " + problem, i);
+}
+
+void require_lonlat(double longitude, double latitude, Eigen::Index i) {
+  if (!std::isfinite(longitude) || !std::isfinite(latitude))
+    refuse(ErrorCode::not_finite, i, "longitude or latitude is not finite; remove or correct it");
+  if (std::abs(latitude) > 90)
+    refuse(ErrorCode::bad_option, i,
+           "the latitude is not within -90 to 90 degrees; give longitude, then latitude");
+}
+
+} // namespace
+
+Points3 from_lonlat(const PointsRef& lonlat) {
+  base_detail::require(lonlat.rows() == 2, "longitudes and latitudes must have 2 rows");
+  Points3 points(3, lonlat.cols());
+  for (Eigen::Index i = 0; i < lonlat.cols(); ++i) {
+    require_lonlat(lonlat(0, i), lonlat(1, i), i);
+    const base_detail::Vec3 p = base_detail::from_lonlat(lonlat(0, i), lonlat(1, i));
+    points.col(i) << p.x, p.y, p.z;
+  }
+  return points;
+}
+
+Points2 to_lonlat(const PointsRef& points) {
+  base_detail::require(points.rows() == 3, "points on the sphere must have 3 rows");
+  constexpr double degrees = 180 / std::numbers::pi;
+  Points2 lonlat(2, points.cols());
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    const double x = points(0, i), y = points(1, i), z = points(2, i);
+    const bool pole = x == 0 && y == 0;
+    lonlat.col(i) << (pole ? 0 : std::atan2(y, x) * degrees),
+        std::atan2(z, std::hypot(x, y)) * degrees;
+  }
+  return lonlat;
+}
+
+} // namespace calotte
