@@ -7,7 +7,6 @@
 #include "options/files.h"
 #include "options/global_option.h"
 #include "options/numbers.h"
-#include "options/point_file.h"
 #include "run/cvt_configuration.h"
 #include "run/cvt_costs.h"
 #include "run/cvt_forecast.h"
@@ -16,6 +15,7 @@
 #include "run/exit_code.h"
 #include "run/interruption.h"
 #include "run/progress.h"
+#include "run/start_files.h"
 
 #include <calotte/cut.h>
 #include <calotte/error.h>
@@ -94,6 +94,7 @@ void require_request(const CvtRequest& request) {
   const WidthWords& widths = request.density->widths;
   const bool shape = request.region.find('=') != std::string::npos;
   const std::vector<std::string> inputs{request.points,
+                                        request.fixed,
                                         centres_file(*request.partition),
                                         widths.file,
                                         widths.raster,
@@ -206,6 +207,7 @@ Plan prepare(CvtRequest& request, Progress& progress) {
                                            *request.cells, plan.options.density.uniform()));
   progress.stage("making the start");
   plan.start = open_start(request, plan.region);
+  plan.options.fixed = plan.start.fixed;
   if (start_kind(request) == "multilevel") {
     plan.options.insertion_rounds = rounds_of(request);
     plan.options.cells = *request.cells;
@@ -261,7 +263,7 @@ Outcome tessellate(const CvtRequest& request, Plan& plan, Progress& progress) {
       run_plan(plan, callback, outcome);
     });
   } catch (const Error& error) {
-    rethrow_with_line(error, plan.start.file, plan.start.lines);
+    rethrow_with_line(error, plan.start);
   }
   return outcome;
 }

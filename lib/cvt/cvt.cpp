@@ -58,7 +58,8 @@ void require_options(const CvtOptions& options) {
 void require_state(const State& state) {
   const auto n = static_cast<std::size_t>(state.points.cols());
   std::vector<std::uint8_t> seen(n, 0);
-  bool good = n >= 1 && state.id.size() == n && state.bisections_left >= 0 &&
+  bool good = n >= 1 && state.id.size() == n && state.fixed >= 0 &&
+              state.fixed <= state.points.cols() && state.bisections_left >= 0 &&
               state.rounds_left >= 0 && state.mends >= 0 && state.iterations_of_level >= 0 &&
               std::isfinite(state.penalty) && state.penalty >= 0 &&
               std::isfinite(state.demanded_spacing) && state.demanded_spacing > 0;
@@ -136,6 +137,7 @@ Ending iterate(const World& world, CvtState& whole, Level&& level, const CvtOpti
   const std::unique_ptr<Functional> functional =
       world.functional(state.points, options, std::move(level));
   functional->penalise_shapes(state.penalty, state.demanded_spacing);
+  functional->hold(fixed_generators(state));
   Descent descent(state, options, *functional);
   const bool resumed = state.iterations_of_level > 0;
   descent.begin();
@@ -165,6 +167,12 @@ void require_room(const World& world, const State& state, const CvtOptions& opti
     throw Error(ErrorCode::bad_option, "cells is " + std::to_string(options.cells) +
                                            "; give at least " + std::to_string(world.fewest) +
                                            " and at most " + std::to_string(most_points));
+  if (options.insertion_rounds > 0 && options.cells < state.fixed)
+    throw Error(ErrorCode::bad_option,
+                "fixed generator " + std::to_string(options.cells) + " is beyond the " +
+                    std::to_string(options.cells) +
+                    " cells of the result; give more cells or fewer fixed generators",
+                options.cells);
   const std::int64_t n = state.points.cols();
   int most = 0;
   for (std::int64_t cells = world.bisected(n); cells <= most_points; cells = world.bisected(cells))

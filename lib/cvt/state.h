@@ -30,6 +30,7 @@ struct CvtState::Data {
   Points3 points; ///< unit generators, along a space-filling curve; in the plane with z = 0
   std::vector<std::int32_t> id;            ///< of each: its column in the result
   std::vector<std::int32_t> site_of_input; ///< as Mesh's; of the start, or empty after a bisection
+  std::int64_t fixed = 0;                  ///< generators with lower ids stay where they are
   int bisections_left = 0;
   int rounds_left = 0; ///< of insertion, on this level
   int iterations_of_level = 0;
@@ -49,6 +50,9 @@ struct CvtState::Data {
 namespace calotte::cvt_detail {
 
 using State = CvtState::Data;
+
+/// Whether each generator stays where it is; empty if none does.
+std::vector<std::uint8_t> fixed_generators(const State& state);
 
 /// The generators in the order of the result.
 Points3 in_order(const State& state);

@@ -26,7 +26,7 @@ constexpr std::string_view format = "calotte checkpoint ";
 
 std::string head() {
   std::string line(format);
-  line += "7, ";
+  line += "8, ";
   line += little_endian ? "little" : "big";
   line += "-endian\n";
   return line;
@@ -46,7 +46,7 @@ template <class Region, class Visit> void visit_region(Region& r, const Visit& v
 }
 
 template <class State, class Visit> void visit_scalars(State& s, const Visit& visit) {
-  visit(s.bisections_left), visit(s.rounds_left), visit(s.iterations_of_level);
+  visit(s.fixed), visit(s.bisections_left), visit(s.rounds_left), visit(s.iterations_of_level);
   visit(s.final_rule), visit(s.stuck), visit(s.stiffened), visit(s.mends), visit(s.penalty),
       visit(s.demanded_spacing), visit(s.descended);
   visit(s.report.converged), visit(s.report.residual), visit(s.report.seconds);

@@ -64,7 +64,13 @@ void add_start(CLI::App& command, CvtRequest& request) {
                       std::string(mesh_suffixes))
       ->type_name("FILE");
   command.add_flag("--lonlat", request.lonlat,
-                   "The points of START are longitude and latitude in degrees");
+                   "The points of START and --fixed are longitude and latitude in degrees");
+  command
+      .add_option("--fixed", request.fixed,
+                  "Generators that stay where they are: a file such as START. They are part of the "
+                  "number of cells and come first in the mesh. For --start multilevel, density and "
+                  "random, or beside START")
+      ->type_name("FILE");
   add_cells(command, request);
   command
       .add_option(
@@ -212,10 +218,10 @@ std::string start_kind(const CvtRequest& request) {
     return "points";
   if (request.start)
     return *request.start;
-  const bool graded = !is_uniform(*request.density) || !request.region.empty();
-  if (graded && !request.iterations && !request.bisections)
+  const bool follows = !request.region.empty() || !request.fixed.empty();
+  if ((follows || !is_uniform(*request.density)) && !request.iterations && !request.bisections)
     return "multilevel";
-  return planar(request) || !request.region.empty() ? "density" : "continuation";
+  return planar(request) || follows ? "density" : "continuation";
 }
 
 bool cells_follow(const CvtRequest& request) {

@@ -3,15 +3,13 @@
 
 #include "options/format_options.h"
 #include "options/numbers.h"
-#include "options/point_file.h"
 #include "options/region_option.h"
+#include "run/start_files.h"
 
 #include <calotte/error.h>
 #include <calotte/generators.h>
 #include <calotte/io.h>
 #include <calotte/limited_area.h>
-
-#include <boost/crc.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -102,6 +100,9 @@ void require_kind(const CvtRequest& request) {
   if (!request.region.empty() && !both)
     refuse("--start " + kind +
            " applies to the whole sphere only; give multilevel, density or random");
+  if (!request.fixed.empty() && !both)
+    refuse("--start " + kind +
+           " does not leave room for fixed points; give multilevel, density or random");
   if (plane && !both && kind != "hexagonal")
     refuse("--start " + kind +
            " applies to the sphere only; give multilevel, density, random or hexagonal");
@@ -117,7 +118,7 @@ void require_cells(const CvtRequest& request) {
   if (!request.cells && !cells_follow(request))
     refuse("no start: give a file of points, or the number of cells (--cells N), or cell widths "
            "(--cell-width 60km)");
-  if (request.lonlat)
+  if (request.lonlat && request.fixed.empty())
     refuse("--lonlat applies to a file of points only; leave it out");
   if (request.seed && !seeded(kind))
     refuse("--seed applies to the starts multilevel, continuation, random and density only; leave "
@@ -142,6 +143,8 @@ void require_cells(const CvtRequest& request) {
 }
 
 void require_file(const CvtRequest& request) {
+  if (request.fixed == "-" && request.points == "-")
+    refuse("START and --fixed are both standard input; give a file for one of them");
   const auto exclude = [&](bool given, const std::string& option) {
     if (given)
       refuse("the start is the file " + request.points + "; leave " + option + " out");
@@ -150,8 +153,6 @@ void require_file(const CvtRequest& request) {
   exclude(request.start.has_value(), "--start");
   exclude(request.seed.has_value(), "--seed");
   exclude(request.insertion_rounds.has_value(), "--insertion-rounds");
-  if (planar(request) && request.lonlat)
-    refuse("--lonlat applies to the sphere only; leave it out");
 }
 
 /// Describes the start of a continuation to a number that no bisected icosahedron has.
@@ -192,11 +193,6 @@ Points2 generate(const std::string& kind, std::int64_t count, const PlanarDomain
 
 std::uint64_t seed_of(const CvtRequest& request) { return request.seed.value_or(1); }
 
-/// The points of a mesh of the plane.
-PlanarPointFile planar_points_of(const std::string& path) {
-  return {path, calotte::read_planar_mesh(path).points, {}};
-}
-
 CvtStart announce(const CvtRequest& request) {
   const std::string kind = start_kind(request);
   CvtStart start;
@@ -205,42 +201,20 @@ CvtStart announce(const CvtRequest& request) {
   return start;
 }
 
-/// \param file of either kind of points. \returns them.
-template <class File> auto take(File&& file, CvtStart& start) {
-  start.file = std::move(file.name);
-  start.lines = std::move(file.lines);
-  boost::crc_32_type checksum;
-  checksum.process_bytes(file.points.data(),
-                         sizeof(double) * static_cast<std::size_t>(file.points.size()));
-  start.configuration = "start points\npoints " + std::to_string(file.points.cols()) +
-                        " with checksum " + std::to_string(checksum.checksum()) + "\n";
-  return std::move(file.points);
-}
-
-CvtStart read(const CvtRequest& request) {
-  CvtStart start;
-  if (planar(request))
-    start.places = take(holds_points(request.points) ? planar_points_of(request.points)
-                                                     : read_planar_point_file(request.points),
-                        start);
-  else
-    start.points = take(read_point_file(request.points, request.lonlat), start);
-  return start;
-}
-
 /// Sets the points and bisections of a start that insertion leads to any number of cells.
 void make_multilevel(const CvtRequest& request, const Density& density,
                      const std::optional<PlanarDomain>& domain,
                      const std::optional<RunRegion>& region, CvtStart& start) {
   if (domain) {
-    PlanarContinuation from = multilevel(*request.cells, *domain, density, seed_of(request));
+    PlanarContinuation from =
+        multilevel(*request.cells, *domain, density, seed_of(request), start.fixed);
     start.bisections = from.bisections;
-    start.places = std::move(from.start);
+    start.places = joined(start.places, from.start);
   } else {
-    Continuation from =
-        multilevel(*request.cells, region ? region->meshed : Region{}, density, seed_of(request));
+    Continuation from = multilevel(*request.cells, region ? region->meshed : Region{}, density,
+                                   seed_of(request), start.fixed);
     start.bisections = from.bisections;
-    start.points = std::move(from.start);
+    start.points = joined(start.points, from.start);
   }
 }
 
@@ -283,6 +257,8 @@ int rounds_of(const CvtRequest& request) {
 }
 
 void require_start(const CvtRequest& request) {
+  if (planar(request) && request.lonlat)
+    refuse("--lonlat applies to the sphere only; leave it out");
   if (request.points.empty())
     require_cells(request);
   else
@@ -322,7 +298,8 @@ std::vector<std::string> settle_cells(CvtRequest& request, const std::optional<C
 }
 
 CvtStart open_start(const CvtRequest& request, const std::optional<RunRegion>& region) {
-  CvtStart start = request.points.empty() ? announce(request) : read(request);
+  CvtStart start = request.points.empty() ? announce(request) : read_start(request);
+  add_fixed(request, start);
   start.bisections = request.bisections.value_or(0);
   if (const std::string kind = start_kind(request); kind == "multilevel")
     start.configuration += "insertion-rounds " + std::to_string(rounds_of(request)) + "\n";
@@ -346,19 +323,28 @@ void generate_points(const CvtRequest& request, const Density& density,
     make_multilevel(request, density, domain, region, start);
     return;
   }
+  const bool open = domain || region;
+  const std::int64_t count = (open                     ? cells >> (2 * start.bisections)
+                              : kind == "continuation" ? cells
+                                                       : start_count(cells, start.bisections)) -
+                             start.fixed;
+  if (count < 1)
+    refuse("--bisections " + std::to_string(start.bisections) + " to " + std::to_string(cells) +
+           " cells leave no free point in the start beside " + std::to_string(start.fixed) +
+           " fixed ones; give more cells or fewer bisections");
   if (domain) {
-    start.places =
-        generate(kind, cells >> (2 * start.bisections), *domain, density, seed_of(request));
+    start.places = joined(start.places, generate(kind, count, *domain, density, seed_of(request)));
     return;
   }
   if (region) {
     start.points =
-        random_sphere(cells >> (2 * start.bisections), region->meshed,
-                      kind == "density" ? site_density(density) : Density{}, seed_of(request));
+        joined(start.points, random_sphere(count, region->meshed,
+                                           kind == "density" ? site_density(density) : Density{},
+                                           seed_of(request)));
     return;
   }
   if (kind != "continuation") {
-    start.points = generate(kind, start_count(cells, start.bisections), density, seed_of(request));
+    start.points = joined(start.points, generate(kind, count, density, seed_of(request)));
     return;
   }
   Continuation from = continuation(cells, density, seed_of(request));

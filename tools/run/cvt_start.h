@@ -13,10 +13,15 @@ namespace calotte::tools {
 
 /// The start of a run.
 struct CvtStart {
-  std::string file;                ///< that the points come from, or ""
-  std::vector<std::int64_t> lines; ///< of it, where they stand
-  Points3 points;                  ///< on the sphere
-  Points2 places;                  ///< or in the plane
+  /// A file of points, and the lines of it where they stand.
+  struct File {
+    std::string name; ///< or ""
+    std::vector<std::int64_t> lines;
+  };
+  File fixed_file, file; ///< of the fixed points, which come first, and of the others
+  std::int64_t fixed = 0;
+  Points3 points; ///< on the sphere
+  Points2 places; ///< or in the plane
   int bisections = 0;
   std::string note; ///< a message for the user, or ""
   /// The input that determines it, for the run's configuration: lines "name value".
@@ -47,11 +52,12 @@ std::optional<RunRegion> region_of_run(const CvtRequest& request,
 std::vector<std::string> settle_cells(CvtRequest& request, const std::optional<CellWidth>& widths,
                                       const std::optional<RunRegion>& region);
 
-/// Reads the points, if they come from a file, and describes the input that determines them.
-/// \throws Error bad_option, parse, file.
+/// Reads the fixed points and the others, if they come from files, and describes the input that
+/// determines them. \throws Error bad_option, parse, file.
 CvtStart open_start(const CvtRequest& request, const std::optional<RunRegion>& region);
 
-/// Computes the points, unless they come from a file, and a continuation's bisections and note.
+/// Computes the free points, unless they come from a file, and a continuation's bisections and
+/// note.
 /// \param domain of a plane.
 /// \throws Error bad_option.
 void generate_points(const CvtRequest& request, const Density& density,
