@@ -14,10 +14,11 @@ namespace calotte::cvt_detail {
 struct Memory {
   std::vector<Points3> steps, changes; ///< of generators, and of the gradient then; oldest first
   std::vector<double> curvatures;      ///< their inner products
-  Points3 laplacian_at;                ///< generators that the graph Laplacian was made for
-  int since_laplacian = 0;             ///< evaluations
-  bool flipped = false;                ///< edges, since then
-  Points3 before;                      ///< Nesterov's: the centroids before
+  double stride = 1;       ///< first trial of the next line search, as a share of the full step
+  Points3 laplacian_at;    ///< generators that the graph Laplacian was made for
+  int since_laplacian = 0; ///< evaluations
+  bool flipped = false;    ///< edges, since then
+  Points3 before;          ///< Nesterov's: the centroids before
   double momentum = 1;
 };
 

@@ -50,7 +50,8 @@ template <class State, class Visit> void visit_scalars(State& s, const Visit& vi
   visit(s.final_rule), visit(s.stuck), visit(s.stiffened), visit(s.mends), visit(s.penalty),
       visit(s.demanded_spacing), visit(s.descended);
   visit(s.report.converged), visit(s.report.residual), visit(s.report.seconds);
-  visit(s.memory.since_laplacian), visit(s.memory.flipped), visit(s.memory.momentum);
+  visit(s.memory.since_laplacian), visit(s.memory.flipped), visit(s.memory.momentum),
+      visit(s.memory.stride);
 }
 
 /// What follows an array's length: points, ids, or a list of points.
