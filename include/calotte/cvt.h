@@ -41,6 +41,15 @@ enum class Method {
   lbfgs_laplacian, ///< L-BFGS, preconditioned with the mesh's graph Laplacian
 };
 
+/// The boundary of a region in a run.
+enum class Boundary {
+  /// The boundary clips cells. The mesh has the triangles whose circumcentre lies in the region.
+  clip,
+  /// The fixed generators include some on the boundary, as boundary_points() gives them, and the
+  /// mesh ends there: it has the triangles whose centre of mass lies in the region.
+  generators,
+};
+
 /// Options of a CVT run. A function that takes them throws Error bad_option for a value out of
 /// range.
 struct CvtOptions {
@@ -93,7 +102,8 @@ struct CvtOptions {
   /// and insertion contracts no edge between two of them; an edge to another generator is
   /// contracted to the fixed one. >= 0; default 0.
   std::int64_t fixed = 0;
-  Partition partition = {}; ///< affects time and memory, not the result
+  Boundary boundary = Boundary::clip; ///< of a region of the sphere
+  Partition partition = {};           ///< affects time and memory, not the result
 };
 
 /// One evaluation of the energy and the centroids; in Lloyd's method one iteration. Lengths are on
@@ -229,7 +239,9 @@ Cvt spherical_cvt(CvtState state, const CvtOptions& options, const CvtCallback& 
 /// inside. A bisection adds the midpoints of the edges that lie inside.
 ///
 /// The mesh has the Delaunay triangles of the generators whose circumcentre lies in the region. It
-/// is open along the boundary, within about a cell of it; a generator may be in no triangle.
+/// is open along the boundary, within about a cell of it; a generator may be in no triangle. With
+/// Boundary::generators the mesh ends at the generators on the boundary. A bisection then adds no
+/// midpoint between two of them along the boundary.
 ///
 /// \param start 3 x n directions inside the region, 4 distinct at least.
 /// \throws Error as above and as require_region(); bad_option with the index of a generator outside

@@ -300,7 +300,7 @@ Cvt spherical_cvt(const PointsRef& start, const Region& region, const CvtOptions
   const cvt_detail::RegionWorld world(region);
   cvt_detail::RegionWorld::density(options.density);
   Cvt result = cvt_detail::run(world, world.begin(points, options), options, callback);
-  result.mesh = world.inner(std::move(result.mesh));
+  result.mesh = world.inner(std::move(result.mesh), options.boundary);
   return result;
 }
 
@@ -310,7 +310,7 @@ Cvt spherical_cvt(CvtState state, const Region& region, const CvtOptions& option
     return spherical_cvt(std::move(state), options, callback);
   const cvt_detail::RegionWorld world(region);
   Cvt result = cvt_detail::run(world, std::move(state), {}, options, callback);
-  result.mesh = world.inner(std::move(result.mesh));
+  result.mesh = world.inner(std::move(result.mesh), options.boundary);
   return result;
 }
 

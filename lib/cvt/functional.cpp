@@ -282,7 +282,7 @@ std::unique_ptr<Functional> make_functional(const Points3& points, const PlanarD
 std::unique_ptr<Functional> make_functional(const Points3& points,
                                             std::shared_ptr<const SphericalOutline> outline,
                                             const CvtOptions& options) {
-  RegionCells cells(std::move(outline), options.density, points);
+  RegionCells cells(std::move(outline), options.boundary, options.density, points);
   return std::make_unique<FunctionalOver<RegionCells>>(std::move(cells), points, options, Level());
 }
 

@@ -144,7 +144,7 @@ void RegionWorld::require_points(const State& state) const {
 }
 
 Mesh RegionWorld::triangulated(Points3&& points) const {
-  RegionCells cells(outline_);
+  RegionCells cells(outline_, Boundary::clip);
   cells.move(points);
   const Connectivity all = cells.signs().triangulate();
   std::vector<std::uint8_t> keep(static_cast<std::size_t>(all.triangles.cols()));
@@ -153,15 +153,13 @@ Mesh RegionWorld::triangulated(Points3&& points) const {
   return mesh_of(std::move(points), selected(all.triangles, keep));
 }
 
-Mesh RegionWorld::inner(Mesh&& mesh) const {
-  RegionCells cells(outline_);
+Mesh RegionWorld::inner(Mesh&& mesh, Boundary boundary) const {
+  RegionCells cells(outline_, boundary);
   cells.move(mesh.points);
   std::vector<std::uint8_t> keep(static_cast<std::size_t>(mesh.triangles.cols()));
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
     keep[static_cast<std::size_t>(t)] =
-        cells.has_circumcentre(mesh.triangles(0, t), mesh.triangles(1, t), mesh.triangles(2, t))
-            ? 1
-            : 0;
+        cells.has_centre(mesh.triangles(0, t), mesh.triangles(1, t), mesh.triangles(2, t)) ? 1 : 0;
   Triangles triangles = selected(mesh.triangles, keep);
   keep.assign(static_cast<std::size_t>(triangles.cols()), 1);
   while (drop_small_fans(triangles, mesh.points.cols(), keep) > 0) {

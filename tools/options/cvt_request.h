@@ -5,6 +5,7 @@
 #include "options/domain_option.h"
 #include "options/format_options.h"
 #include "options/partition_options.h"
+#include "options/region_option.h"
 
 #include <calotte/cvt.h>
 
@@ -21,8 +22,7 @@ struct CvtRequest {
   std::string fixed;  ///< the file of generators that stay, or none
   bool lonlat = false;
   std::shared_ptr<DomainWords> domain; ///< of a plane, where one is given
-  std::string region;                  ///< a part of the sphere, or none
-  bool limited_area = false;           ///< adds the rings of boundary cells
+  RegionWords part;                    ///< of the sphere
   std::optional<int> cells;            ///< of the result
   bool cells_of_widths = false;        ///< --cells auto: the number that the cell widths imply
   std::optional<std::string> start;    ///< default: see start_kind()

@@ -9,11 +9,9 @@
 #include <calotte/error.h>
 #include <calotte/generators.h>
 #include <calotte/io.h>
-#include <calotte/limited_area.h>
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <limits>
 #include <utility>
 
@@ -97,7 +95,7 @@ void require_kind(const CvtRequest& request) {
   const std::string kind = start_kind(request);
   const bool both = kind == "multilevel" || kind == "random" || kind == "density",
              plane = planar(request);
-  if (!request.region.empty() && !both)
+  if (!request.part.region.empty() && !both)
     refuse("--start " + kind +
            " applies to the whole sphere only; give multilevel, density or random");
   if (!request.fixed.empty() && !both)
@@ -108,6 +106,16 @@ void require_kind(const CvtRequest& request) {
            " applies to the sphere only; give multilevel, density, random or hexagonal");
   if (!plane && kind == "hexagonal")
     refuse("--start hexagonal applies to the plane only; give --domain, --rectangle or --periodic");
+}
+
+/// Puts generators on the boundary after the other fixed ones.
+void add_boundary(const CvtRequest& request, const Region& region, const Density& density,
+                  CvtStart& start) {
+  const Points3 shore = boundary_points(region, *request.cells, density);
+  start.fixed += shore.cols();
+  start.points = joined(start.points, shore);
+  start.configuration += "boundary generators\n";
+  require_free(request, start);
 }
 
 void require_cells(const CvtRequest& request) {
@@ -131,7 +139,7 @@ void require_cells(const CvtRequest& request) {
     return;
   if (planar(request) && kind != "multilevel")
     require_planar_cells(request);
-  else if (planar(request) || !request.region.empty())
+  else if (planar(request) || !request.part.region.empty())
     return;
   else if (*request.cells < fewest)
     refuse("--cells " + std::to_string(*request.cells) + " is too few; give at least " +
@@ -218,32 +226,15 @@ void make_multilevel(const CvtRequest& request, const Density& density,
   }
 }
 
-/// The distance in radians for the rings of a limited-area grid and a few cells more, of the widest
-/// cells along some boundaries.
-double margin_of(const CellWidth& widths, double radius_km,
-                 std::initializer_list<const Region*> boundaries) {
-  constexpr int beyond = 4; // cells, so that the rings have whole cells
-  double widest = 0;
-  for (const Region* region : boundaries)
-    for (const Points3& ring : region->rings)
-      widest = std::max(widest, evaluate(widths, ring.colwise().normalized()).maxCoeff());
-  return (limited_area_rings + beyond) * widest / radius_km;
-}
-
 /// Sets the number of cells to that of the widths in a region.
-std::vector<std::string> settle_region(CvtRequest& request, const CellWidth& widths,
+std::vector<std::string> settle_region(CvtRequest& request, const Resolution& resolution,
                                        const RunRegion& region) {
   if (!cells_follow(request))
     return {};
-  constexpr double least = 40, most = 1 << 30;
-  const double implied =
-      std::round(implied_cells(widths, region.meshed, request.density->widths.radius));
-  if (!(implied >= least && implied <= most))
-    refuse("--region " + request.region + ": the widths require " + formatted("%.4g", implied) +
-           " cells, but a grid has 40 to 1073741824; give other widths or a larger region");
-  request.cells = static_cast<int>(implied);
-  return {request.region + " requires " + std::to_string(*request.cells) + " cells" +
-          (request.limited_area ? ", with those of the rings and some beyond" : "")};
+  const RegionWords& part = request.part;
+  request.cells = cells_of_region(part, request.density->widths, resolution, region);
+  return {part.region + " requires " + std::to_string(*request.cells) + " cells" +
+          (part.limited_area ? ", with those of the rings and some beyond" : "")};
 }
 
 } // namespace
@@ -257,6 +248,10 @@ int rounds_of(const CvtRequest& request) {
 }
 
 void require_start(const CvtRequest& request) {
+  require_region_words(request.part);
+  if (ends_at_boundary(request.part) && !request.points.empty())
+    refuse("--boundary generators does not apply to a file of points; give --cells, or fixed "
+           "points on the boundary (--fixed)");
   if (planar(request) && request.lonlat)
     refuse("--lonlat applies to the sphere only; leave it out");
   if (request.points.empty())
@@ -265,29 +260,13 @@ void require_start(const CvtRequest& request) {
     require_file(request);
 }
 
-std::optional<RunRegion> region_of_run(const CvtRequest& request,
-                                       const std::optional<CellWidth>& widths) {
-  if (request.region.empty())
-    return std::nullopt;
-  const WidthWords& words = request.density->widths;
-  Region region = region_of(request.region, words.radius);
-  if (!request.limited_area)
-    return RunRegion{region, region};
-  if (!widths)
-    refuse("--limited-area requires cell widths, from which the rings around the region follow; "
-           "give --cell-width");
-  Region meshed = region;
-  for (int k = 0; k < 3; ++k) // the widths may grow outwards
-    meshed = widened(region, margin_of(*widths, words.radius, {&region, &meshed}));
-  return RunRegion{std::move(region), std::move(meshed)};
-}
-
-std::vector<std::string> settle_cells(CvtRequest& request, const std::optional<CellWidth>& widths,
+std::vector<std::string> settle_cells(CvtRequest& request, const Resolution& resolution,
                                       const std::optional<RunRegion>& region) {
+  const std::optional<CellWidth>& widths = resolution.widths;
   if (!widths)
     return {};
   if (region)
-    return settle_region(request, *widths, *region);
+    return settle_region(request, resolution, *region);
   const WidthWords& words = request.density->widths;
   if (cells_follow(request)) {
     request.cells =
@@ -297,9 +276,12 @@ std::vector<std::string> settle_cells(CvtRequest& request, const std::optional<C
   return notes_on(*widths, words, request.cells);
 }
 
-CvtStart open_start(const CvtRequest& request, const std::optional<RunRegion>& region) {
+CvtStart open_start(const CvtRequest& request, const Density& density,
+                    const std::optional<RunRegion>& region) {
   CvtStart start = request.points.empty() ? announce(request) : read_start(request);
   add_fixed(request, start);
+  if (ends_at_boundary(request.part))
+    add_boundary(request, region->meshed, density, start);
   start.bisections = request.bisections.value_or(0);
   if (const std::string kind = start_kind(request); kind == "multilevel")
     start.configuration += "insertion-rounds " + std::to_string(rounds_of(request)) + "\n";

@@ -2,8 +2,7 @@
 #pragma once
 
 #include "options/cvt_request.h"
-
-#include <calotte/region.h>
+#include "run/run_region.h"
 
 #include <optional>
 #include <string>
@@ -35,26 +34,16 @@ int rounds_of(const CvtRequest& request);
 /// \throws Error bad_option.
 void require_start(const CvtRequest& request);
 
-/// The region of a run.
-struct RunRegion {
-  Region region; ///< of the request
-  Region meshed; ///< wider for a limited-area grid, whose rings lie outside the region
-};
-
-/// None for a run on the whole sphere or in a plane. Reads the file, if there is one.
-/// \throws Error bad_option; as region_of().
-std::optional<RunRegion> region_of_run(const CvtRequest& request,
-                                       const std::optional<CellWidth>& widths);
-
 /// Sets the request's number of cells to that of the widths, if it is automatic.
 /// \returns messages about the widths, one line each.
 /// \throws Error bad_option.
-std::vector<std::string> settle_cells(CvtRequest& request, const std::optional<CellWidth>& widths,
+std::vector<std::string> settle_cells(CvtRequest& request, const Resolution& resolution,
                                       const std::optional<RunRegion>& region);
 
-/// Reads the fixed points and the others, if they come from files, and describes the input that
-/// determines them. \throws Error bad_option, parse, file.
-CvtStart open_start(const CvtRequest& request, const std::optional<RunRegion>& region);
+/// Reads or computes the fixed points and the others, if they come from files, and describes the
+/// input that determines them. \throws Error bad_option, parse, file.
+CvtStart open_start(const CvtRequest& request, const Density& density,
+                    const std::optional<RunRegion>& region);
 
 /// Computes the free points, unless they come from a file, and a continuation's bisections and
 /// note.

@@ -41,19 +41,6 @@ Points2 read_places(const std::string& path, CvtStart::File& origin) {
   return take(holds_points(path) ? planar_points_of(path) : read_planar_point_file(path), origin);
 }
 
-void require_free(const CvtRequest& request, const CvtStart& start) {
-  if (!request.cells || start.fixed < *request.cells)
-    return;
-  const std::int64_t last = *request.cells - 1;
-  const auto& lines = start.fixed_file.lines;
-  throw Error(
-      ErrorCode::bad_option,
-      start.fixed_file.name +
-          (lines.empty() ? "" : " line " + std::to_string(lines[static_cast<std::size_t>(last)])) +
-          ": fixed point " + std::to_string(last) + " leaves no free one of the " +
-          std::to_string(*request.cells) + " cells; give more cells or fewer fixed points");
-}
-
 } // namespace
 
 CvtStart read_start(const CvtRequest& request) {
@@ -82,6 +69,20 @@ void add_fixed(const CvtRequest& request, CvtStart& start) {
     start.points = joined(fixed, start.points);
   }
   require_free(request, start);
+}
+
+void require_free(const CvtRequest& request, const CvtStart& start) {
+  if (!request.cells || start.fixed < *request.cells)
+    return;
+  const std::int64_t last = *request.cells - 1;
+  const auto& [name, lines] = start.fixed_file;
+  const std::string line = last < std::ssize(lines)
+                               ? " line " + std::to_string(lines[static_cast<std::size_t>(last)])
+                               : "";
+  throw Error(ErrorCode::bad_option, name + line + (name.empty() ? "" : ": ") + "fixed point " +
+                                         std::to_string(last) + " leaves no free one of the " +
+                                         std::to_string(*request.cells) +
+                                         " cells; give more cells or fewer fixed points");
 }
 
 void rethrow_with_line(const Error& error, const CvtStart& start) {

@@ -24,6 +24,9 @@ template <class Points> Points joined(const Points& first, const Points& then) {
   return all;
 }
 
+/// \throws Error bad_option if the fixed points leave no free one of the request's cells.
+void require_free(const CvtRequest& request, const CvtStart& start);
+
 /// Replaces the column of a bad point of the start in an error by the line in its file.
 [[noreturn]] void rethrow_with_line(const Error& error, const CvtStart& start);
 
