@@ -7,7 +7,6 @@
 #include "options/files.h"
 #include "options/global_option.h"
 #include "options/numbers.h"
-#include "options/point_file.h"
 #include "run/cvt_configuration.h"
 #include "run/cvt_costs.h"
 #include "run/cvt_forecast.h"
@@ -16,6 +15,7 @@
 #include "run/exit_code.h"
 #include "run/interruption.h"
 #include "run/progress.h"
+#include "run/start_files.h"
 
 #include <calotte/cut.h>
 #include <calotte/error.h>
@@ -56,19 +56,17 @@ void require_plane(const CvtRequest& request, const WriteOptions& options) {
 /// Rejects formats and options that a run in a region does not support.
 void require_region_format(const CvtRequest& request, const WriteOptions& options) {
   const auto refuse = [](const std::string& what) { throw Error(ErrorCode::bad_option, what); };
-  if (request.limited_area && request.region.empty())
-    refuse("--limited-area requires a region; give --region");
-  if (request.region.empty())
+  if (request.part.region.empty())
     return;
   if (planar(request))
     refuse("--region applies to the sphere only; leave it out, or the domain of the plane");
   const Format format = format_of(request.mesh, options.format);
-  if (request.limited_area)
+  if (request.part.limited_area)
     require_mpas_name(request.mesh);
   const bool triangles = format == Format::vtp || format == Format::vtu || format == Format::off ||
                          format == Format::ply || format == Format::triangles ||
                          format == Format::msh || format == Format::ugrid_triangles;
-  if (!request.limited_area && !triangles)
+  if (!request.part.limited_area && !triangles)
     refuse(request.mesh + ": this format has cells, which are open along the region's boundary; "
                           "give --limited-area, or a file of triangles such as .vtp");
 }
@@ -92,14 +90,15 @@ void require_request(const CvtRequest& request) {
     require_plane(request, options);
   require_region_format(request, options);
   const WidthWords& widths = request.density->widths;
-  const bool shape = request.region.find('=') != std::string::npos;
+  const bool shape = request.part.region.find('=') != std::string::npos;
   const std::vector<std::string> inputs{request.points,
+                                        request.fixed,
                                         centres_file(*request.partition),
                                         widths.file,
                                         widths.raster,
                                         request.domain->file.value_or(""),
                                         *request.config,
-                                        shape ? "" : request.region};
+                                        shape ? "" : request.part.region};
   require_outputs({{"mesh", request.mesh},
                    {"graph of the mesh", graph_of(request.mesh, options.format)},
                    {"report", request.report},
@@ -198,14 +197,15 @@ Plan prepare(CvtRequest& request, Progress& progress) {
   plan.domain = domain_of(*request.domain);
   progress.stage("reading the density");
   Resolution resolution = resolution_of(*request.density, planar(request));
-  plan.options.density = std::move(resolution.density);
-  plan.region = region_of_run(request, resolution.widths);
-  const std::vector<std::string> notes = settle_cells(request, resolution.widths, plan.region);
+  plan.options.density = resolution.density;
+  plan.region = region_of_run(request.part, request.density->widths, resolution.widths);
+  const std::vector<std::string> notes = settle_cells(request, resolution, plan.region);
   if (request.cells)
     require_space(request.mesh, file_bytes(format_of(request.mesh, write_options(request).format),
                                            *request.cells, plan.options.density.uniform()));
   progress.stage("making the start");
-  plan.start = open_start(request, plan.region);
+  plan.start = open_start(request, plan.options.density, plan.region);
+  plan.options.fixed = plan.start.fixed;
   if (start_kind(request) == "multilevel") {
     plan.options.insertion_rounds = rounds_of(request);
     plan.options.cells = *request.cells;
@@ -261,7 +261,7 @@ Outcome tessellate(const CvtRequest& request, Plan& plan, Progress& progress) {
       run_plan(plan, callback, outcome);
     });
   } catch (const Error& error) {
-    rethrow_with_line(error, plan.start.file, plan.start.lines);
+    rethrow_with_line(error, plan.start);
   }
   return outcome;
 }
@@ -341,7 +341,7 @@ void write_result(const CvtRequest& request, const Plan& plan, Outcome& outcome,
   else if (!plan.options.density.uniform())
     options.site_density = evaluate(plan.options.density, *plan.domain, outcome.plane.points);
   options.history = history_of(request, plan.configuration, outcome.report);
-  if (request.limited_area)
+  if (request.part.limited_area)
     write_region(request, *plan.region, outcome, options);
   else if (plan.domain)
     write_plane(request.mesh, outcome.plane, *plan.domain, options);

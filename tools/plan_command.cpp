@@ -14,6 +14,7 @@
 #include "options/warning.h"
 #include "run/cvt_costs.h"
 #include "run/progress.h"
+#include "run/run_region.h"
 #include "run/spacing_survey.h"
 
 #include <calotte/error.h>
@@ -37,6 +38,7 @@ constexpr double metres = 1000; // a km
 
 struct Request {
   std::shared_ptr<DensityWords> density;
+  RegionWords part;                  ///< of the sphere
   std::optional<std::int64_t> cells; ///< or those that the widths imply
   std::optional<double> sphere_radius;
   std::optional<int> threads;
@@ -46,6 +48,7 @@ struct Request {
 
 /// The grid that a run would make.
 struct Plan {
+  std::string region;  ///< its word, or ""
   std::string density; ///< its name
   std::string doubt;   ///< about widths that may be in metres, or ""
   std::int64_t cells = 0;
@@ -74,22 +77,40 @@ void plan_widths(const Request& request, const CellWidth& widths, Plan& plan) {
   plan.spacing.steepest.slope *= plan.factor;
 }
 
-void plan_density(const Request& request, const Density& density, Plan& plan) {
+/// Widths in km in a region: with the cells of the rings, and some beyond, of a limited area.
+void plan_region(const Request& request, const Resolution& resolution, const RunRegion& region,
+                 Plan& plan) {
+  const WidthWords& words = request.density->widths;
+  plan.implied = cells_of_region(request.part, words, resolution, region);
+  plan.cells = request.cells.value_or(static_cast<std::int64_t>(plan.implied));
+  plan.factor = std::sqrt(plan.implied / static_cast<double>(plan.cells));
+  plan.radius_km = words.radius;
+  const double unit = plan.factor * resolution.widths->widths.minCoeff() / words.radius;
+  plan.spacing = survey_spacing(resolution.density, plan.cells, region.meshed, unit);
+}
+
+void plan_density(const Request& request, const Density& density, const Region& region,
+                  Plan& plan) {
   plan.cells = *request.cells;
   if (request.sphere_radius)
     plan.radius_km = *request.sphere_radius / metres;
-  plan.spacing = survey_spacing(density, plan.cells);
+  plan.spacing = survey_spacing(density, plan.cells, region);
 }
 
 Plan plan_of(const Request& request, const Resolution& resolution) {
   Plan plan;
   plan.density = density_name(*request.density);
-  if (resolution.widths) {
+  plan.region = request.part.region;
+  const std::optional<RunRegion> region =
+      region_of_run(request.part, request.density->widths, resolution.widths);
+  if (resolution.widths && region)
+    plan_region(request, resolution, *region, plan);
+  else if (resolution.widths)
     plan_widths(request, *resolution.widths, plan);
+  else
+    plan_density(request, resolution.density, region ? region->meshed : Region{}, plan);
+  if (resolution.widths)
     plan.doubt = doubt_of(*resolution.widths, request.density->widths);
-  } else {
-    plan_density(request, resolution.density, plan);
-  }
   plan.threads = tbb::this_task_arena::max_concurrency();
   plan.costs = cvt_costs(plan.cells, resolution.density, plan.threads);
   return plan;
@@ -128,6 +149,8 @@ std::string table(const Plan& plan) {
     out << std::left << std::setw(22) << name << value << "\n";
   };
   row("density", plan.density);
+  if (!plan.region.empty())
+    row("region", plan.region);
   row("cells", std::to_string(plan.cells));
   if (plan.implied > 0) {
     row("cells of the widths", formatted("%.0f", plan.implied));
@@ -151,6 +174,8 @@ std::string table(const Plan& plan) {
 std::string to_json(const Plan& plan) {
   nlohmann::ordered_json json;
   json["density"] = plan.density;
+  if (!plan.region.empty())
+    json["region"] = plan.region;
   json["cells"] = plan.cells;
   if (plan.implied > 0) {
     json["implied_cells"] = plan.implied;
@@ -192,6 +217,7 @@ void draw_widths(const Request& request, const Density& density, const Plan& pla
 // ---- The command
 
 void require_request(const Request& request) {
+  require_region_words(request.part);
   const WidthWords& widths = request.density->widths;
   if (!request.cells && !widths.in_km())
     refuse("a density has no unit, and implies no number of cells; give --cells N, or widths in "
@@ -201,8 +227,9 @@ void require_request(const Request& request) {
     refuse("--sphere-radius does not apply to widths in km; give --earth-radius, in km");
   if (!request.picture.empty())
     picture_format(request.picture);
+  const bool shape = request.part.region.find('=') != std::string::npos;
   require_outputs({{"picture", request.picture}, {"report", request.report}},
-                  {widths.file, widths.raster});
+                  {widths.file, widths.raster, shape ? "" : request.part.region});
 }
 
 /// Writes the picture and the report, too.
@@ -247,11 +274,13 @@ void add_cells(CLI::App& command, Request& request) {
 
 void add_plan(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
-      "plan", "Describes the grid that calotte cvt would make on the sphere, without making it: "
-              "cells, widths and their gradient, and estimates of time, memory and file sizes.");
+      "plan", "Describes the grid that calotte cvt would make on the sphere, or in a region of it, "
+              "without making it: cells, widths and their gradient, and estimates of time, memory "
+              "and file sizes.");
   auto request = std::make_shared<Request>();
   request->density = add_density(*command);
   add_cells(*command, *request);
+  add_region(*command, request->part);
   add_sphere_radius(
       *command, request->sphere_radius,
       "Radius of the sphere, for the widths of a density in km: metres, > 0, or earth "
@@ -269,9 +298,11 @@ void add_plan(CLI::App& app) {
       ->type_name("FILE");
   set_help(*command,
            {.common = {"--cells", "--density", "--cell-width", "--outside-width", "--transition",
-                       "--sphere-radius", "--threads", "--output", "--report"},
+                       "--region", "--limited-area", "--sphere-radius", "--threads", "--output",
+                       "--report"},
             .examples = {
                 "calotte plan --cell-width 60km",
+                "calotte plan --cell-width 60km --region circle=-105,40,1000km --limited-area",
                 "calotte plan --cell-width coast.geojson --outside-width 120 --transition 4000"}});
   command->callback([request] { run(*request); });
 }

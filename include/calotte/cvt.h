@@ -41,6 +41,15 @@ enum class Method {
   lbfgs_laplacian, ///< L-BFGS, preconditioned with the mesh's graph Laplacian
 };
 
+/// The boundary of a region in a run.
+enum class Boundary {
+  /// The boundary clips cells. The mesh has the triangles whose circumcentre lies in the region.
+  clip,
+  /// The fixed generators include some on the boundary, as boundary_points() gives them, and the
+  /// mesh ends there: it has the triangles whose centre of mass lies in the region.
+  generators,
+};
+
 /// Options of a CVT run. A function that takes them throws Error bad_option for a value out of
 /// range.
 struct CvtOptions {
@@ -87,7 +96,14 @@ struct CvtOptions {
   int triangle_divisions = 1; ///< divides each half kite into this number squared; 1 to 100
   Duplicates duplicates = Duplicates::merge; ///< of the start, see DelaunayOptions
   double merge_within = 0;                   ///< of the start, see DelaunayOptions; >= 0 and finite
-  Partition partition = {};                  ///< affects time and memory, not the result
+  /// Number of generators that stay where they are: the first columns of the start, and of the
+  /// result. A unit column, up to round-off, keeps its bits; others are normalised. They are
+  /// distinct, count as cells, and for all norms as being at their centroids. Bisections keep them,
+  /// and insertion contracts no edge between two of them; an edge to another generator is
+  /// contracted to the fixed one. >= 0; default 0.
+  std::int64_t fixed = 0;
+  Boundary boundary = Boundary::clip; ///< of a region of the sphere
+  Partition partition = {};           ///< affects time and memory, not the result
 };
 
 /// One evaluation of the energy and the centroids; in Lloyd's method one iteration. Lengths are on
@@ -213,8 +229,8 @@ CALOTTE_API_SPECIALISATION Cvt spherical_cvt(Points3&& start, const CvtOptions& 
                                              const CvtCallback& callback);
 
 /// Continues from a state. With the same options the result has the bits of an uninterrupted run.
-/// CvtOptions::bisections, duplicates and merge_within have no effect; the state holds the
-/// bisections that remain.
+/// CvtOptions::bisections, duplicates, merge_within and fixed have no effect; the state holds the
+/// bisections that remain and the number of fixed generators.
 /// \throws Error as above; bad_option for an incomplete state.
 Cvt spherical_cvt(CvtState state, const CvtOptions& options, const CvtCallback& callback = {});
 
@@ -223,7 +239,9 @@ Cvt spherical_cvt(CvtState state, const CvtOptions& options, const CvtCallback& 
 /// inside. A bisection adds the midpoints of the edges that lie inside.
 ///
 /// The mesh has the Delaunay triangles of the generators whose circumcentre lies in the region. It
-/// is open along the boundary, within about a cell of it; a generator may be in no triangle.
+/// is open along the boundary, within about a cell of it; a generator may be in no triangle. With
+/// Boundary::generators the mesh ends at the generators on the boundary. A bisection then adds no
+/// midpoint between two of them along the boundary.
 ///
 /// \param start 3 x n directions inside the region, 4 distinct at least.
 /// \throws Error as above and as require_region(); bad_option with the index of a generator outside
@@ -285,13 +303,18 @@ int insertion_rounds(std::int64_t cells);
 
 /// The start of a run with CvtOptions::insertion_rounds, for any number of cells: random points
 /// that follow site_density(), and as many bisections as leave at least 160 of them, and 12 in each
-/// hemisphere on average, or `cells` itself. \param cells value for CvtOptions::cells, 12 to 2^30. \throws Error as above.
-Continuation multilevel(std::int64_t cells, const Density& density, std::uint64_t seed = 1);
+/// hemisphere on average, and at least four times as many as fixed ones; or `cells` itself.
+/// \param cells value for CvtOptions::cells, 12 to 2^30.
+/// \param fixed number of fixed generators that the caller puts before the start, which has as many
+///        points fewer; 0 to cells - 1, default 0.
+/// \throws Error as above.
+Continuation multilevel(std::int64_t cells, const Density& density, std::uint64_t seed = 1,
+                        std::int64_t fixed = 0);
 
 /// The same in a region; `cells` from 4 on.
 /// \throws Error as above and as require_region().
 Continuation multilevel(std::int64_t cells, const Region& region, const Density& density,
-                        std::uint64_t seed = 1);
+                        std::uint64_t seed = 1, std::int64_t fixed = 0);
 
 /// The same in the plane.
 struct PlanarContinuation {
@@ -303,7 +326,8 @@ struct PlanarContinuation {
 /// \throws Error bad_option for a number out of range, or as random_places(n, domain, density,
 /// seed).
 PlanarContinuation multilevel(std::int64_t cells, const PlanarDomain& domain,
-                              const Density& density, std::uint64_t seed = 1);
+                              const Density& density, std::uint64_t seed = 1,
+                              std::int64_t fixed = 0);
 
 } // namespace calotte
 CALOTTE_API_END

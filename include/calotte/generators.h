@@ -43,6 +43,20 @@ Points3 random_sphere(std::int64_t n, const Density& density, std::uint64_t seed
 Points3 random_sphere(std::int64_t n, const Region& region, const Density& density = {},
                       std::uint64_t seed = 1);
 
+/// Generators along the boundary of a region, ring by ring, for CvtOptions::fixed of a run with
+/// Boundary::generators: at the distances of neighbours that a density demands of so many
+/// generators, of which those on the boundary have half a cell. Corners where the boundary turns by
+/// 20 degrees or more have a generator unless a sharper one is nearer than two thirds of such a
+/// distance; the distances between two corners are equal, from 2/3 to 3/2 of the demanded one. A
+/// ring has at least three generators, whose distances may be smaller.
+///
+/// The generators lie on the boundary up to 1e-15, and not outside the region.
+/// \param cells number of generators of the run, 4 to 2^30.
+/// \returns 3 x n unit columns; none for the whole sphere.
+/// \throws Error as require_region(); bad_option for an ill-formed density, cells out of range, and
+///         if the boundary takes all of the cells.
+Points3 boundary_points(const Region& region, std::int64_t cells, const Density& density = {});
+
 /// The Fibonacci lattice, from north to south: z_i = 1 - (2i + 1)/n, longitude i times the golden
 /// angle pi (3 - sqrt 5).
 /// \param n number of points, 1 to 2^30.

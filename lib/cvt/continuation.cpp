@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string>
 
 namespace calotte {
 namespace {
@@ -27,13 +28,24 @@ std::optional<int> icosahedral_level(std::int64_t n) {
 constexpr std::int64_t fewest_at_start = 160;
 
 /// Halves the number of cells along both axes while enough are left. Returns how often.
-template <class World>
-int coarsen(std::int64_t& cells, std::int64_t least = fewest_at_start) {
+template <class World> int coarsen(std::int64_t& cells, std::int64_t least) {
   int levels = 0;
   for (; World::halved(cells) >= least; cells = World::halved(cells))
     ++levels;
   return levels;
 }
+
+/// The number of points that a start has beside the fixed generators.
+std::int64_t free_of(std::int64_t cells, std::int64_t fixed) {
+  base_detail::require(fixed >= 0 && fixed < cells, "the number of fixed generators is " +
+                                                        std::to_string(fixed) +
+                                                        "; give 0 or more, and fewer than the " +
+                                                        std::to_string(cells) + " cells");
+  return cells - fixed;
+}
+
+/// The least number of generators on a level with some fixed ones.
+std::int64_t least_with(std::int64_t fixed) { return std::max(fewest_at_start, 4 * fixed); }
 
 /// How many points that follow a density spread over the sphere: on average 12 lie in the emptiest
 /// hemisphere. A descent from fewer may lose the last of these, so that no triangulation exists.
@@ -72,38 +84,46 @@ Continuation continuation(std::int64_t cells, const Density& density, std::uint6
   return result;
 }
 
+<<<<<<< HEAD
 int insertion_rounds(std::int64_t cells) {
   constexpr std::int64_t fine = 100'000, finest = 400'000;
   return cells > finest ? 5 : cells > fine ? 10 : 2;
 }
 
 Continuation multilevel(std::int64_t cells, const Density& density, std::uint64_t seed) {
+=======
+Continuation multilevel(std::int64_t cells, const Density& density, std::uint64_t seed,
+                        std::int64_t fixed) {
+>>>>>>> 5e2722c34d2c2e2d714f10c458428180e80d7a18
   base_detail::require_count(cells, cvt_detail::SphericalWorld::fewest, "the number of cells");
+  free_of(cells, fixed);
   Continuation result;
   const Density sites = site_density(density);
   result.bisections =
-      coarsen<cvt_detail::SphericalWorld>(cells, std::max(fewest_at_start, spreading(sites)));
-  result.start = random_sphere(cells, sites, seed);
+      coarsen<cvt_detail::SphericalWorld>(cells, std::max(least_with(fixed), spreading(sites)));
+  result.start = random_sphere(free_of(cells, fixed), sites, seed);
   return result;
 }
 
 Continuation multilevel(std::int64_t cells, const Region& region, const Density& density,
-                        std::uint64_t seed) {
+                        std::uint64_t seed, std::int64_t fixed) {
   if (region.whole())
-    return multilevel(cells, density, seed);
+    return multilevel(cells, density, seed, fixed);
   base_detail::require_count(cells, cvt_detail::RegionWorld::fewest, "the number of cells");
+  free_of(cells, fixed);
   Continuation result;
-  result.bisections = coarsen<cvt_detail::RegionWorld>(cells);
-  result.start = random_sphere(cells, region, site_density(density), seed);
+  result.bisections = coarsen<cvt_detail::RegionWorld>(cells, least_with(fixed));
+  result.start = random_sphere(free_of(cells, fixed), region, site_density(density), seed);
   return result;
 }
 
 PlanarContinuation multilevel(std::int64_t cells, const PlanarDomain& domain,
-                              const Density& density, std::uint64_t seed) {
+                              const Density& density, std::uint64_t seed, std::int64_t fixed) {
   base_detail::require_count(cells, cvt_detail::PlanarWorld::fewest, "the number of cells");
+  free_of(cells, fixed);
   PlanarContinuation result;
-  result.bisections = coarsen<cvt_detail::PlanarWorld>(cells);
-  result.start = random_places(cells, domain, site_density(density, domain), seed);
+  result.bisections = coarsen<cvt_detail::PlanarWorld>(cells, least_with(fixed));
+  result.start = random_places(free_of(cells, fixed), domain, site_density(density, domain), seed);
   return result;
 }
 

@@ -58,7 +58,8 @@ void require_options(const CvtOptions& options) {
 void require_state(const State& state) {
   const auto n = static_cast<std::size_t>(state.points.cols());
   std::vector<std::uint8_t> seen(n, 0);
-  bool good = n >= 1 && state.id.size() == n && state.bisections_left >= 0 &&
+  bool good = n >= 1 && state.id.size() == n && state.fixed >= 0 &&
+              state.fixed <= state.points.cols() && state.bisections_left >= 0 &&
               state.rounds_left >= 0 && state.mends >= 0 && state.iterations_of_level >= 0 &&
               std::isfinite(state.penalty) && state.penalty >= 0 &&
               std::isfinite(state.demanded_spacing) && state.demanded_spacing > 0;
@@ -74,6 +75,7 @@ void require_state(const State& state) {
          memory.steps.size() == memory.curvatures.size();
   for (const Points3* points : {&memory.laplacian_at, &memory.before})
     good = good && (points->cols() == 0 || points->cols() == state.points.cols());
+  good = good && memory.stride > 0 && memory.stride <= 1;
   for (const std::int32_t site : state.site_of_input)
     good = good && site >= 0 && static_cast<std::size_t>(site) < n;
   if (!good)
@@ -136,6 +138,7 @@ Ending iterate(const World& world, CvtState& whole, Level&& level, const CvtOpti
   const std::unique_ptr<Functional> functional =
       world.functional(state.points, options, std::move(level));
   functional->penalise_shapes(state.penalty, state.demanded_spacing);
+  functional->hold(fixed_generators(state));
   Descent descent(state, options, *functional);
   const bool resumed = state.iterations_of_level > 0;
   descent.begin();
@@ -165,6 +168,12 @@ void require_room(const World& world, const State& state, const CvtOptions& opti
     throw Error(ErrorCode::bad_option, "cells is " + std::to_string(options.cells) +
                                            "; give at least " + std::to_string(world.fewest) +
                                            " and at most " + std::to_string(most_points));
+  if (options.insertion_rounds > 0 && options.cells < state.fixed)
+    throw Error(ErrorCode::bad_option,
+                "fixed generator " + std::to_string(options.cells) + " is beyond the " +
+                    std::to_string(options.cells) +
+                    " cells of the result; give more cells or fewer fixed generators",
+                options.cells);
   const std::int64_t n = state.points.cols();
   int most = 0;
   for (std::int64_t cells = world.bisected(n); cells <= most_points; cells = world.bisected(cells))
@@ -291,7 +300,7 @@ Cvt spherical_cvt(const PointsRef& start, const Region& region, const CvtOptions
   const cvt_detail::RegionWorld world(region);
   cvt_detail::RegionWorld::density(options.density);
   Cvt result = cvt_detail::run(world, world.begin(points, options), options, callback);
-  result.mesh = world.inner(std::move(result.mesh));
+  result.mesh = world.inner(std::move(result.mesh), options.boundary);
   return result;
 }
 
@@ -301,7 +310,7 @@ Cvt spherical_cvt(CvtState state, const Region& region, const CvtOptions& option
     return spherical_cvt(std::move(state), options, callback);
   const cvt_detail::RegionWorld world(region);
   Cvt result = cvt_detail::run(world, std::move(state), {}, options, callback);
-  result.mesh = world.inner(std::move(result.mesh));
+  result.mesh = world.inner(std::move(result.mesh), options.boundary);
   return result;
 }
 

@@ -132,6 +132,7 @@ void Descent::forget() {
   memory.steps.clear();
   memory.changes.clear();
   memory.curvatures.clear();
+  memory.stride = 1;
 }
 
 void Descent::make_laplacian() {
@@ -234,9 +235,14 @@ double Descent::longest_step(const Points3& direction) const {
 /// if the energies differ by less than quadrature resolves, if the slopes satisfy conditions like
 /// the approximate Wolfe conditions of Hager and Zhang (2005). The next trial follows from the
 /// secant of the slopes. Returns false if no trial is accepted.
+///
+/// The first trial is the full step, but for a while after a search that has shortened it: where
+/// edges flip in steep widths, every full step would be rejected.
 /// \param points set to the accepted ones.
 bool Descent::search(const Points3& direction, double slope, Points3& points) {
-  double step = std::min(1.0, longest_step(direction));
+  constexpr double growth = 1.4;
+  Memory& memory = state_.memory;
+  double step = std::min(memory.stride, longest_step(direction));
   for (int trial = 0; trial < most_trials; ++trial) {
     points = functional_.retract(state_.points, step, direction);
     evaluate(points, there_);
@@ -248,8 +254,10 @@ bool Descent::search(const Points3& direction, double slope, Points3& points) {
         rise <= rounding && (slope_there <= -0.9 * slope || trial + 1 == most_trials);
     const bool below_rule = !options_.density.uniform() && std::abs(rise) <= rule_error &&
                             std::abs(slope_there) <= -0.5 * slope;
-    if (lower || below_rule)
+    if (lower || below_rule) {
+      memory.stride = std::min(1.0, trial == 0 ? growth * memory.stride : step);
       return true;
+    }
     state_.report.iterations.back().accepted = false;
     const double secant = step * slope / (slope - slope_there);
     step = secant > 0.1 * step ? std::min(secant, 4 * step) : 0.1 * step;

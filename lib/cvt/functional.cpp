@@ -47,12 +47,16 @@ void add_sums(const Array<SiteTerms>& terms, CvtIteration& iteration) {
 
 /// Evaluates one generator; the energy is NaN if its cell has no mass.
 template <class Cells>
-void evaluate_site(const Vec3& x, const CellMoments& cell, std::int32_t site, bool with_gradient,
-                   Evaluation& out) {
-  const typename Cells::Pull pull = Cells::pull(x, cell);
+void evaluate_site(const Vec3& x, const CellMoments& cell, std::int32_t site, bool fixed,
+                   bool with_gradient, Evaluation& out) {
+  typename Cells::Pull pull = Cells::pull(x, cell);
   if (!(pull.mass > 0) || !std::isfinite(pull.mass)) {
     out.terms[site] = {std::nan(""), 0, 0};
     return;
+  }
+  if (fixed) {
+    pull.centroid = x;
+    pull.gradient = {0, 0, 0};
   }
   const Vec3 apart = pull.centroid - x;
   set_column(out.centroids, site, pull.centroid);
@@ -104,13 +108,10 @@ public:
     penalty_ = factor;
     demanded_spacing_ = spacing;
   }
+  void hold(std::vector<std::uint8_t> fixed) override { fixed_ = std::move(fixed); }
   std::vector<CvtRegion> regions() const override { return tessellation_.regions(); }
-  Points3 retract(const Points3& x, double step, const Points3& d) const override {
-    return tessellation_.cells().retract(x, step, d);
-  }
-  void make_tangential(Points3& vectors, const Points3& x) const override {
-    tessellation_.cells().make_tangential(vectors, x);
-  }
+  Points3 retract(const Points3& x, double step, const Points3& d) const override;
+  void make_tangential(Points3& vectors, const Points3& x) const override;
   SparseMatrix laplacian(const Points3& points) override;
   std::optional<Connectivity> take_mesh(const Points3& points) override;
 
@@ -118,13 +119,19 @@ private:
   Effort integrate(const Points3& points, const Integrand& integrand, bool with_gradient,
                    Evaluation& out);
   void add_penalty(const Points3& points, Evaluation& out);
+  bool is_fixed(std::int64_t site) const {
+    return !fixed_.empty() && fixed_[static_cast<std::size_t>(site)] != 0;
+  }
+  template <class Body> void for_each_fixed(const Body& body) const;
+  void hold(SparseMatrix& matrix) const;
 
   Tessellation<Cells> tessellation_;
   Density density_;
   Integrand coarse_, fine_;
-  int rule_, final_rule_;       ///< their numbers of points, 0 where none is used
-  double penalty_ = 0;          ///< factor of the penalty of shape.h
-  double demanded_spacing_ = 1; ///< at rho = 1
+  int rule_, final_rule_;           ///< their numbers of points, 0 where none is used
+  double penalty_ = 0;              ///< factor of the penalty of shape.h
+  double demanded_spacing_ = 1;     ///< at rho = 1
+  std::vector<std::uint8_t> fixed_; ///< by generator, or empty
 };
 
 /// Frees the memory of `out` before sorting and triangulating, which need most of the memory.
@@ -153,7 +160,8 @@ Effort FunctionalOver<Cells>::integrate(const Points3& points, const Integrand& 
     for (std::int32_t i = 0; i < patch.owned; ++i)
       if (const std::int32_t site = patch.sites[static_cast<std::size_t>(i)];
           site < points.cols()) // the others hold a plane's hull
-        evaluate_site<Cells>(column(points, site), moments[i], site, with_gradient, out);
+        evaluate_site<Cells>(column(points, site), moments[i], site, is_fixed(site), with_gradient,
+                             out);
   };
   const auto integrate_all = [&] {
     make_room(out, points.cols(), with_gradient);
@@ -198,10 +206,45 @@ void FunctionalOver<Cells>::add_penalty(const Points3& points, Evaluation& out) 
   const ShapeTerms terms = add_shape_terms(tessellation_.cells(), tessellation_.mesh(),
                                            tessellation_.distorted(inverse_spacing),
                                            inverse_spacing, penalty_, out.gradient);
-  tessellation_.cells().make_tangential(out.gradient, points);
+  make_tangential(out.gradient, points);
   count_displaced(out.terms, inverse_spacing, out.iteration);
   out.penalty = penalty_ * terms.value;
   out.iteration.misshapen = terms.worst;
+}
+
+template <class Cells>
+template <class Body>
+void FunctionalOver<Cells>::for_each_fixed(const Body& body) const {
+  for_each_block(std::ssize(fixed_), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i != end; ++i)
+      if (is_fixed(i))
+        body(i);
+  });
+}
+
+template <class Cells>
+Points3 FunctionalOver<Cells>::retract(const Points3& x, double step, const Points3& d) const {
+  Points3 to = tessellation_.cells().retract(x, step, d);
+  for_each_fixed([&](std::int64_t i) { to.col(i) = x.col(i); });
+  return to;
+}
+
+template <class Cells>
+void FunctionalOver<Cells>::make_tangential(Points3& vectors, const Points3& x) const {
+  tessellation_.cells().make_tangential(vectors, x);
+  for_each_fixed([&](std::int64_t i) { vectors.col(i).setZero(); });
+}
+
+/// Removes the couplings of fixed generators: those of a boundary condition.
+template <class Cells> void FunctionalOver<Cells>::hold(SparseMatrix& matrix) const {
+  if (fixed_.empty())
+    return;
+  for_each_block(matrix.rows(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (auto i = static_cast<Eigen::Index>(begin); i != end; ++i)
+      for (typename SparseMatrix::InnerIterator entry(matrix, i); entry; ++entry)
+        if (entry.col() != i && (is_fixed(i) || is_fixed(entry.col())))
+          entry.valueRef() = 0;
+  });
 }
 
 /// The mesh is that of the last evaluation; at other points it may not be Delaunay.
@@ -209,9 +252,11 @@ template <class Cells> SparseMatrix FunctionalOver<Cells>::laplacian(const Point
   Effort unused;
   tessellation_.move(points);
   const Cells& cells = tessellation_.cells();
-  if (tessellation_.find_faults(unused).none())
-    return cells.laplacian(tessellation_.mesh(), density_);
-  return cells.laplacian(cells.signs().triangulate(), density_);
+  SparseMatrix matrix = tessellation_.find_faults(unused).none()
+                            ? cells.laplacian(tessellation_.mesh(), density_)
+                            : cells.laplacian(cells.signs().triangulate(), density_);
+  hold(matrix);
+  return matrix;
 }
 
 template <class Cells>
@@ -237,7 +282,7 @@ std::unique_ptr<Functional> make_functional(const Points3& points, const PlanarD
 std::unique_ptr<Functional> make_functional(const Points3& points,
                                             std::shared_ptr<const SphericalOutline> outline,
                                             const CvtOptions& options) {
-  RegionCells cells(std::move(outline), options.density, points);
+  RegionCells cells(std::move(outline), options.boundary, options.density, points);
   return std::make_unique<FunctionalOver<RegionCells>>(std::move(cells), points, options, Level());
 }
 

@@ -10,6 +10,7 @@
 #include <calotte/cvt.h>
 #include <calotte/domain.h>
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -51,6 +52,11 @@ public:
   /// Adds a factor times the penalty of shape.h to each evaluation from here on.
   /// \param spacing that the density demands, times rho^(1/4).
   virtual void penalise_shapes(double factor, double spacing) = 0;
+
+  /// Holds generators where they are: each counts as being at its centroid, its gradient is 0, and
+  /// it makes no motion.
+  /// \param fixed a flag for each generator; empty if none is held.
+  virtual void hold(std::vector<std::uint8_t> fixed) = 0;
 
   virtual std::vector<CvtRegion> regions() const = 0;
 

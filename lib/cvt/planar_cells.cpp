@@ -73,7 +73,7 @@ Sites PlanarCells::sites() const {
 
 double PlanarCells::spacing() const { return std::sqrt(area_ / static_cast<double>(generators_)); }
 
-bool PlanarCells::has_circumcentre(std::int32_t a, std::int32_t b, std::int32_t c) const {
+bool PlanarCells::has_centre(std::int32_t a, std::int32_t b, std::int32_t c) const {
   if (!outline_)
     return true;
   const Vec3 u = offset(places_[a], places_[b]), v = offset(places_[a], places_[c]);

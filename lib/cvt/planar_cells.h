@@ -46,7 +46,7 @@ public:
   }
   const Vec3& place(std::int32_t site) const { return places_[site]; }
   bool has_hull() const { return outline_ != nullptr; }
-  bool has_circumcentre(std::int32_t a, std::int32_t b, std::int32_t c) const;
+  bool has_centre(std::int32_t a, std::int32_t b, std::int32_t c) const;
   Signs signs() const { return Signs(places_, period_); }
   Sites sites() const;
   /// Excludes the hull, and copies in a box.

@@ -4,7 +4,7 @@
 #include "base/parallel.h"
 #include "base/points.h"
 #include "base/triangle.h"
-#include "density/sampling.h"
+#include "density/demanded_spacing.h"
 #include "domain/clipped_cell.h"
 #include "domain/tangent_shore.h"
 #include "integrals/region_moments.h"
@@ -35,32 +35,11 @@ Points3 far_hull(const SphericalOutline& outline) {
   return directions(Eigen::all, far);
 }
 
-/// The spacing that a density demands of a number of generators.
-class Demand {
-public:
-  Demand(const SphericalOutline& outline, const Density& density, std::int64_t generators)
-      : density_(&density) {
-    constexpr std::int64_t samples = 4096;
-    const Points3 places = density_detail::draw(samples, Density{}, outline, 1);
-    const double mean = evaluate(density, places).cwiseSqrt().mean();
-    integral_ = mean * outline.area() / static_cast<double>(generators);
-  }
-  /// Infinite where the density is 0.
-  double spacing(const Vec3& x) const {
-    const Points3 place = Eigen::Vector3d(x.x, x.y, x.z);
-    return std::sqrt(integral_ / std::sqrt(evaluate(*density_, place)[0]));
-  }
-
-private:
-  const Density* density_;
-  double integral_;
-};
-
 /// Places outside the boundary, at some spacings from it, and at half of that from each other.
 class Row {
 public:
   /// \param spacings distance from the boundary.
-  Row(const SphericalOutline& outline, const Demand& demand, double spacings)
+  Row(const SphericalOutline& outline, const DemandedSpacing& demand, double spacings)
       : outline_(outline), demand_(demand), spacings_(spacings) {}
 
   std::vector<Vec3> places() {
@@ -98,7 +77,7 @@ private:
     double at = next_ - since_;
     for (; at < length; at += next_) {
       const Vec3 x = std::cos(at) * edge.from + std::sin(at) * along;
-      next_ = std::min(spacings_ / 2 * demand_.spacing(x), farthest);
+      next_ = std::min(spacings_ / 2 * demand_.at(x), farthest);
       add(x, left);
       since_ = -at;
     }
@@ -106,7 +85,7 @@ private:
   }
 
   void add(const Vec3& x, const Vec3& left) {
-    const double distance = spacings_ * demand_.spacing(x);
+    const double distance = spacings_ * demand_.at(x);
     if (!(distance < farthest))
       return;
     const Vec3 place = std::cos(distance) * x - (std::sin(distance) / norm(left)) * left;
@@ -118,7 +97,7 @@ private:
   }
 
   const SphericalOutline& outline_;
-  const Demand& demand_;
+  const DemandedSpacing& demand_;
   double spacings_;
   double since_ = 0, next_ = 0;
   std::vector<Vec3> places_;
@@ -128,7 +107,7 @@ private:
 
 Points3 hull_of(const SphericalOutline& outline, const Density& density, std::int64_t generators) {
   constexpr double nearest = 4; // spacings
-  const Demand demand(outline, density, generators);
+  const DemandedSpacing demand(outline, density, static_cast<double>(generators));
   std::vector<Vec3> places;
   std::vector<Vec3> row = Row(outline, demand, nearest).places();
   for (double spacings = 2 * nearest; !row.empty(); spacings *= 2) {
@@ -143,12 +122,13 @@ Points3 hull_of(const SphericalOutline& outline, const Density& density, std::in
   return hull;
 }
 
-RegionCells::RegionCells(std::shared_ptr<const SphericalOutline> outline)
-    : outline_(std::move(outline)), hull_(far_hull(*outline_)) {}
+RegionCells::RegionCells(std::shared_ptr<const SphericalOutline> outline, Boundary boundary)
+    : outline_(std::move(outline)), boundary_(boundary), hull_(far_hull(*outline_)) {}
 
-RegionCells::RegionCells(std::shared_ptr<const SphericalOutline> outline, const Density& density,
-                         const Points3& start)
-    : outline_(std::move(outline)), hull_(hull_of(*outline_, density, start.cols())) {
+RegionCells::RegionCells(std::shared_ptr<const SphericalOutline> outline, Boundary boundary,
+                         const Density& density, const Points3& start)
+    : outline_(std::move(outline)), boundary_(boundary),
+      hull_(hull_of(*outline_, density, start.cols())) {
   do
     move(start);
   while (drop_intruders());
@@ -196,9 +176,10 @@ double RegionCells::spacing() const {
   return std::sqrt(outline_->area() / static_cast<double>(generators_));
 }
 
-bool RegionCells::has_circumcentre(std::int32_t a, std::int32_t b, std::int32_t c) const {
-  const Vec3 normal = cross(place(b) - place(a), place(c) - place(a));
-  return outline_->side(normal) != Side::outside;
+bool RegionCells::has_centre(std::int32_t a, std::int32_t b, std::int32_t c) const {
+  const Vec3 centre = boundary_ == Boundary::clip ? cross(place(b) - place(a), place(c) - place(a))
+                                                  : place(a) + place(b) + place(c);
+  return outline_->side(centre) != Side::outside;
 }
 
 void RegionCells::integrate(const Integrand& integrand, const Patch& patch, const Array<Vec3>& x,

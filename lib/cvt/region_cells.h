@@ -12,6 +12,7 @@
 #include "integrals/moments.h"
 #include "integrals/patches.h"
 
+#include <calotte/cvt.h>
 #include <calotte/density.h>
 #include <calotte/types.h>
 
@@ -39,11 +40,11 @@ public:
   using Pull = SphericalCells::Pull;
 
   /// With the hull's directions only, for any generators.
-  explicit RegionCells(std::shared_ptr<const SphericalOutline> outline);
+  RegionCells(std::shared_ptr<const SphericalOutline> outline, Boundary boundary);
   /// For a run that starts from some generators. Without those of the hull's rows whose cells meet
   /// the region, such as beside an island that no generator is near.
-  RegionCells(std::shared_ptr<const SphericalOutline> outline, const Density& density,
-              const Points3& start);
+  RegionCells(std::shared_ptr<const SphericalOutline> outline, Boundary boundary,
+              const Density& density, const Points3& start);
 
   void move(const Points3& points);
 
@@ -51,7 +52,8 @@ public:
   static Vec3 offset(const Vec3& from, const Vec3& to) { return to - from; }
   const Vec3& place(std::int32_t site) const { return column(places_, site); }
   static bool has_hull() { return true; }
-  bool has_circumcentre(std::int32_t a, std::int32_t b, std::int32_t c) const;
+  /// With generators on the boundary: whether the region has the triangle's centre of mass.
+  bool has_centre(std::int32_t a, std::int32_t b, std::int32_t c) const;
   Signs signs() const { return Signs(places_); }
   Sites sites() const; ///< of the generators; equal ones merged
   /// Includes the hull.
@@ -79,6 +81,7 @@ private:
   bool drop_intruders();
 
   std::shared_ptr<const SphericalOutline> outline_;
+  Boundary boundary_;
   Points3 hull_;
   std::int64_t generators_ = 0;
   Points3 places_;

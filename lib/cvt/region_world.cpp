@@ -10,6 +10,7 @@
 #include "generators/insertion.h"
 #include "mesh/adjacency.h"
 #include "mesh/canonical_order.h"
+#include "mesh/edges.h"
 
 #include <calotte/error.h>
 #include <calotte/generators.h>
@@ -104,27 +105,31 @@ bool all_inside(const SphericalOutline& outline, const Points3& points) {
   });
 }
 
+/// \param fixed number of fixed generators, the first points.
 /// \throws Error bad_option with the index of the first point outside.
-void require_inside(const SphericalOutline& outline, const Points3Ref& points) {
+void require_inside(const SphericalOutline& outline, const Points3Ref& points, std::int64_t fixed) {
   FirstFault outside;
   for_each_block(points.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i)
       if (outline.side(column(points, i)) == Side::outside)
         outside.at(i);
   });
-  outside.refuse("generator", "is outside the region; give points inside it, or a larger region");
+  outside.refuse(outside.index() < fixed ? "fixed generator" : "generator",
+                 "is outside the region; give points inside it, or a larger region");
 }
 
 } // namespace
 
 Start RegionWorld::begin(const Points3Ref& start, const CvtOptions& options) const {
   Sites sites = make_sites(start, options.duplicates, options.merge_within);
-  require_inside(*outline_, start);
+  require_inside(*outline_, start, options.fixed);
   if (sites.size() < fewest)
     throw Error(ErrorCode::too_few_sites, "there are " + std::to_string(sites.size()) +
                                               " distinct generators: give at least " +
                                               std::to_string(fewest));
+  require_fixed(sites, options.fixed);
   State state;
+  state.fixed = options.fixed;
   set_generators(state, sites);
   state.site_of_input = std::move(sites.site_of_input);
   state.bisections_left = options.bisections;
@@ -139,7 +144,7 @@ void RegionWorld::require_points(const State& state) const {
 }
 
 Mesh RegionWorld::triangulated(Points3&& points) const {
-  RegionCells cells(outline_);
+  RegionCells cells(outline_, Boundary::clip);
   cells.move(points);
   const Connectivity all = cells.signs().triangulate();
   std::vector<std::uint8_t> keep(static_cast<std::size_t>(all.triangles.cols()));
@@ -148,15 +153,13 @@ Mesh RegionWorld::triangulated(Points3&& points) const {
   return mesh_of(std::move(points), selected(all.triangles, keep));
 }
 
-Mesh RegionWorld::inner(Mesh&& mesh) const {
-  RegionCells cells(outline_);
+Mesh RegionWorld::inner(Mesh&& mesh, Boundary boundary) const {
+  RegionCells cells(outline_, boundary);
   cells.move(mesh.points);
   std::vector<std::uint8_t> keep(static_cast<std::size_t>(mesh.triangles.cols()));
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
     keep[static_cast<std::size_t>(t)] =
-        cells.has_circumcentre(mesh.triangles(0, t), mesh.triangles(1, t), mesh.triangles(2, t))
-            ? 1
-            : 0;
+        cells.has_centre(mesh.triangles(0, t), mesh.triangles(1, t), mesh.triangles(2, t)) ? 1 : 0;
   Triangles triangles = selected(mesh.triangles, keep);
   keep.assign(static_cast<std::size_t>(triangles.cols()), 1);
   while (drop_small_fans(triangles, mesh.points.cols(), keep) > 0) {
@@ -170,19 +173,26 @@ Mesh RegionWorld::inner(Mesh&& mesh) const {
 }
 
 Level RegionWorld::set_bisected(State& state, const Mesh& coarse) const {
-  const Points3 all = bisect(coarse);
   std::vector<Eigen::Index> inside;
-  for (Eigen::Index i = 0; i < all.cols(); ++i)
-    if (i < coarse.points.cols() || outline_->side(column(all, i)) == Side::inside)
-      inside.push_back(i);
+  const Points3 all = bisect(coarse);
+  for (Eigen::Index i = 0; i < coarse.points.cols(); ++i)
+    inside.push_back(i);
+  Eigen::Index next = coarse.points.cols();
+  mesh_detail::for_each_edge(coarse, [&](std::int32_t a, std::int32_t b) {
+    const bool fixed = std::max(a, b) < state.fixed &&
+                       lies_along(*outline_, column(coarse.points, a), column(coarse.points, b));
+    if (!fixed && outline_->side(column(all, next)) == Side::inside)
+      inside.push_back(next);
+    ++next;
+  });
   set_generators(state, make_sites(Points3(all(Eigen::all, inside)), Duplicates::refuse, 0));
   return {};
 }
 
 Level RegionWorld::set_exchanged(State& state, const Mesh& mesh, const Density& density,
-                                 std::int64_t inserted, std::int64_t contracted, bool mend) const {
-  set_generators(state, make_sites(exchanged(mesh, *outline_, density, inserted, contracted, mend),
-                                   Duplicates::refuse, 0));
+                                 const Exchange& exchange) const {
+  set_generators(state,
+                 make_sites(exchanged(mesh, *outline_, density, exchange), Duplicates::refuse, 0));
   return {};
 }
 

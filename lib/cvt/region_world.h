@@ -36,12 +36,12 @@ public:
   Mesh triangulated(Points3&& points) const;
   Mesh mesh(Points3&& points, Connectivity&&) const { return triangulated(std::move(points)); }
   Level set_bisected(State& state, const Mesh& coarse) const;
-  Level set_exchanged(State& state, const Mesh& mesh, const Density& density, std::int64_t inserted,
-                      std::int64_t contracted, bool mend) const;
+  Level set_exchanged(State& state, const Mesh& mesh, const Density& density,
+                      const Exchange& exchange) const;
 
-  /// The part of a mesh that the region contains: the triangles whose circumcentre it has, without
-  /// those that touch the others at a site in a vertex only.
-  Mesh inner(Mesh&& mesh) const;
+  /// The part of a mesh that the region contains, see Boundary: without triangles that touch the
+  /// others at a site in a vertex only.
+  Mesh inner(Mesh&& mesh, Boundary boundary) const;
 
 private:
   std::shared_ptr<const SphericalOutline> outline_;

@@ -117,8 +117,7 @@ public:
 private:
   bool is_inner(std::int32_t t) const {
     const auto ids = mesh_.triangles.col(t);
-    return ids.maxCoeff() < inverse_spacing_.size() &&
-           cells_.has_circumcentre(ids[0], ids[1], ids[2]);
+    return ids.maxCoeff() < inverse_spacing_.size() && cells_.has_centre(ids[0], ids[1], ids[2]);
   }
 
   /// The length of the side across from a vertex: half of the penalty in each of its triangles.

@@ -31,7 +31,8 @@ struct ShapeTerms {
 
 /// Computes the penalty, and adds a factor times its derivatives to the gradient. The result has
 /// the same bits for any number of threads and any order of the triangles. In the plane, triangles
-/// with their circumcentre outside the domain do not count, nor do their edges' ratios.
+/// with their circumcentre outside the domain do not count, see RegionCells::has_centre(), nor do
+/// their edges' ratios.
 ///
 /// \param triangles all that may be beyond a limit; each once.
 /// \param inverse_spacing 1/h by generator, h the spacing that the density demands.

@@ -33,7 +33,7 @@ public:
   const Vec3& place(std::int32_t site) const { return column(*points_, site); }
   static bool has_hull() { return false; } ///< places of the mesh that are no generators
   /// Whether the domain has the circumcentre of a triangle of generators.
-  static bool has_circumcentre(std::int32_t, std::int32_t, std::int32_t) { return true; }
+  static bool has_centre(std::int32_t, std::int32_t, std::int32_t) { return true; }
   Signs signs() const { return Signs(*points_); }
   Sites sites() const { return make_sites(*points_, Duplicates::merge, 0); } ///< equal ones merged
   /// The mesh of all places, from their sites, which it consumes.

@@ -81,14 +81,9 @@ Level begin_level(const World& world, State& state, const CvtOptions& options,
   return level;
 }
 
-/// How many edges a round inserts and contracts.
-struct Exchange {
-  std::int64_t inserted, contracted;
-};
-
-/// Half of the dislocations that the density demands while rounds are left, and a twentieth where a
-/// mesh is mended: where no grid can follow the widths, mends of all bad edges would make it worse.
-/// And the difference to the number of cells.
+/// The edges of a round. Half of the dislocations that the density demands while rounds are left,
+/// and a twentieth where a mesh is mended: where no grid can follow the widths, mends of all bad
+/// edges would make it worse. And the difference to the number of cells.
 template <class AnyMesh>
 Exchange exchange_of(Stage stage, const State& state, const AnyMesh& mesh, const Density& density,
                      std::int64_t cells) {
@@ -99,17 +94,17 @@ Exchange exchange_of(Stage stage, const State& state, const AnyMesh& mesh, const
   if (const bool mend = stage == Stage::mend; mend || state.rounds_left > 0)
     both = static_cast<std::int64_t>(std::ceil(std::min(
         (mend ? mended : share) * dislocations(mesh, density), most * static_cast<double>(n))));
-  return {both + std::max<std::int64_t>(cells - n, 0), both + std::max<std::int64_t>(n - cells, 0)};
+  return {both + std::max<std::int64_t>(cells - n, 0), both + std::max<std::int64_t>(n - cells, 0),
+          stage == Stage::mend, state.fixed};
 }
 
 /// A round of insertion and contraction.
 template <class World, class AnyMesh>
 Level begin_round(const World& world, Stage stage, State& state, const CvtOptions& options,
                   const AnyMesh& mesh) {
-  const Exchange exchange =
-      exchange_of(stage, state, mesh, options.density, cells_of_level(world, state, options));
-  Level level = world.set_exchanged(state, mesh, options.density, exchange.inserted,
-                                    exchange.contracted, stage == Stage::mend);
+  Level level = world.set_exchanged(
+      state, mesh, options.density,
+      exchange_of(stage, state, mesh, options.density, cells_of_level(world, state, options)));
   state.rounds_left = std::max(state.rounds_left - count_of_round(state), 0);
   state.mends += stage == Stage::mend ? 1 : 0;
   state.penalty = 0;

@@ -8,6 +8,13 @@
 namespace calotte {
 namespace cvt_detail {
 
+std::vector<std::uint8_t> fixed_generators(const State& state) {
+  std::vector<std::uint8_t> fixed(state.fixed > 0 ? state.id.size() : 0);
+  for (std::size_t r = 0; r < fixed.size(); ++r)
+    fixed[r] = state.id[r] < state.fixed ? 1 : 0;
+  return fixed;
+}
+
 Points3 in_order(const State& state) {
   Points3 points(3, state.points.cols());
   for_each_block(points.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {

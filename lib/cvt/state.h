@@ -16,10 +16,11 @@ struct Memory {
   /// Of generators, and of the gradient then; oldest first.
   std::vector<base_detail::CompactField> steps, changes;
   std::vector<double> curvatures;      ///< their inner products
-  Points3 laplacian_at;                ///< generators that the graph Laplacian was made for
-  int since_laplacian = 0;             ///< evaluations
-  bool flipped = false;                ///< edges, since then
-  Points3 before;                      ///< Nesterov's: the centroids before
+  double stride = 1;       ///< first trial of the next line search, as a share of the full step
+  Points3 laplacian_at;    ///< generators that the graph Laplacian was made for
+  int since_laplacian = 0; ///< evaluations
+  bool flipped = false;    ///< edges, since then
+  Points3 before;          ///< Nesterov's: the centroids before
   double momentum = 1;
 };
 
@@ -32,6 +33,7 @@ struct CvtState::Data {
   Points3 points; ///< unit generators, along a space-filling curve; in the plane with z = 0
   std::vector<std::int32_t> id;            ///< of each: its column in the result
   std::vector<std::int32_t> site_of_input; ///< as Mesh's; of the start, or empty after a bisection
+  std::int64_t fixed = 0;                  ///< generators with lower ids stay where they are
   int bisections_left = 0;
   int rounds_left = 0; ///< of insertion, on this level
   int iterations_of_level = 0;
@@ -51,6 +53,9 @@ struct CvtState::Data {
 namespace calotte::cvt_detail {
 
 using State = CvtState::Data;
+
+/// Whether each generator stays where it is; empty if none does.
+std::vector<std::uint8_t> fixed_generators(const State& state);
 
 /// The generators in the order of the result.
 Points3 in_order(const State& state);

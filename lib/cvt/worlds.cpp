@@ -6,6 +6,7 @@
 #include "cvt/planar_cells.h"
 #include "delaunay/sites.h"
 #include "density/planar_density.h"
+#include "domain/arcs.h"
 #include "domain/periodic_box.h"
 #include "generators/insertion.h"
 #include "mesh/canonical_order.h"
@@ -55,7 +56,9 @@ Start begun_at(Sites&& sites, const CvtOptions& options) {
   if (sites.size() < 12)
     throw Error(ErrorCode::too_few_sites, "there are " + std::to_string(sites.size()) +
                                               " distinct generators: give at least 12");
+  require_fixed(sites, options.fixed);
   State state;
+  state.fixed = options.fixed;
   set_points(state, sites, sites.unit);
   state.site_of_input = std::move(sites.site_of_input);
   state.bisections_left = options.bisections;
@@ -75,13 +78,29 @@ void require_triangle(const Sites& sites) {
 
 } // namespace
 
+void require_fixed(const Sites& sites, std::int64_t fixed) {
+  const std::vector<std::int32_t>& site_of_input = sites.site_of_input;
+  if (fixed < 0 || fixed > std::ssize(site_of_input))
+    throw Error(ErrorCode::bad_option, "fixed is " + std::to_string(fixed) + "; give 0 to " +
+                                           std::to_string(site_of_input.size()) +
+                                           ", the number of generators of the start");
+  for (std::int64_t i = 0; i < fixed; ++i)
+    if (const std::int32_t site = site_of_input[static_cast<std::size_t>(i)]; site != i)
+      throw Error(ErrorCode::duplicate,
+                  "fixed generator " + std::to_string(i) + " merges with fixed generator " +
+                      std::to_string(site) + ": give it once",
+                  i);
+}
+
 void set_points(State& state, const Sites& sites, const Array<Vec3>& points) {
   const std::int64_t n = sites.size();
   state.points.resize(3, n);
   state.id.resize(static_cast<std::size_t>(n));
   for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t r = begin; r != end; ++r) {
-      set_column(state.points, r, points[r]);
+      const bool fixed = sites.id[r] < state.fixed;
+      set_column(state.points, r,
+                 fixed && !sites.frame ? as_unit(sites.given(sites.id[r])) : points[r]);
       state.id[static_cast<std::size_t>(r)] = sites.id[r];
     }
   });
@@ -135,9 +154,8 @@ Level SphericalWorld::set_bisected(State& state, const Mesh& coarse) {
 }
 
 Level SphericalWorld::set_exchanged(State& state, const Mesh& mesh, const Density& density,
-                                    std::int64_t inserted, std::int64_t contracted, bool mend) {
-  Sites sites =
-      make_sites(exchanged(mesh, density, inserted, contracted, mend), Duplicates::refuse, 0);
+                                    const Exchange& exchange) {
+  Sites sites = make_sites(exchanged(mesh, density, exchange), Duplicates::refuse, 0);
   set_points(state, sites, sites.unit);
   sites.points = state.points;
   return {by_rank(std::move(sites)), std::nullopt};
@@ -150,7 +168,9 @@ PlanarWorld::PlanarWorld(const PlanarDomain& domain) : domain_(domain) { require
 Start PlanarWorld::begin(const Points2Ref& start, const CvtOptions& options) {
   Sites sites = make_planar_sites(start, options.duplicates, options.merge_within);
   require_triangle(sites);
+  require_fixed(sites, options.fixed);
   State state;
+  state.fixed = options.fixed;
   set_places(state, sites);
   state.site_of_input = std::move(sites.site_of_input);
   state.bisections_left = options.bisections;
@@ -190,9 +210,9 @@ Level PlanarWorld::set_bisected(State& state, const PlanarMesh& coarse) const {
 }
 
 Level PlanarWorld::set_exchanged(State& state, const PlanarMesh& mesh, const Density& density,
-                                 std::int64_t inserted, std::int64_t contracted, bool mend) const {
-  set_places(state, make_planar_sites(exchanged(mesh, domain_, density, inserted, contracted, mend),
-                                      Duplicates::refuse, 0));
+                                 const Exchange& exchange) const {
+  set_places(state,
+             make_planar_sites(exchanged(mesh, domain_, density, exchange), Duplicates::refuse, 0));
   return {};
 }
 

@@ -5,6 +5,7 @@
 #include "cvt/functional.h"
 #include "cvt/state.h"
 #include "cvt/tessellation.h"
+#include "generators/insertion.h"
 #include "mesh/connectivity.h"
 
 #include <calotte/cvt.h>
@@ -18,7 +19,13 @@ namespace calotte::cvt_detail {
 /// \throws Error bad_option: the state is not one that a run has left.
 [[noreturn]] void refuse_state();
 
-/// Sets the generators of a state, in the order of the sites.
+/// \throws Error bad_option for a number of fixed generators out of range; duplicate, with the
+/// index
+///         of a fixed generator that merges with an earlier one.
+void require_fixed(const Sites& sites, std::int64_t fixed);
+
+/// Sets the generators of a state, in the order of the sites. On the sphere a fixed one keeps the
+/// bits that it has by id, if it is a unit vector there up to round-off.
 /// \param points by rank: unit vectors, or places with z = 0.
 void set_points(State& state, const Sites& sites, const Array<Vec3>& points);
 
@@ -67,9 +74,8 @@ public:
   static Level set_bisected(State& state, const Mesh& coarse);
 
   /// The same after insertion and contraction of edges.
-  /// \param mend at bad angles first.
   static Level set_exchanged(State& state, const Mesh& mesh, const Density& density,
-                             std::int64_t inserted, std::int64_t contracted, bool mend);
+                             const Exchange& exchange);
 };
 
 /// The same of a domain in the plane.
@@ -95,7 +101,7 @@ public:
   PlanarMesh mesh(const Points3& points, Connectivity&& canonical) const; ///< of a periodic box
   Level set_bisected(State& state, const PlanarMesh& coarse) const;
   Level set_exchanged(State& state, const PlanarMesh& mesh, const Density& density,
-                      std::int64_t inserted, std::int64_t contracted, bool mend) const;
+                      const Exchange& exchange) const;
 
 private:
   bool all_inside(const Points3& points) const;

@@ -6,6 +6,7 @@
 #include "base/points.h"
 #include "base/require.h"
 #include "density/planar_density.h"
+#include "domain/arcs.h"
 #include "domain/outline.h"
 #include "domain/periodic_box.h"
 #include "generators/bad_edges.h"
@@ -84,9 +85,10 @@ public:
   Choice(std::int64_t sites, const std::vector<Edge>& edges)
       : neighbours_(sites, edges), blocked_(static_cast<std::size_t>(sites), 0) {}
 
-  /// Up to `count` of the edges, the first ones in an order. Reorders the edges.
-  template <class Before>
-  std::vector<Edge> choose(std::vector<Edge>& edges, std::int64_t count, const Before& before) {
+  /// Up to `count` of the edges that are allowed, the first ones in an order. Reorders the edges.
+  template <class Before, class Allowed>
+  std::vector<Edge> choose(std::vector<Edge>& edges, std::int64_t count, const Before& before,
+                           const Allowed& allowed) {
     std::vector<Edge> chosen;
     const auto wanted = static_cast<std::size_t>(count);
     std::size_t sorted = 0;
@@ -97,7 +99,7 @@ public:
       std::nth_element(begin, middle, edges.end(), before);
       std::sort(begin, middle, before);
       for (; sorted < end && chosen.size() < wanted; ++sorted)
-        if (take(edges[sorted]))
+        if (allowed(edges[sorted]) && take(edges[sorted]))
           chosen.push_back(edges[sorted]);
     }
     return chosen;
@@ -186,9 +188,24 @@ void append(const std::vector<Edge>& more, std::vector<Edge>& edges) {
   edges.insert(edges.end(), more.begin(), more.end());
 }
 
+/// Chooses edges to split and to contract, of those that may be.
+template <class MaySplit, class MayContract> struct Chooser {
+  Choice choice;
+  MaySplit may_split;
+  MayContract may_contract;
+
+  std::vector<Edge> longest(std::vector<Edge>& edges, std::int64_t count) {
+    return choice.choose(edges, count, is_longer, may_split);
+  }
+  std::vector<Edge> shortest(std::vector<Edge>& edges, std::int64_t count) {
+    return choice.choose(edges, count, is_shorter, may_contract);
+  }
+};
+
 /// Up to `most` bad edges of each kind.
+template <class AnyChooser>
 Chosen choose_bad(const std::vector<BadEdge>& bad_edges, const std::vector<Edge>& edges,
-                  std::int64_t most, Choice& choice) {
+                  std::int64_t most, AnyChooser& chooser) {
   std::map<std::pair<std::int32_t, std::int32_t>, bool> bad;
   for (const BadEdge& edge : bad_edges)
     bad[{edge.a, edge.b}] = edge.too_long;
@@ -196,18 +213,20 @@ Chosen choose_bad(const std::vector<BadEdge>& bad_edges, const std::vector<Edge>
   for (const Edge& edge : edges)
     if (const auto at = bad.find({edge.a, edge.b}); at != bad.end())
       (at->second ? too_long : too_short).push_back(edge);
-  return {choice.choose(too_long, most, is_longer), choice.choose(too_short, most, is_shorter)};
+  std::vector<Edge> split = chooser.longest(too_long, most);
+  return {std::move(split), chooser.shortest(too_short, most)};
 }
 
-/// The points that remain, those of contracted edges moved to the midpoints, then the inserted
-/// ones.
+/// The points that remain, those of contracted edges moved to the midpoints unless they are fixed,
+/// then the inserted ones.
 template <class Middle>
 Points3 exchanged(const Points3& points, const std::vector<Edge>& split,
-                  const std::vector<Edge>& contracted, const Middle& middle) {
+                  const std::vector<Edge>& contracted, std::int64_t fixed, const Middle& middle) {
   Points3 moved = points;
   std::vector<std::uint8_t> gone(static_cast<std::size_t>(points.cols()), 0);
   for (const Edge& edge : contracted) {
-    base_detail::set_column(moved, edge.a, middle(edge));
+    if (edge.a >= fixed)
+      base_detail::set_column(moved, edge.a, middle(edge));
     gone[static_cast<std::size_t>(edge.b)] = 1;
   }
   Points3 out(3, points.cols() + std::ssize(split) - std::ssize(contracted));
@@ -220,42 +239,51 @@ Points3 exchanged(const Points3& points, const std::vector<Edge>& split,
   return out;
 }
 
-/// \param Space has offset(a, b), middle(a, b) and holds(middle).
+/// \param Space has offset(a, b), middle(a, b), holds(middle) and keeps(a, b), which forbids to
+///        split an edge between fixed points.
 template <class AnyMesh, class Space>
 Points3 exchange(const AnyMesh& mesh, const Points3& points, const Density& density,
-                 const Space& space, std::int64_t inserted, std::int64_t contracted, bool mend) {
-  require_counts(points.cols(), inserted, contracted);
+                 const Space& space, const Exchange& numbers) {
+  require_counts(points.cols(), numbers.inserted, numbers.contracted);
   std::vector<Edge> edges = edges_of(mesh, points, density, space);
-  Choice choice(points.cols(), edges);
   const auto middle = [&](const Edge& edge) {
     return space.middle(column(points, edge.a), column(points, edge.b));
   };
+  const auto may_split = [&](const Edge& edge) {
+    return edge.b >= numbers.fixed || !space.keeps(column(points, edge.a), column(points, edge.b));
+  };
+  const auto may_contract = [&](const Edge& edge) { return edge.b >= numbers.fixed; };
+  Chooser<decltype(may_split), decltype(may_contract)> chooser{Choice(points.cols(), edges),
+                                                               may_split, may_contract};
   std::erase_if(edges, [&](const Edge& edge) { return !space.holds(middle(edge)); });
   Chosen chosen;
-  if (mend)
+  if (numbers.mend)
     chosen = choose_bad(bad_edges(mesh, points, fineness(density, points), space), edges,
-                        std::min(inserted, contracted), choice);
-  const std::int64_t more = inserted - contracted - chosen.surplus();
-  if (chosen.none())
-    chosen = {choice.choose(edges, inserted, is_longer),
-              choice.choose(edges, contracted, is_shorter)};
-  else if (more > 0)
-    append(choice.choose(edges, more, is_longer), chosen.split);
-  else
-    append(choice.choose(edges, -more, is_shorter), chosen.contracted);
-  return exchanged(points, chosen.split, chosen.contracted, middle);
+                        std::min(numbers.inserted, numbers.contracted), chooser);
+  const std::int64_t more = numbers.inserted - numbers.contracted - chosen.surplus();
+  if (chosen.none()) {
+    chosen.split = chooser.longest(edges, numbers.inserted);
+    chosen.contracted = chooser.shortest(edges, numbers.contracted);
+  } else if (more > 0) {
+    append(chooser.longest(edges, more), chosen.split);
+  } else {
+    append(chooser.shortest(edges, -more), chosen.contracted);
+  }
+  return exchanged(points, chosen.split, chosen.contracted, numbers.fixed, middle);
 }
 
 struct OnSphere {
   static Vec3 offset(const Vec3& a, const Vec3& b) { return b - a; }
   static Vec3 middle(const Vec3& a, const Vec3& b) { return midpoint(a, b); }
   static bool holds(const Vec3&) { return true; }
+  static bool keeps(const Vec3&, const Vec3&) { return false; }
 };
 
 struct InRegion : OnSphere {
   const SphericalOutline* outline;
 
   bool holds(const Vec3& place) const { return outline->side(place) == Side::inside; }
+  bool keeps(const Vec3& a, const Vec3& b) const { return lies_along(*outline, a, b); }
 };
 
 struct InPlane {
@@ -274,11 +302,13 @@ struct InPlane {
   bool holds(const Vec3& place) const {
     return outline == nullptr || outline->side({place.x, place.y}) == Side::inside;
   }
+  static bool keeps(const Vec3&, const Vec3&) { return false; }
 };
 
-Points3 unit(const Points3& points) {
-  Points3 out(3, points.cols());
-  for (std::int64_t i = 0; i < points.cols(); ++i)
+/// \param fixed number of points that keep their bits.
+Points3 unit(const Points3& points, std::int64_t fixed = 0) {
+  Points3 out = points;
+  for (std::int64_t i = fixed; i < points.cols(); ++i)
     base_detail::set_column(out, i, unit_of_any_norm(column(points, i)));
   return out;
 }
@@ -316,38 +346,48 @@ double dislocations(const PlanarMesh& mesh, const Density& density) {
   return sum_dislocations(mesh, in_space(mesh), density);
 }
 
-Points3 exchanged(const Mesh& mesh, const Density& density, std::int64_t inserted,
-                  std::int64_t contracted, bool mend) {
-  return exchange(mesh, unit(mesh.points), density, OnSphere(), inserted, contracted, mend);
+Points3 exchanged(const Mesh& mesh, const Density& density, const Exchange& exchange) {
+  return calotte::exchange(mesh, unit(mesh.points, exchange.fixed), density, OnSphere(), exchange);
 }
 
 Points3 exchanged(const Mesh& mesh, const SphericalOutline& outline, const Density& density,
-                  std::int64_t inserted, std::int64_t contracted, bool mend) {
-  return exchange(mesh, unit(mesh.points), density, InRegion{{}, &outline}, inserted, contracted,
-                  mend);
+                  const Exchange& exchange) {
+  return calotte::exchange(mesh, unit(mesh.points, exchange.fixed), density, InRegion{{}, &outline},
+                           exchange);
 }
 
 Points2 exchanged(const PlanarMesh& mesh, const PlanarDomain& domain, const Density& density,
-                  std::int64_t inserted, std::int64_t contracted, bool mend) {
+                  const Exchange& exchange) {
   const std::unique_ptr<const Outline> outline =
       domain.periodic() ? nullptr : std::make_unique<const Outline>(domain);
   const InPlane space{{domain.period.x(), domain.period.y()}, outline.get()};
-  return exchange(mesh, in_space(mesh), density_detail::planar_density(density, domain), space,
-                  inserted, contracted, mend)
+  return calotte::exchange(mesh, in_space(mesh), density_detail::planar_density(density, domain),
+                           space, exchange)
       .topRows<2>();
+}
+
+bool lies_along(const SphericalOutline& outline, const Vec3& a, const Vec3& b) {
+  constexpr double share = 0.2;
+  const Vec3 middle = midpoint(a, b);
+  const double reach = share * norm(b - a);
+  bool near = false;
+  outline.for_each_edge_near(middle, reach, [&](const SphericalOutline::Edge& edge) {
+    near = near || square_from(edge, middle) <= reach * reach;
+  });
+  return near;
 }
 
 } // namespace generators_detail
 
 Points3 insert_and_contract(const Mesh& mesh, const Density& density, std::int64_t inserted,
                             std::int64_t contracted) {
-  return generators_detail::exchanged(mesh, density, inserted, contracted, false);
+  return generators_detail::exchanged(mesh, density, {inserted, contracted});
 }
 
 Points2 insert_and_contract(const PlanarMesh& mesh, const PlanarDomain& domain,
                             const Density& density, std::int64_t inserted,
                             std::int64_t contracted) {
-  return generators_detail::exchanged(mesh, domain, density, inserted, contracted, false);
+  return generators_detail::exchanged(mesh, domain, density, {inserted, contracted});
 }
 
 } // namespace calotte

@@ -20,16 +20,27 @@ double dislocations(const Mesh& mesh, const Density& density);
 /// The same in the plane. \pre the density is that of planar_density().
 double dislocations(const PlanarMesh& mesh, const Density& density);
 
+/// What an exchange of generators does.
+struct Exchange {
+  std::int64_t inserted = 0, contracted = 0; ///< numbers of edges
+  /// Takes up to the smaller of the two numbers of bad edges of each kind, far from each other, and
+  /// further edges only for the difference of the numbers; without such edges as ever.
+  bool mend = false;
+  /// The first points of the mesh, which keep their bits. No edge between two of them is
+  /// contracted; one to another point is contracted to the fixed one.
+  std::int64_t fixed = 0;
+};
+
 /// As insert_and_contract().
-/// \param mend takes up to the smaller of the two numbers of such edges of each kind, far from each
-///        other, and further edges only for the difference of the numbers; without such edges as
-///        ever.
-Points3 exchanged(const Mesh& mesh, const Density& density, std::int64_t inserted,
-                  std::int64_t contracted, bool mend);
-/// The same where midpoints must lie in a region.
+Points3 exchanged(const Mesh& mesh, const Density& density, const Exchange& exchange);
+/// The same where midpoints must lie in a region. An edge between two fixed points along the
+/// boundary, see lies_along(), is not split.
 Points3 exchanged(const Mesh& mesh, const SphericalOutline& outline, const Density& density,
-                  std::int64_t inserted, std::int64_t contracted, bool mend);
+                  const Exchange& exchange);
 Points2 exchanged(const PlanarMesh& mesh, const PlanarDomain& domain, const Density& density,
-                  std::int64_t inserted, std::int64_t contracted, bool mend);
+                  const Exchange& exchange);
+
+/// True if the midpoint of an edge is within a fifth of its length of the boundary.
+bool lies_along(const SphericalOutline& outline, const Vec3& a, const Vec3& b);
 
 } // namespace calotte::generators_detail

@@ -173,8 +173,10 @@ std::vector<std::int32_t> clipped_sites(const RegionField& field, const Patch& p
     if (patch.sites[static_cast<std::size_t>(i)] >= field.generators)
       continue;
     bool near = false;
-    field.outline->for_each_edge_near(x[i], 1.000001 * reach[static_cast<std::size_t>(i)],
-                                      [&](const SphericalOutline::Edge&) { near = true; });
+    const double far = 1.000001 * reach[static_cast<std::size_t>(i)];
+    field.outline->for_each_edge_near(x[i], far, [&](const SphericalOutline::Edge& edge) {
+      near = near || square_from(edge, x[i]) <= far * far; // boxes of long edges reach far
+    });
     if (near)
       sites.push_back(i);
   }

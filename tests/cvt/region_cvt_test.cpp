@@ -86,7 +86,7 @@ std::vector<std::pair<std::string, Region>> regions() {
 double sum_of_cells(const Region& region, const Points3& points, const Density& density = {}) {
   const auto shared = std::make_shared<const domain_detail::SphericalOutline>(region);
   const domain_detail::SphericalOutline& outline = *shared;
-  cvt_detail::RegionCells cells(shared, density, points);
+  cvt_detail::RegionCells cells(shared, Boundary::clip, density, points);
   cells.move(points);
   const mesh_detail::Connectivity mesh = cells.signs().triangulate();
   std::vector<std::vector<base_detail::Vec3>> around(static_cast<std::size_t>(points.cols()));

@@ -238,7 +238,7 @@ TEST_CASE("insertion: a mend splits and contracts badly shaped edges first") {
       (0.6 * sheared.col(corner[0]) + 0.4 * sheared.col(corner[1])).normalized();
   const Mesh dented = spherical_delaunay(sheared);
   CHECK(bad_edges(dented) > 0);
-  const Points3 mended = generators_detail::exchanged(dented, Density{}, 1, 1, true);
+  const Points3 mended = generators_detail::exchanged(dented, Density{}, {1, 1, true});
   CHECK(mended.cols() == sheared.cols());
   std::int64_t fresh = 0, near = 0;
   for (const auto& x : mended.colwise()) {

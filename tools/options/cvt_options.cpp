@@ -44,18 +44,6 @@ void add_cells(CLI::App& command, CvtRequest& request) {
       ->transform(whole_number_or_auto(3, 1 << 30));
 }
 
-void add_region(CLI::App& command, CvtRequest& request) {
-  command
-      .add_option("--region", request.region,
-                  "Part of the sphere to tessellate: a shape such as circle=-105,40,1000km, or a "
-                  "file; see calotte help region")
-      ->type_name("SHAPE|FILE");
-  command.add_flag("--limited-area", request.limited_area,
-                   "Write a grid for a regional model: the cells of the region and 7 rings of "
-                   "boundary cells around it, with their masks, as an MPAS file. Requires --region "
-                   "and --cell-width");
-}
-
 void add_start(CLI::App& command, CvtRequest& request) {
   command
       .add_option("START,--points", request.points,
@@ -64,7 +52,13 @@ void add_start(CLI::App& command, CvtRequest& request) {
                       std::string(mesh_suffixes))
       ->type_name("FILE");
   command.add_flag("--lonlat", request.lonlat,
-                   "The points of START are longitude and latitude in degrees");
+                   "The points of START and --fixed are longitude and latitude in degrees");
+  command
+      .add_option("--fixed", request.fixed,
+                  "Generators that stay where they are: a file such as START. They are part of the "
+                  "number of cells and come first in the mesh. For --start multilevel, density and "
+                  "random, or beside START")
+      ->type_name("FILE");
   add_cells(command, request);
   command
       .add_option(
@@ -212,10 +206,10 @@ std::string start_kind(const CvtRequest& request) {
     return "points";
   if (request.start)
     return *request.start;
-  const bool graded = !is_uniform(*request.density) || !request.region.empty();
-  if (graded && !request.iterations && !request.bisections)
+  const bool follows = !request.part.region.empty() || !request.fixed.empty();
+  if ((follows || !is_uniform(*request.density)) && !request.iterations && !request.bisections)
     return "multilevel";
-  return planar(request) || !request.region.empty() ? "density" : "continuation";
+  return planar(request) || follows ? "density" : "continuation";
 }
 
 bool cells_follow(const CvtRequest& request) {
@@ -254,6 +248,7 @@ CvtOptions options_of(const CvtRequest& request) {
   options.duplicates = start.duplicates;
   options.merge_within = start.merge_within;
   options.partition = std::move(start.partition);
+  options.boundary = ends_at_boundary(request.part) ? Boundary::generators : Boundary::clip;
   return options;
 }
 
@@ -270,7 +265,7 @@ std::shared_ptr<CvtRequest> add_cvt_options(CLI::App& command) {
   {
     const OptionGroup group(command, "Start");
     add_start(command, *request);
-    add_region(command, *request);
+    add_region(command, request->part);
     request->domain = add_domain(command);
   }
   request->density = add_density(command);

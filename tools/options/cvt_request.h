@@ -5,6 +5,7 @@
 #include "options/domain_option.h"
 #include "options/format_options.h"
 #include "options/partition_options.h"
+#include "options/region_option.h"
 
 #include <calotte/cvt.h>
 
@@ -18,10 +19,10 @@ namespace calotte::tools {
 /// The values of the options of `calotte cvt`.
 struct CvtRequest {
   std::string points; ///< the file of the start, or none
+  std::string fixed;  ///< the file of generators that stay, or none
   bool lonlat = false;
   std::shared_ptr<DomainWords> domain; ///< of a plane, where one is given
-  std::string region;                  ///< a part of the sphere, or none
-  bool limited_area = false;           ///< adds the rings of boundary cells
+  RegionWords part;                    ///< of the sphere
   std::optional<int> cells;            ///< of the result
   bool cells_of_widths = false;        ///< --cells auto: the number that the cell widths imply
   std::optional<std::string> start;    ///< default: see start_kind()
@@ -53,8 +54,8 @@ struct CvtRequest {
 /// True for a run in the plane.
 inline bool planar(const CvtRequest& request) { return request.domain->given(); }
 
-/// The kind of start. Default: multilevel for a density that is not uniform and for a region,
-/// otherwise continuation on the sphere and density in the plane.
+/// The kind of start. Default: multilevel for a density that is not uniform, for a region and with
+/// fixed generators, otherwise continuation on the sphere and density in the plane.
 std::string start_kind(const CvtRequest& request);
 
 /// Whether the cell widths determine the number of cells: --cells auto, or widths in km without a

@@ -45,7 +45,9 @@ void rethrow_with_line(const Error& error, const std::string& name,
                         error.code() == ErrorCode::duplicate ||
                         // outside of a domain; other options' indices are of other things
                         (error.code() == ErrorCode::bad_option &&
-                         std::string_view(error.what()).starts_with("point "));
+                         (std::string_view(error.what()).starts_with("point ") ||
+                          std::string_view(error.what()).starts_with("generator ") ||
+                          std::string_view(error.what()).starts_with("fixed generator ")));
   if (!of_input || error.index() < 0 || error.index() >= static_cast<std::int64_t>(lines.size()))
     throw error;
   const std::int64_t line = lines[static_cast<std::size_t>(error.index())];

@@ -84,6 +84,39 @@ Region made_of(const Word& word, std::string_view shape, double radius_km) {
 
 } // namespace
 
+void add_region(CLI::App& command, RegionWords& words) {
+  command
+      .add_option("--region", words.region,
+                  "Part of the sphere to tessellate: a shape such as circle=-105,40,1000km, or a "
+                  "file; see calotte help region")
+      ->type_name("SHAPE|FILE");
+  command.add_flag("--limited-area", words.limited_area,
+                   "Write a grid for a regional model: the cells of the region and 7 rings of "
+                   "boundary cells around it, with their masks, as an MPAS file. Requires --region "
+                   "and --cell-width");
+  command
+      .add_option("--boundary", words.boundary,
+                  "Boundary of the region: clip (it clips cells; the mesh ends within about a cell "
+                  "of it), or generators (some generators stay on it, at the distances that the "
+                  "density demands, and the mesh ends at them)")
+      ->check(CLI::IsMember({"clip", "generators"}))
+      ->capture_default_str();
+}
+
+void require_region_words(const RegionWords& words) {
+  if (words.limited_area && words.region.empty())
+    throw Error(ErrorCode::bad_option, "--limited-area requires a region; give --region");
+  if (!ends_at_boundary(words))
+    return;
+  if (words.region.empty())
+    throw Error(ErrorCode::bad_option, "--boundary generators requires a region; give --region");
+  if (words.limited_area)
+    throw Error(
+        ErrorCode::bad_option,
+        "--boundary generators does not apply to --limited-area, whose rings lie outside the "
+        "region; leave one of them out");
+}
+
 Region region_of(const std::string& word, double radius_km) {
   static const std::vector<std::pair<std::string, std::string>> shapes{
       {"circle", "circle=LON,LAT,RADIUS, as in circle=-105,40,1000km"},

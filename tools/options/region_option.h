@@ -4,9 +4,27 @@
 #include <calotte/cell_width.h>
 #include <calotte/region.h>
 
+#include <CLI/CLI.hpp>
+
 #include <string>
 
 namespace calotte::tools {
+
+/// The words for the region of a run.
+struct RegionWords {
+  std::string region;            ///< a shape or a file, or none
+  bool limited_area = false;     ///< adds the rings of boundary cells
+  std::string boundary = "clip"; ///< clip or generators
+};
+
+/// Whether the mesh ends at generators on the region's boundary.
+inline bool ends_at_boundary(const RegionWords& words) { return words.boundary == "generators"; }
+
+/// Adds --region, --limited-area and --boundary.
+void add_region(CLI::App& command, RegionWords& words);
+
+/// Rejects words that exclude each other. \throws Error bad_option.
+void require_region_words(const RegionWords& words);
 
 /// The region of the word of --region: a file, or circle=LON,LAT,RADIUS,
 /// ellipse=LON,LAT,MAJOR,MINOR,BEARING or channel=LOWER,UPPER, see `calotte help region`. Reads the

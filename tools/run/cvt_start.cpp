@@ -3,19 +3,15 @@
 
 #include "options/format_options.h"
 #include "options/numbers.h"
-#include "options/point_file.h"
 #include "options/region_option.h"
+#include "run/start_files.h"
 
 #include <calotte/error.h>
 #include <calotte/generators.h>
 #include <calotte/io.h>
-#include <calotte/limited_area.h>
-
-#include <boost/crc.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <limits>
 #include <utility>
 
@@ -99,14 +95,27 @@ void require_kind(const CvtRequest& request) {
   const std::string kind = start_kind(request);
   const bool both = kind == "multilevel" || kind == "random" || kind == "density",
              plane = planar(request);
-  if (!request.region.empty() && !both)
+  if (!request.part.region.empty() && !both)
     refuse("--start " + kind +
            " applies to the whole sphere only; give multilevel, density or random");
+  if (!request.fixed.empty() && !both)
+    refuse("--start " + kind +
+           " does not leave room for fixed points; give multilevel, density or random");
   if (plane && !both && kind != "hexagonal")
     refuse("--start " + kind +
            " applies to the sphere only; give multilevel, density, random or hexagonal");
   if (!plane && kind == "hexagonal")
     refuse("--start hexagonal applies to the plane only; give --domain, --rectangle or --periodic");
+}
+
+/// Puts generators on the boundary after the other fixed ones.
+void add_boundary(const CvtRequest& request, const Region& region, const Density& density,
+                  CvtStart& start) {
+  const Points3 shore = boundary_points(region, *request.cells, density);
+  start.fixed += shore.cols();
+  start.points = joined(start.points, shore);
+  start.configuration += "boundary generators\n";
+  require_free(request, start);
 }
 
 void require_cells(const CvtRequest& request) {
@@ -117,7 +126,7 @@ void require_cells(const CvtRequest& request) {
   if (!request.cells && !cells_follow(request))
     refuse("no start: give a file of points, or the number of cells (--cells N), or cell widths "
            "(--cell-width 60km)");
-  if (request.lonlat)
+  if (request.lonlat && request.fixed.empty())
     refuse("--lonlat applies to a file of points only; leave it out");
   if (request.seed && !seeded(kind))
     refuse("--seed applies to the starts multilevel, continuation, random and density only; leave "
@@ -130,7 +139,7 @@ void require_cells(const CvtRequest& request) {
     return;
   if (planar(request) && kind != "multilevel")
     require_planar_cells(request);
-  else if (planar(request) || !request.region.empty())
+  else if (planar(request) || !request.part.region.empty())
     return;
   else if (*request.cells < fewest)
     refuse("--cells " + std::to_string(*request.cells) + " is too few; give at least " +
@@ -142,6 +151,8 @@ void require_cells(const CvtRequest& request) {
 }
 
 void require_file(const CvtRequest& request) {
+  if (request.fixed == "-" && request.points == "-")
+    refuse("START and --fixed are both standard input; give a file for one of them");
   const auto exclude = [&](bool given, const std::string& option) {
     if (given)
       refuse("the start is the file " + request.points + "; leave " + option + " out");
@@ -150,8 +161,6 @@ void require_file(const CvtRequest& request) {
   exclude(request.start.has_value(), "--start");
   exclude(request.seed.has_value(), "--seed");
   exclude(request.insertion_rounds.has_value(), "--insertion-rounds");
-  if (planar(request) && request.lonlat)
-    refuse("--lonlat applies to the sphere only; leave it out");
 }
 
 /// Describes the start of a continuation to a number that no bisected icosahedron has.
@@ -192,11 +201,6 @@ Points2 generate(const std::string& kind, std::int64_t count, const PlanarDomain
 
 std::uint64_t seed_of(const CvtRequest& request) { return request.seed.value_or(1); }
 
-/// The points of a mesh of the plane.
-PlanarPointFile planar_points_of(const std::string& path) {
-  return {path, calotte::read_planar_mesh(path).points, {}};
-}
-
 CvtStart announce(const CvtRequest& request) {
   const std::string kind = start_kind(request);
   CvtStart start;
@@ -205,71 +209,32 @@ CvtStart announce(const CvtRequest& request) {
   return start;
 }
 
-/// \param file of either kind of points. \returns them.
-template <class File> auto take(File&& file, CvtStart& start) {
-  start.file = std::move(file.name);
-  start.lines = std::move(file.lines);
-  boost::crc_32_type checksum;
-  checksum.process_bytes(file.points.data(),
-                         sizeof(double) * static_cast<std::size_t>(file.points.size()));
-  start.configuration = "start points\npoints " + std::to_string(file.points.cols()) +
-                        " with checksum " + std::to_string(checksum.checksum()) + "\n";
-  return std::move(file.points);
-}
-
-CvtStart read(const CvtRequest& request) {
-  CvtStart start;
-  if (planar(request))
-    start.places = take(holds_points(request.points) ? planar_points_of(request.points)
-                                                     : read_planar_point_file(request.points),
-                        start);
-  else
-    start.points = take(read_point_file(request.points, request.lonlat), start);
-  return start;
-}
-
 /// Sets the points and bisections of a start that insertion leads to any number of cells.
 void make_multilevel(const CvtRequest& request, const Density& density,
                      const std::optional<PlanarDomain>& domain,
                      const std::optional<RunRegion>& region, CvtStart& start) {
   if (domain) {
-    PlanarContinuation from = multilevel(*request.cells, *domain, density, seed_of(request));
+    PlanarContinuation from =
+        multilevel(*request.cells, *domain, density, seed_of(request), start.fixed);
     start.bisections = from.bisections;
-    start.places = std::move(from.start);
+    start.places = joined(start.places, from.start);
   } else {
-    Continuation from =
-        multilevel(*request.cells, region ? region->meshed : Region{}, density, seed_of(request));
+    Continuation from = multilevel(*request.cells, region ? region->meshed : Region{}, density,
+                                   seed_of(request), start.fixed);
     start.bisections = from.bisections;
-    start.points = std::move(from.start);
+    start.points = joined(start.points, from.start);
   }
 }
 
-/// The distance in radians for the rings of a limited-area grid and a few cells more, of the widest
-/// cells along some boundaries.
-double margin_of(const CellWidth& widths, double radius_km,
-                 std::initializer_list<const Region*> boundaries) {
-  constexpr int beyond = 4; // cells, so that the rings have whole cells
-  double widest = 0;
-  for (const Region* region : boundaries)
-    for (const Points3& ring : region->rings)
-      widest = std::max(widest, evaluate(widths, ring.colwise().normalized()).maxCoeff());
-  return (limited_area_rings + beyond) * widest / radius_km;
-}
-
 /// Sets the number of cells to that of the widths in a region.
-std::vector<std::string> settle_region(CvtRequest& request, const CellWidth& widths,
+std::vector<std::string> settle_region(CvtRequest& request, const Resolution& resolution,
                                        const RunRegion& region) {
   if (!cells_follow(request))
     return {};
-  constexpr double least = 40, most = 1 << 30;
-  const double implied =
-      std::round(implied_cells(widths, region.meshed, request.density->widths.radius));
-  if (!(implied >= least && implied <= most))
-    refuse("--region " + request.region + ": the widths require " + formatted("%.4g", implied) +
-           " cells, but a grid has 40 to 1073741824; give other widths or a larger region");
-  request.cells = static_cast<int>(implied);
-  return {request.region + " requires " + std::to_string(*request.cells) + " cells" +
-          (request.limited_area ? ", with those of the rings and some beyond" : "")};
+  const RegionWords& part = request.part;
+  request.cells = cells_of_region(part, request.density->widths, resolution, region);
+  return {part.region + " requires " + std::to_string(*request.cells) + " cells" +
+          (part.limited_area ? ", with those of the rings and some beyond" : "")};
 }
 
 } // namespace
@@ -279,35 +244,25 @@ int rounds_of(const CvtRequest& request) {
 }
 
 void require_start(const CvtRequest& request) {
+  require_region_words(request.part);
+  if (ends_at_boundary(request.part) && !request.points.empty())
+    refuse("--boundary generators does not apply to a file of points; give --cells, or fixed "
+           "points on the boundary (--fixed)");
+  if (planar(request) && request.lonlat)
+    refuse("--lonlat applies to the sphere only; leave it out");
   if (request.points.empty())
     require_cells(request);
   else
     require_file(request);
 }
 
-std::optional<RunRegion> region_of_run(const CvtRequest& request,
-                                       const std::optional<CellWidth>& widths) {
-  if (request.region.empty())
-    return std::nullopt;
-  const WidthWords& words = request.density->widths;
-  Region region = region_of(request.region, words.radius);
-  if (!request.limited_area)
-    return RunRegion{region, region};
-  if (!widths)
-    refuse("--limited-area requires cell widths, from which the rings around the region follow; "
-           "give --cell-width");
-  Region meshed = region;
-  for (int k = 0; k < 3; ++k) // the widths may grow outwards
-    meshed = widened(region, margin_of(*widths, words.radius, {&region, &meshed}));
-  return RunRegion{std::move(region), std::move(meshed)};
-}
-
-std::vector<std::string> settle_cells(CvtRequest& request, const std::optional<CellWidth>& widths,
+std::vector<std::string> settle_cells(CvtRequest& request, const Resolution& resolution,
                                       const std::optional<RunRegion>& region) {
+  const std::optional<CellWidth>& widths = resolution.widths;
   if (!widths)
     return {};
   if (region)
-    return settle_region(request, *widths, *region);
+    return settle_region(request, resolution, *region);
   const WidthWords& words = request.density->widths;
   if (cells_follow(request)) {
     request.cells =
@@ -317,8 +272,12 @@ std::vector<std::string> settle_cells(CvtRequest& request, const std::optional<C
   return notes_on(*widths, words, request.cells);
 }
 
-CvtStart open_start(const CvtRequest& request, const std::optional<RunRegion>& region) {
-  CvtStart start = request.points.empty() ? announce(request) : read(request);
+CvtStart open_start(const CvtRequest& request, const Density& density,
+                    const std::optional<RunRegion>& region) {
+  CvtStart start = request.points.empty() ? announce(request) : read_start(request);
+  add_fixed(request, start);
+  if (ends_at_boundary(request.part))
+    add_boundary(request, region->meshed, density, start);
   start.bisections = request.bisections.value_or(0);
   if (const std::string kind = start_kind(request); kind == "multilevel")
     start.configuration += "insertion-rounds " + std::to_string(rounds_of(request)) + "\n";
@@ -342,19 +301,28 @@ void generate_points(const CvtRequest& request, const Density& density,
     make_multilevel(request, density, domain, region, start);
     return;
   }
+  const bool open = domain || region;
+  const std::int64_t count = (open                     ? cells >> (2 * start.bisections)
+                              : kind == "continuation" ? cells
+                                                       : start_count(cells, start.bisections)) -
+                             start.fixed;
+  if (count < 1)
+    refuse("--bisections " + std::to_string(start.bisections) + " to " + std::to_string(cells) +
+           " cells leave no free point in the start beside " + std::to_string(start.fixed) +
+           " fixed ones; give more cells or fewer bisections");
   if (domain) {
-    start.places =
-        generate(kind, cells >> (2 * start.bisections), *domain, density, seed_of(request));
+    start.places = joined(start.places, generate(kind, count, *domain, density, seed_of(request)));
     return;
   }
   if (region) {
     start.points =
-        random_sphere(cells >> (2 * start.bisections), region->meshed,
-                      kind == "density" ? site_density(density) : Density{}, seed_of(request));
+        joined(start.points, random_sphere(count, region->meshed,
+                                           kind == "density" ? site_density(density) : Density{},
+                                           seed_of(request)));
     return;
   }
   if (kind != "continuation") {
-    start.points = generate(kind, start_count(cells, start.bisections), density, seed_of(request));
+    start.points = joined(start.points, generate(kind, count, density, seed_of(request)));
     return;
   }
   Continuation from = continuation(cells, density, seed_of(request));

@@ -2,8 +2,7 @@
 #pragma once
 
 #include "options/cvt_request.h"
-
-#include <calotte/region.h>
+#include "run/run_region.h"
 
 #include <optional>
 #include <string>
@@ -13,10 +12,15 @@ namespace calotte::tools {
 
 /// The start of a run.
 struct CvtStart {
-  std::string file;                ///< that the points come from, or ""
-  std::vector<std::int64_t> lines; ///< of it, where they stand
-  Points3 points;                  ///< on the sphere
-  Points2 places;                  ///< or in the plane
+  /// A file of points, and the lines of it where they stand.
+  struct File {
+    std::string name; ///< or ""
+    std::vector<std::int64_t> lines;
+  };
+  File fixed_file, file; ///< of the fixed points, which come first, and of the others
+  std::int64_t fixed = 0;
+  Points3 points; ///< on the sphere
+  Points2 places; ///< or in the plane
   int bisections = 0;
   std::string note; ///< a message for the user, or ""
   /// The input that determines it, for the run's configuration: lines "name value".
@@ -30,28 +34,19 @@ int rounds_of(const CvtRequest& request);
 /// \throws Error bad_option.
 void require_start(const CvtRequest& request);
 
-/// The region of a run.
-struct RunRegion {
-  Region region; ///< of the request
-  Region meshed; ///< wider for a limited-area grid, whose rings lie outside the region
-};
-
-/// None for a run on the whole sphere or in a plane. Reads the file, if there is one.
-/// \throws Error bad_option; as region_of().
-std::optional<RunRegion> region_of_run(const CvtRequest& request,
-                                       const std::optional<CellWidth>& widths);
-
 /// Sets the request's number of cells to that of the widths, if it is automatic.
 /// \returns messages about the widths, one line each.
 /// \throws Error bad_option.
-std::vector<std::string> settle_cells(CvtRequest& request, const std::optional<CellWidth>& widths,
+std::vector<std::string> settle_cells(CvtRequest& request, const Resolution& resolution,
                                       const std::optional<RunRegion>& region);
 
-/// Reads the points, if they come from a file, and describes the input that determines them.
-/// \throws Error bad_option, parse, file.
-CvtStart open_start(const CvtRequest& request, const std::optional<RunRegion>& region);
+/// Reads or computes the fixed points and the others, if they come from files, and describes the
+/// input that determines them. \throws Error bad_option, parse, file.
+CvtStart open_start(const CvtRequest& request, const Density& density,
+                    const std::optional<RunRegion>& region);
 
-/// Computes the points, unless they come from a file, and a continuation's bisections and note.
+/// Computes the free points, unless they come from a file, and a continuation's bisections and
+/// note.
 /// \param domain of a plane.
 /// \throws Error bad_option.
 void generate_points(const CvtRequest& request, const Density& density,

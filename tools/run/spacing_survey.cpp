@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numbers>
 
 namespace calotte::tools {
@@ -72,21 +73,40 @@ Peak climb(const Values& values, Peak peak) {
   return peak;
 }
 
+/// The values in a region, and less than any outside.
+Values inside(const Values& values, const Region& region) {
+  if (region.whole())
+    return values;
+  return [values, contained = containing(region)](const Points3& x) -> Eigen::VectorXd {
+    Eigen::VectorXd all = values(x);
+    for (Eigen::Index i = 0; i < x.cols(); ++i)
+      if (!contained(x.col(i)))
+        all[i] = -std::numeric_limits<double>::infinity();
+    return all;
+  };
+}
+
 } // namespace
 
-SpacingSurvey survey_spacing(const Density& density, std::int64_t cells) {
-  const Points3 places = fibonacci_sphere(lattice);
-  const double root = 4 * std::numbers::pi * evaluate(density, places).cwiseSqrt().mean();
+SpacingSurvey survey_spacing(const Density& density, std::int64_t cells, const Region& region,
+                             double unit) {
+  const Points3 places =
+      region.whole() ? fibonacci_sphere(lattice) : random_sphere(lattice, region);
+  const double root = area(region) * evaluate(density, places).cwiseSqrt().mean();
   SpacingSurvey survey;
-  survey.unit = std::sqrt(2 / std::numbers::sqrt3 * root / static_cast<double>(cells));
+  survey.unit =
+      unit > 0 ? unit : std::sqrt(2 / std::numbers::sqrt3 * root / static_cast<double>(cells));
   const Values spacing = [&](const Points3& x) -> Eigen::VectorXd {
     return survey.unit * evaluate(density, x).array().max(1e-150).pow(-0.25);
   };
   const Values negative = [&](const Points3& x) -> Eigen::VectorXd { return -spacing(x); };
   const Values slope = [&](const Points3& x) { return slopes(spacing, x); };
-  survey.least = -climb(negative, highest(negative, places)).value;
-  survey.greatest = climb(spacing, highest(spacing, places)).value;
-  const Peak steepest = climb(slope, highest(slope, places));
+  const auto peak = [&](const Values& values) {
+    return climb(inside(values, region), highest(values, places));
+  };
+  survey.least = -peak(negative).value;
+  survey.greatest = peak(spacing).value;
+  const Peak steepest = peak(slope);
   constexpr double degrees = 180 / std::numbers::pi;
   const Eigen::Vector3d& p = steepest.place;
   survey.steepest = {steepest.value, std::atan2(p.y(), p.x()) * degrees,

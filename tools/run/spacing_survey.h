@@ -3,6 +3,7 @@
 
 #include <calotte/cell_width.h>
 #include <calotte/density.h>
+#include <calotte/region.h>
 
 #include <cstdint>
 
@@ -11,15 +12,20 @@ namespace calotte::tools {
 /// The spacings that a density demands of a number of cells, on the unit sphere in radians.
 struct SpacingSurvey {
   double unit = 0;                ///< spacing where the density is 1
-  double least = 0, greatest = 0; ///< over the sphere
+  double least = 0, greatest = 0; ///< over the sphere or the region
   Gradient steepest;              ///< of the spacing, radians per radian
 };
 
 /// Surveys a density by its values on a lattice of points 0.5 degrees apart, and finer ones around
 /// the extremes: features smaller than that may be missed. A regular hexagon of width h has the
 /// area sqrt(3)/2 h^2.
-/// \param cells > 0.
-/// \throws Error as evaluate().
-SpacingSurvey survey_spacing(const Density& density, std::int64_t cells);
+///
+/// In a region by as many random places, so that the spacings err by about a hundredth if the
+/// density is steep, unless `unit` is given.
+/// \param cells > 0, in the region.
+/// \param unit the spacing where the density is 1, if it is known; 0 otherwise.
+/// \throws Error as evaluate() and random_sphere().
+SpacingSurvey survey_spacing(const Density& density, std::int64_t cells, const Region& region = {},
+                             double unit = 0);
 
 } // namespace calotte::tools

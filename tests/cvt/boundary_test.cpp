@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <calotte/check.h>
+#include <calotte/cvt.h>
+#include <calotte/generators.h>
+#include <calotte/region.h>
+
+#include <Eigen/Geometry>
+#include <doctest/doctest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+using namespace calotte;
+
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+Eigen::Vector3d at(double lon, double lat) {
+  return {std::cos(lat * degree) * std::cos(lon * degree),
+          std::cos(lat * degree) * std::sin(lon * degree), std::sin(lat * degree)};
+}
+
+Points3 ring_of(const std::vector<std::pair<double, double>>& corners) {
+  Points3 ring(3, static_cast<Eigen::Index>(corners.size()));
+  for (std::size_t k = 0; k < corners.size(); ++k)
+    ring.col(static_cast<Eigen::Index>(k)) = at(corners[k].first, corners[k].second);
+  return ring;
+}
+
+/// A polygon with a reflex corner, and a hole.
+Region holed() {
+  return {{ring_of({{0, 0}, {40, 0}, {40, 30}, {25, 30}, {20, 15}, {0, 25}}),
+           ring_of({{28, 8}, {28, 16}, {35, 16}, {35, 8}})}};
+}
+
+Density graded() { return tanh_bump(at(30, 5), 8 * degree, 5 * degree, 1.0 / 81); }
+
+struct Case {
+  std::string name;
+  Region region;
+  Density density;
+};
+
+std::vector<Case> cases() {
+  return {{"circle", circle(at(10, 20), 12 * degree), {}},
+          {"hemisphere", circle(at(10, 20), 90 * degree), {}},
+          {"polygon with a hole", holed(), {}},
+          {"graded", holed(), graded()}};
+}
+
+/// The arcs' distance from a place, as a sine.
+double distance(const Region& region, const Eigen::Vector3d& x) {
+  double least = 4;
+  for (const Points3& ring : region.rings)
+    for (Eigen::Index k = 0; k < ring.cols(); ++k) {
+      const Eigen::Vector3d a = ring.col(k).normalized(),
+                            b = ring.col(k + 1 == ring.cols() ? 0 : k + 1).normalized(),
+                            normal = a.cross(b - a).normalized(); // precise for short arcs
+      const bool beside = normal.cross(a).dot(x) >= 0 && b.cross(normal).dot(x) >= 0;
+      least =
+          std::min({least, beside ? std::abs(normal.dot(x)) : 4, (x - a).norm(), (x - b).norm()});
+    }
+  return least;
+}
+
+/// The distance of neighbours that the density demands, from the energy of ideal hexagons' areas:
+/// proportional to rho^(-1/4).
+double demanded(const Mesh& mesh, const Density& density, const Eigen::Vector3d& x) {
+  const double rho = evaluate(density, Points3(x))[0];
+  const Eigen::VectorXd all = evaluate(density, mesh.points);
+  double sum = 0, count = 0; // of edges inside
+  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
+    for (int v = 0; v < 3; ++v) {
+      const auto a = mesh.triangles(v, t), b = mesh.triangles((v + 1) % 3, t);
+      sum += (mesh.points.col(a) - mesh.points.col(b)).norm() * std::pow(all[a] * all[b], 0.125);
+      ++count;
+    }
+  return sum / count * std::pow(rho, -0.25);
+}
+
+using Edge = std::pair<std::int32_t, std::int32_t>;
+
+/// The outer edges of a mesh, each with the mesh to its left.
+std::set<Edge> outer_edges(const Mesh& mesh) {
+  std::set<Edge> edges;
+  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
+    for (int v = 0; v < 3; ++v)
+      if (mesh.neighbours(v, t) < 0)
+        edges.insert({mesh.triangles((v + 1) % 3, t), mesh.triangles((v + 2) % 3, t)});
+  return edges;
+}
+
+double least_angle(const Mesh& mesh) {
+  double least = 180;
+  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
+    for (int v = 0; v < 3; ++v) {
+      const Eigen::Vector3d c = mesh.points.col(mesh.triangles(v, t)),
+                            a = mesh.points.col(mesh.triangles((v + 1) % 3, t)) - c,
+                            b = mesh.points.col(mesh.triangles((v + 2) % 3, t)) - c;
+      least = std::min(least, std::atan2(a.cross(b).norm(), a.dot(b)) / degree);
+    }
+  return least;
+}
+
+struct Run {
+  Points3 start;
+  CvtOptions options;
+};
+
+Run run_of(const Case& here, std::int64_t cells) {
+  const Points3 shore = boundary_points(here.region, cells, here.density);
+  Run run;
+  run.options.density = here.density;
+  run.options.fixed = shore.cols();
+  run.options.boundary = Boundary::generators;
+  run.options.cells = cells;
+  run.options.insertion_rounds = 2;
+  run.options.tolerance = 3e-4;
+  run.options.well_centred = true;
+  const Continuation from = multilevel(cells, here.region, here.density, 1, shore.cols());
+  run.options.bisections = from.bisections;
+  run.start.resize(3, shore.cols() + from.start.cols());
+  run.start << shore, from.start;
+  return run;
+}
+
+} // namespace
+
+TEST_CASE("boundary: its generators lie on it, at the demanded distances, and keep the corners") {
+  for (const Case& here : cases())
+    for (const std::int64_t cells : {200, 1500, 20000}) {
+      CAPTURE(here.name);
+      CAPTURE(cells);
+      const Points3 points = boundary_points(here.region, cells, here.density);
+      const auto inside = containing(here.region);
+      for (Eigen::Index i = 0; i < points.cols(); ++i) {
+        CHECK(inside(points.col(i)));
+        CHECK(distance(here.region, points.col(i)) <= 1e-15);
+      }
+      if (here.region.rings.size() == 2) // few enough corners, and sharp
+        for (const Points3& ring : here.region.rings)
+          for (Eigen::Index k = 0; k < ring.cols(); ++k)
+            CHECK((points.colwise() - ring.col(k)).colwise().norm().minCoeff() < 1e-15);
+    }
+  CHECK(boundary_points(Region{}, 100).cols() == 0);
+}
+
+TEST_CASE("boundary: the mesh ends at its generators, without slivers [slow]") {
+  for (const Case& here : cases()) {
+    CAPTURE(here.name);
+    const std::int64_t cells = 1500;
+    const Run run = run_of(here, cells);
+    const Cvt grid = spherical_cvt(run.start, here.region, run.options);
+    const Mesh& mesh = grid.mesh;
+    const auto f = static_cast<std::int32_t>(run.options.fixed);
+    CHECK(grid.report.converged);
+    CHECK(mesh.points.cols() == cells);
+    CHECK(mesh.points.leftCols(f) == run.start.leftCols(f));
+    CHECK(check_surface(mesh).failure == "");
+    const auto inside = containing(here.region);
+    for (Eigen::Index i = 0; i < mesh.points.cols(); ++i)
+      CHECK(inside(mesh.points.col(i)));
+    // Each edge along the boundary joins a generator to the next one of its ring; rings close.
+    const std::set<Edge> outer = outer_edges(mesh);
+    CHECK(std::ssize(outer) == f);
+    std::size_t returns = 0;
+    double shortest = 1e9, longest = 0;
+    for (const auto& [a, b] : outer) {
+      CHECK(std::max(a, b) < f);
+      returns += b != a + 1;
+      const Eigen::Vector3d middle = (mesh.points.col(a) + mesh.points.col(b)).normalized();
+      const double ratio =
+          (mesh.points.col(a) - mesh.points.col(b)).norm() / demanded(mesh, here.density, middle);
+      shortest = std::min(shortest, ratio);
+      longest = std::max(longest, ratio);
+    }
+    CHECK(returns == here.region.rings.size());
+    CHECK(shortest > 0.6);
+    CHECK(longest < 1.6);
+    // Every generator is in the mesh, whose Euler characteristic is that of the region.
+    std::set<std::int32_t> used(mesh.triangles.data(),
+                                mesh.triangles.data() + mesh.triangles.size());
+    CHECK(std::ssize(used) == cells);
+    CHECK(mesh.triangles.cols() == 2 * cells - f - 2 + 2 * (std::ssize(here.region.rings) - 1));
+    CHECK(least_angle(mesh) > 30);
+    MESSAGE(here.name, ": ", f, " on the boundary, edges ", shortest, " to ", longest,
+            ", least angle ", least_angle(mesh));
+  }
+}
+
+TEST_CASE("boundary: the same bits for all threads and regions [slow]") {
+  const Case here = cases().back();
+  const Run run = run_of(here, 900);
+  const auto with = [&](std::size_t threads, int regions) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    CvtOptions options = run.options;
+    options.partition.regions = regions;
+    return spherical_cvt(run.start, here.region, options).mesh;
+  };
+  const Mesh one = with(1, 1), many = with(4, 12);
+  CHECK(one.points == many.points);
+  CHECK(one.triangles == many.triangles);
+}
+
+TEST_CASE("boundary: too few cells are refused in one line") {
+  const auto message = [](std::int64_t cells) {
+    try {
+      boundary_points(holed(), cells);
+      return std::string();
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+  };
+  CHECK(message(8).find("the boundary takes ") == 0);
+  CHECK(message(3).find("the number of cells is 3; give 4 to") == 0);
+}

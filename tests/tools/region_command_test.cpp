@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/command.h"
+
+#include <calotte/io.h>
+#include <calotte/region.h>
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <numbers>
+#include <sstream>
+#include <string>
+
+using namespace calotte;
+using namespace calotte::test;
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+/// One line of an error, which contains a part; nothing is written.
+void check_refused(const Bench& bench, const std::string& arguments, const std::string& part) {
+  CAPTURE(arguments);
+  const auto before = bench.names();
+  const Outcome outcome = bench.run(arguments);
+  CAPTURE(outcome.err);
+  CHECK(outcome.code == 2);
+  CHECK(has(outcome.err, part));
+  CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
+  CHECK(bench.names() == before);
+}
+
+Points3 points_of(const Bench& bench, const std::string& name) {
+  return read_sites(bench.folder() / name);
+}
+
+/// The points of a text, as the command reads them.
+Points3 directions(const std::string& text, Columns columns) {
+  std::istringstream in(text);
+  return read_points(in, "text", columns).colwise().normalized();
+}
+
+const std::string three = "10 50\n12 51.5\n9 48.25\n";
+
+} // namespace
+
+TEST_CASE("fixed points come first in the mesh, on the sphere and in a region") {
+  const Bench bench;
+  bench.file("fixed.txt", three);
+  const Points3 fixed = directions(three, Columns::lonlat);
+  for (const std::string where : {"", "--region circle=10,50,900km "}) {
+    const Outcome outcome =
+        bench.run("cvt --cells 300 --fixed fixed.txt --lonlat --stop tolerance --tolerance 1e-4 " +
+                  where + "-o a.vtp --checkpoint a.state --checkpoint-every 10");
+    CAPTURE(outcome.err);
+    CHECK(outcome.code == 0);
+    const Points3 made = points_of(bench, "a.vtp");
+    CHECK(made.cols() == 300);
+    CHECK((made.leftCols(3) - fixed).cwiseAbs().maxCoeff() < 2e-16);
+    CHECK(bench.run("cvt --resume a.state -o b.vtp").code == 0);
+    CHECK(bench.file("a.vtp") == bench.file("b.vtp"));
+  }
+}
+
+TEST_CASE("fixed points beside a file of others, in the plane, and in a limited area") {
+  const Bench bench;
+  bench.file("fixed.txt", three);
+  CHECK(bench.run("points fibonacci 200 -o start.txt").code == 0);
+  bench.file("fixed.xyz", "1 0 0\n0 0.6 0.8\n");
+  CHECK(bench.run("cvt start.txt --fixed fixed.xyz -o a.vtp").code == 0);
+  const Points3 made = points_of(bench, "a.vtp");
+  CHECK(made.cols() == 202);
+  CHECK(made.leftCols(2) == directions("1 0 0\n0 0.6 0.8\n", Columns::xyz));
+  bench.file("fixed.xy", "0.25 0.5\n0.75 0.125\n");
+  CHECK(bench.run("cvt --rectangle 0,0,1,1 --cells 60 --fixed fixed.xy -o plane.vtp").code == 0);
+  const Points2 places = read_planar_mesh(bench.folder() / "plane.vtp").points;
+  CHECK(places.cols() == 60);
+  CHECK(places.leftCols(2) == (Points2(2, 2) << 0.25, 0.75, 0.5, 0.125).finished());
+  CHECK(bench
+            .run("cvt --region circle=10,50,500km --cell-width 60km --limited-area --fixed "
+                 "fixed.txt --lonlat -o area.nc")
+            .code == 0);
+  const Points3 cells = points_of(bench, "area.nc"), fixed = directions(three, Columns::lonlat);
+  for (const auto& x : fixed.colwise())
+    CHECK((cells.colwise() - x).colwise().norm().minCoeff() < 1e-15);
+}
+
+TEST_CASE("bad fixed points are refused in one line that names the line of the file") {
+  const Bench bench;
+  bench.file("fixed.txt", three);
+  bench.file("twice.txt", three + "12 51.5\n");
+  bench.file("out.txt", three + "# far\n100 0\n");
+  const std::string run = "cvt --lonlat --cells 100 -o a.vtp ",
+                    region = "--region circle=10,50,900km ";
+  check_refused(bench, run + "--fixed twice.txt",
+                "twice.txt line 4: fixed generator 3 merges with fixed generator 1");
+  check_refused(bench, run + region + "--fixed out.txt",
+                "out.txt line 5: fixed generator 3 is outside the region");
+  check_refused(bench, "cvt --lonlat --cells 3 --fixed fixed.txt -o a.vtp " + region,
+                "fixed.txt line 3: fixed point 2 leaves no free one of the 3 cells");
+  check_refused(bench, run + "--fixed fixed.txt --start fibonacci",
+                "--start fibonacci does not leave room for fixed points");
+  check_refused(bench, "cvt - --fixed - -o a.vtp", "both standard input");
+}
+
+TEST_CASE("generators on the boundary: the mesh ends at them") {
+  const Bench bench;
+  const std::string run =
+      "cvt --region circle=10,50,900km --cell-width 100km --boundary generators ";
+  const Outcome outcome = bench.run(run + "-o a.vtp --checkpoint a.state --checkpoint-every 10");
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.code == 0);
+  CHECK(bench.run("check a.vtp").code == 0);
+  const auto inside = containing(circle(directions("10 50\n", Columns::lonlat), 900 / 6371.0));
+  const Points3 made = points_of(bench, "a.vtp");
+  for (const auto& x : made.colwise())
+    CHECK(inside(x));
+  CHECK(bench.run("cvt --resume a.state -o b.vtp --threads 1 --regions 3").code == 0);
+  CHECK(bench.file("a.vtp") == bench.file("b.vtp"));
+  check_refused(bench, "cvt --cells 100 --boundary generators -o c.vtp",
+                "--boundary generators requires a region");
+  check_refused(bench, run + "--limited-area -o c.nc", "does not apply to --limited-area");
+  bench.file("square.geojson", R"({"type": "Polygon", "coordinates": [[[0, 0], [9, 0], [9, 9],
+                                  [0, 9], [0, 0]]]})");
+  check_refused(bench, "cvt --region square.geojson --cells 4 --boundary generators -o c.vtp",
+                "the boundary takes 4 of the 4 generators; give more cells");
+}
+
+TEST_CASE("MPI-SCVT's circle is a region") {
+  const Bench bench;
+  fs::copy_file(fs::path(CALOTTE_FIXTURES) / "SaveBoundaries.circle",
+                bench.folder() / "SaveBoundaries.circle");
+  for (const std::string boundary : {"clip", "generators"}) {
+    const Outcome outcome = bench.run("cvt --region SaveBoundaries.circle --cells 400 -o a.vtp "
+                                      "--boundary " +
+                                      boundary);
+    CAPTURE(outcome.err);
+    CHECK(outcome.code == 0);
+    CHECK(bench.run("check a.vtp").code == 0);
+    const Points3 made = points_of(bench, "a.vtp");
+    CHECK(made.cols() == 400);
+    CHECK(made.row(2).minCoeff() >= std::sin(60 * degree) - 1e-15);
+  }
+  CHECK(bench.run("cvt --region SaveBoundaries.circle --cell-width 300km --limited-area -o a.nc")
+            .code == 0);
+  CHECK(bench.run("check a.nc").code == 0);
+}
+
+TEST_CASE("plan: the grid of a region") {
+  const Bench bench;
+  const auto plan = [&](const std::string& arguments) {
+    const Outcome outcome = bench.run("plan " + arguments + " --report plan.json");
+    CAPTURE(outcome.err);
+    REQUIRE(outcome.code == 0);
+    CHECK(has(outcome.out, "region "));
+    return nlohmann::json::parse(bench.file("plan.json"));
+  };
+  const std::string where = "--region circle=10,50,500km --cell-width 60km";
+  const double cells = 2 * std::numbers::pi * (1 - std::cos(500 / 6371.0)) * 6371 * 6371 /
+                       (std::sqrt(3.0) / 2 * 60 * 60);
+  const nlohmann::json part = plan(where), area = plan(where + " --limited-area");
+  CHECK(part["cells"].get<double>() == doctest::Approx(cells).epsilon(0.005));
+  CHECK(part["width_km"]["min"].get<double>() == doctest::Approx(60).epsilon(1e-6));
+  CHECK(area["cells"] > part["cells"]);
+  CHECK(area["estimates"]["seconds"] > 0);
+  CHECK(area["estimates"]["mpas_bytes"] > part["estimates"]["mpas_bytes"]);
+  // A run has as many cells, and its file about as many bytes.
+  const Outcome run = bench.run("cvt " + where + " --limited-area -o a.nc");
+  CHECK(has(run.err, "requires " + area["cells"].dump() + " cells"));
+  const double bytes = static_cast<double>(fs::file_size(bench.folder() / "a.nc"));
+  CHECK(area["estimates"]["mpas_bytes"].get<double>() == doctest::Approx(bytes).epsilon(0.5));
+  const nlohmann::json bump = plan("--region circle=10,50,20deg --cells 1000 --density "
+                                   "tanh:lon=270,lat=30,beta=30deg,alpha=0.20,gamma=x8");
+  CHECK(bump["cells"] == 1000);
+  CHECK(bump["width_degrees"]["max"] < 3); // uniform there: 1.2 degrees
+  check_refused(bench, "plan --cell-width 60km --limited-area",
+                "--limited-area requires a region; give --region");
+}
+
+TEST_CASE("bad regions end in one clear line before any work") {
+  const Bench bench;
+  const auto geojson = [](const std::string& corners) {
+    return R"({"type": "Polygon", "coordinates": [[)" + corners + "]]}";
+  };
+  bench.file("bow.geojson", geojson("[0, 0], [10, 10], [10, 0], [0, 10], [0, 0]"));
+  bench.file("Bow.pts", "Name: bow\nType: custom\nPoint: 5, 5\n0, 0\n10, 10\n0, 10\n10, 0\n");
+  for (const std::string command : {"cvt", "plan"})
+    check_refused(bench,
+                  command + " --region bow.geojson --cell-width 60km" +
+                      (command == "cvt" ? " -o a.vtp" : ""),
+                  "bow.geojson: ");
+  check_refused(bench, "cvt --region Bow.pts --cell-width 60km -o a.vtp", "Bow.pts");
+  const std::string none = "--region circle=10,50,3km --cell-width 60km";
+  check_refused(bench, "cvt " + none + " -o a.vtp", "the widths require 0 cells");
+  check_refused(bench, "plan " + none, "the widths require 0 cells");
+}

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "run/run_region.h"
+
+#include "options/numbers.h"
+
+#include <calotte/error.h>
+#include <calotte/generators.h>
+#include <calotte/limited_area.h>
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <string>
+#include <utility>
+
+namespace calotte::tools {
+namespace {
+
+[[noreturn]] void refuse(const std::string& problem) {
+  throw Error(ErrorCode::bad_option, problem);
+}
+
+/// The distance in radians for the rings of a limited-area grid and a few cells more, of the widest
+/// cells along some boundaries.
+double margin_of(const CellWidth& widths, double radius_km,
+                 std::initializer_list<const Region*> boundaries) {
+  constexpr int beyond = 4; // cells, so that the rings have whole cells
+  double widest = 0;
+  for (const Region* region : boundaries)
+    for (const Points3& ring : region->rings)
+      widest = std::max(widest, evaluate(widths, ring.colwise().normalized()).maxCoeff());
+  return (limited_area_rings + beyond) * widest / radius_km;
+}
+
+} // namespace
+
+std::optional<RunRegion> region_of_run(const RegionWords& words, const WidthWords& width_words,
+                                       const std::optional<CellWidth>& widths) {
+  if (words.region.empty())
+    return std::nullopt;
+  Region region = region_of(words.region, width_words.radius);
+  if (!words.limited_area)
+    return RunRegion{region, region};
+  if (!widths)
+    refuse("--limited-area requires cell widths, from which the rings around the region follow; "
+           "give --cell-width");
+  Region meshed = region;
+  for (int k = 0; k < 3; ++k) // the widths may grow outwards
+    meshed = widened(region, margin_of(*widths, width_words.radius, {&region, &meshed}));
+  return RunRegion{std::move(region), std::move(meshed)};
+}
+
+int cells_of_region(const RegionWords& words, const WidthWords& width_words,
+                    const Resolution& resolution, const RunRegion& region) {
+  constexpr double least = 40, most = 1 << 30;
+  const double implied =
+      std::round(implied_cells(*resolution.widths, region.meshed, width_words.radius));
+  if (!(implied >= least && implied <= most))
+    refuse("--region " + words.region + ": the widths require " + formatted("%.4g", implied) +
+           " cells, but a grid has 40 to 1073741824; give other widths or a larger region");
+  double cells = implied;
+  for (int k = 0; k < 3 && ends_at_boundary(words); ++k) // whose generators have half a cell
+    cells = implied +
+            static_cast<double>(
+                boundary_points(region.meshed, static_cast<std::int64_t>(cells), resolution.density)
+                    .cols() /
+                2);
+  return static_cast<int>(std::min(cells, most));
+}
+
+} // namespace calotte::tools

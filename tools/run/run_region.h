@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "options/density_option.h"
+#include "options/region_option.h"
+
+#include <calotte/region.h>
+
+#include <optional>
+
+namespace calotte::tools {
+
+/// The region of a run.
+struct RunRegion {
+  Region region; ///< of the request
+  Region meshed; ///< wider for a limited-area grid, whose rings lie outside the region
+};
+
+/// None for a run on the whole sphere or in a plane. Reads the file, if there is one.
+/// \param widths in km, if there are any; a limited-area grid requires them.
+/// \throws Error bad_option; as region_of().
+std::optional<RunRegion> region_of_run(const RegionWords& words, const WidthWords& width_words,
+                                       const std::optional<CellWidth>& widths);
+
+/// The number of cells that the widths imply in a region.
+/// \pre the resolution has widths.
+/// \throws Error bad_option if no grid has so many or so few.
+int cells_of_region(const RegionWords& words, const WidthWords& width_words,
+                    const Resolution& resolution, const RunRegion& region);
+
+} // namespace calotte::tools
