@@ -8,6 +8,7 @@
 #include "options/global_option.h"
 #include "options/numbers.h"
 #include "options/point_file.h"
+#include "options/region_option.h"
 #include "run/cvt_configuration.h"
 #include "run/cvt_costs.h"
 #include "run/cvt_forecast.h"
@@ -92,14 +93,13 @@ void require_request(const CvtRequest& request) {
     require_plane(request, options);
   require_region_format(request, options);
   const WidthWords& widths = request.density->widths;
-  const bool shape = request.region.find('=') != std::string::npos;
   const std::vector<std::string> inputs{request.points,
                                         centres_file(*request.partition),
                                         widths.file,
                                         widths.raster,
                                         request.domain->file.value_or(""),
                                         *request.config,
-                                        shape ? "" : request.region};
+                                        region_file(request.region)};
   require_outputs({{"mesh", request.mesh},
                    {"graph of the mesh", graph_of(request.mesh, options.format)},
                    {"report", request.report},

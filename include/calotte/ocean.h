@@ -3,6 +3,7 @@
 
 #include <calotte/export.h>
 #include <calotte/limited_area.h>
+#include <calotte/region.h>
 #include <calotte/types.h>
 #include <calotte/voronoi.h>
 
@@ -21,6 +22,12 @@ struct Coast {
   std::vector<Points3> rings;
   double area = 0; ///< of the land, steradians
 };
+
+/// The land around a place, such as an island, with its lakes: what is to the left of one of the
+/// coast's rings, the smallest that contains the place. It is less than a hemisphere.
+/// \param place direction of any norm.
+/// \throws Error bad_option for a place in the sea; as require_region() for the rings around it.
+Region land_around(const Coast& coast, const Eigen::Vector3d& place);
 
 /// The fraction of each cell that is land, from the exact intersections of the coast's arcs with
 /// the cells, whose sides are arcs between their vertices. The areas sum to that of the land within
