@@ -160,7 +160,7 @@ void add_raster(CLI::App& command, Request& request) {
                       "NetCDF raster of latitudes and longitudes that tells the sea from the land. "
                       "The fraction of land of a cell is the mean of the raster's rectangles that "
                       "have their middle in it, weighted by their areas. Rectangles that are not "
-                      "small against the cell are first cut into parts narrower than an eighth of "
+                      "small against the cell are first cut into parts narrower than a quarter of "
                       "it. With --land, the greater fraction counts.")
           ->type_name("FILE");
   CLI::Option* const variable =

@@ -51,7 +51,7 @@ struct LandRaster {
 
 /// The fraction of each cell that is land, by sampling: each rectangle of the raster is cut into
 /// k x k parts of equal steps of longitude and latitude. k is the least number, up to 256, that
-/// makes their sides shorter than an eighth of the square root of the area of the cell at the
+/// makes their sides shorter than a quarter of the square root of the area of the cell at the
 /// rectangle's middle. A cell's fraction is the mean of the values of the parts whose middles it
 /// contains, weighted by their areas; in a cell without such a part, the value at its generator.
 /// The result has the same bits for any number of threads.

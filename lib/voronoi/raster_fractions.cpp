@@ -9,9 +9,11 @@
 #include "voronoi/triangle_area.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <vector>
 
 // Each node of the raster stands for the rectangle between the middles to its neighbours. A
@@ -24,7 +26,7 @@ namespace voronoi_detail {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
-constexpr double parts_across_cell = 8;
+constexpr double parts_across_cell = 4;
 constexpr int most_parts = 256; ///< of a rectangle in each direction
 
 bool ascends(const Eigen::VectorXd& values) {
@@ -108,59 +110,100 @@ private:
   Eigen::VectorXd size_;
 };
 
-/// A rectangle of longitudes and latitudes in degrees.
-struct Rectangle {
-  double west, east, south, north;
+/// The n + 1 sines, of latitudes or longitudes, of the borders of n equal parts, and the directions
+/// of their middles in the plane of the meridian or the equator.
+struct Parts {
+  std::vector<double> sines;
+  std::vector<Vec3> middles;
+};
 
-  Vec3 place(double along, double up) const {
-    // Turned a little, so that no place is a vertex or on an edge of the cells of a lattice.
-    constexpr double aside = 1e-10;
-    return from_lonlat(std::lerp(west, east, along) + 0.7 * aside,
-                       std::clamp(std::lerp(south, north, up) + aside, -90.0, 90.0));
-  }
-  /// The longer side, radians.
-  double width() const {
-    const double across = std::cos(
-        degree * (south <= 0 && north >= 0 ? 0 : std::min(std::abs(south), std::abs(north))));
-    return degree * std::max((east - west) * across, north - south);
+// Places are turned a little, so that none is a vertex or on an edge of the cells of a lattice.
+constexpr double aside = 1e-10;
+
+Parts parts_of_latitudes(double south, double north, int n) {
+  Parts parts;
+  for (int p = 0; p <= n; ++p)
+    parts.sines.push_back(from_lonlat(0, std::lerp(south, north, double(p) / n)).z);
+  for (int p = 0; p < n; ++p)
+    parts.middles.push_back(
+        from_lonlat(0, std::min(std::lerp(south, north, (p + 0.5) / n) + aside, 90.0)));
+  return parts;
+}
+
+Vec3 middle_of_longitudes(double west, double east, int q, int n) {
+  return from_lonlat(std::lerp(west, east, (q + 0.5) / n) + 0.7 * aside, 0);
+}
+
+/// The borders of the rectangles, in degrees, and the middles of these.
+struct Grid {
+  std::vector<double> meridians, parallels;
+  std::vector<Vec3> middles; ///< of columns, on the equator
+
+  explicit Grid(const LandRaster& raster)
+      : meridians(borders_of_longitudes(raster.longitudes)),
+        parallels(borders(raster.latitudes, -90, 90)) {
+    for (std::size_t i = 0; i + 1 < meridians.size(); ++i)
+      middles.push_back(middle_of_longitudes(meridians[i], meridians[i + 1], 0, 1));
   }
 };
 
 /// The sums of a row of the raster, one by cell.
 class RowSums {
 public:
-  RowSums(const LandRaster& raster, const Finder& finder, const std::vector<double>& meridians,
-          const std::vector<double>& parallels, std::int64_t row)
-      : finder_(finder) {
-    const auto at = [](const std::vector<double>& values, std::int64_t i) {
-      return values[static_cast<std::size_t>(i)];
-    };
+  RowSums(const LandRaster& raster, const Finder& finder, const Grid& grid, std::int64_t row)
+      : finder_(finder), grid_(grid), south_(grid.parallels[static_cast<std::size_t>(row)]),
+        north_(grid.parallels[static_cast<std::size_t>(row) + 1]),
+        widest_(south_ <= 0 && north_ >= 0
+                    ? 1
+                    : from_lonlat(0, std::min(std::abs(south_), std::abs(north_))).x) {
     for (std::int64_t i = 0; i < raster.longitudes.size(); ++i)
-      add({at(meridians, i), at(meridians, i + 1), at(parallels, row), at(parallels, row + 1)},
-          raster.land(i, row));
+      add(static_cast<std::size_t>(i), raster.land(i, row));
     merge();
   }
   const std::vector<Sum>& sums() const { return sums_; }
 
 private:
-  void add(const Rectangle& whole, double land) {
-    cell_ = finder_.locate(cell_, whole.place(0.5, 0.5));
-    const double parts = std::ceil(parts_across_cell * whole.width() / finder_.size(cell_));
-    const int n = parts >= 1 && parts <= most_parts ? static_cast<int>(parts)
-                  : parts > most_parts              ? most_parts
-                                                    : 1;
-    for (int p = 0; p < n; ++p) {
-      const double south = std::sin(degree * std::lerp(whole.south, whole.north, double(p) / n)),
-                   north = std::sin(degree * std::lerp(whole.south, whole.north, (p + 1.0) / n)),
-                   area = degree * (whole.east - whole.west) / n * (north - south);
-      for (int q = 0; q < n; ++q) {
-        cell_ = finder_.locate(cell_, whole.place((q + 0.5) / n, (p + 0.5) / n));
-        if (sums_.empty() || sums_.back().cell != cell_)
-          sums_.push_back({cell_, 0, 0});
-        sums_.back().land += land * area;
-        sums_.back().whole += area;
+  void add(std::size_t column, double land) {
+    const double west = grid_.meridians[column], east = grid_.meridians[column + 1];
+    const double part = degree * (east - west);
+    const Parts& whole = parts(1);
+    cell_ = finder_.locate(cell_, place(grid_.middles[column], whole.middles[0]));
+    const int n = count(part);
+    if (n == 1)
+      return add(land, part * (whole.sines[1] - whole.sines[0]));
+    std::vector<Vec3> along;
+    for (int q = 0; q < n; ++q)
+      along.push_back(middle_of_longitudes(west, east, q, n));
+    const Parts& up = parts(n);
+    for (std::size_t p = 0; p < up.middles.size(); ++p)
+      for (const Vec3& middle : along) {
+        cell_ = finder_.locate(cell_, place(middle, up.middles[p]));
+        add(land, part / n * (up.sines[p + 1] - up.sines[p]));
       }
-    }
+  }
+  void add(double land, double area) {
+    if (sums_.empty() || sums_.back().cell != cell_)
+      sums_.push_back({cell_, 0, 0});
+    sums_.back().land += land * area;
+    sums_.back().whole += area;
+  }
+
+  static Vec3 place(const Vec3& along, const Vec3& up) {
+    return {up.x * along.x, up.x * along.y, up.z};
+  }
+
+  /// The parts of a rectangle in each direction, by the cell at its middle.
+  int count(double width) const {
+    const double longest = std::max(width * widest_, degree * (north_ - south_)),
+                 parts = std::ceil(parts_across_cell * longest / finder_.size(cell_));
+    return parts <= most_parts ? std::max(1, static_cast<int>(parts)) : most_parts;
+  }
+
+  const Parts& parts(int n) {
+    std::optional<Parts>& known = parts_[static_cast<std::size_t>(n - 1)];
+    if (!known)
+      known = parts_of_latitudes(south_, north_, n);
+    return *known;
   }
 
   /// One sum for each cell, of its parts in their order.
@@ -179,24 +222,27 @@ private:
   }
 
   const Finder& finder_;
+  const Grid& grid_;
+  double south_, north_;
+  double widest_; ///< cosine of the latitude nearest to the equator
+  std::array<std::optional<Parts>, most_parts> parts_;
   std::int32_t cell_ = 0;
   std::vector<Sum> sums_;
 };
 
 /// The value of the rectangle that contains a place.
-double value_at(const LandRaster& raster, const std::vector<double>& meridians,
-                const std::vector<double>& parallels, const Vec3& place) {
+double value_at(const LandRaster& raster, const Grid& grid, const Vec3& place) {
   const auto index_of = [](const std::vector<double>& all, double value) {
     const auto after = std::upper_bound(all.begin() + 1, all.end() - 1, value);
     return after - all.begin() - 1;
   };
   double longitude = std::atan2(place.y, place.x) / degree;
-  while (longitude < meridians.front())
+  while (longitude < grid.meridians.front())
     longitude += 360;
-  while (longitude >= meridians.back())
+  while (longitude >= grid.meridians.back())
     longitude -= 360;
-  return raster.land(index_of(meridians, longitude),
-                     index_of(parallels, std::asin(std::clamp(place.z, -1.0, 1.0)) / degree));
+  return raster.land(index_of(grid.meridians, longitude),
+                     index_of(grid.parallels, std::asin(std::clamp(place.z, -1.0, 1.0)) / degree));
 }
 
 } // namespace
@@ -205,8 +251,7 @@ double value_at(const LandRaster& raster, const std::vector<double>& meridians,
 Eigen::VectorXd land_fractions(const Voronoi& cells, const LandRaster& raster) {
   using namespace voronoi_detail;
   require_raster(raster);
-  const std::vector<double> meridians = borders_of_longitudes(raster.longitudes),
-                            parallels = borders(raster.latitudes, -90, 90);
+  const Grid grid(raster);
   const Finder finder(cells);
   const std::int64_t n = cells.cells.cols(), rows = raster.latitudes.size();
   Eigen::VectorXd land = Eigen::VectorXd::Zero(n), whole = Eigen::VectorXd::Zero(n);
@@ -214,8 +259,7 @@ Eigen::VectorXd land_fractions(const Voronoi& cells, const LandRaster& raster) {
   for (std::int64_t first = 0; first < rows; first += at_once) {
     std::vector<std::vector<Sum>> sums(static_cast<std::size_t>(std::min(at_once, rows - first)));
     for_each_task(std::ssize(sums), [&](std::int64_t r) {
-      sums[static_cast<std::size_t>(r)] =
-          RowSums(raster, finder, meridians, parallels, first + r).sums();
+      sums[static_cast<std::size_t>(r)] = RowSums(raster, finder, grid, first + r).sums();
     });
     for (const std::vector<Sum>& row : sums)
       for (const Sum& sum : row) {
@@ -225,7 +269,7 @@ Eigen::VectorXd land_fractions(const Voronoi& cells, const LandRaster& raster) {
   }
   for (std::int64_t i = 0; i < n; ++i)
     land[i] = whole[i] > 0 ? std::clamp(land[i] / whole[i], 0.0, 1.0)
-                           : value_at(raster, meridians, parallels, column(cells.cells, i));
+                           : value_at(raster, grid, column(cells.cells, i));
   return land;
 }
 
