@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/lonlat.h"
+#include "io/netcdf_reader.h"
 #include "io/netcdf_writer.h"
 #include "support/cut_laws.h"
 #include "support/files.h"
 #include "support/full_disk.h"
 #include "support/global_file.h"
+#include "support/gshhg.h"
 
 #include <calotte/cull.h>
+#include <calotte/delaunay.h>
+#include <calotte/generators.h>
 #include <calotte/read.h>
 #include <calotte/region.h>
+#include <calotte/write.h>
 
 #include <doctest/doctest.h>
 
@@ -258,4 +264,60 @@ TEST_CASE("a cull that fails leaves no file, whichever output fails") {
   }
   cull(source, out / "ocean.nc", options);
   CHECK(out.files() == 5); // the grid, its graph, the mask and two maps
+}
+
+TEST_CASE(
+    "an ocean file at 60 km: the fractions sum to GSHHG's land, the sea is connected [slow]") {
+  const Scratch scratch;
+  const std::string source = scratch / "earth.nc", target = scratch / "ocean.nc",
+                    mask = scratch / "mask.nc";
+  WriteOptions written;
+  written.format = Format::mpas;
+  written.sphere_radius = 6371000;
+  write(source, spherical_delaunay(bisected_icosahedron(7)), written);
+  CullOptions options;
+  options.coast = gshhg('i');
+  options.mask_path = mask;
+  const auto place = [](double lon, double lat) {
+    const base_detail::Vec3 x = base_detail::from_lonlat(lon, lat);
+    return Eigen::Vector3d(x.x, x.y, x.z);
+  };
+  Points3 gibraltar(3, 2);
+  gibraltar << place(-7.5, 35.9), place(-3.5, 36);
+  options.passages = {gibraltar};
+  const CullReport report = cull(source, target, options);
+  check_none(target);
+
+  const std::vector<double> areas = io_detail::NetcdfReader(source).doubles("areaCell", {-1}),
+                            land = io_detail::NetcdfReader(mask).doubles("landFraction", {-1});
+  double sum = 0;
+  for (std::size_t i = 0; i < areas.size(); ++i)
+    sum += land[i] * areas[i];
+  CHECK(std::abs(sum / (options.coast.area * 6371000.0 * 6371000.0) - 1) <= 1e-10);
+
+  const io_detail::NetcdfReader ocean(target);
+  const std::vector<std::int32_t> neighbours =
+      ocean.ints("cellsOnCell", {report.cells, ocean.dimension("maxEdges")});
+  const auto width = neighbours.size() / static_cast<std::size_t>(report.cells);
+  std::vector<bool> seen(static_cast<std::size_t>(report.cells));
+  std::vector<std::size_t> stack{0};
+  seen[0] = true;
+  std::int64_t reached = 0, dead_ends = 0;
+  while (!stack.empty()) {
+    const std::size_t cell = stack.back();
+    stack.pop_back();
+    ++reached;
+    int in_the_sea = 0;
+    for (std::size_t k = 0; k < width; ++k)
+      if (const std::int32_t id = neighbours[cell * width + k]; id > 0) {
+        const auto other = static_cast<std::size_t>(id - 1);
+        ++in_the_sea;
+        if (!seen[other])
+          stack.push_back(other);
+        seen[other] = true;
+      }
+    dead_ends += in_the_sea < 2;
+  }
+  CHECK(reached == report.cells);
+  CHECK(dead_ends == 0);
 }
