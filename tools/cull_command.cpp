@@ -10,8 +10,10 @@
 #include <calotte/read.h>
 #include <calotte/version.h>
 
+#include <filesystem>
 #include <iostream>
 #include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 #include <sstream>
@@ -22,15 +24,17 @@ namespace calotte::tools {
 namespace {
 
 struct Request {
-  std::string source, output, mask;
+  std::string source, output, mask, cell_map;
   std::vector<std::string> land, passages, barriers, seeds;
+  std::string raster, raster_variable;
+  RasterValues raster_values = RasterValues::height;
   std::string field, field_file;
   std::optional<double> below, from;
   double land_fraction = CullOptions{}.land_fraction;
   bool no_fill = false;
 
   std::vector<std::string> inputs() const {
-    std::vector<std::string> all{source, field_file};
+    std::vector<std::string> all{source, field_file, raster};
     for (const auto* files : {&land, &passages, &barriers})
       all.insert(all.end(), files->begin(), files->end());
     return all;
@@ -40,10 +44,20 @@ struct Request {
 /// Checks all options that can fail, before any input is read.
 void require_request(const Request& request) {
   require_mpas_name(request.output);
-  if (request.land.empty() && request.field.empty() && request.barriers.empty())
-    throw Error(ErrorCode::bad_option,
-                "there is no land; give --land FILE, --field NAME or --barrier FILE");
-  require_outputs({{"grid", request.output}, {"mask", request.mask}}, request.inputs());
+  if (request.land.empty() && request.raster.empty() && request.field.empty() &&
+      request.barriers.empty())
+    throw Error(
+        ErrorCode::bad_option,
+        "there is no land; give --land FILE, --raster FILE, --field NAME or --barrier FILE");
+  const auto map = [&](const std::string& name) {
+    return request.cell_map.empty() ? ""
+                                    : (std::filesystem::path(request.cell_map) / name).string();
+  };
+  require_outputs({{"grid", request.output},
+                   {"mask", request.mask},
+                   {"map of cells", map("cellMapForward.txt")},
+                   {"map of cells back", map("cellMapBackward.txt")}},
+                  request.inputs());
 }
 
 /// All polygons of several files.
@@ -80,6 +94,9 @@ Points3 places_of(const std::vector<std::string>& words) {
 CullOptions options_of(const Request& request) {
   CullOptions options;
   options.coast = coast_of(request.land);
+  if (!request.raster.empty())
+    options.raster =
+        read_land_raster(request.raster, request.raster_variable, request.raster_values);
   options.land_fraction = request.land_fraction;
   options.field = {request.field_file, request.field};
   if (request.from)
@@ -91,6 +108,7 @@ CullOptions options_of(const Request& request) {
   options.fill = !request.no_fill;
   options.seeds = places_of(request.seeds);
   options.mask_path = request.mask;
+  options.cell_map_folder = request.cell_map;
   options.history = "calotte " CALOTTE_VERSION " cull: " + request.source;
   for (const std::string& file : request.inputs())
     if (!file.empty() && file != request.source)
@@ -135,17 +153,53 @@ void run(const Request& request) {
   std::cout << describe(request, report);
 }
 
+void add_raster(CLI::App& command, Request& request) {
+  CLI::Option* const file =
+      command
+          .add_option("--raster", request.raster,
+                      "NetCDF raster of latitudes and longitudes that tells the sea from the land. "
+                      "The fraction of land of a cell is the mean of the raster's rectangles that "
+                      "have their middle in it, weighted by their areas. Rectangles that are not "
+                      "small against the cell are first cut into parts narrower than a quarter of "
+                      "it. With --land, the greater fraction counts.")
+          ->type_name("FILE");
+  CLI::Option* const variable =
+      command
+          .add_option("--raster-variable", request.raster_variable,
+                      "Its variable(lat, lon). The coordinate variables are lat and lon, or "
+                      "latitude and longitude, in degrees.")
+          ->type_name("NAME")
+          ->needs(file);
+  file->needs(variable);
+  static const std::map<std::string, RasterValues> kinds{
+      {"height", RasterValues::height},
+      {"sea-fraction", RasterValues::sea_fraction},
+      {"land-fraction", RasterValues::land_fraction}};
+  command
+      .add_option_function<std::string>(
+          "--raster-values",
+          [&request](const std::string& kind) { request.raster_values = kinds.at(kind); },
+          "What the values are: heights, of which those below 0 are sea (height), or fractions "
+          "from 0 to 1 of sea or of land (sea-fraction, land-fraction). Default: height.")
+      ->check(CLI::IsMember({"height", "sea-fraction", "land-fraction"}))
+      ->type_name("KIND")
+      ->needs(file);
+}
+
 void add_land(CLI::App& command, Request& request) {
   const OptionGroup group(command, "Land");
   command
       .add_option("--land", request.land,
-                  "GeoJSON polygons of land, such as Natural Earth's. They may share edges, but "
-                  "not overlap. May be repeated.")
+                  "Polygons of land: GeoJSON such as Natural Earth's, which may share edges, but "
+                  "not overlap; or a binned file of GSHHG, such as "
+                  "/usr/share/gmt-gshhg/binned_GSHHS_l.nc of Debian's gmt-gshhg-low. May be "
+                  "repeated.")
       ->type_name("FILE");
+  add_raster(command, request);
   command
       .add_option("--land-fraction", request.land_fraction,
                   "Cells with a larger fraction of land are land, 0 to less than 1. The fractions "
-                  "are exact. Default: 0.5.")
+                  "of --land are exact. Default: 0.5.")
       ->type_name("F");
   command
       .add_option("--field", request.field,
@@ -215,10 +269,18 @@ void add_cull(CLI::App& app) {
                      "NetCDF file of masks by global cell: cullCell and regionCellMasks, as "
                      "MPAS-Tools reads them, and landFraction.")
         ->type_name("FILE");
+    command
+        ->add_option("--cell-map", request->cell_map,
+                     "Folder for cellMapForward.txt and cellMapBackward.txt, as "
+                     "MpasCellCuller.x -c writes them: by global cell the 0-based number of the "
+                     "ocean's cell or -1, and by ocean's cell that of the global one.")
+        ->type_name("FOLDER");
   }
   set_help(*command,
            {.common = {},
             .examples = {"calotte cull global.nc --land ne_10m_land.geojson -o ocean.nc",
+                         "calotte cull global.nc --raster topography.nc --raster-variable z -o "
+                         "ocean.nc",
                          "calotte cull global.nc --field ter --sea-below 0 --seed -150,0 -o "
                          "ocean.nc"}});
   command->callback([request] { run(*request); });

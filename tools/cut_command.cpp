@@ -31,8 +31,7 @@ void require_request(const Request& request) {
   require_mpas_name(request.output);
   if (request.sphere_radius)
     require_sphere_radius(*request.sphere_radius);
-  const bool is_file = request.region.find('=') == std::string::npos;
-  require_outputs({{"grid", request.output}}, {request.source, is_file ? request.region : ""});
+  require_outputs({{"grid", request.output}}, {request.source, region_file(request.region)});
 }
 
 CutOptions options_of(const Request& request) {

@@ -7,6 +7,7 @@
 #include "options/files.h"
 #include "options/global_option.h"
 #include "options/numbers.h"
+#include "options/region_option.h"
 #include "run/cvt_configuration.h"
 #include "run/cvt_costs.h"
 #include "run/cvt_forecast.h"
@@ -90,7 +91,6 @@ void require_request(const CvtRequest& request) {
     require_plane(request, options);
   require_region_format(request, options);
   const WidthWords& widths = request.density->widths;
-  const bool shape = request.part.region.find('=') != std::string::npos;
   const std::vector<std::string> inputs{request.points,
                                         request.fixed,
                                         centres_file(*request.partition),
@@ -98,7 +98,7 @@ void require_request(const CvtRequest& request) {
                                         widths.raster,
                                         request.domain->file.value_or(""),
                                         *request.config,
-                                        shape ? "" : request.part.region};
+                                        region_file(request.part.region)};
   require_outputs({{"mesh", request.mesh},
                    {"graph of the mesh", graph_of(request.mesh, options.format)},
                    {"report", request.report},

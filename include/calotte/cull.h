@@ -25,9 +25,12 @@ struct SeaField {
 };
 
 struct CullOptions {
-  Coast coast = {};           ///< Default: none, no land.
-  double land_fraction = 0.5; ///< cells with a larger fraction of land are land; 0 to less than 1
-  SeaField field = {};        ///< in addition to the coast. Default: none.
+  Coast coast = {};       ///< Default: none, no land.
+  LandRaster raster = {}; ///< Default: no values, none.
+  /// Cells with a larger fraction of land, by the coast or by the raster, are land; 0 to less
+  /// than 1.
+  double land_fraction = 0.5;
+  SeaField field = {}; ///< in addition to these. Default: none.
   /// Lines that stay open: all cells on them are sea. Each 3 x places, unit columns, joined by arcs
   /// of great circles. Default: none.
   std::vector<Points3> passages = {};
@@ -36,15 +39,21 @@ struct CullOptions {
   bool fill = true;
   Points3 seeds = {}; ///< places in the sea, unit columns. Default: none, its largest part.
   /// File for what is culled: the variables cullCell and regionCellMasks (1 for land), and
-  /// landFraction if there is a coast, by cell of the source. Default: empty, no file.
+  /// landFraction if there is a coast or a raster (of both the greater), by cell of the source.
+  /// Default: empty, no file.
   std::string mask_path = {};
+  /// Folder for cellMapForward.txt and cellMapBackward.txt, the text files of MPAS-Tools' culler
+  /// with option -c. Forward has a line for each cell of the source: the 0-based id in the new
+  /// mesh, or -1 for a cell that is left out. Backward has a line for each cell of the new mesh:
+  /// its 0-based id in the source. Default: empty, no files.
+  std::string cell_map_folder = {};
   std::string history = {};       ///< how the file was made; precedes that of the source
   ProgressCallback progress = {}; ///< stage: write. A cancelled run leaves no file.
 };
 
 struct CullReport {
   std::int64_t cells = 0, edges = 0, vertices = 0; ///< of the new mesh
-  std::int64_t land = 0;                           ///< cells that the coast and the field make land
+  std::int64_t land = 0;                           ///< cells that coast, raster and field make land
   SeaReport sea;                                   ///< what followed
   std::vector<std::string> left_out;               ///< variables, as CutReport::left_out
 };
@@ -54,19 +63,18 @@ struct CullReport {
 /// touches one, in the order of the source. As MPAS-Tools leaves them:
 ///
 /// - edges have their first cell: where that of the source is land, the cells of cellsOnEdge and
-/// the
-///   vertices of verticesOnEdge are exchanged. angleEdge turns by pi, edgeNormalVectors and the
+///   the vertices of verticesOnEdge are exchanged. angleEdge turns by pi, edgeNormalVectors and the
 ///   weights in weightsOnEdge to and from such edges change their sign;
 /// - kiteAreasOnVertex is 0 for cells of land; areaTriangle is the sum of the kites;
 /// - the variables mapCulledToBaseCell, mapCulledToBaseEdge and mapCulledToBaseVertex hold the
 ///   0-based ids of the source;
 /// - other measures at the boundary, the density and the radius are those of the source.
 ///
-/// NAME.graph.info is written beside NAME.nc.
+/// NAME.graph.info is written beside NAME.nc. All files are complete or absent: they get their
+/// names when all are written, the mesh last.
 /// \throws Error bad_option as land_fractions(), cells_on_lines() and sea_cells(); for a source
-/// that
-///         holds no mesh of the sphere with connectivity, a fraction out of range, and neither a
-///         coast nor a field nor a barrier; parse; cancelled; file.
+///         that holds no mesh of the sphere with connectivity, a fraction out of range, and if
+///         there is neither a coast nor a raster nor a field nor a barrier; parse; cancelled; file.
 CullReport cull(const std::string& source, const std::string& target,
                 const CullOptions& options = {});
 

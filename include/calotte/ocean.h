@@ -3,6 +3,7 @@
 
 #include <calotte/export.h>
 #include <calotte/limited_area.h>
+#include <calotte/region.h>
 #include <calotte/types.h>
 #include <calotte/voronoi.h>
 
@@ -22,6 +23,12 @@ struct Coast {
   double area = 0; ///< of the land, steradians
 };
 
+/// The land around a place, such as an island, with its lakes: what is to the left of one of the
+/// coast's rings, the smallest that contains the place. It is less than a hemisphere.
+/// \param place direction of any norm.
+/// \throws Error bad_option for a place in the sea; as require_region() for the rings around it.
+Region land_around(const Coast& coast, const Eigen::Vector3d& place);
+
 /// The fraction of each cell that is land, from the exact intersections of the coast's arcs with
 /// the cells, whose sides are arcs between their vertices. The areas sum to that of the land within
 /// 1e-10. The arcs are turned by 1e-12 radians so that none passes through a vertex. The result has
@@ -32,6 +39,27 @@ struct Coast {
 /// \throws Error bad_option, for cells that do not cover the sphere; for an area that is not that
 ///         of the rings, and for places covered twice.
 Eigen::VectorXd land_fractions(const Voronoi& cells, const Coast& coast);
+
+/// The land by a raster of longitudes and latitudes, which may be irregular. A value holds in the
+/// rectangle between the middles to its neighbours; those of the first and the last latitude reach
+/// to the poles.
+struct LandRaster {
+  Eigen::VectorXd longitudes; ///< nx >= 2 degrees, ascending, the last below the first + 360
+  Eigen::VectorXd latitudes;  ///< ny >= 2 degrees, ascending, within -90 to 90
+  Eigen::MatrixXd land;       ///< nx x ny, fractions of land from 0 to 1
+};
+
+/// The fraction of each cell that is land, by sampling: each rectangle of the raster is cut into
+/// k x k parts of equal steps of longitude and latitude. k is the least number, up to 256, that
+/// makes their sides shorter than a quarter of the square root of the area of the cell at the
+/// rectangle's middle. A cell's fraction is the mean of the values of the parts whose middles it
+/// contains, weighted by their areas; in a cell without such a part, the value at its generator.
+/// The result has the same bits for any number of threads.
+/// \param cells as above.
+/// \returns n fractions from 0 to 1.
+/// \throws Error bad_option, for cells that do not cover the sphere, and for shapes, coordinates or
+///         values that violate the conditions of LandRaster.
+Eigen::VectorXd land_fractions(const Voronoi& cells, const LandRaster& raster);
 
 /// The cells that lines cross, in increasing order. Successive cells of a line share an edge.
 /// \param lines each 3 x places, unit columns, joined by arcs shorter than a half circle.

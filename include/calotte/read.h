@@ -145,6 +145,20 @@ PlanarMesh read_planar_mesh(const std::string& path, const Points2* points = nul
 /// \throws Error parse, naming the feature or the variable; file.
 Coast read_coast(const std::string& path);
 
+/// The values of a raster that tells the sea from the land.
+enum class RasterValues {
+  height,       ///< of topography or bathymetry, up; below 0 is sea
+  sea_fraction, ///< 0 to 1
+  land_fraction ///< 0 to 1
+};
+
+/// Reads a raster of land from a NetCDF file: variable(lat, lon) with the coordinates of
+/// read_cell_width(). The attributes scale_factor and add_offset apply. A value of NaN or
+/// _FillValue is an error.
+/// \throws Error parse, naming the variable and its index; file.
+LandRaster read_land_raster(const std::string& path, const std::string& variable,
+                            RasterValues values = RasterValues::height);
+
 /// Reads lines on the sphere from GeoJSON: LineString and MultiLineString geometries of longitude
 /// and latitude in degrees, alone or in features or collections.
 /// \returns for each line its places, unit columns.

@@ -84,17 +84,13 @@ Continuation continuation(std::int64_t cells, const Density& density, std::uint6
   return result;
 }
 
-<<<<<<< HEAD
 int insertion_rounds(std::int64_t cells) {
   constexpr std::int64_t fine = 100'000, finest = 400'000;
   return cells > finest ? 5 : cells > fine ? 10 : 2;
 }
 
-Continuation multilevel(std::int64_t cells, const Density& density, std::uint64_t seed) {
-=======
 Continuation multilevel(std::int64_t cells, const Density& density, std::uint64_t seed,
                         std::int64_t fixed) {
->>>>>>> 5e2722c34d2c2e2d714f10c458428180e80d7a18
   base_detail::require_count(cells, cvt_detail::SphericalWorld::fewest, "the number of cells");
   free_of(cells, fixed);
   Continuation result;

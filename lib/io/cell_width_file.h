@@ -1,24 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "io/raster_file.h"
 #include "io/room.h"
 
 #include <calotte/cell_width.h>
 
 #include <iosfwd>
 #include <string>
-#include <vector>
 
 /// Readers of cell widths, one function per format; see read_cell_width().
 namespace calotte::io_detail {
-
-/// A raster as stored in a file, with the names of its variables there.
-struct Raster {
-  std::vector<double> longitudes, latitudes; ///< degrees
-  Eigen::MatrixXd widths;                    ///< longitudes x latitudes, km
-  std::string longitude_name, latitude_name, width_name;
-  bool longitude_fastest = true; ///< in the file: how messages give a width's index
-};
 
 /// Brings a raster into the order of CellWidth: latitudes ascending, no longitude repeated.
 /// \throws Error parse, "NAME: ..." with the variable and its index, if it does not cover the

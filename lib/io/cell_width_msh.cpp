@@ -27,13 +27,13 @@ CellWidth of_grid(const JigsawFile& file, const std::string& name) {
   Raster raster;
   raster.longitude_name = "COORD=1";
   raster.latitude_name = "COORD=2";
-  raster.width_name = "VALUE";
+  raster.value_name = "VALUE";
   raster.longitude_fastest = false;
   for (const double longitude : file.x_grid)
     raster.longitudes.push_back(longitude * degrees);
   for (const double latitude : file.y_grid)
     raster.latitudes.push_back(latitude * degrees);
-  raster.widths = Eigen::Map<const Eigen::MatrixXd>(file.values.data(),
+  raster.values = Eigen::Map<const Eigen::MatrixXd>(file.values.data(),
                                                     static_cast<Eigen::Index>(file.y_grid.size()),
                                                     static_cast<Eigen::Index>(file.x_grid.size()))
                       .transpose();

@@ -3,12 +3,15 @@
 
 #include "base/points.h"
 #include "base/require.h"
+#include "io/file.h"
 #include "io/mpas_cull.h"
 #include "voronoi/cell_walk.h"
 
 #include <calotte/read.h>
 
 #include <cmath>
+#include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -20,21 +23,21 @@ namespace {
 void require_options(const CullOptions& options) {
   require(options.land_fraction >= 0 && options.land_fraction < 1,
           "the fraction of land is not from 0 to less than 1; give one such as 0.5");
-  require(!options.coast.rings.empty() || !options.field.variable.empty() ||
-              !options.barriers.empty(),
-          "there is no land; give a coast, a field or a barrier");
+  require(!options.coast.rings.empty() || options.raster.land.size() > 0 ||
+              !options.field.variable.empty() || !options.barriers.empty(),
+          "there is no land; give a coast, a raster, a field or a barrier");
 }
 
 /// The cells of the source, as far as options need them.
 struct Ground {
   Offsets begin;
   Ids cells_on_cell;
-  std::optional<Voronoi> cells; ///< for coasts and lines
+  std::optional<Voronoi> cells; ///< for coasts, rasters and lines
 };
 
 Ground ground_of(const MpasSource& source, const CullOptions& options) {
-  if (options.coast.rings.empty() && options.passages.empty() && options.barriers.empty() &&
-      options.seeds.cols() == 0) {
+  if (options.coast.rings.empty() && options.raster.land.size() == 0 && options.passages.empty() &&
+      options.barriers.empty() && options.seeds.cols() == 0) {
     const Offsets begin = source.begins();
     return {begin, source.lists("cellsOnCell", begin, source.cells()), {}};
   }
@@ -42,26 +45,36 @@ Ground ground_of(const MpasSource& source, const CullOptions& options) {
   return {cells.begin, cells.cells_on_cell, std::move(cells)};
 }
 
-/// Of a cell that is land by the coast or by the field.
+/// The fractions of land by the coast or the raster, of both the greater; empty without these.
+Eigen::VectorXd fractions_of(const Ground& ground, const CullOptions& options) {
+  Eigen::VectorXd fractions;
+  if (!options.coast.rings.empty())
+    fractions = land_fractions(*ground.cells, options.coast);
+  if (options.raster.land.size() == 0)
+    return fractions;
+  const Eigen::VectorXd sampled = land_fractions(*ground.cells, options.raster);
+  return fractions.size() > 0 ? fractions.cwiseMax(sampled).eval() : sampled;
+}
+
+/// By cell: whether it is land.
 struct Land {
   std::vector<std::uint8_t> flags;
-  Eigen::VectorXd fractions; ///< empty without a coast
+  Eigen::VectorXd fractions;
 };
 
 Land land_of(const std::string& source, const Ground& ground, const CullOptions& options) {
   const std::int64_t n = ground.begin.size() - 1;
-  Land land{std::vector<std::uint8_t>(static_cast<std::size_t>(n), 0), {}};
-  if (!options.coast.rings.empty())
-    land.fractions = land_fractions(*ground.cells, options.coast);
+  Land land{std::vector<std::uint8_t>(static_cast<std::size_t>(n), 0),
+            fractions_of(ground, options)};
   const SeaField& field = options.field;
   Eigen::VectorXd values;
   if (!field.variable.empty())
     values = read_cell_field(field.path.empty() ? source : field.path, field.variable, n).values;
   for (std::int64_t i = 0; i < n; ++i) {
-    const bool by_coast = land.fractions.size() > 0 && land.fractions[i] > options.land_fraction;
+    const bool by_fraction = land.fractions.size() > 0 && land.fractions[i] > options.land_fraction;
     const bool by_field =
         values.size() > 0 && !(values[i] >= field.least && values[i] < field.most);
-    land.flags[static_cast<std::size_t>(i)] = by_coast || by_field ? 1 : 0;
+    land.flags[static_cast<std::size_t>(i)] = by_fraction || by_field ? 1 : 0;
   }
   return land;
 }
@@ -98,9 +111,10 @@ void add_maps(const MpasPart& part, NetcdfSubset& subset) {
   add("Vertex", "nVertices", part.vertices);
 }
 
+// ---- Files beside the grid
+
 /// The masks that MPAS-Tools culls by.
-void write_mask(const std::string& path, const Ids& sea, const Eigen::VectorXd& fractions) {
-  NetcdfWriter file(path);
+void put_mask(const Ids& sea, const Eigen::VectorXd& fractions, NetcdfWriter& file) {
   const int cells = file.dimension("nCells", sea.size()), regions = file.dimension("nRegions", 1);
   const auto define = [&](const std::string& name, NetcdfType type, std::vector<int> dimensions,
                           const std::string& long_name) {
@@ -126,8 +140,55 @@ void write_mask(const std::string& path, const Ids& sea, const Eigen::VectorXd& 
              NetcdfWriter::Fill<double>([&](std::int64_t begin, std::int64_t end, double* out) {
                std::copy_n(fractions.data() + begin, end - begin, out);
              }));
-  file.commit();
 }
+
+/// A line for each of so many ids.
+template <class Id> void put_lines(std::int64_t count, const Id& id, OutputFile& file) {
+  constexpr std::size_t enough = 1 << 20;
+  std::string text;
+  for (std::int64_t i = 0; i < count; ++i) {
+    text += std::to_string(id(i));
+    text += '\n';
+    if (text.size() > enough || i + 1 == count) {
+      file.append(text);
+      text.clear();
+    }
+  }
+}
+
+/// The files beside the grid: written and finished at once, named later.
+class Companions {
+public:
+  Companions(const CullOptions& options, const Ids& sea, const Eigen::VectorXd& fractions,
+             const Kept& cells) {
+    if (!options.mask_path.empty()) {
+      mask_ = std::make_unique<NetcdfWriter>(options.mask_path);
+      put_mask(sea, fractions, *mask_);
+      mask_->finish();
+    }
+    if (options.cell_map_folder.empty())
+      return;
+    const auto write = [&](const std::string& name, std::int64_t count, const auto& id) {
+      texts_.push_back(std::make_unique<OutputFile>(
+          (std::filesystem::path(options.cell_map_folder) / name).string()));
+      put_lines(count, id, *texts_.back());
+      texts_.back()->finish();
+    };
+    write("cellMapForward.txt", cells.number.size(),
+          [&](std::int64_t i) { return cells.number[i] - 1; });
+    write("cellMapBackward.txt", cells.count(), [&](std::int64_t i) { return cells.old[i]; });
+  }
+  void commit() {
+    if (mask_)
+      mask_->commit();
+    for (const std::unique_ptr<OutputFile>& text : texts_)
+      text->commit();
+  }
+
+private:
+  std::unique_ptr<NetcdfWriter> mask_;
+  std::vector<std::unique_ptr<OutputFile>> texts_;
+};
 
 void add_attributes(const MpasSource& source, NetcdfSubset& subset) {
   subset.attributes["on_a_sphere"] = {"on_a_sphere", std::string("YES")};
@@ -159,9 +220,9 @@ CullReport cull(const std::string& source_path, const std::string& target,
   report.cells = part.cells.count();
   report.edges = part.edges.count();
   report.vertices = part.vertices.count();
-  report.left_out = write_part(source, part, subset, target, options.progress);
-  if (!options.mask_path.empty())
-    write_mask(options.mask_path, sea, land.fractions);
+  Companions companions(options, sea, land.fractions, part.cells);
+  report.left_out =
+      write_part(source, part, subset, target, options.progress, [&] { companions.commit(); });
   return report;
 }
 

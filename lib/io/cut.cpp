@@ -3,6 +3,7 @@
 
 #include "base/parallel.h"
 #include "base/require.h"
+#include "io/mpas_cut.h"
 #include "io/mpas_subset.h"
 
 #include <algorithm>
@@ -111,18 +112,10 @@ CutReport report_of(const MpasPart& part, const Masks& masks, int rings) {
 }
 
 } // namespace
-} // namespace io_detail
 
-CutReport cut(const std::string& source, const std::string& target, const Region& region,
-              const CutOptions& options) {
-  return cut(source, target, containing(region), options);
-}
-
-CutReport cut(const std::string& source_path, const std::string& target,
+CutReport cut(const MpasSource& source, const std::string& target,
               const std::function<bool(const Eigen::Vector3d&)>& inside,
               const CutOptions& options) {
-  using namespace io_detail;
-  const MpasSource source(source_path);
   const double radius = options.sphere_radius.value_or(source.radius());
   require(radius > 0 && std::isfinite(radius),
           "the radius of the sphere is not positive and finite; give another");
@@ -138,6 +131,19 @@ CutReport cut(const std::string& source_path, const std::string& target,
   CutReport report = report_of(part, masks, options.rings);
   report.left_out = write_part(source, part, subset, target, options.progress);
   return report;
+}
+
+} // namespace io_detail
+
+CutReport cut(const std::string& source, const std::string& target, const Region& region,
+              const CutOptions& options) {
+  return cut(source, target, containing(region), options);
+}
+
+CutReport cut(const std::string& source, const std::string& target,
+              const std::function<bool(const Eigen::Vector3d&)>& inside,
+              const CutOptions& options) {
+  return io_detail::cut(io_detail::MpasSource(source), target, inside, options);
 }
 
 } // namespace calotte

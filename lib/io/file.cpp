@@ -230,7 +230,9 @@ int OutputFile::write_direct(const OutputBlock& block) {
   return error != 0 ? error : write_through_cache(last, part(last, end));
 }
 
-void OutputFile::commit() {
+void OutputFile::finish() {
+  if (descriptor_ < 0)
+    return;
   if (tail_size_ > 0)
     put_tail();
   if (queue_)
@@ -242,6 +244,10 @@ void OutputFile::commit() {
   const int descriptor = std::exchange(descriptor_, -1);
   if (::close(descriptor) != 0)
     fail(errno);
+}
+
+void OutputFile::commit() {
+  finish();
   if (!temporary_.empty() && ::rename(temporary_.c_str(), place_.c_str()) != 0)
     fail(errno);
   temporary_.clear();

@@ -82,7 +82,12 @@ public:
   /// The temporary name, so that others may write to the file; empty if it is written in place.
   const std::string& temporary() const { return temporary_; }
 
-  /// Gives the file its name. It also synchronises data that others wrote to temporary().
+  /// Completes and synchronises the file, also data that others wrote to temporary(). Nothing can
+  /// be written afterwards.
+  /// \throws Error file.
+  void finish();
+
+  /// Gives the file its name, after finish().
   /// \throws Error file.
   void commit();
 

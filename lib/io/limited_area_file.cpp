@@ -4,6 +4,7 @@
 #include "cvt/region_cells.h"
 #include "domain/spherical_outline.h"
 #include "io/mpas.h"
+#include "io/mpas_cut.h"
 
 #include <calotte/delaunay.h>
 #include <calotte/write.h>
@@ -15,13 +16,15 @@
 namespace calotte {
 namespace {
 
-/// A file that is removed, with its graph, when it has served.
+/// A file that is removed, with its graph, at the end at the latest.
 class Scrap {
 public:
   explicit Scrap(std::string path) : path_(std::move(path)) {}
   Scrap(const Scrap&) = delete;
   Scrap& operator=(const Scrap&) = delete;
-  ~Scrap() {
+  ~Scrap() { remove(); }
+  /// Who has the file open reads on.
+  void remove() const {
     std::error_code ignored;
     std::filesystem::remove(path_, ignored);
     std::filesystem::remove(io_detail::graph_path(path_), ignored);
@@ -53,7 +56,9 @@ CutReport write_limited_area(const std::string& target, const Points3& generator
   mpas.format = Format::mpas;
   mpas.sphere_radius = 1;
   write(whole.path(), spherical_delaunay(spanning(generators, meshed, written.density)), mpas);
-  return cut(whole.path(), target, region, options);
+  const io_detail::MpasSource source(whole.path());
+  whole.remove(); // now, so that a run that is killed later leaves nothing
+  return io_detail::cut(source, target, containing(region), options);
 }
 
 } // namespace calotte

@@ -246,15 +246,20 @@ void add_history(const MpasSource& source, const MpasPart& part, const std::stri
 
 std::vector<std::string> write_part(const MpasSource& source, const MpasPart& part,
                                     const NetcdfSubset& subset, const std::string& path,
-                                    const ProgressCallback& progress) {
+                                    const ProgressCallback& progress,
+                                    const std::function<void()>& commit_others) {
   OutputFile graph(graph_path(path));
   NetcdfWriter file(path, progress);
   const std::int64_t inner = (part.cells_on_cell.array() >= 0).count() / 2;
   put_graph([&](std::string_view text) { graph.append(text); }, part.begin, part.cells_on_cell,
             inner);
   std::vector<std::string> refused = put_subset(source.netcdf(), subset, file);
-  file.commit();
+  file.finish();
+  graph.finish();
+  if (commit_others)
+    commit_others();
   graph.commit();
+  file.commit();
   for (const char* name : made_by_models)
     if (source.netcdf().find(name) >= 0)
       refused.emplace_back(name);

@@ -5,6 +5,7 @@
 #include "io/netcdf_subset.h"
 #include "io/room.h"
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -30,10 +31,13 @@ void add_history(const MpasSource& source, const MpasPart& part, const std::stri
                  NetcdfSubset& subset);
 
 /// Writes the file and NAME.graph.info beside it; both are complete or absent.
+/// \param commit_others gives other files, which are finished, their names. It is called when the
+///        two are finished, before these get theirs.
 /// \returns the variables of the source that it does not have.
 /// \throws Error as put_subset(); cancelled.
 std::vector<std::string> write_part(const MpasSource& source, const MpasPart& part,
                                     const NetcdfSubset& subset, const std::string& path,
-                                    const ProgressCallback& progress);
+                                    const ProgressCallback& progress,
+                                    const std::function<void()>& commit_others = {});
 
 } // namespace calotte::io_detail

@@ -371,10 +371,15 @@ void NetcdfWriter::put(int variable, std::int64_t piece_bytes, const FillBytes& 
   state_->put(variable, piece_bytes, fill);
 }
 
-void NetcdfWriter::commit() {
+void NetcdfWriter::finish() {
   for (const State::Variable& variable : state_->variables)
     if (!variable.is_put)
       throw Error(ErrorCode::internal, variable.name + " is not put");
+  state_->file.finish();
+}
+
+void NetcdfWriter::commit() {
+  finish();
   state_->file.commit();
 }
 

@@ -91,6 +91,7 @@ public:
   using FillBytes = std::function<void(std::int64_t begin, std::int64_t end, char* out)>;
   void put(int variable, std::int64_t piece_bytes, const FillBytes& fill);
 
+  void finish(); ///< as OutputFile::finish()
   void commit();
 
 private:

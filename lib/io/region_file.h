@@ -22,7 +22,7 @@ using SphericalRing = std::vector<Vec3>;
 /// A ring and its origin in the file, for messages.
 struct RegionRing {
   SphericalRing corners;
-  std::string origin; ///< "is in the file: feature 2: ring 0", "begins in line 7"
+  std::string origin; ///< a noun: "feature 2: ring 0", "the loop that begins in line 7"
 };
 
 /// All of a text as finite numbers with blanks, or one of comma, semicolon and bar, between; none
@@ -39,8 +39,8 @@ std::vector<RegionRing> joined(std::vector<RegionRing> rings);
 /// The corners of each ring, 3 x n.
 std::vector<Points3> corners_of(const std::vector<RegionRing>& rings);
 
-/// The message of an error of these rings, with the file's name and the origin of the ring that is
-/// its index().
+/// The message of an error of these rings, in which each "ring N" becomes its origin, with the
+/// file's name.
 std::string explained(const std::string& name, const std::vector<RegionRing>& rings,
                       const Error& error);
 

@@ -64,7 +64,7 @@ private:
 
   RegionRing ring_of(const GeoRing& positions, std::int64_t number) const {
     const std::string ring_name = "ring " + std::to_string(number);
-    RegionRing ring{{}, "is in the file: " + where_ + ring_name};
+    RegionRing ring{{}, where_ + ring_name};
     for (std::size_t i = 0; i < positions.size(); ++i)
       ring.corners.push_back(
           place(positions[i], "position " + std::to_string(i) + " of " + ring_name));

@@ -80,8 +80,9 @@ Region read_region_loops(std::istream& in, const std::string& name, std::istream
   std::vector<RegionRing> rings;
   for (const auto& [begin, end] : counts ? runs_of(*counts, counts_name, std::ssize(points))
                                          : std::vector<Run>{{0, std::ssize(points)}}) {
-    rings.push_back({{points.begin() + begin, points.begin() + end},
-                     "begins in line " + std::to_string(lines[static_cast<std::size_t>(begin)])});
+    rings.push_back(
+        {{points.begin() + begin, points.begin() + end},
+         "the loop that begins in line " + std::to_string(lines[static_cast<std::size_t>(begin)])});
     drop_repeated(rings.back().corners);
   }
   try {

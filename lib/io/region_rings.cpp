@@ -77,7 +77,7 @@ private:
     const auto first = starts_.begin();
     const Place begin = first->first;
     RegionRing ring{
-        {}, rings_[first->second.back().ring].origin + ", without edges in common with others"};
+        {}, rings_[first->second.back().ring].origin + " without edges in common with others"};
     Place at = begin;
     do {
       const auto here = starts_.find(at);
@@ -152,12 +152,22 @@ std::vector<Points3> corners_of(const std::vector<RegionRing>& rings) {
 
 std::string explained(const std::string& name, const std::vector<RegionRing>& rings,
                       const Error& error) {
-  const std::int64_t ring = error.index();
-  const bool named = ring >= 0 && ring < std::ssize(rings);
-  return name + ": " + error.what() +
-         (named ? " (ring " + std::to_string(ring) + " " +
-                      rings[static_cast<std::size_t>(ring)].origin + ")"
-                : "");
+  constexpr std::string_view word = "ring ";
+  const std::string_view what = error.what();
+  std::string message = name + ": ";
+  std::size_t done = 0;
+  for (std::size_t found = what.find(word); found != std::string_view::npos;
+       found = what.find(word, found + 1)) {
+    std::size_t ring = rings.size();
+    const char* const number = what.data() + found + word.size();
+    const auto [stop, problem] = std::from_chars(number, what.data() + what.size(), ring);
+    const bool begins = found == 0 || what[found - 1] == ' ';
+    if (!begins || problem != std::errc() || ring >= rings.size())
+      continue;
+    message += std::string(what.substr(done, found - done)) + rings[ring].origin;
+    done = static_cast<std::size_t>(stop - what.data());
+  }
+  return message + std::string(what.substr(done));
 }
 
 } // namespace calotte::io_detail

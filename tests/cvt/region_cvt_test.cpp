@@ -5,34 +5,24 @@
 #include <calotte/io.h>
 #include <calotte/region.h>
 
-#include "base/points.h"
-#include "cvt/region_cells.h"
-#include "domain/spherical_outline.h"
-#include "integrals/region_moments.h"
 #include "support/files.h"
+#include "support/region_laws.h"
 
 #include <Eigen/Geometry>
 #include <doctest/doctest.h>
 #include <tbb/global_control.h>
 
 #include <cmath>
-#include <memory>
 #include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
 
 using namespace calotte;
+using namespace calotte::test::region_laws;
 using calotte::test::Scratch;
 
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
-
-Eigen::Vector3d at(double lon, double lat) {
-  return {std::cos(lat * degree) * std::cos(lon * degree),
-          std::cos(lat * degree) * std::sin(lon * degree), std::sin(lat * degree)};
-}
 
 Region polygon(const std::vector<std::pair<double, double>>& corners) {
   Points3 ring(3, static_cast<Eigen::Index>(corners.size()));
@@ -82,37 +72,6 @@ std::vector<std::pair<std::string, Region>> regions() {
           {"archipelago", archipelago()}};
 }
 
-/// The sum of the areas of the cells, as a run has them, clipped by the region.
-double sum_of_cells(const Region& region, const Points3& points, const Density& density = {}) {
-  const auto shared = std::make_shared<const domain_detail::SphericalOutline>(region);
-  const domain_detail::SphericalOutline& outline = *shared;
-  cvt_detail::RegionCells cells(shared, Boundary::clip, density, points);
-  cells.move(points);
-  const mesh_detail::Connectivity mesh = cells.signs().triangulate();
-  std::vector<std::vector<base_detail::Vec3>> around(static_cast<std::size_t>(points.cols()));
-  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
-    for (int v = 0; v < 3; ++v)
-      if (mesh.triangles(v, t) < points.cols())
-        around[static_cast<std::size_t>(mesh.triangles(v, t))].push_back(
-            cells.place(mesh.triangles((v + 1) % 3, t)));
-  double sum = 0;
-  for (Eigen::Index i = 0; i < points.cols(); ++i)
-    sum += integrals_detail::clipped_area(outline, base_detail::column(points, i),
-                                          around[static_cast<std::size_t>(i)]);
-  return sum;
-}
-
-bool energies_fall(const CvtReport& report) {
-  double before = report.iterations.front().energy;
-  for (const CvtIteration& iteration : report.iterations)
-    if (iteration.accepted) {
-      if (!(iteration.energy <= before * (1 + 1e-9)))
-        return false;
-      before = iteration.energy;
-    }
-  return true;
-}
-
 CvtOptions graded(std::int64_t cells, int bisections) {
   CvtOptions options;
   options.density = tanh_bump(at(20, 40), 6 * degree, 4 * degree, 1.0 / 81);
@@ -122,10 +81,6 @@ CvtOptions graded(std::int64_t cells, int bisections) {
   options.well_centred = true;
   options.tolerance = 3e-4;
   return options;
-}
-
-bool equal(const Cvt& a, const Cvt& b) {
-  return a.mesh.points == b.mesh.points && a.mesh.triangles == b.mesh.triangles;
 }
 
 std::string message_of(const Points3& start, const Region& region) {

@@ -367,7 +367,7 @@ TEST_CASE("the sea by a field, and what is refused") {
     CHECK(!std::filesystem::exists(target));
     return text;
   };
-  CHECK(refusal({}) == "there is no land; give a coast, a field or a barrier");
+  CHECK(refusal({}) == "there is no land; give a coast, a raster, a field or a barrier");
   options.field.variable = "absent";
   CHECK(refusal(options).find("absent") != std::string::npos);
   options.field = {"", "zCell", 2, 3};

@@ -137,10 +137,16 @@ TEST_CASE("GeoJSON: several polygons, and what is not one region") {
       collection({feature(polygon({square, inner})), feature(polygon({"[6,6],[8,6],[8,8]"}))}));
   CHECK(contains(island, lonlat(7.5, 6.5)));
   CHECK(refusal("R.geojson", collection({feature(polygon({square})), feature(polygon({inner}))}),
-                ErrorCode::bad_option) == "R.geojson: the region: it is to the left of ring 0 and "
-                                          "to the right of ring 1; give rings that all have it to "
-                                          "their left: an outer boundary counter-clockwise, a hole "
-                                          "clockwise (ring 1 is in the file: feature 1: ring 0)");
+                ErrorCode::bad_option) ==
+        "R.geojson: the region: it is to the left of feature 0: ring 0 and to the right of feature "
+        "1: ring 0; give rings that all have it to their left: an outer boundary "
+        "counter-clockwise, a hole clockwise");
+  CHECK(holds(refusal("R.geojson",
+                      collection({feature(polygon({square})), feature(polygon({other})),
+                                  feature(polygon({"[35,5],[45,5],[45,15]"}))}),
+                      ErrorCode::bad_option),
+              "R.geojson: the region: the edges from feature 1: ring 0, corner 1 and from feature "
+              "2: ring 0, corner 0 meet; rings may neither cross nor touch"));
   CHECK(holds(
       refusal("R.geojson", polygon({"[0,0],[10,10],[10,0],[0,10]"}), ErrorCode::bad_option),
       "R.geojson: the region: the edges from ring 0, corner 0 and from ring 0, corner 2 meet"));
@@ -313,9 +319,10 @@ TEST_CASE("SaveBoundaries: lines that are no points") {
   CHECK(holds(refusal("SaveBoundaries", "0 0 0\n"), "the zero vector has no direction"));
   CHECK(
       holds(refusal("SaveBoundaries", "1 2\n3 10\n"), "SaveBoundaries: 2 points enclose nothing"));
-  CHECK(holds(refusal("SaveBoundaries", "0 0\n10 10\n10 0\n0 10\n", ErrorCode::bad_option),
-              "meet; rings may neither cross nor touch themselves or each other (ring 0 begins "
-              "in line 1)"));
+  CHECK(
+      holds(refusal("SaveBoundaries", "0 0\n10 10\n10 0\n0 10\n", ErrorCode::bad_option),
+            "the edges from the loop that begins in line 1, corner 0 and from the loop that begins "
+            "in line 1, corner 2 meet; rings may neither cross nor touch themselves"));
 }
 
 TEST_CASE("a file cut short is read or refused, with one line") {

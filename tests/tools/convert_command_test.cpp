@@ -430,4 +430,33 @@ TEST_CASE("cull: an ocean grid, and what became of its cells") {
   check("cull global.nc --land land.geojson --passage land.geojson -o bad.nc", 2, "Polygon");
   check("cull global.nc --land land.geojson --seed 10,10 -o bad.nc", 2, "seed 0 is on land");
   check("cull global.nc --sea-below 1 -o bad.nc", 2, "--field");
+  check("cull global.nc --raster global.nc -o bad.nc", 2, "--raster-variable");
+  check("cull global.nc --raster-values height --land land.geojson -o bad.nc", 2, "--raster");
+  check("cull global.nc --raster global.nc --raster-variable z -o bad.nc", 2, "no variable z");
+  check("cull global.nc --raster global.nc --raster-variable latCell -o bad.nc", 2,
+        "no coordinate variable lat");
+  check("cull global.nc --raster global.nc --raster-variable z --raster-values depth -o bad.nc", 2,
+        "--raster-values");
+  check("cull global.nc --land land.geojson --cell-map absent -o bad.nc", 3, "absent");
+}
+
+TEST_CASE("cull: the coast of GSHHG, maps of cells; the land around a place as a region") {
+  const Bench bench;
+  const std::string coast = CALOTTE_GSHHG "/binned_GSHHS_c.nc";
+  REQUIRE(bench.run("points fibonacci 2000 -o points.txt").code == 0);
+  REQUIRE(bench.run("delaunay points.txt -o global.nc --sphere-radius earth").code == 0);
+  CHECK(bench.run("cull global.nc --land " + coast + " --cell-map . -o ocean.nc").code == 0);
+  CHECK(bench.run("check ocean.nc").code == 0);
+  for (const char* name : {"cellMapForward.txt", "cellMapBackward.txt", "ocean.graph.info"})
+    CHECK(bench.names().contains(name));
+  const std::string region = "cut global.nc --region land=" + coast;
+  const Outcome made = bench.run(region + ",134,-25 --rings 2 -o australia.nc");
+  CHECK(made.code == 0);
+  CHECK(made.out.find(" in the region and ") != std::string::npos);
+  check_refusal_naming(bench, region + ",-150,0 -o bad.nc", 2, "no ring of the coast contains");
+  check_refusal_naming(bench, region + " -o bad.nc", 2, "give land=FILE,LON,LAT");
+  check_refusal_naming(bench, region + ",134,-95 -o bad.nc", 2, "no angle from -90 to 90");
+  check_refusal_naming(bench, "cut global.nc --region land=a,b.nc,0,0 -o bad.nc", 3, "a,b.nc");
+  bench.file("x.nc", "");
+  check_refusal_naming(bench, "cut global.nc --region land=x.nc,0,0 -o x.nc", 2, "x.nc");
 }

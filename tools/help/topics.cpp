@@ -42,6 +42,9 @@ constexpr const char* region =
   ellipse=LON,LAT,MAJOR,MINOR,BEARING   semi-axes; the bearing of the major axis in degrees
                                         clockwise from north: ellipse=138,38,1580km,1000km,45
   channel=LOWER,UPPER                   the band between two latitudes: channel=-23.5,23.5
+  land=FILE,LON,LAT                     the island or continent that contains a place, from a file
+                                        as calotte cull --land reads it:
+                                        land=/usr/share/gmt-gshhg/binned_GSHHS_l.nc,134,-25
 
 LON, LAT, LOWER and UPPER are in degrees; west and south are negative. RADIUS, MAJOR and MINOR have a
 unit: km or m on the Earth, or deg. Circles, ellipses and parallels become polygons of 360 corners.

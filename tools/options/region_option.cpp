@@ -4,6 +4,7 @@
 #include "options/numbers.h"
 
 #include <calotte/error.h>
+#include <calotte/ocean.h>
 #include <calotte/read.h>
 
 #include <boost/crc.hpp>
@@ -66,20 +67,32 @@ double length(const Word& word, std::size_t part, double radius_km) {
   return angle;
 }
 
-/// The first two parts as a direction, as points in a file become one.
-Eigen::Vector3d centre(const Word& word) {
-  const double longitude = degrees(word, 0, 720), latitude = degrees(word, 1, 90);
+/// Two parts as a direction, as points in a file become one.
+Eigen::Vector3d place(const Word& word, std::size_t part = 0) {
+  const double longitude = degrees(word, part, 720), latitude = degrees(word, part + 1, 90);
   std::istringstream in(shortest(longitude) + " " + shortest(latitude));
   return read_points(in, "--region", Columns::lonlat).col(0);
 }
 
 Region made_of(const Word& word, std::string_view shape, double radius_km) {
   if (shape == "circle")
-    return circle(centre(word), length(word, 2, radius_km));
+    return circle(place(word), length(word, 2, radius_km));
   if (shape == "ellipse")
-    return ellipse(centre(word), length(word, 2, radius_km), length(word, 3, radius_km),
+    return ellipse(place(word), length(word, 2, radius_km), length(word, 3, radius_km),
                    degrees(word, 4, 360) * degree);
+  if (shape == "land")
+    return land_around(read_coast(word.parts[0]), place(word, 1));
   return channel(degrees(word, 0, 90) * degree, degrees(word, 1, 90) * degree);
+}
+
+constexpr std::string_view land = "land=";
+
+/// The parts of a word: of a file of land, all but the last two are its name.
+std::vector<std::string> parts_of(const std::string& word) {
+  std::vector<std::string> parts = split(std::string_view(word).substr(word.find('=') + 1));
+  for (; word.starts_with(land) && parts.size() > 3; parts.erase(parts.begin() + 1))
+    parts[0] += "," + parts[1];
+  return parts;
 }
 
 } // namespace
@@ -121,10 +134,11 @@ Region region_of(const std::string& word, double radius_km) {
   static const std::vector<std::pair<std::string, std::string>> shapes{
       {"circle", "circle=LON,LAT,RADIUS, as in circle=-105,40,1000km"},
       {"ellipse", "ellipse=LON,LAT,MAJOR,MINOR,BEARING, as in ellipse=138,38,1580km,1000km,45"},
-      {"channel", "channel=LOWER,UPPER, as in channel=-23.5,23.5"}};
+      {"channel", "channel=LOWER,UPPER, as in channel=-23.5,23.5"},
+      {"land", "land=FILE,LON,LAT, as in land=binned_GSHHS_l.nc,134,-25"}};
   for (const auto& [shape, form] : shapes)
     if (word.starts_with(shape + "=")) {
-      const Word parsed{word, form, split(std::string_view(word).substr(shape.size() + 1))};
+      const Word parsed{word, form, parts_of(word)};
       const std::size_t expected = split(form.substr(0, form.find(", as"))).size();
       if (parsed.parts.size() != expected)
         refuse(parsed, "the number of values is " + std::to_string(parsed.parts.size()) +
@@ -132,6 +146,12 @@ Region region_of(const std::string& word, double radius_km) {
       return made_of(parsed, shape, radius_km);
     }
   return read_region(word);
+}
+
+std::string region_file(const std::string& word) {
+  if (word.starts_with(land))
+    return parts_of(word)[0];
+  return word.find('=') == std::string::npos ? word : "";
 }
 
 std::string region_configuration(const Region& region) {

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <calotte/ocean.h>
+
+#include "base/points.h"
+#include "base/require.h"
+#include "exact/predicates.h"
+#include "voronoi/room.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace calotte {
+namespace {
+
+using namespace voronoi_detail;
+
+/// Sines and cosines of azimuths of directions seen from a place, up to a common factor.
+class Compass {
+public:
+  explicit Compass(const Vec3& up) {
+    const Vec3 aside = std::abs(up.z) < 0.5 ? Vec3{0, 0, 1} : Vec3{1, 0, 0};
+    east_ = normalised(cross(aside, up));
+    north_ = cross(up, east_);
+  }
+  /// The angle of the way from one direction to another, from -pi to pi.
+  double turn(const Vec3& from, const Vec3& to) const {
+    const double x = dot(from, east_), y = dot(from, north_), u = dot(to, east_),
+                 v = dot(to, north_);
+    return std::atan2(x * v - y * u, x * u + y * v);
+  }
+
+private:
+  Vec3 east_, north_;
+};
+
+/// True if a ring has a place, and not its antipode, to its left: it winds around the line through
+/// both, counter-clockwise seen from above the place. It errs by round-off only.
+bool is_left_of(const Points3& ring, const Compass& compass) {
+  double angle = 0;
+  for (Eigen::Index i = 0; i < ring.cols(); ++i)
+    angle += compass.turn(column(ring, i), column(ring, i + 1 < ring.cols() ? i + 1 : 0));
+  return angle > std::numbers::pi;
+}
+
+} // namespace
+
+Region land_around(const Coast& coast, const Eigen::Vector3d& place) {
+  require(place.allFinite() && !place.isZero(0),
+          "the place on land is no direction; give three finite numbers that are not all 0");
+  const Vec3 here = normalised(Vec3{place.x(), place.y(), place.z()});
+  const Compass compass(here);
+  Region smallest;
+  double least = 2 * std::numbers::pi; // the left side of a lake's ring is larger
+  for (const Points3& ring : coast.rings) {
+    if (!is_left_of(ring, compass))
+      continue;
+    const Region region{{ring}};
+    if (const double size = area(region); size < least && contains(region, place)) {
+      smallest = region;
+      least = size;
+    }
+  }
+  require(!smallest.whole(), "no ring of the coast contains the place; give one on land");
+  return smallest;
+}
+
+} // namespace calotte

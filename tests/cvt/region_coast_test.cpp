@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <calotte/check.h>
+#include <calotte/cvt.h>
+#include <calotte/generators.h>
+#include <calotte/ocean.h>
+#include <calotte/region.h>
+
+#include "support/files.h"
+#include "support/gshhg.h"
+#include "support/region_laws.h"
+
+#include <doctest/doctest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+// Tessellations of the land within a coast.
+
+using namespace calotte;
+using namespace calotte::test;
+using namespace calotte::test::region_laws;
+
+namespace {
+
+constexpr double square_km = 1 / (6371.0 * 6371.0); ///< steradians
+
+} // namespace
+
+TEST_CASE("the land around a place: the smallest ring that contains it") {
+  const Region continent = circle(at(20, 10), 30 * degree), island = circle(at(20, 10), degree);
+  Region lake = circle(at(20, 10), 5 * degree);
+  lake.rings[0] = lake.rings[0].rowwise().reverse().eval();
+  const Coast coast{{continent.rings[0], lake.rings[0], island.rings[0]}, 0};
+  CHECK(land_around(coast, at(20, 10)).rings == island.rings);
+  CHECK(land_around(coast, at(40, 10)).rings == continent.rings);
+  CHECK(land_around(coast, at(23, 10)).rings == continent.rings); // in the lake
+  for (const Eigen::Vector3d& sea : {at(-160, -10), at(60, 10)})
+    CHECK(std::string(error_of([&] { land_around(coast, sea); }).what()) ==
+          "no ring of the coast contains the place; give one on land");
+  CHECK(std::string(error_of([&] {
+                      land_around(coast, {0, 0, 0});
+                    }).what())
+            .starts_with("the place on land is no direction"));
+}
+
+TEST_CASE("GSHHG: continents and islands around places, by their known areas") {
+  const Coast coast = gshhg('l');
+  const auto area_around = [&](double lon, double lat) {
+    return area(land_around(coast, at(lon, lat))) / square_km;
+  };
+  CHECK(area_around(134, -25) == doctest::Approx(7.59e6).epsilon(0.01)); // Australia's mainland
+  CHECK(area_around(47, -19) == doctest::Approx(587e3).epsilon(0.02));   // Madagascar
+  CHECK(area_around(-19, 65) == doctest::Approx(102e3).epsilon(0.02));   // Iceland
+  CHECK(area_around(-40, 70) == doctest::Approx(2.13e6).epsilon(0.02));  // Greenland
+}
+
+TEST_CASE("Australia: the cells' areas sum to the region's, and generators stay inside") {
+  const Region australia = land_around(gshhg('l'), at(134, -25));
+  REQUIRE(australia.rings[0].cols() > 1000);
+  const double whole = area(australia);
+  const Points3 start = random_sphere(500, australia);
+  CHECK(std::abs(sum_of_cells(australia, start) / whole - 1) < 1e-12);
+  CvtOptions options;
+  options.max_iterations = 25;
+  const auto with = [&](std::size_t threads, int regions) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    options.partition.regions = regions;
+    return spherical_cvt(start, australia, options);
+  };
+  const Cvt grid = with(1, 1);
+  CHECK(std::abs(sum_of_cells(australia, grid.mesh.points) / whole - 1) < 1e-12);
+  CHECK(check_surface(grid.mesh).failure == "");
+  CHECK(energies_fall(grid.report));
+  const auto inside = containing(australia);
+  for (Eigen::Index i = 0; i < grid.mesh.points.cols(); ++i)
+    CHECK(inside(grid.mesh.points.col(i)));
+  CHECK(equal(grid, with(2, 12)));
+  CHECK(equal(grid, with(1, 12)));
+  CHECK(equal(grid, with(2, 1)));
+}
+
+TEST_CASE("Australia: a graded grid has the same bits for all threads and regions [slow]") {
+  const Region australia = land_around(gshhg('i'), at(134, -25));
+  CvtOptions options;
+  options.density = tanh_bump(at(146, -38), 6 * degree, 4 * degree, 1.0 / 81);
+  const Continuation from = multilevel(3000, australia, options.density);
+  options.insertion_rounds = 1;
+  options.cells = 3000;
+  options.bisections = from.bisections;
+  options.well_centred = true;
+  options.tolerance = 3e-4;
+  const auto with = [&](std::size_t threads, int regions) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    options.partition.regions = regions;
+    return spherical_cvt(from.start, australia, options);
+  };
+  const Cvt one = with(1, 1);
+  CHECK(one.mesh.points.cols() == 3000);
+  CHECK(one.report.converged);
+  CHECK(std::abs(sum_of_cells(australia, one.mesh.points, options.density) / area(australia) - 1) <
+        1e-12);
+  CHECK(equal(one, with(2, 12)));
+}

@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/lonlat.h"
+#include "io/netcdf_reader.h"
+#include "io/netcdf_writer.h"
+#include "support/cut_laws.h"
+#include "support/files.h"
+#include "support/full_disk.h"
+#include "support/global_file.h"
+#include "support/gshhg.h"
+
+#include <calotte/cull.h>
+#include <calotte/delaunay.h>
+#include <calotte/generators.h>
+#include <calotte/read.h>
+#include <calotte/region.h>
+#include <calotte/write.h>
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+// The files that culling reads and writes beside those of meshes: rasters, masks and maps of cells.
+
+using namespace calotte;
+using namespace calotte::test;
+using io_detail::NetcdfAttributes;
+using io_detail::NetcdfType;
+using io_detail::NetcdfWriter;
+
+namespace {
+
+/// A raster of a file, in the file's order.
+struct RasterFile {
+  std::string lat = "lat", lon = "lon", variable = "z";
+  std::vector<double> latitudes, longitudes;
+  std::vector<double> values; ///< latitudes x longitudes
+  NetcdfAttributes attributes = {};
+  bool swapped = false; ///< variable(lon, lat)
+};
+
+void write_raster(const std::string& path, const RasterFile& raster) {
+  NetcdfWriter file(path);
+  const int rows = file.dimension(raster.lat, std::ssize(raster.latitudes)),
+            columns = file.dimension(raster.lon, std::ssize(raster.longitudes));
+  const int lat = file.variable(raster.lat, NetcdfType::float64, {rows}),
+            lon = file.variable(raster.lon, NetcdfType::float64, {columns});
+  const int z = file.variable(
+      raster.variable, NetcdfType::float64,
+      raster.swapped ? std::vector{columns, rows} : std::vector{rows, columns}, raster.attributes);
+  file.begin();
+  const auto put = [&](int variable, const std::vector<double>& values, std::int64_t width) {
+    file.put(variable,
+             NetcdfWriter::Fill<double>([&](std::int64_t begin, std::int64_t end, double* out) {
+               std::copy(values.begin() + begin * width, values.begin() + end * width, out);
+             }));
+  };
+  put(lat, raster.latitudes, 1);
+  put(lon, raster.longitudes, 1);
+  put(z, raster.values, std::ssize(raster.swapped ? raster.latitudes : raster.longitudes));
+  file.commit();
+}
+
+/// Heights above 0 within a latitude of 30 degrees and from 0 to 90 east.
+RasterFile heights(double step = 5, double first = -180 + 2.5) {
+  RasterFile raster;
+  for (double lat = -90 + step / 2; lat < 90; lat += step)
+    raster.latitudes.push_back(lat);
+  for (double lon = first; lon < first + 360 - step / 2; lon += step)
+    raster.longitudes.push_back(lon);
+  for (const double lat : raster.latitudes)
+    for (const double lon : raster.longitudes) {
+      const double east = std::remainder(lon - 45, 360);
+      raster.values.push_back(std::abs(lat) < 30 && std::abs(east) < 45 ? 250 : -4000);
+    }
+  return raster;
+}
+
+std::vector<std::string> lines_of(const std::string& path) {
+  std::istringstream in(calotte::test::read_file(path));
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);)
+    lines.push_back(line);
+  return lines;
+}
+
+} // namespace
+
+TEST_CASE("rasters of land: heights, fractions, order of coordinates, packed numbers") {
+  const Scratch scratch;
+  const std::string path = scratch / "raster.nc";
+  const RasterFile up = heights();
+  write_raster(path, up);
+  const LandRaster land = read_land_raster(path, "z");
+  CHECK(land.land.rows() == 72);
+  CHECK(land.land.cols() == 36);
+  for (Eigen::Index i = 0; i < 72; ++i)
+    for (Eigen::Index j = 0; j < 36; ++j)
+      REQUIRE(land.land(i, j) ==
+              (std::abs(land.latitudes[j]) < 30 && land.longitudes[i] > 0 && land.longitudes[i] < 90
+                   ? 1
+                   : 0));
+  const auto same = [&](const RasterFile& file, RasterValues values, double tolerance) {
+    write_raster(path, file);
+    const LandRaster other = read_land_raster(path, "z", values);
+    return other.latitudes == land.latitudes &&
+           (other.land - land.land).cwiseAbs().maxCoeff() <= tolerance;
+  };
+  RasterFile file = heights();
+  std::reverse(file.latitudes.begin(), file.latitudes.end()); // the field is symmetric
+  CHECK(same(file, RasterValues::height, 0));
+  file = heights();
+  file.lat = std::string("latitude");
+  file.lon = std::string("longitude");
+  CHECK(same(file, RasterValues::height, 0));
+  for (double& value : file.values)
+    value = value > 0 ? 0 : 1;
+  CHECK(same(file, RasterValues::sea_fraction, 0));
+  for (double& value : file.values)
+    value = 1 - value + 1e-8; // rounded by a program
+  CHECK(same(file, RasterValues::land_fraction, 1e-7));
+  for (double& value : file.values)
+    value = value > 0.5 ? 3 : 2;
+  file.attributes = {{"scale_factor", 10.0}, {"add_offset", -25.0}};
+  CHECK(same(file, RasterValues::height, 0));
+
+  // 0 is land; a repeated meridian is left out.
+  file = heights();
+  file.longitudes.push_back(file.longitudes.front() + 360);
+  file.values.clear();
+  for (std::size_t k = 0; k < file.latitudes.size() * file.longitudes.size(); ++k)
+    file.values.push_back(0);
+  write_raster(path, file);
+  const LandRaster level = read_land_raster(path, "z");
+  CHECK(level.land.rows() == 72);
+  CHECK(level.land.minCoeff() == 1);
+}
+
+TEST_CASE("rasters of land that are refused, in one line each") {
+  const Scratch scratch;
+  const std::string path = scratch / "raster.nc";
+  const auto refusal = [&](const std::function<void(RasterFile&)>& spoil,
+                           RasterValues values = RasterValues::height) {
+    RasterFile file = heights();
+    spoil(file);
+    write_raster(path, file);
+    const std::string text = error_of([&] { read_land_raster(path, "z", values); }).what();
+    CHECK(text.starts_with(path + ": "));
+    return text.substr(path.size() + 2);
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  CHECK(refusal([](RasterFile& r) { r.variable = std::string("other"); }) ==
+        "no variable z; give z(lat, lon)");
+  CHECK(refusal([&](RasterFile& r) { r.values[72 * 3 + 5] = nan; }) ==
+        "z[3][5] = nan is not finite; correct it");
+  CHECK(refusal([&](RasterFile& r) {
+          r.attributes = {{"_FillValue", -4000.0}};
+        }) == "z[0][0] = nan is not finite; correct it");
+  CHECK(refusal([](RasterFile&) {}, RasterValues::sea_fraction) ==
+        "z[0][0] = -4000 is not a fraction from 0 to 1; correct it");
+  CHECK(refusal([](RasterFile& r) { r.swapped = true; }) ==
+        "z is not z(lat, lon); give it these dimensions, in this order");
+  CHECK(refusal([](RasterFile& r) { r.lat = std::string("y"); }) ==
+        "no coordinate variable lat; give lat(lat) in degrees");
+  CHECK(refusal([](RasterFile& r) { r.lon = std::string("x"); }) ==
+        "no coordinate variable lon; give lon(lon) in degrees");
+  CHECK(refusal([](RasterFile& r) { r.latitudes[5] = -80; }).find("sort the raster along it") !=
+        std::string::npos);
+  CHECK(refusal([](RasterFile& r) {
+          for (double& lon : r.longitudes)
+            lon /= 57;
+        }).find("leaves part of the sphere out; give a global raster in degrees") !=
+        std::string::npos);
+  CHECK(error_of([&] { read_land_raster(scratch / "absent.nc", "z"); }).code() == ErrorCode::file);
+}
+
+TEST_CASE("the sea by a raster: cells with their generator well inside are land") {
+  const Scratch scratch;
+  const std::string source = scratch / "global.nc", target = scratch / "ocean.nc",
+                    mask = scratch / "mask.nc";
+  write_global(scratch, source, {.cells = 3000});
+  write_raster(scratch / "raster.nc", heights(2, 1));
+  CullOptions options;
+  options.raster = read_land_raster(scratch / "raster.nc", "z");
+  options.mask_path = mask;
+  const CullReport report = cull(source, target, options);
+  const Contents masks = contents_of(mask), global = contents_of(source);
+  CHECK(report.land > 300);
+  const double degree = std::acos(-1.0) / 180, margin = 4; // wider than a cell
+  for (std::size_t i = 0; i < 3000; ++i) {
+    const double lat = std::abs(global.at("latCell", i)) / degree,
+                 east = std::abs(std::remainder(global.at("lonCell", i) / degree - 45, 360));
+    if (lat < 30 - margin && east < 45 - margin)
+      REQUIRE((masks.at("cullCell", i) == 1 && masks.at("landFraction", i) == 1));
+    if (lat > 30 + margin || east > 45 + margin)
+      REQUIRE((masks.at("cullCell", i) == 0 && masks.at("landFraction", i) == 0));
+  }
+  // With a coast, the greater fraction counts.
+  const Region region = circle({-1, 0, 0}, 0.3);
+  options.coast = {region.rings, area(region)};
+  const CullReport both = cull(source, target, options);
+  CHECK(both.land > report.land + 40);
+}
+
+TEST_CASE("maps of cells as text: forward by cell of the source, backward by cell of the ocean") {
+  const Scratch scratch;
+  const std::string source = scratch / "global.nc", target = scratch / "ocean.nc";
+  write_global(scratch, source, {.cells = 1000});
+  CullOptions options;
+  options.field = {"", "zCell", 0.1, 0.9};
+  options.cell_map_folder = scratch.folder;
+  const CullReport report = cull(source, target, options);
+  const std::vector<std::string> forward = lines_of(scratch / "cellMapForward.txt"),
+                                 backward = lines_of(scratch / "cellMapBackward.txt");
+  const Contents ocean = contents_of(target);
+  REQUIRE(forward.size() == 1000);
+  REQUIRE(std::ssize(backward) == report.cells);
+  std::int64_t kept = 0;
+  for (std::size_t i = 0; i < forward.size(); ++i)
+    if (const int now = std::stoi(forward[i]); now >= 0) {
+      ++kept;
+      REQUIRE(std::stoul(backward[static_cast<std::size_t>(now)]) == i);
+      REQUIRE(ocean.at("mapCulledToBaseCell", static_cast<std::size_t>(now)) ==
+              static_cast<double>(i));
+    } else {
+      REQUIRE(forward[i] == "-1");
+    }
+  CHECK(kept == report.cells);
+}
+
+TEST_CASE("a cull that fails leaves no file, whichever output fails") {
+  const Scratch scratch;
+  const std::string source = scratch / "global.nc";
+  write_global(scratch, source, {.cells = 1000});
+  const Scratch out;
+  CullOptions options;
+  options.field = {"", "zCell", 0.1, 0.9};
+  options.mask_path = out / "mask.nc";
+  options.cell_map_folder = out.folder;
+  const auto leaves_nothing = [&](const std::string& target, const CullOptions& of) {
+    CHECK(error_of([&] { cull(source, target, of); }).code() != ErrorCode::internal);
+    return out.files() == 0;
+  };
+  CullOptions bad = options;
+  bad.mask_path = out / "absent/mask.nc";
+  CHECK(leaves_nothing(out / "ocean.nc", bad));
+  bad = options;
+  bad.cell_map_folder = out / "absent";
+  CHECK(leaves_nothing(out / "ocean.nc", bad));
+  CHECK(leaves_nothing(out / "absent/ocean.nc", options));
+  int calls = 0;
+  options.progress = [&](const Progress&) { return ++calls == 3; };
+  CHECK(leaves_nothing(out / "ocean.nc", options));
+  options.progress = {};
+  for (const rlim_t bytes : {1000, 20000, 300000}) {
+    const FullDisk full(bytes);
+    CHECK(leaves_nothing(out / "ocean.nc", options));
+  }
+  cull(source, out / "ocean.nc", options);
+  CHECK(out.files() == 5); // the grid, its graph, the mask and two maps
+}
+
+TEST_CASE(
+    "an ocean file at 60 km: the fractions sum to GSHHG's land, the sea is connected [slow]") {
+  const Scratch scratch;
+  const std::string source = scratch / "earth.nc", target = scratch / "ocean.nc",
+                    mask = scratch / "mask.nc";
+  WriteOptions written;
+  written.format = Format::mpas;
+  written.sphere_radius = 6371000;
+  write(source, spherical_delaunay(bisected_icosahedron(7)), written);
+  CullOptions options;
+  options.coast = gshhg('i');
+  options.mask_path = mask;
+  const auto place = [](double lon, double lat) {
+    const base_detail::Vec3 x = base_detail::from_lonlat(lon, lat);
+    return Eigen::Vector3d(x.x, x.y, x.z);
+  };
+  Points3 gibraltar(3, 2);
+  gibraltar << place(-7.5, 35.9), place(-3.5, 36);
+  options.passages = {gibraltar};
+  const CullReport report = cull(source, target, options);
+  check_none(target);
+
+  const std::vector<double> areas = io_detail::NetcdfReader(source).doubles("areaCell", {-1}),
+                            land = io_detail::NetcdfReader(mask).doubles("landFraction", {-1});
+  double sum = 0;
+  for (std::size_t i = 0; i < areas.size(); ++i)
+    sum += land[i] * areas[i];
+  CHECK(std::abs(sum / (options.coast.area * 6371000.0 * 6371000.0) - 1) <= 1e-10);
+
+  const io_detail::NetcdfReader ocean(target);
+  const std::vector<std::int32_t> neighbours =
+      ocean.ints("cellsOnCell", {report.cells, ocean.dimension("maxEdges")});
+  const auto width = neighbours.size() / static_cast<std::size_t>(report.cells);
+  std::vector<bool> seen(static_cast<std::size_t>(report.cells));
+  std::vector<std::size_t> stack{0};
+  seen[0] = true;
+  std::int64_t reached = 0, dead_ends = 0;
+  while (!stack.empty()) {
+    const std::size_t cell = stack.back();
+    stack.pop_back();
+    ++reached;
+    int in_the_sea = 0;
+    for (std::size_t k = 0; k < width; ++k)
+      if (const std::int32_t id = neighbours[cell * width + k]; id > 0) {
+        const auto other = static_cast<std::size_t>(id - 1);
+        ++in_the_sea;
+        if (!seen[other])
+          stack.push_back(other);
+        seen[other] = true;
+      }
+    dead_ends += in_the_sea < 2;
+  }
+  CHECK(reached == report.cells);
+  CHECK(dead_ends == 0);
+}

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <calotte/cvt.h>
+#include <calotte/delaunay.h>
+#include <calotte/generators.h>
+#include <calotte/ocean.h>
+#include <calotte/voronoi.h>
+
+#include "base/lonlat.h"
+#include "support/gshhg.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+// The oceans of the Earth on uniform grids, with the coast of GSHHG.
+
+using namespace calotte;
+using namespace calotte::test;
+
+namespace {
+
+Eigen::Vector3d at(double longitude, double latitude) {
+  const base_detail::Vec3 x = base_detail::from_lonlat(longitude, latitude);
+  return {x.x, x.y, x.z};
+}
+
+Points3 line(const std::vector<std::pair<double, double>>& places) {
+  Points3 columns(3, std::ssize(places));
+  for (std::size_t k = 0; k < places.size(); ++k)
+    columns.col(static_cast<Eigen::Index>(k)) = at(places[k].first, places[k].second);
+  return columns;
+}
+
+// The channels of straits from sea to sea, and lines across them from land to land.
+const Points3 gibraltar = line({{-7.5, 35.9}, {-5.6, 35.95}, {-3.5, 36}}),
+              bosphorus = line({{25.5, 39.6},
+                                {26.2, 40.05},
+                                {26.7, 40.4},
+                                {27.5, 40.7},
+                                {28.9, 40.9},
+                                {29.05, 41.1},
+                                {29.2, 41.5}}),
+              across_gibraltar = line({{-5.6, 37}, {-5.6, 35}}),
+              across_bosphorus = line({{28.2, 41.5}, {29.9, 40.7}}),
+              across_dardanelles = line({{26, 40.6}, {27.2, 39.7}});
+const Eigen::Vector3d atlantic = at(-30, 30), mediterranean = at(18, 35), black_sea = at(34, 43.2);
+
+/// A uniform grid of the Earth and its land.
+struct Earth {
+  Coast coast = gshhg('l');
+  Voronoi cells;
+  Eigen::VectorXd fractions;
+  std::vector<std::uint8_t> land;
+
+  explicit Earth(int bisections)
+      : cells(voronoi(spherical_delaunay(bisected_icosahedron(bisections)))),
+        fractions(land_fractions(cells, coast)) {
+    for (const double fraction : fractions)
+      land.push_back(fraction > 0.5 ? 1 : 0);
+  }
+  Eigen::Index cell_at(const Eigen::Vector3d& place) const {
+    Eigen::Index nearest = 0;
+    (place.transpose() * cells.cells).maxCoeff(&nearest);
+    return nearest;
+  }
+  bool is_sea(const Ids& sea, const Eigen::Vector3d& place) const {
+    return sea[cell_at(place)] >= 0;
+  }
+  Ids sea(const std::vector<Points3>& passages, const std::vector<Points3>& barriers = {},
+          SeaReport* report = nullptr) const {
+    SeaOptions options;
+    options.opened = cells_on_lines(cells, passages);
+    options.closed = cells_on_lines(cells, barriers);
+    return sea_cells(cells.begin, cells.cells_on_cell, land, options, report);
+  }
+};
+
+/// The cells that are connected with the first one of the sea.
+std::int64_t reached(const Voronoi& cells, const Ids& sea) {
+  std::vector<bool> seen(static_cast<std::size_t>(sea.size()));
+  std::vector<std::int32_t> stack;
+  for (std::int32_t i = 0; i < sea.size() && stack.empty(); ++i)
+    if (sea[i] >= 0)
+      stack.push_back(i);
+  seen[static_cast<std::size_t>(stack.back())] = true;
+  std::int64_t count = 0;
+  while (!stack.empty()) {
+    const std::int32_t cell = stack.back();
+    stack.pop_back();
+    ++count;
+    for (std::int64_t k = cells.begin[cell]; k < cells.begin[cell + 1]; ++k)
+      if (const std::int32_t other = cells.cells_on_cell[k];
+          sea[other] >= 0 && !seen[static_cast<std::size_t>(other)]) {
+        seen[static_cast<std::size_t>(other)] = true;
+        stack.push_back(other);
+      }
+  }
+  return count;
+}
+
+void check_sea(const Earth& earth, const Ids& sea) {
+  CHECK(reached(earth.cells, sea) == (sea.array() >= 0).count());
+  std::int64_t dead_ends = 0;
+  for (std::int64_t i = 0; i < sea.size(); ++i) {
+    int neighbours = 0;
+    for (std::int64_t k = earth.cells.begin[i]; k < earth.cells.begin[i + 1]; ++k)
+      neighbours += sea[earth.cells.cells_on_cell[k]] >= 0;
+    dead_ends += sea[i] >= 0 && neighbours < 2;
+  }
+  CHECK(dead_ends == 0);
+}
+
+void check_fractions(const Earth& earth) {
+  CHECK(earth.fractions.minCoeff() >= 0);
+  CHECK(earth.fractions.maxCoeff() <= 1);
+  const double land = earth.fractions.dot(earth.cells.cell_area);
+  CHECK(std::abs(land / earth.coast.area - 1) <= 1e-10);
+  CHECK(earth.coast.area * 6371 * 6371 == doctest::Approx(149e6).epsilon(0.01)); // km^2
+}
+
+/// Each strait is open with its passage, and closed by its barrier alone.
+void check_straits(const Earth& earth) {
+  SeaReport report;
+  const Ids open = earth.sea({gibraltar, bosphorus}, {}, &report);
+  CHECK(report.opened > 0);
+  check_sea(earth, open);
+  for (const Eigen::Vector3d& place : {atlantic, mediterranean, black_sea})
+    CHECK(earth.is_sea(open, place));
+
+  const Ids no_black_sea = earth.sea({gibraltar}, {across_bosphorus, across_dardanelles});
+  check_sea(earth, no_black_sea);
+  CHECK(earth.is_sea(no_black_sea, mediterranean));
+  CHECK_FALSE(earth.is_sea(no_black_sea, black_sea));
+
+  const Ids no_mediterranean = earth.sea({bosphorus}, {across_gibraltar});
+  check_sea(earth, no_mediterranean);
+  CHECK(earth.is_sea(no_mediterranean, atlantic));
+  CHECK_FALSE(earth.is_sea(no_mediterranean, mediterranean));
+  CHECK_FALSE(earth.is_sea(no_mediterranean, black_sea));
+
+  // Both: what is opened stays open.
+  const Ids both = earth.sea({gibraltar, bosphorus}, {across_gibraltar, across_bosphorus});
+  for (const Eigen::Vector3d& place : {mediterranean, black_sea})
+    CHECK(earth.is_sea(both, place));
+}
+
+} // namespace
+
+TEST_CASE("the oceans at 120 and 60 km: land, a connected sea, straits") {
+  for (const int bisections : {6, 7}) {
+    CAPTURE(bisections);
+    const Earth earth(bisections);
+    check_fractions(earth);
+    check_straits(earth);
+  }
+}
+
+TEST_CASE("the oceans at 30 km: land, a connected sea, straits [slow]") {
+  const Earth earth(8);
+  REQUIRE(earth.cells.cells.cols() == 655362);
+  check_fractions(earth);
+  check_straits(earth);
+}

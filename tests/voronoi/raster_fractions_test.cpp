@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <calotte/delaunay.h>
+#include <calotte/generators.h>
+#include <calotte/ocean.h>
+#include <calotte/region.h>
+#include <calotte/voronoi.h>
+
+#include "base/lonlat.h"
+#include "support/files.h"
+
+#include <doctest/doctest.h>
+#include <tbb/task_arena.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <vector>
+
+// Fractions of land in cells, sampled from rasters.
+
+using namespace calotte;
+using namespace calotte::test;
+
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+/// A raster with its nodes in the middle of equal steps.
+LandRaster raster_of(int columns, int rows,
+                     const std::function<double(double lon, double lat)>& land) {
+  LandRaster raster;
+  raster.longitudes =
+      Eigen::VectorXd::LinSpaced(columns, -180 + 180.0 / columns, 180 - 180.0 / columns);
+  raster.latitudes = Eigen::VectorXd::LinSpaced(rows, -90 + 90.0 / rows, 90 - 90.0 / rows);
+  raster.land.resize(columns, rows);
+  for (int i = 0; i < columns; ++i)
+    for (int j = 0; j < rows; ++j)
+      raster.land(i, j) = land(raster.longitudes[i], raster.latitudes[j]);
+  return raster;
+}
+
+Eigen::Vector3d at(double lon, double lat) {
+  const base_detail::Vec3 x = base_detail::from_lonlat(lon, lat);
+  return {x.x, x.y, x.z};
+}
+
+Voronoi cells_of(const Points3& points) { return voronoi(spherical_delaunay(points)); }
+
+std::vector<Points3> clouds() {
+  return {bisected_icosahedron(0), bisected_icosahedron(2), cubed_sphere(8), fibonacci_sphere(1000),
+          random_sphere(500, 3)};
+}
+
+double noise(double lon, double lat) {
+  return 0.5 + 0.5 * std::sin(7 * lon * degree) * std::cos(11 * lat * degree);
+}
+
+} // namespace
+
+TEST_CASE("a raster of one value gives it to every cell; complements add up to 1") {
+  for (const Points3& points : clouds()) {
+    const Voronoi cells = cells_of(points);
+    for (const auto& [columns, rows] : {std::pair{8, 4}, std::pair{90, 45}, std::pair{361, 180}}) {
+      for (const double value : {0.0, 0.3, 1.0}) {
+        const Eigen::VectorXd same =
+            land_fractions(cells, raster_of(columns, rows, [&](double, double) { return value; }));
+        CHECK((same.array() - value).abs().maxCoeff() < 1e-12);
+      }
+      LandRaster raster = raster_of(columns, rows, noise);
+      const Eigen::VectorXd land = land_fractions(cells, raster);
+      raster.land = 1 - raster.land.array();
+      const Eigen::VectorXd sea = land_fractions(cells, raster);
+      CHECK((land + sea - Eigen::VectorXd::Ones(land.size())).cwiseAbs().maxCoeff() < 1e-12);
+      CHECK(land.minCoeff() >= 0);
+      CHECK(land.maxCoeff() <= 1);
+    }
+  }
+}
+
+TEST_CASE("a fine raster of a region gives about the exact fractions") {
+  for (const Region& region : {circle(at(30, 40), 50 * degree), circle(at(0, 90), 20 * degree),
+                               circle(at(180, -5), 30 * degree)}) {
+    const auto inside = containing(region);
+    const LandRaster raster =
+        raster_of(720, 360, [&](double lon, double lat) { return inside(at(lon, lat)) ? 1 : 0; });
+    for (const Points3& points : {fibonacci_sphere(400), bisected_icosahedron(3)}) {
+      const Voronoi cells = cells_of(points);
+      const Eigen::VectorXd sampled = land_fractions(cells, raster),
+                            exact = land_fractions(cells, Coast{region.rings, area(region)});
+      // Of a cell about 10 degrees wide, half of the rectangles along its boundary and the coast.
+      CHECK((sampled - exact).cwiseAbs().maxCoeff() < 0.06);
+      CHECK(std::abs(sampled.dot(cells.cell_area) / area(region) - 1) < 0.01);
+    }
+  }
+}
+
+TEST_CASE("a cell inside a rectangle of a coarse raster has its value") {
+  for (const auto& [columns, rows] : {std::pair{12, 6}, std::pair{5, 3}}) {
+    const LandRaster raster = raster_of(columns, rows, [](double lon, double lat) {
+      return std::fmod(std::abs(3 * lon + 7 * lat), 10) / 10;
+    });
+    const auto index_of = [&](const Eigen::Vector3d& x) {
+      const double lon = std::atan2(x.y(), x.x()) / degree, lat = std::asin(x.z()) / degree;
+      return std::pair{static_cast<Eigen::Index>((lon + 180) / 360 * columns),
+                       static_cast<Eigen::Index>((lat + 90) / 180 * rows)};
+    };
+    const Voronoi cells = cells_of(random_sphere(4000, 11));
+    const Eigen::VectorXd fractions = land_fractions(cells, raster);
+    int within = 0;
+    for (Eigen::Index i = 0; i < fractions.size(); ++i) {
+      const auto own = index_of(cells.cells.col(i));
+      bool inside = std::abs(cells.cells(2, i)) < 0.9;
+      for (std::int64_t k = cells.begin[i]; k < cells.begin[i + 1]; ++k)
+        inside = inside && index_of(cells.vertices.col(cells.vertices_on_cell[k])) == own;
+      if (!inside)
+        continue;
+      ++within;
+      CHECK(fractions[i] == doctest::Approx(raster.land(own.first, own.second)).epsilon(1e-12));
+    }
+    CHECK(within > 2000);
+  }
+}
+
+TEST_CASE("cells that are much smaller than their neighbours have a value, too") {
+  Points3 points(3, 600);
+  points << random_sphere(300, 5), random_sphere(300, circle(at(77, 33), 1e-5));
+  const Voronoi cells = cells_of(points);
+  const Eigen::VectorXd fractions = land_fractions(cells, raster_of(36, 18, noise));
+  CHECK(fractions.minCoeff() >= 0);
+  CHECK(fractions.maxCoeff() <= 1);
+}
+
+TEST_CASE("the fractions of a raster have the same bits for any number of threads") {
+  const Voronoi cells = cells_of(fibonacci_sphere(3000));
+  const LandRaster raster = raster_of(144, 600, noise); // more rows than are taken at once
+  const Eigen::VectorXd once = land_fractions(cells, raster);
+  for (const int threads : {1, 3}) {
+    tbb::task_arena arena(threads);
+    CHECK(arena.execute([&] { return land_fractions(cells, raster); }) == once);
+  }
+}
+
+TEST_CASE("rasters that are refused") {
+  const Voronoi cells = cells_of(bisected_icosahedron(1));
+  const LandRaster good = raster_of(8, 4, noise);
+  const auto refusal = [&](const std::function<void(LandRaster&)>& spoil) {
+    LandRaster bad = good;
+    spoil(bad);
+    const Error error = error_of([&] { land_fractions(cells, bad); });
+    CHECK(error.code() == ErrorCode::bad_option);
+    return std::string(error.what());
+  };
+  CHECK(refusal([](LandRaster& r) { r.land(3, 2) = 1.5; }).find("no fraction of land") !=
+        std::string::npos);
+  CHECK(refusal([](LandRaster& r) {
+          r.land(0, 0) = std::numeric_limits<double>::quiet_NaN();
+        }).find("no fraction of land") != std::string::npos);
+  CHECK(refusal([](LandRaster& r) { r.land.resize(4, 8); }).find("longitudes x latitudes") !=
+        std::string::npos);
+  CHECK(refusal([](LandRaster& r) { r.latitudes.reverseInPlace(); }).find("ascend") !=
+        std::string::npos);
+  CHECK(refusal([](LandRaster& r) { r.longitudes[7] = 300; }).find("ascend") != std::string::npos);
+}
