@@ -5,9 +5,9 @@
 #include "options/cvt_options.h"
 #include "options/cvt_request.h"
 #include "options/files.h"
-#include "options/global_option.h"
 #include "options/numbers.h"
-#include "options/region_option.h"
+#include "options/warning.h"
+#include "run/cvt_checks.h"
 #include "run/cvt_configuration.h"
 #include "run/cvt_costs.h"
 #include "run/cvt_forecast.h"
@@ -25,88 +25,11 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include <chrono>
-#include <cmath>
-#include <filesystem>
 #include <iostream>
-#include <numbers>
 #include <optional>
 
 namespace calotte::tools {
 namespace {
-
-// ---- Before any work
-
-void require_positive(const std::string& option, double value, const std::string& remedy) {
-  if (!(value > 0) || !std::isfinite(value))
-    throw Error(ErrorCode::bad_option,
-                option + " " + shortest(value) + " is not a positive number; give " + remedy);
-}
-
-/// Rejects options that a planar run does not support.
-void require_plane(const CvtRequest& request, const WriteOptions& options) {
-  require_planar_format(request.mesh, request.domain->periodic.has_value(),
-                        format_of(request.mesh, options.format),
-                        !request.domain->periodic.has_value());
-  if (request.format->sphere_radius)
-    throw Error(ErrorCode::bad_option, "--sphere-radius does not apply to the plane; leave it out");
-  if (request.density->widths.in_km())
-    throw Error(ErrorCode::bad_option,
-                "--cell-width applies to the sphere only; give --density or --density-raster");
-}
-
-/// Rejects formats and options that a run in a region does not support.
-void require_region_format(const CvtRequest& request, const WriteOptions& options) {
-  const auto refuse = [](const std::string& what) { throw Error(ErrorCode::bad_option, what); };
-  if (request.part.region.empty())
-    return;
-  if (planar(request))
-    refuse("--region applies to the sphere only; leave it out, or the domain of the plane");
-  const Format format = format_of(request.mesh, options.format);
-  if (request.part.limited_area)
-    require_mpas_name(request.mesh);
-  const bool triangles = format == Format::vtp || format == Format::vtu || format == Format::off ||
-                         format == Format::ply || format == Format::triangles ||
-                         format == Format::msh || format == Format::ugrid_triangles;
-  if (!request.part.limited_area && !triangles)
-    refuse(request.mesh + ": this format has cells, which are open along the region's boundary; "
-                          "give --limited-area, or a file of triangles such as .vtp");
-}
-
-/// The name of the file that is written beside a full MPAS file; empty for other formats.
-std::string graph_of(const std::string& mesh, Format format) {
-  if (format_of(mesh, format) != Format::mpas)
-    return "";
-  return std::filesystem::path(mesh).replace_extension(".graph.info");
-}
-
-/// Checks all options that can fail, before any work.
-void require_request(const CvtRequest& request) {
-  require_positive("--tolerance", tolerance_of(request), "one such as 1e-6");
-  require_positive("--checkpoint-minutes", request.checkpoint_minutes, "one such as 10");
-  if (request.relaxation != 1 && request.method != "lloyd")
-    throw Error(ErrorCode::bad_option, "--relaxation applies to --method lloyd only; leave it out");
-  require_start(request);
-  const WriteOptions options = write_options(request); // throws for a file that cannot be written
-  if (planar(request))
-    require_plane(request, options);
-  require_region_format(request, options);
-  const WidthWords& widths = request.density->widths;
-  const std::vector<std::string> inputs{request.points,
-                                        request.fixed,
-                                        centres_file(*request.partition),
-                                        widths.file,
-                                        widths.raster,
-                                        request.domain->file.value_or(""),
-                                        *request.config,
-                                        region_file(request.part.region)};
-  require_outputs({{"mesh", request.mesh},
-                   {"graph of the mesh", graph_of(request.mesh, options.format)},
-                   {"report", request.report},
-                   {"checkpoint", request.checkpoint}},
-                  inputs);
-  // A run may overwrite the checkpoint from which it resumed.
-  require_outputs({{"mesh", request.mesh}, {"report", request.report}}, {request.resume});
-}
 
 // ---- The run
 
@@ -150,6 +73,7 @@ struct Outcome {
   PlanarMesh plane; ///< or in the plane
   std::int64_t cells = 0;
   std::string grid;       ///< a line about a limited-area grid
+  std::string doubt;      ///< about a mesh that should end at the boundary, or ""
   double area = 0;        ///< of the sphere, the region or the domain
   int signal = 0;         ///< the signal that ended it early
   bool kept = false;      ///< its state then
@@ -358,8 +282,22 @@ Outcome tessellate_and_write(CvtRequest& request) {
   Plan plan = prepare(request, progress);
   const Interruption interruption;
   Outcome outcome = tessellate(request, plan, progress);
+  if (const CvtStart& start = plan.start; start.on_boundary > 0)
+    outcome.doubt =
+        doubt_of_boundary(outcome.mesh, start.fixed - start.on_boundary, start.on_boundary);
   write_result(request, plan, outcome, progress);
   return outcome;
+}
+
+/// Prints what the run's result lacks.
+void warn_of_result(const CvtRequest& request, const Outcome& outcome) {
+  if (request.cells && outcome.cells != *request.cells)
+    std::cerr << "calotte: " + std::to_string(outcome.cells) + " cells instead of " +
+                     std::to_string(*request.cells) +
+                     ": bisections of a domain with a boundary leave out midpoints outside it; "
+                     "--start multilevel gives exactly as many\n";
+  if (!outcome.doubt.empty())
+    warn(outcome.doubt);
 }
 
 void run(CvtRequest request) {
@@ -370,11 +308,7 @@ void run(CvtRequest request) {
   std::cout << summary(request, outcome.report, outcome.cells, planar(request) ? outcome.area : 1,
                        static_cast<std::int64_t>(outcome.before)) +
                    "\n" + outcome.grid;
-  if (request.cells && outcome.cells != *request.cells)
-    std::cerr << "calotte: " + std::to_string(outcome.cells) + " cells instead of " +
-                     std::to_string(*request.cells) +
-                     ": bisections of a domain with a boundary leave out midpoints outside it; "
-                     "--start multilevel gives exactly as many\n";
+  warn_of_result(request, outcome);
   if (!outcome.report.converged)
     finish_not_converged(request, outcome.report);
   if (well_centred(request) && !outcome.report.well_centred)

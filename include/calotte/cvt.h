@@ -69,7 +69,7 @@ struct CvtOptions {
   /// Rounds of insertion and contraction on the last level, see insert_and_contract(), and up to
   /// 14 on coarser levels; each is followed by a descent. A round after a descent of more than 15
   /// evaluations counts for two. With rounds, all descents but the last end at an l2_scaled norm of
-  /// 1e-3 or the tolerance, whichever is larger, or after 120 evaluations. >= 0; default 0.
+  /// 1e-3 or the tolerance, whichever is larger, or after 75 evaluations. >= 0; default 0.
   int insertion_rounds = 0;
   /// Number of generators of the result; > 0 if and only if insertion_rounds is. A level of b
   /// bisections before the last has 4^-b times as many.
@@ -83,7 +83,7 @@ struct CvtOptions {
   /// shape; the mesh is well-centred if none does by 0.07. Near that the finish goes on, up to
   /// twice, with squares of four times the weight. Sites with 8 neighbours or more, or 4 or fewer,
   /// cannot have such shapes; with insertion_rounds, up to four further rounds remove them. A mesh
-  /// within the limits does not change. A descent before a finish also converges when 60
+  /// within the limits does not change. A descent before a finish also converges when 45
   /// evaluations have not halved its norm. Default false: a pure CVT.
   bool well_centred = false;
   /// Quadrature points per half kite: 1, 3, 6, 7, 13 or 19; no effect for uniform density.

@@ -47,7 +47,7 @@ Points3 random_sphere(std::int64_t n, const Region& region, const Density& densi
 /// Boundary::generators: at the distances of neighbours that a density demands of so many
 /// generators, of which those on the boundary have half a cell. Corners where the boundary turns by
 /// 20 degrees or more have a generator unless a sharper one is nearer than two thirds of such a
-/// distance; the distances between two corners are equal, from 2/3 to 3/2 of the demanded one. A
+/// distance; the distances between two corners are equal, from 5/8 to 5/4 of the demanded one. A
 /// ring has at least three generators, whose distances may be smaller.
 ///
 /// The generators lie on the boundary up to 1e-15, and not outside the region.

@@ -27,7 +27,7 @@ const CvtIteration& last_accepted(const State& state) {
 }
 
 bool creeps(const State& state, const CvtOptions& options) {
-  constexpr std::ptrdiff_t window = 60;
+  constexpr std::ptrdiff_t window = 45;
   constexpr double progress = 0.5;
   const std::vector<CvtIteration>& all = state.report.iterations;
   if (!options.well_centred || options.norm == Norm::none || state.penalty > 0 ||
@@ -81,7 +81,7 @@ Stage stage_after(const State& state, const CvtOptions& options) {
 }
 
 CvtOptions options_of_descent(const State& state, const CvtOptions& options, bool at_sites) {
-  constexpr int most_in_finish = 60, most_early = 120;
+  constexpr int most_in_finish = 60, most_early = 75;
   constexpr double early = 1e-3, fine = 1e-5;
   constexpr std::int64_t resolving = 2000; // generators, between which a density is nearly linear
   CvtOptions here = options;

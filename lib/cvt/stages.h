@@ -40,7 +40,7 @@ std::int64_t cells_of_level(const World& world, const State& state, const CvtOpt
 /// The last evaluation of the run that was accepted. \pre there is one.
 const CvtIteration& last_accepted(const State& state);
 
-/// Whether 60 evaluations of a descent before a finish have not halved the norm: generators glide
+/// Whether 45 evaluations of a descent before a finish have not halved the norm: generators glide
 /// on along defects, where widths change too steeply or are noisy, and the grid hardly gets better.
 bool creeps(const State& state, const CvtOptions& options);
 

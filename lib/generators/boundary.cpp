@@ -148,7 +148,8 @@ void add_ring(const std::vector<Mark>& marks, std::vector<std::size_t> corners,
               const SphericalOutline& outline, std::vector<Vec3>& places) {
   constexpr double fewest = 3;
   const double whole = marks.back().edges;
-  const auto number = [](double edges) { return std::max(1.0, std::round(edges)); };
+  constexpr double slack = 0.25; // longer edges would let other generators come between their ends
+  const auto number = [](double edges) { return std::max(1.0, std::ceil(edges - slack)); };
   if (corners.empty())
     corners.push_back(0);
   double sum = 0;

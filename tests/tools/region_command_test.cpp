@@ -124,6 +124,15 @@ TEST_CASE("generators on the boundary: the mesh ends at them") {
     CHECK(inside(x));
   CHECK(bench.run("cvt --resume a.state -o b.vtp --threads 1 --regions 3").code == 0);
   CHECK(bench.file("a.vtp") == bench.file("b.vtp"));
+  CHECK(!has(outcome.err, "leaves the boundary"));
+  // Two bays with a wall between them that is much thinner than a cell.
+  bench.file("wall.geojson", R"({"type": "Polygon", "coordinates": [[[0, 0], [20, 0], [20, 20],
+             [10.1, 20], [10.05, 2], [9.95, 2], [9.9, 20], [0, 20], [0, 0]]]})");
+  const Outcome wall = bench.run(
+      "cvt --region wall.geojson --cells 60 --boundary generators --start random -o wall.vtp");
+  CHECK(wall.code == 0);
+  CHECK(has(wall.err, "the mesh leaves the boundary of the region in places"));
+  CHECK(bench.run("check wall.vtp").code == 0);
   check_refused(bench, "cvt --cells 100 --boundary generators -o c.vtp",
                 "--boundary generators requires a region");
   check_refused(bench, run + "--limited-area -o c.nc", "does not apply to --limited-area");
@@ -184,6 +193,16 @@ TEST_CASE("plan: the grid of a region") {
                 "--limited-area requires a region; give --region");
 }
 
+TEST_CASE("rings that meet themselves around the sphere are refused in one clear line") {
+  const Bench bench;
+  const Outcome outcome =
+      bench.run("cvt --region circle=10,50,9000km --cell-width 1500km --limited-area -o a.nc");
+  CHECK(outcome.code == 2);
+  CHECK(has(outcome.err, "the region and its 7 rings hold all "));
+  CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 2); // and the number of cells
+  CHECK(bench.names().empty());
+}
+
 TEST_CASE("bad regions end in one clear line before any work") {
   const Bench bench;
   const auto geojson = [](const std::string& corners) {
@@ -200,4 +219,7 @@ TEST_CASE("bad regions end in one clear line before any work") {
   const std::string none = "--region circle=10,50,3km --cell-width 60km";
   check_refused(bench, "cvt " + none + " -o a.vtp", "the widths require 0 cells");
   check_refused(bench, "plan " + none, "the widths require 0 cells");
+  for (const std::string command : {"plan ", "cvt -o a.nc "})
+    check_refused(bench, command + none + " --limited-area",
+                  "the region has room for 0.0091 cells only");
 }

@@ -66,6 +66,10 @@ its left, its feature must name a place inside:
 
 In a .pts file the line Point: is a place inside. MPI-SCVT's loops cut the sphere in two parts, of
 which the smaller one is the region.
+
+The boundary clips the cells along it (--boundary clip): the mesh has the triangles whose circumcentre
+lies in the region. With --boundary generators some generators stay on the boundary, at the distances
+that the density demands, with one at each sharp corner. The mesh then ends at them.
 )";
 
 constexpr const char* codes =

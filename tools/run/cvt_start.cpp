@@ -113,6 +113,7 @@ void add_boundary(const CvtRequest& request, const Region& region, const Density
                   CvtStart& start) {
   const Points3 shore = boundary_points(region, *request.cells, density);
   start.fixed += shore.cols();
+  start.on_boundary = shore.cols();
   start.points = joined(start.points, shore);
   start.configuration += "boundary generators\n";
   require_free(request, start);

@@ -19,8 +19,9 @@ struct CvtStart {
   };
   File fixed_file, file; ///< of the fixed points, which come first, and of the others
   std::int64_t fixed = 0;
-  Points3 points; ///< on the sphere
-  Points2 places; ///< or in the plane
+  std::int64_t on_boundary = 0; ///< the last of the fixed ones
+  Points3 points;               ///< on the sphere
+  Points2 places;               ///< or in the plane
   int bisections = 0;
   std::string note; ///< a message for the user, or ""
   /// The input that determines it, for the run's configuration: lines "name value".

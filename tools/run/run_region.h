@@ -5,8 +5,11 @@
 #include "options/region_option.h"
 
 #include <calotte/region.h>
+#include <calotte/types.h>
 
+#include <cstdint>
 #include <optional>
+#include <string>
 
 namespace calotte::tools {
 
@@ -27,5 +30,9 @@ std::optional<RunRegion> region_of_run(const RegionWords& words, const WidthWord
 /// \throws Error bad_option if no grid has so many or so few.
 int cells_of_region(const RegionWords& words, const WidthWords& width_words,
                     const Resolution& resolution, const RunRegion& region);
+
+/// A remark on a mesh that should end at generators on the boundary, where it does not; "" for
+/// others. \param first the first generator on the boundary. \param count their number.
+std::string doubt_of_boundary(const Mesh& mesh, std::int64_t first, std::int64_t count);
 
 } // namespace calotte::tools

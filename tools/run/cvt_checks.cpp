@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "run/cvt_checks.h"
+
+#include "options/files.h"
+#include "options/global_option.h"
+#include "options/numbers.h"
+#include "options/region_option.h"
+#include "run/cvt_start.h"
+
+#include <calotte/cut.h>
+#include <calotte/error.h>
+
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace calotte::tools {
+namespace {
+
+void require_positive(const std::string& option, double value, const std::string& remedy) {
+  if (!(value > 0) || !std::isfinite(value))
+    throw Error(ErrorCode::bad_option,
+                option + " " + shortest(value) + " is not a positive number; give " + remedy);
+}
+
+/// Rejects options that a planar run does not support.
+void require_plane(const CvtRequest& request, const WriteOptions& options) {
+  require_planar_format(request.mesh, request.domain->periodic.has_value(),
+                        format_of(request.mesh, options.format),
+                        !request.domain->periodic.has_value());
+  if (request.format->sphere_radius)
+    throw Error(ErrorCode::bad_option, "--sphere-radius does not apply to the plane; leave it out");
+  if (request.density->widths.in_km())
+    throw Error(ErrorCode::bad_option,
+                "--cell-width applies to the sphere only; give --density or --density-raster");
+}
+
+/// Rejects formats and options that a run in a region does not support.
+void require_region_format(const CvtRequest& request, const WriteOptions& options) {
+  const auto refuse = [](const std::string& what) { throw Error(ErrorCode::bad_option, what); };
+  if (request.part.region.empty())
+    return;
+  if (planar(request))
+    refuse("--region applies to the sphere only; leave it out, or the domain of the plane");
+  const Format format = format_of(request.mesh, options.format);
+  if (request.part.limited_area)
+    require_mpas_name(request.mesh);
+  const bool triangles = format == Format::vtp || format == Format::vtu || format == Format::off ||
+                         format == Format::ply || format == Format::triangles ||
+                         format == Format::msh || format == Format::ugrid_triangles;
+  if (!request.part.limited_area && !triangles)
+    refuse(request.mesh + ": this format has cells, which are open along the region's boundary; "
+                          "give --limited-area, or a file of triangles such as .vtp");
+}
+
+/// The name of the file that is written beside a full MPAS file; empty for other formats.
+std::string graph_of(const std::string& mesh, Format format) {
+  if (format_of(mesh, format) != Format::mpas)
+    return "";
+  return std::filesystem::path(mesh).replace_extension(".graph.info");
+}
+
+} // namespace
+
+void require_request(const CvtRequest& request) {
+  require_positive("--tolerance", tolerance_of(request), "one such as 1e-6");
+  require_positive("--checkpoint-minutes", request.checkpoint_minutes, "one such as 10");
+  if (request.relaxation != 1 && request.method != "lloyd")
+    throw Error(ErrorCode::bad_option, "--relaxation applies to --method lloyd only; leave it out");
+  require_start(request);
+  const WriteOptions options = write_options(request); // throws for a file that cannot be written
+  if (planar(request))
+    require_plane(request, options);
+  require_region_format(request, options);
+  const WidthWords& widths = request.density->widths;
+  const std::vector<std::string> inputs{request.points,
+                                        request.fixed,
+                                        centres_file(*request.partition),
+                                        widths.file,
+                                        widths.raster,
+                                        request.domain->file.value_or(""),
+                                        *request.config,
+                                        region_file(request.part.region)};
+  require_outputs({{"mesh", request.mesh},
+                   {"graph of the mesh", graph_of(request.mesh, options.format)},
+                   {"report", request.report},
+                   {"checkpoint", request.checkpoint}},
+                  inputs);
+  // A run may overwrite the checkpoint from which it resumed.
+  require_outputs({{"mesh", request.mesh}, {"report", request.report}}, {request.resume});
+}
+
+} // namespace calotte::tools

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "options/cvt_request.h"
+
+namespace calotte::tools {
+
+/// Checks all options of a run that can fail, before any work.
+/// \throws Error bad_option, file.
+void require_request(const CvtRequest& request);
+
+} // namespace calotte::tools
