@@ -117,4 +117,19 @@ const Rings& simple(const Rings& rings, const ArcTree& tree) {
                 static_cast<std::int64_t>(rings.ring_of(e)));
 }
 
+std::vector<std::pair<std::int32_t, std::int32_t>> meetings(const Rings& rings,
+                                                            const ArcTree& tree) {
+  std::vector<std::int32_t> first(rings.arcs.size());
+  for_each_block(std::ssize(first), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t e = begin; e != end; ++e)
+      first[static_cast<std::size_t>(e)] =
+          first_conflict(rings, tree, static_cast<std::int32_t>(e));
+  });
+  std::vector<std::pair<std::int32_t, std::int32_t>> met;
+  for (std::size_t e = 0; e < first.size(); ++e)
+    if (first[e] != none)
+      met.emplace_back(static_cast<std::int32_t>(e), first[e]);
+  return met;
+}
+
 } // namespace calotte::domain_detail

@@ -3,6 +3,7 @@
 
 #include "base/points.h"
 #include "base/require.h"
+#include "domain/loops.h"
 #include "exact/predicates.h"
 #include "voronoi/room.h"
 
@@ -54,7 +55,7 @@ Region land_around(const Coast& coast, const Eigen::Vector3d& place) {
   for (const Points3& ring : coast.rings) {
     if (!is_left_of(ring, compass))
       continue;
-    const Region region{{ring}};
+    const Region region{{domain_detail::without_loops(ring)}};
     if (const double size = area(region); size < least && contains(region, place)) {
       smallest = region;
       least = size;
