@@ -54,9 +54,11 @@ std::int32_t next_of(const Rings& rings, std::int32_t arc) {
 bool conflict(const Rings& rings, std::int32_t e, std::int32_t f) {
   const Arc &a = rings.arcs[static_cast<std::size_t>(e)],
             &b = rings.arcs[static_cast<std::size_t>(f)];
-  if (e == f || !meet(a, b))
+  if (e == f)
     return false;
-  return f == next_of(rings, e) ? fold(a, b) : e == next_of(rings, f) ? fold(b, a) : true;
+  if (f == next_of(rings, e)) // neighbours meet; not asked, as the answer is slow where it is exact
+    return fold(a, b);
+  return e == next_of(rings, f) ? fold(b, a) : meet(a, b);
 }
 
 constexpr std::int32_t none = std::numeric_limits<std::int32_t>::max();
