@@ -126,9 +126,9 @@ TEST_CASE("Australia: a graded grid has the same bits for all threads and region
   const Region australia = land_around(gshhg('i'), at(134, -25));
   CvtOptions options;
   options.density = tanh_bump(at(146, -38), 6 * degree, 4 * degree, 1.0 / 81);
-  const Continuation from = multilevel(3000, australia, options.density);
+  const Continuation from = multilevel(1500, australia, options.density);
   options.insertion_rounds = 1;
-  options.cells = 3000;
+  options.cells = 1500;
   options.bisections = from.bisections;
   options.well_centred = true;
   options.tolerance = 3e-4;
@@ -138,7 +138,7 @@ TEST_CASE("Australia: a graded grid has the same bits for all threads and region
     return spherical_cvt(from.start, australia, options);
   };
   const Cvt one = with(1, 1);
-  CHECK(one.mesh.points.cols() == 3000);
+  CHECK(one.mesh.points.cols() == 1500);
   CHECK(one.report.converged);
   CHECK(std::abs(sum_of_cells(australia, one.mesh.points, options.density) / area(australia) - 1) <
         1e-12);
