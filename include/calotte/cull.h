@@ -32,7 +32,7 @@ struct CullOptions {
   double land_fraction = 0.5;
   SeaField field = {}; ///< in addition to these. Default: none.
   /// Lines that stay open: all cells on them are sea. Each 3 x places, unit columns, joined by arcs
-  /// of great circles. Default: none.
+  /// of great circles. One that is on land and reaches no sea is an error. Default: none.
   std::vector<Points3> passages = {};
   std::vector<Points3> barriers = {}; ///< lines whose cells are land, unless on a passage
   /// Cells with a single neighbour in the sea become land, repeatedly. Default: true.

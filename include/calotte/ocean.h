@@ -23,8 +23,8 @@ struct Coast {
   double area = 0; ///< of the land, steradians
 };
 
-/// The land around a place, such as an island, with its lakes: what is to the left of one of the
-/// coast's rings, the smallest that contains the place. It is less than a hemisphere.
+/// The land around a place, such as an island with its lakes: the smallest left side of a ring that
+/// contains it, without the loops in which a simplified coast crosses itself.
 /// \param place direction of any norm.
 /// \throws Error bad_option for a place in the sea; as require_region() for the rings around it.
 Region land_around(const Coast& coast, const Eigen::Vector3d& place);

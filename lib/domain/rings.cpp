@@ -54,9 +54,11 @@ std::int32_t next_of(const Rings& rings, std::int32_t arc) {
 bool conflict(const Rings& rings, std::int32_t e, std::int32_t f) {
   const Arc &a = rings.arcs[static_cast<std::size_t>(e)],
             &b = rings.arcs[static_cast<std::size_t>(f)];
-  if (e == f || !meet(a, b))
+  if (e == f)
     return false;
-  return f == next_of(rings, e) ? fold(a, b) : e == next_of(rings, f) ? fold(b, a) : true;
+  if (f == next_of(rings, e)) // neighbours meet; not asked, as the answer is slow where it is exact
+    return fold(a, b);
+  return e == next_of(rings, f) ? fold(b, a) : meet(a, b);
 }
 
 constexpr std::int32_t none = std::numeric_limits<std::int32_t>::max();
@@ -115,6 +117,21 @@ const Rings& simple(const Rings& rings, const ArcTree& tree) {
                     rings.name_of(first_conflict(rings, tree, e)) +
                     " meet; rings may neither cross nor touch themselves or each other",
                 static_cast<std::int64_t>(rings.ring_of(e)));
+}
+
+std::vector<std::pair<std::int32_t, std::int32_t>> meetings(const Rings& rings,
+                                                            const ArcTree& tree) {
+  std::vector<std::int32_t> first(rings.arcs.size());
+  for_each_block(std::ssize(first), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t e = begin; e != end; ++e)
+      first[static_cast<std::size_t>(e)] =
+          first_conflict(rings, tree, static_cast<std::int32_t>(e));
+  });
+  std::vector<std::pair<std::int32_t, std::int32_t>> met;
+  for (std::size_t e = 0; e < first.size(); ++e)
+    if (first[e] != none)
+      met.emplace_back(static_cast<std::int32_t>(e), first[e]);
+  return met;
 }
 
 } // namespace calotte::domain_detail

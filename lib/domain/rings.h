@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace calotte::domain_detail {
@@ -40,6 +41,11 @@ Rings rings_of(const std::vector<Points3>& corners);
 ///         index() is the ring.
 /// \return the rings.
 const Rings& simple(const Rings& rings, const ArcTree& tree);
+
+/// The arcs that meet another elsewhere than in the corner that joins them, in increasing order,
+/// each with the first arc that it meets so.
+std::vector<std::pair<std::int32_t, std::int32_t>> meetings(const Rings& rings,
+                                                            const ArcTree& tree);
 
 /// Ends in an error on a region.
 /// \throws Error bad_option, always.

@@ -7,8 +7,10 @@
 #include "io/mpas_cull.h"
 #include "voronoi/cell_walk.h"
 
+#include <calotte/error.h>
 #include <calotte/read.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -97,6 +99,22 @@ SeaOptions sea_options(const Ground& ground, const CullOptions& options) {
   if (options.seeds.cols() > 0)
     sea.seeds = cells_at(*ground.cells, options.seeds);
   return sea;
+}
+
+/// \throws Error bad_option, naming the first passage that is on land and opens none of the sea.
+void require_passages(const Ground& ground, const Land& land, const Ids& sea,
+                      const CullOptions& options) {
+  for (std::size_t p = 0; p < options.passages.size(); ++p) {
+    const std::vector<std::int32_t> cells = cells_on_lines(*ground.cells, {options.passages[p]});
+    const bool apart = std::all_of(cells.begin(), cells.end(), [&](std::int32_t cell) {
+      return land.flags[static_cast<std::size_t>(cell)] != 0 && sea[cell] < 0;
+    });
+    if (apart)
+      throw Error(ErrorCode::bad_option,
+                  "passage " + std::to_string(p) +
+                      " lies on land only and reaches no sea; begin and end it in the sea",
+                  static_cast<std::int64_t>(p));
+  }
 }
 
 void add_maps(const MpasPart& part, NetcdfSubset& subset) {
@@ -209,6 +227,7 @@ CullReport cull(const std::string& source_path, const std::string& target,
   report.land = std::count(land.flags.begin(), land.flags.end(), 1);
   const Ids sea = sea_cells(ground.begin, ground.cells_on_cell, land.flags,
                             sea_options(ground, options), &report.sea);
+  require_passages(ground, land, sea, options);
   const MpasPart part = part_of(source, sea);
   const ReversedEdges reversed = reversed_edges(source, part);
   NetcdfSubset subset = subset_of(source, part);

@@ -24,15 +24,17 @@ public:
   Scrap& operator=(const Scrap&) = delete;
   ~Scrap() { remove(); }
   /// Who has the file open reads on.
-  void remove() const {
-    std::error_code ignored;
-    std::filesystem::remove(path_, ignored);
-    std::filesystem::remove(io_detail::graph_path(path_), ignored);
+  void remove() {
+    if (std::error_code ignored; !std::exchange(removed_, true)) {
+      std::filesystem::remove(path_, ignored);
+      std::filesystem::remove(io_detail::graph_path(path_), ignored);
+    }
   }
   const std::string& path() const { return path_; }
 
 private:
   std::string path_;
+  bool removed_ = false;
 };
 
 /// The generators, and places far from their region, so that no hemisphere is empty.
@@ -51,7 +53,7 @@ Points3 spanning(const Points3& generators, const Region& meshed, const Density&
 CutReport write_limited_area(const std::string& target, const Points3& generators,
                              const Region& meshed, const Region& region,
                              const WriteOptions& written, const CutOptions& options) {
-  const Scrap whole(target + ".whole.nc");
+  Scrap whole(target + ".whole.nc");
   WriteOptions mpas = written;
   mpas.format = Format::mpas;
   mpas.sphere_radius = 1;

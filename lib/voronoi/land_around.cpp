@@ -3,6 +3,8 @@
 
 #include "base/points.h"
 #include "base/require.h"
+#include "domain/loops.h"
+#include "domain/spherical_outline.h"
 #include "exact/predicates.h"
 #include "voronoi/room.h"
 
@@ -54,10 +56,11 @@ Region land_around(const Coast& coast, const Eigen::Vector3d& place) {
   for (const Points3& ring : coast.rings) {
     if (!is_left_of(ring, compass))
       continue;
-    const Region region{{ring}};
-    if (const double size = area(region); size < least && contains(region, place)) {
+    const Region region{{domain_detail::without_loops(ring)}};
+    const domain_detail::SphericalOutline outline(region);
+    if (outline.area() < least && outline.side(here) != domain_detail::Side::outside) {
       smallest = region;
-      least = size;
+      least = outline.area();
     }
   }
   require(!smallest.whole(), "no ring of the coast contains the place; give one on land");

@@ -278,10 +278,10 @@ Eigen::VectorXd fractions_of(const CellAreas& areas, double area) {
           "the area of the land is not that of its coast; give both anew");
   Eigen::VectorXd fractions = areas.land.cwiseQuotient(areas.whole).array() + spheres;
   Eigen::Index cell = 0;
-  const double most = fractions.maxCoeff(&cell);
-  require(most <= 1 + 1e-6 && fractions.minCoeff() >= -1e-6,
-          "the land covers cell " + std::to_string(cell) + " " + std::to_string(most) +
-              " times, as its polygons overlap; give polygons of land that do not");
+  const double beyond = (fractions.array() - 0.5).abs().maxCoeff(&cell) - 0.5;
+  require(beyond <= 1e-6,
+          "the land covers cell " + std::to_string(cell) + " " + std::to_string(fractions[cell]) +
+              " times, as its polygons overlap or cross themselves; give polygons that do not");
   return fractions.cwiseMax(0).cwiseMin(1);
 }
 

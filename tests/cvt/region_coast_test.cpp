@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
 
 // Tessellations of the land within a coast.
@@ -45,6 +46,33 @@ TEST_CASE("the land around a place: the smallest ring that contains it") {
             .starts_with("the place on land is no direction"));
 }
 
+TEST_CASE("the land around a place is without the loops in which its coast crosses itself") {
+  const Region island = circle(at(20, 10), degree, 100);
+  const double whole = area(island);
+  const auto around = [&](const std::vector<Eigen::Index>& order) {
+    Points3 ring(3, std::ssize(order));
+    for (std::size_t k = 0; k < order.size(); ++k)
+      ring.col(static_cast<Eigen::Index>(k)) = island.rings[0].col(order[k]);
+    return land_around({{ring}, 0}, at(20, 10));
+  };
+  std::vector<Eigen::Index> order(100);
+  std::iota(order.begin(), order.end(), 0);
+  CHECK(around(order).rings == island.rings);
+  for (const Eigen::Index at : {0, 7, 50, 98}) { // corners in another order, or visited again
+    auto crossed = order;
+    std::swap(crossed[static_cast<std::size_t>(at)], crossed[static_cast<std::size_t>(at) + 1]);
+    const Region exchanged = around(crossed);
+    CHECK(std::abs(area(exchanged) / whole - 1) < 0.01);
+    CHECK(exchanged.rings[0].cols() >= 97);
+    auto again = order;
+    again.insert(again.begin() + at + 1, {(at + 2) % 100, (at + 1) % 100, at});
+    CHECK(std::abs(area(around(again)) / whole - 1) < 0.01);
+  }
+  std::swap(order[20], order[60]); // no small loop
+  CHECK(std::string(error_of([&] { around(order); }).what()).find("meet; rings may neither") !=
+        std::string::npos);
+}
+
 TEST_CASE("GSHHG: continents and islands around places, by their known areas") {
   const Coast coast = gshhg('l');
   const auto area_around = [&](double lon, double lat) {
@@ -54,6 +82,19 @@ TEST_CASE("GSHHG: continents and islands around places, by their known areas") {
   CHECK(area_around(47, -19) == doctest::Approx(587e3).epsilon(0.02));   // Madagascar
   CHECK(area_around(-19, 65) == doctest::Approx(102e3).epsilon(0.02));   // Iceland
   CHECK(area_around(-40, 70) == doctest::Approx(2.13e6).epsilon(0.02));  // Greenland
+  CHECK(area_around(0, -90) == doctest::Approx(13.9e6).epsilon(0.03));   // Antarctica with its ice
+}
+
+TEST_CASE("GSHHG: the area of a continent hardly depends on the resolution") {
+  for (const Eigen::Vector3d& place : {at(60, 50), at(20, 0), at(-60, -10), at(-100, 45)}) {
+    double least = 10, most = 0;
+    for (const char resolution : {'c', 'l', 'i'}) {
+      const double size = area(land_around(gshhg(resolution), place));
+      least = std::min(least, size);
+      most = std::max(most, size);
+    }
+    CHECK(most < 1.02 * least);
+  }
 }
 
 TEST_CASE("Australia: the cells' areas sum to the region's, and generators stay inside") {
@@ -85,9 +126,9 @@ TEST_CASE("Australia: a graded grid has the same bits for all threads and region
   const Region australia = land_around(gshhg('i'), at(134, -25));
   CvtOptions options;
   options.density = tanh_bump(at(146, -38), 6 * degree, 4 * degree, 1.0 / 81);
-  const Continuation from = multilevel(3000, australia, options.density);
+  const Continuation from = multilevel(1500, australia, options.density);
   options.insertion_rounds = 1;
-  options.cells = 3000;
+  options.cells = 1500;
   options.bisections = from.bisections;
   options.well_centred = true;
   options.tolerance = 3e-4;
@@ -97,7 +138,7 @@ TEST_CASE("Australia: a graded grid has the same bits for all threads and region
     return spherical_cvt(from.start, australia, options);
   };
   const Cvt one = with(1, 1);
-  CHECK(one.mesh.points.cols() == 3000);
+  CHECK(one.mesh.points.cols() == 1500);
   CHECK(one.report.converged);
   CHECK(std::abs(sum_of_cells(australia, one.mesh.points, options.density) / area(australia) - 1) <
         1e-12);

@@ -379,8 +379,23 @@ TEST_CASE("the sea by a field, and what is refused") {
   options.seeds = Points3(Eigen::Vector3d(0, 0, -1));
   CHECK(refusal(options).starts_with("seed 0 is on land, in cell "));
   options = {};
+  options.coast = coast_of({circle({0, 0, 1}, 0.5)});
+  Points3 strait(3, 2), inland(3, 2);
+  strait << Eigen::Vector3d(0, 0.7, 0.7), Eigen::Vector3d(0, 0, 1);
+  inland << Eigen::Vector3d(0, 0.1, 1), Eigen::Vector3d(0, 0, 1);
+  options.passages = {strait.colwise().normalized(), inland.colwise().normalized()};
+  cull(source, target, options); // the second one continues the first
+  std::filesystem::remove(target);
+  options.passages = {options.passages[1]};
+  CHECK(refusal(options) ==
+        "passage 0 lies on land only and reaches no sea; begin and end it in the sea");
+  options = {};
   options.coast = coast_of({circle({0, 0, 1}, 0.5), circle({0, 0.1, 1}, 0.5)});
-  CHECK(refusal(options).find("overlap") != std::string::npos);
+  CHECK(refusal(options).find("times, as its polygons overlap or cross") != std::string::npos);
+  Points3 bow(3, 4); // of which one half is to the left, the other to the right
+  bow << 1, 1, 1, 1, -0.3, 0.3, 0.3, -0.3, -0.3, 0.3, -0.3, 0.3;
+  options.coast = {{bow.colwise().normalized()}, 0};
+  CHECK(refusal(options).find("times, as its polygons overlap or cross") != std::string::npos);
 }
 
 TEST_CASE("coasts of GeoJSON: orientation does not matter, holes, a cut along the date line") {
