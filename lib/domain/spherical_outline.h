@@ -40,7 +40,11 @@ public:
   void for_each_edge_near(const Vec3& place, double reach, const Body& body) const {
     const double chord = reach + 1e-14; // a chord is shorter than its arc
     tree_.visit([&](const Box3& box) { return square_from(box, place) <= chord * chord; },
-                [&](std::int32_t e) { body(edges()[static_cast<std::size_t>(e)]); });
+                [&](std::int32_t e) {
+                  const Edge& edge = edges()[static_cast<std::size_t>(e)];
+                  if (square_from(edge, place) <= chord * chord) // boxes of long edges reach far
+                    body(edge);
+                });
   }
 
 private:

@@ -174,9 +174,8 @@ std::vector<std::int32_t> clipped_sites(const RegionField& field, const Patch& p
       continue;
     bool near = false;
     const double far = 1.000001 * reach[static_cast<std::size_t>(i)];
-    field.outline->for_each_edge_near(x[i], far, [&](const SphericalOutline::Edge& edge) {
-      near = near || square_from(edge, x[i]) <= far * far; // boxes of long edges reach far
-    });
+    field.outline->for_each_edge_near(x[i], far,
+                                      [&](const SphericalOutline::Edge&) { near = true; });
     if (near)
       sites.push_back(i);
   }

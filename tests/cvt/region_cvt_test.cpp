@@ -69,6 +69,7 @@ std::vector<std::pair<std::string, Region>> regions() {
           {"bay", polygon({{0, 0}, {40, 0}, {40, 30}, {21, 30}, {20, 3}, {19, 30}, {0, 30}})},
           {"hole", with_hole()},
           {"comb", comb()},
+          {"an octant", polygon({{0, 0}, {90, 0}, {0, 90}})}, // boxes of its arcs reach far
           {"archipelago", archipelago()}};
 }
 
