@@ -70,12 +70,12 @@ double distance(const Region& region, const Eigen::Vector3d& x) {
   return least;
 }
 
-/// The distance of neighbours that the density demands, from the energy of ideal hexagons' areas:
-/// proportional to rho^(-1/4).
+/// The distance of neighbours that the density demands at a place: rho^(-1/4) times a factor, which
+/// is the mean over the edges of the mesh.
 double demanded(const Mesh& mesh, const Density& density, const Eigen::Vector3d& x) {
   const double rho = evaluate(density, Points3(x))[0];
   const Eigen::VectorXd all = evaluate(density, mesh.points);
-  double sum = 0, count = 0; // of edges inside
+  double sum = 0, count = 0;
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
     for (int v = 0; v < 3; ++v) {
       const auto a = mesh.triangles(v, t), b = mesh.triangles((v + 1) % 3, t);
@@ -182,16 +182,14 @@ TEST_CASE("boundary: the mesh ends at its generators, without slivers [slow]") {
       longest = std::max(longest, ratio);
     }
     CHECK(returns == here.region.rings.size());
-    CHECK(shortest > 0.6);
-    CHECK(longest < 1.6);
+    CHECK(shortest > 0.6); // 5/8 and 5/4, and rounding by the mean of the widths
+    CHECK(longest < 1.3);
     // Every generator is in the mesh, whose Euler characteristic is that of the region.
     std::set<std::int32_t> used(mesh.triangles.data(),
                                 mesh.triangles.data() + mesh.triangles.size());
     CHECK(std::ssize(used) == cells);
     CHECK(mesh.triangles.cols() == 2 * cells - f - 2 + 2 * (std::ssize(here.region.rings) - 1));
-    CHECK(least_angle(mesh) > 30);
-    MESSAGE(here.name, ": ", f, " on the boundary, edges ", shortest, " to ", longest,
-            ", least angle ", least_angle(mesh));
+    CHECK(least_angle(mesh) > 35);
   }
 }
 

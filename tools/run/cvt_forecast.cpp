@@ -103,7 +103,7 @@ double spent_on_level(const CvtProgress& progress) {
 /// CvtOptions::insertion_rounds.
 CvtOptions early(CvtOptions options) {
   options.tolerance = std::max(options.tolerance, 1e-3);
-  options.max_iterations = std::min(options.max_iterations, 200);
+  options.max_iterations = std::min(options.max_iterations, 75);
   return options;
 }
 
