@@ -2,11 +2,12 @@
 #ifndef CALOTTE_C_H
 #define CALOTTE_C_H
 
-/* The library for C, and for languages that call C (Fortran by iso_c_binding, Julia by ccall, Rust).
+/* The library for C, and for languages that call C (Fortran by iso_c_binding, Julia by ccall,
+ * Rust).
  *
  * A function returns CALOTTE_OK or a code, and then fills *error, unless that is null; its outputs
- * are unchanged. No C++ exception leaves a function. Points on the sphere are x y z, x y z, ... of any
- * norm; in a plane x y, x y, ... Ids are 0-based. Lengths on the sphere are radians and areas
+ * are unchanged. No C++ exception leaves a function. Points on the sphere are x y z, x y z, ... of
+ * any norm; in a plane x y, x y, ... Ids are 0-based. Lengths on the sphere are radians and areas
  * steradians, of the unit sphere. Results have the same bits for any number of threads. Threads may
  * call functions at the same time, also with the same mesh.
  */
@@ -145,8 +146,8 @@ typedef struct calotte_cvt_report {
 /* Zeros, and the seed 1. */
 CALOTTE_C_API void calotte_cvt_defaults(calotte_cvt_options* options);
 
-/* A grid of `cells` generators, from the start that the command takes: a bisected one if the density
- * is uniform, otherwise levels with insertion. Report and options may be null. */
+/* A grid of `cells` generators, from the start that the command takes: a bisected one if the
+ * density is uniform, otherwise levels with insertion. Report and options may be null. */
 CALOTTE_C_API calotte_status calotte_grid(int64_t cells, const calotte_cvt_options* options,
                                           calotte_mesh** mesh, calotte_cvt_report* report,
                                           calotte_error* error);

@@ -15,7 +15,7 @@ namespace calotte::cvt_detail {
 struct Memory {
   /// Of generators, and of the gradient then; oldest first.
   std::vector<base_detail::CompactField> steps, changes;
-  std::vector<double> curvatures;      ///< their inner products
+  std::vector<double> curvatures; ///< their inner products
   double stride = 1;       ///< first trial of the next line search, as a share of the full step
   Points3 laplacian_at;    ///< generators that the graph Laplacian was made for
   int since_laplacian = 0; ///< evaluations

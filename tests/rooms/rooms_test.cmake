@@ -5,7 +5,7 @@
 cmake_minimum_required(VERSION 3.25)
 
 # Bottom to top: a room includes those before it.
-set(rooms base exact curve mesh domain density generators integrals delaunay voronoi cvt quality io)
+set(rooms base exact curve mesh domain density generators integrals delaunay voronoi cvt quality io c)
 set(most_units 20) # in a room other than io; a header and its source are one
 set(most_lines 400)
 
@@ -14,6 +14,7 @@ set(headers_of_base error export mesh_field options points progress types versio
 set(headers_of_mesh check renumber)
 set(headers_of_domain region)
 set(headers_of_density cell_width planar_raster)
+set(headers_of_generators lonlat)
 set(headers_of_voronoi limited_area ocean)
 set(headers_of_io calotte check_file checkpoint cull cut mesh_file read write)
 

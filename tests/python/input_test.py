@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Bad input, each with its exception and message."""
+import math
+
+import numpy as np
+import pytest
+
+import calotte
+
+
+def refuses(text, call, *arguments, **words):
+    with pytest.raises(ValueError) as caught:
+        call(*arguments, **words)
+    assert isinstance(caught.value, calotte.Error)
+    assert text in str(caught.value) and "\n" not in str(caught.value)
+    return caught.value
+
+
+def test_shapes_and_types():
+    refuses("shape (5,)", calotte.delaunay, np.zeros(5))
+    refuses("shape (4, 4)", calotte.delaunay, np.zeros((4, 4)))
+    refuses("must be numbers", calotte.delaunay, [["a", "b", "c"]] * 4)
+    refuses("must be numbers", calotte.delaunay, np.ones((4, 3), dtype=complex))
+    refuses("n x 2 in the plane", calotte.delaunay, np.ones((4, 3)), plane=True)
+    refuses("m x 3 integers", calotte.mesh, calotte.random_sphere(4), np.zeros((4, 3)))
+    refuses("not among the 4", calotte.mesh, calotte.random_sphere(4), [[0, 1, 9]])
+
+
+def test_points():
+    points = calotte.random_sphere(10)
+    points[7, 1] = math.nan
+    error = refuses("point 7", calotte.delaunay, points)
+    assert (error.code, error.index) == ("not_finite", 7)
+    points[7] = 0
+    assert refuses("", calotte.delaunay, points).code == "zero_vector"
+    assert refuses("", calotte.delaunay, points[:3]).code == "too_few_sites"
+    points[7] = points[2]
+    error = refuses("", calotte.delaunay, points, duplicates="refuse")
+    assert (error.code, error.index) == ("duplicate", 7)
+    refuses("merge or refuse", calotte.delaunay, points, duplicates="keep")
+    circle = [(math.cos(a), math.sin(a), 0) for a in range(6)]
+    assert refuses("", calotte.delaunay, circle).code == "degenerate"
+
+
+def test_longitudes_and_latitudes():
+    places = np.stack([np.linspace(-180, 180, 200), np.linspace(-90, 90, 200)], axis=1)
+    places[5, 1] = 91
+    error = refuses("point 5", calotte.delaunay, places)
+    assert error.index == 5
+    rng = np.random.default_rng(1)
+    radians = np.stack([rng.uniform(-np.pi, np.pi, 300), rng.uniform(-1.5, 1.5, 300)], axis=1)
+    with pytest.warns(UserWarning, match="not radians"):
+        calotte.delaunay(radians)
+
+
+def test_functions_of_the_user():
+    def fails(points):
+        raise LookupError("no data there")
+
+    with pytest.raises(LookupError, match="no data there"):
+        calotte.cvt(100, density=fails)
+    refuses("one number for each", calotte.cvt, 100, density=lambda points: np.ones(3))
+    refuses("", calotte.cvt, 100, density=lambda points: -np.ones(len(points)))
+    refuses("", calotte.cvt, 100, density=lambda points: np.full(len(points), np.nan))
+    refuses("shape", calotte.plan, lambda lon, lat: np.ones(7))
+    refuses("", calotte.plan, lambda lon, lat: -np.ones(lon.shape))
+
+
+def test_widths_and_densities():
+    lon, lat = np.arange(0, 360, 10.0), np.linspace(-90, 90, 19)
+    good = np.full((19, 36), 500.0)
+    refuses("latitudes x longitudes", calotte.plan, (good.T, lon, lat))
+    bad = good.copy()
+    bad[3, 4] = math.nan
+    refuses("", calotte.plan, (bad, lon, lat))
+    refuses("", calotte.plan, (0 * good, lon, lat))
+    refuses("12 to 1073741824", calotte.plan, (good / 1e9, lon, lat))
+    with pytest.warns(UserWarning, match="not radians"):
+        calotte.plan((good, np.radians(lon), np.radians(lat)))
+    refuses("no density y8", calotte.cvt, 100, density="y8")
+    refuses("no parameter bta", calotte.cvt, 100, density="tanh:bta=1")
+    refuses("could not convert", calotte.cvt, 100, density="tanh:lon=east")
+    refuses("not both", calotte.cvt, 100, density="x8", cell_width=500.0)
+    refuses("give cell widths as", calotte.cvt, cell_width=object())
+    refuses("no-such.nc", calotte.cvt, cell_width="no-such.nc")
+
+
+def test_options():
+    refuses("whole number", calotte.cvt, 100.5)
+    refuses("12", calotte.cvt, 3)
+    refuses("no method newton", calotte.cvt, 100, method="newton")
+    refuses("no norm", calotte.cvt, 100, norm="l7")
+    refuses("", calotte.cvt, 100, tolerance=-1.0)
+    refuses("give a number of cells", calotte.cvt)
+    refuses("needs a domain", calotte.quality,
+            calotte.delaunay(np.eye(3)[:, :2], plane=True))
+    refuses("1 or more", calotte.threads(0).__enter__)
+    refuses("circle(), ellipse()", calotte.cvt, 100, region=7)
+    refuses("rectangle()", calotte.cvt, 100, domain=7)
+    refuses("", calotte.polygon, [(0, 0), (10, 0), (0, 10), (10, 10)])
+    refuses("no format", calotte.write, "x.nc", calotte.delaunay(calotte.random_sphere(9)),
+            format="shp")

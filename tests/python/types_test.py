@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The types of the package: its stub is that of the compiled part, and a checker understands it."""
+import ast
+import pathlib
+import subprocess
+import sys
+
+import pytest
+
+import calotte
+
+pytest.importorskip("mypy")
+
+PROGRAM = """\
+import calotte
+
+grid = calotte.cvt(642, density="x8", progress=lambda now: now["residual"] < 1e-3)
+cells = calotte.voronoi(grid.mesh)
+total: float = float(cells.cell_area.sum())
+mesh = calotte.delaunay([(0.0, 0.0, 1.0)] * 4, regions=2)
+passed: bool = calotte.check(mesh).passed
+"""
+
+
+def mypy(folder, *words):
+    site = pathlib.Path(calotte.__file__).parents[1]
+    return subprocess.run([sys.executable, *words], capture_output=True, text=True, cwd=folder,
+                          env={"MYPYPATH": str(site), "PYTHONPATH": str(site), "PATH": "/usr/bin",
+                               "MYPY_CACHE_DIR": str(folder)})
+
+
+def test_the_stub_names_what_the_module_has():
+    stub = ast.parse((pathlib.Path(calotte.__file__).parent / "_calotte.pyi").read_text())
+    names = {}
+    for node in stub.body:
+        if isinstance(node, ast.FunctionDef):
+            names[node.name] = None
+        elif isinstance(node, ast.ClassDef):
+            names[node.name] = {part.target.id if isinstance(part, ast.AnnAssign) else part.name
+                                for part in node.body
+                                if isinstance(part, (ast.AnnAssign, ast.FunctionDef))}
+    module = calotte._calotte
+    assert set(names) == {name for name in vars(module) if not name.startswith("_")}
+    for name, members in names.items():
+        if members is not None:
+            assert all(hasattr(getattr(module, name), member) for member in members), name
+            public = {word for word in vars(getattr(module, name)) if not word.startswith("_")}
+            assert public <= members | {"name", "value"}, name
+
+
+def test_a_checker_understands_programs(tmp_path):
+    (tmp_path / "good.py").write_text(PROGRAM)
+    result = mypy(tmp_path, "-m", "mypy", "good.py")
+    assert result.returncode == 0, result.stdout
+    (tmp_path / "bad.py").write_text(PROGRAM.replace("642", "'many cells', 7"))
+    result = mypy(tmp_path, "-m", "mypy", "bad.py")
+    assert result.returncode == 1 and "bad.py:3" in result.stdout

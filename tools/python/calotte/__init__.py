@@ -1,0 +1,31 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Delaunay triangulations and centroidal Voronoi tessellations of the sphere and the plane.
+
+Points are n x 3 directions, or n x 2 longitudes and latitudes in degrees. Lengths on the sphere are
+radians and areas steradians, of the unit sphere; cell widths are km. Results have the same bits for
+any number of threads. Functions raise calotte.Error, a ValueError.
+
+>>> import calotte
+>>> grid = calotte.cvt(2562)
+>>> bool(calotte.check(grid.mesh))
+True
+"""
+from . import _mesh  # adds the methods of meshes that are written in Python
+from ._calotte import (CellWidth, Check, Density, Error, Mesh, PlanarDomain, PlanarMesh, Quality,
+                       Region, Voronoi, __version__)
+from ._functions import (Cvt, Plan, bisect, bisected_icosahedron, channel, check, circle,
+                         cubed_sphere, cull, cut, cvt, delaunay, ellipse, fibonacci_sphere,
+                         from_lonlat, hexagonal_lattice, lat_lon_sphere, mesh, periodic_box,
+                         planar_polygon, plan, polygon, quality, random_places, random_sphere, read,
+                         read_fields, read_points, rectangle, spiral_sphere, threads, to_lonlat,
+                         voronoi, write)
+
+__all__ = [
+    "CellWidth", "Check", "Cvt", "Density", "Error", "Mesh", "Plan", "PlanarDomain", "PlanarMesh",
+    "Quality", "Region", "Voronoi", "__version__", "bisect", "bisected_icosahedron", "channel",
+    "check", "circle", "cubed_sphere", "cull", "cut", "cvt", "delaunay", "ellipse",
+    "fibonacci_sphere", "from_lonlat", "hexagonal_lattice", "lat_lon_sphere", "mesh", "periodic_box",
+    "planar_polygon", "plan", "polygon", "quality", "random_places", "random_sphere", "read",
+    "read_fields", "read_points", "rectangle", "spiral_sphere", "threads", "to_lonlat", "voronoi",
+    "write",
+]

@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""scipy.spatial.SphericalVoronoi with the same attributes: change the import, keep the script."""
+import numpy as np
+
+from . import _calotte
+from ._arguments import numbers
+
+
+class SphericalVoronoi:
+    """Voronoi cells of points on a sphere.
+
+    points: n x 3. radius: of the sphere; default 1. center: of the sphere; default the origin.
+    threshold: relative tolerance for duplicates and for the distance of points to the sphere.
+
+    vertices: m x 3 corners of cells. regions: for each point the ids of its corners,
+    counter-clockwise seen from outside. Raises ValueError for duplicates and for points off the
+    sphere.
+
+    >>> cells = SphericalVoronoi([(0, 0, 1), (0, 0, -1), (1, 0, 0), (0, 1, 0), (0, -1, 0), (-1, 0, 0)])
+    >>> [len(region) for region in cells.regions]
+    [4, 4, 4, 4, 4, 4]
+    """
+
+    def __init__(self, points, radius=1, center=None, threshold=1e-06):
+        if radius is None:
+            raise ValueError("`radius` is None; give a positive number")
+        self.points = np.array(numbers(points, "points"))
+        if self.points.ndim != 2 or self.points.shape[1] != 3:
+            raise ValueError("points must be n x 3; cells on a circle or a hypersphere are not "
+                             "supported")
+        self.radius = float(radius)
+        self.center = np.zeros(3) if center is None else np.array(center, dtype=float)
+        self._dim = 3
+        offsets = self.points - self.center
+        distances = np.linalg.norm(offsets, axis=1)
+        if not (self.radius > 0 and np.abs(distances - self.radius).max() < self.radius * threshold):
+            raise ValueError("Radius inconsistent with generators.")
+        try:
+            self._mesh = _calotte.delaunay(offsets, threshold, False, None)
+        except _calotte.Error as error:
+            if error.code == "duplicate":
+                raise ValueError(f"Duplicate generators present: {error}") from error
+            raise
+        self._cells = _calotte.voronoi(self._mesh)
+        self._starts, self._ids, self._corners = _merged(self._cells)
+        self.vertices = self.radius * self._corners + self.center
+        self._simplices = self._mesh.triangles
+        self._regions = None
+
+    @property
+    def regions(self):
+        """For each point the list of its corners."""
+        if self._regions is None:
+            ids, starts = self._ids.tolist(), self._starts.tolist()
+            self._regions = [ids[a:b] for a, b in zip(starts, starts[1:])]
+        return self._regions
+
+    @property
+    def regions_csr(self):
+        """The same as two arrays: point i has the corners ids[starts[i]:starts[i + 1]]."""
+        return self._starts, self._ids
+
+    def sort_vertices_of_regions(self):
+        """Does nothing: corners are in order."""
+
+    def calculate_areas(self):
+        """The area of each cell; they sum to that of the sphere."""
+        return self.radius**2 * self._cells.cell_area
+
+
+def _merged(cells):
+    """Corners of cocircular sites, which several triangles share, once."""
+    starts, ids = cells.begin, cells.vertices_on_cell
+    short = np.flatnonzero(cells.dv <= 1e-9 * cells.dc)
+    if len(short) == 0:
+        return starts, ids, cells.vertices
+    into = np.arange(len(cells.vertices))
+    pairs = cells.vertices_on_edge[short]
+    while True:  # each corner receives the lowest id of those it coincides with
+        lowest = into[pairs].min(axis=1)
+        before = into.copy()
+        np.minimum.at(into, pairs[:, 0], lowest)
+        np.minimum.at(into, pairs[:, 1], lowest)
+        into = into[into]
+        if (into == before).all():
+            break
+    kept, number = np.unique(into, return_inverse=True)
+    corners = number[ids]
+    cell = np.repeat(np.arange(len(starts) - 1), np.diff(starts))
+    before = np.arange(len(ids)) - 1
+    first = starts[:-1]
+    before[first] = starts[1:] - 1  # the last corner of the cell precedes its first
+    stays = corners != corners[before]
+    counts = np.bincount(cell[stays], minlength=len(starts) - 1)
+    return np.concatenate([[0], np.cumsum(counts)]), corners[stays], cells.vertices[kept]

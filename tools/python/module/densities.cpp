@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "arrays.h"
+#include "calls.h"
+#include "module.h"
+
+#include <calotte/cell_width.h>
+#include <calotte/density.h>
+#include <calotte/error.h>
+#include <calotte/planar_raster.h>
+#include <calotte/read.h>
+
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace calotte::python {
+namespace {
+
+/// One that asks a function of Python for blocks of points.
+Density callable(py::object function) {
+  Density density;
+  density.kind = Density::Kind::callable;
+  density.callable = [f = Callable(std::move(function))](const Eigen::Ref<const Points3>& x,
+                                                         Eigen::Ref<Eigen::VectorXd> rho) {
+    const py::gil_scoped_acquire locked;
+    const Doubles values(f(handed_over(Points3(x))));
+    if (values.ndim() != 1 || values.shape(0) != x.cols())
+      throw Error(ErrorCode::bad_option,
+                  "the density function must return one number for each of its points");
+    rho = Eigen::Map<const Eigen::VectorXd>(values.data(), values.shape(0));
+  };
+  return density;
+}
+
+using BumpWords = std::tuple<Eigen::Vector3d, double, double, double>;
+
+Density bumps(const std::vector<BumpWords>& words, bool sum) {
+  Density density;
+  density.kind = sum ? Density::Kind::sum : Density::Kind::maximum;
+  for (const auto& [centre, beta, alpha, gamma] : words)
+    density.bumps.push_back({.centre = centre, .beta = beta, .alpha = alpha, .gamma = gamma});
+  return density;
+}
+
+CellWidth cell_width(const Doubles& values, const Doubles& longitudes, const Doubles& latitudes) {
+  CellWidth widths;
+  widths.longitudes = Eigen::Map<const Eigen::VectorXd>(longitudes.data(), longitudes.size());
+  widths.latitudes = Eigen::Map<const Eigen::VectorXd>(latitudes.data(), latitudes.size());
+  widths.widths = columns(values);
+  return widths;
+}
+
+Density planar_raster(const Doubles& values, const Doubles& x, const Doubles& y) {
+  PlanarRaster raster;
+  raster.x = Eigen::Map<const Eigen::VectorXd>(x.data(), x.size());
+  raster.y = Eigen::Map<const Eigen::VectorXd>(y.data(), y.size());
+  raster.density = columns(values);
+  return density_of(raster);
+}
+
+CellWidth read_widths(const std::string& path, double inside, double outside, double transition,
+                      double radius_km) {
+  return call([&] { return read_cell_width(path, {inside, outside, transition, radius_km}); });
+}
+
+void add_cell_width(py::module_& module) {
+  py::class_<CellWidth>(module, "CellWidth")
+      .def(py::init(&cell_width))
+      .def_property_readonly(
+          "widths",
+          [](py::object self) { return view(self.cast<const CellWidth&>().widths, self); })
+      .def_property_readonly(
+          "longitudes",
+          [](py::object self) { return view(self.cast<const CellWidth&>().longitudes, self); })
+      .def_property_readonly(
+          "latitudes",
+          [](py::object self) { return view(self.cast<const CellWidth&>().latitudes, self); })
+      .def("at", [](const CellWidth& widths, const Doubles& points) {
+        const auto sites = columns(points);
+        return handed_over(call([&] { return evaluate(widths, sites); }));
+      });
+  module.def("read_cell_width", &read_widths);
+  module.def("implied_cells", [](const CellWidth& widths, const Region& region, double radius_km) {
+    return call([&] {
+      return region.whole() ? implied_cells(widths, radius_km)
+                            : implied_cells(widths, region, radius_km);
+    });
+  });
+  module.def("largest_gradient", [](const CellWidth& widths, double radius_km) {
+    const Gradient gradient = call([&] { return largest_gradient(widths, radius_km); });
+    return std::tuple(gradient.slope, gradient.longitude, gradient.latitude);
+  });
+}
+
+} // namespace
+
+void add_densities(py::module_& module) {
+  py::class_<Density>(module, "Density")
+      .def(py::init<>())
+      .def_property_readonly("uniform", &Density::uniform)
+      .def("at", [](const Density& density, const Doubles& points) {
+        const auto sites = columns(points);
+        return handed_over(call([&] { return evaluate(density, sites); }));
+      });
+  module.def("density_of_function", &callable);
+  module.def("density_of_bumps", &bumps);
+  add_cell_width(module);
+  module.def("density_of_widths",
+             [](const CellWidth& widths) { return call([&] { return density_of(widths); }); });
+  module.def("density_of_planar_raster", &planar_raster);
+}
+
+} // namespace calotte::python

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "module.h"
+
+#include "calls.h"
+
+#include <calotte/version.h>
+
+namespace calotte::python {
+
+int& threads() {
+  thread_local int count = 0;
+  return count;
+}
+
+} // namespace calotte::python
+
+PYBIND11_MODULE(_calotte, module) {
+  using namespace calotte::python;
+  module.doc() = "The compiled part of calotte.";
+  module.attr("__version__") = CALOTTE_VERSION;
+  module.def("set_threads", [](int count) { return std::exchange(threads(), count); });
+  add_errors(module);
+  add_regions(module);
+  add_densities(module);
+  add_meshes(module);
+  add_cells(module);
+  add_points(module);
+  add_tessellations(module);
+  add_files(module);
+}

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "arrays.h"
+#include "calls.h"
+#include "module.h"
+
+#include <calotte/domain.h>
+#include <calotte/limited_area.h>
+#include <calotte/read.h>
+#include <calotte/region.h>
+
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+
+#include <string>
+#include <vector>
+
+namespace calotte::python {
+namespace {
+
+std::vector<Points3> rings_of(const std::vector<Doubles>& arrays) {
+  std::vector<Points3> rings;
+  for (const Doubles& array : arrays)
+    rings.emplace_back(columns(array));
+  return rings;
+}
+
+template <class Rings> py::list arrays_of(const Rings& rings, py::handle owner) {
+  py::list arrays;
+  for (const auto& ring : rings)
+    arrays.append(view(ring, owner));
+  return arrays;
+}
+
+PlanarDomain domain_of(const std::vector<Doubles>& arrays) {
+  PlanarDomain domain;
+  for (const Doubles& array : arrays)
+    domain.rings.emplace_back(columns(array));
+  require_domain(domain);
+  return domain;
+}
+
+template <class Part, class Place>
+py::array_t<bool> contains_all(const Part& part, const Doubles& points) {
+  py::array_t<bool> inside(points.shape(0));
+  bool* out = inside.mutable_data();
+  const auto places = columns(points);
+  call([&] {
+    const auto holds = containing(part);
+    for (Eigen::Index i = 0; i < places.cols(); ++i)
+      out[i] = holds(Place(places.col(i)));
+  });
+  return inside;
+}
+
+} // namespace
+
+void add_regions(py::module_& module) {
+  py::class_<Region>(module, "Region")
+      .def(py::init<>())
+      .def(py::init([](const std::vector<Doubles>& rings, bool smaller) {
+        if (smaller)
+          return smaller_region(rings_of(rings));
+        Region region{rings_of(rings)};
+        require_region(region);
+        return region;
+      }))
+      .def_property_readonly(
+          "rings",
+          [](py::object self) { return arrays_of(self.cast<const Region&>().rings, self); })
+      .def_property_readonly("whole", &Region::whole)
+      .def_property_readonly("area", [](const Region& region) { return area(region); })
+      .def("contains", &contains_all<Region, Eigen::Vector3d>)
+      .def("widened", &widened);
+  module.def("circle", &circle);
+  module.def("ellipse", &ellipse);
+  module.def("channel", &channel);
+  module.def("read_region", py::overload_cast<const std::string&>(&read_region));
+  py::class_<PlanarDomain>(module, "PlanarDomain")
+      .def(py::init(&domain_of))
+      .def_property_readonly(
+          "rings",
+          [](py::object self) { return arrays_of(self.cast<const PlanarDomain&>().rings, self); })
+      .def_property_readonly(
+          "period",
+          [](py::object self) { return view(self.cast<const PlanarDomain&>().period, self); })
+      .def_property_readonly("area", [](const PlanarDomain& domain) { return area(domain); })
+      .def("contains", &contains_all<PlanarDomain, Eigen::Vector2d>);
+  module.def("rectangle", &rectangle);
+  module.def("periodic_box", &periodic_box);
+  module.def("read_domain", &read_domain);
+}
+
+} // namespace calotte::python
