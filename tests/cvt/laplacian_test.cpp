@@ -117,7 +117,7 @@ TEST_CASE("the multigrid cycle is symmetric, positive, and contracts for any siz
         const Points3 residual = difference(b, solution * matrix);
         before = after;
         after = std::sqrt(inner(residual, residual));
-        add(solution, 1, multigrid.solve(residual));
+        solution += multigrid.solve(residual);
       }
       CHECK(after < 0.7 * before);
     }

@@ -2,8 +2,8 @@
 # Installs the package as pip does for a user, but for the library, which is built already.
 # Called with PYTHON, ROOT (the project), PREFIX (of the installed library), SITE (where to install) and CXX.
 cmake_minimum_required(VERSION 3.25)
-execute_process(COMMAND ${PYTHON} -c "import pip, setuptools, wheel, numpy, pytest" RESULT_VARIABLE missing ERROR_QUIET)
-find_path(pybind11 pybind11/pybind11.h)
+execute_process(COMMAND ${PYTHON} -c "import setuptools, pip, wheel, numpy, pytest" RESULT_VARIABLE missing ERROR_QUIET)
+find_path(pybind11 pybind11/pybind11.h PATHS /usr/include /usr/local/include)
 if(missing OR NOT pybind11)
   message("skipped: pip, setuptools, wheel, numpy, pytest or pybind11 is not installed; run tools/setup --python")
   return()

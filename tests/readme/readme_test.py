@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs the examples of README.md as a user does: readme_test.py README BUILD SCRATCH.
+"""Runs the examples of README.md as a user does: readme_test.py README BUILD SCRATCH SITE.
 
 The scratch folder looks like a clone after tools/quickstart: build/release is the build tree, and
-tools/examples is a copy. The cpp and cmake blocks become the files that README names, then all sh blocks
-run as one script that stops at the first failure. Lines that start a script of tools/ are not run: the
+tools/examples is a copy. The blocks of other languages become the files that README names, then all sh
+blocks run as one script that stops at the first failure. SITE is where the Python package is installed,
+in place of README's environment; without it, its program is not run. Lines that start a script of tools/ are not run: the
 script must exist and parse."""
 
 import re
@@ -15,6 +16,8 @@ from pathlib import Path
 # A line of README that names the file whose content the next block is.
 BLOCK = re.compile(r"(?:`(?P<file>[\w./]+)`:\n\n)?^```(?P<language>\w+)\n(?P<text>.*?)^```$", re.M | re.S)
 SCRIPT = re.compile(r"^(tools/\w+)\b.*$", re.M)
+INSTALLING = re.compile(r"^(python3 -m venv|env/bin/pip)\b.*$", re.M)
+INSTALLED = re.compile(r"^env/bin/python\b", re.M)
 ON_FAILURE = "trap 'echo \"README.md: this command failed: $BASH_COMMAND\" >&2' ERR\n"
 
 
@@ -34,24 +37,25 @@ def write_block(scratch, block):
     file.write_text(block["text"])
 
 
-def shell_of(project, text):
-    """The text without the scripts of tools/, which are parsed here."""
+def shell_of(project, site, text):
+    """The text without the scripts of tools/, which are parsed here, and with the package in SITE."""
     for name in SCRIPT.findall(text):
         subprocess.run(["bash", "-n", project / name], check=True)
-    return SCRIPT.sub("", text)
+    python = f"PYTHONPATH={site} {sys.executable}" if (site / "calotte").is_dir() else "true"
+    return INSTALLED.sub(python, INSTALLING.sub("", SCRIPT.sub("", text)))
 
 
-def main(readme, build, scratch):
+def main(readme, build, scratch, site):
     project = readme.parent
     blocks = list(BLOCK.finditer(readme.read_text()))
     languages = {block["language"] for block in blocks}
-    if languages != {"sh", "cpp", "cmake"}:
-        sys.exit(f"README.md: expected blocks of sh, cpp and cmake, found {sorted(languages)}")
+    if languages != {"sh", "cpp", "cmake", "python"}:
+        sys.exit(f"README.md: expected blocks of sh, cpp, cmake and python, found {sorted(languages)}")
     make_scratch(project, build, scratch)
     shell = ""
     for block in blocks:
         if block["language"] == "sh":
-            shell += shell_of(project, block["text"])
+            shell += shell_of(project, site, block["text"])
         else:
             write_block(scratch, block)
     script = scratch / "examples.sh"
