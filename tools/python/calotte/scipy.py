@@ -36,14 +36,19 @@ class SphericalVoronoi:
         if not (self.radius > 0 and np.abs(distances - self.radius).max() < self.radius * threshold):
             raise ValueError("Radius inconsistent with generators.")
         try:
-            self._mesh = _calotte.delaunay(offsets, threshold, False, None)
+            self._mesh = _calotte.delaunay(offsets, 0.0, False, None)
         except _calotte.Error as error:
             if error.code == "duplicate":
                 raise ValueError(f"Duplicate generators present: {error}") from error
             raise
-        self._cells = _calotte.voronoi(self._mesh)
-        self._starts, self._ids, self._corners = _merged(self._cells)
-        self.vertices = self.radius * self._corners + self.center
+        corners, starts, ids, shortest, coincide = _calotte.corners(self._mesh)
+        if shortest <= threshold:
+            raise ValueError("Duplicate generators present: two points are within the threshold "
+                             f"{threshold * self.radius:.3g} of each other; merge them")
+        if coincide:
+            starts, ids, corners = _merged(starts, ids, corners)
+        self._starts, self._ids = starts, ids
+        self.vertices = self.radius * corners + self.center
         self._simplices = self._mesh.triangles
         self._regions = None
 
@@ -51,8 +56,7 @@ class SphericalVoronoi:
     def regions(self):
         """For each point the list of its corners."""
         if self._regions is None:
-            ids, starts = self._ids.tolist(), self._starts.tolist()
-            self._regions = [ids[a:b] for a, b in zip(starts, starts[1:])]
+            self._regions = _calotte.lists_of(self._starts, self._ids)
         return self._regions
 
     @property
@@ -65,31 +69,26 @@ class SphericalVoronoi:
 
     def calculate_areas(self):
         """The area of each cell; they sum to that of the sphere."""
-        return self.radius**2 * self._cells.cell_area
+        return self.radius**2 * _calotte.voronoi(self._mesh).cell_area
 
 
-def _merged(cells):
+def _merged(starts, ids, corners):
     """Corners of cocircular sites, which several triangles share, once."""
-    starts, ids = cells.begin, cells.vertices_on_cell
-    short = np.flatnonzero(cells.dv <= 1e-9 * cells.dc)
-    if len(short) == 0:
-        return starts, ids, cells.vertices
-    into = np.arange(len(cells.vertices))
-    pairs = cells.vertices_on_edge[short]
+    cell_ends = starts[1:] - 1
+    before = np.concatenate([[0], ids[:-1]])
+    before[starts[:-1]] = ids[cell_ends]  # the last corner of a cell precedes its first
+    sides = corners[ids] - corners[before]
+    short = np.flatnonzero(np.einsum("ij,ij->i", sides, sides) < 1e-28)
+    into, pairs = np.arange(len(corners)), np.stack([ids[short], before[short]], axis=1)
     while True:  # each corner receives the lowest id of those it coincides with
-        lowest = into[pairs].min(axis=1)
-        before = into.copy()
+        earlier, lowest = into.copy(), into[pairs].min(axis=1)
         np.minimum.at(into, pairs[:, 0], lowest)
         np.minimum.at(into, pairs[:, 1], lowest)
         into = into[into]
-        if (into == before).all():
+        if (into == earlier).all():
             break
     kept, number = np.unique(into, return_inverse=True)
-    corners = number[ids]
+    stays = into[ids] != into[before]
     cell = np.repeat(np.arange(len(starts) - 1), np.diff(starts))
-    before = np.arange(len(ids)) - 1
-    first = starts[:-1]
-    before[first] = starts[1:] - 1  # the last corner of the cell precedes its first
-    stays = corners != corners[before]
     counts = np.bincount(cell[stays], minlength=len(starts) - 1)
-    return np.concatenate([[0], np.cumsum(counts)]), corners[stays], cells.vertices[kept]
+    return np.concatenate([[0], np.cumsum(counts)]), number[ids][stays], corners[kept]
