@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <calotte/cell_width.h>
 #include <calotte/export.h>
+#include <calotte/region.h>
 #include <calotte/voronoi.h>
 
 #include <cstdint>
@@ -43,6 +45,14 @@ Ids limited_area_mask(const Offsets& begin, const Ids& cells_on_cell,
 /// \param count number of edges, or vertices; all ids are less.
 /// \returns by edge or vertex; -1 where no selected cell is.
 Ids least_mask(const Offsets& begin, const Ids& ids, const Ids& mask, std::int64_t count);
+
+/// The region that a run meshes for a limited-area grid: another one, the rings around it and some
+/// cells more, so that the outermost ring has whole cells. The whole sphere where that is larger
+/// than widened() allows.
+/// \param radius_km radius of the sphere of the widths.
+/// \throws Error as widened() and evaluate().
+Region with_rings(const Region& region, const CellWidth& widths,
+                  double radius_km = earth_radius_km);
 
 } // namespace calotte
 CALOTTE_API_END

@@ -5,6 +5,7 @@
 #include "voronoi/room.h"
 
 #include <algorithm>
+#include <initializer_list>
 #include <string>
 
 namespace calotte {
@@ -90,6 +91,19 @@ Ids least_mask(const Offsets& begin, const Ids& ids, const Ids& mask, std::int64
       if (ids[k] >= 0 && (least[ids[k]] < 0 || mask[i] < least[ids[k]]))
         least[ids[k]] = mask[i];
   return least;
+}
+
+Region with_rings(const Region& region, const CellWidth& widths, double radius_km) {
+  constexpr int beyond = 4; // cells
+  Region meshed = region;
+  for (int k = 0; k < 3; ++k) { // the widths may grow outwards
+    double widest = 0;
+    for (const Region* boundary : std::initializer_list<const Region*>{&region, &meshed})
+      for (const Points3& ring : boundary->rings)
+        widest = std::max(widest, evaluate(widths, ring.colwise().normalized()).maxCoeff());
+    meshed = widened(region, (limited_area_rings + beyond) * widest / radius_km);
+  }
+  return meshed;
 }
 
 } // namespace calotte

@@ -133,6 +133,18 @@ def test_files(tmp_path):
     assert dataset.sizes["nCells"] == 642
 
 
+def test_a_limited_area_is_that_of_the_command(tmp_path):
+    netcdf = pytest.importorskip("netCDF4")
+    run("cvt", "--region", "circle=-105,40,1000km", "--cell-width", "150km", "--limited-area",
+        "-o", tmp_path / "command.nc")
+    region = calotte.circle((-105, 40), math.degrees(1000 / 6371))
+    counts = calotte.limited_area(tmp_path / "python.nc", region, 150.0)
+    assert counts["cells"] == sum(counts["cells_by_mask"]) and len(counts["cells_by_mask"]) == 8
+    with netcdf.Dataset(tmp_path / "command.nc") as a, netcdf.Dataset(tmp_path / "python.nc") as b:
+        for name in ("xCell", "cellsOnCell", "bdyMaskCell", "meshDensity"):
+            assert (a[name][:] == b[name][:]).all(), name
+
+
 def test_topology_is_what_uxarray_takes():
     mesh = calotte.delaunay(calotte.fibonacci_sphere(200))
     topology = mesh.topology()

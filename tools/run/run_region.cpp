@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <string>
 #include <utility>
 
@@ -18,18 +17,6 @@ namespace {
 
 [[noreturn]] void refuse(const std::string& problem) {
   throw Error(ErrorCode::bad_option, problem);
-}
-
-/// The distance in radians for the rings of a limited-area grid and a few cells more, of the widest
-/// cells along some boundaries.
-double margin_of(const CellWidth& widths, double radius_km,
-                 std::initializer_list<const Region*> boundaries) {
-  constexpr int beyond = 4; // cells, so that the rings have whole cells
-  double widest = 0;
-  for (const Region* region : boundaries)
-    for (const Points3& ring : region->rings)
-      widest = std::max(widest, evaluate(widths, ring.colwise().normalized()).maxCoeff());
-  return (limited_area_rings + beyond) * widest / radius_km;
 }
 
 /// \throws Error bad_option for a region that is smaller than a cell.
@@ -53,9 +40,7 @@ std::optional<RunRegion> region_of_run(const RegionWords& words, const WidthWord
   if (!widths)
     refuse("--limited-area requires cell widths, from which the rings around the region follow; "
            "give --cell-width");
-  Region meshed = region;
-  for (int k = 0; k < 3; ++k) // the widths may grow outwards
-    meshed = widened(region, margin_of(*widths, width_words.radius, {&region, &meshed}));
+  Region meshed = with_rings(region, *widths, width_words.radius);
   return RunRegion{std::move(region), std::move(meshed)};
 }
 

@@ -154,7 +154,8 @@ def density(value, widths=None):
     if widths is not None:
         if value is not None:
             raise Error("give a density or cell widths, not both")
-        return _calotte.density_of_widths(widths)
+        same = np.ptp(widths.widths) == 0
+        return _calotte.Density() if same else _calotte.density_of_widths(widths)
     if value is None or (isinstance(value, str) and value == "uniform"):
         return _calotte.Density()
     if isinstance(value, _calotte.Density):

@@ -312,7 +312,7 @@ def cvt(start: int | ArrayLike | None = None, *, density: DensityLike | None = N
             raise Error("give a number of cells, points, or cell widths in km")
         start = _cells_for(widths, part, earth_radius)
     counted = np.ndim(start) == 0
-    graded = counted and not (part.whole and (rho.uniform or _is_uniform(widths)))
+    graded = counted and not (part.whole and rho.uniform)
     finish = graded if well_centred is None else well_centred
     options = _options(rho, method, norm, tolerance, max_iterations, finish, regions)
     if not counted:
@@ -326,10 +326,6 @@ def cvt(start: int | ArrayLike | None = None, *, density: DensityLike | None = N
                                                            rho, seed)
     result, report = _calotte.cvt(points, part, options, _reporting(progress))
     return Cvt(result, **report)
-
-
-def _is_uniform(widths):
-    return widths is not None and np.ptp(widths.widths) == 0
 
 
 def _planar_cvt(start, parts, density, seed, words, well_centred, insertion_rounds, regions,
@@ -523,6 +519,23 @@ def cut(source: Path, target: Path, region: RegionLike, *, rings: int = 7,
     sphere_radius: of the new file; None keeps that of the source.
     """
     return _calotte.cut(str(source), str(target), _arguments.region(region), rings, sphere_radius)
+
+
+def limited_area(path: Path, region: RegionLike, cell_width: WidthLike, *,
+                 sphere_radius: float = 1.0, earth_radius: float = EARTH_RADIUS_KM,
+                 **options: Any) -> dict[str, Any]:
+    """Makes a limited-area grid: the cells of a region with seven rings of boundary cells around it.
+
+    cell_width: as for cvt(). sphere_radius: of the MPAS file; the model expects 1.
+    options: seed, max_iterations, regions and progress as for cvt().
+    Returns a dict of counts: cells, and cells_by_mask (inside, then by ring).
+    """
+    widths, part = _arguments.cell_width(cell_width, earth_radius), _arguments.region(region)
+    meshed = _calotte.with_rings(part, widths, earth_radius)
+    grid = cvt(cell_width=widths, region=meshed, earth_radius=earth_radius, **options)
+    output = _calotte.Output(str(path), "mpas", sphere_radius, _arguments.density(None, widths), {},
+                             "")
+    return _calotte.write_limited_area(output, grid.mesh.points, meshed, part)
 
 
 def cull(source: Path, target: Path, *, coast: Path | None = None, land_fraction: float = 0.5,

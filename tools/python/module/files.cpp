@@ -87,6 +87,20 @@ py::dict cut_mesh(const std::string& source, const std::string& target, const Re
   return values;
 }
 
+py::dict write_limited(const Output& output, const Doubles& generators, const Region& meshed,
+                       const Region& region) {
+  CutOptions options;
+  options.sphere_radius = output.radius;
+  const WriteOptions written = options_of(output);
+  const Points3 points = columns(generators);
+  const CutReport report = call(
+      [&] { return write_limited_area(output.path, points, meshed, region, written, options); });
+  py::dict values;
+  values["cells"] = report.cells;
+  values["cells_by_mask"] = report.cells_by_mask;
+  return values;
+}
+
 py::dict cull_mesh(const std::string& source, const std::string& target,
                    const std::optional<std::string>& coast, double land_fraction,
                    const std::optional<std::string>& passages,
@@ -160,6 +174,7 @@ void add_files(py::module_& module) {
   module.def("write", &write_mesh);
   module.def("write_in_plane", &write_plane);
   module.def("cut", &cut_mesh);
+  module.def("write_limited_area", &write_limited);
   module.def("cull", &cull_mesh);
 }
 

@@ -75,6 +75,9 @@ void add_regions(py::module_& module) {
   module.def("ellipse", &ellipse);
   module.def("channel", &channel);
   module.def("read_region", py::overload_cast<const std::string&>(&read_region));
+  module.def("with_rings", [](const Region& region, const CellWidth& widths, double radius_km) {
+    return call([&] { return with_rings(region, widths, radius_km); });
+  });
   py::class_<PlanarDomain>(module, "PlanarDomain")
       .def(py::init(&domain_of))
       .def_property_readonly(
