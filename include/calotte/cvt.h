@@ -296,9 +296,9 @@ struct Continuation {
 ///         density, seed) where it draws.
 Continuation continuation(std::int64_t cells, const Density& density, std::uint64_t seed = 1);
 
-/// A value for CvtOptions::insertion_rounds that makes good grids in little time: 2, above 100 000
-/// cells 10, above 400 000 cells 5. On a fine grid few rounds leave cells sheared over long
-/// distances; on the finest ones further rounds gain less than they cost.
+/// A value for CvtOptions::insertion_rounds that makes good grids in little time: 2, above 70 000
+/// cells 4, above 150 000 cells 10, above 400 000 cells 5. On a fine grid few rounds leave cells
+/// sheared over long distances; on the finest ones further rounds gain less than they cost.
 int insertion_rounds(std::int64_t cells);
 
 /// The start of a run with CvtOptions::insertion_rounds, for any number of cells: random points

@@ -83,8 +83,9 @@ void add_start(CLI::App& command, CvtRequest& request) {
       .add_option(
           "--insertion-rounds", request.insertion_rounds,
           "Rounds of insertion and removal of cells on the last level of --start multilevel; 1 "
-          "to 100; default: 2, above 100 000 cells 10, above 400 000 cells 5. Where the density is "
-          "steep, half as many")
+          "to 100; default: 2, above 70 000 cells 4, above 150 000 cells 10, above 400 000 cells "
+          "5. "
+          "Where the density is steep, half as many")
       ->transform(whole_number(1, 100));
 }
 
