@@ -7,6 +7,7 @@
 #include <calotte/types.h>
 
 #include <Eigen/Geometry>
+#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <cmath>
@@ -78,8 +79,7 @@ std::tuple<py::array, py::array, py::array, double, bool> corners_of(const Mesh&
                                        "unbounded; spread them over the sphere");
   Corners corners = call([&] {
     Corners made;
-    walk_rings(mesh, made);
-    set_centres(mesh, made);
+    tbb::parallel_invoke([&] { walk_rings(mesh, made); }, [&] { set_centres(mesh, made); });
     return made;
   });
   return {handed_over(std::move(corners.points)), handed_over(std::move(corners.begin)),
