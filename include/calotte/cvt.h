@@ -296,6 +296,10 @@ struct Continuation {
 ///         density, seed) where it draws.
 Continuation continuation(std::int64_t cells, const Density& density, std::uint64_t seed = 1);
 
+/// A value for CvtOptions::tolerance of a run with CvtOptions::well_centred: what a stricter one
+/// gains, the finish takes back.
+inline constexpr double tolerance_before_finish = 3e-4;
+
 /// A value for CvtOptions::insertion_rounds that makes good grids in little time: 2, above 70 000
 /// cells 4, above 150 000 cells 10, above 400 000 cells 5. On a fine grid few rounds leave cells
 /// sheared over long distances; on the finest ones further rounds gain less than they cost.

@@ -73,6 +73,11 @@ Points3 spiral_sphere(std::int64_t n);
 /// \param level 0 to 13.
 Points3 bisected_icosahedron(int level);
 
+/// The number of points of a bisected icosahedron within 1 percent of a number, such as the cells
+/// that a uniform width implies; 0 if there is none.
+/// \param points 1 to 2^30; 0 for others.
+std::int64_t icosahedral_count(double points);
+
 /// A regular latitude-longitude grid: rows of `longitudes` points at cell-centred latitudes, south
 /// to north, each from longitude 0 eastwards.
 /// \param latitudes number of rows, >= 1; latitudes times longitudes is at most 2^30.

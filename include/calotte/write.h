@@ -13,6 +13,7 @@
 #include <iosfwd>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 /// Writers. Each file is written under a temporary name in the same folder, flushed to the disk and
@@ -124,6 +125,9 @@ void write(const std::string& path, const PlanarMesh& mesh, const PlanarDomain& 
 ///         formats, .vtp has vtp and vtp_cells, .vtu has vtu and vtu_cells); for mpi_scvt under
 ///         another name.
 Format format_of(const std::string& path, Format option = Format::by_name);
+
+/// The words for formats, such as "ugrid-triangles", without by_name and vtk.
+const std::vector<std::pair<std::string, Format>>& format_words();
 
 /// True if the format stores Voronoi cells and thus requires a closed mesh, or a domain of the
 /// plane.

@@ -80,10 +80,10 @@ double inner(const Points3& a, const Points3& b) {
   });
 }
 
-CompactField compacted(const Points3& vectors) {
+CompactField compacted(const Points3& vectors, double square) {
   const auto n = static_cast<double>(std::max<Eigen::Index>(vectors.cols(), 1));
   CompactField field;
-  field.scale = std::sqrt(inner(vectors, vectors) / n);
+  field.scale = std::sqrt(square / n);
   const double inverse = field.scale > 0 ? 1 / field.scale : 0;
   field.values.resize(3, vectors.cols());
   for_each_block(vectors.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {

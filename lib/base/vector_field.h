@@ -17,7 +17,8 @@ struct CompactField {
   double scale = 0;
 };
 
-CompactField compacted(const Points3& vectors);
+/// \param square inner(vectors, vectors).
+CompactField compacted(const Points3& vectors, double square);
 Points3 expanded(const CompactField& field);
 
 double inner(const CompactField& a, const Points3& b);

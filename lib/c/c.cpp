@@ -114,14 +114,13 @@ calotte_cvt_options defaults() {
 }
 
 CvtOptions options_of(const calotte_cvt_options& words) {
-  constexpr double before_finish = 3e-4;
   CvtOptions options;
   options.density = density_of(words.density, words.density_data);
   options.well_centred = words.well_centred != 0;
   if (words.tolerance != 0)
     options.tolerance = words.tolerance;
   else if (options.well_centred)
-    options.tolerance = before_finish;
+    options.tolerance = tolerance_before_finish;
   require(words.iterations >= 0 && words.iterations <= 1'000'000'000,
           "iterations is not within 0 to 10^9");
   if (words.iterations > 0)

@@ -272,7 +272,8 @@ void Descent::remember(const Points3& points) {
   functional_.make_tangential(before, points);
   Points3 step = difference(points, state_.points), change = difference(there_.gradient, before);
   const double curvature = inner(step, change);
-  if (!(curvature > 1e-14 * std::sqrt(inner(step, step) * inner(change, change)))) {
+  const double square = inner(step, step), square_of_change = inner(change, change);
+  if (!(curvature > 1e-14 * std::sqrt(square * square_of_change))) {
     forget();
     return;
   }
@@ -282,8 +283,8 @@ void Descent::remember(const Points3& points) {
     memory.changes.erase(memory.changes.begin());
     memory.curvatures.erase(memory.curvatures.begin());
   }
-  memory.steps.push_back(compacted(step));
-  memory.changes.push_back(compacted(change));
+  memory.steps.push_back(compacted(step, square));
+  memory.changes.push_back(compacted(change, square_of_change));
   memory.curvatures.push_back(curvature);
 }
 

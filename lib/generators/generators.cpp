@@ -280,6 +280,16 @@ Points3 bisected_icosahedron(int level) {
   return points;
 }
 
+std::int64_t icosahedral_count(double points) {
+  constexpr double tolerance = 0.01;
+  if (!(points >= 1 && points <= static_cast<double>(most_points)))
+    return 0;
+  std::int64_t count = 12;
+  while (static_cast<double>(count) < (1 - tolerance) * points)
+    count = 4 * count - 6;
+  return std::abs(static_cast<double>(count) / points - 1) < tolerance ? count : 0;
+}
+
 Points3 lat_lon_sphere(std::int64_t latitudes, std::int64_t longitudes, bool poles) {
   require_count(latitudes, 1, "the number of latitudes");
   require_count(longitudes, 3, "the number of longitudes");

@@ -371,9 +371,7 @@ bool lies_along(const SphericalOutline& outline, const Vec3& a, const Vec3& b) {
   const Vec3 middle = midpoint(a, b);
   const double reach = share * norm(b - a);
   bool near = false;
-  outline.for_each_edge_near(middle, reach, [&](const SphericalOutline::Edge& edge) {
-    near = near || square_from(edge, middle) <= reach * reach;
-  });
+  outline.for_each_edge_near(middle, reach, [&](const SphericalOutline::Edge&) { near = true; });
   return near;
 }
 

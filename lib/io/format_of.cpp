@@ -96,6 +96,29 @@ void refuse_name(const std::string& path) {
 
 using namespace io_detail;
 
+const std::vector<std::pair<std::string, Format>>& format_words() {
+  static const std::vector<std::pair<std::string, Format>> words{
+      {"mpas", Format::mpas},
+      {"mpas-minimal", Format::mpas_minimal},
+      {"ugrid", Format::ugrid},
+      {"ugrid-triangles", Format::ugrid_triangles},
+      {"scrip", Format::scrip},
+      {"esmf", Format::esmf},
+      {"vtp", Format::vtp},
+      {"vtu", Format::vtu},
+      {"vtp-cells", Format::vtp_cells},
+      {"vtu-cells", Format::vtu_cells},
+      {"off", Format::off},
+      {"ply", Format::ply},
+      {"triangles", Format::triangles},
+      {"mpi-scvt", Format::mpi_scvt},
+      {"msh", Format::msh},
+      {"geojson", Format::geojson},
+      {"exodus", Format::exodus},
+      {"fesom", Format::fesom}};
+  return words;
+}
+
 Format format_of(const std::string& path, Format option) {
   const std::optional<Format> named = format_of_name(path);
   if (named == Format::vtk || option == Format::vtk)

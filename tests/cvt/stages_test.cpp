@@ -247,3 +247,24 @@ TEST_CASE("stages: bad options are errors") {
   options.cells = 5;
   CHECK(message_of(options).find("give at least 12") != std::string::npos);
 }
+
+TEST_CASE("stages: a round after a descent of more than 15 evaluations counts for two") {
+  const auto rounds_of = [](const Density& density) {
+    CvtOptions options = graded(3000, 0, density);
+    options.insertion_rounds = 6;
+    options.well_centred = false;
+    int left = 6, evaluations = 0, count = 0;
+    spherical_cvt(start_of(3000, density), options, [&](const CvtProgress& now) {
+      if (now.rounds_left != left) {
+        CHECK(now.rounds_left == std::max(left - (evaluations > 15 ? 2 : 1), 0));
+        left = now.rounds_left;
+        ++count;
+      }
+      evaluations = now.iterations_of_level;
+      return false;
+    });
+    CHECK(left == 0);
+    return count;
+  };
+  CHECK(rounds_of(x8()) < 6);
+}

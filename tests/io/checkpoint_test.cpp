@@ -48,8 +48,8 @@ State some_state() {
   state.iterations_of_level = 17;
   state.final_rule = true;
   for (std::uint64_t seed = 2; seed < 5; ++seed) {
-    state.memory.steps.push_back(base_detail::compacted(random_sphere(30, seed)));
-    state.memory.changes.push_back(base_detail::compacted(-0.5 * random_sphere(30, seed)));
+    state.memory.steps.push_back(base_detail::compacted(random_sphere(30, seed), 30));
+    state.memory.changes.push_back(base_detail::compacted(-0.5 * random_sphere(30, seed), 7.5));
     state.memory.curvatures.push_back(1 / static_cast<double>(seed));
   }
   state.memory.laplacian_at = random_sphere(30, 5);

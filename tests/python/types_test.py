@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The types of the package: its stub is that of the compiled part, and a checker understands it."""
+"""The types of the package: its .pyi file is that of the compiled part, and a checker understands it."""
 import ast
 import pathlib
 import subprocess
@@ -29,12 +29,14 @@ def mypy(folder, *words):
                                "MYPY_CACHE_DIR": str(folder)})
 
 
-def test_the_stub_names_what_the_module_has():
-    stub = ast.parse((pathlib.Path(calotte.__file__).parent / "_calotte.pyi").read_text())
+def test_the_types_are_those_of_the_module():
+    declared = ast.parse((pathlib.Path(calotte.__file__).parent / "_calotte.pyi").read_text())
     names = {}
-    for node in stub.body:
+    for node in declared.body:
         if isinstance(node, ast.FunctionDef):
             names[node.name] = None
+        elif isinstance(node, ast.AnnAssign) and not node.target.id.startswith("_"):
+            names[node.target.id] = None
         elif isinstance(node, ast.ClassDef):
             names[node.name] = {part.target.id if isinstance(part, ast.AnnAssign) else part.name
                                 for part in node.body

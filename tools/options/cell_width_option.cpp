@@ -5,6 +5,7 @@
 #include "options/numbers.h"
 
 #include <calotte/error.h>
+#include <calotte/generators.h>
 #include <calotte/read.h>
 
 #include <cmath>
@@ -41,15 +42,6 @@ CLI::Validator width_or_file() {
 /// One width at all nodes of the coarsest grid.
 CellWidth uniform_widths(double km) {
   return {Eigen::Vector2d(0, 180), Eigen::Vector2d(-90, 90), Eigen::MatrixXd::Constant(2, 2, km)};
-}
-
-/// The number of cells of a bisected icosahedron within 1 percent of a number; 0 if there is none.
-std::int64_t icosahedral(double cells) {
-  constexpr double tolerance = 0.01;
-  std::int64_t count = 12;
-  while (static_cast<double>(count) < (1 - tolerance) * cells)
-    count = 4 * count - 6;
-  return std::abs(static_cast<double>(count) / cells - 1) < tolerance ? count : 0;
 }
 
 /// The cells that a uniform width requires, and the width in a grid of another number.
@@ -202,7 +194,7 @@ std::int64_t cells_for(const CellWidth& widths, const WidthWords& words, bool bi
   if (!(implied >= fewest && implied <= most))
     refuse("--cells auto: " + name_of(words) + " requires " + formatted("%.4g", implied) +
            " cells, but a grid has 12 to 1073741824; give widths in km");
-  if (const std::int64_t regular = words.uniform ? icosahedral(implied) : 0; regular > 0)
+  if (const std::int64_t regular = words.uniform ? icosahedral_count(implied) : 0; regular > 0)
     return regular;
   const auto cells = static_cast<std::int64_t>(implied);
   std::int64_t parts = 1; // of a coarse grid's cell

@@ -225,8 +225,7 @@ bool well_centred(const CvtRequest& request) {
 }
 
 double tolerance_of(const CvtRequest& request) {
-  constexpr double before_finish = 3e-4;
-  return request.given_tolerance.value_or(well_centred(request) ? before_finish
+  return request.given_tolerance.value_or(well_centred(request) ? tolerance_before_finish
                                                                 : CvtOptions{}.tolerance);
 }
 

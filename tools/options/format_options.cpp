@@ -14,32 +14,12 @@
 namespace calotte::tools {
 namespace {
 
-const std::vector<std::pair<std::string, Format>> formats{
-    {"mpas", Format::mpas},
-    {"mpas-minimal", Format::mpas_minimal},
-    {"ugrid", Format::ugrid},
-    {"ugrid-triangles", Format::ugrid_triangles},
-    {"scrip", Format::scrip},
-    {"esmf", Format::esmf},
-    {"vtp", Format::vtp},
-    {"vtu", Format::vtu},
-    {"vtp-cells", Format::vtp_cells},
-    {"vtu-cells", Format::vtu_cells},
-    {"off", Format::off},
-    {"ply", Format::ply},
-    {"triangles", Format::triangles},
-    {"mpi-scvt", Format::mpi_scvt},
-    {"msh", Format::msh},
-    {"geojson", Format::geojson},
-    {"exodus", Format::exodus},
-    {"fesom", Format::fesom}};
-
 const std::map<std::string, Numbering> numberings{
     {"curve", Numbering::curve}, {"rcm", Numbering::rcm}, {"input", Numbering::input}};
 
 Format format_of(const FormatWords& words, const std::string& path) {
   Format given = Format::by_name;
-  for (const auto& [word, format] : formats)
+  for (const auto& [word, format] : format_words())
     if (words.format == word)
       given = format;
   return calotte::format_of(path, given);
@@ -86,7 +66,7 @@ void require_radius(double radius, Format format, const std::string& path) {
 std::shared_ptr<FormatWords> add_format(CLI::App& command, const std::string& default_radius) {
   auto words = std::make_shared<FormatWords>();
   std::vector<std::string> known;
-  for (const auto& [word, format] : formats)
+  for (const auto& [word, format] : format_words())
     known.push_back(word);
   command
       .add_option("--format", words->format,

@@ -135,42 +135,6 @@ def quality(mesh: Mesh | PlanarMesh, *, domain: DomainLike | None = None,
     return _calotte.quality(mesh, rho)
 
 
-def mesh(points: ArrayLike, triangles: ArrayLike) -> Mesh:
-    """A mesh of n x 3 directions and m x 3 ids of counter-clockwise triangles, for check().
-
-    >>> given = delaunay(random_sphere(50))
-    >>> bool(check(mesh(given.points, given.triangles)))
-    True
-    """
-    sites, ids = _arguments.sphere_points(points), _canonical(points, triangles)
-    return _calotte.Mesh.from_arrays(sites, ids, _neighbours(ids))
-
-
-def _canonical(points, triangles):
-    ids = np.asarray(triangles)
-    if ids.ndim != 2 or ids.shape[1] != 3 or ids.dtype.kind not in "iu":
-        raise Error(f"triangles have the shape {ids.shape} of {ids.dtype}; give m x 3 integers")
-    if ids.size and (ids.min() < 0 or ids.max() >= len(points)):
-        raise Error(f"triangles name points that are not among the {len(points)}")
-    ids = np.ascontiguousarray(ids, dtype=np.int32)
-    first = ids.argmin(axis=1)
-    ids = np.take_along_axis(ids, (first[:, np.newaxis] + np.arange(3)) % 3, axis=1)
-    return np.ascontiguousarray(ids[np.lexsort(ids.T[::-1])])
-
-
-def _neighbours(ids):
-    """For each vertex of each triangle the triangle across from it, or -1."""
-    count = len(ids)
-    starts, ends = ids[:, [1, 2, 0]].ravel(), ids[:, [2, 0, 1]].ravel()
-    key = starts.astype(np.int64) << 32 | ends
-    reverse = ends.astype(np.int64) << 32 | starts
-    order = np.argsort(key, kind="stable")
-    place = np.minimum(np.searchsorted(key[order], reverse), 3 * count - 1)
-    found = order[place]
-    across = np.where(key[found] == reverse, found // 3, -1)
-    return across.astype(np.int32).reshape(count, 3)
-
-
 # ---- Centroidal Voronoi tessellations
 
 @dataclass(frozen=True)
@@ -219,15 +183,8 @@ def _cells_for(widths, part, earth_radius):
         raise Error(f"the widths require {implied:.4g} cells, but a grid has 12 to 1073741824; give "
                     "widths in km")
     if part.whole and np.ptp(widths.widths) == 0:
-        return _regular(implied)
+        return _calotte.icosahedral_count(implied) or implied
     return implied
-
-
-def _regular(implied):
-    """That of a bisected icosahedron, the most regular grid, if it differs by less than 1%."""
-    level = max(0, round(math.log(max(implied - 2, 10) / 10, 4)))
-    regular = 10 * 4**level + 2
-    return regular if abs(regular - implied) < 0.01 * implied else implied
 
 
 def _options(rho, method, norm, tolerance, max_iterations, well_centred, regions):
@@ -236,7 +193,10 @@ def _options(rho, method, norm, tolerance, max_iterations, well_centred, regions
     options.method = _choice(_METHODS, method, "method")
     options.norm = _choice(_NORMS, norm, "norm")
     options.well_centred = well_centred
-    options.tolerance = tolerance or (3e-4 if well_centred else 1e-6)
+    if tolerance is not None:
+        options.tolerance = tolerance
+    elif well_centred:
+        options.tolerance = _calotte.tolerance_before_finish
     options.max_iterations = max_iterations
     options.regions = regions
     return options
@@ -244,7 +204,8 @@ def _options(rho, method, norm, tolerance, max_iterations, well_centred, regions
 
 def _multilevel(options, cells, insertion_rounds):
     options.cells = cells
-    options.insertion_rounds = insertion_rounds or _calotte.insertion_rounds(cells)
+    options.insertion_rounds = (_calotte.insertion_rounds(cells) if insertion_rounds is None
+                                else insertion_rounds)
 
 
 def _reporting(progress):

@@ -126,33 +126,14 @@ py::dict cull_mesh(const std::string& source, const std::string& target,
   return values;
 }
 
-/// The name of a format as the command has it, mpas-minimal for Format::mpas_minimal.
 Format format_named(const std::string& name) {
-  static const std::vector<std::pair<const char*, Format>> formats = {
-      {"by-name", Format::by_name},
-      {"mpas", Format::mpas},
-      {"mpas-minimal", Format::mpas_minimal},
-      {"ugrid", Format::ugrid},
-      {"ugrid-triangles", Format::ugrid_triangles},
-      {"scrip", Format::scrip},
-      {"esmf", Format::esmf},
-      {"vtp", Format::vtp},
-      {"vtu", Format::vtu},
-      {"vtp-cells", Format::vtp_cells},
-      {"vtu-cells", Format::vtu_cells},
-      {"off", Format::off},
-      {"ply", Format::ply},
-      {"triangles", Format::triangles},
-      {"mpi-scvt", Format::mpi_scvt},
-      {"msh", Format::msh},
-      {"geojson", Format::geojson},
-      {"exodus", Format::exodus},
-      {"fesom", Format::fesom}};
-  std::string names;
-  for (const auto& [word, format] : formats) {
+  if (name == "by-name")
+    return Format::by_name;
+  std::string names = "by-name";
+  for (const auto& [word, format] : format_words()) {
     if (name == word)
       return format;
-    names += (names.empty() ? "" : ", ") + std::string(word);
+    names += ", " + word;
   }
   throw Error(ErrorCode::bad_option, "no format " + name + "; give one of: " + names);
 }

@@ -67,22 +67,6 @@ std::shared_ptr<PlanarMesh> delaunay_in_plane(const Doubles& points,
   });
 }
 
-/// A mesh of arrays, as another program may have made it; check() proves it.
-std::shared_ptr<Mesh> mesh_of(const Doubles& points, py::array_t<std::int32_t> triangles,
-                              py::array_t<std::int32_t> neighbours) {
-  const auto ids = [](const py::array_t<std::int32_t, py::array::c_style>& array) {
-    return Eigen::Map<const Triangles>(array.data(), 3, array.shape(0));
-  };
-  auto mesh = std::make_shared<Mesh>();
-  mesh->points = columns(points);
-  mesh->triangles = ids(triangles);
-  mesh->neighbours = ids(neighbours);
-  mesh->site_of_input.resize(static_cast<std::size_t>(mesh->points.cols()));
-  for (std::size_t i = 0; i < mesh->site_of_input.size(); ++i)
-    mesh->site_of_input[i] = static_cast<std::int32_t>(i);
-  return mesh;
-}
-
 template <class AnyMesh> Check check_of(const AnyMesh& mesh) {
   return call([&] { return check(mesh); });
 }
@@ -96,7 +80,6 @@ Numbering numbering_of(const std::string& name) {
 void add_meshes(py::module_& module) {
   add_mesh<Mesh>(module, "Mesh")
       .def_property_readonly("closed", &Mesh::closed)
-      .def_static("from_arrays", &mesh_of)
       .def("renumbered",
            [](const Mesh& mesh, const std::string& numbering) {
              return call(

@@ -24,6 +24,7 @@ void add_points(py::module_& module) {
                                        : random_sphere(n, region, density, seed);
                });
              });
+  module.def("icosahedral_count", &icosahedral_count);
   module.def("fibonacci_sphere",
              [](std::int64_t n) { return made([&] { return fibonacci_sphere(n); }); });
   module.def("spiral_sphere",

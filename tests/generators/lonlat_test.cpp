@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <calotte/error.h>
+#include <calotte/generators.h>
+#include <calotte/lonlat.h>
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+using namespace calotte;
+
+namespace {
+
+Error error_of(const Points2& lonlat) {
+  try {
+    from_lonlat(lonlat);
+  } catch (const Error& error) {
+    return error;
+  }
+  return {ErrorCode::internal, "no error"};
+}
+
+} // namespace
+
+TEST_CASE("longitudes and latitudes: exact at multiples of 90 degrees, periodic, one pole") {
+  Points2 lonlat(2, 8);
+  lonlat << 0, 90, 180, -90, 270, 360, 123, -45, //
+      0, 0, 0, 0, 0, 0, 90, -90;
+  Points3 expected(3, 8);
+  expected << 1, 0, -1, 0, 0, 1, 0, 0, //
+      0, 1, 0, -1, -1, 0, 0, 0,        //
+      0, 0, 0, 0, 0, 0, 1, -1;
+  CHECK(from_lonlat(lonlat) == expected);
+  const Points2 there = to_lonlat(random_sphere(100));
+  Points2 turned = there;
+  turned.row(0).array() = (there.row(0).array() * 1024).round() / 1024; // exact with 360 added
+  Points2 again = turned;
+  again.row(0).array() += 720;
+  CHECK(from_lonlat(turned) == from_lonlat(again));
+}
+
+TEST_CASE("longitudes and latitudes there and back, for directions of any norm") {
+  const Points3 points = random_sphere(1000, 3);
+  const Points2 lonlat = to_lonlat(1e100 * points);
+  CHECK(lonlat.row(0).cwiseAbs().maxCoeff() <= 180);
+  CHECK(lonlat.row(1).cwiseAbs().maxCoeff() <= 90);
+  CHECK((from_lonlat(lonlat) - points).cwiseAbs().maxCoeff() < 1e-14);
+  CHECK(to_lonlat(Eigen::Vector3d(0, 0, -2)) == Eigen::Vector2d(0, -90));
+}
+
+TEST_CASE("longitudes and latitudes out of range name their index") {
+  Points2 lonlat = Points2::Zero(2, 5);
+  lonlat(1, 3) = 90.5;
+  CHECK(error_of(lonlat).code() == ErrorCode::bad_option);
+  CHECK(error_of(lonlat).index() == 3);
+  lonlat(0, 2) = std::numeric_limits<double>::infinity();
+  CHECK(error_of(lonlat).code() == ErrorCode::not_finite);
+  CHECK(error_of(lonlat).index() == 2);
+  CHECK_THROWS_AS(from_lonlat(random_sphere(4)), Error);
+  CHECK_THROWS_AS(to_lonlat(Points2::Zero(2, 4)), Error);
+}
+
+TEST_CASE("counts of bisected icosahedra within 1 percent") {
+  CHECK(icosahedral_count(40962) == 40962);
+  CHECK(icosahedral_count(41300) == 40962);
+  CHECK(icosahedral_count(40560) == 40962);
+  CHECK(icosahedral_count(42000) == 0);
+  for (const double out : {0.0, -5.0, 1e300, std::nan("")})
+    CHECK(icosahedral_count(out) == 0);
+}
