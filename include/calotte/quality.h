@@ -126,6 +126,38 @@ Quality open_quality(const Mesh& mesh);
 /// \throws Error as above; bad_option as require_domain(), or for a generator outside the domain.
 Quality quality(const PlanarMesh& mesh, const PlanarDomain& domain, const Density& density = {});
 
+/// The measures of Quality cell by cell and triangle by triangle, for maps and lists. Lengths are
+/// arcs on the unit sphere in radians and areas steradians, or in the unit of a plane and its
+/// square. NaN where a cell has no such measure: at sites that triangles do not surround, and at
+/// all sites of a mesh that is not Delaunay, sigma, quality and area; degree as well at the former.
+struct CellMeasures {
+  Eigen::VectorXd spacing;       ///< n: mean length of the Delaunay edges at the site
+  Eigen::VectorXd area;          ///< n
+  Eigen::VectorXd sigma;         ///< n: shortest over longest of these edges
+  Eigen::VectorXd quality;       ///< n: shortest over longest Voronoi edge
+  Eigen::VectorXd degree;        ///< n: number of neighbours
+  Eigen::VectorXd largest_angle; ///< n: of the triangles at the site, degrees
+  /// n: distance of the site from the constrained centroid of its cell, over spacing. NaN for an
+  /// open mesh.
+  Eigen::VectorXd off_centroid;
+  /// n: the spacing h that the density demands of n cells, see Quality::dc_over_h; then the least
+  /// and the greatest dc/h of the edges at the site. All empty for an open mesh.
+  Eigen::VectorXd prescribed, least_fit, greatest_fit;
+  Eigen::VectorXd triangle_angle;   ///< m: largest angle, degrees
+  Eigen::VectorXd triangle_quality; ///< m: as Quality::triangle_quality
+};
+
+/// Measures the cells and triangles of a mesh of the sphere, which may be open, and need not be
+/// Delaunay. \param density as in quality(); without effect on an open mesh.
+/// \throws Error bad_option, for a mesh that fails check_surface(); for a density as quality().
+CellMeasures cell_measures(const Mesh& mesh, const Density& density = {});
+
+/// The same for a planar domain, which clips the cells. Clipped cells have no degree, sigma and
+/// quality; triangles whose circumcentre lies outside have no values. \param mesh and density as in
+/// quality(). \throws Error as quality() and voronoi().
+CellMeasures cell_measures(const PlanarMesh& mesh, const PlanarDomain& domain,
+                           const Density& density = {});
+
 /// For each generator in a planar domain whether the boundary clips its cell, or the generator lies
 /// outside the domain. quality() leaves these cells out of `degrees`.
 /// \param mesh its points only; periodic if the domain is, which then clips no cell.

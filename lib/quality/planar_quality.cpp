@@ -6,11 +6,13 @@
 #include "cvt/planar_cells.h"
 #include "density/planar_density.h"
 #include "domain/clipped_cell.h"
+#include "quality/cell_measures.h"
 #include "quality/demand.h"
 #include "quality/parts.h"
 
 #include <calotte/check.h>
 #include <calotte/error.h>
+#include <calotte/voronoi.h>
 
 #include <algorithm>
 #include <cmath>
@@ -92,35 +94,46 @@ Array<std::uint8_t> whole_cells(const Insides& insides, const Connectivity& mesh
   return whole;
 }
 
+/// For each triangle 1 if it is one of the domain's, otherwise 0.
+Array<std::uint8_t> triangles_inside(const Insides& insides, const Triangles& triangles) {
+  Array<std::uint8_t> inside(triangles.cols());
+  for_each_block(inside.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t t = begin; t != end; ++t)
+      inside[t] = insides.triangle(triangles, t) ? 1 : 0;
+  });
+  return inside;
+}
+
+/// The shapes of triangles. \param place of a point by its id.
+template <class Place>
+Shapes shapes_of(const Triangles& triangles, const Vec2& period, const Place& place) {
+  Shapes shapes(triangles.cols());
+  for_each_block(shapes.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t t = begin; t != end; ++t)
+      shapes[t] = shape_of({place(triangles(0, t)), place(triangles(1, t)), place(triangles(2, t))},
+                           period);
+  });
+  return shapes;
+}
+
 /// \param mesh of the n generators and the hull.
 /// \param inverse_spacing by generator.
 Quality measure(const PlanarCells& cells, const Connectivity& mesh, const PlanarDomain& domain,
                 std::int64_t n, Eigen::VectorXd&& inverse_spacing) {
-  const std::int64_t m = mesh.triangles.cols();
   const Vec2 period = domain.periodic() ? Vec2{domain.period.x(), domain.period.y()} : Vec2{0, 0};
-  Subject subject{mesh.triangles,
-                  mesh.neighbours,
-                  make_vertex_rings(mesh.triangles, mesh.neighbours, n),
-                  Shapes(m),
-                  std::move(inverse_spacing),
-                  {},
-                  {}};
-  for_each_block(m, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-    for (std::int64_t t = begin; t != end; ++t)
-      subject.shapes[t] =
-          shape_of({cells.place(mesh.triangles(0, t)), cells.place(mesh.triangles(1, t)),
-                    cells.place(mesh.triangles(2, t))},
-                   period);
-  });
+  Subject subject{
+      mesh.triangles,
+      mesh.neighbours,
+      make_vertex_rings(mesh.triangles, mesh.neighbours, n),
+      shapes_of(mesh.triangles, period, [&](std::int32_t place) { return cells.place(place); }),
+      std::move(inverse_spacing),
+      {},
+      {}};
   if (domain.periodic())
     return measure_shapes(subject, n);
   const Insides insides(cells, domain, n);
-  subject.inside = Array<std::uint8_t>(m);
+  subject.inside = triangles_inside(insides, mesh.triangles);
   subject.whole = whole_cells(insides, mesh, subject.rings, n);
-  for_each_block(m, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-    for (std::int64_t t = begin; t != end; ++t)
-      subject.inside[t] = insides.triangle(mesh.triangles, t) ? 1 : 0;
-  });
   return measure_shapes(subject, n);
 }
 
@@ -165,21 +178,79 @@ double root_integral(const Points3& points, const Connectivity& mesh, const Plan
   return sum;
 }
 
-} // namespace
-} // namespace quality_detail
-
-Quality quality(const PlanarMesh& mesh, const PlanarDomain& domain, const Density& density) {
-  using namespace quality_detail;
+void require_mesh(const PlanarMesh& mesh, const PlanarDomain& domain) {
   require_domain(domain);
   require_period(mesh, domain);
-  const Density planar = planar_density(density, domain);
   if (const Check found = check(mesh); !found.passed())
     throw Error(ErrorCode::bad_option,
                 "the mesh is not the Delaunay triangulation of its points, so it has no Voronoi "
                 "cells: " +
                     found.failure + "; triangulate the points anew");
-  const Points3 points = with_z(mesh.points);
   require_inside(mesh.points, domain);
+}
+
+/// Sets the measures of clipped cells, too. \param cells clipped by the domain.
+void set_sides(const Voronoi& cells, CellMeasures& out) {
+  for (Eigen::Index i = 0; i < out.spacing.size(); ++i) {
+    Tally arcs, voronoi;
+    bool whole = true;
+    for (std::int64_t k = cells.begin[i]; k != cells.begin[i + 1]; ++k) {
+      const std::int32_t edge = cells.edges_on_cell[k];
+      if (cells.cells_on_cell[k] < 0) {
+        whole = false;
+        continue;
+      }
+      arcs.add(cells.dc[edge]);
+      voronoi.add(cells.dv[edge]);
+    }
+    out.area[i] = cells.cell_area[i];
+    out.spacing[i] = arcs.range().mean;
+    out.degree[i] = whole ? static_cast<double>(arcs.count) : no_value;
+    out.sigma[i] = whole ? arcs.min / arcs.max : no_value;
+    out.quality[i] = whole ? voronoi.min / voronoi.max : no_value;
+  }
+}
+
+} // namespace
+} // namespace quality_detail
+
+CellMeasures cell_measures(const PlanarMesh& mesh, const PlanarDomain& domain,
+                           const Density& density) {
+  using namespace quality_detail;
+  require_mesh(mesh, domain);
+  const Density planar = planar_density(density, domain);
+  const Points3 points = with_z(mesh.points);
+  const Vec2 period{mesh.period.x(), mesh.period.y()};
+  PlanarCells cells(domain);
+  cells.move(points);
+  const Connectivity closed = cells.signs().triangulate();
+  const double root = root_integral(points, closed, domain, planar);
+  Subject subject{
+      mesh.triangles,
+      mesh.neighbours,
+      {},
+      shapes_of(mesh.triangles, period, [&](std::int32_t site) { return column(points, site); }),
+      inverse_spacings(points, planar, root),
+      {},
+      {}};
+  if (!domain.periodic())
+    subject.inside = triangles_inside(Insides(cells, domain, points.cols()), mesh.triangles);
+  CellMeasures out = unset_measures(points.cols(), mesh.triangles.cols());
+  set_angles(subject, out);
+  set_fits(subject, out);
+  set_sides(voronoi(mesh, domain), out);
+  const Points3 centroids = evaluated(points, closed, domain, planar).centroids;
+  for (Eigen::Index i = 0; i < points.cols(); ++i)
+    out.off_centroid[i] =
+        norm(nearest_offset(column(points, i), column(centroids, i), period)) / out.spacing[i];
+  return out;
+}
+
+Quality quality(const PlanarMesh& mesh, const PlanarDomain& domain, const Density& density) {
+  using namespace quality_detail;
+  require_mesh(mesh, domain);
+  const Density planar = planar_density(density, domain);
+  const Points3 points = with_z(mesh.points);
   PlanarCells cells(domain);
   cells.move(points);
   const Connectivity closed = cells.signs().triangulate();

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "quality/sides.h"
+
+#include "base/points.h"
+#include "exact/predicates.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+namespace calotte::quality_detail {
+namespace {
+
+/// sin(delta) = |a-b|/|a+b| cot(C), as in moments.h.
+Shape shape_of(const std::array<Vec3, 3>& p) {
+  const double twice_area = norm(cross(p[1] - p[0], p[2] - p[0]));
+  Shape shape{};
+  for (std::size_t v = 0; v < 3; ++v) {
+    const Vec3 a = p[(v + 1) % 3], b = p[(v + 2) % 3];
+    const double product = dot(a - p[v], b - p[v]), difference = norm(a - b), sum = norm(a + b);
+    const double sine = difference / sum * (product / twice_area);
+    shape.angle[v] = std::atan2(twice_area, product);
+    shape.side[v] = 2 * std::atan2(difference, sum);
+    shape.delta[v] = std::asin(std::clamp(sine, -1.0, 1.0)); // rounding can exceed a hemisphere
+  }
+  return shape;
+}
+
+/// The part of a triangle that is nearer to one end of a side than to its other vertices, on that
+/// side's side of the circumcentre; signed (see Shape::delta).
+double half_kite(double side, double delta) {
+  return 2 * std::atan(std::tan(side / 4) * std::tan(delta / 2));
+}
+
+/// Adds a side of a triangle to the cells of its two ends; its edge, if it has not been added from
+/// the other triangle.
+void add_side(const Mesh& mesh, const Shapes& shapes, std::int64_t t, int v,
+              std::vector<Sides>& cells) {
+  const std::int32_t other = mesh.neighbours(v, t);
+  const auto& [angle, side, delta] = shapes[t];
+  const auto corner = static_cast<std::size_t>(v);
+  std::optional<Edge> edge;
+  if (other > t) {
+    const int w = mesh.neighbours(0, other) == t ? 0 : mesh.neighbours(1, other) == t ? 1 : 2;
+    edge = edge_of(shapes, t, v, other, w);
+  }
+  for (const int end : {next_vertex(v), previous_vertex(v)}) {
+    Sides& cell = cells[static_cast<std::size_t>(mesh.triangles(end, t))];
+    cell.area += half_kite(side[corner], delta[corner]);
+    cell.open = cell.open || other < 0;
+    cell.bad = cell.bad || is_obtuse(shapes[t]) || (edge && is_short(*edge));
+    if (edge || other < 0)
+      cell.arcs.add(side[corner]);
+    if (edge)
+      cell.voronoi.add(edge->voronoi);
+  }
+}
+
+} // namespace
+
+Mesh with_unit_columns(Mesh mesh) {
+  for_each_block(mesh.points.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i != end; ++i) {
+      const Vec3 unit = normalised(column(mesh.points, i));
+      mesh.points.col(i) << unit.x, unit.y, unit.z;
+    }
+  });
+  return mesh;
+}
+
+Shapes make_shapes(const Mesh& mesh) {
+  Shapes shapes(mesh.triangles.cols());
+  for_each_block(shapes.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t t = begin; t != end; ++t)
+      shapes[t] = shape_of({column(mesh.points, mesh.triangles(0, t)),
+                            column(mesh.points, mesh.triangles(1, t)),
+                            column(mesh.points, mesh.triangles(2, t))});
+  });
+  return shapes;
+}
+
+std::vector<Sides> sides_of_cells(const Mesh& mesh, const Shapes& shapes) {
+  std::vector<Sides> cells(static_cast<std::size_t>(mesh.points.cols()));
+  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
+    for (int v = 0; v < 3; ++v)
+      add_side(mesh, shapes, t, v, cells);
+  return cells;
+}
+
+} // namespace calotte::quality_detail

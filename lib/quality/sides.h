@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "quality/parts.h"
+#include "quality/room.h"
+
+#include <calotte/types.h>
+
+#include <cstdint>
+#include <vector>
+
+/// The triangles of a mesh of the sphere, and the cells that they surround.
+namespace calotte::quality_detail {
+
+/// The mesh with all columns of norm 1.
+Mesh with_unit_columns(Mesh mesh);
+
+/// \param mesh of unit columns.
+Shapes make_shapes(const Mesh& mesh);
+
+/// The sides of a cell, as far as triangles surround it.
+struct Sides {
+  Tally arcs;    ///< lengths of its Delaunay edges
+  Tally voronoi; ///< lengths of its Voronoi edges
+  double area = 0;
+  bool open = false;
+  bool bad = false; ///< has a short side, or the centre of an obtuse triangle as a corner
+
+  /// Whether triangles surround the site.
+  bool whole() const { return !open && arcs.count > 0; }
+};
+
+/// By site.
+/// \param mesh may be open; \param shapes of its triangles.
+std::vector<Sides> sides_of_cells(const Mesh& mesh, const Shapes& shapes);
+
+} // namespace calotte::quality_detail
