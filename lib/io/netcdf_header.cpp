@@ -1,81 +1,29 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/netcdf_header.h"
 
+#include <calotte/error.h>
+
 #include <netcdf.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
+#include <set>
+#include <system_error>
 
 namespace calotte::io_detail {
 namespace {
 
-std::int64_t padded(std::int64_t bytes) { return (bytes + 3) / 4 * 4; }
-
-/// Reads a header sequentially by the lengths of its entries.
-struct HeaderWalk {
-  int id;
-  std::int64_t count_size = 4;  ///< of a count, a length or a dimension's id
-  std::int64_t offset_size = 8; ///< of an offset
-
-  std::int64_t name(const char* text) const {
-    return count_size + padded(static_cast<std::int64_t>(std::strlen(text)));
-  }
-
-  /// A list of the attributes of a variable or of the file: tag, number, then each.
-  std::int64_t attributes(int variable) const {
-    int count = 0;
-    if (variable == NC_GLOBAL)
-      nc_inq_natts(id, &count);
-    else
-      nc_inq_varnatts(id, variable, &count);
-    std::int64_t bytes = 4 + count_size;
-    for (int a = 0; a < count; ++a) {
-      char text[NC_MAX_NAME + 1] = "";
-      nc_type type = NC_CHAR;
-      std::size_t values = 0, size = 1;
-      nc_inq_attname(id, variable, a, text);
-      nc_inq_att(id, variable, text, &type, &values);
-      nc_inq_type(id, type, nullptr, &size);
-      bytes += name(text) + 4 + count_size + padded(static_cast<std::int64_t>(values * size));
-    }
-    return bytes;
-  }
-
-  /// From the file's first byte to the end of the global attributes.
-  std::int64_t before_variables() const {
-    int dimensions = 0;
-    nc_inq_ndims(id, &dimensions);
-    std::int64_t bytes = 4 + count_size + 4 + count_size;
-    for (int d = 0; d < dimensions; ++d) {
-      char text[NC_MAX_NAME + 1] = "";
-      nc_inq_dimname(id, d, text);
-      bytes += name(text) + count_size;
-    }
-    return bytes + attributes(NC_GLOBAL);
-  }
-
-  /// Of one variable, up to its offset.
-  std::int64_t variable(int v) const {
-    char text[NC_MAX_NAME + 1] = "";
-    int dimensions = 0;
-    nc_inq_var(id, v, text, nullptr, &dimensions, nullptr, nullptr);
-    return name(text) + count_size * (1 + dimensions) + attributes(v) + 4 + count_size;
-  }
+enum Tag : std::int64_t {
+  absent = 0,
+  dimensions_follow = 10,
+  variables_follow = 11,
+  attributes_follow = 12
 };
 
-HeaderWalk walk_of(int id) {
-  int format = NC_FORMAT_CLASSIC;
-  nc_inq_format(id, &format);
-  return {id, format == NC_FORMAT_64BIT_DATA ? 8 : 4, format == NC_FORMAT_CLASSIC ? 4 : 8};
-}
-
-std::int64_t big_endian(const unsigned char* bytes, std::int64_t size) {
-  std::uint64_t value = 0;
-  for (std::int64_t i = 0; i < size; ++i)
-    value = value << 8 | bytes[i];
-  return static_cast<std::int64_t>(value);
-}
+std::int64_t padded(std::int64_t bytes) { return (bytes + 3) / 4 * 4; }
 
 /// A variable's bytes in one record, or in all where it has none; -1 past 64 bits.
 struct Shape {
@@ -83,81 +31,206 @@ struct Shape {
   bool of_records = false;
 };
 
-Shape shape_of(int id, int variable) {
-  nc_type type = NC_CHAR;
-  int dimensions = 0, unlimited = -1, ids[NC_MAX_VAR_DIMS];
-  std::size_t size = 1;
-  nc_inq_var(id, variable, nullptr, &type, &dimensions, ids, nullptr);
-  nc_inq_type(id, type, nullptr, &size);
-  nc_inq_unlimdim(id, &unlimited);
-  Shape shape{static_cast<std::int64_t>(size), dimensions > 0 && ids[0] == unlimited};
-  for (int d = shape.of_records ? 1 : 0; d < dimensions; ++d) {
-    std::size_t length = 0;
-    nc_inq_dimlen(id, ids[d], &length);
-    if (__builtin_mul_overflow(shape.bytes, static_cast<std::int64_t>(length), &shape.bytes))
-      return {-1, shape.of_records};
+/// Reads the header of a classic file from its first byte on.
+class HeaderWalk {
+public:
+  explicit HeaderWalk(const std::string& path) : path_(path), in_(path, std::ios::binary) {
+    std::error_code error; // a size of -1
+    size_ = static_cast<std::int64_t>(std::filesystem::file_size(path, error));
+    char magic[4] = {};
+    in_.read(magic, sizeof magic);
+    position_ = sizeof magic;
+    version_ = in_ ? magic[3] : 0;
   }
-  return shape;
-}
 
-std::int64_t record_count(int id) {
-  int unlimited = -1;
-  std::size_t records = 0;
-  nc_inq_unlimdim(id, &unlimited);
-  if (unlimited >= 0)
-    nc_inq_dimlen(id, unlimited, &records);
-  return static_cast<std::int64_t>(records);
-}
+  NetcdfLayout layout() {
+    NetcdfLayout layout;
+    records_ = records();
+    read_dimensions();
+    attributes();
+    std::vector<Shape> shapes;
+    const std::int64_t variables = list_of(variables_follow, "variables");
+    std::set<std::string> names;
+    for (std::int64_t v = 0; v < variables; ++v) {
+      layout.variables.push_back({.name = new_name(names)});
+      shapes.push_back(shape());
+      layout.variables.back().begin = number(version_ == 1 ? 4 : 8);
+    }
+    layout.header = position_;
+    add_ends(shapes, layout.variables);
+    return layout;
+  }
 
-/// Ends are limited to the range of 64 bits, which no file exceeds.
-void add_ends(int id, std::vector<NetcdfExtent>& extents) {
-  std::vector<Shape> shapes;
-  std::int64_t record = 0, record_variables = 0;
-  bool overflow = false;
-  for (int v = 0; v < std::ssize(extents); ++v) {
-    shapes.push_back(shape_of(id, v));
-    if (!shapes.back().of_records)
-      continue;
-    overflow |= __builtin_add_overflow(record, padded(shapes.back().bytes), &record);
-    ++record_variables;
+private:
+  [[noreturn]] void fail(const std::string& problem) const {
+    throw Error(ErrorCode::parse, path_ + ": " + problem + "; make it again");
   }
-  const std::int64_t records = record_count(id);
-  for (std::size_t v = 0; v < extents.size(); ++v) {
-    const Shape& shape = shapes[v];
-    NetcdfExtent& extent = extents[v];
-    std::int64_t before_last = 0;
-    if (shape.of_records)
-      extent.stride = record_variables == 1 ? shape.bytes : record;
-    if (shape.of_records && records > 0)
-      overflow |= __builtin_mul_overflow(extent.stride, records - 1, &before_last);
-    overflow |= shape.bytes < 0 ||
-                __builtin_add_overflow(before_last, extent.begin, &before_last) ||
-                __builtin_add_overflow(before_last, shape.bytes, &extent.end);
-    if (shape.of_records && records == 0)
-      extent.end = extent.begin;
-    if (overflow)
-      extent.end = INT64_MAX;
+  [[noreturn]] void damaged(const std::string& what) const {
+    fail("its header is damaged: byte " + std::to_string(position_) + " " + what);
   }
-}
+  void require(bool truth, const std::string& what) const {
+    if (!truth)
+      damaged(what);
+  }
+  void require_left(std::int64_t bytes) const {
+    if (bytes > size_ - position_)
+      fail("it is cut short: its header is incomplete");
+  }
+
+  std::int64_t count_size() const { return version_ == 5 ? 8 : 4; }
+
+  /// A number of 4 or 8 bytes.
+  std::int64_t number(std::int64_t bytes) {
+    require_left(bytes);
+    std::array<char, 8> text{};
+    in_.read(text.data(), bytes);
+    position_ += bytes;
+    std::uint64_t value = 0;
+    for (std::int64_t i = 0; i < bytes; ++i)
+      value = value << 8U | static_cast<unsigned char>(text[static_cast<std::size_t>(i)]);
+    require(value <= INT64_MAX, "has a number that is too large");
+    return static_cast<std::int64_t>(value);
+  }
+  std::int64_t count() { return number(count_size()); }
+
+  void skip(std::int64_t bytes) {
+    require_left(bytes);
+    position_ += bytes;
+    in_.seekg(position_);
+  }
+
+  std::string name() {
+    const std::int64_t length = count();
+    require(length > 0 && length <= NC_MAX_NAME, "has a name without or with too many letters");
+    require_left(padded(length));
+    std::string text(static_cast<std::size_t>(length), '\0');
+    in_.read(text.data(), length);
+    position_ += length;
+    skip(padded(length) - length);
+    require(text.find('\0') == std::string::npos && text.find('/') == std::string::npos,
+            "ends a name with a letter that names do not have");
+    return text;
+  }
+  std::string new_name(std::set<std::string>& names) {
+    std::string text = name();
+    require(names.insert(text).second, "ends a name that occurs twice");
+    return text;
+  }
+
+  /// The number of entries of a list that begins with a tag.
+  std::int64_t list_of(Tag tag, const std::string& what) {
+    const std::int64_t found = number(4), entries = count();
+    require(found == tag || (found == absent && entries == 0), "does not follow a list of " + what);
+    require_left(entries); // each takes a byte at least
+    return entries;
+  }
+
+  /// The number of bytes of a value of the type that comes next.
+  std::int64_t type_size() {
+    constexpr std::array<std::int64_t, 12> sizes = {0, 1, 1, 2, 4, 4, 8, 1, 2, 4, 8, 8};
+    const std::int64_t type = number(4);
+    require(type >= 1 && type <= (version_ == 5 ? 11 : 6), "follows a type that there is not");
+    return sizes[static_cast<std::size_t>(type)];
+  }
+
+  std::int64_t records() {
+    const std::int64_t streaming = version_ == 5 ? INT64_MAX : 0xffffffff;
+    const std::int64_t found = count();
+    require(found < streaming, "follows no number of records");
+    return found;
+  }
+
+  void read_dimensions() {
+    const std::int64_t entries = list_of(dimensions_follow, "dimensions");
+    std::set<std::string> names;
+    for (std::int64_t d = 0; d < entries; ++d) {
+      new_name(names);
+      dimensions_.push_back(count());
+      require(dimensions_.back() > 0 || std::count(dimensions_.begin(), dimensions_.end(), 0) == 1,
+              "follows a second dimension of records");
+    }
+  }
+
+  void attributes() {
+    const std::int64_t entries = list_of(attributes_follow, "attributes");
+    std::set<std::string> names;
+    for (std::int64_t a = 0; a < entries; ++a) {
+      new_name(names);
+      const std::int64_t size = type_size(), values = count();
+      require_left(values);
+      skip(padded(size * values));
+    }
+  }
+
+  /// Of the next variable, after its name and up to its offset. The size that the file gives is
+  /// redundant, and too small for large variables.
+  Shape shape() {
+    const std::int64_t rank = count();
+    require(rank <= NC_MAX_VAR_DIMS, "follows a variable of too many dimensions");
+    Shape shape{1, false};
+    for (std::int64_t d = 0; d < rank; ++d) {
+      const std::int64_t id = count();
+      require(id < std::ssize(dimensions_), "follows a dimension that there is not");
+      const std::int64_t length = dimensions_[static_cast<std::size_t>(id)];
+      require(length > 0 || d == 0, "follows a dimension of records that is not the first");
+      shape.of_records |= length == 0;
+      if (length > 0 && shape.bytes >= 0 &&
+          __builtin_mul_overflow(shape.bytes, length, &shape.bytes))
+        shape.bytes = -1;
+    }
+    attributes();
+    if (const std::int64_t size = type_size();
+        shape.bytes >= 0 && __builtin_mul_overflow(shape.bytes, size, &shape.bytes))
+      shape.bytes = -1;
+    count();
+    return shape;
+  }
+
+  /// Ends are limited to the range of 64 bits, which no file exceeds.
+  void add_ends(const std::vector<Shape>& shapes, std::vector<NetcdfExtent>& extents) const {
+    std::int64_t record = 0, record_variables = 0;
+    bool overflow = false;
+    for (const Shape& shape : shapes)
+      if (shape.of_records) {
+        overflow |= __builtin_add_overflow(record, padded(shape.bytes), &record);
+        ++record_variables;
+      }
+    for (std::size_t v = 0; v < extents.size(); ++v) {
+      const Shape& shape = shapes[v];
+      NetcdfExtent& extent = extents[v];
+      std::int64_t before_last = 0;
+      if (shape.of_records)
+        extent.stride = record_variables == 1 ? shape.bytes : record;
+      if (shape.of_records && records_ > 0)
+        overflow |= __builtin_mul_overflow(extent.stride, records_ - 1, &before_last);
+      overflow |= shape.bytes < 0 ||
+                  __builtin_add_overflow(before_last, extent.begin, &before_last) ||
+                  __builtin_add_overflow(before_last, shape.bytes, &extent.end);
+      if (shape.of_records && records_ == 0)
+        extent.end = extent.begin;
+      if (overflow)
+        extent.end = INT64_MAX;
+    }
+  }
+
+  std::string path_;
+  std::ifstream in_;
+  std::int64_t size_ = 0, position_ = 0, records_ = 0;
+  int version_ = 0;
+  std::vector<std::int64_t> dimensions_; ///< lengths, 0 for that of the records
+};
 
 } // namespace
 
-NetcdfLayout classic_layout(int id, const std::string& path) {
-  const HeaderWalk walk = walk_of(id);
-  int variables = 0;
-  nc_inq_nvars(id, &variables);
+bool is_classic_netcdf(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
-  NetcdfLayout layout{walk.before_variables() + 4 + walk.count_size, {}};
-  for (int v = 0; v < variables; ++v) {
-    unsigned char bytes[8] = {};
-    in.seekg(layout.header + walk.variable(v));
-    in.read(reinterpret_cast<char*>(bytes), walk.offset_size);
-    layout.header += walk.variable(v) + walk.offset_size;
-    layout.variables.push_back({.begin = big_endian(bytes, walk.offset_size)});
-  }
-  add_ends(id, layout.variables);
-  return layout;
+  char magic[4] = {};
+  in.read(magic, sizeof magic);
+  return in && std::memcmp(magic, "CDF", 3) == 0 &&
+         (magic[3] == 1 || magic[3] == 2 || magic[3] == 5);
 }
+
+NetcdfLayout classic_layout(const std::string& path) { return HeaderWalk(path).layout(); }
 
 bool needs_cdf5(const std::vector<std::int64_t>& variable_bytes) {
   // The header holds a variable's size in 32 bits, rounded up to 4 bytes.

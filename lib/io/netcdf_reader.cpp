@@ -38,24 +38,18 @@ std::string name_of(int id, int variable) {
   return name;
 }
 
-/// The library reads zeros where a classic file ends early. \pre nobody else calls it.
-/// \returns what the file does not hold as a whole, "" where it holds all.
-std::string first_cut(int id, const std::string& path) {
-  int format = 0;
-  if (nc_inq_format(id, &format) != NC_NOERR ||
-      (format != NC_FORMAT_CLASSIC && format != NC_FORMAT_64BIT_OFFSET &&
-       format != NC_FORMAT_64BIT_DATA))
+/// The C library reads zeros where a classic file ends early, and can crash on a damaged header.
+/// \returns the variable that the file does not hold as a whole, "" where it holds all.
+/// \throws Error parse for a damaged header.
+std::string first_cut(const std::string& path) {
+  if (!is_classic_netcdf(path))
     return "";
-  const NetcdfLayout layout = classic_layout(id, path);
+  const NetcdfLayout layout = classic_layout(path);
   std::error_code error; // a size of -1
   const auto size = static_cast<std::int64_t>(std::filesystem::file_size(path, error));
-  if (layout.header > size)
-    return "its header";
-  for (int v = 0; v < std::ssize(layout.variables); ++v) {
-    const NetcdfExtent extent = layout.variables[static_cast<std::size_t>(v)];
+  for (const NetcdfExtent& extent : layout.variables)
     if (extent.begin < layout.header || extent.end > size)
-      return name_of(id, v);
-  }
+      return extent.name;
   return "";
 }
 
@@ -117,14 +111,11 @@ std::int32_t to_int(const NetcdfReader& file, const std::string& name, double va
 
 NetcdfReader::NetcdfReader(const std::string& path) : path_(path) {
   open_input(path); // says why it cannot be read
+  if (const std::string cut = first_cut(path); !cut.empty())
+    fail("it is cut short: " + cut + " is incomplete; make it again");
   const std::lock_guard lock(netcdf_mutex());
   if (nc_open(netcdf_path(path).c_str(), NC_NOWRITE, &id_) != NC_NOERR)
     fail("it is not a NetCDF file, or is cut short; give another or make it again");
-  const std::string cut = first_cut(id_, path);
-  if (cut.empty())
-    return;
-  nc_close(id_);
-  fail("it is cut short: " + cut + " is incomplete; make it again");
 }
 
 NetcdfReader::~NetcdfReader() {

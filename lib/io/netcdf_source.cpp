@@ -84,13 +84,6 @@ NetcdfAttributes attributes_of(int id, int variable, int count) {
   return attributes;
 }
 
-bool is_classic(int id) {
-  int format = 0;
-  nc_inq_format(id, &format);
-  return format == NC_FORMAT_CLASSIC || format == NC_FORMAT_64BIT_OFFSET ||
-         format == NC_FORMAT_64BIT_DATA;
-}
-
 } // namespace
 
 NetcdfSource::NetcdfSource(const std::string& path) : reader_(path) {
@@ -98,9 +91,9 @@ NetcdfSource::NetcdfSource(const std::string& path) : reader_(path) {
   if (nc_open(netcdf_path(path).c_str(), NC_NOWRITE, &id_) != NC_NOERR)
     reader_.fail("it is not a NetCDF file, or is cut short; give another or make it again");
   read_header();
-  if (!is_classic(id_))
+  if (!is_classic_netcdf(path))
     return;
-  for (const NetcdfExtent& extent : classic_layout(id_, path).variables) {
+  for (const NetcdfExtent& extent : classic_layout(path).variables) {
     begins_.push_back(extent.begin);
     strides_.push_back(extent.stride);
   }

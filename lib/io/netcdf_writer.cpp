@@ -344,8 +344,8 @@ void NetcdfWriter::begin() {
     nc_abort(id);
     throw;
   }
-  const NetcdfLayout layout = classic_layout(id, path);
   state_->require(nc_close(id));
+  const NetcdfLayout layout = classic_layout(path);
   std::int64_t size = layout.header;
   for (std::size_t v = 0; v < layout.variables.size(); ++v) {
     State::Variable& variable = state_->variables[v];
