@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/netcdf_header.h"
 
+#include "io/utf8.h"
+
 #include <calotte/error.h>
 
 #include <netcdf.h>
@@ -107,7 +109,8 @@ private:
     in_.read(text.data(), length);
     position_ += length;
     skip(padded(length) - length);
-    require(text.find('\0') == std::string::npos && text.find('/') == std::string::npos,
+    require(text.find('\0') == std::string::npos && text.find('/') == std::string::npos &&
+                is_utf8(text),
             "ends a name with a letter that names do not have");
     return text;
   }

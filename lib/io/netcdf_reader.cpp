@@ -139,25 +139,33 @@ std::vector<std::string> NetcdfReader::variables() const {
   return names;
 }
 
-std::vector<std::string> NetcdfReader::dimensions_of(const std::string& variable) const {
-  const std::lock_guard lock(netcdf_mutex());
+std::vector<int> NetcdfReader::dimension_ids(const std::string& variable) const {
   int v, count = 0, ids[NC_MAX_VAR_DIMS];
   if (nc_inq_varid(id_, variable.c_str(), &v) != NC_NOERR)
     fail("it has no variable " + variable + "; give a file that has");
   nc_inq_var(id_, v, nullptr, nullptr, &count, ids, nullptr);
+  return {ids, ids + count};
+}
+
+std::vector<std::string> NetcdfReader::dimensions_of(const std::string& variable) const {
+  const std::lock_guard lock(netcdf_mutex());
   std::vector<std::string> names;
-  for (int d = 0; d < count; ++d) {
+  for (const int id : dimension_ids(variable)) {
     char name[NC_MAX_NAME + 1] = "";
-    nc_inq_dimname(id_, ids[d], name);
+    nc_inq_dimname(id_, id, name);
     names.emplace_back(name);
   }
   return names;
 }
 
 std::vector<std::int64_t> NetcdfReader::shape_of(const std::string& variable) const {
+  const std::lock_guard lock(netcdf_mutex());
   std::vector<std::int64_t> shape;
-  for (const std::string& name : dimensions_of(variable))
-    shape.push_back(dimension(name));
+  for (const int id : dimension_ids(variable)) {
+    std::size_t size = 0;
+    nc_inq_dimlen(id_, id, &size);
+    shape.push_back(static_cast<std::int64_t>(size));
+  }
   return shape;
 }
 

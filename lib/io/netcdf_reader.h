@@ -55,6 +55,8 @@ private:
   template <class T>
   void get_rows(const std::string& variable, std::int64_t first, std::int64_t count, T* out) const;
   int type_of(const std::string& variable) const; ///< nc_type
+  /// \pre the caller locks netcdf_mutex().
+  std::vector<int> dimension_ids(const std::string& variable) const;
 
   std::string path_;
   int id_ = -1;

@@ -3,6 +3,7 @@
 
 #include "io/formats.h"
 #include "io/mpas.h"
+#include "io/utf8.h"
 
 #include <algorithm>
 #include <cmath>
@@ -79,19 +80,6 @@ bool is_place_property(const std::string& name) {
 
 bool is_letter_or_digit(unsigned char c) {
   return ('a' <= c && c <= 'z') || ('A' <= c && c <= 'Z') || ('0' <= c && c <= '9');
-}
-
-/// Bytes of the UTF-8 character of more than one byte at the start of a text; 0 if there is none.
-std::size_t bytes_of_character(std::string_view text) {
-  const auto lead = static_cast<unsigned char>(text[0]);
-  const std::size_t size = lead >= 0xf0 && lead < 0xf5   ? 4
-                           : lead >= 0xe0 && lead < 0xf0 ? 3
-                           : lead >= 0xc2 && lead < 0xe0 ? 2
-                                                         : 0;
-  const auto follows = [](char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; };
-  const bool whole = size > 0 && text.size() >= size &&
-                     std::all_of(text.begin() + 1, text.begin() + size, follows);
-  return whole ? size : 0;
 }
 
 /// A name that NetCDF takes: no white space, no /, no control characters, and no sign at the start.

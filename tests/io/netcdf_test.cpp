@@ -344,6 +344,56 @@ TEST_CASE("missing, invalid and truncated NetCDF files are refused") {
   }
 }
 
+TEST_CASE("damaged headers are read or refused, and never reach the C library unread") {
+  const Scratch scratch;
+  write_sample(scratch / "a.nc");
+  const std::string whole = read_file(scratch / "a.nc");
+  const auto header = static_cast<int>(calotte::io_detail::classic_layout(scratch / "a.nc").header);
+  calotte::test::Random random(7);
+  int refused = 0;
+  for (int i = 0; i < 3000; ++i) {
+    std::string damaged = whole;
+    for (int changes = random.integer(1, 3); changes > 0; --changes) {
+      const auto at = static_cast<std::size_t>(random.integer(4, header - 1));
+      damaged[at] = static_cast<char>(i % 3 == 0 ? random.integer(0, 12) : random.integer(0, 255));
+    }
+    std::ofstream(scratch / "b.nc", std::ios::binary) << damaged;
+    try {
+      const NetcdfReader file(scratch / "b.nc");
+      if (file.has_variable("cube"))
+        CHECK(file.shape_of("cube").size() <= 8);
+    } catch (const Error& error) {
+      CHECK(error.code() == ErrorCode::parse);
+      ++refused;
+    }
+  }
+  CHECK(refused > 1000);
+}
+
+TEST_CASE("names that occur twice or are no UTF-8, and types that there are not, are damage") {
+  const Scratch scratch;
+  const std::string path = foreign(scratch / "a.nc", 0, [](int id) {
+    int first, second, v;
+    nc_def_dim(id, "aaaa", 3, &first);
+    nc_def_dim(id, "bbbb", 4, &second);
+    nc_def_var(id, "vvvv", NC_DOUBLE, 1, &first, &v);
+  });
+  const std::string whole = read_file(path);
+  const auto message = [&](const std::string& from, const std::string& to) {
+    std::string damaged = whole;
+    damaged.replace(damaged.find(from), from.size(), to);
+    std::ofstream(scratch / "b.nc", std::ios::binary) << damaged;
+    const Error error = error_of([&] { NetcdfReader reader(scratch / "b.nc"); });
+    return std::string(error.what());
+  };
+  CHECK(message("bbbb", "aaaa").find("ends a name that occurs twice") != std::string::npos);
+  CHECK(message("bbbb", "b\xffzz").find("letter that names do not have") != std::string::npos);
+  CHECK(message("bbbb", "bb/b").find("letter that names do not have") != std::string::npos);
+  const std::string type_of_double("\0\0\0\6", 4), no_type("\0\0\0\7", 4);
+  CHECK(message(type_of_double, no_type).find("follows a type that there is not") !=
+        std::string::npos);
+}
+
 TEST_CASE("files that others wrote: every classic format, padded headers, records") {
   const Scratch scratch;
   for (const int format : {0, NC_64BIT_OFFSET, NC_64BIT_DATA})
