@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/**
+ * What is shown and chosen. The panel and the stage listen to its events:
+ *   "colours": measure, shapes, scale or meshes changed; "marks"; "filter"; "pick"; "meshes".
+ */
+import { Mesh } from "../data/mesh.js";
+import { marksOnCells, marksOnTriangles, valuesOnTriangles } from "../data/convert.js";
+import { topologyOf } from "../scene/shapes.js";
+import { ClassScale, RangeScale } from "../colour/scale.js";
+import { Emitter } from "./emitter.js";
+import { filterMask } from "./filters.js";
+
+export class App extends Emitter {
+  constructor(header) {
+    super();
+    this.header = header;
+    this.meshes = header.meshes.map((mesh) => new Mesh(mesh));
+    this.shown = header.views.map((k) => this.meshes[k]);
+    this.measures = measuresOf(this.meshes);
+    this.measure = this.measures.find((m) => m.on === "cells") ?? this.measures[0] ?? null;
+    this.shapes = this.measure?.on ?? "cells";
+    this.filter = "all";
+    this.logarithmic = null;
+    this.palettes = { sequential: "viridis", diverging: "diverging" };
+    this.marks = null;
+    this.picked = null;
+    this.state = header.history?.states.length ?? 0;
+    this.changes = 0;
+  }
+
+  /** Decodes the points of the shown meshes. */
+  async loadMeshes() {
+    const [first, ...others] = this.shown;
+    await first.load(this.frame);
+    this.frame ??= first.plane ? first.frame : undefined;
+    await Promise.all(others.map((mesh) => mesh.load(mesh.plane ? this.frame : undefined)));
+  }
+
+  get hasTriangles() {
+    return this.shown.every((mesh) => mesh.header.triangles);
+  }
+
+  /** Which of the two palettes, the sequential or the diverging, the measure has by default. */
+  get paletteKind() {
+    return this.measure?.worst === "both" ? "diverging" : "sequential";
+  }
+
+  /** Values and scale of the choice; a later choice overtakes an earlier one that still decodes. */
+  async refresh() {
+    const change = ++this.changes;
+    const { measure, shapes } = this;
+    const own = await Promise.all(this.shown.map((mesh) => measure && mesh.values(measure.name)));
+    const values = await Promise.all(
+      own.map((v, k) => valuesOnShapes(this.shown[k], measure, v, shapes)));
+    const scaled = measure ? await this.scaleValues(measure) : [];
+    if (change !== this.changes) return;
+    this.own = own;
+    this.values = values;
+    this.scale = this.makeScale(measure, scaled);
+    await this.refreshMasks();
+    this.emit("colours");
+  }
+
+  /** The values that set the ends: of the page's first meshes, so that states can be compared. */
+  async scaleValues(measure) {
+    const all = [...this.header.views.map((k) => this.meshes[k]), ...this.shown];
+    const arrays = await Promise.all(all.map((mesh) => mesh.values(measure.name)));
+    const views = arrays.slice(0, this.header.views.length).filter(Boolean);
+    return views.length ? views : arrays.filter(Boolean);
+  }
+
+  makeScale(measure, arrays) {
+    if (measure?.classes) return new ClassScale(measure);
+    return new RangeScale(arrays, {
+      logarithmic: this.logarithmic ?? measure?.logarithmic ?? false,
+      palette: this.palettes[this.paletteKind],
+      reference: measure?.worst === "both" ? measure.reference ?? 1 : null,
+    });
+  }
+
+  async chooseMeasure(name) {
+    const measure = this.measures.find((m) => m.name === name);
+    if (!measure) throw new Error(`no measure is called ${name}`);
+    this.measure = measure;
+    this.logarithmic = null;
+    if (measure.on === "triangles") this.shapes = "triangles";
+    await this.refresh();
+  }
+
+  /** Cells have no colours by a measure on triangles; then the first measure on cells is chosen. */
+  async chooseShapes(shapes) {
+    if (shapes === "triangles" && !this.hasTriangles) return;
+    this.shapes = shapes;
+    if (shapes === "cells" && this.measure?.on === "triangles") {
+      this.measure = this.measures.find((m) => m.on === "cells") ?? null;
+      this.logarithmic = null;
+    }
+    await this.refresh();
+  }
+
+  async chooseScale({ logarithmic, palette }) {
+    if (logarithmic !== undefined) this.logarithmic = logarithmic;
+    if (palette) this.palettes[this.paletteKind] = palette;
+    await this.refresh();
+  }
+
+  async chooseFilter(filter) {
+    this.filter = filter;
+    await this.refreshMasks();
+    this.emit("filter");
+  }
+
+  /** @param marks null, or {on, sets: one Uint8Array a view, text, ...what made them}. */
+  async mark(marks) {
+    this.marks = marks;
+    await this.refreshMasks();
+    this.emit("marks");
+  }
+
+  /** Masks by shape, one a view; null where nothing is masked. */
+  async refreshMasks() {
+    const marks = await Promise.all(this.shown.map((_, view) => this.marksOn(view)));
+    const filters = await Promise.all(
+      this.shown.map((mesh, view) => filterMask(mesh, this.filter, this.shapes, marks[view])));
+    this.masks = this.shown.map((_, view) => ({ marks: marks[view], filter: filters[view] }));
+  }
+
+  async marksOn(view) {
+    if (!this.marks) return null;
+    const set = this.marks.sets[view];
+    if (this.marks.on === this.shapes) return set;
+    const mesh = this.shown[view];
+    const corners = await mesh.triangles();
+    if (!corners) return null;
+    return this.shapes === "triangles"
+      ? marksOnTriangles(set, corners)
+      : marksOnCells(set, corners, mesh.cells);
+  }
+
+  /** Picks a cell of each view, -1 for none; null clears. @param triangle outlined too, in view 0. */
+  pick(cells, triangle = null) {
+    this.picked = cells && cells.some((cell) => cell >= 0) ? { cells, triangle } : null;
+    this.emit("pick");
+  }
+
+  /** All about a cell, as the test API returns it. */
+  async describe(view, cell) {
+    const mesh = this.shown[view];
+    const topology = await topologyOf(mesh);
+    const values = {};
+    for (const measure of mesh.measures) {
+      if (measure.on === "cells") values[measure.name] = (await mesh.values(measure.name))[cell];
+    }
+    const neighbours = topology ? topology.neighbours(cell) : [];
+    return {
+      cell: mesh.fileIndex(cell),
+      ...mesh.placeOf(mesh.site(cell)),
+      neighbours: neighbours.map((j) => mesh.fileIndex(j)),
+      values,
+    };
+  }
+
+  /** Shows saved state k in the first view; the number of states stands for the result. */
+  async showState(k) {
+    const states = this.header.history?.states ?? [];
+    this.state = Math.max(0, Math.min(states.length, k));
+    const mesh = this.meshes[states[this.state]?.mesh ?? this.header.views[0]];
+    if (mesh === this.shown[0]) return;
+    await mesh.load(this.frame);
+    this.shown = [mesh, ...this.shown.slice(1)];
+    this.marks = null;
+    if (this.picked && this.picked.cells[0] >= mesh.cells) this.picked = null;
+    this.emit("meshes");
+    await this.refresh();
+    this.emit("marks");
+    this.emit("pick");
+  }
+}
+
+/** The measures of all meshes, each name once. */
+function measuresOf(meshes) {
+  const found = new Map();
+  for (const mesh of meshes) {
+    for (const measure of mesh.measures) if (!found.has(measure.name)) found.set(measure.name, measure);
+  }
+  return [...found.values()].map((m) => (m.classes ? { ...m, classes: allClasses(meshes, m.name) } : m));
+}
+
+/** The classes of a measure in all meshes, by value. */
+function allClasses(meshes, name) {
+  const classes = new Map();
+  for (const mesh of meshes) {
+    for (const c of mesh.measure(name)?.classes ?? []) classes.set(c.value, c);
+  }
+  return [...classes.values()].sort((a, b) => a.value - b.value);
+}
+
+async function valuesOnShapes(mesh, measure, values, shapes) {
+  if (!values || measure.on === shapes) return values;
+  const corners = await mesh.triangles();
+  return corners ? valuesOnTriangles(values, corners, measure.classes) : null;
+}

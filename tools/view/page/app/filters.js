@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/** Which shapes a filter lets through. */
+import { marksOnTriangles } from "../data/convert.js";
+import { topologyOf } from "../scene/shapes.js";
+
+const rightAngle = 90;
+
+export const filters = [
+  { name: "all", label: "All" },
+  { name: "obtuse", label: "Obtuse triangles", help: "an angle of more than 90°" },
+  { name: "pairs", label: "5–7 pairs", help: "cells of degree 5 beside cells of degree 7" },
+  { name: "marked", label: "Marked" },
+];
+
+/** Whether a filter can be applied to all of these meshes. */
+export function filterWorks(name, meshes) {
+  if (name === "obtuse") return meshes.every((m) => m.measure("angle") || m.measure("triangle_angle"));
+  if (name === "pairs") return meshes.every((m) => m.measure("degree"));
+  return true;
+}
+
+/** By shape 1 where the filter lets it through; null: all. @param marks by shape, or null. */
+export async function filterMask(mesh, filter, shapes, marks) {
+  if (filter === "obtuse") return obtuse(mesh, shapes);
+  if (filter === "pairs") return mesh.once(`pairs of ${shapes}`, () => pairs(mesh, shapes));
+  return filter === "marked" ? marks : null;
+}
+
+async function obtuse(mesh, shapes) {
+  const values = await mesh.values(shapes === "triangles" ? "triangle_angle" : "angle");
+  return values ? Uint8Array.from(values, (angle) => (angle > rightAngle ? 1 : 0)) : null;
+}
+
+async function pairs(mesh, shapes) {
+  const [degrees, topology] = [await mesh.values("degree"), await topologyOf(mesh)];
+  if (!degrees || !topology) return null;
+  const mask = new Uint8Array(mesh.cells);
+  for (let i = 0; i < mesh.cells; i++) {
+    if (degrees[i] !== 5 && degrees[i] !== 7) continue;
+    const other = 12 - degrees[i];
+    if (topology.neighbours(i).some((j) => degrees[j] === other)) mask[i] = 1;
+  }
+  return shapes === "triangles" ? marksOnTriangles(mask, await mesh.triangles()) : mask;
+}

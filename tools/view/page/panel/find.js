@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/** The field that finds a cell by its index or by a place. */
+import { unitVector } from "../data/vector.js";
+import { count } from "../data/format.js";
+import { byId } from "./dom.js";
+
+export class Find {
+  constructor(app, stage, selection) {
+    Object.assign(this, { app, stage, selection });
+    byId("find-form").addEventListener("submit", (event) => {
+      event.preventDefault();
+      this.find(byId("find").value);
+    });
+    byId("find").addEventListener("input", () => this.answer(""));
+    const place = app.shown[0].plane ? "x, y" : "lon, lat";
+    byId("find").placeholder = `${place} or cell`;
+    byId("find").setAttribute("aria-label", `Find a cell by ${place} or by its index`);
+  }
+
+  find(text) {
+    const numbers = text.trim().split(/[\s,;]+/).filter(Boolean).map(Number);
+    if (!numbers.length || numbers.length > 2 || numbers.some((v) => !Number.isFinite(v))) {
+      this.answer("Enter two numbers or one cell index.");
+    } else if (numbers.length === 1) {
+      this.goToCell(numbers[0]);
+    } else {
+      this.goToPlace(numbers);
+    }
+  }
+
+  goToCell(index) {
+    const mesh = this.app.shown[0];
+    const cell = mesh.cellOf(index);
+    if (cell >= 0) {
+      this.answer("");
+      this.selection.goTo(0, cell);
+      return;
+    }
+    this.answer(mesh.number
+      ? `The page does not hold cell ${count(index)}.`
+      : `Cells are numbered from 0 to ${count(mesh.cells - 1)}.`);
+  }
+
+  goToPlace([a, b]) {
+    const mesh = this.app.shown[0];
+    const { origin, unit } = mesh.frame;
+    if (!mesh.plane && Math.abs(b) > 90) {
+      this.answer("Latitudes are from −90 to 90.");
+      return;
+    }
+    const place = mesh.plane ? [(a - origin[0]) / unit, (b - origin[1]) / unit, 0] : unitVector(a, b);
+    const cell = this.selection.near(0, place);
+    this.answer(cell < 0 ? "The page shows no cell." : "");
+    if (cell >= 0) this.selection.goTo(0, cell);
+  }
+
+  answer(text) {
+    byId("find-answer").textContent = text;
+  }
+}
