@@ -109,7 +109,7 @@ function listenToTheme(app, stage) {
     retheme();
   });
   onPreferredTheme(retheme);
-  preparePrinting(retheme);
+  preparePrinting(stage?.canvas ?? null, retheme);
   byId("theme").setAttribute("aria-pressed", currentTheme() === "dark");
 }
 

@@ -26,6 +26,20 @@ export class App extends Emitter {
     this.picked = null;
     this.state = header.history?.states.length ?? 0;
     this.changes = 0;
+    this.pending = new Set();
+  }
+
+  /** Remembers a change until it is done. */
+  track(change) {
+    this.pending.add(change);
+    const done = () => this.pending.delete(change);
+    change.then(done, done);
+    return change;
+  }
+
+  /** Resolves when no change is under way. */
+  async idle() {
+    while (this.pending.size) await Promise.allSettled(this.pending);
   }
 
   /** Decodes the points of the shown meshes. */
@@ -45,8 +59,12 @@ export class App extends Emitter {
     return this.measure?.worst === "both" ? "diverging" : "sequential";
   }
 
+  refresh() {
+    return this.track(this.recompute());
+  }
+
   /** Values and scale of the choice; a later choice overtakes an earlier one that still decodes. */
-  async refresh() {
+  async recompute() {
     const change = ++this.changes;
     const { measure, shapes } = this;
     const own = await Promise.all(this.shown.map((mesh) => measure && mesh.values(measure.name)));

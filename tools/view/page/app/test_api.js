@@ -38,11 +38,15 @@ export function makeTestApi({ app, stage, selection, messages, ready }) {
       const ids = worstOf(measure, await mesh.values(name));
       return measure.on === "cells" ? ids.map((id) => mesh.fileIndex(id)) : ids;
     },
-    ...(stage ? drawingApi(stage) : {}),
+    ...(stage ? drawingApi(app, stage) : {}),
   };
 }
 
-function drawingApi(stage) {
+function drawingApi(app, stage) {
+  const settled = async () => {
+    await app.idle();
+    await stage.settled();
+  };
   const finish = () => stage.gl.readPixels(0, 0, 1, 1, stage.gl.RGBA, stage.gl.UNSIGNED_BYTE, new Uint8Array(4));
   const timed = (draw) => {
     const begin = performance.now();
@@ -74,8 +78,11 @@ function drawingApi(stage) {
       return times.reduce((sum, t) => sum + t, 0) / frames;
     },
     /** Resolves when everything in the window is decoded, built and drawn. */
-    settled: () => stage.settled(),
-    pixels: (view = 0) => digest(stage, view),
+    settled,
+    async pixels(view = 0) {
+      await settled();
+      return digest(stage, view);
+    },
   };
 }
 

@@ -17,10 +17,11 @@ export function badness(measure) {
 
 /** Words for the list. */
 export function worstTitle(measure) {
-  if (measure.worst === "low") return "Worst ten: least";
-  if (measure.worst === "high") return "Worst ten: greatest";
-  if (measure.worst === "both") return `Worst ten: farthest from ${measure.reference ?? 1}`;
-  return "Ten greatest";
+  const { label, worst, on } = measure;
+  if (worst === "low") return `Worst ten ${on}: least ${label}`;
+  if (worst === "high") return `Worst ten ${on}: greatest ${label}`;
+  if (worst === "both") return `Worst ten ${on}: ${label} farthest from ${measure.reference ?? 1}`;
+  return `Ten ${on} of greatest ${label}`;
 }
 
 /** Up to `wanted` ids, worst first; of equal ones the lower id first. */

@@ -19,7 +19,7 @@ export async function readBlock(block) {
   const words = joinPlanes(planes, block.count, block.width);
   if (block.type === "float") return new Float32Array(words.buffer);
   if (block.delta > 0) undoDifferences(words, block.delta);
-  return words;
+  return new Int32Array(words.buffer); // may be negative
 }
 
 function bytesOfBase64(text) {

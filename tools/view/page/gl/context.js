@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /** The WebGL 2 context, programs and buffers. */
 
-/** The context, or null. Opaque, and kept after a frame, so that it can be printed. */
+/** The context, or null. */
 export function makeContext(canvas) {
   return canvas.getContext("webgl2", {
     alpha: true,
     antialias: false,
     depth: false,
     stencil: false,
-    preserveDrawingBuffer: true,
     powerPreference: "high-performance",
   });
 }
@@ -45,10 +44,9 @@ export function makeBuffer(gl, target, data, usage = gl.STATIC_DRAW) {
 }
 
 /** Enables attribute `location` on the bound array buffer. */
-export function attribute(gl, location, size, type, { stride = 0, offset = 0, each = 0 } = {}) {
+export function attribute(gl, location, size, type, { stride = 0, offset = 0 } = {}) {
   gl.enableVertexAttribArray(location);
   gl.vertexAttribPointer(location, size, type, type === gl.UNSIGNED_BYTE, stride, offset);
-  gl.vertexAttribDivisor(location, each);
 }
 
 /** The rotation of a camera's frame, by columns. */

@@ -5,7 +5,10 @@ import { linesFragment, linesVertex } from "./shaders.js";
 
 export const linesProgram = (gl) => makeProgram(gl, linesVertex, linesFragment);
 
-/** Segments {from, to} near a centre. */
+/**
+ * Segments near a centre. Each has four vertices, with both its ends: instances would be fewer numbers,
+ * but software rendering draws them one by one.
+ */
 export class Lines {
   constructor(gl, program) {
     Object.assign(this, { gl, program, count: 0, centre: [0, 0, 0] });
@@ -13,26 +16,32 @@ export class Lines {
     this.array = gl.createVertexArray();
     gl.bindVertexArray(this.array);
     gl.bindBuffer(gl.ARRAY_BUFFER, this.buffer);
-    attribute(gl, 0, 3, gl.FLOAT, { stride: 24, each: 1 });
-    attribute(gl, 1, 3, gl.FLOAT, { stride: 24, offset: 12, each: 1 });
+    attribute(gl, 0, 3, gl.FLOAT, { stride: 24 });
+    attribute(gl, 1, 3, gl.FLOAT, { stride: 24, offset: 12 });
+    this.indices = gl.createBuffer();
+    gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, this.indices);
     gl.bindVertexArray(null);
   }
 
   /** @param polylines arrays of places. */
   set(polylines, centre = [0, 0, 0]) {
-    const numbers = [];
-    const push = (p) => numbers.push(p[0] - centre[0], p[1] - centre[1], p[2] - centre[2]);
+    const ends = [];
+    const relative = (p) => p.map((c, k) => c - centre[k]);
     for (const line of polylines) {
-      for (let k = 1; k < line.length; k++) {
-        push(line[k - 1]);
-        push(line[k]);
-      }
+      for (let k = 1; k < line.length; k++) ends.push([...relative(line[k - 1]), ...relative(line[k])]);
     }
     this.centre = centre;
-    this.count = numbers.length / 6;
+    this.count = ends.length;
+    const corners = [0, 1, 2, 2, 1, 3];
+    const indices = Uint32Array.from({ length: 6 * this.count }, (_, k) =>
+      4 * Math.floor(k / 6) + corners[k % 6]);
     const { gl } = this;
+    gl.bindVertexArray(this.array);
     gl.bindBuffer(gl.ARRAY_BUFFER, this.buffer);
-    gl.bufferData(gl.ARRAY_BUFFER, new Float32Array(numbers), gl.STATIC_DRAW);
+    gl.bufferData(gl.ARRAY_BUFFER, Float32Array.from(ends.flatMap((e) => [...e, ...e, ...e, ...e])),
+      gl.STATIC_DRAW);
+    gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, indices, gl.STATIC_DRAW);
+    gl.bindVertexArray(null);
   }
 
   /** @param width in device pixels. @param colour [r, g, b] to 255. */
@@ -49,7 +58,7 @@ export class Lines {
     gl.uniform4f(uniforms.u_colour, ...colour.map((c) => c / 255), alpha);
     gl.enable(gl.BLEND);
     gl.bindVertexArray(this.array);
-    gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, this.count);
+    gl.drawElements(gl.TRIANGLES, 6 * this.count, gl.UNSIGNED_INT, 0);
     gl.bindVertexArray(null);
     gl.disable(gl.BLEND);
   }

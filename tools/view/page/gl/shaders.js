@@ -64,7 +64,7 @@ flat in vec4 v_colour;
 out vec4 colour;
 void main() { colour = v_colour; }`;
 
-/** Segments as rectangles, one instance each. */
+/** Segments as rectangles: vertices 4 k to 4 k + 3 are the corners of segment k. */
 export const linesVertex = `${head}${place}
 layout(location = 0) in vec3 a_from;
 layout(location = 1) in vec3 a_to;
@@ -81,7 +81,7 @@ void main() {
   vec2 along = b - a;
   along = dot(along, along) > 1e-12 ? normalize(along) : vec2(1.0, 0.0);
   float side = (gl_VertexID & 1) == 0 ? -1.0 : 1.0;
-  bool end = gl_VertexID > 1;
+  bool end = (gl_VertexID & 2) != 0;
   vec2 c = (end ? b + along * 0.5 * u_width : a - along * 0.5 * u_width)
          + side * reach * vec2(-along.y, along.x);
   v_across = side * reach;
@@ -97,6 +97,24 @@ void main() {
   float a = clamp(0.5 * u_width + 0.5 - abs(v_across), 0.0, 1.0) * u_colour.a;
   colour = vec4(u_colour.rgb * a, a);
 }`;
+
+/** A disc of u_radius pixels, as horizontal slabs. */
+export const discVertex = `${head}
+uniform vec2 u_size;
+uniform vec2 u_middle;
+uniform float u_radius;
+uniform float u_pieces;
+void main() {
+  float angle = float(gl_VertexID / 2) / u_pieces * 3.141592653589793;
+  float side = (gl_VertexID & 1) == 0 ? -1.0 : 1.0;
+  vec2 p = u_middle + u_radius * vec2(side * sin(angle), cos(angle));
+  gl_Position = vec4(p / u_size * 2.0, 0.0, 1.0);
+}`;
+
+export const discFragment = `${head}
+uniform vec4 u_colour;
+out vec4 colour;
+void main() { colour = u_colour; }`;
 
 /** A ring around the globe's middle, from radius u_radii.x to u_radii.y in pixels. */
 export const ringVertex = `${head}

@@ -15,6 +15,9 @@ const keptShapes = 500000;
 /** Squares overlap by this factor, so that no gaps are left between irregular places. */
 const overlap = 1.35;
 
+/** The same where patches are thinned: a prefix is less even than the whole. */
+const thinnedOverlap = 1.75;
+
 /** The longest vertex list of a fan patch: colours are read up to it behind the last slot. */
 const colourPadding = 65536 * 4;
 
@@ -71,6 +74,7 @@ export class ShapesLayer {
     const visible = this.set.patches.filter((patch) => inWindow(patch, frame));
     const size = (patch) => patch.size * frame.scale;
     const fans = visible.filter((patch) => size(patch) >= rule.pointsBelow * ratio);
+    this.squaresOnly = fans.length === 0;
     const end = performance.now() + rule.budget;
     const missing = fans.filter((patch) => !this.prepared(patch, end));
     const squares = visible.filter((patch) => size(patch) < rule.pointsBelow * ratio);
@@ -124,7 +128,8 @@ export class ShapesLayer {
       const demanded = ((patch.size * frame.scale) / (rule.pointSpacing * ratio)) ** 2;
       const count = Math.max(1, Math.min(patch.count, Math.ceil(patch.count * demanded)));
       gl.uniform3fv(uniforms.u_offset, offsetOf(frame, patch.centre));
-      gl.uniform1f(uniforms.u_pixels, overlap * frame.scale * Math.sqrt(patch.count / count));
+      const wider = count < patch.count ? thinnedOverlap : overlap;
+      gl.uniform1f(uniforms.u_pixels, wider * frame.scale * Math.sqrt(patch.count / count));
       gl.drawArrays(gl.POINTS, patch.first, count);
     }
   }

@@ -61,7 +61,19 @@ export class Controls {
     byId("logarithmic").checked = Boolean(scale?.logarithmic);
     byId("logarithmic").disabled = !scale?.canBeLogarithmic;
     this.showMissing();
+    this.showMarksText();
     this.showFilter();
+  }
+
+  showMarksText() {
+    byId("marks-text").textContent = marksText(this.app) || this.marksHint();
+    show(byId("marks-clear"), Boolean(this.app.marks));
+  }
+
+  marksHint() {
+    const { measure, scale } = this.app;
+    if (!measure || scale?.empty) return "";
+    return measure.classes ? "Click a class to mark it." : `Drag over the bars to mark ${measure.on}.`;
   }
 
   showMissing() {
@@ -82,9 +94,8 @@ export class Controls {
 
   showMarks() {
     const { app } = this;
+    this.showMarksText();
     const text = marksText(app);
-    byId("marks-text").textContent = text || "Drag over the bars to mark cells.";
-    show(byId("marks-clear"), Boolean(app.marks));
     announce(text ? `${text} marked` : "No cells marked");
     if (!app.marks && app.filter === "marked") app.chooseFilter("all");
     this.showFilter();

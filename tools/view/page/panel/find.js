@@ -4,6 +4,9 @@ import { unitVector } from "../data/vector.js";
 import { count } from "../data/format.js";
 import { byId } from "./dom.js";
 
+/** ms that an answer stays. */
+const answerTime = 6000;
+
 export class Find {
   constructor(app, stage, selection) {
     Object.assign(this, { app, stage, selection });
@@ -11,7 +14,7 @@ export class Find {
       event.preventDefault();
       this.find(byId("find").value);
     });
-    byId("find").addEventListener("input", () => this.answer(""));
+    for (const end of ["input", "blur"]) byId("find").addEventListener(end, () => this.answer(""));
     const place = app.shown[0].plane ? "x, y" : "lon, lat";
     byId("find").placeholder = `${place} or cell`;
     byId("find").setAttribute("aria-label", `Find a cell by ${place} or by its index`);
@@ -56,5 +59,7 @@ export class Find {
 
   answer(text) {
     byId("find-answer").textContent = text;
+    clearTimeout(this.timer);
+    if (text) this.timer = setTimeout(() => this.answer(""), answerTime);
   }
 }

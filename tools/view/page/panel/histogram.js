@@ -61,8 +61,8 @@ export class Histogram {
   }
 
   drawBars() {
-    const most = Math.max(1, ...this.counts.flat());
-    const tallness = (c) => (c ? Math.max(1.5, (c / most) * tall) : 0);
+    const most = this.counts.map((counts) => Math.max(1, ...counts));
+    const tallness = (c, k = 0) => (c ? Math.max(1.5, (c / most[k]) * tall) : 0);
     const [first, ...others] = this.counts;
     const bars = this.bars.map((bar, k) => svg("rect", {
       x: this.x(bar.from) + 0.25,
@@ -71,16 +71,18 @@ export class Histogram {
       height: tallness(first[k] ?? 0),
       fill: this.barColour(bar),
     }));
-    const steps = others.filter((c) => c.length).map((counts) =>
-      svg("path", { class: "steps", d: this.stepPath(counts.map(tallness)) }));
+    const steps = others.map((counts, k) => (counts.length ? svg("path", {
+      class: "steps", d: this.stepPath(counts.map((c) => tallness(c, k + 1))),
+    }) : "")); // each mesh has its own height
     const ceiling = svg("text", { class: "note", x: left, y: 10 }, this.ceilingText(most));
     return [svg("g", { class: "bars" }, ...bars), ...steps, ceiling];
   }
 
   ceilingText(most) {
     if (!this.bars.length) return "no finite values";
-    const others = this.counts.length > 1 ? `; line: ${this.app.shown[1].name}` : "";
-    return `${count(most)} ${this.app.measure.on} in the tallest bar${others}`;
+    const { measure } = this.app;
+    const tallest = `tallest bar: ${most.map(count).join(" / ")} ${measure.on}`;
+    return most.length > 1 ? `${tallest}; line: second mesh` : tallest;
   }
 
   barColour(bar) {

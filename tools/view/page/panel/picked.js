@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /** The picked cell: where it is, its measures, its neighbours. */
-import { count, number, placeText, withUnit } from "../data/format.js";
+import { count, latitude, longitude, number, placeText, withUnit } from "../data/format.js";
 import { announce, byId, element, show } from "./dom.js";
 
 export class Picked {
@@ -34,7 +34,7 @@ export class Picked {
     const of = (text) => cells.map((cell) => (cell ? text(cell) : "–"));
     const names = shown.map((mesh) => element("th", { scope: "col" }, mesh.name));
     const places = "lon" in (cells.find(Boolean) ?? {})
-      ? [row("place", of(placeText))]
+      ? [row("longitude", of((cell) => longitude(cell.lon))), row("latitude", of((cell) => latitude(cell.lat)))]
       : [row("x", of((cell) => number(cell.x))), row("y", of((cell) => number(cell.y)))];
     return element("table", { class: "numbers picked" },
       element("caption", { class: "unseen" }, "The picked cell"),

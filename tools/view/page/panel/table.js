@@ -9,18 +9,19 @@ export function renderTable(meshes) {
   const names = [...new Set(meshes.flatMap((mesh) => mesh.measures.map((m) => m.name)))];
   const head = ["measure", ...(several ? ["mesh"] : []), "least", "mean", "greatest", "missing"];
   const bodies = names.map((name) => element("tbody", {}, ...rows(name, meshes, several)));
+  byId("table-hint").hidden = names.length > 0;
+  byId("table").hidden = names.length === 0;
   byId("table").replaceChildren(element("table", { class: `numbers all${several ? " several" : ""}` },
     element("caption", { class: "unseen" }, "Least, mean and greatest value of each measure"),
     element("thead", {}, element("tr", {}, ...head.map((text) => element("th", { scope: "col" }, text)))),
     ...bodies));
-  byId("table-hint").hidden = names.length > 0;
 }
 
 function rows(name, meshes, several) {
   const found = meshes.map((mesh) => mesh.measures.find((m) => m.name === name));
   const known = found.find(Boolean);
   const label = element("th", { scope: "rowgroup", rowspan: meshes.length, title: known.help || null },
-    known.label, known.unit ? element("span", { class: "unit" }, `\u00a0${known.unit}`) : null);
+    known.label, known.unit ? "\u00a0" : null, known.unit ? element("span", { class: "unit" }, known.unit) : null);
   return found.map((measure, k) => element("tr", {},
     k ? null : label,
     several ? element("th", { scope: "row", class: "mesh" }, meshes[k].name) : null,

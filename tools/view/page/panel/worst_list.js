@@ -20,7 +20,7 @@ export class WorstList {
     show(byId("worst-section"), lists.some((ids) => ids.length));
     this.items = [];
     if (!listed) return;
-    byId("worst-title").textContent = `${worstTitle(measure)} ${measure.label}`;
+    byId("worst-title").textContent = worstTitle(measure);
     byId("worst").replaceChildren(...lists.flatMap((ids, k) => this.list(ids, k)));
     this.showCurrent();
   }
@@ -36,10 +36,13 @@ export class WorstList {
     const { app, selection } = this;
     const { measure } = app;
     const cells = measure.on === "cells";
-    const name = cells ? `cell ${count(app.shown[k].fileIndex(id))}` : `triangle ${count(id)}`;
-    const button = element("button", { type: "button", click: () => selection.goToWorst(k, id) },
-      element("span", {}, name),
-      element("span", { class: "number" }, withUnit(app.own[k][id], measure.unit)));
+    const index = cells ? app.shown[k].fileIndex(id) : id;
+    const value = withUnit(app.own[k][id], measure.unit);
+    const button = element("button", {
+      type: "button",
+      "aria-label": `${cells ? "cell" : "triangle"} ${index}, ${value}`,
+      click: () => selection.goToWorst(k, id),
+    }, element("span", {}, count(index)), element("span", { class: "number" }, value));
     this.items.push({ button, id, k, cells });
     return button;
   }

@@ -6,9 +6,10 @@ import { unitVector } from "../data/vector.js";
 /** Longer steps, in degrees, are divided. */
 const longestStep = 2;
 
-/** @param header {lon, lat, begin}: degrees, and where each line begins. */
-export async function coastlines({ lon, lat, begin }) {
-  const [lons, lats, begins] = await Promise.all([lon, lat, begin].map(readBlock));
+/** @param header {lon, lat, begin, unit}: whole numbers of a unit in degrees; where each line begins. */
+export async function coastlines({ lon, lat, begin, unit }) {
+  const degrees = async (block) => Float64Array.from(await readBlock(block), (n) => unit * (n | 0));
+  const [lons, lats, begins] = await Promise.all([degrees(lon), degrees(lat), readBlock(begin)]);
   const ends = [...begins.slice(1), lons.length];
   return Array.from(begins, (first, k) => line(lons, lats, first, ends[k])).filter((l) => l.length > 1);
 }

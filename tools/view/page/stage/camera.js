@@ -29,10 +29,11 @@ class Camera {
   zoomAt(factor, x, y, width, height) {
     const before = this.unproject(x, y, width, height);
     this.setZoom(this.zoom * factor);
-    if (!before) return;
-    const frame = this.frame(width, height);
-    const now = project(frame, before);
-    if (!now.hidden) this.drag(x - now.x, y - now.y, width, height);
+    // drags are exact only in the middle of the window; the second one corrects the first
+    for (let round = 0; before && round < 2; round++) {
+      const now = project(this.frame(width, height), before);
+      if (!now.hidden) this.drag(x - now.x, y - now.y, width, height);
+    }
   }
 }
 

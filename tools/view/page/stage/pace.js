@@ -15,7 +15,7 @@ export class Pace {
   }
 
   get restRule() {
-    return { pointsBelow: 2, pointSpacing: 0.9, budget: 60 };
+    return { pointsBelow: 2, pointSpacing: 1, budget: 60 };
   }
 
   /** Everything that is in the window, however long it takes. */

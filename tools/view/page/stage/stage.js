@@ -44,9 +44,9 @@ export class Stage {
     const { coastlines: coast } = app.header;
     if (coast) coastlines(coast).then((lines) => this.setCoast(lines));
     app.on("meshes", () => this.makeViews());
-    app.on("colours", () => this.refresh());
+    app.on("colours", () => app.track(this.refresh()));
     app.on("marks filter", () => this.recolour());
-    app.on("pick", () => this.pick());
+    app.on("pick", () => app.track(this.pick()));
     new ResizeObserver(() => this.resize()).observe(this.canvas.parentElement);
   }
 
@@ -77,22 +77,23 @@ export class Stage {
   }
 
   async refresh() {
-    await Promise.all(this.views.map((view) => view.show(this.app.shapes)));
+    const { shapes } = this.app;
+    await Promise.all(this.views.map((view) => view.prepareLayer(shapes)));
     for (const view of this.views) {
-      const { set } = view.layers[view.kind];
-      view.camera.greatestZoom = Math.max(view.camera.greatestZoom, 1 / set.least);
+      const { camera } = view;
+      camera.greatestZoom = Math.max(camera.greatestZoom, 1 / view.layers[shapes].set.least);
     }
     this.recolour();
   }
 
+  /** Nothing while the shapes are not there: a refresh is under way then. */
   recolour() {
     const { app, theme } = this;
-    if (!this.views.every((view) => view.kind) || !app.scale) return;
+    if (!app.scale || !this.views.every((view) => view.layers[app.shapes])) return;
     const scale = app.measure ? app.scale : { size: 0, indexOf: () => 0 };
-    const plain = app.measure ? theme : { ...theme, missing: theme.plain };
-    const tables = colourTables(scale, plain);
+    const tables = colourTables(scale, app.measure ? theme : { ...theme, missing: theme.plain });
     this.views.forEach((view, k) => {
-      view.colour(app.values[k], scale, tables, app.masks[k], theme);
+      view.show(app.shapes, { values: app.values[k], scale, tables, masks: app.masks[k], theme });
     });
     this.redraw();
   }
@@ -168,9 +169,10 @@ export class Stage {
     const all = () => {
       missing = this.drawViews(rule);
     };
-    if (moving) all();
+    // squares gain nothing from several samples a pixel
+    if (moving || this.views.every((view) => view.hasSquaresOnly)) all();
     else this.smooth.drawWith(all);
-    if (this.views.every((view) => view.coloured)) this.firstDrawn();
+    if (this.views.every((view) => view.kind)) this.firstDrawn();
     return missing;
   }
 

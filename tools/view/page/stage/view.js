@@ -31,17 +31,17 @@ export class View {
     return this.sets[kind];
   }
 
-  /** Shows shapes of a kind; @param colours (order) => words. */
-  async show(kind) {
+  /** Makes what drawing shapes of a kind needs. */
+  async prepareLayer(kind) {
     const set = await this.setOf(kind);
     this.layers[kind] ??= new ShapesLayer(this.tools.gl, this.tools.programs, set);
-    this.kind = kind;
   }
 
-  colour(values, scale, tables, masks, theme) {
-    const { set } = this.layers[this.kind];
-    this.coloured = true;
-    this.layers[this.kind].setColours(paint(set.order, values, scale, tables, masks));
+  /** Shows shapes of a kind, whose layer is there, in the colours of a scale. */
+  show(kind, { values, scale, tables, masks, theme }) {
+    this.kind = kind;
+    const { set } = this.layers[kind];
+    this.layers[kind].setColours(paint(set.order, values, scale, tables, masks));
     this.dots.set(set, masks.filter ?? masks.marks, theme.accent);
   }
 
@@ -70,6 +70,7 @@ export class View {
     if (frame.sphere) globe.drawDisc(frame, theme);
     const layer = this.layers[this.kind];
     const missing = layer ? layer.draw(frame, rule, theme, ratio) : false;
+    this.hasSquaresOnly = layer?.squaresOnly ?? true;
     if (missing) this.prepare(layer.set.shapes);
     if (coast && frame.sphere) {
       coast.draw(frame, 3 * ratio, theme.background, 0.45);
