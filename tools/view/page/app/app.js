@@ -74,7 +74,7 @@ export class App extends Emitter {
     if (change !== this.changes) return;
     this.own = own;
     this.values = values;
-    this.scale = this.makeScale(measure, scaled);
+    this.scale = this.makeScale(measure, scaled, own.filter(Boolean));
     await this.refreshMasks();
     this.emit("colours");
   }
@@ -87,13 +87,18 @@ export class App extends Emitter {
     return views.length ? views : arrays.filter(Boolean);
   }
 
-  makeScale(measure, arrays) {
+  /** @param arrays the values that set the ends. @param shown the values that are shown. */
+  makeScale(measure, arrays, shown) {
     if (measure?.classes) return new ClassScale(measure);
-    return new RangeScale(arrays, {
+    const options = {
       logarithmic: this.logarithmic ?? measure?.logarithmic ?? false,
       palette: this.palettes[this.paletteKind],
       reference: measure?.worst === "both" ? measure.reference ?? 1 : null,
-    });
+    };
+    const scale = new RangeScale(arrays, options);
+    const useful = scale.constant || scale.empty ? new RangeScale(shown, options) : scale;
+    useful.show(shown);
+    return useful;
   }
 
   async chooseMeasure(name) {

@@ -47,7 +47,8 @@ function drawingApi(app, stage) {
     await app.idle();
     await stage.settled();
   };
-  const finish = () => stage.gl.readPixels(0, 0, 1, 1, stage.gl.RGBA, stage.gl.UNSIGNED_BYTE, new Uint8Array(4));
+  const { gl } = stage;
+  const finish = () => gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
   const timed = (draw) => {
     const begin = performance.now();
     draw();
@@ -59,7 +60,7 @@ function drawingApi(app, stage) {
     turn(lon, lat, zoom) {
       for (const view of stage.views) {
         const { mesh, camera } = view;
-        if (mesh.plane) camera.lookAtPoint([lon, lat].map((c, k) => (c - mesh.frame.origin[k]) / mesh.frame.unit));
+        if (mesh.plane) camera.lookAtPoint(mesh.fromFile([lon, lat]));
         else camera.lookAt({ lon, lat });
         if (zoom) camera.setZoom(zoom);
       }

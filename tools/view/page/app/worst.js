@@ -2,7 +2,7 @@
 /** The shapes with the worst values of a measure. */
 
 /** How bad a value is; greater is worse. NaN has no place. */
-export function badness(measure) {
+function badness(measure) {
   const reference = measure.reference ?? 1;
   switch (measure.worst) {
     case "low":

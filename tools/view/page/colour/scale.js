@@ -5,6 +5,9 @@ import { classColour, paletteColour } from "./palettes.js";
 
 const steps = 1024;
 
+/** Places on a scale closer than this are equal. */
+const rounding = 1e-9;
+
 /** A scale of at most this many sampled values is computed for its quantiles. */
 const sampleSize = 50000;
 
@@ -54,12 +57,20 @@ export class RangeScale {
 
   setEnds(arrays) {
     const { least, greatest, leastPositive } = this.range;
-    const ends = [this.logarithmic ? leastPositive : least, greatest].map(this.transform);
-    const [low, high] = this.empty ? [NaN, NaN] : clampOutliers(sampleOf(arrays, this.transform), ends);
-    this.low = low === ends[0] ? this.inverse(ends[0]) : this.inverse(low);
-    this.high = this.inverse(high);
-    this.below = low > ends[0] || this.range.least < leastPositive * (this.logarithmic ? 1 : -Infinity);
-    this.above = high < ends[1];
+    const values = [this.logarithmic ? leastPositive : least, greatest];
+    const ends = values.map(this.transform);
+    const clamped = this.empty ? [NaN, NaN] : clampOutliers(sampleOf(arrays, this.transform), ends);
+    // ends that are not clamped stay exact
+    [this.low, this.high] =
+      clamped.map((end, k) => (end === ends[k] ? values[k] : this.inverse(end)));
+  }
+
+  /** The values that are shown, which may be others than those that set the ends. */
+  show(arrays) {
+    this.range = rangeOf(arrays);
+    const { least, greatest } = this.range;
+    this.below = least <= greatest && this.position(least) < -rounding;
+    this.above = least <= greatest && this.position(greatest) > 1 + rounding;
   }
 
   /** Makes the ends equally far from the reference, so that it has the middle colour. */
@@ -70,8 +81,6 @@ export class RangeScale {
                            Math.abs(this.transform(this.high) - middle));
     this.low = this.inverse(middle - reach);
     this.high = this.inverse(middle + reach);
-    this.below &&= this.range.least < this.low;
-    this.above &&= this.range.greatest > this.high;
   }
 
   /** The place of a value on the scale, from 0 to 1 within its ends. */

@@ -36,7 +36,7 @@ async function inflate(bytes) {
 }
 
 /** Byte k of number i stands at planes[k * count + i]. */
-export function joinPlanes(planes, count, width) {
+function joinPlanes(planes, count, width) {
   const words = new Uint32Array(count);
   for (let k = 0; k < width; k++) {
     const shift = 8 * k;
@@ -47,7 +47,7 @@ export function joinPlanes(planes, count, width) {
 }
 
 /** Number i is a zigzag-coded difference to number i - distance, and to 0 for i < distance. */
-export function undoDifferences(words, distance) {
+function undoDifferences(words, distance) {
   for (let i = 0; i < words.length; i++) {
     const difference = (words[i] >>> 1) ^ -(words[i] & 1);
     words[i] = (i < distance ? 0 : words[i - distance]) + difference;

@@ -20,9 +20,16 @@ export function number(value) {
 
 export const count = (value) => typeset(grouped(value));
 
+/** A unit as it is printed: degrees as a sign, powers raised. */
+export function unitText(unit) {
+  const known = { degrees: "°", degree: "°", steradians: "sr" }[unit];
+  return known ?? unit.replace(/\^2/g, "²").replace(/\^3/g, "³").replace(/\^-1/g, "⁻¹");
+}
+
 export function withUnit(value, unit) {
   const text = number(value);
-  return unit && text !== "–" ? `${text}${unit === "°" ? "" : "\u00a0"}${unit}` : text;
+  if (!unit || text === "–") return text;
+  return unitText(unit) === "°" ? `${text}°` : `${text}\u00a0${unitText(unit)}`;
 }
 
 /** A coordinate in degrees with its direction, such as 12.34° W. */
@@ -43,4 +50,4 @@ export function placeText(place) {
 
 /** A label with its unit, for headings. */
 export const labelOf = (measure) =>
-  measure.unit ? `${measure.label} (${measure.unit})` : measure.label;
+  measure.unit ? `${measure.label} (${unitText(measure.unit)})` : measure.label;

@@ -57,6 +57,12 @@ export class Mesh {
     return this.coordinate(this.points, i, out);
   }
 
+  /** The place of the drawing of x and y of the file, in a plane. */
+  fromFile([x, y]) {
+    const { origin, unit } = this.frame;
+    return [(x - origin[0]) / unit, (y - origin[1]) / unit, 0];
+  }
+
   /** Longitude and latitude in degrees, or x and y of the file, of a place of the drawing. */
   placeOf(p) {
     const { origin, unit } = this.frame;

@@ -46,12 +46,11 @@ export class Find {
 
   goToPlace([a, b]) {
     const mesh = this.app.shown[0];
-    const { origin, unit } = mesh.frame;
     if (!mesh.plane && Math.abs(b) > 90) {
       this.answer("Latitudes are from −90 to 90.");
       return;
     }
-    const place = mesh.plane ? [(a - origin[0]) / unit, (b - origin[1]) / unit, 0] : unitVector(a, b);
+    const place = mesh.plane ? mesh.fromFile([a, b]) : unitVector(a, b);
     const cell = this.selection.near(0, place);
     this.answer(cell < 0 ? "The page shows no cell." : "");
     if (cell >= 0) this.selection.goTo(0, cell);

@@ -29,6 +29,7 @@ export class Histogram {
     const box = byId("histogram");
     box.hidden = !app.measure || Boolean(app.measure.classes);
     box.replaceChildren();
+    this.brush = null;
     if (box.hidden) return;
     const { scale } = app;
     this.bars = barsOf(scale);

@@ -3,6 +3,7 @@
 import { markRanges } from "../app/marking.js";
 import { drawingTheme } from "../colour/theme.js";
 import { mix } from "../colour/palettes.js";
+import { labelOf } from "../data/format.js";
 import { axisBelow, axisLeft, plainRange, ticks } from "./axis.js";
 import { byId, element, show, svg } from "./dom.js";
 import { rectangleBrush } from "./rectangle_brush.js";
@@ -57,7 +58,6 @@ export class Law {
 
   drawAxes() {
     const [x, y] = this.measures;
-    const unit = (m) => (m.unit ? `${m.label}, ${m.unit}` : m.label);
     const list = ticks(this.range, side);
     const middle = top + side / 2;
     return [
@@ -65,9 +65,9 @@ export class Law {
       svg("line", { class: "identity", x1: left, y1: top + side, x2: left + side, y2: top }),
       ...axisBelow(list, left, top + side, side),
       ...axisLeft(ticks(this.range, side, 16), left, top + side),
-      svg("text", { class: "title", x: left + side / 2, y: height - 4, "text-anchor": "middle" }, unit(x)),
+      svg("text", { class: "title", x: left + side / 2, y: height - 4, "text-anchor": "middle" }, labelOf(x)),
       svg("text", { class: "title", x: 10, y: middle, "text-anchor": "middle",
-                    transform: `rotate(-90 10 ${middle})` }, unit(y)),
+                    transform: `rotate(-90 10 ${middle})` }, labelOf(y)),
     ];
   }
 

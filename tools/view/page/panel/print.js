@@ -1,26 +1,34 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /** Printing: on white paper the light theme, whatever the page has. */
 import { currentTheme, setTheme } from "../colour/theme.js";
-import { byId } from "./dom.js";
+import { element } from "./dom.js";
 
 /** @param canvas the drawing's, or null. @param retheme redraws in the present theme, at once. */
 export function preparePrinting(canvas, retheme) {
-  let before = null;
+  const { dataset } = document.documentElement;
+  let chosen; // the theme before, if one was chosen
+  let picture = null;
   addEventListener("beforeprint", () => {
-    before ??= currentTheme();
-    setTheme("light");
+    if (picture) return;
+    chosen = dataset.theme;
+    if (currentTheme() !== "light") setTheme("light");
     retheme();
-    if (canvas) copyPicture(canvas, byId("printed"));
+    picture = copyOf(canvas);
+    canvas?.after(picture);
   });
   addEventListener("afterprint", () => {
-    if (before) setTheme(before);
-    before = null;
+    picture?.remove();
+    picture = null;
+    if (chosen) setTheme(chosen);
+    else delete dataset.theme;
     retheme();
   });
 }
 
 /** A print shows the last frame that the screen had; the copy has the one just drawn. */
-function copyPicture(from, to) {
-  [to.width, to.height] = [from.width, from.height];
-  to.getContext("2d").drawImage(from, 0, 0);
+function copyOf(canvas) {
+  const { width, height } = canvas ?? { width: 1, height: 1 };
+  const copy = element("canvas", { class: "printed", width, height });
+  if (canvas) copy.getContext("2d").drawImage(canvas, 0, 0);
+  return copy;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /** The table of numbers: least, mean and greatest of each measure. It needs no values. */
-import { count, number } from "../data/format.js";
+import { count, number, unitText } from "../data/format.js";
 import { byId, element } from "./dom.js";
 
 /** @param meshes the shown ones, headers or meshes: {name, measures}. */
@@ -21,7 +21,9 @@ function rows(name, meshes, several) {
   const found = meshes.map((mesh) => mesh.measures.find((m) => m.name === name));
   const known = found.find(Boolean);
   const label = element("th", { scope: "rowgroup", rowspan: meshes.length, title: known.help || null },
-    known.label, known.unit ? "\u00a0" : null, known.unit ? element("span", { class: "unit" }, known.unit) : null);
+    known.label,
+    known.unit ? "\u00a0" : null,
+    known.unit ? element("span", { class: "unit" }, unitText(known.unit)) : null);
   return found.map((measure, k) => element("tr", {},
     k ? null : label,
     several ? element("th", { scope: "row", class: "mesh" }, meshes[k].name) : null,

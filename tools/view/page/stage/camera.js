@@ -39,15 +39,16 @@ class Camera {
 
 /** Orthographic, north up. */
 export class SphereCamera extends Camera {
-  constructor() {
+  /** @param home {lon, lat, zoom}. */
+  constructor(home) {
     super();
+    this.home = home;
     this.reset();
   }
 
   reset() {
-    this.lon = 0;
-    this.lat = 20;
-    this.setZoom(1);
+    this.lookAt(this.home);
+    this.setZoom(this.home.zoom);
   }
 
   fit(width, height) {

@@ -2,7 +2,11 @@
 /** How finely a frame is drawn: coarser while moving, by the time that frames take. */
 
 /** ms after the last movement at which the picture is refined. */
-const restAfter = 160;
+const restAfter = 220;
+
+/** ms of a frame above which the next is coarser, and below which it is finer. */
+const slow = 80;
+const fast = 40;
 
 const finest = 1;
 const coarsest = 3;
@@ -42,7 +46,7 @@ export class Pace {
   }
 
   adapt(interval) {
-    if (interval > 45) this.coarseness = Math.min(coarsest, this.coarseness * 1.15);
-    else if (interval < 22) this.coarseness = Math.max(finest, this.coarseness / 1.05);
+    if (interval > slow) this.coarseness = Math.min(coarsest, this.coarseness * 1.15);
+    else if (interval < fast) this.coarseness = Math.max(finest, this.coarseness / 1.05);
   }
 }

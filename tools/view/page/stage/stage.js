@@ -9,6 +9,7 @@ import { shapePrograms } from "../gl/shapes_layer.js";
 import { SmoothTarget } from "../gl/smooth_target.js";
 import { coastlines } from "../scene/coastlines.js";
 import { PlaneCamera, SphereCamera } from "./camera.js";
+import { homeOf } from "./home.js";
 import { Pace } from "./pace.js";
 import { View } from "./view.js";
 
@@ -72,7 +73,7 @@ export class Stage {
   /** Spheres turn together, and planes move together. */
   cameraFor(mesh) {
     const kind = mesh.plane ? "plane" : "sphere";
-    this.cameras[kind] ??= mesh.plane ? new PlaneCamera(mesh.frame.half) : new SphereCamera();
+    this.cameras[kind] ??= mesh.plane ? new PlaneCamera(mesh.frame.half) : new SphereCamera(homeOf(mesh));
     return this.cameras[kind];
   }
 
