@@ -47,7 +47,7 @@ export class Histogram {
       ? "no values"
       : `${number(scale.range.least)} to ${withUnit(scale.range.greatest, measure.unit)}`;
     return {
-      viewBox: `0 0 ${width} ${height}`,
+      viewBox: `0 0 ${width} ${this.bars.length ? height : top}`,
       class: "chart",
       role: "application",
       tabindex: this.bars.length ? 0 : null,
