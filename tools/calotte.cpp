@@ -49,6 +49,7 @@ void run(CLI::App& app, int argc, char** argv) {
   add_check(app);
   add_info(app);
   add_draw(app);
+  add_view(app);
   add_convert(app);
   add_cut(app);
   add_cull(app);

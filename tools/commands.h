@@ -16,6 +16,7 @@ void add_points(CLI::App& app);
 void add_check(CLI::App& app);
 void add_info(CLI::App& app);
 void add_draw(CLI::App& app);
+void add_view(CLI::App& app);
 void add_convert(CLI::App& app);
 void add_cut(CLI::App& app);
 void add_cull(CLI::App& app);

@@ -15,6 +15,7 @@
 #include "run/cvt_start.h"
 #include "run/exit_code.h"
 #include "run/interruption.h"
+#include "run/kept_states.h"
 #include "run/progress.h"
 #include "run/start_files.h"
 
@@ -78,6 +79,7 @@ struct Outcome {
   int signal = 0;         ///< the signal that ended it early
   bool kept = false;      ///< its state then
   std::size_t before = 0; ///< iterations of the earlier parts of a resumed run
+  std::vector<KeptState> states;
   int threads = 0;
 };
 
@@ -92,10 +94,12 @@ bool keep(const CvtState& state, Keeper& keeper, Progress& progress, const std::
   return true;
 }
 
-/// Shows progress, writes checkpoints, and ends the run after a signal.
+/// Shows progress, keeps states and checkpoints, and ends the run after a signal.
 bool after_iteration(const CvtProgress& now, const CvtRequest& request, const CvtOptions& options,
-                     Keeper& keeper, Progress& progress, Outcome& outcome) {
+                     Keeper& keeper, KeptStates& states, Progress& progress, Outcome& outcome) {
   progress.stage(describe(now, options, norm_word(request)), std::to_string(now.bisections_left));
+  if (states.due(now.report))
+    states.keep(now.state);
   outcome.signal = Interruption::signal();
   if (outcome.signal != 0)
     outcome.kept = keep(now.state, keeper, progress, "");
@@ -175,8 +179,9 @@ Outcome tessellate(const CvtRequest& request, Plan& plan, Progress& progress) {
   Outcome outcome;
   outcome.before = plan.state ? plan.state->report().iterations.size() : 0;
   Keeper keeper(request, plan.configuration, outcome.before);
+  KeptStates states(request, plan.domain, outcome.before);
   const CvtCallback callback = [&](const CvtProgress& now) {
-    return after_iteration(now, request, plan.options, keeper, progress, outcome);
+    return after_iteration(now, request, plan.options, keeper, states, progress, outcome);
   };
   progress.stage("triangulating the start");
   try {
@@ -187,6 +192,7 @@ Outcome tessellate(const CvtRequest& request, Plan& plan, Progress& progress) {
   } catch (const Error& error) {
     rethrow_with_line(error, plan.start);
   }
+  outcome.states = states.all();
   return outcome;
 }
 
@@ -272,8 +278,8 @@ void write_result(const CvtRequest& request, const Plan& plan, Outcome& outcome,
   else
     write(request.mesh, outcome.mesh, options);
   if (!request.report.empty())
-    write_file(request.report,
-               to_json(request, outcome.report, outcome.cells, outcome.area, outcome.threads));
+    write_file(request.report, to_json(request, outcome.report, outcome.cells, outcome.area,
+                                       outcome.threads, outcome.states));
 }
 
 /// From here on a signal ends the run after the current iteration, with its output complete.

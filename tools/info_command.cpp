@@ -5,10 +5,12 @@
 #include "options/domain_option.h"
 #include "options/files.h"
 #include "options/mesh_source.h"
+#include "options/numbers.h"
 #include "options/sphere_radius_option.h"
 #include "options/units_option.h"
 #include "run/mesh_measures.h"
 #include "run/progress.h"
+#include "view/view_mesh.h"
 
 #include <calotte/check.h>
 #include <calotte/error.h>
@@ -17,6 +19,7 @@
 #include <calotte/quality.h>
 
 #include <iostream>
+#include <limits>
 #include <optional>
 
 namespace calotte::tools {
@@ -28,6 +31,7 @@ struct Request {
   std::shared_ptr<DomainWords> domain; ///< of a mesh of the plane
   std::optional<double> sphere_radius; ///< metres
   std::optional<std::string> units;    ///< --units
+  std::optional<std::int64_t> cell;    ///< whose numbers are asked for
   std::string report;
 };
 
@@ -135,12 +139,26 @@ std::string remarks_of(const Request& request, const Measured& measured) {
   return lines;
 }
 
+/// The numbers of one cell, a line each.
+std::string cell_table(const Request& request, const MeshFile& file) {
+  const ViewMesh mesh = view_mesh(request.source->path, file,
+                                  {.domain = domain_of(*request.domain),
+                                   .density = density_of(*request.density, request.source->plane),
+                                   .radius_km = radius_of(request, file),
+                                   .units = request.units,
+                                   .most_cells = std::numeric_limits<std::int64_t>::max()});
+  return cell_table(mesh, *request.cell);
+}
+
 /// The table to print. Writes the report, too.
 std::string read_and_measure(const Request& request) {
   Progress progress;
   progress.stage("reading " + request.source->path);
-  const MeshFile file = read_mesh_file(*request.source, FieldChoice::none);
+  const MeshFile file =
+      read_mesh_file(*request.source, request.cell ? FieldChoice::scalars : FieldChoice::none);
   progress.stage("measuring " + request.source->path);
+  if (request.cell)
+    return cell_table(request, file);
   Measured measured;
   measured.changes = file.changes;
   const bool as_polygons = !file.plane && file.polygons && !(file.mesh && !file.mesh->closed());
@@ -190,11 +208,15 @@ void add_info(CLI::App& app) {
                     "Radius of the sphere, for distances in km: metres, > 0, or earth (6371229 m); "
                     "default: the one in a NetCDF file, or --earth-radius with --cell-width");
   add_units(*command, request->units);
+  command
+      ->add_option("--cell", request->cell,
+                   "Print the numbers of one cell instead, by its place in the file, from 0")
+      ->transform(whole_number(0, std::numeric_limits<std::int32_t>::max()));
   command->add_option("--report", request->report, "Write the same quantities to this JSON file")
       ->type_name("FILE");
   set_help(*command,
            {.common = {"MESH", "--points", "--plane", "--domain", "--density", "--cell-width",
-                       "--sphere-radius", "--units", "--report"},
+                       "--sphere-radius", "--units", "--cell", "--report"},
             .examples = {"calotte info mesh.nc",
                          "calotte info mesh.vtp --sphere-radius earth --cell-width 60km"}});
   command->callback([request] { run(*request); });

@@ -136,6 +136,26 @@ CvtIteration iteration_of(const Part& part) {
   return iteration;
 }
 
+StateFile state_of(const Part& part) {
+  const Part file = part.at("file");
+  if (!file.value.is_string() || file.value.get<std::string>().find('/') != std::string::npos) {
+    file.fail("is not the name of a file");
+  }
+  return {part.at("evaluation").count(1), file.value.get<std::string>()};
+}
+
+/// The items of an array, each with its place.
+std::vector<Part> items_of(const Part& array) {
+  if (!array.value.is_array()) {
+    array.fail("is not an array");
+  }
+  std::vector<Part> items;
+  for (std::size_t i = 0; i < array.value.size(); ++i) {
+    items.push_back({array.value[i], array.file, array.place + "[" + std::to_string(i) + "]"});
+  }
+  return items;
+}
+
 constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<double> scaled(const History& history, double CvtIteration::*norm) {
@@ -214,15 +234,16 @@ History read_history(const std::string& path) {
   history.converged = report.at("converged").truth();
   history.seconds = report.at("seconds").number();
   const Part iterations = report.at("iterations");
-  if (!iterations.value.is_array()) {
-    iterations.fail("is not an array");
+  for (const Part& iteration : items_of(iterations)) {
+    history.iterations.push_back(iteration_of(iteration));
   }
-  if (iterations.value.empty()) {
+  if (history.iterations.empty()) {
     iterations.fail("is empty: the run made no iteration");
   }
-  for (std::size_t i = 0; i < iterations.value.size(); ++i) {
-    history.iterations.push_back(
-        iteration_of({iterations.value[i], path, "iterations[" + std::to_string(i) + "]"}));
+  if (document.contains("states")) {
+    for (const Part& state : items_of(report.at("states"))) {
+      history.states.push_back(state_of(state));
+    }
   }
   return history;
 }

@@ -3,10 +3,17 @@
 
 #include <calotte/cvt.h>
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
 namespace calotte::tools {
+
+/// A mesh that a run wrote on its way.
+struct StateFile {
+  std::int64_t evaluation = 0; ///< its number in the run, from 1
+  std::string name;            ///< in the folder of the run's result
+};
 
 /// The data of one run's report for a picture of convergence, see CvtReport.
 struct History {
@@ -18,6 +25,7 @@ struct History {
   bool converged = false;
   double seconds = 0;
   std::vector<CvtIteration> iterations; ///< at least one; the evaluations of the energy
+  std::vector<StateFile> states;        ///< of --keep-every
 };
 
 /// Reads the JSON that `calotte cvt --report` writes.

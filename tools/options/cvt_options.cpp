@@ -170,6 +170,11 @@ void add_files(CLI::App& command, CvtRequest& request) {
       .add_option("--report", request.report, "Write the data of every iteration to this JSON file")
       ->type_name("FILE");
   command
+      .add_option("--keep-every", request.keep_every,
+                  "Keep the triangles after every N evaluations, >= 1, beside the output: of "
+                  "grid.nc as grid.000010.vtp and so on. calotte view --history shows them")
+      ->transform(whole_number(1, std::numeric_limits<int>::max()));
+  command
       .add_option("--checkpoint", request.checkpoint,
                   "Save the state of the run to this file, for --resume")
       ->type_name("FILE");

@@ -46,6 +46,7 @@ struct CvtRequest {
   std::string mesh, report;
   std::string checkpoint, resume;
   std::string options; ///< all that are given, for a checkpoint
+  std::optional<int> keep_every; ///< --keep-every
   int checkpoint_every = 100;
   double checkpoint_minutes = 10;
   std::shared_ptr<std::string> config;

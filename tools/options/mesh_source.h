@@ -13,8 +13,8 @@ namespace calotte::tools {
 
 /// The source of a mesh: the file, and the points that a .txt or .tri file refers to.
 struct MeshSource {
-  std::string path;
-  std::string points;
+  std::string path = {};
+  std::string points = {};
   bool lonlat = false;
   bool plane = false; ///< a mesh of the plane, read by read_planar_mesh
 };

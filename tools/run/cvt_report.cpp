@@ -37,6 +37,10 @@ Json to_json(const CvtRegion& region) {
   return {{"sites", region.sites}, {"seconds", region.seconds}};
 }
 
+Json to_json(const KeptState& state) {
+  return {{"evaluation", state.evaluation}, {"file", state.file}};
+}
+
 template <class List> Json array_of(const List& list) {
   Json array = Json::array();
   for (const auto& item : list)
@@ -47,7 +51,7 @@ template <class List> Json array_of(const List& list) {
 } // namespace
 
 std::string to_json(const CvtRequest& request, const CvtReport& report, std::int64_t cells,
-                    double area, int threads) {
+                    double area, int threads, const std::vector<KeptState>& states) {
   Json json;
   json["calotte"] = CALOTTE_VERSION;
   json["density"] = density_names(*request.density);
@@ -64,6 +68,8 @@ std::string to_json(const CvtRequest& request, const CvtReport& report, std::int
   json["seconds"] = report.seconds;
   json["iterations"] = array_of(report.iterations);
   json["regions"] = array_of(report.regions);
+  if (!states.empty())
+    json["states"] = array_of(states);
   return json.dump(1) + "\n";
 }
 

@@ -2,18 +2,21 @@
 #pragma once
 
 #include "options/cvt_request.h"
+#include "run/kept_states.h"
 
 #include <calotte/cvt.h>
 
 #include <string>
+#include <vector>
 
 namespace calotte::tools {
 
 /// The report of a completed run.
+/// \param states that the run kept.
 /// \param threads number of threads.
 /// \param area area of the sphere or the domain.
 std::string to_json(const CvtRequest& request, const CvtReport& report, std::int64_t cells,
-                    double area, int threads);
+                    double area, int threads, const std::vector<KeptState>& states);
 
 /// One line without a line end.
 /// \param before iterations of the earlier parts of a resumed run.

@@ -89,6 +89,15 @@ export class Mesh {
     return this.once("triangles", async () => (triangles ? await readBlock(triangles) : null));
   }
 
+  /** The triangles between the cells: a copy of a site across a period counts as that site. */
+  connectivity() {
+    return this.once("connectivity", async () => {
+      const [triangles, copied] = await Promise.all(
+        [this.triangles(), this.header.copied ? readBlock(this.header.copied) : null]);
+      return triangles && copied ? triangles.map((i) => (i < this.cells ? i : copied[i - this.cells])) : triangles;
+    });
+  }
+
   /** Explicit polygons {corners, sides, ring}, or null. */
   polygons() {
     const { corners, ring } = this.header;

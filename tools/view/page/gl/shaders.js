@@ -34,19 +34,24 @@ void main() { colour = v_colour; }`;
 export const fansVertex = `${head}${place}
 layout(location = 0) in vec4 a_place;
 layout(location = 1) in vec4 a_colour;
+uniform float u_sphere;   // 1 on the sphere, 0 in a plane
 flat out vec4 v_colour;
 out float v_inside;
+out float v_facing;       // how much a shape faces the viewer: 0 at the edge of the globe
 void main() {
   vec3 p = u_rotation * a_place.xyz + u_offset;
   gl_Position = vec4(p.xy * u_clip, 0.0, 1.0);
   v_colour = a_colour;
   v_inside = a_place.w;
+  v_facing = mix(1.0, p.z, u_sphere);
 }`;
 
-/** The rim's line is one pixel wide and fades in with the pixels from the centre to the rim. */
+/** The rim's line is one pixel wide and fades in with the pixels from the centre to the rim, for all sides of a
+    foreshortened shape alike. */
 export const fansFragment = `${head}
 flat in vec4 v_colour;
 in float v_inside;
+in float v_facing;
 uniform vec4 u_edge;
 uniform float u_ratio;  // device pixels per CSS pixel
 out vec4 colour;
@@ -54,7 +59,7 @@ void main() {
   float slope = length(vec2(dFdx(v_inside), dFdy(v_inside)));
   float reach = 1.0 / max(slope, 1e-9) / u_ratio;
   float away = v_inside * reach;
-  float line = (1.0 - smoothstep(0.1, 0.9, away)) * u_edge.a * smoothstep(3.0, 8.5, reach);
+  float line = (1.0 - smoothstep(0.1, 0.9, away)) * u_edge.a * smoothstep(3.0, 8.5, reach * v_facing);
   colour = vec4(mix(v_colour.rgb, u_edge.rgb, line), 1.0);
 }`;
 

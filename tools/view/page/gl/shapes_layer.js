@@ -140,6 +140,7 @@ export class ShapesLayer {
     const { uniforms } = this.begin(program, frame);
     if (uniforms.u_edge) gl.uniform4f(uniforms.u_edge, ...theme.edge.map((c) => c / 255), 0.5);
     if (uniforms.u_ratio) gl.uniform1f(uniforms.u_ratio, ratio);
+    if (uniforms.u_sphere) gl.uniform1f(uniforms.u_sphere, frame.sphere ? 1 : 0);
     // the far side: fans are counter-clockwise from outside
     if (frame.sphere) gl.enable(gl.CULL_FACE);
     for (const patch of patches) {

@@ -20,7 +20,7 @@ export function shapesOf(mesh, kind) {
 /** The neighbours of cells, by triangles if there are, else by polygons. */
 export function topologyOf(mesh) {
   return mesh.once("topology", async () => {
-    const triangles = await mesh.triangles();
+    const triangles = await mesh.connectivity();
     if (triangles) return new TriangleTopology(triangles, mesh.cells);
     const polygons = await mesh.polygons();
     return polygons ? new PolygonTopology(polygons, mesh.header.cornerCount) : null;

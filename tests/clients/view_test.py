@@ -1,0 +1,285 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Tests the pages of `calotte view` in Chromium.
+
+    view_test.py CALOTTE
+
+CALOTTE is the path of the command. Exit code 77, which skips the test, where Chromium or its driver is not
+installed, unless the environment variable CALOTTE_CLIENTS is "required". The environment variable
+CALOTTE_SCREENSHOTS names a folder for pictures of the pages.
+"""
+
+import json
+import math
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+SKIPPED = 77
+X8 = "tanh:lon=270,lat=30,beta=30deg,alpha=0.20,gamma=x8"
+PRECISION = 2e-5  # of the page's numbers
+HOSTILE = "a<img src=x onerror=alert(1)>"  # the name of a field
+
+try:
+    import netCDF4
+    import numpy
+    from browser import Browser
+except ImportError:
+    Browser = None
+
+
+def check(truth, message):
+    if not truth:
+        sys.exit(f"FAILED: {message}")
+
+
+def check_close(value, expected, message, precision=PRECISION):
+    check(abs(value - expected) <= precision * max(abs(expected), 1e-6), f"{message}: {value}, not {expected}")
+
+
+class Command:
+    def __init__(self, path):
+        self.path = path
+
+    def __call__(self, *arguments):
+        result = subprocess.run([self.path, *arguments], capture_output=True, text=True, check=False)
+        check(result.returncode == 0, f"calotte {' '.join(arguments)}: {result.stderr}")
+        return result.stdout
+
+    def refusal(self, *arguments):
+        """The message of a command that fails."""
+        result = subprocess.run([self.path, *arguments], capture_output=True, text=True, check=False)
+        check(result.returncode == 2 and result.stderr.count("\n") == 1,
+              f"calotte {' '.join(arguments)}: {result.returncode} {result.stderr}")
+        return result.stderr
+
+
+def numbers_of_cell(calotte, mesh, cell, *options):
+    """What `calotte info --cell` prints, by its first column."""
+    table = {}
+    for line in calotte("info", mesh, "--cell", str(cell), *options).splitlines():
+        table[line[:28].strip()] = line[28:].split()[0]
+    return table
+
+
+# ---- Meshes
+
+
+def foreign_mpas(path, source):
+    """An MPAS file as another program would write it: fields, some of them of an odd kind, and no attributes of ours."""
+    shutil.copy(source, path)
+    with netCDF4.Dataset(path, "a") as data:
+        for name in data.ncattrs():
+            if name not in ("on_a_sphere", "is_periodic", "sphere_radius"):
+                data.delncattr(name)
+        cells, edges = len(data.dimensions["nCells"]), len(data.dimensions["nEdges"])
+        temperature = data.createVariable("temperature", "f4", ("nCells",))
+        temperature.units = "K"
+        values = 280 + 20 * numpy.cos(2 * data["latCell"][:])
+        values[::7] = math.nan
+        temperature[:] = values
+        data.createVariable("constant", "f8", ("nCells",))[:] = 3.5
+        data.createVariable("nothing", "f8", ("nCells",))[:] = math.nan
+        data.createVariable("wind", "f8", ("nEdges",))[:] = numpy.arange(edges)
+        data.createVariable(HOSTILE, "f8", ("nCells",))[:] = numpy.arange(cells)
+
+
+def make_meshes(calotte):
+    calotte("cvt", "--cells", "40962", "--density", X8, "--sphere-radius", "earth", "-o", "x8.nc")
+    calotte("cvt", "--cells", "2562", "--sphere-radius", "earth", "-o", "uniform.nc", "--start", "random", "--stop",
+            "tolerance", "--report", "uniform.json", "--keep-every", "20")
+    calotte("cvt", "--region", "circle=-105,40,1000km", "--cell-width", "60km", "--limited-area", "-o", "area.nc")
+    calotte("cvt", "--cells", "1000", "--rectangle", "0,0,2,1", "-o", "plane.nc")
+    calotte("cvt", "--cells", "100", "--periodic", "2,1", "-o", "box.nc")
+    foreign_mpas("foreign.nc", "uniform.nc")
+    calotte("points", "random", "12", "-o", "twelve.txt")
+    calotte("delaunay", "twelve.txt", "-o", "twelve.ply")
+    calotte("points", "random", "3000", "-o", "random.txt")
+    calotte("delaunay", "random.txt", "-o", "random.vtp")
+
+
+# ---- Pages
+
+
+class Pages:
+    def __init__(self, calotte, browser):
+        self.calotte, self.browser, self.turns = calotte, browser, 0
+
+    def open(self, name, *arguments):
+        page = f"{name}.html"
+        self.calotte("view", *arguments, "-o", page)
+        self.browser.open(page)
+        self.check_quiet(name)
+        if folder := os.environ.get("CALOTTE_SCREENSHOTS"):
+            self.browser.screenshot(pathlib.Path(folder) / f"{name}.png")
+        return page
+
+    def check_quiet(self, name):
+        """No message in the console, no request, no error that the page shows."""
+        check(not (messages := self.browser.console()), f"{name}: the console has {messages}")
+        check(not (urls := self.browser.requests()), f"{name}: the page asks for {urls}")
+        check(not (errors := self.browser.run("calotte.errors")), f"{name}: the page shows {errors}")
+
+    def check_picture(self, name):
+        """The picture has colours, and turning changes it."""
+        before = self.browser.run("calotte.pixels()")
+        check(before["colours"] > 5, f"{name}: the picture has {before['colours']} colours")
+        self.turns += 1
+        self.browser.run("(calotte.turn(arguments[0], -40, 2), calotte.frame())", 37 * self.turns)
+        after = self.browser.run("calotte.pixels()")
+        check(before["checksum"] != after["checksum"], f"{name}: turning does not change the picture")
+
+    def check_cell(self, mesh, cell, *options):
+        """The numbers of a picked cell are those of calotte info."""
+        picked = self.browser.run("calotte.pick(arguments[0])", cell)
+        expected = numbers_of_cell(self.calotte, mesh, cell, *options)
+        check(picked["cell"] == cell and int(expected["cell"]) == cell, f"{mesh}: picked {picked['cell']}")
+        labels = {"spacing": "spacing", "area": "area", "quality": "cell quality", "sigma": "sigma",
+                  "degree": "neighbours", "angle": "largest angle", "off_centroid": "distance to the centroid",
+                  "dc_h_least": "least dc/h", "dc_h_greatest": "greatest dc/h"}
+        compared = 0
+        for name, label in labels.items():
+            if label in expected and expected[label] != "no":
+                check_close(picked["values"][name], float(expected[label]), f"{mesh}, cell {cell}: {name}", 1e-3)
+                compared += 1
+        check(compared >= 6, f"{mesh}: {compared} numbers compared")
+        place = ("lon", "longitude", "lat", "latitude") if "longitude" in expected else ("x", "x", "y", "y")
+        for of_page, of_info in (place[:2], place[2:]):
+            check(abs(picked[of_page] - float(expected[of_info])) < 1e-3, f"{mesh}: {of_page} {picked[of_page]}")
+
+    def check_measures(self, mesh, *options):
+        """The extreme cells are those of calotte info, and all cells are in the histogram."""
+        self.calotte("info", mesh, "--report", "info.json", *options)
+        info = json.loads(pathlib.Path("info.json").read_text())
+        worst = self.browser.run("calotte.worst('quality')")
+        check(len(worst) == 10, f"{mesh}: {len(worst)} worst cells")
+        value = self.browser.run("calotte.pick(arguments[0])", worst[0])["values"]["quality"]
+        check_close(value, info["cell_quality"]["min"], f"{mesh}: the worst quality")
+        return info
+
+
+def test_grid(pages):
+    pages.open("x8", "x8.nc")
+    check(pathlib.Path("x8.html").stat().st_size <= 4e6, "x8: the page exceeds 4 MB")
+    pages.check_picture("x8")
+    for cell in (0, 12345, 40961):
+        pages.check_cell("x8.nc", cell)
+    info = pages.check_measures("x8.nc")
+    degrees = {int(item.split(":")[0]): int(item.split(":")[1])
+               for item in pages.calotte("info", "x8.nc").split("cells         ")[-1].splitlines()[0].split(", ")}
+    for degree, count in degrees.items():
+        marked = pages.browser.run("calotte.brush('degree', arguments[0] - 0.5, arguments[0] + 0.5)", degree)
+        check(marked == count, f"x8: {marked} cells with {degree} neighbours are marked, not {count}")
+    check(pages.browser.run("calotte.brush('spacing', 0, 1e9)") == info["cells"], "x8: brushing misses cells")
+    before = pages.browser.run("(calotte.frame(), calotte.pixels())")["checksum"]
+    pages.browser.run("(calotte.measure('quality'), calotte.frame())")
+    check(pages.browser.run("calotte.pixels()")["checksum"] != before, "x8: a measure does not change the colours")
+    pages.browser.run("(calotte.shapes('triangles'), calotte.measure('triangle_angle'), calotte.frame())")
+    pages.check_picture("x8 triangles")
+    pages.check_quiet("x8")
+
+
+def test_limited_area(pages):
+    pages.open("area", "area.nc")
+    pages.check_picture("area")
+    pages.check_cell("area.nc", 100)
+    counts = netCDF4.Dataset("area.nc")["bdyMaskCell"][:]
+    for mask in range(8):
+        marked = pages.browser.run("calotte.brush('region', arguments[0] - 0.5, arguments[0] + 0.5)", mask)
+        check(marked == int((counts == mask).sum()), f"area: {marked} cells of mask {mask}")
+
+
+def test_plane(pages):
+    pages.open("plane", "plane.nc", "--plane", "--rectangle", "0,0,2,1")
+    pages.check_picture("plane")
+    pages.check_cell("plane.nc", 500, "--plane", "--rectangle", "0,0,2,1")
+    pages.check_measures("plane.nc", "--plane", "--rectangle", "0,0,2,1")
+
+
+def test_periodic(pages):
+    pages.open("box", "box.nc", "--plane")
+    pages.check_picture("box")
+    for cell in (0, 17, 99):
+        picked = pages.browser.run("calotte.pick(arguments[0])", cell)
+        check(len(picked["neighbours"]) == picked["values"]["degree"], f"box: cell {cell} has {picked['neighbours']}")
+
+
+def test_foreign(pages):
+    pages.open("foreign", "foreign.nc")
+    pages.check_picture("foreign")
+    pages.check_cell("foreign.nc", 7)
+    for field in ("temperature", "constant", "nothing", HOSTILE):
+        pages.browser.run("(calotte.measure(arguments[0]), calotte.frame())", f"field:{field}")
+        pages.check_quiet(f"foreign, {field}")
+    marked = pages.browser.run("calotte.brush('field:temperature', 0, 1000)")
+    check(marked == 2562 - len(range(0, 2562, 7)), f"foreign: {marked} cells with a temperature are marked")
+    check(pages.browser.run("document.querySelectorAll('img').length") == 0, "foreign: a name became markup")
+    message = pages.calotte.refusal("view", "foreign.nc", "--field", "wind", "-o", "wind.html")
+    check("it is a field at edges" in message, f"foreign: {message}")
+
+
+def test_small_and_random(pages):
+    for mesh in ("twelve.ply", "random.vtp"):
+        pages.open(mesh, mesh)
+        pages.check_picture(mesh)
+        pages.check_cell(mesh, 5)
+
+
+def test_two_and_states(pages):
+    pages.open("two", "x8.nc", "uniform.nc")
+    pages.check_picture("two")
+    other = pages.browser.run("calotte.pixels(1)")
+    check(other["colours"] > 5, "two: the second picture is empty")
+    pages.open("states", "uniform.nc", "--history", "uniform.json")
+    first = pages.browser.run("calotte.pixels()")["checksum"]
+    pages.browser.asynchronous("calotte.showState(0)")
+    pages.browser.run("calotte.frame()")
+    check(pages.browser.run("calotte.pixels()")["checksum"] != first, "states: a state does not change the picture")
+    pages.check_quiet("states")
+
+
+def test_plan(pages):
+    pages.open("plan", "--plan", "--cells", "40962", "--density", X8)
+    pages.check_picture("plan")
+
+
+def test_keyboard_and_table(pages):
+    """Keys turn the globe; a screen reader finds a table of the numbers, labels and messages."""
+    pages.open("keys", "uniform.nc")
+    before = pages.browser.run("calotte.pixels()")["checksum"]
+    pages.browser.run("document.querySelector('canvas').dispatchEvent("
+                      "new KeyboardEvent('keydown', {key: 'ArrowLeft', bubbles: true}))")
+    pages.browser.run("calotte.frame()")
+    check(pages.browser.run("calotte.pixels()")["checksum"] != before, "keys: an arrow does not turn the globe")
+    rows = pages.browser.run("document.querySelectorAll('table tbody tr').length")
+    check(rows >= 9, f"keys: the tables have {rows} rows")
+    check(pages.browser.run("document.querySelector('[aria-live]') !== null"), "keys: no live region")
+    unlabelled = pages.browser.run(
+        "[...document.querySelectorAll('input, select, button, canvas')].filter(e => !(e.labels?.length "
+        "|| e.getAttribute('aria-label') || e.getAttribute('aria-labelledby') || e.textContent.trim() || e.title))"
+        ".map(e => e.outerHTML)")
+    check(not unlabelled, f"keys: without a label: {unlabelled}")
+
+
+def main(path):
+    calotte = Command(os.path.abspath(path))
+    missing = Browser is None or not (os.path.exists("/usr/bin/chromium") and os.path.exists("/usr/bin/chromedriver"))
+    if missing:
+        print("chromium, chromium-driver, python3-selenium or python3-netcdf4 is not installed")
+        sys.exit(1 if os.environ.get("CALOTTE_CLIENTS") == "required" else SKIPPED)
+    tests = [test_grid, test_limited_area, test_plane, test_periodic, test_foreign, test_small_and_random, test_two_and_states,
+             test_plan, test_keyboard_and_table]
+    with tempfile.TemporaryDirectory() as folder:
+        os.chdir(folder)
+        make_meshes(calotte)
+        with Browser() as browser:
+            for test in tests:
+                test(Pages(calotte, browser))
+                print(f"{test.__name__}: passed", flush=True)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1])

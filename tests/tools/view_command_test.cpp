@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/command.h"
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+#include <zlib.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <set>
+#include <string>
+#include <vector>
+
+using namespace calotte::test;
+using nlohmann::json;
+
+namespace {
+
+/// The text between two others, the second after the first.
+std::string between(const std::string& text, const std::string& first, const std::string& second) {
+  const std::size_t begin = text.find(first);
+  REQUIRE(begin != std::string::npos);
+  const std::size_t from = begin + first.size(), end = text.find(second, from);
+  REQUIRE(end != std::string::npos);
+  return text.substr(from, end - from);
+}
+
+std::string from_base64(const std::string& text) {
+  static const std::string digits =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string bytes;
+  std::uint32_t word = 0;
+  int bits = 0;
+  for (const char letter : text.substr(0, text.find('='))) {
+    word = word << 6U | static_cast<std::uint32_t>(digits.find(letter));
+    bits += 6;
+    if (bits >= 8) {
+      bits -= 8;
+      bytes += static_cast<char>(word >> static_cast<unsigned>(bits));
+    }
+  }
+  return bytes;
+}
+
+/// A page as the browser reads it.
+class Page {
+public:
+  explicit Page(std::string text) : text_(std::move(text)) {
+    header = json::parse(between(text_, "id=\"header\">", "</script>"));
+  }
+
+  std::vector<std::uint32_t> words(const json& block) const {
+    const std::string packed = from_base64(between(
+        text_, "id=\"block-" + std::to_string(block["id"].get<int>()) + "\">", "</script>"));
+    const std::size_t count = block["count"], width = block["width"];
+    std::string bytes(count * width, '\0');
+    uLongf size = bytes.size();
+    REQUIRE(::uncompress(reinterpret_cast<Bytef*>(bytes.data()), &size,
+                         reinterpret_cast<const Bytef*>(packed.data()), packed.size()) == Z_OK);
+    REQUIRE(size == bytes.size());
+    std::vector<std::uint32_t> result(count);
+    for (std::size_t plane = 0; plane < width; ++plane)
+      for (std::size_t i = 0; i < count; ++i)
+        result[i] |=
+            static_cast<std::uint32_t>(static_cast<unsigned char>(bytes[plane * count + i]))
+            << (8 * plane);
+    return result;
+  }
+  std::vector<std::int32_t> integers(const json& block) const {
+    std::vector<std::uint32_t> values = words(block);
+    const std::size_t delta = block["delta"];
+    for (std::size_t i = 0; delta > 0 && i < values.size(); ++i)
+      values[i] =
+          ((values[i] >> 1U) ^ (0U - (values[i] & 1U))) + (i < delta ? 0 : values[i - delta]);
+    return {values.begin(), values.end()};
+  }
+  std::vector<float> numbers(const json& block) const {
+    std::vector<float> result;
+    for (const std::uint32_t word : words(block))
+      result.push_back(std::bit_cast<float>(word));
+    return result;
+  }
+  const json& mesh(std::size_t k = 0) const { return header["meshes"][k]; }
+  const json& measure(const std::string& name, std::size_t k = 0) const {
+    for (const json& each : header["meshes"][k]["measures"])
+      if (each["name"] == name)
+        return each;
+    FAIL(name);
+    return header;
+  }
+
+  json header;
+
+private:
+  std::string text_;
+};
+
+Page make_page(const Bench& bench, const std::string& arguments) {
+  CAPTURE(arguments);
+  const Outcome outcome = bench.run("view " + arguments + " -o page.html");
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.code == 0);
+  return Page(bench.file("page.html"));
+}
+
+void make(const Bench& bench, const std::string& arguments) {
+  const Outcome outcome = bench.run(arguments);
+  CAPTURE(arguments);
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.code == 0);
+}
+
+/// The places of points, of three coordinates or two.
+std::vector<std::vector<double>> places(const Page& page, const json& mesh, const json& block) {
+  const std::vector<std::int32_t> integers = page.integers(block);
+  const std::size_t dimensions = mesh["low"].size();
+  std::vector<std::vector<double>> points(integers.size() / dimensions);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    for (std::size_t k = 0; k < dimensions; ++k)
+      points[i].push_back(mesh["low"][k].get<double>() +
+                          mesh["step"][k].get<double>() * integers[i * dimensions + k]);
+  return points;
+}
+
+} // namespace
+
+TEST_CASE("a page has the mesh's points, triangles and numbers") {
+  const Bench bench;
+  make(bench, "cvt --cells 642 --density tanh:lon=270,lat=30,beta=30deg,alpha=0.20,gamma=x2 "
+              "--sphere-radius earth -o grid.nc");
+  const Page page = make_page(bench, "grid.nc");
+  const json& mesh = page.mesh();
+  CHECK(page.header["title"] == "grid.nc");
+  CHECK(page.header["coastlines"].is_object());
+  CHECK(mesh["cells"] == 642);
+  CHECK(mesh["radius"] == doctest::Approx(6371.229));
+  for (const std::vector<double>& p : places(page, mesh, mesh["points"]))
+    CHECK(std::hypot(p[0], p[1], p[2]) == doctest::Approx(1).epsilon(1e-6));
+  const std::vector<std::int32_t> ids = page.integers(mesh["triangles"]);
+  CHECK(ids.size() == 3 * 1280);
+  CHECK(std::set<std::int32_t>(ids.begin(), ids.end()).size() == 642);
+  double area = 0;
+  for (const float cell : page.numbers(page.measure("area")["values"]))
+    area += cell;
+  CHECK(area == doctest::Approx(4 * 3.14159265 * 6371.229 * 6371.229).epsilon(1e-4));
+  CHECK(mesh["law"]["spacing"].is_number()); // the density is the file's
+  CHECK(page.measure("degree")["classes"].size() >= 2);
+}
+
+TEST_CASE("the page's numbers are those of calotte info") {
+  const Bench bench;
+  make(bench, "cvt --cells 642 --sphere-radius earth -o grid.nc");
+  make(bench, "info grid.nc --report info.json");
+  const json info = json::parse(bench.file("info.json"));
+  const Page page = make_page(bench, "grid.nc");
+  const std::vector<std::pair<const char*, const char*>> same = {
+      {"quality", "cell_quality"}, {"sigma", "sigma"}, {"triangle_quality", "triangle_quality"}};
+  for (const auto& [name, key] : same) {
+    CAPTURE(name);
+    CHECK(page.measure(name)["least"].get<double>() == doctest::Approx(info[key]["min"]));
+    CHECK(page.measure(name)["mean"].get<double>() == doctest::Approx(info[key]["mean"]));
+    CHECK(page.measure(name)["greatest"].get<double>() == doctest::Approx(info[key]["max"]));
+  }
+  const Outcome cell = bench.run("info grid.nc --cell 17");
+  const std::string spacing = between(cell.out, "spacing", " km");
+  CHECK(std::stod(spacing) ==
+        doctest::Approx(page.numbers(page.measure("spacing")["values"])[17]).epsilon(1e-4));
+  check_refusal(bench, "info grid.nc --cell 642", 2, "--cell 642: the mesh has the cells 0 to 641");
+}
+
+TEST_CASE("open, planar and periodic meshes, and cells of any shape") {
+  const Bench bench;
+  make(bench, "cvt --region circle=-105,40,1000km --cell-width 120km --limited-area -o la.nc");
+  const Page open = make_page(bench, "la.nc");
+  const std::vector<std::int32_t> sides = open.integers(open.mesh()["sides"]);
+  CHECK(sides.size() == open.mesh()["cells"]);
+  CHECK(*std::min_element(sides.begin(), sides.end()) >= 3); // also at the boundary
+  CHECK(open.measure("region")["classes"].size() == 8);
+  make(bench, "cvt --cells 100 --periodic 2,1 -o box.nc");
+  const Page box = make_page(bench, "box.nc --plane");
+  const auto corners = places(box, box.mesh(), box.mesh()["corners"]);
+  const std::vector<std::int32_t> around = box.integers(box.mesh()["sides"]),
+                                  ring = box.integers(box.mesh()["ring"]);
+  const auto sites = places(box, box.mesh(), box.mesh()["points"]);
+  CHECK(sites.size() > 100); // copies
+  std::size_t k = 0;
+  for (std::size_t i = 0; i < around.size(); ++i) // corners are the copies near the site
+    for (std::int32_t side = 0; side < around[i]; ++side, ++k) {
+      const auto& corner = corners[static_cast<std::size_t>(ring[k])];
+      CHECK(std::hypot(corner[0] - sites[i][0], corner[1] - sites[i][1]) < 0.3);
+    }
+  make(bench, "points latlon 6 -o points.txt");
+  make(bench, "delaunay points.txt -o cells.geojson");
+  CHECK(make_page(bench, "cells.geojson").mesh()["cells"].get<int>() > 12);
+  make(bench, "points random 12 -o twelve.txt");
+  make(bench, "delaunay twelve.txt -o twelve.ply");
+  CHECK(make_page(bench, "twelve.ply").mesh()["cells"] == 12);
+}
+
+TEST_CASE("a large mesh is thinned, and keeps its worst cells") {
+  const Bench bench;
+  make(bench, "points random 3000 -o points.txt");
+  make(bench, "delaunay points.txt -o mesh.vtp");
+  const Page whole = make_page(bench, "mesh.vtp"),
+             part = make_page(bench, "mesh.vtp --most-cells 500");
+  CHECK(part.mesh()["total"] == 3000);
+  CHECK(part.mesh()["cells"].get<int>() <= 500);
+  CHECK(part.mesh()["cells"].get<int>() > 400);
+  CHECK(part.mesh()["notice"].get<std::string>().find("of 3000 cells") != std::string::npos);
+  CHECK(part.measure("quality")["mean"] == whole.measure("quality")["mean"]);
+  const std::vector<std::int32_t> number = part.integers(part.mesh()["number"]);
+  const std::vector<float> all = whole.numbers(whole.measure("quality")["values"]),
+                           some = part.numbers(part.measure("quality")["values"]);
+  for (std::size_t i = 0; i < some.size(); ++i)
+    CHECK(some[i] == all[static_cast<std::size_t>(number[i])]);
+  CHECK(*std::min_element(some.begin(), some.end()) == *std::min_element(all.begin(), all.end()));
+}
+
+TEST_CASE("two meshes, a plan, and the states of a run") {
+  const Bench bench;
+  make(bench, "cvt --cells 162 --start random --stop tolerance --report run.json --keep-every 10 "
+              "-o grid.vtp");
+  make(bench, "cvt --cells 642 -o other.vtp");
+  CHECK(bench.names().contains("grid.000010.vtp"));
+  const Page two = make_page(bench, "grid.vtp other.vtp --history run.json");
+  CHECK(two.header["views"] == json::array({0, 1}));
+  CHECK(two.header["history"]["series"].size() == 3);
+  const json& states = two.header["history"]["states"];
+  REQUIRE(states.size() > 1);
+  CHECK(states[0]["iteration"] == 10);
+  CHECK(two.mesh(states[0]["mesh"])["name"] == "grid.000010.vtp");
+  const Page plan = make_page(bench, "--plan --cell-width 60km");
+  CHECK(plan.measure("prescribed")["mean"] == doctest::Approx(60));
+  CHECK(plan.measure("gradient")["greatest"].get<double>() < 1e-9);
+}
+
+TEST_CASE("names from files are data, never markup") {
+  const Bench bench;
+  make(bench, "cvt --cells 42 -o grid.vtu");
+  std::string text = bench.file("grid.vtu");
+  const std::string name = "Name=\"quality\"";
+  text.replace(text.find(name), name.size(),
+               "Name=\"&lt;/script&gt;&lt;script&gt;alert(1)&lt;/script&gt;\"");
+  bench.file("<b>.vtu", text);
+  const Page page = make_page(bench, "'<b>.vtu'");
+  const std::string html = bench.file("page.html");
+  CHECK(html.find("alert(1)") != std::string::npos);
+  CHECK(html.find("<script>alert") == std::string::npos);
+  CHECK(html.find("<b>") == std::string::npos);
+  CHECK(page.measure("field:</script><script>alert(1)</script>")["missing"] == 0);
+}
+
+TEST_CASE("bad input of view is one line") {
+  const Bench bench;
+  make(bench, "cvt --cells 42 -o grid.vtp");
+  check_refusal(bench, "view", 2, "give a mesh, or --plan and the widths of a grid");
+  check_refusal(bench, "view grid.vtp --plan --cell-width 60km", 2,
+                "--plan shows widths before there is a mesh; leave MESH out");
+  check_refusal(bench, "view --plan", 2,
+                "a density has no unit; give --cells N, or widths in km (--cell-width 60km)");
+  check_refusal(bench, "view grid.vtp -o grid.vtp", 2,
+                "grid.vtp is both input and output; give the output another name");
+  check_refusal(bench, "view grid.vtp --field nope", 2,
+                "--field nope: the file has no such field, or one with several numbers for each "
+                "place; give fields at cells or triangles, or leave --field out");
+  check_refusal_naming(bench, "view missing.vtp", 3, "missing.vtp");
+  check_refusal_naming(bench, "view grid.vtp missing.vtp", 3, "missing.vtp");
+}

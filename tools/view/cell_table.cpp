@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "options/numbers.h"
+#include "view/view_mesh.h"
+
+#include <calotte/error.h>
+#include <calotte/lonlat.h>
+
+#include <iomanip>
+#include <sstream>
+
+namespace calotte::tools {
+
+std::string cell_table(const ViewMesh& mesh, std::int64_t cell) {
+  if (cell >= mesh.cells)
+    throw Error(ErrorCode::bad_option, "--cell " + std::to_string(cell) +
+                                           ": the mesh has the cells 0 to " +
+                                           std::to_string(mesh.cells - 1));
+  std::ostringstream out;
+  const auto row = [&out](const std::string& name, const std::string& value) {
+    out << std::left << std::setw(28) << name << value << "\n";
+  };
+  row("cell", std::to_string(cell));
+  const Eigen::Vector3d place = mesh.points.col(cell);
+  if (mesh.on_sphere) {
+    const Eigen::Matrix2Xd at = to_lonlat(place);
+    row("longitude", formatted("%.6g", at(0, 0)));
+    row("latitude", formatted("%.6g", at(1, 0)));
+  } else {
+    row("x", formatted("%.6g", place.x()));
+    row("y", formatted("%.6g", place.y()));
+  }
+  for (const Quantity& quantity : mesh.quantities)
+    if (!quantity.on_triangles)
+      row(quantity.label, value_text(quantity.values[cell], quantity.unit));
+  return out.str();
+}
+
+} // namespace calotte::tools

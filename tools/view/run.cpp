@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "view/run.h"
+
+#include "draw/history_report.h"
+#include "options/mesh_source.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+namespace calotte::tools {
+namespace {
+
+/// The number of each evaluation, for those with a value.
+ViewSeries series_of(std::string label, const std::vector<double>& x, std::vector<double> y) {
+  return {std::move(label), x, std::move(y), true};
+}
+
+} // namespace
+
+void add_run(View& view, const std::string& report, const std::string& folder,
+             const ViewChoice& choice) {
+  const History history = read_history(report);
+  const std::vector<double> numbers = evaluation_numbers(history);
+  view.history.push_back(
+      series_of("distance from the centroids / h (rms)", numbers, scaled_l2(history)));
+  view.history.push_back(
+      series_of("distance from the centroids / h (largest)", numbers, scaled_linf(history)));
+  view.history.push_back(
+      series_of("energy over its least value - 1", numbers, energy_excess({history}).front()));
+  ViewChoice part = choice;
+  part.fields.clear();
+  if (!history.states.empty())
+    part.most_cells = std::max<std::int64_t>(
+        12, choice.most_cells / static_cast<std::int64_t>(history.states.size()));
+  for (const StateFile& state : history.states) {
+    const MeshSource source{.path = std::filesystem::path(folder) / state.name,
+                            .plane = !view.meshes.front().on_sphere};
+    ViewMesh mesh = view_mesh(state.name, read_mesh_file(source, FieldChoice::none), part);
+    view.states.push_back({state.evaluation, view.meshes.size()});
+    view.meshes.push_back(std::move(mesh));
+  }
+}
+
+} // namespace calotte::tools

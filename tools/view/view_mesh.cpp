@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "view/view_mesh.h"
+
+#include <calotte/error.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace calotte::tools {
+namespace {
+
+constexpr std::size_t most_fields = 12; // that are shown by default
+constexpr const char* mask_name = "bdyMaskCell";
+
+[[noreturn]] void refuse(const std::string& problem) {
+  throw Error(ErrorCode::bad_option, problem);
+}
+
+bool as_polygons(const MeshFile& file) { return !file.plane && !file.mesh; }
+
+std::int64_t cells_of(const MeshFile& file) {
+  return file.plane  ? file.plane->points.cols()
+         : file.mesh ? file.mesh->points.cols()
+                     : file.polygons->size();
+}
+
+std::int64_t triangles_of(const MeshFile& file) {
+  return file.plane ? file.plane->triangles.cols() : file.mesh ? file.mesh->triangles.cols() : 0;
+}
+
+Density density_of(const MeshFile& file, const ViewChoice& choice) {
+  const bool varies = file.density.size() > 0 && file.density.minCoeff() != file.density.maxCoeff();
+  if (!choice.density.uniform() || !varies || !file.mesh || !file.mesh->closed() ||
+      file.density.size() != file.mesh->points.cols())
+    return choice.density;
+  return interpolated_density(*file.mesh, file.density);
+}
+
+/// The values of a field's cells or triangles; empty if they are not of the mesh's.
+/// A site with duplicates has the value of the first.
+Eigen::VectorXd values_of(const MeshField& field, const MeshFile& file) {
+  const std::int64_t n = cells_of(file);
+  if (field.count() != 1 || field.location == Location::edges)
+    return {};
+  if (field.location == Location::vertices)
+    return field.values.size() == triangles_of(file) ? field.values : Eigen::VectorXd();
+  if (field.values.size() == n)
+    return field.values;
+  const std::vector<std::int32_t>& site = file.plane  ? file.plane->site_of_input
+                                          : file.mesh ? file.mesh->site_of_input
+                                                      : std::vector<std::int32_t>();
+  if (field.values.size() != std::ssize(site))
+    return {};
+  Eigen::VectorXd values(n);
+  for (auto cell = std::ssize(site); cell-- > 0;)
+    values[site[static_cast<std::size_t>(cell)]] = field.values[cell];
+  return values;
+}
+
+Quantity shown(const MeshField& field, Eigen::VectorXd values) {
+  Quantity quantity = quantity_of({.name = field.name,
+                                   .long_name = field.long_name,
+                                   .units = field.units,
+                                   .location = field.location,
+                                   .values = std::move(values)});
+  if (field.name == mask_name) {
+    quantity.name = "region";
+    quantity.label = "region";
+    quantity.help =
+        "0 in the region, 1 to 5 in the relaxation zone, 6 and 7 in the specified zone.";
+    quantity.classes = true;
+  }
+  return quantity;
+}
+
+/// Why a field is not among the quantities, a clause; "" if it is.
+std::string why_not(const MeshFile& file, const std::string& name) {
+  for (const MeshField& field : file.fields)
+    if (field.name == name)
+      return values_of(field, file).size() > 0   ? ""
+             : field.location == Location::edges ? "it is a field at edges"
+                                                 : "it does not have one number for each cell";
+  return "the file has no such field, or one with several numbers for each place";
+}
+
+void require_fields(const MeshFile& file, const ViewChoice& choice) {
+  for (const std::string& name : choice.fields)
+    if (const std::string reason = why_not(file, name); !reason.empty())
+      refuse("--field " + name + ": " + reason +
+             "; give fields at cells or triangles, or leave --field out");
+}
+
+/// Adds the fields that are asked for, or the first ones of the file; says which are left out.
+void add_fields(const MeshFile& file, const ViewChoice& choice, ViewMesh& mesh) {
+  std::size_t added = 0, left = 0;
+  for (const MeshField& field : file.fields) {
+    const bool asked =
+        std::find(choice.fields.begin(), choice.fields.end(), field.name) != choice.fields.end();
+    if (!choice.fields.empty() && !asked)
+      continue;
+    Eigen::VectorXd values = values_of(field, file);
+    if (values.size() == 0)
+      continue;
+    if (choice.fields.empty() && field.name != mask_name && added == most_fields) {
+      ++left;
+      continue;
+    }
+    mesh.quantities.push_back(shown(field, std::move(values)));
+    ++added;
+  }
+  if (left > 0)
+    mesh.notice += "The page holds " + std::to_string(added) + " of " +
+                   std::to_string(added + left) + " fields; select others with --field NAME. ";
+}
+
+/// The centres of polygons, or the means of their corners.
+Points3 centres_of(const Polygons& cells) {
+  Points3 centres = cells.centres;
+  if (centres.cols() == 0) {
+    centres.setZero(3, cells.size());
+    for (std::int64_t i = 0; i < cells.size(); ++i)
+      for (std::int64_t k = cells.begin[i]; k < cells.begin[i + 1]; ++k)
+        centres.col(i) += cells.corners.col(cells.ids[k]);
+  }
+  return centres;
+}
+
+void set_sphere(const MeshFile& file, ViewMesh& mesh) {
+  mesh.points = file.mesh ? file.mesh->points : centres_of(*file.polygons);
+  for (Eigen::Index i = 0; i < mesh.points.cols(); ++i)
+    mesh.points.col(i).stableNormalize();
+  if (file.mesh)
+    mesh.triangles = file.mesh->triangles;
+  if (file.polygons && file.polygons->size() == mesh.cells)
+    mesh.shapes = file.polygons;
+}
+
+/// The given domain, the periodic box, or a box around the sites.
+PlanarDomain domain_of(const PlanarMesh& mesh, const std::optional<PlanarDomain>& given) {
+  if (given)
+    return *given;
+  if (mesh.period.minCoeff() > 0)
+    return periodic_box(mesh.period);
+  constexpr double margin = 0.04; // of the larger side
+  const Eigen::Vector2d low = mesh.points.rowwise().minCoeff(),
+                        high = mesh.points.rowwise().maxCoeff();
+  const Eigen::Vector2d room = Eigen::Vector2d::Constant(margin * (high - low).maxCoeff());
+  return rectangle(low - room, high + room);
+}
+
+/// The quantities of the cells and triangles.
+std::vector<Quantity> measured(const MeshFile& file, const ViewChoice& choice) {
+  if (file.plane)
+    return quantities_of(
+        cell_measures(*file.plane, domain_of(*file.plane, choice.domain), choice.density),
+        Unit{"", 1, "", 1});
+  const Unit unit = unit_of(choice.units, choice.radius_km);
+  if (as_polygons(file))
+    return quantities_of(*file.polygons, unit);
+  return quantities_of(cell_measures(*file.mesh, density_of(file, choice)), unit);
+}
+
+} // namespace
+
+ViewMesh view_mesh(const std::string& name, const MeshFile& file, const ViewChoice& choice) {
+  require_fields(file, choice);
+  ViewMesh mesh{.name = name, .on_sphere = !file.plane, .radius_km = choice.radius_km};
+  mesh.cells = mesh.total = cells_of(file);
+  mesh.quantities = measured(file, choice);
+  add_fields(file, choice, mesh);
+  const PlanarDomain domain = file.plane ? domain_of(*file.plane, choice.domain) : PlanarDomain{};
+  if (file.plane)
+    set_plane(mesh, *file.plane, domain);
+  else
+    set_sphere(file, mesh);
+  if (mesh.cells > choice.most_cells)
+    thin(mesh, domain, choice.most_cells);
+  return mesh;
+}
+
+} // namespace calotte::tools

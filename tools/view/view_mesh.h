@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "run/quantities.h"
+
+#include <calotte/cell_width.h>
+#include <calotte/density.h>
+#include <calotte/domain.h>
+#include <calotte/mesh_file.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace calotte::tools {
+
+/// A mesh as a page of calotte view shows it.
+struct ViewMesh {
+  std::string name = {};   ///< of the file
+  std::string notice = {}; ///< what the page leaves out, a sentence or more; or ""
+  bool on_sphere = true;
+  std::optional<double> radius_km = {}; ///< of the sphere
+  std::int64_t cells = 0;
+  std::int64_t total = 0; ///< cells of the file's mesh, of which these are a part
+  /// 3 x p, p >= cells: the sites, unit columns, then other corners of triangles. In a plane z = 0.
+  Points3 points = {};
+  std::vector<std::int32_t> copied = {}; ///< by point from `cells` on: the site that it copies
+  Triangles triangles = {};              ///< 3 x m ids of points; may be none
+  /// The shapes of the cells. None: they are the Voronoi cells of the triangles.
+  std::optional<Polygons> shapes = {};
+  std::vector<std::int32_t> number =
+      {}; ///< by cell: its number in the file; empty if that is its own
+  std::vector<Quantity> quantities = {};
+};
+
+/// What a page shows of a mesh.
+struct ViewChoice {
+  std::optional<PlanarDomain> domain = {}; ///< of a plane; by default a box around the sites
+  Density density = {};                    ///< otherwise the file's
+  std::vector<std::string> fields = {};    ///< names; by default the first ones of the file
+  std::optional<double> radius_km = {};
+  std::optional<std::string> units = {};
+  std::int64_t most_cells = 1000000; ///< larger meshes are thinned
+};
+
+/// \throws Error bad_option for a field that the file does not have at cells or triangles; as
+///         cell_measures() and voronoi().
+ViewMesh view_mesh(const std::string& name, const MeshFile& file, const ViewChoice& choice);
+
+/// The numbers of one cell, a line each: its location and its quantities.
+/// \throws Error bad_option if the mesh does not have it.
+std::string cell_table(const ViewMesh& mesh, std::int64_t cell);
+
+/// Keeps some of the cells, evenly spread, and the ten worst of each quantity; triangulates them.
+/// \param domain of a plane.
+void thin(ViewMesh& mesh, const PlanarDomain& domain, std::int64_t most);
+
+/// Sets the shapes of the cells of a mesh of the plane, and its triangles, whose corners in a
+/// periodic box are next to each other. \param planar the sites and their triangles.
+void set_plane(ViewMesh& mesh, const PlanarMesh& planar, const PlanarDomain& domain);
+
+/// The spacings that a density prescribes and their gradient, on a regular mesh of the sphere.
+/// \param unit the spacing where the density is 1, in radians; times `unit_km` in km.
+ViewMesh view_plan(const std::string& name, const Density& density, double unit,
+                   std::optional<double> radius_km);
+
+} // namespace calotte::tools

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "commands.h"
+#include "help/help.h"
+#include "options/coastlines_option.h"
+#include "options/density_option.h"
+#include "options/domain_option.h"
+#include "options/files.h"
+#include "options/mesh_source.h"
+#include "options/numbers.h"
+#include "options/sphere_radius_option.h"
+#include "options/units_option.h"
+#include "run/progress.h"
+#include "run/spacing_survey.h"
+#include "view/page.h"
+#include "view/run.h"
+
+#include <calotte/error.h>
+
+#include <spawn.h>
+#include <sys/wait.h>
+
+#include <filesystem>
+#include <iostream>
+#include <limits>
+#include <optional>
+#include <utility>
+
+extern char** environ; // NOLINT: of POSIX
+
+namespace calotte::tools {
+namespace {
+
+constexpr double metres = 1000; // a km
+
+struct Request {
+  std::shared_ptr<MeshSource> source;
+  std::string other; ///< the mesh beside it, or ""
+  std::shared_ptr<DensityWords> density;
+  std::shared_ptr<DomainWords> domain; ///< of a plane
+  std::optional<double> sphere_radius; ///< metres
+  std::optional<std::string> units;
+  std::vector<std::string> fields;
+  std::string report; ///< of the run that made the mesh, or ""
+  std::int64_t most_cells = ViewChoice{}.most_cells;
+  std::optional<bool> coastlines;
+  bool plan = false;
+  std::optional<std::int64_t> cells; ///< of a plan
+  std::string output;
+  bool open = false;
+};
+
+[[noreturn]] void refuse(const std::string& problem) {
+  throw Error(ErrorCode::bad_option, problem);
+}
+
+std::string file_name(const std::string& path) { return std::filesystem::path(path).filename(); }
+
+std::string output_of(const Request& request) {
+  if (!request.output.empty())
+    return request.output;
+  return request.plan ? "plan.html"
+                      : std::filesystem::path(request.source->path).replace_extension(".html");
+}
+
+void require_request(const Request& request) {
+  if (request.plan == !request.source->path.empty())
+    refuse(request.plan ? "--plan shows widths before there is a mesh; leave MESH out"
+                        : "give a mesh, or --plan and the widths of a grid");
+  if (!request.plan && request.cells)
+    refuse("--cells belongs to --plan; leave it out, or give --most-cells");
+  if (request.plan && !request.cells && !request.density->widths.in_km())
+    refuse("a density has no unit; give --cells N, or widths in km (--cell-width 60km)");
+  if (request.domain->given() && !request.source->plane)
+    refuse("a domain requires --plane; add --plane, or leave the domain out");
+  if (request.source->plane && (request.sphere_radius || request.units))
+    refuse("--sphere-radius and --units do not apply with --plane; leave them out");
+  require_sphere_radius(request.sphere_radius.value_or(1));
+  const WidthWords& widths = request.density->widths;
+  require_outputs({{"page", output_of(request)}},
+                  {request.source->path, request.source->points, request.other, request.report,
+                   widths.file, widths.raster, request.domain->file.value_or("")});
+}
+
+/// The radius that is given, that of the file, or the one that the widths refer to.
+std::optional<double> radius_of(const Request& request, const MeshSource& source,
+                                const MeshFile& file) {
+  if (request.sphere_radius)
+    return *request.sphere_radius / metres;
+  if (const std::optional<double> of_file = radius_km(source, file))
+    return of_file;
+  return request.density->widths.in_km() ? std::optional(request.density->widths.radius)
+                                         : std::nullopt;
+}
+
+ViewMesh read_view_mesh(const Request& request, const MeshSource& source, ViewChoice& choice) {
+  const MeshFile file = read_mesh_file(source, FieldChoice::scalars);
+  choice.radius_km = file.plane ? std::nullopt : radius_of(request, source, file);
+  ViewMesh mesh = view_mesh(file_name(source.path), file, choice);
+  std::cerr << changes_of(source, file);
+  return mesh;
+}
+
+ViewChoice choice_of(const Request& request) {
+  return {.domain = domain_of(*request.domain),
+          .density = density_of(*request.density, request.source->plane),
+          .fields = request.fields,
+          .units = request.units,
+          .most_cells = request.most_cells};
+}
+
+View view_of_meshes(const Request& request, Progress& progress) {
+  ViewChoice choice = choice_of(request);
+  View view;
+  view.title = file_name(request.source->path);
+  progress.stage("reading " + request.source->path);
+  view.meshes.push_back(read_view_mesh(request, *request.source, choice));
+  if (!request.other.empty()) {
+    progress.stage("reading " + request.other);
+    view.meshes.push_back(
+        read_view_mesh(request, {.path = request.other, .plane = request.source->plane}, choice));
+    view.side_by_side = 2;
+    view.title += " and " + file_name(request.other);
+    if (view.meshes[0].on_sphere != view.meshes[1].on_sphere)
+      refuse(request.other + ": one mesh is of the sphere and one of the plane; view them apart");
+  }
+  if (!request.report.empty())
+    add_run(view, request.report, std::filesystem::path(request.source->path).parent_path(),
+            choice);
+  view.coastlines = view.meshes.front().on_sphere &&
+                    shows_coastlines(request.coastlines, view.meshes.front().radius_km);
+  return view;
+}
+
+View view_of_plan(const Request& request) {
+  const WidthWords& widths = request.density->widths;
+  const Resolution resolution = resolution_of(*request.density);
+  View view;
+  view.title = "plan: " + density_name(*request.density);
+  std::optional<double> radius =
+      request.sphere_radius ? std::optional(*request.sphere_radius / metres) : std::nullopt;
+  if (widths.in_km())
+    radius = widths.radius;
+  const double unit = resolution.widths && !request.cells
+                          ? resolution.widths->widths.minCoeff() / widths.radius
+                          : survey_spacing(resolution.density, *request.cells).unit;
+  view.meshes.push_back(view_plan(view.title, resolution.density, unit, radius));
+  view.coastlines = shows_coastlines(request.coastlines, radius);
+  return view;
+}
+
+/// Shows a file in the browser that the desktop prefers.
+void open_in_browser(const std::string& path) {
+  std::string program = "xdg-open", file = path;
+  char* arguments[] = {program.data(), file.data(), nullptr};
+  pid_t child = 0;
+  int status = 0;
+  if (posix_spawnp(&child, program.c_str(), nullptr, nullptr, arguments, environ) != 0 ||
+      waitpid(child, &status, 0) != child || status != 0)
+    throw Error(ErrorCode::file,
+                path + " is written, but xdg-open cannot show it; open it in a browser");
+}
+
+std::string summary(const View& view) {
+  std::string text;
+  for (std::size_t k = 0; k < view.side_by_side; ++k) {
+    const ViewMesh& mesh = view.meshes[k];
+    text += (k > 0 ? " and " : "") + std::to_string(mesh.cells) +
+            (mesh.cells < mesh.total ? " of " + std::to_string(mesh.total) : "") + " cells";
+  }
+  if (!view.states.empty())
+    text += ", " + std::to_string(view.states.size()) + " states";
+  return text;
+}
+
+void run(const Request& request) {
+  require_request(request);
+  const std::string output = output_of(request);
+  View view;
+  {
+    Progress progress;
+    view = request.plan ? view_of_plan(request) : view_of_meshes(request, progress);
+    progress.stage("writing " + output);
+    write_file(output, page_of(view));
+  }
+  std::cout << output << ": page of " << summary(view) << "\n";
+  if (request.open)
+    open_in_browser(output);
+}
+
+void add_content(CLI::App& command, Request& request) {
+  command
+      .add_option("--field", request.fields,
+                  "A field of the file at cells or triangles, by its name; may be given several "
+                  "times. Default: the first 12 fields with one number for each cell or triangle")
+      ->type_name("NAME");
+  command
+      .add_option("--history", request.report,
+                  "Show the convergence of the run that made the mesh, from its report, and the "
+                  "states of --keep-every")
+      ->type_name("REPORT");
+  command
+      .add_option("--most-cells", request.most_cells,
+                  "A larger mesh is thinned to so many cells, and the ten worst of each quantity")
+      ->transform(whole_number(12, std::numeric_limits<int>::max()))
+      ->capture_default_str();
+  add_sphere_radius(command, request.sphere_radius,
+                    "Radius of the sphere, for distances in km: metres, > 0, or earth (6371229 m); "
+                    "default: the one in a NetCDF file, or --earth-radius with --cell-width");
+  add_units(command, request.units);
+  add_coastlines(command, request.coastlines);
+}
+
+void add_plan_options(CLI::App& command, Request& request) {
+  command.add_flag("--plan", request.plan,
+                   "Show the widths that --cell-width or --density prescribes and their gradient, "
+                   "before there is a mesh");
+  command
+      .add_option("--cells", request.cells,
+                  "Number of cells of the grid that is planned; it scales the widths")
+      ->transform(whole_number(12, 1 << 30));
+}
+
+} // namespace
+
+void add_view(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "view", "Writes an HTML page that shows a mesh, or two side by side, in a browser: turn it, "
+              "find its worst cells, read their numbers. The page needs no network.");
+  auto request = std::make_shared<Request>();
+  request->source = add_mesh_source(*command);
+  command->get_option("MESH")->required(false); // --plan replaces it
+  command->add_option("OTHER", request->other, "A second mesh, shown beside the first")
+      ->type_name("FILE");
+  command
+      ->add_option("-o,--output", request->output,
+                   "Output page; default: the name of the mesh with the suffix .html")
+      ->type_name("FILE");
+  command->add_flag("--open", request->open, "Open the page in the browser");
+  add_content(*command, *request);
+  add_plane(*command, *request->source);
+  request->domain = add_domain(*command);
+  request->density = add_density(*command);
+  add_plan_options(*command, *request);
+  set_help(*command, {.common = {"MESH", "OTHER", "--output", "--open", "--field", "--history",
+                                 "--density", "--cell-width", "--plane", "--plan"},
+                      .examples = {"calotte view mesh.nc --open",
+                                   "calotte view mine.nc theirs.nc -o both.html",
+                                   "calotte view --plan --cell-width coast.geojson "
+                                   "--outside-width 120 --transition 4000 -o plan.html"}});
+  command->callback([request] { run(*request); });
+}
+
+} // namespace calotte::tools
