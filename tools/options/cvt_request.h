@@ -45,7 +45,7 @@ struct CvtRequest {
   std::shared_ptr<FormatWords> format;
   std::string mesh, report;
   std::string checkpoint, resume;
-  std::string options; ///< all that are given, for a checkpoint
+  std::string options;           ///< all that are given, for a checkpoint
   std::optional<int> keep_every; ///< --keep-every
   int checkpoint_every = 100;
   double checkpoint_minutes = 10;
