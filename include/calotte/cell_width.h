@@ -18,9 +18,10 @@ namespace calotte {
 /// it is linear; the value at the pole is the mean of that row. The field is continuous on the
 /// whole sphere.
 struct CellWidth {
-  Eigen::VectorXd longitudes; ///< nx >= 2 degrees, ascending, the last below the first + 360
-  Eigen::VectorXd latitudes;  ///< ny >= 2 degrees, ascending, within -90 to 90
-  Eigen::MatrixXd widths;     ///< nx x ny, > 0 and finite, in km; max / min at most 1e30
+  Eigen::VectorXd
+      longitudes; ///< nx >= 2 degrees, ascending by 1e-9 at least, the last below the first + 360
+  Eigen::VectorXd latitudes; ///< ny >= 2 degrees, ascending likewise, within -90 to 90
+  Eigen::MatrixXd widths;    ///< nx x ny, > 0 and finite, in km; max / min at most 1e30
 };
 
 /// The radius of the Earth in km, the default of the functions below.

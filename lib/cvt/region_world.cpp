@@ -121,7 +121,8 @@ void require_inside(const SphericalOutline& outline, const Points3Ref& points, s
 } // namespace
 
 Start RegionWorld::begin(const Points3Ref& start, const CvtOptions& options) const {
-  Sites sites = make_sites(start, options.duplicates, options.merge_within);
+  Sites sites =
+      distinct_units(make_sites(start, options.duplicates, options.merge_within), options);
   require_inside(*outline_, start, options.fixed);
   if (sites.size() < fewest)
     throw Error(ErrorCode::too_few_sites, "there are " + std::to_string(sites.size()) +

@@ -16,6 +16,7 @@
 #include <calotte/error.h>
 #include <calotte/generators.h>
 
+#include <algorithm>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -78,6 +79,23 @@ void require_triangle(const Sites& sites) {
 
 } // namespace
 
+Sites distinct_units(Sites&& sites, const CvtOptions& options) {
+  const auto equal = [](const Vec3& a, const Vec3& b) {
+    return a.x == b.x && a.y == b.y && a.z == b.z;
+  };
+  if (std::adjacent_find(sites.unit.begin(), sites.unit.end(), equal) == sites.unit.end())
+    return std::move(sites);
+  Points3 units(3, sites.size());
+  for (std::int64_t r = 0; r < sites.size(); ++r)
+    set_column(units, sites.id[r], sites.unit[r]);
+  std::vector<std::int32_t> before = std::move(sites.site_of_input);
+  Sites merged = make_sites(std::move(units), options.duplicates, options.merge_within);
+  for (std::int32_t& site : before)
+    site = merged.site_of_input[static_cast<std::size_t>(site)];
+  merged.site_of_input = std::move(before);
+  return merged;
+}
+
 void require_fixed(const Sites& sites, std::int64_t fixed) {
   const std::vector<std::int32_t>& site_of_input = sites.site_of_input;
   if (fixed < 0 || fixed > std::ssize(site_of_input))
@@ -116,11 +134,16 @@ void refuse_state() {
 // ---- The sphere
 
 Start SphericalWorld::begin(Points3&& start, const CvtOptions& options) {
-  return begun_at(make_sites(std::move(start), options.duplicates, options.merge_within), options);
+  return begun_at(
+      distinct_units(make_sites(std::move(start), options.duplicates, options.merge_within),
+                     options),
+      options);
 }
 
 Start SphericalWorld::begin(const Points3Ref& start, const CvtOptions& options) {
-  return begun_at(make_sites(start, options.duplicates, options.merge_within), options);
+  return begun_at(
+      distinct_units(make_sites(start, options.duplicates, options.merge_within), options),
+      options);
 }
 
 Density SphericalWorld::density(const Density& density) {

@@ -24,6 +24,10 @@ namespace calotte::cvt_detail {
 ///         of a fixed generator that merges with an earlier one.
 void require_fixed(const Sites& sites, std::int64_t fixed);
 
+/// The sites of a start, distinct as unit columns: directions that differ by less than rounding are
+/// duplicates, too. \throws Error as make_sites().
+Sites distinct_units(Sites&& sites, const CvtOptions& options);
+
 /// Sets the generators of a state, in the order of the sites. On the sphere a fixed one keeps the
 /// bits that it has by id, if it is a unit vector there up to round-off.
 /// \param points by rank: unit vectors, or places with z = 0.

@@ -20,12 +20,15 @@ constexpr double radians = std::numbers::pi / 180;
   throw Error(ErrorCode::bad_option, "cell width: " + problem);
 }
 
+constexpr double nearest = 1e-9; // degrees between nodes; slopes overflow where they are closer
+
 void require_ascending(const Eigen::VectorXd& values, const std::string& name) {
   if (values.size() < 2)
     refuse("fewer than 2 " + name + "; give a grid that covers the sphere");
   for (Eigen::Index i = 0; i < values.size(); ++i)
-    if (!std::isfinite(values[i]) || (i > 0 && !(values[i] > values[i - 1])))
-      refuse(name + " " + std::to_string(i) + " is not finite and above the one before; sort them");
+    if (!std::isfinite(values[i]) || (i > 0 && !(values[i] - values[i - 1] >= nearest)))
+      refuse(name + " " + std::to_string(i) +
+             " is not finite and above the one before by 1e-9 degrees; sort them");
 }
 
 void require(const CellWidth& cell_width) {

@@ -349,6 +349,18 @@ TEST_CASE("x8: the default rule's centroids are right to 1e-8 of the spacing [sl
   CHECK(std::sqrt(squares / 10242) < 1e-8 * h);
 }
 
+TEST_CASE("directions that differ by less than rounding are one generator") {
+  Points3 start = random_sphere(40, 3);
+  start.col(20) = Eigen::Vector3d(5e-324, 1, 0);
+  start.col(30) = Eigen::Vector3d(5e-324, 1 - 0x1p-53, 0); // exactly, another direction
+  const Cvt result = spherical_cvt(start, {.max_iterations = 3});
+  CHECK(result.mesh.points.cols() == 39);
+  CHECK(result.mesh.site_of_input[20] == result.mesh.site_of_input[30]);
+  CvtOptions refusing;
+  refusing.duplicates = Duplicates::refuse;
+  CHECK_THROWS_AS(spherical_cvt(start, refusing), const Error&);
+}
+
 TEST_CASE("bad input is refused in one line") {
   const Points3 start = random_sphere(100);
   const auto code = [&](const Points3& points, const CvtOptions& options) {
