@@ -151,7 +151,7 @@ void Descent::make_laplacian() {
 /// and the change of the gradient along it.
 void Descent::precondition(Points3& vectors) {
   if (method() == Method::lbfgs_laplacian) {
-    vectors = laplacian_->solve(vectors);
+    vectors = laplacian_->solve(std::move(vectors));
     return;
   }
   const Memory& memory = state_.memory;

@@ -112,7 +112,7 @@ public:
   std::vector<CvtRegion> regions() const override { return tessellation_.regions(); }
   Points3 retract(const Points3& x, double step, const Points3& d) const override;
   void make_tangential(Points3& vectors, const Points3& x) const override;
-  SparseMatrix laplacian(const Points3& points) override;
+  Laplacian laplacian(const Points3& points) override;
   std::optional<Connectivity> take_mesh(const Points3& points) override;
 
 private:
@@ -123,7 +123,7 @@ private:
     return !fixed_.empty() && fixed_[static_cast<std::size_t>(site)] != 0;
   }
   template <class Body> void for_each_fixed(const Body& body) const;
-  void hold(SparseMatrix& matrix) const;
+  void hold(Rows& weights) const;
 
   Tessellation<Cells> tessellation_;
   Density density_;
@@ -236,26 +236,26 @@ void FunctionalOver<Cells>::make_tangential(Points3& vectors, const Points3& x) 
 }
 
 /// Removes the couplings of fixed generators: those of a boundary condition.
-template <class Cells> void FunctionalOver<Cells>::hold(SparseMatrix& matrix) const {
+template <class Cells> void FunctionalOver<Cells>::hold(Rows& weights) const {
   if (fixed_.empty())
     return;
-  for_each_block(matrix.rows(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-    for (auto i = static_cast<Eigen::Index>(begin); i != end; ++i)
-      for (typename SparseMatrix::InnerIterator entry(matrix, i); entry; ++entry)
-        if (entry.col() != i && (is_fixed(i) || is_fixed(entry.col())))
-          entry.valueRef() = 0;
+  for_each_block(weights.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i != end; ++i)
+      for (std::int32_t k = weights.begin[i]; k != weights.begin[i + 1]; ++k)
+        if (is_fixed(i) || is_fixed(weights.column[k]))
+          weights.value[k] = 0;
   });
 }
 
 /// The mesh is that of the last evaluation; at other points it may not be Delaunay.
-template <class Cells> SparseMatrix FunctionalOver<Cells>::laplacian(const Points3& points) {
+template <class Cells> Laplacian FunctionalOver<Cells>::laplacian(const Points3& points) {
   Effort unused;
   tessellation_.move(points);
   const Cells& cells = tessellation_.cells();
-  SparseMatrix matrix = tessellation_.find_faults(unused).none()
-                            ? cells.laplacian(tessellation_.mesh(), density_)
-                            : cells.laplacian(cells.signs().triangulate(), density_);
-  hold(matrix);
+  Laplacian matrix = tessellation_.find_faults(unused).none()
+                         ? cells.laplacian(tessellation_.mesh(), density_)
+                         : cells.laplacian(cells.signs().triangulate(), density_);
+  hold(matrix.weights);
   return matrix;
 }
 

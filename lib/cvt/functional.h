@@ -70,7 +70,7 @@ public:
   /// Removes from each vector the component that is no motion at x.
   virtual void make_tangential(Points3& vectors, const Points3& x) const = 0;
   /// See laplacian.h.
-  virtual SparseMatrix laplacian(const Points3& points) = 0;
+  virtual Laplacian laplacian(const Points3& points) = 0;
 };
 
 /// On the sphere, for unit columns, with Lloyd's map M/|M| and dE/dx = -2 (M - (M.x) x).

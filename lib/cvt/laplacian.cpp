@@ -12,6 +12,7 @@
 #include <calotte/delaunay.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -23,64 +24,59 @@
 namespace calotte::cvt_detail {
 namespace {
 
-/// An edge ab of a triangle and the circumcentre beside it.
-struct HalfEdge {
-  double length;
-  double delta; ///< signed distance from the edge's middle to the circumcentre
-};
+constexpr double least_share = 6e-5; ///< a thousandth of that of an equilateral triangle
 
-/// The share of a triangle in the weight of one of its edges.
-struct EdgeShare {
-  double weight; ///< (l^2 delta/4 - delta^3/3)/l
-  double least;  ///< a thousandth of that of an equilateral triangle
-  double area;   ///< of the two half kites, flat
-};
+/// The shares of a triangle in the weights of its edges, from each vertex to the next, over the
+/// edges' squares: (1/4 - d^2/3) d, d = delta/l.
+using Shares = std::array<float, 3>;
 
-EdgeShare share_of(const HalfEdge& edge) {
-  const double length = edge.length, delta = edge.delta, square = length * length;
-  return {(square / 4 - delta * delta / 3) * delta / length, 6e-5 * square, length * delta / 2};
+/// \param ratio delta/l, delta the signed distance from the edge's middle to the circumcentre.
+float share_of(double ratio) { return static_cast<float>((0.25 - ratio * ratio / 3) * ratio); }
+
+/// For edges on the sphere; delta is an arc.
+/// \param most bound of |delta|/l.
+Shares spherical_shares(const std::array<Vec3, 3>& x, double most) {
+  const double normal = norm(cross(x[1] - x[0], x[2] - x[0]));
+  Shares shares;
+  for (int v = 0; v < 3; ++v) {
+    const Vec3 &a = x[v], &b = x[next_vertex(v)], &c = x[previous_vertex(v)];
+    const double length = norm(a - b);
+    const double sine = length / norm(a + b) * (dot(a - c, b - c) / normal);
+    const double ratio = arc_sine(std::clamp(sine, -1.0, 1.0)) / length;
+    shares[static_cast<std::size_t>(v)] = share_of(std::clamp(ratio, -most, most));
+  }
+  return shares;
 }
 
-double share_of_both(const EdgeShare& here, const EdgeShare& beyond) {
-  return std::max(here.weight + beyond.weight, here.least + beyond.least);
+Shares planar_shares(const std::array<Vec3, 3>& x, const Vec2& period) {
+  Shares shares;
+  for (int v = 0; v < 3; ++v) {
+    const Vec3& c = x[previous_vertex(v)];
+    const Vec2 p = nearest_offset(c, x[v], period),
+               q = nearest_offset(c, x[next_vertex(v)], period);
+    shares[static_cast<std::size_t>(v)] = share_of(dot(p, q) / cross(p, q) / 2);
+  }
+  return shares;
 }
 
-/// The edge from a to b of a triangle on the sphere, counter-clockwise to c; delta is an arc.
-HalfEdge spherical_edge(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 normal = cross(a - c, b - c);
-  const double cotangent = dot(a - c, b - c) / norm(normal);
-  const double length = norm(a - b), sine = length / norm(a + b) * cotangent;
-  return {length, arc_sine(std::clamp(sine, -1.0, 1.0))};
-}
-
-HalfEdge planar_edge(const Vec3& a, const Vec3& b, const Vec3& c, const Vec2& period) {
-  const Vec2 p = nearest_offset(c, a, period), q = nearest_offset(c, b, period);
-  const double length = norm(p - q);
-  return {length, length / 2 * dot(p, q) / cross(p, q)};
-}
-
-/// What an edge adds to a row.
-struct EdgeTerms {
-  double weight; ///< for rho = 1/2
-  double area;   ///< of the cell, between the site and the Voronoi edge
-};
-
-EdgeTerms terms_of(const HalfEdge& left, const HalfEdge& right) {
-  const EdgeShare here = share_of(left), beyond = share_of(right);
-  return {share_of_both(here, beyond), (here.area + beyond.area) / 2};
-}
-
+/// The edges of the mesh on the sphere.
 class SphericalEdges {
 public:
   explicit SphericalEdges(const Points3& points) : points_(&points) {}
 
-  /// The contribution to site i of the edge to j, which has c to its left and d to its right.
-  EdgeTerms edge(std::int32_t i, std::int32_t j, std::int32_t c, std::int32_t d) const {
-    const auto at = [&](std::int32_t site) { return column(*points_, site); };
-    return terms_of(spherical_edge(at(i), at(j), at(c)), spherical_edge(at(j), at(i), at(d)));
+  const Vec3& place(std::int32_t site) const { return column(*points_, site); }
+  Vec3 offset(std::int32_t from, std::int32_t to) const { return place(to) - place(from); }
+  static Shares shares(const std::array<Vec3, 3>& x) {
+    return spherical_shares(x, std::numeric_limits<double>::infinity());
+  }
+  /// The weight, for rho = 1/2, of the edge from i to j, which has c to its left and d to its
+  /// right.
+  /// \param usual its value where no boundary comes near.
+  static double weight(std::int32_t, std::int32_t, std::int32_t, std::int32_t, double usual) {
+    return usual;
   }
   /// The other terms on the diagonal.
-  /// \param area sum over the edges.
+  /// \param area of the site.
   static double held(std::int32_t, double rho, double area) { return rho * area * area; }
 
 private:
@@ -88,25 +84,16 @@ private:
 };
 
 /// In a region, whose boundary clips cells.
-class RegionEdges {
+class RegionEdges : public SphericalEdges {
 public:
-  RegionEdges(const Points3& places, double area) : points_(&places), area_(area) {}
+  RegionEdges(const Points3& places, double area) : SphericalEdges(places), area_(area) {}
 
-  EdgeTerms edge(std::int32_t i, std::int32_t j, std::int32_t c, std::int32_t d) const {
-    const auto at = [&](std::int32_t site) { return column(*points_, site); };
-    return terms_of(near(spherical_edge(at(i), at(j), at(c))),
-                    near(spherical_edge(at(j), at(i), at(d))));
-  }
+  static Shares shares(const std::array<Vec3, 3>& x) { return spherical_shares(x, 0.5); }
   double held(std::int32_t, double rho, double area) const {
     return rho * area * area * (4 * std::numbers::pi) / area_;
   }
 
 private:
-  static HalfEdge near(const HalfEdge& edge) {
-    return {edge.length, std::clamp(edge.delta, -edge.length / 2, edge.length / 2)};
-  }
-
-  const Points3* points_;
   double area_;
 };
 
@@ -122,12 +109,17 @@ public:
     });
   }
 
-  EdgeTerms edge(std::int32_t i, std::int32_t j, std::int32_t c, std::int32_t d) const {
-    const auto& at = sites_->places;
+  const Vec3& place(std::int32_t site) const { return sites_->places[site]; }
+  Vec3 offset(std::int32_t from, std::int32_t to) const {
+    const Vec2 way = between(from, to);
+    return {way.x, way.y, 0};
+  }
+  Shares shares(const std::array<Vec3, 3>& x) const { return planar_shares(x, sites_->period); }
+  double weight(std::int32_t i, std::int32_t j, std::int32_t c, std::int32_t d,
+                double usual) const {
     if (clipped_[i] == 0 || clipped_[j] == 0)
-      return terms_of(planar_edge(at[i], at[j], at[c], sites_->period),
-                      planar_edge(at[j], at[i], at[d], sites_->period));
-    return {i < j ? clipped_weight(i, j, c, d) : clipped_weight(j, i, d, c), 0};
+      return usual;
+    return i < j ? clipped_weight(i, j, c, d) : clipped_weight(j, i, d, c);
   }
   /// A boundary that faces away from the generator, such as the far side of an island, contributes
   /// a negative term; their sum is at least 0, so that the matrix stays positive.
@@ -138,7 +130,7 @@ public:
   }
 
 private:
-  Vec2 offset(std::int32_t from, std::int32_t to) const {
+  Vec2 between(std::int32_t from, std::int32_t to) const {
     return nearest_offset(sites_->places[from], sites_->places[to], sites_->period);
   }
 
@@ -151,8 +143,8 @@ private:
     for (std::int64_t s = rings.begin[i]; s != rings.begin[i + 1]; ++s) {
       const std::int32_t t = rings.corners[s].triangle;
       const int v = rings.corners[s].vertex;
-      const Vec2 beyond = offset(i, triangles(previous_vertex(v), t));
-      cell.push_back({circumcentre(offset(i, triangles(next_vertex(v), t)), beyond), beyond});
+      const Vec2 beyond = between(i, triangles(previous_vertex(v), t));
+      cell.push_back({circumcentre(between(i, triangles(next_vertex(v), t)), beyond), beyond});
     }
     const Vec2 site{sites_->places[i].x, sites_->places[i].y};
     if (!near_shore(*sites_->outline, site, cell))
@@ -167,17 +159,17 @@ private:
   /// The integral of l^2/4 - s^2 over l, s from the edge's middle on, where the Voronoi edge is
   /// inside; a thousandth of an equilateral triangle's of the smaller cell's width at least.
   double clipped_weight(std::int32_t i, std::int32_t j, std::int32_t c, std::int32_t d) const {
-    const Vec2 site{sites_->places[i].x, sites_->places[i].y}, to = offset(i, j);
+    const Vec2 site{sites_->places[i].x, sites_->places[i].y}, to = between(i, j);
     const double length = norm(to);
     double weight = 0;
     for (const CellSide& part :
-         parts_inside(*sites_->outline, site, {circumcentre(offset(i, d), to), to},
-                      circumcentre(to, offset(i, c)))) {
+         parts_inside(*sites_->outline, site, {circumcentre(between(i, d), to), to},
+                      circumcentre(to, between(i, c)))) {
       const double p = cross(to, part.p) / length, q = cross(to, part.q) / length;
       weight += (length * length / 4 * (q - p) - (q * q * q - p * p * p) / 3) / length;
     }
     const double square = std::min({length * length, area_[i], area_[j]});
-    return std::max(weight, 1.2e-4 * square);
+    return std::max(weight, 2 * least_share * square);
   }
 
   const PlanarSites* sites_;
@@ -194,41 +186,66 @@ struct Source {
   std::int64_t rows() const { return rho.size(); }
 };
 
-/// The row of a site: its neighbours and itself with their coefficients, ascending.
-using Row = std::vector<std::pair<std::int32_t, double>>;
+template <class Edges> Array<Shares> shares_of(const Triangles& triangles, const Edges& edges) {
+  Array<Shares> shares(triangles.cols());
+  for_each_block(triangles.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t t = begin; t != end; ++t)
+      shares[t] = edges.shares({edges.place(triangles(0, t)), edges.place(triangles(1, t)),
+                                edges.place(triangles(2, t))});
+  });
+  return shares;
+}
+
+/// The row of a site: its neighbours with their weights, ascending, and the diagonal.
+struct Row {
+  std::vector<std::pair<std::int32_t, double>> elements;
+  double diagonal;
+};
 
 template <class Edges>
-void set_row(const Source& source, const Edges& edges, std::int32_t i, Row& row) {
-  row.clear();
-  double sum = 0, area = 0;
+void set_row(const Source& source, const Array<Shares>& shares, const Edges& edges, std::int32_t i,
+             Row& row) {
+  row.elements.clear();
+  double area = 0;
   const VertexRings& rings = source.rings;
   Corner before = rings.corners[rings.begin[i + 1] - 1];
+  Vec3 side_before = edges.offset(i, source.triangles(next_vertex(before.vertex), before.triangle));
+  bool inside_before =
+      source.triangles(next_vertex(before.vertex), before.triangle) < source.rows();
   for (std::int64_t s = rings.begin[i]; s != rings.begin[i + 1]; ++s) {
     const Corner corner = rings.corners[s];
     const std::int32_t t = corner.triangle, u = before.triangle;
     const int v = corner.vertex, w = before.vertex;
     before = corner;
     const std::int32_t j = source.triangles(next_vertex(v), t);
-    if (j >= source.rows())
+    const Vec3 side = edges.offset(i, j);
+    const bool inside = j < source.rows();
+    if (inside && inside_before)
+      area += norm(cross(side_before, side)) / 6;
+    side_before = side;
+    inside_before = inside;
+    if (!inside)
       continue;
-    const EdgeTerms terms = edges.edge(i, j, source.triangles(previous_vertex(v), t),
-                                       source.triangles(next_vertex(w), u));
-    const double weight = (source.rho[i] + source.rho[j]) * terms.weight;
-    row.emplace_back(j, -weight);
-    sum += weight;
-    area += terms.area;
+    const double share = shares[t][static_cast<std::size_t>(v)] +
+                         shares[u][static_cast<std::size_t>(previous_vertex(w))];
+    const double usual = std::max(share, 2 * least_share) * dot(side, side);
+    row.elements.emplace_back(j, (source.rho[i] + source.rho[j]) *
+                                     edges.weight(i, j, source.triangles(previous_vertex(v), t),
+                                                  source.triangles(next_vertex(w), u), usual));
   }
-  row.emplace_back(i, sum + edges.held(i, source.rho[i], area));
-  std::sort(row.begin(), row.end());
+  std::sort(row.elements.begin(), row.elements.end());
+  row.diagonal = edges.held(i, source.rho[i], area);
+  for (const auto& [j, weight] : row.elements)
+    row.diagonal += weight;
 }
 
-/// The start of each row: a row has an element for each neighbour with a row, and one for itself.
+/// The start of each row: a row has an element for each neighbour with a row.
 Array<std::int32_t> row_begins(const Source& source) {
   Array<std::int32_t> begin(source.rows() + 1);
   const VertexRings& rings = source.rings;
   for_each_block(source.rows(), [&](std::int64_t, std::int64_t first, std::int64_t last) {
     for (std::int64_t i = first; i != last; ++i) {
-      begin[i] = 1;
+      begin[i] = 0;
       for (std::int64_t s = rings.begin[i]; s != rings.begin[i + 1]; ++s) {
         const Corner corner = rings.corners[s];
         begin[i] += source.triangles(next_vertex(corner.vertex), corner.triangle) < source.rows();
@@ -240,27 +257,34 @@ Array<std::int32_t> row_begins(const Source& source) {
   return begin;
 }
 
-template <class Edges> SparseMatrix make_matrix(const Source& source, const Edges& edges) {
+template <class Edges> Laplacian make_matrix(const Source& source, const Edges& edges) {
   const std::int64_t n = source.rows();
-  const Array<std::int32_t> row_begin = row_begins(source);
-  SparseMatrix matrix(n, n);
-  matrix.resizeNonZeros(row_begin[n]);
-  std::copy(row_begin.begin(), row_begin.end(), matrix.outerIndexPtr());
+  Laplacian matrix{{row_begins(source), {}, {}}, Array<double>(n)};
+  Rows& rows = matrix.weights;
+  rows.column = Array<std::int32_t>(rows.begin[n]);
+  rows.value = Array<float>(rows.begin[n]);
+  const Array<Shares> shares = shares_of(source.triangles, edges);
   for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     Row row;
     for (auto i = static_cast<std::int32_t>(begin); i != end; ++i) {
-      std::int32_t place = row_begin[i];
-      set_row(source, edges, i, row);
-      for (const auto& [j, value] : row) {
-        matrix.innerIndexPtr()[place] = j;
-        matrix.valuePtr()[place++] = value;
+      std::int32_t place = rows.begin[i];
+      set_row(source, shares, edges, i, row);
+      matrix.scale[i] = 1 / std::sqrt(row.diagonal);
+      for (const auto& [j, weight] : row.elements) {
+        rows.column[place] = j;
+        rows.value[place++] = static_cast<float>(weight / row.diagonal);
       }
     }
+  });
+  for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i != end; ++i)
+      for (std::int32_t k = rows.begin[i]; k != rows.begin[i + 1]; ++k)
+        rows.value[k] *= static_cast<float>(matrix.scale[rows.column[k]] / matrix.scale[i]);
   });
   return matrix;
 }
 
-/// The matrix counts its entries, at most 7 n, by int32.
+/// The matrix counts its entries, at most 6 n on average, by int32.
 void require_countable(std::int64_t generators) {
   require(generators <= std::numeric_limits<std::int32_t>::max() / 7,
           "there are " + std::to_string(generators) +
@@ -269,8 +293,7 @@ void require_countable(std::int64_t generators) {
 
 } // namespace
 
-SparseMatrix graph_laplacian(const Points3& points, const Connectivity& mesh,
-                             const Density& density) {
+Laplacian graph_laplacian(const Points3& points, const Connectivity& mesh, const Density& density) {
   require_countable(points.cols());
   const Source source{mesh.triangles,
                       make_vertex_rings(mesh.triangles, mesh.neighbours, points.cols()),
@@ -278,8 +301,8 @@ SparseMatrix graph_laplacian(const Points3& points, const Connectivity& mesh,
   return make_matrix(source, SphericalEdges(points));
 }
 
-SparseMatrix graph_laplacian(const Points3& places, std::int64_t generators, double area,
-                             const Connectivity& mesh, const Density& density) {
+Laplacian graph_laplacian(const Points3& places, std::int64_t generators, double area,
+                          const Connectivity& mesh, const Density& density) {
   require_countable(generators);
   const Source source{mesh.triangles,
                       make_vertex_rings(mesh.triangles, mesh.neighbours, generators),
@@ -287,8 +310,8 @@ SparseMatrix graph_laplacian(const Points3& places, std::int64_t generators, dou
   return make_matrix(source, RegionEdges(places, area));
 }
 
-SparseMatrix graph_laplacian(const PlanarSites& sites, const Connectivity& mesh,
-                             const Density& density) {
+Laplacian graph_laplacian(const PlanarSites& sites, const Connectivity& mesh,
+                          const Density& density) {
   require_countable(sites.generators);
   VertexRings rings = make_vertex_rings(mesh.triangles, mesh.neighbours, sites.generators);
   Points3 points(3, sites.generators);

@@ -10,11 +10,24 @@
 #include <calotte/density.h>
 #include <calotte/types.h>
 
-#include <Eigen/SparseCore>
+#include <cstdint>
 
 namespace calotte::cvt_detail {
 
-using SparseMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor, std::int32_t>;
+/// The elements of a sparse matrix, row by row; columns ascend.
+struct Rows {
+  Array<std::int32_t> begin; ///< of each row, and the end of the last
+  Array<std::int32_t> column;
+  Array<float> value;
+
+  std::int64_t size() const { return begin.size() - 1; }
+};
+
+/// A symmetric, positive definite matrix D (I - W) D, D diagonal and W with a diagonal of zeros.
+struct Laplacian {
+  Rows weights;        ///< W
+  Array<double> scale; ///< 1/D
+};
 
 /// The graph Laplacian that approximates the second derivative of the CVT energy E, n x n, for each
 /// coordinate of the generators: sum over edges of 2 w (e_i - e_j)(e_i - e_j)^T, w = rho times the
@@ -23,20 +36,20 @@ using SparseMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor, std::int32_t>;
 /// the integral over the Voronoi edge of rho (x - x_i)(x - x_j)^T/l. Weights below a thousandth of
 /// an equilateral triangle's are raised to that.
 ///
-/// To it is added rho times the square of the cell's area, over a 4 pi-th of the sphere's or the
-/// domain's, on the diagonal: a motion of all generators in one direction, which costs the
-/// Laplacian nothing, is no symmetry of the sphere, nor of a clipped or refined plane.
+/// To it is added rho times the square of the site's area, a third of its triangles, over a 4 pi-th
+/// of the sphere's or the domain's, on the diagonal: a motion of all generators in one direction,
+/// which costs the Laplacian nothing, is no symmetry of the sphere, nor of a clipped or refined
+/// plane.
 ///
 /// \param points 3 x n unit columns that span the sphere.
 /// \param mesh their Delaunay triangulation.
-SparseMatrix graph_laplacian(const Points3& points, const Connectivity& mesh,
-                             const Density& density);
+Laplacian graph_laplacian(const Points3& points, const Connectivity& mesh, const Density& density);
 
 /// The same for the generators in a region, of which the hull's places follow. Circumcentres beyond
 /// half of an edge's length from it count as if they were there: the boundary clips such cells.
 /// \param area of the region.
-SparseMatrix graph_laplacian(const Points3& places, std::int64_t generators, double area,
-                             const Connectivity& mesh, const Density& density);
+Laplacian graph_laplacian(const Points3& places, std::int64_t generators, double area,
+                          const Connectivity& mesh, const Density& density);
 
 /// A domain of the plane, with generators in it.
 struct PlanarSites {
@@ -51,7 +64,7 @@ struct PlanarSites {
 /// count for nothing. A cell that the domain clips has on the diagonal 2 rho times the area between
 /// its generator and the shore: half of the trace of what the second derivative, 2 m less the
 /// integrals over Voronoi edges, is when all generators move as one.
-SparseMatrix graph_laplacian(const PlanarSites& sites, const Connectivity& mesh,
-                             const Density& density);
+Laplacian graph_laplacian(const PlanarSites& sites, const Connectivity& mesh,
+                          const Density& density);
 
 } // namespace calotte::cvt_detail

@@ -12,40 +12,35 @@
 
 namespace calotte::cvt_detail {
 
-/// A sparse matrix by rows, whose columns ascend.
-template <class Value> struct Rows {
-  Array<std::int32_t> begin; ///< of each row, and the end of the last
-  Array<std::int32_t> column;
-  Array<Value> value;
-
-  std::int64_t size() const { return begin.size() - 1; }
-};
+/// Three coordinates and a zero, which one instruction adds.
+using Float4 [[gnu::vector_size(16)]] = float;
 
 /// An approximate inverse of a symmetric, positive definite matrix of a mesh, in time proportional
 /// to its size: one V-cycle of algebraic multigrid by smoothed aggregation (Vanek, Mandel and
-/// Brezina, Computing 56, 1996). Aggregates are six rows that follow each other: the rows are to be
-/// ordered along a space-filling curve. It is symmetric and positive definite itself, but for
+/// Brezina, Computing 56, 1996). Aggregates are eight rows that follow each other: the rows are to
+/// be ordered along a space-filling curve. It is symmetric and positive definite itself, but for
 /// rounding: the cycle computes in single precision with the matrix scaled to a diagonal of ones.
+///
+/// The smoother is Gauss and Seidel's method in fixed blocks of rows, forward and backward, and
+/// Jacobi's between blocks.
 class Multigrid {
 public:
-  /// \param matrix n x n, with every diagonal element and sorted rows.
-  explicit Multigrid(SparseMatrix matrix);
+  explicit Multigrid(Laplacian matrix);
 
   /// The cycle for the three coordinates at once, 3 x n.
-  Points3 solve(const Points3& right);
+  Points3 solve(Points3 right);
 
 private:
-  /// Three coordinates and a zero, which one instruction adds.
-  using Float4 [[gnu::vector_size(16)]] = float;
   using Vectors = Array<Float4>;
 
   struct Level {
-    Rows<float> matrix, prolongation, restriction;
-    Array<float> step; ///< of Jacobi's method: the relaxation over the diagonal
+    Rows weights;          ///< W, where the matrix is I - W
+    Array<float> constant; ///< by row: the element of the column of its aggregate, not yet smoothed
     Vectors right, x, other;
   };
 
   void cycle(std::size_t level);
+  void restrict_residual(const Level& level, Vectors& right);
   void solve_coarsest();
 
   Array<double> scale_; ///< by row: the inverse root of the diagonal

@@ -119,7 +119,7 @@ Points3 PlanarCells::retract(const Points3& x, double step, const Points3& d) co
   return result;
 }
 
-SparseMatrix PlanarCells::laplacian(const Connectivity& mesh, const Density& density) const {
+Laplacian PlanarCells::laplacian(const Connectivity& mesh, const Density& density) const {
   return graph_laplacian({places_, generators_, period_, outline_.get(), area_}, mesh, density);
 }
 

@@ -69,7 +69,7 @@ public:
   /// Moves generators that would leave the domain to the nearest place inside.
   Points3 retract(const Points3& x, double step, const Points3& d) const;
   static void make_tangential(Points3&, const Points3&) {} ///< all motions are
-  SparseMatrix laplacian(const Connectivity& mesh, const Density& density) const;
+  Laplacian laplacian(const Connectivity& mesh, const Density& density) const;
 
 private:
   Array<Vec3> places_of(const Points3& points) const;

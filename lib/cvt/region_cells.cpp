@@ -205,7 +205,7 @@ Points3 RegionCells::retract(const Points3& x, double step, const Points3& d) co
   return result;
 }
 
-SparseMatrix RegionCells::laplacian(const Connectivity& mesh, const Density& density) const {
+Laplacian RegionCells::laplacian(const Connectivity& mesh, const Density& density) const {
   return graph_laplacian(places_, generators_, outline_->area(), mesh, density);
 }
 

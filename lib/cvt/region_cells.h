@@ -75,7 +75,7 @@ public:
   static void make_tangential(Points3& vectors, const Points3& x) {
     SphericalCells::make_tangential(vectors, x);
   }
-  SparseMatrix laplacian(const Connectivity& mesh, const Density& density) const;
+  Laplacian laplacian(const Connectivity& mesh, const Density& density) const;
 
 private:
   bool drop_intruders();

@@ -65,7 +65,7 @@ public:
 
   static Points3 retract(const Points3& x, double step, const Points3& d);
   static void make_tangential(Points3& vectors, const Points3& x);
-  SparseMatrix laplacian(const Connectivity& mesh, const Density& density) const {
+  Laplacian laplacian(const Connectivity& mesh, const Density& density) const {
     return graph_laplacian(*points_, mesh, density);
   }
 
