@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "base/memory.h"
+
 #include <calotte/types.h>
+
+#include <span>
+#include <vector>
 
 namespace calotte::base_detail {
 
@@ -21,13 +26,23 @@ struct CompactField {
 CompactField compacted(const Points3& vectors, double square);
 Points3 expanded(const CompactField& field);
 
-double inner(const CompactField& a, const Points3& b);
+/// Sets `field` to a - b, in its memory if that suffices; returns its inner product with itself.
+/// \param scale about the root mean square of a - b.
+double set_difference(const Points3& a, const Points3& b, double scale, CompactField& field);
 
-/// y + a x.
-void add(Points3& y, double a, const CompactField& x);
+double inner(const CompactField& a, const CompactField& b);
 
-/// Sets y to y + a x; returns its inner product with b.
-double inner_of_sum(Points3& y, double a, const CompactField& x, const CompactField& b);
+/// The inner products of several fields with b, which is read once.
+std::vector<double> inner_of_each(std::span<const CompactField> fields, const Points3& b);
+std::vector<double> inner_of_each(std::span<const CompactField> fields, const CompactField& b);
+
+/// Sets y to `factor` x plus the sum of shares times fields. y may be x.
+/// \param y of x's size.
+void set_sum(Points3& y, double factor, const Points3& x, std::span<const double> shares,
+             std::span<const CompactField> fields);
+
+/// The sum of |a_i|^2/weight_i.
+double square_over(const CompactField& a, const Array<double>& weights);
 
 void multiply(Points3& y, double a);
 
@@ -36,6 +51,7 @@ void make_tangential(Points3& vectors, const Points3& x);
 
 /// x + step d, normalised.
 Points3 retract(const Points3& x, double step, const Points3& d);
+void retract(const Points3& x, double step, const Points3& d, Points3& to); ///< sets `to`
 
 /// a - b.
 Points3 difference(const Points3& a, const Points3& b);

@@ -2,6 +2,7 @@
 #include "cvt/descent.h"
 
 #include "base/clock.h"
+#include "base/matrix_memory.h"
 #include "base/parallel.h"
 #include "base/points.h"
 #include "base/vector_field.h"
@@ -14,6 +15,8 @@
 
 namespace calotte::cvt_detail {
 namespace {
+
+using base_detail::CompactField;
 
 constexpr std::size_t most_pairs = 10;
 constexpr int most_trials = 3;
@@ -53,8 +56,11 @@ void Descent::begin() {
   }
   const bool final_rule = state_.report.iterations.back().rule == options_.final_rule;
   functional_.evaluate(state_.points, final_rule, options_.method != Method::lloyd, here_);
-  if (state_.memory.laplacian_at.cols() > 0)
-    laplacian_.emplace(functional_.laplacian(state_.memory.laplacian_at));
+  const Memory& memory = state_.memory;
+  for (std::size_t k = 0; k < memory.steps.size(); ++k)
+    products_.push_back(inner_of_each(std::span(memory.steps).first(k), memory.changes[k]));
+  if (memory.laplacian_at.cols() > 0)
+    laplacian_.emplace(functional_.laplacian(memory.laplacian_at));
 }
 
 void Descent::step() {
@@ -72,9 +78,9 @@ void Descent::step() {
     quasi_newton_step();
 }
 
-/// Moves the state to the points that have been evaluated last.
-void Descent::accept(Points3&& points) {
-  state_.points = std::move(points);
+/// Moves the state to the trial, which has been evaluated last.
+void Descent::accept() {
+  state_.points.swap(trial_);
   std::swap(here_, there_);
 }
 
@@ -85,20 +91,20 @@ void Descent::lloyd_step() {
 
 void Descent::relaxed_step() {
   const Points3 move = difference(here_.centroids, state_.points);
-  step_or_lloyd(functional_.retract(state_.points, options_.relaxation, move));
+  functional_.retract(state_.points, options_.relaxation, move, trial_);
+  step_or_lloyd();
 }
 
-/// Moves to the points unless their energy is higher; otherwise takes Lloyd's step and returns
-/// false.
-bool Descent::step_or_lloyd(Points3&& next) {
-  evaluate(next, there_);
+/// Moves to the trial unless its energy is higher; otherwise takes Lloyd's step and returns false.
+bool Descent::step_or_lloyd() {
+  evaluate(trial_, there_);
   const bool lower = there_.iteration.energy <= here_.iteration.energy * (1 + rounding);
   if (!lower) {
     state_.report.iterations.back().accepted = false;
-    next = here_.centroids;
-    evaluate(next, there_);
+    trial_ = here_.centroids;
+    evaluate(trial_, there_);
   }
-  accept(std::move(next));
+  accept();
   return lower;
 }
 
@@ -106,21 +112,20 @@ bool Descent::step_or_lloyd(Points3&& next) {
 /// (O'Donoghue and Candes, 2015) or raises the energy.
 void Descent::nesterov_step() {
   Memory& memory = state_.memory;
-  Points3 next = here_.centroids;
   double share = 0;
-  if (memory.before.cols() == next.cols()) {
+  if (const Points3& next = here_.centroids; memory.before.cols() == next.cols()) {
     const double momentum = (1 + std::sqrt(1 + 4 * memory.momentum * memory.momentum)) / 2;
     const Points3 move = difference(next, memory.before);
     const bool onward = inner(difference(next, state_.points), move) >= 0;
     share = onward ? (memory.momentum - 1) / momentum : 0;
     memory.momentum = onward ? momentum : 1;
     if (share > 0)
-      next = functional_.retract(next, share, move);
+      functional_.retract(next, share, move, trial_);
   }
   memory.before = here_.centroids;
   if (share == 0)
     lloyd_step();
-  else if (!step_or_lloyd(std::move(next)))
+  else if (!step_or_lloyd())
     memory.momentum = 1;
 }
 
@@ -133,6 +138,7 @@ void Descent::forget() {
   memory.changes.clear();
   memory.curvatures.clear();
   memory.stride = 1;
+  products_.clear();
 }
 
 void Descent::make_laplacian() {
@@ -142,8 +148,9 @@ void Descent::make_laplacian() {
   memory.laplacian_at = state_.points;
   memory.since_laplacian = 0;
   memory.flipped = false;
-  laplacian_.emplace(functional_.laplacian(memory.laplacian_at));
   forget();
+  laplacian_.reset(); // its memory serves the next
+  laplacian_.emplace(functional_.laplacian(memory.laplacian_at));
 }
 
 /// Multiplies by the initial inverse of the second derivative: that of the graph Laplacian, whose
@@ -151,17 +158,14 @@ void Descent::make_laplacian() {
 /// and the change of the gradient along it.
 void Descent::precondition(Points3& vectors) {
   if (method() == Method::lbfgs_laplacian) {
-    vectors = laplacian_->solve(std::move(vectors));
+    laplacian_->solve(vectors);
     return;
   }
   const Memory& memory = state_.memory;
-  double factor = 1;
-  if (!memory.steps.empty()) {
-    Points3 change = expanded(memory.changes.back());
-    functional_.make_tangential(change, state_.points);
-    divide_by_masses(change);
-    factor = memory.curvatures.back() / inner(memory.changes.back(), change);
-  }
+  const double factor =
+      memory.steps.empty()
+          ? 1
+          : memory.curvatures.back() / (0.5 * square_over(memory.changes.back(), here_.mass));
   divide_by_masses(vectors);
   multiply(vectors, factor);
 }
@@ -174,41 +178,40 @@ void Descent::divide_by_masses(Points3& vectors) const {
   });
 }
 
-/// Minus the inverse of the approximate second derivative, times the gradient.
-Points3 Descent::direction() {
+/// Sets the direction: minus the inverse of the approximate second derivative, times the gradient.
+/// That is Nocedal's recursion with the inner products of all pairs at hand, so that it reads each
+/// pair four times in all and writes only the result.
+void Descent::set_direction() {
   const Memory& memory = state_.memory;
   const std::size_t pairs = memory.steps.size();
-  Points3 d = here_.gradient;
-  std::vector<double> shares(pairs);
-  double product = pairs == 0 ? 0 : inner(memory.steps.back(), d); // of d with the next vector
+  if (direction_.cols() != state_.points.cols())
+    make_room(direction_, 3, state_.points.cols());
+  std::vector<double> shares = inner_of_each(memory.steps, here_.gradient);
   for (std::size_t k = pairs; k-- > 0;) {
-    shares[k] = product / memory.curvatures[k];
-    if (k > 0)
-      product = inner_of_sum(d, -shares[k], memory.changes[k], memory.steps[k - 1]);
-    else
-      add(d, -shares[k], memory.changes[k]);
+    for (std::size_t j = k + 1; j < pairs; ++j)
+      shares[k] += shares[j] * products_[j][k];
+    shares[k] /= -memory.curvatures[k];
   }
-  functional_.make_tangential(d, state_.points);
-  precondition(d);
-  functional_.make_tangential(d, state_.points);
-  product = pairs == 0 ? 0 : inner(memory.changes.front(), d);
+  set_sum(direction_, 1, here_.gradient, shares, memory.changes);
+  functional_.make_tangential(direction_, state_.points);
+  precondition(direction_);
+  functional_.make_tangential(direction_, state_.points);
+  const std::vector<double> slopes = inner_of_each(memory.changes, direction_);
   for (std::size_t k = 0; k < pairs; ++k) {
-    const double share = shares[k] - product / memory.curvatures[k];
-    if (k + 1 < pairs)
-      product = inner_of_sum(d, share, memory.steps[k], memory.changes[k + 1]);
-    else
-      add(d, share, memory.steps[k]);
+    double slope = slopes[k];
+    for (std::size_t j = 0; j < k; ++j)
+      slope -= shares[j] * products_[k][j];
+    shares[k] += slope / memory.curvatures[k];
   }
-  functional_.make_tangential(d, state_.points);
-  multiply(d, -1);
-  return d;
+  set_sum(direction_, -1, direction_, shares, memory.steps);
+  functional_.make_tangential(direction_, state_.points);
 }
 
 /// The step that limits the motion of each generator to half of its cell's width, the root of mass
 /// over density.
-double Descent::longest_step(const Points3& direction) const {
-  std::vector<double> most(static_cast<std::size_t>(block_count(direction.cols())), 0);
-  for_each_block(direction.cols(), [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
+double Descent::longest_step() const {
+  std::vector<double> most(static_cast<std::size_t>(block_count(direction_.cols())), 0);
+  for_each_block(direction_.cols(), [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
     constexpr std::int64_t batch = 64;
     std::array<std::array<double, batch>, 3> x;
     std::array<double, batch> rho;
@@ -223,7 +226,7 @@ double Descent::longest_step(const Points3& direction) const {
       density_(row(x[0]), row(x[1]), row(x[2]), row(rho));
       for (std::size_t j = 0; j < count; ++j) {
         const std::int64_t i = first + static_cast<std::int64_t>(j);
-        const Vec3& d = column(direction, i);
+        const Vec3& d = column(direction_, i);
         here = std::max(here, dot(d, d) * rho[j] / here_.mass[i]);
       }
     }
@@ -238,17 +241,15 @@ double Descent::longest_step(const Points3& direction) const {
 ///
 /// The first trial is the full step, but for a while after a search that has shortened it: where
 /// edges flip in steep widths, every full step would be rejected.
-/// \param points set to the accepted ones.
-bool Descent::search(const Points3& direction, double slope, Points3& points) {
+/// The trial is then the accepted one.
+bool Descent::search(double slope) {
   constexpr double growth = 1.4;
   Memory& memory = state_.memory;
-  double step = std::min(memory.stride, longest_step(direction));
+  double step = std::min(memory.stride, longest_step());
   for (int trial = 0; trial < most_trials; ++trial) {
-    points = functional_.retract(state_.points, step, direction);
-    evaluate(points, there_);
-    Points3 onward = direction;
-    functional_.make_tangential(onward, points);
-    const double slope_there = inner(onward, there_.gradient);
+    functional_.retract(state_.points, step, direction_, trial_);
+    evaluate(trial_, there_);
+    const double slope_there = inner(direction_, there_.gradient); // which is tangential there
     const double rise = there_.value() / here_.value() - 1;
     const bool lower =
         rise <= rounding && (slope_there <= -0.9 * slope || trial + 1 == most_trials);
@@ -265,26 +266,34 @@ bool Descent::search(const Points3& direction, double slope, Points3& points) {
   return false;
 }
 
-/// Stores the step from the state's points to `points`, which have been evaluated, as an L-BFGS
-/// pair.
-void Descent::remember(const Points3& points) {
-  Points3 before = here_.gradient;
-  functional_.make_tangential(before, points);
-  Points3 step = difference(points, state_.points), change = difference(there_.gradient, before);
+/// Stores the step from the state's points to the trial as an L-BFGS pair, in the memory of the
+/// oldest if there are enough.
+void Descent::remember() {
+  Memory& memory = state_.memory;
+  CompactField step, change;
+  if (memory.steps.size() == most_pairs) {
+    step = std::move(memory.steps.front());
+    change = std::move(memory.changes.front());
+    memory.steps.erase(memory.steps.begin());
+    memory.changes.erase(memory.changes.begin());
+    memory.curvatures.erase(memory.curvatures.begin());
+    products_.erase(products_.begin());
+    for (std::vector<double>& products : products_)
+      if (!products.empty())
+        products.erase(products.begin());
+  }
+  const CvtIteration& here = here_.iteration;
+  const double slope = here.gradient / std::sqrt(static_cast<double>(here.cells));
+  const double square = set_difference(trial_, state_.points, here.l2, step);
+  const double square_of_change = set_difference(there_.gradient, here_.gradient, slope, change);
   const double curvature = inner(step, change);
-  const double square = inner(step, step), square_of_change = inner(change, change);
   if (!(curvature > 1e-14 * std::sqrt(square * square_of_change))) {
     forget();
     return;
   }
-  Memory& memory = state_.memory;
-  if (memory.steps.size() == most_pairs) {
-    memory.steps.erase(memory.steps.begin());
-    memory.changes.erase(memory.changes.begin());
-    memory.curvatures.erase(memory.curvatures.begin());
-  }
-  memory.steps.push_back(compacted(step, square));
-  memory.changes.push_back(compacted(change, square_of_change));
+  products_.push_back(inner_of_each(memory.steps, change));
+  memory.steps.push_back(std::move(step));
+  memory.changes.push_back(std::move(change));
   memory.curvatures.push_back(curvature);
 }
 
@@ -292,12 +301,11 @@ void Descent::quasi_newton_step() {
   Clock::time_point mark = Clock::now();
   if (method() == Method::lbfgs_laplacian)
     make_laplacian();
-  const Points3 d = direction();
-  const double slope = inner(d, here_.gradient), seconds = lap(mark);
+  set_direction();
+  const double slope = inner(direction_, here_.gradient), seconds = lap(mark);
   const std::size_t first = state_.report.iterations.size();
-  Points3 points;
-  if (slope < 0 && search(d, slope, points)) {
-    remember(points);
+  if (slope < 0 && search(slope)) {
+    remember();
   } else if (state_.penalty > 0) { // a Lloyd step may raise the penalty
     state_.stuck = state_.memory.steps.empty();
     forget();
@@ -305,8 +313,8 @@ void Descent::quasi_newton_step() {
   } else { // Lloyd's step always descends; the coarser rule's energy may have misled the search
     forget();
     state_.final_rule = state_.final_rule || options_.norm != Norm::none;
-    points = here_.centroids;
-    evaluate(points, there_);
+    trial_ = here_.centroids;
+    evaluate(trial_, there_);
     // A density that is linear between the generators moves with them.
     const bool rose = there_.iteration.energy > (1 + rule_error) * here_.iteration.energy;
     if (here_.iteration.rule == rule_at_sites && rose) {
@@ -316,7 +324,7 @@ void Descent::quasi_newton_step() {
     }
   }
   state_.report.iterations[first].seconds_solver = seconds;
-  accept(std::move(points));
+  accept();
 }
 
 } // namespace calotte::cvt_detail

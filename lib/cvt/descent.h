@@ -10,6 +10,7 @@
 #include <calotte/cvt.h>
 
 #include <optional>
+#include <vector>
 
 namespace calotte::cvt_detail {
 
@@ -33,26 +34,28 @@ public:
 private:
   Method method() const;
   void evaluate(const Points3& points, Evaluation& out);
-  void accept(Points3&& points);
+  void accept();
   void lloyd_step();
   void relaxed_step();
-  bool step_or_lloyd(Points3&& next);
+  bool step_or_lloyd();
   void nesterov_step();
   void quasi_newton_step();
-  Points3 direction();
+  void set_direction();
   void precondition(Points3& vectors);
   void divide_by_masses(Points3& vectors) const;
   void make_laplacian();
-  void remember(const Points3& points);
+  void remember();
   void forget();
-  double longest_step(const Points3& direction) const;
-  bool search(const Points3& direction, double slope, Points3& points);
+  double longest_step() const;
+  bool search(double slope);
 
   State& state_;
   const CvtOptions& options_;
   Functional& functional_;
   DensityEvaluator density_;
-  Evaluation here_, there_; ///< at the state's points, and at a trial's
+  Evaluation here_, there_;                   ///< at the state's points, and at a trial's
+  Points3 trial_, direction_;                 ///< kept for their memory
+  std::vector<std::vector<double>> products_; ///< of each change with the steps before it
   std::optional<Multigrid> laplacian_;
 };
 

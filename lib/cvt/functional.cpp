@@ -2,6 +2,7 @@
 #include "cvt/functional.h"
 
 #include "base/clock.h"
+#include "base/matrix_memory.h"
 #include "base/parallel.h"
 #include "base/points.h"
 #include "cvt/planar_cells.h"
@@ -68,12 +69,13 @@ void evaluate_site(const Vec3& x, const CellMoments& cell, std::int32_t site, bo
 }
 
 void make_room(Evaluation& out, Eigen::Index n, bool with_gradient) {
+  using base_detail::make_room;
   if (out.terms.size() != n) {
-    out.centroids.resize(3, n);
+    make_room(out.centroids, 3, n);
     out.terms = Array<SiteTerms>(n);
   }
   if (with_gradient && out.mass.size() != n) {
-    out.gradient.resize(3, n);
+    make_room(out.gradient, 3, n);
     out.mass = Array<double>(n);
   }
 }
@@ -110,7 +112,7 @@ public:
   }
   void hold(std::vector<std::uint8_t> fixed) override { fixed_ = std::move(fixed); }
   std::vector<CvtRegion> regions() const override { return tessellation_.regions(); }
-  Points3 retract(const Points3& x, double step, const Points3& d) const override;
+  void retract(const Points3& x, double step, const Points3& d, Points3& to) const override;
   void make_tangential(Points3& vectors, const Points3& x) const override;
   Laplacian laplacian(const Points3& points) override;
   std::optional<Connectivity> take_mesh(const Points3& points) override;
@@ -223,10 +225,10 @@ void FunctionalOver<Cells>::for_each_fixed(const Body& body) const {
 }
 
 template <class Cells>
-Points3 FunctionalOver<Cells>::retract(const Points3& x, double step, const Points3& d) const {
-  Points3 to = tessellation_.cells().retract(x, step, d);
+void FunctionalOver<Cells>::retract(const Points3& x, double step, const Points3& d,
+                                    Points3& to) const {
+  tessellation_.cells().retract(x, step, d, to);
   for_each_fixed([&](std::int64_t i) { to.col(i) = x.col(i); });
-  return to;
 }
 
 template <class Cells>

@@ -65,8 +65,9 @@ public:
   /// plane, where the mesh of this class has a hull of its own.
   virtual std::optional<Connectivity> take_mesh(const Points3& points) = 0;
 
-  /// x + step d, projected back to the domain of the generators.
-  virtual Points3 retract(const Points3& x, double step, const Points3& d) const = 0;
+  /// Sets `to`, whose memory is kept, to x + step d, projected back to the domain of the
+  /// generators.
+  virtual void retract(const Points3& x, double step, const Points3& d, Points3& to) const = 0;
   /// Removes from each vector the component that is no motion at x.
   virtual void make_tangential(Points3& vectors, const Points3& x) const = 0;
   /// See laplacian.h.

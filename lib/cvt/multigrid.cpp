@@ -321,23 +321,23 @@ Multigrid::Multigrid(Laplacian matrix) : scale_(std::move(matrix.scale)) {
   factors_.compute(eigen_matrix(weights));
 }
 
-Points3 Multigrid::solve(Points3 right) {
+void Multigrid::solve(Points3& vectors) {
   Vectors& top = levels_.empty() ? coarsest_ : levels_.front().right;
-  const std::int64_t n = right.cols();
+  const std::int64_t n = vectors.cols();
   std::vector<double> most(static_cast<std::size_t>(block_count(n)), 0);
   for_each_block(n, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
     double here = 0;
     for (std::int64_t i = begin; i != end; ++i)
-      here = std::max(here, scale_[i] * right.col(i).cwiseAbs().maxCoeff());
+      here = std::max(here, scale_[i] * vectors.col(i).cwiseAbs().maxCoeff());
     most[static_cast<std::size_t>(block)] = here;
   });
   // Single precision has few exponents: the largest number becomes about 1.
   const double largest = *std::max_element(most.begin(), most.end());
   if (!(largest > 0))
-    return Points3::Zero(3, n);
+    return void(vectors.setZero());
   for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i) {
-      const Vec3 scaled = scale_[i] / largest * column(right, i);
+      const Vec3 scaled = scale_[i] / largest * column(vectors, i);
       top[i] = Float4{static_cast<float>(scaled.x), static_cast<float>(scaled.y),
                       static_cast<float>(scaled.z), 0};
     }
@@ -346,9 +346,9 @@ Points3 Multigrid::solve(Points3 right) {
   const Vectors& solved = levels_.empty() ? coarsest_ : levels_.front().x;
   for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i)
-      set_column(right, i, (scale_[i] * largest) * Vec3{solved[i][0], solved[i][1], solved[i][2]});
+      set_column(vectors, i,
+                 (scale_[i] * largest) * Vec3{solved[i][0], solved[i][1], solved[i][2]});
   });
-  return right;
 }
 
 /// From a level's right side to its x.

@@ -27,8 +27,8 @@ class Multigrid {
 public:
   explicit Multigrid(Laplacian matrix);
 
-  /// The cycle for the three coordinates at once, 3 x n.
-  Points3 solve(Points3 right);
+  /// The cycle for the three coordinates at once, 3 x n: replaces right sides by solutions.
+  void solve(Points3& vectors);
 
 private:
   using Vectors = Array<Float4>;

@@ -101,22 +101,21 @@ PlanarCells::Pull PlanarCells::pull(const Vec3& x, const CellMoments& cell) {
           mass};
 }
 
-Points3 PlanarCells::retract(const Points3& x, double step, const Points3& d) const {
-  Points3 result(3, x.cols());
+void PlanarCells::retract(const Points3& x, double step, const Points3& d, Points3& to) const {
+  to.resize(3, x.cols());
   for_each_block(x.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i) {
       const Vec3& from = column(x, i);
-      const Vec3 to = from + step * column(d, i);
-      set_column(result, i, to);
-      if (!outline_ || outline_->side({to.x, to.y}) != Side::outside)
+      const Vec3 there = from + step * column(d, i);
+      set_column(to, i, there);
+      if (!outline_ || outline_->side({there.x, there.y}) != Side::outside)
         continue;
       const Vec2 inside =
-          nearest_inside(*outline_, {from.x, from.y}, {to.x - from.x, to.y - from.y})
+          nearest_inside(*outline_, {from.x, from.y}, {there.x - from.x, there.y - from.y})
               .value_or(Vec2{0, 0});
-      set_column(result, i, from + Vec3{inside.x, inside.y, 0});
+      set_column(to, i, from + Vec3{inside.x, inside.y, 0});
     }
   });
-  return result;
 }
 
 Laplacian PlanarCells::laplacian(const Connectivity& mesh, const Density& density) const {

@@ -67,7 +67,7 @@ public:
   static Pull pull(const Vec3& x, const CellMoments& cell);
 
   /// Moves generators that would leave the domain to the nearest place inside.
-  Points3 retract(const Points3& x, double step, const Points3& d) const;
+  void retract(const Points3& x, double step, const Points3& d, Points3& to) const;
   static void make_tangential(Points3&, const Points3&) {} ///< all motions are
   Laplacian laplacian(const Connectivity& mesh, const Density& density) const;
 

@@ -189,20 +189,20 @@ void RegionCells::integrate(const Integrand& integrand, const Patch& patch, cons
                               suspects);
 }
 
-Points3 RegionCells::retract(const Points3& x, double step, const Points3& d) const {
-  Points3 result = SphericalCells::retract(x, step, d);
+void RegionCells::retract(const Points3& x, double step, const Points3& d, Points3& to) const {
+  SphericalCells::retract(x, step, d, to);
   for_each_block(x.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i) {
-      if (outline_->side(column(result, i)) == Side::inside)
+      if (outline_->side(column(to, i)) == Side::inside)
         continue;
       const TangentPlane plane(column(x, i));
       const TangentShore shore(*outline_, plane);
-      const Vec2 to = plane.projected(column(result, i));
-      const Vec3 inside = plane.lifted(nearest_inside(shore, Vec2{0, 0}, to).value_or(Vec2{0, 0}));
-      set_column(result, i, (1 / norm(inside)) * inside);
+      const Vec2 there = plane.projected(column(to, i));
+      const Vec3 inside =
+          plane.lifted(nearest_inside(shore, Vec2{0, 0}, there).value_or(Vec2{0, 0}));
+      set_column(to, i, (1 / norm(inside)) * inside);
     }
   });
-  return result;
 }
 
 Laplacian RegionCells::laplacian(const Connectivity& mesh, const Density& density) const {

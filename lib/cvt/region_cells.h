@@ -71,7 +71,7 @@ public:
   static Pull pull(const Vec3& x, const CellMoments& cell) { return SphericalCells::pull(x, cell); }
 
   /// Moves generators that would leave the region to the nearest place inside.
-  Points3 retract(const Points3& x, double step, const Points3& d) const;
+  void retract(const Points3& x, double step, const Points3& d, Points3& to) const;
   static void make_tangential(Points3& vectors, const Points3& x) {
     SphericalCells::make_tangential(vectors, x);
   }

@@ -19,8 +19,8 @@ SphericalCells::Pull SphericalCells::pull(const Vec3& x, const CellMoments& cell
   return {(1 / length) * cell.first, -2 * tangent, length};
 }
 
-Points3 SphericalCells::retract(const Points3& x, double step, const Points3& d) {
-  return base_detail::retract(x, step, d);
+void SphericalCells::retract(const Points3& x, double step, const Points3& d, Points3& to) {
+  base_detail::retract(x, step, d, to);
 }
 
 void SphericalCells::make_tangential(Points3& vectors, const Points3& x) {

@@ -7,7 +7,9 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 using namespace calotte;
 using namespace calotte::base_detail;
@@ -18,14 +20,32 @@ TEST_CASE("compact fields err by single precision, whatever the scale of the vec
     const Points3 vectors = scale * a;
     const CompactField field = compacted(vectors, inner(vectors, vectors));
     CHECK((expanded(field) - vectors).cwiseAbs().maxCoeff() < 1e-7 * scale);
-    CHECK(inner(field, b) == doctest::Approx(inner(vectors, b)).epsilon(1e-5));
-    Points3 sum = scale * b, expected = scale * b;
     const CompactField other = compacted(b, inner(b, b));
-    const double product = inner_of_sum(sum, -2, field, other);
-    expected -= 2 * vectors;
-    CHECK((sum - expected).cwiseAbs().maxCoeff() < 1e-6 * scale);
-    CHECK(product == doctest::Approx(inner(expected, b)).epsilon(1e-5));
+    const auto near = [&](double product, const Points3& x, const Points3& y) {
+      return product == doctest::Approx(inner(x, y)).epsilon(1e-5);
+    };
+    const std::vector<CompactField> both{field, other};
+    const std::vector<double> products = inner_of_each(both, b);
+    CHECK(near(products[0], vectors, b));
+    CHECK(near(products[1], b, b));
+    CHECK(near(inner_of_each(both, other)[0], vectors, b));
+    CHECK(near(inner(other, field), b, vectors));
+    Points3 sum = b;
+    set_sum(sum, -scale, sum, std::vector<double>{2, scale}, both);
+    CHECK((sum - 2 * vectors).cwiseAbs().maxCoeff() < 1e-6 * scale);
+    CompactField difference;
+    const double square = set_difference(vectors, scale * b, scale, difference);
+    const Points3 exact = vectors - scale * b;
+    CHECK((expanded(difference) - exact).cwiseAbs().maxCoeff() < 1e-6 * scale);
+    CHECK(near(square, exact, exact));
   }
+}
+
+TEST_CASE("a square over weights") {
+  const Points3 a = random_sphere(5000); // unit vectors
+  Array<double> weights(5000);
+  std::fill(weights.begin(), weights.end(), 4);
+  CHECK(square_over(compacted(a, 5000), weights) == doctest::Approx(1250).epsilon(1e-6));
 }
 
 TEST_CASE("compact fields of zeros, and of no vectors, stay so") {
@@ -37,7 +57,8 @@ TEST_CASE("compact fields of zeros, and of no vectors, stay so") {
 TEST_CASE("sums over compact fields have the same bits for any number of threads") {
   const Points3 a = random_sphere(20000), b = random_sphere(20000, 2);
   const CompactField field = compacted(a, inner(a, a));
-  const double here = inner(field, b);
+  const std::vector<CompactField> both{field, compacted(b, inner(b, b))};
+  const std::vector<double> here = inner_of_each(both, b);
   for (const int threads : {1, 2, 4})
-    CHECK(tbb::task_arena(threads).execute([&] { return inner(field, b); }) == here);
+    CHECK(tbb::task_arena(threads).execute([&] { return inner_of_each(both, b); }) == here);
 }
