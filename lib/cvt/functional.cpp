@@ -20,6 +20,13 @@
 namespace calotte::cvt_detail {
 namespace {
 
+/// What one generator adds to an evaluation's sums.
+struct SiteTerms {
+  double energy;
+  double square; ///< of its distance from its centroid
+  double slope;  ///< of its gradient, squared
+};
+
 /// Sums over blocks of sites, added in the order of the blocks: the same for any number of threads.
 void add_sums(const Array<SiteTerms>& terms, CvtIteration& iteration) {
   const std::int64_t n = terms.size();
@@ -49,10 +56,10 @@ void add_sums(const Array<SiteTerms>& terms, CvtIteration& iteration) {
 /// Evaluates one generator; the energy is NaN if its cell has no mass.
 template <class Cells>
 void evaluate_site(const Vec3& x, const CellMoments& cell, std::int32_t site, bool fixed,
-                   bool with_gradient, Evaluation& out) {
+                   bool with_gradient, Evaluation& out, SiteTerms& terms) {
   typename Cells::Pull pull = Cells::pull(x, cell);
   if (!(pull.mass > 0) || !std::isfinite(pull.mass)) {
-    out.terms[site] = {std::nan(""), 0, 0};
+    terms = {std::nan(""), 0, 0};
     return;
   }
   if (fixed) {
@@ -61,7 +68,7 @@ void evaluate_site(const Vec3& x, const CellMoments& cell, std::int32_t site, bo
   }
   const Vec3 apart = pull.centroid - x;
   set_column(out.centroids, site, pull.centroid);
-  out.terms[site] = {cell.energy, dot(apart, apart), dot(pull.gradient, pull.gradient)};
+  terms = {cell.energy, dot(apart, apart), dot(pull.gradient, pull.gradient)};
   if (with_gradient) {
     set_column(out.gradient, site, pull.gradient);
     out.mass[site] = pull.mass;
@@ -70,10 +77,8 @@ void evaluate_site(const Vec3& x, const CellMoments& cell, std::int32_t site, bo
 
 void make_room(Evaluation& out, Eigen::Index n, bool with_gradient) {
   using base_detail::make_room;
-  if (out.terms.size() != n) {
+  if (out.centroids.cols() != n)
     make_room(out.centroids, 3, n);
-    out.terms = Array<SiteTerms>(n);
-  }
   if (with_gradient && out.mass.size() != n) {
     make_room(out.gradient, 3, n);
     out.mass = Array<double>(n);
@@ -134,6 +139,7 @@ private:
   double penalty_ = 0;              ///< factor of the penalty of shape.h
   double demanded_spacing_ = 1;     ///< at rho = 1
   std::vector<std::uint8_t> fixed_; ///< by generator, or empty
+  Array<SiteTerms> terms_;          ///< of the last evaluation
 };
 
 /// Frees the memory of `out` before sorting and triangulating, which need most of the memory.
@@ -144,6 +150,7 @@ Effort FunctionalOver<Cells>::integrate(const Points3& points, const Integrand& 
   tessellation_.move(points);
   if (tessellation_.drifted()) {
     out = {};
+    terms_ = {};
     tessellation_.divide();
   }
   bool turned = false; // a second time, flips have not sufficed
@@ -155,6 +162,7 @@ Effort FunctionalOver<Cells>::integrate(const Points3& points, const Integrand& 
     if (!again && tessellation_.mend(faults, effort))
       return;
     out = {};
+    terms_ = {};
     tessellation_.rebuild(effort);
   };
   const auto receive = [&](const Patch& patch, const Array<Vec3>&,
@@ -163,10 +171,12 @@ Effort FunctionalOver<Cells>::integrate(const Points3& points, const Integrand& 
       if (const std::int32_t site = patch.sites[static_cast<std::size_t>(i)];
           site < points.cols()) // the others hold a plane's hull
         evaluate_site<Cells>(column(points, site), moments[i], site, is_fixed(site), with_gradient,
-                             out);
+                             out, terms_[site]);
   };
   const auto integrate_all = [&] {
     make_room(out, points.cols(), with_gradient);
+    if (terms_.size() != points.cols())
+      terms_ = Array<SiteTerms>(points.cols());
     return tessellation_.integrate(integrand, receive, effort);
   };
   if (tessellation_.restless())
@@ -192,7 +202,7 @@ void FunctionalOver<Cells>::evaluate(const Points3& points, bool final_rule, boo
   iteration.seconds_exchange = effort.seconds_exchange;
   iteration.seconds_repair = effort.seconds_repair;
   iteration.seconds_moments = effort.seconds_moments;
-  add_sums(out.terms, iteration);
+  add_sums(terms_, iteration);
   if (!std::isfinite(iteration.energy))
     throw Error(ErrorCode::bad_option, "the density is zero over a whole cell, or beyond 1e150: "
                                        "make it positive everywhere, and smaller");
@@ -209,7 +219,7 @@ void FunctionalOver<Cells>::add_penalty(const Points3& points, Evaluation& out) 
                                            tessellation_.distorted(inverse_spacing),
                                            inverse_spacing, penalty_, out.gradient);
   make_tangential(out.gradient, points);
-  count_displaced(out.terms, inverse_spacing, out.iteration);
+  count_displaced(terms_, inverse_spacing, out.iteration);
   out.penalty = penalty_ * terms.value;
   out.iteration.misshapen = terms.worst;
 }

@@ -17,21 +17,13 @@
 
 namespace calotte::cvt_detail {
 
-/// What one generator adds to an evaluation's sums.
-struct SiteTerms {
-  double energy;
-  double square; ///< of its distance from its centroid
-  double slope;  ///< of its gradient, squared
-};
-
 /// The CVT energy E of n generators x, with its derivatives.
 struct Evaluation {
   CvtIteration iteration; ///< energy, norms, effort
   Points3 centroids;      ///< Lloyd's map, 3 x n
   Points3 gradient;       ///< dE/dx, tangential; set on request
   Array<double> mass;     ///< the cells' masses up to a factor h^2; set with the gradient
-  Array<SiteTerms> terms;
-  double penalty = 0; ///< for the shapes of a finish; the gradient includes it
+  double penalty = 0;     ///< for the shapes of a finish; the gradient includes it
 
   /// What the steps of a descent lower.
   double value() const { return iteration.energy + penalty; }
