@@ -775,7 +775,7 @@ TEST_CASE("the spacings of a CVT follow the widths of a raster") {
   const Density density = density_of(width);
   const Cvt grid =
       spherical_cvt(random_sphere(cells, site_density(density)),
-                    {.density = density, .tolerance = 1e-2, .rule = 3, .final_rule = 3});
+                    {.density = density, .tolerance = 1e-3, .rule = 3, .final_rule = 3});
   std::vector<double> ratios;
   const Eigen::VectorXd asked = evaluate(width, grid.mesh.points);
   for (Eigen::Index t = 0; t < grid.mesh.triangles.cols(); ++t)

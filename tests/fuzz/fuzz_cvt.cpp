@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bytes.h"
+
+#include <calotte/check.h>
+#include <calotte/cvt.h>
+#include <calotte/error.h>
+
+using namespace calotte;
+using calotte::fuzz::require;
+
+/// Three iterations of a CVT of the sphere: the energy falls, and the mesh is exact.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  fuzz::Bytes bytes(data, size);
+  CvtOptions options;
+  options.max_iterations = 3;
+  options.method = static_cast<Method>(bytes.integer(0, 3));
+  if (bytes.integer(0, 1) == 1)
+    options.density = tanh_bump({bytes.number(), bytes.number(), bytes.number()}, bytes.number(),
+                                bytes.number(), bytes.number());
+  const Points3 points = bytes.columns(3, 200);
+  try {
+    const Cvt result = spherical_cvt(points, options);
+    require(check(result.mesh).passed());
+    const CvtIteration* before = nullptr;
+    for (const CvtIteration& iteration : result.report.iterations)
+      if (iteration.accepted) {
+        if (before != nullptr && before->rule == iteration.rule)
+          require(iteration.energy <= before->energy * (1 + 1e-9));
+        before = &iteration;
+      }
+  } catch (const Error& error) {
+    require(error.code() != ErrorCode::internal);
+  }
+  return 0;
+}

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bytes.h"
+
+#include <calotte/check.h>
+#include <calotte/delaunay.h>
+#include <calotte/error.h>
+
+using namespace calotte;
+using calotte::fuzz::require;
+
+namespace {
+
+/// The same mesh for any number of regions, and one that check() proves.
+template <class Triangulate> void check_laws(const Triangulate& triangulate, int regions) {
+  try {
+    const PlanarMesh mesh = triangulate(1);
+    require(check(mesh).passed());
+    const PlanarMesh other = triangulate(regions);
+    require(mesh.triangles == other.triangles && mesh.neighbours == other.neighbours);
+  } catch (const Error& error) {
+    require(error.code() != ErrorCode::internal);
+  }
+}
+
+} // namespace
+
+/// Triangulations of the plane and of a periodic box.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  fuzz::Bytes bytes(data, size);
+  const int regions = bytes.integer(2, 40);
+  const bool periodic = bytes.integer(0, 1) == 1;
+  const Eigen::Vector2d period(std::abs(bytes.number()), std::abs(bytes.number()));
+  const Points2 places = bytes.columns(2, 300);
+  check_laws(
+      [&](int count) {
+        const DelaunayOptions options{.partition = {.regions = count}};
+        return periodic ? periodic_delaunay(places, period, options)
+                        : planar_delaunay(places, options);
+      },
+      regions);
+  return 0;
+}
