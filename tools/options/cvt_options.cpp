@@ -172,7 +172,8 @@ void add_files(CLI::App& command, CvtRequest& request) {
   command
       .add_option("--keep-every", request.keep_every,
                   "Keep the triangles after every N evaluations, >= 1, beside the output: of "
-                  "grid.nc as grid.000010.vtp and so on. calotte view --history shows them")
+                  "grid.nc as grid.000010.vtp and so on, in a periodic box as grid.000010.nc. "
+                  "calotte view --history shows them")
       ->transform(whole_number(1, std::numeric_limits<int>::max()));
   command
       .add_option("--checkpoint", request.checkpoint,

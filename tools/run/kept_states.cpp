@@ -5,6 +5,7 @@
 #include <calotte/write.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 namespace calotte::tools {
@@ -12,11 +13,26 @@ namespace {
 
 constexpr std::size_t digits = 6;
 
-/// "out/grid.000010.vtp".
-std::filesystem::path path_of(const std::string& mesh, std::size_t evaluation) {
+bool is_periodic(const std::optional<PlanarDomain>& domain) { return domain && domain->periodic(); }
+
+/// "out/grid.000010.vtp"; a periodic box requires ".nc", which holds its periods.
+std::filesystem::path path_of(const std::string& mesh, std::size_t evaluation, bool periodic) {
   const std::string number = std::to_string(evaluation);
   return std::filesystem::path(mesh).replace_extension(
-      std::string(digits - std::min(digits, number.size()), '0') + number + ".vtp");
+      std::string(digits - std::min(digits, number.size()), '0') + number +
+      (periodic ? ".nc" : ".vtp"));
+}
+
+/// The copies in the box of points that may have left it.
+Points2 in_box(Points2 points, const Eigen::Vector2d& period) {
+  for (Eigen::Index i = 0; i < points.cols(); ++i)
+    for (Eigen::Index k = 0; k < 2; ++k) {
+      double& x = points(k, i);
+      x -= std::floor(x / period[k]) * period[k];
+      if (!(x >= 0 && x < period[k])) // after rounding
+        x = 0;
+    }
+  return points;
 }
 
 } // namespace
@@ -26,7 +42,8 @@ KeptStates::KeptStates(const CvtRequest& request, const std::optional<PlanarDoma
     : mesh_(request.mesh), domain_(domain),
       every_(static_cast<std::size_t>(request.keep_every.value_or(0))), last_(before) {
   for (std::size_t k = 1; every_ > 0 && k <= before; ++k)
-    if (const std::filesystem::path path = path_of(mesh_, k); std::filesystem::exists(path))
+    if (const std::filesystem::path path = path_of(mesh_, k, is_periodic(domain_));
+        std::filesystem::exists(path))
       states_.push_back({static_cast<std::int64_t>(k), path.filename()});
 }
 
@@ -36,12 +53,13 @@ bool KeptStates::due(const CvtReport& report) const {
 
 void KeptStates::keep(const CvtState& state) {
   last_ = state.report().iterations.size();
-  const std::filesystem::path path = path_of(mesh_, last_);
+  const std::filesystem::path path = path_of(mesh_, last_, is_periodic(domain_));
   const Points3 points = state.points();
   if (!domain_)
     write(path, spherical_delaunay(points));
   else if (domain_->periodic())
-    write(path, periodic_delaunay(points.topRows<2>(), domain_->period));
+    write(path, periodic_delaunay(in_box(points.topRows<2>(), domain_->period), domain_->period),
+          {.format = Format::mpas_minimal});
   else
     write(path, planar_delaunay(points.topRows<2>()));
   states_.push_back({static_cast<std::int64_t>(last_), path.filename()});

@@ -19,7 +19,7 @@ struct KeptState {
 };
 
 /// Writes the triangles of a run's generators after every N evaluations: of "grid.nc" the files
-/// "grid.000010.vtp", "grid.000020.vtp" and so on.
+/// "grid.000010.vtp", "grid.000020.vtp" and so on; in a periodic box "grid.000010.nc" and so on.
 class KeptStates {
 public:
   /// \param before evaluations of the earlier parts of a resumed run, whose files are listed, too.
