@@ -197,11 +197,12 @@ std::vector<Quantity> quantities_of(const Polygons& cells, const Unit& unit) {
 }
 
 Quantity quantity_of(const MeshField& field) {
-  Quantity quantity{.name = "field:" + field.name,
+  const bool on_triangles = field.location == Location::vertices;
+  Quantity quantity{.name = (on_triangles ? "triangle_field:" : "field:") + field.name,
                     .label = field.name,
                     .unit = field.units,
                     .help = field.long_name.empty() ? "A field of the file." : field.long_name,
-                    .on_triangles = field.location == Location::vertices,
+                    .on_triangles = on_triangles,
                     .values = field.values};
   quantity.classes = are_classes(field.values);
   summarise(quantity);

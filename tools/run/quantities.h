@@ -19,7 +19,8 @@ enum class Worst { none, low, high, far_from_reference };
 
 /// A number for each cell or triangle.
 struct Quantity {
-  std::string name = {};  ///< a word, such as "dc_h_least"; of a file's field "field:" and its name
+  std::string name =
+      {}; ///< a word, such as "dc_h_least"; of a field "field:" or "triangle_field:" and its name
   std::string label = {}; ///< for people
   std::string unit = {};  ///< "" for none
   std::string help = {};  ///< one sentence

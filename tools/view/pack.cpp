@@ -9,6 +9,7 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <string_view>
 
 namespace calotte::tools {
@@ -52,11 +53,24 @@ int bytes_for(std::uint32_t greatest) {
                   (static_cast<int>(std::bit_width(greatest)) + bits_of_byte - 1) / bits_of_byte);
 }
 
+/// Whether single precision has a number, up to its rounding.
+bool fits_float(double number) {
+  using Limits = std::numeric_limits<float>;
+  const double size = std::abs(number);
+  return !std::isfinite(number) || size == 0 ||
+         (size >= Limits::min() && size <= Limits::max() / 2);
+}
+
 /// Rounds the mantissa to 15 bits.
-std::uint32_t shortened(float number) {
+std::uint32_t shortened(double number) {
   constexpr std::uint32_t half = 0x80, dropped = 0xff;
-  const auto word = std::bit_cast<std::uint32_t>(number);
+  const auto word = std::bit_cast<std::uint32_t>(static_cast<float>(number));
   return std::isfinite(number) ? (word + half) & ~dropped : word;
+}
+
+/// The higher half of a double: 20 bits of the mantissa.
+std::uint32_t higher_half(double number) {
+  return static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(number) >> 32U);
 }
 
 } // namespace
@@ -84,12 +98,13 @@ nlohmann::ordered_json Blocks::add(const std::vector<std::int32_t>& numbers, int
   return add(words, bytes_for(greatest), "int", delta);
 }
 
-nlohmann::ordered_json Blocks::add(const std::vector<float>& numbers) {
+nlohmann::ordered_json Blocks::add(const Eigen::VectorXd& numbers) {
+  const bool narrow = std::all_of(numbers.begin(), numbers.end(), fits_float);
   std::vector<std::uint32_t> words;
-  words.reserve(numbers.size());
-  for (const float number : numbers)
-    words.push_back(shortened(number));
-  return add(words, 4, "float", 0);
+  words.reserve(static_cast<std::size_t>(numbers.size()));
+  for (const double number : numbers)
+    words.push_back(narrow ? shortened(number) : higher_half(number));
+  return add(words, 4, narrow ? "float" : "double", 0);
 }
 
 } // namespace calotte::tools

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <Eigen/Core>
 #include <nlohmann/json.hpp>
 
 #include <cstdint>
@@ -13,7 +14,7 @@
 /// all numbers, then the next ones. It is stored in base64. Whole numbers are unsigned, or
 /// differences to the number `delta` places before, zigzag-coded (0, -1, 1, -2, ... as 0, 1, 2, 3).
 /// Other numbers are of single precision with 15 bits of the mantissa, a relative error of at most
-/// 2^-16.
+/// 2^-16; or, where single precision has not their range, the higher half of doubles.
 namespace calotte::tools {
 
 /// The blocks of a page.
@@ -21,7 +22,7 @@ class Blocks {
 public:
   /// \returns the description of the new block for the page's header.
   nlohmann::ordered_json add(const std::vector<std::int32_t>& numbers, int delta);
-  nlohmann::ordered_json add(const std::vector<float>& numbers);
+  nlohmann::ordered_json add(const Eigen::VectorXd& numbers);
 
   const std::vector<std::string>& base64() const { return base64_; }
 

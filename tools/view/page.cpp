@@ -2,6 +2,7 @@
 #include "view/page.h"
 
 #include "draw/coastlines.h"
+#include "options/numbers.h"
 #include "view/pack.h"
 #include "view/page_parts.h"
 
@@ -62,15 +63,33 @@ void add_shapes(const Polygons& shapes, const Grid& grid, Blocks& blocks, Json& 
   json["ring"] = blocks.add({shapes.ids.begin(), shapes.ids.end()}, 1);
 }
 
-Json classes_of(const Quantity& quantity) {
+/// The different finite values, in rising order.
+std::vector<double> classes_of(const Quantity& quantity) {
   std::set<double> values;
   for (const double value : quantity.values)
     if (std::isfinite(value))
       values.insert(value);
-  Json classes = Json::array();
+  return {values.begin(), values.end()};
+}
+
+Json json_of_classes(const std::vector<double>& classes) {
+  Json json = Json::array();
+  for (const double value : classes)
+    json.push_back({{"value", value}, {"label", formatted("%.15g", value)}});
+  return json;
+}
+
+/// The place of each value among the classes; their number where there is no value.
+std::vector<std::int32_t> places_of(const Eigen::VectorXd& values,
+                                    const std::vector<double>& classes) {
+  std::vector<std::int32_t> places;
+  places.reserve(static_cast<std::size_t>(values.size()));
   for (const double value : values)
-    classes.push_back({{"value", value}, {"label", value_text(value, "")}});
-  return classes;
+    places.push_back(static_cast<std::int32_t>(
+        std::isfinite(value)
+            ? std::lower_bound(classes.begin(), classes.end(), value) - classes.begin()
+            : std::ssize(classes)));
+  return places;
 }
 
 std::string word_of(Worst worst) {
@@ -88,15 +107,14 @@ std::string word_of(Worst worst) {
 }
 
 Json add_quantity(const Quantity& quantity, Blocks& blocks) {
-  std::vector<float> values;
-  for (const double value : quantity.values)
-    values.push_back(static_cast<float>(value));
+  const std::vector<double> classes =
+      quantity.classes ? classes_of(quantity) : std::vector<double>();
   return {{"name", quantity.name},
           {"label", quantity.label},
           {"unit", quantity.unit},
           {"help", quantity.help},
           {"on", quantity.on_triangles ? "triangles" : "cells"},
-          {"classes", quantity.classes ? classes_of(quantity) : Json()},
+          {"classes", quantity.classes ? json_of_classes(classes) : Json()},
           {"logarithmic", quantity.logarithmic && quantity.least.value_or(0) > 0},
           {"worst", word_of(quantity.worst)},
           {"reference", quantity.reference},
@@ -104,7 +122,8 @@ Json add_quantity(const Quantity& quantity, Blocks& blocks) {
           {"mean", number_or_null(quantity.mean)},
           {"greatest", number_or_null(quantity.greatest)},
           {"missing", quantity.missing},
-          {"values", blocks.add(values)}};
+          {"values", quantity.classes ? blocks.add(places_of(quantity.values, classes), 0)
+                                      : blocks.add(quantity.values)}};
 }
 
 /// The quantities whose scatter is the spacing law, if the mesh has both.

@@ -200,7 +200,7 @@ export class App extends Emitter {
   }
 }
 
-/** The measures of all meshes, each name once. */
+/** The measures of all meshes, each name once; with classes if it has them in every mesh. */
 function measuresOf(meshes) {
   const found = new Map();
   for (const mesh of meshes) {
@@ -209,8 +209,9 @@ function measuresOf(meshes) {
   return [...found.values()].map((m) => (m.classes ? { ...m, classes: allClasses(meshes, m.name) } : m));
 }
 
-/** The classes of a measure in all meshes, by value. */
+/** The classes of a measure in all meshes, by value; null if one has too many values for classes. */
 function allClasses(meshes, name) {
+  if (meshes.some((mesh) => mesh.measure(name)?.classes === null)) return null;
   const classes = new Map();
   for (const mesh of meshes) {
     for (const c of mesh.measure(name)?.classes ?? []) classes.set(c.value, c);

@@ -29,7 +29,8 @@ function inRanges(columns, ranges, length) {
   set.fill(1);
   ranges.forEach((range, c) => {
     const values = columns[c];
-    const [low, high] = [Math.fround(range.low), Math.fround(range.high)]; // as the values are
+    const rounded = values instanceof Float32Array ? Math.fround : Number; // as the values are
+    const [low, high] = [rounded(range.low), rounded(range.high)];
     for (let i = 0; i < length; i++) if (!(values[i] >= low && values[i] <= high)) set[i] = 0;
   });
   return set;

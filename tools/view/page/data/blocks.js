@@ -5,7 +5,7 @@
 export const canDecode = typeof DecompressionStream === "function";
 
 /**
- * The numbers of a block: Float32Array, or Uint32Array (arithmetic modulo 2^32).
+ * The numbers of a block: Float32Array, Float64Array or Int32Array (arithmetic modulo 2^32).
  * Rejects if the element is missing, the stream is damaged or its length is wrong.
  */
 export async function readBlock(block) {
@@ -18,6 +18,7 @@ export async function readBlock(block) {
   }
   const words = joinPlanes(planes, block.count, block.width);
   if (block.type === "float") return new Float32Array(words.buffer);
+  if (block.type === "double") return fromHigherHalves(words);
   if (block.delta > 0) undoDifferences(words, block.delta);
   return new Int32Array(words.buffer); // may be negative
 }
@@ -44,6 +45,14 @@ function joinPlanes(planes, count, width) {
     for (let i = 0; i < count; i++) words[i] |= planes[start + i] << shift;
   }
   return words;
+}
+
+function fromHigherHalves(words) {
+  const number = new DataView(new ArrayBuffer(8));
+  return Float64Array.from(words, (word) => {
+    number.setUint32(0, word);
+    return number.getFloat64(0);
+  });
 }
 
 /** Number i is a zigzag-coded difference to number i - distance, and to 0 for i < distance. */

@@ -3,7 +3,7 @@
 
 /** For each triangle the mean of its corners; of classes the value that most corners have. */
 export function valuesOnTriangles(values, corners, classes) {
-  const out = new Float32Array(corners.length / 3);
+  const out = new values.constructor(corners.length / 3);
   // corners beyond the cells are copies of sites in a periodic plane; they hold no value of their own
   const at = (id) => (id < values.length ? values[id] : NaN);
   for (let t = 0; t < out.length; t++) {

@@ -115,13 +115,23 @@ export class Mesh {
   /** The values of a measure, or null if the mesh has none of this name. */
   values(name) {
     const measure = this.measure(name);
-    return this.once(`values ${name}`, async () => (measure ? await readBlock(measure.values) : null));
+    return this.once(`values ${name}`, async () => {
+      if (!measure) return null;
+      const numbers = await readBlock(measure.values);
+      return measure.classes ? valuesOfClasses(numbers, measure.classes) : numbers;
+    });
   }
 
   once(key, make) {
     if (!this.promises.has(key)) this.promises.set(key, make());
     return this.promises.get(key);
   }
+}
+
+/** Values from their places among the classes; NaN beyond the last. */
+function valuesOfClasses(places, classes) {
+  const values = [...classes.map((c) => c.value), NaN];
+  return Float64Array.from(places, (place) => values[place]);
 }
 
 /** The frame in which the longer side of the points' box is 2 and its middle 0. */
