@@ -2,6 +2,7 @@
 #include "view/view_mesh.h"
 
 #include <calotte/delaunay.h>
+#include <calotte/error.h>
 
 #include <algorithm>
 #include <cmath>
@@ -89,6 +90,43 @@ std::vector<std::int32_t> kept_cells(const ViewMesh& mesh, std::int64_t most) {
   return kept;
 }
 
+/// Whether the circumcentre of a triangle lies beyond a side without neighbour.
+bool bulges_out(const Mesh& mesh, Eigen::Index t, const std::vector<bool>& left_out) {
+  for (Eigen::Index v = 0; v < 3; ++v) {
+    const std::int32_t across = mesh.neighbours(v, t);
+    if (across >= 0 && !left_out[static_cast<std::size_t>(across)])
+      continue;
+    const Eigen::Vector3d apex = mesh.points.col(mesh.triangles(v, t)),
+                          next = mesh.points.col(mesh.triangles((v + 1) % 3, t)),
+                          last = mesh.points.col(mesh.triangles((v + 2) % 3, t));
+    if ((next - apex).dot(last - apex) < 0) // opposite the side, an obtuse angle
+      return true;
+  }
+  return false;
+}
+
+/// The triangles of an open mesh without those that fill bays of its boundary: cells at them would
+/// reach far beyond the sites.
+Triangles without_bays(const Mesh& mesh) {
+  std::vector<bool> left_out(static_cast<std::size_t>(mesh.triangles.cols()));
+  std::vector<std::int32_t> open(left_out.size());
+  std::iota(open.begin(), open.end(), 0);
+  while (!open.empty()) {
+    const std::int32_t t = open.back();
+    open.pop_back();
+    if (t < 0 || left_out[static_cast<std::size_t>(t)] || !bulges_out(mesh, t, left_out))
+      continue;
+    left_out[static_cast<std::size_t>(t)] = true;
+    for (const std::int32_t across : mesh.neighbours.col(t))
+      open.push_back(across);
+  }
+  Triangles kept(3, std::count(left_out.begin(), left_out.end(), false));
+  for (Eigen::Index t = 0, next = 0; t < mesh.triangles.cols(); ++t)
+    if (!left_out[static_cast<std::size_t>(t)])
+      kept.col(next++) = mesh.triangles.col(t);
+  return kept;
+}
+
 /// The triangulation of the points, its corners by column, although equal columns are one site.
 Triangles triangles_of(const Points3& points) {
   const Mesh mesh = spherical_delaunay(points);
@@ -96,8 +134,21 @@ Triangles triangles_of(const Points3& points) {
   for (auto i = std::ssize(mesh.site_of_input); i-- > 0;)
     column[static_cast<std::size_t>(mesh.site_of_input[static_cast<std::size_t>(i)])] =
         static_cast<std::int32_t>(i);
-  return mesh.triangles.unaryExpr(
+  return without_bays(mesh).unaryExpr(
       [&](std::int32_t site) { return column[static_cast<std::size_t>(site)]; });
+}
+
+/// \throws Error bad_option where so few sites do not fill a periodic box.
+PlanarMesh periodic_triangles(const Points2& places, const Eigen::Vector2d& period) {
+  try {
+    return periodic_delaunay(places, period);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::too_few_sites)
+      throw;
+    throw Error(ErrorCode::bad_option, std::to_string(places.cols()) +
+                                           " cells are too few for the periodic box; give a "
+                                           "greater number to --most-cells");
+  }
 }
 
 } // namespace
@@ -123,7 +174,7 @@ void thin(ViewMesh& mesh, const PlanarDomain& domain, std::int64_t most) {
   } else {
     const Points2 places = points.topRows<2>();
     set_plane(mesh,
-              domain.periodic() ? periodic_delaunay(places, domain.period)
+              domain.periodic() ? periodic_triangles(places, domain.period)
                                 : planar_delaunay(places),
               domain);
   }
