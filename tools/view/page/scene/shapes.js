@@ -9,7 +9,7 @@ import { cross, dot, normalise } from "../data/vector.js";
 import { PolygonTopology, starts, TriangleTopology } from "../data/topology.js";
 
 /** The longest ring that is drawn. */
-export const longestRing = 256;
+export const longestRing = 8192;
 
 /** The shapes of a mesh. @param kind "cells" or "triangles". */
 export function shapesOf(mesh, kind) {
