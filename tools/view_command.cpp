@@ -66,6 +66,12 @@ void require_request(const Request& request) {
   if (request.plan == !request.source->path.empty())
     refuse(request.plan ? "--plan shows widths before there is a mesh; leave MESH out"
                         : "give a mesh, or --plan and the widths of a grid");
+  if (request.plan && (!request.fields.empty() || !request.report.empty() || request.units ||
+                       request.source->plane || !request.source->points.empty()))
+    refuse("--plan shows widths on the sphere; leave out --field, --history, --units, --plane and "
+           "--points");
+  if (request.plan && request.sphere_radius && request.density->widths.in_km())
+    refuse("widths in km refer to --earth-radius; give it in place of --sphere-radius");
   if (!request.plan && request.cells)
     refuse("--cells belongs to --plan; leave it out, or give --most-cells");
   if (request.plan && !request.cells && !request.density->widths.in_km())
@@ -92,12 +98,36 @@ std::optional<double> radius_of(const Request& request, const MeshSource& source
                                          : std::nullopt;
 }
 
-ViewMesh read_view_mesh(const Request& request, const MeshSource& source, ViewChoice& choice) {
-  const MeshFile file = read_mesh_file(source, FieldChoice::scalars);
-  choice.radius_km = file.plane ? std::nullopt : radius_of(request, source, file);
-  ViewMesh mesh = view_mesh(file_name(source.path), file, choice);
-  std::cerr << changes_of(source, file);
-  return mesh;
+/// A mesh to show, and the radius of its sphere if it is known.
+struct Input {
+  MeshSource source;
+  MeshFile file;
+  std::optional<double> radius_km;
+};
+
+Input read_input(const Request& request, const MeshSource& source, Progress& progress) {
+  progress.stage("reading " + source.path);
+  Input input{source, read_mesh_file(source, FieldChoice::scalars), std::nullopt};
+  std::cerr << changes_of(source, input.file);
+  if (!input.file.plane)
+    input.radius_km = radius_of(request, source, input.file);
+  return input;
+}
+
+/// The mesh, and the one beside it. A sphere of unknown radius has that of the other, so that both
+/// are measured in the same unit.
+std::vector<Input> read_inputs(const Request& request, Progress& progress) {
+  std::vector<Input> inputs = {read_input(request, *request.source, progress)};
+  if (request.other.empty())
+    return inputs;
+  inputs.push_back(
+      read_input(request, {.path = request.other, .plane = request.source->plane}, progress));
+  if (inputs[0].file.plane.has_value() != inputs[1].file.plane.has_value())
+    refuse(request.other + ": one mesh is of the sphere and one of the plane; view them apart");
+  for (std::size_t k = 0; k < 2; ++k)
+    if (!inputs[k].radius_km)
+      inputs[k].radius_km = inputs[1 - k].radius_km;
+  return inputs;
 }
 
 ViewChoice choice_of(const Request& request) {
@@ -111,21 +141,19 @@ ViewChoice choice_of(const Request& request) {
 View view_of_meshes(const Request& request, Progress& progress) {
   ViewChoice choice = choice_of(request);
   View view;
-  view.title = file_name(request.source->path);
-  progress.stage("reading " + request.source->path);
-  view.meshes.push_back(read_view_mesh(request, *request.source, choice));
-  if (!request.other.empty()) {
-    progress.stage("reading " + request.other);
-    view.meshes.push_back(
-        read_view_mesh(request, {.path = request.other, .plane = request.source->plane}, choice));
-    view.side_by_side = 2;
-    view.title += " and " + file_name(request.other);
-    if (view.meshes[0].on_sphere != view.meshes[1].on_sphere)
-      refuse(request.other + ": one mesh is of the sphere and one of the plane; view them apart");
+  for (const Input& input : read_inputs(request, progress)) {
+    progress.stage("measuring " + input.source.path);
+    choice.radius_km = input.radius_km;
+    view.title += (view.title.empty() ? "" : " and ") + file_name(input.source.path);
+    view.meshes.push_back(view_mesh(file_name(input.source.path), input.file, choice));
   }
-  if (!request.report.empty())
+  view.side_by_side = view.meshes.size();
+  choice.radius_km = view.meshes.front().radius_km;
+  if (!request.report.empty()) {
+    progress.stage("reading " + request.report);
     add_run(view, request.report, std::filesystem::path(request.source->path).parent_path(),
             choice);
+  }
   view.coastlines = view.meshes.front().on_sphere &&
                     shows_coastlines(request.coastlines, view.meshes.front().radius_km);
   return view;

@@ -28,6 +28,9 @@ void add_run(View& view, const std::string& report, const std::string& folder,
       series_of("distance from the centroids / h (largest)", numbers, scaled_linf(history)));
   view.history.push_back(
       series_of("energy over its least value - 1", numbers, energy_excess({history}).front()));
+  ViewMesh& result = view.meshes.front();
+  if (const std::int64_t cells = history.iterations.back().cells; cells != result.total)
+    result.notice += "The history is of a run with " + std::to_string(cells) + " cells. ";
   ViewChoice part = choice;
   part.fields.clear();
   if (!history.states.empty())

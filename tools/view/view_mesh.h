@@ -61,7 +61,7 @@ void thin(ViewMesh& mesh, const PlanarDomain& domain, std::int64_t most);
 void set_plane(ViewMesh& mesh, const PlanarMesh& planar, const PlanarDomain& domain);
 
 /// The spacings that a density prescribes and their gradient, on a regular mesh of the sphere.
-/// \param unit the spacing where the density is 1, in radians; times `unit_km` in km.
+/// \param unit the spacing where the density is 1, radians.
 ViewMesh view_plan(const std::string& name, const Density& density, double unit,
                    std::optional<double> radius_km);
 
