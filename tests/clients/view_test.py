@@ -82,6 +82,8 @@ def foreign_mpas(path, source):
         values[::7] = math.nan
         temperature[:] = values
         data.createVariable("constant", "f8", ("nCells",))[:] = 3.5
+        data.createVariable("codes", "i4", ("nCells",))[:] = 100001 + numpy.arange(cells) % 3
+        data.createVariable("great", "f8", ("nCells",))[:] = numpy.linspace(1e299, 1e300, cells)
         data.createVariable("nothing", "f8", ("nCells",))[:] = math.nan
         data.createVariable("wind", "f8", ("nEdges",))[:] = numpy.arange(edges)
         data.createVariable(HOSTILE, "f8", ("nCells",))[:] = numpy.arange(cells)
@@ -211,11 +213,13 @@ def test_foreign(pages):
     pages.open("foreign", "foreign.nc")
     pages.check_picture("foreign")
     pages.check_cell("foreign.nc", 7)
-    for field in ("temperature", "constant", "nothing", HOSTILE):
+    for field in ("temperature", "constant", "nothing", "codes", "great", HOSTILE):
         pages.browser.run("(calotte.measure(arguments[0]), calotte.frame())", f"field:{field}")
         pages.check_quiet(f"foreign, {field}")
     marked = pages.browser.run("calotte.brush('field:temperature', 0, 1000)")
     check(marked == 2562 - len(range(0, 2562, 7)), f"foreign: {marked} cells with a temperature are marked")
+    check(pages.browser.run("calotte.brush('field:codes', 100002, 100002)") == 2562 // 3, "foreign: codes are not exact")
+    check(0 < pages.browser.run("calotte.brush('field:great', 5e299, 1e300)") < 2562, "foreign: great values")
     check(pages.browser.run("document.querySelectorAll('img').length") == 0, "foreign: a name became markup")
     message = pages.calotte.refusal("view", "foreign.nc", "--field", "wind", "-o", "wind.html")
     check("it is a field at edges" in message, f"foreign: {message}")
@@ -226,6 +230,16 @@ def test_small_and_random(pages):
         pages.open(mesh, mesh)
         pages.check_picture(mesh)
         pages.check_cell(mesh, 5)
+
+
+def test_polygon_of_many_sides(pages):
+    ring = [[30 * math.cos(2 * math.pi * k / 700), 30 * math.sin(2 * math.pi * k / 700)] for k in range(701)]
+    feature = {"type": "Feature", "properties": {"v": 1.5}, "geometry": {"type": "Polygon", "coordinates": [ring]}}
+    pathlib.Path("ring.geojson").write_text(json.dumps({"type": "FeatureCollection", "features": [feature]}))
+    pages.open("ring", "ring.geojson")
+    before = pages.browser.run("calotte.pixels()")["checksum"]
+    pages.browser.asynchronous("calotte.measure('degree')")
+    check(pages.browser.run("calotte.pixels()")["checksum"] != before, "ring: a cell of 700 sides is not drawn")
 
 
 def test_two_and_states(pages):
@@ -270,8 +284,8 @@ def main(path):
     if missing:
         print("chromium, chromium-driver, python3-selenium or python3-netcdf4 is not installed")
         sys.exit(1 if os.environ.get("CALOTTE_CLIENTS") == "required" else SKIPPED)
-    tests = [test_grid, test_limited_area, test_plane, test_periodic, test_foreign, test_small_and_random, test_two_and_states,
-             test_plan, test_keyboard_and_table]
+    tests = [test_grid, test_limited_area, test_plane, test_periodic, test_foreign, test_small_and_random,
+             test_polygon_of_many_sides, test_two_and_states, test_plan, test_keyboard_and_table]
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
         make_meshes(calotte)

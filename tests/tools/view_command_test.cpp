@@ -8,8 +8,10 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 using namespace calotte::test;
@@ -235,6 +237,91 @@ TEST_CASE("two meshes, a plan, and the states of a run") {
   CHECK(plan.measure("gradient")["greatest"].get<double>() < 1e-9);
 }
 
+TEST_CASE("the states of a periodic run are kept in its box") {
+  const Bench bench;
+  make(bench, "cvt --cells 100 --periodic 2,1 --report run.json --keep-every 20 -o box.nc");
+  const Page page = make_page(bench, "box.nc --history run.json");
+  REQUIRE(page.header["history"]["states"].size() > 1);
+  CHECK(page.mesh(1)["name"] == "box.000020.nc");
+  CHECK(page.measure("area", 1)["missing"] == 0);
+  CHECK(page.measure("area", 1)["mean"] == doctest::Approx(0.02));
+}
+
+TEST_CASE("a history of a run with another number of cells has a notice") {
+  const Bench bench;
+  make(bench, "cvt --cells 162 --report run.json -o grid.vtp");
+  make(bench, "cvt --cells 642 -o other.vtp");
+  CHECK(make_page(bench, "grid.vtp --history run.json").mesh()["notice"] == "");
+  CHECK(make_page(bench, "other.vtp --history run.json").mesh()["notice"] ==
+        "The history is of a run with 162 cells. ");
+}
+
+TEST_CASE("two meshes have the same units") {
+  const Bench bench;
+  make(bench, "cvt --cells 642 --sphere-radius earth -o grid.nc");
+  make(bench, "cvt --cells 162 -o plain.vtp");
+  for (const char* const meshes : {"grid.nc plain.vtp", "plain.vtp grid.nc"}) {
+    const Page page = make_page(bench, meshes);
+    for (std::size_t k = 0; k < 2; ++k) {
+      CHECK(page.measure("spacing", k)["unit"] == "km");
+      CHECK(page.measure("area", k)["mean"].get<double>() * page.mesh(k)["cells"].get<double>() ==
+            doctest::Approx(4 * 3.14159265 * 6371.229 * 6371.229).epsilon(1e-4));
+    }
+  }
+}
+
+TEST_CASE("fields of great and tiny values, and of great codes") {
+  const Bench bench;
+  std::string features;
+  const char* const values[] = {"1e300,\"code\":100001", "-2.5e-300,\"code\":2000000003",
+                                "null,\"code\":100002"};
+  for (int k = 0; k < 3; ++k) {
+    const std::string x = std::to_string(10 * k), y = std::to_string(10 * k + 8);
+    features += std::string(k > 0 ? "," : "") + R"({"type":"Feature","properties":{"v":)" +
+                values[k] + R"(},"geometry":{"type":"Polygon","coordinates":[[[)" + x + ",0],[" +
+                y + ",0],[" + y + ",8],[" + x + ",8],[" + x + ",0]]]}}";
+  }
+  bench.file("cells.geojson", R"({"type":"FeatureCollection","features":[)" + features + "]}");
+  const Page page = make_page(bench, "cells.geojson");
+  const json& block = page.measure("field:v")["values"];
+  CHECK(block["type"] == "double");
+  const std::vector<std::uint32_t> halves = page.words(block);
+  const auto number = [&](std::size_t i) {
+    return std::bit_cast<double>(std::uint64_t{halves[i]} << 32U);
+  };
+  CHECK(number(0) == doctest::Approx(1e300).epsilon(1e-5));
+  CHECK(number(1) / -2.5e-300 == doctest::Approx(1).epsilon(1e-5));
+  CHECK(std::isnan(number(2)));
+  const json& codes = page.measure("field:code");
+  REQUIRE(codes["classes"].size() == 3);
+  CHECK(codes["classes"][1]["label"] == "100002");
+  CHECK(page.integers(codes["values"]) == std::vector<std::int32_t>{0, 2, 1});
+}
+
+TEST_CASE("a thinned open mesh does not reach beyond its sites") {
+  const Bench bench;
+  make(bench, "cvt --region circle=-105,40,1000km --cell-width 60km --limited-area -o area.nc");
+  const Page page = make_page(bench, "area.nc --most-cells 100");
+  const auto sites = places(page, page.mesh(), page.mesh()["points"]);
+  const std::vector<std::int32_t> ids = page.integers(page.mesh()["triangles"]);
+  std::map<std::pair<std::int32_t, std::int32_t>, std::size_t> opposite; // of each directed side
+  for (std::size_t k = 0; k < ids.size(); ++k) {
+    const std::size_t t = k / 3 * 3;
+    opposite[{ids[t + (k + 1) % 3], ids[t + (k + 2) % 3]}] = k;
+  }
+  for (const auto& [side, k] : opposite) {
+    if (opposite.contains({side.second, side.first}))
+      continue;
+    double product = 0; // of the arms at the corner opposite a side of the boundary
+    for (std::size_t d = 0; d < 3; ++d) {
+      const double apex = sites[static_cast<std::size_t>(ids[k])][d];
+      product += (sites[static_cast<std::size_t>(side.first)][d] - apex) *
+                 (sites[static_cast<std::size_t>(side.second)][d] - apex);
+    }
+    CHECK(product > -1e-9);
+  }
+}
+
 TEST_CASE("names from files are data, never markup") {
   const Bench bench;
   make(bench, "cvt --cells 42 -o grid.vtu");
@@ -259,6 +346,13 @@ TEST_CASE("bad input of view is one line") {
                 "--plan shows widths before there is a mesh; leave MESH out");
   check_refusal(bench, "view --plan", 2,
                 "a density has no unit; give --cells N, or widths in km (--cell-width 60km)");
+  check_refusal(bench, "view --plan --cell-width 60km --field nope", 2,
+                "--plan shows widths on the sphere; leave out --field, --history, --units, --plane "
+                "and --points");
+  check_refusal(bench, "view --plan --cell-width 60km --sphere-radius earth", 2,
+                "widths in km refer to --earth-radius; give it in place of --sphere-radius");
+  make(bench, "cvt --cells 100 --periodic 2,1 -o box.nc");
+  check_refusal_naming(bench, "view box.nc --most-cells 12", 2, "--most-cells");
   check_refusal(bench, "view grid.vtp -o grid.vtp", 2,
                 "grid.vtp is both input and output; give the output another name");
   check_refusal(bench, "view grid.vtp --field nope", 2,
