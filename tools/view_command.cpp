@@ -108,7 +108,6 @@ struct Input {
 Input read_input(const Request& request, const MeshSource& source, Progress& progress) {
   progress.stage("reading " + source.path);
   Input input{source, read_mesh_file(source, FieldChoice::scalars), std::nullopt};
-  std::cerr << changes_of(source, input.file);
   if (!input.file.plane)
     input.radius_km = radius_of(request, source, input.file);
   return input;
@@ -146,6 +145,7 @@ View view_of_meshes(const Request& request, Progress& progress) {
     choice.radius_km = input.radius_km;
     view.title += (view.title.empty() ? "" : " and ") + file_name(input.source.path);
     view.meshes.push_back(view_mesh(file_name(input.source.path), input.file, choice));
+    std::cerr << changes_of(input.source, input.file);
   }
   view.side_by_side = view.meshes.size();
   choice.radius_km = view.meshes.front().radius_km;
