@@ -195,7 +195,8 @@ private:
     bool overflow = false;
     for (const Shape& shape : shapes)
       if (shape.of_records) {
-        overflow |= __builtin_add_overflow(record, padded(shape.bytes), &record);
+        overflow |= shape.bytes > INT64_MAX - 3 ||
+                    __builtin_add_overflow(record, padded(shape.bytes), &record);
         ++record_variables;
       }
     for (std::size_t v = 0; v < extents.size(); ++v) {

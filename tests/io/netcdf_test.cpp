@@ -394,6 +394,26 @@ TEST_CASE("names that occur twice or are no UTF-8, and types that there are not,
         std::string::npos);
 }
 
+TEST_CASE("a record of nearly 2^63 bytes is refused") {
+  const Scratch scratch;
+  const auto word = [](std::uint64_t value, int bytes) {
+    std::string text;
+    while (bytes-- > 0)
+      text += static_cast<char>(value >> static_cast<unsigned>(8 * bytes) & 0xffU);
+    return text;
+  };
+  const std::string name = word(1, 8) + std::string("t\0\0\0", 4), none = word(0, 12),
+                    other = word(1, 8) + std::string("x\0\0\0", 4);
+  std::ofstream(scratch / "a.nc", std::ios::binary)
+      << "CDF\5" << word(1, 8)                                                          // a record
+      << word(10, 4) << word(2, 8) << name << word(0, 8) << other << word(INT64_MAX, 8) // t and x
+      << none << word(11, 4) << word(1, 8) << name << word(2, 8) << word(0, 8)
+      << word(1, 8) // t(t, x)
+      << none << word(1, 4) << word(0, 8) << word(160, 8) << std::string(64, '\0');
+  const Error error = error_of([&] { NetcdfReader reader(scratch / "a.nc"); });
+  CHECK(std::string(error.what()).find("t is incomplete") != std::string::npos);
+}
+
 TEST_CASE("files that others wrote: every classic format, padded headers, records") {
   const Scratch scratch;
   for (const int format : {0, NC_64BIT_OFFSET, NC_64BIT_DATA})
