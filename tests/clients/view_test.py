@@ -255,6 +255,37 @@ def test_two_and_states(pages):
     pages.check_quiet("states")
 
 
+def test_finding(pages):
+    """Cells and places as the page prints them."""
+    pages.open("find", "uniform.nc")
+    for text in ("1764", "1\u202f764", " 1 764 "):
+        pages.browser.run("(document.getElementById('find').value = arguments[0], "
+                          "document.getElementById('find-form').requestSubmit())", text)
+        answer = pages.browser.run("document.getElementById('find-answer').textContent")
+        check(bool(answer) == (text == " 1 764 "), f"find: {text!r}: {answer}")
+    cells = []
+    for text in ("-105 -40", "\u2212105, \u221240", "105.00° W, 40.00° S", "105W 40S"):
+        pages.browser.run("(document.getElementById('find').value = arguments[0], "
+                          "document.getElementById('find-form').requestSubmit())", text)
+        cells.append(pages.browser.asynchronous("calotte.picked()")["cell"])
+    check(len(set(cells)) == 1, f"find: {cells}")
+    for text in ("W", "--5", "5 W E", "°"):
+        pages.browser.run("(document.getElementById('find').value = arguments[0], "
+                          "document.getElementById('find-form').requestSubmit())", text)
+        check(pages.browser.run("document.getElementById('find-answer').textContent"), f"find: {text!r} is taken")
+
+
+def test_thinned_triangles(pages):
+    """The filter of obtuse triangles, where the page has angles of cells only."""
+    pages.open("thinned", "random.vtp", "--most-cells", "500")
+    pages.browser.asynchronous("calotte.measure('area')")
+    pages.browser.asynchronous("calotte.brush('angle', 0, 89)")
+    pages.browser.asynchronous("calotte.shapes('triangles')")
+    before = pages.browser.run("calotte.pixels()")["checksum"]
+    pages.browser.asynchronous("calotte.filter('obtuse')")
+    check(pages.browser.run("calotte.pixels()")["checksum"] != before, "thinned: the filter shows all triangles")
+
+
 def test_plan(pages):
     pages.open("plan", "--plan", "--cells", "40962", "--density", X8)
     pages.check_picture("plan")
@@ -285,7 +316,8 @@ def main(path):
         print("chromium, chromium-driver, python3-selenium or python3-netcdf4 is not installed")
         sys.exit(1 if os.environ.get("CALOTTE_CLIENTS") == "required" else SKIPPED)
     tests = [test_grid, test_limited_area, test_plane, test_periodic, test_foreign, test_small_and_random,
-             test_polygon_of_many_sides, test_two_and_states, test_plan, test_keyboard_and_table]
+             test_polygon_of_many_sides, test_two_and_states, test_finding,
+             test_thinned_triangles, test_plan, test_keyboard_and_table]
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
         make_meshes(calotte)

@@ -9,25 +9,16 @@
 #include <utility>
 
 namespace calotte::tools {
-namespace {
-
-/// The number of each evaluation, for those with a value.
-ViewSeries series_of(std::string label, const std::vector<double>& x, std::vector<double> y) {
-  return {std::move(label), x, std::move(y), true};
-}
-
-} // namespace
 
 void add_run(View& view, const std::string& report, const std::string& folder,
              const ViewChoice& choice) {
   const History history = read_history(report);
   const std::vector<double> numbers = evaluation_numbers(history);
+  view.history.push_back({"distance from the centroids / h (rms)", numbers, scaled_l2(history)});
   view.history.push_back(
-      series_of("distance from the centroids / h (rms)", numbers, scaled_l2(history)));
+      {"distance from the centroids / h (largest)", numbers, scaled_linf(history)});
   view.history.push_back(
-      series_of("distance from the centroids / h (largest)", numbers, scaled_linf(history)));
-  view.history.push_back(
-      series_of("energy over its least value - 1", numbers, energy_excess({history}).front()));
+      {"energy over its least value - 1", numbers, energy_excess({history}).front()});
   ViewMesh& result = view.meshes.front();
   if (const std::int64_t cells = history.iterations.back().cells; cells != result.total)
     result.notice += "The history is of a run with " + std::to_string(cells) + " cells. ";

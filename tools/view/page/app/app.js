@@ -189,7 +189,9 @@ export class App extends Emitter {
     this.state = Math.max(0, Math.min(states.length, k));
     const mesh = this.meshes[states[this.state]?.mesh ?? this.header.views[0]];
     if (mesh === this.shown[0]) return;
+    const wanted = this.state;
     await mesh.load(this.frame);
+    if (this.state !== wanted) return; // another state was chosen meanwhile
     this.shown = [mesh, ...this.shown.slice(1)];
     this.marks = null;
     if (this.picked && this.picked.cells[0] >= mesh.cells) this.picked = null;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /** Which shapes a filter lets through. */
-import { marksOnTriangles } from "../data/convert.js";
+import { marksOnCells, marksOnTriangles } from "../data/convert.js";
 import { topologyOf } from "../scene/shapes.js";
 
 const rightAngle = 90;
@@ -26,9 +26,16 @@ export async function filterMask(mesh, filter, shapes, marks) {
   return filter === "marked" ? marks : null;
 }
 
+/** By the angles of these shapes; where the mesh has only those of the other kind, by what they touch. */
 async function obtuse(mesh, shapes) {
-  const values = await mesh.values(shapes === "triangles" ? "triangle_angle" : "angle");
-  return values ? Uint8Array.from(values, (angle) => (angle > rightAngle ? 1 : 0)) : null;
+  const names = { triangles: "triangle_angle", cells: "angle" };
+  const on = mesh.measure(names[shapes]) ? shapes : shapes === "cells" ? "triangles" : "cells";
+  const values = await mesh.values(names[on]);
+  if (!values) return null;
+  const mask = Uint8Array.from(values, (angle) => (angle > rightAngle ? 1 : 0));
+  if (on === shapes) return mask;
+  const corners = await mesh.connectivity();
+  return shapes === "triangles" ? marksOnTriangles(mask, corners) : marksOnCells(mask, corners, mesh.cells);
 }
 
 async function pairs(mesh, shapes) {

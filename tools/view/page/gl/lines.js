@@ -62,4 +62,10 @@ export class Lines {
     gl.bindVertexArray(null);
     gl.disable(gl.BLEND);
   }
+
+  dispose() {
+    const { gl } = this;
+    gl.deleteVertexArray(this.array);
+    for (const buffer of [this.buffer, this.indices]) gl.deleteBuffer(buffer);
+  }
 }

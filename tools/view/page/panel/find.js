@@ -7,6 +7,18 @@ import { byId } from "./dom.js";
 /** ms that an answer stays. */
 const answerTime = 6000;
 
+/** A direction or a degree sign after a number, as in 12.34° W. */
+const direction = /^(.*?)°?([NSEW]?)$/i;
+
+/** Numbers of a text, also as the page prints them; NaN where there is something else. */
+function numbersOf(text) {
+  const plain = text.replace(/\u202f/g, "").replace(/\u2212/g, "-").replace(/\s*°\s*|\s+(?=[NSEW]\b)/gi, "");
+  return plain.split(/[\s,;]+/).filter(Boolean).map((word) => {
+    const [, digits, side] = direction.exec(word);
+    return digits ? Number(digits) * (/[SW]/i.test(side) ? -1 : 1) : NaN;
+  });
+}
+
 export class Find {
   constructor(app, stage, selection) {
     Object.assign(this, { app, stage, selection });
@@ -21,7 +33,7 @@ export class Find {
   }
 
   find(text) {
-    const numbers = text.trim().split(/[\s,;]+/).filter(Boolean).map(Number);
+    const numbers = numbersOf(text);
     if (!numbers.length || numbers.length > 2 || numbers.some((v) => !Number.isFinite(v))) {
       this.answer("Enter two numbers or one cell index.");
     } else if (numbers.length === 1) {

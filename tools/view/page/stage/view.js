@@ -59,6 +59,7 @@ export class View {
     }
     const { shapes } = await this.setOf(kind);
     await shapes.prepare();
+    if (this.disposed) return;
     const ring = outline(shapes, id);
     const centre = shapes.centre(id, [0, 0, 0]);
     lines.set(ring.length ? [[...ring, ring[0]]] : [], centre);
@@ -108,6 +109,7 @@ export class View {
 
   dispose() {
     for (const layer of Object.values(this.layers)) layer.dispose();
-    this.dots.dispose();
+    for (const part of [this.dots, this.outline, this.triangleOutline]) part.dispose();
+    this.disposed = true;
   }
 }
