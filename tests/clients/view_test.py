@@ -277,13 +277,21 @@ def test_finding(pages):
 
 def test_thinned_triangles(pages):
     """The filter of obtuse triangles, where the page has angles of cells only."""
-    pages.open("thinned", "random.vtp", "--most-cells", "500")
-    pages.browser.asynchronous("calotte.measure('area')")
-    pages.browser.asynchronous("calotte.brush('angle', 0, 89)")
+    pages.open("thinned", "uniform.nc", "--most-cells", "500")
     pages.browser.asynchronous("calotte.shapes('triangles')")
     before = pages.browser.run("calotte.pixels()")["checksum"]
     pages.browser.asynchronous("calotte.filter('obtuse')")
     check(pages.browser.run("calotte.pixels()")["checksum"] != before, "thinned: the filter shows all triangles")
+
+
+def test_triangles_beside_polygons(pages):
+    """A mesh without triangles beside one that has them, in all measures and filters."""
+    pages.open("beside", "random.vtp", "ring.geojson")
+    for measure in pages.browser.run("[...document.getElementById('measure').options].map(o => o.value)"):
+        for name in ("obtuse", "pairs", "all"):
+            pages.browser.asynchronous("calotte.measure(arguments[0])", measure)
+            pages.browser.asynchronous("calotte.filter(arguments[0])", name)
+        pages.check_quiet(f"beside, {measure}")
 
 
 def test_plan(pages):
@@ -317,7 +325,7 @@ def main(path):
         sys.exit(1 if os.environ.get("CALOTTE_CLIENTS") == "required" else SKIPPED)
     tests = [test_grid, test_limited_area, test_plane, test_periodic, test_foreign, test_small_and_random,
              test_polygon_of_many_sides, test_two_and_states, test_finding,
-             test_thinned_triangles, test_plan, test_keyboard_and_table]
+             test_thinned_triangles, test_triangles_beside_polygons, test_plan, test_keyboard_and_table]
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
         make_meshes(calotte)

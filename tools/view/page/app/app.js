@@ -153,7 +153,7 @@ export class App extends Emitter {
     const set = this.marks.sets[view];
     if (this.marks.on === this.shapes) return set;
     const mesh = this.shown[view];
-    const corners = await mesh.triangles();
+    const corners = await mesh.connectivity();
     if (!corners) return null;
     return this.shapes === "triangles"
       ? marksOnTriangles(set, corners)
@@ -223,6 +223,6 @@ function allClasses(meshes, name) {
 
 async function valuesOnShapes(mesh, measure, values, shapes) {
   if (!values || measure.on === shapes) return values;
-  const corners = await mesh.triangles();
+  const corners = await mesh.connectivity();
   return corners ? valuesOnTriangles(values, corners, measure.classes) : null;
 }

@@ -35,6 +35,7 @@ async function obtuse(mesh, shapes) {
   const mask = Uint8Array.from(values, (angle) => (angle > rightAngle ? 1 : 0));
   if (on === shapes) return mask;
   const corners = await mesh.connectivity();
+  if (!corners) return null;
   return shapes === "triangles" ? marksOnTriangles(mask, corners) : marksOnCells(mask, corners, mesh.cells);
 }
 
@@ -47,5 +48,7 @@ async function pairs(mesh, shapes) {
     const other = 12 - degrees[i];
     if (topology.neighbours(i).some((j) => degrees[j] === other)) mask[i] = 1;
   }
-  return shapes === "triangles" ? marksOnTriangles(mask, await mesh.triangles()) : mask;
+  if (shapes === "cells") return mask;
+  const corners = await mesh.connectivity();
+  return corners && marksOnTriangles(mask, corners);
 }

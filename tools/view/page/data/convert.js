@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/** Values and marks of cells on triangles, and of triangles on cells. */
+/**
+ * Values and marks of cells on triangles, and of triangles on cells. `corners` are ids of cells, as
+ * connectivity() of a mesh gives them.
+ */
 
 /** For each triangle the mean of its corners; of classes the value that most corners have. */
 export function valuesOnTriangles(values, corners, classes) {
   const out = new values.constructor(corners.length / 3);
-  // corners beyond the cells are copies of sites in a periodic plane; they hold no value of their own
-  const at = (id) => (id < values.length ? values[id] : NaN);
   for (let t = 0; t < out.length; t++) {
-    const a = at(corners[3 * t]), b = at(corners[3 * t + 1]), c = at(corners[3 * t + 2]);
+    const [a, b, c] = [values[corners[3 * t]], values[corners[3 * t + 1]], values[corners[3 * t + 2]]];
     if (classes) out[t] = b === c ? b : a;
     else out[t] = meanOfFinite(a, b, c);
   }
@@ -38,7 +39,7 @@ export function marksOnTriangles(marks, corners) {
 export function marksOnCells(marks, corners, cells) {
   const out = new Uint8Array(cells);
   for (let k = 0; k < corners.length; k++) {
-    if (marks[(k / 3) | 0] && corners[k] < cells) out[corners[k]] = 1;
+    if (marks[(k / 3) | 0]) out[corners[k]] = 1;
   }
   return out;
 }
