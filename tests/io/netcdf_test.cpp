@@ -402,7 +402,7 @@ TEST_CASE("a record of nearly 2^63 bytes is refused") {
       text += static_cast<char>(value >> static_cast<unsigned>(8 * bytes) & 0xffU);
     return text;
   };
-  const std::string name = word(1, 8) + std::string("t\0\0\0", 4), none = word(0, 12),
+  const std::string name = word(1, 8) + std::string("t\0\0\0", 4), none = word(0, 4) + word(0, 8),
                     other = word(1, 8) + std::string("x\0\0\0", 4);
   std::ofstream(scratch / "a.nc", std::ios::binary)
       << "CDF\5" << word(1, 8)                                                          // a record
