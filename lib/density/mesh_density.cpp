@@ -28,9 +28,10 @@ public:
       set_column(unit_, i, normalised(column(mesh.points, i)));
     while (4 * cells_a_side_ * cells_a_side_ < triangles_.cols() / 6)
       cells_a_side_ *= 2;
-    start_.assign(static_cast<std::size_t>(6 * cells_a_side_ * cells_a_side_), 0);
+    start_.assign(static_cast<std::size_t>(6 * cells_a_side_ * cells_a_side_), -1);
     for (std::int32_t t = 0; t < triangles_.cols(); ++t)
       start_[bucket_of(column(unit_, triangles_(0, t)))] = t;
+    fill_empty();
   }
 
   /// A triangle, and the weights of its vertices at a direction: not negative, with the sum 1.
@@ -41,8 +42,12 @@ public:
 
   /// The walk crosses edges towards x. Where rounding or a boundary stops it, the nearest weights
   /// of the last triangle are used.
-  Place place_of(const Vec3& x) const {
-    std::int32_t t = start_[bucket_of(x)];
+  Place place_of(const Vec3& x) const { return place_from(start_[bucket_of(x)], x); }
+
+  const Triangles& triangles() const { return triangles_; }
+
+private:
+  Place place_from(std::int32_t t, const Vec3& x) const {
     for (std::int64_t step = 0; step < triangles_.cols(); ++step) {
       const std::array<double, 3> sides = sides_of(t, x);
       const auto least = std::min_element(sides.begin(), sides.end());
@@ -55,9 +60,30 @@ public:
     return {t, weights_of(sides_of(t, x))};
   }
 
-  const Triangles& triangles() const { return triangles_; }
+  /// Where triangles are larger than the cells, most of these hold no vertex: their walks start at
+  /// the triangle of their middle, which a walk from the cell before finds.
+  void fill_empty() {
+    std::int32_t t = 0;
+    for (int face = 0; face < 6; ++face)
+      for (std::int64_t row = 0; row < cells_a_side_; ++row)
+        for (std::int64_t k = 0; k < cells_a_side_; ++k) {
+          const std::int64_t column = row % 2 == 0 ? k : cells_a_side_ - 1 - k; // to and fro
+          std::int32_t& start = start_[bucket(face, row, column)];
+          if (start < 0)
+            start = place_from(t, from_cube({face, middle(row), middle(column)})).triangle;
+          t = start;
+        }
+  }
 
-private:
+  /// Of a row or column of cells, -1 to 1.
+  double middle(std::int64_t cell) const {
+    return (2 * static_cast<double>(cell) + 1) / static_cast<double>(cells_a_side_) - 1;
+  }
+
+  std::size_t bucket(int face, std::int64_t row, std::int64_t column) const {
+    return static_cast<std::size_t>((face * cells_a_side_ + row) * cells_a_side_ + column);
+  }
+
   std::size_t bucket_of(const Vec3& x) const {
     const CubePoint place = to_cube(x);
     const auto cell = [&](double u) { // -1 to 1
@@ -65,8 +91,7 @@ private:
           static_cast<std::int64_t>((u + 1) / 2 * static_cast<double>(cells_a_side_));
       return std::clamp<std::int64_t>(scaled, 0, cells_a_side_ - 1);
     };
-    return static_cast<std::size_t>((place.face * cells_a_side_ + cell(place.u)) * cells_a_side_ +
-                                    cell(place.v));
+    return bucket(place.face, cell(place.u), cell(place.v));
   }
 
   /// For each vertex the volume of x and the edge across from it: negative beyond that edge.
