@@ -94,12 +94,21 @@ bool keep(const CvtState& state, Keeper& keeper, Progress& progress, const std::
   return true;
 }
 
+/// Keeps a state; a full disk, for example, does not end the run.
+void keep(const CvtState& state, KeptStates& states, Progress& progress) {
+  try {
+    states.keep(state);
+  } catch (const Error& error) {
+    progress.say("calotte: " + std::string(error.what()) + " (the run continues)");
+  }
+}
+
 /// Shows progress, keeps states and checkpoints, and ends the run after a signal.
 bool after_iteration(const CvtProgress& now, const CvtRequest& request, const CvtOptions& options,
                      Keeper& keeper, KeptStates& states, Progress& progress, Outcome& outcome) {
   progress.stage(describe(now, options, norm_word(request)), std::to_string(now.bisections_left));
   if (states.due(now.report))
-    states.keep(now.state);
+    keep(now.state, states, progress);
   outcome.signal = Interruption::signal();
   if (outcome.signal != 0)
     outcome.kept = keep(now.state, keeper, progress, "");

@@ -8,6 +8,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <set>
 #include <string>
@@ -360,4 +361,17 @@ TEST_CASE("bad input of view is one line") {
                 "place; give fields at cells or triangles, or leave --field out");
   check_refusal_naming(bench, "view missing.vtp", 3, "missing.vtp");
   check_refusal_naming(bench, "view grid.vtp missing.vtp", 3, "missing.vtp");
+}
+
+TEST_CASE("a state that cannot be written does not end the run") {
+  const Bench bench;
+  std::filesystem::create_directory(bench.folder() / "grid.000010.vtp");
+  const Outcome run = bench.run("cvt --cells 162 --start random --stop tolerance --keep-every 10 "
+                                "--report run.json -o grid.vtp");
+  CHECK(run.code == 0);
+  CHECK(run.err.find("grid.000010.vtp") != std::string::npos);
+  CHECK(run.err.find("(the run continues)") != std::string::npos);
+  const json states = json::parse(bench.file("run.json"))["states"];
+  REQUIRE(!states.empty());
+  CHECK(states[0]["evaluation"] == 20);
 }
