@@ -74,29 +74,10 @@ std::vector<double> as_vector(const Eigen::VectorXd& values) {
   return {values.data(), values.data() + values.size()};
 }
 
-/// Shortest over longest side.
-std::vector<double> side_ratios(const Scene& scene) {
-  const Polygons& polygons = *scene.polygons;
-  std::vector<double> ratios;
-  for (std::int64_t i = 0; i < polygons.size(); ++i) {
-    double shortest = HUGE_VAL, longest = 0;
-    const std::int64_t begin = polygons.begin[i], end = polygons.begin[i + 1];
-    for (std::int64_t k = begin; k < end; ++k) {
-      const auto next = polygons.ids[k + 1 < end ? k + 1 : begin];
-      const double side =
-          (polygons.corners.col(polygons.ids[k]) - polygons.corners.col(next)).norm();
-      shortest = std::min(shortest, side);
-      longest = std::max(longest, side);
-    }
-    ratios.push_back(shortest / longest);
-  }
-  return ratios;
-}
-
 std::vector<double> tessellation_values(const Scene& scene, Colouring colouring) {
   const bool area = colouring == Colouring::area;
   if (scene.polygons != nullptr) {
-    return area ? as_vector(areas(*scene.polygons)) : side_ratios(scene);
+    return area ? as_vector(areas(*scene.polygons)) : as_vector(side_ratios(*scene.polygons));
   }
   if (!scene.mesh->closed()) {
     throw Error(ErrorCode::bad_option,
@@ -130,6 +111,23 @@ std::vector<double> cell_values(const Scene& scene, Colouring colouring,
 }
 
 } // namespace
+
+Eigen::VectorXd side_ratios(const Polygons& cells) {
+  Eigen::VectorXd ratios = Eigen::VectorXd::Constant(cells.size(), nothing);
+  for (std::int64_t i = 0; i < cells.size(); ++i) {
+    double shortest = HUGE_VAL, longest = 0;
+    const std::int64_t begin = cells.begin[i], end = cells.begin[i + 1];
+    for (std::int64_t k = begin; k < end; ++k) {
+      const auto next = cells.ids[k + 1 < end ? k + 1 : begin];
+      const double side = (cells.corners.col(cells.ids[k]) - cells.corners.col(next)).norm();
+      shortest = std::min(shortest, side);
+      longest = std::max(longest, side);
+    }
+    if (longest > 0)
+      ratios[i] = shortest / longest;
+  }
+  return ratios;
+}
 
 std::vector<double> mean_distances(const Scene& scene) {
   std::vector<double> sums(static_cast<std::size_t>(scene.sites.cols()));

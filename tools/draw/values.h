@@ -10,6 +10,9 @@
 
 namespace calotte::tools {
 
+/// For each polygon its shortest over its longest side; NaN for one without corners.
+Eigen::VectorXd side_ratios(const Polygons& cells);
+
 /// For each site the mean distance to its neighbours, in radians; in a plane in the scene's unit.
 std::vector<double> mean_distances(const Scene& scene);
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "view/view_mesh.h"
 
+#include "draw/plane.h"
+
 #include <calotte/error.h>
 
 #include <algorithm>
@@ -136,17 +138,14 @@ void set_sphere(const MeshFile& file, ViewMesh& mesh) {
     mesh.shapes = file.polygons;
 }
 
-/// The given domain, the periodic box, or a box around the sites.
+/// The given domain, the periodic box, or the box that a picture shows.
 PlanarDomain domain_of(const PlanarMesh& mesh, const std::optional<PlanarDomain>& given) {
   if (given)
     return *given;
-  if (mesh.period.minCoeff() > 0)
+  if (is_periodic(mesh))
     return periodic_box(mesh.period);
-  constexpr double margin = 0.04; // of the larger side
-  const Eigen::Vector2d low = mesh.points.rowwise().minCoeff(),
-                        high = mesh.points.rowwise().maxCoeff();
-  const Eigen::Vector2d room = Eigen::Vector2d::Constant(margin * (high - low).maxCoeff());
-  return rectangle(low - room, high + room);
+  const Window window = window_of(mesh, given);
+  return rectangle(window.low, window.high);
 }
 
 /// The quantities of the cells and triangles.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "run/quantities.h"
+#include "view/quantities.h"
 
 #include <calotte/cell_width.h>
 #include <calotte/density.h>

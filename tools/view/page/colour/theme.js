@@ -13,16 +13,22 @@ export function drawingTheme() {
 
 const prefersDark = matchMedia("(prefers-color-scheme: dark)");
 
+const preferredTheme = () => (prefersDark.matches ? "dark" : "light");
+setTheme(preferredTheme());
+
 /** "light" or "dark". */
 export function currentTheme() {
-  return document.documentElement.dataset.theme ?? (prefersDark.matches ? "dark" : "light");
+  return document.documentElement.dataset.theme;
 }
 
 export function setTheme(theme) {
   document.documentElement.dataset.theme = theme;
 }
 
-/** Calls back when the system's preference changes. */
+/** Follows the system's preference, and calls back when it changes. */
 export function onPreferredTheme(changed) {
-  prefersDark.addEventListener("change", changed);
+  prefersDark.addEventListener("change", () => {
+    setTheme(preferredTheme());
+    changed();
+  });
 }

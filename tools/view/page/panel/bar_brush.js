@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /** Brushing of bars: by pointer, and by the arrow keys. */
+import { oneAtATime } from "../app/one_at_a_time.js";
+
 
 /**
  * @param chart the SVG element. @param owner has app, bars, barAt(x), select(first, last) and clear().
@@ -16,6 +18,7 @@ export function barBrush(chart, owner) {
 class BarBrush {
   constructor(chart, owner) {
     Object.assign(this, { chart, owner, range: null, pressed: false });
+    this.apply = oneAtATime(() => this.mark());
   }
 
   barUnder(event) {
@@ -76,19 +79,10 @@ class BarBrush {
     this.apply();
   }
 
-  /** Marks; a range that changes meanwhile is marked when the former is done. */
-  async apply() {
-    if (this.busy) {
-      this.again = true;
-      return;
-    }
-    this.busy = true;
-    do {
-      this.again = false;
-      const [a, b] = this.range ?? [];
-      if (this.range) await this.owner.select(Math.min(a, b), Math.max(a, b));
-      else await this.owner.clear();
-    } while (this.again);
-    this.busy = false;
+  /** Marks what is chosen. */
+  async mark() {
+    const [a, b] = this.range ?? [];
+    if (this.range) await this.owner.select(Math.min(a, b), Math.max(a, b));
+    else await this.owner.clear();
   }
 }

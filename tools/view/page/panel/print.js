@@ -5,13 +5,12 @@ import { element } from "./dom.js";
 
 /** @param canvas the drawing's, or null. @param retheme redraws in the present theme, at once. */
 export function preparePrinting(canvas, retheme) {
-  const { dataset } = document.documentElement;
-  let chosen; // the theme before, if one was chosen
+  let before; // the theme
   let picture = null;
   addEventListener("beforeprint", () => {
     if (picture) return;
-    chosen = dataset.theme;
-    if (currentTheme() !== "light") setTheme("light");
+    before = currentTheme();
+    setTheme("light");
     retheme();
     picture = copyOf(canvas);
     canvas?.after(picture);
@@ -19,8 +18,7 @@ export function preparePrinting(canvas, retheme) {
   addEventListener("afterprint", () => {
     picture?.remove();
     picture = null;
-    if (chosen) setTheme(chosen);
-    else delete dataset.theme;
+    setTheme(before);
     retheme();
   });
 }

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /** Brushing of a rectangle of bins: by pointer, and by the arrow keys. */
+import { oneAtATime } from "../app/one_at_a_time.js";
+
 /** @param owner has bins (along each side), cellAt(x, y), select(corner, corner) and clear(). */
 export function rectangleBrush(chart, owner) {
   const brush = new RectangleBrush(chart, owner);
@@ -15,6 +17,7 @@ const arrows = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowD
 class RectangleBrush {
   constructor(chart, owner) {
     Object.assign(this, { chart, owner, corners: null, pressed: false });
+    this.apply = oneAtATime(() => this.mark());
   }
 
   under(event) {
@@ -64,17 +67,9 @@ class RectangleBrush {
     this.apply();
   }
 
-  async apply() {
-    if (this.busy) {
-      this.again = true;
-      return;
-    }
-    this.busy = true;
-    do {
-      this.again = false;
-      if (this.corners) await this.owner.select(...this.corners);
-      else await this.owner.clear();
-    } while (this.again);
-    this.busy = false;
+  /** Marks what is chosen. */
+  async mark() {
+    if (this.corners) await this.owner.select(...this.corners);
+    else await this.owner.clear();
   }
 }

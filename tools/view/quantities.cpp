@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "run/quantities.h"
+#include "view/quantities.h"
 
+#include "draw/values.h"
 #include "options/numbers.h"
 
 #include <algorithm>
@@ -107,24 +108,6 @@ void add_triangles(const CellMeasures& measures, std::vector<Quantity>& list) {
              .on_triangles = true,
              .worst = Worst::low,
              .values = measures.triangle_quality});
-}
-
-/// Shortest over longest side of each polygon.
-Eigen::VectorXd side_ratios(const Polygons& cells) {
-  Eigen::VectorXd ratios = Eigen::VectorXd::Constant(cells.size(), std::nan(""));
-  for (std::int64_t i = 0; i < cells.size(); ++i) {
-    double shortest = HUGE_VAL, longest = 0;
-    const std::int64_t begin = cells.begin[i], end = cells.begin[i + 1];
-    for (std::int64_t k = begin; k < end; ++k) {
-      const auto next = cells.ids[k + 1 < end ? k + 1 : begin];
-      const double side = (cells.corners.col(cells.ids[k]) - cells.corners.col(next)).norm();
-      shortest = std::min(shortest, side);
-      longest = std::max(longest, side);
-    }
-    if (longest > 0)
-      ratios[i] = shortest / longest;
-  }
-  return ratios;
 }
 
 /// Whether all finite values are a few whole numbers.
