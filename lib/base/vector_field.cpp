@@ -175,7 +175,7 @@ double square_over(const CompactField& a, const Array<double>& weights) {
   return a.scale * a.scale * sum_blocks(a.values.cols(), [&](std::int64_t begin, std::int64_t end) {
            double sum = 0;
            for (std::int64_t i = begin / 3; i != end / 3; ++i)
-             sum += a.values.col(i).cast<double>().squaredNorm() / weights[i];
+             sum += a.values.col(i).cast<double>().squaredNorm() / std::abs(weights[i]);
            return sum;
          });
 }

@@ -41,7 +41,7 @@ std::vector<double> inner_of_each(std::span<const CompactField> fields, const Co
 void set_sum(Points3& y, double factor, const Points3& x, std::span<const double> shares,
              std::span<const CompactField> fields);
 
-/// The sum of |a_i|^2/weight_i.
+/// The sum of |a_i|^2/|weight_i|.
 double square_over(const CompactField& a, const Array<double>& weights);
 
 void multiply(Points3& y, double a);

@@ -108,11 +108,11 @@ bool level_ended(const State& state, const CvtOptions& options) {
 }
 
 /// A CVT's generators are the centroids of its cells; a finish keeps its own.
-void end_descent(State& state, const Evaluation& last) {
+void end_descent(State& state, Descent& descent) {
   if (state.penalty > 0)
-    state.report.converged = last.iteration.misshapen <= accepted_shape;
+    state.report.converged = descent.here().iteration.misshapen <= accepted_shape;
   else
-    state.points = last.centroids;
+    descent.end_at_centroids();
 }
 
 /// How a level ended.
@@ -148,7 +148,7 @@ Ending iterate(const World& world, CvtState& whole, Level&& level, const CvtOpti
     conclude(state, options, descent.here().iteration);
     const bool ended = level_ended(state, options);
     if (ended)
-      end_descent(state, descent.here());
+      end_descent(state, descent);
     Clock::time_point now = start;
     state.report.seconds = before + lap(now);
     const bool stopped = callback && callback({state.report, state.iterations_of_level,

@@ -26,12 +26,12 @@ constexpr int laplacian_lasts = 60; ///< evaluations, once edges have flipped
 constexpr double near_enough =
     0.05; ///< rms distance from the centroids over h; below it the Laplacian is used
 
-/// The number of L-BFGS pairs. Five cost a few hundredths more evaluations where edges flip and
+/// Generators, from which on memory counts.
+constexpr std::int64_t many = 1'000'000;
+
+/// The number of L-BFGS pairs. Three cost a few hundredths more evaluations where edges flip and
 /// none where they do not; in a large run each pair takes 24 bytes a generator.
-std::size_t most_pairs(std::int64_t generators) {
-  constexpr std::int64_t many = 1'000'000;
-  return generators < many ? 10 : 5;
-}
+std::size_t most_pairs(std::int64_t generators) { return generators < many ? 10 : 3; }
 
 double scaled_l2(const CvtIteration& iteration) { return iteration.l2 / iteration.spacing; }
 
@@ -47,8 +47,13 @@ Method Descent::method() const {
   return scaled_l2(here_.iteration) > near_enough ? Method::lbfgs : Method::lbfgs_laplacian;
 }
 
+/// Lloyd's and Nesterov's methods need no gradient, the others no centroids.
+bool Descent::uses_gradients() const {
+  return options_.method != Method::lloyd && options_.method != Method::nesterov;
+}
+
 void Descent::evaluate(const Points3& points, Evaluation& out) {
-  functional_.evaluate(points, state_.final_rule, options_.method != Method::lloyd, out);
+  functional_.evaluate(points, state_.final_rule, uses_gradients(), out);
   state_.report.iterations.push_back(out.iteration);
   ++state_.iterations_of_level;
   ++state_.memory.since_laplacian;
@@ -61,7 +66,7 @@ void Descent::begin() {
     return;
   }
   const bool final_rule = state_.report.iterations.back().rule == options_.final_rule;
-  functional_.evaluate(state_.points, final_rule, options_.method != Method::lloyd, here_);
+  functional_.evaluate(state_.points, final_rule, uses_gradients(), here_);
   const Memory& memory = state_.memory;
   for (std::size_t k = 0; k < memory.steps.size(); ++k)
     products_.push_back(inner_of_each(std::span(memory.steps).first(k), memory.changes[k]));
@@ -82,6 +87,13 @@ void Descent::step() {
     nesterov_step();
   else
     quasi_newton_step();
+}
+
+void Descent::end_at_centroids() {
+  if (uses_gradients())
+    functional_.set_centroids(state_.points, here_, state_.points);
+  else
+    std::swap(state_.points, here_.centroids);
 }
 
 /// Moves the state to the trial, which has been evaluated last.
@@ -157,6 +169,8 @@ void Descent::make_laplacian() {
   forget();
   laplacian_.reset(); // its memory serves the next
   laplacian_.emplace(functional_.laplacian(memory.laplacian_at));
+  if (state_.points.cols() >= many)
+    base_detail::empty_pools(); // of the parts that the rows were made from
 }
 
 /// Multiplies by the initial inverse of the second derivative: that of the graph Laplacian, whose
@@ -180,7 +194,7 @@ void Descent::precondition(Points3& vectors) {
 void Descent::divide_by_masses(Points3& vectors) const {
   for_each_block(vectors.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i)
-      set_column(vectors, i, (0.5 / here_.mass[i]) * column(vectors, i));
+      set_column(vectors, i, (0.5 / std::abs(here_.mass[i])) * column(vectors, i));
   });
 }
 
@@ -233,7 +247,7 @@ double Descent::longest_step() const {
       for (std::size_t j = 0; j < count; ++j) {
         const std::int64_t i = first + static_cast<std::int64_t>(j);
         const Vec3& d = column(direction_, i);
-        here = std::max(here, dot(d, d) * rho[j] / here_.mass[i]);
+        here = std::max(here, dot(d, d) * rho[j] / std::abs(here_.mass[i]));
       }
     }
   });
@@ -319,7 +333,7 @@ void Descent::quasi_newton_step() {
   } else { // Lloyd's step always descends; the coarser rule's energy may have misled the search
     forget();
     state_.final_rule = state_.final_rule || options_.norm != Norm::none;
-    trial_ = here_.centroids;
+    functional_.set_centroids(state_.points, here_, trial_);
     evaluate(trial_, there_);
     // A density that is linear between the generators moves with them.
     const bool rose = there_.iteration.energy > (1 + rule_error) * here_.iteration.energy;

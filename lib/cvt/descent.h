@@ -31,8 +31,13 @@ public:
   /// The evaluation at the state's points.
   const Evaluation& here() const { return here_; }
 
+  /// Moves the state's points to the centroids of their cells; no step may follow.
+  /// \pre no penalty.
+  void end_at_centroids();
+
 private:
   Method method() const;
+  bool uses_gradients() const;
   void evaluate(const Points3& points, Evaluation& out);
   void accept();
   void lloyd_step();

@@ -58,7 +58,7 @@ template <class Cells>
 void evaluate_site(const Vec3& x, const CellMoments& cell, std::int32_t site, bool fixed,
                    bool with_gradient, Evaluation& out, SiteTerms& terms) {
   typename Cells::Pull pull = Cells::pull(x, cell);
-  if (!(pull.mass > 0) || !std::isfinite(pull.mass)) {
+  if (!(std::abs(pull.mass) > 0) || !std::isfinite(pull.mass)) {
     terms = {std::nan(""), 0, 0};
     return;
   }
@@ -67,19 +67,21 @@ void evaluate_site(const Vec3& x, const CellMoments& cell, std::int32_t site, bo
     pull.gradient = {0, 0, 0};
   }
   const Vec3 apart = pull.centroid - x;
-  set_column(out.centroids, site, pull.centroid);
   terms = {cell.energy, dot(apart, apart), dot(pull.gradient, pull.gradient)};
   if (with_gradient) {
     set_column(out.gradient, site, pull.gradient);
     out.mass[site] = pull.mass;
+  } else {
+    set_column(out.centroids, site, pull.centroid);
   }
 }
 
 void make_room(Evaluation& out, Eigen::Index n, bool with_gradient) {
   using base_detail::make_room;
-  if (out.centroids.cols() != n)
-    make_room(out.centroids, 3, n);
-  if (with_gradient && out.mass.size() != n) {
+  if (!with_gradient) {
+    if (out.centroids.cols() != n)
+      make_room(out.centroids, 3, n);
+  } else if (out.mass.size() != n) {
     make_room(out.gradient, 3, n);
     out.mass = Array<double>(n);
   }
@@ -110,6 +112,8 @@ public:
 
   void evaluate(const Points3& points, bool final_rule, bool with_gradient,
                 Evaluation& out) override;
+
+  void set_centroids(const Points3& points, const Evaluation& at, Points3& to) const override;
 
   void penalise_shapes(double factor, double spacing) override {
     penalty_ = factor;
@@ -209,6 +213,19 @@ void FunctionalOver<Cells>::evaluate(const Points3& points, bool final_rule, boo
   if (penalty_ > 0)
     add_penalty(points, out);
   iteration.seconds = lap(mark);
+}
+
+template <class Cells>
+void FunctionalOver<Cells>::set_centroids(const Points3& points, const Evaluation& at,
+                                          Points3& to) const {
+  if (to.cols() != points.cols())
+    base_detail::make_room(to, 3, points.cols());
+  for_each_block(points.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i != end; ++i) {
+      const Vec3& x = column(points, i);
+      set_column(to, i, is_fixed(i) ? x : Cells::centroid(x, column(at.gradient, i), at.mass[i]));
+    }
+  });
 }
 
 template <class Cells>

@@ -17,12 +17,13 @@
 
 namespace calotte::cvt_detail {
 
-/// The CVT energy E of n generators x, with its derivatives.
+/// The CVT energy E of n generators x, with Lloyd's map or with the gradient, from which Lloyd's
+/// map follows: storing both would take 48 bytes more for each generator of a descent.
 struct Evaluation {
   CvtIteration iteration; ///< energy, norms, effort
-  Points3 centroids;      ///< Lloyd's map, 3 x n
-  Points3 gradient;       ///< dE/dx, tangential; set on request
-  Array<double> mass;     ///< the cells' masses up to a factor h^2; set with the gradient
+  Points3 centroids;      ///< Lloyd's map, 3 x n; without the gradient
+  Points3 gradient;       ///< dE/dx, tangential; on request
+  Array<double> mass;     ///< with the gradient; see SphericalCells::Pull
   double penalty = 0;     ///< for the shapes of a finish; the gradient includes it
 
   /// What the steps of a descent lower.
@@ -40,6 +41,10 @@ public:
   /// \throws Error bad_option for a density that is zero or infinite over a cell; too_few_sites.
   virtual void evaluate(const Points3& points, bool final_rule, bool with_gradient,
                         Evaluation& out) = 0;
+
+  /// Sets `to`, which may be `points`, to Lloyd's map of points, from their gradient and masses.
+  /// \pre no penalty.
+  virtual void set_centroids(const Points3& points, const Evaluation& at, Points3& to) const = 0;
 
   /// Adds a factor times the penalty of shape.h to each evaluation from here on.
   /// \param spacing that the density demands, times rho^(1/4).

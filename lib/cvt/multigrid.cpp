@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <span>
 #include <utility>
 
@@ -20,7 +21,7 @@ std::int64_t aggregates_of(std::int64_t rows) {
   return std::max<std::int64_t>(1, rows / aggregate_rows);
 }
 
-/// Eight consecutive rows form one aggregate; the last aggregate takes the remainder.
+/// Eight consecutive rows; the last aggregate takes the remainder.
 std::int32_t aggregate_of(std::int64_t row, std::int64_t aggregates) {
   return static_cast<std::int32_t>(std::min(row / aggregate_rows, aggregates - 1));
 }
@@ -217,7 +218,7 @@ Eigen::SparseMatrix<double> eigen_matrix(const Rows& weights) {
 /// One sweep forward, from zero, and one backward; elements outside the block do not count. The
 /// sums of the lower elements are the same in both.
 CALOTTE_VECTOR_WIDTHS void relax_from_zero(const Rows& w, std::int64_t begin, std::int64_t end,
-                                           const Float4* right, Float4* x) {
+                                           Column right, Float4* x) {
   for (std::int64_t i = begin; i != end; ++i) {
     Float4 sum = right[i];
     for (std::int32_t k = w.begin[i]; k != w.begin[i + 1] && w.column[k] < i; ++k)
@@ -236,7 +237,7 @@ CALOTTE_VECTOR_WIDTHS void relax_from_zero(const Rows& w, std::int64_t begin, st
 
 /// The right side minus the matrix times x.
 CALOTTE_VECTOR_WIDTHS void set_residual(const Rows& w, std::int64_t begin, std::int64_t end,
-                                        const Float4* right, const Float4* x, Float4* residual) {
+                                        Column right, const Float4* x, Float4* residual) {
   for (std::int64_t i = begin; i != end; ++i) {
     Float4 sum = right[i] - x[i];
     for (std::int32_t k = w.begin[i]; k != w.begin[i + 1]; ++k)
@@ -246,8 +247,8 @@ CALOTTE_VECTOR_WIDTHS void set_residual(const Rows& w, std::int64_t begin, std::
 }
 
 /// One sweep forward and one backward, from x to `to`; elements outside the block are those of x.
-CALOTTE_VECTOR_WIDTHS void relax(const Rows& w, std::int64_t begin, std::int64_t end,
-                                 const Float4* right, const Float4* x, Float4* to) {
+CALOTTE_VECTOR_WIDTHS void relax(const Rows& w, std::int64_t begin, std::int64_t end, Column right,
+                                 const Float4* x, Float4* to) {
   std::copy(x + begin, x + end, to + begin);
   for (std::int64_t i = begin; i != end; ++i) {
     Float4 sum = right[i];
@@ -314,7 +315,8 @@ Multigrid::Multigrid(Laplacian matrix) : scale_(std::move(matrix.scale)) {
     Array<double> diagonal(constant.size());
     Rows coarse = product(weights, columns, diagonal);
     scale(diagonal, coarse, constant, columns);
-    levels_.push_back({std::move(weights), std::move(columns), Vectors(n), Vectors(n), Vectors(n)});
+    levels_.push_back(
+        {std::move(weights), std::move(columns), Vectors(n), Vectors(n), Vectors(coarse.size())});
     weights = std::move(coarse);
   }
   coarsest_ = Vectors(weights.size());
@@ -322,7 +324,6 @@ Multigrid::Multigrid(Laplacian matrix) : scale_(std::move(matrix.scale)) {
 }
 
 void Multigrid::solve(Points3& vectors) {
-  Vectors& top = levels_.empty() ? coarsest_ : levels_.front().right;
   const std::int64_t n = vectors.cols();
   std::vector<double> most(static_cast<std::size_t>(block_count(n)), 0);
   for_each_block(n, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
@@ -338,46 +339,44 @@ void Multigrid::solve(Points3& vectors) {
   for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i) {
       const Vec3 scaled = scale_[i] / largest * column(vectors, i);
-      top[i] = Float4{static_cast<float>(scaled.x), static_cast<float>(scaled.y),
-                      static_cast<float>(scaled.z), 0};
+      const Float4 right{static_cast<float>(scaled.x), static_cast<float>(scaled.y),
+                         static_cast<float>(scaled.z), 0};
+      std::memcpy(&vectors(0, i), &right, sizeof right);
     }
   });
-  cycle(0);
-  const Vectors& solved = levels_.empty() ? coarsest_ : levels_.front().x;
+  const Vectors& x = solve(0, {vectors.data(), 3});
   for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i)
-      set_column(vectors, i,
-                 (scale_[i] * largest) * Vec3{solved[i][0], solved[i][1], solved[i][2]});
+      set_column(vectors, i, (scale_[i] * largest) * Vec3{x[i][0], x[i][1], x[i][2]});
   });
 }
 
-/// From a level's right side to its x.
-void Multigrid::cycle(std::size_t level) {
+/// One cycle from a level on.
+const Multigrid::Vectors& Multigrid::solve(std::size_t level, Column right) {
   if (level == levels_.size())
-    return solve_coarsest();
+    return solve_coarsest(right);
   Level& here = levels_[level];
   const Rows& w = here.weights;
   const std::int64_t n = w.size();
-  const bool last = level + 1 == levels_.size();
   Float4 *x = here.x.begin(), *other = here.other.begin();
-  const Float4* right = here.right.begin();
   const auto pass = [n](const auto& body) {
     for_each_block(n,
                    [&](std::int64_t, std::int64_t begin, std::int64_t end) { body(begin, end); });
   };
   pass([&](auto begin, auto end) { relax_from_zero(w, begin, end, right, x); });
   pass([&](auto begin, auto end) { set_residual(w, begin, end, right, x, other); });
-  restrict_residual(here, last ? coarsest_ : levels_[level + 1].right);
-  cycle(level + 1);
-  const Vectors& correction = last ? coarsest_ : levels_[level + 1].x;
+  restrict_residual(here);
+  const Vectors& correction = solve(level + 1, {here.coarse_right.begin(), 2});
   pass([&](auto begin, auto end) {
     prolong(w, begin, end, here.constant.begin(), correction.begin(), correction.size(), x);
   });
   pass([&](auto begin, auto end) { relax(w, begin, end, right, x, other); });
   std::swap(here.x, here.other);
+  return here.x;
 }
 
-void Multigrid::restrict_residual(const Level& level, Vectors& right) {
+void Multigrid::restrict_residual(Level& level) {
+  Vectors& right = level.coarse_right;
   const std::int64_t rows = level.weights.size(), count = right.size();
   for_each_block(count, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t a = begin; a != end; ++a)
@@ -386,15 +385,16 @@ void Multigrid::restrict_residual(const Level& level, Vectors& right) {
   });
 }
 
-void Multigrid::solve_coarsest() {
+const Multigrid::Vectors& Multigrid::solve_coarsest(Column right_side) {
   Eigen::MatrixXd right(coarsest_.size(), 3);
   for (Eigen::Index i = 0; i < right.rows(); ++i)
     for (int k = 0; k < 3; ++k)
-      right(i, k) = coarsest_[i][k];
+      right(i, k) = right_side[i][k];
   const Eigen::MatrixXd x = factors_.solve(right);
   for (Eigen::Index i = 0; i < right.rows(); ++i)
     for (int k = 0; k < 3; ++k)
       coarsest_[i][k] = static_cast<float>(x(i, k));
+  return coarsest_;
 }
 
 } // namespace calotte::cvt_detail

@@ -8,12 +8,29 @@
 #include <Eigen/SparseCholesky>
 
 #include <cstdint>
+#include <cstring>
 #include <vector>
 
 namespace calotte::cvt_detail {
 
 /// Three coordinates and a zero, which one instruction adds.
 using Float4 [[gnu::vector_size(16)]] = float;
+
+/// Vectors in single precision that stand some doubles apart, in the memory of doubles.
+class Column {
+public:
+  Column(const void* data, std::int64_t doubles)
+      : data_(static_cast<const char*>(data)), stride_(doubles * 8) {}
+  Float4 operator[](std::int64_t i) const {
+    Float4 value;
+    std::memcpy(&value, data_ + i * stride_, sizeof value);
+    return value;
+  }
+
+private:
+  const char* data_;
+  std::int64_t stride_;
+};
 
 /// An approximate inverse of a symmetric, positive definite matrix of a mesh, in time proportional
 /// to its size: one V-cycle of algebraic multigrid by smoothed aggregation (Vanek, Mandel and
@@ -36,16 +53,18 @@ private:
   struct Level {
     Rows weights;          ///< W, where the matrix is I - W
     Array<float> constant; ///< by row: the element of the column of its aggregate, not yet smoothed
-    Vectors right, x, other;
+    Vectors x, other;
+    Vectors coarse_right; ///< the right side of the next level; that of the first is in the memory
+                          ///< of the caller's vectors
   };
 
-  void cycle(std::size_t level);
-  void restrict_residual(const Level& level, Vectors& right);
-  void solve_coarsest();
+  const Vectors& solve(std::size_t level, Column right);
+  static void restrict_residual(Level& level);
+  const Vectors& solve_coarsest(Column right_side);
 
   Array<double> scale_; ///< by row: the inverse root of the diagonal
   std::vector<Level> levels_;
-  Vectors coarsest_; ///< the right side, then the solution
+  Vectors coarsest_;                                           ///< the solution there
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors_; ///< of the coarsest matrix
 };
 

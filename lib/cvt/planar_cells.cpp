@@ -98,7 +98,11 @@ PlanarCells::Pull PlanarCells::pull(const Vec3& x, const CellMoments& cell) {
   const double mass = cell.first.z;
   return {x + Vec3{cell.first.x / mass, cell.first.y / mass, 0},
           {-2 * cell.first.x, -2 * cell.first.y, 0},
-          mass};
+          mass > 0 ? mass : std::nan("")};
+}
+
+Vec3 PlanarCells::centroid(const Vec3& x, const Vec3& gradient, double mass) {
+  return x - (0.5 / mass) * gradient;
 }
 
 void PlanarCells::retract(const Points3& x, double step, const Points3& d, Points3& to) const {

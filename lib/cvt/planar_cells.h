@@ -65,6 +65,7 @@ public:
     double mass;
   };
   static Pull pull(const Vec3& x, const CellMoments& cell);
+  static Vec3 centroid(const Vec3& x, const Vec3& gradient, double mass);
 
   /// Moves generators that would leave the domain to the nearest place inside.
   void retract(const Points3& x, double step, const Points3& d, Points3& to) const;

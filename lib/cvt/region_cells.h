@@ -69,6 +69,9 @@ public:
   }
 
   static Pull pull(const Vec3& x, const CellMoments& cell) { return SphericalCells::pull(x, cell); }
+  static Vec3 centroid(const Vec3& x, const Vec3& gradient, double mass) {
+    return SphericalCells::centroid(x, gradient, mass);
+  }
 
   /// Moves generators that would leave the region to the nearest place inside.
   void retract(const Points3& x, double step, const Points3& d, Points3& to) const;

@@ -3,6 +3,7 @@
 
 #include "base/vector_field.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -15,8 +16,16 @@ double SphericalCells::spacing() const {
 /// Lloyd's map M/|M| and dE/dx = -2 (M - (M.x) x).
 SphericalCells::Pull SphericalCells::pull(const Vec3& x, const CellMoments& cell) {
   const double length = norm(cell.first);
-  const Vec3 tangent = cell.first - dot(cell.first, x) * x;
-  return {(1 / length) * cell.first, -2 * tangent, length};
+  const double along = dot(cell.first, x);
+  const Vec3 tangent = cell.first - along * x;
+  return {(1 / length) * cell.first, -2 * tangent, std::copysign(length, along)};
+}
+
+/// M = (M.x) x - gradient/2, with |M.x| = sqrt(|M|^2 - |gradient/2|^2).
+Vec3 SphericalCells::centroid(const Vec3& x, const Vec3& gradient, double mass) {
+  const double square = mass * mass - dot(gradient, gradient) / 4;
+  const Vec3 first = std::copysign(std::sqrt(std::max(square, 0.0)), mass) * x - 0.5 * gradient;
+  return (1 / norm(first)) * first;
 }
 
 void SphericalCells::retract(const Points3& x, double step, const Points3& d, Points3& to) {

@@ -57,9 +57,12 @@ public:
   struct Pull {
     Vec3 centroid; ///< where Lloyd's step leads
     Vec3 gradient; ///< of the energy; a motion that the generator can make
-    double mass;   ///< of the cell, up to a factor h^2; NaN for a cell without mass
+    double mass;   ///< |M| of the first moment M, the cell's up to a factor 1 + O(h^2); negative if
+                   ///< M.x is; NaN for a cell without mass
   };
   static Pull pull(const Vec3& x, const CellMoments& cell);
+  /// The pull's centroid again.
+  static Vec3 centroid(const Vec3& x, const Vec3& gradient, double mass);
 
   // ---- How generators move
 

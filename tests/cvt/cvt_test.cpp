@@ -176,7 +176,7 @@ TEST_CASE("every machine, compiler option and vector width gives the same bits")
   options.density = x8();
   CHECK(hash(spherical_cvt(random_sphere(1500, 6), options).mesh.points) == 4397988346090177093U);
   options.method = Method::lbfgs_laplacian;
-  CHECK(hash(spherical_cvt(random_sphere(1500, 6), options).mesh.points) == 17032263498151903444U);
+  CHECK(hash(spherical_cvt(random_sphere(1500, 6), options).mesh.points) == 9140604184259450882U);
 }
 
 TEST_CASE("a state that no run has left is refused") {
