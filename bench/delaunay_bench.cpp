@@ -4,6 +4,7 @@
 // starts with the next row. Every result is checked; a wrong one ends in a message and exit code 1.
 
 #include "clouds.h"
+#include "fresh.h"
 #include "peers.h"
 #include "program.h"
 #include "report.h"
@@ -30,7 +31,7 @@ struct Options : RoundOptions {
   std::vector<int> regions;
   std::vector<int> sweep;
   std::int64_t stripack_limit = 200000, qhull_limit = 200000;
-  bool warm = false;
+  bool warm = false, fresh = false;
 };
 
 /// The sites of one set, computed at first use, and the triangulation of the first run.
@@ -104,17 +105,18 @@ std::vector<Row> make_rows(const Options& options) {
 /// Peers decide by the stored doubles, the library by the exact directions. On random sites the
 /// difference does not affect any decision; on a bisected icosahedron it affects many, so that the
 /// peers' triangles are only counted there.
-std::string fault(const Outcome& outcome, const Row& row, const Workload& work) {
+std::string fault(const Outcome& outcome, const Row& row, const std::string& set, std::int64_t n,
+                  const std::optional<Outcome>& reference) {
   if (!outcome.failure.empty()) {
     return outcome.failure;
   }
-  const std::int64_t expected = 2 * work.points.cols() - 4;
+  const std::int64_t expected = 2 * n - 4;
   if (outcome.triangles != expected) {
     return std::to_string(outcome.triangles) + " triangles with " + std::to_string(outcome.sites) +
            " vertices, where " + std::to_string(expected) + " are due";
   }
-  const bool same_decisions = !row.peer || work.set != "bisection";
-  if (same_decisions && work.reference && outcome.digest != work.reference->digest) {
+  const bool same_decisions = !row.peer || set != "bisection";
+  if (same_decisions && reference && outcome.digest != reference->digest) {
     return "another set of triangles than the library's first run gave";
   }
   return {};
@@ -136,18 +138,27 @@ void add_counters(benchmark::State& state, const Outcome& outcome) {
   state.counters["exact"] = static_cast<double>(report.exact_predicates);
 }
 
-/// \param warm true after a run that is not timed.
-void run_row(benchmark::State& state, Workload& work, std::int64_t n, const Row& row, bool warm) {
+/// Runs a row as the options say: in a new process, or here, perhaps after a run that is not timed.
+Outcome run_once(Workload& work, std::int64_t n, const Row& row, const Options& options) {
+  if (options.fresh) {
+    return run_in_new_process([&] { return row.run(cloud(work.set, n)); });
+  }
   if (work.points.cols() == 0) {
     work.points = cloud(work.set, n);
   }
-  if (warm) {
+  if (options.warm && !row.peer) {
     row.run(work.points);
   }
+  return row.run(work.points);
+}
+
+void run_row(benchmark::State& state, Workload& work, std::int64_t n, const Row& row,
+             const Options& options) {
   for (auto _ : state) {
-    const Outcome outcome = row.run(work.points);
+    const Outcome outcome = run_once(work, n, row, options);
     state.SetIterationTime(outcome.seconds);
-    if (const std::string message = fault(outcome, row, work); !message.empty()) {
+    if (const std::string message = fault(outcome, row, work.set, n, work.reference);
+        !message.empty()) {
       state.SkipWithError(message.c_str());
       return;
     }
@@ -159,14 +170,14 @@ void run_row(benchmark::State& state, Workload& work, std::int64_t n, const Row&
 }
 
 std::vector<RoundRow> rows_of(const std::vector<Row>& rows, const std::shared_ptr<Workload>& work,
-                              std::int64_t n, bool warm) {
+                              std::int64_t n, const Options& options) {
   std::vector<RoundRow> result;
   for (const Row& row : rows) {
     if (!row.only_set.empty() && row.only_set != work->set) {
       continue;
     }
-    const auto run = [work, n, row, first = warm && !row.peer](benchmark::State& state) {
-      run_row(state, *work, n, row, first);
+    const auto run = [work, n, row, options](benchmark::State& state) {
+      run_row(state, *work, n, row, options);
     };
     result.push_back({row.name, run, row.limit});
   }
@@ -184,7 +195,7 @@ void register_all(const Options& options) {
     }
     for (int round = 0; round < options.rounds; ++round) {
       for (const auto& work : works) {
-        register_round(work->set, n, round, rows_of(rows, work, n, options.warm));
+        register_round(work->set, n, round, rows_of(rows, work, n, options));
       }
     }
   }
@@ -217,6 +228,9 @@ void add_options(CLI::App& app, Options& options) {
   app.add_flag("--warm", options.warm,
                "before each of the library's runs, one that is not timed: beside peers that take "
                "half a minute, whose arrays are touched before their clock starts");
+  app.add_flag("--fresh", options.fresh,
+               "each run in a new process, whose memory no run has touched: what a command takes")
+      ->excludes("--warm");
 }
 
 std::map<std::string, std::string> peers() {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <tbb/scalable_allocator.h>
-
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -16,9 +14,6 @@
 #include <sys/mman.h>
 #include <unistd.h>
 #endif
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define CALOTTE_POOLED false // the sanitizers track malloc
@@ -27,6 +22,36 @@
 #endif
 
 namespace calotte::base_detail {
+
+/// Memory that one task frees for the next. oneTBB keeps it for later blocks; the C library would
+/// return blocks of some hundred kilobytes to the system, and faulting them in again would cost a
+/// tenth of a triangulation.
+///
+/// The first 64 MiB are one range on huge pages, if the system lets programs choose them: what a
+/// triangulation of some hundred thousand sites needs. In a fresh process, faulting in small pages
+/// costs a fifth of such a triangulation, and huge pages a tenth of that.
+/// \returns null if there is no memory.
+void* pool_allocate(std::size_t bytes);
+void pool_free(void* block);
+
+/// The same for containers.
+template <class T> struct PoolAllocator {
+  using value_type = T;
+  PoolAllocator() = default;
+  template <class U> PoolAllocator(const PoolAllocator<U>&) {}
+  T* allocate(std::size_t n) {
+    void* const block = pool_allocate(n * sizeof(T));
+    if (block == nullptr)
+      throw std::bad_alloc();
+    return static_cast<T*>(block);
+  }
+  void deallocate(T* block, std::size_t) { pool_free(block); }
+  template <class U> bool operator==(const PoolAllocator<U>&) const { return true; }
+};
+
+/// Returns to the system the free memory that oneTBB and the C library keep for later blocks,
+/// except for the first range.
+void empty_pools();
 
 #ifdef __linux__
 /// Passes `advice` to madvise() for the whole pages, of `page` bytes each, of a block. Errors are
@@ -51,9 +76,8 @@ inline void prefer_huge_pages([[maybe_unused]] void* begin, [[maybe_unused]] std
 /// n values of a type without constructors, not initialised, so that the thread that first writes a
 /// page also faults it in.
 ///
-/// Arrays of up to a few megabytes come from oneTBB, which keeps their memory for the next array.
-/// The C library would return such blocks to the system, and faulting them in again would cost a
-/// tenth of a triangulation. Larger arrays come from the system and return to it.
+/// Arrays of up to a few megabytes come from the pools. Larger arrays come from the system and
+/// return to it.
 template <class T> class Array {
 public:
   Array() = default;
@@ -77,7 +101,7 @@ public:
 private:
   struct Free {
     bool pooled = true;
-    void operator()(T* data) const { pooled ? scalable_free(data) : std::free(data); }
+    void operator()(T* data) const { pooled ? pool_free(data) : std::free(data); }
   };
   using Data = std::unique_ptr<T[], Free>;
 
@@ -85,7 +109,7 @@ private:
     static_assert(std::is_trivially_copyable_v<T>);
     constexpr std::size_t most_pooled = 16 << 20;
     const bool pooled = CALOTTE_POOLED && bytes <= most_pooled;
-    void* data = pooled ? scalable_malloc(bytes) : std::malloc(bytes);
+    void* data = pooled ? pool_allocate(bytes) : std::malloc(bytes);
     if (data == nullptr && bytes > 0)
       throw std::bad_alloc();
     prefer_huge_pages(data, bytes);
@@ -100,16 +124,6 @@ private:
 /// larger triangulation, whose reports alone take half a gigabyte, returns its memory to the
 /// system.
 inline constexpr std::int64_t most_sites_kept = 1 << 23;
-
-/// Returns to the system the free memory that oneTBB and the C library keep for later arrays.
-inline void empty_pools() {
-#if CALOTTE_POOLED
-  scalable_allocation_command(TBBMALLOC_CLEAN_ALL_BUFFERS, nullptr);
-#ifdef __GLIBC__
-  malloc_trim(0);
-#endif
-#endif
-}
 
 /// Frees an array and returns its pages to the system, including those of a block in a pool that
 /// other arrays keep alive.

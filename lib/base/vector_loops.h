@@ -12,6 +12,15 @@
 #define CALOTTE_VECTOR_WIDTHS
 #endif
 
+/// The same for a whole stage of scalar code, with all that it calls: the encoding of AVX needs
+/// fewer instructions.
+#if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__SANITIZE_ADDRESS__) &&             \
+    !defined(__SANITIZE_THREAD__) && !defined(__clang__) && defined(__OPTIMIZE__)
+#define CALOTTE_ALL_INSTRUCTIONS __attribute__((flatten, target_clones("default", "avx2")))
+#else
+#define CALOTTE_ALL_INSTRUCTIONS
+#endif
+
 /// Forces inlining: a call would prevent vector code in the loop around it.
 #ifdef __GNUC__
 #define CALOTTE_INLINE inline __attribute__((always_inline))

@@ -33,9 +33,7 @@ inline Vec3 normal_of(FaceOf<Plane> face) {
 
 /// True if the normal of the triangle points outward, so that its circumcap is less than a
 /// hemisphere.
-inline bool is_below_hemisphere(FaceOf<Sphere> face) {
-  return dot(face->circle.normal, face->vertex(0)->place.unit) > 0;
-}
+inline bool is_below_hemisphere(FaceOf<Sphere> face) { return face->circle.offset > 0; }
 inline bool is_below_hemisphere(FaceOf<Plane>) { return true; }
 
 /// A triangle's circumcircle, in doubles.

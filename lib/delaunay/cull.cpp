@@ -109,7 +109,8 @@ constexpr std::int64_t looks_an_effort = 4;
 } // namespace
 
 template <class Space>
-std::vector<Member> gather(const Sites& sites, const Regions& regions, std::int32_t k) {
+CALOTTE_ALL_INSTRUCTIONS std::vector<Member> gather(const Sites& sites, const Regions& regions,
+                                                    std::int32_t k) {
   const auto region = static_cast<std::size_t>(k);
   const std::vector<HalfSpace>& covered = regions.covered[region];
   const Vec3& centre = regions.centres[region];
@@ -133,8 +134,8 @@ std::vector<Member> gather(const Sites& sites, const Regions& regions, std::int3
 }
 
 template <class Space>
-bool certify(Triangulation<Space>& triangulation, const Sites& sites, const Regions& regions,
-             std::int32_t k, CullCounts& counts) {
+CALOTTE_ALL_INSTRUCTIONS bool certify(Triangulation<Space>& triangulation, const Sites& sites,
+                                      const Regions& regions, std::int32_t k, CullCounts& counts) {
   const std::vector<HalfSpace>& covered = regions.covered[static_cast<std::size_t>(k)];
   ConflictQuery<Space> query(triangulation, sites, regions.members[static_cast<std::size_t>(k)]);
   const std::int64_t patience = effort * (std::ssize(triangulation.members()) + 1000);

@@ -112,14 +112,15 @@ std::optional<CapResult> triangulate_cap(const Sites& sites, const Regions& regi
     return result;
   const Vec3& centre = regions.centres[static_cast<std::size_t>(k)];
   double reach = 0;
-  for (const Member& m : members) {
-    const Vec3 apart = sites.unit[m.rank] - centre;
-    reach = std::max(reach, dot(apart, apart));
+  for (const Member& m : members)
+    reach = std::max(reach, dot(sites.unit[m.rank] - centre, sites.unit[m.rank] - centre));
+  reach = 1.000001 * std::sqrt(reach);
+  const Space space(sites, centre, reach);
+  if (!Space::has_all_places(reach)) {
+    std::erase_if(members, [&](const Member& m) { return !space.has_place(m.rank); });
+    if (count_owned() != result.owned) // one of its own sites is at the focus
+      return std::nullopt;
   }
-  const Space space(sites, centre, 1.000001 * std::sqrt(reach));
-  std::erase_if(members, [&](const Member& m) { return !space.has_place(m.rank); });
-  if (count_owned() != result.owned) // one of its own sites is at the focus
-    return std::nullopt;
   Triangulation<Space> triangulation(space);
   if (!triangulation.build(members)) // too few, or on one line: add sites from outside
     triangulation = build_with_sample<Space>(space, sites.size(), members);

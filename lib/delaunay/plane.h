@@ -41,6 +41,7 @@ public:
   }
 
   static bool has_place(std::int64_t) { return true; }
+  static constexpr bool has_all_places(double) { return true; }
 
   /// Prefetches the data that place() reads: the given coordinates are in input order.
   void expect(std::int64_t rank) const { __builtin_prefetch(&sites_->given(sites_->id[rank])); }

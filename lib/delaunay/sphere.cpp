@@ -20,8 +20,12 @@ Sphere::Sphere(const Sites& sites, const Vec3& centre, double reach)
 
 /// Static bounds for sites within that chord of the centre.
 ///
-/// In-circle: any two of them are at most twice the reach apart. Orientation: let u be the
-/// roundoff. The axes are within 16u of an orthonormal frame around the exact focus, the site
+/// In-circle: any two of them are at most D = twice the reach apart, so that the normal n is at
+/// most D^2 long. Let u be the roundoff. The products n.d and n.a are rounded by 3u |n||d| each and
+/// their difference by u times itself, at most 2u D^2, instead of the product of n with d - a: 8u
+/// D^2 more than in_circle_error() allows for.
+///
+/// Orientation: the axes are within 16u of an orthonormal frame around the exact focus, the site
 /// within 5u, a 3-term sum rounds by 5u: a numerator errs by 26u, a denominator 1 + c.x >= 1/2 by
 /// 18u, so that a coordinate, at most sqrt(3), errs by 52u + 63u + 4u = 119u =: e. A difference, at
 /// most D = 2 P long, P the largest projected norm, then errs by f = 2e + uD in each coordinate,
@@ -29,7 +33,8 @@ Sphere::Sphere(const Sites& sites, const Vec3& centre, double reach)
 /// unless D > 1000u, where that is below 800 u D.
 void Sphere::widen(double reach) {
   reach_ = reach;
-  in_circle_error_ = in_circle_error(std::min(2 * reach, 2.0));
+  const double apart = std::min(2 * reach, 2.0);
+  in_circle_error_ = in_circle_error(apart) + 8 * roundoff * apart * apart;
   if (reach > farthest_projected)
     projected_ = false;
   if (!projected_)

@@ -31,10 +31,11 @@ public:
     std::int32_t site;
   };
 
-  /// The values that all in-circle tests of one triangle share: the normal (b - a) x (c - a) of the
-  /// flat triangle; the determinant is its product with d - a.
+  /// The values that all in-circle tests of one triangle share: the normal n = (b - a) x (c - a) of
+  /// the flat triangle, and n.a; the determinant is n.d - n.a.
   struct Circle {
     Vec3 normal;
+    double offset = 0;
   };
 
   /// The greatest chord.
@@ -52,6 +53,9 @@ public:
 
   /// Announces the use of a place: needs no prefetch, because ranks are consecutive in memory.
   static void expect(std::int64_t) {}
+
+  /// True if all sites within that chord of the centre have places.
+  static constexpr bool has_all_places(double reach) { return reach < 1.9; }
 
   /// The place of a site; widens the error bounds if the site exceeds them.
   Place place(std::int64_t rank);
@@ -75,13 +79,14 @@ public:
   }
 
   static Circle circle(const Place& a, const Place& b, const Place& c) {
-    return {cross(b.unit - a.unit, c.unit - a.unit)};
+    const Vec3 normal = cross(b.unit - a.unit, c.unit - a.unit);
+    return {normal, dot(normal, a.unit)};
   }
 
   /// \param circle that of a, b, c.
   int in_circle(const Circle& circle, const Place& a, const Place& b, const Place& c,
                 const Place& d) {
-    const double value = dot(circle.normal, d.unit - a.unit);
+    const double value = dot(circle.normal, d.unit) - circle.offset;
     if (value > in_circle_error_)
       return 1;
     if (value < -in_circle_error_)

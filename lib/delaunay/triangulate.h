@@ -3,12 +3,11 @@
 
 #include "base/memory.h"
 #include "base/triangle.h"
+#include "base/vector_loops.h"
 #include "delaunay/room.h"
 
-// CGAL's containers allocate through this macro: from oneTBB, for the same reason as Array.
-#if CALOTTE_POOLED
-#define CGAL_ALLOCATOR(T) tbb::scalable_allocator<T>
-#endif
+// CGAL's containers allocate through this macro: from the pools, for the same reason as Array.
+#define CGAL_ALLOCATOR(T) calotte::base_detail::PoolAllocator<T>
 #include <CGAL/Triangulation_data_structure_2.h>
 
 #include <array>
@@ -72,7 +71,7 @@ public:
   using Place = typename Space::Place;
   using Store =
       CGAL::Triangulation_data_structure_2<RegionVertex<Place>, RegionFace<typename Space::Circle>>;
-  static_assert(sizeof(typename Store::Vertex) <= 64 && sizeof(typename Store::Face) <= 80,
+  static_assert(sizeof(typename Store::Vertex) <= 64 && sizeof(typename Store::Face) <= 88,
                 "a region is to fit into the cache");
   using Vertex = typename Store::Vertex_handle;
   using Face = typename Store::Face_handle;
@@ -167,7 +166,8 @@ std::array<std::int64_t, 3> Triangulation<Space>::first_triangle(std::span<const
   return {-1, -1, -1};
 }
 
-template <class Space> bool Triangulation<Space>::build(std::span<const Member> members) {
+template <class Space>
+CALOTTE_ALL_INSTRUCTIONS bool Triangulation<Space>::build(std::span<const Member> members) {
   const std::array<std::int64_t, 3> first = first_triangle(members);
   if (first[0] < 0)
     return false;
@@ -193,7 +193,7 @@ template <class Space> bool Triangulation<Space>::build(std::span<const Member> 
   // Along the curve, walks take few steps; in rounds from coarse to fine, the hull is soon complete
   // and stars stay small.
   const std::int64_t n = std::ssize(members);
-  constexpr std::array<std::int64_t, 4> strides{512, 64, 8, 1};
+  constexpr std::array<std::int64_t, 3> strides{256, 16, 1};
   for (std::size_t round = 0; round < strides.size(); ++round)
     for (std::int64_t i = 0; i < n; i += strides[round]) {
       if (round > 0 && i % strides[round - 1] == 0)

@@ -116,9 +116,10 @@ std::int64_t seams_at(std::int64_t home, const std::vector<Seam>& seams) {
 }
 
 template <class Space>
-RegionTriangles report_triangles(Triangulation<Space>& triangulation, const Sites& sites,
-                                 const Array<std::int32_t>& owner,
-                                 Array<std::int32_t>& triangles_of) {
+CALOTTE_ALL_INSTRUCTIONS RegionTriangles report_triangles(Triangulation<Space>& triangulation,
+                                                          const Sites& sites,
+                                                          const Array<std::int32_t>& owner,
+                                                          Array<std::int32_t>& triangles_of) {
   using Face = typename Triangulation<Space>::Face;
   using Vertex = typename Triangulation<Space>::Vertex;
   std::int32_t count = 0;
