@@ -18,6 +18,7 @@ from reporting.plan import COARSE, EVERY_SIZE, FINE, MEDIUM, SIDE_BY_SIDE
 GRIDS = (COARSE, MEDIUM, FINE)
 SETS = ("uniform", "x8")
 LARGE = ("large-cgal", "large-stripack", "large-qhull")
+FRESH = ("fresh-medium", "fresh-fine", "fresh-stripack")
 
 # Jacobsen et al., 2013, on 96 processors: times STRIPACK of a triangulation and of an iteration, at
 # 163 842 generators; seconds to the fine uniform grid from bisected starts.
@@ -87,6 +88,11 @@ def table_2(results):
         if rows:
             warm = "" if step == "large-cgal" else ", with an untimed run before each of the library's"
             text += f"\nThe size of the fine grid, {sites_text(FINE)} random sites{warm}:\n\n"
+            text += compared(rows)
+    for step in FRESH:
+        rows = step_rows(results, step)
+        if rows:
+            text += f"\n{sites_text(rows[0].sites)} random sites, each run in a new process:\n\n"
             text += compared(rows)
     return text
 

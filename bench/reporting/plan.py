@@ -78,6 +78,20 @@ def large(threads, quick):
         ) + on_threads(threads) + ("--warm",)
 
 
+def fresh(threads, quick):
+    """Each run in a new process."""
+    three, common = ("calotte", "cgal", "stripack"), options(threads=threads) + ("--fresh",)
+    yield "delaunay", "medium", options(
+        rows=three, sizes=MEDIUM, rounds=3 if quick else 21
+    ) + common
+    if quick:
+        return
+    yield "delaunay", "fine", options(rows=three[:2], sizes=FINE, rounds=7) + common
+    yield "delaunay", "stripack", options(
+        rows=("calotte", "stripack"), sizes=FINE, rounds=3, stripack_limit=EVERY_SITE
+    ) + common
+
+
 def iteration(threads, quick):
     rounds = {2562: 41, 10242: 31, 40962: 15, 163842: 21, 655362: 5, 2621442: 3}
     for size in EVERY_SIZE[:4] if quick else EVERY_SIZE:
@@ -149,7 +163,7 @@ def others(threads, quick):
 
 SECTIONS = {
     make.__name__: make
-    for make in (triangulation, large, iteration, starts, sorts, distribution, fine, others)
+    for make in (triangulation, large, fresh, iteration, starts, sorts, distribution, fine, others)
 }
 
 

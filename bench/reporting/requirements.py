@@ -52,23 +52,30 @@ def pair(results, peer, step, **where):
     return [results.one(section, step=step, name=name, **where) for name in (peer, "calotte")]
 
 
+RATIOS = (  # peer, step, sites, threshold, target
+    ("STRIPACK", "triangulation-medium", MEDIUM, 12.33, 14),
+    ("CGAL", "triangulation-medium", MEDIUM, 3, 3.5),
+    ("STRIPACK", "large-stripack", FINE, 40, 60),
+    ("CGAL", "large-cgal", FINE, 3, 3.5),
+    ("STRIPACK", "fresh-medium", MEDIUM, 11, 14),
+    ("CGAL", "fresh-medium", MEDIUM, 2.5, 3.3),
+    ("STRIPACK", "fresh-stripack", FINE, 40, 60),
+    ("CGAL", "fresh-fine", FINE, 2.5, 3.3),
+)
+
+
 def speed(results):
-    lines = ratio_line(
-        f"triangulation, {sites_text(MEDIUM)} random sites, STRIPACK's time / Calotte's",
-        *pair(results, "STRIPACK", "triangulation-medium"), 9, 12.3,
-    )
-    lines += ratio_line(
-        f"triangulation, {sites_text(FINE)} random sites, STRIPACK's time / Calotte's",
-        *pair(results, "STRIPACK", "large-stripack"), 40, 60,
-    )
-    lines += ratio_line(
-        f"triangulation, {sites_text(FINE)} random sites, CGAL's time / Calotte's",
-        *pair(results, "CGAL", "large-cgal"), 2.5, 3,
-    )
-    for name, threshold, target in (("uniform", 40, 60), ("x8", 8, 15)):
+    lines = []
+    for peer, step, sites, threshold, target in RATIOS:
+        process = ", in a new process" if step.startswith("fresh") else ""
+        lines += ratio_line(
+            f"triangulation, {sites_text(sites)} random sites{process}, {peer}'s time / Calotte's",
+            *pair(results, peer, step), threshold, target,
+        )
+    for name, threshold in (("uniform", 60), ("x8", 15)):
         lines += ratio_line(
             f"iteration, {name}, {sites_text(MEDIUM)} cells, STRIPACK-based time / Calotte's",
-            *pair(results, "STRIPACK", f"iteration-{MEDIUM}", set=name), threshold, target,
+            *pair(results, "STRIPACK", f"iteration-{MEDIUM}", set=name), threshold, None,
         )
     return lines
 
