@@ -5,6 +5,7 @@
 #include "base/matrix_memory.h"
 #include "base/parallel.h"
 #include "base/points.h"
+#include "base/vector_loops.h"
 #include "cvt/planar_cells.h"
 #include "cvt/region_cells.h"
 #include "cvt/shape.h"
@@ -74,6 +75,19 @@ void evaluate_site(const Vec3& x, const CellMoments& cell, std::int32_t site, bo
   } else {
     set_column(out.centroids, site, pull.centroid);
   }
+}
+
+/// Evaluates a patch's own generators; its other sites hold a plane's hull.
+template <class Cells>
+CALOTTE_ALL_INSTRUCTIONS void
+evaluate_sites(const Patch& patch, const Points3& points, const Array<CellMoments>& moments,
+               const std::vector<std::uint8_t>& fixed, bool with_gradient, Evaluation& out,
+               Array<SiteTerms>& terms) {
+  for (std::int32_t i = 0; i < patch.owned; ++i)
+    if (const std::int32_t site = patch.sites[static_cast<std::size_t>(i)]; site < points.cols())
+      evaluate_site<Cells>(column(points, site), moments[i], site,
+                           !fixed.empty() && fixed[static_cast<std::size_t>(site)] != 0,
+                           with_gradient, out, terms[site]);
 }
 
 void make_room(Evaluation& out, Eigen::Index n, bool with_gradient) {
@@ -171,11 +185,7 @@ Effort FunctionalOver<Cells>::integrate(const Points3& points, const Integrand& 
   };
   const auto receive = [&](const Patch& patch, const Array<Vec3>&,
                            const Array<CellMoments>& moments) {
-    for (std::int32_t i = 0; i < patch.owned; ++i)
-      if (const std::int32_t site = patch.sites[static_cast<std::size_t>(i)];
-          site < points.cols()) // the others hold a plane's hull
-        evaluate_site<Cells>(column(points, site), moments[i], site, is_fixed(site), with_gradient,
-                             out, terms_[site]);
+    evaluate_sites<Cells>(patch, points, moments, fixed_, with_gradient, out, terms_);
   };
   const auto integrate_all = [&] {
     make_room(out, points.cols(), with_gradient);

@@ -13,14 +13,6 @@ double SphericalCells::spacing() const {
   return std::sqrt(4 * std::numbers::pi / static_cast<double>(points_->cols()));
 }
 
-/// Lloyd's map M/|M| and dE/dx = -2 (M - (M.x) x).
-SphericalCells::Pull SphericalCells::pull(const Vec3& x, const CellMoments& cell) {
-  const double length = norm(cell.first);
-  const double along = dot(cell.first, x);
-  const Vec3 tangent = cell.first - along * x;
-  return {(1 / length) * cell.first, -2 * tangent, std::copysign(length, along)};
-}
-
 /// M = (M.x) x - gradient/2, with |M.x| = sqrt(|M|^2 - |gradient/2|^2).
 Vec3 SphericalCells::centroid(const Vec3& x, const Vec3& gradient, double mass) {
   const double square = mass * mass - dot(gradient, gradient) / 4;

@@ -13,6 +13,7 @@
 
 #include <calotte/types.h>
 
+#include <cmath>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -60,7 +61,12 @@ public:
     double mass;   ///< |M| of the first moment M, the cell's up to a factor 1 + O(h^2); negative if
                    ///< M.x is; NaN for a cell without mass
   };
-  static Pull pull(const Vec3& x, const CellMoments& cell);
+  /// Lloyd's map M/|M| and dE/dx = -2 (M - (M.x) x).
+  static Pull pull(const Vec3& x, const CellMoments& cell) {
+    const double length = norm(cell.first), along = dot(cell.first, x);
+    const Vec3 tangent = cell.first - along * x;
+    return {(1 / length) * cell.first, -2 * tangent, std::copysign(length, along)};
+  }
   /// The pull's centroid again.
   static Vec3 centroid(const Vec3& x, const Vec3& gradient, double mass);
 
