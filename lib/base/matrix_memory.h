@@ -16,4 +16,7 @@ template <class Matrix> void make_room(Matrix& matrix, std::int64_t rows, std::i
                     static_cast<std::size_t>(matrix.size()) * sizeof(typename Matrix::Scalar));
 }
 
+/// Empties an Eigen matrix and frees its memory.
+template <class Matrix> void release(Matrix& matrix) { matrix = Matrix(); }
+
 } // namespace calotte::base_detail

@@ -66,15 +66,15 @@ bool holds_field(Format format, const MeshField& field);
 
 // ---- Files of their own making. \throws Error bad_option, file.
 
-void write_mpas(const std::string& path, const Mesh& mesh, const WriteOptions& options);
-void write_mpas(const std::string& path, const PlanarMesh& mesh, const WriteOptions& options);
+/// The mesh is consumed: its arrays are reused, and freed after their last use.
+void write_mpas(const std::string& path, Mesh mesh, const WriteOptions& options);
+void write_mpas(const std::string& path, PlanarMesh mesh, const WriteOptions& options);
 /// A whole tessellation, which may be open. \param places of its cells: radius times the unit
-/// vectors; in a plane, the cells.
-void write_mpas(const std::string& path, Voronoi voronoi, const Points3& places,
+/// vectors; in a plane 3 x 0.
+void write_mpas(const std::string& path, Voronoi voronoi, Points3 places,
                 const WriteOptions& options);
-void write_mpas_minimal(const std::string& path, const Mesh& mesh, const WriteOptions& options);
-void write_mpas_minimal(const std::string& path, const PlanarMesh& mesh,
-                        const WriteOptions& options);
+void write_mpas_minimal(const std::string& path, Mesh mesh, const WriteOptions& options);
+void write_mpas_minimal(const std::string& path, PlanarMesh mesh, const WriteOptions& options);
 struct CellGrid;
 void write_ugrid(const std::string& path, const CellGrid& grid, const WriteOptions& options);
 void write_ugrid_triangles(const std::string& path, const Mesh& mesh, const WriteOptions& options);

@@ -8,6 +8,7 @@
 #include "base/spherical_angles.h"
 #include "io/polygons.h"
 #include "io/text.h"
+#include "voronoi/cell_fields.h"
 
 #include <calotte/error.h>
 
@@ -41,18 +42,17 @@ LonLat lonlat_of(const Vec3& place) {
           latitude_of(place.x, place.y, place.z) * degrees_per_radian + 0.0};
 }
 
-Points3 on_sphere(const Points3& points, double radius) {
+Points3 on_sphere(Points3 points, double radius) {
   if (!(radius > 0 && std::isfinite(radius)))
     throw Error(ErrorCode::bad_option,
                 "the sphere's radius is " + std::to_string(radius) + "; it must be positive");
   constexpr double rounding = 0x1p-50; // of a norm, in which four operations round
-  Points3 places = points;
-  for_each_block(places.cols(), [&](std::int64_t /*block*/, std::int64_t begin, std::int64_t end) {
+  for_each_block(points.cols(), [&](std::int64_t /*block*/, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i < end; ++i)
       if (!(std::abs(points.col(i).norm() - radius) <= rounding * radius))
-        places.col(i) = radius * points.col(i).stableNormalized();
+        points.col(i) = radius * points.col(i).stableNormalized();
   });
-  return places;
+  return points;
 }
 
 WriteOptions of_plane(WriteOptions options) {
@@ -60,11 +60,17 @@ WriteOptions of_plane(WriteOptions options) {
   return options;
 }
 
+Eigen::VectorXd density_of(const Voronoi& voronoi, const WriteOptions& options) {
+  if (options.site_density.size() == 0)
+    return voronoi_detail::relative_density(voronoi, options.density);
+  return options.site_density / options.site_density.maxCoeff();
+}
+
 CellFields fields_of(const Voronoi& voronoi, const WriteOptions& options) {
   if (options.site_density.size() == 0)
     return cell_fields(voronoi, options.density);
   CellFields fields = cell_fields(voronoi);
-  fields.density = options.site_density / options.site_density.maxCoeff();
+  fields.density = density_of(voronoi, options);
   return fields;
 }
 
@@ -120,6 +126,16 @@ GridFile::GridFile(const std::string& path, const WriteOptions& options,
   file_.attribute({"sphere_radius", options.sphere_radius});
   if (!options.history.empty())
     file_.attribute({"history", options.history});
+}
+
+void GridFile::together(const std::vector<Announced>& variables,
+                        const NetcdfWriter::GroupFill& contents) {
+  std::vector<int> ints, doubles;
+  for (const auto& [name, dimensions, attributes, integer] : variables)
+    (integer ? ints : doubles)
+        .push_back(file_.variable(name, integer ? NetcdfType::int32 : NetcdfType::float64,
+                                  dimensions, attributes));
+  then([this, ints, doubles, contents] { file_.put(ints, doubles, contents); });
 }
 
 void GridFile::after(std::function<void()> computation) {

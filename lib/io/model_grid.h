@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 /// What NetCDF files of grids as polygons on longitudes and latitudes have in common (UGRID, SCRIP,
@@ -33,7 +34,7 @@ LonLat lonlat_of(const Vec3& place);
 
 /// `radius` times the unit vectors; a point whose norm is that but for rounding keeps its bits.
 /// \throws Error bad_option for a radius that is not positive and finite.
-Points3 on_sphere(const Points3& points, double radius);
+Points3 on_sphere(Points3 points, double radius);
 
 /// Options of a file of a plane.
 WriteOptions of_plane(WriteOptions options);
@@ -45,7 +46,10 @@ struct CellGrid {
   Points3 sites;        ///< of the cells, with their norms; 3 x 0 where they have none
 };
 
-/// The cells' fields with the options' density, that of the sites first. \throws Error bad_option.
+/// The options' density at the cells, that of the sites first, divided by its maximum; empty if it
+/// is uniform. \throws Error bad_option.
+Eigen::VectorXd density_of(const Voronoi& voronoi, const WriteOptions& options);
+/// The cells' fields with that density. \throws Error bad_option.
 CellFields fields_of(const Voronoi& voronoi, const WriteOptions& options);
 
 CellGrid cell_grid(const Mesh& mesh); ///< the Voronoi cells. \throws Error as voronoi().
@@ -95,20 +99,18 @@ public:
             const NetcdfAttributes& attributes, const NetcdfWriter::Fill<std::int32_t>& contents) {
     variable(name, NetcdfType::int32, dimensions, attributes, contents);
   }
-  /// Two variables of as many rows, whose contents are made together.
   struct Announced {
     std::string name;
     std::vector<int> dimensions;
     NetcdfAttributes attributes;
+    bool integer = false; ///< int32, otherwise float64
   };
-  void ints_and_doubles(const Announced& ints, const Announced& doubles,
-                        const NetcdfWriter::PairFill& contents) {
-    const int of_ints =
-        file_.variable(ints.name, NetcdfType::int32, ints.dimensions, ints.attributes);
-    const int of_doubles =
-        file_.variable(doubles.name, NetcdfType::float64, doubles.dimensions, doubles.attributes);
-    stages_.back().puts.emplace_back(
-        [this, of_ints, of_doubles, contents] { file_.put(of_ints, of_doubles, contents); });
+  /// Variables of as many rows, in this order in the file, whose contents are made together.
+  void together(const std::vector<Announced>& variables, const NetcdfWriter::GroupFill& contents);
+  /// A computation in commit() between the writing of what is announced before and of what is
+  /// announced after it.
+  void then(std::function<void()> computation) {
+    stages_.back().puts.push_back(std::move(computation));
   }
   /// What is announced from here on has contents that such a computation makes. It runs in
   /// commit(), after those before it, and beside the writing of what was announced before, so that

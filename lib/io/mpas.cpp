@@ -90,22 +90,10 @@ MpasFile::MpasFile(const std::string& path, const MpasMesh& mesh, const WriteOpt
   netcdf().attribute({"source", std::string("calotte " CALOTTE_VERSION)});
 }
 
-void MpasFile::places(const MpasKind& kind, int dimension, const Points3& points, double factor) {
-  for (int row = 0; row < 3; ++row) {
-    const std::string axis(1, "xyz"[row]);
-    std::string long_name = axis;
-    long_name.append(" coordinate of ").append(kind.place);
-    doubles(axis + kind.name, {dimension}, described("m", long_name),
-            table<double>(1, [&points, row, factor](std::int64_t i, std::int64_t) {
-              return factor * points(row, i);
-            }));
-  }
-}
-
 std::string fingerprint(const MpasMesh& mesh) {
-  const double* const coordinates = mesh.places.data();
+  const double* const coordinates = mesh.sites().data();
   const std::int32_t* const ids = mesh.voronoi.cells_on_vertex.data();
-  const std::uint64_t places = mixed_words(mesh.places.size(), [=](std::int64_t i) {
+  const std::uint64_t places = mixed_words(mesh.sites().size(), [=](std::int64_t i) {
     return std::bit_cast<std::uint64_t>(coordinates[i]);
   });
   const std::uint64_t triangles =

@@ -17,16 +17,18 @@
 /// What the full and the minimal MPAS file have in common.
 namespace calotte::io_detail {
 
-/// A mesh as a file shall hold it. All but its cells is made while the file is written, unless it
-/// is made before.
+/// A mesh as a file shall hold it. Unless it is whole before, all but its cells is computed while
+/// the file is written, and places are not stored. Writing frees arrays after their last use.
 struct MpasMesh {
-  Voronoi& voronoi;      ///< begun, or whole
-  const Points3& places; ///< 3 x n: of the cells, radius times the unit vectors; in a plane, z = 0
-  double radius;         ///< of the sphere; 1 in a plane
-  CellFields& fields;    ///< of voronoi, when that is measured
-  std::function<void()> connect; ///< voronoi; empty if that is whole
+  Voronoi& voronoi; ///< begun, or whole
+  Points3 places;   ///< 3 x n: of the cells, radius times the unit vectors; 3 x 0 in a plane
+  double radius;    ///< of the sphere; 1 in a plane
+  std::function<void()> connect = {}; ///< voronoi; empty if that is whole
+  Array<double> surplus = {};         ///< of begin_measures(), unless voronoi is whole
+  Eigen::VectorXd density = {};       ///< as density_of()
 
   bool whole() const { return !connect; }
+  const Points3& sites() const { return voronoi.on_sphere ? places : voronoi.cells; }
   std::int64_t edges() const {
     return whole() ? voronoi.cells_on_edge.cols() : voronoi.cells_on_vertex.size() / 2;
   }
@@ -52,9 +54,6 @@ class MpasFile : public GridFile {
 public:
   /// \throws Error file.
   MpasFile(const std::string& path, const MpasMesh& mesh, const WriteOptions& options);
-
-  /// x, y and z: a factor times the points, which must outlive this.
-  void places(const MpasKind& kind, int dimension, const Points3& points, double factor);
 };
 
 /// The dimensions, and the variables that describe a mesh.

@@ -2,16 +2,18 @@
 #include "io/file.h"
 #include "io/formats.h"
 #include "io/mpas.h"
+#include "io/mpas_places.h"
 #include "io/triangle_quality.h"
 #include "io/written_fields.h"
 
-#include "base/spherical_angles.h"
+#include "base/matrix_memory.h"
+#include "voronoi/cell_fields.h"
 #include "voronoi/geometry.h"
 #include "voronoi/stages.h"
 #include "voronoi/tangential_weights.h"
 
 #include <algorithm>
-#include <numbers>
+#include <utility>
 
 namespace calotte::io_detail {
 namespace {
@@ -33,56 +35,6 @@ Dimensions full_dimensions(NetcdfWriter& file, const MpasMesh& mesh) {
                               .vertex_degree = file.dimension("vertexDegree", 3)};
   file.dimension("Time", 0);
   return dimensions;
-}
-
-// ---- Places
-
-/// From 0 to below 2 pi.
-CALOTTE_INLINE double eastern_longitude(double x, double y) {
-  constexpr double turn = 2 * std::numbers::pi;
-  const double angle = longitude_of(x, y);
-  const double turned = angle < 0 ? angle + turn : angle;
-  // What is west of 0 by less than the spacing of doubles at 2 pi is rounded to it; -0 becomes 0.
-  return turned < turn ? turned + 0.0 : 0;
-}
-
-CALOTTE_VECTOR_WIDTHS
-void longitudes(const double* xyz, std::int64_t count, double* out) {
-  for (std::int64_t i = 0; i < count; ++i)
-    out[i] = eastern_longitude(xyz[3 * i], xyz[3 * i + 1]);
-}
-
-CALOTTE_VECTOR_WIDTHS
-void latitudes(const double* xyz, std::int64_t count, double* out) {
-  for (std::int64_t i = 0; i < count; ++i)
-    out[i] = latitude_of(xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]);
-}
-
-/// Of the columns of points; zeros in a plane.
-NetcdfWriter::Fill<double> angles_of(const Points3& points, bool on_sphere,
-                                     void (*angles)(const double*, std::int64_t, double*)) {
-  return [&points, on_sphere, angles](std::int64_t begin, std::int64_t end, double* out) {
-    if (on_sphere)
-      angles(points.data() + 3 * begin, end - begin, out);
-    else
-      std::fill(out, out + (end - begin), 0.0);
-  };
-}
-
-/// Numbers from 1 on, lat, lon, x, y and z: a factor times the places.
-void put_kind(MpasFile& file, const MpasKind& kind, int dimension, const Points3& directions,
-              const Points3& places, double factor, bool on_sphere) {
-  file.doubles("lat" + kind.name, {dimension},
-               described("radians", "latitude of " + kind.place, "latitude"),
-               angles_of(directions, on_sphere, latitudes));
-  file.doubles("lon" + kind.name, {dimension},
-               described("radians", "longitude of " + kind.place, "longitude"),
-               angles_of(directions, on_sphere, longitudes));
-  file.places(kind, dimension, places, factor);
-  file.ints("indexTo" + kind.name + "ID", {dimension},
-            described("1", "number of each " + kind.word),
-            table<std::int32_t>(
-                1, [](std::int64_t i, std::int64_t) { return static_cast<std::int32_t>(i + 1); }));
 }
 
 // ---- Connectivity
@@ -159,42 +111,12 @@ void put_vertex_ids(MpasFile& file, const Dimensions& dimensions, const Voronoi&
             id_columns(voronoi.edges_on_vertex));
 }
 
-// ---- Lengths, areas and angles
+// ---- The tangential velocity
 
 NetcdfWriter::Fill<double> scaled(const Eigen::VectorXd& values, double factor) {
   return table<double>(
       1, [&values, factor](std::int64_t i, std::int64_t) { return factor * values[i]; });
 }
-
-void put_vertex_measures(MpasFile& file, const Dimensions& dimensions, const MpasMesh& mesh) {
-  const Voronoi& voronoi = mesh.voronoi;
-  const double area = mesh.radius * mesh.radius;
-  file.doubles("areaTriangle", {dimensions.vertices},
-               described("m2", "area of the triangle of generators around each vertex"),
-               scaled(voronoi.vertex_area, area));
-  file.doubles("kiteAreasOnVertex", {dimensions.vertices, dimensions.vertex_degree},
-               described("m2", "signed area of the part of each triangle in each of its cells"),
-               table<double>(3, [&voronoi, area](std::int64_t v, std::int64_t j) {
-                 return area * voronoi.kites(j, v);
-               }));
-}
-
-void put_edge_measures(MpasFile& file, const Dimensions& dimensions, const MpasMesh& mesh) {
-  const Voronoi& voronoi = mesh.voronoi;
-  file.doubles("dcEdge", {dimensions.edges},
-               described("m", "distance of the generators of the cells on each edge"),
-               scaled(voronoi.dc, mesh.radius));
-  file.doubles("dvEdge", {dimensions.edges},
-               described("m", "distance of the vertices at the ends of each edge"),
-               scaled(voronoi.dv, mesh.radius));
-  file.doubles("angleEdge", {dimensions.edges},
-               described("radians", voronoi.on_sphere
-                                        ? "angle of the normal of each edge from east"
-                                        : "angle of the normal of each edge from the x axis"),
-               scaled(voronoi.angle, 1));
-}
-
-// ---- The tangential velocity
 
 void fill_weights(const Voronoi& voronoi, std::int64_t begin, std::int64_t end, std::int64_t width,
                   std::int32_t* edges, double* weights) {
@@ -217,39 +139,51 @@ void put_weights(MpasFile& file, const Dimensions& dimensions, const Voronoi& vo
             table<std::int32_t>(1, [&voronoi](std::int64_t e, std::int64_t) {
               return static_cast<std::int32_t>(weight_count(voronoi, e));
             }));
-  file.ints_and_doubles(
-      {"edgesOnEdge", shape,
-       described("1", "other edges of the cells on each edge: those of the first cell, "
-                      "counter-clockwise from the edge on, then of the second")},
-      {"weightsOnEdge", shape,
-       described("1", "weights of the normal velocities at edgesOnEdge in the tangential velocity "
-                      "at each edge")},
-      [&voronoi, width](std::int64_t begin, std::int64_t end, std::int32_t* edges,
-                        double* weights) {
-        fill_weights(voronoi, begin, end, width, edges, weights);
+  file.together(
+      {{.name = "edgesOnEdge",
+        .dimensions = shape,
+        .attributes = described("1", "other edges of the cells on each edge: those of the first "
+                                     "cell, counter-clockwise from the edge on, then of the "
+                                     "second"),
+        .integer = true},
+       {"weightsOnEdge", shape,
+        described("1", "weights of the normal velocities at edgesOnEdge in the tangential velocity "
+                       "at each edge")}},
+      [&voronoi, width](std::int64_t begin, std::int64_t end, std::int32_t* const* edges,
+                        double* const* weights) {
+        fill_weights(voronoi, begin, end, width, edges[0], weights[0]);
       });
 }
 
 // ---- Fields and quality
 
-void put_fields(MpasFile& file, const Dimensions& dimensions, const MpasMesh& mesh) {
-  const CellFields& fields = mesh.fields;
-  file.doubles("areaCell", {dimensions.cells}, described("m2", "area of each cell", "cell_area"),
-               scaled(fields.area, mesh.radius * mesh.radius));
-  file.doubles("meshDensity", {dimensions.cells},
+void put_density(MpasFile& file, int cells, const MpasMesh& mesh) {
+  file.doubles("meshDensity", {cells},
                described("1", "density that the mesh was made for, over its maximum"),
-               scaled(fields.density, 1));
+               table<double>(1, [&mesh](std::int64_t i, std::int64_t) {
+                 return mesh.density.size() == 0 ? 1 : mesh.density[i];
+               }));
+}
+
+void put_fields(MpasFile& file, const Dimensions& dimensions, const MpasMesh& mesh) {
+  const Voronoi& voronoi = mesh.voronoi;
+  file.doubles("areaCell", {dimensions.cells}, described("m2", "area of each cell", "cell_area"),
+               scaled(voronoi.cell_area, mesh.radius * mesh.radius));
+  put_density(file, dimensions.cells, mesh);
   file.doubles("nominalMinDc", {},
                described("m", "nominal distance of neighbouring generators where meshDensity is 1"),
                table<double>(1, [&mesh](std::int64_t, std::int64_t) {
-                 return mesh.radius * nominal_spacing(mesh.fields);
+                 return mesh.radius * nominal_spacing(mesh.voronoi.cell_area, mesh.density);
                }));
   file.doubles("cellQuality", {dimensions.cells},
                described("1", "shortest over longest edge of each cell"),
-               scaled(fields.quality, 1));
+               table<double>(
+                   1, [&voronoi](std::int64_t i, std::int64_t) { return quality_at(voronoi, i); }));
   file.doubles("gridSpacing", {dimensions.cells},
                described("m", "mean distance of each generator from its neighbours"),
-               scaled(fields.spacing, mesh.radius));
+               table<double>(1, [&mesh](std::int64_t i, std::int64_t) {
+                 return mesh.radius * spacing_at(mesh.voronoi, i);
+               }));
 }
 
 void put_triangle_quality(MpasFile& file, const Dimensions& dimensions, const Voronoi& voronoi) {
@@ -272,39 +206,44 @@ void put_triangle_quality(MpasFile& file, const Dimensions& dimensions, const Vo
 
 // ---- Files
 
-void write_full(const std::string& path, const MpasMesh& mesh, const WriteOptions& options) {
-  const Voronoi& voronoi = mesh.voronoi;
+void announce_lists(MpasFile& file, const Dimensions& dimensions, MpasMesh& mesh) {
+  file.then([&mesh] { release(mesh.places); });
+  put_cell_ids(file, dimensions, mesh.voronoi);
+  put_edge_ids(file, dimensions, mesh.voronoi);
+  put_vertex_ids(file, dimensions, mesh.voronoi);
+  file.then([&mesh] { release(mesh.voronoi.vertices_on_edge); });
+}
+
+void announce_measures(MpasFile& file, const Dimensions& dimensions, const MpasMesh& mesh) {
+  put_vertices(file, dimensions.vertices, dimensions.vertex_degree, mesh);
+  put_edges(file, dimensions.edges, mesh);
+  file.then([&mesh] {
+    if (!mesh.whole())
+      measure_areas(mesh.voronoi);
+  });
+  put_weights(file, dimensions, mesh.voronoi);
+  put_fields(file, dimensions, mesh);
+  put_triangle_quality(file, dimensions, mesh.voronoi);
+}
+
+void write_full(const std::string& path, MpasMesh mesh, const WriteOptions& options) {
   OutputFile graph(graph_path(path));
   MpasFile file(path, mesh, options);
   const Dimensions dimensions = full_dimensions(file.netcdf(), mesh);
-  const bool on_sphere = voronoi.on_sphere;
-  put_kind(file, mpas_cell, dimensions.cells, voronoi.cells, mesh.places, 1, on_sphere);
-  put_begun_ids(file, dimensions, voronoi);
+  put_cells(file, dimensions.cells, mesh);
+  put_begun_ids(file, dimensions, mesh.voronoi);
   file.after([&] {
     if (!mesh.whole())
       mesh.connect();
   });
-  put_cell_ids(file, dimensions, voronoi);
-  put_edge_ids(file, dimensions, voronoi);
-  put_vertex_ids(file, dimensions, voronoi);
+  announce_lists(file, dimensions, mesh);
   file.after([&] {
+    mesh.density = density_of(mesh.voronoi, options);
+    put_graph([&](std::string_view text) { graph.append(text); }, mesh.voronoi);
     if (!mesh.whole())
-      measure_vertices(mesh.voronoi);
+      mesh.surplus = begin_measures(mesh.voronoi);
   });
-  put_kind(file, mpas_vertex, dimensions.vertices, voronoi.vertices, voronoi.vertices, mesh.radius,
-           on_sphere);
-  put_vertex_measures(file, dimensions, mesh);
-  file.after([&] {
-    if (!mesh.whole())
-      measure_edges_and_cells(mesh.voronoi);
-    mesh.fields = fields_of(voronoi, options);
-    put_graph([&](std::string_view text) { graph.append(text); }, voronoi);
-  });
-  put_kind(file, mpas_edge, dimensions.edges, voronoi.edges, voronoi.edges, mesh.radius, on_sphere);
-  put_edge_measures(file, dimensions, mesh);
-  put_weights(file, dimensions, voronoi);
-  put_fields(file, dimensions, mesh);
-  put_triangle_quality(file, dimensions, voronoi);
+  announce_measures(file, dimensions, mesh);
   add_fields(
       file, options,
       {.cells = {dimensions.cells}, .edges = {dimensions.edges}, .vertices = {dimensions.vertices}},
@@ -313,7 +252,7 @@ void write_full(const std::string& path, const MpasMesh& mesh, const WriteOption
   graph.commit();
 }
 
-void write_minimal(const std::string& path, const MpasMesh& mesh, const WriteOptions& options) {
+void write_minimal(const std::string& path, MpasMesh mesh, const WriteOptions& options) {
   const Voronoi& voronoi = mesh.voronoi;
   MpasFile file(path, mesh, options);
   NetcdfWriter& netcdf = file.netcdf();
@@ -321,68 +260,60 @@ void write_minimal(const std::string& path, const MpasMesh& mesh, const WriteOpt
   const int vertices = netcdf.dimension("nVertices", voronoi.cells_on_vertex.cols());
   const int degree = netcdf.dimension("vertexDegree", 3);
   netcdf.dimension("Time", 0);
-  file.places(mpas_cell, cells, mesh.places, 1);
+  put_coordinates(file, mpas_cell, cells, mesh.sites(), 1);
   file.after([&] {
     mesh.connect();
     measure(mesh.voronoi);
-    mesh.fields = fields_of(voronoi, options);
+    mesh.density = density_of(voronoi, options);
   });
-  file.places(mpas_vertex, vertices, voronoi.vertices, mesh.radius);
+  put_coordinates(file, mpas_vertex, vertices, voronoi.vertices, mesh.radius);
   file.ints("cellsOnVertex", {vertices, degree},
             described("1", "cells around each vertex, counter-clockwise"),
             id_columns(voronoi.cells_on_vertex));
-  file.doubles("meshDensity", {cells},
-               described("1", "density that the mesh was made for, over its maximum"),
-               scaled(mesh.fields.density, 1));
+  put_density(file, cells, mesh);
   add_fields(file, options, {.cells = {cells}, .vertices = {vertices}}, mpas_names());
   file.commit();
 }
 
-using Writer = void (*)(const std::string&, const MpasMesh&, const WriteOptions&);
+using Writer = void (*)(const std::string&, MpasMesh, const WriteOptions&);
 
 /// All is computed from the places as the file holds them, so that its mesh gives the same file.
-void write_sphere(const std::string& path, const Mesh& mesh, const WriteOptions& options,
-                  Writer writer) {
-  const Points3 places = on_sphere(mesh.points, options.sphere_radius);
-  BegunVoronoi cells = begun(places, mesh);
-  CellFields fields;
+void write_sphere(const std::string& path, Mesh mesh, const WriteOptions& options, Writer writer) {
+  mesh.points = on_sphere(std::move(mesh.points), options.sphere_radius);
+  BegunVoronoi cells = begun(mesh);
   writer(path,
-         {cells.voronoi, places, options.sphere_radius, fields, [&] { connect(mesh, cells); }},
+         {cells.voronoi, std::move(mesh.points), options.sphere_radius, [&] { connect(cells); }},
          options);
 }
 
-void write_plane(const std::string& path, const PlanarMesh& mesh, const WriteOptions& options,
+void write_plane(const std::string& path, PlanarMesh mesh, const WriteOptions& options,
                  Writer writer) {
   BegunVoronoi cells = begun(mesh);
-  CellFields fields;
-  writer(path, {cells.voronoi, cells.voronoi.cells, 1, fields, [&] { connect(mesh, cells); }},
-         options);
+  writer(path, {cells.voronoi, {}, 1, [&] { connect(cells); }}, options);
 }
 
 } // namespace
 
-void write_mpas(const std::string& path, const Mesh& mesh, const WriteOptions& options) {
-  write_sphere(path, mesh, options, write_full);
+void write_mpas(const std::string& path, Mesh mesh, const WriteOptions& options) {
+  write_sphere(path, std::move(mesh), options, write_full);
 }
 
-void write_mpas(const std::string& path, const PlanarMesh& mesh, const WriteOptions& options) {
-  write_plane(path, mesh, options, write_full);
+void write_mpas(const std::string& path, PlanarMesh mesh, const WriteOptions& options) {
+  write_plane(path, std::move(mesh), options, write_full);
 }
 
-void write_mpas(const std::string& path, Voronoi voronoi, const Points3& places,
+void write_mpas(const std::string& path, Voronoi voronoi, Points3 places,
                 const WriteOptions& options) {
-  CellFields fields;
   const double radius = voronoi.on_sphere ? options.sphere_radius : 1;
-  write_full(path, {voronoi, places, radius, fields, {}}, options);
+  write_full(path, {voronoi, std::move(places), radius}, options);
 }
 
-void write_mpas_minimal(const std::string& path, const Mesh& mesh, const WriteOptions& options) {
-  write_sphere(path, mesh, options, write_minimal);
+void write_mpas_minimal(const std::string& path, Mesh mesh, const WriteOptions& options) {
+  write_sphere(path, std::move(mesh), options, write_minimal);
 }
 
-void write_mpas_minimal(const std::string& path, const PlanarMesh& mesh,
-                        const WriteOptions& options) {
-  write_plane(path, mesh, options, write_minimal);
+void write_mpas_minimal(const std::string& path, PlanarMesh mesh, const WriteOptions& options) {
+  write_plane(path, std::move(mesh), options, write_minimal);
 }
 
 } // namespace calotte::io_detail

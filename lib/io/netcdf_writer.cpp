@@ -2,10 +2,10 @@
 #include "io/netcdf_writer.h"
 
 #include "base/parallel.h"
-#include "io/big_endian.h"
 #include "io/file.h"
 #include "io/netcdf_header.h"
 #include "io/netcdf_library.h"
+#include "io/netcdf_rows.h"
 
 #include <calotte/error.h>
 
@@ -73,30 +73,6 @@ int put_attribute(int id, int variable, const NetcdfAttribute& attribute) {
                           std::get_if<std::int8_t>(&attribute.value));
 }
 
-/// body(begin, end) for consecutive ranges of [first, last) of rows of so many bytes each.
-template <class Body>
-void for_each_rows(std::int64_t first, std::int64_t last, std::int64_t row_bytes,
-                   std::int64_t range_bytes, const Body& body) {
-  const std::int64_t rows = std::max<std::int64_t>(range_bytes / row_bytes, 1);
-  for (std::int64_t begin = first; begin < last; begin += rows)
-    body(begin, std::min(last, begin + rows));
-}
-
-/// The same for all rows, each block in its own task. Blocks are large, which suits the disk, but
-/// numerous enough for all threads.
-template <class Body>
-void for_each_block_of_rows(std::int64_t rows, std::int64_t row_bytes, const Body& body) {
-  const std::int64_t block_bytes =
-      std::clamp<std::int64_t>(rows * row_bytes / 8, std::int64_t{1} << 20, std::int64_t{1} << 24);
-  const std::int64_t block_rows = std::max<std::int64_t>(block_bytes / row_bytes, 1);
-  for_each_task((rows + block_rows - 1) / block_rows, [&](std::int64_t block) {
-    body(block * block_rows, std::min(rows, (block + 1) * block_rows));
-  });
-}
-
-/// Number of bytes filled at once, so that their conversion finds them in the cache.
-constexpr std::int64_t fill_bytes = 1 << 17;
-
 bool needs_cdf5(const NetcdfAttributes& attributes) {
   return std::any_of(attributes.begin(), attributes.end(), [](const NetcdfAttribute& attribute) {
     const auto* values = std::get_if<NetcdfValues>(&attribute.value);
@@ -128,29 +104,7 @@ struct NetcdfWriter::State {
     bool is_put = false;
     std::int64_t row_bytes() const { return row_values * size_of(type); }
     std::int64_t bytes() const { return rows * row_bytes(); }
-  };
-
-  /// Rows of a variable on their way to the file.
-  template <class T> struct RowBlock {
-    RowBlock(OutputFile& file, const Variable& of, std::int64_t begin, std::int64_t end)
-        : first(begin), row_values(of.row_values),
-          bytes(file.block(of.offset + begin * of.row_bytes(), (end - begin) * of.row_bytes())) {}
-
-    /// For the values of rows begin to end - 1.
-    T* room(std::int64_t begin, std::int64_t end) {
-      if (const std::int64_t count = (end - begin) * row_values; values.size() < count)
-        values = Array<T>(count);
-      return values.begin();
-    }
-    /// Of what stands there.
-    void convert(std::int64_t begin, std::int64_t end) {
-      to_big_endian(values.begin(), (end - begin) * row_values,
-                    bytes.begin() + (begin - first) * row_values * std::int64_t{sizeof(T)});
-    }
-
-    std::int64_t first, row_values;
-    OutputBlock bytes;
-    Array<T> values;
+    StoredRows stored() const { return {offset, row_values, row_bytes()}; }
   };
 
   explicit State(const std::string& path) : file(path) {}
@@ -160,7 +114,7 @@ struct NetcdfWriter::State {
   void define(int id) const;
   void extend_to_last_record(int id) const;
   template <class T> void put(int variable, const Fill<T>& fill);
-  void put(int ints, int doubles, const PairFill& fill);
+  void put(const std::vector<int>& ints, const std::vector<int>& doubles, const GroupFill& fill);
   void put(int variable, std::int64_t piece_bytes, const FillBytes& fill);
   Variable& start(int variable, NetcdfType type);
 
@@ -238,7 +192,7 @@ NetcdfWriter::State::Variable& NetcdfWriter::State::start(int variable, NetcdfTy
 template <class T> void NetcdfWriter::State::put(int variable, const Fill<T>& fill) {
   const Variable& of = start(variable, netcdf_type<T>);
   for_each_block_of_rows(of.rows, of.row_bytes(), [&](std::int64_t first, std::int64_t last) {
-    RowBlock<T> block(file, of, first, last);
+    RowBlock<T> block(file, of.stored(), first, last);
     for_each_rows(first, last, of.row_bytes(), fill_bytes,
                   [&](std::int64_t begin, std::int64_t end) {
                     fill(begin, end, block.room(begin, end));
@@ -248,23 +202,32 @@ template <class T> void NetcdfWriter::State::put(int variable, const Fill<T>& fi
   });
 }
 
-void NetcdfWriter::State::put(int ints, int doubles, const PairFill& fill) {
-  const Variable &of_ints = start(ints, NetcdfType::int32),
-                 &of_doubles = start(doubles, NetcdfType::float64);
-  const std::int64_t row_bytes = of_ints.row_bytes() + of_doubles.row_bytes();
-  for_each_block_of_rows(
-      of_ints.rows, of_doubles.row_bytes(), [&](std::int64_t first, std::int64_t last) {
-        RowBlock<std::int32_t> one(file, of_ints, first, last);
-        RowBlock<double> other(file, of_doubles, first, last);
-        for_each_rows(first, last, row_bytes, fill_bytes,
-                      [&](std::int64_t begin, std::int64_t end) {
-                        fill(begin, end, one.room(begin, end), other.room(begin, end));
-                        one.convert(begin, end);
-                        other.convert(begin, end);
-                      });
-        file.put(std::move(one.bytes));
-        file.put(std::move(other.bytes));
-      });
+void NetcdfWriter::State::put(const std::vector<int>& ints, const std::vector<int>& doubles,
+                              const GroupFill& fill) {
+  std::int64_t rows = 0, row_bytes = 0;
+  const auto start_all = [&](const std::vector<int>& ids, NetcdfType type) {
+    std::vector<StoredRows> all;
+    for (const int id : ids) {
+      const Variable& of = start(id, type);
+      all.push_back(of.stored());
+      rows = of.rows;
+      row_bytes += of.row_bytes();
+    }
+    return all;
+  };
+  const std::vector<StoredRows> of_ints = start_all(ints, NetcdfType::int32),
+                                of_doubles = start_all(doubles, NetcdfType::float64);
+  for_each_block_of_rows(rows, row_bytes, [&](std::int64_t first, std::int64_t last) {
+    RowBlocks<std::int32_t> some(file, of_ints, first, last);
+    RowBlocks<double> others(file, of_doubles, first, last);
+    for_each_rows(first, last, row_bytes, fill_bytes, [&](std::int64_t begin, std::int64_t end) {
+      fill(begin, end, some.room(begin, end), others.room(begin, end));
+      some.convert(begin, end);
+      others.convert(begin, end);
+    });
+    some.put(file);
+    others.put(file);
+  });
 }
 
 void NetcdfWriter::State::put(int variable, std::int64_t piece_bytes, const FillBytes& fill) {
@@ -363,7 +326,8 @@ void NetcdfWriter::put(int variable, const Fill<std::int32_t>& fill) {
 }
 void NetcdfWriter::put(int variable, const Fill<std::int8_t>& fill) { state_->put(variable, fill); }
 
-void NetcdfWriter::put(int ints, int doubles, const PairFill& fill) {
+void NetcdfWriter::put(const std::vector<int>& ints, const std::vector<int>& doubles,
+                       const GroupFill& fill) {
   state_->put(ints, doubles, fill);
 }
 

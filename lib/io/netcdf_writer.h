@@ -80,10 +80,11 @@ public:
   void put(int variable, const Fill<std::int32_t>& fill);
   void put(int variable, const Fill<std::int8_t>& fill);
 
-  /// The same for two variables with the same number of rows, whose values are computed together.
-  using PairFill = std::function<void(std::int64_t begin, std::int64_t end, std::int32_t* ints,
-                                      double* doubles)>;
-  void put(int ints, int doubles, const PairFill& fill);
+  /// The same for several variables with the same number of rows, whose values are computed
+  /// together. Each has its own output; those of ints and of doubles come in the given order.
+  using GroupFill = std::function<void(std::int64_t begin, std::int64_t end,
+                                       std::int32_t* const* ints, double* const* doubles)>;
+  void put(const std::vector<int>& ints, const std::vector<int>& doubles, const GroupFill& fill);
 
   /// fill(begin, end, out) writes the pieces begin to end - 1 of the variable, of so many bytes
   /// each, as the file holds them: the most significant byte of each value first. A piece is at

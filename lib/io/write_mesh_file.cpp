@@ -42,11 +42,12 @@ void require_polygon_format(const std::string& path, const MeshFile& file, Forma
                     "triangles (.vtp, .vtu, .off, .ply, .msh)");
 }
 
-/// The points of the cells where these have the polygons' places, which keeps their bits.
+/// The points of the cells where these have the polygons' places, which keeps their bits; none in a
+/// plane.
 Points3 places_of(const MeshFile& file, double radius) {
   const Points3& centres = file.polygons->centres;
   if (!file.polygons->on_sphere)
-    return centres;
+    return {};
   const bool same = file.mesh && file.mesh->points.cols() == centres.cols();
   return on_sphere(same ? file.mesh->points : centres, radius);
 }

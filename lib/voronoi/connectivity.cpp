@@ -189,15 +189,6 @@ void set_edges_of_higher_cells(const Faces& surface, Voronoi& out) {
   });
 }
 
-void copy_triangles(const Faces& surface, Voronoi& out) {
-  make_room(out.cells_on_vertex, 3, surface.triangles());
-  for_each_block(surface.triangle_ids.size(),
-                 [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-                   std::copy(surface.triangle_ids.data() + begin, surface.triangle_ids.data() + end,
-                             out.cells_on_vertex.data() + begin);
-                 });
-}
-
 } // namespace
 
 Rings find_rings(const Faces& surface, Voronoi& out) {
@@ -208,7 +199,6 @@ Rings find_rings(const Faces& surface, Voronoi& out) {
   if (found != surface.triangle_ids.size())
     refuse_second_ring(surface, out);
   exclusive_scan(std::span(rings.first_edge.begin(), rings.first_edge.end()));
-  copy_triangles(surface, out);
   return rings;
 }
 

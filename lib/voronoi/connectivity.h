@@ -17,14 +17,13 @@ struct Rings {
   Array<std::int32_t> first_edge; ///< of those of which the site is the lower cell
 };
 
-/// The first of two stages that set the ids of the tessellation dual to a closed surface: begin and
-/// cells_on_vertex.
+/// The first of two stages that set the ids of the tessellation dual to a closed surface: begin.
 /// \pre as many neighbours as triangles; at most 2^29 sites.
 /// \throws Error bad_option if ids are out of range, the neighbours do not match the triangles, or
 ///         the triangles at a site do not form one ring.
 Rings find_rings(const Faces& surface, Voronoi& out);
 
-/// Sets the other lists, pairs and triples.
+/// Sets the other lists, pairs and triples, but for cells_on_vertex, the surface's triangles.
 /// \throws Error bad_option if two cells share two edges.
 void connect(const Faces& surface, const Rings& rings, Voronoi& out);
 

@@ -2,7 +2,6 @@
 #include "voronoi/geometry.h"
 
 #include "base/double_double.h"
-#include "base/elementary.h"
 #include "base/matrix_memory.h"
 #include "base/memory.h"
 #include "base/parallel.h"
@@ -11,146 +10,16 @@
 #include "base/vec3.h"
 #include "integrals/rows.h"
 #include "voronoi/connectivity.h"
+#include "voronoi/dual_spaces.h"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
-#include <numbers>
 
 namespace calotte::voronoi_detail {
 namespace {
 
-// Operations per lane have no branches, so that the loops over lanes become vector code.
-
-// ---- Elementary functions
-
-constexpr double pi = std::numbers::pi;
-
-/// The angle of (x, y) from the first axis, -pi to pi; 0 of the zero vector. Of any norm.
-CALOTTE_INLINE double angle_of(double x, double y) {
-  const double across = std::abs(y), along = std::abs(x);
-  const bool steep = across > along;
-  const double larger = steep ? across : along, smaller = steep ? along : across;
-  const double acute = arc_tangent(larger > 0 ? smaller / larger : 0);
-  const double above = steep ? pi / 2 - acute : acute;
-  return std::copysign(x < 0 ? pi - above : above, y);
-}
-
-CALOTTE_INLINE double square(const Vec3& a) { return dot(a, a); }
-
-CALOTTE_INLINE Vec3 choose(bool first, const Vec3& a, const Vec3& b) {
-  return {first ? a.x : b.x, first ? a.y : b.y, first ? a.z : b.z};
-}
-
-/// The direction of a vector of moderate norm; for a zero vector, a given direction.
-CALOTTE_INLINE Vec3 direction_or(const Vec3& a, const Vec3& other) {
-  const double s = square(a);
-  const bool some = s > 1e-300;
-  return choose(some, (1 / std::sqrt(some ? s : 1)) * a, other);
-}
-
-// ---- The two spaces
-
-/// The half kites at an edge of a triangle: those at its two ends are mirror images.
-struct HalfKite {
-  double arc;  ///< signed, from the edge's middle to the circumcentre
-  double area; ///< signed, of either
-};
-
-/// The unit sphere; places are unit vectors.
-struct Sphere {
-  Array<double> surplus; ///< by cell: by how much its norm exceeds 1
-
-  /// Computed as if both points were exactly on the sphere: for a short edge, the rounding of norms
-  /// is large.
-  Vec3 difference(const Points3& cells, std::int32_t from, std::int32_t to) const {
-    const Vec3 &a = column(cells, from), &b = column(cells, to);
-    return (b - a) + (surplus[from] * a - surplus[to] * b);
-  }
-
-  /// \param normal (b - a) x (c - a) of a triangle; zero of a thin one.
-  /// \param middle the flat triangle's circumcentre, from a.
-  CALOTTE_INLINE Vec3 circumcentre(const Vec3& normal, const Vec3& a, const Vec3& middle) const {
-    // The flat centre keeps the digits of small triangles; the normal keeps those of large ones,
-    // whose flat centre is near the sphere's.
-    const double outward = dot(normal, a);
-    const bool flat = square(middle) < 0.25 || outward == 0;
-    return direction_or(choose(flat, a + middle, std::copysign(1.0, outward) * normal), a);
-  }
-  /// Rounding can reverse a triangle whose corners are equal up to rounding.
-  CALOTTE_INLINE double height(const Vec3& normal, const Vec3& a) const {
-    return 2 * std::abs(dot(normal, a));
-  }
-  CALOTTE_INLINE HalfKite half_kite(const Vec3& a, const Vec3& difference, double product,
-                                    double height) const {
-    const double length = std::sqrt(square(difference));
-    const double sum = std::sqrt(square((a + a) + difference));
-    const double sine = length * product, hypotenuse = std::sqrt(sine * sine + height * height);
-    const double divisor = hypotenuse + height;
-    const double tangent = sine / (divisor > 0 ? divisor : 1);
-    return {2 * arc_tangent(tangent), 2 * arc_tangent(length / (2 + sum) * tangent)};
-  }
-  CALOTTE_INLINE Vec3 midpoint(const Vec3& a, const Vec3& difference, const Vec3& centre) const {
-    return direction_or((a + a) + difference, centre);
-  }
-  CALOTTE_INLINE double distance(const Vec3& a, const Vec3& difference) const {
-    return 4 * arc_tangent(std::sqrt(square(difference)) /
-                           (2 + std::sqrt(square((a + a) + difference))));
-  }
-  /// The angle from east, (-y, x, 0) over r = sqrt(x^2 + y^2), to north, (-x z, -y z, r^2) over r.
-  CALOTTE_INLINE double angle(const Vec3& m, const Vec3& normal) const {
-    const bool pole = m.x == 0 && m.y == 0;
-    const double x = pole ? 1 : m.x, y = m.y;
-    const double rise = pole ? 0 : normal.z;
-    return angle_of(x * normal.y - y * normal.x,
-                    rise * (x * x + y * y) - m.z * (x * normal.x + y * normal.y));
-  }
-};
-
-/// A periodic plane; places are in its box.
-struct Plane {
-  double width, depth;
-
-  static CALOTTE_INLINE double nearest(double difference, double period) {
-    return difference - period * std::floor(difference / period + 0.5);
-  }
-  static CALOTTE_INLINE double wrapped(double x, double period) {
-    const double inside = x - period * std::floor(x / period);
-    return inside < period ? inside : 0; // rounding can reach it
-  }
-  CALOTTE_INLINE Vec3 place(const Vec3& p) const {
-    return {wrapped(p.x, width), wrapped(p.y, depth), 0};
-  }
-
-  Vec3 difference(const Points3& cells, std::int32_t from, std::int32_t to) const {
-    const Vec3 &a = column(cells, from), &b = column(cells, to);
-    return {nearest(b.x - a.x, width), nearest(b.y - a.y, depth), 0};
-  }
-  CALOTTE_INLINE Vec3 circumcentre(const Vec3&, const Vec3& a, const Vec3& middle) const {
-    return place(a + middle);
-  }
-  CALOTTE_INLINE double height(const Vec3& normal, const Vec3&) const {
-    return 2 * std::abs(normal.z);
-  }
-  CALOTTE_INLINE HalfKite half_kite(const Vec3&, const Vec3& difference, double product,
-                                    double height) const {
-    const double length = std::sqrt(square(difference));
-    const double arc = length * product / (height > 0 ? height : 1);
-    return {arc, 0.25 * length * arc};
-  }
-  CALOTTE_INLINE Vec3 midpoint(const Vec3& a, const Vec3& difference, const Vec3&) const {
-    return place(a + 0.5 * difference);
-  }
-  CALOTTE_INLINE double distance(const Vec3&, const Vec3& difference) const {
-    return std::sqrt(square(difference));
-  }
-  CALOTTE_INLINE double angle(const Vec3&, const Vec3& normal) const {
-    const double signed_angle = angle_of(normal.x, normal.y);
-    const double turned = signed_angle < 0 ? signed_angle + 2 * pi : signed_angle;
-    return turned < 2 * pi ? turned : 0;
-  }
-};
+using namespace dual;
 
 // ---- Triangles
 
@@ -222,42 +91,48 @@ void gather_triangles(const Space& space, const Voronoi& of, std::int64_t t, std
   }
 }
 
-/// dv stores the arc to the left of an edge, and angle that to its right, until their sum is
-/// computed.
+/// dv stores the arc to the left of an edge, and dc that to its right, until measure_edges()
+/// computes their sum.
 void scatter_triangle(const TriangleBatch& batch, std::size_t lane, std::int64_t t, Voronoi& out) {
-  set_column(out.vertices, t, at(batch.centre, lane));
-  double sum = 0;
   for (int j = 0; j < 3; ++j) {
     const int before = previous_vertex(j), after = next_vertex(j);
-    const double kite = batch.area[static_cast<std::size_t>(after)][lane] +
-                        batch.area[static_cast<std::size_t>(before)][lane];
-    out.kites(j, t) = kite;
-    sum += kite;
+    out.kites(j, t) = batch.area[static_cast<std::size_t>(after)][lane] +
+                      batch.area[static_cast<std::size_t>(before)][lane];
     const bool left = out.cells_on_vertex(before, t) < out.cells_on_vertex(j, t);
-    (left ? out.dv : out.angle)[out.edges_on_vertex(j, t)] =
+    (left ? out.dv : out.dc)[out.edges_on_vertex(j, t)] =
         batch.arc[static_cast<std::size_t>(after)][lane];
   }
-  out.vertex_area[t] = sum;
 }
 
-template <class Space> void set_vertices(const Space& space, Voronoi& out) {
-  for_each_block(out.cells_on_vertex.cols(), [&](std::int64_t, std::int64_t begin,
-                                                 std::int64_t end) {
-    TriangleBatch batch;
-    for (std::int64_t t = begin; t < end; t += lanes) {
-      gather_triangles(space, out, t, end, batch);
-      measure_triangles(space, batch);
-      for (std::size_t lane = 0; lane < lanes && t + static_cast<std::int64_t>(lane) < end; ++lane)
-        scatter_triangle(batch, lane, t + static_cast<std::int64_t>(lane), out);
+template <class Space>
+void set_vertices(const Space& space, std::int64_t begin, std::int64_t end, Voronoi& out,
+                  Vec3* places) {
+  TriangleBatch batch;
+  for (std::int64_t first = begin; first < end; first += lanes) {
+    gather_triangles(space, out, first, end, batch);
+    measure_triangles(space, batch);
+    const std::int64_t last = std::min(first + static_cast<std::int64_t>(lanes), end);
+    for (std::int64_t t = first; t < last; ++t) {
+      const auto lane = static_cast<std::size_t>(t - first);
+      places[t - begin] = at(batch.centre, lane);
+      scatter_triangle(batch, lane, t, out);
     }
-  });
+  }
+}
+
+template <class Space>
+Vec3 circumcentre(const Space& space, const Voronoi& of, std::int64_t triangle) {
+  TriangleBatch batch;
+  gather_triangles(space, of, triangle, triangle + 1, batch);
+  measure_triangles(space, batch);
+  return at(batch.centre, 0);
 }
 
 // ---- Edges
 
 struct alignas(64) EdgeBatch {
   Rows3 cell, normal; ///< the lower cell, and the way from it to the other
-  Rows3 centre;       ///< a vertex
+  Rows3 centre;       ///< the vertex to the left if the cells are opposite; else unused
   Rows3 middle;
   Row left, right; ///< arcs
   Row dc, dv, angle;
@@ -288,41 +163,67 @@ void measure_edges(const Plane& space, EdgeBatch& batch) {
     measure_edge(space, batch, lane);
 }
 
+/// The vertex to the left of an edge's normal.
+std::int32_t left_vertex(const Voronoi& of, std::int64_t edge) {
+  std::int64_t place = of.begin[of.cells_on_edge(0, edge)];
+  while (of.edges_on_cell[place] != edge)
+    ++place;
+  return of.vertices_on_cell[place];
+}
+
 template <class Space>
 void gather_edges(const Space& space, const Voronoi& of, std::int64_t e, std::int64_t end,
                   EdgeBatch& batch) {
   for (std::size_t lane = 0; lane < lanes; ++lane) {
     const std::int32_t a = of.cells_on_edge(0, e);
-    put(column(of.cells, a), batch.cell, lane);
-    put(space.difference(of.cells, a, of.cells_on_edge(1, e)), batch.normal, lane);
-    put(column(of.vertices, of.vertices_on_edge(1, e)), batch.centre, lane);
+    const Vec3 cell = column(of.cells, a);
+    const Vec3 normal = space.difference(of.cells, a, of.cells_on_edge(1, e));
+    const bool opposite = !(square((cell + cell) + normal) > 1e-290);
+    put(cell, batch.cell, lane);
+    put(normal, batch.normal, lane);
+    put(opposite ? circumcentre(space, of, left_vertex(of, e)) : cell, batch.centre, lane);
     batch.left[lane] = of.dv[e];
-    batch.right[lane] = of.angle[e];
+    batch.right[lane] = of.dc[e];
     e = std::min(e + 1, end - 1);
   }
 }
 
-template <class Space> void set_edges(const Space& space, Voronoi& out) {
-  for_each_block(out.cells_on_edge.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-    EdgeBatch batch;
-    for (std::int64_t first = begin; first < end; first += lanes) {
-      gather_edges(space, out, first, end, batch);
-      measure_edges(space, batch);
-      const std::int64_t last = std::min(first + static_cast<std::int64_t>(lanes), end);
-      for (std::int64_t e = first; e < last; ++e) {
-        const auto lane = static_cast<std::size_t>(e - first);
-        set_column(out.edges, e, at(batch.middle, lane));
-        out.dc[e] = batch.dc[lane];
-        out.dv[e] = batch.dv[lane];
-        out.angle[e] = batch.angle[lane];
-      }
+template <class Space>
+void set_edges(const Space& space, std::int64_t begin, std::int64_t end, Voronoi& out, Vec3* places,
+               double* angles) {
+  EdgeBatch batch;
+  for (std::int64_t first = begin; first < end; first += lanes) {
+    gather_edges(space, out, first, end, batch);
+    measure_edges(space, batch);
+    const std::int64_t last = std::min(first + static_cast<std::int64_t>(lanes), end);
+    for (std::int64_t e = first; e < last; ++e) {
+      const auto lane = static_cast<std::size_t>(e - first);
+      places[e - begin] = at(batch.middle, lane);
+      angles[e - begin] = batch.angle[lane];
+      out.dc[e] = batch.dc[lane];
+      out.dv[e] = batch.dv[lane];
     }
-  });
+  }
 }
 
-// ---- Cells
+/// body(space) of the tessellation's.
+template <class Body>
+void in_space(const Voronoi& of, const Array<double>& surplus, const Body& body) {
+  if (of.on_sphere)
+    body(Sphere{surplus});
+  else
+    body(Plane{of.period[0], of.period[1]});
+}
 
-void set_cell_areas(Voronoi& out) {
+/// The columns of points from `first` on.
+Vec3* columns(Points3& points, std::int64_t first) {
+  return reinterpret_cast<Vec3*>(points.data()) + first;
+}
+
+} // namespace
+
+void measure_areas(Voronoi& out) {
+  make_room(out.cell_area, out.cells.cols(), 1);
   for_each_block(out.cells.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (auto i = static_cast<std::int32_t>(begin); i != end; ++i) {
       double area = 0;
@@ -335,8 +236,13 @@ void set_cell_areas(Voronoi& out) {
   });
 }
 
-/// The amount by which the norms of unit columns exceed 1, to a few digits.
-Array<double> surplus_of(const Points3& cells) {
+Array<double> begin_measures(Voronoi& out) {
+  make_room(out.kites, 3, out.cells_on_vertex.cols());
+  make_room(out.dv, out.cells_on_edge.cols(), 1);
+  make_room(out.dc, out.cells_on_edge.cols(), 1);
+  if (!out.on_sphere)
+    return {};
+  const Points3& cells = out.cells;
   Array<double> surplus(cells.cols());
   for_each_block(cells.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i) {
@@ -349,37 +255,33 @@ Array<double> surplus_of(const Points3& cells) {
   return surplus;
 }
 
-/// body(space) of the tessellation's.
-template <class Body> void in_space(const Voronoi& of, const Body& body) {
-  if (of.on_sphere)
-    body(Sphere{surplus_of(of.cells)});
-  else
-    body(Plane{of.period[0], of.period[1]});
+void measure_vertices(const Array<double>& surplus, std::int64_t begin, std::int64_t end,
+                      Voronoi& out, Vec3* places) {
+  in_space(out, surplus, [&](const auto& space) { set_vertices(space, begin, end, out, places); });
 }
 
-} // namespace
-
-void measure_vertices(Voronoi& out) {
-  const std::int64_t edges = out.cells_on_edge.cols(), vertices = out.cells_on_vertex.cols();
-  make_room(out.vertices, 3, vertices);
-  make_room(out.vertex_area, vertices, 1);
-  make_room(out.kites, 3, vertices);
-  make_room(out.dv, edges, 1);
-  make_room(out.angle, edges, 1);
-  in_space(out, [&](const auto& space) { set_vertices(space, out); });
-}
-
-void measure_edges_and_cells(Voronoi& out) {
-  make_room(out.edges, 3, out.cells_on_edge.cols());
-  make_room(out.dc, out.cells_on_edge.cols(), 1);
-  make_room(out.cell_area, out.cells.cols(), 1);
-  in_space(out, [&](const auto& space) { set_edges(space, out); });
-  set_cell_areas(out);
+void measure_edges(const Array<double>& surplus, std::int64_t begin, std::int64_t end, Voronoi& out,
+                   Vec3* places, double* angles) {
+  in_space(out, surplus,
+           [&](const auto& space) { set_edges(space, begin, end, out, places, angles); });
 }
 
 void measure(Voronoi& out) {
-  measure_vertices(out);
-  measure_edges_and_cells(out);
+  const std::int64_t edges = out.cells_on_edge.cols(), vertices = out.cells_on_vertex.cols();
+  const Array<double> surplus = begin_measures(out);
+  make_room(out.vertices, 3, vertices);
+  make_room(out.vertex_area, vertices, 1);
+  for_each_block(vertices, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    measure_vertices(surplus, begin, end, out, columns(out.vertices, begin));
+    for (std::int64_t t = begin; t != end; ++t)
+      out.vertex_area[t] = vertex_area(out, t);
+  });
+  make_room(out.edges, 3, edges);
+  make_room(out.angle, edges, 1);
+  for_each_block(edges, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    measure_edges(surplus, begin, end, out, columns(out.edges, begin), out.angle.data() + begin);
+  });
+  measure_areas(out);
 }
 
 } // namespace calotte::voronoi_detail

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "base/memory.h"
+#include "base/vec3.h"
 #include "voronoi/room.h"
 
 #include <calotte/voronoi.h>
+
+#include <cstdint>
 
 namespace calotte::voronoi_detail {
 
@@ -20,9 +24,34 @@ namespace calotte::voronoi_detail {
 /// Of three sites that are one but for rounding, the deltas are 0.
 void measure(Voronoi& out);
 
-/// The same in two stages, for callers that use the results of the first beside the second:
-/// vertices, their areas and kites; then edges and the areas of cells.
-void measure_vertices(Voronoi& out);
-void measure_edges_and_cells(Voronoi& out);
+/// The same in parts, for callers that use places and angles as they are computed and store
+/// neither: first begin_measures(); then all vertices; then all edges. measure_areas() may follow
+/// the vertices. Several threads may measure disjoint ranges.
+
+/// Makes room for kites, dv and dc.
+/// \returns for the functions below, by cell the amount by which its norm exceeds 1, to a few
+///          digits; nothing in a plane.
+Array<double> begin_measures(Voronoi& out);
+
+/// Sets the kites of vertices begin to end - 1.
+/// \param places receives the vertices.
+void measure_vertices(const Array<double>& surplus, std::int64_t begin, std::int64_t end,
+                      Voronoi& out, Vec3* places);
+
+/// Sets dv and dc of edges begin to end - 1.
+/// \param places receives the midpoints. \param angles receives the angles of the normals.
+void measure_edges(const Array<double>& surplus, std::int64_t begin, std::int64_t end, Voronoi& out,
+                   Vec3* places, double* angles);
+
+/// Sets the areas of the cells.
+void measure_areas(Voronoi& out);
+
+/// The area of a triangle of a closed mesh, as Voronoi::vertex_area stores it.
+inline double vertex_area(const Voronoi& of, std::int64_t vertex) {
+  double sum = 0;
+  for (int j = 0; j < 3; ++j)
+    sum += of.kites(j, vertex);
+  return sum;
+}
 
 } // namespace calotte::voronoi_detail

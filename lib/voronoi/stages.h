@@ -6,25 +6,23 @@
 
 #include <calotte/voronoi.h>
 
-/// voronoi() in stages, for callers that use the results of a stage while the next runs: begun(),
-/// connect(), then measure().
+/// voronoi() in stages, for callers that use the results of a stage while the next runs, and that
+/// own the mesh: begun(), connect(), then measure() or its parts.
 namespace calotte::voronoi_detail {
 
 struct BegunVoronoi {
   Voronoi voronoi; ///< cells, begin and cells_on_vertex
   Rings rings;
+  Triangles neighbours; ///< of the triangles, as in Mesh
 };
 
-/// The sites are at these points; the mesh is not copied.
-/// \param points as many as the mesh has.
+/// Takes the triangles and their neighbours out of the mesh, which keeps its points.
 /// \throws Error bad_option, as voronoi(mesh).
-BegunVoronoi begun(const Points3& points, const Mesh& mesh);
-BegunVoronoi begun(const PlanarMesh& mesh);
+BegunVoronoi begun(Mesh& mesh);
+BegunVoronoi begun(PlanarMesh& mesh);
 
-/// Sets all other ids.
-/// \param mesh the mesh passed to begun().
+/// Sets all other ids; frees the rings and the neighbours.
 /// \throws Error bad_option if two cells share two edges.
-void connect(const Mesh& mesh, BegunVoronoi& out);
-void connect(const PlanarMesh& mesh, BegunVoronoi& out);
+void connect(BegunVoronoi& out);
 
 } // namespace calotte::voronoi_detail

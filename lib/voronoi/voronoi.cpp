@@ -13,6 +13,7 @@
 
 #include <calotte/error.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -25,13 +26,7 @@ namespace {
 /// columns err by 5 units of roundoff, their squares by twice that and 3 of their own.
 Vec3 unit_column(const Vec3& x) { return std::abs(dot(x, x) - 1) <= 0x1p-49 ? x : normalised(x); }
 
-/// A mesh of the sphere with sites at other points.
-struct MeshAt {
-  const Points3& points;
-  const Triangles &triangles, &neighbours;
-};
-
-void set_cells(const MeshAt& mesh, Voronoi& out) {
+void set_cells(const Mesh& mesh, Voronoi& out) {
   make_room(out.cells, 3, mesh.points.cols());
   FirstFault fault;
   for_each_block(mesh.points.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
@@ -59,32 +54,14 @@ void set_cells(const PlanarMesh& mesh, Voronoi& out) {
   fault.refuse("site", "lies outside the periodic box: give the copy of it that is inside");
 }
 
-/// Sets all members of begun() except the kind of the space.
-template <class AnyMesh> void begin(const AnyMesh& mesh, BegunVoronoi& out) {
-  constexpr std::int64_t most_cells = std::int64_t{1} << 29;
-  require(mesh.points.cols() <= most_cells,
-          "the mesh has " + std::to_string(mesh.points.cols()) +
-              " sites, and the edges of more than 536870912 cannot be numbered: give fewer");
-  require(mesh.neighbours.cols() == mesh.triangles.cols(),
-          "the mesh has " + std::to_string(mesh.triangles.cols()) +
-              " triangles but neighbours of " + std::to_string(mesh.neighbours.cols()) +
-              ": give a mesh with both");
-  out.rings = find_rings(faces_of(mesh), out.voronoi);
-  set_cells(mesh, out.voronoi);
-}
-
-} // namespace
-
-BegunVoronoi begun(const Points3& points, const Mesh& mesh) {
+/// \throws Error bad_option for a mesh that does not cover its space.
+void set_space(const Mesh& mesh, Voronoi&) {
   require(mesh.closed(),
           "the mesh is open, as all its sites lie in a hemisphere, and its Voronoi cells do not "
           "tessellate the sphere: give sites all around");
-  BegunVoronoi out;
-  begin(MeshAt{points, mesh.triangles, mesh.neighbours}, out);
-  return out;
 }
 
-BegunVoronoi begun(const PlanarMesh& mesh) {
+void set_space(const PlanarMesh& mesh, Voronoi& out) {
   // Products and quotients of areas must stay in the range of doubles.
   require(mesh.period.minCoeff() > 1e-30 && mesh.period.maxCoeff() < 1e30,
           "the box of the plane is " + std::to_string(mesh.period[0]) + " x " +
@@ -95,38 +72,66 @@ BegunVoronoi begun(const PlanarMesh& mesh) {
               std::to_string(mesh.triangles.cols()) +
               " triangles, and one that covers a periodic box has two for each site: give "
               "such a mesh");
+  out.on_sphere = false;
+  out.period = mesh.period;
+}
+
+/// Sets cells, begin and the kind of the space.
+template <class AnyMesh> Rings begin(const AnyMesh& mesh, Voronoi& out) {
+  set_space(mesh, out);
+  constexpr std::int64_t most_cells = std::int64_t{1} << 29;
+  require(mesh.points.cols() <= most_cells,
+          "the mesh has " + std::to_string(mesh.points.cols()) +
+              " sites, and the edges of more than 536870912 cannot be numbered: give fewer");
+  require(mesh.neighbours.cols() == mesh.triangles.cols(),
+          "the mesh has " + std::to_string(mesh.triangles.cols()) +
+              " triangles but neighbours of " + std::to_string(mesh.neighbours.cols()) +
+              ": give a mesh with both");
+  Rings rings = find_rings(faces_of(mesh), out);
+  set_cells(mesh, out);
+  return rings;
+}
+
+template <class AnyMesh> BegunVoronoi begun_of(AnyMesh& mesh) {
   BegunVoronoi out;
-  out.voronoi.on_sphere = false;
-  out.voronoi.period = mesh.period;
-  begin(mesh, out);
+  out.rings = begin(mesh, out.voronoi);
+  out.voronoi.cells_on_vertex = std::move(mesh.triangles);
+  out.neighbours = std::move(mesh.neighbours);
   return out;
 }
 
-void connect(const Mesh& mesh, BegunVoronoi& out) {
-  connect(faces_of(mesh), out.rings, out.voronoi);
+void copy_triangles(const Triangles& triangles, Voronoi& out) {
+  make_room(out.cells_on_vertex, 3, triangles.cols());
+  for_each_block(triangles.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    std::copy(triangles.data() + begin, triangles.data() + end, out.cells_on_vertex.data() + begin);
+  });
 }
 
-void connect(const PlanarMesh& mesh, BegunVoronoi& out) {
-  connect(faces_of(mesh), out.rings, out.voronoi);
-}
-
-namespace {
-
-template <class AnyMesh> Voronoi ended(const AnyMesh& mesh, BegunVoronoi begun) {
-  connect(mesh, begun);
-  measure(begun.voronoi);
-  return std::move(begun.voronoi);
+template <class AnyMesh> Voronoi voronoi_of(const AnyMesh& mesh) {
+  Voronoi out;
+  const Rings rings = begin(mesh, out);
+  copy_triangles(mesh.triangles, out);
+  connect(faces_of(mesh), rings, out);
+  measure(out);
+  return out;
 }
 
 } // namespace
+
+BegunVoronoi begun(Mesh& mesh) { return begun_of(mesh); }
+BegunVoronoi begun(PlanarMesh& mesh) { return begun_of(mesh); }
+
+void connect(BegunVoronoi& out) {
+  connect(Faces{out.voronoi.cells_on_vertex, out.neighbours, out.voronoi.cells.cols()}, out.rings,
+          out.voronoi);
+  out.rings = {};
+  release(out.neighbours);
+}
+
 } // namespace voronoi_detail
 
-Voronoi voronoi(const Mesh& mesh) {
-  return voronoi_detail::ended(mesh, voronoi_detail::begun(mesh.points, mesh));
-}
+Voronoi voronoi(const Mesh& mesh) { return voronoi_detail::voronoi_of(mesh); }
 
-Voronoi voronoi(const PlanarMesh& mesh) {
-  return voronoi_detail::ended(mesh, voronoi_detail::begun(mesh));
-}
+Voronoi voronoi(const PlanarMesh& mesh) { return voronoi_detail::voronoi_of(mesh); }
 
 } // namespace calotte

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "voronoi/room.h"
+
+#include <calotte/density.h>
+#include <calotte/voronoi.h>
+
+#include <cstdint>
+
+/// The values of CellFields one by one, for callers that do not store them.
+namespace calotte::voronoi_detail {
+
+/// The density at the cells divided by its maximum; empty if it is uniform.
+/// \throws Error bad_option, as cell_fields().
+Eigen::VectorXd relative_density(const Voronoi& voronoi, const Density& density);
+
+double spacing_at(const Voronoi& voronoi, std::int64_t cell); ///< CellFields::spacing
+double quality_at(const Voronoi& voronoi, std::int64_t cell); ///< CellFields::quality
+
+/// As nominal_spacing(fields). \param density empty if it is uniform.
+double nominal_spacing(const Eigen::VectorXd& area, const Eigen::VectorXd& density);
+
+} // namespace calotte::voronoi_detail
