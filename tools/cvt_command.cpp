@@ -70,7 +70,7 @@ private:
 
 struct Outcome {
   CvtReport report;
-  Mesh mesh;        ///< on the sphere
+  Mesh mesh;        ///< on the sphere; empty after it is written
   PlanarMesh plane; ///< or in the plane
   std::int64_t cells = 0;
   std::string grid;       ///< a line about a limited-area grid
@@ -285,7 +285,7 @@ void write_result(const CvtRequest& request, const Plan& plan, Outcome& outcome,
   else if (plan.domain)
     write_plane(request.mesh, outcome.plane, *plan.domain, options);
   else
-    write(request.mesh, outcome.mesh, options);
+    write(request.mesh, std::move(outcome.mesh), options);
   if (!request.report.empty())
     write_file(request.report, to_json(request, outcome.report, outcome.cells, outcome.area,
                                        outcome.threads, outcome.states));

@@ -100,6 +100,11 @@ struct WriteOptions {
 ///         not_finite or zero_vector as renumbered(); cancelled; file.
 void write(const std::string& path, const Mesh& mesh, const WriteOptions& options = {});
 
+/// The same for a mesh handed over, which needs less memory: MPAS formats reuse the mesh's arrays
+/// and free each after its last use. The mesh is empty afterwards. If the function throws, the mesh
+/// is unchanged or empty.
+void write(const std::string& path, Mesh&& mesh, const WriteOptions& options = {});
+
 /// Writes a planar mesh in the order of its sites. A periodic mesh supports mpas, mpas_minimal and
 /// triangles; other planar meshes support triangles and, with z = 0, vtp, vtu, off, ply and msh,
 /// and formats of cells if the domain is known, see below. \throws Error as above; bad_option for

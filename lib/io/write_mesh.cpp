@@ -20,6 +20,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <type_traits>
+#include <utility>
 
 namespace calotte {
 namespace {
@@ -78,12 +80,14 @@ void put_mesh(const Sink& sink, const Mesh& mesh, const WriteOptions& options) {
   }
 }
 
-void write_numbered(const std::string& path, const Mesh& mesh, const WriteOptions& options) {
+/// \param mesh `const Mesh&`; or `Mesh`, which MPAS formats consume.
+template <class AnyMesh>
+void write_numbered(const std::string& path, AnyMesh&& mesh, const WriteOptions& options) {
   switch (options.format) {
   case Format::mpas:
-    return write_mpas(path, mesh, options);
+    return write_mpas(path, std::forward<AnyMesh>(mesh), options);
   case Format::mpas_minimal:
-    return write_mpas_minimal(path, mesh, options);
+    return write_mpas_minimal(path, std::forward<AnyMesh>(mesh), options);
   case Format::ugrid:
     return write_ugrid(path, cell_grid(mesh), options);
   case Format::ugrid_triangles:
@@ -130,7 +134,11 @@ Mesh in_space(const PlanarMesh& mesh) {
 
 } // namespace
 
-void write(const std::string& path, const Mesh& mesh, const WriteOptions& options) {
+namespace {
+
+/// \param mesh `const Mesh&`; or an rvalue, which is freed as early as the format allows.
+template <class AnyMesh>
+void write_sphere(const std::string& path, AnyMesh&& mesh, const WriteOptions& options) {
   constexpr double numbered = 0.2; // of the time, where the cells are numbered anew
   WriteOptions resolved = options;
   resolved.format = format_of(path, options.format);
@@ -145,11 +153,26 @@ void write(const std::string& path, const Mesh& mesh, const WriteOptions& option
   const bool stays =
       numbering == Numbering::input || (numbering == Numbering::curve && is_in_curve_order(mesh));
   resolved.progress = rest_of(options.progress, stays ? 0 : numbered);
-  if (stays)
-    write_numbered(path, mesh, resolved);
-  else
-    write_numbered(path, renumbered_with_values(mesh, numbering, resolved), resolved);
+  if (stays) {
+    write_numbered(path, std::forward<AnyMesh>(mesh), resolved);
+  } else {
+    Mesh other = renumbered_with_values(mesh, numbering, resolved);
+    if constexpr (!std::is_lvalue_reference_v<AnyMesh>)
+      mesh = {};
+    write_numbered(path, std::move(other), resolved);
+  }
   monitor.finish("write");
+}
+
+} // namespace
+
+void write(const std::string& path, const Mesh& mesh, const WriteOptions& options) {
+  write_sphere(path, mesh, options);
+}
+
+void write(const std::string& path, Mesh&& mesh, const WriteOptions& options) {
+  write_sphere(path, std::move(mesh), options);
+  mesh = {};
 }
 
 void require_planar_format(const std::string& path, bool periodic, Format format, bool bounded) {
@@ -206,10 +229,8 @@ void add_cell_fields(const Voronoi& voronoi, WriteOptions& options) {
 }
 
 void write_cells(const std::string& path, Voronoi cells, WriteOptions options) {
-  if (options.format == Format::mpas) {
-    const Points3 places = cells.cells;
-    return write_mpas(path, std::move(cells), places, options);
-  }
+  if (options.format == Format::mpas)
+    return write_mpas(path, std::move(cells), {}, options);
   if (options.format != Format::ugrid)
     add_cell_fields(cells, options);
   Eigen::VectorXd area = std::move(cells.cell_area);

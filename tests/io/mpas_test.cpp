@@ -683,11 +683,10 @@ TEST_CASE("a minimal file holds the same cells and vertices") {
 TEST_CASE("a mesh keeps its bits in a round trip, and so does its file") {
   const Scratch scratch;
   for (const Case& of : cases())
-    for (const auto write :
-         {static_cast<void (*)(const std::string&, const Mesh&, const WriteOptions&)>(
-              io_detail::write_mpas),
-          static_cast<void (*)(const std::string&, const Mesh&, const WriteOptions&)>(
-              io_detail::write_mpas_minimal)}) {
+    for (const auto write : {static_cast<void (*)(const std::string&, Mesh, const WriteOptions&)>(
+                                 io_detail::write_mpas),
+                             static_cast<void (*)(const std::string&, Mesh, const WriteOptions&)>(
+                                 io_detail::write_mpas_minimal)}) {
       CAPTURE(of.name);
       write(scratch / "a.nc", of.mesh, of.options);
       const Mesh back = read_back(scratch / "a.nc", of.mesh);
@@ -773,7 +772,7 @@ TEST_CASE("an error while a file is written leaves the old mesh and its graph") 
   WriteOptions options;
   options.density.kind = Density::Kind::callable;
   options.density.callable = [](const auto&, Eigen::Ref<Eigen::VectorXd> rho) { rho.setZero(); };
-  using Write = void (*)(const std::string&, const Mesh&, const WriteOptions&);
+  using Write = void (*)(const std::string&, Mesh, const WriteOptions&);
   for (const Write write : {Write{io_detail::write_mpas}, Write{io_detail::write_mpas_minimal}}) {
     CHECK_THROWS_WITH_AS(write(scratch / "a.nc", mesh, options),
                          doctest::Contains("zero at every cell"), Error);
