@@ -57,7 +57,7 @@ void run(CLI::App& app, int argc, char** argv) {
   app.parse(argc, argv);
   if (app.get_subcommands().empty())
     throw CLI::RequiredError(
-        "delaunay, cvt, plan, points, check, info, draw, convert, cut or cull");
+        "delaunay, cvt, plan, points, check, info, draw, view, convert, cut, cull or help");
 }
 
 /// A message of the library, with the option that is its remedy here.

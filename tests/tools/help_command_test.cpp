@@ -12,8 +12,8 @@ using namespace calotte::test;
 
 namespace {
 
-const std::vector<std::string> commands{"delaunay", "cvt",  "plan",    "points", "check",
-                                        "info",     "draw", "convert", "cut",    "cull"};
+const std::vector<std::string> commands{"delaunay", "cvt",  "plan",    "points", "check", "info",
+                                        "draw",     "view", "convert", "cut",    "cull"};
 
 /// The text of a help, checked to succeed.
 std::string shown(const Bench& bench, const std::string& arguments) {
@@ -125,4 +125,57 @@ TEST_CASE("a misspelt option or command is answered with the nearest one") {
         "unknown option --max_iteration; did you mean --max-iterations? See calotte cvt --help");
   check("cvt --cells 12 -o mesh.vtp --frobnicate",
         "unknown option --frobnicate; see calotte cvt --help");
+}
+
+TEST_CASE("a manual page has every option, and completions have its names") {
+  const Bench bench;
+  const std::string bash = shown(bench, "help --completion bash");
+  const std::string zsh = shown(bench, "help --completion zsh");
+  for (const std::string& command : commands) {
+    std::string page = shown(bench, "help " + command + " --man");
+    CHECK(has(page, "\n.SH NAME\ncalotte\\-" + command + " \\- "));
+    page.erase(std::remove(page.begin(), page.end(), '\\'), page.end());
+    std::istringstream words(shown(bench, command + " --help-all"));
+    for (std::string word; words >> word;) {
+      std::istringstream names(word);
+      for (std::string name; std::getline(names, name, ',');)
+        if (name.starts_with("--") && name.find_first_of(";:.)=") == std::string::npos) {
+          CAPTURE(name);
+          CHECK(has(page, name));
+          CHECK(has(bash, name));
+          CHECK(has(zsh, name));
+        }
+    }
+  }
+  const std::string main = shown(bench, "help --man");
+  for (const char* part :
+       {".SH DENSITY\n", ".SH REGION\n", ".SH \"EXIT STATUS\"\n", "calotte\\-cvt"})
+    CHECK(has(main, part));
+}
+
+TEST_CASE("bash completes commands, options, their words and files") {
+  const Bench bench;
+  bench.file("calotte.bash", shown(bench, "help --completion bash"));
+  bench.file("grid one.nc", "");
+  bench.file("complete",
+             "source ./calotte.bash; COMP_WORDS=(\"$@\"); COMP_CWORD=$(($# - 1)); _calotte; "
+             "printf '%s\\n' \"${COMPREPLY[@]}\"");
+  const auto completed = [&](const std::string& words) {
+    return bench.run("", "bash ./complete calotte " + words + "; exit;").out;
+  };
+  CHECK(completed("cv") == "cvt\n");
+  CHECK(completed("cvt --me") == "--method\n--merge-within\n");
+  CHECK(completed("cvt --method lbfgs") == "lbfgs\nlbfgs-laplacian\n");
+  CHECK(completed("cvt --method = lb") == "lbfgs\nlbfgs-laplacian\n");
+  CHECK(completed("cvt --threads 1") == "\n");
+  CHECK(completed("info gr") == "grid one.nc\n");
+  CHECK(completed("help exit") == "exit-codes\n");
+}
+
+TEST_CASE("what has no manual page is refused") {
+  const Bench bench;
+  CHECK(bench.run("help density --man").err ==
+        "calotte: no manual page of \"density\"; see calotte --help\n");
+  CHECK(bench.run("help --completion fish").code == 2);
+  CHECK(bench.run("help cvt --completion zsh").code == 2);
 }

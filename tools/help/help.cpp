@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "help/help.h"
 
+#include "help/option_text.h"
 #include "help/topics.h"
 
 #include <algorithm>
@@ -45,76 +46,23 @@ std::string wrapped(const std::string& head, std::size_t indent, const std::stri
   return lines + "\n";
 }
 
-std::string first_sentence(const std::string& text) {
-  const std::string sentence = text.substr(0, text.find(". "));
-  return sentence.substr(0, sentence.find_last_not_of('.') + 1);
-}
-
 // ---- One option
-
-/// The words for its values, without those for their validation: FILE, N, KM.
-std::string values_of(const CLI::Option& option) {
-  if (option.get_expected_max() == 0)
-    return "";
-  const std::string type = option.get_type_name();
-  const std::size_t colon = type.find(':');
-  if (colon == std::string::npos)
-    return type == "TEXT" ? "WORD" : type;
-  const std::string check = type.substr(colon + 1);
-  const bool plain = check.find_first_of("{ ") == std::string::npos;
-  const std::string kind = type.substr(0, colon);
-  return plain && !check.empty() ? check : kind == "TEXT" ? "WORD" : kind;
-}
-
-/// The words among which its value is; "" if these are not listed.
-std::string choices_of(const CLI::Option& option) {
-  const std::string type = option.get_type_name();
-  const std::size_t begin = type.find(":{"), end = type.find('}');
-  if (begin == std::string::npos || end == std::string::npos)
-    return "";
-  std::string list;
-  std::istringstream words(type.substr(begin + 2, end - begin - 2));
-  for (std::string word; std::getline(words, word, ',');)
-    list += (list.empty() ? "" : ", ") + word;
-  return list;
-}
-
-std::string names_of(const std::set<CLI::Option*>& options) {
-  std::string list;
-  for (const CLI::Option* option : options)
-    list += (list.empty() ? "" : ", ") + option->get_name();
-  return list;
-}
 
 std::string head_of(const CLI::Option& option) {
   const std::string values = values_of(option);
-  const std::string names = option.get_name(true, true);
+  std::string names;
+  for (const std::string& name : names_of(option))
+    names += (names.empty() ? "" : ",") + name;
   return "  " + names + (values.empty() || names == values ? "" : " " + values);
-}
-
-std::string default_of(const CLI::Option& option) {
-  const std::string value = option.get_default_str();
-  return value.empty() ? "" : "; default: " + value;
 }
 
 /// The first sentence of its text.
 std::string brief(const CLI::Option& option) {
-  return wrapped(head_of(option), text_column,
-                 first_sentence(option.get_description()) + default_of(option) +
-                     (option.get_required() ? " (required)" : ""));
+  return wrapped(head_of(option), text_column, brief_text(option));
 }
 
 std::string whole(const CLI::Option& option) {
-  std::string text = option.get_description() + default_of(option);
-  const std::string choices = choices_of(option);
-  const bool listed = text.find(choices.substr(choices.rfind(' ') + 1)) != std::string::npos;
-  if (!choices.empty() && !listed)
-    text += ". One of " + choices;
-  if (const std::string needed = names_of(option.get_needs()); !needed.empty())
-    text += ". Requires " + needed;
-  if (const std::string excluded = names_of(option.get_excludes()); !excluded.empty())
-    text += ". Excludes " + excluded;
-  return wrapped(head_of(option), text_column, text + (option.get_required() ? " (required)" : ""));
+  return wrapped(head_of(option), text_column, whole_text(option));
 }
 
 // ---- A command
@@ -130,10 +78,10 @@ public:
            options(*app, all) + examples() + (all ? "\n" + exit_codes() : further(*app));
   }
 
+  const Help& help() const { return help_; }
+
 private:
-  bool shown(const CLI::App& app, const CLI::Option& option, bool all) const {
-    if (&option == app.get_help_ptr() || &option == app.get_help_all_ptr())
-      return false;
+  bool shown(const CLI::Option& option, bool all) const {
     return all || help_.common.empty() ||
            std::any_of(help_.common.begin(), help_.common.end(),
                        [&](const std::string& name) { return option.check_name(name); });
@@ -141,20 +89,15 @@ private:
 
   /// The options in their groups; the names of the groups stand where there are several.
   std::string options(const CLI::App& app, bool all) const {
-    std::vector<std::pair<std::string, std::string>> groups;
-    for (const CLI::Option* option : app.get_options({})) {
-      if (!shown(app, *option, all))
-        continue;
-      const std::string& name = option->get_group();
-      auto group = std::find_if(groups.begin(), groups.end(),
-                                [&](const auto& other) { return other.first == name; });
-      if (group == groups.end())
-        group = groups.insert(groups.end(), {name, ""});
-      group->second += all ? whole(*option) : brief(*option);
-    }
     std::string text;
-    for (const auto& [name, lines] : groups)
-      text += (all && !text.empty() ? "\n" : "") + name + ":\n" + lines;
+    for (const auto& [name, members] : groups_of(app)) {
+      std::string lines;
+      for (const CLI::Option* option : members)
+        if (shown(*option, all))
+          lines += all ? whole(*option) : brief(*option);
+      if (!lines.empty())
+        text += (all && !text.empty() ? "\n" : "") + name + ":\n" + lines;
+    }
     return text;
   }
 
@@ -208,6 +151,11 @@ private:
 
 void set_help(CLI::App& command, Help help) {
   command.formatter(std::make_shared<HelpFormatter>(std::move(help)));
+}
+
+std::vector<std::string> examples_of(const CLI::App& command) {
+  const auto* formatter = dynamic_cast<const HelpFormatter*>(command.get_formatter().get());
+  return formatter == nullptr ? std::vector<std::string>{} : formatter->help().examples;
 }
 
 void set_main_help(CLI::App& app) {
