@@ -4,21 +4,34 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 target_include_directories(calotte PUBLIC $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
-install(TARGETS calotte EXPORT calotteTargets)
-install(DIRECTORY include/calotte TYPE INCLUDE)
+install(TARGETS calotte EXPORT calotteTargets
+  LIBRARY COMPONENT library NAMELINK_COMPONENT development
+  ARCHIVE COMPONENT development)
+install(DIRECTORY include/calotte TYPE INCLUDE COMPONENT development)
 if(TARGET calotte_command)
-  install(TARGETS calotte_command)
+  install(TARGETS calotte_command COMPONENT command)
   if(calotte_type STREQUAL "SHARED_LIBRARY") # found wherever the prefix is moved
     set_target_properties(calotte_command PROPERTIES INSTALL_RPATH $ORIGIN/../${CMAKE_INSTALL_LIBDIR})
   endif()
 endif()
+if(calotte_man_pages)
+  set(CALOTTE_ZSH_FOLDER ${CMAKE_INSTALL_DATADIR}/zsh/site-functions CACHE STRING "Where zsh finds completions")
+  install(FILES ${calotte_man_pages} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT command)
+  if(CALOTTE_DEBIAN_DOCS)
+    install(CODE "file(GLOB pages \$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_MANDIR}/man1/*.1)
+      execute_process(COMMAND gzip -9nf \${pages} COMMAND_ERROR_IS_FATAL ANY)" COMPONENT command)
+  endif()
+  install(FILES ${calotte_completions}/calotte.bash RENAME calotte COMPONENT command
+          DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+  install(FILES ${calotte_completions}/_calotte DESTINATION ${CALOTTE_ZSH_FOLDER} COMPONENT command)
+endif()
 
 set(calotte_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/calotte)
 configure_package_config_file(cmake/calotteConfig.cmake.in calotteConfig.cmake INSTALL_DESTINATION ${calotte_package_dir})
-write_basic_package_version_file(calotteConfigVersion.cmake COMPATIBILITY SameMinorVersion)
-install(EXPORT calotteTargets NAMESPACE calotte:: DESTINATION ${calotte_package_dir})
+write_basic_package_version_file(calotteConfigVersion.cmake COMPATIBILITY SameMajorVersion)
+install(EXPORT calotteTargets NAMESPACE calotte:: DESTINATION ${calotte_package_dir} COMPONENT development)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/calotteConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/calotteConfigVersion.cmake
-        DESTINATION ${calotte_package_dir})
+        DESTINATION ${calotte_package_dir} COMPONENT development)
 
 # A shared library brings its own libraries along; an archive leaves them to `pkg-config --static`.
 if(calotte_type STREQUAL "STATIC_LIBRARY")
@@ -32,4 +45,7 @@ foreach(kind LIB INCLUDE) # found from where the .pc file stands
   file(RELATIVE_PATH calotte_pc_${kind} ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_FULL_${kind}DIR})
 endforeach()
 configure_file(cmake/calotte.pc.in calotte.pc @ONLY)
-install(FILES ${CMAKE_CURRENT_BINARY_DIR}/calotte.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/calotte.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
+if(PROJECT_IS_TOP_LEVEL)
+  include(cmake/debian.cmake)
+endif()
