@@ -52,8 +52,9 @@ double implied_cells(const CellWidth& cell_width, const Region& region,
 
 /// The gradient of the cell width at one location.
 struct Gradient {
-  double slope = 0;                   ///< |grad h|, km per km
-  double longitude = 0, latitude = 0; ///< degrees; longitude from -180 to below 180
+  double slope = 0;     ///< |grad h|, km per km
+  double longitude = 0; ///< degrees, from -180 to below 180
+  double latitude = 0;  ///< degrees
 };
 
 /// The largest |grad h| of the interpolated field. It is exact, because the maximum lies at a

@@ -17,15 +17,16 @@ struct Check {
   /// One line that describes the first violated law and names the triangle, edge or site; empty if
   /// all laws hold.
   std::string failure;
-  std::int64_t sites = 0;
-  std::int64_t triangles = 0;
-  std::int64_t boundary_edges = 0;
+  std::int64_t sites = 0;          ///< number of points
+  std::int64_t triangles = 0;      ///< number of triangles
+  std::int64_t boundary_edges = 0; ///< number of edges of one triangle
   /// Sum of the areas of the triangles: steradians on the unit sphere; in the plane the square of
   /// the points' unit. 0 if an earlier law is violated.
   double area = 0;
   /// Expected area: 4 pi (0 for an open mesh); in the plane that of the boundary polygon or box.
   double whole = 0;
 
+  /// True if all laws hold.
   bool passed() const { return failure.empty(); }
 };
 

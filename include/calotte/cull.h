@@ -21,9 +21,10 @@ struct SeaField {
   /// Cells with least <= value < most may be sea; others, and those without a number, are land.
   /// Default: below 0, as for a topography.
   double least = -std::numeric_limits<double>::infinity();
-  double most = 0;
+  double most = 0; ///< see `least`
 };
 
+/// Options of cull().
 struct CullOptions {
   Coast coast = {};       ///< Default: none, no land.
   LandRaster raster = {}; ///< Default: no values, none.
@@ -51,11 +52,14 @@ struct CullOptions {
   ProgressCallback progress = {}; ///< stage: write. A cancelled run leaves no file.
 };
 
+/// What cull() made.
 struct CullReport {
-  std::int64_t cells = 0, edges = 0, vertices = 0; ///< of the new mesh
-  std::int64_t land = 0;                           ///< cells that coast, raster and field make land
-  SeaReport sea;                                   ///< what followed
-  std::vector<std::string> left_out;               ///< variables, as CutReport::left_out
+  std::int64_t cells = 0;            ///< of the new mesh
+  std::int64_t edges = 0;            ///< of the new mesh
+  std::int64_t vertices = 0;         ///< of the new mesh
+  std::int64_t land = 0;             ///< cells that coast, raster and field make land
+  SeaReport sea;                     ///< what followed
+  std::vector<std::string> left_out; ///< variables, as CutReport::left_out
 };
 
 /// Leaves the cells of land out of an MPAS file of the sphere, see sea_cells(), and carries all

@@ -19,6 +19,7 @@
 CALOTTE_API_BEGIN
 namespace calotte {
 
+/// Options of cut().
 struct CutOptions {
   int rings = limited_area_rings; ///< of boundary cells, 0 to limited_area_rings
   /// Radius of the sphere of the new file, > 0. MPAS-Atmosphere expects grids on the unit sphere; a
@@ -31,9 +32,12 @@ struct CutOptions {
   ProgressCallback progress = {};
 };
 
+/// What cut() made.
 struct CutReport {
-  std::int64_t cells = 0, edges = 0, vertices = 0; ///< of the new mesh
-  std::vector<std::int64_t> cells_by_mask;         ///< rings + 1: inside, then by ring
+  std::int64_t cells = 0;                  ///< of the new mesh
+  std::int64_t edges = 0;                  ///< of the new mesh
+  std::int64_t vertices = 0;               ///< of the new mesh
+  std::vector<std::int64_t> cells_by_mask; ///< rings + 1: inside, then by ring
   /// Variables of the source that the new file does not have: strings, types of users, and lists
   /// that the model makes itself (advCells, advCellsForEdge).
   std::vector<std::string> left_out;

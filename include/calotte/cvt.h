@@ -53,13 +53,13 @@ enum class Boundary {
 /// Options of a CVT run. A function that takes them throws Error bad_option for a value out of
 /// range.
 struct CvtOptions {
-  Density density = {}; ///< rho of the energy; default uniform
-  Method method = Method::automatic;
+  Density density = {};              ///< rho of the energy; default uniform
+  Method method = Method::automatic; ///< see Method
   /// Factor of the steps of Method::lloyd towards the centroid; 1 <= relaxation < 2. A step that
   /// would raise the energy is repeated with factor 1. Other methods ignore it.
   double relaxation = 1;
-  Norm norm = Norm::l2_scaled;
-  double tolerance = 1e-6; ///< stop when the norm is at most this; > 0 and finite
+  Norm norm = Norm::l2_scaled; ///< compared with the tolerance
+  double tolerance = 1e-6;     ///< stop when the norm is at most this; > 0 and finite
   /// Maximum number of evaluations per level; >= 0. The last line search may exceed it.
   int max_iterations = 1000;
   /// Number of bisections after the first level; >= 0, and at most 2^30 generators in the last
@@ -109,29 +109,31 @@ struct CvtOptions {
 /// One evaluation of the energy and the centroids; in Lloyd's method one iteration. Lengths are on
 /// the unit sphere, in the plane in the unit of the domain.
 struct CvtIteration {
-  std::int64_t cells = 0;
-  double spacing = 0; ///< h, the square root of the mean cell area
+  std::int64_t cells = 0; ///< number of generators
+  double spacing = 0;     ///< h, the square root of the mean cell area
   /// Quadrature points per half kite; 0 for exact moments; -1 for a density that is linear between
   /// the generators, as in a run with insertion_rounds except at its end.
   int rule = 0;
-  double l2 = 0, linf = 0; ///< Norm::l2 and Norm::linf, not scaled
-  double gradient = 0;     ///< Norm::gradient
-  double energy = 0;       ///< sum over cells of the integral of rho |x - x_i|^2
+  double l2 = 0;       ///< Norm::l2, not scaled
+  double linf = 0;     ///< Norm::linf, not scaled
+  double gradient = 0; ///< Norm::gradient
+  double energy = 0;   ///< sum over cells of the integral of rho |x - x_i|^2
   /// In a finish, see CvtOptions::well_centred: the largest excess of a shape over its limit;
   /// otherwise 0.
   double misshapen = 0;
   /// In a finish: the number of generators farther than 0.01 of the demanded spacing from their
-  /// centroids, and the largest such distance over the spacing; otherwise 0.
+  /// centroids; otherwise 0.
   std::int64_t displaced = 0;
-  double displacement = 0;
-  bool accepted = true;   ///< false if the line search rejected this trial
-  std::int64_t flips = 0; ///< edge flips after the last move
-  bool rebuilt = false;   ///< the last move required a new triangulation
-  double seconds = 0;     ///< wall-clock time of the evaluation
-  /// Times summed over the regions' tasks, not wall-clock: copying positions; restoring the
-  /// Delaunay property; moments and the move.
-  double seconds_exchange = 0, seconds_repair = 0, seconds_moments = 0;
-  double seconds_solver = 0; ///< wall-clock time of computing the search direction
+  double displacement = 0; ///< in a finish: the largest such distance over the spacing
+  bool accepted = true;    ///< false if the line search rejected this trial
+  std::int64_t flips = 0;  ///< edge flips after the last move
+  bool rebuilt = false;    ///< the last move required a new triangulation
+  double seconds = 0;      ///< wall-clock time of the evaluation
+  /// Time of copying positions, summed over the regions' tasks, not wall-clock.
+  double seconds_exchange = 0;
+  double seconds_repair = 0;  ///< the same of restoring the Delaunay property
+  double seconds_moments = 0; ///< the same of moments and the move
+  double seconds_solver = 0;  ///< wall-clock time of computing the search direction
 };
 
 /// A region at the end of the run.
@@ -159,10 +161,10 @@ struct CvtReport {
 /// read_checkpoint() loads it.
 class CvtState {
 public:
-  CvtState(); ///< a state without generators, which no run accepts
-  CvtState(const CvtState& other);
+  CvtState();                          ///< a state without generators, which no run accepts
+  CvtState(const CvtState& other);     ///< copies
   CvtState(CvtState&& other) noexcept; ///< afterwards assign to `other` or destroy it only
-  CvtState& operator=(CvtState other) noexcept;
+  CvtState& operator=(CvtState other) noexcept; ///< takes the state of `other`
   ~CvtState();
 
   /// The generators: 3 x n unit columns, in a plane with z = 0, in the order of the result.
@@ -170,11 +172,13 @@ public:
 
   const CvtReport& report() const; ///< of the run so far
 
-  /// Internal to the library.
+  /// \cond internal
+  // Internal to the library.
   struct Data;
   explicit CvtState(Data data);
   const Data& data() const { return *data_; }
   Data& data() { return *data_; }
+  /// \endcond
 
 private:
   std::unique_ptr<Data> data_;
@@ -198,7 +202,7 @@ using CvtCallback = std::function<bool(const CvtProgress&)>;
 struct Cvt {
   Mesh mesh; ///< Delaunay triangulation of the generators, unit columns, in the order of the start
              ///< (after bisections, the midpoints follow)
-  CvtReport report;
+  CvtReport report; ///< how the run went
 };
 
 /// Computes a centroidal Voronoi tessellation of the unit sphere. It moves the generators until
@@ -224,6 +228,7 @@ Cvt spherical_cvt(const PointsRef& start, const CvtOptions& options = {},
 /// points.
 template <std::same_as<Points3> Points>
 Cvt spherical_cvt(Points&& start, const CvtOptions& options = {}, const CvtCallback& callback = {});
+/// Its one specialisation.
 template <>
 CALOTTE_API_SPECIALISATION Cvt spherical_cvt(Points3&& start, const CvtOptions& options,
                                              const CvtCallback& callback);
@@ -248,6 +253,8 @@ Cvt spherical_cvt(CvtState state, const CvtOptions& options, const CvtCallback& 
 ///         the region.
 Cvt spherical_cvt(const PointsRef& start, const Region& region, const CvtOptions& options = {},
                   const CvtCallback& callback = {});
+/// Continues from a state in a region.
+/// \throws Error as above; bad_option for an incomplete state.
 Cvt spherical_cvt(CvtState state, const Region& region, const CvtOptions& options,
                   const CvtCallback& callback = {});
 
@@ -256,7 +263,7 @@ struct PlanarCvt {
   /// Delaunay triangulation of the generators, in the order of the start (after bisections, the
   /// midpoints follow); periodic if the domain is.
   PlanarMesh mesh;
-  CvtReport report;
+  CvtReport report; ///< how the run went
 };
 
 /// The same in a domain of the plane, whose boundary clips the cells. The centroid M/m of a cell at

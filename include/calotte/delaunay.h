@@ -15,22 +15,23 @@ namespace calotte {
 
 /// Times and counts of one run. Seconds are wall-clock time.
 struct DelaunayReport {
+  /// Times of the stages.
   struct Seconds {
-    double sites = 0;       ///< check, normalise, curve order, duplicates
-    double regions = 0;     ///< centres, owners, halos
-    double triangulate = 0; ///< gather, project, triangulate, cull and certify: all regions
-    double unite = 0;       ///< the seams' union, canonical order, adjacency
-    double total = 0;       ///< all of the call, from the caller's points to the mesh
-  } seconds;
+    double sites = 0;          ///< check, normalise, curve order, duplicates
+    double regions = 0;        ///< centres, owners, halos
+    double triangulate = 0;    ///< gather, project, triangulate, cull and certify: all regions
+    double unite = 0;          ///< the seams' union, canonical order, adjacency
+    double total = 0;          ///< all of the call, from the caller's points to the mesh
+  } seconds;                   ///< of the stages
   std::int64_t sites = 0;      ///< distinct sites of the input
   std::int64_t duplicates = 0; ///< input columns that were merged into another
-  int regions = 0;
-  int threads = 0;         ///< of the task arena it ran in
-  bool one_region = false; ///< the sites were triangulated serially as one region
-  double overlap = 0;      ///< sites of all regions, halos included, divided by the number of sites
+  int regions = 0;             ///< their number
+  int threads = 0;             ///< of the task arena it ran in
+  bool one_region = false;     ///< the sites were triangulated serially as one region
+  double overlap = 0; ///< sites of all regions, halos included, divided by the number of sites
   std::vector<std::int64_t> sites_per_region; ///< owned and halo
-  std::vector<std::int64_t> owned_per_region;
-  std::vector<double> seconds_per_region; ///< gather to certify, by region
+  std::vector<std::int64_t> owned_per_region; ///< owned alone
+  std::vector<double> seconds_per_region;     ///< gather to certify, by region
   /// Reports of triangles whose circumcap lies in the covered part.
   std::int64_t certified_by_cull = 0;
   std::int64_t certified_by_query = 0;  ///< reports certified by a query of their circumcap
@@ -64,6 +65,7 @@ Mesh spherical_delaunay(const PointsRef& points, const DelaunayOptions& options 
 template <std::same_as<Points3> Points>
 Mesh spherical_delaunay(Points&& points, const DelaunayOptions& options = {},
                         DelaunayReport* report = nullptr);
+/// Its one specialisation.
 template <>
 CALOTTE_API_SPECIALISATION Mesh spherical_delaunay(Points3&& points, const DelaunayOptions& options,
                                                    DelaunayReport* report);

@@ -46,10 +46,11 @@ struct Density {
   using Callable =
       std::function<void(const Eigen::Ref<const Points3>& x, Eigen::Ref<Eigen::VectorXd> rho)>;
 
-  Kind kind = Kind::uniform;
-  std::vector<Bump> bumps; ///< combined by Kind::maximum or Kind::sum; not empty for these kinds
-  Callable callable;       ///< not empty for Kind::callable; no effect for other kinds
+  Kind kind = Kind::uniform; ///< what determines the density
+  std::vector<Bump> bumps;   ///< combined by Kind::maximum or Kind::sum; not empty for these kinds
+  Callable callable;         ///< not empty for Kind::callable; no effect for other kinds
 
+  /// True if the density is 1 everywhere.
   bool uniform() const { return kind == Kind::uniform; }
 };
 

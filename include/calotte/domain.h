@@ -21,6 +21,7 @@ struct PlanarDomain {
   /// 0.
   Eigen::Vector2d period{0, 0};
 
+  /// True for a periodic box.
   bool periodic() const { return rings.empty(); }
 };
 

@@ -31,10 +31,11 @@ enum class ErrorCode {
 /// default) if the error has none.
 class Error : public std::runtime_error {
 public:
+  /// \param message one line.
   Error(ErrorCode code, const std::string& message, std::int64_t index = -1)
       : std::runtime_error(message), code_(code), index_(index) {}
-  ErrorCode code() const noexcept { return code_; }
-  std::int64_t index() const noexcept { return index_; }
+  ErrorCode code() const noexcept { return code_; }      ///< the kind of the error
+  std::int64_t index() const noexcept { return index_; } ///< the offender; -1 for none
 
 private:
   ErrorCode code_;

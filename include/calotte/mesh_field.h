@@ -22,15 +22,16 @@ enum class Location {
 
 /// A dimension of a field besides that of its location, such as levels or times.
 struct FieldDimension {
-  std::string name;
+  std::string name;      ///< of the dimension
   std::int64_t size = 1; ///< >= 1
 };
 
 /// Numbers for each cell, edge or vertex of a mesh, in its order.
 struct MeshField {
-  std::string name;
-  std::string long_name = {}, units = {}; ///< attributes in NetCDF files; empty for none
-  Location location = Location::cells;
+  std::string name;                    ///< of the variable
+  std::string long_name = {};          ///< attribute in NetCDF files; empty for none
+  std::string units = {};              ///< attribute in NetCDF files; empty for none
+  Location location = Location::cells; ///< what has the numbers
   /// count() numbers for each place, place after place, and for each place in the order of
   /// `dimensions`, of which the last is the fastest. NaN where a file has its _FillValue.
   Eigen::VectorXd values = {};

@@ -26,10 +26,11 @@ struct Polygons {
   /// n + 1: polygon i has the corners ids[begin[i]] to ids[begin[i + 1] - 1], counter-clockwise
   /// seen from outside. 0-based.
   Eigen::Matrix<std::int64_t, Eigen::Dynamic, 1> begin;
-  Ids ids;
+  Ids ids;               ///< see `begin`
   Points3 centres;       ///< 3 x n, as the corners; 3 x 0 if the file gives none
   bool on_sphere = true; ///< false in a plane
 
+  /// Their number.
   std::int64_t size() const { return begin.size() > 0 ? begin.size() - 1 : 0; }
 };
 
@@ -60,7 +61,7 @@ struct MeshFile {
   /// The triangulation of the sites in canonical form. It is the file's, or, if the file holds
   /// cells alone, that of the cells' centres, provided that the cells are their Voronoi cells.
   std::optional<Mesh> mesh;
-  std::optional<PlanarMesh> plane;
+  std::optional<PlanarMesh> plane; ///< the same of a file in a plane
   /// The domain of `plane`, which clips its cells. No file holds it: a caller that knows it may set
   /// it for write().
   std::optional<PlanarDomain> domain;
@@ -72,8 +73,8 @@ struct MeshFile {
 
   /// Radius of the sphere on which all points lie, with 12 digits; 1 if they lie on none.
   double sphere_radius = 1;
-  Eigen::VectorXd density; ///< by site, as the file has it; empty if it has none
-  std::vector<MeshField> fields;
+  Eigen::VectorXd density;       ///< by site, as the file has it; empty if it has none
+  std::vector<MeshField> fields; ///< the file's fields
 
   std::vector<std::string>
       changes; ///< what reading changed, such as "turned 12 clockwise triangles"

@@ -75,6 +75,7 @@ struct SeaOptions {
   std::vector<std::int32_t> seeds = {};
 };
 
+/// What sea_cells() decided.
 struct SeaReport {
   std::int64_t opened = 0;  ///< cells of land that became sea
   std::int64_t closed = 0;  ///< cells of the sea that became land

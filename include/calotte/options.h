@@ -55,13 +55,13 @@ enum class Duplicates {
 
 /// Options of a triangulation. `duplicates` and `merge_within` affect the result.
 struct DelaunayOptions {
-  Duplicates duplicates = Duplicates::merge;
+  Duplicates duplicates = Duplicates::merge; ///< see Duplicates
   /// A site nearer than this to an earlier site that stays is merged into it; >= 0 and finite.
   /// Default 0: only equal sites merge. On the sphere an angle in radians, measured in doubles to
   /// 1e-15. In the plane a distance in the unit of the points, not measured across the edge of a
   /// periodic box.
   double merge_within = 0;
-  Partition partition = {};
+  Partition partition = {}; ///< affects time and memory, not the result
   /// Stages: sites, regions, triangulate, unite; periodic_delaunay() may repeat the last three.
   /// Default: none.
   ProgressCallback progress = {};

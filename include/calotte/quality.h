@@ -14,25 +14,35 @@ namespace calotte {
 
 /// Extremes and mean of a quantity; all 0 if there is nothing to measure.
 struct Range {
-  double min = 0, mean = 0, max = 0;
+  double min = 0;  ///< the least value
+  double mean = 0; ///< the mean
+  double max = 0;  ///< the greatest value
 };
 
 /// Extremes of a quantity, and the values that 1, 5, 50, 95 and 99 percent of all are not above
 /// (the least such value that occurs); all 0 if there is nothing to measure.
 struct Percentiles {
-  double min = 0, p1 = 0, p5 = 0, p50 = 0, p95 = 0, p99 = 0, max = 0;
+  double min = 0; ///< the least value
+  double p1 = 0;  ///< 1 percent
+  double p5 = 0;  ///< 5 percent
+  double p50 = 0; ///< the median
+  double p95 = 0; ///< 95 percent
+  double p99 = 0; ///< 99 percent
+  double max = 0; ///< the greatest value
 };
 
 /// Limits beyond which models object to an edge.
-inline constexpr double short_voronoi_edge = 0.2;             ///< of dv/dc
-inline constexpr double least_fit = 0.75, greatest_fit = 1.4; ///< of dc/h
+inline constexpr double short_voronoi_edge = 0.2; ///< of dv/dc
+inline constexpr double least_fit = 0.75;         ///< of dc/h
+inline constexpr double greatest_fit = 1.4;       ///< of dc/h
 
 /// Quality of a closed mesh and its Voronoi cells. Lengths are arcs on the unit sphere in radians;
 /// areas are in steradians. Means give equal weight to every edge, cell, triangle or corner. A
 /// Voronoi edge joins the circumcentres of two triangles. It, or its extension, bisects the
 /// Delaunay edge between them at a right angle.
 struct Quality {
-  std::int64_t cells = 0, triangles = 0;
+  std::int64_t cells = 0;            ///< their number
+  std::int64_t triangles = 0;        ///< their number
   std::vector<std::int64_t> degrees; ///< degrees[d]: number of cells with d neighbours
 
   Range spacing; ///< length of the Delaunay edges
@@ -84,7 +94,8 @@ struct Quality {
   std::int64_t bad_cells = 0;
   Range bad_spacing; ///< mean distance of each of these cells to its neighbours
 
-  double cells_area = 0, triangles_area = 0; ///< sum of areas / 4 pi; 1 up to rounding
+  double cells_area = 0;     ///< sum of areas / 4 pi; 1 up to rounding
+  double triangles_area = 0; ///< the same of the triangles
 };
 
 /// Measures a mesh. Areas are exact up to rounding, and so are the residual, the energy and its
@@ -140,9 +151,11 @@ struct CellMeasures {
   /// n: distance of the site from the constrained centroid of its cell, over spacing. NaN for an
   /// open mesh.
   Eigen::VectorXd off_centroid;
-  /// n: the spacing h that the density demands of n cells, see Quality::dc_over_h; then the least
-  /// and the greatest dc/h of the edges at the site. All empty for an open mesh.
-  Eigen::VectorXd prescribed, least_fit, greatest_fit;
+  /// n: the spacing h that the density demands of n cells, see Quality::dc_over_h. Empty for an
+  /// open mesh.
+  Eigen::VectorXd prescribed;
+  Eigen::VectorXd least_fit;        ///< n: least dc/h of the edges at the site; or empty
+  Eigen::VectorXd greatest_fit;     ///< n: greatest dc/h of these edges; or empty
   Eigen::VectorXd triangle_angle;   ///< m: largest angle, degrees
   Eigen::VectorXd triangle_quality; ///< m: as Quality::triangle_quality
 };

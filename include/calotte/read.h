@@ -41,6 +41,7 @@ enum class Columns {
 ///         file.
 Points3 read_points(std::istream& in, const std::string& name, Columns columns = Columns::xyz,
                     std::vector<std::int64_t>* lines = nullptr);
+/// The same from a file.
 Points3 read_points(const std::string& path, Columns columns = Columns::xyz,
                     std::vector<std::int64_t>* lines = nullptr);
 
@@ -48,6 +49,7 @@ Points3 read_points(const std::string& path, Columns columns = Columns::xyz,
 /// \throws Error as above.
 Points2 read_planar_points(std::istream& in, const std::string& name,
                            std::vector<std::int64_t>* lines = nullptr);
+/// The same from a file.
 Points2 read_planar_points(const std::string& path, std::vector<std::int64_t>* lines = nullptr);
 
 /// Reads a planar domain. The suffix selects the format:
@@ -85,12 +87,14 @@ PlanarDomain read_domain(const std::string& path);
 /// z. The file SaveLoopCounts... beside it has on each line the first and the last corner of a
 /// loop, counted from 1, or the number of its corners; without it there is one loop. Loops may run
 /// either way: the region is the smaller one of the two parts into which they cut the sphere.
-/// \param name the name of the stream in messages, which selects the format; of SaveBoundaries a
-///        stream has one loop.
 /// \throws Error parse, naming the line, or the feature and its ring; as require_region(), with the
 ///         file's name; bad_option for an unknown suffix, or an outer ring that runs clockwise;
 ///         file.
 Region read_region(const std::string& path);
+
+/// The same from a stream.
+/// \param name the name of the stream in messages, which selects the format; of SaveBoundaries a
+///        stream has one loop.
 Region read_region(std::istream& in, const std::string& name);
 
 /// Reads a mesh of the sphere in any format that `write` supports, also from other programs. The
@@ -171,8 +175,9 @@ std::string read_file(const std::string& path);
 
 /// A variable of a NetCDF file with one number for each cell.
 struct CellField {
-  Eigen::VectorXd values;       ///< NaN where the file has its _FillValue
-  std::string long_name, units; ///< the variable's attributes, or empty
+  Eigen::VectorXd values; ///< NaN where the file has its _FillValue
+  std::string long_name;  ///< the variable's attribute, or empty
+  std::string units;      ///< the variable's attribute, or empty
 };
 
 /// Reads a NetCDF variable whose last dimension has the size `cells`; any other dimensions have the

@@ -19,6 +19,7 @@ struct Region {
   /// clockwise. Default: none, which is the whole sphere.
   std::vector<Points3> rings;
 
+  /// True for the whole sphere.
   bool whole() const { return rings.empty(); }
 };
 

@@ -45,7 +45,9 @@ struct Voronoi {
   /// between vertices k - 1 and k; neighbour k is the cell across edge k, -1 on the boundary. The
   /// first edge is the one towards the lowest neighbour.
   Eigen::Matrix<std::int64_t, Eigen::Dynamic, 1> begin; ///< n + 1
-  Ids edges_on_cell, vertices_on_cell, cells_on_cell;
+  Ids edges_on_cell;                                    ///< by `begin`
+  Ids vertices_on_cell;                                 ///< by `begin`
+  Ids cells_on_cell;                                    ///< by `begin`
 
   /// 3 x m: the mesh's triangles; on the boundary one or two cells, then -1.
   Triangles cells_on_vertex;
