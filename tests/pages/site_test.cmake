@@ -1,0 +1,35 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Makes the manual in HTML without a warning. Called with DOXYGEN, ROOT (the project), VERSION, SITE (where to write) and
+# PICTURES (folders, with spaces between them).
+cmake_minimum_required(VERSION 3.25)
+if(NOT DOXYGEN)
+  message("skipped: doxygen is not installed; tools/setup --tests installs it")
+  return()
+endif()
+file(REMOVE_RECURSE ${SITE})
+file(MAKE_DIRECTORY ${SITE})
+execute_process(COMMAND ${CMAKE_COMMAND} -E env CALOTTE_VERSION=${VERSION} CALOTTE_SITE=${SITE} CALOTTE_PICTURES=${PICTURES}
+  ${DOXYGEN} tools/manual/Doxyfile WORKING_DIRECTORY ${ROOT} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
+if(NOT result EQUAL 0 OR output MATCHES "(warning|error):")
+  message(FATAL_ERROR "doxygen:\n${output}")
+endif()
+
+# A page's picture that no example makes would be left out silently.
+file(GLOB pages ${ROOT}/tools/manual/*.md)
+foreach(page ${pages})
+  file(READ ${page} text)
+  get_filename_component(name ${page} NAME_WE)
+  if(NOT EXISTS ${SITE}/html/${name}.html)
+    message(FATAL_ERROR "the site has no ${name}.html")
+  endif()
+  string(REGEX MATCHALL "\\([a-z0-9-]+\\.png\\)" pictures "${text}")
+  foreach(picture ${pictures})
+    string(REGEX REPLACE "[()]" "" picture "${picture}")
+    if(NOT EXISTS ${SITE}/html/${picture})
+      message(FATAL_ERROR "${page}: no example makes ${picture}")
+    endif()
+  endforeach()
+endforeach()
+file(GLOB html ${SITE}/html/*.html)
+list(LENGTH html count)
+message(STATUS "the manual: ${count} files in ${SITE}/html")
