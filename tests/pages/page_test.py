@@ -2,7 +2,8 @@
 """Runs the examples of README.md or of a page of the manual: page_test.py PROJECT PAGE BUILD SCRATCH SITE.
 
 The scratch folder looks like a clone after tools/quickstart: build/release is the build tree, and
-tools/examples is a copy. The blocks in order become one script, which stops at the first failure:
+tools/examples is a copy. The blocks become one script, which stops at the first failure. First it writes the
+files, as a page may show a file after the command that reads it:
 
 - sh: the commands as they are;
 - console: commands after "$ ", each of which must print the lines that follow it. Its exit code is free;
@@ -74,7 +75,7 @@ def shell_of(project, site, text):
 def main(project, page, build, scratch, site):
     blocks = list(BLOCK.finditer(page.read_text()))
     make_scratch(project, build, scratch)
-    shell = START.format(page=page.name)
+    files, shell = "", ""
     for block in blocks:
         language = block["language"]
         if language == "sh":
@@ -82,11 +83,11 @@ def main(project, page, build, scratch, site):
         elif language == "console":
             shell += console_of(page.name, block["text"])
         elif language in FILES:
-            shell += file_of(page.name, block)
+            files += file_of(page.name, block)
         elif language != "text":
             sys.exit(f"{page.name}: a block of the unknown language {language}")
     script = scratch / "examples.sh"
-    script.write_text(shell)
+    script.write_text(START.format(page=page.name) + files + shell)
     result = subprocess.run(["bash", script], cwd=scratch, check=False)
     if result.returncode == 0:
         print(f"{page.name}: all {len(blocks)} blocks work")
