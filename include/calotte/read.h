@@ -120,6 +120,7 @@ Region read_region(std::istream& in, const std::string& name);
 Mesh read_mesh(const std::string& path, const Points3* points = nullptr);
 
 /// Whether a regular file starts as NetCDF files do, classic or HDF5; false for any other path.
+/// \throws Error file.
 bool is_netcdf_file(const std::string& path);
 
 /// Reads the points of such a file, 3 x n, and ignores its triangles. In a UGRID file without sites

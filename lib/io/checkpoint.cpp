@@ -244,7 +244,7 @@ std::string read_checkpoint_command(const std::string& path) {
   constexpr std::size_t most = std::size_t{1} << 20;
   std::ifstream in = open_input(path);
   std::string start(most, '\0');
-  in.read(start.data(), static_cast<std::streamsize>(most));
+  read_some(in, start.data(), std::ssize(start), path);
   start.resize(static_cast<std::size_t>(in.gcount()));
   Bytes bytes(start.size() < most ? body_of(path, start) : after_head(path, start), path);
   bytes.take(take_count(bytes)); // the configuration

@@ -2,6 +2,7 @@
 #include "io/file.h"
 
 #include "io/output_queue.h"
+#include "io/temporary_file.h"
 
 #include <calotte/error.h>
 #include <calotte/io.h>
@@ -90,13 +91,9 @@ OutputFile::OutputFile(const std::string& path) : name_(path), place_(follow_lin
   if (!renameable(place_)) {
     descriptor_ = ::open(place_.c_str(), O_WRONLY | O_CLOEXEC);
   } else {
-    // Another or an interrupted process may have left a file of that name: never write into it.
-    for (int attempt = 0; descriptor_ < 0 && attempt < 100; ++attempt) {
-      temporary_ = place_ + ".part" + std::to_string(::getpid()) + "-" + std::to_string(attempt);
-      descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-      if (descriptor_ < 0 && errno != EEXIST)
-        break;
-    }
+    TemporaryFile file = open_temporary(place_);
+    descriptor_ = file.descriptor, lock_ = file.lock;
+    temporary_ = std::move(file.path);
   }
   if (descriptor_ < 0)
     fail(errno);
@@ -104,11 +101,11 @@ OutputFile::OutputFile(const std::string& path) : name_(path), place_(follow_lin
 
 OutputFile::~OutputFile() {
   queue_.reset();
-  for (const int descriptor : {direct_, descriptor_})
-    if (descriptor >= 0)
-      ::close(descriptor);
   if (!temporary_.empty())
     ::unlink(temporary_.c_str());
+  for (const int descriptor : {direct_, descriptor_, lock_})
+    if (descriptor >= 0)
+      ::close(descriptor);
 }
 
 void OutputFile::watch(ProgressCallback progress, std::int64_t bytes) {
@@ -294,6 +291,12 @@ std::size_t bytes_left(std::istream& in) {
 
 } // namespace
 
+void read_some(std::istream& in, char* bytes, std::int64_t size, const std::string& name) {
+  in.read(bytes, size);
+  if (in.bad())
+    throw Error(ErrorCode::file, "cannot read " + name + ": the disk or the network failed");
+}
+
 std::string read_all(std::istream& in, const std::string& name) {
   constexpr std::size_t chunk = std::size_t{1} << 20;
   std::string bytes;
@@ -302,11 +305,9 @@ std::string read_all(std::istream& in, const std::string& name) {
   do {
     if (bytes.size() - size < chunk)
       bytes.resize(std::max({2 * bytes.size(), bytes.capacity(), chunk}));
-    in.read(bytes.data() + size, static_cast<std::streamsize>(bytes.size() - size));
+    read_some(in, bytes.data() + size, static_cast<std::int64_t>(bytes.size() - size), name);
     size += static_cast<std::size_t>(in.gcount());
   } while (in);
-  if (in.bad())
-    throw Error(ErrorCode::file, "cannot read " + name + ": the disk or the network failed");
   bytes.resize(size);
   return bytes;
 }

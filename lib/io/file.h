@@ -46,8 +46,9 @@ private:
 class OutputQueue;
 
 /// A file that appears under its name only when it is complete: it is written under a temporary
-/// name in the same folder, synchronised and renamed. A target that cannot be renamed, such as a
-/// device or a pipe, is written in place.
+/// name in the same folder, synchronised and renamed. A temporary file that a killed process left
+/// is removed when its target is written again. A target that cannot be renamed, such as a device
+/// or a pipe, is written in place.
 class OutputFile {
 public:
   /// \throws Error file.
@@ -108,6 +109,7 @@ private:
   std::string place_;                ///< where the file shall be: symbolic links are followed
   std::string temporary_; ///< where it is until it is whole; empty when it is written in place
   int descriptor_ = -1;
+  int lock_ = -1;    ///< holds the lock of the temporary file until it has its name
   int direct_ = -1;  ///< writes past the page cache; -1 if the file system does not support it
   OutputBlock tail_; ///< appended bytes that are not yet put
   std::int64_t tail_size_ = 0;
@@ -123,6 +125,10 @@ void require_regular_output(const std::string& path);
 
 /// \throws Error file.
 std::ifstream open_input(const std::string& path);
+
+/// Reads up to `size` bytes; in.gcount() is their number.
+/// \throws Error file for an error of the disk; the end of the stream is none.
+void read_some(std::istream& in, char* bytes, std::int64_t size, const std::string& name);
 
 /// The rest of a stream. \throws Error file.
 std::string read_all(std::istream& in, const std::string& name);

@@ -14,6 +14,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <ios>
 #include <istream>
 #include <limits>
 #include <map>
@@ -297,6 +298,8 @@ json parse(std::istream& in, const std::string& name,
   } catch (const json::parse_error& error) {
     throw Error(ErrorCode::parse, name + ": invalid or incomplete JSON at byte " +
                                       std::to_string(error.byte) + "; make the file again");
+  } catch (const std::ios_base::failure&) { // of the file, which the parser reads past the stream
+    throw Error(ErrorCode::file, "cannot read " + name + ": the disk or the network failed");
   } catch (const json::exception&) {
     throw Error(ErrorCode::parse, name + ": a number is out of range; make the file again");
   }

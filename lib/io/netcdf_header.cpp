@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/netcdf_header.h"
 
+#include "io/file.h"
 #include "io/utf8.h"
 
 #include <calotte/error.h>
@@ -36,11 +37,11 @@ struct Shape {
 /// Reads the header of a classic file from its first byte on.
 class HeaderWalk {
 public:
-  explicit HeaderWalk(const std::string& path) : path_(path), in_(path, std::ios::binary) {
+  explicit HeaderWalk(const std::string& path) : path_(path), in_(open_input(path)) {
     std::error_code error; // a size of -1
     size_ = static_cast<std::int64_t>(std::filesystem::file_size(path, error));
     char magic[4] = {};
-    in_.read(magic, sizeof magic);
+    read_some(in_, magic, sizeof magic, path_);
     position_ = sizeof magic;
     version_ = in_ ? magic[3] : 0;
   }
@@ -85,7 +86,7 @@ private:
   std::int64_t number(std::int64_t bytes) {
     require_left(bytes);
     std::array<char, 8> text{};
-    in_.read(text.data(), bytes);
+    read_some(in_, text.data(), bytes, path_);
     position_ += bytes;
     std::uint64_t value = 0;
     for (std::int64_t i = 0; i < bytes; ++i)
@@ -106,7 +107,7 @@ private:
     require(length > 0 && length <= NC_MAX_NAME, "has a name without or with too many letters");
     require_left(padded(length));
     std::string text(static_cast<std::size_t>(length), '\0');
-    in_.read(text.data(), length);
+    read_some(in_, text.data(), length, path_);
     position_ += length;
     skip(padded(length) - length);
     require(text.find('\0') == std::string::npos && text.find('/') == std::string::npos &&
@@ -227,9 +228,9 @@ private:
 } // namespace
 
 bool is_classic_netcdf(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
+  std::ifstream in = open_input(path);
   char magic[4] = {};
-  in.read(magic, sizeof magic);
+  read_some(in, magic, sizeof magic, path);
   return in && std::memcmp(magic, "CDF", 3) == 0 &&
          (magic[3] == 1 || magic[3] == 2 || magic[3] == 5);
 }

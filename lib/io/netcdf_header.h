@@ -23,13 +23,14 @@ struct NetcdfLayout {
   std::vector<NetcdfExtent> variables;
 };
 
-/// Whether a file begins as CDF-1, -2 or -5 does.
+/// Whether a file begins as CDF-1, -2 or -5 does. \throws Error file.
 bool is_classic_netcdf(const std::string& path);
 
 /// Reads the header of a classic file (NetCDF Classic Format Specification, Unidata). The C library
 /// can crash on a damaged header, and must open only files that pass here.
 /// \pre is_classic_netcdf().
-/// \throws Error parse for a header that is cut short or damaged, with its byte.
+/// \throws Error parse for a header that is cut short or damaged, with its byte;
+/// file.
 NetcdfLayout classic_layout(const std::string& path);
 
 /// Whether one of the variables, of so many bytes each, is too large for the 64-bit offset format.

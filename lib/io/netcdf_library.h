@@ -16,4 +16,8 @@ std::mutex& netcdf_mutex();
 /// and skips leading blanks.
 std::string netcdf_path(const std::string& path);
 
+/// Returns if a result code of the C library says that the file is damaged, or none.
+/// \throws Error file for an error of the system; std::bad_alloc without memory.
+void require_system(const std::string& path, int code);
+
 } // namespace calotte::io_detail

@@ -69,8 +69,9 @@ int get_some(int id, int variable, const std::size_t* start, const std::size_t* 
   return nc_get_vara_int(id, variable, start, count, values);
 }
 
-/// \throws Error parse, unless the C library read the variable.
+/// \throws Error parse or file, unless the C library read the variable.
 void require_read(const NetcdfReader& file, const std::string& name, int code) {
+  require_system(file.path(), code);
   if (code == NC_ECHAR)
     file.fail(name + " is text, not numbers; make the file again");
   if (code == NC_ERANGE)
@@ -114,7 +115,9 @@ NetcdfReader::NetcdfReader(const std::string& path) : path_(path) {
   if (const std::string cut = first_cut(path); !cut.empty())
     fail("it is cut short: " + cut + " is incomplete; make it again");
   const std::lock_guard lock(netcdf_mutex());
-  if (nc_open(netcdf_path(path).c_str(), NC_NOWRITE, &id_) != NC_NOERR)
+  const int code = nc_open(netcdf_path(path).c_str(), NC_NOWRITE, &id_);
+  require_system(path, code);
+  if (code != NC_NOERR)
     fail("it is not a NetCDF file, or is cut short; give another or make it again");
 }
 

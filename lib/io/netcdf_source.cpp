@@ -88,7 +88,9 @@ NetcdfAttributes attributes_of(int id, int variable, int count) {
 
 NetcdfSource::NetcdfSource(const std::string& path) : reader_(path) {
   const std::lock_guard lock(netcdf_mutex());
-  if (nc_open(netcdf_path(path).c_str(), NC_NOWRITE, &id_) != NC_NOERR)
+  const int code = nc_open(netcdf_path(path).c_str(), NC_NOWRITE, &id_);
+  require_system(path, code);
+  if (code != NC_NOERR)
     reader_.fail("it is not a NetCDF file, or is cut short; give another or make it again");
   read_header();
   if (!is_classic_netcdf(path))
@@ -167,8 +169,10 @@ void NetcdfSource::rows(int variable, std::size_t axis, std::int64_t first, std:
     const std::lock_guard lock(netcdf_mutex());
     cache_chunks(variable);
     if (const int code = nc_get_vara(id_, variable, start.data(), counts.data(), out);
-        code != NC_NOERR)
+        code != NC_NOERR) {
+      require_system(reader_.path(), code);
       reader_.fail(of.name + " cannot be read (" + nc_strerror(code) + "); make the file again");
+    }
   }
   swap_big_endian(out, count * values, size, out);
 }

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <mutex>
+#include <new>
 #include <type_traits>
 #include <utility>
 
@@ -126,6 +127,8 @@ struct NetcdfWriter::State {
 };
 
 void NetcdfWriter::State::require(int code) const {
+  if (code == NC_ENOMEM)
+    throw std::bad_alloc();
   if (code > 0)
     file.fail(code);
   if (code != NC_NOERR)

@@ -178,8 +178,8 @@ bool is_netcdf_file(const std::string& path) {
   if (std::error_code error; !std::filesystem::is_regular_file(path, error))
     return false;
   std::array<char, 4> start{};
-  std::ifstream in(path, std::ios::binary);
-  in.read(start.data(), start.size());
+  std::ifstream in = open_input(path);
+  read_some(in, start.data(), std::ssize(start), path);
   const std::string_view bytes(start.data(), start.size());
   return bytes.starts_with("CDF") || bytes == "\x89HDF";
 }

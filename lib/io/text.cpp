@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/text.h"
 
+#include "io/file.h"
+
 #include <calotte/error.h>
 
 #include <algorithm>
@@ -106,9 +108,7 @@ bool LineReader::refill() {
   begin_ = 0;
   if (end_ == buffer_.size())
     buffer_.resize(2 * buffer_.size());
-  in_.read(buffer_.data() + end_, static_cast<std::streamsize>(buffer_.size() - end_));
-  if (in_.bad())
-    throw Error(ErrorCode::file, "cannot read " + name_ + ": the disk or the network failed");
+  read_some(in_, buffer_.data() + end_, static_cast<std::int64_t>(buffer_.size() - end_), name_);
   end_ += static_cast<std::size_t>(in_.gcount());
   return in_.gcount() > 0;
 }
