@@ -215,3 +215,42 @@ TEST_CASE("the queue writes each block once and reports the first failure") {
   CHECK(writes >= 21);
   CHECK(writes < 40); // at most those that waited or were being pushed
 }
+
+TEST_CASE("temporary files that killed processes left are removed, and no other file") {
+  for (const fs::path& parent : parents()) {
+    CAPTURE(parent.string());
+    const Scratch scratch(parent);
+    const std::vector<std::string> left{"a.part1-0", "a.part1-1", "a.part4194304-17"};
+    const std::vector<std::string> others{"b.part1-0",  "a.part",     "a.part1",   "a.part-1",
+                                          "a.part1-",   "a.part1-x",  "a.partial", "xa.part1-0",
+                                          "a.part1-0~", "a.part1-0-1"};
+    for (const auto* names : {&left, &others})
+      for (const std::string& name : *names)
+        calotte::test::write_text(scratch / name, "left");
+    fs::create_directory(scratch / "a.part2-0");
+    OutputFile(scratch / "a").commit();
+    for (const std::string& name : left)
+      CHECK(!fs::exists(scratch / name));
+    for (const std::string& name : others)
+      CHECK(read_file(scratch / name) == "left");
+    CHECK(scratch.files() == std::ssize(others) + 2);
+  }
+}
+
+TEST_CASE("two writers of one target do not disturb each other, even between finish and commit") {
+  for (const fs::path& parent : parents()) {
+    CAPTURE(parent.string());
+    const Scratch scratch(parent);
+    OutputFile first(scratch / "a");
+    OutputFile second(scratch / "a");
+    first.append("first");
+    second.append("second");
+    first.finish();
+    OutputFile(scratch / "a").commit();
+    first.commit();
+    CHECK(read_file(scratch / "a") == "first");
+    second.commit();
+    CHECK(read_file(scratch / "a") == "second");
+    CHECK(scratch.files() == 1);
+  }
+}
