@@ -7,7 +7,9 @@
 #include <calotte/error.h>
 #include <calotte/version.h>
 
+#include <atomic>
 #include <csignal>
+#include <cstdlib>
 #include <exception>
 #include <iostream>
 #include <new>
@@ -118,6 +120,20 @@ ExitCode guarded_run(CLI::App& app, int argc, char** argv) {
   }
 }
 
+/// Memory that is freed when there is none left: unwinding needs some, for instance to destroy JSON
+/// values, and so does the message.
+std::atomic<void*> reserve = nullptr;
+
+[[noreturn]] void handle_no_memory() {
+  std::free(reserve.exchange(nullptr));
+  throw std::bad_alloc();
+}
+
+void keep_reserve() {
+  reserve = std::malloc(std::size_t{1} << 20);
+  std::set_new_handler(handle_no_memory);
+}
+
 } // namespace
 } // namespace calotte::tools
 
@@ -125,6 +141,7 @@ int main(int argc, char** argv) try {
   using namespace calotte::tools;
   // Makes a file larger than the limit an error like a full disk, instead of a fatal signal.
   std::signal(SIGXFSZ, SIG_IGN);
+  keep_reserve();
   std::ios::sync_with_stdio(false);
   CLI::App app("Computes exact Delaunay triangulations and centroidal Voronoi tessellations (CVTs) "
                "of the sphere and the plane, in parallel.",
