@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/geojson_polygons.h"
 
-#include "io/file.h"
+#include "io/json_stream.h"
 #include "io/text.h"
 
 #include <calotte/error.h>
@@ -128,10 +128,11 @@ private:
 } // namespace
 
 Json read_geojson(std::istream& in, const std::string& name) {
-  const std::string text = read_all(in, name);
+  JsonBuffer buffer(in, name);
+  std::istream checked(&buffer);
   Json root;
   try {
-    root = Json::parse(text);
+    root = Json::parse(checked);
   } catch (const Json::parse_error& error) {
     throw Error(ErrorCode::parse, name + ": no JSON from byte " + std::to_string(error.byte) +
                                       " on; the file was cut short or damaged");

@@ -2,6 +2,7 @@
 #include "base/lonlat.h"
 #include "base/points.h"
 #include "io/formats.h"
+#include "io/json_stream.h"
 #include "io/model_grid.h"
 #include "io/polygons.h"
 #include "io/text.h"
@@ -14,7 +15,6 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <ios>
 #include <istream>
 #include <limits>
 #include <map>
@@ -294,12 +294,12 @@ json parse(std::istream& in, const std::string& name,
     return false;
   };
   try {
-    return json::parse(in, keep);
+    JsonBuffer buffer(in, name);
+    std::istream checked(&buffer);
+    return json::parse(checked, keep);
   } catch (const json::parse_error& error) {
     throw Error(ErrorCode::parse, name + ": invalid or incomplete JSON at byte " +
                                       std::to_string(error.byte) + "; make the file again");
-  } catch (const std::ios_base::failure&) { // of the file, which the parser reads past the stream
-    throw Error(ErrorCode::file, "cannot read " + name + ": the disk or the network failed");
   } catch (const json::exception&) {
     throw Error(ErrorCode::parse, name + ": a number is out of range; make the file again");
   }

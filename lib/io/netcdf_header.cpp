@@ -26,6 +26,9 @@ enum Tag : std::int64_t {
   attributes_follow = 12
 };
 
+/// Of all lists: dimensions, variables and attributes. The C library takes quadratic time for some.
+constexpr std::int64_t most_entries = 200'000;
+
 std::int64_t padded(std::int64_t bytes) { return (bytes + 3) / 4 * 4; }
 
 /// A variable's bytes in one record, or in all where it has none; -1 past 64 bits.
@@ -126,6 +129,8 @@ private:
     const std::int64_t found = number(4), entries = count();
     require(found == tag || (found == absent && entries == 0), "does not follow a list of " + what);
     require_left(entries); // each takes a byte at least
+    entries_ += entries;
+    require(entries_ <= most_entries, "follows a list of more entries than Calotte reads");
     return entries;
   }
 
@@ -221,6 +226,7 @@ private:
   std::string path_;
   std::ifstream in_;
   std::int64_t size_ = 0, position_ = 0, records_ = 0;
+  std::int64_t entries_ = 0; ///< of all lists
   int version_ = 0;
   std::vector<std::int64_t> dimensions_; ///< lengths, 0 for that of the records
 };

@@ -88,6 +88,12 @@ std::vector<T> get_values(const NetcdfReader& file, int id, const std::string& n
   for (const std::int64_t size : shape)
     if (__builtin_mul_overflow(count, size, &count))
       file.fail(name + " is too large; make the file again");
+  // What deflate can reach, for a file that stores something of each value.
+  constexpr std::int64_t most_compressed = 1032, least = std::int64_t{1} << 24;
+  std::error_code error; // a size of -1
+  const auto size = static_cast<std::int64_t>(std::filesystem::file_size(file.path(), error));
+  if (!error && count > least && count / most_compressed > size / std::int64_t{sizeof(T)})
+    file.fail(name + " has more values than a file of its size can hold; make the file again");
   std::vector<T> values;
   try {
     values = zeros<T>(count);

@@ -104,8 +104,10 @@ Property property_of(std::string_view words, const std::string& name) {
 
 /// Takes the head, up to the end of its last line, from the file's contents.
 Head take_head(std::string_view& content, const std::string& name) {
+  constexpr int most_lines = 100'000; // so that memory stays in proportion to the file
   Head head;
-  for (bool first = true;; first = false) {
+  for (int lines = 0; lines < most_lines; ++lines) {
+    const bool first = lines == 0;
     const std::size_t end = content.find('\n');
     std::string_view line = content.substr(0, end);
     const std::string_view keyword = take_word(line);
@@ -125,6 +127,7 @@ Head take_head(std::string_view& content, const std::string& name) {
     else if (!first && keyword != "comment" && keyword != "obj_info" && !keyword.empty())
       fail(name, in_quotes(keyword) + " is not a keyword of the head of a .ply file" + again);
   }
+  fail(name, "its head has more than " + std::to_string(most_lines) + " lines" + again);
 }
 
 // ---- The rows

@@ -103,9 +103,14 @@ bool LineReader::next(std::string_view& line) {
 /// Moves the unread bytes to the front of the buffer and reads more; false at the end of the
 /// stream.
 bool LineReader::refill() {
+  constexpr std::size_t most_line = std::size_t{1} << 24;
   std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
   end_ -= begin_;
   begin_ = 0;
+  if (end_ >= most_line) {
+    ++number_;
+    fail("a line longer than 16 MiB; give a text file");
+  }
   if (end_ == buffer_.size())
     buffer_.resize(2 * buffer_.size());
   read_some(in_, buffer_.data() + end_, static_cast<std::int64_t>(buffer_.size() - end_), name_);

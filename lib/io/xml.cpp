@@ -12,7 +12,10 @@
 namespace calotte::io_detail {
 namespace {
 
-constexpr std::size_t most_elements = 100'000; ///< so that memory stays in proportion to the file
+constexpr std::size_t chunk = std::size_t{1} << 20;
+/// Bytes of a tag or a comment. The parser scans each from its begin with every chunk.
+constexpr std::int64_t longest_tag = 2 * chunk;
+constexpr std::size_t most_elements = 20'000; ///< so that memory stays in proportion to the file
 
 /// Collects what the parser reports.
 struct Collector {
@@ -105,17 +108,22 @@ std::vector<const XmlElement*> children(const XmlDocument& document, const XmlEl
 }
 
 XmlDocument parse_xml(const std::vector<std::string_view>& parts, const std::string& name) {
-  constexpr std::size_t chunk = std::size_t{1} << 20;
   const std::unique_ptr<XML_ParserStruct, decltype(&XML_ParserFree)> parser(
       XML_ParserCreate(nullptr), &XML_ParserFree);
   if (!parser)
     throw std::bad_alloc();
   Collector collector{.parser = parser.get()};
   set_callbacks(collector);
+  std::int64_t fed = 0; // bytes
   const auto parse = [&](std::string_view text, bool last) {
     if (XML_Parse(parser.get(), text.data(), static_cast<int>(text.size()), last ? 1 : 0) ==
         XML_STATUS_ERROR)
       fail(collector, name);
+    fed += std::ssize(text);
+    if (!last && fed - XML_GetCurrentByteIndex(parser.get()) > longest_tag) {
+      collector.refused = "a tag longer than 2 MiB";
+      fail(collector, name);
+    }
   };
   for (const std::string_view part : parts)
     for (std::size_t begin = 0; begin < part.size(); begin += chunk)
