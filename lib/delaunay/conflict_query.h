@@ -116,6 +116,23 @@ private:
   double curvature_ = 0, size_ = 0;
 };
 
+/// True if the sites of ranks begin to end - 1 are all members. \param members ascending.
+inline bool are_members(const std::vector<Run>& members, std::int64_t begin, std::int64_t end) {
+  const auto beyond =
+      std::upper_bound(members.begin(), members.end(), begin,
+                       [](std::int64_t rank, const Run& run) { return rank < run.begin; });
+  return beyond != members.begin() && end <= beyond[-1].end;
+}
+
+/// True if all sites of node i of a level of boxes are members.
+inline bool are_members(const std::vector<Run>& members, const Sites& sites, int level,
+                        std::int64_t i) {
+  std::int64_t width = SiteBoxes::width;
+  for (int l = 0; l < level; ++l)
+    width *= SiteBoxes::width;
+  return are_members(members, i * width, std::min((i + 1) * width, sites.size()));
+}
+
 /// The sites in conflict with a face, found from the nearest cells on: at most a few, because each
 /// changes the triangulation around it. No member of the region is among them, because the circle
 /// of a face contains no member. If the circle meets only boxes of members, no site is tested.
@@ -148,7 +165,7 @@ private:
     looks_ += end - begin;
     for (std::int64_t i = begin; i != end; ++i) {
       const SiteBox& box = boxes.box(level, i);
-      if (zone.is_outside(box) || are_members(level, i))
+      if (zone.is_outside(box) || are_members(members_, sites_, level, i))
         continue;
       const std::pair<double, std::int64_t> entry{square_distance(box, near_), i};
       std::size_t c = count++;
@@ -164,18 +181,6 @@ private:
       else
         descend(level - 1, first, std::min(last, boxes.nodes(level - 1)), zone);
     }
-  }
-
-  /// True if all sites of a node are members of the region.
-  bool are_members(int level, std::int64_t i) const {
-    std::int64_t sites = SiteBoxes::width;
-    for (int l = 0; l < level; ++l)
-      sites *= SiteBoxes::width;
-    const std::int64_t begin = i * sites, end = std::min(begin + sites, sites_.size());
-    const auto beyond =
-        std::upper_bound(members_.begin(), members_.end(), begin,
-                         [](std::int64_t rank, const Run& run) { return rank < run.begin; });
-    return beyond != members_.begin() && end <= beyond[-1].end;
   }
 
   void look_at(std::int64_t begin, std::int64_t end) {

@@ -12,6 +12,7 @@ namespace calotte::delaunay_detail {
 
 struct CullCounts {
   std::int64_t by_cull = 0, by_query = 0, inserted = 0;
+  bool hull = false; ///< a face was met that no closed mesh has, so that no other region helps
 };
 
 /// The members of region k.
@@ -20,7 +21,8 @@ std::vector<Member> gather(const Sites& sites, const Regions& regions, std::int3
 
 /// Certifies every triangle with an owned vertex. The paper's cull test (Jacobsen et al., 2013, Eq.
 /// 1 and Sect. 3.2) shows that the circumcap lies where the region holds all sites. If it fails, a
-/// query searches the circumcap for sites; those found are inserted, and the test repeats. These
+/// query searches the circumcap for sites; those found are inserted, and the test repeats. Where
+/// many triangles fail it, they are first tested in patches (see patches.h). These
 /// faces, and no others, are marked as certified. In the plane an infinite face at an owned site is
 /// certified, too: no site lies beyond its edge of the hull.
 ///

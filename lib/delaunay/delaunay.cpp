@@ -7,8 +7,10 @@
 #include "delaunay/cull.h"
 #include "delaunay/delaunay.h"
 #include "delaunay/divide.h"
+#include "delaunay/owners.h"
 #include "delaunay/periodic.h"
 #include "delaunay/regions.h"
+#include "delaunay/sample.h"
 #include "delaunay/unite.h"
 #include "mesh/edges.h"
 
@@ -76,40 +78,19 @@ struct CapResult {
   double seconds = 0;
 };
 
-/// Triangulates the members together with sites sampled from the whole set; empty if these span no
-/// triangle either.
-template <class Space>
-Triangulation<Space> build_with_sample(const Space& space, std::int64_t sites,
-                                       std::vector<Member> members) {
-  constexpr std::int64_t sample = 64;
-  for (std::int64_t s = 0; s < std::min(sample, sites); ++s)
-    members.push_back(
-        {static_cast<std::int32_t>(s * sites / std::min(sample, sites)), Member::not_owned});
-  const auto by_rank = [](const Member& a, const Member& b) { return a.rank < b.rank; };
-  const auto same_rank = [](const Member& a, const Member& b) { return a.rank == b.rank; };
-  std::stable_sort(members.begin(), members.end(),
-                   by_rank); // stable: a member precedes its duplicate
-  members.erase(std::unique(members.begin(), members.end(), same_rank), members.end());
-  std::erase_if(members, [&](const Member& m) { return !space.has_place(m.rank); });
-  Triangulation<Space> triangulation(space);
-  triangulation.build(members);
-  return triangulation;
-}
-
-/// One region: gather, project, triangulate, cull and certify. Empty if its cap cannot certify its
+/// One region: gather, project, triangulate, cull and certify. False if its cap cannot certify its
 /// sites.
 template <class Space>
-std::optional<CapResult> triangulate_cap(const Sites& sites, const Regions& regions, std::int32_t k,
-                                         Array<std::int32_t>& triangles_of) {
+bool triangulate_cap(const Sites& sites, const Regions& regions, std::int32_t k,
+                     Array<std::int32_t>& triangles_of, CapResult& result) {
   Clock::time_point start = Clock::now();
   std::vector<Member> members = gather<Space>(sites, regions, k);
   const auto count_owned = [&] {
     return std::count_if(members.begin(), members.end(), [](const Member& m) { return m.owned(); });
   };
-  CapResult result;
   result.owned = count_owned();
   if (result.owned == 0)
-    return result;
+    return true;
   const Vec3& centre = regions.centres[static_cast<std::size_t>(k)];
   double reach = 0;
   for (const Member& m : members)
@@ -119,19 +100,19 @@ std::optional<CapResult> triangulate_cap(const Sites& sites, const Regions& regi
   if (!Space::has_all_places(reach)) {
     std::erase_if(members, [&](const Member& m) { return !space.has_place(m.rank); });
     if (count_owned() != result.owned) // one of its own sites is at the focus
-      return std::nullopt;
+      return false;
   }
   Triangulation<Space> triangulation(space);
   if (!triangulation.build(members)) // too few, or on one line: add sites from outside
     triangulation = build_with_sample<Space>(space, sites.size(), members);
   if (triangulation.members().empty() || !certify(triangulation, sites, regions, k, result.cull))
-    return std::nullopt;
+    return false;
   result.triangles = report_triangles(triangulation, sites, regions.owner, triangles_of);
   result.predicates = triangulation.space().counts();
   result.members = std::ssize(triangulation.members());
   result.seams = seams_at(k, result.triangles.seams);
   result.seconds = lap(start);
-  return result;
+  return true;
 }
 
 void summarise(const std::vector<CapResult>& caps, std::int64_t sites, DelaunayReport& report) {
@@ -151,32 +132,53 @@ void summarise(const std::vector<CapResult>& caps, std::int64_t sites, DelaunayR
   report.overlap = static_cast<double>(members) / static_cast<double>(sites);
 }
 
-/// All regions, each in its own task. Empty if a region cannot certify its sites, or if a rounded
-/// bisector has removed a site from its owner.
+/// Adds the regions whose caps lack sites that they own, which a rounded bisector has removed.
+void add_incomplete(const std::vector<CapResult>& caps, const Array<std::int32_t>& owner,
+                    std::vector<char>& failed) {
+  std::vector<std::int64_t> owned(caps.size(), 0);
+  for (const std::int32_t k : owner)
+    ++owned[static_cast<std::size_t>(k)];
+  for (std::size_t k = 0; k < caps.size(); ++k)
+    failed[k] |= static_cast<char>(caps[k].owned != owned[k]);
+}
+
+/// All regions, each in its own task. Those that cannot certify their sites are merged, and these
+/// and their neighbours are triangulated again. Empty if that is not enough.
 template <class Space>
-std::optional<Reports> triangulate_caps(const Sites& sites, const Regions& regions,
+std::optional<Reports> triangulate_caps(const Sites& sites, Regions& regions,
                                         DelaunayReport& report, Monitor& monitor) {
   Reports reports;
   reports.triangles_of = Array<std::int32_t>(sites.size());
   std::vector<CapResult> caps(regions.centres.size());
-  std::atomic<bool> failed = false;
-  monitor.begin("triangulate", triangulated, std::ssize(caps));
-  for_each_task(std::ssize(caps), [&](std::int64_t k) {
-    if (failed.load(std::memory_order_relaxed))
-      return;
-    std::optional<CapResult> cap =
-        triangulate_cap<Space>(sites, regions, static_cast<std::int32_t>(k), reports.triangles_of);
-    if (cap)
-      caps[static_cast<std::size_t>(k)] = std::move(*cap);
-    else
-      failed.store(true, std::memory_order_relaxed);
-    monitor.step();
-  });
-  std::int64_t owned = 0;
-  for (const CapResult& cap : caps)
-    owned += cap.owned;
-  if (failed || owned != sites.size())
-    return std::nullopt;
+  std::vector<char> failed(caps.size(), 0);
+  std::vector<std::int32_t> list = all_of(regions.centres);
+  for (const bool last : {false, true}) {
+    std::atomic<std::int64_t> failures = 0;
+    const std::int64_t most =
+        last ? 0 : std::ssize(caps) / 2; // more would make most sites one region
+    monitor.begin("triangulate", triangulated, std::ssize(list));
+    for_each_task(std::ssize(list), [&](std::int64_t i) {
+      if (failures.load(std::memory_order_relaxed) > most)
+        return;
+      const std::int32_t k = list[static_cast<std::size_t>(i)];
+      CapResult cap;
+      const bool done = triangulate_cap<Space>(sites, regions, k, reports.triangles_of, cap);
+      if (!done)
+        failures +=
+            cap.cull.hull ? std::ssize(caps) : 1; // where there is a hull, merging is no help
+      failed[static_cast<std::size_t>(k)] = static_cast<char>(!done);
+      caps[static_cast<std::size_t>(k)] = done ? std::move(cap) : CapResult{};
+      monitor.step();
+    });
+    if (failures > most)
+      return std::nullopt;
+    add_incomplete(caps, regions.owner, failed);
+    if (std::count(failed.begin(), failed.end(), 0) == std::ssize(failed))
+      break;
+    list = last ? std::vector<std::int32_t>() : merge_failed(sites, failed, regions);
+    if (list.empty())
+      return std::nullopt;
+  }
   summarise(caps, sites.size(), report);
   for (CapResult& cap : caps)
     reports.regions.push_back(std::move(cap.triangles));

@@ -248,6 +248,108 @@ members_of_neighbours(const Regions& regions,
 
 } // namespace
 
+namespace {
+
+template <class Body> void for_each_member(const std::vector<Run>& runs, const Body& body) {
+  for (const Run& run : runs)
+    for (std::int32_t r = run.begin; r != run.end; ++r)
+      body(r);
+}
+
+/// By region: the lowest region of its group, failed regions that share members; -1 for others.
+std::vector<std::int32_t> groups_of(const Regions& regions, const std::vector<char>& failed) {
+  std::vector<std::int32_t> group(failed.size(), -1);
+  for (std::size_t k = 0; k < failed.size(); ++k)
+    if (failed[k] != 0)
+      group[k] = static_cast<std::int32_t>(k);
+  for (std::size_t k = 0; k < failed.size(); ++k) {
+    if (failed[k] == 0)
+      continue;
+    for_each_member(regions.members[k], [&](std::int32_t r) {
+      const std::int32_t other = group[static_cast<std::size_t>(regions.owner[r])], own = group[k];
+      if (other >= 0 && other != own)
+        std::replace(group.begin(), group.end(), std::max(own, other), std::min(own, other));
+    });
+  }
+  return group;
+}
+
+/// Number of sites beyond its own that a merged region holds: some rings around them.
+constexpr std::int64_t merged_halo = 500;
+
+/// Radius, as a chord, of a cap around the sites of a region and its halo.
+double merged_reach(const Sites& sites, const Array<std::int32_t>& owner, std::int32_t k,
+                    const Vec3& centre) {
+  double own = 0;
+  std::vector<double> others;
+  for (std::int64_t r = 0; r < sites.size(); ++r) {
+    const double chord = norm(sites.unit[r] - centre);
+    if (owner[r] == k)
+      own = std::max(own, chord);
+    else
+      others.push_back(chord);
+  }
+  const auto last = others.begin() + std::min(merged_halo, std::ssize(others)) - 1;
+  if (!others.empty())
+    std::nth_element(others.begin(), last, others.end());
+  return 1.1 * std::max(own, others.empty() ? 0 : *last) + 1e-12;
+}
+
+/// Sets the centre, the members and the covered part of a merged region; false if it is too large.
+bool gather_merged(const Sites& sites, std::size_t k, Regions& regions) {
+  const auto id = static_cast<std::int32_t>(k);
+  Vec3 sum{0, 0, 0};
+  std::int64_t owned = 0;
+  for (std::int64_t r = 0; r < sites.size(); ++r)
+    if (regions.owner[r] == id)
+      sum = sum + sites.unit[r], ++owned;
+  const Vec3 mean = (1 / static_cast<double>(owned)) * sum;
+  if (!sites.frame && norm(mean) < 0.5)
+    return false;
+  const Vec3 centre = sites.frame ? mean : (1 / norm(mean)) * mean;
+  const double chord = merged_reach(sites, regions.owner, id, centre);
+  if (chord > 1)
+    return false;
+  regions.centres[k] = centre;
+  regions.covered[k] = sites.frame
+                           ? half_planes_around(centre, chord)
+                           : std::vector<HalfSpace>{{-centre, chord * chord / 2 - 1 + 1e-12}};
+  std::int64_t count = 0;
+  for (std::int32_t r = 0; r < sites.size(); ++r)
+    if (inside(sites.unit[r], regions.covered[k]))
+      append(regions.members[k], {r, r + 1}), ++count;
+  return count < sites.size() / 2;
+}
+
+} // namespace
+
+std::vector<std::int32_t> merge_failed(const Sites& sites, const std::vector<char>& failed,
+                                       Regions& regions) {
+  const std::vector<std::int32_t> group = groups_of(regions, failed);
+  std::vector<char> touched(failed.size(), 0);
+  for_each_task(std::ssize(failed), [&](std::int64_t k) {
+    const auto region = static_cast<std::size_t>(k);
+    for_each_member(regions.members[region], [&](std::int32_t r) {
+      if (failed[static_cast<std::size_t>(regions.owner[r])] != 0)
+        touched[region] = 1;
+    });
+  });
+  for (std::int64_t r = 0; r < sites.size(); ++r)
+    if (const std::int32_t g = group[static_cast<std::size_t>(regions.owner[r])]; g >= 0)
+      regions.owner[r] = g;
+  std::vector<std::int32_t> again;
+  for (std::size_t k = 0; k < failed.size(); ++k) {
+    if (failed[k] != 0)
+      regions.members[k].clear();
+    const bool merged = group[k] == static_cast<std::int32_t>(k);
+    if (merged && !gather_merged(sites, k, regions))
+      return {};
+    if (failed[k] != 0 || touched[k] != 0)
+      again.push_back(static_cast<std::int32_t>(k));
+  }
+  return again;
+}
+
 Regions make_regions(const Sites& sites, std::vector<Vec3> centres,
                      const std::vector<std::vector<std::int32_t>>& adjacent, Sort sort) {
   Regions regions;

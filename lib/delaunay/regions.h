@@ -37,4 +37,12 @@ struct Regions {
 Regions make_regions(const Sites& sites, std::vector<Vec3> centres,
                      const std::vector<std::vector<std::int32_t>>& adjacent, Sort sort);
 
+/// Merges regions whose caps cannot certify their sites: those that share members become one, which
+/// holds all sites of a cap around theirs.
+/// \param failed by region.
+/// \return the regions to triangulate again: the merged ones, and those with a member of theirs.
+///         None if a merged region would hold most sites or more than a cap of 60 degrees.
+std::vector<std::int32_t> merge_failed(const Sites& sites, const std::vector<char>& failed,
+                                       Regions& regions);
+
 } // namespace calotte::delaunay_detail
