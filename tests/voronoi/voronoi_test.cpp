@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <calotte/voronoi.h>
 
+#include "mesh/adjacency.h"
 #include "support/clouds.h"
 
 #include <calotte/delaunay.h>
@@ -390,6 +391,23 @@ TEST_CASE("quality() gives the same spacings, areas, degrees and shapes") {
       CHECK((fields.degree.array() == static_cast<std::int32_t>(degree)).count() ==
             q.degrees[degree]);
   }
+}
+
+TEST_CASE("the edge between opposite cells lies at the vertex to its left") {
+  Mesh mesh{octahedron(), Triangles(3, 8), {}, {0, 1, 2, 3, 4, 5}};
+  mesh.triangles << 0, 0, 2, 0, 0, 1, 3, 0, //
+      1, 3, 3, 2, 5, 5, 5, 4,               //
+      3, 2, 4, 4, 1, 3, 4, 5;
+  mesh.neighbours = mesh_detail::neighbours_of(mesh.triangles, 6);
+  const Voronoi v = voronoi(mesh);
+  for (Eigen::Index e = 0; e < v.cells_on_edge.cols(); ++e)
+    if (v.cells_on_edge(0, e) == 0 && v.cells_on_edge(1, e) == 3) {
+      CHECK(v.dc[e] == doctest::Approx(pi));
+      CHECK(v.edges.col(e) == v.vertices.col(v.vertices_on_edge(1, e)));
+    } else {
+      CHECK(v.dc[e] == doctest::Approx(pi / 2));
+    }
+  CHECK(v.edges.allFinite());
 }
 
 TEST_CASE("regular hexagons are exact up to rounding") {
