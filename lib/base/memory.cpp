@@ -14,6 +14,7 @@
 #endif
 
 namespace calotte::base_detail {
+#if CALOTTE_POOLED
 namespace {
 
 constexpr std::size_t range_bytes = std::size_t{64} << 20, huge_page = std::size_t{2} << 20;
@@ -24,7 +25,7 @@ struct FirstRange {
   rml::MemoryPool* pool = nullptr;
 
   FirstRange() {
-#if CALOTTE_POOLED && defined(__linux__)
+#ifdef __linux__
     void* const mapped = mmap(nullptr, range_bytes + huge_page, PROT_READ | PROT_WRITE,
                               MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
     if (mapped == MAP_FAILED)
@@ -55,6 +56,7 @@ const FirstRange& first_range() {
 }
 
 } // namespace
+#endif
 
 void* pool_allocate(std::size_t bytes) {
 #if CALOTTE_POOLED

@@ -78,8 +78,7 @@ struct CapResult {
   double seconds = 0;
 };
 
-/// One region: gather, project, triangulate, cull and certify. False if its cap cannot certify its
-/// sites.
+/// One region: gather, project, triangulate, cull and certify. False if that fails for its cap.
 template <class Space>
 bool triangulate_cap(const Sites& sites, const Regions& regions, std::int32_t k,
                      Array<std::int32_t>& triangles_of, CapResult& result) {
