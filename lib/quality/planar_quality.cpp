@@ -147,8 +147,11 @@ Evaluation evaluated(const Points3& points, const Connectivity& mesh, const Plan
   options.triangle_divisions = divisions;
   Level level;
   level.mesh = mesh;
+  const std::unique_ptr<Functional> functional =
+      make_functional(points, domain, options, std::move(level));
   Evaluation result;
-  make_functional(points, domain, options, std::move(level))->evaluate(points, true, true, result);
+  functional->evaluate(points, true, true, result);
+  functional->set_centroids(points, result, result.centroids);
   return result;
 }
 
