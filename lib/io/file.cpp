@@ -275,9 +275,6 @@ std::ifstream open_input(const std::string& path) {
   return in;
 }
 
-namespace {
-
-/// The bytes from here to the end of a stream; 0 where it cannot tell, as a pipe.
 std::size_t bytes_left(std::istream& in) {
   const std::istream::pos_type here = in.tellg();
   in.seekg(0, std::ios::end);
@@ -289,7 +286,11 @@ std::size_t bytes_left(std::istream& in) {
   return static_cast<std::size_t>(end - here);
 }
 
-} // namespace
+void require_whole(std::size_t read, std::size_t at_first, const std::string& name) {
+  if (read < at_first)
+    throw Error(ErrorCode::file,
+                "cannot read " + name + ": it became shorter; check which program writes it");
+}
 
 void read_some(std::istream& in, char* bytes, std::int64_t size, const std::string& name) {
   in.read(bytes, size);
@@ -300,7 +301,8 @@ void read_some(std::istream& in, char* bytes, std::int64_t size, const std::stri
 std::string read_all(std::istream& in, const std::string& name) {
   constexpr std::size_t chunk = std::size_t{1} << 20;
   std::string bytes;
-  bytes.reserve(bytes_left(in) + chunk);
+  const std::size_t at_first = bytes_left(in);
+  bytes.reserve(at_first + chunk);
   std::size_t size = 0;
   do {
     if (bytes.size() - size < chunk)
@@ -308,6 +310,7 @@ std::string read_all(std::istream& in, const std::string& name) {
     read_some(in, bytes.data() + size, static_cast<std::int64_t>(bytes.size() - size), name);
     size += static_cast<std::size_t>(in.gcount());
   } while (in);
+  require_whole(size, at_first, name);
   bytes.resize(size);
   return bytes;
 }

@@ -126,6 +126,12 @@ void require_regular_output(const std::string& path);
 /// \throws Error file.
 std::ifstream open_input(const std::string& path);
 
+/// The bytes from here to the end of a stream; 0 where it cannot tell, as a pipe.
+std::size_t bytes_left(std::istream& in);
+
+/// Ends the reading of a file. \throws Error file if fewer bytes were read than it had at first.
+void require_whole(std::size_t read, std::size_t at_first, const std::string& name);
+
 /// Reads up to `size` bytes; in.gcount() is their number.
 /// \throws Error file for an error of the disk; the end of the stream is none.
 void read_some(std::istream& in, char* bytes, std::int64_t size, const std::string& name);

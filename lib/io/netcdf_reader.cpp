@@ -132,10 +132,15 @@ NetcdfReader::~NetcdfReader() {
   nc_close(id_);
 }
 
+bool NetcdfReader::is_found(int code) const {
+  require_system(path_, code);
+  return code == NC_NOERR;
+}
+
 bool NetcdfReader::has_variable(const std::string& name) const {
   const std::lock_guard lock(netcdf_mutex());
   int variable;
-  return nc_inq_varid(id_, name.c_str(), &variable) == NC_NOERR;
+  return is_found(nc_inq_varid(id_, name.c_str(), &variable));
 }
 
 std::vector<std::string> NetcdfReader::variables() const {
@@ -150,7 +155,7 @@ std::vector<std::string> NetcdfReader::variables() const {
 
 std::vector<int> NetcdfReader::dimension_ids(const std::string& variable) const {
   int v, count = 0, ids[NC_MAX_VAR_DIMS];
-  if (nc_inq_varid(id_, variable.c_str(), &v) != NC_NOERR)
+  if (!is_found(nc_inq_varid(id_, variable.c_str(), &v)))
     fail("it has no variable " + variable + "; give a file that has");
   nc_inq_var(id_, v, nullptr, nullptr, &count, ids, nullptr);
   return {ids, ids + count};
@@ -182,7 +187,7 @@ std::int64_t NetcdfReader::dimension(const std::string& name) const {
   const std::lock_guard lock(netcdf_mutex());
   int d;
   std::size_t size = 0;
-  if (nc_inq_dimid(id_, name.c_str(), &d) != NC_NOERR)
+  if (!is_found(nc_inq_dimid(id_, name.c_str(), &d)))
     return -1;
   nc_inq_dimlen(id_, d, &size);
   return static_cast<std::int64_t>(size);
@@ -216,8 +221,8 @@ std::string NetcdfReader::text(const std::string& variable, const std::string& a
   int v = NC_GLOBAL;
   nc_type type = NC_CHAR;
   std::size_t length = 0;
-  if ((!variable.empty() && nc_inq_varid(id_, variable.c_str(), &v) != NC_NOERR) ||
-      nc_inq_att(id_, v, attribute.c_str(), &type, &length) != NC_NOERR)
+  if ((!variable.empty() && !is_found(nc_inq_varid(id_, variable.c_str(), &v))) ||
+      !is_found(nc_inq_att(id_, v, attribute.c_str(), &type, &length)))
     return "";
   std::string text;
   if (type == NC_CHAR) {
@@ -238,9 +243,9 @@ double NetcdfReader::number(const std::string& variable, const std::string& attr
   int v = NC_GLOBAL;
   std::size_t length = 0;
   double value = fallback;
-  if ((!variable.empty() && nc_inq_varid(id_, variable.c_str(), &v) != NC_NOERR) ||
-      nc_inq_attlen(id_, v, attribute.c_str(), &length) != NC_NOERR || length != 1 ||
-      nc_get_att_double(id_, v, attribute.c_str(), &value) != NC_NOERR)
+  if ((!variable.empty() && !is_found(nc_inq_varid(id_, variable.c_str(), &v))) ||
+      !is_found(nc_inq_attlen(id_, v, attribute.c_str(), &length)) || length != 1 ||
+      !is_found(nc_get_att_double(id_, v, attribute.c_str(), &value)))
     return fallback;
   return value;
 }

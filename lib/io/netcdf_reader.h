@@ -52,6 +52,9 @@ public:
   [[noreturn]] void fail(const std::string& problem) const; ///< parse, "PATH: problem"
 
 private:
+  /// True for a result code of success, false where what was asked for is not there.
+  /// \throws std::bad_alloc; Error file.
+  bool is_found(int code) const;
   template <class T>
   void get_rows(const std::string& variable, std::int64_t first, std::int64_t count, T* out) const;
   int type_of(const std::string& variable) const; ///< nc_type

@@ -62,7 +62,7 @@ template <class T> Columned parse(std::string_view line, int count, T* values) {
 } // namespace
 
 LineReader::LineReader(std::istream& in, std::string name)
-    : in_(in), name_(std::move(name)), buffer_(chunk) {
+    : in_(in), name_(std::move(name)), buffer_(chunk), at_first_(bytes_left(in)) {
   constexpr std::string_view mark = "\xef\xbb\xbf";
   while (end_ < mark.size() && refill()) {
   }
@@ -114,8 +114,11 @@ bool LineReader::refill() {
   if (end_ == buffer_.size())
     buffer_.resize(2 * buffer_.size());
   read_some(in_, buffer_.data() + end_, static_cast<std::int64_t>(buffer_.size() - end_), name_);
-  end_ += static_cast<std::size_t>(in_.gcount());
-  return in_.gcount() > 0;
+  const auto count = static_cast<std::size_t>(in_.gcount());
+  end_ += count, read_ += count;
+  if (count == 0)
+    require_whole(read_, at_first_, name_);
+  return count > 0;
 }
 
 bool LineReader::next_content(std::string_view& line) {

@@ -40,7 +40,8 @@ private:
   std::istream& in_;
   std::string name_;
   std::vector<char> buffer_;
-  std::size_t begin_ = 0, end_ = 0; ///< the unread part of the buffer
+  std::size_t at_first_ = 0, read_ = 0; ///< bytes that the stream had, and those read
+  std::size_t begin_ = 0, end_ = 0;     ///< the unread part of the buffer
   std::int64_t number_ = 0;
   bool after_cr_ = false; ///< a following LF belongs to the same line ending
 };
