@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bytes.h"
+#include "mutation.h"
 #include "scratch_file.h"
 
 #include <calotte/check.h>
@@ -28,3 +29,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   return 0;
 }
+
+#ifdef CALOTTE_FUZZ_NETCDF
+extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size,
+                                               std::size_t most, unsigned seed) {
+  return calotte::fuzz::mutate_netcdf(data, size, most, seed);
+}
+#endif
