@@ -10,13 +10,15 @@
 //   CALOTTE_FAULT_ON     set: all later calls fail, too; of malloc, those that need more memory
 //                        than has been freed since
 //   CALOTTE_FAULT_COUNT  file that receives the number of calls, at the end
-// Calls within the C library itself are not seen: fopen() counts as an open. While the NetCDF
-// library opens a file, no allocation fails: HDF5 1.10, which it starts then, dereferences a null
-// pointer or calls itself without end where one does (H5TS_cancel_count_dec, H5E_printf_stack), and
-// its own byte buffers end in abort() (ncbytes.c).
+// Calls within the C library itself are not seen: fopen() counts as an open. Allocations of the
+// NetCDF library, and of HDF5, which it starts when it first opens a file, never fail: without
+// memory both dereference null pointers (NetCDF 4.9: NC_var_shape; HDF5 1.10:
+// H5TS_cancel_count_dec), call themselves without end (H5E_printf_stack) or abort (ncbytes.c).
+#include <array>
 #include <atomic>
 #include <cerrno>
 #include <cstdarg>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -24,6 +26,7 @@
 #include <dirent.h>
 #include <dlfcn.h>
 #include <fcntl.h>
+#include <link.h>
 #include <malloc.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
@@ -72,6 +75,25 @@ std::atomic<bool> exhausted = false;
 
 thread_local bool in_netcdf = false; // opens a file
 
+struct Code {
+  std::uintptr_t begin = 0, end = 0;
+};
+std::array<Code, 8> spared = {}; // of HDF5 and the NetCDF library
+std::size_t spared_count = 0;
+
+int find_spared(dl_phdr_info* object, std::size_t, void*) {
+  if (std::strstr(object->dlpi_name, "libhdf5") == nullptr &&
+      std::strstr(object->dlpi_name, "libnetcdf") == nullptr)
+    return 0;
+  for (int k = 0; k < object->dlpi_phnum; ++k)
+    if (const auto& part = object->dlpi_phdr[k];
+        part.p_type == PT_LOAD && (part.p_flags & PF_X) != 0 && spared_count < spared.size()) {
+      const std::uintptr_t begin = object->dlpi_addr + part.p_vaddr;
+      spared[spared_count++] = {begin, begin + part.p_memsz};
+    }
+  return 0;
+}
+
 Kind kind_of(const char* word) {
   const char* const words[] = {"",      "malloc", "mmap",   "open",   "read", "write",
                                "short", "fsync",  "rename", "shrink", "clock"};
@@ -88,8 +110,15 @@ bool fails(Kind kind) {
   return fault.at > 0 && (fault.on ? call >= fault.at : call == fault.at);
 }
 
-bool allocation_fails(std::size_t size) {
-  if (fault.kind != memory || in_netcdf || !fails(memory))
+/// \param caller where the allocation returns to.
+bool allocation_fails(std::size_t size, void* caller) {
+  if (fault.kind != memory || in_netcdf)
+    return false;
+  const auto place = reinterpret_cast<std::uintptr_t>(caller);
+  for (const Code& code : spared)
+    if (place >= code.begin && place < code.end)
+      return false;
+  if (!fails(memory))
     return false;
   if (!fault.on)
     return true;
@@ -138,6 +167,7 @@ int counted_main(int argc, char** argv, char** environment) {
   fault.kind = kind != nullptr ? kind_of(kind) : none;
   fault.at = at != nullptr ? std::atol(at) : 0;
   fault.on = std::getenv("CALOTTE_FAULT_ON") != nullptr;
+  ::dl_iterate_phdr(find_spared, nullptr);
   running = true;
   const int code = program(argc, argv, environment);
   end();
@@ -163,17 +193,22 @@ CALOTTE_SHIM int __libc_start_main(Main* main, int argc, char** argv, void (*ini
 
 // ---- Memory
 
+#define CALOTTE_CALLER __builtin_return_address(0)
+
 CALOTTE_SHIM void* malloc(std::size_t size) {
-  return allocation_fails(size) ? refuse(ENOMEM, nullptr) : __libc_malloc(size);
+  return allocation_fails(size, CALOTTE_CALLER) ? refuse(ENOMEM, nullptr) : __libc_malloc(size);
 }
 CALOTTE_SHIM void* calloc(std::size_t count, std::size_t size) {
-  return allocation_fails(count * size) ? refuse(ENOMEM, nullptr) : __libc_calloc(count, size);
+  return allocation_fails(count * size, CALOTTE_CALLER) ? refuse(ENOMEM, nullptr)
+                                                        : __libc_calloc(count, size);
 }
 CALOTTE_SHIM void* realloc(void* old, std::size_t size) {
-  return allocation_fails(size) ? refuse(ENOMEM, nullptr) : __libc_realloc(old, size);
+  return allocation_fails(size, CALOTTE_CALLER) ? refuse(ENOMEM, nullptr)
+                                                : __libc_realloc(old, size);
 }
 CALOTTE_SHIM void* memalign(std::size_t alignment, std::size_t size) {
-  return allocation_fails(size) ? refuse(ENOMEM, nullptr) : __libc_memalign(alignment, size);
+  return allocation_fails(size, CALOTTE_CALLER) ? refuse(ENOMEM, nullptr)
+                                                : __libc_memalign(alignment, size);
 }
 CALOTTE_SHIM void* aligned_alloc(std::size_t alignment, std::size_t size) {
   return memalign(alignment, size);
