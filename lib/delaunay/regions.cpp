@@ -289,10 +289,13 @@ double merged_reach(const Sites& sites, const Array<std::int32_t>& owner, std::i
     else
       others.push_back(chord);
   }
-  const auto last = others.begin() + std::min(merged_halo, std::ssize(others)) - 1;
-  if (!others.empty())
+  double halo = 0;
+  if (!others.empty()) {
+    const auto last = others.begin() + std::min(merged_halo, std::ssize(others)) - 1;
     std::nth_element(others.begin(), last, others.end());
-  return 1.1 * std::max(own, others.empty() ? 0 : *last) + 1e-12;
+    halo = *last;
+  }
+  return 1.1 * std::max(own, halo) + 1e-12;
 }
 
 /// Sets the centre, the members and the covered part of a merged region; false if it is too large.
