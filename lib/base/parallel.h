@@ -51,6 +51,29 @@ template <class Body> void for_each_block(std::int64_t n, const Body& body) {
   });
 }
 
+/// Consecutive items, such as a block of for_each_block.
+struct Part {
+  std::int64_t begin, end;
+
+  std::int64_t size() const { return end - begin; }
+};
+
+/// The sums of several terms over n items, added in the order of the blocks: the same bits for any
+/// number of threads.
+/// \param set_sums(part, sums) sets the sums over a block.
+template <class SetSums>
+std::vector<double> sums_over_blocks(std::int64_t n, std::size_t terms, const SetSums& set_sums) {
+  std::vector<double> sums(terms * static_cast<std::size_t>(block_count(n)));
+  for_each_block(n, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
+    set_sums(Part{begin, end},
+             std::span(sums).subspan(terms * static_cast<std::size_t>(block), terms));
+  });
+  std::vector<double> totals(terms, 0);
+  for (std::size_t i = 0; i < sums.size(); ++i)
+    totals[i % terms] += sums[i];
+  return totals;
+}
+
 /// True if holds(begin, end) is true for all blocks of [0, n).
 template <class Holds> bool holds_for_blocks(std::int64_t n, const Holds& holds) {
   std::atomic<bool> all = true;

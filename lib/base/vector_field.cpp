@@ -78,42 +78,24 @@ CALOTTE_VECTOR_WIDTHS void set_difference_of(float* y, double factor, const doub
     y[i] = static_cast<float>(factor * (a[i] - b[i]));
 }
 
-/// Sums sum(begin, end), over the coordinates of blocks.
-template <class Sum> double sum_blocks(std::int64_t columns, const Sum& sum) {
-  std::vector<double> sums(static_cast<std::size_t>(block_count(columns)), 0);
-  for_each_block(columns, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
-    sums[static_cast<std::size_t>(block)] = sum(3 * begin, 3 * end);
-  });
-  double total = 0;
-  for (const double part : sums)
-    total += part;
-  return total;
+/// The start of a part's coordinates, and their number.
+const double* start(const Points3& field, Part part) { return field.data() + 3 * part.begin; }
+double* start(Points3& field, Part part) { return field.data() + 3 * part.begin; }
+const float* start(const CompactField& field, Part part) {
+  return field.values.data() + 3 * part.begin;
 }
-
-/// Each block of b is read from the cache by all fields but the first.
-template <class Vectors>
-std::vector<double> inner_of_all(std::span<const CompactField> fields, const Vectors& b) {
-  const std::size_t count = fields.size();
-  std::vector<double> sums(count * static_cast<std::size_t>(block_count(b.cols())));
-  for_each_block(b.cols(), [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
-    for (std::size_t k = 0; k < count; ++k)
-      sums[static_cast<std::size_t>(block) * count + k] =
-          inner_of(fields[k].values.data() + 3 * begin, b.data() + 3 * begin, 3 * (end - begin));
-  });
-  std::vector<double> totals(count, 0);
-  for (std::size_t i = 0; i < sums.size(); ++i)
-    totals[i % count] += sums[i];
-  for (std::size_t k = 0; k < count; ++k)
-    totals[k] *= fields[k].scale;
-  return totals;
-}
+float* start(CompactField& field, Part part) { return field.values.data() + 3 * part.begin; }
+std::int64_t length(Part part) { return 3 * part.size(); }
 
 } // namespace
 
 double inner(const Points3& a, const Points3& b) {
-  return sum_blocks(a.cols(), [&](std::int64_t begin, std::int64_t end) {
-    return inner_of(a.data() + begin, b.data() + begin, end - begin);
-  });
+  return sums_over_blocks(
+      a.cols(), 1, [&](Part part, std::span<double> sums) { sums[0] = inner(a, b, part); })[0];
+}
+
+double inner(const Points3& a, const Points3& b, Part part) {
+  return inner_of(start(a, part), start(b, part), length(part));
 }
 
 CompactField compacted(const Points3& vectors, double square) {
@@ -131,64 +113,64 @@ CompactField compacted(const Points3& vectors, double square) {
 
 Points3 expanded(const CompactField& field) { return field.scale * field.values.cast<double>(); }
 
-double set_difference(const Points3& a, const Points3& b, double scale, CompactField& field) {
+void prepare(CompactField& field, double scale, std::int64_t n) {
   field.scale = scale > 0 ? scale : 1;
-  if (field.values.cols() != a.cols())
-    make_room(field.values, 3, a.cols());
-  const double factor = 1 / field.scale;
-  float* const values = field.values.data();
-  return field.scale * field.scale *
-         sum_blocks(a.cols(), [&](std::int64_t begin, std::int64_t end) {
-           set_difference_of(values + begin, factor, a.data() + begin, b.data() + begin,
-                             end - begin);
-           return inner_of(values + begin, values + begin, end - begin);
-         });
+  if (field.values.cols() != n)
+    make_room(field.values, 3, n);
 }
 
-double inner(const CompactField& a, const CompactField& b) {
-  return inner_of_each(std::span(&a, 1), b).front();
+void set_difference(const Points3& a, const Points3& b, CompactField& field, Part part) {
+  set_difference_of(start(field, part), 1 / field.scale, start(a, part), start(b, part),
+                    length(part));
+}
+
+double inner(const CompactField& a, const CompactField& b, Part part) {
+  return a.scale * b.scale * inner_of(start(a, part), start(b, part), length(part));
 }
 
 std::vector<double> inner_of_each(std::span<const CompactField> fields, const Points3& b) {
-  return inner_of_all(fields, b);
-}
-
-std::vector<double> inner_of_each(std::span<const CompactField> fields, const CompactField& b) {
-  std::vector<double> products = inner_of_all(fields, b.values);
-  for (double& product : products)
-    product *= b.scale;
-  return products;
-}
-
-void set_sum(Points3& y, double factor, const Points3& x, std::span<const double> shares,
-             std::span<const CompactField> fields) {
-  for_each_block(y.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-    double* const to = y.data() + 3 * begin;
-    const std::int64_t n = 3 * (end - begin);
-    set_multiple(to, factor, x.data() + 3 * begin, n);
-    for (std::size_t k = 0; k < fields.size(); ++k)
-      add_to(to, shares[k] * fields[k].scale, fields[k].values.data() + 3 * begin, n);
+  return sums_over_blocks(b.cols(), fields.size(), [&](Part part, std::span<double> sums) {
+    inner_of_each(fields, b, part, sums);
   });
 }
 
+void inner_of_each(std::span<const CompactField> fields, const Points3& b, Part part,
+                   std::span<double> products) {
+  for (std::size_t k = 0; k < fields.size(); ++k)
+    products[k] = fields[k].scale * inner_of(start(fields[k], part), start(b, part), length(part));
+}
+
+void inner_of_each(std::span<const CompactField> fields, const CompactField& b, Part part,
+                   std::span<double> products) {
+  for (std::size_t k = 0; k < fields.size(); ++k)
+    products[k] = inner(fields[k], b, part);
+}
+
+void set_sum(Points3& y, double factor, const Points3& x, std::span<const double> shares,
+             std::span<const CompactField> fields, Part part) {
+  set_multiple(start(y, part), factor, start(x, part), length(part));
+  for (std::size_t k = 0; k < fields.size(); ++k)
+    add_to(start(y, part), shares[k] * fields[k].scale, start(fields[k], part), length(part));
+}
+
 double square_over(const CompactField& a, const Array<double>& weights) {
-  return a.scale * a.scale * sum_blocks(a.values.cols(), [&](std::int64_t begin, std::int64_t end) {
-           double sum = 0;
-           for (std::int64_t i = begin / 3; i != end / 3; ++i)
-             sum += a.values.col(i).cast<double>().squaredNorm() / std::abs(weights[i]);
-           return sum;
-         });
+  return a.scale * a.scale *
+         sums_over_blocks(a.values.cols(), 1, [&](Part part, std::span<double> sums) {
+           sums[0] = 0;
+           for (std::int64_t i = part.begin; i != part.end; ++i)
+             sums[0] += a.values.col(i).cast<double>().squaredNorm() / std::abs(weights[i]);
+         })[0];
 }
 
 void multiply(Points3& y, double a) {
   set_columns(y, [&](std::int64_t i) { return a * column(y, i); });
 }
 
-void make_tangential(Points3& vectors, const Points3& x) {
-  set_columns(vectors, [&](std::int64_t i) {
+void make_tangential(Points3& vectors, const Points3& x, Part part) {
+  for (std::int64_t i = part.begin; i != part.end; ++i) {
     const Vec3 &v = column(vectors, i), &at = column(x, i);
-    return v - dot(v, at) * at;
-  });
+    set_column(vectors, i, v - dot(v, at) * at);
+  }
 }
 
 Points3 retract(const Points3& x, double step, const Points3& d) {

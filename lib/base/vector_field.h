@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/memory.h"
+#include "base/parallel.h"
 
 #include <calotte/types.h>
 
@@ -11,9 +12,11 @@
 namespace calotte::base_detail {
 
 /// Vectors at n places, 3 x n. Sums over the places are computed block by block in a fixed order:
-/// the same bits for any number of threads.
+/// the same bits for any number of threads. Functions of a part compute what they do for its places
+/// only: a loop over blocks that calls several of them reads each block from memory once.
 
 double inner(const Points3& a, const Points3& b);
+double inner(const Points3& a, const Points3& b, Part part);
 
 /// Vectors in single precision, times a factor that keeps them in its range. For vectors that a
 /// method reads often and that need not be exact: half of the memory to read.
@@ -26,20 +29,26 @@ struct CompactField {
 CompactField compacted(const Points3& vectors, double square);
 Points3 expanded(const CompactField& field);
 
-/// Sets `field` to a - b, in its memory if that suffices; returns its inner product with itself.
-/// \param scale about the root mean square of a - b.
-double set_difference(const Points3& a, const Points3& b, double scale, CompactField& field);
+/// Gives `field` a scale, about the root mean square of what it is to hold, and room for n vectors,
+/// in its memory if that suffices.
+void prepare(CompactField& field, double scale, std::int64_t n);
+/// Sets a prepared field to a - b.
+void set_difference(const Points3& a, const Points3& b, CompactField& field, Part part);
 
-double inner(const CompactField& a, const CompactField& b);
+double inner(const CompactField& a, const CompactField& b, Part part);
 
 /// The inner products of several fields with b, which is read once.
 std::vector<double> inner_of_each(std::span<const CompactField> fields, const Points3& b);
-std::vector<double> inner_of_each(std::span<const CompactField> fields, const CompactField& b);
+/// Sets `products` to those over a part.
+void inner_of_each(std::span<const CompactField> fields, const Points3& b, Part part,
+                   std::span<double> products);
+void inner_of_each(std::span<const CompactField> fields, const CompactField& b, Part part,
+                   std::span<double> products);
 
 /// Sets y to `factor` x plus the sum of shares times fields. y may be x.
 /// \param y of x's size.
 void set_sum(Points3& y, double factor, const Points3& x, std::span<const double> shares,
-             std::span<const CompactField> fields);
+             std::span<const CompactField> fields, Part part);
 
 /// The sum of |a_i|^2/|weight_i|.
 double square_over(const CompactField& a, const Array<double>& weights);
@@ -47,7 +56,7 @@ double square_over(const CompactField& a, const Array<double>& weights);
 void multiply(Points3& y, double a);
 
 /// Subtracts from each vector its component along x, unit columns.
-void make_tangential(Points3& vectors, const Points3& x);
+void make_tangential(Points3& vectors, const Points3& x, Part part);
 
 /// x + step d, normalised.
 Points3 retract(const Points3& x, double step, const Points3& d);

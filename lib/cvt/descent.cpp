@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <span>
 #include <utility>
 
@@ -17,6 +18,7 @@ namespace calotte::cvt_detail {
 namespace {
 
 using base_detail::CompactField;
+using base_detail::Part;
 
 constexpr int most_trials = 3;
 constexpr double rule_error =
@@ -69,7 +71,10 @@ void Descent::begin() {
   functional_.evaluate(state_.points, final_rule, uses_gradients(), here_);
   const Memory& memory = state_.memory;
   for (std::size_t k = 0; k < memory.steps.size(); ++k)
-    products_.push_back(inner_of_each(std::span(memory.steps).first(k), memory.changes[k]));
+    products_.push_back(
+        sums_over_blocks(state_.points.cols(), k, [&](Part part, std::span<double> sums) {
+          inner_of_each(std::span(memory.steps).first(k), memory.changes[k], part, sums);
+        }));
   if (memory.laplacian_at.cols() > 0)
     laplacian_.emplace(functional_.laplacian(memory.laplacian_at));
 }
@@ -201,57 +206,68 @@ void Descent::divide_by_masses(Points3& vectors) const {
 /// Sets the direction: minus the inverse of the approximate second derivative, times the gradient.
 /// That is Nocedal's recursion with the inner products of all pairs at hand, so that it reads each
 /// pair four times in all and writes only the result.
-void Descent::set_direction() {
+Descent::Line Descent::set_direction() {
   const Memory& memory = state_.memory;
   const std::size_t pairs = memory.steps.size();
-  if (direction_.cols() != state_.points.cols())
-    make_room(direction_, 3, state_.points.cols());
+  const std::int64_t n = state_.points.cols();
+  if (direction_.cols() != n)
+    make_room(direction_, 3, n);
   std::vector<double> shares = inner_of_each(memory.steps, here_.gradient);
   for (std::size_t k = pairs; k-- > 0;) {
     for (std::size_t j = k + 1; j < pairs; ++j)
       shares[k] += shares[j] * products_[j][k];
     shares[k] /= -memory.curvatures[k];
   }
-  set_sum(direction_, 1, here_.gradient, shares, memory.changes);
-  functional_.make_tangential(direction_, state_.points);
+  for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    set_sum(direction_, 1, here_.gradient, shares, memory.changes, {begin, end});
+    functional_.make_tangential(direction_, state_.points, {begin, end});
+  });
   precondition(direction_);
-  functional_.make_tangential(direction_, state_.points);
-  const std::vector<double> slopes = inner_of_each(memory.changes, direction_);
+  const std::vector<double> slopes =
+      sums_over_blocks(n, pairs, [&](Part part, std::span<double> sums) {
+        functional_.make_tangential(direction_, state_.points, part);
+        inner_of_each(memory.changes, direction_, part, sums);
+      });
   for (std::size_t k = 0; k < pairs; ++k) {
     double slope = slopes[k];
     for (std::size_t j = 0; j < k; ++j)
       slope -= shares[j] * products_[k][j];
     shares[k] += slope / memory.curvatures[k];
   }
-  set_sum(direction_, -1, direction_, shares, memory.steps);
-  functional_.make_tangential(direction_, state_.points);
+  std::vector<double> most(static_cast<std::size_t>(block_count(n)));
+  std::vector<double> lines(most.size());
+  for_each_block(n, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
+    const Part part{begin, end};
+    set_sum(direction_, -1, direction_, shares, memory.steps, part);
+    functional_.make_tangential(direction_, state_.points, part);
+    lines[static_cast<std::size_t>(block)] = inner(direction_, here_.gradient, part);
+    most[static_cast<std::size_t>(block)] = greatest_motion(part);
+  });
+  return {std::accumulate(lines.begin(), lines.end(), 0.0),
+          0.5 / *std::max_element(most.begin(), most.end())};
 }
 
-/// The step that limits the motion of each generator to half of its cell's width, the root of mass
-/// over density.
-double Descent::longest_step() const {
-  std::vector<double> most(static_cast<std::size_t>(block_count(direction_.cols())), 0);
-  for_each_block(direction_.cols(), [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
-    constexpr std::int64_t batch = 64;
-    std::array<std::array<double, batch>, 3> x;
-    std::array<double, batch> rho;
-    double& here = most[static_cast<std::size_t>(block)];
-    for (std::int64_t first = begin; first < end; first += batch) {
-      const auto count = static_cast<std::size_t>(std::min(batch, end - first));
-      for (std::size_t j = 0; j < count; ++j)
-        for (std::size_t c = 0; c < 3; ++c)
-          x[c][j] =
-              state_.points(static_cast<Eigen::Index>(c), first + static_cast<std::int64_t>(j));
-      const auto row = [&](auto& values) { return std::span(values).first(count); };
-      density_(row(x[0]), row(x[1]), row(x[2]), row(rho));
-      for (std::size_t j = 0; j < count; ++j) {
-        const std::int64_t i = first + static_cast<std::int64_t>(j);
-        const Vec3& d = column(direction_, i);
-        here = std::max(here, dot(d, d) * rho[j] / std::abs(here_.mass[i]));
-      }
+/// The greatest motion of a generator along the direction, over the width of its cell, the root of
+/// mass over density.
+double Descent::greatest_motion(Part part) const {
+  constexpr std::int64_t batch = 64;
+  std::array<std::array<double, batch>, 3> x;
+  std::array<double, batch> rho;
+  double most = 0;
+  for (std::int64_t first = part.begin; first < part.end; first += batch) {
+    const auto count = static_cast<std::size_t>(std::min(batch, part.end - first));
+    for (std::size_t j = 0; j < count; ++j)
+      for (std::size_t c = 0; c < 3; ++c)
+        x[c][j] = state_.points(static_cast<Eigen::Index>(c), first + static_cast<std::int64_t>(j));
+    const auto row = [&](auto& values) { return std::span(values).first(count); };
+    density_(row(x[0]), row(x[1]), row(x[2]), row(rho));
+    for (std::size_t j = 0; j < count; ++j) {
+      const std::int64_t i = first + static_cast<std::int64_t>(j);
+      const Vec3& d = column(direction_, i);
+      most = std::max(most, dot(d, d) * rho[j] / std::abs(here_.mass[i]));
     }
-  });
-  return 0.5 / std::sqrt(*std::max_element(most.begin(), most.end()));
+  }
+  return std::sqrt(most);
 }
 
 /// Line search. It accepts a trial if its energy is lower and it is not far beyond the minimum, or,
@@ -262,10 +278,11 @@ double Descent::longest_step() const {
 /// The first trial is the full step, but for a while after a search that has shortened it: where
 /// edges flip in steep widths, every full step would be rejected.
 /// The trial is then the accepted one.
-bool Descent::search(double slope) {
+bool Descent::search(const Line& line) {
   constexpr double growth = 1.4;
   Memory& memory = state_.memory;
-  double step = std::min(memory.stride, longest_step());
+  double step = std::min(memory.stride, line.longest);
+  const double slope = line.slope;
   for (int trial = 0; trial < most_trials; ++trial) {
     functional_.retract(state_.points, step, direction_, trial_);
     evaluate(trial_, there_);
@@ -303,15 +320,26 @@ void Descent::remember() {
         products.erase(products.begin());
   }
   const CvtIteration& here = here_.iteration;
-  const double slope = here.gradient / std::sqrt(static_cast<double>(here.cells));
-  const double square = set_difference(trial_, state_.points, here.l2, step);
-  const double square_of_change = set_difference(there_.gradient, here_.gradient, slope, change);
-  const double curvature = inner(step, change);
-  if (!(curvature > 1e-14 * std::sqrt(square * square_of_change))) {
+  const std::int64_t n = here.cells;
+  prepare(step, here.l2, n);
+  prepare(change, here.gradient / std::sqrt(static_cast<double>(n)), n);
+  const std::size_t pairs = memory.steps.size();
+  std::vector<double> products =
+      sums_over_blocks(n, pairs + 3, [&](Part part, std::span<double> sums) {
+        set_difference(trial_, state_.points, step, part);
+        set_difference(there_.gradient, here_.gradient, change, part);
+        inner_of_each(memory.steps, change, part, sums.first(pairs));
+        sums[pairs] = inner(step, step, part);
+        sums[pairs + 1] = inner(change, change, part);
+        sums[pairs + 2] = inner(step, change, part);
+      });
+  const double curvature = products[pairs + 2];
+  if (!(curvature > 1e-14 * std::sqrt(products[pairs] * products[pairs + 1]))) {
     forget();
     return;
   }
-  products_.push_back(inner_of_each(memory.steps, change));
+  products.resize(pairs);
+  products_.push_back(std::move(products));
   memory.steps.push_back(std::move(step));
   memory.changes.push_back(std::move(change));
   memory.curvatures.push_back(curvature);
@@ -321,10 +349,10 @@ void Descent::quasi_newton_step() {
   Clock::time_point mark = Clock::now();
   if (method() == Method::lbfgs_laplacian)
     make_laplacian();
-  set_direction();
-  const double slope = inner(direction_, here_.gradient), seconds = lap(mark);
+  const Line line = set_direction();
+  const double seconds = lap(mark);
   const std::size_t first = state_.report.iterations.size();
-  if (slope < 0 && search(slope)) {
+  if (line.slope < 0 && search(line)) {
     remember();
   } else if (state_.penalty > 0) { // a Lloyd step may raise the penalty
     state_.stuck = state_.memory.steps.empty();

@@ -36,6 +36,12 @@ public:
   void end_at_centroids();
 
 private:
+  /// What a search needs of the direction.
+  struct Line {
+    double slope;
+    double longest; ///< the step that moves a generator by half of its cell's width
+  };
+
   Method method() const;
   bool uses_gradients() const;
   void evaluate(const Points3& points, Evaluation& out);
@@ -45,14 +51,14 @@ private:
   bool step_or_lloyd();
   void nesterov_step();
   void quasi_newton_step();
-  void set_direction();
+  Line set_direction();
   void precondition(Points3& vectors);
   void divide_by_masses(Points3& vectors) const;
   void make_laplacian();
   void remember();
   void forget();
-  double longest_step() const;
-  bool search(double slope);
+  double greatest_motion(base_detail::Part part) const;
+  bool search(const Line& line);
 
   State& state_;
   const CvtOptions& options_;

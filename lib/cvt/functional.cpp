@@ -136,7 +136,7 @@ public:
   void hold(std::vector<std::uint8_t> fixed) override { fixed_ = std::move(fixed); }
   std::vector<CvtRegion> regions() const override { return tessellation_.regions(); }
   void retract(const Points3& x, double step, const Points3& d, Points3& to) const override;
-  void make_tangential(Points3& vectors, const Points3& x) const override;
+  void make_tangential(Points3& vectors, const Points3& x, base_detail::Part part) const override;
   Laplacian laplacian(const Points3& points) override;
   std::optional<Connectivity> take_mesh(const Points3& points) override;
 
@@ -147,7 +147,6 @@ private:
   bool is_fixed(std::int64_t site) const {
     return !fixed_.empty() && fixed_[static_cast<std::size_t>(site)] != 0;
   }
-  template <class Body> void for_each_fixed(const Body& body) const;
   void hold(Rows& weights) const;
 
   Tessellation<Cells> tessellation_;
@@ -245,33 +244,33 @@ void FunctionalOver<Cells>::add_penalty(const Points3& points, Evaluation& out) 
   const ShapeTerms terms = add_shape_terms(tessellation_.cells(), tessellation_.mesh(),
                                            tessellation_.distorted(inverse_spacing),
                                            inverse_spacing, penalty_, out.gradient);
-  make_tangential(out.gradient, points);
+  for_each_block(points.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    make_tangential(out.gradient, points, {begin, end});
+  });
   count_displaced(terms_, inverse_spacing, out.iteration);
   out.penalty = penalty_ * terms.value;
   out.iteration.misshapen = terms.worst;
 }
 
 template <class Cells>
-template <class Body>
-void FunctionalOver<Cells>::for_each_fixed(const Body& body) const {
-  for_each_block(std::ssize(fixed_), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-    for (std::int64_t i = begin; i != end; ++i)
-      if (is_fixed(i))
-        body(i);
-  });
-}
-
-template <class Cells>
 void FunctionalOver<Cells>::retract(const Points3& x, double step, const Points3& d,
                                     Points3& to) const {
   tessellation_.cells().retract(x, step, d, to);
-  for_each_fixed([&](std::int64_t i) { to.col(i) = x.col(i); });
+  if (!fixed_.empty())
+    for_each_block(x.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+      for (std::int64_t i = begin; i != end; ++i)
+        if (is_fixed(i))
+          to.col(i) = x.col(i);
+    });
 }
 
 template <class Cells>
-void FunctionalOver<Cells>::make_tangential(Points3& vectors, const Points3& x) const {
-  tessellation_.cells().make_tangential(vectors, x);
-  for_each_fixed([&](std::int64_t i) { vectors.col(i).setZero(); });
+void FunctionalOver<Cells>::make_tangential(Points3& vectors, const Points3& x,
+                                            base_detail::Part part) const {
+  tessellation_.cells().make_tangential(vectors, x, part);
+  for (std::int64_t i = part.begin; !fixed_.empty() && i != part.end; ++i)
+    if (is_fixed(i))
+      vectors.col(i).setZero();
 }
 
 /// Removes the couplings of fixed generators: those of a boundary condition.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/memory.h"
+#include "base/parallel.h"
 #include "cvt/laplacian.h"
 #include "cvt/room.h"
 #include "cvt/tessellation.h"
@@ -65,8 +66,9 @@ public:
   /// Sets `to`, whose memory is kept, to x + step d, projected back to the domain of the
   /// generators.
   virtual void retract(const Points3& x, double step, const Points3& d, Points3& to) const = 0;
-  /// Removes from each vector the component that is no motion at x.
-  virtual void make_tangential(Points3& vectors, const Points3& x) const = 0;
+  /// Removes from each vector of a part the component that is no motion at x.
+  virtual void make_tangential(Points3& vectors, const Points3& x,
+                               base_detail::Part part) const = 0;
   /// See laplacian.h.
   virtual Laplacian laplacian(const Points3& points) = 0;
 };

@@ -69,7 +69,7 @@ public:
 
   /// Moves generators that would leave the domain to the nearest place inside.
   void retract(const Points3& x, double step, const Points3& d, Points3& to) const;
-  static void make_tangential(Points3&, const Points3&) {} ///< all motions are
+  static void make_tangential(Points3&, const Points3&, base_detail::Part) {} ///< all motions are
   Laplacian laplacian(const Connectivity& mesh, const Density& density) const;
 
 private:

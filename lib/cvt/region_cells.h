@@ -75,8 +75,8 @@ public:
 
   /// Moves generators that would leave the region to the nearest place inside.
   void retract(const Points3& x, double step, const Points3& d, Points3& to) const;
-  static void make_tangential(Points3& vectors, const Points3& x) {
-    SphericalCells::make_tangential(vectors, x);
+  static void make_tangential(Points3& vectors, const Points3& x, base_detail::Part part) {
+    SphericalCells::make_tangential(vectors, x, part);
   }
   Laplacian laplacian(const Connectivity& mesh, const Density& density) const;
 

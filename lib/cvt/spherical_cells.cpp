@@ -24,8 +24,8 @@ void SphericalCells::retract(const Points3& x, double step, const Points3& d, Po
   base_detail::retract(x, step, d, to);
 }
 
-void SphericalCells::make_tangential(Points3& vectors, const Points3& x) {
-  base_detail::make_tangential(vectors, x);
+void SphericalCells::make_tangential(Points3& vectors, const Points3& x, base_detail::Part part) {
+  base_detail::make_tangential(vectors, x, part);
 }
 
 } // namespace calotte::cvt_detail

@@ -73,7 +73,7 @@ public:
   // ---- How generators move
 
   static void retract(const Points3& x, double step, const Points3& d, Points3& to);
-  static void make_tangential(Points3& vectors, const Points3& x);
+  static void make_tangential(Points3& vectors, const Points3& x, base_detail::Part part);
   Laplacian laplacian(const Connectivity& mesh, const Density& density) const {
     return graph_laplacian(*points_, mesh, density);
   }

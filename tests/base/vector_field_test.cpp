@@ -28,16 +28,18 @@ TEST_CASE("compact fields err by single precision, whatever the scale of the vec
     const std::vector<double> products = inner_of_each(both, b);
     CHECK(near(products[0], vectors, b));
     CHECK(near(products[1], b, b));
-    CHECK(near(inner_of_each(both, other)[0], vectors, b));
-    CHECK(near(inner(other, field), b, vectors));
+    const Part all{0, b.cols()};
+    CHECK(near(inner(other, field, all), b, vectors));
+    CHECK(near(inner(vectors, b, {0, 1234}) + inner(vectors, b, {1234, b.cols()}), vectors, b));
     Points3 sum = b;
-    set_sum(sum, -scale, sum, std::vector<double>{2, scale}, both);
+    set_sum(sum, -scale, sum, std::vector<double>{2, scale}, both, all);
     CHECK((sum - 2 * vectors).cwiseAbs().maxCoeff() < 1e-6 * scale);
     CompactField difference;
-    const double square = set_difference(vectors, scale * b, scale, difference);
+    prepare(difference, scale, b.cols());
+    set_difference(vectors, scale * b, difference, all);
     const Points3 exact = vectors - scale * b;
     CHECK((expanded(difference) - exact).cwiseAbs().maxCoeff() < 1e-6 * scale);
-    CHECK(near(square, exact, exact));
+    CHECK(near(inner(difference, difference, all), exact, exact));
   }
 }
 

@@ -73,7 +73,7 @@ Points3 field(const Points3& x, int kind) {
   Points3 v = kind == 0 ? random_sphere(x.cols(), 5) : Points3(3, x.cols());
   for (Eigen::Index i = 0; kind > 0 && i < x.cols(); ++i)
     v.col(i) << std::sin(kind * x(1, i)), x(0, i) * x(2, i), std::cos(kind * x(0, i));
-  make_tangential(v, x);
+  make_tangential(v, x, {0, v.cols()});
   return v;
 }
 
@@ -84,7 +84,7 @@ double curvature(Functional& functional, const Points3& x, const Points3& v) {
     const Points3 points = retract(x, there, v);
     Evaluation evaluation;
     functional.evaluate(points, true, true, evaluation);
-    make_tangential(evaluation.gradient, x);
+    make_tangential(evaluation.gradient, x, {0, x.cols()});
     return inner(evaluation.gradient, v);
   };
   return (slope(step) - slope(-step)) / (2 * step);
