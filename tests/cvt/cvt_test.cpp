@@ -137,7 +137,7 @@ TEST_CASE("a run continues from any of its states to the same bits") {
     CvtOptions options;
     options.density = x8();
     options.method = method;
-    options.max_iterations = 70; // the Laplacian is computed again
+    options.max_iterations = 100; // the Laplacian is computed again
     options.bisections = 1;
     options.tolerance = 1e-3; // the final rule takes over
     std::vector<CvtState> states;
@@ -176,7 +176,7 @@ TEST_CASE("every machine, compiler option and vector width gives the same bits")
   options.density = x8();
   CHECK(hash(spherical_cvt(random_sphere(1500, 6), options).mesh.points) == 4397988346090177093U);
   options.method = Method::lbfgs_laplacian;
-  CHECK(hash(spherical_cvt(random_sphere(1500, 6), options).mesh.points) == 9140604184259450882U);
+  CHECK(hash(spherical_cvt(random_sphere(1500, 6), options).mesh.points) == 8788176087897230512U);
 }
 
 TEST_CASE("a state that no run has left is refused") {
