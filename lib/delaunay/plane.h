@@ -60,9 +60,8 @@ public:
     return orientation_beyond_static(a, b, c);
   }
 
-  /// For images by their rounded places: at the hull of a box's copies, no result depends on them.
   bool between(const Place& a, const Place& p, const Place& b) const {
-    return exact_detail::between(given(a), given(p), given(b));
+    return exact_detail::between(sites_->frame->period, image(a), image(p), image(b));
   }
 
   static Circle circle(const Place& a, const Place& b, const Place& c) {

@@ -67,6 +67,13 @@ int orientation(const Vec2& period, const Image& a, const Image& b, const Image&
   return CGAL::orientation(exact_point(period, a), exact_point(period, b), exact_point(period, c));
 }
 
+bool between(const Vec2& period, const Image& a, const Image& p, const Image& b) {
+  if (in_one_box(a, p) && in_one_box(a, b))
+    return between(a.site, p.site, b.site);
+  return CGAL::collinear_are_strictly_ordered_along_line(
+      exact_point(period, a), exact_point(period, p), exact_point(period, b));
+}
+
 int in_circle(const Vec2& period, const Image& a, const Image& b, const Image& c, const Image& d) {
   if (in_one_box(a, b) && in_one_box(a, c) && in_one_box(a, d))
     return in_circle(a.site, b.site, c.site, d.site);

@@ -50,6 +50,7 @@ struct Image {
 /// between copies of one site. If circles are small compared with the box, the mesh is therefore as
 /// periodic as the sites.
 int orientation(const Vec2& period, const Image& a, const Image& b, const Image& c);
+bool between(const Vec2& period, const Image& a, const Image& p, const Image& b);
 int in_circle(const Vec2& period, const Image& a, const Image& b, const Image& c, const Image& d);
 int in_circle_tie(const Vec2& period, const Image& a, const Image& b, const Image& c,
                   const Image& d);

@@ -68,7 +68,7 @@ Polygons read_elements(const NetcdfReader& file, Points3 nodes, Points3 centres)
   const std::int64_t elements = file.shape_of("elementConn")[0],
                      most = file.shape_of("elementConn")[1];
   const std::vector<std::int32_t> counts = file.ints("numElementConn", {elements});
-  const auto start = static_cast<std::int32_t>(file.number("elementConn", "start_index", 1));
+  const std::int64_t start = file.start_index("elementConn", 1);
   Polygons polygons{std::move(nodes), {}, {}, std::move(centres)};
   polygons.begin.resize(elements + 1);
   polygons.begin[0] = 0;
@@ -82,12 +82,12 @@ Polygons read_elements(const NetcdfReader& file, Points3 nodes, Points3 centres)
     if (count < 3 || count > most)
       fail(i, "has " + std::to_string(count) + " nodes in numElementConn");
     for (std::int64_t k = 0; k < count; ++k) {
-      const std::int32_t id = all[static_cast<std::size_t>(i * most + k)] - start;
+      const std::int64_t id = all[static_cast<std::size_t>(i * most + k)] - start;
       if (id < 0 || id >= polygons.corners.cols())
         fail(i, "has node " + std::to_string(id + start) + " in elementConn, which is not one of " +
                     std::to_string(polygons.corners.cols()) + " from " + std::to_string(start) +
                     " on");
-      polygons.ids[polygons.begin[i] + k] = id;
+      polygons.ids[polygons.begin[i] + k] = static_cast<std::int32_t>(id);
     }
     polygons.begin[i + 1] = polygons.begin[i] + count;
   }

@@ -124,7 +124,7 @@ bool is_node(std::int32_t id, std::int32_t last, std::int32_t start, double fill
 
 void check_padding(std::int64_t nodes, Deviations& deviations) {
   const NetcdfReader& file = deviations.file();
-  const auto start = static_cast<std::int32_t>(file.number("elementConn", "start_index", 1));
+  const std::int32_t start = file.start_index("elementConn", 1);
   const double fill =
       file.number("elementConn", "_FillValue", std::numeric_limits<double>::quiet_NaN());
   const std::vector<std::int32_t> counts = file.ints("numElementConn", {-1});

@@ -250,6 +250,13 @@ double NetcdfReader::number(const std::string& variable, const std::string& attr
   return value;
 }
 
+std::int32_t NetcdfReader::start_index(const std::string& variable, std::int32_t fallback) const {
+  const double start = number(variable, "start_index", fallback);
+  if (start != 0 && start != 1)
+    fail("the attribute start_index of " + variable + " is neither 0 nor 1; mend it");
+  return static_cast<std::int32_t>(start);
+}
+
 std::vector<double> NetcdfReader::doubles(const std::string& variable,
                                           const std::vector<std::int64_t>& shape) const {
   const std::vector<std::int64_t> has = shape_of(variable);

@@ -35,6 +35,8 @@ public:
   std::string text(const std::string& variable, const std::string& attribute) const;
   /// A number attribute of the same, else the fallback.
   double number(const std::string& variable, const std::string& attribute, double fallback) const;
+  /// The attribute start_index of a variable with ids, the least of them: 0 or 1.
+  std::int32_t start_index(const std::string& variable, std::int32_t fallback) const;
 
   /// All of a variable, converted. Its shape must be the one given (-1: any size).
   std::vector<double> doubles(const std::string& variable,

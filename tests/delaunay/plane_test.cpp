@@ -487,4 +487,8 @@ TEST_CASE("sparse periodic boxes and points outside are refused") {
   CHECK(code_of(random_box(50, 1, 1, 38), {0.5, 1}) == ErrorCode::bad_option);
   CHECK(code_of(random_box(50, 1, 1, 38), {1, -1}) == ErrorCode::bad_option);
   CHECK(code_of(lattice(50, 1, {0.01, 0.01}, {0, 0}), {1, 1}) == ErrorCode::too_few_sites);
+  Points2 line(2, 4); // copies, whose rounded places are the same, on the hull
+  line << 0.3, 0.1, 0, 0.5, 0, 0, 0, 0;
+  for (const double width : {1e3, 1e16, 1e150, 1e300})
+    CHECK(code_of(line, {width, 7.25}) == ErrorCode::too_few_sites);
 }

@@ -43,6 +43,8 @@ TEST_CASE("signs of copies are those of their places, in one box or in several")
                s = place(period, d);
     CHECK(orientation(period, a, b, c) == orientation(p, q, r));
     CHECK(orientation(period, a, b, c) == determinant_sign(p, q, r));
+    if (orientation(p, q, r) == 0)
+      CHECK(between(period, a, b, c) == between(p, q, r));
     if (orientation(p, q, r) > 0)
       CHECK(in_circle(period, a, b, c, d) == in_circle(p, q, r, s));
   }

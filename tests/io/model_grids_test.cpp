@@ -285,6 +285,9 @@ struct Patch {
     require(nc_put_att_text(id, variable(name), key.c_str(), text.size(), text.data()));
     require(nc_enddef(id));
   }
+  void attribute(const std::string& name, const std::string& key, int number) const {
+    require(nc_put_att_int(id, variable(name), key.c_str(), NC_INT, 1, &number));
+  }
   void put(const std::string& name, std::vector<std::size_t> index, double value) const {
     require(nc_put_var1_double(id, variable(name), index.data(), &value));
   }
@@ -720,6 +723,10 @@ TEST_CASE("bad SCRIP and ESMF files end in one line") {
   CHECK(io_detail::read_esmf(NetcdfReader(path)).polygons.size() == 30);
   Patch(path).put("elementConn", {3, 0}, 400);
   check_bad(path, io_detail::read_esmf, "element 3 (0-based) has node 400 in elementConn");
+  Patch(path).put("elementConn", {3, 0}, std::numeric_limits<std::int32_t>::min());
+  check_bad(path, io_detail::read_esmf, "element 3 (0-based) has node -2147483648");
+  Patch(path).attribute("elementConn", "start_index", -2147483647);
+  check_bad(path, io_detail::read_esmf, "start_index of elementConn is neither 0 nor 1");
   Patch(path).rename("elementConn", "centerCoords");
   check_bad(path, io_detail::read_esmf, "centerCoords has the shape (30, ");
 }
