@@ -53,7 +53,11 @@ constexpr double evaluations_icosahedral = 30, evaluations = 150;
 constexpr double seconds_of_cell = 280e-9; ///< per evaluation, without the density
 constexpr double points_of_cell = 36;      ///< at which the density is evaluated
 constexpr double efficiency = 0.9;         ///< of each further thread
-constexpr double memory_of_cell = 1800, memory_of_program = 30e6; ///< bytes
+
+/// Bytes: the peaks of runs with 41 000 to 10 million cells, within a sixth of them. From a million
+/// generators on, descents store fewer L-BFGS pairs.
+constexpr double memory_of_cell = 800, memory_of_cell_of_many = 520, memory_of_program = 55e6;
+constexpr double many = 1e6;
 
 /// Whether bisected icosahedra have so many points, 10 x 4^k + 2.
 bool is_icosahedral(std::int64_t cells) {
@@ -73,7 +77,7 @@ CvtCosts cvt_costs(std::int64_t cells, const Density& density, int threads) {
   CvtCosts costs;
   costs.seconds = (uniform && is_icosahedral(cells) ? evaluations_icosahedral : evaluations) * n *
                   of_cell / (1 + efficiency * (threads - 1));
-  costs.memory = memory_of_program + memory_of_cell * n;
+  costs.memory = memory_of_program + (n < many ? memory_of_cell : memory_of_cell_of_many) * n;
   costs.mpas_file = file_bytes(Format::mpas, cells, uniform);
   costs.vtp_file = file_bytes(Format::vtp, cells, uniform);
   return costs;
