@@ -100,12 +100,15 @@ private:
 /// For cells that the domain clips, only the parts inside count.
 class PlanarEdges {
 public:
-  PlanarEdges(const PlanarSites& sites, const Triangles& triangles, const VertexRings& rings)
+  PlanarEdges(const PlanarSites& sites, const Faces& mesh, const Array<Corner>& starts)
       : sites_(&sites), clipped_(sites.generators), shore_(sites.generators),
         area_(sites.generators) {
     for_each_block(sites.generators, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-      for (std::int64_t i = begin; i != end; ++i)
-        clip(triangles, rings, static_cast<std::int32_t>(i));
+      std::vector<Corner> ring;
+      for (std::int64_t i = begin; i != end; ++i) {
+        gather_ring(mesh, starts[i], ring);
+        clip(mesh.triangle_ids, ring, static_cast<std::int32_t>(i));
+      }
     });
   }
 
@@ -134,15 +137,13 @@ private:
     return nearest_offset(sites_->places[from], sites_->places[to], sites_->period);
   }
 
-  void clip(const Triangles& triangles, const VertexRings& rings, std::int32_t i) {
+  void clip(const Triangles& triangles, const std::vector<Corner>& ring, std::int32_t i) {
     clipped_[i] = 0;
     shore_[i] = area_[i] = 0;
     if (sites_->outline == nullptr)
       return;
     std::vector<CellCorner> cell;
-    for (std::int64_t s = rings.begin[i]; s != rings.begin[i + 1]; ++s) {
-      const std::int32_t t = rings.corners[s].triangle;
-      const int v = rings.corners[s].vertex;
+    for (const auto [t, v] : ring) {
       const Vec2 beyond = between(i, triangles(previous_vertex(v), t));
       cell.push_back({circumcentre(between(i, triangles(next_vertex(v), t)), beyond), beyond});
     }
@@ -179,41 +180,62 @@ private:
 
 /// The input of a matrix.
 struct Source {
-  const Triangles& triangles;
-  VertexRings rings; ///< number of sites with rows; later sites have none
-  Eigen::VectorXd rho;
+  Source(const Connectivity& connectivity, Eigen::VectorXd&& density)
+      : rho(std::move(density)), mesh{connectivity.triangles, connectivity.neighbours, rho.size()},
+        starts(ring_starts(mesh)), triangles(mesh.triangle_ids) {}
 
   std::int64_t rows() const { return rho.size(); }
+
+  Eigen::VectorXd rho;  ///< at the sites with rows; later sites have none
+  Faces mesh;           ///< with these sites
+  Array<Corner> starts; ///< of their rings
+  const Triangles& triangles;
 };
 
-template <class Edges> Array<Shares> shares_of(const Triangles& triangles, const Edges& edges) {
-  Array<Shares> shares(triangles.cols());
-  for_each_block(triangles.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-    for (std::int64_t t = begin; t != end; ++t)
-      shares[t] = edges.shares({edges.place(triangles(0, t)), edges.place(triangles(1, t)),
-                                edges.place(triangles(2, t))});
-  });
-  return shares;
-}
+/// The shares of triangles, each computed about once where sites that follow each other are close
+/// to each other: the last ones stay in a table.
+template <class Edges> class SharesTable {
+public:
+  SharesTable(const Triangles& triangles, const Edges& edges)
+      : triangles_(triangles), edges_(edges) {}
+
+  float of(std::int32_t t, int vertex) {
+    const auto slot = static_cast<std::size_t>(t) % slots;
+    if (triangle_[slot] != t) {
+      triangle_[slot] = t;
+      shares_[slot] = edges_.shares({edges_.place(triangles_(0, t)), edges_.place(triangles_(1, t)),
+                                     edges_.place(triangles_(2, t))});
+    }
+    return shares_[slot][static_cast<std::size_t>(vertex)];
+  }
+
+private:
+  static constexpr std::size_t slots = 1 << 12;
+
+  const Triangles& triangles_;
+  const Edges& edges_;
+  std::vector<std::int32_t> triangle_ = std::vector<std::int32_t>(slots, -1);
+  std::vector<Shares> shares_ = std::vector<Shares>(slots);
+};
 
 /// The row of a site: its neighbours with their weights, ascending, and the diagonal.
 struct Row {
+  std::vector<Corner> ring;
   std::vector<std::pair<std::int32_t, double>> elements;
   double diagonal;
 };
 
 template <class Edges>
-void set_row(const Source& source, const Array<Shares>& shares, const Edges& edges, std::int32_t i,
+void set_row(const Source& source, SharesTable<Edges>& shares, const Edges& edges, std::int32_t i,
              Row& row) {
+  gather_ring(source.mesh, source.starts[i], row.ring);
   row.elements.clear();
   double area = 0;
-  const VertexRings& rings = source.rings;
-  Corner before = rings.corners[rings.begin[i + 1] - 1];
+  Corner before = row.ring.back();
   Vec3 side_before = edges.offset(i, source.triangles(next_vertex(before.vertex), before.triangle));
   bool inside_before =
       source.triangles(next_vertex(before.vertex), before.triangle) < source.rows();
-  for (std::int64_t s = rings.begin[i]; s != rings.begin[i + 1]; ++s) {
-    const Corner corner = rings.corners[s];
+  for (const Corner corner : row.ring) {
     const std::int32_t t = corner.triangle, u = before.triangle;
     const int v = corner.vertex, w = before.vertex;
     before = corner;
@@ -226,8 +248,7 @@ void set_row(const Source& source, const Array<Shares>& shares, const Edges& edg
     inside_before = inside;
     if (!inside)
       continue;
-    const double share = shares[t][static_cast<std::size_t>(v)] +
-                         shares[u][static_cast<std::size_t>(previous_vertex(w))];
+    const double share = shares.of(t, v) + shares.of(u, previous_vertex(w));
     const double usual = std::max(share, 2 * least_share) * dot(side, side);
     row.elements.emplace_back(j, (source.rho[i] + source.rho[j]) *
                                      edges.weight(i, j, source.triangles(previous_vertex(v), t),
@@ -242,14 +263,13 @@ void set_row(const Source& source, const Array<Shares>& shares, const Edges& edg
 /// The start of each row: a row has an element for each neighbour with a row.
 Array<std::int32_t> row_begins(const Source& source) {
   Array<std::int32_t> begin(source.rows() + 1);
-  const VertexRings& rings = source.rings;
   for_each_block(source.rows(), [&](std::int64_t, std::int64_t first, std::int64_t last) {
+    std::vector<Corner> ring;
     for (std::int64_t i = first; i != last; ++i) {
+      gather_ring(source.mesh, source.starts[i], ring);
       begin[i] = 0;
-      for (std::int64_t s = rings.begin[i]; s != rings.begin[i + 1]; ++s) {
-        const Corner corner = rings.corners[s];
-        begin[i] += source.triangles(next_vertex(corner.vertex), corner.triangle) < source.rows();
-      }
+      for (const auto [t, v] : ring)
+        begin[i] += source.triangles(next_vertex(v), t) < source.rows();
     }
   });
   begin[source.rows()] = 0;
@@ -263,8 +283,8 @@ template <class Edges> Laplacian make_matrix(const Source& source, const Edges& 
   Rows& rows = matrix.weights;
   rows.column = Array<std::int32_t>(rows.begin[n]);
   rows.value = Array<float>(rows.begin[n]);
-  const Array<Shares> shares = shares_of(source.triangles, edges);
   for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    SharesTable shares(source.triangles, edges);
     Row row;
     for (auto i = static_cast<std::int32_t>(begin); i != end; ++i) {
       std::int32_t place = rows.begin[i];
@@ -295,31 +315,25 @@ void require_countable(std::int64_t generators) {
 
 Laplacian graph_laplacian(const Points3& points, const Connectivity& mesh, const Density& density) {
   require_countable(points.cols());
-  const Source source{mesh.triangles,
-                      make_vertex_rings(mesh.triangles, mesh.neighbours, points.cols()),
-                      evaluate(density, points)};
+  const Source source(mesh, evaluate(density, points));
   return make_matrix(source, SphericalEdges(points));
 }
 
 Laplacian graph_laplacian(const Points3& places, std::int64_t generators, double area,
                           const Connectivity& mesh, const Density& density) {
   require_countable(generators);
-  const Source source{mesh.triangles,
-                      make_vertex_rings(mesh.triangles, mesh.neighbours, generators),
-                      evaluate(density, Points3(places.leftCols(generators)))};
+  const Source source(mesh, evaluate(density, Points3(places.leftCols(generators))));
   return make_matrix(source, RegionEdges(places, area));
 }
 
 Laplacian graph_laplacian(const PlanarSites& sites, const Connectivity& mesh,
                           const Density& density) {
   require_countable(sites.generators);
-  VertexRings rings = make_vertex_rings(mesh.triangles, mesh.neighbours, sites.generators);
   Points3 points(3, sites.generators);
   for (std::int64_t i = 0; i < sites.generators; ++i)
     set_column(points, i, sites.places[i]);
-  const PlanarEdges edges(sites, mesh.triangles, rings);
-  const Source source{mesh.triangles, std::move(rings), evaluate(density, points)};
-  return make_matrix(source, edges);
+  const Source source(mesh, evaluate(density, points));
+  return make_matrix(source, PlanarEdges(sites, source.mesh, source.starts));
 }
 
 } // namespace calotte::cvt_detail

@@ -30,17 +30,9 @@ void for_each_corner_around(const Faces& mesh, Corner first, const Body& body) {
 
 } // namespace
 
-VertexRings make_vertex_rings(const Mesh& mesh) {
-  return make_vertex_rings(mesh.triangles, mesh.neighbours, mesh.points.cols());
-}
-
-VertexRings make_vertex_rings(const Triangles& triangles, const Triangles& neighbours,
-                              std::int64_t sites) {
-  const Faces mesh{triangles, neighbours, sites};
-  const std::int64_t n = sites;
+Array<Corner> ring_starts(const Faces& mesh, Array<std::int64_t>* degrees) {
   Array<Corner> first = some_corners(mesh);
-  VertexRings rings{Array<std::int64_t>(n + 1), {}};
-  for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+  for_each_block(mesh.sites(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i) {
       std::int64_t count = 0;
       Corner lowest = first[i];
@@ -49,10 +41,29 @@ VertexRings make_vertex_rings(const Triangles& triangles, const Triangles& neigh
         if (following_site(mesh, corner) < following_site(mesh, lowest))
           lowest = corner;
       });
-      rings.begin[i] = count;
       first[i] = lowest;
+      if (degrees != nullptr)
+        (*degrees)[i] = count;
     }
   });
+  return first;
+}
+
+void gather_ring(const Faces& mesh, Corner start, std::vector<Corner>& ring) {
+  ring.clear();
+  for_each_corner_around(mesh, start, [&](Corner corner) { ring.push_back(corner); });
+}
+
+VertexRings make_vertex_rings(const Mesh& mesh) {
+  return make_vertex_rings(mesh.triangles, mesh.neighbours, mesh.points.cols());
+}
+
+VertexRings make_vertex_rings(const Triangles& triangles, const Triangles& neighbours,
+                              std::int64_t sites) {
+  const Faces mesh{triangles, neighbours, sites};
+  const std::int64_t n = sites;
+  VertexRings rings{Array<std::int64_t>(n + 1), {}};
+  const Array<Corner> first = ring_starts(mesh, &rings.begin);
   rings.begin[n] = 0;
   exclusive_scan(std::span(rings.begin.begin(), rings.begin.end()));
   rings.corners = Array<Corner>(rings.begin[n]);

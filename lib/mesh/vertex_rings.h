@@ -8,6 +8,7 @@
 #include <calotte/types.h>
 
 #include <cstdint>
+#include <vector>
 
 namespace calotte::mesh_detail {
 
@@ -17,6 +18,14 @@ struct VertexRings {
   Array<std::int64_t> begin; ///< those of site i are at begin[i] to begin[i + 1]
   Array<Corner> corners;
 };
+
+/// Where the ring of each site starts, for a caller that needs each ring once.
+/// \param degrees receives, if given, the numbers of corners.
+Array<Corner> ring_starts(const Faces& mesh, Array<std::int64_t>* degrees = nullptr);
+
+/// Sets `ring` to the corners at a site.
+/// \param start of the ring.
+void gather_ring(const Faces& mesh, Corner start, std::vector<Corner>& ring);
 
 VertexRings make_vertex_rings(const Mesh& mesh);
 
