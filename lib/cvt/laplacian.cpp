@@ -33,16 +33,24 @@ using Shares = std::array<float, 3>;
 /// \param ratio delta/l, delta the signed distance from the edge's middle to the circumcentre.
 float share_of(double ratio) { return static_cast<float>((0.25 - ratio * ratio / 3) * ratio); }
 
-/// For edges on the sphere; delta is an arc.
+/// delta/l on the sphere, where delta is an arc: sin(delta) = l q/sqrt(4 - l^2).
+/// \param square l^2.
+/// \param q cotangent of the flat triangle's angle across from the edge.
+double arc_ratio(double square, double q) {
+  if (square * (1 + q * q) < 1e-3) // single precision does not show the terms that follow
+    return q / 2 * (1 + square * (1.0 / 8 + q * q / 24));
+  const double sine = q * std::sqrt(square / (4 - square));
+  return arc_sine(std::clamp(sine, -1.0, 1.0)) / std::sqrt(square);
+}
+
+/// For edges on the sphere.
 /// \param most bound of |delta|/l.
 Shares spherical_shares(const std::array<Vec3, 3>& x, double most) {
-  const double normal = norm(cross(x[1] - x[0], x[2] - x[0]));
+  const double inverse = 1 / norm(cross(x[1] - x[0], x[2] - x[0]));
   Shares shares;
   for (int v = 0; v < 3; ++v) {
     const Vec3 &a = x[v], &b = x[next_vertex(v)], &c = x[previous_vertex(v)];
-    const double length = norm(a - b);
-    const double sine = length / norm(a + b) * (dot(a - c, b - c) / normal);
-    const double ratio = arc_sine(std::clamp(sine, -1.0, 1.0)) / length;
+    const double ratio = arc_ratio(dot(a - b, a - b), dot(a - c, b - c) * inverse);
     shares[static_cast<std::size_t>(v)] = share_of(std::clamp(ratio, -most, most));
   }
   return shares;
