@@ -5,6 +5,7 @@
 #include "base/points.h"
 #include "base/require.h"
 #include "cvt/descent.h"
+#include "cvt/laplacian.h"
 #include "cvt/planar_cells.h"
 #include "cvt/region_world.h"
 #include "cvt/stages.h"
@@ -15,6 +16,7 @@
 
 #include <calotte/error.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -182,6 +184,15 @@ void require_room(const World& world, const State& state, const CvtOptions& opti
     throw Error(ErrorCode::bad_option,
                 std::to_string(state.bisections_left) + " bisections of " + std::to_string(n) +
                     " generators are too many; give at most " + std::to_string(most));
+  std::int64_t cells = std::max(n, options.insertion_rounds > 0 ? options.cells : 0);
+  for (int k = 0; k < state.bisections_left; ++k)
+    cells = world.bisected(cells);
+  if (options.method == Method::lbfgs_laplacian && cells > most_laplacian_rows)
+    throw Error(ErrorCode::bad_option, std::to_string(cells) +
+                                           " generators are too many for the method "
+                                           "lbfgs_laplacian, which takes at most " +
+                                           std::to_string(most_laplacian_rows) +
+                                           "; give the method lbfgs or lloyd");
 }
 
 /// The mesh of the state's points, in the order of the start.

@@ -46,7 +46,10 @@ Descent::Descent(State& state, const CvtOptions& options, Functional& functional
 Method Descent::method() const {
   if (options_.method != Method::automatic)
     return options_.method;
-  return scaled_l2(here_.iteration) > near_enough ? Method::lbfgs : Method::lbfgs_laplacian;
+  const CvtIteration& here = here_.iteration;
+  return scaled_l2(here) > near_enough || here.cells > most_laplacian_rows
+             ? Method::lbfgs
+             : Method::lbfgs_laplacian;
 }
 
 /// Lloyd's and Nesterov's methods need no gradient, the others no centroids.

@@ -4,7 +4,6 @@
 #include "base/elementary.h"
 #include "base/parallel.h"
 #include "base/points.h"
-#include "base/require.h"
 #include "cvt/signs.h"
 #include "domain/clipped_cell.h"
 #include "mesh/vertex_rings.h"
@@ -17,7 +16,6 @@
 #include <limits>
 #include <numbers>
 #include <span>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -312,31 +310,21 @@ template <class Edges> Laplacian make_matrix(const Source& source, const Edges& 
   return matrix;
 }
 
-/// The matrix counts its entries, at most 6 n on average, by int32.
-void require_countable(std::int64_t generators) {
-  require(generators <= std::numeric_limits<std::int32_t>::max() / 7,
-          "there are " + std::to_string(generators) +
-              " generators, too many for the method lbfgs_laplacian: take lbfgs or lloyd");
-}
-
 } // namespace
 
 Laplacian graph_laplacian(const Points3& points, const Connectivity& mesh, const Density& density) {
-  require_countable(points.cols());
   const Source source(mesh, evaluate(density, points));
   return make_matrix(source, SphericalEdges(points));
 }
 
 Laplacian graph_laplacian(const Points3& places, std::int64_t generators, double area,
                           const Connectivity& mesh, const Density& density) {
-  require_countable(generators);
   const Source source(mesh, evaluate(density, Points3(places.leftCols(generators))));
   return make_matrix(source, RegionEdges(places, area));
 }
 
 Laplacian graph_laplacian(const PlanarSites& sites, const Connectivity& mesh,
                           const Density& density) {
-  require_countable(sites.generators);
   Points3 points(3, sites.generators);
   for (std::int64_t i = 0; i < sites.generators; ++i)
     set_column(points, i, sites.places[i]);

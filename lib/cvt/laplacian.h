@@ -11,6 +11,7 @@
 #include <calotte/types.h>
 
 #include <cstdint>
+#include <limits>
 
 namespace calotte::cvt_detail {
 
@@ -22,6 +23,10 @@ struct Rows {
 
   std::int64_t size() const { return begin.size() - 1; }
 };
+
+/// The most generators with a graph Laplacian, whose elements, at most 6 n on average, int32
+/// counts.
+constexpr std::int64_t most_laplacian_rows = std::numeric_limits<std::int32_t>::max() / 7;
 
 /// A symmetric, positive definite matrix D (I - W) D, D diagonal and W with a diagonal of zeros.
 struct Laplacian {
@@ -43,6 +48,7 @@ struct Laplacian {
 ///
 /// \param points 3 x n unit columns that span the sphere.
 /// \param mesh their Delaunay triangulation.
+/// \pre at most most_laplacian_rows points.
 Laplacian graph_laplacian(const Points3& points, const Connectivity& mesh, const Density& density);
 
 /// The same for the generators in a region, of which the hull's places follow. Circumcentres beyond

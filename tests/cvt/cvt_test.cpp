@@ -394,6 +394,10 @@ TEST_CASE("bad input is refused in one line") {
     CHECK(code(start, options) == ErrorCode::bad_option);
   }
   options = {};
+  options.bisections = 11; // 411 million generators
+  options.method = Method::lbfgs_laplacian;
+  CHECK(code(start, options) == ErrorCode::bad_option);
+  options = {};
   options.rule = 5;
   CHECK(code(start, options) == ErrorCode::bad_option);
   options = {};
