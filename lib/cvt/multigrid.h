@@ -34,10 +34,10 @@ private:
 
 /// An approximate inverse of a symmetric, positive definite matrix of a mesh, in time proportional
 /// to its size: one V-cycle of algebraic multigrid by smoothed aggregation (Vanek, Mandel and
-/// Brezina, Computing 56, 1996), with coarse matrices that approximate that method's. Aggregates are
-/// eight rows that follow each other: the rows are to be ordered along a space-filling curve. It is
-/// symmetric and positive definite itself, but for rounding: the cycle computes in single precision
-/// with the matrix scaled to a diagonal of ones.
+/// Brezina, Computing 56, 1996), with coarse matrices that approximate that method's. Aggregates
+/// are eight rows that follow each other: the rows are to be ordered along a space-filling curve.
+/// It is symmetric and positive definite itself, but for rounding: the cycle computes in single
+/// precision with the matrix scaled to a diagonal of ones.
 ///
 /// The smoother is Gauss and Seidel's method in fixed blocks of rows, forward and backward, and
 /// Jacobi's between blocks.
