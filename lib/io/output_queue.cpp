@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/output_queue.h"
 
+#include <cerrno>
+#include <new>
 #include <system_error>
 #include <utility>
 
@@ -11,8 +13,8 @@ OutputQueue::OutputQueue(Write write) : write_(std::move(write)) {
   try {
     for (int t = 0; t < threads; ++t)
       threads_.emplace_back([this] { run(); });
-  } catch (const std::system_error&) { // the system gives no more threads: continue with the
-                                       // existing ones
+  } catch (const std::system_error&) { // no more threads: continue with the existing ones
+  } catch (const std::bad_alloc&) {    // the same; a started thread must be joined
   }
 }
 
@@ -55,7 +57,11 @@ void OutputQueue::run() {
     ++writing_;
     changed_.notify_all();
     lock.unlock();
-    const int error = write_(std::move(block));
+    int error = ENOMEM;
+    try {
+      error = write_(std::move(block));
+    } catch (const std::bad_alloc&) { // no exception leaves the thread
+    }
     lock.lock();
     --writing_;
     if (error != 0 && error_ == 0) {

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cerrno>
 #include <filesystem>
+#include <memory>
 #include <string_view>
 #include <system_error>
 #include <vector>
 
+#include <dirent.h>
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
@@ -41,13 +43,15 @@ bool lock(int descriptor) { return ::flock(descriptor, LOCK_EX | LOCK_NB) == 0; 
 std::vector<std::string> temporaries_of(const fs::path& place) {
   const std::string start = place.filename().string().append(suffix);
   std::vector<std::string> found;
-  std::error_code error; // a folder that cannot be listed is written to as it is
   const fs::path folder = place.parent_path();
-  for (fs::directory_iterator file(folder.empty() ? "." : folder, error), end;
-       !error && file != end; file.increment(error)) {
-    const std::string name = file->path().filename();
-    if (name.starts_with(start) && is_number_pair(std::string_view(name).substr(start.size())))
-      found.push_back(file->path());
+  // The directory iterator of libstdc++ ends the program where memory is short.
+  const auto close = [](DIR* opened) { ::closedir(opened); };
+  const std::unique_ptr<DIR, decltype(close)> listed(
+      ::opendir(folder.empty() ? "." : folder.c_str()), close);
+  while (const dirent* const file = listed ? ::readdir(listed.get()) : nullptr) {
+    const std::string_view name = file->d_name;
+    if (name.starts_with(start) && is_number_pair(name.substr(start.size())))
+      found.push_back(folder / name);
   }
   return found;
 }
