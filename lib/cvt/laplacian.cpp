@@ -188,14 +188,13 @@ private:
 struct Source {
   Source(const Connectivity& connectivity, Eigen::VectorXd&& density)
       : rho(std::move(density)), mesh{connectivity.triangles, connectivity.neighbours, rho.size()},
-        starts(ring_starts(mesh)), triangles(mesh.triangle_ids) {}
+        starts(ring_starts(mesh)) {}
 
   std::int64_t rows() const { return rho.size(); }
 
   Eigen::VectorXd rho;  ///< at the sites with rows; later sites have none
   Faces mesh;           ///< with these sites
   Array<Corner> starts; ///< of their rings
-  const Triangles& triangles;
 };
 
 /// The shares of triangles, each computed about once where sites that follow each other are close
@@ -237,28 +236,22 @@ void set_row(const Source& source, SharesTable<Edges>& shares, const Edges& edge
   gather_ring(source.mesh, source.starts[i], row.ring);
   row.elements.clear();
   double area = 0;
+  const Faces& mesh = source.mesh;
   Corner before = row.ring.back();
-  Vec3 side_before = edges.offset(i, source.triangles(next_vertex(before.vertex), before.triangle));
-  bool inside_before =
-      source.triangles(next_vertex(before.vertex), before.triangle) < source.rows();
+  Vec3 side_before = edges.offset(i, following_site(mesh, before));
   for (const Corner corner : row.ring) {
-    const std::int32_t t = corner.triangle, u = before.triangle;
-    const int v = corner.vertex, w = before.vertex;
-    before = corner;
-    const std::int32_t j = source.triangles(next_vertex(v), t);
-    const Vec3 side = edges.offset(i, j);
-    const bool inside = j < source.rows();
-    if (inside && inside_before)
-      area += norm(cross(side_before, side)) / 6;
-    side_before = side;
-    inside_before = inside;
-    if (!inside)
+    const Corner right = std::exchange(before, corner);
+    const std::int32_t j = following_site(mesh, corner), d = following_site(mesh, right);
+    const Vec3 side = edges.offset(i, j), right_side = std::exchange(side_before, side);
+    if (j >= source.rows())
       continue;
-    const double share = shares.of(t, v) + shares.of(u, previous_vertex(w));
+    if (d < source.rows())
+      area += norm(cross(right_side, side)) / 6;
+    const double share = shares.of(corner.triangle, corner.vertex) +
+                         shares.of(right.triangle, previous_vertex(right.vertex));
     const double usual = std::max(share, 2 * least_share) * dot(side, side);
     row.elements.emplace_back(j, (source.rho[i] + source.rho[j]) *
-                                     edges.weight(i, j, source.triangles(previous_vertex(v), t),
-                                                  source.triangles(next_vertex(w), u), usual));
+                                     edges.weight(i, j, preceding_site(mesh, corner), d, usual));
   }
   std::sort(row.elements.begin(), row.elements.end());
   row.diagonal = edges.held(i, source.rho[i], area);
@@ -274,8 +267,8 @@ Array<std::int32_t> row_begins(const Source& source) {
     for (std::int64_t i = first; i != last; ++i) {
       gather_ring(source.mesh, source.starts[i], ring);
       begin[i] = 0;
-      for (const auto [t, v] : ring)
-        begin[i] += source.triangles(next_vertex(v), t) < source.rows();
+      for (const Corner corner : ring)
+        begin[i] += following_site(source.mesh, corner) < source.rows();
     }
   });
   begin[source.rows()] = 0;
@@ -290,7 +283,7 @@ template <class Edges> Laplacian make_matrix(const Source& source, const Edges& 
   rows.column = Array<std::int32_t>(rows.begin[n]);
   rows.value = Array<float>(rows.begin[n]);
   for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-    SharesTable shares(source.triangles, edges);
+    SharesTable shares(source.mesh.triangle_ids, edges);
     Row row;
     for (auto i = static_cast<std::int32_t>(begin); i != end; ++i) {
       std::int32_t place = rows.begin[i];

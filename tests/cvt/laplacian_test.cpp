@@ -10,6 +10,7 @@
 #include <calotte/cvt.h>
 #include <calotte/generators.h>
 
+#include <Eigen/Geometry>
 #include <Eigen/SparseCore>
 #include <doctest/doctest.h>
 #include <tbb/global_control.h>
@@ -103,6 +104,33 @@ TEST_CASE("the graph Laplacian is symmetric, and almost zero on a constant") {
     for (Eigen::Index i = 0; i < matrix.rows(); ++i)
       for (SparseMatrix::InnerIterator entry(matrix, i); entry; ++entry)
         CHECK((entry.col() == i) == (entry.value() > 0));
+  }
+}
+
+TEST_CASE("the graph Laplacian's elements are those of its formula, for triangles of any size") {
+  for (const std::int64_t cells : {642, 40962}) {
+    const Points3 x = near_optimum(Density{}, cells);
+    const Connectivity mesh = SphereSigns(x).triangulate();
+    std::vector<Eigen::Triplet<double>> elements;
+    for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
+      for (int v = 0; v < 3; ++v) {
+        const std::int32_t i = mesh.triangles(v, t), j = mesh.triangles((v + 1) % 3, t);
+        const Eigen::Vector3d a = x.col(i), b = x.col(j), c = x.col(mesh.triangles((v + 2) % 3, t));
+        const double length = (a - b).norm(),
+                     cotangent = (a - c).dot(b - c) / (a - c).cross(b - c).norm();
+        const double delta = std::asin(length * cotangent / (a + b).norm());
+        const double weight =
+            2 * (length * length * delta / 4 - delta * delta * delta / 3) / length;
+        elements.emplace_back(i, j, -weight);
+        elements.emplace_back(j, i, -weight);
+      }
+    SparseMatrix exact(x.cols(), x.cols());
+    exact.setFromTriplets(elements.begin(), elements.end());
+    const SparseMatrix matrix = eigen_matrix(graph_laplacian(x, mesh, Density{}));
+    for (Eigen::Index i = 0; i < matrix.rows(); ++i)
+      for (SparseMatrix::InnerIterator entry(matrix, i); entry; ++entry)
+        if (entry.col() != i)
+          REQUIRE(entry.value() == doctest::Approx(exact.coeff(i, entry.col())).epsilon(1e-5));
   }
 }
 
