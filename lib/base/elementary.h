@@ -51,26 +51,22 @@ CALOTTE_INLINE double arc_sine_of_root(double w) {
 /// atan(x) for |x| <= 1; loses digits for larger |x|.
 CALOTTE_INLINE double arc_tangent(double x) { return arc_sine(x / std::sqrt(1 + x * x)); }
 
-/// exp(x) for |x| <= 700, to 2 units in the last place; other arguments are clamped to that range.
-CALOTTE_INLINE double exponential(double x) {
-  constexpr double log2_e = 1.4426950408889634, ln2_high = 6.93147180369123816490e-01,
-                   ln2_low = 1.90821492927058770002e-10;
+/// 1/(1 + 2^t), to 4 units in the last place; t is clamped to [-1000, 1000]. With t = k + r, |r| <=
+/// 1/2, and tanh(r ln(2)/2) = odd/even, 2^t is 2^k (even + odd)/(even - odd): one division serves
+/// the power and the quotient. odd and even are a minimax approximation (error 6e-18).
+CALOTTE_INLINE double logistic(double t) {
   constexpr double shifter =
       0x1.8p52; // adding it rounds to an integer, which stands in the last bits
-  x = x < -700 ? -700 : x;
-  x = x > 700 ? 700 : x;
-  const double shifted = x * log2_e + shifter, k = shifted - shifter;
-  // exp(r) = 1 + r + r^2 p(r) for |r| <= ln(2)/2, p the minimax polynomial of degree 9 (error
-  // 1e-16), summed in pairs as above.
-  const double r = (x - k * ln2_high) - k * ln2_low, r2 = r * r, r4 = r2 * r2;
-  const double low =
-      (0.5 + r * 0.16666666666666674) + r2 * (0.04166666666662416 + r * 0.008333333333322215);
-  const double middle = (0.0013888888917198635 + r * 0.00019841269886566315) +
-                        r2 * (2.480152131978267e-05 + r * 2.7557242364924073e-06);
-  const double high = 2.7620076970288274e-07 + r * 2.5110039159935742e-08;
-  const double sum = 1 + (r + r2 * (low + r4 * (middle + r4 * high)));
+  t = t < -1000 ? -1000 : t;
+  t = t > 1000 ? 1000 : t;
+  const double shifted = t + shifter, r = t - (shifted - shifter), r2 = r * r;
+  const double odd =
+      r * (0.34657359027997264 + r2 * (0.004624841170852369 + r2 * 5.287083987433538e-06));
+  const double even = 1 + r2 * (0.05338222200402479 + r2 * 0.00022893359916127378);
+  const double down = even - odd;
   const auto exponent = std::bit_cast<std::uint64_t>(shifted) << 52;
-  return std::bit_cast<double>(std::bit_cast<std::uint64_t>(sum) + exponent);
+  const double power = std::bit_cast<double>(std::bit_cast<std::uint64_t>(even + odd) + exponent);
+  return down / (down + power);
 }
 
 } // namespace calotte::base_detail

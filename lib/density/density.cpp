@@ -102,8 +102,12 @@ Profile profile_without_place(const Bump& bump, const std::string& name) {
     refuse(name + "gamma must lie between 0 and 1");
   if (!(bump.stretch >= 1) || !std::isfinite(bump.stretch))
     refuse(name + "stretch must be at least 1");
-  return {{0, 0, 0}, {0, 0, 0},       1 - 1 / bump.stretch,
-          bump.beta, -2 / bump.alpha, 1 / (1 - bump.gamma),
+  return {{0, 0, 0},
+          {0, 0, 0},
+          1 - 1 / bump.stretch,
+          bump.beta,
+          -2 * std::numbers::log2e / bump.alpha,
+          1 / (1 - bump.gamma),
           bump.gamma};
 }
 

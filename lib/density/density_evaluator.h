@@ -18,15 +18,14 @@ namespace calotte::density_detail {
 
 /// A bump in the form that the inner loop reads.
 struct Profile {
-  Vec3 centre, major; ///< unit vectors; major tangential
-  double shrink;      ///< 1 - 1/stretch, by which offsets along major are reduced
-  double beta, minus_two_over_alpha, height, gamma;
+  Vec3 centre, major;                ///< unit vectors; major tangential
+  double shrink;                     ///< 1 - 1/stretch, by which offsets along major are reduced
+  double beta, slope, height, gamma; ///< slope -2/(alpha ln(2))
 };
 
 /// rho = gamma + 1 / ((1 - gamma) (1 + exp(-2 (beta - d)/alpha))), which is the tanh of Bump.
 CALOTTE_INLINE double value_at(const Profile& bump, double distance) {
-  return bump.gamma +
-         bump.height / (1 + exponential((bump.beta - distance) * bump.minus_two_over_alpha));
+  return bump.gamma + bump.height * logistic((bump.beta - distance) * bump.slope);
 }
 
 /// The profile without centre and axis.
