@@ -77,12 +77,13 @@ inline void prefer_huge_pages([[maybe_unused]] void* begin, [[maybe_unused]] std
 /// page also faults it in.
 ///
 /// Arrays of up to a few megabytes come from the pools. Larger arrays come from the system and
-/// return to it.
+/// return to it. The eight bytes behind the last value may be read: code for four doubles at a time
+/// reads triples of doubles with the double that follows.
 template <class T> class Array {
 public:
   Array() = default;
   explicit Array(std::int64_t n)
-      : size_(n), data_(allocate(static_cast<std::size_t>(n) * sizeof(T))) {}
+      : size_(n), data_(allocate(static_cast<std::size_t>(n) * sizeof(T) + 8)) {}
   Array(Array&& other) noexcept
       : size_(std::exchange(other.size_, 0)), data_(std::move(other.data_)) {}
   Array& operator=(Array&& other) noexcept {

@@ -11,11 +11,16 @@
 #include "cvt/shape.h"
 #include "cvt/spherical_cells.h"
 #include "cvt/tessellation.h"
+#include "integrals/quads.h"
+#include "integrals/rows.h"
 
 #include <calotte/error.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <span>
 #include <utility>
 
 namespace calotte::cvt_detail {
@@ -54,40 +59,81 @@ void add_sums(const Array<SiteTerms>& terms, CvtIteration& iteration) {
   iteration.gradient = std::sqrt(total.slope);
 }
 
-/// Evaluates one generator; the energy is NaN if its cell has no mass.
-template <class Cells>
-void evaluate_site(const Vec3& x, const CellMoments& cell, std::int32_t site, bool fixed,
-                   bool with_gradient, Evaluation& out, SiteTerms& terms) {
-  typename Cells::Pull pull = Cells::pull(x, cell);
-  if (!(std::abs(pull.mass) > 0) || !std::isfinite(pull.mass)) {
-    terms = {std::nan(""), 0, 0};
-    return;
-  }
-  if (fixed) {
-    pull.centroid = x;
-    pull.gradient = {0, 0, 0};
-  }
-  const Vec3 apart = pull.centroid - x;
-  terms = {cell.energy, dot(apart, apart), dot(pull.gradient, pull.gradient)};
-  if (with_gradient) {
-    set_column(out.gradient, site, pull.gradient);
-    out.mass[site] = pull.mass;
-  } else {
-    set_column(out.centroids, site, pull.centroid);
+/// Up to `lanes` generators that follow each other in a patch: what they are, and what follows.
+struct alignas(64) SiteRows {
+  Rows3 x, first;
+  Row energy; ///< NaN if a cell has no mass
+  Rows3 centroid, gradient;
+  Row mass, square, slope;
+};
+
+/// \param x followed by one more double.
+CALOTTE_VECTOR_WIDTHS
+void gather_sites(const Vec3* x, const CellMoments* moments, std::size_t count, SiteRows& rows) {
+  for (std::size_t first = 0; first < lanes; first += 4) {
+    const auto lane = [&](std::size_t k) { return std::min(first + k, count - 1); };
+    Quad last;
+    put_columns({x + lane(0), x + lane(1), x + lane(2), x + lane(3)}, first, rows.x, last);
+    put_columns({moments + lane(0), moments + lane(1), moments + lane(2), moments + lane(3)}, first,
+                rows.first, last);
+    quad_at(rows.energy.data() + first) = last;
   }
 }
 
-/// Evaluates a patch's own generators; its other sites hold a plane's hull.
+template <class Cells> CALOTTE_VECTOR_WIDTHS void evaluate_rows(SiteRows& rows) {
+  CALOTTE_VECTOR_LOOP
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    const Vec3 x = at(rows.x, lane);
+    const typename Cells::Pull pull = Cells::pull(x, {at(rows.first, lane), rows.energy[lane]});
+    const double mass = std::abs(pull.mass);
+    const bool valid = mass > 0 && mass <= std::numeric_limits<double>::max();
+    rows.energy[lane] = valid ? rows.energy[lane] : std::numeric_limits<double>::quiet_NaN();
+    const Vec3 apart = pull.centroid - x;
+    put(pull.centroid, rows.centroid, lane);
+    put(pull.gradient, rows.gradient, lane);
+    rows.mass[lane] = pull.mass;
+    rows.square[lane] = dot(apart, apart);
+    rows.slope[lane] = dot(pull.gradient, pull.gradient);
+  }
+}
+
+void put_site(const SiteRows& rows, std::size_t lane, std::int32_t site, bool fixed,
+              bool with_gradient, Evaluation& out, SiteTerms& terms) {
+  terms = {rows.energy[lane], fixed ? 0 : rows.square[lane], fixed ? 0 : rows.slope[lane]};
+  if (with_gradient) {
+    set_column(out.gradient, site, fixed ? Vec3{0, 0, 0} : at(rows.gradient, lane));
+    out.mass[site] = rows.mass[lane];
+  } else {
+    set_column(out.centroids, site, fixed ? at(rows.x, lane) : at(rows.centroid, lane));
+  }
+}
+
+/// Evaluates a patch's own generators; its other sites hold a plane's hull, and come last.
+/// \param x the places of the patch's sites.
 template <class Cells>
 CALOTTE_ALL_INSTRUCTIONS void
-evaluate_sites(const Patch& patch, const Points3& points, const Array<CellMoments>& moments,
-               const std::vector<std::uint8_t>& fixed, bool with_gradient, Evaluation& out,
-               Array<SiteTerms>& terms) {
-  for (std::int32_t i = 0; i < patch.owned; ++i)
-    if (const std::int32_t site = patch.sites[static_cast<std::size_t>(i)]; site < points.cols())
-      evaluate_site<Cells>(column(points, site), moments[i], site,
-                           !fixed.empty() && fixed[static_cast<std::size_t>(site)] != 0,
-                           with_gradient, out, terms[site]);
+evaluate_sites(const Patch& patch, const Points3& points, const Array<Vec3>& x,
+               const Array<CellMoments>& moments, const std::vector<std::uint8_t>& fixed,
+               bool with_gradient, Evaluation& out, Array<SiteTerms>& terms) {
+  std::span<const std::int32_t> sites(patch.sites.data(), static_cast<std::size_t>(patch.owned));
+  while (!sites.empty() && sites.back() >= points.cols())
+    sites = sites.first(sites.size() - 1);
+  SiteRows rows;
+  std::array<Vec3, lanes + 1> generators;
+  for (std::size_t first = 0; first < sites.size(); first += lanes) {
+    const auto part = sites.subspan(first, std::min(lanes, sites.size() - first));
+    if (Cells::places_wrap)
+      for (std::size_t lane = 0; lane < part.size(); ++lane)
+        generators[lane] = column(points, part[lane]);
+    gather_sites(Cells::places_wrap ? generators.data() : x.begin() + first,
+                 moments.begin() + first, part.size(), rows);
+    evaluate_rows<Cells>(rows);
+    for (std::size_t lane = 0; lane < part.size(); ++lane) {
+      const std::int32_t site = part[lane];
+      put_site(rows, lane, site, !fixed.empty() && fixed[static_cast<std::size_t>(site)] != 0,
+               with_gradient, out, terms[site]);
+    }
+  }
 }
 
 void make_room(Evaluation& out, Eigen::Index n, bool with_gradient) {
@@ -182,9 +228,9 @@ Effort FunctionalOver<Cells>::integrate(const Points3& points, const Integrand& 
     terms_ = {};
     tessellation_.rebuild(effort);
   };
-  const auto receive = [&](const Patch& patch, const Array<Vec3>&,
+  const auto receive = [&](const Patch& patch, const Array<Vec3>& x,
                            const Array<CellMoments>& moments) {
-    evaluate_sites<Cells>(patch, points, moments, fixed_, with_gradient, out, terms_);
+    evaluate_sites<Cells>(patch, points, x, moments, fixed_, with_gradient, out, terms_);
   };
   const auto integrate_all = [&] {
     make_room(out, points.cols(), with_gradient);

@@ -33,6 +33,7 @@ void require_inside(const Points2Ref& places, const PlanarDomain& domain);
 class PlanarCells {
 public:
   using Signs = PlaneSigns;
+  static constexpr bool places_wrap = true;
 
   /// \throws Error as require_domain().
   explicit PlanarCells(const PlanarDomain& domain);

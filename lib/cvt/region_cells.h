@@ -37,6 +37,7 @@ Points3 hull_of(const SphericalOutline& outline, const Density& density, std::in
 class RegionCells {
 public:
   using Signs = SphereSigns;
+  static constexpr bool places_wrap = false;
   using Pull = SphericalCells::Pull;
 
   /// With the hull's directions only, for any generators.

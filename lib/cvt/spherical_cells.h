@@ -25,6 +25,7 @@ namespace calotte::cvt_detail {
 class SphericalCells {
 public:
   using Signs = SphereSigns;
+  static constexpr bool places_wrap = false; ///< place(i) may be a copy of generator i
 
   /// Sets the generators: unit columns that must stay there until the next call.
   void move(const Points3& points) { points_ = &points; }

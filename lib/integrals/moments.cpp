@@ -4,10 +4,10 @@
 #include "base/elementary.h"
 #include "base/parallel.h"
 #include "base/points.h"
+#include "integrals/quads.h"
 #include "integrals/rows.h"
 
 #include <algorithm>
-#include <cstring>
 
 namespace calotte::integrals_detail {
 namespace {
@@ -22,22 +22,25 @@ void checked_rows(const Batch& batch, std::size_t first, TriangleRows& rows,
       suspects.push_back(static_cast<std::int32_t>(first + lane));
 }
 
-using Quad = double __attribute__((vector_size(32))); ///< four doubles that are added at once
-
 /// Adds each triangle's terms to its sites, in the order of the triangles.
 CALOTTE_VECTOR_WIDTHS
 void scatter(const Batch& batch, const VertexTerms& terms, CellMoments* moments) {
   static_assert(sizeof(Quad) == sizeof(CellMoments));
-  for (std::size_t lane = 0; lane < batch.count; ++lane)
+  for (std::size_t first = 0; first < batch.count; first += 4) {
+    Quad columns[3][4];
     for (std::size_t v = 0; v < 3; ++v) {
-      const Rows3& first = terms.first[v];
-      const Quad term{first[0][lane], first[1][lane], first[2][lane], terms.energy[v][lane]};
-      CellMoments& cell = moments[batch.locals[lane][v]];
-      Quad sum;
-      std::memcpy(&sum, &cell, sizeof sum);
-      sum += term;
-      std::memcpy(&cell, &sum, sizeof sum);
+      Quad a = quad_at(terms.first[v][0].data() + first),
+           b = quad_at(terms.first[v][1].data() + first),
+           c = quad_at(terms.first[v][2].data() + first),
+           d = quad_at(terms.energy[v].data() + first);
+      transpose(a, b, c, d);
+      columns[v][0] = a, columns[v][1] = b, columns[v][2] = c, columns[v][3] = d;
     }
+    const std::size_t count = std::min<std::size_t>(4, batch.count - first);
+    for (std::size_t k = 0; k < count; ++k)
+      for (std::size_t v = 0; v < 3; ++v)
+        quad_at(moments + batch.locals[first + k][v]) += columns[v][k];
+  }
 }
 
 void scatter_mass(const Batch& batch, const VertexTerms& terms, Array<double>& mass) {

@@ -9,13 +9,27 @@
 
 namespace calotte::integrals_detail {
 
+namespace {
+
+/// Gathers four corners at a time. A column of x is read with the double that follows it.
+CALOTTE_VECTOR_WIDTHS
+void gather_corners(const std::array<std::int32_t, 3>* locals, std::size_t count, const Vec3* x,
+                    std::array<Rows3, 3>& corner) {
+  for (std::size_t lane = 0; lane < lanes; lane += 4)
+    for (std::size_t v = 0; v < 3; ++v) {
+      const auto at = [&](std::size_t k) { return x + locals[std::min(lane + k, count - 1)][v]; };
+      Quad unused;
+      put_columns({at(0), at(1), at(2), at(3)}, lane, corner[v], unused);
+    }
+}
+
+} // namespace
+
 Batch gather(const Patch& patch, const Array<Vec3>& x, std::size_t first) {
   Batch batch;
   batch.count = std::min(lanes, patch.corners.size() - first);
   batch.locals = patch.corners.data() + first;
-  for (std::size_t lane = 0; lane < lanes; ++lane)
-    for (std::size_t v = 0; v < 3; ++v)
-      put(x[batch.locals[std::min(lane, batch.count - 1)][v]], batch.corner[v], lane);
+  gather_corners(batch.locals, batch.count, x.begin(), batch.corner);
   return batch;
 }
 
@@ -78,24 +92,25 @@ struct alignas(64) EdgeRows {
 // With s = |a-b|/2 the sine of half of the edge's arc, S = s^2, u = s cot(C)/sqrt(1-S) the sine of
 // delta and w = u^2, all terms are series in S and w: below this bound, the first omitted term is
 // 2^-53 of the leading one.
-constexpr double small = 0x1p-12;
+constexpr double small = 0x1p-13;
 
 CALOTTE_INLINE double inverse_root_series(double z) { // (1 - z)^(-1/2)
-  return 1 + z * (1.0 / 2 + z * (3.0 / 8 + z * (5.0 / 16 + z * (35.0 / 128))));
+  return (1 + z * (1.0 / 2)) + z * z * (3.0 / 8 + z * (5.0 / 16));
 }
 
 CALOTTE_INLINE double arc_sine_series(double z) { // asin(sqrt(z))/sqrt(z)
-  return 1 + z * (1.0 / 6 + z * (3.0 / 40 + z * (5.0 / 112 + z * (35.0 / 1152))));
+  return (1 + z * (1.0 / 6)) + z * z * (3.0 / 40 + z * (5.0 / 112));
 }
 
 /// (4 atan(p q) - delta s)/(s u), p and q the tangents of half of both arcs: the energy of half a
 /// kite over s u. Its terms without S or w cancel.
 CALOTTE_INLINE double energy_series(double s, double w) {
-  const double w1 = 1.0 / 12 + w * (1.0 / 20 + w * (15.0 / 448 + w * (7.0 / 288)));
-  const double s1 = 1.0 / 4 + w * (1.0 / 24 + w * (1.0 / 64 + w * (1.0 / 128)));
-  const double s2 = 1.0 / 8 + w * (1.0 / 64 + w * (3.0 / 640));
-  const double s3 = 5.0 / 64 + w * (1.0 / 128);
-  return w * w1 + s * (s1 + s * (s2 + s * (s3 + s * (7.0 / 128))));
+  const double w2 = w * w, s2 = s * s;
+  const double w1 = (1.0 / 12 + w * (1.0 / 20)) + w2 * (15.0 / 448 + w * (7.0 / 288));
+  const double s_1 = (1.0 / 4 + w * (1.0 / 24)) + w2 * (1.0 / 64 + w * (1.0 / 128));
+  const double s_2 = (1.0 / 8 + w * (1.0 / 64)) + w2 * (3.0 / 640);
+  const double s_3 = (5.0 / 64 + w * (1.0 / 128)) + s * (7.0 / 128);
+  return (w * w1 + s * s_1) + s2 * (s_2 + s * s_3);
 }
 
 /// Pull and energy by their series. True where these hold for all lanes.
@@ -224,17 +239,15 @@ void uniform_terms(const Batch& batch, const TriangleRows& rows, bool with_mass,
 
 namespace {
 
-/// A node on one of the two half kites of each edge.
-struct alignas(64) HalfRows {
-  Rows3 x; ///< on the sphere
-  Row rho;
-};
+/// A value on the half kite of each edge's first end, then on that of the second.
+using HalfRows = std::array<double, 2 * lanes>;
 
-/// A node on both: mirror images, at the same distance from the centre.
+/// A node on both half kites: mirror images, at the same distance from the centre.
 struct alignas(64) NodeRows {
-  std::array<HalfRows, 2> half; ///< that of the edge's first end, that of the second
-  Row weight;                   ///< of the integral over the sphere
-  Row square;                   ///< of the distance to the end, on the sphere
+  std::array<HalfRows, 3> x; ///< on the sphere
+  HalfRows rho;
+  Row weight; ///< of the integral over the sphere
+  Row square; ///< of the distance to the end, on the sphere
 };
 
 /// The circumcentre of the flat triangle, and the plane's distance from the sphere's centre.
@@ -271,8 +284,10 @@ void node_rows(const QuadratureRule::Node& node, const Rows3& first, const Rows3
     out.weight[lane] = share * s * cot * plane.distance[lane] * (scale * scale * scale);
     out.square[lane] = scale * (s * (along_a + across_a * k) - sunk * sunk);
     const Vec3 a = at(first, lane), b = at(second, lane), c = centre * at(plane.centre, lane);
-    put(scale * (near * a + far * b + c), out.half[0].x, lane);
-    put(scale * (far * a + near * b + c), out.half[1].x, lane);
+    const Vec3 at_a = scale * (near * a + far * b + c), at_b = scale * (far * a + near * b + c);
+    out.x[0][lane] = at_a.x, out.x[1][lane] = at_a.y, out.x[2][lane] = at_a.z;
+    out.x[0][lanes + lane] = at_b.x, out.x[1][lanes + lane] = at_b.y,
+                     out.x[2][lanes + lane] = at_b.z;
   }
 }
 
@@ -302,20 +317,23 @@ void node_densities(const QuadratureRule::Node& node, const Row& first, const Ro
   CALOTTE_VECTOR_LOOP
   for (std::size_t lane = 0; lane < lanes; ++lane) {
     const double c = middle * centre[lane];
-    out.half[0].rho[lane] = near * first[lane] + far * second[lane] + c;
-    out.half[1].rho[lane] = far * first[lane] + near * second[lane] + c;
+    out.rho[lane] = near * first[lane] + far * second[lane] + c;
+    out.rho[lanes + lane] = far * first[lane] + near * second[lane] + c;
   }
 }
 
 /// Adds a node's terms on the half kite of one end to those of that vertex.
+/// \param begin of that half in the node's rows.
 CALOTTE_VECTOR_WIDTHS
-void add_node(const NodeRows& node, const HalfRows& half, Rows3& first, Row& energy, Row& mass) {
+void add_node(const NodeRows& node, std::size_t begin, Rows3& first, Row& energy, Row& mass) {
   CALOTTE_VECTOR_LOOP
   for (std::size_t lane = 0; lane < lanes; ++lane) {
-    const double weight = node.weight[lane] * half.rho[lane];
+    const std::size_t i = begin + lane;
+    const double weight = node.weight[lane] * node.rho[i];
     mass[lane] += weight;
     energy[lane] += weight * node.square[lane];
-    put(at(first, lane) + weight * at(half.x, lane), first, lane);
+    const Vec3 x{node.x[0][i], node.x[1][i], node.x[2][i]};
+    put(at(first, lane) + weight * x, first, lane);
   }
 }
 
@@ -337,12 +355,11 @@ void kite_terms(const Batch& batch, const TriangleRows& rows, const Integrand& i
                 rows.cotangent[e], at_node);
       if (integrand.at_sites)
         node_densities(node, batch.rho[ends[0]], batch.rho[ends[1]], at_centre, at_node);
+      else
+        integrand.density(at_node.x[0], at_node.x[1], at_node.x[2], at_node.rho);
       for (std::size_t h = 0; h < 2; ++h) {
-        HalfRows& half = at_node.half[h];
         const std::size_t v = ends[h];
-        if (!integrand.at_sites)
-          integrand.density(half.x[0], half.x[1], half.x[2], half.rho);
-        add_node(at_node, half, terms.first[v], terms.energy[v], terms.mass[v]);
+        add_node(at_node, h * lanes, terms.first[v], terms.energy[v], terms.mass[v]);
       }
     }
   }

@@ -5,6 +5,7 @@
 #include "base/vec3.h"
 #include "integrals/integrand.h"
 #include "integrals/patches.h"
+#include "integrals/quads.h"
 #include "integrals/room.h"
 
 #include <array>
@@ -27,6 +28,24 @@ inline void put(const Vec3& value, Rows3& rows, std::size_t lane) {
   rows[0][lane] = value.x;
   rows[1][lane] = value.y;
   rows[2][lane] = value.z;
+}
+
+/// Four triples of doubles, each followed by one more double.
+struct FourColumns {
+  const void *a, *b, *c, *d;
+};
+
+/// Sets four lanes of rows to the triples.
+/// \param last set to the doubles that follow them.
+CALOTTE_INLINE void put_columns(const FourColumns& columns, std::size_t lane, Rows3& rows,
+                                Quad& last) {
+  Quad a = quad_at(columns.a), b = quad_at(columns.b), c = quad_at(columns.c),
+       d = quad_at(columns.d);
+  transpose(a, b, c, d);
+  quad_at(rows[0].data() + lane) = a;
+  quad_at(rows[1].data() + lane) = b;
+  quad_at(rows[2].data() + lane) = c;
+  last = d;
 }
 
 /// Up to `lanes` consecutive triangles of a patch; the last fills the lanes that are left.

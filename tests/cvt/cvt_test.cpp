@@ -172,11 +172,11 @@ TEST_CASE("every machine, compiler option and vector width gives the same bits")
   CvtOptions options;
   options.method = Method::lloyd;
   options.max_iterations = 30;
-  CHECK(hash(spherical_cvt(random_sphere(1500, 6), options).mesh.points) == 2641754437363962629U);
+  CHECK(hash(spherical_cvt(random_sphere(1500, 6), options).mesh.points) == 9742159583379483476U);
   options.density = x8();
-  CHECK(hash(spherical_cvt(random_sphere(1500, 6), options).mesh.points) == 4397988346090177093U);
+  CHECK(hash(spherical_cvt(random_sphere(1500, 6), options).mesh.points) == 4403101448020715688U);
   options.method = Method::lbfgs_laplacian;
-  CHECK(hash(spherical_cvt(random_sphere(1500, 6), options).mesh.points) == 8788176087897230512U);
+  CHECK(hash(spherical_cvt(random_sphere(1500, 6), options).mesh.points) == 665614483681318882U);
 }
 
 TEST_CASE("a state that no run has left is refused") {

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "base/vector_loops.h"
+
+/// Four doubles at a time, between arrays of sites and rows of lanes (rows.h).
+namespace calotte::integrals_detail {
+
+using Quad = double __attribute__((vector_size(32)));
+
+/// Four doubles at any address of doubles. A copy by std::memcpy would go through the stack in
+/// halves.
+using QuadInPlace = double __attribute__((vector_size(32), aligned(8), may_alias));
+
+CALOTTE_INLINE const QuadInPlace& quad_at(const void* from) {
+  return *static_cast<const QuadInPlace*>(from);
+}
+CALOTTE_INLINE QuadInPlace& quad_at(void* to) { return *static_cast<QuadInPlace*>(to); }
+
+/// Replaces the rows of a matrix of 4 x 4 by its columns.
+CALOTTE_INLINE void transpose(Quad& a, Quad& b, Quad& c, Quad& d) {
+  const Quad ab_even = __builtin_shufflevector(a, b, 0, 4, 2, 6),
+             ab_odd = __builtin_shufflevector(a, b, 1, 5, 3, 7),
+             cd_even = __builtin_shufflevector(c, d, 0, 4, 2, 6),
+             cd_odd = __builtin_shufflevector(c, d, 1, 5, 3, 7);
+  a = __builtin_shufflevector(ab_even, cd_even, 0, 1, 4, 5);
+  b = __builtin_shufflevector(ab_odd, cd_odd, 0, 1, 4, 5);
+  c = __builtin_shufflevector(ab_even, cd_even, 2, 3, 6, 7);
+  d = __builtin_shufflevector(ab_odd, cd_odd, 2, 3, 6, 7);
+}
+
+} // namespace calotte::integrals_detail
