@@ -173,24 +173,23 @@ Eigen::SparseMatrix<double> eigen_matrix(const Rows& weights) {
 
 // ---- The cycle, in single precision; each function for rows from begin to end
 
-/// One sweep forward, from zero, and one backward; elements outside the block do not count. The
-/// sums of the lower elements are the same in both.
+/// One sweep forward, from zero, and one backward; elements outside the block do not count. Both
+/// read whole rows: the number of elements before the diagonal varies, and a loop that ends there
+/// would be mispredicted.
 CALOTTE_VECTOR_WIDTHS void relax_from_zero(const Rows& w, std::int64_t begin, std::int64_t end,
                                            Column right, Float4* x) {
-  for (std::int64_t i = begin; i != end; ++i) {
+  std::fill(x + begin, x + end, Float4{});
+  const auto relax_row = [&](std::int64_t i) {
     Float4 sum = right[i];
-    for (std::int32_t k = w.begin[i]; k != w.begin[i + 1] && w.column[k] < i; ++k)
-      if (w.column[k] >= begin)
-        sum += w.value[k] * x[w.column[k]];
+    for (std::int32_t k = w.begin[i]; k != w.begin[i + 1]; ++k)
+      if (const std::int32_t j = w.column[k]; j >= begin && j < end) [[likely]]
+        sum += w.value[k] * x[j];
     x[i] = sum;
-  }
-  for (std::int64_t i = end; i-- != begin;) {
-    Float4 sum = x[i];
-    for (std::int32_t k = w.begin[i + 1]; k-- != w.begin[i] && w.column[k] > i;)
-      if (w.column[k] < end)
-        sum += w.value[k] * x[w.column[k]];
-    x[i] = sum;
-  }
+  };
+  for (std::int64_t i = begin; i != end; ++i)
+    relax_row(i);
+  for (std::int64_t i = end; i-- != begin;)
+    relax_row(i);
 }
 
 /// The right side minus the matrix times x.
@@ -208,24 +207,19 @@ CALOTTE_VECTOR_WIDTHS void set_residual(const Rows& w, std::int64_t begin, std::
 CALOTTE_VECTOR_WIDTHS void relax(const Rows& w, std::int64_t begin, std::int64_t end, Column right,
                                  const Float4* x, Float4* to) {
   std::copy(x + begin, x + end, to + begin);
-  for (std::int64_t i = begin; i != end; ++i) {
+  const auto relax_row = [&](std::int64_t i) {
     Float4 sum = right[i];
     for (std::int32_t k = w.begin[i]; k != w.begin[i + 1]; ++k) {
       const std::int32_t j = w.column[k];
-      if (j >= begin && j < end) [[likely]]
-        sum += w.value[k] * to[j];
-      else
-        sum += w.value[k] * x[j];
+      const Float4* const from = j >= begin && j < end ? to : x;
+      sum += w.value[k] * from[j];
     }
     to[i] = sum;
-  }
-  for (std::int64_t i = end; i-- != begin;) { // only the upper elements have changed since
-    Float4 sum = to[i];
-    for (std::int32_t k = w.begin[i + 1]; k-- != w.begin[i] && w.column[k] > i;)
-      if (const std::int32_t j = w.column[k]; j < end)
-        sum += w.value[k] * (to[j] - x[j]);
-    to[i] = sum;
-  }
+  };
+  for (std::int64_t i = begin; i != end; ++i)
+    relax_row(i);
+  for (std::int64_t i = end; i-- != begin;)
+    relax_row(i);
 }
 
 /// The residual's smoothed sum over an aggregate: its inner product with the column of the

@@ -176,7 +176,7 @@ TEST_CASE("every machine, compiler option and vector width gives the same bits")
   options.density = x8();
   CHECK(hash(spherical_cvt(random_sphere(1500, 6), options).mesh.points) == 4403101448020715688U);
   options.method = Method::lbfgs_laplacian;
-  CHECK(hash(spherical_cvt(random_sphere(1500, 6), options).mesh.points) == 665614483681318882U);
+  CHECK(hash(spherical_cvt(random_sphere(1500, 6), options).mesh.points) == 11222898154665023123U);
 }
 
 TEST_CASE("a state that no run has left is refused") {
