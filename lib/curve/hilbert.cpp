@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "curve/hilbert.h"
 
+#include "base/vector_loops.h"
+
 #include <algorithm>
+#include <limits>
 
 namespace calotte::curve_detail {
 namespace {
@@ -36,9 +39,10 @@ constexpr Tables make_tables() {
 
 constexpr Tables tables = make_tables();
 
-unsigned cell_index(double u) {
+CALOTTE_INLINE std::int32_t cell_index(double u) {
   constexpr double half = 1 << (curve_levels - 1);
-  return static_cast<unsigned>(std::clamp((u + 1) * half, 0.0, 2 * half - 1));
+  const double at = (u + 1) * half, low = at < 0 ? 0 : at;
+  return static_cast<std::int32_t>(low > 2 * half - 1 ? 2 * half - 1 : low);
 }
 
 /// The key of a point, level by level; each step depends on the turn of the step before.
@@ -46,9 +50,10 @@ struct KeyDescent {
   unsigned i, j, turn;
   std::uint64_t key;
 
-  explicit KeyDescent(const CubePoint& c)
-      : i(cell_index(c.u)), j(cell_index(c.v)), turn(face_turn(c.face)),
-        key(static_cast<std::uint64_t>(c.face)) {}
+  KeyDescent(int face, std::int32_t i_of_cell, std::int32_t j_of_cell)
+      : i(static_cast<unsigned>(i_of_cell)), j(static_cast<unsigned>(j_of_cell)),
+        turn(face_turn(face)), key(static_cast<std::uint64_t>(face)) {}
+  explicit KeyDescent(const CubePoint& c) : KeyDescent(c.face, cell_index(c.u), cell_index(c.v)) {}
 
   void go_to(int level) {
     const unsigned cell = (i >> level & 31U) << step | (j >> level & 31U);
@@ -57,6 +62,39 @@ struct KeyDescent {
     turn = entry & 3U;
   }
 };
+
+/// The finest cells of some vectors.
+struct CellRows {
+  static constexpr std::int64_t most = 64;
+  std::array<std::int32_t, most> face, i, j;
+};
+
+/// to_cube() in vector code.
+/// \return the number of vectors without a direction.
+CALOTTE_VECTOR_WIDTHS
+std::int64_t set_cells(const Vec3* points, std::int64_t count, CellRows& rows) {
+  std::int64_t invalid = 0;
+  CALOTTE_VECTOR_LOOP
+  for (std::int64_t k = 0; k < count; ++k) {
+    const double x = points[k].x, y = points[k].y, z = points[k].z;
+    const double along_x = std::abs(x), along_y = std::abs(y), along_z = std::abs(z);
+    const double yz = along_y >= along_z ? along_y : along_z;
+    const bool is_x = along_x >= yz, is_y = along_y >= along_z;
+    const double largest = is_x ? x : is_y ? y : z;
+    const double first = is_x ? y : -x, second = is_x || is_y ? z : -y;
+    const bool forward = largest > 0;
+    const double u = (forward ? first : second) / largest, v = (forward ? second : first) / largest;
+    // Very large coordinates, whose sum overflows, count as invalid, too.
+    const bool valid = std::abs(u) <= 1 && std::abs(v) <= 1 &&
+                       along_x + along_y + along_z <= std::numeric_limits<double>::max();
+    invalid += valid ? 0 : 1;
+    const auto at = static_cast<std::size_t>(k);
+    rows.face[at] = (is_x ? 0 : is_y ? 1 : 2) + (forward ? 0 : 3);
+    rows.i[at] = cell_index(valid ? u : 0);
+    rows.j[at] = cell_index(valid ? v : 0);
+  }
+  return invalid;
+}
 
 } // namespace
 
@@ -74,6 +112,29 @@ std::array<std::uint64_t, 4> curve_keys(const std::array<CubePoint, 4>& points) 
     for (KeyDescent& descent : descents) // the steps of one overlap with those of the others
       descent.go_to(level);
   return {descents[0].key, descents[1].key, descents[2].key, descents[3].key};
+}
+
+bool set_curve_keys(const Vec3* points, std::int64_t count, std::uint64_t* keys) {
+  CellRows rows;
+  std::int64_t invalid = 0;
+  for (std::int64_t first = 0; first < count; first += CellRows::most) {
+    const std::int64_t part = std::min(CellRows::most, count - first);
+    invalid += set_cells(points + first, part, rows);
+    const auto descent = [&](std::int64_t k) {
+      const auto at = static_cast<std::size_t>(std::min(k, part - 1));
+      return KeyDescent(rows.face[at], rows.i[at], rows.j[at]);
+    };
+    for (std::int64_t k = 0; k < part; k += 4) {
+      std::array<KeyDescent, 4> descents{descent(k), descent(k + 1), descent(k + 2),
+                                         descent(k + 3)};
+      for (int level = curve_levels - step; level >= 0; level -= step)
+        for (KeyDescent& one : descents)
+          one.go_to(level);
+      for (std::int64_t lane = 0; lane < std::min<std::int64_t>(4, part - k); ++lane)
+        keys[first + k + lane] = descents[static_cast<std::size_t>(lane)].key;
+    }
+  }
+  return invalid == 0;
 }
 
 } // namespace calotte::curve_detail

@@ -26,6 +26,10 @@ template <class Input> Array<std::uint64_t> make_keys(const Input& input) {
   Array<std::uint64_t> keys(n);
   std::vector<std::int64_t> offending(static_cast<std::size_t>(block_count(n)), none);
   for_each_block(n, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
+    if constexpr (std::is_same_v<Input, Directions>)
+      if (input.points.outerStride() == 3 &&
+          set_curve_keys(&input.at(begin), end - begin, keys.begin() + begin))
+        return;
     std::int64_t& first = offending[static_cast<std::size_t>(block)];
     const auto square = [&](std::int64_t i) {
       if (input.is_valid(i))

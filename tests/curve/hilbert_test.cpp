@@ -8,6 +8,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <limits>
 #include <random>
 
 using namespace calotte;
@@ -69,6 +70,30 @@ TEST_CASE("keys computed together and one by one are equal") {
       });
       CHECK(next == end);
     }
+}
+
+TEST_CASE("keys of vectors in memory are those of their places on the cube") {
+  std::vector<Vec3> points = directions(500);
+  constexpr double tiny = std::numeric_limits<double>::denorm_min(), huge = 1e307;
+  for (const double a : {-huge, -1.0, -tiny, -0.0, 0.0, tiny, 0.5, 1.0, huge})
+    for (const double b : {-huge, -1.0, -tiny, -0.0, 0.0, tiny, 0.5, 1.0, huge})
+      for (const double c : {-huge, -1.0, -tiny, tiny, 0.5, 1.0, huge})
+        points.push_back({a, b, c});
+  for (const std::size_t count : {std::size_t{1}, std::size_t{3}, std::size_t{65}, points.size()}) {
+    const Vec3* const first = points.data() + points.size() - count;
+    std::vector<std::uint64_t> keys(count);
+    REQUIRE(set_curve_keys(first, static_cast<std::int64_t>(count), keys.data()));
+    for (std::size_t i = 0; i < count; ++i)
+      REQUIRE(keys[i] == curve_key(to_cube(first[i])));
+  }
+  constexpr double infinity = std::numeric_limits<double>::infinity(), nan = std::nan("");
+  for (const Vec3& bad : {Vec3{0, 0, 0}, Vec3{0, -0.0, 0}, Vec3{nan, 1, 0}, Vec3{1, nan, 0},
+                          Vec3{0, 0, nan}, Vec3{infinity, 0, 0}, Vec3{1, 0, -infinity},
+                          Vec3{infinity, infinity, infinity}, Vec3{1.7e308, 1.7e308, 0}}) {
+    points[70] = bad;
+    std::vector<std::uint64_t> keys(points.size());
+    CHECK(!set_curve_keys(points.data(), std::ssize(points), keys.data()));
+  }
 }
 
 TEST_CASE("steps of the curve go to neighbouring cells, from face to face too") {
