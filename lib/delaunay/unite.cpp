@@ -48,7 +48,7 @@ template <class Vertices> std::int8_t own_edges(const Vertices& v) {
 
 /// Turns lists of the triangles of one lowest vertex into ranks: of each triangle by second site. A
 /// list ends with a sentinel triangle, whose second site is larger than all others. Ranks have an
-/// array of their own: over the links, those of the sentinel would have to wait for each other.
+/// array of their own, so that the sentinel keeps its link.
 class RankLists {
 public:
   RankLists(std::int32_t triangles, std::size_t vertices)
