@@ -76,7 +76,7 @@ void gather_sites(const Vec3* x, const CellMoments* moments, std::size_t count, 
     put_columns({x + lane(0), x + lane(1), x + lane(2), x + lane(3)}, first, rows.x, last);
     put_columns({moments + lane(0), moments + lane(1), moments + lane(2), moments + lane(3)}, first,
                 rows.first, last);
-    quad_at(rows.energy.data() + first) = last;
+    quad_at(rows.energy.data() + first).value = last;
   }
 }
 

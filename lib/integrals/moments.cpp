@@ -29,17 +29,17 @@ void scatter(const Batch& batch, const VertexTerms& terms, CellMoments* moments)
   for (std::size_t first = 0; first < batch.count; first += 4) {
     Quad columns[3][4];
     for (std::size_t v = 0; v < 3; ++v) {
-      Quad a = quad_at(terms.first[v][0].data() + first),
-           b = quad_at(terms.first[v][1].data() + first),
-           c = quad_at(terms.first[v][2].data() + first),
-           d = quad_at(terms.energy[v].data() + first);
+      Quad a = quad_at(terms.first[v][0].data() + first).value,
+           b = quad_at(terms.first[v][1].data() + first).value,
+           c = quad_at(terms.first[v][2].data() + first).value,
+           d = quad_at(terms.energy[v].data() + first).value;
       transpose(a, b, c, d);
       columns[v][0] = a, columns[v][1] = b, columns[v][2] = c, columns[v][3] = d;
     }
     const std::size_t count = std::min<std::size_t>(4, batch.count - first);
     for (std::size_t k = 0; k < count; ++k)
       for (std::size_t v = 0; v < 3; ++v)
-        quad_at(moments + batch.locals[first + k][v]) += columns[v][k];
+        quad_at(moments + batch.locals[first + k][v]).value += columns[v][k];
   }
 }
 

@@ -9,8 +9,10 @@ namespace calotte::integrals_detail {
 using Quad = double __attribute__((vector_size(32)));
 
 /// Four doubles at any address of doubles. A copy by std::memcpy would go through the stack in
-/// halves.
-using QuadInPlace = double __attribute__((vector_size(32), aligned(8), may_alias));
+/// halves; a vector type of lower alignment is not enough for clang.
+struct [[gnu::packed, gnu::aligned(8), gnu::may_alias]] QuadInPlace {
+  Quad value;
+};
 
 CALOTTE_INLINE const QuadInPlace& quad_at(const void* from) {
   return *static_cast<const QuadInPlace*>(from);

@@ -39,12 +39,12 @@ struct FourColumns {
 /// \param last set to the doubles that follow them.
 CALOTTE_INLINE void put_columns(const FourColumns& columns, std::size_t lane, Rows3& rows,
                                 Quad& last) {
-  Quad a = quad_at(columns.a), b = quad_at(columns.b), c = quad_at(columns.c),
-       d = quad_at(columns.d);
+  Quad a = quad_at(columns.a).value, b = quad_at(columns.b).value, c = quad_at(columns.c).value,
+       d = quad_at(columns.d).value;
   transpose(a, b, c, d);
-  quad_at(rows[0].data() + lane) = a;
-  quad_at(rows[1].data() + lane) = b;
-  quad_at(rows[2].data() + lane) = c;
+  quad_at(rows[0].data() + lane).value = a;
+  quad_at(rows[1].data() + lane).value = b;
+  quad_at(rows[2].data() + lane).value = c;
   last = d;
 }
 
