@@ -39,10 +39,11 @@ constexpr Tables make_tables() {
 
 constexpr Tables tables = make_tables();
 
+/// 0 for NaN.
 CALOTTE_INLINE std::int32_t cell_index(double u) {
-  constexpr double half = 1 << (curve_levels - 1);
-  const double at = (u + 1) * half, low = at < 0 ? 0 : at;
-  return static_cast<std::int32_t>(low > 2 * half - 1 ? 2 * half - 1 : low);
+  constexpr double half = 1 << (curve_levels - 1), last = 2 * half - 1;
+  const double at = (u + 1) * half, low = at > 0 ? at : 0;
+  return static_cast<std::int32_t>(low < last ? low : last);
 }
 
 /// The key of a point, level by level; each step depends on the turn of the step before.
@@ -63,35 +64,36 @@ struct KeyDescent {
   }
 };
 
+std::array<std::uint64_t, 4> keys_of(std::array<KeyDescent, 4> descents) {
+  for (int level = curve_levels - step; level >= 0; level -= step)
+    for (KeyDescent& descent : descents) // the steps of one overlap with those of the others
+      descent.go_to(level);
+  return {descents[0].key, descents[1].key, descents[2].key, descents[3].key};
+}
+
 /// The finest cells of some vectors.
 struct CellRows {
   static constexpr std::int64_t most = 64;
   std::array<std::int32_t, most> face, i, j;
 };
 
-/// to_cube() in vector code.
 /// \return the number of vectors without a direction.
 CALOTTE_VECTOR_WIDTHS
 std::int64_t set_cells(const Vec3* points, std::int64_t count, CellRows& rows) {
   std::int64_t invalid = 0;
   CALOTTE_VECTOR_LOOP
   for (std::int64_t k = 0; k < count; ++k) {
-    const double x = points[k].x, y = points[k].y, z = points[k].z;
-    const double along_x = std::abs(x), along_y = std::abs(y), along_z = std::abs(z);
-    const double yz = along_y >= along_z ? along_y : along_z;
-    const bool is_x = along_x >= yz, is_y = along_y >= along_z;
-    const double largest = is_x ? x : is_y ? y : z;
-    const double first = is_x ? y : -x, second = is_x || is_y ? z : -y;
-    const bool forward = largest > 0;
-    const double u = (forward ? first : second) / largest, v = (forward ? second : first) / largest;
+    const Vec3& p = points[k];
+    const CubePoint c = to_cube(p);
     // Very large coordinates, whose sum overflows, count as invalid, too.
-    const bool valid = std::abs(u) <= 1 && std::abs(v) <= 1 &&
-                       along_x + along_y + along_z <= std::numeric_limits<double>::max();
+    const double sum = std::abs(p.x) + std::abs(p.y) + std::abs(p.z);
+    const bool valid =
+        std::abs(c.u) <= 1 && std::abs(c.v) <= 1 && sum <= std::numeric_limits<double>::max();
     invalid += valid ? 0 : 1;
     const auto at = static_cast<std::size_t>(k);
-    rows.face[at] = (is_x ? 0 : is_y ? 1 : 2) + (forward ? 0 : 3);
-    rows.i[at] = cell_index(valid ? u : 0);
-    rows.j[at] = cell_index(valid ? v : 0);
+    rows.face[at] = c.face;
+    rows.i[at] = cell_index(c.u);
+    rows.j[at] = cell_index(c.v);
   }
   return invalid;
 }
@@ -106,12 +108,8 @@ std::uint64_t curve_key(const CubePoint& c) {
 }
 
 std::array<std::uint64_t, 4> curve_keys(const std::array<CubePoint, 4>& points) {
-  std::array<KeyDescent, 4> descents{KeyDescent(points[0]), KeyDescent(points[1]),
-                                     KeyDescent(points[2]), KeyDescent(points[3])};
-  for (int level = curve_levels - step; level >= 0; level -= step)
-    for (KeyDescent& descent : descents) // the steps of one overlap with those of the others
-      descent.go_to(level);
-  return {descents[0].key, descents[1].key, descents[2].key, descents[3].key};
+  return keys_of(
+      {KeyDescent(points[0]), KeyDescent(points[1]), KeyDescent(points[2]), KeyDescent(points[3])});
 }
 
 bool set_curve_keys(const Vec3* points, std::int64_t count, std::uint64_t* keys) {
@@ -125,13 +123,8 @@ bool set_curve_keys(const Vec3* points, std::int64_t count, std::uint64_t* keys)
       return KeyDescent(rows.face[at], rows.i[at], rows.j[at]);
     };
     for (std::int64_t k = 0; k < part; k += 4) {
-      std::array<KeyDescent, 4> descents{descent(k), descent(k + 1), descent(k + 2),
-                                         descent(k + 3)};
-      for (int level = curve_levels - step; level >= 0; level -= step)
-        for (KeyDescent& one : descents)
-          one.go_to(level);
-      for (std::int64_t lane = 0; lane < std::min<std::int64_t>(4, part - k); ++lane)
-        keys[first + k + lane] = descents[static_cast<std::size_t>(lane)].key;
+      const auto four = keys_of({descent(k), descent(k + 1), descent(k + 2), descent(k + 3)});
+      std::copy_n(four.begin(), std::min<std::int64_t>(4, part - k), keys + first + k);
     }
   }
   return invalid == 0;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/vec3.h"
+#include "base/vector_loops.h"
 #include "curve/room.h"
 
 #include <array>
@@ -23,23 +24,17 @@ struct CubePoint {
   double u, v;
 };
 
-inline CubePoint to_cube(const Vec3& p) {
+CALOTTE_INLINE CubePoint to_cube(const Vec3& p) {
   // The axes of the faces make the curve continuous from each face to the next. The code has no
-  // branches, because those would be mispredicted for sites in random order.
-  struct Axes {
-    std::uint8_t u, v;
-    double sign_u, sign_v;
-  };
-  static constexpr std::array<Axes, 6> axes{
-      {{1, 2, 1, 1}, {0, 2, -1, 1}, {0, 1, -1, -1}, {2, 1, 1, 1}, {2, 0, 1, -1}, {1, 0, -1, -1}}};
-  const std::array<double, 3> x{p.x, p.y, p.z};
+  // branches: those would be mispredicted for sites in random order, and prevent vector code.
   const double along_x = std::abs(p.x), along_y = std::abs(p.y), along_z = std::abs(p.z);
-  const int not_x = !(along_x >= along_y) | !(along_x >= along_z), not_y = !(along_y >= along_z);
-  const auto largest = static_cast<std::size_t>(not_x + (not_x & not_y));
-  const auto face = largest + 3 * static_cast<std::size_t>(!(x[largest] > 0));
-  const Axes& a = axes[face];
-  return {static_cast<int>(face), a.sign_u * (x[a.u] / x[largest]),
-          a.sign_v * (x[a.v] / x[largest])};
+  const double yz = along_y >= along_z ? along_y : along_z;
+  const bool is_x = along_x >= yz, is_y = along_y >= along_z;
+  const double largest = is_x ? p.x : is_y ? p.y : p.z;
+  const double first = is_x ? p.y : -p.x, second = is_x || is_y ? p.z : -p.y;
+  const bool forward = largest > 0;
+  const int face = (is_x ? 0 : is_y ? 1 : 2) + (forward ? 0 : 3);
+  return {face, (forward ? first : second) / largest, (forward ? second : first) / largest};
 }
 
 /// The point of the cube's surface; inverse of to_cube up to scale.

@@ -47,13 +47,12 @@ template <class Vertices> std::int8_t own_edges(const Vertices& v) {
 }
 
 /// Turns lists of the triangles of one lowest vertex into ranks: of each triangle by second site. A
-/// list ends with a sentinel triangle, whose second site is larger than all others. Ranks have an
-/// array of their own, so that the sentinel keeps its link.
+/// list ends with a sentinel triangle, whose second site is larger than all others. Ranks
+/// replace the links.
 class RankLists {
 public:
   RankLists(std::int32_t triangles, std::size_t vertices)
-      : end_(triangles), last_(vertices, end_), second_(triangles + 1), next_(triangles + 1),
-        rank_(triangles + 1) {
+      : end_(triangles), last_(vertices, end_), second_(triangles + 1), next_(triangles + 1) {
     second_[end_] = std::numeric_limits<std::int32_t>::max();
     next_[end_] = end_;
   }
@@ -64,13 +63,13 @@ public:
   }
 
   /// For a triangle in no list.
-  void leave_out(std::int32_t triangle) { rank_[triangle] = -1; }
+  void leave_out(std::int32_t triangle) { next_[triangle] = -1; }
 
   /// The ranks by triangle; -1 for triangles in no list, and one entry for the sentinel.
   Array<std::int32_t> ranks() && {
     for (const std::int32_t t : last_)
       rank(t);
-    return std::move(rank_);
+    return std::move(next_);
   }
 
 private:
@@ -85,10 +84,11 @@ private:
     const std::int32_t s0 = second_[t0], s1 = second_[t1], s2 = second_[t2], s3 = second_[t3];
     const int after01 = s0 > s1, after02 = s0 > s2, after03 = s0 > s3, after12 = s1 > s2,
               after13 = s1 > s3, after23 = s2 > s3;
-    rank_[t3] = 3 - after03 - after13 - after23;
-    rank_[t2] = 2 - after02 - after12 + after23;
-    rank_[t1] = 1 - after01 + after12 + after13;
-    rank_[t0] = after01 + after02 + after03;
+    next_[t3] = 3 - after03 - after13 - after23;
+    next_[t2] = 2 - after02 - after12 + after23;
+    next_[t1] = 1 - after01 + after12 + after13;
+    next_[t0] = after01 + after02 + after03;
+    next_[end_] = end_;
   }
 
   /// One vertex in seven is the lowest of its star. Each member's rank is the number of those
@@ -108,7 +108,8 @@ private:
       for (std::size_t i = 0; i < most; ++i)
         rank[i] += second[j] < second[i];
     for (std::size_t i = 0; i < most; ++i)
-      rank_[member[i]] = rank[i];
+      next_[member[i]] = rank[i];
+    next_[end_] = end_;
   }
 
   /// A hub may have any number of triangles.
@@ -119,14 +120,13 @@ private:
     std::sort(many_.begin(), many_.end(),
               [&](std::int32_t a, std::int32_t b) { return second_[a] < second_[b]; });
     for (std::size_t r = 0; r < many_.size(); ++r)
-      rank_[many_[r]] = static_cast<std::int32_t>(r);
+      next_[many_[r]] = static_cast<std::int32_t>(r);
   }
 
   std::int32_t end_;
   std::vector<std::int32_t> last_; ///< by vertex: the triangle added last
   Array<std::int32_t> second_;     ///< by triangle: its second site
-  Array<std::int32_t> next_;       ///< by triangle: the one added before
-  Array<std::int32_t> rank_;
+  Array<std::int32_t> next_;       ///< by triangle: the one added before, then its rank
   std::vector<std::int32_t> many_;
 };
 

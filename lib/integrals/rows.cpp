@@ -284,10 +284,8 @@ void node_rows(const QuadratureRule::Node& node, const Rows3& first, const Rows3
     out.weight[lane] = share * s * cot * plane.distance[lane] * (scale * scale * scale);
     out.square[lane] = scale * (s * (along_a + across_a * k) - sunk * sunk);
     const Vec3 a = at(first, lane), b = at(second, lane), c = centre * at(plane.centre, lane);
-    const Vec3 at_a = scale * (near * a + far * b + c), at_b = scale * (far * a + near * b + c);
-    out.x[0][lane] = at_a.x, out.x[1][lane] = at_a.y, out.x[2][lane] = at_a.z;
-    out.x[0][lanes + lane] = at_b.x, out.x[1][lanes + lane] = at_b.y,
-                     out.x[2][lanes + lane] = at_b.z;
+    put(scale * (near * a + far * b + c), out.x, lane);
+    put(scale * (far * a + near * b + c), out.x, lanes + lane);
   }
 }
 
@@ -332,8 +330,7 @@ void add_node(const NodeRows& node, std::size_t begin, Rows3& first, Row& energy
     const double weight = node.weight[lane] * node.rho[i];
     mass[lane] += weight;
     energy[lane] += weight * node.square[lane];
-    const Vec3 x{node.x[0][i], node.x[1][i], node.x[2][i]};
-    put(at(first, lane) + weight * x, first, lane);
+    put(at(first, lane) + weight * at(node.x, i), first, lane);
   }
 }
 

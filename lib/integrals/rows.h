@@ -20,11 +20,11 @@ constexpr std::size_t lanes = 32;
 using Row = std::array<double, lanes>;
 using Rows3 = std::array<Row, 3>;
 
-inline Vec3 at(const Rows3& rows, std::size_t lane) {
+template <class Rows> CALOTTE_INLINE Vec3 at(const Rows& rows, std::size_t lane) {
   return {rows[0][lane], rows[1][lane], rows[2][lane]};
 }
 
-inline void put(const Vec3& value, Rows3& rows, std::size_t lane) {
+template <class Rows> CALOTTE_INLINE void put(const Vec3& value, Rows& rows, std::size_t lane) {
   rows[0][lane] = value.x;
   rows[1][lane] = value.y;
   rows[2][lane] = value.z;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/canonical_order.h"
 #include "support/clouds.h"
 #include "support/laws.h"
 
@@ -11,9 +12,12 @@
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -470,6 +474,30 @@ TEST_CASE("regions whose centres and foci are sites") {
   CHECK(identical(spherical_delaunay(points, with_centres(octahedron()), &report), mesh));
   CHECK(report.regions == 6);
   CHECK_FALSE(report.one_region);
+}
+
+TEST_CASE("a lowest site with any number of triangles: they ascend by their second site") {
+  std::mt19937_64 random(4);
+  for (const Eigen::Index ring : {3, 4, 5, 6, 7, 8, 9, 10, 16, 17, 300}) {
+    std::vector<Eigen::Index> place(static_cast<std::size_t>(ring));
+    std::iota(place.begin(), place.end(), Eigen::Index{1});
+    std::shuffle(place.begin(), place.end(), random);
+    Points3 points(3, ring + 2);
+    points.col(0) << 0, 0, 1;
+    points.col(ring + 1) << 0, 0, -1;
+    for (Eigen::Index i = 0; i < ring; ++i) {
+      const double angle =
+          2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(ring);
+      points.col(place[static_cast<std::size_t>(i)]) << std::cos(angle), std::sin(angle), 0.5;
+    }
+    const Triangles triangles = spherical_delaunay(points).triangles;
+    REQUIRE(triangles.cols() == 2 * ring);
+    for (Eigen::Index t = 0; t < ring; ++t) {
+      CHECK(triangles(0, t) == 0);
+      CHECK(triangles(1, t) == t + 1);
+    }
+    CHECK(mesh_detail::is_canonical(triangles));
+  }
 }
 
 TEST_CASE("the report adds up") {
