@@ -17,6 +17,7 @@
 #include <optional>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace calotte::tools {
@@ -129,7 +130,7 @@ void run(const MeshSource& source) {
   {
     Progress progress;
     progress.stage("reading " + source.path);
-    const MeshFile file = read_mesh_file(source, FieldChoice::none);
+    MeshFile file = read_mesh_file(source, FieldChoice::none);
     progress.stage("checking " + source.path);
     text = changes_of(source, file);
     if (file.plane || (file.mesh && !(file.polygons && file.mesh->closed()))) {
@@ -139,7 +140,7 @@ void run(const MeshSource& source) {
     }
     if (file.polygons)
       text += table(*file.polygons, file);
-    const std::vector<Deviation> deviations = check_file(source.path, file);
+    const std::vector<Deviation> deviations = check_file(source.path, std::move(file));
     text += lines_of(deviations);
     if (failure.empty())
       failure = failure_of(deviations);

@@ -48,5 +48,8 @@ struct Deviation {
 /// \throws Error file, parse, as read_mesh_file().
 std::vector<Deviation> check_file(const std::string& path, const MeshFile& file);
 
+/// The same, with less memory: the contents are freed on the way.
+std::vector<Deviation> check_file(const std::string& path, MeshFile&& file);
+
 } // namespace calotte
 CALOTTE_API_END

@@ -1,28 +1,32 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/mpas_check.h"
 
+#include "base/matrix_memory.h"
 #include "base/points.h"
 #include "io/formats.h"
 #include "io/model_grid.h"
+#include "voronoi/geometry.h"
+#include "voronoi/stages.h"
 
 #include <calotte/error.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
+#include <utility>
 
 namespace calotte::io_detail {
 namespace {
 
 constexpr double float_digits = 1.2e-7; // relative rounding of two floats
 
-/// With the density of the file, if it has one for each cell that is not negative anywhere.
-CellFields fields_with(const Voronoi& voronoi, const Eigen::VectorXd& density) {
-  CellFields fields = cell_fields(voronoi);
-  if (density.size() == fields.density.size())
-    fields.density = density;
-  return fields;
+/// As voronoi(mesh), which it takes apart.
+template <class AnyMesh> Voronoi voronoi_of(AnyMesh mesh) {
+  BegunVoronoi cells = begun(mesh);
+  release(mesh.points);
+  connect(cells);
+  measure(cells.voronoi);
+  return std::move(cells.voronoi);
 }
 
 double mean_width(const Voronoi& voronoi) {
@@ -34,14 +38,13 @@ double radius_of(const NetcdfReader& file, const MeshFile& mesh) {
   return radius > 0 && std::isfinite(radius) ? radius : mesh.sphere_radius;
 }
 
-void check_closed(const Voronoi& voronoi, double radius, const MeshFile& file,
+void check_closed(const Voronoi& voronoi, double radius, const Eigen::VectorXd& density,
                   Deviations& deviations) {
   const MpasNumbering numbering = numbering_of(voronoi, deviations);
-  const CellFields fields = fields_with(voronoi, file.density);
   const double width = mean_width(voronoi);
   const double of_floats = deviations.file().is_float("xCell") ? 4 * float_digits / width : 0;
   const MpasCheck check{
-      deviations, voronoi, fields, numbering, radius, width, rounding_of_others + of_floats};
+      deviations, voronoi, density, numbering, radius, width, rounding_of_others + of_floats};
   check_mpas_places(check);
   check_mpas_lists(check);
   check_mpas_measures(check);
@@ -49,11 +52,12 @@ void check_closed(const Voronoi& voronoi, double radius, const MeshFile& file,
   check_mpas_quality(check);
 }
 
-void check_sphere(const MeshFile& file, Deviations& deviations) {
+void check_sphere(MeshFile& file, Deviations& deviations) {
+  const double radius = radius_of(deviations.file(), file);
   if (file.mesh->closed())
-    check_closed(voronoi(*file.mesh), radius_of(deviations.file(), file), file, deviations);
+    check_closed(voronoi_of(std::move(*file.mesh)), radius, file.density, deviations);
   else
-    check_open_mpas(file, radius_of(deviations.file(), file), deviations);
+    check_open_mpas(file, radius, deviations);
 }
 
 } // namespace
@@ -78,7 +82,7 @@ void check_mpas_attributes(Deviations& deviations, bool on_sphere) {
                                     "MpasMeshConverter would scale all places with it");
 }
 
-void check_mpas(const MeshFile& file, Deviations& deviations) {
+void check_mpas(MeshFile file, Deviations& deviations) {
   check_mpas_attributes(deviations, file.mesh.has_value());
   try {
     if (file.mesh)
@@ -86,7 +90,7 @@ void check_mpas(const MeshFile& file, Deviations& deviations) {
     else if (file.plane && file.plane->period.minCoeff() == 0)
       check_open_mpas(file, 1, deviations);
     else if (file.plane)
-      check_closed(voronoi(*file.plane), 1, file, deviations);
+      check_closed(voronoi_of(std::move(*file.plane)), 1, file.density, deviations);
   } catch (const Error& error) {
     if (error.code() != ErrorCode::bad_option)
       throw;

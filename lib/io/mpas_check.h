@@ -15,7 +15,7 @@ namespace calotte::io_detail {
 struct MpasCheck {
   Deviations& deviations;
   const Voronoi& voronoi;
-  const CellFields& fields; ///< with the file's density; uniform if it has none
+  const Eigen::VectorXd& density; ///< of the file, by cell; empty if it has none
   const MpasNumbering& numbering;
   double radius;    ///< of the sphere; 1 in a plane
   double width;     ///< mean width of a cell, in the unit of voronoi
@@ -48,7 +48,8 @@ void check_mpas_quality(const MpasCheck& check);
 /// Of an open mesh: the relations between the lists of ids, and what present cells determine.
 void check_open_mpas(const MeshFile& file, double radius, Deviations& deviations);
 
-/// All of it.
-void check_mpas(const MeshFile& file, Deviations& deviations);
+/// All of it. Frees the mesh of the file once its tessellation is begun: a caller that moves the
+/// file in needs memory for one of the two.
+void check_mpas(MeshFile file, Deviations& deviations);
 
 } // namespace calotte::io_detail

@@ -154,13 +154,8 @@ void check_open_mpas(const MeshFile& file, double radius, Deviations& deviations
     mark_incomplete_cells(radius, part);
   }
   const double width = whole ? part.dc.mean() : 1;
-  CellFields fields;
-  if (whole)
-    fields = cell_fields(part);
-  if (whole && file.density.size() == part.cells.cols())
-    fields.density = file.density;
-  const MpasCheck check{deviations,         part, fields, numbering, radius, width,
-                        rounding_of_others, false};
+  const MpasCheck check{deviations, part,  file.density,       numbering,
+                        radius,     width, rounding_of_others, false};
   check_mpas_places(check);
   if (!whole)
     return;

@@ -3,6 +3,7 @@
 
 #include "base/points.h"
 #include "io/triangle_quality.h"
+#include "voronoi/cell_fields.h"
 
 #include <algorithm>
 #include <array>
@@ -29,7 +30,7 @@ void check_density(const MpasCheck& check) {
           out.note(i, *stored, 1, std::isfinite(*stored) ? std::abs(*stored - 1) : 1);
       });
   check.deviations.add("meshDensity", outside, "numbers from 0 to 1");
-  const double greatest = check.fields.density.maxCoeff();
+  const double greatest = check.density.size() > 0 ? check.density.maxCoeff() : 1;
   if (check.closed && outside.count == 0 && std::abs(greatest - 1) > rounding_of_others)
     check.deviations.add("meshDensity", "meshDensity: its maximum is " + std::to_string(greatest) +
                                             " instead of 1");
@@ -43,7 +44,7 @@ void check_nominal_spacing(const MpasCheck& check) {
   const bool rounded = file.is_float("nominalMinDc") || file.is_float("xCell") ||
                        (file.has_variable("meshDensity") && file.is_float("meshDensity"));
   const double tolerance = rounded ? rounding_of_others : 1e-10;
-  const double derived = check.radius * nominal_spacing(check.fields);
+  const double derived = check.radius * nominal_spacing(check.voronoi.cell_area, check.density);
   check.deviations.add("nominalMinDc",
                        check.deviations.visit_rows<double>(
                            "nominalMinDc",
@@ -63,16 +64,17 @@ void check_cell_quality(const MpasCheck& check) {
                          check.deviations.visit_rows<double>(
                              "cellQuality",
                              [&](std::int64_t i, const double* stored, Differences& out) {
-                               out.compare(i, *stored, check.fields.quality[i], 1, check.tolerance);
+                               out.compare(i, *stored, quality_at(check.voronoi, i), 1,
+                                           check.tolerance);
                              }),
                          "the shortest over the longest edge of each cell");
   if (!check.deviations.has("gridSpacing", {cells}))
     return;
   const Differences differences = check.deviations.visit_rows<double>(
       "gridSpacing", [&](std::int64_t i, const double* stored, Differences& out) {
-        const double derived = check.radius * check.fields.spacing[i];
+        const double derived = check.radius * spacing_at(check.voronoi, i);
         out.compare(i, *stored, derived, derived, check.tolerance);
-        if (!(std::abs(*stored - check.fields.quality[i]) <= check.tolerance))
+        if (!(std::abs(*stored - quality_at(check.voronoi, i)) <= check.tolerance))
           ++out.unlike_fault;
       });
   check.deviations.add("gridSpacing", differences,

@@ -215,6 +215,9 @@ TEST_CASE("faults of MpasMeshConverter are known, where all values follow them")
   found = deviations_of(path);
   REQUIRE(found.size() == 2);
   CHECK((found[0].known && !found[1].known));
+  const MeshFile kept = read_mesh_file(path);
+  CHECK(in_lines(check_file(path, kept)) == in_lines(found));
+  CHECK(kept.mesh->triangles.cols() == 2 * 100 - 4);
 }
 
 TEST_CASE("a deviation names the variable, the place, both values and the rule") {
