@@ -3,6 +3,8 @@
 
 #include "base/parallel.h"
 #include "base/points.h"
+#include "curve/hilbert.h"
+#include "curve/radix_sort.h"
 #include "cvt/planar_cells.h"
 #include "delaunay/sites.h"
 #include "density/planar_density.h"
@@ -17,12 +19,39 @@
 #include <calotte/generators.h>
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
 #include <numeric>
 #include <string>
 #include <utility>
 
 namespace calotte::cvt_detail {
 namespace {
+
+bool are_equal(const Vec3& a, const Vec3& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+
+/// The same for equal places.
+std::uint64_t hash_of(const Vec3& place) {
+  std::uint64_t hash = 0;
+  for (const double x : {place.x, place.y, place.z})
+    hash = (hash ^ hash >> 32 ^ std::bit_cast<std::uint64_t>(x + 0.0)) * 0x9e3779b97f4a7c15U; // -0
+  return hash >> (64 - curve_detail::key_bits);
+}
+
+/// Whether two of n places are equal. Equal ones need not follow each other along a curve.
+template <class At> bool have_equal(std::int64_t n, const At& at) {
+  Array<std::uint64_t> keys(n);
+  for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i != end; ++i)
+      keys[i] = hash_of(at(i));
+  });
+  const curve_detail::Order order = curve_detail::order_by_key(std::move(keys));
+  for (std::int64_t i = 1; i < n; ++i)
+    for (std::int64_t k = i; k > 0 && order.keys[k - 1] == order.keys[i]; --k)
+      if (are_equal(at(order.items[k - 1]), at(order.items[i])))
+        return true;
+  return false;
+}
 
 /// The sites by rank alone, as the state has them.
 Sites by_rank(Sites&& sites) {
@@ -80,19 +109,24 @@ void require_triangle(const Sites& sites) {
 } // namespace
 
 Sites distinct_units(Sites&& sites, const CvtOptions& options) {
-  const auto equal = [](const Vec3& a, const Vec3& b) {
-    return a.x == b.x && a.y == b.y && a.z == b.z;
+  const auto unit = [&](std::int64_t rank) {
+    const std::int32_t id = sites.id[rank];
+    return id < options.fixed ? as_unit(sites.given(id)) : sites.unit[rank];
   };
-  if (std::adjacent_find(sites.unit.begin(), sites.unit.end(), equal) == sites.unit.end())
+  if (!have_equal(sites.size(), unit))
     return std::move(sites);
   Points3 units(3, sites.size());
   for (std::int64_t r = 0; r < sites.size(); ++r)
-    set_column(units, sites.id[r], sites.unit[r]);
+    set_column(units, sites.id[r], unit(r));
   std::vector<std::int32_t> before = std::move(sites.site_of_input);
   Sites merged = make_sites(std::move(units), options.duplicates, options.merge_within);
   for (std::int32_t& site : before)
     site = merged.site_of_input[static_cast<std::size_t>(site)];
   merged.site_of_input = std::move(before);
+  // Once more normalised, others of them might be equal.
+  for (std::int64_t r = 0; r < merged.size(); ++r)
+    merged.unit[r] = merged.given(merged.id[r]);
+  merged.boxes = delaunay_detail::SiteBoxes(merged.unit);
   return merged;
 }
 
@@ -180,6 +214,8 @@ Level SphericalWorld::set_exchanged(State& state, const Mesh& mesh, const Densit
                                     const Exchange& exchange) {
   Sites sites = make_sites(exchanged(mesh, density, exchange), Duplicates::refuse, 0);
   set_points(state, sites, sites.unit);
+  if (have_equal(sites.size(), [&](std::int64_t rank) { return column(state.points, rank); }))
+    return {}; // its tessellation refuses them
   sites.points = state.points;
   return {by_rank(std::move(sites)), std::nullopt};
 }

@@ -14,6 +14,7 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <numbers>
@@ -359,6 +360,37 @@ TEST_CASE("directions that differ by less than rounding are one generator") {
   CvtOptions refusing;
   refusing.duplicates = Duplicates::refuse;
   CHECK_THROWS_AS(spherical_cvt(start, refusing), const Error&);
+}
+
+TEST_CASE("directions that are equal only when they are normalised twice are two generators") {
+  const std::array<std::array<double, 3>, 18> given{{
+      {-0.682373046875, -0.682373046875, -0.682373046875},
+      {-0.68237304687499989, -0.682373046875, -0.682373046875},
+      {15.625, 15.625, 15.625},
+      {15.625, 15.625, -0.682373046875},
+      {15.624999999999998, 15.625, -0.682373046875},
+      {-0.682373046875, -0.682373046875, -0.518310546875},
+      {15.624999999999996, 15.625, -0.682373046875},
+      {-0.68237304687499989, -0.682373046875, -0.68237304687499989},
+      {0.156890869140625, 0, 1.0411759937510769},
+      {15.624999999999995, 15.625, -0.682373046875},
+      {0.15689086914067032, 0, 1.0411759937513778},
+      {12.75, 12.75, -0.682342529296875},
+      {15.624999999999993, 15.625, -0.682373046875},
+      {0.1568908691406703, 0, 1.0411759937513778},
+      {15.624999999999996, 15.625, 15.625},
+      {15.625, 15.625, -11},
+      {15.624999999999995, 15.625, 15.625},
+      {-0.682373046875, -0.682373046875, -0.68237304687499989},
+  }};
+  Points3 points(3, given.size());
+  for (std::size_t i = 0; i < given.size(); ++i)
+    for (std::size_t row = 0; row < 3; ++row)
+      points(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(i)) = given[i][row];
+  CvtOptions options;
+  options.max_iterations = 1;
+  const Cvt result = spherical_cvt(points, options); // once it did not end
+  CHECK(check(result.mesh).passed());
 }
 
 TEST_CASE("bad input is refused in one line") {
