@@ -46,7 +46,10 @@ Box3 box_of(const Arc& arc) {
   return {ends.low - margin, ends.high + margin};
 }
 
-double square_from(const Arc& arc, const Vec3& p) {
+namespace {
+
+/// \param arc of at most a quarter turn.
+double square_from_part(const Arc& arc, const Vec3& p) {
   const Vec3 across = cross(arc.from + arc.to, arc.to - arc.from); // without cancellation
   const Vec3 normal = (1 / norm(across)) * across;
   if (dot(cross(normal, arc.from), p) >= 0 && dot(cross(arc.to, normal), p) >= 0) {
@@ -55,6 +58,14 @@ double square_from(const Arc& arc, const Vec3& p) {
   }
   const Vec3 a = p - arc.from, b = p - arc.to;
   return std::min(dot(a, a), dot(b, b));
+}
+
+} // namespace
+
+double square_from(const Arc& arc, const Vec3& p) {
+  double least = 4;
+  for_each_part(arc, [&](const Arc& part) { least = std::min(least, square_from_part(part, p)); });
+  return least;
 }
 
 } // namespace calotte::domain_detail

@@ -23,6 +23,19 @@ inline Vec3 as_unit(const Vec3& x) {
   return excess >= -tolerance && excess <= tolerance ? x : normalised(x);
 }
 
+/// body(part) for an arc of at most a quarter turn, or for the halves of a longer one: lengths and
+/// areas lose digits where the ends are nearly opposite. The sum of the ends lies on the arc, as
+/// the few digits that it has are exact.
+template <class Body> void for_each_part(const Arc& arc, const Body& body) {
+  if (dot(arc.from, arc.to) >= 0) {
+    body(arc);
+    return;
+  }
+  const Vec3 middle = normalised(arc.from + arc.to);
+  body({arc.from, middle});
+  body({middle, arc.to});
+}
+
 /// orientation() of unit vectors: the sign of det(a, b, c) for the stored doubles.
 inline int turn(const Vec3& a, const Vec3& b, const Vec3& c) {
   const int sign = orientation_filter(a, b, c);

@@ -62,7 +62,9 @@ Vec3 best_origin(std::span<const Arc> arcs) {
 DoubleDouble sum_from(const Vec3& origin, std::span<const Arc> arcs) {
   DoubleDouble sum;
   for (const Arc& arc : arcs)
-    sum = sum + DoubleDouble{triangle_area(origin, arc), 0};
+    for_each_part(arc, [&](const Arc& part) {
+      sum = sum + DoubleDouble{triangle_area(origin, part), 0};
+    });
   return sum;
 }
 

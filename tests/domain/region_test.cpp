@@ -222,6 +222,13 @@ TEST_CASE("areas are those of formulas") {
     sum += area(Region{{x * y * z > 0 ? ring : reversed(ring)}});
   }
   CHECK(sum == doctest::Approx(4 * pi).epsilon(1e-15));
+  // Corners that are nearly opposite.
+  for (const double short_of : {1e-3, 1e-9, 1e-15, 1e-300})
+    CHECK(area(Region{{(Points3(3, 3) << 1, -1, 0, 0, short_of, 0, 0, 0, 1).finished()}}) ==
+          doctest::Approx(pi - std::atan(short_of)).epsilon(1e-14));
+  CHECK(area(Region{
+            {(Points3(3, 3) << -1e150, 1, -1e150, -1e150, 5e-324, 0, 2.25, 0, 0).finished()}}) ==
+        doctest::Approx(2 * pi).epsilon(1e-14));
 }
 
 TEST_CASE("the ends of an ellipse's axes, and the corners of a circle and a channel") {
