@@ -30,8 +30,8 @@ struct Outcome : Timed {
   DelaunayReport report;    ///< of the library's own runs
 };
 
-/// calotte::delaunay from the caller's points to the mesh, on `threads` threads; freeing it is not
-/// timed.
+/// calotte::delaunay from points that it takes over to the mesh, on `threads` threads; copying the
+/// points before and freeing the mesh are not timed.
 Outcome run_calotte(const Points3& points, int threads, const DelaunayOptions& options = {});
 
 /// Runs one triangulation per thread at once; returns the seconds of the slowest. They share the
