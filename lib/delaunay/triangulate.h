@@ -212,33 +212,29 @@ template <class Space> void Triangulation<Space>::insert(const Member& member) {
   make_star(vertex);
 }
 
-/// The face that contains p, by a visibility walk; an infinite face if p lies beyond the hull. The
-/// walk ends in a Delaunay triangulation, whose faces seen from any point are ordered without a
-/// cycle. Both edges ahead are tested before either result is needed, so that the processor
-/// overlaps the tests.
+/// A face in conflict with p, by a visibility walk towards p. The walk ends in a Delaunay
+/// triangulation, whose faces seen from any point are ordered without a cycle, at the latest in the
+/// face that contains p, or in an infinite face if p lies beyond the hull. Behind an edge, p is
+/// beyond one of the other two edges of a face without conflict: a test of one of them decides, and
+/// begins before the result of the conflict is needed, so that the processor overlaps the tests.
 template <class Space> auto Triangulation<Space>::locate(const Place& p) -> Face {
   Face face = is_infinite(hint_) ? hint_->neighbor(hint_->infinite) : hint_;
-  int back = 0; // index of the vertex across from the edge behind
-  for (int i = 0; i < 3; ++i)
-    if (space_.orientation(face->vertex(next_vertex(i))->place,
-                           face->vertex(previous_vertex(i))->place, p) < 0) {
-      const Face beyond = face->neighbor(i);
-      back = index_of(beyond, std::exchange(face, beyond));
-      break;
-    } else if (i == 2) {
+  const auto is_beyond_edge = [&](int i) {
+    return space_.orientation(face->vertex(next_vertex(i))->place,
+                              face->vertex(previous_vertex(i))->place, p) < 0;
+  };
+  if (conflicts(face, p))
+    return face;
+  int out = is_beyond_edge(0) ? 0 : is_beyond_edge(1) ? 1 : 2;
+  for (;;) {
+    const Face beyond = face->neighbor(out);
+    const int back = index_of(beyond, std::exchange(face, beyond));
+    if (is_infinite(face))
       return face;
-    }
-  while (!is_infinite(face)) {
-    const int left = next_vertex(back), right = previous_vertex(back);
-    const Place& apex = face->vertex(back)->place;
-    const bool beyond_left = space_.orientation(face->vertex(right)->place, apex, p) < 0;
-    const bool beyond_right = space_.orientation(apex, face->vertex(left)->place, p) < 0;
-    if (!beyond_left && !beyond_right)
+    if (conflicts(face, p))
       return face;
-    const Face beyond = face->neighbor(beyond_left ? left : right);
-    back = index_of(beyond, std::exchange(face, beyond));
+    out = is_beyond_edge(next_vertex(back)) ? next_vertex(back) : previous_vertex(back);
   }
-  return face;
 }
 
 template <class Space> inline bool Triangulation<Space>::conflicts(Face face, const Place& p) {
