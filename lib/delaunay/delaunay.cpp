@@ -302,12 +302,17 @@ Mesh triangulate(Sites&& sites, const Partition& partition, DelaunayReport& repo
   return triangulate_regions<Space>(std::move(sites), std::move(regions), report, monitor);
 }
 
+/// From this number of points on, a first triangulation waits for its threads to start.
+constexpr std::int64_t worth_waiting = 1 << 16;
+
 template <class Space, class Points>
 Sites sites_of(Points&& points, const DelaunayOptions& options, DelaunayReport& report,
                Monitor& monitor) {
   monitor.begin("sites", sites_made, site_steps);
   Clock::time_point mark = Clock::now();
   const std::int64_t given = points.cols();
+  if (given >= worth_waiting)
+    start_workers();
   Sites sites = make_sites_of<Space>(std::forward<Points>(points), options.duplicates,
                                      options.merge_within, &monitor);
   report = {};
