@@ -28,17 +28,16 @@
 namespace calotte::cvt_detail {
 namespace {
 
-bool are_equal(const Vec3& a, const Vec3& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
-
-/// The same for equal places.
-std::uint64_t hash_of(const Vec3& place) {
-  std::uint64_t hash = 0;
-  for (const double x : {place.x, place.y, place.z})
+/// The same for equal directions, which have the same bits on the cube.
+std::uint64_t hash_of(const Vec3& direction) {
+  const curve_detail::CubePoint on_cube = curve_detail::to_cube(direction);
+  auto hash = static_cast<std::uint64_t>(on_cube.face);
+  for (const double x : {on_cube.u, on_cube.v})
     hash = (hash ^ hash >> 32 ^ std::bit_cast<std::uint64_t>(x + 0.0)) * 0x9e3779b97f4a7c15U; // -0
   return hash >> (64 - curve_detail::key_bits);
 }
 
-/// Whether two of n places are equal. Equal ones need not follow each other along a curve.
+/// Whether two of n directions are equal. Equal ones need not follow each other along a curve.
 template <class At> bool have_equal(std::int64_t n, const At& at) {
   Array<std::uint64_t> keys(n);
   for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
@@ -48,7 +47,7 @@ template <class At> bool have_equal(std::int64_t n, const At& at) {
   const curve_detail::Order order = curve_detail::order_by_key(std::move(keys));
   for (std::int64_t i = 1; i < n; ++i)
     for (std::int64_t k = i; k > 0 && order.keys[k - 1] == order.keys[i]; --k)
-      if (are_equal(at(order.items[k - 1]), at(order.items[i])))
+      if (exact_detail::same_direction(at(order.items[k - 1]), at(order.items[i])))
         return true;
   return false;
 }

@@ -229,6 +229,10 @@ TEST_CASE("areas are those of formulas") {
   CHECK(area(Region{
             {(Points3(3, 3) << -1e150, 1, -1e150, -1e150, 5e-324, 0, 2.25, 0, 0).finished()}}) ==
         doctest::Approx(2 * pi).epsilon(1e-14));
+  const double above = std::nextafter(-1e150, 0.0), one = std::nextafter(1.0, 2.0);
+  const Region sliver{
+      {(Points3(3, 3) << -1e150, 0.25, above, 1, 0, 1, one, 1e-300, one).finished()}};
+  CHECK(std::abs(area(sliver)) < 1e-14);
 }
 
 TEST_CASE("the ends of an ellipse's axes, and the corners of a circle and a channel") {
