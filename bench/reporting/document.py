@@ -19,6 +19,8 @@ take turns: each round runs every row once on the same sites, and the next round
 row. A ratio divides the times of two rows in the same round. The tables show medians over the rounds,
 with quartiles in brackets.
 
+Each run takes over a copy of the sites. Making the copy is not timed, for the library and the others.
+
 Every result is checked. The triangles of every run must match those of the library's first run; a
 digest of the oriented triangles decides. On bisected icosahedra, where sites are cocircular up to
 rounding, the number of triangles decides. The generators of every iteration must match the library's.
