@@ -7,10 +7,11 @@
 
 namespace calotte::base_detail {
 
-void start_workers() {
+void start_workers(std::int64_t items) {
+  constexpr std::int64_t many = 1 << 16;
   static std::atomic<int> started{1};
   const int threads = thread_count();
-  if (started.load() >= threads)
+  if (items < many || started.load() >= threads)
     return;
   started.store(threads);
   constexpr std::chrono::milliseconds patience{2}; // others may hold the workers

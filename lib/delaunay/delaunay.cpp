@@ -302,23 +302,18 @@ Mesh triangulate(Sites&& sites, const Partition& partition, DelaunayReport& repo
   return triangulate_regions<Space>(std::move(sites), std::move(regions), report, monitor);
 }
 
-/// From this number of points on, a first triangulation waits for its threads to start.
-constexpr std::int64_t worth_waiting = 1 << 16;
-
 template <class Space, class Points>
 Sites sites_of(Points&& points, const DelaunayOptions& options, DelaunayReport& report,
                Monitor& monitor) {
   monitor.begin("sites", sites_made, site_steps);
   Clock::time_point mark = Clock::now();
-  const std::int64_t given = points.cols();
-  if (given >= worth_waiting)
-    start_workers();
+  start_workers(points.cols());
   Sites sites = make_sites_of<Space>(std::forward<Points>(points), options.duplicates,
                                      options.merge_within, &monitor);
   report = {};
   report.threads = thread_count();
   report.sites = sites.size();
-  report.duplicates = given - sites.size();
+  report.duplicates = std::ssize(sites.site_of_input) - sites.size();
   report.seconds.sites = lap(mark);
   return sites;
 }

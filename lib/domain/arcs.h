@@ -26,14 +26,15 @@ inline Vec3 as_unit(const Vec3& x) {
 /// body(part) for an arc of at most a quarter turn, or for the parts of a longer one: lengths and
 /// areas lose digits where the ends are nearly opposite. The sum of the ends lies on the arc, as
 /// the few digits that it has are exact, though not in the middle if one end is longer by rounding.
-template <class Body> void for_each_part(const Arc& arc, const Body& body) {
-  if (dot(arc.from, arc.to) >= 0) {
+/// \param most_cuts an end to the cuts for arcs that rounding has made half circles.
+template <class Body> void for_each_part(const Arc& arc, const Body& body, int most_cuts = 64) {
+  if (!(dot(arc.from, arc.to) < 0) || most_cuts == 0) {
     body(arc);
     return;
   }
   const Vec3 between = normalised(arc.from + arc.to);
-  for_each_part({arc.from, between}, body);
-  for_each_part({between, arc.to}, body);
+  for_each_part({arc.from, between}, body, most_cuts - 1);
+  for_each_part({between, arc.to}, body, most_cuts - 1);
 }
 
 /// orientation() of unit vectors: the sign of det(a, b, c) for the stored doubles.

@@ -23,10 +23,10 @@ TEST_CASE("the wait for threads ends while others hold them") {
   });
   while (held == 0)
     std::this_thread::yield();
-  start_workers();
+  start_workers(1 << 20);
   done = true;
   holder.join();
-  start_workers();
+  start_workers(1 << 20);
   std::vector<int> squares(1000);
   for_each_task(std::ssize(squares), [&](std::int64_t i) {
     squares[static_cast<std::size_t>(i)] = static_cast<int>(i * i);
