@@ -107,9 +107,9 @@ template <class T> T exclusive_scan(std::span<T> values) {
 
 inline int thread_count() { return tbb::this_task_arena::max_concurrency(); }
 
-/// Starts oneTBB's threads, if the process has not yet, and waits for them, for 2 ms at most, before
-/// work on many items. A system may put a new thread on the processor of the thread that creates
-/// it; as long as that one computes, the new one gets no turn for milliseconds.
+/// Starts oneTBB's threads, if the process has not yet, and waits for them, for 2 ms at most,
+/// before work on many items. A system may put a new thread on the processor of the thread that
+/// creates it; as long as that one computes, the new one gets no turn for milliseconds.
 void start_workers(std::int64_t items);
 
 } // namespace calotte::base_detail
