@@ -913,7 +913,7 @@ TEST_CASE("on a terminal a line shows the level and a range of the time left [sl
       bench.run("", "exec script -qefc \"'" CALOTTE_COMMAND "' cvt --cells 20000 --start density "
                     "--density " +
                         bump +
-                        " --rule 19 --iterations 60 --threads 1 -o mesh.vtp\" "
+                        " --rule 19 --iterations 240 --threads 1 -o mesh.vtp\" "
                         "/dev/null </dev/null;");
   CHECK(outcome.code == 0);
   CHECK(has(outcome.out, "\rcalotte: 20000 cells, iteration "));
