@@ -48,7 +48,7 @@ struct Deviation {
 /// \throws Error file, parse, as read_mesh_file().
 std::vector<Deviation> check_file(const std::string& path, const MeshFile& file);
 
-/// The same, with less memory: the contents are freed on the way.
+/// The same, with less memory for MPAS: `file` is freed on the way, and unspecified afterwards.
 std::vector<Deviation> check_file(const std::string& path, MeshFile&& file);
 
 } // namespace calotte

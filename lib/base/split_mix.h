@@ -5,6 +5,11 @@
 
 namespace calotte::base_detail {
 
+/// A hash of the words so far and one more; its high bits are the good ones (Fibonacci hashing).
+inline std::uint64_t hash_with(std::uint64_t hash, std::uint64_t word) {
+  return (hash ^ hash >> 32 ^ word) * 0x9e3779b97f4a7c15;
+}
+
 /// SplitMix64 (Steele, Lea and Flood, 2014). Its state is a counter, so that a stream can be
 /// entered anywhere.
 class SplitMix {

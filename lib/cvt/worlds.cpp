@@ -3,6 +3,7 @@
 
 #include "base/parallel.h"
 #include "base/points.h"
+#include "base/split_mix.h"
 #include "curve/hilbert.h"
 #include "curve/radix_sort.h"
 #include "cvt/planar_cells.h"
@@ -33,7 +34,7 @@ std::uint64_t hash_of(const Vec3& direction) {
   const curve_detail::CubePoint on_cube = curve_detail::to_cube(direction);
   auto hash = static_cast<std::uint64_t>(on_cube.face);
   for (const double x : {on_cube.u, on_cube.v})
-    hash = (hash ^ hash >> 32 ^ std::bit_cast<std::uint64_t>(x + 0.0)) * 0x9e3779b97f4a7c15U; // -0
+    hash = hash_with(hash, std::bit_cast<std::uint64_t>(x + 0.0)); // -0 as 0
   return hash >> (64 - curve_detail::key_bits);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/parallel.h"
+#include "base/split_mix.h"
 #include "curve/hilbert.h"
 #include "curve/radix_sort.h"
 #include "delaunay/site_inputs.h"
@@ -78,7 +79,7 @@ void link_near(const Input& input, double within, std::vector<std::int32_t>& low
   const auto hash = [](std::int64_t i, std::int64_t j, std::int64_t k) {
     std::uint64_t h = 0;
     for (const std::int64_t index : {i, j, k})
-      h = (h ^ h >> 32 ^ static_cast<std::uint64_t>(index)) * 0x9e3779b97f4a7c15U;
+      h = hash_with(h, static_cast<std::uint64_t>(index));
     return h;
   };
   const auto lowest_kept = [&](std::int64_t candidate) {

@@ -2,6 +2,7 @@
 #include "delaunay/unite.h"
 
 #include "base/matrix_memory.h"
+#include "base/split_mix.h"
 #include "base/triangle.h"
 #include "delaunay/plane.h"
 #include "delaunay/sphere.h"
@@ -245,7 +246,7 @@ private:
   Slot& find(const Triple& sites) {
     std::uint64_t h = 0;
     for (const std::int32_t s : sites)
-      h = (h ^ h >> 32 ^ static_cast<std::uint64_t>(s)) * 0x9E3779B97F4A7C15U; // Fibonacci hashing
+      h = hash_with(h, static_cast<std::uint64_t>(s));
     std::size_t s = (h >> 32) * slots_.size() >> 32;
     while (slots_[s].place >= 0 && slots_[s].sites != sites)
       s = s + 1 < slots_.size() ? s + 1 : 0;

@@ -38,8 +38,11 @@ double radius_of(const NetcdfReader& file, const MeshFile& mesh) {
   return radius > 0 && std::isfinite(radius) ? radius : mesh.sphere_radius;
 }
 
-void check_closed(const Voronoi& voronoi, double radius, const Eigen::VectorXd& density,
+/// \param density as MeshFile has it; without effect unless it has a value for each cell.
+void check_closed(const Voronoi& voronoi, double radius, Eigen::VectorXd density,
                   Deviations& deviations) {
+  if (density.size() != voronoi.cells.cols())
+    release(density);
   const MpasNumbering numbering = numbering_of(voronoi, deviations);
   const double width = mean_width(voronoi);
   const double of_floats = deviations.file().is_float("xCell") ? 4 * float_digits / width : 0;
@@ -55,7 +58,7 @@ void check_closed(const Voronoi& voronoi, double radius, const Eigen::VectorXd& 
 void check_sphere(MeshFile& file, Deviations& deviations) {
   const double radius = radius_of(deviations.file(), file);
   if (file.mesh->closed())
-    check_closed(voronoi_of(std::move(*file.mesh)), radius, file.density, deviations);
+    check_closed(voronoi_of(std::move(*file.mesh)), radius, std::move(file.density), deviations);
   else
     check_open_mpas(file, radius, deviations);
 }
@@ -90,7 +93,7 @@ void check_mpas(MeshFile file, Deviations& deviations) {
     else if (file.plane && file.plane->period.minCoeff() == 0)
       check_open_mpas(file, 1, deviations);
     else if (file.plane)
-      check_closed(voronoi_of(std::move(*file.plane)), 1, file.density, deviations);
+      check_closed(voronoi_of(std::move(*file.plane)), 1, std::move(file.density), deviations);
   } catch (const Error& error) {
     if (error.code() != ErrorCode::bad_option)
       throw;

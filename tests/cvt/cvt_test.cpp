@@ -362,6 +362,15 @@ TEST_CASE("directions that differ by less than rounding are one generator") {
   CHECK_THROWS_AS(spherical_cvt(start, refusing), const Error&);
 }
 
+TEST_CASE("directions that are equal after normalisation are one generator, in whatever bits") {
+  Points3 start = random_sphere(40, 3);
+  start.col(20) = Eigen::Vector3d(0, 1, 0);
+  start.col(30) = Eigen::Vector3d(1e-320, 3e150, 0); // normalised, (0, 1 - 2^-53, 0)
+  const Cvt result = spherical_cvt(start, {.max_iterations = 3});
+  CHECK(result.mesh.points.cols() == 39);
+  CHECK(result.mesh.site_of_input[20] == result.mesh.site_of_input[30]);
+}
+
 TEST_CASE("directions that are equal only when they are normalised twice are two generators") {
   const std::array<std::array<double, 3>, 18> given{{
       {-0.682373046875, -0.682373046875, -0.682373046875},
