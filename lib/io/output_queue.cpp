@@ -42,7 +42,8 @@ int OutputQueue::push(OutputBlock block) {
 
 int OutputQueue::finish() {
   std::unique_lock lock(mutex_);
-  changed_.wait(lock, [this] { return (waiting_.empty() && writing_ == 0) || error_ != 0; });
+  // A failure has emptied the queue; a write may still be under way.
+  changed_.wait(lock, [this] { return waiting_.empty() && writing_ == 0; });
   return error_;
 }
 

@@ -32,7 +32,8 @@ public:
   /// \returns 0, or the first errno so far.
   int push(OutputBlock block);
 
-  /// Waits until all is written. \returns 0, or the first errno.
+  /// Waits until all is written, or after a failure until no thread writes any more.
+  /// \returns 0, or the first errno.
   int finish();
 
 private:
