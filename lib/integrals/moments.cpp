@@ -6,20 +6,23 @@
 #include "base/points.h"
 #include "integrals/quads.h"
 #include "integrals/rows.h"
+#include "integrals/slivers.h"
 
 #include <algorithm>
 
 namespace calotte::integrals_detail {
 namespace {
 
-/// Integrates over the rows of a batch; adds triangles that are not clear to the suspects.
-void checked_rows(const Batch& batch, std::size_t first, TriangleRows& rows,
+/// Sets the rows of a batch; adds triangles that are not clear to the suspects. False if there are
+/// such triangles.
+bool checked_rows(const Batch& batch, std::size_t first, TriangleRows& rows,
                   std::vector<std::int32_t>& suspects) {
   if (triangle_rows(batch, rows))
-    return;
+    return true;
   for (std::size_t lane = 0; lane < batch.count; ++lane)
     if (!(rows.clearance[lane] > 0))
       suspects.push_back(static_cast<std::int32_t>(first + lane));
+  return false;
 }
 
 /// Adds each triangle's terms to its sites, in the order of the triangles.
@@ -71,9 +74,11 @@ void integrate(const Integrand& integrand, const Patch& patch, const Array<Vec3>
     Batch batch = gather(patch, x, first);
     if (integrand.at_sites)
       gather_density(rho, batch);
-    checked_rows(batch, first, rows, suspects);
+    const bool clear = checked_rows(batch, first, rows, suspects);
+    const std::vector<Sliver> slivers =
+        clear ? std::vector<Sliver>() : resolve_slivers(batch, rows);
     if (integrand.uniform)
-      uniform_terms(batch, rows, mass != nullptr, terms);
+      uniform_terms(batch, rows, slivers, mass != nullptr, terms);
     else
       kite_terms(batch, rows, integrand, terms);
     scatter(batch, terms, moments.begin());
@@ -101,6 +106,9 @@ Moments mesh_moments(const Mesh& mesh, const Density& density, int rule, int div
       std::move(owner), static_cast<std::int32_t>((n + patch_sites - 1) / patch_sites));
   const std::vector<Patch> patches = make_patches(mesh.triangles, ownership);
   Moments result{Array<double>(n), Array<Vec3>(n), Array<double>(n)};
+  std::fill(result.mass.begin(), result.mass.end(), 0.0);
+  std::fill(result.first.begin(), result.first.end(), Vec3{0, 0, 0});
+  std::fill(result.energy.begin(), result.energy.end(), 0.0);
   for_each_task(std::ssize(patches), [&](std::int64_t k) {
     const Patch& patch = patches[static_cast<std::size_t>(k)];
     const std::int64_t count = std::ssize(patch.sites);

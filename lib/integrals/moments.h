@@ -28,7 +28,8 @@ struct CellMoments {
 /// edge ab, an arc theta/2, and on to the circumcentre, a signed arc delta with sin(delta) =
 /// |a-b|/|a+b| cot(C), C the angle across. Its first moment's part that does not cancel is delta/2
 /// (a-b)/|a-b|, its area 2 atan(tan(theta/4) tan(delta/2)), its energy twice that less delta
-/// sin(theta/2). Obtuse triangles contribute signed arcs.
+/// sin(theta/2). Obtuse triangles contribute signed arcs. Triangles that the stored corners do not
+/// resolve are integrated from their directions without rounding, see slivers.h.
 ///
 /// Other densities: on the flat triangle, whose plane is at the distance D from the centre and
 /// touches the sphere of radius D in the circumcentre, integral f = D integral of f(p/|p|)/|p|^3
@@ -47,7 +48,7 @@ void integrate(const Integrand& integrand, const Patch& patch, const Array<Vec3>
 /// Finds the suspects only.
 void find_suspects(const Patch& patch, const Array<Vec3>& x, std::vector<std::int32_t>& suspects);
 
-/// Moments of all cells of a mesh, by site.
+/// Moments of all cells of a mesh, by site; 0 for a site without a cell.
 struct Moments {
   Array<double> mass;   ///< integral of rho over the cell
   Array<Vec3> first;    ///< integral of rho x

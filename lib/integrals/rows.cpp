@@ -219,15 +219,26 @@ void terms_of_edges(const Batch& batch, const EdgeRows& edges, VertexTerms& term
   }
 }
 
+void terms_of_sliver(const Sliver& sliver, const EdgeRows& edges, VertexTerms& terms) {
+  for (std::size_t v = 0; v < 3; ++v) {
+    const std::size_t next = (v + 1) % 3, previous = (v + 2) % 3;
+    put(edges.pull[previous][sliver.lane] * sliver.side[previous] -
+            edges.pull[next][sliver.lane] * sliver.side[next],
+        terms.first[v], sliver.lane);
+  }
+}
+
 } // namespace
 
-void uniform_terms(const Batch& batch, const TriangleRows& rows, bool with_mass,
-                   VertexTerms& terms) {
+void uniform_terms(const Batch& batch, const TriangleRows& rows, const std::vector<Sliver>& slivers,
+                   bool with_mass, VertexTerms& terms) {
   EdgeRows edges;
   for (std::size_t e = 0; e < 3; ++e)
     if (!small_edges(rows.quarter[e], rows.cotangent[e], edges.pull[e], edges.energy[e]))
       large_edges(rows.quarter[e], rows.cotangent[e], edges.pull[e], edges.energy[e]);
   terms_of_edges(batch, edges, terms);
+  for (const Sliver& sliver : slivers)
+    terms_of_sliver(sliver, edges, terms);
   if (!with_mass)
     return;
   for (std::size_t e = 0; e < 3; ++e)

@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstddef>
+#include <vector>
 
 namespace calotte::integrals_detail {
 
@@ -67,6 +68,12 @@ struct alignas(64) TriangleRows {
   Row clearance;
 };
 
+/// A triangle lower than the rounding of its corners allows; see slivers.h.
+struct Sliver {
+  std::size_t lane;
+  std::array<Vec3, 3> side; ///< b - c, c - a and a - b, rounded once
+};
+
 /// Terms of each vertex, [vertex][x, y, z] and [vertex].
 struct alignas(64) VertexTerms {
   std::array<Rows3, 3> first;
@@ -81,9 +88,11 @@ void gather_density(const Array<double>& rho, Batch& batch);
 /// True if the clearance of all lanes is positive.
 bool triangle_rows(const Batch& batch, TriangleRows& out);
 
-/// Terms for rho = 1. \param with_mass otherwise terms.mass is not set.
-void uniform_terms(const Batch& batch, const TriangleRows& rows, bool with_mass,
-                   VertexTerms& terms);
+/// Terms for rho = 1.
+/// \param slivers of the batch: their sides take the place of their corners' differences.
+/// \param with_mass otherwise terms.mass is not set.
+void uniform_terms(const Batch& batch, const TriangleRows& rows, const std::vector<Sliver>& slivers,
+                   bool with_mass, VertexTerms& terms);
 
 /// Terms for any density, by the integrand's nodes.
 void kite_terms(const Batch& batch, const TriangleRows& rows, const Integrand& integrand,

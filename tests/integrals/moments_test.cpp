@@ -85,6 +85,35 @@ TEST_CASE("uniform moments: masses sum to 4 pi, first moments to 0, energies fol
   }
 }
 
+/// Twelve directions, with four points within `size` of each: the cells reach far beyond their
+/// cluster. \param flat whether the points of a cluster lie on one arc.
+Points3 clusters(double size, bool flat) {
+  const Points3 centres = random_sphere(12, 11), offsets = random_sphere(48, 13);
+  Points3 points(3, 48);
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    const double along = static_cast<double>(i / 12) - 1.3;
+    const Eigen::Vector3d offset = flat ? (along * offsets.col(i % 12)).eval() : offsets.col(i);
+    points.col(i) = (centres.col(i % 12) + size * offset).normalized();
+  }
+  return points;
+}
+
+TEST_CASE("uniform moments of clusters of any size: cells are positive and add up to the sphere") {
+  for (const double size : {1e-3, 1e-6, 1e-7, 1e-8, 1e-9, 1e-12, 1e-15})
+    for (const bool flat : {false, true}) {
+      CAPTURE(size);
+      CAPTURE(flat);
+      const Mesh mesh = spherical_delaunay(clusters(size, flat)); // equal points are merged
+      const Moments moments = mesh_moments(mesh, Density{});
+      CHECK(std::abs(sum(moments.mass) - 4 * pi) < 1e-10);
+      CHECK(norm(sum(moments.first)) < 1e-10);
+      for (const std::int32_t i : mesh.triangles.reshaped()) {
+        CHECK(moments.mass[i] > -1e-15);
+        CHECK(moments.energy[i] > -1e-15);
+      }
+    }
+}
+
 TEST_CASE("the closed form agrees with quadrature, obtuse triangles included") {
   for (const Case& c : cases()) {
     CAPTURE(c.name);
