@@ -11,6 +11,7 @@
 #include <array>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace calotte::density_detail {
@@ -117,6 +118,13 @@ std::int64_t tasks_for(std::int64_t missing, std::int64_t accepted, std::int64_t
 /// end.
 constexpr std::int64_t most_in_vain = 1 << 24, acceptable = 1 << 14;
 
+template <class Map> std::string remedy_in_vain() {
+  if (std::is_same_v<Map, Hemispheres>)
+    return "follow the density: lower its peaks, or make them wider";
+  return std::string("lie in the ") + Map::name + " and follow the density: widen the " +
+         Map::name + ", or lower the density's peaks";
+}
+
 /// Fills the points, or returns the witnesses above the envelope.
 /// \param stream number of the seed's stream; streams are 2^56 numbers apart.
 template <class Map>
@@ -136,9 +144,9 @@ std::vector<Witness> fill(const EnvelopeOf<Map>& envelope, std::uint64_t seed, s
     filled = append(drawn, filled, points);
     proposed += tasks * proposals_of_task;
     if (proposed >= most_in_vain && proposed / acceptable > filled)
-      throw Error(ErrorCode::bad_option,
-                  "only " + std::to_string(filled) + " of " + std::to_string(proposed) +
-                      " points tried follow the density: lower its peaks, or make them wider");
+      throw Error(ErrorCode::bad_option, "only " + std::to_string(filled) + " of " +
+                                             std::to_string(proposed) + " points tried " +
+                                             remedy_in_vain<Map>());
   }
   return {};
 }

@@ -3,6 +3,7 @@
 #include <calotte/domain.h>
 #include <calotte/error.h>
 #include <calotte/generators.h>
+#include <calotte/region.h>
 
 #include <Eigen/Geometry>
 #include <doctest/doctest.h>
@@ -317,6 +318,15 @@ TEST_CASE("a callable without a maximum, or that grows from call to call, is ref
     rho.setConstant(std::exp2(1e-4 * ++calls));
   };
   CHECK_THROWS_WITH_AS(random_sphere(100000, density), doctest::Contains("without bound"), Error);
+}
+
+TEST_CASE("a region narrower than rounding is refused, not its density [slow]") {
+  Points3 ring(3, 3);
+  ring << 1, 0.6, 0.8, 0, 0.8, 0.6, 0, 0, 1e-14;
+  for (Eigen::Index i = 0; i < 3; ++i)
+    ring.col(i).normalize();
+  CHECK_THROWS_WITH_AS(random_sphere(100, smaller_region({ring})),
+                       doctest::Contains("widen the region"), Error);
 }
 
 // ---- The plane
