@@ -13,8 +13,8 @@ namespace {
 /// with products of lengths of 2^-53 and more.
 constexpr mp_bitcnt_t precision = 512;
 
-/// Stored corners give an altitude to 2^-52: from here on, a circumcentre to 1e-9.
-constexpr double resolved = 0x1p-23;
+/// The relative error of a cotangent that is admitted.
+constexpr double tolerance = 0x1p-34;
 
 struct PreciseVec3 {
   mpf_class x, y, z;
@@ -41,12 +41,16 @@ PreciseVec3 direction(const Vec3& given) {
 
 Vec3 rounded(const PreciseVec3& a) { return {a.x.get_d(), a.y.get_d(), a.z.get_d()}; }
 
-/// True if rows in doubles do not resolve a triangle; false if corners have met.
+/// True if rows in doubles do not resolve a triangle. Corners lie up to a roundoff above or below
+/// the sphere, which tilts the triangle by that over its altitude. The tilt changes the normal's
+/// length by its square and, as far as the normal is not upright already, in proportion.
 bool is_sliver(const TriangleRows& rows, std::size_t lane) {
-  const double longest =
-      2 *
-      std::sqrt(std::max({rows.quarter[0][lane], rows.quarter[1][lane], rows.quarter[2][lane]}));
-  return 1 < resolved * longest * rows.scale[lane];
+  constexpr double roundoff = 0x1p-52;
+  const double a = rows.quarter[0][lane], b = rows.quarter[1][lane], c = rows.quarter[2][lane];
+  const double longest = 2 * std::sqrt(std::max({a, b, c}));
+  const double tilt = roundoff * longest * rows.scale[lane];
+  const double circumradius = 4 * std::sqrt(a) * std::sqrt(b) * std::sqrt(c) * rows.scale[lane];
+  return tilt * (tilt + circumradius) > tolerance;
 }
 
 /// As triangle_rows(). The normal's length is 0 if two directions are equal: then the rows stay.
