@@ -59,6 +59,15 @@ Array<double> densities(const Integrand& integrand, const Array<Vec3>& x) {
   return rho;
 }
 
+/// Gives cells whose first moment is less than its rounding, as in a cluster, one of that size
+/// along their site: the direction of the sum is arbitrary, or there is none.
+void settle_vanishing(const Array<Vec3>& x, Array<CellMoments>& moments) {
+  constexpr double rounding = 0x1p-50;
+  for (std::int64_t i = 0; i < x.size(); ++i)
+    if (norm(moments[i].first) < rounding)
+      moments[i].first = rounding * x[i];
+}
+
 } // namespace
 
 void integrate(const Integrand& integrand, const Patch& patch, const Array<Vec3>& x,
@@ -70,6 +79,7 @@ void integrate(const Integrand& integrand, const Patch& patch, const Array<Vec3>
   const Array<double> rho = integrand.at_sites ? densities(integrand, x) : Array<double>();
   TriangleRows rows;
   VertexTerms terms;
+  bool has_slivers = false;
   for (std::size_t first = 0; first < patch.corners.size(); first += lanes) {
     Batch batch = gather(patch, x, first);
     if (integrand.at_sites)
@@ -77,6 +87,7 @@ void integrate(const Integrand& integrand, const Patch& patch, const Array<Vec3>
     const bool clear = checked_rows(batch, first, rows, suspects);
     const std::vector<Sliver> slivers =
         clear ? std::vector<Sliver>() : resolve_slivers(batch, rows);
+    has_slivers = has_slivers || !slivers.empty();
     if (integrand.uniform)
       uniform_terms(batch, rows, slivers, mass != nullptr, terms);
     else
@@ -85,6 +96,8 @@ void integrate(const Integrand& integrand, const Patch& patch, const Array<Vec3>
     if (mass != nullptr)
       scatter_mass(batch, terms, *mass);
   }
+  if (integrand.uniform && has_slivers)
+    settle_vanishing(x, moments);
 }
 
 void find_suspects(const Patch& patch, const Array<Vec3>& x, std::vector<std::int32_t>& suspects) {

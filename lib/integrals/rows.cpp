@@ -46,7 +46,7 @@ namespace {
 // of any length. The same bound holds for the normal's product.
 CALOTTE_VECTOR_WIDTHS
 bool compute_triangle_rows(const Batch& batch, TriangleRows& out) {
-  constexpr double margin = 1e-14;
+  constexpr double margin = 1e-14, apart_scale = margin / antipodal;
   std::int64_t unclear = 0;
   CALOTTE_VECTOR_LOOP
   for (std::size_t lane = 0; lane < lanes; ++lane) {
@@ -67,7 +67,12 @@ bool compute_triangle_rows(const Batch& batch, TriangleRows& out) {
     const double height = dot(normal, a);
     out.height[lane] = height;
     const double ab_least = at_a < at_b ? at_a : at_b, c_least = at_c < height ? at_c : height;
-    const double clearance = (ab_least < c_least ? ab_least : c_least) - margin;
+    const double least = ab_least < c_least ? ab_least : c_least;
+    const double long_a = out.quarter[0][lane], long_b = out.quarter[1][lane],
+                 long_c = out.quarter[2][lane];
+    const double long_ab = long_a > long_b ? long_a : long_b;
+    const double apart = apart_scale * (1 - (long_ab > long_c ? long_ab : long_c));
+    const double clearance = (least < apart ? least : apart) - margin;
     out.clearance[lane] = clearance;
     unclear |= clearance > 0 ? 0 : 1;
   }
@@ -129,18 +134,17 @@ bool small_edges(const Row& quarter, const Row& cotangent, Row& pull, Row& energ
   return beyond == 0;
 }
 
-/// An edge's half, from its end to its middle, and the signed arc from there to the circumcentre.
-struct HalfEdge {
-  double sine, cosine; ///< of half of the edge's arc
-  double arc, sine_of_arc;
-};
-
 CALOTTE_INLINE HalfEdge half_edge(double quarter, double cotangent) {
   const double sine = std::sqrt(quarter), cosine = std::sqrt(1 - quarter);
   // Rounding can pass 1 where the circumcap is a hemisphere.
   const double raw = sine / cosine * cotangent, low = raw < -1 ? -1 : raw;
   const double sine_of_arc = low > 1 ? 1 : low;
-  return {sine, cosine, arc_sine(sine_of_arc), sine_of_arc};
+  return {sine, cosine, arc_sine(sine_of_arc),
+          sine_of_arc / (1 + std::sqrt(1 - sine_of_arc * sine_of_arc))};
+}
+
+CALOTTE_INLINE double half_area(const HalfEdge& half) {
+  return 2 * arc_tangent(half.sine / (1 + half.cosine) * half.tangent);
 }
 
 /// atan(sqrt(z))/sqrt(z) - 1 for 0 <= z <= 1/16, by its series.
@@ -163,7 +167,7 @@ CALOTTE_INLINE double arc_tangent_excess(double z) {
 /// atan(p q) and atan(q) are subtracted term by term.
 CALOTTE_INLINE double half_energy(const HalfEdge& half) {
   const double p = half.sine / (1 + half.cosine);
-  const double q = half.sine_of_arc / (1 + std::sqrt(1 - half.sine_of_arc * half.sine_of_arc));
+  const double q = half.tangent;
   const double c = 1 / (1 + p * p);
   const bool low = q * q < 1.0 / 16;
   const double z = low ? q * q : 0;
@@ -193,10 +197,7 @@ CALOTTE_VECTOR_WIDTHS
 void half_areas(const Row& quarter, const Row& cotangent, Row& area) {
   CALOTTE_VECTOR_LOOP
   for (std::size_t lane = 0; lane < lanes; ++lane) {
-    const HalfEdge half = half_edge(quarter[lane], cotangent[lane]);
-    const double tangent =
-        half.sine_of_arc / (1 + std::sqrt(1 - half.sine_of_arc * half.sine_of_arc));
-    area[lane] = 2 * arc_tangent(half.sine / (1 + half.cosine) * tangent);
+    area[lane] = half_area(half_edge(quarter[lane], cotangent[lane]));
   }
 }
 
@@ -219,13 +220,19 @@ void terms_of_edges(const Batch& batch, const EdgeRows& edges, VertexTerms& term
   }
 }
 
-void terms_of_sliver(const Sliver& sliver, const EdgeRows& edges, VertexTerms& terms) {
-  for (std::size_t v = 0; v < 3; ++v) {
-    const std::size_t next = (v + 1) % 3, previous = (v + 2) % 3;
-    put(edges.pull[previous][sliver.lane] * sliver.side[previous] -
-            edges.pull[next][sliver.lane] * sliver.side[next],
-        terms.first[v], sliver.lane);
+void set_edges(const Sliver& sliver, EdgeRows& edges) {
+  for (std::size_t e = 0; e < 3; ++e) {
+    edges.energy[e][sliver.lane] = half_energy(sliver.half[e]);
+    edges.area[e][sliver.lane] = half_area(sliver.half[e]);
   }
+}
+
+void set_first(const Sliver& sliver, VertexTerms& terms) {
+  std::array<Vec3, 3> part;
+  for (std::size_t e = 0; e < 3; ++e)
+    part[e] = (0.5 * sliver.half[e].arc) * sliver.side[e];
+  for (std::size_t v = 0; v < 3; ++v)
+    put(part[(v + 2) % 3] - part[(v + 1) % 3], terms.first[v], sliver.lane);
 }
 
 } // namespace
@@ -233,16 +240,19 @@ void terms_of_sliver(const Sliver& sliver, const EdgeRows& edges, VertexTerms& t
 void uniform_terms(const Batch& batch, const TriangleRows& rows, const std::vector<Sliver>& slivers,
                    bool with_mass, VertexTerms& terms) {
   EdgeRows edges;
-  for (std::size_t e = 0; e < 3; ++e)
+  for (std::size_t e = 0; e < 3; ++e) {
     if (!small_edges(rows.quarter[e], rows.cotangent[e], edges.pull[e], edges.energy[e]))
       large_edges(rows.quarter[e], rows.cotangent[e], edges.pull[e], edges.energy[e]);
+    if (with_mass)
+      half_areas(rows.quarter[e], rows.cotangent[e], edges.area[e]);
+  }
+  for (const Sliver& sliver : slivers)
+    set_edges(sliver, edges);
   terms_of_edges(batch, edges, terms);
   for (const Sliver& sliver : slivers)
-    terms_of_sliver(sliver, edges, terms);
+    set_first(sliver, terms);
   if (!with_mass)
     return;
-  for (std::size_t e = 0; e < 3; ++e)
-    half_areas(rows.quarter[e], rows.cotangent[e], edges.area[e]);
   for (std::size_t v = 0; v < 3; ++v)
     for (std::size_t lane = 0; lane < lanes; ++lane)
       terms.mass[v][lane] = edges.area[(v + 1) % 3][lane] + edges.area[(v + 2) % 3][lane];

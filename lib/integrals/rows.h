@@ -57,6 +57,10 @@ struct alignas(64) Batch {
   const std::array<std::int32_t, 3>* locals; ///< of the first: local numbers of its corners
 };
 
+/// Corners a and b are nearly antipodal if 1 - |a-b|^2/4 is below this: an edge between them hardly
+/// has a middle.
+constexpr double antipodal = 0x1p-40;
+
 /// Quantities derived from the corners, per edge or corner, named by the vertex across or there.
 struct alignas(64) TriangleRows {
   Rows3 quarter;   ///< |a-b|^2/4 of the edge across
@@ -64,14 +68,23 @@ struct alignas(64) TriangleRows {
   Rows3 normal;    ///< (b - a) x (c - a), [x, y, z]
   Row scale;       ///< 1/|normal|
   Row height;      ///< normal times a: positive when counter-clockwise
-  /// Positive only if the triangle is certainly acute and counter-clockwise.
+  /// Positive only if the triangle is certainly acute and counter-clockwise, and no two corners are
+  /// nearly antipodal.
   Row clearance;
 };
 
-/// A triangle lower than the rounding of its corners allows; see slivers.h.
+/// An edge's half, from its end to its middle, and the signed arc from there to the circumcentre.
+struct HalfEdge {
+  double sine, cosine; ///< of half of the edge's arc
+  double arc, tangent; ///< the signed arc, and the tangent of half of it
+};
+
+/// A triangle whose circumcentre follows from digits that its corners as stored do not have; see
+/// slivers.h.
 struct Sliver {
   std::size_t lane;
-  std::array<Vec3, 3> side; ///< b - c, c - a and a - b, rounded once
+  std::array<Vec3, 3> side; ///< unit vectors along b - c, c - a and a - b
+  std::array<HalfEdge, 3> half;
 };
 
 /// Terms of each vertex, [vertex][x, y, z] and [vertex].
@@ -89,7 +102,7 @@ void gather_density(const Array<double>& rho, Batch& batch);
 bool triangle_rows(const Batch& batch, TriangleRows& out);
 
 /// Terms for rho = 1.
-/// \param slivers of the batch: their sides take the place of their corners' differences.
+/// \param slivers of the batch: their sides and halves take the place of the rows.
 /// \param with_mass otherwise terms.mass is not set.
 void uniform_terms(const Batch& batch, const TriangleRows& rows, const std::vector<Sliver>& slivers,
                    bool with_mass, VertexTerms& terms);

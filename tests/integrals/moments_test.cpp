@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "integrals/moments.h"
 
+#include "base/points.h"
+
 #include <calotte/delaunay.h>
 #include <calotte/error.h>
 #include <calotte/generators.h>
@@ -112,6 +114,27 @@ TEST_CASE("uniform moments of clusters of any size: cells are positive and add u
         CHECK(moments.energy[i] > -1e-15);
       }
     }
+}
+
+TEST_CASE("uniform moments beside antipodal sites and hemispherical circumcaps") {
+  for (const double bend : {1e-3, 1e-6, 1e-9, 1e-15, 1e-153, 1e-300}) {
+    CAPTURE(bend);
+    Points3 points(3, 6); // four on a great circle but for the bend, two of them nearly antipodal
+    points << 1, -1, 0, 0, 0.6, 0.6, //
+        0, bend, 1, -1, 0.8, 0,      //
+        0, bend, -bend, bend, 0, -0.8;
+    const Mesh mesh = spherical_delaunay(points.colwise().normalized());
+    REQUIRE(mesh.closed());
+    const Moments moments = mesh_moments(mesh, Density{});
+    // Near a hemisphere, the sine of an arc gives the arc to half of its digits.
+    CHECK(std::abs(sum(moments.mass) - 4 * pi) < 1e-7);
+    CHECK(norm(sum(moments.first)) < 1e-10);
+    for (std::int64_t i = 0; i < moments.mass.size(); ++i) {
+      CHECK(moments.mass[i] > 0);
+      CHECK(std::abs(2 * (moments.mass[i] - dot(moments.first[i], column(mesh.points, i))) -
+                     moments.energy[i]) < 1e-7);
+    }
+  }
 }
 
 TEST_CASE("the closed form agrees with quadrature, obtuse triangles included") {
