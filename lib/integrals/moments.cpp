@@ -59,11 +59,23 @@ Array<double> densities(const Integrand& integrand, const Array<Vec3>& x) {
   return rho;
 }
 
-/// Gives cells whose first moment is less than its rounding, as in a cluster, one of that size
-/// along their site: the direction of the sum is arbitrary, or there is none.
-void settle_vanishing(const Array<Vec3>& x, Array<CellMoments>& moments) {
+/// The slivers of a batch, of which there are none if all of its triangles are clear; adds their
+/// corners to a list.
+std::vector<Sliver> slivers_of(const Batch& batch, bool clear, TriangleRows& rows,
+                               std::vector<std::int32_t>& corners) {
+  std::vector<Sliver> slivers = clear ? std::vector<Sliver>() : resolve_slivers(batch, rows);
+  for (const Sliver& sliver : slivers)
+    corners.insert(corners.end(), batch.locals[sliver.lane].begin(),
+                   batch.locals[sliver.lane].end());
+  return slivers;
+}
+
+/// Gives sites whose first moment is less than the rounding of its terms, as in a cluster, one of
+/// that size along the site: the direction of the sum is arbitrary, or there is none.
+void settle_vanishing(const std::vector<std::int32_t>& sites, const Array<Vec3>& x,
+                      Array<CellMoments>& moments) {
   constexpr double rounding = 0x1p-50;
-  for (std::int64_t i = 0; i < x.size(); ++i)
+  for (const std::int32_t i : sites)
     if (norm(moments[i].first) < rounding)
       moments[i].first = rounding * x[i];
 }
@@ -79,15 +91,13 @@ void integrate(const Integrand& integrand, const Patch& patch, const Array<Vec3>
   const Array<double> rho = integrand.at_sites ? densities(integrand, x) : Array<double>();
   TriangleRows rows;
   VertexTerms terms;
-  bool has_slivers = false;
+  std::vector<std::int32_t> of_slivers;
   for (std::size_t first = 0; first < patch.corners.size(); first += lanes) {
     Batch batch = gather(patch, x, first);
     if (integrand.at_sites)
       gather_density(rho, batch);
     const bool clear = checked_rows(batch, first, rows, suspects);
-    const std::vector<Sliver> slivers =
-        clear ? std::vector<Sliver>() : resolve_slivers(batch, rows);
-    has_slivers = has_slivers || !slivers.empty();
+    const std::vector<Sliver> slivers = slivers_of(batch, clear, rows, of_slivers);
     if (integrand.uniform)
       uniform_terms(batch, rows, slivers, mass != nullptr, terms);
     else
@@ -96,8 +106,8 @@ void integrate(const Integrand& integrand, const Patch& patch, const Array<Vec3>
     if (mass != nullptr)
       scatter_mass(batch, terms, *mass);
   }
-  if (integrand.uniform && has_slivers)
-    settle_vanishing(x, moments);
+  if (integrand.uniform)
+    settle_vanishing(of_slivers, x, moments);
 }
 
 void find_suspects(const Patch& patch, const Array<Vec3>& x, std::vector<std::int32_t>& suspects) {
