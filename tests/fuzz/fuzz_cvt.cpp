@@ -9,7 +9,8 @@
 using namespace calotte;
 using calotte::fuzz::require;
 
-/// Three iterations of a CVT of the sphere: the energy falls, and the mesh is exact.
+/// Three iterations of a CVT of the sphere: the energy falls, the mesh is exact, and the bits are
+/// those of any other number of regions.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   fuzz::Bytes bytes(data, size);
   CvtOptions options;
@@ -22,6 +23,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     const Cvt result = spherical_cvt(points, options);
     require(check(result.mesh).passed());
+    CvtOptions other = options;
+    other.partition.regions = 5;
+    const Cvt again = spherical_cvt(points, other);
+    require(again.mesh.points == result.mesh.points &&
+            again.mesh.triangles == result.mesh.triangles);
     const CvtIteration* before = nullptr;
     for (const CvtIteration& iteration : result.report.iterations)
       if (iteration.accepted) {
