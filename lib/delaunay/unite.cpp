@@ -150,8 +150,13 @@ CALOTTE_ALL_INSTRUCTIONS RegionTriangles report_triangles(Triangulation<Space>& 
     if (face->certified && !triangulation.is_infinite(face))
       face->number = count++;
   });
-  RegionTriangles out{Array<Triple>(count), Array<Triple>(count), {}, {}};
   const std::size_t locals = triangulation.members().size();
+  const auto sites_here = static_cast<std::int64_t>(locals);
+  RegionTriangles out{LocalTriples(count, sites_here),
+                      LocalTriples(count, count),
+                      Array<std::int32_t>(sites_here),
+                      {},
+                      {}};
   std::vector<std::int32_t> length(locals, 0);
   RankLists lists(count, locals);
   const auto owner_of = [&](Vertex v) {
@@ -162,8 +167,8 @@ CALOTTE_ALL_INSTRUCTIONS RegionTriangles report_triangles(Triangulation<Space>& 
     if (t < 0)
       return;
     const auto [v, neighbours] = turned<Space>(face);
-    out.sites[t] = {v[0]->place.site, v[1]->place.site, v[2]->place.site};
-    out.neighbours[t] = neighbours;
+    out.vertices.set(t, {v[0]->local, v[1]->local, v[2]->local});
+    out.neighbours.set(t, neighbours);
     if (v[0]->owned()) {
       lists.add(t, v[0]->local, v[1]->place.site);
       ++length[static_cast<std::size_t>(v[0]->local)];
@@ -173,14 +178,20 @@ CALOTTE_ALL_INSTRUCTIONS RegionTriangles report_triangles(Triangulation<Space>& 
     if (v[0]->owned() && v[1]->owned() && v[2]->owned())
       return;
     const std::int32_t a = owner_of(v[0]), b = owner_of(v[1]), c = owner_of(v[2]);
-    out.seams.push_back({out.sites[t], t, a,
+    out.seams.push_back({{v[0]->place.site, v[1]->place.site, v[2]->place.site},
+                         t,
+                         a,
                          static_cast<std::int8_t>(1 + (b != a) + (c != a && c != b)),
                          own_edges(v)});
   });
   out.rank = std::move(lists).ranks();
-  for (std::size_t v = 0; v < locals; ++v)
-    if (const Member& member = triangulation.members()[v]; member.owned())
-      triangles_of[sites.id[member.rank]] = length[v];
+  for (std::size_t v = 0; v < locals; ++v) {
+    const Member& member = triangulation.members()[v];
+    const std::int32_t site = sites.id[member.rank];
+    out.site[static_cast<std::int64_t>(v)] = site;
+    if (member.owned())
+      triangles_of[site] = length[v];
+  }
   return out;
 }
 
@@ -262,22 +273,26 @@ constexpr std::int64_t ahead = 32;
 
 /// Turns the ranks of the triangles whose lowest site the region owns into their places in the
 /// mesh, where it writes them.
-Array<std::int32_t> place_own(Array<std::int32_t>&& rank, const Array<Triple>& sites,
-                              const Array<std::int32_t>& first_of, Triangles& out) {
-  Array<std::int32_t> place = std::move(rank);
-  for (std::int64_t t = 0; t < sites.size(); ++t) {
-    if (t + ahead < sites.size())
-      __builtin_prefetch(&first_of[sites[t + ahead][0]]);
+Array<std::int32_t> place_own(RegionTriangles& report, const Array<std::int32_t>& first_of,
+                              Triangles& out) {
+  Array<std::int32_t> place = std::move(report.rank);
+  const std::int64_t count = report.vertices.size();
+  const auto site = [&](std::int64_t t, std::size_t i) {
+    return report.site[report.vertices(t, i)];
+  };
+  for (std::int64_t t = 0; t < count; ++t) {
+    if (t + ahead < count)
+      __builtin_prefetch(&first_of[site(t + ahead, 0)]);
     if (place[t] >= 0)
-      place[t] += first_of[sites[t][0]];
+      place[t] += first_of[site(t, 0)];
   }
-  for (std::int64_t t = 0; t < sites.size(); ++t) {
-    if (t + ahead < sites.size() && place[t + ahead] >= 0)
+  for (std::int64_t t = 0; t < count; ++t) {
+    if (t + ahead < count && place[t + ahead] >= 0)
       __builtin_prefetch(&out(0, place[t + ahead]), 1);
     if (place[t] < 0)
       continue;
     for (int i = 0; i < 3; ++i)
-      out(i, place[t]) = sites[t][static_cast<std::size_t>(i)];
+      out(i, place[t]) = site(t, static_cast<std::size_t>(i));
   }
   return place;
 }
@@ -287,12 +302,11 @@ Array<std::int32_t> place_own(Array<std::int32_t>&& rank, const Array<Triple>& s
 void write_neighbours(const RegionTriangles& report, const Array<std::int32_t>& place,
                       Triangles& out) {
   const auto write = [&](std::int64_t t, int bits) {
-    const Triple& neighbours = report.neighbours[t];
     if (t + ahead < report.neighbours.size())
       __builtin_prefetch(&out(0, place[t + ahead]), 1);
     for (int i = 0; i < 3; ++i)
       if (bits >> i & 1) {
-        const std::int32_t across = neighbours[static_cast<std::size_t>(i)];
+        const std::int32_t across = report.neighbours(t, static_cast<std::size_t>(i));
         out(i, place[t]) = across < 0 ? -1 : place[across];
       }
   };
@@ -320,13 +334,13 @@ void unite(std::vector<RegionTriangles>&& reports, Array<std::int32_t>&& triangl
   for_each_task(regions, [&](std::int64_t k) {
     RegionTriangles& report = reports[static_cast<std::size_t>(k)];
     Array<std::int32_t>& own = place[static_cast<std::size_t>(k)];
-    own = place_own(std::move(report.rank), report.sites, triangles_of, mesh.triangles);
+    own = place_own(report, triangles_of, mesh.triangles);
     tables[static_cast<std::size_t>(k)] = SeamTable(seams_at(k, report.seams));
     for (const Seam& seam : report.seams)
       if (seam.home == k)
         tables[static_cast<std::size_t>(k)].enter(seam, own[seam.triangle]);
     if (mesh.points.cols() > most_sites_kept) // frees memory for the mesh's neighbours
-      give_back(report.sites);
+      report.vertices.give_back_pages();
     step(monitor);
   });
   for_each_task(regions, [&](std::int64_t k) {

@@ -6,6 +6,8 @@
 
 #include <doctest/doctest.h>
 
+#include <numeric>
+
 using namespace calotte;
 using namespace calotte::delaunay_detail;
 
@@ -19,14 +21,20 @@ std::int32_t owner_of(std::int32_t site) { return site % 2; }
 /// The first faces of a tetrahedron in the report of one of two regions. All are seam triangles of
 /// both regions; three have their lowest site in the first region, one in the second.
 RegionTriangles report_of(std::int32_t region, std::int32_t count = 4) {
-  RegionTriangles out{Array<Triple>(count), Array<Triple>(count), Array<std::int32_t>(count), {}};
+  RegionTriangles out{LocalTriples(count, 4),
+                      LocalTriples(count, count),
+                      Array<std::int32_t>(4),
+                      Array<std::int32_t>(count),
+                      {}};
+  std::iota(out.site.begin(), out.site.end(), 0);
   const std::array<Triple, 4> neighbours{{{3, 1, 2}, {3, 2, 0}, {3, 0, 1}, {1, 0, 2}}};
   for (std::int32_t t = 0; t < count; ++t) {
     const auto face = static_cast<std::size_t>(t);
-    out.sites[t] = faces[face];
-    out.neighbours[t] = neighbours[face];
-    for (std::int32_t& across : out.neighbours[t])
+    out.vertices.set(t, faces[face]);
+    Triple here = neighbours[face];
+    for (std::int32_t& across : here)
       across = across < count ? across : -1;
+    out.neighbours.set(t, here);
     const std::int32_t home = owner_of(faces[face][0]);
     // By second site: 0 1 2, 0 2 3, 0 3 1, and 1 3 2 alone.
     out.rank[t] = home != region ? -1 : t == 3 ? 0 : t;
@@ -64,6 +72,23 @@ bool is_internal_error(RegionTriangles first, RegionTriangles second) {
 }
 
 } // namespace
+
+TEST_CASE("triples of local numbers come back, in 16 bits and in 32") {
+  for (const std::int64_t numbers : {4, 65535, 65536, 1 << 30}) {
+    CAPTURE(numbers);
+    const auto most = static_cast<std::int32_t>(numbers - 1);
+    LocalTriples triples(2, numbers);
+    triples.set(0, {0, most, -1});
+    triples.set(1, {-1, 1, most});
+    CHECK(triples.size() == 2);
+    CHECK(triples(0, 0) == 0);
+    CHECK(triples(0, 1) == most);
+    CHECK(triples(0, 2) == -1);
+    CHECK(triples(1, 0) == -1);
+    CHECK(triples(1, 1) == 1);
+    CHECK(triples(1, 2) == most);
+  }
+}
 
 TEST_CASE("two regions' reports of one tetrahedron unite to its mesh") {
   for (const std::int64_t points :
