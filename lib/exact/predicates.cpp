@@ -2,6 +2,7 @@
 #include "exact/predicates.h"
 
 #include "base/double_double.h"
+#include "exact/vec3_of.h"
 
 #include <gmpxx.h>
 
@@ -23,19 +24,7 @@ int sign_of(double x) { return (x > 0) - (x < 0); }
 
 // ---- Tier 2
 
-struct Vec3Extended {
-  DoubleDouble x, y, z;
-};
-
-Vec3Extended operator-(const Vec3Extended& a, const Vec3Extended& b) {
-  return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-DoubleDouble dot(const Vec3Extended& a, const Vec3Extended& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-Vec3Extended cross(const Vec3Extended& a, const Vec3Extended& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
+using Vec3Extended = Vec3Of<DoubleDouble>;
 
 /// x/|x| within 2^-100 in the norm of the error: the norm errs by 2^-102.5, its inverse by 2^-102,
 /// the products by 2^-103; components that underflow in scaling add 1e-307.

@@ -2,6 +2,7 @@
 #include "integrals/slivers.h"
 
 #include "base/elementary.h"
+#include "exact/vec3_of.h"
 
 #include <gmpxx.h>
 
@@ -14,25 +15,7 @@ namespace {
 /// The relative error of a cotangent that is admitted.
 constexpr double tolerance = 0x1p-34;
 
-struct PreciseVec3 {
-  mpf_class x, y, z;
-};
-
-PreciseVec3 operator-(const PreciseVec3& a, const PreciseVec3& b) {
-  return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-
-mpf_class dot(const PreciseVec3& a, const PreciseVec3& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
-PreciseVec3 cross(const PreciseVec3& a, const PreciseVec3& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
-PreciseVec3 operator+(const PreciseVec3& a, const PreciseVec3& b) {
-  return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
+using PreciseVec3 = Vec3Of<mpf_class>;
 
 mpf_class length(const PreciseVec3& a) { return sqrt(dot(a, a)); }
 
