@@ -33,7 +33,7 @@ std::string direction_failure(const Mesh& mesh, std::int64_t site) {
 /// (|s| err(det) + det err(s)) / (det^2 + s^2).
 Area triangle_area(const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 p = b - a, q = c - a;
-  const double det = std::max(dot(a, cross(p, q)), 0.0);
+  const double det = std::max(0.0, dot(a, cross(p, q))); // not -0, whose angle may be -pi
   const double s = 1 + dot(a, b) + dot(b, c) + dot(c, a);
   const double det_error = 32 * exact_detail::roundoff * std::sqrt(dot(p, p) * dot(q, q));
   const double s_error = 96 * exact_detail::roundoff;

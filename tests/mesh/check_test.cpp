@@ -82,6 +82,23 @@ TEST_CASE("meshes made by the definition pass, closed and open") {
   }
 }
 
+TEST_CASE("triangles that are hemispheres up to rounding have positive areas") {
+  Random random(26);
+  for (int round = 0; round < 200; ++round) {
+    Points3 points = Points3::Zero(3, 7); // on the equator, one of them just below it; a pole
+    for (Eigen::Index i = 0; i < 6; ++i) {
+      const double angle = random.real(0, 2 * std::numbers::pi);
+      points.col(i).head<2>() << 4 * std::cos(angle), 4 * std::sin(angle); // units of z = 0 or -0
+    }
+    points(2, 2) = -5e-324;
+    points(2, 6) = 1;
+    const Check result = check(spherical_delaunay(points));
+    CHECK(result.failure == "");
+    if (result.boundary_edges == 0)
+      CHECK(result.area == doctest::Approx(4 * std::numbers::pi).epsilon(1e-9));
+  }
+}
+
 TEST_CASE("points of any norm pass, also unit vectors up to rounding") {
   Mesh mesh = spherical_delaunay(random_sphere(3000, 5));
   for (const double factor : {1.0, 1 + 0x1p-52, 1 - 0x1p-53, 1 + 0x1p-50, 1 - 0x1p-50, 3e100}) {
