@@ -16,6 +16,14 @@ template <class Matrix> void make_room(Matrix& matrix, std::int64_t rows, std::i
                     static_cast<std::size_t>(matrix.size()) * sizeof(typename Matrix::Scalar));
 }
 
+/// Resizes an Eigen matrix of memory that other arrays have used; its values are undefined. A
+/// smaller one stays where it is.
+template <class Matrix> void reuse_room(Matrix& matrix, std::int64_t rows, std::int64_t columns) {
+  matrix.conservativeResize(rows, columns);
+  prefer_huge_pages(matrix.data(),
+                    static_cast<std::size_t>(matrix.size()) * sizeof(typename Matrix::Scalar));
+}
+
 /// Empties an Eigen matrix and frees its memory.
 template <class Matrix> void release(Matrix& matrix) { matrix = Matrix(); }
 

@@ -12,7 +12,6 @@
 
 #ifdef __linux__
 #include <sys/mman.h>
-#include <unistd.h>
 #endif
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -84,6 +83,13 @@ public:
   Array() = default;
   explicit Array(std::int64_t n)
       : size_(n), data_(allocate(static_cast<std::size_t>(n) * sizeof(T) + 8)) {}
+  /// In memory of another owner, who keeps it for longer, with the eight bytes behind the values.
+  static Array in(void* memory, std::int64_t n) {
+    Array array;
+    array.size_ = n;
+    array.data_ = Data(static_cast<T*>(memory), Free{Owner::other});
+    return array;
+  }
   Array(Array&& other) noexcept
       : size_(std::exchange(other.size_, 0)), data_(std::move(other.data_)) {}
   Array& operator=(Array&& other) noexcept {
@@ -100,9 +106,15 @@ public:
   const T* end() const { return data_.get() + size_; }
 
 private:
+  enum class Owner : std::uint8_t { pool, system, other };
   struct Free {
-    bool pooled = true;
-    void operator()(T* data) const { pooled ? pool_free(data) : std::free(data); }
+    Owner owner = Owner::pool;
+    void operator()(T* data) const {
+      if (owner == Owner::pool)
+        pool_free(data);
+      else if (owner == Owner::system)
+        std::free(data);
+    }
   };
   using Data = std::unique_ptr<T[], Free>;
 
@@ -114,7 +126,7 @@ private:
     if (data == nullptr && bytes > 0)
       throw std::bad_alloc();
     prefer_huge_pages(data, bytes);
-    return Data(static_cast<T*>(data), Free{pooled});
+    return Data(static_cast<T*>(data), Free{pooled ? Owner::pool : Owner::system});
   }
 
   std::int64_t size_ = 0;
@@ -125,16 +137,6 @@ private:
 /// larger triangulation, whose reports alone take half a gigabyte, returns its memory to the
 /// system.
 inline constexpr std::int64_t most_sites_kept = 1 << 23;
-
-/// Frees an array and returns its pages to the system, including those of a block in a pool that
-/// other arrays keep alive.
-template <class T> void give_back(Array<T>& array) {
-#ifdef __linux__
-  advise(array.begin(), static_cast<std::size_t>(array.size()) * sizeof(T),
-         static_cast<std::size_t>(sysconf(_SC_PAGESIZE)), MADV_DONTNEED);
-#endif
-  array = {};
-}
 
 /// Memory for n values, on huge pages.
 template <class T> void reserve_huge(std::vector<T>& values, std::int64_t n) {

@@ -31,6 +31,7 @@ constexpr double sites_made = 0.25, divided = 0.35, triangulated = 0.8, united =
 
 /// The results of the triangulation of regions, for the union.
 struct Reports {
+  ReportMemory memory;
   std::vector<RegionTriangles> regions;
   Array<std::int32_t> triangles_of; ///< by site, see report_triangles
 };
@@ -58,10 +59,9 @@ template <class Space> Reports triangulate_whole(const Sites& sites, DelaunayRep
   if (!triangulation.build(members))
     refuse_degenerate(sites);
   certify_all(triangulation);
-  Reports reports;
-  reports.triangles_of = Array<std::int32_t>(sites.size());
-  reports.regions.push_back(
-      report_triangles(triangulation, sites, Array<std::int32_t>(), reports.triangles_of));
+  Reports reports{ReportMemory(sites.size()), {}, Array<std::int32_t>(sites.size())};
+  reports.regions.push_back(report_triangles(triangulation, sites, Array<std::int32_t>(),
+                                             reports.triangles_of, reports.memory));
   add(report, triangulation.space().counts());
   report.one_region = true;
   report.regions = 1;
@@ -80,8 +80,8 @@ struct CapResult {
 
 /// One region: gather, project, triangulate, cull and certify. False if that fails for its cap.
 template <class Space>
-bool triangulate_cap(const Sites& sites, const Regions& regions, std::int32_t k,
-                     Array<std::int32_t>& triangles_of, CapResult& result) {
+bool triangulate_cap(const Sites& sites, const Regions& regions, std::int32_t k, Reports& reports,
+                     CapResult& result) {
   Clock::time_point start = Clock::now();
   std::vector<Member> members = gather<Space>(sites, regions, k);
   const auto count_owned = [&] {
@@ -106,7 +106,8 @@ bool triangulate_cap(const Sites& sites, const Regions& regions, std::int32_t k,
     triangulation = build_with_sample<Space>(space, sites.size(), members);
   if (triangulation.members().empty() || !certify(triangulation, sites, regions, k, result.cull))
     return false;
-  result.triangles = report_triangles(triangulation, sites, regions.owner, triangles_of);
+  result.triangles =
+      report_triangles(triangulation, sites, regions.owner, reports.triangles_of, reports.memory);
   result.predicates = triangulation.space().counts();
   result.members = std::ssize(triangulation.members());
   result.seams = seams_at(k, result.triangles.seams);
@@ -146,8 +147,7 @@ void add_incomplete(const std::vector<CapResult>& caps, const Array<std::int32_t
 template <class Space>
 std::optional<Reports> triangulate_caps(const Sites& sites, Regions& regions,
                                         DelaunayReport& report, Monitor& monitor) {
-  Reports reports;
-  reports.triangles_of = Array<std::int32_t>(sites.size());
+  Reports reports{ReportMemory(sites.size()), {}, Array<std::int32_t>(sites.size())};
   std::vector<CapResult> caps(regions.centres.size());
   std::vector<char> failed(caps.size(), 0);
   std::vector<std::int32_t> list = all_of(regions.centres);
@@ -161,7 +161,7 @@ std::optional<Reports> triangulate_caps(const Sites& sites, Regions& regions,
         return;
       const std::int32_t k = list[static_cast<std::size_t>(i)];
       CapResult cap;
-      const bool done = triangulate_cap<Space>(sites, regions, k, reports.triangles_of, cap);
+      const bool done = triangulate_cap<Space>(sites, regions, k, reports, cap);
       if (!done)
         failures +=
             cap.cull.hull ? std::ssize(caps) : 1; // where there is a hull, merging is no help
@@ -188,7 +188,9 @@ Mesh make_mesh(Sites&& sites, Reports&& reports, Monitor* monitor = nullptr) {
   Mesh mesh;
   mesh.points = std::move(sites.points);
   mesh.site_of_input = std::move(sites.site_of_input);
-  sites = {}; // frees what is left of the sites, so that the triangles can use the memory
+  mesh.triangles = std::move(sites.memory);
+  mesh.neighbours = std::move(reports.memory).take();
+  sites = {}; // frees what is left of the sites
   unite(std::move(reports.regions), std::move(reports.triangles_of), mesh, monitor);
   return mesh;
 }

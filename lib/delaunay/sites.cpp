@@ -19,11 +19,10 @@
 namespace calotte::delaunay_detail {
 namespace {
 
-/// Computes the curve keys of all inputs and checks them.
-template <class Input> Array<std::uint64_t> make_keys(const Input& input) {
+/// Sets the curve keys of all inputs and checks them.
+template <class Input> void set_keys(const Input& input, Array<std::uint64_t>& keys) {
   constexpr std::int64_t none = std::numeric_limits<std::int64_t>::max();
   const std::int64_t n = input.points.cols();
-  Array<std::uint64_t> keys(n);
   std::vector<std::int64_t> offending(static_cast<std::size_t>(block_count(n)), none);
   for_each_block(n, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
     if constexpr (std::is_same_v<Input, Directions>)
@@ -43,7 +42,6 @@ template <class Input> Array<std::uint64_t> make_keys(const Input& input) {
   const auto first = std::min_element(offending.begin(), offending.end());
   if (first != offending.end() && *first != none)
     input.refuse(*first);
-  return keys;
 }
 
 void refuse_duplicates(const std::vector<std::int32_t>& lowest, const char* twin) {
@@ -115,7 +113,11 @@ template <class Input, class AllPoints>
 Sites make_sites_of(const Input& input, Duplicates duplicates, double merge_within,
                     Monitor* monitor, const AllPoints& all_points) {
   require_count<Input>(input.points.cols(), "points");
-  Array<std::uint64_t> keys = make_keys(input);
+  Sites sites;
+  make_room(sites.memory, 3, 2 * input.points.cols() + 1);
+  Array<std::uint64_t> keys =
+      Array<std::uint64_t>::in(sites.memory.data(), input.points.cols()); // dead before units are
+  set_keys(input, keys);
   step(monitor);
   Order order = order_by_key(std::move(keys));
   step(monitor);
@@ -124,7 +126,6 @@ Sites make_sites_of(const Input& input, Duplicates duplicates, double merge_with
     refuse_duplicates(lowest, Input::twin);
   step(monitor);
 
-  Sites sites;
   sites.site_of_input.resize(static_cast<std::size_t>(input.points.cols()));
   if (lowest.empty()) {
     sites.points = all_points();
@@ -135,7 +136,7 @@ Sites make_sites_of(const Input& input, Duplicates duplicates, double merge_with
   const std::int64_t n = order.size();
   require_count<Input>(n, Input::distinct);
   sites.id = std::move(order.items);
-  sites.unit = Array<Vec3>(n);
+  sites.unit = Array<Vec3>::in(sites.memory.data(), n);
   constexpr std::int64_t ahead = 24;
   for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t rank = begin; rank != end; ++rank) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "delaunay/unite.h"
 
-#include "base/matrix_memory.h"
 #include "base/split_mix.h"
 #include "base/triangle.h"
 #include "delaunay/plane.h"
@@ -142,7 +141,8 @@ template <class Space>
 CALOTTE_ALL_INSTRUCTIONS RegionTriangles report_triangles(Triangulation<Space>& triangulation,
                                                           const Sites& sites,
                                                           const Array<std::int32_t>& owner,
-                                                          Array<std::int32_t>& triangles_of) {
+                                                          Array<std::int32_t>& triangles_of,
+                                                          ReportMemory& memory) {
   using Face = typename Triangulation<Space>::Face;
   using Vertex = typename Triangulation<Space>::Vertex;
   std::int32_t count = 0;
@@ -152,9 +152,10 @@ CALOTTE_ALL_INSTRUCTIONS RegionTriangles report_triangles(Triangulation<Space>& 
   });
   const std::size_t locals = triangulation.members().size();
   const auto sites_here = static_cast<std::int64_t>(locals);
-  RegionTriangles out{LocalTriples(count, sites_here),
-                      LocalTriples(count, count),
-                      Array<std::int32_t>(sites_here),
+  ReportMemory own; // neighbours live until they are written
+  RegionTriangles out{LocalTriples(count, sites_here, memory),
+                      LocalTriples(count, count, own),
+                      memory.array<std::int32_t>(sites_here),
                       {},
                       {}};
   std::vector<std::int32_t> length(locals, 0);
@@ -196,9 +197,11 @@ CALOTTE_ALL_INSTRUCTIONS RegionTriangles report_triangles(Triangulation<Space>& 
 }
 
 template RegionTriangles report_triangles(Triangulation<Sphere>&, const Sites&,
-                                          const Array<std::int32_t>&, Array<std::int32_t>&);
+                                          const Array<std::int32_t>&, Array<std::int32_t>&,
+                                          ReportMemory&);
 template RegionTriangles report_triangles(Triangulation<Plane>&, const Sites&,
-                                          const Array<std::int32_t>&, Array<std::int32_t>&);
+                                          const Array<std::int32_t>&, Array<std::int32_t>&,
+                                          ReportMemory&);
 
 namespace {
 
@@ -325,8 +328,7 @@ void write_neighbours(const RegionTriangles& report, const Array<std::int32_t>& 
 void unite(std::vector<RegionTriangles>&& reports, Array<std::int32_t>&& triangles_of, Mesh& mesh,
            Monitor* monitor) {
   const std::int32_t count = exclusive_scan(std::span(triangles_of.begin(), triangles_of.end()));
-  make_room(mesh.triangles, 3, count);
-  make_room(mesh.neighbours, 3, count);
+  reuse_room(mesh.triangles, 3, count);
   const std::int64_t regions = std::ssize(reports);
   std::vector<SeamTable> tables(reports.size());
   std::vector<Array<std::int32_t>> place(reports.size());
@@ -339,8 +341,6 @@ void unite(std::vector<RegionTriangles>&& reports, Array<std::int32_t>&& triangl
     for (const Seam& seam : report.seams)
       if (seam.home == k)
         tables[static_cast<std::size_t>(k)].enter(seam, own[seam.triangle]);
-    if (mesh.points.cols() > most_sites_kept) // frees memory for the mesh's neighbours
-      report.vertices.give_back_pages();
     step(monitor);
   });
   for_each_task(regions, [&](std::int64_t k) {
@@ -349,6 +349,7 @@ void unite(std::vector<RegionTriangles>&& reports, Array<std::int32_t>&& triangl
         place[static_cast<std::size_t>(k)][seam.triangle] =
             tables[static_cast<std::size_t>(seam.home)].count(seam);
   });
+  reuse_room(mesh.neighbours, 3, count); // from here on, the reports have no vertices
   for_each_task(regions, [&](std::int64_t k) {
     RegionTriangles& report = reports[static_cast<std::size_t>(k)];
     tables[static_cast<std::size_t>(k)].require_agreement();

@@ -10,20 +10,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <fstream>
 #include <utility>
 #include <vector>
 
 using namespace calotte::base_detail;
 
 namespace {
-
-/// Number of the process's bytes that are in memory.
-std::int64_t resident() {
-  std::int64_t all = 0, pages = 0;
-  std::ifstream("/proc/self/statm") >> all >> pages;
-  return pages * sysconf(_SC_PAGESIZE);
-}
 
 Array<std::int32_t> filled(std::int64_t n, std::int32_t value) {
   Array<std::int32_t> array(n);
@@ -56,28 +48,19 @@ bool holds(const Block& block, unsigned char value) {
 
 } // namespace
 
-TEST_CASE("give_back() returns the pages of an array, and none of its neighbours") {
-  for (const std::int64_t n :
-       {0, 1, 100, 3000, 100003, 4000000, 5000000}) { // the last is larger than those of the pools
-    INFO(n, " values");
-    constexpr std::size_t count = 12;
-    std::array<Array<std::int32_t>, count> arrays;
-    for (std::size_t i = 0; i < count; ++i)
-      arrays[i] = filled(n, static_cast<std::int32_t>(i));
-    const std::int64_t before = resident();
-    for (std::size_t i = 0; i < count; i += 2)
-      give_back(arrays[i]);
-    // Half: the system counts roughly, and a sanitizer marks freed memory with an eighth of its
-    // size.
-    if (n >= 4000000)
-      CHECK(before - resident() >= static_cast<std::int64_t>(count / 2) * n * 2);
-    for (std::size_t i = 0; i < count; ++i)
-      if (i % 2 == 0)
-        CHECK(arrays[i].size() == 0);
-      else
-        CHECK(holds(arrays[i], static_cast<std::int32_t>(i)));
-    CHECK(holds(filled(n, 7), 7));
+TEST_CASE("an array in memory of another owner leaves it to that") {
+  Array<std::int32_t> owner = filled(100, 5);
+  {
+    Array<std::int32_t> middle = Array<std::int32_t>::in(&owner[40], 20);
+    CHECK(middle.size() == 20);
+    CHECK(holds(middle, 5));
+    std::fill(middle.begin(), middle.end(), 6);
+    const Array<std::int32_t> moved = std::move(middle);
+    CHECK(middle.size() == 0);
+    CHECK(moved.begin() == &owner[40]);
   }
+  for (std::int64_t i = 0; i < owner.size(); ++i)
+    CHECK(owner[i] == (i >= 40 && i < 60 ? 6 : 5));
 }
 
 #ifdef __linux__
@@ -105,7 +88,7 @@ TEST_CASE("an array that was moved from is empty") {
   const Array<std::int32_t> to = std::move(from);
   CHECK(to.size() == 100);
   CHECK(from.size() == 0);
-  give_back(from);
+  from = {};
   CHECK(holds(to, 5));
 }
 

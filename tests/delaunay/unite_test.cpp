@@ -6,7 +6,12 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <array>
+#include <cstdint>
 #include <numeric>
+#include <utility>
+#include <vector>
 
 using namespace calotte;
 using namespace calotte::delaunay_detail;
@@ -21,8 +26,9 @@ std::int32_t owner_of(std::int32_t site) { return site % 2; }
 /// The first faces of a tetrahedron in the report of one of two regions. All are seam triangles of
 /// both regions; three have their lowest site in the first region, one in the second.
 RegionTriangles report_of(std::int32_t region, std::int32_t count = 4) {
-  RegionTriangles out{LocalTriples(count, 4),
-                      LocalTriples(count, count),
+  ReportMemory own;
+  RegionTriangles out{LocalTriples(count, 4, own),
+                      LocalTriples(count, count, own),
                       Array<std::int32_t>(4),
                       Array<std::int32_t>(count),
                       {}};
@@ -73,11 +79,31 @@ bool is_internal_error(RegionTriangles first, RegionTriangles second) {
 
 } // namespace
 
+TEST_CASE("arrays of the reports' memory do not overlap; those that do not fit have their own") {
+  ReportMemory memory(1000); // 24 000 bytes
+  std::vector<Array<std::int32_t>> arrays;
+  for (std::int32_t k = 0; k < 12; ++k) {
+    arrays.push_back(memory.array<std::int32_t>(700 - k));
+    std::fill(arrays.back().begin(), arrays.back().end(), k);
+  }
+  for (std::int32_t k = 0; k < 12; ++k) {
+    const Array<std::int32_t>& array = arrays[static_cast<std::size_t>(k)];
+    CHECK(array.size() == 700 - k);
+    CHECK(std::count(array.begin(), array.end(), k) == array.size());
+  }
+  const Triangles taken = std::move(memory).take();
+  const auto inside = [&](const Array<std::int32_t>& array) {
+    return array.begin() >= taken.data() && array.end() <= taken.data() + taken.size();
+  };
+  CHECK(std::count_if(arrays.begin(), arrays.end(), inside) == 8);
+}
+
 TEST_CASE("triples of local numbers come back, in 16 bits and in 32") {
   for (const std::int64_t numbers : {4, 65535, 65536, 1 << 30}) {
     CAPTURE(numbers);
     const auto most = static_cast<std::int32_t>(numbers - 1);
-    LocalTriples triples(2, numbers);
+    ReportMemory own;
+    LocalTriples triples(2, numbers, own);
     triples.set(0, {0, most, -1});
     triples.set(1, {-1, 1, most});
     CHECK(triples.size() == 2);
