@@ -185,11 +185,8 @@ std::optional<Reports> triangulate_caps(const Sites& sites, Regions& regions,
 }
 
 Mesh make_mesh(Sites&& sites, Reports&& reports, Monitor* monitor = nullptr) {
-  Mesh mesh;
-  mesh.points = std::move(sites.points);
-  mesh.site_of_input = std::move(sites.site_of_input);
-  mesh.triangles = std::move(sites.memory);
-  mesh.neighbours = std::move(reports.memory).take();
+  Mesh mesh{std::move(sites.points), std::move(sites.memory), std::move(reports.memory).take(),
+            std::move(sites.site_of_input)};
   sites = {}; // frees what is left of the sites
   unite(std::move(reports.regions), std::move(reports.triangles_of), mesh, monitor);
   return mesh;
