@@ -71,6 +71,7 @@ int get_some(int id, int variable, const std::size_t* start, const std::size_t* 
 
 /// \throws Error parse or file, unless the C library read the variable.
 void require_read(const NetcdfReader& file, const std::string& name, int code) {
+  file.require_whole();
   require_system(file.path(), code);
   if (code == NC_ECHAR)
     file.fail(name + " is text, not numbers; make the file again");
@@ -78,6 +79,13 @@ void require_read(const NetcdfReader& file, const std::string& name, int code) {
     file.fail(name + " has a number out of range; make the file again");
   if (code != NC_NOERR)
     file.fail(name + " cannot be read (" + nc_strerror(code) + "); make the file again");
+}
+
+/// The size of a file; 0 if it has none.
+std::uintmax_t bytes_of(const std::string& path) {
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  return error ? 0 : size;
 }
 
 /// All values of a variable whose shape is that. \throws Error parse.
@@ -90,9 +98,8 @@ std::vector<T> get_values(const NetcdfReader& file, int id, const std::string& n
       file.fail(name + " is too large; make the file again");
   // What deflate can reach, for a file that stores something of each value.
   constexpr std::int64_t most_compressed = 1032, least = std::int64_t{1} << 24;
-  std::error_code error; // a size of -1
-  const auto size = static_cast<std::int64_t>(std::filesystem::file_size(file.path(), error));
-  if (!error && count > least && count / most_compressed > size / std::int64_t{sizeof(T)})
+  const auto size = static_cast<std::int64_t>(bytes_of(file.path()));
+  if (size > 0 && count > least && count / most_compressed > size / std::int64_t{sizeof(T)})
     file.fail(name + " has more values than a file of its size can hold; make the file again");
   std::vector<T> values;
   try {
@@ -118,6 +125,7 @@ std::int32_t to_int(const NetcdfReader& file, const std::string& name, double va
 
 NetcdfReader::NetcdfReader(const std::string& path) : path_(path) {
   open_input(path); // says why it cannot be read
+  size_ = bytes_of(path);
   if (const std::string cut = first_cut(path); !cut.empty())
     fail("it is cut short: " + cut + " is incomplete; make it again");
   const std::lock_guard lock(netcdf_mutex());
@@ -313,6 +321,11 @@ void NetcdfReader::rows(const std::string& variable, std::int64_t first, std::in
   get_rows(variable, first, count, values.data());
   std::transform(values.begin(), values.end(), out,
                  [&](double value) { return to_int(*this, variable, value); });
+}
+
+void NetcdfReader::require_whole() const {
+  if (bytes_of(path_) < size_)
+    fail("it was cut short while it was read; make it again");
 }
 
 void NetcdfReader::fail(const std::string& problem) const {

@@ -50,6 +50,9 @@ public:
   void rows(const std::string& variable, std::int64_t first, std::int64_t count,
             std::int32_t* out) const;
 
+  /// \throws Error parse if the file is smaller than when it was opened: the C library reads zeros
+  /// where it ends.
+  void require_whole() const;
   const std::string& path() const { return path_; }
   [[noreturn]] void fail(const std::string& problem) const; ///< parse, "PATH: problem"
 
@@ -64,6 +67,7 @@ private:
   std::vector<int> dimension_ids(const std::string& variable) const;
 
   std::string path_;
+  std::uintmax_t size_ = 0; ///< bytes when it was opened
   int id_ = -1;
 };
 

@@ -497,3 +497,26 @@ TEST_CASE("a variable that is not as it should be is named") {
         path + ": fraction has a number that is not a 32-bit integer; make the file again");
   CHECK(message("text", {3}) == path + ": text is text, not numbers; make the file again");
 }
+
+TEST_CASE("a file that is cut while it is read is refused") {
+  const Scratch scratch;
+  const std::string path = scratch / "a.nc";
+  write_sample(path);
+  const std::string whole = read_file(path);
+  for (const std::size_t size : {whole.size() - 1, whole.size() / 2, std::size_t{0}}) {
+    CAPTURE(size);
+    calotte::write_file(path, whole);
+    const NetcdfReader file(path);
+    REQUIRE(file.doubles("doubles", {rows}).size() == rows);
+    fs::resize_file(path, size);
+    const auto check_refused = [&](const auto& read) {
+      const Error error = error_of(read);
+      CHECK(error.code() == ErrorCode::parse);
+      CHECK(error.what() == path + ": it was cut short while it was read; make it again");
+    };
+    std::vector<double> values(3 * 3 * rows);
+    check_refused([&] { file.doubles("cube", {3, 3, rows}); });
+    check_refused([&] { file.ints("ids", {rows, 3}); });
+    check_refused([&] { file.rows("cube", 2, 1, values.data()); });
+  }
+}
