@@ -9,6 +9,7 @@
 
 #include <atomic>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <iostream>
@@ -27,6 +28,8 @@ void complain(std::string message) {
       c = ' ';
   std::cerr << "calotte: " + message + "\n";
 }
+
+constexpr const char* no_memory = "not enough memory; try fewer points";
 
 ExitCode exit_code(ErrorCode code) {
   switch (code) {
@@ -112,7 +115,7 @@ ExitCode guarded_run(CLI::App& app, int argc, char** argv) {
     complain((bug ? "internal error, please report it: " : "") + with_option(error.what()));
     return exit_code(error.code());
   } catch (const std::bad_alloc&) {
-    complain("not enough memory; try fewer points");
+    complain(no_memory);
     return internal_error;
   } catch (const std::exception& error) {
     complain("internal error, please report it: " + std::string(error.what()));
@@ -134,6 +137,22 @@ void keep_reserve() {
   std::set_new_handler(handle_no_memory);
 }
 
+std::terminate_handler terminate_otherwise = nullptr;
+
+/// Memory can end in a function that may not throw: CLI11 finds options in such ones.
+[[noreturn]] void terminate() {
+  try {
+    if (const std::exception_ptr error = std::current_exception())
+      std::rethrow_exception(error);
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "calotte: %s\n", no_memory);
+    std::_Exit(internal_error);
+  } catch (...) { // a bug: as without this handler
+  }
+  terminate_otherwise();
+  std::abort();
+}
+
 } // namespace
 } // namespace calotte::tools
 
@@ -142,6 +161,7 @@ int main(int argc, char** argv) try {
   // Makes a file larger than the limit an error like a full disk, instead of a fatal signal.
   std::signal(SIGXFSZ, SIG_IGN);
   keep_reserve();
+  terminate_otherwise = std::set_terminate(calotte::tools::terminate);
   std::ios::sync_with_stdio(false);
   CLI::App app("Computes exact Delaunay triangulations and centroidal Voronoi tessellations (CVTs) "
                "of the sphere and the plane, in parallel.",
