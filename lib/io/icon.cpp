@@ -57,6 +57,7 @@ Soup read_icon(const NetcdfReader& file, FieldChoice choice) {
   for (int i = 0; i < 3; ++i)
     soup.triangles.row(i) = Eigen::Map<const Eigen::Matrix<std::int32_t, 1, Eigen::Dynamic>>(
                                 ids.data() + i * cells, cells)
+                                .cwiseMax(0) // one below 1 becomes -1, which is refused
                                 .array() -
                             1;
   read_fields(file, icon_names, choice, soup);

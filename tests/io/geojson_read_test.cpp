@@ -5,6 +5,7 @@
 #include <calotte/delaunay.h>
 #include <calotte/generators.h>
 #include <calotte/mesh_file.h>
+#include <calotte/read.h>
 
 #include <Eigen/Geometry>
 
@@ -264,4 +265,61 @@ TEST_CASE("shapes in a plane: the corners of an L, its notch and its centroid") 
   CHECK(calotte::shapes(cell).off_centring < 1e-15);
   cell.centres(0, 0) += 0.1 * std::sqrt(3.0);
   CHECK(calotte::shapes(cell).off_centring == doctest::Approx(0.1));
+}
+
+TEST_CASE("lines: features, collections and single geometries") {
+  const Scratch scratch;
+  const std::string path = scratch / "a.geojson";
+  const auto read = [&](const std::string& text) {
+    calotte::write_file(path, text);
+    return calotte::read_lines(path);
+  };
+  const std::string one = R"({"type":"LineString","coordinates":[[0,0],[90,0],[0,90]]})";
+  const std::string two =
+      R"({"type":"MultiLineString","coordinates":[[[180,0,7]],[[-90,0],[270,0]]]})";
+  const auto feature = [](const std::string& geometry) {
+    return R"({"type":"Feature","properties":{},"geometry":)" + geometry + "}";
+  };
+  const Points3 corner = Points3::Identity(3, 3);
+  const std::vector<Points3> alone = read(one);
+  REQUIRE(alone.size() == 1);
+  CHECK((alone[0] - corner).cwiseAbs().maxCoeff() < 1e-15);
+
+  const std::string both = one + "," + two;
+  for (const std::string& text :
+       {collection({feature(one), feature(two)}),
+        collection({feature(R"({"type":"GeometryCollection","geometries":[)" + both + "]}")})}) {
+    const std::vector<Points3> lines = read(text);
+    REQUIRE(lines.size() == 3);
+    CHECK((lines[0] - corner).cwiseAbs().maxCoeff() < 1e-15);
+    CHECK((lines[1] - Eigen::Vector3d(-1, 0, 0)).norm() < 1e-15);
+    REQUIRE(lines[2].cols() == 2);
+    CHECK((lines[2].col(0) - lines[2].col(1)).norm() < 1e-15);
+  }
+}
+
+TEST_CASE("lines that are refused, by their feature") {
+  const Scratch scratch;
+  const std::string path = scratch / "a.geojson";
+  const auto message = [&](const std::string& text) {
+    calotte::write_file(path, text);
+    const calotte::Error error = error_of([&] { calotte::read_lines(path); });
+    CHECK(error.code() == ErrorCode::parse);
+    return std::string(error.what()).substr(path.size() + 2);
+  };
+  const auto line = [](const std::string& places) {
+    return R"({"type":"Feature","geometry":{"type":"LineString","coordinates":)" + places + "}}";
+  };
+  const std::string good = line("[[0,0],[1,1]]");
+  CHECK(message(collection({})) == "no lines; give LineString or MultiLineString geometries");
+  CHECK(message(collection({good, line("[]")})) ==
+        "feature 1: a line without places; leave it out");
+  CHECK(message(collection({good, line("[[0,0],[1,91]]")})) ==
+        "feature 1: [1,91] is no position [longitude, latitude]; give degrees");
+  CHECK(message(line("[[\"0\",0]]")) ==
+        "[\"0\",0] is no position [longitude, latitude]; give degrees");
+  CHECK(message(line("7")) == "no array \"coordinates\"; give GeoJSON as RFC 7946 has it");
+  CHECK(message(R"({"type":"Point","coordinates":[0,0]})") ==
+        "an object of the type \"Point\" is no line; give LineString or MultiLineString");
+  CHECK(message("[]") == "no GeoJSON object; give features or a geometry");
 }

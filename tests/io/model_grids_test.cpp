@@ -644,6 +644,50 @@ TEST_CASE("UGRID of others") {
   }
 }
 
+TEST_CASE("ICON's triangles, with their vertices in radians") {
+  const Scratch scratch;
+  const std::string path = scratch / "a.nc";
+  const Mesh mesh = spherical_delaunay(random_sphere(30));
+  const auto write_icon = [&](std::int32_t first) {
+    io_detail::NetcdfWriter file(path);
+    using Fill = io_detail::NetcdfWriter::Fill<double>;
+    const int vertex = file.dimension("vertex", mesh.points.cols()),
+              cell = file.dimension("cell", mesh.triangles.cols()),
+              corner = file.dimension("nv", 3);
+    const io_detail::NetcdfAttributes radian{{"units", std::string("radian")}};
+    const int longitudes = file.variable("vlon", io_detail::NetcdfType::float64, {vertex}, radian);
+    const int latitudes = file.variable("vlat", io_detail::NetcdfType::float64, {vertex}, radian);
+    const int ids =
+        file.variable("vertex_of_cell", io_detail::NetcdfType::int32, {corner, cell}, {});
+    file.begin();
+    file.put(longitudes, Fill([&](std::int64_t begin, std::int64_t end, double* out) {
+               for (auto i = begin; i < end; ++i)
+                 *out++ = std::atan2(mesh.points(1, i), mesh.points(0, i));
+             }));
+    file.put(latitudes, Fill([&](std::int64_t begin, std::int64_t end, double* out) {
+               for (auto i = begin; i < end; ++i)
+                 *out++ = std::atan2(mesh.points(2, i),
+                                     std::hypot(mesh.points(0, i), mesh.points(1, i)));
+             }));
+    file.put(ids, io_detail::NetcdfWriter::Fill<std::int32_t>(
+                      [&](std::int64_t begin, std::int64_t end, std::int32_t* out) {
+                        for (auto row = begin; row < end; ++row)
+                          for (std::int64_t t = 0; t < mesh.triangles.cols(); ++t)
+                            *out++ = row == 0 && t == 0 ? first : mesh.triangles(row, t) + 1;
+                      }));
+    file.commit();
+  };
+  write_icon(mesh.triangles(0, 0) + 1);
+  const Mesh read = read_mesh(path);
+  CHECK((read.points - mesh.points).cwiseAbs().maxCoeff() < 2e-15);
+  CHECK(test::same_bits(read.triangles, mesh.triangles));
+  for (const std::int32_t id : {std::numeric_limits<std::int32_t>::min(), -1, 0, 31}) {
+    CAPTURE(id);
+    write_icon(id);
+    CHECK_THROWS_AS(read_mesh(path), Error);
+  }
+}
+
 TEST_CASE("bad UGRID files end in one line") {
   const Scratch scratch;
   const Mesh mesh = spherical_delaunay(random_sphere(30));
