@@ -37,7 +37,8 @@ FORMATS = {"mpas": "o.nc", "mpas-minimal": "o.nc", "ugrid": "o.nc", "ugrid-trian
 
 
 def call(arguments, folder, fault=None):
-    """Runs the command; returns its exit code (None if it hangs), standard error and count of calls."""
+    """Runs the command; returns its exit code (None if it hangs), standard error and count of calls, None
+    if it did not return from main()."""
     limit = None
     environment = dict(os.environ, CALOTTE_LOG_AFTER="1e9")
     if fault and fault[0] == "full disk":
@@ -52,8 +53,8 @@ def call(arguments, folder, fault=None):
         result = subprocess.run([CALOTTE, *arguments], cwd=folder, env=environment, capture_output=True, check=False,
                                 timeout=TIMEOUT, preexec_fn=limit)
     except subprocess.TimeoutExpired:
-        return None, "", 0
-    calls = 0
+        return None, "", None
+    calls = None
     if fault and os.path.exists(fault[2]):
         with open(fault[2], encoding="ascii") as file:
             calls = int(file.read() or 0)
@@ -171,7 +172,7 @@ def sweep(command, kind):
     for at in numbers(command, kind):
         calls, code, lines = command.attempt(kind, at)
         wrong += lines
-        if code is not None and code >= 0 and calls < at:
+        if calls is not None and calls < at:
             return codes, wrong  # no fault was met
         codes[code] = codes.get(code, 0) + 1
 
