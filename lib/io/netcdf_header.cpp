@@ -11,10 +11,8 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <filesystem>
 #include <fstream>
 #include <set>
-#include <system_error>
 
 namespace calotte::io_detail {
 namespace {
@@ -40,9 +38,8 @@ struct Shape {
 /// Reads the header of a classic file from its first byte on.
 class HeaderWalk {
 public:
-  explicit HeaderWalk(const std::string& path) : path_(path), in_(open_input(path)) {
-    std::error_code error; // a size of -1
-    size_ = static_cast<std::int64_t>(std::filesystem::file_size(path, error));
+  explicit HeaderWalk(const std::string& path)
+      : path_(path), in_(open_input(path)), size_(static_cast<std::int64_t>(bytes_left(in_))) {
     char magic[4] = {};
     read_some(in_, magic, sizeof magic, path_);
     position_ = sizeof magic;

@@ -12,10 +12,8 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
-#include <filesystem>
 #include <limits>
 #include <mutex>
-#include <system_error>
 
 namespace calotte::io_detail {
 namespace {
@@ -41,12 +39,10 @@ std::string name_of(int id, int variable) {
 /// The C library reads zeros where a classic file ends early, and can crash on a damaged header.
 /// \returns the variable that the file does not hold as a whole, "" where it holds all.
 /// \throws Error parse for a damaged header.
-std::string first_cut(const std::string& path) {
+std::string first_cut(const std::string& path, std::int64_t size) {
   if (!is_classic_netcdf(path))
     return "";
   const NetcdfLayout layout = classic_layout(path);
-  std::error_code error; // a size of -1
-  const auto size = static_cast<std::int64_t>(std::filesystem::file_size(path, error));
   for (const NetcdfExtent& extent : layout.variables)
     if (extent.begin < layout.header || extent.end > size)
       return extent.name;
@@ -81,13 +77,6 @@ void require_read(const NetcdfReader& file, const std::string& name, int code) {
     file.fail(name + " cannot be read (" + nc_strerror(code) + "); make the file again");
 }
 
-/// The size of a file; 0 if it has none.
-std::uintmax_t bytes_of(const std::string& path) {
-  std::error_code error;
-  const std::uintmax_t size = std::filesystem::file_size(path, error);
-  return error ? 0 : size;
-}
-
 /// All values of a variable whose shape is that. \throws Error parse.
 template <class T>
 std::vector<T> get_values(const NetcdfReader& file, int id, const std::string& name,
@@ -98,8 +87,7 @@ std::vector<T> get_values(const NetcdfReader& file, int id, const std::string& n
       file.fail(name + " is too large; make the file again");
   // What deflate can reach, for a file that stores something of each value.
   constexpr std::int64_t most_compressed = 1032, least = std::int64_t{1} << 24;
-  const auto size = static_cast<std::int64_t>(bytes_of(file.path()));
-  if (size > 0 && count > least && count / most_compressed > size / std::int64_t{sizeof(T)})
+  if (count > least && count / most_compressed > file.size() / std::int64_t{sizeof(T)})
     file.fail(name + " has more values than a file of its size can hold; make the file again");
   std::vector<T> values;
   try {
@@ -123,10 +111,9 @@ std::int32_t to_int(const NetcdfReader& file, const std::string& name, double va
 
 } // namespace
 
-NetcdfReader::NetcdfReader(const std::string& path) : path_(path) {
-  open_input(path); // says why it cannot be read
-  size_ = bytes_of(path);
-  if (const std::string cut = first_cut(path); !cut.empty())
+NetcdfReader::NetcdfReader(const std::string& path)
+    : path_(path), in_(open_input(path)), size_(static_cast<std::int64_t>(bytes_left(in_))) {
+  if (const std::string cut = first_cut(path, size_); !cut.empty())
     fail("it is cut short: " + cut + " is incomplete; make it again");
   const std::lock_guard lock(netcdf_mutex());
   const int code = nc_open(netcdf_path(path).c_str(), NC_NOWRITE, &id_);
@@ -324,8 +311,8 @@ void NetcdfReader::rows(const std::string& variable, std::int64_t first, std::in
 }
 
 void NetcdfReader::require_whole() const {
-  if (bytes_of(path_) < size_)
-    fail("it was cut short while it was read; make it again");
+  in_.seekg(0);
+  io_detail::require_whole(bytes_left(in_), static_cast<std::size_t>(size_), path_);
 }
 
 void NetcdfReader::fail(const std::string& problem) const {

@@ -4,6 +4,7 @@
 #include "io/room.h"
 
 #include <cstdint>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -50,9 +51,11 @@ public:
   void rows(const std::string& variable, std::int64_t first, std::int64_t count,
             std::int32_t* out) const;
 
-  /// \throws Error parse if the file is smaller than when it was opened: the C library reads zeros
-  /// where it ends.
+  /// \throws Error file if the file is smaller than when it was opened: the C library reads zeros
+  /// where it ends. \pre the caller locks netcdf_mutex().
   void require_whole() const;
+
+  std::int64_t size() const { return size_; } ///< bytes when it was opened
   const std::string& path() const { return path_; }
   [[noreturn]] void fail(const std::string& problem) const; ///< parse, "PATH: problem"
 
@@ -67,7 +70,8 @@ private:
   std::vector<int> dimension_ids(const std::string& variable) const;
 
   std::string path_;
-  std::uintmax_t size_ = 0; ///< bytes when it was opened
+  mutable std::ifstream in_; ///< only to watch the size; the file's name may be gone
+  std::int64_t size_ = 0;
   int id_ = -1;
 };
 
