@@ -79,9 +79,7 @@ Triangles read_elements(const std::string& path, std::int64_t nodes) {
     std::array<std::int64_t, 3> row{};
     take(reader, line, 3, row.data(),
          "element " + std::to_string(t + 1) + " of " + std::to_string(count));
-    for (std::int64_t& id : row)
-      --id;
-    parse_ids(reader, row.data(), nodes, ids);
+    parse_ids(reader, row.data(), nodes, ids, 1);
   }
   return Eigen::Map<const Triangles>(ids.data(), 3, count);
 }

@@ -110,9 +110,10 @@ Polygons read_esmf_cells(const NetcdfReader& file, const Points3& centres);
 Points3 read_esmf_centres(const NetcdfReader& file); ///< none where the file has none
 Soup read_mpi_scvt(const std::string& path);
 
-/// Three ids, each 0 <= id < points, from one line of text. \throws Error parse.
+/// Appends three ids of one line of text, which count from `first` there and from 0 in `triangles`.
+/// \throws Error parse for an id that is not one of the points.
 void parse_ids(const LineReader& reader, const std::int64_t* ids, std::int64_t points,
-               std::vector<std::int32_t>& triangles);
+               std::vector<std::int32_t>& triangles, std::int64_t first = 0);
 
 /// An array's bytes.
 template <class T> std::string_view bytes_of(const T* data, Eigen::Index count) {

@@ -469,6 +469,13 @@ TEST_CASE("Exodus holds cells of any shape, and FESOM the triangles of open and 
   write_text(scratch / "nod2d.out", "2\n1 0 0 0\n3 90 0 0\n");
   CHECK(std::string(error_of([&] { calotte::read_mesh_file(scratch / "nod2d.out"); }).what())
             .find("line 3: node 2 has another id") != std::string::npos);
+  write_text(scratch / "nod2d.out", "3\n1 0 0 0\n2 90 0 0\n3 0 90 0\n");
+  for (const std::string id : {"0", "4", "-9223372036854775808"}) {
+    write_text(scratch / "elem2d.out", "1\n1 2 " + id + "\n");
+    CHECK(std::string(error_of([&] { calotte::read_mesh_file(scratch / "nod2d.out"); }).what())
+              .find("id " + id + " is not one of the 3 points; ids count from 1") !=
+          std::string::npos);
+  }
 }
 
 TEST_CASE("JIGSAW's longitudes and latitudes stand on the sphere of the file's radius") {
