@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <fstream>
 #include <string>
 
@@ -10,10 +11,12 @@
 
 namespace calotte::fuzz {
 
-/// Writes an input to a file in memory, one for each process. \returns its path.
+/// Writes an input to a file in memory, in a folder for each process. \returns its path.
 inline std::string scratch_file(const std::string& name, const std::uint8_t* data,
                                 std::size_t size) {
-  const std::string path = "/dev/shm/calotte-fuzz-" + std::to_string(::getpid()) + "-" + name;
+  const std::string folder = "/dev/shm/calotte-fuzz-" + std::to_string(::getpid());
+  std::filesystem::create_directory(folder);
+  const std::string path = folder + "/" + name;
   std::ofstream(path, std::ios::binary)
       .write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
   return path;

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh_laws.h"
+#include "scratch_file.h"
+
+#include <calotte/error.h>
+#include <calotte/mesh_file.h>
+#include <calotte/read.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+using namespace calotte;
+
+namespace {
+
+/// Writes the input's parts, which % separates, to files beside each other; the others are empty.
+/// \returns the path of the first.
+std::string write_parts(const std::array<const char*, 3>& names, const std::uint8_t* data,
+                        std::size_t size) {
+  std::string first;
+  const std::uint8_t* const end = data + size;
+  for (const char* name : names) {
+    const std::uint8_t* stop = std::find(data, end, '%');
+    const std::string path = fuzz::scratch_file(name, data, static_cast<std::size_t>(stop - data));
+    first = first.empty() ? path : first;
+    data = std::min(stop + 1, end);
+  }
+  return first;
+}
+
+} // namespace
+
+/// Meshes in several files of text. The first byte selects FESOM, MPI-SCVT, or points with .tri.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size == 0)
+    return 0;
+  try {
+    if (data[0] % 3 == 0) {
+      fuzz::require_sound(
+          read_mesh_file(write_parts({"nod2d.out", "elem2d.out", "unused"}, data + 1, size - 1)));
+    } else if (data[0] % 3 == 1) {
+      fuzz::require_sound(read_mesh_file(
+          write_parts({"SaveVertices", "SaveTriangles", "SaveDensity"}, data + 1, size - 1)));
+    } else {
+      const std::string points = write_parts({"a.txt", "a.tri", "unused"}, data + 1, size - 1);
+      const Points3 sites = read_points(points);
+      fuzz::require_sound(read_mesh_file(points.substr(0, points.size() - 3) + "tri", &sites));
+    }
+  } catch (const Error& error) {
+    fuzz::require(error.code() != ErrorCode::internal);
+  }
+  return 0;
+}
