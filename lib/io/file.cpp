@@ -298,7 +298,8 @@ void read_some(std::istream& in, char* bytes, std::int64_t size, const std::stri
     throw Error(ErrorCode::file, "cannot read " + name + ": the disk or the network failed");
 }
 
-std::string read_all(std::istream& in, const std::string& name) {
+std::string read_all(std::istream& in, const std::string& name,
+                     const std::function<void(std::string_view)>& check_start) {
   constexpr std::size_t chunk = std::size_t{1} << 20;
   std::string bytes;
   const std::size_t at_first = bytes_left(in);
@@ -308,7 +309,10 @@ std::string read_all(std::istream& in, const std::string& name) {
     if (bytes.size() - size < chunk)
       bytes.resize(std::max({2 * bytes.size(), bytes.capacity(), chunk}));
     read_some(in, bytes.data() + size, static_cast<std::int64_t>(bytes.size() - size), name);
+    const bool first = size == 0;
     size += static_cast<std::size_t>(in.gcount());
+    if (first && check_start)
+      check_start({bytes.data(), size});
   } while (in);
   require_whole(size, at_first, name);
   bytes.resize(size);

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <fstream>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -137,6 +138,9 @@ void require_whole(std::size_t read, std::size_t at_first, const std::string& na
 void read_some(std::istream& in, char* bytes, std::int64_t size, const std::string& name);
 
 /// The rest of a stream. \throws Error file.
-std::string read_all(std::istream& in, const std::string& name);
+/// \param check_start throws if the first bytes, up to a MiB of them, are of another format: then
+/// the rest takes no time and memory.
+std::string read_all(std::istream& in, const std::string& name,
+                     const std::function<void(std::string_view)>& check_start = {});
 
 } // namespace calotte::io_detail

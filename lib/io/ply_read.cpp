@@ -102,6 +102,12 @@ Property property_of(std::string_view words, const std::string& name) {
   return property;
 }
 
+/// \throws Error parse for a file that starts as no .ply file does.
+void require_ply(std::string_view start, const std::string& name) {
+  if (take_word(start) != "ply")
+    fail(name, "it does not start with the line \"ply\", so it is no .ply file");
+}
+
 /// Takes the head, up to the end of its last line, from the file's contents.
 Head take_head(std::string_view& content, const std::string& name) {
   constexpr int most_lines = 100'000; // so that memory stays in proportion to the file
@@ -111,8 +117,6 @@ Head take_head(std::string_view& content, const std::string& name) {
     const std::size_t end = content.find('\n');
     std::string_view line = content.substr(0, end);
     const std::string_view keyword = take_word(line);
-    if (first && keyword != "ply")
-      fail(name, "it does not start with the line \"ply\", so it is no .ply file");
     if (end == std::string_view::npos)
       fail(name, "its head has no end_header" + again);
     content.remove_prefix(end + 1);
@@ -278,7 +282,7 @@ void skip_rows(const Element& element, Body& body, Surface& surface) {
 } // namespace
 
 Soup get_ply(std::istream& in, const std::string& name) {
-  const std::string content = read_all(in, name);
+  const std::string content = read_all(in, name, [&](auto start) { require_ply(start, name); });
   std::string_view rest = content;
   const Head head = take_head(rest, name);
   Body body(rest, head, name);

@@ -51,10 +51,15 @@ std::optional<char> hex_value(std::string_view digits) {
 
 } // namespace
 
+void require_legacy_vtk(std::string_view start, const std::string& name) {
+  if (!start.starts_with("# vtk DataFile Version "))
+    throw Error(ErrorCode::parse, name +
+                                      ": it does not start with \"# vtk DataFile Version\", so it "
+                                      "is no legacy VTK file");
+}
+
 LegacyText::LegacyText(std::string_view content, std::string name)
     : rest_(content), name_(std::move(name)) {
-  if (!rest_.starts_with("# vtk DataFile Version "))
-    fail("it does not start with \"# vtk DataFile Version\", so it is no legacy VTK file");
   line();
   line(); // the title
   const std::string_view encoding = word();

@@ -15,9 +15,13 @@
 /// the most significant one first.
 namespace calotte::io_detail {
 
+/// \throws Error parse for a file that starts as no legacy VTK file does.
+void require_legacy_vtk(std::string_view start, const std::string& name);
+
 class LegacyText {
 public:
   /// Reads the head up to the word after ASCII or BINARY. \throws Error parse.
+  /// \pre require_legacy_vtk()
   LegacyText(std::string_view content, std::string name);
 
   const std::string& name() const { return name_; } ///< of the file

@@ -294,7 +294,8 @@ private:
 } // namespace
 
 Soup get_vtk_legacy(std::istream& in, const std::string& name) {
-  const std::string content = read_all(in, name);
+  const std::string content =
+      read_all(in, name, [&](auto start) { require_legacy_vtk(start, name); });
   return soup_of(name, Reader(content, name).read());
 }
 

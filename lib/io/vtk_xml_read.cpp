@@ -30,6 +30,12 @@ struct Parts {
   std::optional<std::string_view> appended;
 };
 
+/// \throws Error parse for a file that starts as no file of XML does.
+void require_xml(std::string_view start, const std::string& name) {
+  if (start.find('<') == std::string_view::npos)
+    fail(name, "it does not start with XML, so it is no VTK file of XML" + again);
+}
+
 Parts parts_of(std::string_view content, const std::string& name) {
   constexpr std::string_view start_tag = "<AppendedData", end_tag = "</AppendedData>";
   const std::size_t tag = content.find(start_tag);
@@ -251,7 +257,7 @@ void ignore_field_data(const VtkFile& file, Surface& surface) {
 } // namespace
 
 Soup get_vtk_xml(std::istream& in, const std::string& name) {
-  const std::string content = read_all(in, name);
+  const std::string content = read_all(in, name, [&](auto start) { require_xml(start, name); });
   const VtkFile file = file_of(content, name);
   const XmlElement& piece = piece_of(file);
   const Counts counts = counts_of(file, piece);

@@ -252,7 +252,8 @@ TEST_CASE("VTK: what is not read is refused by name") {
       {replaced(poly, "Float64", "String"), "\"Points\": its type \"String\""},
       {replaced(poly, "Components=\"3\"", "Components=\"2\""), "\"Points\": its NumberOfComp"},
       {replaced(poly, "\"connectivity\"", "\"connect\""), "\"connectivity\": it is not among"},
-      {replaced(poly, "<Polys>", "<Poly>"), "not well-formed at line"}};
+      {replaced(poly, "<Polys>", "<Poly>"), "not well-formed at line"},
+      {"1 2 3", "it does not start with XML"}};
   for (const auto& [text, part] : cases) {
     CAPTURE(part);
     CHECK(problem_of(scratch / "mesh.vtp", text).find(part) != std::string::npos);
