@@ -301,19 +301,22 @@ void read_some(std::istream& in, char* bytes, std::int64_t size, const std::stri
 std::string read_all(std::istream& in, const std::string& name,
                      const std::function<void(std::string_view)>& check_start) {
   constexpr std::size_t chunk = std::size_t{1} << 20;
-  std::string bytes;
   const std::size_t at_first = bytes_left(in);
-  bytes.reserve(at_first + chunk);
+  std::string bytes(chunk, '\0');
   std::size_t size = 0;
-  do {
-    if (bytes.size() - size < chunk)
-      bytes.resize(std::max({2 * bytes.size(), bytes.capacity(), chunk}));
+  const auto read_more = [&] {
     read_some(in, bytes.data() + size, static_cast<std::int64_t>(bytes.size() - size), name);
-    const bool first = size == 0;
     size += static_cast<std::size_t>(in.gcount());
-    if (first && check_start)
-      check_start({bytes.data(), size});
-  } while (in);
+  };
+  read_more();
+  if (check_start)
+    check_start({bytes.data(), size});
+  bytes.reserve(at_first + chunk);
+  while (in) {
+    if (bytes.size() - size < chunk)
+      bytes.resize(std::max(2 * bytes.size(), bytes.capacity()));
+    read_more();
+  }
   require_whole(size, at_first, name);
   bytes.resize(size);
   return bytes;
