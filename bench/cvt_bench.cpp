@@ -186,7 +186,7 @@ void print_head(std::ostream& out, const Options& options) {
       << "The start is a bisected icosahedron "
       << (natural ? "in its own order, coarse levels first: STRIPACK is faster so than on a "
                     "shuffled one.\n"
-                  : "in random order, as STRIPACK's documentation asks for; it is faster in the "
+                  : "in random order, as STRIPACK's documentation recommends; it is faster in the "
                     "natural one.\n")
       << "calotte's seconds are the median of its iterations " << warm_up + 1 << " to "
       << options.iterations << ", STRIPACK's those of iteration " << warm_up + 1

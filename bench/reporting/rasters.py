@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Rasters of cell widths on longitudes and latitudes, as grids of climate models ask for them, and
+"""Rasters of cell widths on longitudes and latitudes, as grids of climate models require them, and
 their files: NetCDF as MPAS-Tools writes it, and JIGSAW's .msh."""
 
 import math

@@ -203,7 +203,7 @@ void NetcdfSource::read_bytes(int variable, std::int64_t begin, std::int64_t siz
 }
 
 /// Gives the variable a cache for two of its chunks, so that parts of a chunk, read one after
-/// another, decompress it once. Two variables at most have one. \pre nobody else calls the library.
+/// another, decompress it once. Two variables at most have one. \pre no other call runs.
 void NetcdfSource::cache_chunks(int variable) const {
   constexpr std::size_t slots = 521, least = std::size_t{1} << 20;
   const auto known = std::find(cached_.begin(), cached_.end(), variable);

@@ -125,7 +125,7 @@ TEST_CASE("stages: insertion finds a better minimum than descents alone [slow]")
   CHECK(with > 0);
 }
 
-TEST_CASE("stages: a finish gives the shapes that models ask for [slow]") {
+TEST_CASE("stages: a finish gives the shapes that models require [slow]") {
   for (const Density& density : {x8(), ellipse(), two_bumps(), Density{}})
     for (const std::uint64_t seed : {1, 2}) {
       CAPTURE(seed);

@@ -178,8 +178,7 @@ TEST_CASE("longitude and latitude agree with the C library's to 1e-15") {
 
 // ---- The field
 
-TEST_CASE(
-    "a constant width is the uniform density and asks for the hexagons that fill the sphere") {
+TEST_CASE("a constant width is the uniform density and gives the hexagons that fill the sphere") {
   for (const double h : {30.0, 120.0, 0.1}) {
     const CellWidth width = constant(h);
     const double hexagon = std::sqrt(3) / 2 * h * h;

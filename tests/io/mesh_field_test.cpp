@@ -321,7 +321,7 @@ TEST_CASE("a periodic plane's fields at edges follow them") {
     CHECK(v[e] == value(after, e));
 }
 
-TEST_CASE("names that NetCDF refuses are replaced, and each is told") {
+TEST_CASE("names that NetCDF refuses are replaced, and each is named") {
   const Scratch scratch;
   const Mesh mesh = calotte::spherical_delaunay(octahedron());
   MeshFile file;

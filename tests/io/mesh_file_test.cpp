@@ -110,7 +110,7 @@ TEST_CASE("every format's file is read as the mesh that was written") {
     }
 }
 
-TEST_CASE("numbering: along the curve for NetCDF by default, as asked for in every format") {
+TEST_CASE("numbering: along the curve for NetCDF by default, as selected in every format") {
   const Scratch scratch;
   const Mesh mesh = calotte::spherical_delaunay(calotte::random_sphere(120, 2));
   for (const Numbering numbering : {Numbering::curve, Numbering::rcm, Numbering::input})

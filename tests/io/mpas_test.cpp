@@ -794,7 +794,7 @@ TEST_CASE("meshes that make no such file are refused") {
 
 namespace {
 
-/// A file of the icosahedron's cells whose parts are as the test wants them.
+/// A file of the icosahedron's cells whose parts the test selects.
 struct Forged {
   std::int64_t x_cells = 12, y_cells = 12, degree = 3;
   std::string kind = "YES", ids = "cellsOnVertex";

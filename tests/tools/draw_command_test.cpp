@@ -104,7 +104,8 @@ TEST_CASE("a mesh is drawn on either map, by its shapes and by what they are col
   }
 }
 
-TEST_CASE("maps show the coastlines of the earth, unless asked not to or the radius is another's") {
+TEST_CASE("maps show the coastlines of the earth, unless they are turned off or the radius is "
+          "another's") {
   const Bench bench;
   const auto picture = [&](const std::string& arguments) {
     const Outcome outcome = bench.run("draw -o a.png --size 200 " + arguments);
