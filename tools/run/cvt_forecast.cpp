@@ -160,8 +160,8 @@ std::string describe(const CvtProgress& progress, const CvtOptions& options,
     text += ", then " + std::to_string(progress.bisections_left) +
             (progress.bisections_left == 1 ? " finer level" : " finer levels");
   if (const auto left = remaining(progress, options); left && !finishes) {
-    const std::string least = duration(left->least), most = duration(left->most);
-    text += ", " + (least == most ? least : least + " to " + most) + " left";
+    const std::string from = duration(left->least), to = duration(left->most);
+    text += ", " + (from == to ? from : from + " to " + to) + " left";
   }
   return text;
 }
