@@ -298,8 +298,7 @@ void read_some(std::istream& in, char* bytes, std::int64_t size, const std::stri
     throw Error(ErrorCode::file, "cannot read " + name + ": the disk or the network failed");
 }
 
-std::string read_all(std::istream& in, const std::string& name,
-                     const std::function<void(std::string_view)>& check_start) {
+std::string read_all(std::istream& in, const std::string& name, StartCheck check_start) {
   constexpr std::size_t chunk = std::size_t{1} << 20;
   const std::size_t at_first = bytes_left(in);
   std::string bytes(chunk, '\0');
@@ -310,7 +309,7 @@ std::string read_all(std::istream& in, const std::string& name,
   };
   read_more();
   if (check_start)
-    check_start({bytes.data(), size});
+    check_start({bytes.data(), size}, name);
   bytes.reserve(at_first + chunk);
   while (in) {
     if (bytes.size() - size < chunk)

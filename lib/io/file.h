@@ -7,7 +7,6 @@
 
 #include <cstdint>
 #include <fstream>
-#include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -137,10 +136,11 @@ void require_whole(std::size_t read, std::size_t at_first, const std::string& na
 /// \throws Error file for an error of the disk; the end of the stream is none.
 void read_some(std::istream& in, char* bytes, std::int64_t size, const std::string& name);
 
+/// Throws for the first bytes of a file of another format, with the file's name.
+using StartCheck = void (*)(std::string_view start, const std::string& name);
+
 /// The rest of a stream. \throws Error file.
-/// \param check_start throws if the first bytes, up to a MiB of them, are of another format: then
-/// the rest takes no time and memory.
-std::string read_all(std::istream& in, const std::string& name,
-                     const std::function<void(std::string_view)>& check_start = {});
+/// \param check_start sees up to a MiB. If it throws, the rest has taken no time and memory.
+std::string read_all(std::istream& in, const std::string& name, StartCheck check_start = nullptr);
 
 } // namespace calotte::io_detail

@@ -282,7 +282,7 @@ void skip_rows(const Element& element, Body& body, Surface& surface) {
 } // namespace
 
 Soup get_ply(std::istream& in, const std::string& name) {
-  const std::string content = read_all(in, name, [&](auto start) { require_ply(start, name); });
+  const std::string content = read_all(in, name, require_ply);
   std::string_view rest = content;
   const Head head = take_head(rest, name);
   Body body(rest, head, name);

@@ -294,8 +294,7 @@ private:
 } // namespace
 
 Soup get_vtk_legacy(std::istream& in, const std::string& name) {
-  const std::string content =
-      read_all(in, name, [&](auto start) { require_legacy_vtk(start, name); });
+  const std::string content = read_all(in, name, require_legacy_vtk);
   return soup_of(name, Reader(content, name).read());
 }
 

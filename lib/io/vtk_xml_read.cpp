@@ -257,7 +257,7 @@ void ignore_field_data(const VtkFile& file, Surface& surface) {
 } // namespace
 
 Soup get_vtk_xml(std::istream& in, const std::string& name) {
-  const std::string content = read_all(in, name, [&](auto start) { require_xml(start, name); });
+  const std::string content = read_all(in, name, require_xml);
   const VtkFile file = file_of(content, name);
   const XmlElement& piece = piece_of(file);
   const Counts counts = counts_of(file, piece);
