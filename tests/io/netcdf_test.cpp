@@ -212,16 +212,19 @@ TEST_CASE("CDF-5 if a variable takes 4 GiB") {
   // What begin() leaves beside the place, whose values are holes.
   const Scratch scratch;
   for (const bool wide : {false, true}) {
+    // begin() reserves the space: 4 GiB, which a small disk has.
     const std::int64_t size = wide ? std::int64_t{1} << 32 : (std::int64_t{1} << 29) - 1;
+    const auto type = wide ? NetcdfType::int8 : NetcdfType::float64;
     NetcdfWriter file(scratch / "a.nc");
     const int n = file.dimension("n", size);
-    file.variable("first", NetcdfType::float64, {n});
+    file.variable("first", type, {n});
     const int scalar = file.variable("last", NetcdfType::int32, {});
     file.begin();
     file.put(scalar, NetcdfWriter::Fill<std::int32_t>([](auto, auto, auto* out) { *out = 42; }));
     REQUIRE(scratch.files() == 1);
     const std::string part = fs::directory_iterator(scratch.folder)->path();
-    CHECK(static_cast<std::int64_t>(fs::file_size(part)) > 8 * size);
+    CHECK(static_cast<std::int64_t>(fs::file_size(part)) >
+          calotte::io_detail::size_of(type) * size);
     std::ifstream in(part, std::ios::binary);
     std::string magic(4, ' ');
     in.read(magic.data(), 4);
@@ -351,7 +354,7 @@ TEST_CASE("damaged headers are read or refused, and never reach the C library un
   const auto header = static_cast<int>(calotte::io_detail::classic_layout(scratch / "a.nc").header);
   calotte::test::Random random(7);
   int refused = 0;
-  for (int i = 0; i < 3000; ++i) {
+  for (int i = 0; i < 1000; ++i) {
     std::string damaged = whole;
     for (int changes = random.integer(1, 3); changes > 0; --changes) {
       const auto at = static_cast<std::size_t>(random.integer(4, header - 1));
@@ -367,7 +370,7 @@ TEST_CASE("damaged headers are read or refused, and never reach the C library un
       ++refused;
     }
   }
-  CHECK(refused > 1000);
+  CHECK(refused > 300);
 }
 
 TEST_CASE("names that occur twice or are no UTF-8, and types that there are not, are damage") {
