@@ -6,7 +6,7 @@
 #include "options/domain_option.h"
 #include "options/mesh_source.h"
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 
 #include <memory>
 #include <optional>

@@ -148,7 +148,7 @@ std::string zsh_quoted(const std::string& text) {
 
 /// The end of a specification: what a value is called and what completes it.
 std::string zsh_values(const std::string& name, const Values& values) {
-  const std::string head = ":" + zsh_quoted(name) + ":";
+  const std::string head = std::string(":").append(zsh_quoted(name)).append(":");
   if (values.files && !values.words.empty())
     return head + "{_alternative \"words\\:word\\:(" + joined(values.words) +
            ")\" \"files\\:file\\:_files\"}";

@@ -73,7 +73,9 @@ std::string head_of(const CLI::Option& option) {
   for (const std::string& name : names_of(option))
     head += (head.empty() ? "" : ", ") + (name[0] == '-' ? bold(name) : italic(name));
   const std::string values = values_of(option);
-  return head + (values.empty() ? "" : " " + italic(values));
+  if (!values.empty())
+    head.append(" ").append(italic(values));
+  return head;
 }
 
 std::string options(const CLI::App& command) {

@@ -3,7 +3,7 @@
 
 #include <calotte/cell_width.h>
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 
 #include <cstdint>
 #include <optional>

@@ -3,7 +3,7 @@
 
 #include "options/cvt_request.h"
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 
 #include <memory>
 

@@ -6,7 +6,7 @@
 #include <calotte/density.h>
 #include <calotte/read.h>
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 
 #include <memory>
 #include <optional>

@@ -5,7 +5,7 @@
 
 #include <calotte/io.h>
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 
 #include <memory>
 #include <optional>

@@ -3,7 +3,7 @@
 
 #include <calotte/mesh_file.h>
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 
 #include <memory>
 #include <optional>

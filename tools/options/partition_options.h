@@ -3,7 +3,7 @@
 
 #include <calotte/delaunay.h>
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 
 #include <functional>
 #include <memory>

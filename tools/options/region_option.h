@@ -4,7 +4,7 @@
 #include <calotte/cell_width.h>
 #include <calotte/region.h>
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 
 #include <string>
 

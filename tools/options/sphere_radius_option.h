@@ -3,7 +3,7 @@
 
 #include "options/cell_width_option.h"
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 
 #include <optional>
 #include <string>
