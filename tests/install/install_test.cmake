@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Installs the built library and checks the installed files.
-# Called with BUILD (the library's build tree), PREFIX (where to install), TYPE (of the library's target) and NM.
+# Called with BUILD (the library's build tree) and PREFIX (where to install).
 cmake_minimum_required(VERSION 3.25)
 file(REMOVE_RECURSE ${PREFIX})
 execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD} --prefix ${PREFIX} OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
@@ -16,20 +16,6 @@ foreach(header ${headers})
     message(FATAL_ERROR "${header} shows a private dependency: ${leaks}")
   endif()
 endforeach()
-
-# Internal symbols of the rooms are not exported.
-if(TYPE STREQUAL "SHARED_LIBRARY")
-  file(GLOB_RECURSE library ${PREFIX}/*/libcalotte.so)
-  execute_process(COMMAND ${NM} -DC --defined-only ${library} OUTPUT_VARIABLE symbols COMMAND_ERROR_IS_FATAL ANY)
-  if(NOT symbols MATCHES "calotte::write\\(")
-    message(FATAL_ERROR "the shared library exports no calotte::write")
-  endif()
-  string(REGEX MATCHALL "[^\n]*calotte::[a-z]+_detail::[^\n]*" hidden "${symbols}")
-  if(hidden)
-    list(JOIN hidden "\n" hidden)
-    message(FATAL_ERROR "the shared library exports what it should hide:\n${hidden}")
-  endif()
-endif()
 
 # The command finds the library after the prefix is moved.
 if(EXISTS ${PREFIX}/bin/calotte)
