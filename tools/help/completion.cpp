@@ -148,6 +148,7 @@ std::string zsh_quoted(const std::string& text) {
 
 /// The end of a specification: what a value is called and what completes it.
 std::string zsh_values(const std::string& name, const Values& values) {
+  // g++ 12 takes ":" + text for a copy that overlaps (-Wrestrict).
   const std::string head = std::string(":").append(zsh_quoted(name)).append(":");
   if (values.files && !values.words.empty())
     return head + "{_alternative \"words\\:word\\:(" + joined(values.words) +
