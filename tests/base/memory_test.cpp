@@ -92,7 +92,7 @@ TEST_CASE("an array that was moved from is empty") {
   CHECK(holds(to, 5));
 }
 
-TEST_CASE("blocks of the pools do not overlap, within the first range and beyond it") {
+TEST_CASE("blocks of the pools do not overlap") {
   std::vector<Block> blocks;
   std::size_t bytes = 1;
   for (std::size_t total = 0; total < 200 * megabyte; total += bytes) {
