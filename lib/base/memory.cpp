@@ -10,6 +10,7 @@
 #endif
 
 namespace calotte::base_detail {
+
 void* pool_allocate(std::size_t bytes) {
 #if CALOTTE_POOLED
   return scalable_malloc(bytes);

@@ -60,10 +60,10 @@ inline void advise(void* begin, std::size_t bytes, std::size_t page, int advice)
 #endif
 
 /// Requests huge pages for fresh memory of a large array if the system lets programs choose. Random
-/// access then causes fewer TLB misses and 512 times fewer page faults. Smaller arrays stay on small
-/// pages: the host of a virtual machine takes back free memory in huge pages, and a new process then
-/// waits 2 to 4 ms for each, where small pages are often left. (Two processors of AMD EPYC, 163 842
-/// sites: 39 to 90 ms on huge pages, 36 to 57 ms on small ones.)
+/// access then causes fewer TLB misses and 512 times fewer page faults. Smaller arrays stay on
+/// small pages: the host of a virtual machine takes back free memory in huge pages, and a new
+/// process then waits 2 to 4 ms for each, where small pages are often left. (Two processors of AMD
+/// EPYC, 163 842 sites: 39 to 90 ms on huge pages, 36 to 57 ms on small ones.)
 inline void prefer_huge_pages([[maybe_unused]] void* begin, [[maybe_unused]] std::size_t bytes) {
 #ifdef __linux__
   constexpr std::size_t large = std::size_t{64} << 20;

@@ -31,6 +31,7 @@ constexpr double sites_made = 0.25, divided = 0.35, triangulated = 0.8, united =
 
 /// The results of the triangulation of regions, for the union.
 struct Reports {
+  explicit Reports(std::int64_t sites) : memory(sites), triangles_of(sites) {}
   ReportMemory memory;
   std::vector<RegionTriangles> regions;
   Array<std::int32_t> triangles_of; ///< by site, see report_triangles
@@ -59,7 +60,7 @@ template <class Space> Reports triangulate_whole(const Sites& sites, DelaunayRep
   if (!triangulation.build(members))
     refuse_degenerate(sites);
   certify_all(triangulation);
-  Reports reports{ReportMemory(sites.size()), {}, Array<std::int32_t>(sites.size())};
+  Reports reports(sites.size());
   reports.regions.push_back(report_triangles(triangulation, sites, Array<std::int32_t>(),
                                              reports.triangles_of, reports.memory));
   add(report, triangulation.space().counts());
@@ -147,7 +148,7 @@ void add_incomplete(const std::vector<CapResult>& caps, const Array<std::int32_t
 template <class Space>
 std::optional<Reports> triangulate_caps(const Sites& sites, Regions& regions,
                                         DelaunayReport& report, Monitor& monitor) {
-  Reports reports{ReportMemory(sites.size()), {}, Array<std::int32_t>(sites.size())};
+  Reports reports(sites.size());
   std::vector<CapResult> caps(regions.centres.size());
   std::vector<char> failed(caps.size(), 0);
   std::vector<std::int32_t> list = all_of(regions.centres);
