@@ -47,6 +47,9 @@ Interruption::Interruption() {
 }
 
 Interruption::~Interruption() {
+  // The process ends: another signal within the second must not change its exit code.
+  if (noted != 0)
+    return;
   ::sigaction(SIGINT, &before_interrupt_, nullptr);
   ::sigaction(SIGTERM, &before_terminate_, nullptr);
 }

@@ -6,8 +6,8 @@
 namespace calotte::tools {
 
 /// During its lifetime, the first SIGINT or SIGTERM is recorded instead of ending the process.
-/// Others within a second count as the same; a later one ends the process at once. One object at a
-/// time.
+/// Others within a second count as the same, also after the lifetime; a later one ends the process
+/// at once. One object at a time.
 class Interruption {
 public:
   Interruption();
