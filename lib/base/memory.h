@@ -138,7 +138,7 @@ private:
 /// system.
 inline constexpr std::int64_t most_sites_kept = 1 << 23;
 
-/// Memory for n values, on huge pages.
+/// Memory for n values; that of a large array prefers huge pages.
 template <class T> void reserve_huge(std::vector<T>& values, std::int64_t n) {
   values.reserve(static_cast<std::size_t>(n));
   prefer_huge_pages(values.data(), static_cast<std::size_t>(n) * sizeof(T));
