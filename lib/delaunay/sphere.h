@@ -87,8 +87,10 @@ public:
   int in_circle(const Circle& circle, const Place& a, const Place& b, const Place& c,
                 const Place& d) {
     const double value = dot(circle.normal, d.unit) - circle.offset;
-    if (std::abs(value) > in_circle_error_) [[likely]]
-      return value > 0 ? 1 : -1;
+    if (value > in_circle_error_)
+      return 1;
+    if (value < -in_circle_error_) [[likely]]
+      return -1;
     return in_circle_beyond_static(a, b, c, d);
   }
 

@@ -45,6 +45,7 @@ template <class Circle, class Tds = void>
 struct RegionFace : CGAL::Triangulation_ds_face_base_2<Tds> {
   using Base = CGAL::Triangulation_ds_face_base_2<Tds>;
   using Base::Base;
+  RegionFace() {} // not defaulted: CGAL's container would set all members to 0 first
   template <class OtherTds> struct Rebind_TDS { using Other = RegionFace<Circle, OtherTds>; };
   // Small members first: they fit into the padding of the base.
   std::int8_t infinite = -1; ///< index of the vertex at infinity, -1 in a finite face
@@ -118,7 +119,7 @@ private:
   Vertex make_vertex(const Member& member);
   std::array<std::int64_t, 3> first_triangle(std::span<const Member> members);
   Face locate(const Place& p);
-  void find_conflicts(Face start, const Place& p);
+  bool find_conflicts(Face start, const Place& p);
   void grow();
   void make_star(Vertex centre);
 
@@ -135,7 +136,8 @@ private:
 
 template <class Space> auto Triangulation<Space>::make_vertex(const Member& member) -> Vertex {
   Vertex vertex = store_.create_vertex();
-  vertex->place = space_.place(member.rank);
+  // Constructed there: a copy of what was just written would wait for the writes.
+  ::new (&vertex->place) Place(space_.place(member.rank));
   vertex->local = static_cast<std::int32_t>(members_.size());
   vertex->depth = member.depth;
   members_.push_back(member);
@@ -196,7 +198,7 @@ CALOTTE_ALL_INSTRUCTIONS bool Triangulation<Space>::build(std::span<const Member
   constexpr std::array<std::int64_t, 3> strides{256, 16, 1};
   for (std::size_t round = 0; round < strides.size(); ++round)
     for (std::int64_t i = 0; i < n; i += strides[round]) {
-      if (round > 0 && i % strides[round - 1] == 0)
+      if (round > 0 && (i & (strides[round - 1] - 1)) == 0) // i is of an earlier round
         continue;
       if (const std::int64_t ahead = i + 8 * strides[round]; ahead < n)
         space_.expect(members[static_cast<std::size_t>(ahead)].rank);
@@ -208,7 +210,9 @@ CALOTTE_ALL_INSTRUCTIONS bool Triangulation<Space>::build(std::span<const Member
 
 template <class Space> void Triangulation<Space>::insert(const Member& member) {
   const Vertex vertex = make_vertex(member);
-  find_conflicts(locate(vertex->place), vertex->place);
+  const Face start = locate(vertex->place);
+  while (!find_conflicts(start, vertex->place))
+    grow();
   make_star(vertex);
 }
 
@@ -251,33 +255,43 @@ template <class Space> bool Triangulation<Space>::is_beyond(Face face, const Pla
   return way != 0 ? way > 0 : space_.between(a, p, b);
 }
 
-/// The conflicting faces, which are connected, and their rim, breadth first: the next edges are
-/// known before the last result, so that the processor overlaps their tests.
-template <class Space> void Triangulation<Space>::find_conflicts(Face start, const Place& p) {
+/// Finds the conflicting faces, which are connected, and their rim, breadth first: the next edges
+/// are known before the last result, so that the processor overlaps their tests.
+/// \return false, with no face marked, if the scratch is too small.
+template <class Space> bool Triangulation<Space>::find_conflicts(Face start, const Place& p) {
+  // The ends of the lists are pointers in registers: as members, each edge would wait for them.
+  Face* conflicting = conflicting_.data();
+  Edge *inner = inner_edges_.data(), *end = inner, *rim = rim_.data();
+  const Edge* const full = inner + inner_edges_.size() - 2;
   start->in_conflict = true;
-  conflicting_[0] = start;
+  *conflicting++ = start;
   for (int i = 0; i < 3; ++i)
-    inner_edges_[static_cast<std::size_t>(i)] = {start, i};
-  std::size_t edges = 3;
-  conflicts_ = 1;
-  rim_size_ = 0;
-  for (std::size_t e = 0; e < edges; ++e) {
-    if (edges + 2 > inner_edges_.size())
-      grow();
-    const Edge inner = inner_edges_[e];
-    const Face face = inner.face->neighbor(inner.index);
-    const int back = index_of(face, inner.face);
+    *end++ = {start, i};
+  for (; inner != end; ++inner) {
+    const Face face = inner->face->neighbor(inner->index);
+    const int back = index_of(face, inner->face);
     if (face->in_conflict) // reached around a vertex that vanishes
       continue;
     if (!conflicts(face, p)) {
-      rim_[rim_size_++] = {face, back};
+      rim->face = face; // field by field: a temporary edge would pass through memory
+      rim++->index = back;
       continue;
     }
     face->in_conflict = true;
-    conflicting_[conflicts_++] = face;
-    inner_edges_[edges++] = {face, next_vertex(back)};
-    inner_edges_[edges++] = {face, previous_vertex(back)};
+    *conflicting++ = face;
+    if (end > full) {
+      while (conflicting != conflicting_.data())
+        (*--conflicting)->in_conflict = false;
+      return false;
+    }
+    end->face = face;
+    end++->index = next_vertex(back);
+    end->face = face;
+    end++->index = previous_vertex(back);
   }
+  conflicts_ = static_cast<std::size_t>(conflicting - conflicting_.data());
+  rim_size_ = static_cast<std::size_t>(rim - rim_.data());
+  return true;
 }
 
 template <class Space> void Triangulation<Space>::grow() {
