@@ -9,6 +9,10 @@
 #include <thread>
 #include <vector>
 
+#ifdef __linux__
+#include <sched.h>
+#endif
+
 using namespace calotte::base_detail;
 
 TEST_CASE("the wait for threads ends while others hold them") {
@@ -33,3 +37,46 @@ TEST_CASE("the wait for threads ends while others hold them") {
   });
   CHECK(std::accumulate(squares.begin(), squares.end(), 0) == 332833500);
 }
+
+#ifdef __linux__
+namespace {
+
+cpu_set_t only(int processor) {
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  CPU_SET(processor, &set);
+  return set;
+}
+
+} // namespace
+
+TEST_CASE("a thread leaves the processor of another thread of its loop, and keeps its affinity") {
+  cpu_set_t allowed;
+  REQUIRE(sched_getaffinity(0, sizeof allowed, &allowed) == 0);
+  const int processor = sched_getcpu();
+  const cpu_set_t here = only(processor);
+  REQUIRE(sched_setaffinity(0, sizeof here, &here) == 0);
+  bool moved = CPU_COUNT(&allowed) == 1, kept = true;
+  for (int attempt = 0; attempt < 100 && !moved; ++attempt) { // the system may move it back
+    Placement placement(2);
+    std::thread([&] { // inherits the affinity, so that it starts on the same processor
+      sched_setaffinity(0, sizeof allowed, &allowed);
+      placement.keep_apart();
+      moved = sched_getcpu() != processor;
+      cpu_set_t after;
+      sched_getaffinity(0, sizeof after, &after);
+      kept &= CPU_EQUAL(&after, &allowed) != 0;
+    })
+        .join();
+  }
+  CHECK(moved);
+  CHECK(kept);
+
+  Placement placement(2);
+  std::thread([&] { placement.keep_apart(); }).join(); // no other processor is allowed
+  cpu_set_t after;
+  sched_getaffinity(0, sizeof after, &after);
+  CHECK(CPU_EQUAL(&after, &here));
+  sched_setaffinity(0, sizeof allowed, &allowed);
+}
+#endif
