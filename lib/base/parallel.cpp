@@ -17,15 +17,17 @@ namespace {
 
 constexpr int thread_bits = 16;
 
-/// By processor: the loop and the thread that ran there last, as (loop << thread_bits) + thread.
+/// By processor: the loop and the thread that ran there last, as (loop << thread_bits) + thread. A
+/// hint only: a thread that the system moves leaves its claim behind until the loop ends, and
+/// loops that run at the same time overwrite each other's.
 std::array<std::atomic<std::uint64_t>, CPU_SETSIZE> claims{};
 
-std::atomic<std::uint64_t> loops{0}, threads{0};
+std::atomic<std::uint64_t> last_loop{0}, next_thread{0};
 
 /// What a thread knows of itself.
 struct Self {
   std::uint64_t number =
-      threads.fetch_add(1, std::memory_order_relaxed) & ((1U << thread_bits) - 1);
+      next_thread.fetch_add(1, std::memory_order_relaxed) & ((1U << thread_bits) - 1);
   std::uint64_t placed = 0; ///< the last loop in which it looked for a free processor
 };
 thread_local Self self;
@@ -45,7 +47,7 @@ int claim_free(const cpu_set_t& allowed, int from, std::uint64_t mine) {
   return -1;
 }
 
-/// Moves the calling thread. Errors are ignored: a sandbox may forbid it.
+/// Moves the calling thread, within its affinity mask. Errors are ignored: a sandbox may forbid it.
 void move_from(int cpu, std::uint64_t mine) {
   cpu_set_t allowed;
   if (sched_getaffinity(0, sizeof allowed, &allowed) != 0)
@@ -84,7 +86,7 @@ void take_processor(std::uint64_t loop) {
 Placement::Placement(int threads) : shared_(threads > 1) {
   if (!shared_)
     return;
-  loop_ = loops.fetch_add(1, std::memory_order_relaxed) + 1;
+  loop_ = last_loop.fetch_add(1, std::memory_order_relaxed) + 1;
   caller_ = self.number;
   start_ = Clock::now();
   take_processor(loop_);

@@ -24,9 +24,9 @@ namespace calotte::base_detail {
 inline int thread_count() { return tbb::this_task_arena::max_concurrency(); }
 
 /// The processors that the threads of one parallel loop run on. A thread on the processor of
-/// another thread of the loop moves to a free one, if it is allowed to; its affinity is the same
-/// afterwards. A thread that waits for the caller's processor cannot move: the caller yields once
-/// if no other thread has come.
+/// another thread of the loop moves to one that none of them has claimed, within its affinity mask,
+/// which it then sets again. A thread that waits for the caller's processor cannot move: the caller
+/// yields once if no other thread has come.
 ///
 /// Linux leaves two threads on one processor for tens of milliseconds, with another one idle, where
 /// a virtual machine's idle processors count as preempted: a thread that wakes does not look for
@@ -46,15 +46,16 @@ private:
   void place();
 
   bool shared_;
-  std::uint64_t loop_ = 0, caller_ = 0; ///< numbers in this process
-  Clock::time_point start_;
-  std::atomic<bool> joined_{false}; ///< another thread than the caller has come
-  bool yielded_ = false;            ///< the caller's
+  // Not used on systems other than Linux.
+  [[maybe_unused]] std::uint64_t loop_ = 0, caller_ = 0; ///< numbers in this process
+  [[maybe_unused]] Clock::time_point start_;
+  [[maybe_unused]] std::atomic<bool> joined_{false}; ///< another thread than the caller has come
+  [[maybe_unused]] bool yielded_ = false;            ///< the caller's
 };
 
 /// body(i) for 0 <= i < n, each in its own task.
 template <class Body> void for_each_task(std::int64_t n, const Body& body) {
-  Placement placement(thread_count());
+  Placement placement(n > 1 ? thread_count() : 1);
   Handover handover;
   handover.fork();
   tbb::parallel_for(

@@ -13,6 +13,7 @@
 #include <array>
 #include <cassert>
 #include <cstdint>
+#include <new>
 #include <span>
 #include <utility>
 #include <vector>
@@ -195,7 +196,7 @@ CALOTTE_ALL_INSTRUCTIONS bool Triangulation<Space>::build(std::span<const Member
   // Along the curve, walks take few steps; in rounds from coarse to fine, the hull is soon complete
   // and stars stay small.
   const std::int64_t n = std::ssize(members);
-  constexpr std::array<std::int64_t, 3> strides{256, 16, 1};
+  constexpr std::array<std::int64_t, 3> strides{256, 16, 1}; // powers of two, for the mask
   for (std::size_t round = 0; round < strides.size(); ++round)
     for (std::int64_t i = 0; i < n; i += strides[round]) {
       if (round > 0 && (i & (strides[round - 1] - 1)) == 0) // i is of an earlier round
@@ -262,7 +263,7 @@ template <class Space> bool Triangulation<Space>::find_conflicts(Face start, con
   // The ends of the lists are pointers in registers: as members, each edge would wait for them.
   Face* conflicting = conflicting_.data();
   Edge *inner = inner_edges_.data(), *end = inner, *rim = rim_.data();
-  const Edge* const full = inner + inner_edges_.size() - 2;
+  const Edge* const last_with_room = inner + inner_edges_.size() - 2;
   start->in_conflict = true;
   *conflicting++ = start;
   for (int i = 0; i < 3; ++i)
@@ -279,7 +280,7 @@ template <class Space> bool Triangulation<Space>::find_conflicts(Face start, con
     }
     face->in_conflict = true;
     *conflicting++ = face;
-    if (end > full) {
+    if (end > last_with_room) {
       while (conflicting != conflicting_.data())
         (*--conflicting)->in_conflict = false;
       return false;

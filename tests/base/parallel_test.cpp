@@ -73,10 +73,15 @@ TEST_CASE("a thread leaves the processor of another thread of its loop, and keep
   CHECK(kept);
 
   Placement placement(2);
-  std::thread([&] { placement.keep_apart(); }).join(); // no other processor is allowed
-  cpu_set_t after;
-  sched_getaffinity(0, sizeof after, &after);
-  CHECK(CPU_EQUAL(&after, &here));
+  bool stayed = false;
+  std::thread([&] { // no other processor is allowed
+    placement.keep_apart();
+    cpu_set_t after;
+    sched_getaffinity(0, sizeof after, &after);
+    stayed = CPU_EQUAL(&after, &here) != 0 && sched_getcpu() == processor;
+  })
+      .join();
+  CHECK(stayed);
   sched_setaffinity(0, sizeof allowed, &allowed);
 }
 #endif
