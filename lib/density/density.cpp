@@ -37,36 +37,67 @@ Profile profile_of(const Bump& bump, std::size_t b) {
   return profile;
 }
 
-/// The angle between a unit vector and the centre: 2 asin(|x - c|/2) in the near hemisphere and pi
-/// - 2 asin(|x + c|/2) in the far one. acos(x.c) would lose half of the digits near the centre, and
-/// the first form in the far hemisphere. For a stretched bump, |x - c| is the reduced length.
-template <bool stretched> CALOTTE_INLINE double angle_from(const Profile& bump, const Vec3& x) {
+/// A unit vector's place beside the axis of a bump.
+struct Chord {
+  double square; ///< of half of the chord to the nearer end of the axis
+  double side;   ///< negative where that end is the antipode of the centre
+};
+
+/// For a stretched bump, |x - c| is the reduced length.
+template <bool stretched> CALOTTE_INLINE Chord chord_from(const Profile& bump, const Vec3& x) {
   Vec3 apart = x - bump.centre;
   const Vec3 sum = x + bump.centre;
-  double sum_square = dot(sum, sum);
+  double far = dot(sum, sum);
   if constexpr (stretched) {
     const double along = dot(x, bump.major), squeeze = bump.shrink * along;
     apart = apart - squeeze * bump.major;
-    sum_square += (2 - bump.shrink) * squeeze * along;
+    far += (2 - bump.shrink) * squeeze * along;
   }
-  const double near = 0.25 * dot(apart, apart), far = 0.25 * sum_square;
-  const bool beyond = far < near;
-  const double arc = 2 * arc_sine_of_root(beyond ? far : near);
-  return beyond ? std::numbers::pi - arc : arc;
+  const double near = dot(apart, apart);
+  return {0.25 * (far < near ? far : near), far - near};
+}
+
+/// The angle between a unit vector and the centre: 2 asin(|x - c|/2) in the near hemisphere and pi
+/// - 2 asin(|x + c|/2) in the far one. acos(x.c) would lose half of the digits near the centre, and
+/// the first form in the far hemisphere.
+CALOTTE_INLINE double angle_of(const Chord& chord) {
+  const double arc = 2 * arc_sine_of_root(chord.square);
+  return chord.side < 0 ? std::numbers::pi - arc : arc;
+}
+
+/// Densities are computed in rows of up to this many points.
+constexpr std::size_t row = 64;
+
+/// The loops are apart because an iteration of all three is one long chain of operations: a
+/// processor sees too few of them at a time to overlap them.
+template <bool stretched>
+CALOTTE_INLINE void bump_row(const Profile& bump, const double* x, const double* y, const double* z,
+                             std::size_t count, double* rho) {
+  alignas(64) std::array<double, row> square, side, angle;
+  CALOTTE_VECTOR_LOOP
+  for (std::size_t j = 0; j < count; ++j) {
+    const Chord chord = chord_from<stretched>(bump, {x[j], y[j], z[j]});
+    square[j] = chord.square;
+    side[j] = chord.side;
+  }
+  CALOTTE_VECTOR_LOOP
+  for (std::size_t j = 0; j < count; ++j)
+    angle[j] = angle_of({square[j], side[j]});
+  CALOTTE_VECTOR_LOOP
+  for (std::size_t j = 0; j < count; ++j)
+    rho[j] = value_at(bump, angle[j]);
 }
 
 CALOTTE_VECTOR_WIDTHS
 void bump_values(const Profile& profile, const double* x, const double* y, const double* z,
                  std::size_t count, double* rho) {
   const Profile bump = profile; // writing to rho cannot change it
-  if (bump.shrink > 0) {        // two loops: a branch inside would prevent vectorisation
-    CALOTTE_VECTOR_LOOP
-    for (std::size_t j = 0; j < count; ++j)
-      rho[j] = value_at(bump, angle_from<true>(bump, {x[j], y[j], z[j]}));
-  } else {
-    CALOTTE_VECTOR_LOOP
-    for (std::size_t j = 0; j < count; ++j)
-      rho[j] = value_at(bump, angle_from<false>(bump, {x[j], y[j], z[j]}));
+  for (std::size_t begin = 0; begin < count; begin += row) {
+    const std::size_t size = std::min(row, count - begin);
+    if (bump.shrink > 0) // outside of the loops: a branch inside would prevent vectorisation
+      bump_row<true>(bump, x + begin, y + begin, z + begin, size, rho + begin);
+    else
+      bump_row<false>(bump, x + begin, y + begin, z + begin, size, rho + begin);
   }
 }
 
@@ -165,7 +196,7 @@ DensityEvaluator::Bounds DensityEvaluator::bounds(const Vec3& middle, double rea
   Bounds bounds;
   for (const Profile& profile : profiles_) {
     const double change = reach * (profile.shrink > 0 ? std::numbers::sqrt2 : 1) + slack;
-    const double angle = angle_from<true>(profile, middle);
+    const double angle = angle_of(chord_from<true>(profile, middle));
     const double least = value_at(profile, std::min(std::numbers::pi, angle + change)),
                  greatest = value_at(profile, std::max(0.0, angle - change)) * (1 + slack);
     const bool sum = density_.kind == Density::Kind::sum;
