@@ -25,24 +25,35 @@ bool checked_rows(const Batch& batch, std::size_t first, TriangleRows& rows,
   return false;
 }
 
+/// Adds the terms of up to four triangles to their sites.
+/// \param columns of each triangle, for each corner.
+CALOTTE_INLINE void add_columns(const std::array<std::array<Quad, 4>, 3>& columns,
+                                const std::array<std::int32_t, 3>* locals, std::size_t count,
+                                CellMoments* moments) {
+  for (std::size_t k = 0; k < count; ++k)
+    for (std::size_t v = 0; v < 3; ++v)
+      quad_at(moments + locals[k][v]).value += columns[v][k];
+}
+
 /// Adds each triangle's terms to its sites, in the order of the triangles.
 CALOTTE_VECTOR_WIDTHS
-void scatter(const Batch& batch, const VertexTerms& terms, CellMoments* moments) {
+void scatter(const std::array<std::int32_t, 3>* locals, std::size_t count, const VertexTerms& terms,
+             CellMoments* moments) {
   static_assert(sizeof(Quad) == sizeof(CellMoments));
-  for (std::size_t first = 0; first < batch.count; first += 4) {
-    Quad columns[3][4];
+  for (std::size_t first = 0; first < count; first += 4) {
+    std::array<std::array<Quad, 4>, 3> columns;
     for (std::size_t v = 0; v < 3; ++v) {
       Quad a = quad_at(terms.first[v][0].data() + first).value,
            b = quad_at(terms.first[v][1].data() + first).value,
            c = quad_at(terms.first[v][2].data() + first).value,
            d = quad_at(terms.energy[v].data() + first).value;
       transpose(a, b, c, d);
-      columns[v][0] = a, columns[v][1] = b, columns[v][2] = c, columns[v][3] = d;
+      columns[v] = {a, b, c, d};
     }
-    const std::size_t count = std::min<std::size_t>(4, batch.count - first);
-    for (std::size_t k = 0; k < count; ++k)
-      for (std::size_t v = 0; v < 3; ++v)
-        quad_at(moments + batch.locals[first + k][v]).value += columns[v][k];
+    if (count - first >= 4) // the loop has no conditions then
+      add_columns(columns, locals + first, 4, moments);
+    else
+      add_columns(columns, locals + first, count - first, moments);
   }
 }
 
@@ -102,7 +113,7 @@ void integrate(const Integrand& integrand, const Patch& patch, const Array<Vec3>
       uniform_terms(batch, rows, slivers, mass != nullptr, terms);
     else
       kite_terms(batch, rows, integrand, terms);
-    scatter(batch, terms, moments.begin());
+    scatter(batch.locals, batch.count, terms, moments.begin());
     if (mass != nullptr)
       scatter_mass(batch, terms, *mass);
   }

@@ -6,21 +6,32 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace calotte::integrals_detail {
 
 namespace {
 
 /// Gathers four corners at a time. A column of x is read with the double that follows it.
-CALOTTE_VECTOR_WIDTHS
-void gather_corners(const std::array<std::int32_t, 3>* locals, std::size_t count, const Vec3* x,
-                    std::array<Rows3, 3>& corner) {
+/// \param triangle the triangle of a lane.
+template <class Triangle>
+CALOTTE_INLINE void gather_by(const Triangle& triangle, const Vec3* x,
+                              std::array<Rows3, 3>& corner) {
   for (std::size_t lane = 0; lane < lanes; lane += 4)
     for (std::size_t v = 0; v < 3; ++v) {
-      const auto at = [&](std::size_t k) { return x + locals[std::min(lane + k, count - 1)][v]; };
+      const auto at = [&](std::size_t k) { return x + triangle(lane + k)[v]; };
       Quad unused;
       put_columns({at(0), at(1), at(2), at(3)}, lane, corner[v], unused);
     }
+}
+
+CALOTTE_VECTOR_WIDTHS
+void gather_corners(const std::array<std::int32_t, 3>* locals, std::size_t count, const Vec3* x,
+                    std::array<Rows3, 3>& corner) {
+  if (count == lanes)
+    gather_by([&](std::size_t lane) { return locals[lane]; }, x, corner);
+  else
+    gather_by([&](std::size_t lane) { return locals[std::min(lane, count - 1)]; }, x, corner);
 }
 
 } // namespace
@@ -120,16 +131,18 @@ CALOTTE_INLINE double energy_series(double s, double w) {
 
 /// Pull and energy by their series. True where these hold for all lanes.
 CALOTTE_VECTOR_WIDTHS
-bool small_edges(const Row& quarter, const Row& cotangent, Row& pull, Row& energy) {
+bool small_edges(const Rows3& quarter, const Rows3& cotangent, Rows3& pull, Rows3& energy) {
   std::int64_t beyond = 0;
-  CALOTTE_VECTOR_LOOP
-  for (std::size_t lane = 0; lane < lanes; ++lane) {
-    const double s = quarter[lane], tilt = cotangent[lane] * inverse_root_series(s);
-    const double w = s * tilt * tilt;
-    pull[lane] = 0.25 * tilt * arc_sine_series(w);
-    energy[lane] = s * tilt * energy_series(s, w);
-    const double larger = s > w ? s : w;
-    beyond |= larger <= small ? 0 : 1;
+  for (std::size_t e = 0; e < 3; ++e) {
+    CALOTTE_VECTOR_LOOP
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      const double s = quarter[e][lane], tilt = cotangent[e][lane] * inverse_root_series(s);
+      const double w = s * tilt * tilt;
+      pull[e][lane] = 0.25 * tilt * arc_sine_series(w);
+      energy[e][lane] = s * tilt * energy_series(s, w);
+      const double larger = s > w ? s : w;
+      beyond |= larger <= small ? 0 : 1;
+    }
   }
   return beyond == 0;
 }
@@ -240,8 +253,9 @@ void set_first(const Sliver& sliver, VertexTerms& terms) {
 void uniform_terms(const Batch& batch, const TriangleRows& rows, const std::vector<Sliver>& slivers,
                    bool with_mass, VertexTerms& terms) {
   EdgeRows edges;
+  const bool all_small = small_edges(rows.quarter, rows.cotangent, edges.pull, edges.energy);
   for (std::size_t e = 0; e < 3; ++e) {
-    if (!small_edges(rows.quarter[e], rows.cotangent[e], edges.pull[e], edges.energy[e]))
+    if (!all_small)
       large_edges(rows.quarter[e], rows.cotangent[e], edges.pull[e], edges.energy[e]);
     if (with_mass)
       half_areas(rows.quarter[e], rows.cotangent[e], edges.area[e]);
@@ -260,15 +274,24 @@ void uniform_terms(const Batch& batch, const TriangleRows& rows, const std::vect
 
 namespace {
 
+/// As many nodes of a rule are integrated together.
+constexpr std::size_t group = 3;
+
 /// A value on the half kite of each edge's first end, then on that of the second.
 using HalfRows = std::array<double, 2 * lanes>;
 
-/// A node on both half kites: mirror images, at the same distance from the centre.
+/// A group of nodes on both half kites of an edge: mirror images, at the same distance from the
+/// centre.
 struct alignas(64) NodeRows {
-  std::array<HalfRows, 3> x; ///< on the sphere
-  HalfRows rho;
-  Row weight; ///< of the integral over the sphere
-  Row square; ///< of the distance to the end, on the sphere
+  std::array<Row, group> scale;  ///< 1 over the flat node's length
+  std::array<Row, group> weight; ///< of the integral over the sphere
+  std::array<Row, group> square; ///< of the distance to the end, on the sphere
+};
+
+/// Where the nodes lie on the sphere, and the density there.
+struct alignas(64) PlacedNodes {
+  std::array<std::array<HalfRows, group>, 3> x;
+  std::array<HalfRows, group> rho;
 };
 
 /// The circumcentre of the flat triangle, and the plane's distance from the sphere's centre.
@@ -291,22 +314,52 @@ void plane_rows(const TriangleRows& rows, PlaneRows& plane) {
 /// + node.c C) has |p|^2 = 1 - s^2 (1 - node.a^2) - s^2 K (1 - (1 - node.c)^2), by Pythagoras from
 /// the circumcentre C, and |p - a|^2 = s^2 ((1 - node.a)^2 + node.c^2 K).
 CALOTTE_VECTOR_WIDTHS
-void node_rows(const QuadratureRule::Node& node, const Rows3& first, const Rows3& second,
-               const PlaneRows& plane, const Row& quarter, const Row& cotangent, NodeRows& out) {
+void node_rows(const QuadratureRule::Node& node, const Row& distance, const Row& quarter,
+               const Row& cotangent, Row& scale, Row& weight, Row& square) {
   const double along = 1 - node.a * node.a, across = 1 - (1 - node.c) * (1 - node.c);
   const double along_a = (1 - node.a) * (1 - node.a), across_a = node.c * node.c;
-  const double near = node.a + 0.5 * node.b, far = 0.5 * node.b, centre = node.c;
   const double share = 0.5 * node.weight;
   CALOTTE_VECTOR_LOOP
   for (std::size_t lane = 0; lane < lanes; ++lane) {
     const double s = quarter[lane], cot = cotangent[lane], k = cot * cot;
-    const double length = std::sqrt(1 - s * (along + across * k)), scale = 1 / length;
+    const double length = std::sqrt(1 - s * (along + across * k)), inverse = 1 / length;
     const double sunk = 1 - length;
-    out.weight[lane] = share * s * cot * plane.distance[lane] * (scale * scale * scale);
-    out.square[lane] = scale * (s * (along_a + across_a * k) - sunk * sunk);
-    const Vec3 a = at(first, lane), b = at(second, lane), c = centre * at(plane.centre, lane);
-    put(scale * (near * a + far * b + c), out.x, lane);
-    put(scale * (far * a + near * b + c), out.x, lanes + lane);
+    scale[lane] = inverse;
+    weight[lane] = share * s * cot * distance[lane] * (inverse * inverse * inverse);
+    square[lane] = inverse * (s * (along_a + across_a * k) - sunk * sunk);
+  }
+}
+
+/// Shares of an edge's ends and of the circumcentre in a node on the first half kite. On the second
+/// the ends change places.
+struct Shares {
+  double near, far, centre;
+
+  explicit Shares(const QuadratureRule::Node& node)
+      : near(node.a + 0.5 * node.b), far(0.5 * node.b), centre(node.c) {}
+
+  CALOTTE_INLINE std::array<Vec3, 2> places(const Vec3& a, const Vec3& b, const Vec3& c,
+                                            double scale) const {
+    const Vec3 middle = centre * c;
+    return {scale * (near * a + far * b + middle), scale * (far * a + near * b + middle)};
+  }
+  CALOTTE_INLINE std::array<double, 2> densities(double a, double b, double c) const {
+    const double middle = centre * c;
+    return {near * a + far * b + middle, far * a + near * b + middle};
+  }
+};
+
+/// Places a node of each edge on the sphere, on both half kites.
+CALOTTE_VECTOR_WIDTHS
+void place_node(const Shares& given, const Rows3& first, const Rows3& second, const Rows3& centre,
+                const Row& scale, HalfRows& x, HalfRows& y, HalfRows& z) {
+  const Shares shares = given; // writing to x cannot change it
+  CALOTTE_VECTOR_LOOP
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    const auto [p, q] =
+        shares.places(at(first, lane), at(second, lane), at(centre, lane), scale[lane]);
+    x[lane] = p.x, y[lane] = p.y, z[lane] = p.z;
+    x[lanes + lane] = q.x, y[lanes + lane] = q.y, z[lanes + lane] = q.z;
   }
 }
 
@@ -328,31 +381,114 @@ void centre_density(const Batch& batch, const TriangleRows& rows, Row& rho) {
   }
 }
 
-/// The density at a node on the half kites of an edge's first end and of its second.
-CALOTTE_VECTOR_WIDTHS
-void node_densities(const QuadratureRule::Node& node, const Row& first, const Row& second,
-                    const Row& centre, NodeRows& out) {
-  const double near = node.a + 0.5 * node.b, far = 0.5 * node.b, middle = node.c;
+/// The terms of one end of an edge.
+struct EndRows {
+  Rows3& first;
+  Row &energy, &mass;
+};
+
+/// The terms of a vertex in one lane.
+struct EndTerms {
+  Vec3 first;
+  double energy, mass;
+
+  CALOTTE_INLINE void add(double weight, double square, const Vec3& x) {
+    mass += weight;
+    energy += weight * square;
+    first = first + weight * x;
+  }
+};
+
+CALOTTE_INLINE EndTerms terms_at(const EndRows& rows, std::size_t lane) {
+  return {at(rows.first, lane), rows.energy[lane], rows.mass[lane]};
+}
+CALOTTE_INLINE void store(const EndTerms& terms, const EndRows& rows, std::size_t lane) {
+  put(terms.first, rows.first, lane);
+  rows.energy[lane] = terms.energy;
+  rows.mass[lane] = terms.mass;
+}
+
+/// Adds the terms of `count` placed nodes to both ends of an edge.
+template <std::size_t count>
+CALOTTE_VECTOR_WIDTHS void add_placed(const NodeRows& nodes, const PlacedNodes& placed,
+                                      const EndRows& first, const EndRows& second) {
   CALOTTE_VECTOR_LOOP
   for (std::size_t lane = 0; lane < lanes; ++lane) {
-    const double c = middle * centre[lane];
-    out.rho[lane] = near * first[lane] + far * second[lane] + c;
-    out.rho[lanes + lane] = far * first[lane] + near * second[lane] + c;
+    EndTerms a = terms_at(first, lane), b = terms_at(second, lane);
+    for (std::size_t k = 0; k < count; ++k) {
+      const double weight = nodes.weight[k][lane], square = nodes.square[k][lane];
+      const auto place = [&](std::size_t i) {
+        return Vec3{placed.x[0][k][i], placed.x[1][k][i], placed.x[2][k][i]};
+      };
+      a.add(weight * placed.rho[k][lane], square, place(lane));
+      b.add(weight * placed.rho[k][lanes + lane], square, place(lanes + lane));
+    }
+    store(a, first, lane);
+    store(b, second, lane);
   }
 }
 
-/// Adds a node's terms on the half kite of one end to those of that vertex.
-/// \param begin of that half in the node's rows.
-CALOTTE_VECTOR_WIDTHS
-void add_node(const NodeRows& node, std::size_t begin, Rows3& first, Row& energy, Row& mass) {
+/// The same for a density that is linear on the triangle.
+template <std::size_t count>
+CALOTTE_VECTOR_WIDTHS void
+add_linear(const NodeRows& nodes, const Shares* given, const Rows3& corner_a, const Rows3& corner_b,
+           const Rows3& centre, const Row& rho_a, const Row& rho_b, const Row& rho_centre,
+           const EndRows& first, const EndRows& second) {
+  const auto shares = [&]<std::size_t... k>(std::index_sequence<k...>) {
+    return std::array<Shares, count>{given[k]...};
+  }
+  (std::make_index_sequence<count>());
   CALOTTE_VECTOR_LOOP
   for (std::size_t lane = 0; lane < lanes; ++lane) {
-    const std::size_t i = begin + lane;
-    const double weight = node.weight[lane] * node.rho[i];
-    mass[lane] += weight;
-    energy[lane] += weight * node.square[lane];
-    put(at(first, lane) + weight * at(node.x, i), first, lane);
+    EndTerms a = terms_at(first, lane), b = terms_at(second, lane);
+    for (std::size_t k = 0; k < count; ++k) {
+      const double weight = nodes.weight[k][lane], square = nodes.square[k][lane];
+      const auto [x, mirrored] = shares[k].places(at(corner_a, lane), at(corner_b, lane),
+                                                  at(centre, lane), nodes.scale[k][lane]);
+      const auto [rho, rho_mirrored] =
+          shares[k].densities(rho_a[lane], rho_b[lane], rho_centre[lane]);
+      a.add(weight * rho, square, x);
+      b.add(weight * rho_mirrored, square, mirrored);
+    }
+    store(a, first, lane);
+    store(b, second, lane);
   }
+}
+
+/// Adds the terms of a group of nodes of one edge, of which there are `count`.
+template <std::size_t count>
+void add_group(const Batch& batch, const TriangleRows& rows, const PlaneRows& plane,
+               const Row& rho_centre, std::size_t edge, const Integrand& integrand,
+               const QuadratureRule::Node* of_rule, VertexTerms& terms) {
+  const std::size_t a = (edge + 1) % 3, b = (edge + 2) % 3;
+  const EndRows first{terms.first[a], terms.energy[a], terms.mass[a]},
+      second{terms.first[b], terms.energy[b], terms.mass[b]};
+  const auto shares = [&]<std::size_t... k>(std::index_sequence<k...>) {
+    return std::array<Shares, count>{Shares(of_rule[k])...};
+  }
+  (std::make_index_sequence<count>());
+  NodeRows nodes;
+  for (std::size_t k = 0; k < count; ++k)
+    node_rows(of_rule[k], plane.distance, rows.quarter[edge], rows.cotangent[edge], nodes.scale[k],
+              nodes.weight[k], nodes.square[k]);
+  if (integrand.at_sites) {
+    add_linear<count>(nodes, shares.data(), batch.corner[a], batch.corner[b], plane.centre,
+                      batch.rho[a], batch.rho[b], rho_centre, first, second);
+    return;
+  }
+  PlacedNodes placed;
+  for (std::size_t k = 0; k < count; ++k) {
+    place_node(shares[k], batch.corner[a], batch.corner[b], plane.centre, nodes.scale[k],
+               placed.x[0][k], placed.x[1][k], placed.x[2][k]);
+#ifdef EACH
+    integrand.density(placed.x[0][k], placed.x[1][k], placed.x[2][k], placed.rho[k]);
+  }
+#else
+  }
+  const auto all = [](auto& of_nodes) { return std::span(of_nodes[0].data(), count * 2 * lanes); };
+  integrand.density(all(placed.x[0]), all(placed.x[1]), all(placed.x[2]), all(placed.rho));
+#endif
+  add_placed<count>(nodes, placed, first, second);
 }
 
 } // namespace
@@ -361,25 +497,16 @@ void kite_terms(const Batch& batch, const TriangleRows& rows, const Integrand& i
                 VertexTerms& terms) {
   terms = {};
   PlaneRows plane;
-  NodeRows at_node;
   plane_rows(rows, plane);
-  alignas(64) Row at_centre;
+  alignas(64) Row rho_centre;
   if (integrand.at_sites)
-    centre_density(batch, rows, at_centre);
+    centre_density(batch, rows, rho_centre);
   for (std::size_t e = 0; e < 3; ++e) {
-    const std::array<std::size_t, 2> ends{(e + 1) % 3, (e + 2) % 3};
-    for (const QuadratureRule::Node& node : integrand.nodes) {
-      node_rows(node, batch.corner[ends[0]], batch.corner[ends[1]], plane, rows.quarter[e],
-                rows.cotangent[e], at_node);
-      if (integrand.at_sites)
-        node_densities(node, batch.rho[ends[0]], batch.rho[ends[1]], at_centre, at_node);
-      else
-        integrand.density(at_node.x[0], at_node.x[1], at_node.x[2], at_node.rho);
-      for (std::size_t h = 0; h < 2; ++h) {
-        const std::size_t v = ends[h];
-        add_node(at_node, h * lanes, terms.first[v], terms.energy[v], terms.mass[v]);
-      }
-    }
+    std::size_t node = 0;
+    for (; node + group <= integrand.nodes.size(); node += group)
+      add_group<group>(batch, rows, plane, rho_centre, e, integrand, &integrand.nodes[node], terms);
+    for (; node < integrand.nodes.size(); ++node)
+      add_group<1>(batch, rows, plane, rho_centre, e, integrand, &integrand.nodes[node], terms);
   }
 }
 
