@@ -62,9 +62,10 @@ void add_sums(const Array<SiteTerms>& terms, CvtIteration& iteration) {
 /// Up to `lanes` generators that follow each other in a patch: what they are, and what follows.
 struct alignas(64) SiteRows {
   Rows3 x, first;
-  Row energy; ///< NaN if a cell has no mass
-  Rows3 centroid, gradient;
-  Row mass, square, slope;
+  Row energy;   ///< NaN if a cell has no mass
+  Rows3 effect; ///< the gradient, or without one the centroid
+  Row mass;     ///< with the gradient
+  Row square, slope;
 };
 
 /// \param x followed by one more double.
@@ -80,7 +81,8 @@ void gather_sites(const Vec3* x, const CellMoments* moments, std::size_t count, 
   }
 }
 
-template <class Cells> CALOTTE_VECTOR_WIDTHS void evaluate_rows(SiteRows& rows) {
+template <class Cells, bool with_gradient>
+CALOTTE_VECTOR_WIDTHS void evaluate_rows(SiteRows& rows) {
   CALOTTE_VECTOR_LOOP
   for (std::size_t lane = 0; lane < lanes; ++lane) {
     const Vec3 x = at(rows.x, lane);
@@ -89,9 +91,12 @@ template <class Cells> CALOTTE_VECTOR_WIDTHS void evaluate_rows(SiteRows& rows) 
     const bool valid = mass > 0 && mass <= std::numeric_limits<double>::max();
     rows.energy[lane] = valid ? rows.energy[lane] : std::numeric_limits<double>::quiet_NaN();
     const Vec3 apart = pull.centroid - x;
-    put(pull.centroid, rows.centroid, lane);
-    put(pull.gradient, rows.gradient, lane);
-    rows.mass[lane] = pull.mass;
+    if constexpr (with_gradient) {
+      put(pull.gradient, rows.effect, lane);
+      rows.mass[lane] = pull.mass;
+    } else {
+      put(pull.centroid, rows.effect, lane);
+    }
     rows.square[lane] = dot(apart, apart);
     rows.slope[lane] = dot(pull.gradient, pull.gradient);
   }
@@ -101,10 +106,10 @@ void put_site(const SiteRows& rows, std::size_t lane, std::int32_t site, bool fi
               bool with_gradient, Evaluation& out, SiteTerms& terms) {
   terms = {rows.energy[lane], fixed ? 0 : rows.square[lane], fixed ? 0 : rows.slope[lane]};
   if (with_gradient) {
-    set_column(out.gradient, site, fixed ? Vec3{0, 0, 0} : at(rows.gradient, lane));
+    set_column(out.gradient, site, fixed ? Vec3{0, 0, 0} : at(rows.effect, lane));
     out.mass[site] = rows.mass[lane];
   } else {
-    set_column(out.centroids, site, fixed ? at(rows.x, lane) : at(rows.centroid, lane));
+    set_column(out.centroids, site, fixed ? at(rows.x, lane) : at(rows.effect, lane));
   }
 }
 
@@ -127,7 +132,10 @@ evaluate_sites(const Patch& patch, const Points3& points, const Array<Vec3>& x,
         generators[lane] = column(points, part[lane]);
     gather_sites(Cells::places_wrap ? generators.data() : x.begin() + first,
                  moments.begin() + first, part.size(), rows);
-    evaluate_rows<Cells>(rows);
+    if (with_gradient)
+      evaluate_rows<Cells, true>(rows);
+    else
+      evaluate_rows<Cells, false>(rows);
     for (std::size_t lane = 0; lane < part.size(); ++lane) {
       const std::int32_t site = part[lane];
       put_site(rows, lane, site, !fixed.empty() && fixed[static_cast<std::size_t>(site)] != 0,

@@ -70,7 +70,7 @@ constexpr std::size_t row = 64;
 
 /// The loops are apart because an iteration of all three is one long chain of operations: a
 /// processor sees too few of them at a time to overlap them.
-template <bool stretched>
+template <bool stretched, bool gentle>
 CALOTTE_INLINE void bump_row(const Profile& bump, const double* x, const double* y, const double* z,
                              std::size_t count, double* rho) {
   alignas(64) std::array<double, row> square, side, angle;
@@ -85,19 +85,25 @@ CALOTTE_INLINE void bump_row(const Profile& bump, const double* x, const double*
     angle[j] = angle_of({square[j], side[j]});
   CALOTTE_VECTOR_LOOP
   for (std::size_t j = 0; j < count; ++j)
-    rho[j] = value_at(bump, angle[j]);
+    rho[j] = gentle ? gentle_value_at(bump, angle[j]) : value_at(bump, angle[j]);
 }
 
+/// Four kinds of bumps: a branch inside of a loop would prevent vectorisation.
 CALOTTE_VECTOR_WIDTHS
 void bump_values(const Profile& profile, const double* x, const double* y, const double* z,
                  std::size_t count, double* rho) {
   const Profile bump = profile; // writing to rho cannot change it
-  for (std::size_t begin = 0; begin < count; begin += row) {
-    const std::size_t size = std::min(row, count - begin);
-    if (bump.shrink > 0) // outside of the loops: a branch inside would prevent vectorisation
-      bump_row<true>(bump, x + begin, y + begin, z + begin, size, rho + begin);
+  const bool stretched = bump.shrink > 0, gentle = is_gentle(bump);
+  for (std::size_t j = 0; j < count; j += row) {
+    const std::size_t size = std::min(row, count - j);
+    if (stretched && gentle)
+      bump_row<true, true>(bump, x + j, y + j, z + j, size, rho + j);
+    else if (stretched)
+      bump_row<true, false>(bump, x + j, y + j, z + j, size, rho + j);
+    else if (gentle)
+      bump_row<false, true>(bump, x + j, y + j, z + j, size, rho + j);
     else
-      bump_row<false>(bump, x + begin, y + begin, z + begin, size, rho + begin);
+      bump_row<false, false>(bump, x + j, y + j, z + j, size, rho + j);
   }
 }
 

@@ -4,6 +4,7 @@
 #include "base/elementary.h"
 #include "base/parallel.h"
 #include "base/points.h"
+#include "integrals/kites.h"
 #include "integrals/quads.h"
 #include "integrals/rows.h"
 #include "integrals/slivers.h"
@@ -25,9 +26,12 @@ bool checked_rows(const Batch& batch, std::size_t first, TriangleRows& rows,
   return false;
 }
 
+/// Four lanes of the terms of each corner: x, y and z of the first moment, and the energy.
+using CornerQuads = std::array<std::array<Quad, 4>, 3>;
+
 /// Adds the terms of up to four triangles to their sites.
 /// \param columns of each triangle, for each corner.
-CALOTTE_INLINE void add_columns(const std::array<std::array<Quad, 4>, 3>& columns,
+CALOTTE_INLINE void add_columns(const CornerQuads& columns,
                                 const std::array<std::int32_t, 3>* locals, std::size_t count,
                                 CellMoments* moments) {
   for (std::size_t k = 0; k < count; ++k)
@@ -35,21 +39,16 @@ CALOTTE_INLINE void add_columns(const std::array<std::array<Quad, 4>, 3>& column
       quad_at(moments + locals[k][v]).value += columns[v][k];
 }
 
-/// Adds each triangle's terms to its sites, in the order of the triangles.
-CALOTTE_VECTOR_WIDTHS
-void scatter(const std::array<std::int32_t, 3>* locals, std::size_t count, const VertexTerms& terms,
-             CellMoments* moments) {
+/// Adds the terms of all triangles to their sites, in the order of the triangles.
+/// \param quads its terms in the four lanes from one on.
+template <class Quads>
+CALOTTE_INLINE void scatter_by(const Quads& quads, const std::array<std::int32_t, 3>* locals,
+                               std::size_t count, CellMoments* moments) {
   static_assert(sizeof(Quad) == sizeof(CellMoments));
   for (std::size_t first = 0; first < count; first += 4) {
-    std::array<std::array<Quad, 4>, 3> columns;
-    for (std::size_t v = 0; v < 3; ++v) {
-      Quad a = quad_at(terms.first[v][0].data() + first).value,
-           b = quad_at(terms.first[v][1].data() + first).value,
-           c = quad_at(terms.first[v][2].data() + first).value,
-           d = quad_at(terms.energy[v].data() + first).value;
-      transpose(a, b, c, d);
-      columns[v] = {a, b, c, d};
-    }
+    CornerQuads columns = quads(first);
+    for (auto& [x, y, z, energy] : columns)
+      transpose(x, y, z, energy);
     if (count - first >= 4) // the loop has no conditions then
       add_columns(columns, locals + first, 4, moments);
     else
@@ -57,10 +56,56 @@ void scatter(const std::array<std::int32_t, 3>* locals, std::size_t count, const
   }
 }
 
-void scatter_mass(const Batch& batch, const VertexTerms& terms, Array<double>& mass) {
+/// By reference: a vector is not returned in the same way by all machines.
+CALOTTE_INLINE const QuadInPlace& quad_of(const Row& row, std::size_t lane) {
+  return quad_at(row.data() + lane);
+}
+
+CALOTTE_VECTOR_WIDTHS
+void scatter(const Batch& batch, const TriangleTerms& terms, CellMoments* moments) {
+  scatter_by(
+      [&](std::size_t lane) {
+        CornerQuads quads;
+        for (std::size_t v = 0; v < 3; ++v)
+          quads[v] = {quad_of(terms[v].first[0], lane).value,
+                      quad_of(terms[v].first[1], lane).value,
+                      quad_of(terms[v].first[2], lane).value, quad_of(terms[v].energy, lane).value};
+        return quads;
+      },
+      batch.locals, batch.count, moments);
+}
+
+/// As scatter() of uniform_terms(), which need not be stored.
+CALOTTE_VECTOR_WIDTHS
+void scatter_edges(const Batch& batch, const EdgeRows& edges, CellMoments* moments) {
+  scatter_by(
+      [&](std::size_t lane) {
+        const auto quads_of = [&](const Rows3& rows) {
+          return std::array<Quad, 3>{quad_of(rows[0], lane).value, quad_of(rows[1], lane).value,
+                                     quad_of(rows[2], lane).value};
+        };
+        CornerQuads quads;
+        const std::array<Quad, 3> pull = quads_of(edges.pull);
+        for (std::size_t i = 0; i < 3; ++i) {
+          const std::array<Quad, 3> first = pulled<Quad>({quad_of(batch.corner[0][i], lane).value,
+                                                          quad_of(batch.corner[1][i], lane).value,
+                                                          quad_of(batch.corner[2][i], lane).value},
+                                                         pull);
+          for (std::size_t v = 0; v < 3; ++v)
+            quads[v][i] = first[v];
+        }
+        const std::array<Quad, 3> energy = sums_at_ends(quads_of(edges.energy));
+        for (std::size_t v = 0; v < 3; ++v)
+          quads[v][3] = energy[v];
+        return quads;
+      },
+      batch.locals, batch.count, moments);
+}
+
+void scatter_mass(const Batch& batch, const TriangleTerms& terms, Array<double>& mass) {
   for (std::size_t lane = 0; lane < batch.count; ++lane)
     for (std::size_t v = 0; v < 3; ++v)
-      mass[batch.locals[lane][v]] += terms.mass[v][lane];
+      mass[batch.locals[lane][v]] += terms[v].mass[lane];
 }
 
 /// The density at the sites.
@@ -101,7 +146,8 @@ void integrate(const Integrand& integrand, const Patch& patch, const Array<Vec3>
     std::fill(mass->begin(), mass->end(), 0.0);
   const Array<double> rho = integrand.at_sites ? densities(integrand, x) : Array<double>();
   TriangleRows rows;
-  VertexTerms terms;
+  EdgeRows edges;
+  TriangleTerms terms;
   std::vector<std::int32_t> of_slivers;
   for (std::size_t first = 0; first < patch.corners.size(); first += lanes) {
     Batch batch = gather(patch, x, first);
@@ -109,11 +155,17 @@ void integrate(const Integrand& integrand, const Patch& patch, const Array<Vec3>
       gather_density(rho, batch);
     const bool clear = checked_rows(batch, first, rows, suspects);
     const std::vector<Sliver> slivers = slivers_of(batch, clear, rows, of_slivers);
-    if (integrand.uniform)
-      uniform_terms(batch, rows, slivers, mass != nullptr, terms);
-    else
+    if (integrand.uniform) {
+      edge_rows(rows, mass != nullptr, edges);
+      if (slivers.empty() && mass == nullptr) {
+        scatter_edges(batch, edges, moments.begin());
+        continue;
+      }
+      uniform_terms(batch, edges, slivers, mass != nullptr, terms);
+    } else {
       kite_terms(batch, rows, integrand, terms);
-    scatter(batch.locals, batch.count, terms, moments.begin());
+    }
+    scatter(batch, terms, moments.begin());
     if (mass != nullptr)
       scatter_mass(batch, terms, *mass);
   }

@@ -3,7 +3,6 @@
 
 #include "base/memory.h"
 #include "base/vec3.h"
-#include "integrals/integrand.h"
 #include "integrals/patches.h"
 #include "integrals/quads.h"
 #include "integrals/room.h"
@@ -87,11 +86,34 @@ struct Sliver {
   std::array<HalfEdge, 3> half;
 };
 
-/// Terms of each vertex, [vertex][x, y, z] and [vertex].
-struct alignas(64) VertexTerms {
-  std::array<Rows3, 3> first;
-  Rows3 energy, mass;
+/// The contribution of each edge, named by the vertex across, to both of its ends, for rho = 1.
+struct alignas(64) EdgeRows {
+  Rows3 pull; ///< delta / (2 |a-b|): the first moment's part is that times (a - b) for a
+  Rows3 energy, area;
 };
+
+/// The coordinates of what edges add to the first moments of a triangle's corners, each of them x,
+/// y or z. \param Value a double, or several lanes.
+template <class Value>
+CALOTTE_INLINE std::array<Value, 3> pulled(const std::array<Value, 3>& corner,
+                                           const std::array<Value, 3>& pull) {
+  const Value of_a = pull[0] * (corner[1] - corner[2]), of_b = pull[1] * (corner[2] - corner[0]),
+              of_c = pull[2] * (corner[0] - corner[1]);
+  return {of_c - of_b, of_a - of_c, of_b - of_a};
+}
+
+/// A vertex is an end of the two edges that are named by the others.
+template <class Value>
+CALOTTE_INLINE std::array<Value, 3> sums_at_ends(const std::array<Value, 3>& of_edges) {
+  return {of_edges[1] + of_edges[2], of_edges[2] + of_edges[0], of_edges[0] + of_edges[1]};
+}
+
+/// What triangles add to the moments of one of their corners.
+struct alignas(64) VertexTerms {
+  Rows3 first;
+  Row energy, mass;
+};
+using TriangleTerms = std::array<VertexTerms, 3>;
 
 Batch gather(const Patch& patch, const Array<Vec3>& x, std::size_t first);
 
@@ -101,14 +123,13 @@ void gather_density(const Array<double>& rho, Batch& batch);
 /// True if the clearance of all lanes is positive.
 bool triangle_rows(const Batch& batch, TriangleRows& out);
 
+/// \param with_area otherwise edges.area is not set.
+void edge_rows(const TriangleRows& rows, bool with_area, EdgeRows& edges);
+
 /// Terms for rho = 1.
 /// \param slivers of the batch: their sides and halves take the place of the rows.
-/// \param with_mass otherwise terms.mass is not set.
-void uniform_terms(const Batch& batch, const TriangleRows& rows, const std::vector<Sliver>& slivers,
-                   bool with_mass, VertexTerms& terms);
-
-/// Terms for any density, by the integrand's nodes.
-void kite_terms(const Batch& batch, const TriangleRows& rows, const Integrand& integrand,
-                VertexTerms& terms);
+/// \param with_mass otherwise the masses are not set.
+void uniform_terms(const Batch& batch, EdgeRows& edges, const std::vector<Sliver>& slivers,
+                   bool with_mass, TriangleTerms& terms);
 
 } // namespace calotte::integrals_detail

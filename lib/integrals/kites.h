@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "integrals/integrand.h"
+#include "integrals/room.h"
+#include "integrals/rows.h"
+
+namespace calotte::integrals_detail {
+
+/// Terms for any density: the integral over half kites by the integrand's nodes.
+void kite_terms(const Batch& batch, const TriangleRows& rows, const Integrand& integrand,
+                TriangleTerms& terms);
+
+} // namespace calotte::integrals_detail
