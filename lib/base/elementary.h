@@ -33,10 +33,9 @@ CALOTTE_INLINE double arc_sine(double x) {
   return std::copysign(beyond ? 1.57079632679489661923 - 2 * small : small, x);
 }
 
-/// asin(sqrt(w)) for 0 <= w <= 1/2, to 2 units in the last place, with one root and one division:
-/// asin(s)/s = 1 + w r(w), r the minimax rational function of degrees 5 and 5 (error 5e-16). Pairs
-/// of terms are summed first: the shorter chains of operations overlap.
-CALOTTE_INLINE double arc_sine_of_root(double w) {
+/// asin(s)/s - 1 for s^2 = w, 0 <= w <= 1/2: w r(w), r the minimax rational function of degrees 5
+/// and 5 (error 5e-16). Pairs of terms are summed first: the shorter chains of operations overlap.
+CALOTTE_INLINE double arc_sine_excess(double w) {
   const double w2 = w * w, w4 = w2 * w2;
   const double p = (1.6666666666666710591e-01 + w * -4.0650049149064120382e-01) +
                    w2 * (3.4709210999334143028e-01 + w * -1.2021426044832278859e-01) +
@@ -44,8 +43,21 @@ CALOTTE_INLINE double arc_sine_of_root(double w) {
   const double q = (1 + w * -2.8890029489429388604e+00) +
                    w2 * (3.1147468440742365545e+00 + w * -1.5313732323671677577e+00) +
                    w4 * (3.3069246457023822769e-01 + w * -2.3377158029900356191e-02);
+  return w * (p / q);
+}
+
+/// asin(sqrt(w)) for 0 <= w <= 1/2, to 2 units in the last place, with one root and one division.
+CALOTTE_INLINE double arc_sine_of_root(double w) {
   const double s = std::sqrt(w);
-  return s + s * (w * (p / q));
+  return s + s * arc_sine_excess(w);
+}
+
+/// The arc of a chord on the unit sphere, 2 asin(sqrt(square)/2), for 0 <= square <= 2: the bits of
+/// 2 arc_sine_of_root(square / 4), as powers of two scale without rounding.
+/// \param square of the chord.
+CALOTTE_INLINE double arc_of_chord(double square) {
+  const double chord = std::sqrt(square);
+  return chord + chord * arc_sine_excess(0.25 * square);
 }
 
 /// atan(x) for |x| <= 1; loses digits for larger |x|.

@@ -69,16 +69,26 @@ struct alignas(64) SiteRows {
 };
 
 /// \param x followed by one more double.
-CALOTTE_VECTOR_WIDTHS
-void gather_sites(const Vec3* x, const CellMoments* moments, std::size_t count, SiteRows& rows) {
+/// \param site the site of a lane.
+template <class Site>
+CALOTTE_INLINE void gather_by(const Site& site, const Vec3* x, const CellMoments* moments,
+                              SiteRows& rows) {
   for (std::size_t first = 0; first < lanes; first += 4) {
-    const auto lane = [&](std::size_t k) { return std::min(first + k, count - 1); };
+    const std::size_t a = site(first), b = site(first + 1), c = site(first + 2),
+                      d = site(first + 3);
     Quad last;
-    put_columns({x + lane(0), x + lane(1), x + lane(2), x + lane(3)}, first, rows.x, last);
-    put_columns({moments + lane(0), moments + lane(1), moments + lane(2), moments + lane(3)}, first,
-                rows.first, last);
+    put_columns({x + a, x + b, x + c, x + d}, first, rows.x, last);
+    put_columns({moments + a, moments + b, moments + c, moments + d}, first, rows.first, last);
     quad_at(rows.energy.data() + first).value = last;
   }
+}
+
+CALOTTE_VECTOR_WIDTHS
+void gather_sites(const Vec3* x, const CellMoments* moments, std::size_t count, SiteRows& rows) {
+  if (count == lanes)
+    gather_by([](std::size_t lane) { return lane; }, x, moments, rows);
+  else
+    gather_by([&](std::size_t lane) { return std::min(lane, count - 1); }, x, moments, rows);
 }
 
 template <class Cells, bool with_gradient>

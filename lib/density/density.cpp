@@ -39,7 +39,7 @@ Profile profile_of(const Bump& bump, std::size_t b) {
 
 /// A unit vector's place beside the axis of a bump.
 struct Chord {
-  double square; ///< of half of the chord to the nearer end of the axis
+  double square; ///< of the chord to the nearer end of the axis
   double side;   ///< negative where that end is the antipode of the centre
 };
 
@@ -54,14 +54,14 @@ template <bool stretched> CALOTTE_INLINE Chord chord_from(const Profile& bump, c
     far += (2 - bump.shrink) * squeeze * along;
   }
   const double near = dot(apart, apart);
-  return {0.25 * (far < near ? far : near), far - near};
+  return {far < near ? far : near, far - near};
 }
 
 /// The angle between a unit vector and the centre: 2 asin(|x - c|/2) in the near hemisphere and pi
 /// - 2 asin(|x + c|/2) in the far one. acos(x.c) would lose half of the digits near the centre, and
 /// the first form in the far hemisphere.
 CALOTTE_INLINE double angle_of(const Chord& chord) {
-  const double arc = 2 * arc_sine_of_root(chord.square);
+  const double arc = arc_of_chord(chord.square);
   return chord.side < 0 ? std::numbers::pi - arc : arc;
 }
 

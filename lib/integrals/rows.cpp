@@ -107,8 +107,8 @@ CALOTTE_INLINE double inverse_root_series(double z) { // (1 - z)^(-1/2)
   return (1 + z * (1.0 / 2)) + z * z * (3.0 / 8 + z * (5.0 / 16));
 }
 
-CALOTTE_INLINE double arc_sine_series(double z) { // asin(sqrt(z))/sqrt(z)
-  return (1 + z * (1.0 / 6)) + z * z * (3.0 / 40 + z * (5.0 / 112));
+CALOTTE_INLINE double quarter_arc_sine_series(double z) { // asin(sqrt(z))/sqrt(z)/4
+  return (0.25 + z * (0.25 / 6)) + z * z * (0.75 / 40 + z * (1.25 / 112));
 }
 
 /// (4 atan(p q) - delta s)/(s u), p and q the tangents of half of both arcs: the energy of half a
@@ -131,7 +131,7 @@ bool small_edges(const Rows3& quarter, const Rows3& cotangent, Rows3& pull, Rows
     for (std::size_t lane = 0; lane < lanes; ++lane) {
       const double s = quarter[e][lane], tilt = cotangent[e][lane] * inverse_root_series(s);
       const double w = s * tilt * tilt;
-      pull[e][lane] = 0.25 * tilt * arc_sine_series(w);
+      pull[e][lane] = tilt * quarter_arc_sine_series(w);
       energy[e][lane] = s * tilt * energy_series(s, w);
       const double larger = s > w ? s : w;
       beyond |= larger <= small ? 0 : 1;
