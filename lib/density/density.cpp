@@ -10,7 +10,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <numbers>
 #include <string>
@@ -37,52 +39,87 @@ Profile profile_of(const Bump& bump, std::size_t b) {
   return profile;
 }
 
-/// A unit vector's place beside the axis of a bump.
+/// The square of the chord from a unit vector to the centre of a bump, or to the antipode of the
+/// centre. For a stretched bump, |x - c| is the reduced length.
+template <bool stretched, bool to_antipode>
+CALOTTE_INLINE double chord_square(const Profile& bump, const Vec3& x) {
+  const double along = stretched ? dot(x, bump.major) : 0, squeeze = bump.shrink * along;
+  if constexpr (to_antipode) {
+    const Vec3 sum = x + bump.centre;
+    const double square = dot(sum, sum);
+    return stretched ? square + (2 - bump.shrink) * squeeze * along : square;
+  } else {
+    Vec3 apart = x - bump.centre;
+    if constexpr (stretched)
+      apart = apart - squeeze * bump.major;
+    return dot(apart, apart);
+  }
+}
+
+/// The chord from a unit vector to the nearer end of the axis of a bump.
 struct Chord {
-  double square; ///< of the chord to the nearer end of the axis
-  double side;   ///< negative where that end is the antipode of the centre
+  double square;
+  double side; ///< negative where that end is the antipode of the centre
 };
 
-/// For a stretched bump, |x - c| is the reduced length.
 template <bool stretched> CALOTTE_INLINE Chord chord_from(const Profile& bump, const Vec3& x) {
-  Vec3 apart = x - bump.centre;
-  const Vec3 sum = x + bump.centre;
-  double far = dot(sum, sum);
-  if constexpr (stretched) {
-    const double along = dot(x, bump.major), squeeze = bump.shrink * along;
-    apart = apart - squeeze * bump.major;
-    far += (2 - bump.shrink) * squeeze * along;
-  }
-  const double near = dot(apart, apart);
+  const double near = chord_square<stretched, false>(bump, x),
+               far = chord_square<stretched, true>(bump, x);
   return {far < near ? far : near, far - near};
 }
 
 /// The angle between a unit vector and the centre: 2 asin(|x - c|/2) in the near hemisphere and pi
 /// - 2 asin(|x + c|/2) in the far one. acos(x.c) would lose half of the digits near the centre, and
 /// the first form in the far hemisphere.
-CALOTTE_INLINE double angle_of(const Chord& chord) {
-  const double arc = arc_of_chord(chord.square);
-  return chord.side < 0 ? std::numbers::pi - arc : arc;
+CALOTTE_INLINE double angle_of(double arc, double side) {
+  return side < 0 ? std::numbers::pi - arc : arc;
 }
 
 /// Densities are computed in rows of up to this many points.
 constexpr std::size_t row = 64;
+using Row = std::array<double, row>;
 
-/// The loops are apart because an iteration of all three is one long chain of operations: a
+/// Sets the squares of the chords to one end of the axis. True if it is the nearer end for all
+/// points: the squares of both chords have the sum 4.
+template <bool stretched, bool to_antipode>
+CALOTTE_INLINE bool chord_row(const Profile& bump, const double* x, const double* y,
+                              const double* z, std::size_t count, Row& square) {
+  constexpr double nearer = 1.9; // less than 2 by more than the rounding error
+  std::uint64_t signs = 0;
+  CALOTTE_VECTOR_LOOP
+  for (std::size_t j = 0; j < count; ++j) {
+    square[j] = chord_square<stretched, to_antipode>(bump, {x[j], y[j], z[j]});
+    signs |= std::bit_cast<std::uint64_t>(nearer - square[j]);
+  }
+  return signs >> 63 == 0;
+}
+
+/// The loops are apart because an iteration of all of them is one long chain of operations: a
 /// processor sees too few of them at a time to overlap them.
 template <bool stretched, bool gentle>
 CALOTTE_INLINE void bump_row(const Profile& bump, const double* x, const double* y, const double* z,
                              std::size_t count, double* rho) {
-  alignas(64) std::array<double, row> square, side, angle;
-  CALOTTE_VECTOR_LOOP
-  for (std::size_t j = 0; j < count; ++j) {
-    const Chord chord = chord_from<stretched>(bump, {x[j], y[j], z[j]});
-    square[j] = chord.square;
-    side[j] = chord.side;
+  alignas(64) Row square, side, angle;
+  const bool far = chord_square<stretched, false>(bump, {x[0], y[0], z[0]}) > 2;
+  // Points that are integrated together are close to each other.
+  const bool same_side = far ? chord_row<stretched, true>(bump, x, y, z, count, square)
+                             : chord_row<stretched, false>(bump, x, y, z, count, square);
+  if (!same_side) {
+    CALOTTE_VECTOR_LOOP
+    for (std::size_t j = 0; j < count; ++j) {
+      const Chord chord = chord_from<stretched>(bump, {x[j], y[j], z[j]});
+      square[j] = chord.square;
+      side[j] = chord.side;
+    }
   }
   CALOTTE_VECTOR_LOOP
   for (std::size_t j = 0; j < count; ++j)
-    angle[j] = angle_of({square[j], side[j]});
+    angle[j] = arc_of_chord(square[j]);
+  if (!same_side || far) {
+    CALOTTE_VECTOR_LOOP
+    for (std::size_t j = 0; j < count; ++j)
+      angle[j] = angle_of(angle[j], same_side ? -1 : side[j]);
+  }
   CALOTTE_VECTOR_LOOP
   for (std::size_t j = 0; j < count; ++j)
     rho[j] = gentle ? gentle_value_at(bump, angle[j]) : value_at(bump, angle[j]);
@@ -202,7 +239,8 @@ DensityEvaluator::Bounds DensityEvaluator::bounds(const Vec3& middle, double rea
   Bounds bounds;
   for (const Profile& profile : profiles_) {
     const double change = reach * (profile.shrink > 0 ? std::numbers::sqrt2 : 1) + slack;
-    const double angle = angle_of(chord_from<true>(profile, middle));
+    const Chord chord = chord_from<true>(profile, middle);
+    const double angle = angle_of(arc_of_chord(chord.square), chord.side);
     const double least = value_at(profile, std::min(std::numbers::pi, angle + change)),
                  greatest = value_at(profile, std::max(0.0, angle - change)) * (1 + slack);
     const bool sum = density_.kind == Density::Kind::sum;
