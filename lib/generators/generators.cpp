@@ -341,11 +341,11 @@ Points3 cubed_sphere(std::int64_t m) {
 
 Points3 bisect(const Mesh& mesh) {
   const std::int64_t n = mesh.points.cols();
-  Points3 points(3, n + mesh_detail::count_edges(mesh));
+  const mesh_detail::EdgeCount edges = mesh_detail::count_edges(mesh);
+  Points3 points(3, n + edges.all);
   points.leftCols(n) = mesh.points;
-  std::int64_t next = n;
-  mesh_detail::for_each_edge(mesh, [&](std::int32_t a, std::int32_t b) {
-    put(points, next++, midpoint(get(points, a), get(points, b)));
+  mesh_detail::for_each_edge(mesh, edges, [&](std::int64_t e, std::int32_t a, std::int32_t b) {
+    put(points, n + e, midpoint(get(points, a), get(points, b)));
   });
   return points;
 }

@@ -164,7 +164,7 @@ std::vector<Edge> edges_of(const AnyMesh& mesh, const Points3& points, const Den
   const Eigen::VectorXd fine = fineness(density, points);
   const std::vector<std::int8_t> odd = oddities(mesh);
   std::vector<Edge> edges;
-  edges.reserve(static_cast<std::size_t>(mesh_detail::count_edges(mesh)));
+  edges.reserve(static_cast<std::size_t>(mesh_detail::count_edges(mesh).all));
   mesh_detail::for_each_edge(mesh, [&](std::int32_t a, std::int32_t b) {
     const int sum = odd[static_cast<std::size_t>(a)] + odd[static_cast<std::size_t>(b)];
     const double length = norm(space.offset(column(points, a), column(points, b))),

@@ -195,20 +195,19 @@ Points2 lattice_of_box(std::int64_t n, const Eigen::Vector2d& period) {
 
 Points2 bisected_box(const PlanarMesh& mesh) {
   const std::int64_t n = mesh.points.cols();
-  Points2 places(2, n + mesh_detail::count_edges(mesh));
+  const mesh_detail::EdgeCount edges = mesh_detail::count_edges(mesh);
+  Points2 places(2, n + edges.all);
   places.leftCols(n) = mesh.points;
-  std::int64_t next = n;
-  mesh_detail::for_each_edge(mesh, [&](std::int32_t a, std::int32_t b) {
+  mesh_detail::for_each_edge(mesh, edges, [&](std::int64_t e, std::int32_t a, std::int32_t b) {
     for (int i = 0; i < 2; ++i)
-      places(i, next) = middle_in_box(mesh.points(i, a), mesh.points(i, b), mesh.period[i]);
-    ++next;
+      places(i, n + e) = middle_in_box(mesh.points(i, a), mesh.points(i, b), mesh.period[i]);
   });
   return places;
 }
 
 Points2 bisected_inside(const PlanarMesh& mesh, const Outline& outline) {
   const std::int64_t n = mesh.points.cols();
-  Points2 places(2, n + mesh_detail::count_edges(mesh));
+  Points2 places(2, n + mesh_detail::count_edges(mesh).all);
   places.leftCols(n) = mesh.points;
   std::int64_t next = n;
   mesh_detail::for_each_edge(mesh, [&](std::int32_t a, std::int32_t b) {
