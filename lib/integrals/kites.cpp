@@ -139,13 +139,17 @@ struct LaneTerms {
   }
 };
 
+/// Without the mass, rows of masses are neither read nor set.
+template <bool with_mass>
 CALOTTE_INLINE LaneTerms terms_at(const VertexTerms& rows, std::size_t lane) {
-  return {at(rows.first, lane), rows.energy[lane], rows.mass[lane]};
+  return {at(rows.first, lane), rows.energy[lane], with_mass ? rows.mass[lane] : 0};
 }
+template <bool with_mass>
 CALOTTE_INLINE void set_terms(const LaneTerms& terms, VertexTerms& rows, std::size_t lane) {
   put(terms.first, rows.first, lane);
   rows.energy[lane] = terms.energy;
-  rows.mass[lane] = terms.mass;
+  if constexpr (with_mass)
+    rows.mass[lane] = terms.mass;
 }
 
 /// Terms of the two ends of an edge. Those before are those after, or zero: not to set what is
@@ -156,12 +160,13 @@ struct EndTerms {
 };
 
 /// Adds the terms of placed nodes to both ends of an edge.
-template <std::size_t count>
+template <std::size_t count, bool with_mass>
 CALOTTE_VECTOR_WIDTHS void add_placed(const NodeRows& nodes, const PlacedNodes& placed,
                                       const EndTerms& ends) {
   CALOTTE_VECTOR_LOOP
   for (std::size_t lane = 0; lane < lanes; ++lane) {
-    LaneTerms a = terms_at(ends.before_first, lane), b = terms_at(ends.before_second, lane);
+    LaneTerms a = terms_at<with_mass>(ends.before_first, lane),
+              b = terms_at<with_mass>(ends.before_second, lane);
     for (std::size_t k = 0; k < count; ++k) {
       const double weight = nodes.weight[k][lane], square = nodes.square[k][lane];
       const auto place = [&](std::size_t i) {
@@ -170,19 +175,20 @@ CALOTTE_VECTOR_WIDTHS void add_placed(const NodeRows& nodes, const PlacedNodes& 
       a.add(weight * placed.rho[k][lane], square, place(lane));
       b.add(weight * placed.rho[k][lanes + lane], square, place(lanes + lane));
     }
-    set_terms(a, ends.first, lane);
-    set_terms(b, ends.second, lane);
+    set_terms<with_mass>(a, ends.first, lane);
+    set_terms<with_mass>(b, ends.second, lane);
   }
 }
 
 /// The same for a density that is linear on the triangle.
-template <std::size_t count>
+template <std::size_t count, bool with_mass>
 CALOTTE_VECTOR_WIDTHS void add_linear(const NodeRows& nodes, const std::array<Shares, count>& given,
                                       const Edges& edges, const EndTerms& ends) {
   const std::array<Shares, count> shares = given; // writing to terms cannot change it
   CALOTTE_VECTOR_LOOP
   for (std::size_t lane = 0; lane < lanes; ++lane) {
-    LaneTerms a = terms_at(ends.before_first, lane), b = terms_at(ends.before_second, lane);
+    LaneTerms a = terms_at<with_mass>(ends.before_first, lane),
+              b = terms_at<with_mass>(ends.before_second, lane);
     for (std::size_t k = 0; k < count; ++k) {
       const double weight = nodes.weight[k][lane], square = nodes.square[k][lane];
       const auto [x, mirrored] = shares[k].places(at(edges.first, lane), at(edges.second, lane),
@@ -192,13 +198,13 @@ CALOTTE_VECTOR_WIDTHS void add_linear(const NodeRows& nodes, const std::array<Sh
       a.add(weight * rho, square, x);
       b.add(weight * rho_mirrored, square, mirrored);
     }
-    set_terms(a, ends.first, lane);
-    set_terms(b, ends.second, lane);
+    set_terms<with_mass>(a, ends.first, lane);
+    set_terms<with_mass>(b, ends.second, lane);
   }
 }
 
 /// Adds the terms of `count` nodes of a rule.
-template <std::size_t count>
+template <std::size_t count, bool with_mass>
 void add_nodes(const QuadratureRule::Node* of_rule, const Integrand& integrand, const Edges& edges,
                const EndTerms& ends) {
   std::array<Shares, count> shares;
@@ -208,7 +214,7 @@ void add_nodes(const QuadratureRule::Node* of_rule, const Integrand& integrand, 
     node_rows(of_rule[k], edges, nodes.scale[k], nodes.weight[k], nodes.square[k]);
   }
   if (integrand.at_sites) {
-    add_linear(nodes, shares, edges, ends);
+    add_linear<count, with_mass>(nodes, shares, edges, ends);
     return;
   }
   PlacedNodes placed;
@@ -216,13 +222,12 @@ void add_nodes(const QuadratureRule::Node* of_rule, const Integrand& integrand, 
     place_node(shares[k], edges, nodes.scale[k], placed.x[0][k], placed.x[1][k], placed.x[2][k]);
   const auto all = [](auto& of_nodes) { return std::span(of_nodes[0].data(), count * 2 * lanes); };
   integrand.density(all(placed.x[0]), all(placed.x[1]), all(placed.x[2]), all(placed.rho));
-  add_placed<count>(nodes, placed, ends);
+  add_placed<count, with_mass>(nodes, placed, ends);
 }
 
-} // namespace
-
-void kite_terms(const Batch& batch, const TriangleRows& rows, const Integrand& integrand,
-                TriangleTerms& terms) {
+template <bool with_mass>
+void add_kites(const Batch& batch, const TriangleRows& rows, const Integrand& integrand,
+               TriangleTerms& terms) {
   static constexpr VertexTerms zero{};
   PlaneRows plane;
   plane_rows(rows, plane);
@@ -240,13 +245,23 @@ void kite_terms(const Batch& batch, const TriangleRows& rows, const Integrand& i
       const EndTerms ends{*before[a], *before[b], terms[a], terms[b]};
       const bool whole = node + group <= integrand.nodes.size();
       if (whole)
-        add_nodes<group>(of_rule, integrand, edges, ends);
+        add_nodes<group, with_mass>(of_rule, integrand, edges, ends);
       else
-        add_nodes<1>(of_rule, integrand, edges, ends);
+        add_nodes<1, with_mass>(of_rule, integrand, edges, ends);
       before[a] = &terms[a], before[b] = &terms[b];
       node += whole ? group : 1;
     }
   }
+}
+
+} // namespace
+
+void kite_terms(const Batch& batch, const TriangleRows& rows, const Integrand& integrand,
+                bool with_mass, TriangleTerms& terms) {
+  if (with_mass)
+    add_kites<true>(batch, rows, integrand, terms);
+  else
+    add_kites<false>(batch, rows, integrand, terms);
 }
 
 } // namespace calotte::integrals_detail

@@ -8,7 +8,8 @@
 namespace calotte::integrals_detail {
 
 /// Terms for any density: the integral over half kites by the integrand's nodes.
+/// \param with_mass otherwise the masses are not set.
 void kite_terms(const Batch& batch, const TriangleRows& rows, const Integrand& integrand,
-                TriangleTerms& terms);
+                bool with_mass, TriangleTerms& terms);
 
 } // namespace calotte::integrals_detail

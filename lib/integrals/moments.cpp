@@ -149,8 +149,15 @@ void integrate(const Integrand& integrand, const Patch& patch, const Array<Vec3>
   EdgeRows edges;
   TriangleTerms terms;
   std::vector<std::int32_t> of_slivers;
+  // True as long as the shorter way suffices: where one batch needs the longer, most do.
+  bool small = integrand.uniform && mass == nullptr;
   for (std::size_t first = 0; first < patch.corners.size(); first += lanes) {
     Batch batch = gather(patch, x, first);
+    small = small && small_edge_rows(batch, rows, edges);
+    if (small) {
+      scatter_edges(batch, edges, moments.begin());
+      continue;
+    }
     if (integrand.at_sites)
       gather_density(rho, batch);
     const bool clear = checked_rows(batch, first, rows, suspects);
@@ -163,7 +170,7 @@ void integrate(const Integrand& integrand, const Patch& patch, const Array<Vec3>
       }
       uniform_terms(batch, edges, slivers, mass != nullptr, terms);
     } else {
-      kite_terms(batch, rows, integrand, terms);
+      kite_terms(batch, rows, integrand, mass != nullptr, terms);
     }
     scatter(batch, terms, moments.begin());
     if (mass != nullptr)

@@ -51,40 +51,40 @@ void gather_density(const Array<double>& rho, Batch& batch) {
 
 namespace {
 
-// The product of a corner's two sides is positive if its angle is acute. It errs by some 8
-// roundoffs of itself, and stored vectors differ from unit ones by 5: 1e-14 exceeds both, for sides
-// of any length. The same bound holds for the normal's product.
-CALOTTE_VECTOR_WIDTHS
-bool compute_triangle_rows(const Batch& batch, TriangleRows& out) {
-  constexpr double margin = 1e-14, apart_scale = margin / antipodal;
+/// The product of a corner's two sides is positive if its angle is acute. It errs by some 8
+/// roundoffs of itself, and stored vectors differ from unit ones by 5: the margin exceeds both, for
+/// sides of any length. The same bound holds for the normal's product.
+constexpr double margin = 1e-14;
+
+/// \tparam of_edges sets the rows of edges alone, and takes all edges for short.
+template <bool of_edges>
+CALOTTE_VECTOR_WIDTHS bool compute_triangle_rows(const Batch& batch, TriangleRows& out) {
+  constexpr double apart_scale = margin / antipodal;
   std::int64_t unclear = 0;
   CALOTTE_VECTOR_LOOP
   for (std::size_t lane = 0; lane < lanes; ++lane) {
     const Vec3 a = at(batch.corner[0], lane), b = at(batch.corner[1], lane),
                c = at(batch.corner[2], lane);
-    const Vec3 ab = b - a, bc = c - b, ca = a - c;
+    const Vec3 ab = b - a, bc = c - b, ac = c - a;
     const Vec3 normal = cross(ab, bc);
-    const double scale = 1 / std::sqrt(dot(normal, normal));
-    const double at_a = -dot(ca, ab), at_b = -dot(ab, bc), at_c = -dot(bc, ca);
-    out.quarter[0][lane] = 0.25 * dot(bc, bc);
-    out.quarter[1][lane] = 0.25 * dot(ca, ca);
-    out.quarter[2][lane] = 0.25 * dot(ab, ab);
-    out.cotangent[0][lane] = at_a * scale;
-    out.cotangent[1][lane] = at_b * scale;
-    out.cotangent[2][lane] = at_c * scale;
-    put(normal, out.normal, lane);
-    out.scale[lane] = scale;
-    const double height = dot(normal, a);
-    out.height[lane] = height;
+    const double scale = 1 / std::sqrt(dot(normal, normal)), height = dot(normal, a);
+    const double at_a = dot(ac, ab), at_b = -dot(ab, bc), at_c = dot(bc, ac);
+    const double long_a = 0.25 * dot(bc, bc), long_b = 0.25 * dot(ac, ac),
+                 long_c = 0.25 * dot(ab, ab);
+    put({long_a, long_b, long_c}, out.quarter, lane);
+    put({at_a * scale, at_b * scale, at_c * scale}, out.cotangent, lane);
     const double ab_least = at_a < at_b ? at_a : at_b, c_least = at_c < height ? at_c : height;
-    const double least = ab_least < c_least ? ab_least : c_least;
-    const double long_a = out.quarter[0][lane], long_b = out.quarter[1][lane],
-                 long_c = out.quarter[2][lane];
-    const double long_ab = long_a > long_b ? long_a : long_b;
-    const double apart = apart_scale * (1 - (long_ab > long_c ? long_ab : long_c));
-    const double clearance = (least < apart ? least : apart) - margin;
-    out.clearance[lane] = clearance;
-    unclear |= clearance > 0 ? 0 : 1;
+    double least = ab_least < c_least ? ab_least : c_least;
+    if constexpr (!of_edges) {
+      put(normal, out.normal, lane);
+      out.scale[lane] = scale;
+      out.height[lane] = height;
+      const double long_ab = long_a > long_b ? long_a : long_b;
+      const double apart = apart_scale * (1 - (long_ab > long_c ? long_ab : long_c));
+      least = least < apart ? least : apart;
+      out.clearance[lane] = least - margin;
+    }
+    unclear |= least > margin ? 0 : 1;
   }
   return unclear == 0;
 }
@@ -93,7 +93,7 @@ bool compute_triangle_rows(const Batch& batch, TriangleRows& out) {
 
 // A function with versions for several vector widths would be exported, whatever its visibility.
 bool triangle_rows(const Batch& batch, TriangleRows& out) {
-  return compute_triangle_rows(batch, out);
+  return compute_triangle_rows<false>(batch, out);
 }
 
 namespace {
@@ -243,6 +243,11 @@ void set_first(const Sliver& sliver, TriangleTerms& terms) {
 }
 
 } // namespace
+
+bool small_edge_rows(const Batch& batch, TriangleRows& rows, EdgeRows& edges) {
+  return compute_triangle_rows<true>(batch, rows) &&
+         small_edges(rows.quarter, rows.cotangent, edges.pull, edges.energy);
+}
 
 void edge_rows(const TriangleRows& rows, bool with_area, EdgeRows& edges) {
   const bool all_small = small_edges(rows.quarter, rows.cotangent, edges.pull, edges.energy);

@@ -77,12 +77,11 @@ template <class AnyMesh, class Body> void for_each_edge(const AnyMesh& mesh, con
 /// body(e, a, b) for each edge e, in parallel.
 template <class AnyMesh, class Body>
 void for_each_edge(const AnyMesh& mesh, const EdgeCount& edges, const Body& body) {
-  base_detail::for_each_block(
-      mesh.triangles.cols(), [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
-        std::int64_t e = edges.before[static_cast<std::size_t>(block)];
-        for_each_edge_of(mesh, begin, end,
-                         [&](std::int32_t a, std::int32_t b) { body(e++, a, b); });
-      });
+  base_detail::for_each_block(mesh.triangles.cols(), [&](std::int64_t block, std::int64_t begin,
+                                                         std::int64_t end) {
+    std::int64_t e = edges.before[static_cast<std::size_t>(block)];
+    for_each_edge_of(mesh, begin, end, [&](std::int32_t a, std::int32_t b) { body(e++, a, b); });
+  });
 }
 
 } // namespace calotte::mesh_detail
