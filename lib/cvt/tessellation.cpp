@@ -97,9 +97,17 @@ template <class Cells> void Tessellation<Cells>::adopt(Owners&& owners) {
 
 /// Positions of a patch's sites, by local number.
 template <class Cells> Array<Vec3> Tessellation<Cells>::exchange(const Patch& patch) const {
+  constexpr std::int64_t together = 16;
   Array<Vec3> x(std::ssize(patch.sites));
-  for (std::int64_t i = 0; i < x.size(); ++i)
-    x[i] = cells_.place(patch.sites[static_cast<std::size_t>(i)]);
+  for (std::int64_t i = 0; i < x.size();) {
+    const Vec3& place = cells_.place(patch.sites[static_cast<std::size_t>(i)]);
+    if (are_consecutive(patch, i, together)) {
+      std::copy_n(&place, together, &x[i]);
+      i += together;
+    } else {
+      x[i++] = place;
+    }
+  }
   return x;
 }
 

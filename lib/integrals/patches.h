@@ -37,6 +37,14 @@ struct Patch {
   std::vector<std::array<std::int32_t, 3>> corners;
 };
 
+/// True if some of a patch's own sites follow each other in the mesh, as most do that are numbered
+/// along a curve.
+/// \param first, count of their local numbers.
+inline bool are_consecutive(const Patch& patch, std::int64_t first, std::int64_t count) {
+  const std::int32_t* const sites = patch.sites.data() + first;
+  return first + count <= patch.owned && sites[count - 1] - sites[0] == count - 1;
+}
+
 /// \param triangles counter-clockwise, in any order.
 std::vector<Patch> make_patches(const Triangles& triangles, const Ownership& ownership);
 
