@@ -123,9 +123,9 @@ void gather_density(const Array<double>& rho, Batch& batch);
 /// True if the clearance of all lanes is positive.
 bool triangle_rows(const Batch& batch, TriangleRows& out);
 
-/// Sets the rows of edges in less time than triangle_rows() and edge_rows(), without the areas.
-/// True if the rows are set: the clearance of all lanes is positive, and no edge is long. \param
-/// rows for intermediate results.
+/// As triangle_rows() and edge_rows() without the areas, in less time. True if the rows are set:
+/// the clearance of all lanes is positive, and no edge is long.
+/// \param rows for intermediate results.
 bool small_edge_rows(const Batch& batch, TriangleRows& rows, EdgeRows& edges);
 
 /// \param with_area otherwise edges.area is not set.

@@ -8,7 +8,6 @@
 
 #include <calotte/types.h>
 
-#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -69,12 +68,13 @@ template <class AnyMesh> EdgeCount count_edges(const AnyMesh& mesh) {
   return edges;
 }
 
-/// body(a, b) for the ends of each edge, one after the other. \pre count_edges() has passed.
+/// body(a, b) for the ends of each edge, one after the other. \pre the vertices are in the mesh.
 template <class AnyMesh, class Body> void for_each_edge(const AnyMesh& mesh, const Body& body) {
   for_each_edge_of(mesh, 0, mesh.triangles.cols(), body);
 }
 
 /// body(e, a, b) for each edge e, in parallel.
+/// \param edges of the mesh, as count_edges() gives them.
 template <class AnyMesh, class Body>
 void for_each_edge(const AnyMesh& mesh, const EdgeCount& edges, const Body& body) {
   base_detail::for_each_block(mesh.triangles.cols(), [&](std::int64_t block, std::int64_t begin,
