@@ -101,7 +101,7 @@ template <class Cells> Array<Vec3> Tessellation<Cells>::exchange(const Patch& pa
   Array<Vec3> x(std::ssize(patch.sites));
   for (std::int64_t i = 0; i < x.size();) {
     const Vec3& place = cells_.place(patch.sites[static_cast<std::size_t>(i)]);
-    if (are_consecutive(patch, i, together)) {
+    if (are_consecutive(patch, i, together)) { // as their places are in memory
       std::copy_n(&place, together, &x[i]);
       i += together;
     } else {
