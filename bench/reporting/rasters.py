@@ -77,6 +77,17 @@ def by_latitude(_, latitude):
     return 60 - 30 * math.exp(-((latitude / 15) ** 2)) - 25 * poles
 
 
+def tropical_band(_, latitude):
+    """30 km within some 25 degrees of the equator and 120 km beyond, over 12 degrees."""
+    return 75 + 45 * math.tanh((abs(latitude) - 25) / 6)
+
+
+def rossby(_, latitude):
+    """The first baroclinic Rossby radius c/f with c = 2.5 m/s, at most 60 km at the equator."""
+    coriolis = 2 * 7.292e-5 * math.sin(math.radians(latitude))
+    return 1 / math.hypot(1 / 60, 1000 * coriolis / 2.5)
+
+
 def coast():
     """15 km along a winding line, 120 km away from it."""
     line = [
@@ -115,6 +126,8 @@ WIDTHS = {
     "ellipse": ellipse(3),
     "two-bumps": two_bumps(),
     "latitude": by_latitude,
+    "band": tropical_band,
+    "rossby": rossby,
     "coast": coast(),
     "step": sharp_step(),
     "noise": noisy(bump(8)),
