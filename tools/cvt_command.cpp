@@ -227,8 +227,7 @@ Outcome tessellate(const CvtRequest& request, Plan& plan, Progress& progress) {
 void warn_of_shapes(const CvtReport& report) {
   std::cout.flush();
   std::cerr
-      << "calotte: warning: the finish left a shape " +
-             formatted("%.2g", report.iterations.back().misshapen) +
+      << "calotte: warning: a shape is " + formatted("%.2g", report.iterations.back().misshapen) +
              " beyond its limit, so that the mesh is not well-centred; calotte info shows its "
              "angles; give more cells, or make the density smoother\n";
 }

@@ -74,17 +74,18 @@ struct CvtOptions {
   /// Number of generators of the result; > 0 if and only if insertion_rounds is. A level of b
   /// bisections before the last has 4^-b times as many.
   std::int64_t cells = 0;
-  /// Adds a finish after the last descent: generators move a little away from their centroids until
-  /// the mesh has the shapes that models ask for. The finish minimises the energy plus the squares
-  /// of excesses over limits: angles of triangles from 49 to 76 degrees, Voronoi edges from 0.38 to
-  /// 0.78 times the length of the Delaunay edges across, and these from 0.86 to 1.25 times the
-  /// spacing that the density demands. It ends when no cotangent and no such ratio exceeds its
-  /// limit by more than 0.035, after 60 evaluations, or after ten that hardly improve the worst
-  /// shape; the mesh is well-centred if none does by 0.07. Near that the finish goes on, up to
-  /// twice, with squares of four times the weight. Sites with 8 neighbours or more, or 4 or fewer,
-  /// cannot have such shapes; with insertion_rounds, up to four further rounds remove them. A mesh
-  /// within the limits does not change. A descent before a finish also converges when 45
-  /// evaluations have not halved its norm. Default false: a pure CVT.
+  /// Ends the run with the shapes that models ask for. A pure CVT has few others, at dislocations,
+  /// pairs of cells with 5 and 7 neighbours. First, up to three times after the last descent,
+  /// dislocations at short Voronoi edges are moved along their rows, the generators around them
+  /// relax, and the descent goes on. Then a finish minimises the energy plus the squares of
+  /// excesses over limits that are left: angles of triangles from 38 to 87 degrees, Voronoi edges
+  /// from 0.21 to 1.1 times the length of the Delaunay edges across, and these from 0.8 to 1.3
+  /// times the spacing that the density demands. It moves generators next to such shapes away from
+  /// their centroids. It ends when no cotangent and no such ratio exceeds its limit by more than
+  /// 0.02, after 60 evaluations, or after ten that hardly improve the worst shape; the mesh is
+  /// well-centred if none does by 0.03. Near that the finish goes on, up to twice, with squares of
+  /// four times the weight. A mesh within the limits does not change. A descent before a finish
+  /// also converges when 45 evaluations have not halved its norm. Default false: a pure CVT.
   bool well_centred = false;
   /// Quadrature points per half kite: 1, 3, 6, 7, 13 or 19; no effect for uniform density.
   int rule = 3;
@@ -303,14 +304,13 @@ struct Continuation {
 ///         density, seed) where it draws.
 Continuation continuation(std::int64_t cells, const Density& density, std::uint64_t seed = 1);
 
-/// A value for CvtOptions::tolerance of a run with CvtOptions::well_centred: what a stricter one
-/// gains, the finish takes back.
-inline constexpr double tolerance_before_finish = 3e-4;
+/// A value for CvtOptions::tolerance of a run with CvtOptions::well_centred. The errors of a
+/// model's operators hardly fall below it.
+inline constexpr double tolerance_before_finish = 1e-4;
 
-/// A value for CvtOptions::insertion_rounds that makes good grids in little time: 2, above 70 000
-/// cells 4, above 150 000 cells 10, above 400 000 cells 5. On a fine grid few rounds leave cells
-/// sheared over long distances; on the finest ones further rounds gain less than they cost.
-int insertion_rounds(std::int64_t cells);
+/// A value for CvtOptions::insertion_rounds. The errors of a model's operators do not fall with
+/// further rounds.
+inline constexpr int usual_insertion_rounds = 1;
 
 /// The start of a run with CvtOptions::insertion_rounds, for any number of cells: random points
 /// that follow site_density(), and as many bisections as leave at least 160 of them, and 12 in each

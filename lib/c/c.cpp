@@ -234,7 +234,7 @@ calotte_status calotte_grid(int64_t cells, const calotte_cvt_options* options, c
     here.bisections = from.bisections;
     if (!uniform) {
       here.cells = cells;
-      here.insertion_rounds = insertion_rounds(cells);
+      here.insertion_rounds = usual_insertion_rounds;
     }
     run(from.start, here, words, mesh, report);
   });

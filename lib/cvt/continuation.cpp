@@ -84,11 +84,6 @@ Continuation continuation(std::int64_t cells, const Density& density, std::uint6
   return result;
 }
 
-int insertion_rounds(std::int64_t cells) {
-  constexpr std::int64_t middle = 70'000, fine = 150'000, finest = 400'000;
-  return cells > finest ? 5 : cells > fine ? 10 : cells > middle ? 4 : 2;
-}
-
 Continuation multilevel(std::int64_t cells, const Density& density, std::uint64_t seed,
                         std::int64_t fixed) {
   base_detail::require_count(cells, cvt_detail::SphericalWorld::fewest, "the number of cells");

@@ -29,7 +29,7 @@ namespace {
 
 /// Of an excess over the limits of shape.h: a finish ends at the first, and has converged below the
 /// second, at which it ends where its penalty has been raised.
-constexpr double shape_tolerance = 0.035, accepted_shape = 0.07;
+constexpr double shape_tolerance = 0.02, accepted_shape = 0.03;
 
 void require_options(const CvtOptions& options) {
   const auto refuse = [](const std::string& what) { throw Error(ErrorCode::bad_option, what); };
@@ -62,7 +62,7 @@ void require_state(const State& state) {
   std::vector<std::uint8_t> seen(n, 0);
   bool good = n >= 1 && state.id.size() == n && state.fixed >= 0 &&
               state.fixed <= state.points.cols() && state.bisections_left >= 0 &&
-              state.rounds_left >= 0 && state.mends >= 0 && state.iterations_of_level >= 0 &&
+              state.rounds_left >= 0 && state.glides >= 0 && state.iterations_of_level >= 0 &&
               std::isfinite(state.penalty) && state.penalty >= 0 &&
               std::isfinite(state.demanded_spacing) && state.demanded_spacing > 0;
   for (std::size_t i = 0; good && i < n; ++i) {
@@ -90,8 +90,7 @@ void conclude(State& state, const CvtOptions& options, const CvtIteration& itera
   const bool by_final_rule = options.density.uniform() || iteration.rule == options.final_rule;
   report.residual = norm_of(iteration, options.norm);
   if (state.penalty > 0) {
-    report.converged =
-        iteration.misshapen <= (state.stiffened > 0 ? accepted_shape : shape_tolerance);
+    report.converged = iteration.misshapen <= (state.raised > 0 ? accepted_shape : shape_tolerance);
   } else if (options.norm == Norm::none) {
     report.converged = state.iterations_of_level >= options.max_iterations;
   } else {
@@ -148,6 +147,10 @@ Ending iterate(const World& world, CvtState& whole, Level&& level, const CvtOpti
     descent.step();
   for (;; descent.step()) {
     conclude(state, options, descent.here().iteration);
+    while (may_glide(state, options) && descent.glide()) {
+      ++state.glides;
+      conclude(state, options, descent.here().iteration);
+    }
     const bool ended = level_ended(state, options);
     if (ended)
       end_descent(state, descent);
@@ -211,14 +214,14 @@ Level begin(const World& world, Stage stage, State& state, const CvtOptions& opt
     begin_finish(state);
     return {};
   }
-  if (stage == Stage::stiffen) {
-    begin_stiffened(state);
+  if (stage == Stage::raise) {
+    begin_raised(state);
     return {};
   }
   state.memory = {};
   const auto mesh = mesh_of(world, state, std::move(ending));
   return stage == Stage::bisect ? begin_level(world, state, options, mesh)
-                                : begin_round(world, stage, state, options, mesh);
+                                : begin_round(world, state, options, mesh);
 }
 
 template <class World>

@@ -97,6 +97,14 @@ void Descent::step() {
     quasi_newton_step();
 }
 
+bool Descent::glide() {
+  if (functional_.glide(state_.points) == 0)
+    return false;
+  forget();
+  evaluate(state_.points, here_);
+  return true;
+}
+
 void Descent::end_at_centroids() {
   if (uses_gradients())
     functional_.set_centroids(state_.points, here_, state_.points);

@@ -28,6 +28,10 @@ public:
   /// One step; the state's points are the new ones, evaluated.
   void step();
 
+  /// Moves dislocations of the state's points, see glide.h, and evaluates them. Returns false if
+  /// there is none to move.
+  bool glide();
+
   /// The evaluation at the state's points.
   const Evaluation& here() const { return here_; }
 

@@ -6,6 +6,7 @@
 #include "base/parallel.h"
 #include "base/points.h"
 #include "base/vector_loops.h"
+#include "cvt/glide.h"
 #include "cvt/planar_cells.h"
 #include "cvt/region_cells.h"
 #include "cvt/shape.h"
@@ -198,6 +199,9 @@ public:
     demanded_spacing_ = spacing;
   }
   void hold(std::vector<std::uint8_t> fixed) override { fixed_ = std::move(fixed); }
+  std::int64_t glide(Points3& points) override {
+    return cvt_detail::glide(tessellation_, points, coarse_, fixed_);
+  }
   std::vector<CvtRegion> regions() const override { return tessellation_.regions(); }
   void retract(const Points3& x, double step, const Points3& d, Points3& to) const override;
   void make_tangential(Points3& vectors, const Points3& x, base_detail::Part part) const override;
@@ -234,34 +238,21 @@ Effort FunctionalOver<Cells>::integrate(const Points3& points, const Integrand& 
     terms_ = {};
     tessellation_.divide();
   }
-  bool turned = false; // a second time, flips have not sufficed
-  const auto mend = [&](const Faults& faults) {
-    if (faults.none())
-      return;
-    const bool again = turned && !faults.overturned.empty();
-    turned = turned || !faults.overturned.empty();
-    if (!again && tessellation_.mend(faults, effort))
-      return;
-    out = {};
-    terms_ = {};
-    tessellation_.rebuild(effort);
-  };
   const auto receive = [&](const Patch& patch, const Array<Vec3>& x,
                            const Array<CellMoments>& moments) {
     evaluate_sites<Cells>(patch, points, x, moments, fixed_, with_gradient, out, terms_);
   };
-  const auto integrate_all = [&] {
+  const auto set_room = [&](bool room) {
+    if (!room) {
+      out = {};
+      terms_ = {};
+      return;
+    }
     make_room(out, points.cols(), with_gradient);
     if (terms_.size() != points.cols())
       terms_ = Array<SiteTerms>(points.cols());
-    return tessellation_.integrate(integrand, receive, effort);
   };
-  if (tessellation_.restless())
-    mend(tessellation_.find_faults(effort));
-  // After a repair few faults are left, and none after a new triangulation.
-  for (Faults faults = integrate_all(); !faults.none(); faults = integrate_all())
-    mend(faults);
-  tessellation_.settle(effort);
+  tessellation_.integrate_repaired(integrand, set_room, receive, effort);
   return effort;
 }
 

@@ -56,6 +56,9 @@ public:
   /// \param fixed a flag for each generator; empty if none is held.
   virtual void hold(std::vector<std::uint8_t> fixed) = 0;
 
+  /// Moves dislocations, see glide.h. Returns the number of steps; 0 if the points stay.
+  virtual std::int64_t glide(Points3& points) = 0;
+
   virtual std::vector<CvtRegion> regions() const = 0;
 
   /// Moves out the connectivity of the Delaunay triangulation of the generators at their current

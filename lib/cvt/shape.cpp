@@ -16,7 +16,7 @@
 namespace calotte::cvt_detail {
 namespace {
 
-constexpr ShapeLimits limits;
+constexpr ShapeLimits limits = shape_limits;
 
 /// The angle of a triangle at its vertex c, from a to b counter-clockwise.
 struct Angle {
@@ -178,7 +178,9 @@ bool is_distorted(const Cells& cells, const Connectivity& mesh,
   const Vec3 &a = cells.place(ids[0]), &b = cells.place(ids[1]), &c = cells.place(ids[2]);
   const Vec3 ab = cells.offset(a, b), bc = cells.offset(b, c), ca = cells.offset(c, a);
   const Vec3 product = cross(ab, bc);
-  const double area = norm(product), low = limits.least_edge * area, high = limits.most_edge * area;
+  constexpr double least = std::max(limits.least_edge, limits.least_cotangent),
+                   most = std::min(limits.most_edge, limits.most_cotangent);
+  const double area = norm(product), low = least * area, high = most * area;
   const double at_a = -dot(ca, ab), at_b = -dot(ab, bc), at_c = -dot(bc, ca);
   if (std::min({at_a, at_b, at_c}) < low || std::max({at_a, at_b, at_c}) > high)
     return true;

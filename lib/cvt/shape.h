@@ -11,17 +11,18 @@
 
 namespace calotte::cvt_detail {
 
-/// The limits of shape that a finish keeps, with a margin to what models ask for. Between them lie
-/// regular hexagons, whose cotangents and edges are 1/sqrt(3), and their distortions up to pairs of
-/// cells with 5 and 7 neighbours.
+/// The limits of shape that a finish keeps. Models bear all shapes within them: a triangle must not
+/// be obtuse, and a short Voronoi edge shortens the step that is stable for diffusion of vorticity.
+/// A pure CVT has few shapes beyond them, all near pairs of cells with 5 and 7 neighbours.
 struct ShapeLimits {
-  /// Cotangents of the triangles' flat angles: 76 to 49 degrees.
-  double least_cotangent = 0.25, most_cotangent = 0.87;
+  /// Cotangents of the triangles' flat angles: 87 to 38 degrees.
+  double least_cotangent = 0.05, most_cotangent = 1.3;
   /// Voronoi edge over Delaunay edge, which is the mean of the two cotangents across.
-  double least_edge = 0.38, most_edge = 0.78;
+  double least_edge = 0.21, most_edge = 1.1;
   /// Delaunay edge over the spacing that the density demands there.
-  double least_spacing = 0.86, most_spacing = 1.25;
+  double least_spacing = 0.8, most_spacing = 1.3;
 };
+inline constexpr ShapeLimits shape_limits;
 
 /// The penalty for shapes beyond the limits.
 struct ShapeTerms {

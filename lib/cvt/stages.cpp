@@ -59,9 +59,8 @@ bool has_stalled(const State& state) {
 }
 
 Stage stage_after(const State& state, const CvtOptions& options) {
-  constexpr int most_mends = 4, most_stiffened = 2;
-  constexpr double mendable =
-      0.11; // an excess: larger ones are at sites that a penalty cannot move
+  constexpr int most_raised = 2;
+  constexpr double reachable = 0.11; // an excess: a penalty cannot remove larger ones
   const bool inserts = options.insertion_rounds > 0, in_finish = state.penalty > 0;
   // A round may find too few edges for all generators that are missing.
   if (inserts && !in_finish &&
@@ -73,11 +72,15 @@ Stage stage_after(const State& state, const CvtOptions& options) {
   if (options.well_centred && !in_finish)
     return Stage::finish;
   const bool fell_short = in_finish && !state.report.converged;
-  if (fell_short && state.stiffened < most_stiffened && last_accepted(state).misshapen < mendable)
-    return Stage::stiffen;
-  if (fell_short && inserts && state.mends < most_mends)
-    return Stage::mend;
+  if (fell_short && state.raised < most_raised && last_accepted(state).misshapen < reachable)
+    return Stage::raise;
   return Stage::end;
+}
+
+bool may_glide(const State& state, const CvtOptions& options) {
+  constexpr int most = 3;
+  return options.well_centred && state.penalty == 0 && state.report.converged &&
+         state.glides < most && stage_after(state, options) == Stage::finish;
 }
 
 CvtOptions options_of_descent(const State& state, const CvtOptions& options, bool at_sites) {
@@ -97,8 +100,7 @@ CvtOptions options_of_descent(const State& state, const CvtOptions& options, boo
   if (at_sites && state.points.cols() >= resolving)
     here.rule = rule_at_sites;
   const Stage next = stage_after(state, options);
-  const bool mended = state.mends > 0; // in few places: the finish descends once more
-  if (next != Stage::insert && next != Stage::bisect && !mended) {
+  if (next != Stage::insert && next != Stage::bisect) {
     here.final_rule = options.tolerance < fine ? options.final_rule : options.rule;
     return here;
   }
@@ -123,15 +125,14 @@ void begin_finish(State& state) {
   const CvtIteration& last = state.report.iterations.back();
   state.penalty = factor * last.energy / static_cast<double>(last.cells);
   state.demanded_spacing = spacing_of(last);
-  if (state.mends == 0)
-    state.descended = state.report.converged;
+  state.descended = state.report.converged;
   begin_descent(state);
 }
 
-void begin_stiffened(State& state) {
+void begin_raised(State& state) {
   constexpr double factor = 4;
   state.penalty *= factor;
-  ++state.stiffened;
+  ++state.raised;
   begin_descent(state);
 }
 

@@ -15,16 +15,17 @@
 /// The course of a run: descents, and what happens to the generators between two of them.
 ///
 ///     descent -> [ insert -> descent ]* -> [ bisect -> descent -> [ insert -> descent ]* ]*
-///             -> [ finish -> stiffen -> [ mend -> descent -> finish -> stiffen ]* ]
+///             -> [ glide ]* -> [ finish -> [ raise ]* ]
+///
+/// A glide is part of the descent before the finish, see glide.h.
 namespace calotte::cvt_detail {
 
 /// What follows a descent.
 enum class Stage {
-  insert,  ///< insertion and contraction on the same level
-  bisect,  ///< the next level
-  finish,  ///< a descent with the penalty of shape.h
-  stiffen, ///< the finish goes on with a larger penalty, where it fell short
-  mend,    ///< an insertion at odd sites and bad edges, which a finish cannot mend
+  insert, ///< insertion and contraction on the same level
+  bisect, ///< the next level
+  finish, ///< a descent with the penalty of shape.h
+  raise,  ///< the finish goes on with a larger penalty, where it fell short
   end,
 };
 
@@ -48,6 +49,9 @@ bool creeps(const State& state, const CvtOptions& options);
 bool has_stalled(const State& state);
 
 Stage stage_after(const State& state, const CvtOptions& options);
+
+/// Whether dislocations may be moved: at the end of the descent before a finish.
+bool may_glide(const State& state, const CvtOptions& options);
 
 /// The options of the current descent.
 /// \param at_sites whether the cells can be integrated with rule_at_sites.
@@ -81,34 +85,32 @@ Level begin_level(const World& world, State& state, const CvtOptions& options,
   return level;
 }
 
-/// The edges of a round. Half of the dislocations that the density demands while rounds are left,
-/// and a twentieth where a mesh is mended: where no grid can follow the widths, mends of all bad
-/// edges would make it worse. And the difference to the number of cells.
+/// The edges of a round: a twentieth of the dislocations that the density demands while rounds are
+/// left, and the difference to the number of cells. Half of them give less energy, but the errors
+/// of a model's vorticity, divergence and kinetic energy grow with the number of dislocations. With
+/// fewer, cells are sheared, so that the stable step of gravity waves is shorter.
 template <class AnyMesh>
-Exchange exchange_of(Stage stage, const State& state, const AnyMesh& mesh, const Density& density,
+Exchange exchange_of(const State& state, const AnyMesh& mesh, const Density& density,
                      std::int64_t cells) {
-  constexpr double share = 0.5, mended = 0.05; // of the dislocations
-  constexpr double most = 0.02;                // of the generators
+  constexpr double share = 0.05; // of the dislocations
+  constexpr double most = 0.02;  // of the generators
   const std::int64_t n = mesh.points.cols();
   std::int64_t both = 0;
-  if (const bool mend = stage == Stage::mend; mend || state.rounds_left > 0)
-    both = static_cast<std::int64_t>(std::ceil(std::min(
-        (mend ? mended : share) * dislocations(mesh, density), most * static_cast<double>(n))));
+  if (state.rounds_left > 0)
+    both = static_cast<std::int64_t>(
+        std::ceil(std::min(share * dislocations(mesh, density), most * static_cast<double>(n))));
   return {both + std::max<std::int64_t>(cells - n, 0), both + std::max<std::int64_t>(n - cells, 0),
-          stage == Stage::mend, state.fixed};
+          state.fixed};
 }
 
 /// A round of insertion and contraction.
 template <class World, class AnyMesh>
-Level begin_round(const World& world, Stage stage, State& state, const CvtOptions& options,
+Level begin_round(const World& world, State& state, const CvtOptions& options,
                   const AnyMesh& mesh) {
   Level level = world.set_exchanged(
       state, mesh, options.density,
-      exchange_of(stage, state, mesh, options.density, cells_of_level(world, state, options)));
+      exchange_of(state, mesh, options.density, cells_of_level(world, state, options)));
   state.rounds_left = std::max(state.rounds_left - count_of_round(state), 0);
-  state.mends += stage == Stage::mend ? 1 : 0;
-  state.penalty = 0;
-  state.stiffened = 0;
   state.site_of_input.clear();
   begin_descent(state);
   return level;
@@ -118,6 +120,6 @@ Level begin_round(const World& world, Stage stage, State& state, const CvtOption
 void begin_finish(State& state);
 
 /// Raises the factor.
-void begin_stiffened(State& state);
+void begin_raised(State& state);
 
 } // namespace calotte::cvt_detail

@@ -41,8 +41,8 @@ struct CvtState::Data {
   bool stuck = false;          ///< no step lowers the value, as far as the method can tell
   double penalty = 0;          ///< of shapes, in the finish; 0 before
   double demanded_spacing = 1; ///< in the finish: at rho = 1
-  int stiffened = 0;           ///< how often the penalty has been raised
-  int mends = 0;               ///< rounds of insertion after a finish that failed
+  int glides = 0;              ///< how often dislocations were moved
+  int raised = 0;              ///< how often the penalty was raised
   bool descended = true;       ///< the descent before the finish converged
   cvt_detail::Memory memory;
   CvtReport report;

@@ -64,13 +64,14 @@ template <class Cells> void Tessellation<Cells>::note_sample() {
 }
 
 template <class Cells> void Tessellation<Cells>::divide() {
-  patches_.clear(); // sorting takes as much memory
+  division_.patches.clear(); // sorting takes as much memory
   std::optional<Owners> owners;
   if (const Sites sites = cells_.sites(); sites.size() == generators_)
     owners = owners_of(sites, delaunay_detail::divide(sites, partition_));
   // If two points coincide, the old regions stay; a new triangulation will report the error.
   adopt(owners ? std::move(*owners)
-               : Owners{std::move(ownership_.owner), static_cast<std::int32_t>(work_.size())});
+               : Owners{std::move(division_.ownership.owner),
+                        static_cast<std::int32_t>(division_.work.size())});
 }
 
 template <class Cells>
@@ -86,12 +87,33 @@ typename Tessellation<Cells>::Owners Tessellation<Cells>::owners_of(const Sites&
   return owners;
 }
 
+template <class Cells> void Tessellation<Cells>::set_division(Owners&& owners) {
+  division_.ownership = make_ownership(std::move(owners.owner), owners.regions);
+  division_.patches = make_patches(mesh_.triangles, division_.ownership);
+  division_.work = std::vector<RegionWork>(division_.patches.size());
+  for (std::size_t k = 0; k < division_.patches.size(); ++k)
+    division_.work[k].report.sites = division_.patches[k].owned;
+}
+
+template <class Cells>
+Division Tessellation<Cells>::focus(Array<std::int32_t>&& owner, std::int32_t regions) {
+  Division all = std::exchange(division_, {});
+  changed_.clear();
+  rebuilt_ = false;
+  set_division({std::move(owner), regions});
+  return all;
+}
+
+template <class Cells> void Tessellation<Cells>::resume(Division&& all) {
+  division_ = std::move(all);
+  if (rebuilt_)
+    division_.patches = make_patches(mesh_.triangles, division_.ownership);
+  else
+    renew_patches(division_.patches, mesh_.triangles, division_.ownership, changed_);
+}
+
 template <class Cells> void Tessellation<Cells>::adopt(Owners&& owners) {
-  ownership_ = make_ownership(std::move(owners.owner), owners.regions);
-  patches_ = make_patches(mesh_.triangles, ownership_);
-  work_ = std::vector<Work>(patches_.size());
-  for (std::size_t k = 0; k < patches_.size(); ++k)
-    work_[k].report.sites = patches_[k].owned;
+  set_division(std::move(owners));
   note_sample();
 }
 
@@ -111,7 +133,8 @@ template <class Cells> Array<Vec3> Tessellation<Cells>::exchange(const Patch& pa
   return x;
 }
 
-template <class Cells> void Tessellation<Cells>::find_faults(const Patch& patch, Work& work) const {
+template <class Cells>
+void Tessellation<Cells>::find_faults(const Patch& patch, RegionWork& work) const {
   const auto signs = cells_.signs();
   for (const std::int32_t suspect : work.suspects)
     add_faults(mesh_, signs, patch.triangles[static_cast<std::size_t>(suspect)], work.faults);
@@ -121,17 +144,17 @@ template <class Cells> void Tessellation<Cells>::find_faults(const Patch& patch,
 template <class Cells>
 template <class Task>
 Faults Tessellation<Cells>::run_tasks(const Task& task, Effort& effort) {
-  for_each_task(std::ssize(patches_), [&](std::int64_t k) {
-    Work& work = work_[static_cast<std::size_t>(k)];
+  for_each_task(std::ssize(division_.patches), [&](std::int64_t k) {
+    RegionWork& work = division_.work[static_cast<std::size_t>(k)];
     work.suspects.clear();
     work.faults = {};
     work.effort = {};
     Clock::time_point start = Clock::now();
-    task(patches_[static_cast<std::size_t>(k)], work);
+    task(division_.patches[static_cast<std::size_t>(k)], work);
     work.report.seconds += lap(start);
   });
   Faults all;
-  for (const Work& work : work_) {
+  for (const RegionWork& work : division_.work) {
     all.edges.insert(all.edges.end(), work.faults.edges.begin(), work.faults.edges.end());
     all.overturned.insert(all.overturned.end(), work.faults.overturned.begin(),
                           work.faults.overturned.end());
@@ -144,7 +167,7 @@ Faults Tessellation<Cells>::run_tasks(const Task& task, Effort& effort) {
 
 template <class Cells> Faults Tessellation<Cells>::find_faults(Effort& effort) {
   return run_tasks(
-      [&](const Patch& patch, Work& work) {
+      [&](const Patch& patch, RegionWork& work) {
         Clock::time_point mark = Clock::now();
         const Array<Vec3> x = exchange(patch);
         work.effort.seconds_exchange = lap(mark);
@@ -159,7 +182,8 @@ template <class Cells> bool Tessellation<Cells>::mend(const Faults& faults, Effo
   Clock::time_point start = Clock::now();
   const std::optional<Repair> repaired = repair(mesh_, cells_.signs(), faults);
   if (repaired) {
-    renew_patches(patches_, mesh_.triangles, ownership_, repaired->changed);
+    renew_patches(division_.patches, mesh_.triangles, division_.ownership, repaired->changed);
+    changed_.insert(changed_.end(), repaired->changed.begin(), repaired->changed.end());
     effort.flips += repaired->flips;
   }
   effort.seconds_repair += lap(start);
@@ -168,10 +192,11 @@ template <class Cells> bool Tessellation<Cells>::mend(const Faults& faults, Effo
 
 template <class Cells> void Tessellation<Cells>::rebuild(Effort& effort) {
   Clock::time_point start = Clock::now();
-  patches_.clear();
+  division_.patches.clear();
   mesh_ = {};
   mesh_ = cells_.signs().triangulate();
-  patches_ = make_patches(mesh_.triangles, ownership_);
+  division_.patches = make_patches(mesh_.triangles, division_.ownership);
+  rebuilt_ = true;
   effort.rebuilt = true;
   effort.seconds_repair += lap(start);
 }
@@ -180,7 +205,7 @@ template <class Cells>
 Faults Tessellation<Cells>::integrate(const Integrand& integrand, const Receiver& receive,
                                       Effort& effort) {
   return run_tasks(
-      [&](const Patch& patch, Work& work) {
+      [&](const Patch& patch, RegionWork& work) {
         Clock::time_point mark = Clock::now();
         const Array<Vec3> x = exchange(patch);
         Array<CellMoments> moments(x.size());
@@ -194,6 +219,45 @@ Faults Tessellation<Cells>::integrate(const Integrand& integrand, const Receiver
         work.effort.seconds_moments += lap(mark);
       },
       effort);
+}
+
+/// After a repair few faults are left, and none after a new triangulation.
+template <class Cells>
+void Tessellation<Cells>::integrate_repaired(const Integrand& integrand,
+                                             const std::function<void(bool)>& set_room,
+                                             const Receiver& receive, Effort& effort) {
+  bool turned = false; // a second time, flips have not sufficed
+  const auto repair_faults = [&](const Faults& faults) {
+    if (faults.none())
+      return;
+    const bool again = turned && !faults.overturned.empty();
+    turned = turned || !faults.overturned.empty();
+    if (!again && mend(faults, effort))
+      return;
+    set_room(false);
+    rebuild(effort);
+  };
+  const auto integrate_all = [&] {
+    set_room(true);
+    return integrate(integrand, receive, effort);
+  };
+  if (restless_)
+    repair_faults(find_faults(effort));
+  for (Faults faults = integrate_all(); !faults.none(); faults = integrate_all())
+    repair_faults(faults);
+  restless_ = effort.flips > 0 || effort.rebuilt;
+}
+
+template <class Cells> void Tessellation<Cells>::make_delaunay(Effort& effort) {
+  for (int tries = 0;; ++tries) {
+    const Faults faults = find_faults(effort);
+    if (faults.none())
+      return;
+    if (tries > 1 || !mend(faults, effort)) {
+      rebuild(effort);
+      return;
+    }
+  }
 }
 
 template <class Cells>
@@ -217,7 +281,7 @@ std::optional<Connectivity> Tessellation<Cells>::take_mesh(const Points3& points
   move(points);
   Effort unused;
   const Faults faults = find_faults(unused);
-  patches_.clear();
+  division_.patches.clear();
   if (!faults.overturned.empty() || (!faults.none() && !repair(mesh_, cells_.signs(), faults)))
     return std::nullopt;
   return std::move(mesh_);
@@ -225,7 +289,7 @@ std::optional<Connectivity> Tessellation<Cells>::take_mesh(const Points3& points
 
 template <class Cells> std::vector<CvtRegion> Tessellation<Cells>::regions() const {
   std::vector<CvtRegion> reports;
-  for (const Work& work : work_)
+  for (const RegionWork& work : division_.work)
     reports.push_back(work.report);
   return reports;
 }

@@ -34,6 +34,23 @@ struct Effort {
   double seconds_exchange = 0, seconds_repair = 0, seconds_moments = 0;
 };
 
+/// The findings and costs of a region's task. Positions and moments live only during the task:
+/// those of the active threads fit in cache, while those of all regions would take a third of the
+/// memory.
+struct RegionWork {
+  std::vector<std::int32_t> suspects;
+  Faults faults;
+  Effort effort;
+  CvtRegion report;
+};
+
+/// The division of a mesh into regions, each with a task.
+struct Division {
+  Ownership ownership;
+  std::vector<Patch> patches;
+  std::vector<RegionWork> work;
+};
+
 /// The Voronoi cells of points that move, divided into regions, each with a task of its own. The
 /// mesh is kept between evaluations and mended where points have moved out of it; the regions are
 /// chosen anew when points have drifted.
@@ -61,9 +78,6 @@ public:
   /// Chooses new regions.
   void divide();
 
-  /// True if the mesh had faults last time: then testing it before integrating pays off.
-  bool restless() const { return restless_; }
-
   /// The faults of the mesh at the points.
   Faults find_faults(Effort& effort);
 
@@ -83,32 +97,36 @@ public:
   /// a later call overwrites.
   Faults integrate(const Integrand& integrand, const Receiver& receive, Effort& effort);
 
+  /// The same until no faults are left. Where flips do not suffice, the points are triangulated
+  /// anew.
+  /// \param set_room called with true before each try, to make room for what the receiver writes,
+  ///        and with false before the points are triangulated, to free it.
+  void integrate_repaired(const Integrand& integrand, const std::function<void(bool)>& set_room,
+                          const Receiver& receive, Effort& effort);
+
+  /// Makes the mesh Delaunay, by flips or a new triangulation.
+  void make_delaunay(Effort& effort);
+
   /// The triangles whose shape may be beyond the limits of a finish, each once.
   std::vector<std::int32_t> distorted(const Eigen::VectorXd& inverse_spacing) const;
-
-  /// Ends an evaluation.
-  void settle(const Effort& effort) { restless_ = effort.flips > 0 || effort.rebuilt; }
 
   /// Moves out the mesh, made Delaunay at the points; empty if flips do not suffice.
   std::optional<Connectivity> take_mesh(const Points3& points);
 
   const Cells& cells() const { return cells_; }
   const Connectivity& mesh() const { return mesh_; }
+  const Division& division() const { return division_; }
+
+  /// Restricts the following calls to some sites: those that are owned. Their cells are whole.
+  /// Returns what resume() takes, to return to all sites.
+  /// \param owner of each place: a region from 0 to regions - 1, or negative for none.
+  Division focus(Array<std::int32_t>&& owner, std::int32_t regions);
+  void resume(Division&& all);
 
   /// The regions, with their seconds since they were chosen.
   std::vector<CvtRegion> regions() const;
 
 private:
-  /// The findings and costs of a region's task. Positions and moments live only during the task:
-  /// those of the active threads fit in cache, while those of all regions would take a third of the
-  /// memory.
-  struct Work {
-    std::vector<std::int32_t> suspects;
-    Faults faults;
-    Effort effort;
-    CvtRegion report;
-  };
-
   /// The owner of each place of the mesh.
   struct Owners {
     Array<std::int32_t> owner;
@@ -116,20 +134,21 @@ private:
   };
 
   Owners owners_of(const Sites& sites, const Regions& regions) const;
+  void set_division(Owners&& owners);
   void adopt(Owners&& owners);
   void note_sample();
   Array<Vec3> exchange(const Patch& patch) const;
-  void find_faults(const Patch& patch, Work& work) const;
+  void find_faults(const Patch& patch, RegionWork& work) const;
   template <class Task> Faults run_tasks(const Task& task, Effort& effort);
 
   Cells cells_;
   std::int64_t generators_;
   Partition partition_;
   Connectivity mesh_;
-  Ownership ownership_;
-  std::vector<Patch> patches_;
-  std::vector<Work> work_;
-  Array<Vec3> sample_; ///< sampled points, as they were when the regions were chosen
+  Division division_;
+  std::vector<std::int32_t> changed_; ///< triangles that flips have changed since focus()
+  bool rebuilt_ = false;              ///< the mesh, since focus()
+  Array<Vec3> sample_;                ///< sampled points, as they were when the regions were chosen
   bool restless_ = true;
 };
 

@@ -9,13 +9,11 @@
 #include "domain/arcs.h"
 #include "domain/outline.h"
 #include "domain/periodic_box.h"
-#include "generators/bad_edges.h"
 #include "generators/midpoints.h"
 #include "mesh/edges.h"
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <memory>
 #include <numbers>
 #include <span>
@@ -176,47 +174,6 @@ std::vector<Edge> edges_of(const AnyMesh& mesh, const Points3& points, const Den
   return edges;
 }
 
-/// The edges of an exchange.
-struct Chosen {
-  std::vector<Edge> split, contracted;
-
-  bool none() const { return split.empty() && contracted.empty(); }
-  std::int64_t surplus() const { return std::ssize(split) - std::ssize(contracted); }
-};
-
-void append(const std::vector<Edge>& more, std::vector<Edge>& edges) {
-  edges.insert(edges.end(), more.begin(), more.end());
-}
-
-/// Chooses edges to split and to contract, of those that may be.
-template <class MaySplit, class MayContract> struct Chooser {
-  Choice choice;
-  MaySplit may_split;
-  MayContract may_contract;
-
-  std::vector<Edge> longest(std::vector<Edge>& edges, std::int64_t count) {
-    return choice.choose(edges, count, is_longer, may_split);
-  }
-  std::vector<Edge> shortest(std::vector<Edge>& edges, std::int64_t count) {
-    return choice.choose(edges, count, is_shorter, may_contract);
-  }
-};
-
-/// Up to `most` bad edges of each kind.
-template <class AnyChooser>
-Chosen choose_bad(const std::vector<BadEdge>& bad_edges, const std::vector<Edge>& edges,
-                  std::int64_t most, AnyChooser& chooser) {
-  std::map<std::pair<std::int32_t, std::int32_t>, bool> bad;
-  for (const BadEdge& edge : bad_edges)
-    bad[{edge.a, edge.b}] = edge.too_long;
-  std::vector<Edge> too_long, too_short;
-  for (const Edge& edge : edges)
-    if (const auto at = bad.find({edge.a, edge.b}); at != bad.end())
-      (at->second ? too_long : too_short).push_back(edge);
-  std::vector<Edge> split = chooser.longest(too_long, most);
-  return {std::move(split), chooser.shortest(too_short, most)};
-}
-
 /// The points that remain, those of contracted edges moved to the midpoints unless they are fixed,
 /// then the inserted ones.
 template <class Middle>
@@ -253,23 +210,12 @@ Points3 exchange(const AnyMesh& mesh, const Points3& points, const Density& dens
     return edge.b >= numbers.fixed || !space.keeps(column(points, edge.a), column(points, edge.b));
   };
   const auto may_contract = [&](const Edge& edge) { return edge.b >= numbers.fixed; };
-  Chooser<decltype(may_split), decltype(may_contract)> chooser{Choice(points.cols(), edges),
-                                                               may_split, may_contract};
+  Choice choice(points.cols(), edges); // whose neighbours are those of all edges
   std::erase_if(edges, [&](const Edge& edge) { return !space.holds(middle(edge)); });
-  Chosen chosen;
-  if (numbers.mend)
-    chosen = choose_bad(bad_edges(mesh, points, fineness(density, points), space), edges,
-                        std::min(numbers.inserted, numbers.contracted), chooser);
-  const std::int64_t more = numbers.inserted - numbers.contracted - chosen.surplus();
-  if (chosen.none()) {
-    chosen.split = chooser.longest(edges, numbers.inserted);
-    chosen.contracted = chooser.shortest(edges, numbers.contracted);
-  } else if (more > 0) {
-    append(chooser.longest(edges, more), chosen.split);
-  } else {
-    append(chooser.shortest(edges, -more), chosen.contracted);
-  }
-  return exchanged(points, chosen.split, chosen.contracted, numbers.fixed, middle);
+  const std::vector<Edge> split = choice.choose(edges, numbers.inserted, is_longer, may_split),
+                          contracted =
+                              choice.choose(edges, numbers.contracted, is_shorter, may_contract);
+  return exchanged(points, split, contracted, numbers.fixed, middle);
 }
 
 struct OnSphere {

@@ -23,9 +23,6 @@ double dislocations(const PlanarMesh& mesh, const Density& density);
 /// What an exchange of generators does.
 struct Exchange {
   std::int64_t inserted = 0, contracted = 0; ///< numbers of edges
-  /// Takes up to the smaller of the two numbers of bad edges of each kind, far from each other, and
-  /// further edges only for the difference of the numbers; without such edges as ever.
-  bool mend = false;
   /// The first points of the mesh, which keep their bits. No edge between two of them is
   /// contracted; one to another point is contracted to the fixed one.
   std::int64_t fixed = 0;

@@ -37,10 +37,11 @@ struct ByKey {
 template <class Body>
 void for_each_owner(const Triple& sites, const Array<std::int32_t>& owner, const Body& body) {
   const std::int32_t a = owner[sites[0]], b = owner[sites[1]], c = owner[sites[2]];
-  body(a);
-  if (b != a)
+  if (a >= 0)
+    body(a);
+  if (b != a && b >= 0)
     body(b);
-  if (c != a && c != b)
+  if (c != a && c != b && c >= 0)
     body(c);
 }
 
@@ -135,13 +136,15 @@ Ownership make_ownership(Array<std::int32_t>&& owner, std::int32_t regions) {
   result.place = Array<std::int32_t>(n);
   std::vector<std::int32_t> count(static_cast<std::size_t>(regions), 0);
   for (std::int64_t i = 0; i < n; ++i)
-    result.place[i] = count[static_cast<std::size_t>(result.owner[i])]++;
+    if (result.owner[i] >= 0)
+      result.place[i] = count[static_cast<std::size_t>(result.owner[i])]++;
   for (const std::int32_t own : count)
     result.owned.emplace_back(static_cast<std::size_t>(own));
   for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i)
-      result.owned[static_cast<std::size_t>(result.owner[i])]
-                  [static_cast<std::size_t>(result.place[i])] = static_cast<std::int32_t>(i);
+      if (result.owner[i] >= 0)
+        result.owned[static_cast<std::size_t>(result.owner[i])]
+                    [static_cast<std::size_t>(result.place[i])] = static_cast<std::int32_t>(i);
   });
   return result;
 }

@@ -15,12 +15,12 @@ namespace calotte::integrals_detail {
 
 /// Which region owns each site.
 struct Ownership {
-  Array<std::int32_t> owner;                    ///< by site
+  Array<std::int32_t> owner;                    ///< by site; negative if no region owns it
   Array<std::int32_t> place;                    ///< by site: its place among those of its owner
   std::vector<std::vector<std::int32_t>> owned; ///< by region: its sites, ascending
 };
 
-/// \param owner by site: a region from 0 to regions - 1.
+/// \param owner by site: a region from 0 to regions - 1, or a negative number for none.
 Ownership make_ownership(Array<std::int32_t>&& owner, std::int32_t regions);
 
 /// The part of a closed mesh that a region's task reads: the triangles with a site of its own, and

@@ -27,7 +27,7 @@ constexpr std::string_view format = "calotte checkpoint ";
 
 std::string head() {
   std::string line(format);
-  line += "8, ";
+  line += "9, ";
   line += little_endian ? "little" : "big";
   line += "-endian\n";
   return line;
@@ -48,7 +48,7 @@ template <class Region, class Visit> void visit_region(Region& r, const Visit& v
 
 template <class State, class Visit> void visit_scalars(State& s, const Visit& visit) {
   visit(s.fixed), visit(s.bisections_left), visit(s.rounds_left), visit(s.iterations_of_level);
-  visit(s.final_rule), visit(s.stuck), visit(s.stiffened), visit(s.mends), visit(s.penalty),
+  visit(s.final_rule), visit(s.stuck), visit(s.glides), visit(s.raised), visit(s.penalty),
       visit(s.demanded_spacing), visit(s.descended);
   visit(s.report.converged), visit(s.report.residual), visit(s.report.seconds);
   visit(s.memory.since_laplacian), visit(s.memory.flipped), visit(s.memory.momentum),

@@ -31,9 +31,9 @@ namespace {
 CvtOptions graded(std::int64_t cells, int bisections, const Density& density) {
   CvtOptions options;
   options.density = density;
-  options.tolerance = 3e-4;
+  options.tolerance = tolerance_before_finish;
   options.bisections = bisections;
-  options.insertion_rounds = 2;
+  options.insertion_rounds = usual_insertion_rounds;
   options.cells = cells;
   options.well_centred = true;
   return options;
@@ -67,10 +67,9 @@ double excess(const Cvt& grid, const Density& density) {
 
 void check_shapes(const Mesh& mesh) {
   const Quality q = quality(mesh);
-  CHECK(q.angles.min > 46.5);
-  CHECK(q.angles.max < 79.8);
+  CHECK(q.angles.min > 36.9); // cot of 1.3 + 0.03
+  CHECK(q.angles.max < 88.9); // and of 0.05 - 0.03
   CHECK(q.obtuse == 0);
-  CHECK(q.cell_quality.min > 0.36);
   for (std::size_t degree = 0; degree < q.degrees.size(); ++degree)
     if (degree < 5 || degree > 7)
       CHECK(q.degrees[degree] == 0);
@@ -133,7 +132,7 @@ TEST_CASE("stages: a finish gives the shapes that models require [slow]") {
       CHECK(grid.mesh.points.cols() == 3001);
       CHECK(grid.report.converged);
       CHECK(grid.report.well_centred);
-      CHECK(grid.report.iterations.back().misshapen <= 0.07);
+      CHECK(grid.report.iterations.back().misshapen <= 0.03);
       CHECK(check(grid.mesh).failure == "");
       check_shapes(grid.mesh);
       CHECK(grid.report.residual < 0.02);
@@ -145,13 +144,13 @@ TEST_CASE("stages: in each descent every accepted step lowers the energy") {
   options.triangle_divisions = 2;
   int descents = 0, steps = 0;
   double before = 0;
-  std::tuple<int, int, int> rule_and_stage;
+  std::tuple<int, int, int, int> rule_and_stage;
   spherical_cvt(start_of(160, x8()), options, [&](const CvtProgress& now) {
     const CvtIteration& here = now.report.iterations.back();
     const cvt_detail::State& state = now.state.data();
     if (state.penalty > 0 || !here.accepted) // a finish minimises another function
       return false;
-    const std::tuple now_in(here.rule, now.bisections_left, now.rounds_left);
+    const std::tuple now_in(here.rule, now.bisections_left, now.rounds_left, state.glides);
     const bool same = now.iterations_of_level > 1 && now_in == rule_and_stage;
     if (same)
       CHECK(here.energy <= before * (1 + 1e-7));
@@ -228,7 +227,7 @@ TEST_CASE("stages: in the plane, with a boundary and in a box [slow]") {
     CHECK(grid.report.converged);
     CHECK(check(grid.mesh).failure == "");
     const Quality q = quality(grid.mesh, domain, fine);
-    CHECK(q.angles.min > 44);
+    CHECK(q.angles.min > 36.9);
     CHECK(q.obtuse == 0);
   }
 }

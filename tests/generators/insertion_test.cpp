@@ -226,26 +226,3 @@ TEST_CASE("insertion: bad numbers and densities are errors") {
   CHECK(message_of(mesh, Density{}, std::int64_t{1} << 30, 0).find("at most") != std::string::npos);
   CHECK(message_of(mesh, tanh_bump({0, 0, 1}, -1, 1, 0.5), 1, 1).find("beta") != std::string::npos);
 }
-
-TEST_CASE("insertion: a mend splits and contracts badly shaped edges first") {
-  const Mesh mesh = relaxed(2000, Density{}); // random, so that many edges are bad
-  const std::int64_t bad = bad_edges(mesh);
-  CHECK(bad > 1000);
-  CHECK(bad_edges(spherical_delaunay(bisected_icosahedron(3))) == 0);
-  Points3 sheared = bisected_icosahedron(3);
-  const Eigen::Vector3i corner = spherical_delaunay(sheared).triangles.col(300); // neighbours
-  sheared.col(corner[0]) =
-      (0.6 * sheared.col(corner[0]) + 0.4 * sheared.col(corner[1])).normalized();
-  const Mesh dented = spherical_delaunay(sheared);
-  CHECK(bad_edges(dented) > 0);
-  const Points3 mended = generators_detail::exchanged(dented, Density{}, {1, 1, true});
-  CHECK(mended.cols() == sheared.cols());
-  std::int64_t fresh = 0, near = 0;
-  for (const auto& x : mended.colwise()) {
-    const bool is_fresh = (sheared.colwise() - x).colwise().norm().minCoeff() > 1e-12;
-    fresh += is_fresh;
-    near += is_fresh && (x - sheared.col(corner[0])).norm() < 0.3; // of spacing 0.15
-  }
-  CHECK(fresh == 2);
-  CHECK(near >= 1);
-}

@@ -83,9 +83,7 @@ void add_start(CLI::App& command, CvtRequest& request) {
       .add_option(
           "--insertion-rounds", request.insertion_rounds,
           "Rounds of insertion and removal of cells on the last level of --start multilevel; 1 "
-          "to 100; default: 2, above 70 000 cells 4, above 150 000 cells 10, above 400 000 cells "
-          "5. "
-          "Where the density is steep, half as many")
+          "to 100; default: 1. Coarser levels have more")
       ->transform(whole_number(1, 100));
 }
 
@@ -109,10 +107,13 @@ void add_end(CLI::App& command, CvtRequest& request) {
       command
           .add_option("--stop", request.stop,
                       "The end of the run: tolerance (a pure CVT: the norm is at most the "
-                      "tolerance), or well-centred (a finish follows, which gives the shapes that "
-                      "models ask for: no obtuse triangle, angles of 47 to 79 degrees, no short "
-                      "edge; some generators then stand away from their centroids). Default: "
-                      "well-centred with --start multilevel, else tolerance")
+                      "tolerance; a few triangles may be obtuse, and a few Voronoi edges so short "
+                      "that a model's diffusion of vorticity needs a shorter step), or "
+                      "well-centred (then dislocations at such shapes are moved, and where that "
+                      "does not suffice, a few generators leave their centroids: no obtuse "
+                      "triangle, Voronoi edges from 0.18 times the Delaunay edge on). The errors "
+                      "of a model are those of a pure CVT. Default: well-centred with --start "
+                      "multilevel, else tolerance")
           ->check(CLI::IsMember({"tolerance", "well-centred"}));
   CLI::Option* norm =
       command
@@ -125,7 +126,7 @@ void add_end(CLI::App& command, CvtRequest& request) {
           ->capture_default_str();
   CLI::Option* tolerance = command.add_option("--tolerance", request.given_tolerance,
                                               "Stop when the norm is at most this value; > 0; "
-                                              "default: 3e-4 before a finish, else 1e-6");
+                                              "default: 1e-4 with --stop well-centred, else 1e-6");
   CLI::Option* limit = command
                            .add_option("--max-iterations", request.max_iterations,
                                        "Maximum number of iterations per level, >= 1. A run that "

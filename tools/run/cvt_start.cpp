@@ -241,7 +241,7 @@ std::vector<std::string> settle_region(CvtRequest& request, const Resolution& re
 } // namespace
 
 int rounds_of(const CvtRequest& request) {
-  return request.insertion_rounds.value_or(insertion_rounds(request.cells.value_or(0)));
+  return request.insertion_rounds.value_or(usual_insertion_rounds);
 }
 
 void require_start(const CvtRequest& request) {

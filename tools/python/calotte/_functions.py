@@ -204,7 +204,7 @@ def _options(rho, method, norm, tolerance, max_iterations, well_centred, regions
 
 def _multilevel(options, cells, insertion_rounds):
     options.cells = cells
-    options.insertion_rounds = (_calotte.insertion_rounds(cells) if insertion_rounds is None
+    options.insertion_rounds = (_calotte.usual_insertion_rounds if insertion_rounds is None
                                 else insertion_rounds)
 
 

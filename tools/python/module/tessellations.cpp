@@ -118,7 +118,7 @@ void add_options(py::module_& module) {
 void add_tessellations(py::module_& module) {
   add_options(module);
   module.attr("tolerance_before_finish") = tolerance_before_finish;
-  module.def("insertion_rounds", &insertion_rounds);
+  module.attr("usual_insertion_rounds") = usual_insertion_rounds;
   module.def("continuation", [](std::int64_t cells, const Density& density, std::uint64_t seed) {
     return start_of(call([&] { return continuation(cells, density, seed); }));
   });

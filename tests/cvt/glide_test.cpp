@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cvt/glide.h"
+
+#include "cvt/functional.h"
+#include "cvt/shape.h"
+#include "mesh/canonical_order.h"
+#include "support/densities.h"
+
+#include <calotte/check.h>
+#include <calotte/cvt.h>
+#include <calotte/delaunay.h>
+#include <calotte/domain.h>
+#include <calotte/generators.h>
+#include <calotte/quality.h>
+
+#include <doctest/doctest.h>
+#include <oneapi/tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+using namespace calotte;
+using namespace calotte::test;
+
+namespace {
+
+/// A pure CVT with many dislocations, some of them on the brink of a step.
+Points3 relaxed(std::int64_t n, const Density& density, std::uint64_t seed) {
+  CvtOptions options;
+  options.density = density;
+  options.tolerance = 1e-4;
+  return spherical_cvt(random_sphere(n, site_density(density), seed), options).mesh.points;
+}
+
+/// The smallest ratio of a Voronoi edge to its Delaunay edge, from flat triangles.
+double least_edge(const Mesh& mesh) {
+  const auto cotangent = [&](Eigen::Index t, int v) {
+    const Eigen::Vector3d at = mesh.points.col(mesh.triangles(v, t));
+    const Eigen::Vector3d a = mesh.points.col(mesh.triangles((v + 1) % 3, t)) - at,
+                          b = mesh.points.col(mesh.triangles((v + 2) % 3, t)) - at;
+    return a.dot(b) / a.cross(b).norm();
+  };
+  double least = 1;
+  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
+    for (int v = 0; v < 3; ++v) {
+      const std::int32_t u = mesh.neighbours(v, t);
+      int w = 0;
+      while (mesh.neighbours(w, u) != t)
+        ++w;
+      least = std::min(least, (cotangent(t, v) + cotangent(u, w)) / 2);
+    }
+  return least;
+}
+
+double energy_of(const Points3& points, const Density& density) {
+  return quality(spherical_delaunay(points), density).energy;
+}
+
+/// The points after a glide, and the number of its steps.
+struct Moved {
+  Points3 points;
+  std::int64_t steps = 0;
+  std::optional<cvt_detail::Connectivity> mesh;
+};
+
+Moved moved(const Points3& points, const CvtOptions& options,
+            const std::vector<std::uint8_t>& fixed = {}) {
+  Moved result{points, 0, std::nullopt};
+  const auto functional = cvt_detail::make_functional(result.points, options);
+  functional->hold(fixed);
+  result.steps = functional->glide(result.points);
+  result.mesh = functional->take_mesh(result.points);
+  return result;
+}
+
+} // namespace
+
+TEST_CASE("glide: short Voronoi edges go, few generators move, and the energy is lower") {
+  for (const Density& density : {Density{}, x8()})
+    for (const std::uint64_t seed : {1, 2}) {
+      CAPTURE(seed);
+      const Points3 before = relaxed(3000, density, seed);
+      CvtOptions options;
+      options.density = density;
+      const Moved after = moved(before, options);
+      REQUIRE(least_edge(spherical_delaunay(before)) < cvt_detail::shape_limits.least_edge);
+      CHECK(after.steps > 0);
+      const auto ways = (after.points - before).colwise().norm();
+      CHECK((ways.array() == 0).count() > 1000); // far from all brinks
+      CHECK((after.points.colwise().norm().array() - 1).abs().maxCoeff() < 1e-15);
+      CHECK(least_edge(spherical_delaunay(after.points)) >
+            least_edge(spherical_delaunay(before)) + 0.01);
+      CHECK(energy_of(after.points, density) < energy_of(before, density));
+    }
+}
+
+TEST_CASE("glide: the mesh that it leaves is the triangulation of the points") {
+  Moved after = moved(relaxed(1500, x8(), 3), {.density = x8()});
+  REQUIRE(after.mesh);
+  REQUIRE(after.steps > 0);
+  mesh_detail::make_canonical(after.mesh->triangles, after.mesh->neighbours);
+  const Mesh mesh = spherical_delaunay(after.points);
+  CHECK((after.mesh->triangles == mesh.triangles));
+  CHECK((after.mesh->neighbours == mesh.neighbours));
+}
+
+TEST_CASE("glide: fixed generators keep their bits") {
+  const Points3 before = relaxed(2000, Density{}, 1);
+  std::vector<std::uint8_t> fixed(2000, 0);
+  std::fill(fixed.begin(), fixed.begin() + 1000, 1);
+  const Moved after = moved(before, {}, fixed), free = moved(before, {});
+  CHECK(after.steps > 0);
+  CHECK((after.points.leftCols(1000) == before.leftCols(1000)));
+  CHECK((free.points.leftCols(1000) != before.leftCols(1000)));
+}
+
+TEST_CASE("glide: a mesh without short edges stays") {
+  CvtOptions options;
+  options.tolerance = 1e-6;
+  const Points3 points = spherical_cvt(bisected_icosahedron(4), options).mesh.points;
+  const Moved after = moved(points, options);
+  CHECK(after.steps == 0);
+  CHECK((after.points == points));
+}
+
+TEST_CASE("glide: threads and regions have no effect") {
+  const Points3 before = relaxed(3000, x8(), 4);
+  const auto with = [&](std::size_t threads, int regions) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    CvtOptions options;
+    options.density = x8();
+    options.partition.regions = regions;
+    return moved(before, options);
+  };
+  const Moved one = with(1, 1);
+  CHECK(one.steps > 0);
+  CHECK((one.points == with(2, 12).points));
+  CHECK((one.points == with(4, 40).points));
+}
+
+TEST_CASE("glide: in a periodic box, a rectangle and a region of the sphere") {
+  PlanarDomain box;
+  box.period = {2, 1};
+  for (const PlanarDomain& domain : {rectangle({0, 0}, {2, 1}), box}) {
+    CAPTURE(domain.periodic());
+    CvtOptions options;
+    options.tolerance = 1e-4;
+    const PlanarCvt pure = planar_cvt(random_places(900, domain, 5), domain, options);
+    options.well_centred = true;
+    const PlanarCvt grid = planar_cvt(pure.mesh.points, domain, options);
+    CHECK(check(grid.mesh).failure == "");
+    CHECK(grid.report.well_centred);
+    const double energy = quality(pure.mesh, domain).energy;
+    CHECK(quality(grid.mesh, domain).energy < energy * (1 + 1e-3));
+    CHECK(quality(grid.mesh, domain).obtuse <= quality(pure.mesh, domain).obtuse);
+  }
+  const Region region = circle({0, 0, 1}, 0.6);
+  CvtOptions options;
+  options.tolerance = 1e-4;
+  const Points3 start = random_sphere(900, region, Density{}, 5);
+  options.well_centred = true;
+  const Cvt grid = spherical_cvt(start, region, options);
+  CHECK(grid.report.well_centred);
+  CHECK(check(grid.mesh).failure == "");
+}
