@@ -39,11 +39,11 @@ struct OperatorErrorsByCell {
 /// and Skamarock, J. Comput. Phys. 229, 2010) for smooth fields, and their stability.
 ///
 /// The scalars s are harmonics of one norm: on the sphere the five real ones of degree 2, x y, y z,
-/// z x, (x^2 - y^2)/2 and (3 z^2 - 1)/(2 sqrt 3), so that a rotation of the mesh leaves the errors;
-/// in the plane the cosine and the sine of the longest wave in x and in y, in the periodic box or
-/// in the box around a bounded domain. The velocities are grad s and k x grad s. Discrete fields
-/// are values at the sites, and normal components at the edges' midpoints; the result is compared
-/// with the exact values at the site, the edge's midpoint or the vertex.
+/// z x, (x^2 - y^2)/2 and (3 z^2 - 1)/(2 sqrt 3), so that a rotation of the mesh leaves the errors
+/// of linear operators; in the plane the cosine and the sine of the longest wave in x and in y, in
+/// the periodic box or in the box around a bounded domain. The velocities are grad s and k x grad
+/// s. Discrete fields are values at the sites, and normal components at the edges' midpoints; the
+/// result is compared with the exact values at the site, the edge's midpoint or the vertex.
 ///
 /// The error at a place is the root of the sum over all fields of squared errors. l2 is its root
 /// mean square, weighted by area (of an edge dc dv), and both norms are divided by the root mean

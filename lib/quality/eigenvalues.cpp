@@ -53,14 +53,13 @@ template <class Row> double largest_eigenvalue(std::int64_t n, const Row& row) {
   constexpr int most_steps = 300, between = 8;
   constexpr int first_test = 24;  // noise holds little of an eigenvector of one short edge
   constexpr double enough = 1e-3; // change of the Ritz value over `between` steps
-  Values now(n), before(n);
+  Values now(n), before(n), product(n);
   fill_with_noise(now);
   std::fill(before.begin(), before.end(), 0.0);
   std::vector<double> diagonal, beside;
   double found = 0;
   for (int step = 1; step <= most_steps; ++step) {
     const double last = beside.empty() ? 0 : beside.back();
-    Values product(n);
     const double along = sums_over_blocks(n, 1, [&](Part part, std::span<double> sums) {
       for (std::int64_t i = part.begin; i != part.end; ++i) {
         product[i] = row(now, i);
@@ -86,7 +85,8 @@ template <class Row> double largest_eigenvalue(std::int64_t n, const Row& row) {
       for (std::int64_t i = begin; i != end; ++i)
         product[i] /= rest;
     });
-    before = std::exchange(now, std::move(product));
+    std::swap(before, now);
+    std::swap(now, product);
   }
   return found;
 }

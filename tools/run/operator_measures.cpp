@@ -53,7 +53,7 @@ public:
         norms.cell < 0 ? "" : formatted("%.6g", at[0]) + ", " + formatted("%.6g", at[1]));
   }
   void add(const std::string& name, double value) {
-    out_ << std::left << std::setw(45) << name << formatted("%.5g", value) << "\n";
+    out_ << std::left << std::setw(48) << name << formatted("%.5g", value) << "\n";
   }
   std::string text() const { return out_.str(); }
 
