@@ -155,6 +155,7 @@ std::string cell_table(const Request& request, const MeshFile& file) {
                                    .density = density_of(*request.density, request.source->plane),
                                    .radius_km = radius_of(request, file),
                                    .units = request.units,
+                                   .operators = request.operators,
                                    .most_cells = std::numeric_limits<std::int64_t>::max()});
   return cell_table(mesh, *request.cell);
 }

@@ -14,23 +14,15 @@
 namespace calotte::tools {
 namespace {
 
-struct Row {
-  const char* name;
-  const char* key; ///< in the report
+struct DistanceName {
+  const char* word; ///< in the report
+  const char* label;
   ErrorNorms OperatorErrors::*norms;
 };
 
-constexpr std::array<Row, 6> operators = {{
-    {"divergence", "divergence", &OperatorErrors::divergence},
-    {"gradient", "gradient", &OperatorErrors::gradient},
-    {"Laplacian", "laplacian", &OperatorErrors::laplacian},
-    {"curl", "curl", &OperatorErrors::curl},
-    {"tangential velocity", "tangential", &OperatorErrors::tangential},
-    {"kinetic energy", "kinetic_energy", &OperatorErrors::kinetic_energy},
-}};
-constexpr std::array<Row, 2> distances = {{
-    {"off centroid / spacing", "off_centroid", &OperatorErrors::off_centroid},
-    {"off midpoint / dc", "off_midpoint", &OperatorErrors::off_midpoint},
+constexpr std::array<DistanceName, 2> distance_names = {{
+    {"off_centroid", "off centroid / spacing", &OperatorErrors::off_centroid},
+    {"off_midpoint", "off midpoint / dc", &OperatorErrors::off_midpoint},
 }};
 
 /// Longitude and latitude in degrees, or x and y.
@@ -45,10 +37,9 @@ public:
     out_ << std::left << std::setw(23) << name << std::setw(13) << l2 << std::setw(13) << max
          << std::setw(12) << cell << at << "\n";
   }
-  void add(const Row& row, const OperatorErrors& errors, bool on_sphere) {
-    const ErrorNorms& norms = errors.*row.norms;
+  void add(const std::string& label, const ErrorNorms& norms, bool on_sphere) {
     const Eigen::Vector2d at = location(norms, on_sphere);
-    add(row.name, formatted("%.4g", norms.l2), formatted("%.4g", norms.max),
+    add(label, formatted("%.4g", norms.l2), formatted("%.4g", norms.max),
         norms.cell < 0 ? "none" : std::to_string(norms.cell),
         norms.cell < 0 ? "" : formatted("%.6g", at[0]) + ", " + formatted("%.6g", at[1]));
   }
@@ -70,11 +61,11 @@ std::string in_unit(const std::string& name, const std::string& unit) {
 std::string operator_rows(const OperatorErrors& errors, const Unit& unit, bool on_sphere) {
   Lines lines;
   lines.add("errors of operators", "l2", "max", "at cell", on_sphere ? "lon, lat" : "x, y");
-  for (const Row& row : operators)
-    lines.add(row, errors, on_sphere);
+  for (const OperatorName& name : operator_names)
+    lines.add(name.label, errors.*name.norms, on_sphere);
   lines.add("distances", "rms", "max", "at cell", on_sphere ? "lon, lat" : "x, y");
-  for (const Row& row : distances)
-    lines.add(row, errors, on_sphere);
+  for (const DistanceName& name : distance_names)
+    lines.add(name.label, errors.*name.norms, on_sphere);
   lines.add(in_unit("longest stable step x speed of waves", unit.name),
             unit.of_radian * wave_step(errors, 1));
   lines.add(in_unit("- x viscosity, of divergence", unit.area),
@@ -86,17 +77,16 @@ std::string operator_rows(const OperatorErrors& errors, const Unit& unit, bool o
 
 nlohmann::ordered_json operators_to_json(const OperatorErrors& errors, bool on_sphere) {
   nlohmann::ordered_json json;
-  const auto add = [&](const Row& row, const char* mean) {
-    const ErrorNorms& norms = errors.*row.norms;
+  const auto add = [&](const char* word, const ErrorNorms& norms, const char* mean) {
     const Eigen::Vector2d at = location(norms, on_sphere);
-    json[row.key] = {{mean, norms.l2}, {"max", norms.max}, {"cell", norms.cell}};
+    json[word] = {{mean, norms.l2}, {"max", norms.max}, {"cell", norms.cell}};
     if (norms.cell >= 0)
-      json[row.key]["at"] = {at[0], at[1]};
+      json[word]["at"] = {at[0], at[1]};
   };
-  for (const Row& row : operators)
-    add(row, "l2");
-  for (const Row& row : distances)
-    add(row, "rms");
+  for (const OperatorName& name : operator_names)
+    add(name.word, errors.*name.norms, "l2");
+  for (const DistanceName& name : distance_names)
+    add(name.word, errors.*name.norms, "rms");
   json["primal_eigenvalue"] = errors.primal_eigenvalue;
   json["dual_eigenvalue"] = errors.dual_eigenvalue; // null if infinite
   json["wave_step_times_speed"] = wave_step(errors, 1);

@@ -7,10 +7,30 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <array>
 #include <string>
 
-/// The errors of a C-grid model's operators in the table and the report of calotte info.
+/// The errors of a C-grid model's operators: their names, and the table and the report of calotte
+/// info.
 namespace calotte::tools {
+
+struct OperatorName {
+  const char* word;  ///< on the command line and in reports
+  const char* label; ///< for people
+  ErrorNorms OperatorErrors::*norms;
+  Eigen::VectorXd OperatorErrorsByCell::*by_cell;
+};
+
+inline constexpr std::array<OperatorName, 6> operator_names = {{
+    {"divergence", "divergence", &OperatorErrors::divergence, &OperatorErrorsByCell::divergence},
+    {"gradient", "gradient", &OperatorErrors::gradient, &OperatorErrorsByCell::gradient},
+    {"laplacian", "Laplacian", &OperatorErrors::laplacian, &OperatorErrorsByCell::laplacian},
+    {"curl", "curl", &OperatorErrors::curl, &OperatorErrorsByCell::curl},
+    {"tangential", "tangential velocity", &OperatorErrors::tangential,
+     &OperatorErrorsByCell::tangential},
+    {"kinetic_energy", "kinetic energy", &OperatorErrors::kinetic_energy,
+     &OperatorErrorsByCell::kinetic_energy},
+}};
 
 /// Rows of a table whose names have 22 characters.
 /// \param unit of distances; \param on_sphere whether locations are longitude and latitude.
