@@ -114,6 +114,9 @@ std::vector<std::int64_t> masks_of(const std::string& path, std::int64_t cells) 
   return counts;
 }
 
+constexpr const char* no_operators =
+    "operators need Voronoi cells, so their errors are not measured";
+
 void measure_sphere(const Request& request, const MeshFile& file, Measured& measured) {
   const Mesh& mesh = *file.mesh;
   measured.radius_km = radius_of(request, file);
@@ -128,6 +131,8 @@ void measure_sphere(const Request& request, const MeshFile& file, Measured& meas
                                      : quality(mesh, density);
   if (request.operators && measured.cells)
     measured.operators = operator_errors(mesh, density);
+  else if (request.operators)
+    measured.remarks.emplace_back(no_operators);
 }
 
 void measure_plane(const Request& request, const MeshFile& file, Measured& measured) {
@@ -174,6 +179,8 @@ std::string read_and_measure(const Request& request) {
   const bool as_polygons = !file.plane && file.polygons && !(file.mesh && !file.mesh->closed());
   if (as_polygons) {
     measured.remarks.push_back("the cells are not Voronoi cells: " + file.not_voronoi);
+    if (request.operators)
+      measured.remarks.emplace_back(no_operators);
     measured.unit = unit_of(request.units, radius_of(request, file));
   } else if (file.plane)
     measure_plane(request, file, measured);
