@@ -94,8 +94,9 @@ inline double diffusion_step(double eigenvalue, double viscosity) {
 /// \param mesh the Delaunay triangulation of its points, which are directions of any norm.
 /// \param density weights the centroids, as in quality(). Default: uniform. Without effect on an
 ///        open mesh.
-/// \throws Error bad_option as voronoi(); for an open mesh that fails check_surface(), or no site
-///         of which is surrounded by triangles; for a density as quality().
+/// \throws Error bad_option as voronoi(); for a mesh that fails check_surface() or has edges that
+///         are not Delaunay, see count_edges(); for an open mesh no site of which is surrounded by
+///         triangles; for a density as quality().
 OperatorErrors operator_errors(const Mesh& mesh, const Density& density = {});
 
 /// The same in a planar domain, in its unit of length.

@@ -59,7 +59,8 @@ struct NormPart {
 template <class Weight, class Measure>
 ErrorNorms error_norms(std::int64_t n, const Weight& weight, const Measure& measure,
                        Errors& errors) {
-  errors = Errors(n);
+  if (errors.size() != n) // the memory of another operator serves
+    errors = Errors(n);
   const auto sum = join_blocks<NormPart>(n, [&](NormPart& part, std::int64_t i) {
     errors[i] = no_value;
     const double w = weight(i);

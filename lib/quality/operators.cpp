@@ -17,6 +17,8 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -46,6 +48,19 @@ template <class First> ErrorNorms off_centroid(const Voronoi& cells, const First
   });
   set_place(cells.cells, norms);
   return norms;
+}
+
+/// \returns whether the mesh covers the sphere.
+bool require_delaunay(const Mesh& mesh) {
+  const Check found = check_surface(mesh);
+  if (!found.passed())
+    throw Error(ErrorCode::bad_option, "the triangles do not form a surface: " + found.failure +
+                                           "; triangulate the points anew");
+  if (const std::int64_t edges = count_edges(mesh).not_delaunay; edges > 0)
+    throw Error(ErrorCode::bad_option,
+                std::to_string(edges) + " edges are not Delaunay, so that the mesh has no Voronoi "
+                                        "cells; triangulate the points anew");
+  return found.boundary_edges == 0;
 }
 
 // ---- The whole sphere
@@ -97,9 +112,6 @@ void renumber(const std::vector<std::int32_t>& site, std::int64_t sites, Operato
 }
 
 OperatorErrors of_open(const Mesh& mesh) {
-  if (const Check found = check_surface(mesh); !found.passed())
-    throw Error(ErrorCode::bad_option, "the triangles do not form a surface: " + found.failure +
-                                           "; triangulate the points anew");
   const WholeCells whole = whole_cells(mesh);
   OperatorErrors out = errors_of(whole.voronoi);
   out.off_centroid =
@@ -114,8 +126,9 @@ OperatorErrors of_open(const Mesh& mesh) {
 OperatorErrors operator_errors(const Mesh& mesh, const Density& density) {
   using namespace quality_detail;
   evaluate(density, Points3(Eigen::Vector3d::UnitZ())); // throws if the density is ill-formed
+  const bool closed = require_delaunay(mesh);
   const Mesh unit = with_unit_columns(mesh);
-  return mesh.closed() ? of_closed(unit, density) : of_open(unit);
+  return closed ? of_closed(unit, density) : of_open(unit);
 }
 
 OperatorErrors operator_errors(const PlanarMesh& mesh, const PlanarDomain& domain,

@@ -502,9 +502,13 @@ TEST_CASE("in a bounded plane the cells count that the boundary does not clip") 
   CHECK(errors.off_centroid.max == cell_measures(mesh, box).off_centroid.maxCoeff());
 }
 
-TEST_CASE("no density and no whole cell are errors") {
-  const Mesh mesh = spherical_delaunay(bisected_icosahedron(1));
+TEST_CASE("no density, no whole cell and no Voronoi cells are errors") {
+  Mesh mesh = spherical_delaunay(bisected_icosahedron(1));
   CHECK_THROWS_AS(operator_errors(mesh, tanh_bump({0, 0, 0}, 1, 1, 0.5)), const Error&);
   const Points3 triangle = Points3(Matrix3d::Identity());
   CHECK_THROWS_AS(operator_errors(spherical_delaunay(triangle)), const Error&);
+  mesh.points.col(30) += 0.9 * (mesh.points.col(31) - mesh.points.col(30)); // the ids stay
+  CHECK_THROWS_AS(operator_errors(mesh), const Error&);
+  mesh.triangles(0, 3) = 99;
+  CHECK_THROWS_AS(operator_errors(mesh), const Error&);
 }
