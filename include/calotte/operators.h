@@ -70,7 +70,7 @@ struct OperatorErrors {
   /// vorticity. Short Voronoi edges raise it; infinite where one has no length.
   double dual_eigenvalue = 0;
 
-  OperatorErrorsByCell by_cell;
+  OperatorErrorsByCell by_cell; ///< the errors of each cell
 };
 
 /// The longest stable step of gravity waves with the classical Runge-Kutta method of order 4:
