@@ -10,8 +10,10 @@
 #include "options/coastlines_option.h"
 #include "options/files.h"
 #include "options/region_option.h"
+#include "run/operator_measures.h"
 
 #include <calotte/error.h>
+#include <calotte/operators.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -70,13 +72,34 @@ CellField read_field(const std::string& path, const std::string& name, const Any
   return field;
 }
 
+/// Shows the errors of an operator as a field.
+void set_errors(const std::string& word, const OperatorErrors& errors, DrawOptions& options) {
+  const auto name = std::find_if(operator_names.begin(), operator_names.end(),
+                                 [&](const OperatorName& other) { return word == other.word; });
+  options.field = {errors.by_cell.*(name->by_cell),
+                   "greatest at the cell, over the root mean square of exact values", ""};
+  options.field_name = std::string("error of the ") + name->label;
+}
+
+/// The domain that clips the cells, or the box of the mesh.
+PlanarDomain domain_of_errors(const std::optional<PlanarDomain>& given, const PlanarMesh& mesh) {
+  if (given)
+    return *given;
+  if (mesh.period.minCoeff() > 0)
+    return periodic_box(mesh.period);
+  throw Error(ErrorCode::bad_option, "the errors of operators depend on the domain, which clips "
+                                     "the cells; give --domain, --rectangle or --periodic");
+}
+
 void draw_planar_mesh(const DrawArguments& arguments) {
   const std::optional<PlanarDomain> domain = domain_of(*arguments.domain);
   DrawOptions options = arguments.options;
   options.density = density_of(*arguments.density, true);
   options.name = file_name(*arguments.source);
   const PlanarMesh mesh = read_planar_mesh(*arguments.source);
-  if (options.colouring == Colouring::field) {
+  if (!arguments.error_of.empty()) {
+    set_errors(arguments.error_of, operator_errors(mesh, domain_of_errors(domain, mesh)), options);
+  } else if (options.colouring == Colouring::field) {
     options.field = read_field(arguments.source->path, options.field_name, mesh);
   }
   draw(arguments.output, mesh, domain, options);
@@ -144,6 +167,11 @@ void draw_cells(const DrawArguments& arguments, const MeshFile& file) {
       (arguments.what->count() > 0 && arguments.options.shapes != Shapes::cells)) {
     throw Error(ErrorCode::bad_option, not_voronoi + "; draw them with --what cells");
   }
+  if (!arguments.error_of.empty()) {
+    throw Error(ErrorCode::bad_option,
+                not_voronoi +
+                    ", so that they have no errors of operators; choose another --colour");
+  }
   DrawOptions options = options_for(arguments, file);
   if (shows_field(options)) {
     options.field = field_of(options, arguments.source->path, file, cells.size());
@@ -178,7 +206,9 @@ void draw_mesh(const DrawArguments& arguments) {
   if (file.polygons && file.polygons->size() == mesh.points.cols()) {
     options.cells = &*file.polygons;
   }
-  if (shows_field(options)) {
+  if (!arguments.error_of.empty()) {
+    set_errors(arguments.error_of, operator_errors(mesh), options);
+  } else if (shows_field(options)) {
     options.field = read_field(arguments.source->path, options.field_name, mesh);
   }
   if (arguments.spacing_law) {

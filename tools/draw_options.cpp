@@ -4,6 +4,7 @@
 #include "draw/history.h"
 #include "help/help.h"
 #include "options/coastlines_option.h"
+#include "run/operator_measures.h"
 
 #include <calotte/error.h>
 
@@ -63,9 +64,16 @@ void add_choice(CLI::App& command, const std::string& names, Value& value,
       ->default_str(words.front());
 }
 
-constexpr const char* field_prefix = "field:";
+constexpr std::string_view field_prefix = "field:", error_prefix = "error:";
 
-/// --colour: a word, or field:NAME.
+bool is_error(std::string_view text) {
+  return text.starts_with(error_prefix) &&
+         std::any_of(operator_names.begin(), operator_names.end(), [&](const OperatorName& name) {
+           return text.substr(error_prefix.size()) == name.word;
+         });
+}
+
+/// --colour: a word, field:NAME or error:OPERATOR.
 void add_colour(CLI::App& command, DrawArguments& arguments) {
   static const std::map<std::string, Colouring> words = {
       {"spacing", Colouring::spacing}, {"angle", Colouring::angle},
@@ -75,32 +83,39 @@ void add_colour(CLI::App& command, DrawArguments& arguments) {
       {"none", Colouring::none}};
   const auto check = [](const std::string& text) -> std::string {
     const bool field = text.starts_with(field_prefix) && text != field_prefix;
-    return field || words.contains(text)
-               ? ""
-               : "\"" + text +
-                     "\" is not one of spacing, angle, valence (or degree), "
-                     "area, quality, density, region, field:NAME, none";
+    if (field || is_error(text) || words.contains(text))
+      return "";
+    if (text.starts_with(error_prefix))
+      return "\"" + text +
+             "\" is not error: with one of divergence, gradient, laplacian, curl, tangential, "
+             "kinetic_energy";
+    return "\"" + text +
+           "\" is not one of spacing, angle, valence (or degree), "
+           "area, quality, density, region, field:NAME, error:OPERATOR, none";
   };
   DrawOptions& options = arguments.options;
-  const auto choose = [&options](const std::string& text) {
+  const auto choose = [&options, &error_of = arguments.error_of](const std::string& text) {
     const auto word = words.find(text);
     options.colouring = word == words.end() ? Colouring::field : word->second;
-    options.field_name =
-        word == words.end() ? text.substr(std::string_view(field_prefix).size()) : "";
+    options.field_name = text.starts_with(field_prefix) ? text.substr(field_prefix.size()) : "";
+    error_of = text.starts_with(error_prefix) ? text.substr(error_prefix.size()) : "";
   };
   arguments.colour =
       command
           .add_option_function<std::string>(
               "--colour,--color", choose,
               "Quantity that determines the colour: spacing, angle, valence (or degree), area, "
-              "quality, density, region, none or field:NAME. spacing is the mean distance to the "
+              "quality, density, region, none, field:NAME or error:OPERATOR. spacing is the mean "
+              "distance to the "
               "neighbours, angle the smallest angle, valence the number of neighbours; quality of "
               "a cell is its shortest side over the longest, of a triangle 1 if equilateral; "
               "density is that of --density; region shows the region, relaxation and specified "
               "zone of "
               "a limited-area grid (bdyMaskCell), and is the default for its cells; field:NAME is "
               "a "
-              "variable of a NetCDF mesh with one number for each cell")
+              "variable of a NetCDF mesh with one number for each cell; error:OPERATOR is the "
+              "error of divergence, gradient, laplacian, curl, tangential or kinetic_energy, as "
+              "calotte info --operators measures them")
           ->check(check)
           ->type_name("WORD")
           ->default_str("spacing");

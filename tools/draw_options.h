@@ -24,6 +24,7 @@ struct DrawArguments {
   const CLI::Option* colour = nullptr;
   std::string output;
   DrawOptions options;
+  std::string error_of;             ///< the operator whose errors are drawn as a field, or ""
   std::optional<bool> coastlines;   ///< as asked for
   std::string region;               ///< whose boundary is drawn, as asked for
   std::vector<std::string> reports; ///< drawn instead of a mesh

@@ -16,6 +16,7 @@
 #include <calotte/error.h>
 #include <calotte/limited_area.h>
 #include <calotte/mesh_file.h>
+#include <calotte/operators.h>
 #include <calotte/quality.h>
 
 #include <iostream>
@@ -32,6 +33,7 @@ struct Request {
   std::optional<double> sphere_radius; ///< metres
   std::optional<std::string> units;    ///< --units
   std::optional<std::int64_t> cell;    ///< whose numbers are asked for
+  bool operators = false;              ///< whether the errors of operators are
   std::string report;
 };
 
@@ -112,6 +114,9 @@ std::vector<std::int64_t> masks_of(const std::string& path, std::int64_t cells) 
   return counts;
 }
 
+constexpr const char* no_operators =
+    "operators need Voronoi cells, so their errors are not measured";
+
 void measure_sphere(const Request& request, const MeshFile& file, Measured& measured) {
   const Mesh& mesh = *file.mesh;
   measured.radius_km = radius_of(request, file);
@@ -119,15 +124,24 @@ void measure_sphere(const Request& request, const MeshFile& file, Measured& meas
   find_boundary(count_edges(mesh), measured);
   if (measured.open)
     measured.masks = masks_of(request.source->path, mesh.points.cols());
+  const Density density =
+      measured.cells && !measured.open ? density_of(request, file, measured) : Density{};
   measured.quality = !measured.cells ? triangle_quality(mesh)
                      : measured.open ? open_quality(mesh)
-                                     : quality(mesh, density_of(request, file, measured));
+                                     : quality(mesh, density);
+  if (request.operators && measured.cells)
+    measured.operators = operator_errors(mesh, density);
+  else if (request.operators)
+    measured.remarks.emplace_back(no_operators);
 }
 
 void measure_plane(const Request& request, const MeshFile& file, Measured& measured) {
   const PlanarDomain domain = domain_of(request, *file.plane);
   measured.density = density_name(*request.density);
-  measured.quality = quality(*file.plane, domain, density_of(*request.density, true));
+  const Density density = density_of(*request.density, true);
+  measured.quality = quality(*file.plane, domain, density);
+  if (request.operators)
+    measured.operators = operator_errors(*file.plane, domain, density);
   measured.domain_area = area(domain);
 }
 
@@ -146,6 +160,7 @@ std::string cell_table(const Request& request, const MeshFile& file) {
                                    .density = density_of(*request.density, request.source->plane),
                                    .radius_km = radius_of(request, file),
                                    .units = request.units,
+                                   .operators = request.operators,
                                    .most_cells = std::numeric_limits<std::int64_t>::max()});
   return cell_table(mesh, *request.cell);
 }
@@ -164,6 +179,8 @@ std::string read_and_measure(const Request& request) {
   const bool as_polygons = !file.plane && file.polygons && !(file.mesh && !file.mesh->closed());
   if (as_polygons) {
     measured.remarks.push_back("the cells are not Voronoi cells: " + file.not_voronoi);
+    if (request.operators)
+      measured.remarks.emplace_back(no_operators);
     measured.unit = unit_of(request.units, radius_of(request, file));
   } else if (file.plane)
     measure_plane(request, file, measured);
@@ -212,12 +229,15 @@ void add_info(CLI::App& app) {
       ->add_option("--cell", request->cell,
                    "Print the numbers of one cell instead, by its place in the file, from 0")
       ->transform(whole_number(0, std::numeric_limits<std::int32_t>::max()));
+  command->add_flag("--operators", request->operators,
+                    "Also print the errors that the operators of a C-grid model (TRiSK) have on "
+                    "the mesh for smooth fields, and the longest stable steps");
   command->add_option("--report", request->report, "Write the same quantities to this JSON file")
       ->type_name("FILE");
   set_help(*command,
            {.common = {"MESH", "--points", "--plane", "--domain", "--density", "--cell-width",
-                       "--sphere-radius", "--units", "--cell", "--report"},
-            .examples = {"calotte info mesh.nc",
+                       "--sphere-radius", "--units", "--cell", "--operators", "--report"},
+            .examples = {"calotte info mesh.nc", "calotte info mesh.nc --operators",
                          "calotte info mesh.vtp --sphere-radius earth --cell-width 60km"}});
   command->callback([request] { run(*request); });
 }

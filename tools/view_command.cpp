@@ -40,6 +40,7 @@ struct Request {
   std::optional<double> sphere_radius; ///< metres
   std::optional<std::string> units;
   std::vector<std::string> fields;
+  bool operators = false;
   std::string report; ///< of the run that made the mesh, or ""
   std::int64_t most_cells = ViewChoice{}.most_cells;
   std::optional<bool> coastlines;
@@ -66,10 +67,11 @@ void require_request(const Request& request) {
   if (request.plan == !request.source->path.empty())
     refuse(request.plan ? "--plan shows widths before there is a mesh; leave MESH out"
                         : "give a mesh, or --plan and the widths of a grid");
-  if (request.plan && (!request.fields.empty() || !request.report.empty() || request.units ||
-                       request.source->plane || !request.source->points.empty()))
-    refuse("--plan shows widths on the sphere; leave out --field, --history, --units, --plane and "
-           "--points");
+  if (request.plan &&
+      (!request.fields.empty() || !request.report.empty() || request.units || request.operators ||
+       request.source->plane || !request.source->points.empty()))
+    refuse("--plan shows widths on the sphere; leave out --field, --history, --operators, --units, "
+           "--plane and --points");
   if (request.plan && request.sphere_radius && request.density->widths.in_km())
     refuse("widths in km refer to --earth-radius; give it in place of --sphere-radius");
   if (!request.plan && request.cells)
@@ -134,6 +136,7 @@ ViewChoice choice_of(const Request& request) {
           .density = density_of(*request.density, request.source->plane),
           .fields = request.fields,
           .units = request.units,
+          .operators = request.operators,
           .most_cells = request.most_cells};
 }
 
@@ -221,6 +224,9 @@ void add_content(CLI::App& command, Request& request) {
                   "A field of the file at cells or triangles, by its name; may be given several "
                   "times. Default: the first 12 fields with one number for each cell or triangle")
       ->type_name("NAME");
+  command.add_flag("--operators", request.operators,
+                   "Also show the errors that the operators of a C-grid model (TRiSK) have at each "
+                   "cell, as calotte info --operators measures them");
   command
       .add_option("--history", request.report,
                   "Show the convergence of the run that made the mesh, from its report, and the "

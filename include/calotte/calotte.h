@@ -18,6 +18,7 @@
 #include <calotte/limited_area.h>
 #include <calotte/lonlat.h>
 #include <calotte/ocean.h>
+#include <calotte/operators.h>
 #include <calotte/options.h>
 #include <calotte/planar_raster.h>
 #include <calotte/progress.h>

@@ -3,6 +3,7 @@
 
 #include <calotte/check.h>
 #include <calotte/error.h>
+#include <calotte/operators.h>
 #include <calotte/quality.h>
 #include <calotte/renumber.h>
 #include <calotte/voronoi.h>
@@ -43,6 +44,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   attempt([&] { quality(mesh); });
   attempt([&] { cell_measures(mesh); });
   attempt([&] { voronoi(mesh); });
+  attempt([&] { operator_errors(mesh); });
   attempt([&] { renumbered(mesh, Numbering::rcm); });
   return 0;
 }

@@ -107,6 +107,17 @@ def test_cells_of_the_sphere_and_the_plane():
     assert calotte.quality(box).cells == 200
 
 
+def test_errors_of_operators():
+    errors = calotte.operator_errors(calotte.cvt(642).mesh)
+    assert 0 < errors.gradient.l2 < errors.divergence.l2 < errors.divergence.max < 0.1
+    by_cell = errors.tangential_by_cell
+    assert by_cell[errors.tangential.cell] == by_cell.max() == errors.tangential.max
+    assert errors.dual_eigenvalue > 3 * errors.primal_eigenvalue
+    assert np.linalg.norm(errors.curl.place) == pytest.approx(1)
+    box = calotte.delaunay(calotte.random_places(200, calotte.periodic_box(2, 1)), period=(2, 1))
+    assert np.isfinite(calotte.operator_errors(box).divergence_by_cell).all()
+
+
 def test_regions():
     region = calotte.polygon([(0, 0), (90, 0), (0, 90)])
     assert region.area == pytest.approx(math.pi / 2)

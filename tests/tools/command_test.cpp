@@ -391,6 +391,54 @@ TEST_CASE("info counts the cells of a limited-area grid by their masks, and meas
   CHECK(report["dv_over_dc"]["mean"] == doctest::Approx(0.577).epsilon(0.05));
 }
 
+TEST_CASE("info prints the errors of operators, and reports the same as JSON") {
+  const Bench bench;
+  REQUIRE(bench.run("cvt --cells 642 -o grid.nc --sphere-radius earth").code == 0);
+  const Outcome plain = bench.run("info grid.nc");
+  const Outcome info = bench.run("info grid.nc --operators --report report.json");
+  CAPTURE(info.out);
+  CHECK(info.code == 0);
+  REQUIRE(info.out.starts_with(plain.out));
+  const auto report = nlohmann::json::parse(bench.file("report.json"))["operators"];
+  std::istringstream lines(info.out.substr(plain.out.size()));
+  std::string line;
+  std::getline(lines, line);
+  CHECK(line == "errors of operators    l2           max          at cell     lon, lat");
+  for (const char* key :
+       {"divergence", "gradient", "laplacian", "curl", "tangential", "kinetic_energy"}) {
+    CAPTURE(key);
+    std::getline(lines, line);
+    double l2 = 0, max = 0;
+    std::int64_t cell = 0;
+    std::istringstream(line.substr(23)) >> l2 >> max >> cell;
+    CHECK(report[key]["l2"].get<double>() == doctest::Approx(l2).epsilon(1e-3));
+    CHECK(report[key]["max"].get<double>() == doctest::Approx(max).epsilon(1e-3));
+    CHECK(report[key]["cell"] == cell);
+    CHECK(report[key]["at"].size() == 2);
+    CHECK(l2 < max);
+  }
+  const double kilometres = 6371.229 * std::sqrt(8 / report["primal_eigenvalue"].get<double>());
+  const std::string row = "\nlongest stable step x speed of waves, km        ";
+  REQUIRE(info.out.find(row) != std::string::npos);
+  CHECK(std::stod(info.out.substr(info.out.find(row) + row.size())) ==
+        doctest::Approx(kilometres).epsilon(1e-3));
+  const std::string worst = std::to_string(report["tangential"]["cell"].get<int>());
+  CHECK(bench.run("info grid.nc --operators --cell " + worst)
+            .out.find("\ntangential velocity error   ") != std::string::npos);
+}
+
+TEST_CASE("info prints the errors of operators of limited areas and planes") {
+  const Bench bench;
+  REQUIRE(
+      bench.run("cvt --region circle=0,90,900km --cell-width 150km --limited-area -o a.nc").code ==
+      0);
+  CHECK(bench.run("info a.nc --operators").out.find("\ntangential velocity    0.") !=
+        std::string::npos);
+  REQUIRE(bench.run("cvt --rectangle 0,0,4,3 --cells 200 -o plane.vtp").code == 0);
+  CHECK(bench.run("info plane.vtp --plane --rectangle 0,0,4,3 --operators")
+            .out.find("\nlongest stable step x speed of waves            ") != std::string::npos);
+}
+
 TEST_CASE("info measures an open mesh, and refuses a report in its place") {
   const Bench bench;
   bench.file("points.txt", "0 0 1\n1 0 1\n0 1 1\n-1 -1 1\n");

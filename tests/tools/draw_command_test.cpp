@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <filesystem>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -57,11 +58,11 @@ TEST_CASE("the options of one picture are refused for another, before anything i
   check_usage(
       "a.vtp -o a.png --colour blue",
       "--colour: \"blue\" is not one of spacing, angle, valence (or degree), area, quality, "
-      "density, region, field:NAME, none");
+      "density, region, field:NAME, error:OPERATOR, none");
   check_usage(
       "a.vtp -o a.png --colour field:",
       "--colour: \"field:\" is not one of spacing, angle, valence (or degree), area, quality, "
-      "density, region, field:NAME, none");
+      "density, region, field:NAME, error:OPERATOR, none");
   check_usage("-o a.png --density uniform --what cells", "--what: MESH is required");
   check_usage("a.vtp -o a.png --spacing-law --density uniform --view 1,2",
               "--view excludes --spacing-law");
@@ -164,6 +165,24 @@ TEST_CASE("a density alone gives a picture of it, or of the spacings that it imp
     CHECK(outcome.out == "a.png: picture of a density\n");
     CHECK(bench.file("a.png").starts_with("\x89PNG"));
   }
+}
+
+TEST_CASE("the errors of operators colour cells") {
+  const Bench bench;
+  REQUIRE(bench.run("cvt --cells 162 -o a.nc").code == 0);
+  std::set<std::string> pictures;
+  for (const char* word :
+       {"divergence", "gradient", "laplacian", "curl", "tangential", "kinetic_energy"}) {
+    CAPTURE(word);
+    CHECK(
+        bench.run(std::string("draw a.nc -o a.png --size 200 --what cells --colour error:") + word)
+            .code == 0);
+    pictures.insert(bench.file("a.png"));
+  }
+  CHECK(pictures.size() == 6);
+  check_refusal(bench, "draw a.nc -o a.png --colour error:vorticity", 2,
+                "--colour: \"error:vorticity\" is not error: with one of divergence, gradient, "
+                "laplacian, curl, tangential, kinetic_energy; see calotte draw --help");
 }
 
 TEST_CASE("a mesh file's variables colour its cells; an unknown one names those there are") {

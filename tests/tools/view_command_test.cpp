@@ -172,6 +172,20 @@ TEST_CASE("the page's numbers are those of calotte info") {
   check_refusal(bench, "info grid.nc --cell 642", 2, "--cell 642: the mesh has the cells 0 to 641");
 }
 
+TEST_CASE("a page shows the errors of operators where they are asked for") {
+  const Bench bench;
+  make(bench, "cvt --cells 642 -o grid.nc");
+  make(bench, "info grid.nc --operators --report info.json");
+  const json info = json::parse(bench.file("info.json"))["operators"];
+  const Page page = make_page(bench, "grid.nc --operators");
+  for (const std::string word :
+       {"divergence", "gradient", "laplacian", "curl", "tangential", "kinetic_energy"})
+    CHECK(page.measure("error_" + word)["greatest"].get<double>() ==
+          doctest::Approx(info[word]["max"]));
+  for (const json& measure : make_page(bench, "grid.nc").mesh()["measures"])
+    CHECK(!measure["name"].get<std::string>().starts_with("error_"));
+}
+
 TEST_CASE("open, planar and periodic meshes, and cells of any shape") {
   const Bench bench;
   make(bench, "cvt --region circle=-105,40,1000km --cell-width 120km --limited-area -o la.nc");
@@ -348,8 +362,8 @@ TEST_CASE("bad input of view is one line") {
   check_refusal(bench, "view --plan", 2,
                 "a density has no unit; give --cells N, or widths in km (--cell-width 60km)");
   check_refusal(bench, "view --plan --cell-width 60km --field nope", 2,
-                "--plan shows widths on the sphere; leave out --field, --history, --units, --plane "
-                "and --points");
+                "--plan shows widths on the sphere; leave out --field, --history, --operators, "
+                "--units, --plane and --points");
   check_refusal(bench, "view --plan --cell-width 60km --sphere-radius earth", 2,
                 "widths in km refer to --earth-radius; give it in place of --sphere-radius");
   make(bench, "cvt --cells 100 --periodic 2,1 -o box.nc");

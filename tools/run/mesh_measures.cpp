@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "run/mesh_measures.h"
 
+#include "run/operator_measures.h"
 #include "run/shapes.h"
 
 #include <nlohmann/json.hpp>
@@ -217,6 +218,8 @@ std::string to_json(const Measured& measured) {
     json["domain_area"] = *measured.domain_area;
   else
     json["triangles_area"] = quality.triangles_area;
+  if (measured.operators)
+    json["operators"] = operators_to_json(*measured.operators, !measured.domain_area);
   return json.dump(2) + "\n";
 }
 
@@ -243,6 +246,9 @@ std::string table(const Measured& measured) {
   }
   if (!plane)
     table.row("triangles / 4 pi", quality.triangles_area, 15);
+  if (measured.operators)
+    return table.text() +
+           operator_rows(*measured.operators, plane ? Unit() : measured.unit, !plane);
   return table.text();
 }
 

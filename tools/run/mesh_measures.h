@@ -5,6 +5,7 @@
 
 #include <calotte/check.h>
 #include <calotte/mesh_file.h>
+#include <calotte/operators.h>
 #include <calotte/quality.h>
 
 #include <cstdint>
@@ -23,6 +24,7 @@ struct Measured {
   Unit unit;                         ///< of distances on it
   std::string density = "uniform";   ///< its name
   bool cells = true; ///< false for a mesh without Voronoi cells: its triangles alone are measured
+  std::optional<OperatorErrors> operators; ///< if they are asked for
   std::optional<EdgeCounts> open;   ///< of an open mesh; its whole cells are measured if `cells`
   std::vector<std::int64_t> masks;  ///< cells by bdyMaskCell, if the file has it
   std::vector<std::string> changes; ///< that reading made

@@ -3,6 +3,7 @@
 
 #include "draw/values.h"
 #include "options/numbers.h"
+#include "run/operator_measures.h"
 
 #include <algorithm>
 #include <cmath>
@@ -150,6 +151,20 @@ std::vector<Quantity> quantities_of(const CellMeasures& measures, const Unit& un
   add_shapes(measures, list);
   add_fits(measures, unit, list);
   add_triangles(measures, list);
+  return list;
+}
+
+std::vector<Quantity> quantities_of(const OperatorErrorsByCell& errors) {
+  std::vector<Quantity> list;
+  for (const OperatorName& name : operator_names)
+    add(list, {.name = std::string("error_") + name.word,
+               .label = std::string(name.label) + " error",
+               .help = std::string("Greatest error of the ") + name.label +
+                       " at the cell, for smooth fields, over the root mean square of the exact "
+                       "values.",
+               .logarithmic = true,
+               .worst = Worst::high,
+               .values = errors.*name.by_cell});
   return list;
 }
 

@@ -4,6 +4,7 @@
 #include "options/units_option.h"
 
 #include <calotte/mesh_file.h>
+#include <calotte/operators.h>
 #include <calotte/quality.h>
 
 #include <cstdint>
@@ -41,6 +42,9 @@ void summarise(Quantity& quantity);
 
 /// The quantities of a mesh that it has at least at one cell. \param unit of lengths and areas.
 std::vector<Quantity> quantities_of(const CellMeasures& measures, const Unit& unit);
+
+/// The errors of operators.
+std::vector<Quantity> quantities_of(const OperatorErrorsByCell& errors);
 
 /// Those of cells of any shape: sides, area, quality.
 std::vector<Quantity> quantities_of(const Polygons& cells, const Unit& unit);

@@ -3,7 +3,9 @@
 
 #include "draw/plane.h"
 
+#include <calotte/check.h>
 #include <calotte/error.h>
+#include <calotte/operators.h>
 
 #include <algorithm>
 #include <cmath>
@@ -160,6 +162,18 @@ std::vector<Quantity> measured(const MeshFile& file, const ViewChoice& choice) {
   return quantities_of(cell_measures(*file.mesh, density_of(file, choice)), unit);
 }
 
+/// The errors of operators; none for cells that are not Voronoi cells.
+std::vector<Quantity> operator_quantities(const MeshFile& file, const ViewChoice& choice) {
+  if (!choice.operators || as_polygons(file))
+    return {};
+  if (file.plane)
+    return quantities_of(
+        operator_errors(*file.plane, domain_of(*file.plane, choice.domain)).by_cell);
+  if (count_edges(*file.mesh).not_delaunay > 0)
+    return {};
+  return quantities_of(operator_errors(*file.mesh).by_cell);
+}
+
 } // namespace
 
 ViewMesh view_mesh(const std::string& name, const MeshFile& file, const ViewChoice& choice) {
@@ -167,6 +181,8 @@ ViewMesh view_mesh(const std::string& name, const MeshFile& file, const ViewChoi
   ViewMesh mesh{.name = name, .on_sphere = !file.plane, .radius_km = choice.radius_km};
   mesh.cells = mesh.total = cells_of(file);
   mesh.quantities = measured(file, choice);
+  for (Quantity& quantity : operator_quantities(file, choice))
+    mesh.quantities.push_back(std::move(quantity));
   add_fields(file, choice, mesh);
   const PlanarDomain domain = file.plane ? domain_of(*file.plane, choice.domain) : PlanarDomain{};
   if (file.plane)

@@ -41,6 +41,7 @@ struct ViewChoice {
   std::vector<std::string> fields = {};    ///< names; by default the first ones of the file
   std::optional<double> radius_km = {};
   std::optional<std::string> units = {};
+  bool operators = false;            ///< adds the errors of operators
   std::int64_t most_cells = 1000000; ///< larger meshes are thinned
 };
 

@@ -11,20 +11,21 @@ any number of threads. Functions raise calotte.Error, a ValueError.
 True
 """
 from . import _mesh  # adds the methods of meshes that are written in Python
-from ._calotte import (CellWidth, Check, Density, Error, Mesh, PlanarDomain, PlanarMesh, Quality,
-                       Region, Voronoi, __version__)
+from ._calotte import (CellWidth, Check, Density, Error, Mesh, OperatorErrors, PlanarDomain,
+                       PlanarMesh, Quality, Region, Voronoi, __version__)
 from ._functions import (Cvt, Plan, bisect, bisected_icosahedron, channel, check, circle,
                          cubed_sphere, cull, cut, cvt, delaunay, ellipse, fibonacci_sphere,
-                         from_lonlat, hexagonal_lattice, lat_lon_sphere, limited_area, periodic_box,
-                         planar_polygon, plan, polygon, quality, random_places, random_sphere, read,
-                         read_fields, read_points, rectangle, spiral_sphere, threads, to_lonlat,
+                         from_lonlat, hexagonal_lattice, lat_lon_sphere, limited_area, operator_errors,
+                         periodic_box, planar_polygon, plan, polygon, quality, random_places,
+                         random_sphere, read, read_fields, read_points, rectangle, spiral_sphere, threads, to_lonlat,
                          voronoi, write)
 
 __all__ = [
-    "CellWidth", "Check", "Cvt", "Density", "Error", "Mesh", "Plan", "PlanarDomain", "PlanarMesh",
+    "CellWidth", "Check", "Cvt", "Density", "Error", "Mesh", "OperatorErrors", "Plan", "PlanarDomain", "PlanarMesh",
     "Quality", "Region", "Voronoi", "__version__", "bisect", "bisected_icosahedron", "channel",
     "check", "circle", "cubed_sphere", "cull", "cut", "cvt", "delaunay", "ellipse",
     "fibonacci_sphere", "from_lonlat", "hexagonal_lattice", "lat_lon_sphere", "limited_area",
+    "operator_errors",
     "periodic_box", "planar_polygon", "plan", "polygon", "quality", "random_places", "random_sphere", "read",
     "read_fields", "read_points", "rectangle", "spiral_sphere", "threads", "to_lonlat", "voronoi",
     "write",

@@ -24,6 +24,7 @@ PYBIND11_MODULE(_calotte, module) {
   add_densities(module);
   add_meshes(module);
   add_cells(module);
+  add_operators(module);
   add_corners(module);
   add_points(module);
   add_tessellations(module);

@@ -10,6 +10,7 @@ namespace calotte::python {
 void add_errors(pybind11::module_& module);
 void add_meshes(pybind11::module_& module);
 void add_cells(pybind11::module_& module);
+void add_operators(pybind11::module_& module);
 void add_corners(pybind11::module_& module);
 void add_densities(pybind11::module_& module);
 void add_regions(pybind11::module_& module);

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <calotte/operators.h>
+
+#include "base/first_fault.h"
+#include "base/points.h"
+#include "integrals/moments.h"
+#include "quality/eigenvalues.h"
+#include "quality/error_norms.h"
+#include "quality/sides.h"
+#include "quality/truncation.h"
+#include "quality/whole_cells.h"
+#include "voronoi/cell_fields.h"
+
+#include <calotte/check.h>
+#include <calotte/error.h>
+#include <calotte/quality.h>
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace calotte {
+namespace quality_detail {
+namespace {
+
+void set_place(const Points3& cells, ErrorNorms& norms) {
+  if (norms.cell >= 0)
+    norms.place = cells.col(norms.cell);
+}
+
+/// All but off_centroid.
+OperatorErrors errors_of(const Voronoi& cells) {
+  OperatorErrors out;
+  set_truncation(cells, out);
+  out.primal_eigenvalue = primal_eigenvalue(cells);
+  out.dual_eigenvalue = dual_eigenvalue(cells);
+  return out;
+}
+
+/// \param first(i) the first moment of a cell; zero to leave it out.
+template <class First> ErrorNorms off_centroid(const Voronoi& cells, const First& first) {
+  ErrorNorms norms = distance_norms(cells.cells.cols(), [&](std::int64_t i) {
+    const Vec3 moment = first(i);
+    return norm((1 / norm(moment)) * moment - column(cells.cells, i)) / spacing_at(cells, i);
+  });
+  set_place(cells.cells, norms);
+  return norms;
+}
+
+/// \returns whether the mesh covers the sphere.
+bool require_delaunay(const Mesh& mesh) {
+  const Check found = check_surface(mesh);
+  if (!found.passed())
+    throw Error(ErrorCode::bad_option, "the triangles do not form a surface: " + found.failure +
+                                           "; triangulate the points anew");
+  if (const std::int64_t edges = count_edges(mesh).not_delaunay; edges > 0)
+    throw Error(ErrorCode::bad_option,
+                std::to_string(edges) + " edges are not Delaunay, so that the mesh has no Voronoi "
+                                        "cells; triangulate the points anew");
+  return found.boundary_edges == 0;
+}
+
+// ---- The whole sphere
+
+OperatorErrors of_closed(const Mesh& mesh, const Density& density) {
+  const Voronoi cells = voronoi(mesh);
+  OperatorErrors out = errors_of(cells);
+  const Moments moments = mesh_moments(mesh, density);
+  FirstFault fault;
+  out.off_centroid = off_centroid(cells, [&](std::int64_t i) {
+    if (!(norm(moments.first[i]) > 0))
+      fault.at(i);
+    return moments.first[i];
+  });
+  fault.refuse("site", "has a cell over which the density is zero: make it positive everywhere");
+  return out;
+}
+
+// ---- A part of it
+
+/// The first moment of a cell of uniform density: half the sum over its neighbours of dv times the
+/// unit chord from each. Zero at the boundary.
+Vec3 first_moment(const Voronoi& cells, std::int64_t i) {
+  Vec3 sum{0, 0, 0};
+  for (std::int64_t k = cells.begin[i]; k != cells.begin[i + 1]; ++k) {
+    if (cells.cells_on_cell[k] < 0)
+      return {0, 0, 0};
+    const Vec3 chord = column(cells.cells, i) - column(cells.cells, cells.cells_on_cell[k]);
+    sum = sum + (0.5 * cells.dv[cells.edges_on_cell[k]] / norm(chord)) * chord;
+  }
+  return sum;
+}
+
+/// From numbers of whole cells to sites.
+void renumber(const std::vector<std::int32_t>& site, std::int64_t sites, OperatorErrors& out) {
+  for (ErrorNorms* norms :
+       {&out.divergence, &out.gradient, &out.laplacian, &out.curl, &out.tangential,
+        &out.kinetic_energy, &out.off_centroid, &out.off_midpoint})
+    if (norms->cell >= 0)
+      norms->cell = site[static_cast<std::size_t>(norms->cell)];
+  OperatorErrorsByCell& by_cell = out.by_cell;
+  for (Eigen::VectorXd* values : {&by_cell.divergence, &by_cell.gradient, &by_cell.laplacian,
+                                  &by_cell.curl, &by_cell.tangential, &by_cell.kinetic_energy}) {
+    Eigen::VectorXd of_sites = Eigen::VectorXd::Constant(sites, no_value);
+    for (std::size_t i = 0; i < site.size(); ++i)
+      of_sites[site[i]] = (*values)[static_cast<Eigen::Index>(i)];
+    *values = std::move(of_sites);
+  }
+}
+
+OperatorErrors of_open(const Mesh& mesh) {
+  const WholeCells whole = whole_cells(mesh);
+  OperatorErrors out = errors_of(whole.voronoi);
+  out.off_centroid =
+      off_centroid(whole.voronoi, [&](std::int64_t i) { return first_moment(whole.voronoi, i); });
+  renumber(whole.site, mesh.points.cols(), out);
+  return out;
+}
+
+} // namespace
+} // namespace quality_detail
+
+OperatorErrors operator_errors(const Mesh& mesh, const Density& density) {
+  using namespace quality_detail;
+  evaluate(density, Points3(Eigen::Vector3d::UnitZ())); // throws if the density is ill-formed
+  const bool closed = require_delaunay(mesh);
+  const Mesh unit = with_unit_columns(mesh);
+  return closed ? of_closed(unit, density) : of_open(unit);
+}
+
+OperatorErrors operator_errors(const PlanarMesh& mesh, const PlanarDomain& domain,
+                               const Density& density) {
+  using namespace quality_detail;
+  const Eigen::VectorXd off = cell_measures(mesh, domain, density).off_centroid;
+  const Voronoi cells = voronoi(mesh, domain);
+  OperatorErrors out = errors_of(cells);
+  out.off_centroid = distance_norms(off.size(), [&](std::int64_t i) { return off[i]; });
+  set_place(cells.cells, out.off_centroid);
+  return out;
+}
+
+} // namespace calotte

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "quality/whole_cells.h"
+
+#include "base/points.h"
+#include "base/triangle.h"
+#include "exact/predicates.h"
+#include "voronoi/open.h"
+
+#include <calotte/error.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace calotte::quality_detail {
+namespace {
+
+/// By site a triangle at it, or -1.
+std::vector<std::int32_t> triangles_at(const Mesh& mesh) {
+  std::vector<std::int32_t> at(static_cast<std::size_t>(mesh.points.cols()), -1);
+  for (std::int32_t t = 0; t < mesh.triangles.cols(); ++t)
+    for (const std::int32_t site : mesh.triangles.col(t))
+      at[static_cast<std::size_t>(site)] = t;
+  return at;
+}
+
+/// Sets the triangles around a site, counter-clockwise; false if they do not surround it.
+bool set_ring(const Mesh& mesh, std::int32_t site, std::int32_t first,
+              std::vector<std::int32_t>& ring) {
+  ring.clear();
+  std::int32_t t = first;
+  do {
+    if (t < 0)
+      return false;
+    ring.push_back(t);
+    const int v = mesh.triangles(0, t) == site ? 0 : mesh.triangles(1, t) == site ? 1 : 2;
+    t = mesh.neighbours(next_vertex(v), t);
+  } while (t != first);
+  return true;
+}
+
+Vec3 circumcentre(const Mesh& mesh, std::int32_t t) {
+  const Vec3 a = column(mesh.points, mesh.triangles(0, t)),
+             b = column(mesh.points, mesh.triangles(1, t)),
+             c = column(mesh.points, mesh.triangles(2, t));
+  return normalised(cross(b - a, c - a));
+}
+
+} // namespace
+
+WholeCells whole_cells(const Mesh& mesh) {
+  const std::vector<std::int32_t> first = triangles_at(mesh);
+  std::vector<std::int32_t> ring, used; // triangles, by entry of a cell
+  std::vector<std::int64_t> begin{0};
+  WholeCells out;
+  for (std::int32_t site = 0; site < mesh.points.cols(); ++site)
+    if (set_ring(mesh, site, first[static_cast<std::size_t>(site)], ring)) {
+      used.insert(used.end(), ring.begin(), ring.end());
+      begin.push_back(std::ssize(used));
+      out.site.push_back(site);
+    }
+  if (out.site.empty())
+    throw Error(ErrorCode::bad_option,
+                "triangles surround no site of the open mesh, so that it has no whole cell");
+  std::vector<std::int32_t> vertex(static_cast<std::size_t>(mesh.triangles.cols()), -1);
+  for (const std::int32_t t : used)
+    vertex[static_cast<std::size_t>(t)] = 0;
+  std::int32_t vertices = 0;
+  for (std::int32_t& id : vertex)
+    if (id == 0)
+      id = vertices++;
+
+  Voronoi& cells = out.voronoi;
+  cells.cells.resize(3, std::ssize(out.site));
+  for (std::size_t i = 0; i < out.site.size(); ++i)
+    cells.cells.col(static_cast<Eigen::Index>(i)) = mesh.points.col(out.site[i]);
+  cells.begin = Eigen::Map<const decltype(cells.begin)>(begin.data(), std::ssize(begin));
+  cells.vertices_on_cell.resize(std::ssize(used));
+  for (std::size_t k = 0; k < used.size(); ++k)
+    cells.vertices_on_cell[static_cast<Eigen::Index>(k)] =
+        vertex[static_cast<std::size_t>(used[k])];
+  cells.vertices.resize(3, vertices);
+  for (std::int32_t t = 0; t < mesh.triangles.cols(); ++t)
+    if (const std::int32_t id = vertex[static_cast<std::size_t>(t)]; id >= 0)
+      set_column(cells.vertices, id, circumcentre(mesh, t));
+  connect_open(cells);
+  measure_open(cells);
+  return out;
+}
+
+} // namespace calotte::quality_detail
