@@ -121,9 +121,9 @@ TEST_CASE("every start leads to the requested number of cells") {
   check_start("--cells 12", 12, "");
   check_start("--cells 162", 162, "");
   check_start("--cells 162 --density " + bump, 162, "");
-  check_start("--cells 150 --start continuation", 150,
-              "calotte: 150 cells is not 10 x 4^k + 2: the start is 39 points of a Fibonacci "
-              "lattice, bisected once\n");
+  check_start("--cells 150 --start continuation", 150, "");
+  check_start("--cells 150 --start geodesic", 150, "");
+  check_start("--cells 594 --start geodesic --bisections 1", 594, "");
   check_start("--cells 100 --seed 4 --density " + bump, 100,
               "calotte: 100 cells is not 10 x 4^k + 2: the start is 100 points drawn from the "
               "density\n");
@@ -269,7 +269,7 @@ TEST_CASE("bad usage is refused before any work") {
   check_usage(
       "--cells 12 --start there" + out,
       "--start: there not in {multilevel,continuation,random,density,fibonacci,spiral,icosahedron,"
-      "hexagonal}" +
+      "geodesic,hexagonal}" +
           see);
   for (const std::string tolerance : {"0", "-1e-06", "nan", "inf"})
     check_usage("never --tolerance=" + tolerance + out,
