@@ -75,7 +75,8 @@ void wait_for_handler(pid_t process, int signal) {
 /// Options of a run that is long enough to be interrupted many times; it saves its state after
 /// every iteration.
 const std::string long_run = "cvt --cells 162 --start random --seed 5 --iterations 3000";
-const std::string long_levels = "cvt --cells 162 --method nesterov --iterations 1500";
+const std::string long_levels =
+    "cvt --cells 162 --start icosahedron --bisections 2 --method nesterov --iterations 1500";
 const std::string long_bump =
     "cvt --cells 162 --method lloyd --start density --iterations 3000 --density " + bump;
 const std::string kept = " --checkpoint run.checkpoint --checkpoint-every 1";
@@ -506,8 +507,8 @@ TEST_CASE("the report has the documented content") {
   const Bench bench;
   CHECK(
       bench
-          .run("cvt --cells 162 --method lloyd --iterations 2 --threads 2 --regions 3 -o mesh.vtp "
-               "--report report.json")
+          .run("cvt --cells 162 --start icosahedron --bisections 2 --method lloyd --iterations 2 "
+               "--threads 2 --regions 3 -o mesh.vtp --report report.json")
           .code == 0);
   const std::string report = bench.file("report.json");
   for (const char* key : {"calotte",

@@ -67,13 +67,10 @@ void add_start(CLI::App& command, CvtRequest& request) {
           "converges again, in turn; inserts and removes cells where the density demands it; the "
           "default unless the density is uniform), continuation (the same without insertion, for "
           "the sphere; if the density is uniform the default there, and geodesic from 150 cells "
-          "on), "
-          "density (random, distributed "
-          "as the cells of an optimal grid; the default in the plane if the density is uniform), "
-          "random (uniform), fibonacci, spiral, icosahedron (bisected) or geodesic (12 cells of "
-          "five "
-          "neighbours, all others of six; any number of cells) on the sphere, or hexagonal in the "
-          "plane")
+          "on), density (random, distributed as the cells of an optimal grid; the default in the "
+          "plane if the density is uniform), random (uniform), fibonacci, spiral, icosahedron "
+          "(bisected) or geodesic (12 cells of five neighbours, all others of six, for any number "
+          "of cells) on the sphere, or hexagonal in the plane")
       ->check(CLI::IsMember({"multilevel", "continuation", "random", "density", "fibonacci",
                              "spiral", "icosahedron", "geodesic", "hexagonal"}));
   command.add_option("--seed", request.seed, "Seed of random points, >= 0; default: 1")

@@ -15,17 +15,17 @@ from ._calotte import (CellWidth, Check, Density, Error, Mesh, PlanarDomain, Pla
                        Region, Voronoi, __version__)
 from ._functions import (Cvt, Plan, bisect, bisected_icosahedron, channel, check, circle,
                          cubed_sphere, cull, cut, cvt, delaunay, ellipse, fibonacci_sphere,
-                         from_lonlat, geodesic_sphere, hexagonal_lattice, lat_lon_sphere, limited_area, periodic_box,
-                         planar_polygon, plan, polygon, quality, random_places, random_sphere, read,
-                         read_fields, read_points, rectangle, spiral_sphere, threads, to_lonlat,
-                         voronoi, write)
+                         from_lonlat, geodesic_sphere, hexagonal_lattice, lat_lon_sphere,
+                         limited_area, periodic_box, planar_polygon, plan, polygon, quality,
+                         random_places, random_sphere, read, read_fields, read_points, rectangle,
+                         spiral_sphere, threads, to_lonlat, voronoi, write)
 
 __all__ = [
     "CellWidth", "Check", "Cvt", "Density", "Error", "Mesh", "Plan", "PlanarDomain", "PlanarMesh",
     "Quality", "Region", "Voronoi", "__version__", "bisect", "bisected_icosahedron", "channel",
     "check", "circle", "cubed_sphere", "cull", "cut", "cvt", "delaunay", "ellipse",
-    "fibonacci_sphere", "from_lonlat", "geodesic_sphere", "hexagonal_lattice", "lat_lon_sphere", "limited_area",
-    "periodic_box", "planar_polygon", "plan", "polygon", "quality", "random_places", "random_sphere", "read",
-    "read_fields", "read_points", "rectangle", "spiral_sphere", "threads", "to_lonlat", "voronoi",
-    "write",
+    "fibonacci_sphere", "from_lonlat", "geodesic_sphere", "hexagonal_lattice", "lat_lon_sphere",
+    "limited_area", "periodic_box", "planar_polygon", "plan", "polygon", "quality",
+    "random_places", "random_sphere", "read", "read_fields", "read_points", "rectangle",
+    "spiral_sphere", "threads", "to_lonlat", "voronoi", "write",
 ]
