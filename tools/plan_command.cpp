@@ -112,7 +112,8 @@ Plan plan_of(const Request& request, const Resolution& resolution) {
   if (resolution.widths)
     plan.doubt = doubt_of(*resolution.widths, request.density->widths);
   plan.threads = tbb::this_task_arena::max_concurrency();
-  plan.costs = cvt_costs(plan.cells, resolution.density, plan.threads);
+  plan.costs =
+      cvt_costs(plan.cells, resolution.density, region ? region->meshed : Region{}, plan.threads);
   return plan;
 }
 

@@ -66,6 +66,8 @@ Points3 generate(const Request& request) {
     return fibonacci_sphere(request.count);
   if (request.kind == "spiral")
     return spiral_sphere(request.count);
+  if (request.kind == "geodesic")
+    return geodesic_sphere(request.count);
   if (request.kind == "icosahedron")
     return bisected_icosahedron(level_of(request.count));
   if (request.kind == "latlon")
@@ -105,11 +107,12 @@ void add_points(CLI::App& app) {
   command
       ->add_option(
           "KIND", request->kind,
-          "Points on the sphere: random, fibonacci, spiral, icosahedron (bisected), latlon or "
-          "cubed (equiangular cubed sphere). Points in a planar domain: random-plane or hexagonal")
+          "Points on the sphere: random, fibonacci, spiral, icosahedron (bisected), geodesic (12 "
+          "points of five neighbours, all others of six), latlon or cubed (equiangular cubed "
+          "sphere). Points in a planar domain: random-plane or hexagonal")
       ->required()
-      ->check(CLI::IsMember({"random", "fibonacci", "spiral", "icosahedron", "latlon", "cubed",
-                             "random-plane", "hexagonal"}));
+      ->check(CLI::IsMember({"random", "fibonacci", "spiral", "icosahedron", "geodesic", "latlon",
+                             "cubed", "random-plane", "hexagonal"}));
   command
       ->add_option("N", request->count,
                    "Number of points. For icosahedron the number of bisections, for latlon the "

@@ -293,10 +293,14 @@ struct Continuation {
   bool icosahedral = false; ///< the start is a bisected icosahedron
 };
 
-/// The coarsest start from which bisections reach `cells`: the least such n of at least 12 for
-/// uniform density, or 642 for others; `cells` itself if no bisection reaches it. For cells = 10 *
-/// 4^k + 2 the start is a bisected icosahedron, else a Fibonacci lattice (uniform density) or
-/// random points that follow site_density().
+/// The start of a run without insertion. For uniform density and 150 cells or more these are the
+/// points of geodesic_sphere(cells), without bisections: a descent of some 25 evaluations leads to
+/// 12 cells of five neighbours and all others of six.
+///
+/// Otherwise it is the coarsest start from which bisections reach `cells`: the least such n of at
+/// least 12 for uniform density, or 642 for others; `cells` itself if no bisection reaches it. For
+/// cells = 10 * 4^k + 2 the start is a bisected icosahedron, else a Fibonacci lattice (uniform
+/// density) or random points that follow site_density().
 /// \param cells number of cells, 12 to 2^30.
 /// \param density density of the run, whose start the function computes.
 /// \param seed seed of random points; default 1.

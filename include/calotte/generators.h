@@ -73,10 +73,29 @@ Points3 spiral_sphere(std::int64_t n);
 /// \param level 0 to 13.
 Points3 bisected_icosahedron(int level);
 
-/// The number of points of a bisected icosahedron within 1 percent of a number, such as the cells
-/// that a uniform width implies; 0 if there is none.
-/// \param points 1 to 2^30; 0 for others.
-std::int64_t icosahedral_count(double points);
+/// The points of a triangular lattice on the faces of an icosahedron, whose edges are the vector b
+/// + c exp(i pi/3) of the lattice (Caspar and Klug, Cold Spring Harb. Symp. Quant. Biol. 27, 1962):
+/// 10 (b^2 + b c + c^2) + 2 points, 12 with five neighbours and all others with six. They have the
+/// rotations of the icosahedron as symmetries; (c, b) gives the mirror image of (b, c). The points
+/// are near those of a uniform CVT, which bisected_icosahedron(k) approximates for (2^k, 0), too.
+///
+/// The vertices of the icosahedron come first.
+/// \param b, c >= 0, not both 0; at most 2^30 points.
+Points3 geodesic_sphere(std::int64_t b, std::int64_t c);
+
+/// n such points: 12 with five neighbours, near the vertices of an icosahedron, and all others with
+/// six; for n below 240 often only after a CVT descent. For 10 (b^2 + b c + c^2) + 2 points those
+/// above; for other numbers the edges of the icosahedron differ by a step or two of the lattice,
+/// and there is no symmetry.
+/// \param n 12 to 2^30, but not 13, for which there is no such triangulation.
+Points3 geodesic_sphere(std::int64_t n);
+
+/// A number of points for a uniform grid: the one of a symmetric geodesic grid, 10 (b^2 + b c +
+/// c^2)
+/// + 2, that is nearest to a number, such as the cells that a uniform width implies; of two the
+/// larger; and within 0.5 percent that of a bisected icosahedron, which many models know. If none
+/// is within 0.5 percent, the number itself, rounded. \param points 12 to 2^30.
+std::int64_t geodesic_count(double points);
 
 /// A regular latitude-longitude grid: rows of `longitudes` points at cell-centred latitudes, south
 /// to north, each from longitude 0 eastwards.

@@ -27,6 +27,10 @@ std::optional<int> icosahedral_level(std::int64_t n) {
 
 constexpr std::int64_t fewest_at_start = 160;
 
+/// With fewer, cells of five neighbours are so near to each other that a descent may change the
+/// neighbours of cells.
+constexpr std::int64_t fewest_geodesic = 150;
+
 /// Halves the number of cells along both axes while enough are left. Returns how often.
 template <class World> int coarsen(std::int64_t& cells, std::int64_t least) {
   int levels = 0;
@@ -71,6 +75,10 @@ Continuation continuation(std::int64_t cells, const Density& density, std::uint6
                         0)); // throws for an ill-formed density, even if the start does not use it
   const std::int64_t least = density.uniform() ? 12 : 642;
   Continuation result;
+  if (density.uniform() && cells >= fewest_geodesic) {
+    result.start = geodesic_sphere(cells);
+    return result;
+  }
   std::int64_t n = cells;
   for (; (n - 2) % 4 == 0 && (n - 2) / 4 + 2 >= least; n = (n - 2) / 4 + 2)
     ++result.bisections;

@@ -64,81 +64,9 @@ CosSin cos_sin(std::uint64_t turns) {
   return cos_sin_of_octant(octant, static_cast<double>(part) * 0x1p-61);
 }
 
-// ---- The bisected icosahedron
+// ---- Hexagons
 
 using Triple = std::array<std::int32_t, 3>;
-
-/// A triangulation with its edges numbered: edge i of a triangle lies across from its vertex i.
-struct EdgeMesh {
-  std::vector<std::array<std::int32_t, 2>> edges; ///< vertex ids
-  std::vector<Triple> triangles;                  ///< vertex ids
-  std::vector<Triple> triangle_edges;
-};
-
-/// The vertices are (0, +-1, +-phi) and their cyclic shifts, normalised.
-constexpr std::array<Vec3, 12> icosahedron_points() {
-  constexpr double s = 0x1.0d2ca0da1530dp-1, t = 0x1.b38880b4603e4p-1;
-  return {Vec3{0, s, t}, {0, -s, t},  {0, s, -t}, {0, -s, -t}, {s, t, 0},  {-s, t, 0},
-          {s, -t, 0},    {-s, -t, 0}, {t, 0, s},  {t, 0, -s},  {-t, 0, s}, {-t, 0, -s}};
-}
-
-EdgeMesh icosahedron() {
-  EdgeMesh mesh;
-  mesh.triangles = {{0, 1, 8},  {0, 10, 1}, {0, 8, 4},   {0, 4, 5},  {0, 5, 10},
-                    {1, 10, 7}, {1, 7, 6},  {1, 6, 8},   {2, 3, 11}, {2, 9, 3},
-                    {2, 11, 5}, {2, 5, 4},  {2, 4, 9},   {3, 9, 6},  {3, 6, 7},
-                    {3, 7, 11}, {4, 8, 9},  {5, 11, 10}, {6, 9, 8},  {7, 10, 11}};
-  for (const Triple& triangle : mesh.triangles) {
-    Triple edges{};
-    for (int i = 0; i < 3; ++i) {
-      const auto [a, b] = std::minmax(triangle[(i + 1) % 3], triangle[(i + 2) % 3]);
-      const std::array<std::int32_t, 2> edge{a, b};
-      const auto found = std::find(mesh.edges.begin(), mesh.edges.end(), edge);
-      edges[i] = static_cast<std::int32_t>(found - mesh.edges.begin());
-      if (found == mesh.edges.end())
-        mesh.edges.push_back(edge);
-    }
-    mesh.triangle_edges.push_back(edges);
-  }
-  return mesh;
-}
-
-/// Splits every triangle in four. The midpoint of edge e is vertex `vertices` + e; e becomes the
-/// edges 2e, at its first vertex, and 2e + 1; the edges inside the triangles follow.
-EdgeMesh refine(const EdgeMesh& coarse, std::int32_t vertices) {
-  EdgeMesh fine;
-  const std::size_t edge_count = coarse.edges.size(), triangle_count = coarse.triangles.size();
-  fine.edges.resize(2 * edge_count + 3 * triangle_count);
-  fine.triangles.resize(4 * triangle_count);
-  fine.triangle_edges.resize(4 * triangle_count);
-  for (std::size_t e = 0; e < edge_count; ++e) {
-    const std::int32_t middle = vertices + static_cast<std::int32_t>(e);
-    fine.edges[2 * e] = {coarse.edges[e][0], middle};
-    fine.edges[2 * e + 1] = {middle, coarse.edges[e][1]};
-  }
-  const auto half_at = [&](std::int32_t side, std::int32_t corner) {
-    return 2 * side + (coarse.edges[static_cast<std::size_t>(side)][0] == corner ? 0 : 1);
-  };
-  for (std::size_t t = 0; t < triangle_count; ++t) {
-    const Triple &corners = coarse.triangles[t], &sides = coarse.triangle_edges[t];
-    const Triple middles{vertices + sides[0], vertices + sides[1], vertices + sides[2]};
-    const std::size_t first = 2 * edge_count + 3 * t;
-    const auto inner = static_cast<std::int32_t>(first);
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
-      fine.edges[first + i] = {middles[j], middles[k]};
-      fine.triangles[4 * t + i] = {corners[i], middles[k], middles[j]};
-      fine.triangle_edges[4 * t + i] = {inner + static_cast<std::int32_t>(i),
-                                        half_at(sides[j], corners[i]),
-                                        half_at(sides[k], corners[i])};
-    }
-    fine.triangles[4 * t + 3] = middles;
-    fine.triangle_edges[4 * t + 3] = {inner, inner + 1, inner + 2};
-  }
-  return fine;
-}
-
-// ---- Hexagons
 
 /// A triangle's vertices, from the lowest on, and the triangles across from them.
 struct LinkedTriangle {
@@ -260,34 +188,6 @@ Points3 spiral_sphere(std::int64_t n) {
     put(points, i, {radius * longitude.cos, radius * longitude.sin, z});
   }
   return points;
-}
-
-Points3 bisected_icosahedron(int level) {
-  require(level >= 0 && level <= 13,
-          "the level is " + std::to_string(level) + "; give a number from 0 to 13");
-  std::int32_t count = 12;
-  Points3 points(3, 10 * (std::int64_t{1} << (2 * level)) + 2);
-  const std::array<Vec3, 12> corners = icosahedron_points();
-  for (std::int32_t i = 0; i < count; ++i)
-    put(points, i, corners[i]);
-  EdgeMesh mesh = icosahedron();
-  for (int l = 0; l < level; ++l) {
-    if (l > 0)
-      mesh = refine(mesh, count - static_cast<std::int32_t>(mesh.edges.size()));
-    for (const auto& [a, b] : mesh.edges)
-      put(points, count++, midpoint(get(points, a), get(points, b)));
-  }
-  return points;
-}
-
-std::int64_t icosahedral_count(double points) {
-  constexpr double tolerance = 0.01;
-  if (!(points >= 1 && points <= static_cast<double>(most_points)))
-    return 0;
-  std::int64_t count = 12;
-  while (static_cast<double>(count) < (1 - tolerance) * points)
-    count = 4 * count - 6;
-  return std::abs(static_cast<double>(count) / points - 1) < tolerance ? count : 0;
 }
 
 Points3 lat_lon_sphere(std::int64_t latitudes, std::int64_t longitudes, bool poles) {

@@ -37,11 +37,19 @@ bool is_icosahedral(std::int64_t cells) {
   return n == cells;
 }
 
+bool is_geodesic(std::int64_t cells, const Density& density) {
+  return density.uniform() && cells >= 150;
+}
+
 void check(std::int64_t cells, const Density& density, std::int64_t least) {
   CAPTURE(cells);
   const Continuation c = continuation(cells, density, 5);
   const std::int64_t n = c.start.cols();
   CHECK(after(c) == cells);
+  if (is_geodesic(cells, density)) {
+    CHECK(c.start == geodesic_sphere(cells));
+    return;
+  }
   CHECK((c.bisections == 0 || n >= least));
   CHECK((n % 4 != 2 || (n - 2) / 4 + 2 < least)); // no coarser start would do
   CHECK(c.icosahedral == is_icosahedral(cells));
@@ -52,7 +60,7 @@ void check(std::int64_t cells, const Density& density, std::int64_t least) {
 TEST_CASE(
     "continuation: the start is the coarsest from which bisections reach the number of cells") {
   const Density other = bump();
-  for (std::int64_t cells = 12; cells <= 5000; ++cells)
+  for (std::int64_t cells = 12; cells <= 5000; cells = cells < 100 ? cells + 1 : cells + 37)
     check(cells, Density{}, 12);
   for (std::int64_t cells = 12; cells <= 5000; cells = cells < 700 ? cells + 13 : cells + 47)
     check(cells, other, 642);
@@ -63,16 +71,17 @@ TEST_CASE(
 }
 
 TEST_CASE("continuation: the kind of start") {
-  CHECK(continuation(655362, {}).start == bisected_icosahedron(0));
+  CHECK(continuation(42, {}).start == bisected_icosahedron(0));
   CHECK(continuation(655362, bump()).start == bisected_icosahedron(3));
   CHECK(continuation(162, bump()).start == bisected_icosahedron(2));
   CHECK(continuation(50, {}).start == fibonacci_sphere(14));
-  CHECK(continuation(1009, {}).start == fibonacci_sphere(1009));
+  CHECK(continuation(149, {}).start == fibonacci_sphere(149));
+  CHECK(continuation(150, {}).start == geodesic_sphere(150));
   CHECK(continuation(1009, bump(), 7).start == random_sphere(1009, site_density(bump()), 7));
   CHECK(continuation(4 * 1001 + 2, bump(), 7).start ==
         random_sphere(1003, site_density(bump()), 7));
   // Two thirds of a billion cells, from the smallest start.
-  CHECK(continuation(10 * (std::int64_t{1} << 26) + 2, {}).bisections == 13);
+  CHECK(continuation(10 * (std::int64_t{1} << 26) + 2, bump()).bisections == 10);
 }
 
 TEST_CASE("continuation refuses what it cannot reach in one line") {
@@ -105,6 +114,27 @@ TEST_CASE("drawn starts of a peaked density span the sphere, and converge") {
     CHECK(!from.icosahedral);
     CHECK(grid.report.converged);
     CHECK(grid.mesh.points.cols() == cells);
+  }
+}
+
+TEST_CASE("continuation: uniform grids of any number of cells have 12 defects after few steps") {
+  std::vector<std::int64_t> numbers{642, 1000, 2563, 4922, 10250};
+  for (std::int64_t cells = 150; cells < 240; ++cells)
+    numbers.push_back(cells);
+  for (const std::int64_t cells : numbers) {
+    CAPTURE(cells);
+    CvtOptions options;
+    const Continuation from = continuation(cells, {});
+    options.bisections = from.bisections;
+    const Cvt grid = spherical_cvt(from.start, options);
+    CHECK(grid.report.converged);
+    CHECK(grid.report.iterations.size() <= 40);
+    REQUIRE(grid.mesh.points.cols() == cells);
+    std::vector<int> degree(static_cast<std::size_t>(cells), 0);
+    for (const std::int32_t corner : grid.mesh.triangles.reshaped())
+      ++degree[static_cast<std::size_t>(corner)];
+    CHECK(std::count(degree.begin(), degree.end(), 5) == 12);
+    CHECK(std::count(degree.begin(), degree.end(), 6) == cells - 12);
   }
 }
 

@@ -81,6 +81,8 @@ std::vector<Named> samples() {
           {"fibonacci", fibonacci_sphere(1000), 1000, 0xa3e23d7866bad0d7},
           {"spiral", spiral_sphere(1000), 1000, 0xd8a82f84bd726650},
           {"icosahedron 3", bisected_icosahedron(3), 642, 0xc7cd063cf228655d},
+          {"geodesic", geodesic_sphere(7, 3), 792, 0x776a390ac9191c6d},
+          {"geodesic, any number", geodesic_sphere(1000), 1000, 0xa99bc66fb4206f4f},
           {"lat-lon", lat_lon_sphere(18, 36), 648, 0x533facb8b8b72265},
           {"lat-lon with poles", lat_lon_sphere(9, 14, true), 128, 0x89dc92cca1cc927d},
           {"cubed sphere", cubed_sphere(11), 726, 0xb17df5c4289d7d95}};

@@ -61,12 +61,3 @@ TEST_CASE("longitudes and latitudes out of range name their index") {
   CHECK_THROWS_AS(from_lonlat(random_sphere(4)), Error);
   CHECK_THROWS_AS(to_lonlat(Points2::Zero(2, 4)), Error);
 }
-
-TEST_CASE("counts of bisected icosahedra within 1 percent") {
-  CHECK(icosahedral_count(40962) == 40962);
-  CHECK(icosahedral_count(41300) == 40962);
-  CHECK(icosahedral_count(40560) == 40962);
-  CHECK(icosahedral_count(42000) == 0);
-  for (const double out : {0.0, -5.0, 1e300, std::nan("")})
-    CHECK(icosahedral_count(out) == 0);
-}

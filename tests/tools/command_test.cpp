@@ -281,6 +281,7 @@ TEST_CASE("every kind of points") {
   CHECK(count("fibonacci 7") == 7);
   CHECK(count("spiral 7") == 7);
   CHECK(count("icosahedron 2") == 162);
+  CHECK(count("geodesic 163") == 163);
   CHECK(count("latlon 4") == 32);
   CHECK(count("latlon 4 --poles") == 34);
   CHECK(count("cubed 3") == 54);

@@ -75,7 +75,8 @@ void wait_for_handler(pid_t process, int signal) {
 /// Options of a run that is long enough to be interrupted many times; it saves its state after
 /// every iteration.
 const std::string long_run = "cvt --cells 162 --start random --seed 5 --iterations 3000";
-const std::string long_levels = "cvt --cells 162 --method nesterov --iterations 1500";
+const std::string long_levels =
+    "cvt --cells 162 --start icosahedron --bisections 2 --method nesterov --iterations 1500";
 const std::string long_bump =
     "cvt --cells 162 --method lloyd --start density --iterations 3000 --density " + bump;
 const std::string kept = " --checkpoint run.checkpoint --checkpoint-every 1";
@@ -121,9 +122,9 @@ TEST_CASE("every start leads to the requested number of cells") {
   check_start("--cells 12", 12, "");
   check_start("--cells 162", 162, "");
   check_start("--cells 162 --density " + bump, 162, "");
-  check_start("--cells 150 --start continuation", 150,
-              "calotte: 150 cells is not 10 x 4^k + 2: the start is 39 points of a Fibonacci "
-              "lattice, bisected once\n");
+  check_start("--cells 150 --start continuation", 150, "");
+  check_start("--cells 150 --start geodesic", 150, "");
+  check_start("--cells 594 --start geodesic --bisections 1", 594, "");
   check_start("--cells 100 --seed 4 --density " + bump, 100,
               "calotte: 100 cells is not 10 x 4^k + 2: the start is 100 points drawn from the "
               "density\n");
@@ -269,7 +270,7 @@ TEST_CASE("bad usage is refused before any work") {
   check_usage(
       "--cells 12 --start there" + out,
       "--start: there not in {multilevel,continuation,random,density,fibonacci,spiral,icosahedron,"
-      "hexagonal}" +
+      "geodesic,hexagonal}" +
           see);
   for (const std::string tolerance : {"0", "-1e-06", "nan", "inf"})
     check_usage("never --tolerance=" + tolerance + out,
@@ -506,8 +507,8 @@ TEST_CASE("the report has the documented content") {
   const Bench bench;
   CHECK(
       bench
-          .run("cvt --cells 162 --method lloyd --iterations 2 --threads 2 --regions 3 -o mesh.vtp "
-               "--report report.json")
+          .run("cvt --cells 162 --start icosahedron --bisections 2 --method lloyd --iterations 2 "
+               "--threads 2 --regions 3 -o mesh.vtp --report report.json")
           .code == 0);
   const std::string report = bench.file("report.json");
   for (const char* key : {"calotte",

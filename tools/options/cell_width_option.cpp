@@ -44,16 +44,28 @@ CellWidth uniform_widths(double km) {
   return {Eigen::Vector2d(0, 180), Eigen::Vector2d(-90, 90), Eigen::MatrixXd::Constant(2, 2, km)};
 }
 
+constexpr double fewest = 12, most = 1 << 30;
+
+/// The number of cells of a uniform grid for the number that its width requires; 0 if there is
+/// none.
+std::int64_t cells_of_uniform(double implied) {
+  const double cells = std::round(implied);
+  return cells >= fewest && cells <= most ? geodesic_count(cells) : 0;
+}
+
 /// The cells that a uniform width requires, and the width in a grid of another number.
 std::string note_on_uniform(double implied, const WidthWords& words,
                             std::optional<std::int64_t> cells) {
-  std::string note =
+  const std::string note =
       "cells " + name_of(words) + " wide require " + formatted("%.0f", implied) + " cells";
-  if (cells && *cells != std::llround(implied))
-    note += "; the " + std::to_string(*cells) + " cells of the grid are " +
-            formatted("%.4g", *words.uniform * std::sqrt(implied / static_cast<double>(*cells))) +
-            " km wide";
-  return note;
+  if (!cells || *cells == std::llround(implied))
+    return note;
+  const std::string width =
+      formatted("%.4g", *words.uniform * std::sqrt(implied / static_cast<double>(*cells))) +
+      " km wide";
+  if (*cells == cells_of_uniform(implied))
+    return note + "; the nearest symmetric grid has " + std::to_string(*cells) + ", " + width;
+  return note + "; the " + std::to_string(*cells) + " cells of the grid are " + width;
 }
 
 std::vector<std::string> with_doubt(std::vector<std::string> notes, const CellWidth& widths,
@@ -188,14 +200,13 @@ std::vector<std::string> notes_on(const CellWidth& widths, const WidthWords& wor
 }
 
 std::int64_t cells_for(const CellWidth& widths, const WidthWords& words, bool bisected) {
-  constexpr double fewest = 12, most = 1 << 30;
   constexpr std::int64_t coarsest = 642; // see continuation()
   const double implied = std::round(implied_cells(widths, words.radius));
   if (!(implied >= fewest && implied <= most))
     refuse("--cells auto: " + name_of(words) + " requires " + formatted("%.4g", implied) +
            " cells, but a grid has 12 to 1073741824; give widths in km");
-  if (const std::int64_t regular = words.uniform ? icosahedral_count(implied) : 0; regular > 0)
-    return regular;
+  if (words.uniform)
+    return cells_of_uniform(implied);
   const auto cells = static_cast<std::int64_t>(implied);
   std::int64_t parts = 1; // of a coarse grid's cell
   while (bisected && (cells - 2) / (4 * parts) >= coarsest - 2)

@@ -59,8 +59,7 @@ std::vector<std::string> notes_on(const CellWidth& widths, const WidthWords& wor
 /// A remark on widths that may be in metres, above 2000 km; "" for others.
 std::string doubt_of(const CellWidth& widths, const WidthWords& words);
 
-/// The number of cells that widths in km imply; for a uniform width that of a bisected icosahedron,
-/// the most regular grid, if that differs by less than 1 percent.
+/// The number of cells that widths in km imply; for a uniform width that of geodesic_count().
 /// \param bisected rounds it, by less than a thousandth, to the nearest number that a continuation
 ///         reaches from a coarse grid: few numbers can be bisected to.
 /// \throws Error bad_option if no CVT has so many or so few.

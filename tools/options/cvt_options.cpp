@@ -66,12 +66,13 @@ void add_start(CLI::App& command, CvtRequest& request) {
           "Initial generators without a file: multilevel (converges a coarse grid, bisects it and "
           "converges again, in turn; inserts and removes cells where the density demands it; the "
           "default unless the density is uniform), continuation (the same without insertion, for "
-          "the sphere; the default there if the density is uniform), density (random, distributed "
-          "as the cells of an optimal grid; the default in the plane if the density is uniform), "
-          "random (uniform), fibonacci, spiral or icosahedron (on the sphere), or hexagonal (in "
-          "the plane)")
+          "the sphere; if the density is uniform the default there, and geodesic from 150 cells "
+          "on), density (random, distributed as the cells of an optimal grid; the default in the "
+          "plane if the density is uniform), random (uniform), fibonacci, spiral, icosahedron "
+          "(bisected) or geodesic (12 cells of five neighbours, all others of six, for any number "
+          "of cells) on the sphere, or hexagonal in the plane")
       ->check(CLI::IsMember({"multilevel", "continuation", "random", "density", "fibonacci",
-                             "spiral", "icosahedron", "hexagonal"}));
+                             "spiral", "icosahedron", "geodesic", "hexagonal"}));
   command.add_option("--seed", request.seed, "Seed of random points, >= 0; default: 1")
       ->transform(whole_number(0, std::numeric_limits<std::uint64_t>::max()));
   command

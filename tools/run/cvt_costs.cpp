@@ -48,8 +48,9 @@ double seconds_of_point(const Density& density) {
 // evaluations; widths along a coast, with gradients six times above what models recommend, that of
 // 260. An evaluation took 290 to 540 ns of a cell.
 
-/// In units of the result's cells; uniform from a bisected icosahedron, and all others.
-constexpr double evaluations_icosahedral = 30, evaluations = 150;
+/// In units of the result's cells; of a uniform grid of the sphere, see continuation(), and of all
+/// others.
+constexpr double evaluations_uniform = 30, evaluations = 150;
 constexpr double seconds_of_cell = 280e-9; ///< per evaluation, without the density
 constexpr double points_of_cell = 36;      ///< at which the density is evaluated
 constexpr double efficiency = 0.9;         ///< of each further thread
@@ -59,24 +60,16 @@ constexpr double efficiency = 0.9;         ///< of each further thread
 constexpr double memory_of_cell = 800, memory_of_cell_of_many = 520, memory_of_program = 55e6;
 constexpr double many = 1e6;
 
-/// Whether bisected icosahedra have so many points, 10 x 4^k + 2.
-bool is_icosahedral(std::int64_t cells) {
-  std::int64_t count = 12;
-  while (count < cells)
-    count = 4 * count - 6;
-  return count == cells;
-}
-
 } // namespace
 
-CvtCosts cvt_costs(std::int64_t cells, const Density& density, int threads) {
+CvtCosts cvt_costs(std::int64_t cells, const Density& density, const Region& region, int threads) {
   const auto n = static_cast<double>(cells);
   const bool uniform = density.uniform();
   const double of_cell =
       seconds_of_cell + (uniform ? 0 : points_of_cell * seconds_of_point(density));
   CvtCosts costs;
-  costs.seconds = (uniform && is_icosahedral(cells) ? evaluations_icosahedral : evaluations) * n *
-                  of_cell / (1 + efficiency * (threads - 1));
+  costs.seconds = (uniform && region.whole() ? evaluations_uniform : evaluations) * n * of_cell /
+                  (1 + efficiency * (threads - 1));
   costs.memory = memory_of_program + (n < many ? memory_of_cell : memory_of_cell_of_many) * n;
   costs.mpas_file = file_bytes(Format::mpas, cells, uniform);
   costs.vtp_file = file_bytes(Format::vtp, cells, uniform);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <calotte/density.h>
+#include <calotte/region.h>
 #include <calotte/write.h>
 
 #include <cstdint>
@@ -23,9 +24,10 @@ struct CvtCosts {
 /// give, but for a few kB and for cells with more than 7 neighbours.
 ///
 /// \param cells >= 12.
+/// \param region where the run meshes.
 /// \param threads >= 1.
 /// \throws Error as evaluate().
-CvtCosts cvt_costs(std::int64_t cells, const Density& density, int threads);
+CvtCosts cvt_costs(std::int64_t cells, const Density& density, const Region& region, int threads);
 
 /// The size alone of a file in a format; 0 where it is not known.
 double file_bytes(Format format, std::int64_t cells, bool uniform);

@@ -164,13 +164,11 @@ void require_file(const CvtRequest& request) {
   exclude(request.insertion_rounds.has_value(), "--insertion-rounds");
 }
 
-/// Describes the start of a continuation to a number that no bisected icosahedron has.
+/// Describes the start of a continuation of a density to a number that no bisected icosahedron has.
 std::string note_on(const Continuation& start, std::int64_t cells, const Density& density) {
-  if (start.icosahedral)
+  if (start.icosahedral || density.uniform())
     return "";
-  const std::string points =
-      std::to_string(start.start.cols()) +
-      (density.uniform() ? " points of a Fibonacci lattice" : " points drawn from the density");
+  const std::string points = std::to_string(start.start.cols()) + " points drawn from the density";
   const std::string times = start.bisections == 0 ? ""
                             : start.bisections == 1
                                 ? ", bisected once"
@@ -188,6 +186,8 @@ Points3 generate(const std::string& kind, std::int64_t count, const Density& den
     return fibonacci_sphere(count);
   if (kind == "spiral")
     return spiral_sphere(count);
+  if (kind == "geodesic")
+    return geodesic_sphere(count);
   return bisected_icosahedron(level_of(count));
 }
 

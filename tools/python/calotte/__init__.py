@@ -15,18 +15,18 @@ from ._calotte import (CellWidth, Check, Density, Error, Mesh, OperatorErrors, P
                        PlanarMesh, Quality, Region, Voronoi, __version__)
 from ._functions import (Cvt, Plan, bisect, bisected_icosahedron, channel, check, circle,
                          cubed_sphere, cull, cut, cvt, delaunay, ellipse, fibonacci_sphere,
-                         from_lonlat, hexagonal_lattice, lat_lon_sphere, limited_area, operator_errors,
-                         periodic_box, planar_polygon, plan, polygon, quality, random_places,
-                         random_sphere, read, read_fields, read_points, rectangle, spiral_sphere, threads, to_lonlat,
-                         voronoi, write)
+                         from_lonlat, geodesic_sphere, hexagonal_lattice, lat_lon_sphere,
+                         limited_area, operator_errors, periodic_box, planar_polygon, plan, polygon,
+                         quality, random_places, random_sphere, read, read_fields, read_points,
+                         rectangle, spiral_sphere, threads, to_lonlat, voronoi, write)
 
 __all__ = [
-    "CellWidth", "Check", "Cvt", "Density", "Error", "Mesh", "OperatorErrors", "Plan", "PlanarDomain", "PlanarMesh",
-    "Quality", "Region", "Voronoi", "__version__", "bisect", "bisected_icosahedron", "channel",
-    "check", "circle", "cubed_sphere", "cull", "cut", "cvt", "delaunay", "ellipse",
-    "fibonacci_sphere", "from_lonlat", "hexagonal_lattice", "lat_lon_sphere", "limited_area",
-    "operator_errors",
-    "periodic_box", "planar_polygon", "plan", "polygon", "quality", "random_places", "random_sphere", "read",
+    "CellWidth", "Check", "Cvt", "Density", "Error", "Mesh", "OperatorErrors", "Plan",
+    "PlanarDomain", "PlanarMesh", "Quality", "Region", "Voronoi", "__version__", "bisect",
+    "bisected_icosahedron", "channel", "check", "circle", "cubed_sphere", "cull", "cut", "cvt",
+    "delaunay", "ellipse", "fibonacci_sphere", "from_lonlat", "geodesic_sphere",
+    "hexagonal_lattice", "lat_lon_sphere", "limited_area", "operator_errors", "periodic_box",
+    "planar_polygon", "plan", "polygon", "quality", "random_places", "random_sphere", "read",
     "read_fields", "read_points", "rectangle", "spiral_sphere", "threads", "to_lonlat", "voronoi",
     "write",
 ]

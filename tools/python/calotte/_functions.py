@@ -208,7 +208,7 @@ def _cells_for(widths, part, earth_radius):
         raise Error(f"the widths require {implied:.4g} cells, but a grid has 12 to 1073741824; give "
                     "widths in km")
     if part.whole and np.ptp(widths.widths) == 0:
-        return _calotte.icosahedral_count(implied) or implied
+        return _calotte.geodesic_count(implied)
     return implied
 
 
@@ -356,6 +356,17 @@ def fibonacci_sphere(n: int) -> Array:
 def spiral_sphere(n: int) -> Array:
     """The spiral of Rakhmanov, Saff and Zhou (1994), n x 3, from south to north."""
     return _calotte.spiral_sphere(_count(n, "the number of points"))
+
+
+def geodesic_sphere(n: int) -> Array:
+    """n points, 12 of which have five neighbours and all others six, after a uniform cvt().
+
+    Any number of at least 12 but 13.
+
+    >>> geodesic_sphere(1000).shape
+    (1000, 3)
+    """
+    return _calotte.geodesic_sphere(_count(n, "the number of points"))
 
 
 def bisected_icosahedron(level: int) -> Array:

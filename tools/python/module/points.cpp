@@ -24,7 +24,10 @@ void add_points(py::module_& module) {
                                        : random_sphere(n, region, density, seed);
                });
              });
-  module.def("icosahedral_count", &icosahedral_count);
+  module.def("geodesic_count",
+             [](double points) { return call([&] { return geodesic_count(points); }); });
+  module.def("geodesic_sphere",
+             [](std::int64_t n) { return made([&] { return geodesic_sphere(n); }); });
   module.def("fibonacci_sphere",
              [](std::int64_t n) { return made([&] { return fibonacci_sphere(n); }); });
   module.def("spiral_sphere",
