@@ -26,6 +26,7 @@ struct CutOptions {
   /// file of static or initial fields keeps the radius that these were made with. Default: 1; none
   /// keeps that of the source.
   std::optional<double> sphere_radius = 1;
+  std::vector<FieldDimension> dimensions = {}; ///< new ones, see models(). Default: none.
   /// How the file was made; precedes the source's attribute `history`. Default: empty.
   std::string history = {};
   /// Stage: write. A cancelled run leaves no file. Default: none.
