@@ -3,6 +3,7 @@
 #include "help/help.h"
 #include "options/files.h"
 #include "options/global_option.h"
+#include "options/model_option.h"
 #include "run/progress.h"
 
 #include <calotte/cull.h>
@@ -25,6 +26,7 @@ namespace {
 
 struct Request {
   std::string source, output, mask, cell_map;
+  std::optional<std::string> model;
   std::vector<std::string> land, passages, barriers, seeds;
   std::string raster, raster_variable;
   RasterValues raster_values = RasterValues::height;
@@ -44,6 +46,7 @@ struct Request {
 /// Checks all options that can fail, before any input is read.
 void require_request(const Request& request) {
   require_mpas_name(request.output);
+  require_mpas_model(request.model);
   if (request.land.empty() && request.raster.empty() && request.field.empty() &&
       request.barriers.empty())
     throw Error(
@@ -109,6 +112,10 @@ CullOptions options_of(const Request& request) {
   options.seeds = places_of(request.seeds);
   options.mask_path = request.mask;
   options.cell_map_folder = request.cell_map;
+  if (const Model* const model = model_of(request.model)) {
+    options.sphere_radius = model->sphere_radius;
+    options.dimensions = model->dimensions;
+  }
   options.history = "calotte " CALOTTE_VERSION " cull: " + request.source;
   for (const std::string& file : request.inputs())
     if (!file.empty() && file != request.source)
@@ -126,6 +133,9 @@ std::string describe(const Request& request, const CullReport& report) {
   std::string lines;
   for (const std::string& name : report.left_out)
     lines += request.output + ": without the variable " + name + "\n";
+  lines += suited_models(request.output, Format::mpas, report.sphere_radius,
+                         model_of(request.model) != nullptr ? model_of(request.model)->dimensions
+                                                            : std::vector<FieldDimension>{});
   lines += line("cells of land", report.land);
   if (!request.barriers.empty())
     lines += line("closed by barriers", sea.closed);
@@ -264,6 +274,7 @@ void add_cull(CLI::App& app) {
                      "vertices. NAME.graph.info is written beside NAME.nc.")
         ->type_name("FILE")
         ->required();
+    add_model(*command, request->model);
     command
         ->add_option("--mask", request->mask,
                      "NetCDF file of masks by global cell: cullCell and regionCellMasks, as "
