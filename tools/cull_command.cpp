@@ -133,9 +133,6 @@ std::string describe(const Request& request, const CullReport& report) {
   std::string lines;
   for (const std::string& name : report.left_out)
     lines += request.output + ": without the variable " + name + "\n";
-  lines += suited_models(request.output, Format::mpas, report.sphere_radius,
-                         model_of(request.model) != nullptr ? model_of(request.model)->dimensions
-                                                            : std::vector<FieldDimension>{});
   lines += line("cells of land", report.land);
   if (!request.barriers.empty())
     lines += line("closed by barriers", sea.closed);
@@ -147,7 +144,10 @@ std::string describe(const Request& request, const CullReport& report) {
   lines += line("cells in parts left out", sea.severed);
   return lines + request.output + ": " + std::to_string(report.cells) + " cells, " +
          std::to_string(report.edges) + " edges, " + std::to_string(report.vertices) +
-         " vertices\n";
+         " vertices\n" +
+         suited_models(request.output, Format::mpas, report.sphere_radius,
+                       model_of(request.model) != nullptr ? model_of(request.model)->dimensions
+                                                          : std::vector<FieldDimension>{});
 }
 
 void run(const Request& request) {
@@ -283,15 +283,14 @@ void add_cull(CLI::App& app) {
     command
         ->add_option("--cell-map", request->cell_map,
                      "Folder for cellMapForward.txt and cellMapBackward.txt, as "
-                     "MpasCellCuller.x -c writes them: by global cell the 0-based number of the "
+                     "MpasCellCuller.x -c writes them. By global cell the 0-based number of the "
                      "ocean's cell or -1, and by ocean's cell that of the global one.")
         ->type_name("FOLDER");
   }
   set_help(*command,
            {.common = {},
             .examples = {"calotte cull global.nc --land ne_10m_land.geojson -o ocean.nc",
-                         "calotte cull global.nc --raster topography.nc --raster-variable z -o "
-                         "ocean.nc",
+                         "calotte cull global.nc --raster bed.nc --raster-variable z -o ocean.nc",
                          "calotte cull global.nc --field ter --sea-below 0 --seed -150,0 -o "
                          "ocean.nc"}});
   command->callback([request] { run(*request); });

@@ -64,14 +64,14 @@ std::string describe(const Request& request, const CutReport& report) {
   std::string lines;
   for (const std::string& name : report.left_out)
     lines += request.output + ": without the variable " + name + "\n";
+  lines += request.output + ": " + std::to_string(report.cells) + " cells, " +
+           rings_in_words(request.rings, inside, report.cells - inside) + ", " +
+           std::to_string(report.edges) + " edges, " + std::to_string(report.vertices) +
+           " vertices\n";
   const CutOptions options = options_of(request);
-  if (options.sphere_radius)
-    lines +=
-        suited_models(request.output, Format::mpas, *options.sphere_radius, options.dimensions);
-  return lines + request.output + ": " + std::to_string(report.cells) + " cells, " +
-         rings_in_words(request.rings, inside, report.cells - inside) + ", " +
-         std::to_string(report.edges) + " edges, " + std::to_string(report.vertices) +
-         " vertices\n";
+  return lines + (options.sphere_radius ? suited_models(request.output, Format::mpas,
+                                                        *options.sphere_radius, options.dimensions)
+                                        : "");
 }
 
 void run(const Request& request) {

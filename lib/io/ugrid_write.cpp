@@ -85,14 +85,16 @@ void add_lonlats(GridFile& file, const std::string& prefix, int dimension, const
 template <class Corner>
 void add_bounds(GridFile& file, int faces, std::int64_t most, const Corner& corner) {
   const int corners = file.netcdf().dimension("mesh_max_face_bounds", most);
-  file.doubles(face_name + "_lon" + bounds_end, {faces, corners}, {},
-               table<double>(most, [corner](std::int64_t face, std::int64_t k) {
-                 return lonlat_of(corner(face, k)).longitude;
-               }));
-  file.doubles(face_name + "_lat" + bounds_end, {faces, corners}, {},
-               table<double>(most, [corner](std::int64_t face, std::int64_t k) {
-                 return lonlat_of(corner(face, k)).latitude;
-               }));
+  const auto add = [&](const std::string& axis, const std::string& what, const std::string& units,
+                       const auto& angle) {
+    file.doubles(face_name + axis + bounds_end, {faces, corners},
+                 {{"units", units}, long_name(what + " of the corners of the face")},
+                 table<double>(most, [corner, angle](std::int64_t face, std::int64_t k) {
+                   return angle(lonlat_of(corner(face, k)));
+                 }));
+  };
+  add("_lon", "longitude", "degrees_east", [](const LonLat& place) { return place.longitude; });
+  add("_lat", "latitude", "degrees_north", [](const LonLat& place) { return place.latitude; });
 }
 
 void add_places(GridFile& file, const std::string& prefix, int dimension, const Points3& points) {

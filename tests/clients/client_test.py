@@ -241,6 +241,11 @@ def test_cdo_ugrid(calotte, name):
         values = numpy.array([float(word) for word in words[begin:begin + len(expected)]])
         worst = numpy.abs(values - expected).max()
         check(worst < 1e-4, f"CDO's {key} of {grid} are off by {worst}")
+    run("cdo", "-s", "-b", "F64", "-f", "nc", f"remapcon,{grid}", "-const,7,r36x18", "there.nc")
+    require_constant("there.nc", len(places[0]))
+    run("cdo", "-s", "-b", "F64", "remapcon,r36x18", "-expr,constant=7.0+0*cell_area", "-selname,cell_area", grid,
+        "back.nc")
+    require_constant("back.nc", 36 * 18)
 
 
 CLIENTS = {

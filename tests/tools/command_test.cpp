@@ -284,6 +284,12 @@ TEST_CASE("every kind of points") {
   CHECK(count("latlon 4") == 32);
   CHECK(count("latlon 4 --poles") == 34);
   CHECK(count("cubed 3") == 54);
+  const std::string bisected = "a bisected icosahedron has 12, 42, 162, 642 and so on points, not ";
+  check_refusal(bench, "points icosahedron 5 -o a.txt", 2, bisected + "5; give 12");
+  check_refusal(bench, "points icosahedron 100 -o a.txt", 2, bisected + "100; give 42 or 162");
+  check_refusal(
+      bench, "points icosahedron 10000000000 -o a.txt", 2,
+      "a bisected icosahedron of 10000000000 points is too large; give 671088642 or fewer");
 }
 
 TEST_CASE("the weather stations become a mesh") {

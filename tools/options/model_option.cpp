@@ -16,11 +16,12 @@ CLI::Option* add_model(CLI::App& command, std::optional<std::string>& word) {
     known.push_back(model.word);
   return command
       .add_option("--for", word,
-                  "Model that reads the file. It selects the format, the radius of the sphere, the "
-                  "order of the cells and dimensions: mpas-atmosphere (unit sphere), mpas-ocean "
-                  "(6371220 m), mpas-sw (unit sphere, with nVertLevels and nTracers) or fesom "
-                  "(nod2d.out). What other options give stays; a contradiction is an error. "
-                  "Default: none; an MPAS file on the unit sphere suits mpas-atmosphere")
+                  "Model that reads the file, such as mpas-atmosphere. It selects the format, the "
+                  "radius of the sphere, the order of the cells and dimensions: mpas-atmosphere "
+                  "(unit sphere), mpas-ocean (6371220 m), mpas-sw (unit sphere, with nVertLevels "
+                  "and nTracers) or fesom (nod2d.out). What other options give stays; a "
+                  "contradiction is an error. Default: none; an MPAS file on the unit sphere suits "
+                  "mpas-atmosphere")
       ->check(CLI::IsMember(known));
 }
 
