@@ -233,7 +233,7 @@ def test_cdo_ugrid(calotte, name):
         places = [file[f"mesh_face_{axis}"][:] for axis in ("lon", "lat")]
     first = run("cdo", "-s", "sinfo", grid).split("Grid coordinates :")[1].splitlines()[1]
     check(first.split()[:4] == ["1", ":", "unstructured", ":"], f"CDO's first grid of {grid}: {first}")
-    check(first.split()[-1] == f"points={len(places[0])}", f"CDO's first grid of {grid}: {first}")
+    check(f"points={len(places[0])}" in first.split(), f"CDO's first grid of {grid}: {first}")
     words = run("cdo", "-s", "griddes", "-selname,cell_area", grid).replace("=", " ").split()
     check(words[words.index("gridtype") + 1] == "unstructured", f"the grid of {grid}: {words[:20]}")
     for key, expected in zip(("xvals", "yvals"), places):
