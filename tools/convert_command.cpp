@@ -3,6 +3,7 @@
 #include "help/help.h"
 #include "options/config_option.h"
 #include "options/density_option.h"
+#include "options/depth_option.h"
 #include "options/domain_option.h"
 #include "options/files.h"
 #include "options/format_options.h"
@@ -16,6 +17,7 @@
 
 #include <array>
 #include <iostream>
+#include <utility>
 
 namespace calotte::tools {
 namespace {
@@ -25,6 +27,7 @@ struct Request {
   std::shared_ptr<DensityWords> density;
   std::shared_ptr<FormatWords> format;
   std::shared_ptr<DomainWords> domain; ///< of a mesh of the plane
+  DepthWords depths;                   ///< for FESOM
   std::shared_ptr<std::string> config;
   std::string output;
 };
@@ -32,7 +35,11 @@ struct Request {
 /// Checks all options that can fail, before any input is read.
 void require_request(const Request& request) {
   const MeshSource& source = *request.source;
-  options_of(*request.format, request.output); // throws for a file that cannot be written
+  const Format format = options_of(*request.format, request.output)
+                            .format; // throws for a file that cannot be written
+  if (request.depths.given() && format != Format::fesom)
+    throw Error(ErrorCode::bad_option,
+                request.output + ": --depth-levels applies to FESOM's nod2d.out; leave it out");
   const WidthWords& widths = request.density->widths;
   require_outputs({{"mesh", request.output}},
                   {source.path, source.points, widths.file, widths.raster,
@@ -49,16 +56,27 @@ constexpr double kilometre = 1000; // metres
 /// An Earth in kilometres, as JIGSAW's meshes have it; NetCDF formats are in metres.
 bool is_in_kilometres(double radius) { return radius > 6300 && radius < 6400; }
 
+/// Whether the radius is that of the file.
+bool keeps_radius(const Request& request) {
+  return !request.format->sphere_radius && !request.format->model;
+}
+
+/// Whether neither the options nor the file say what density the mesh was made for. Writers of
+/// other programs store 1 then.
+bool lacks_density(const Request& request, const MeshFile& file) {
+  return request.density->densities.empty() && !request.density->widths.given() &&
+         (file.density.size() == 0 || file.density.minCoeff() == file.density.maxCoeff());
+}
+
 WriteOptions write_options(const Request& request, const Density& density, const MeshFile& file) {
   WriteOptions options = options_of(*request.format, request.output);
-  const WidthWords& widths = request.density->widths;
-  if (!request.format->sphere_radius && file.sphere_radius == 1 && !file.plane && widths.in_km() &&
-      is_mpas(options.format))
-    options.sphere_radius = model_radius(widths);
-  else if (!request.format->sphere_radius)
+  if (keeps_radius(request))
     options.sphere_radius =
         is_in_kilometres(file.sphere_radius) ? kilometre * file.sphere_radius : file.sphere_radius;
   options.density = density;
+  if (is_mpas(options.format) && lacks_density(request, file))
+    options.site_density = spacing_density(file);
+  set_depths(request.depths, file, options);
   options.history = "calotte " CALOTTE_VERSION " convert: " + request.source->path;
   return options;
 }
@@ -94,7 +112,7 @@ std::string joined(const std::vector<std::array<std::string, 2>>& names) {
 std::string remarks(const Request& request, const MeshFile& file, const WriteOptions& options,
                     const WrittenFields& written) {
   std::string lines;
-  if (is_in_kilometres(file.sphere_radius) && !request.format->sphere_radius &&
+  if (is_in_kilometres(file.sphere_radius) && keeps_radius(request) &&
       request.output.ends_with(".nc"))
     lines += request.output + ": the radius " + shortest(file.sphere_radius) +
              " is taken as kilometres and written as " + shortest(options.sphere_radius) +
@@ -105,6 +123,11 @@ std::string remarks(const Request& request, const MeshFile& file, const WriteOpt
     lines += request.output + ": names that NetCDF refuses: " + joined(written.renamed) + "\n";
   if (!file.ignored.empty())
     lines += request.output + ": not converted: " + joined(file.ignored) + "\n";
+  if (options.site_density.size() > 0)
+    lines += derived_density(request.output, options.site_density);
+  if (!file.plane)
+    lines +=
+        suited_models(request.output, options.format, options.sphere_radius, options.dimensions);
   return lines;
 }
 
@@ -126,6 +149,23 @@ MeshFile read_input(const Request& request) {
   return file;
 }
 
+/// Makes an open mesh one that FESOM reads, where it is written for it.
+EarReport remove_ears(const Request& request, MeshFile& file) {
+  EarReport report;
+  if (file.mesh && !file.mesh->closed() &&
+      options_of(*request.format, request.output).format == Format::fesom)
+    file = without_ears(std::move(file), &report);
+  return report;
+}
+
+std::string describe(const Request& request, const EarReport& ears) {
+  if (ears.triangles == 0 && ears.sites == 0)
+    return "";
+  return request.output + ": without " + std::to_string(ears.triangles) +
+         " triangles of fewer than two neighbours, and without the " + std::to_string(ears.sites) +
+         " nodes that no triangle has then: FESOM refuses them\n";
+}
+
 void run(const Request& request) {
   require_request(request);
   const Density density = density_of(*request.density);
@@ -133,12 +173,14 @@ void run(const Request& request) {
   {
     Progress progress;
     progress.stage("reading " + request.source->path);
-    const MeshFile file = read_input(request);
+    MeshFile file = read_input(request);
+    const EarReport ears = remove_ears(request, file);
     progress.stage("writing " + request.output);
     const WriteOptions options = write_options(request, density, file);
     const WrittenFields written = write(request.output, file, options);
-    words = changes_of(*request.source, file) + remarks(request, file, options, written) +
-            request.output + ": " + describe(file) + "\n";
+    words = changes_of(*request.source, file) + describe(request, ears) +
+            remarks(request, file, options, written) + request.output + ": " + describe(file) +
+            "\n";
   }
   std::cout << words;
 }
@@ -158,12 +200,13 @@ void add_convert(CLI::App& app) {
   request->domain = add_bounded_domain(*command);
   request->format =
       add_format(*command, "the radius of the points if all lie on one sphere, else 1");
+  add_depths(*command, request->depths);
   request->density = add_density(*command);
   request->config = add_config(*command);
   set_help(*command,
-           {.common = {"IN", "OUT", "--points", "--plane", "--domain", "--format",
+           {.common = {"IN", "OUT", "--points", "--plane", "--domain", "--for", "--format",
                        "--sphere-radius", "--order", "--density", "--cell-width", "--config"},
-            .examples = {"calotte convert mesh.vtp mesh.nc --sphere-radius earth",
+            .examples = {"calotte convert mesh.vtp mesh.nc --for mpas-atmosphere",
                          "calotte convert mesh.nc grid.nc --format scrip"}});
   command->callback([request] { run(*request); });
 }

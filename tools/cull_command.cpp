@@ -3,6 +3,7 @@
 #include "help/help.h"
 #include "options/files.h"
 #include "options/global_option.h"
+#include "options/model_option.h"
 #include "run/progress.h"
 
 #include <calotte/cull.h>
@@ -25,6 +26,7 @@ namespace {
 
 struct Request {
   std::string source, output, mask, cell_map;
+  std::optional<std::string> model;
   std::vector<std::string> land, passages, barriers, seeds;
   std::string raster, raster_variable;
   RasterValues raster_values = RasterValues::height;
@@ -44,6 +46,7 @@ struct Request {
 /// Checks all options that can fail, before any input is read.
 void require_request(const Request& request) {
   require_mpas_name(request.output);
+  require_mpas_model(request.model);
   if (request.land.empty() && request.raster.empty() && request.field.empty() &&
       request.barriers.empty())
     throw Error(
@@ -109,6 +112,10 @@ CullOptions options_of(const Request& request) {
   options.seeds = places_of(request.seeds);
   options.mask_path = request.mask;
   options.cell_map_folder = request.cell_map;
+  if (const Model* const model = model_of(request.model)) {
+    options.sphere_radius = model->sphere_radius;
+    options.dimensions = model->dimensions;
+  }
   options.history = "calotte " CALOTTE_VERSION " cull: " + request.source;
   for (const std::string& file : request.inputs())
     if (!file.empty() && file != request.source)
@@ -137,7 +144,10 @@ std::string describe(const Request& request, const CullReport& report) {
   lines += line("cells in parts left out", sea.severed);
   return lines + request.output + ": " + std::to_string(report.cells) + " cells, " +
          std::to_string(report.edges) + " edges, " + std::to_string(report.vertices) +
-         " vertices\n";
+         " vertices\n" +
+         suited_models(request.output, Format::mpas, report.sphere_radius,
+                       model_of(request.model) != nullptr ? model_of(request.model)->dimensions
+                                                          : std::vector<FieldDimension>{});
 }
 
 void run(const Request& request) {
@@ -264,6 +274,7 @@ void add_cull(CLI::App& app) {
                      "vertices. NAME.graph.info is written beside NAME.nc.")
         ->type_name("FILE")
         ->required();
+    add_model(*command, request->model);
     command
         ->add_option("--mask", request->mask,
                      "NetCDF file of masks by global cell: cullCell and regionCellMasks, as "
@@ -272,15 +283,14 @@ void add_cull(CLI::App& app) {
     command
         ->add_option("--cell-map", request->cell_map,
                      "Folder for cellMapForward.txt and cellMapBackward.txt, as "
-                     "MpasCellCuller.x -c writes them: by global cell the 0-based number of the "
+                     "MpasCellCuller.x -c writes them. By global cell the 0-based number of the "
                      "ocean's cell or -1, and by ocean's cell that of the global one.")
         ->type_name("FOLDER");
   }
   set_help(*command,
            {.common = {},
             .examples = {"calotte cull global.nc --land ne_10m_land.geojson -o ocean.nc",
-                         "calotte cull global.nc --raster topography.nc --raster-variable z -o "
-                         "ocean.nc",
+                         "calotte cull global.nc --raster bed.nc --raster-variable z -o ocean.nc",
                          "calotte cull global.nc --field ter --sea-below 0 --seed -150,0 -o "
                          "ocean.nc"}});
   command->callback([request] { run(*request); });

@@ -3,6 +3,7 @@
 #include "help/help.h"
 #include "options/files.h"
 #include "options/global_option.h"
+#include "options/model_option.h"
 #include "options/region_option.h"
 #include "options/sphere_radius_option.h"
 #include "run/progress.h"
@@ -23,6 +24,7 @@ struct Request {
   std::string source, region, output;
   int rings = limited_area_rings;
   std::optional<double> sphere_radius;
+  std::optional<std::string> model;
   bool keep_radius = false;
 };
 
@@ -31,6 +33,8 @@ void require_request(const Request& request) {
   require_mpas_name(request.output);
   if (request.sphere_radius)
     require_sphere_radius(*request.sphere_radius);
+  require_mpas_model(request.model);
+  radius_for(model_of(request.model), request.sphere_radius); // throws for a contradiction
   require_outputs({{"grid", request.output}}, {request.source, region_file(request.region)});
 }
 
@@ -40,10 +44,19 @@ CutOptions options_of(const Request& request) {
   if (request.keep_radius)
     options.sphere_radius.reset();
   else
-    options.sphere_radius = request.sphere_radius.value_or(1);
+    options.sphere_radius = radius_for(model_of(request.model), request.sphere_radius).value_or(1);
+  if (const Model* const model = model_of(request.model))
+    options.dimensions = model->dimensions;
   options.history = "calotte " CALOTTE_VERSION " cut: " + request.source + " --region " +
                     request.region + " --rings " + std::to_string(request.rings);
   return options;
+}
+
+std::string rings_in_words(int rings, std::int64_t inside, std::int64_t around) {
+  if (rings == 0)
+    return "all in the region, without rings";
+  return std::to_string(inside) + " in the region and " + std::to_string(around) + " in " +
+         std::to_string(rings) + (rings == 1 ? " ring around it" : " rings around it");
 }
 
 std::string describe(const Request& request, const CutReport& report) {
@@ -51,11 +64,14 @@ std::string describe(const Request& request, const CutReport& report) {
   std::string lines;
   for (const std::string& name : report.left_out)
     lines += request.output + ": without the variable " + name + "\n";
-  return lines + request.output + ": " + std::to_string(report.cells) + " cells, " +
-         std::to_string(inside) + " in the region and " + std::to_string(report.cells - inside) +
-         " in " + std::to_string(request.rings) + " rings around it, " +
-         std::to_string(report.edges) + " edges, " + std::to_string(report.vertices) +
-         " vertices\n";
+  lines += request.output + ": " + std::to_string(report.cells) + " cells, " +
+           rings_in_words(request.rings, inside, report.cells - inside) + ", " +
+           std::to_string(report.edges) + " edges, " + std::to_string(report.vertices) +
+           " vertices\n";
+  const CutOptions options = options_of(request);
+  return lines + (options.sphere_radius ? suited_models(request.output, Format::mpas,
+                                                        *options.sphere_radius, options.dimensions)
+                                        : "");
 }
 
 void run(const Request& request) {
@@ -97,11 +113,13 @@ void add_cut(CLI::App& app) {
   add_sphere_radius(*command, request->sphere_radius,
                     "Radius of the sphere of the grid: metres, > 0, or earth (6371229 m). Lengths "
                     "and areas are converted. Default: 1, which MPAS-Atmosphere needs for grids.");
+  CLI::Option* const model = add_model(*command, request->model);
   command
       ->add_flag("--keep-radius", request->keep_radius,
                  "Keep the radius of the global file. Use it for files of static or initial "
                  "fields, whose lengths and areas the model takes as they are.")
-      ->excludes("--sphere-radius");
+      ->excludes("--sphere-radius")
+      ->excludes(model);
   set_help(*command,
            {.common = {},
             .examples = {"calotte cut x1.40962.grid.nc --region circle=-105,40,1000km -o region.nc",

@@ -260,7 +260,8 @@ void write_plane(const std::string& path, const PlanarMesh& mesh, const PlanarDo
 void write_region(const CvtRequest& request, const RunRegion& region, Outcome& outcome,
                   const WriteOptions& options) {
   CutOptions cut;
-  cut.sphere_radius = request.format->sphere_radius.value_or(1);
+  cut.sphere_radius = options.sphere_radius;
+  cut.dimensions = options.dimensions;
   cut.history = options.history;
   const CutReport report = write_limited_area(request.mesh, outcome.mesh.points, region.meshed,
                                               region.region, options, cut);
@@ -303,6 +304,14 @@ Outcome tessellate_and_write(CvtRequest& request) {
   return outcome;
 }
 
+/// A line on the models that the mesh suits; "" in a plane.
+std::string models_of(const CvtRequest& request) {
+  const WriteOptions options = write_options(request);
+  return planar(request) ? ""
+                         : suited_models(request.mesh, options.format, options.sphere_radius,
+                                         options.dimensions);
+}
+
 /// Prints what the run's result lacks.
 void warn_of_result(const CvtRequest& request, const Outcome& outcome) {
   if (request.cells && outcome.cells != *request.cells)
@@ -321,7 +330,7 @@ void run(CvtRequest request) {
     finish_interrupted(request, outcome);
   std::cout << summary(request, outcome.report, outcome.cells, planar(request) ? outcome.area : 1,
                        static_cast<std::int64_t>(outcome.before)) +
-                   "\n" + outcome.grid;
+                   "\n" + outcome.grid + models_of(request);
   warn_of_result(request, outcome);
   if (!outcome.report.converged)
     finish_not_converged(request, outcome.report);
@@ -338,10 +347,10 @@ void add_cvt(CLI::App& app) {
              "run gives the same bits as an uninterrupted one.");
   const std::shared_ptr<CvtRequest> request = add_cvt_options(*command);
   set_help(*command, {.common = {"START", "--cells", "--density", "--cell-width", "--tolerance",
-                                 "--max-iterations", "--output", "--sphere-radius", "--report",
-                                 "--checkpoint", "--resume", "--config", "--threads"},
+                                 "--max-iterations", "--output", "--for", "--sphere-radius",
+                                 "--report", "--checkpoint", "--resume", "--config", "--threads"},
                       .examples = {"calotte cvt --cell-width 60km -o earth.nc",
-                                   "calotte cvt --cells 40962 -o uniform.nc --sphere-radius earth",
+                                   "calotte cvt --cells 40962 -o uniform.nc --for mpas-ocean",
                                    "calotte cvt --cells 40962 -o x8.vtp --density "
                                    "tanh:lon=270,lat=30,beta=30deg,alpha=0.20,gamma=x8"}});
   command->callback([request, command] {

@@ -2,6 +2,7 @@
 #include "commands.h"
 #include "help/help.h"
 #include "options/config_option.h"
+#include "options/density_option.h"
 #include "options/domain_option.h"
 #include "options/files.h"
 #include "options/format_options.h"
@@ -15,6 +16,7 @@
 #include <calotte/io.h>
 #include <calotte/mesh_file.h>
 #include <calotte/version.h>
+#include <calotte/voronoi.h>
 
 #include <nlohmann/json.hpp>
 
@@ -141,6 +143,16 @@ std::string summary(const Request& request, const Result<AnyMesh>& result) {
   return line + "\n";
 }
 
+/// What a model reads of the file.
+std::string remarks(const Request& request, const WriteOptions& output) {
+  std::string lines;
+  if (output.site_density.size() > 0)
+    lines += derived_density(request.mesh, output.site_density);
+  if (!request.plane)
+    lines += suited_models(request.mesh, output.format, output.sphere_radius, output.dimensions);
+  return lines;
+}
+
 /// For the points of an open mesh, such as a region, a line that warns: the triangulation covers
 /// what lies beyond its boundary, too. Empty for other input, and where the mesh cannot be read.
 std::string warning_of(const std::string& points, bool closed) {
@@ -168,11 +180,16 @@ std::string triangulate_file(const Request& request, const DelaunayOptions& opti
   progress.stage("triangulating " + std::to_string(input.points.cols()) + " points");
   const Result<AnyMesh> result = triangulate<AnyMesh>(input, request, options);
   progress.stage("writing " + request.mesh);
-  const double written = seconds_of(
-      [&] { write(request.mesh, result.mesh, write_options(request, input.points.cols())); });
+  WriteOptions output = write_options(request, input.points.cols());
+  const double written = seconds_of([&] {
+    if (is_mpas(output.format) && has_no_boundary(result.mesh))
+      output.site_density = spacing_density(voronoi(result.mesh));
+    write(request.mesh, result.mesh, output);
+  });
   if (!request.report.empty())
     write_file(request.report, to_json(result, read, written));
-  return warning_of(request.points, has_no_boundary(result.mesh)) + summary(request, result);
+  return warning_of(request.points, has_no_boundary(result.mesh)) + remarks(request, output) +
+         summary(request, result);
 }
 
 void run(const Request& request) {
@@ -219,7 +236,7 @@ void add_delaunay(CLI::App& app) {
       ->type_name("FILE");
   request->config = add_config(*command);
   set_help(*command, {.common = {"POINTS", "--output", "--lonlat", "--plane", "--periodic",
-                                 "--threads", "--duplicates", "--merge-within", "--format",
+                                 "--threads", "--duplicates", "--merge-within", "--for", "--format",
                                  "--sphere-radius", "--report", "--config"},
                       .examples = {"calotte delaunay points.txt -o mesh.vtp",
                                    "calotte delaunay stations.csv --lonlat -o mesh.nc"}});

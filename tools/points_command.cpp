@@ -52,11 +52,24 @@ void require_options(const Request& request) {
   require_outputs({{"points", request.output}}, {request.domain->file.value_or("")});
 }
 
+/// The number of bisections of an icosahedron that gives so many points, 10 4^level + 2.
 int level_of(std::int64_t count) {
-  if (count < 0 || count > std::numeric_limits<int>::max())
-    throw Error(ErrorCode::bad_option,
-                "the level is " + std::to_string(count) + "; give a number from 0");
-  return static_cast<int>(count);
+  constexpr int most = 13; // 671 088 642 points
+  std::int64_t fewer = 0;
+  for (int level = 0; level <= most; ++level) {
+    const std::int64_t points = 10 * (std::int64_t{1} << 2 * level) + 2;
+    if (points == count)
+      return level;
+    if (points > count)
+      throw Error(ErrorCode::bad_option,
+                  "a bisected icosahedron has 12, 42, 162, 642 and so on points, not " +
+                      std::to_string(count) + "; give " +
+                      (fewer > 0 ? std::to_string(fewer) + " or " : "") + std::to_string(points));
+    fewer = points;
+  }
+  throw Error(ErrorCode::bad_option, "a bisected icosahedron of " + std::to_string(count) +
+                                         " points is too large; give " + std::to_string(fewer) +
+                                         " or fewer");
 }
 
 Points3 generate(const Request& request) {
@@ -115,9 +128,9 @@ void add_points(CLI::App& app) {
                              "cubed", "random-plane", "hexagonal"}));
   command
       ->add_option("N", request->count,
-                   "Number of points. For icosahedron the number of bisections, for latlon the "
-                   "number of rows (with 2N columns), for cubed the number of cells along an edge; "
-                   "for hexagonal an approximate number")
+                   "Number of points: for icosahedron 12, 42, 162, 642 and so on (10 4^k + 2), for "
+                   "hexagonal an approximate number. For latlon the number of rows (with 2N "
+                   "columns), for cubed the number of cells along an edge")
       ->required();
   command->add_option("-o,--output", request->output, "Output file; - for standard output")
       ->type_name("FILE")

@@ -17,6 +17,7 @@
 #include <calotte/io.h>
 #include <calotte/limited_area.h>
 #include <calotte/lonlat.h>
+#include <calotte/model.h>
 #include <calotte/ocean.h>
 #include <calotte/operators.h>
 #include <calotte/options.h>

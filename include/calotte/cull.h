@@ -2,11 +2,13 @@
 #pragma once
 
 #include <calotte/export.h>
+#include <calotte/mesh_field.h>
 #include <calotte/ocean.h>
 #include <calotte/progress.h>
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -48,6 +50,9 @@ struct CullOptions {
   /// mesh, or -1 for a cell that is left out. Backward has a line for each cell of the new mesh:
   /// its 0-based id in the source. Default: empty, no files.
   std::string cell_map_folder = {};
+  /// Radius of the sphere of the new file, > 0. Default: none, that of the source.
+  std::optional<double> sphere_radius = {};
+  std::vector<FieldDimension> dimensions = {}; ///< new ones, see models(). Default: none.
   std::string history = {};       ///< how the file was made; precedes that of the source
   ProgressCallback progress = {}; ///< stage: write. A cancelled run leaves no file.
 };
@@ -57,6 +62,7 @@ struct CullReport {
   std::int64_t cells = 0;            ///< of the new mesh
   std::int64_t edges = 0;            ///< of the new mesh
   std::int64_t vertices = 0;         ///< of the new mesh
+  double sphere_radius = 1;          ///< of the new file
   std::int64_t land = 0;             ///< cells that coast, raster and field make land
   SeaReport sea;                     ///< what followed
   std::vector<std::string> left_out; ///< variables, as CutReport::left_out
@@ -72,7 +78,8 @@ struct CullReport {
 /// - kiteAreasOnVertex is 0 for cells of land; areaTriangle is the sum of the kites;
 /// - the variables mapCulledToBaseCell, mapCulledToBaseEdge and mapCulledToBaseVertex hold the
 ///   0-based ids of the source;
-/// - other measures at the boundary, the density and the radius are those of the source.
+/// - other measures at the boundary and the density are those of the source; lengths and areas
+///   those of sphere_radius, as cut() converts them.
 ///
 /// NAME.graph.info is written beside NAME.nc. All files are complete or absent: they get their
 /// names when all are written, the mesh last.

@@ -26,6 +26,7 @@ struct CutOptions {
   /// file of static or initial fields keeps the radius that these were made with. Default: 1; none
   /// keeps that of the source.
   std::optional<double> sphere_radius = 1;
+  std::vector<FieldDimension> dimensions = {}; ///< new ones, see models(). Default: none.
   /// How the file was made; precedes the source's attribute `history`. Default: empty.
   std::string history = {};
   /// Stage: write. A cancelled run leaves no file. Default: none.
@@ -81,8 +82,8 @@ CutReport cut(const std::string& source, const std::string& target,
               const CutOptions& options = {});
 
 /// Writes the limited-area grid of generators, of a run in a region that is wider than the grid's:
-/// the cells of the grid's region with their rings, as cut() does. The whole tessellation stands in
-/// a file beside the new one for a while.
+/// the cells of the grid's region with their rings, as cut() does. nominalMinDc is that of these
+/// cells. The whole tessellation stands in a file beside the new one for a while.
 /// \param generators 3 x n unit columns in `meshed`.
 /// \param meshed a region that holds the grid's and its rings, such as widened(); or the whole
 ///        sphere.

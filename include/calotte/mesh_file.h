@@ -112,6 +112,26 @@ enum class FieldChoice {
 MeshFile read_mesh_file(const std::string& path, const Points3* points = nullptr,
                         FieldChoice choice = FieldChoice::all);
 
+/// The density that follows from the cells of a file, see spacing_density(voronoi): those of its
+/// mesh, or of its polygons where these are part of a Voronoi tessellation.
+/// \returns by cell; none if the cells are uniform, or if they have no spacing: for other polygons,
+///          an open mesh, and a plane without a domain.
+/// \throws Error as voronoi().
+Eigen::VectorXd spacing_density(const MeshFile& file);
+
+/// What without_ears() removed.
+struct EarReport {
+  std::int64_t triangles = 0; ///< with one neighbour, or none
+  std::int64_t sites = 0;     ///< that no triangle was left with
+};
+
+/// Removes the triangles of an open mesh of the sphere that have a single neighbour, or none,
+/// repeatedly, and the sites that no triangle is left with: FESOM's partitioner refuses them
+/// (fvom_init.F90, find_elem_neighbors_ini). Density and fields follow. A closed mesh has none.
+/// \param report receives what was removed, unless it is null.
+/// \throws Error bad_option, for a file without a mesh of the sphere, and if no triangle is left.
+MeshFile without_ears(MeshFile file, EarReport* report = nullptr);
+
 /// What became of a file's fields.
 struct WrittenFields {
   std::vector<std::string> dropped; ///< names of those that the format cannot hold

@@ -141,5 +141,12 @@ CellFields cell_fields(const Voronoi& voronoi, const Density& density = {});
 /// in a plane the unit of the points.
 double nominal_spacing(const CellFields& fields);
 
+/// A density that follows from the cells, for a mesh of unknown density: (h_min/h)^4, h the spacing
+/// of hexagons of a cell's area, smoothed over some two cells, so that it is a law of the grid and
+/// not the scatter of its cells. Cells that lack a neighbour have the mean of those next to them.
+/// \returns n values, the maximum 1; none if the mesh is uniform: 90% of the smoothed spacings lie
+///          within 10%, or most of the variation is scatter, as that of random sites.
+Eigen::VectorXd spacing_density(const Voronoi& voronoi);
+
 } // namespace calotte
 CALOTTE_API_END

@@ -28,6 +28,9 @@ void require_options(const CullOptions& options) {
   require(!options.coast.rings.empty() || options.raster.land.size() > 0 ||
               !options.field.variable.empty() || !options.barriers.empty(),
           "there is no land; give a coast, a raster, a field or a barrier");
+  require(!options.sphere_radius ||
+              (*options.sphere_radius > 0 && std::isfinite(*options.sphere_radius)),
+          "the radius of the sphere is not positive and finite; give another");
 }
 
 /// The cells of the source, as far as options need them.
@@ -208,9 +211,9 @@ private:
   std::vector<std::unique_ptr<OutputFile>> texts_;
 };
 
-void add_attributes(const MpasSource& source, NetcdfSubset& subset) {
+void add_attributes(double radius, NetcdfSubset& subset) {
   subset.attributes["on_a_sphere"] = {"on_a_sphere", std::string("YES")};
-  subset.attributes["sphere_radius"] = {"sphere_radius", source.radius()};
+  subset.attributes["sphere_radius"] = {"sphere_radius", radius};
 }
 
 } // namespace
@@ -221,6 +224,7 @@ CullReport cull(const std::string& source_path, const std::string& target,
   using namespace io_detail;
   require_options(options);
   const MpasSource source(source_path);
+  const double radius = options.sphere_radius.value_or(source.radius());
   const Ground ground = ground_of(source, options);
   const Land land = land_of(source_path, ground, options);
   CullReport report;
@@ -234,8 +238,11 @@ CullReport cull(const std::string& source_path, const std::string& target,
   add_reversals(source, part, reversed, subset);
   add_kites(source, part, subset);
   add_maps(part, subset);
-  add_attributes(source, subset);
+  add_radius(source, radius, subset);
+  add_attributes(radius, subset);
+  subset.dimensions = options.dimensions;
   add_history(source, part, options.history, subset);
+  report.sphere_radius = radius;
   report.cells = part.cells.count();
   report.edges = part.edges.count();
   report.vertices = part.vertices.count();

@@ -54,7 +54,9 @@ void add_masks(const Masks& masks, int rings, NetcdfSubset& subset) {
     subset.added.push_back({name, dimension, meaning, [&mask](std::int64_t i) { return mask[i]; }});
   };
   add("Cell", "nCells", masks.cells,
-      "0 in the region, 1 to " + std::to_string(rings) + " in the rings of boundary cells");
+      rings == 0
+          ? "0 in the region"
+          : "0 in the region, 1 to " + std::to_string(rings) + " in the rings of boundary cells");
   add("Edge", "nEdges", masks.edges, "least bdyMaskCell of the cells on each edge");
   add("Vertex", "nVertices", masks.vertices, "least bdyMaskCell of the cells on each vertex");
 }
@@ -74,7 +76,7 @@ Eigen::VectorXd kept_values(const MpasSource& source, const std::string& name, c
 }
 
 /// The density has the maximum 1 over the kept cells; its nominal spacing is that of the maximum.
-void add_density(const MpasSource& source, const MpasPart& part, double radius,
+void add_density(const MpasSource& source, const MpasPart& part, double radius, Nominal nominal,
                  NetcdfSubset& subset) {
   Eigen::VectorXd density = kept_values(source, "meshDensity", part.cells);
   const double greatest = density.size() > 0 ? density.maxCoeff() : 0;
@@ -82,8 +84,9 @@ void add_density(const MpasSource& source, const MpasPart& part, double radius,
     return;
   density /= greatest;
   add_division(source, "meshDensity", greatest, subset);
-  if (source.netcdf().find("nominalMinDc") >= 0)
+  if (nominal == Nominal::of_source && source.netcdf().find("nominalMinDc") >= 0)
     return add_division(source, "nominalMinDc", std::pow(greatest, 0.25), subset);
+  subset.left_out.emplace_back("nominalMinDc");
   const Eigen::VectorXd area = kept_values(source, "areaCell", part.cells);
   if (area.size() > 0)
     subset.numbers.push_back(
@@ -114,8 +117,8 @@ CutReport report_of(const MpasPart& part, const Masks& masks, int rings) {
 } // namespace
 
 CutReport cut(const MpasSource& source, const std::string& target,
-              const std::function<bool(const Eigen::Vector3d&)>& inside,
-              const CutOptions& options) {
+              const std::function<bool(const Eigen::Vector3d&)>& inside, const CutOptions& options,
+              Nominal nominal) {
   const double radius = options.sphere_radius.value_or(source.radius());
   require(radius > 0 && std::isfinite(radius),
           "the radius of the sphere is not positive and finite; give another");
@@ -125,8 +128,9 @@ CutReport cut(const MpasSource& source, const std::string& target,
   NetcdfSubset subset = subset_of(source, part);
   add_masks(masks, options.rings, subset);
   add_radius(source, radius, subset);
-  add_density(source, part, radius, subset);
+  add_density(source, part, radius, nominal, subset);
   add_attributes(radius, subset);
+  subset.dimensions = options.dimensions;
   add_history(source, part, options.history, subset);
   CutReport report = report_of(part, masks, options.rings);
   report.left_out = write_part(source, part, subset, target, options.progress);

@@ -10,17 +10,20 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
 #include <set>
+#include <string_view>
 
 // The mesh files of FESOM (Danilov et al., Geosci. Model Dev. 10, 2017), text: nod2d.out has the
 // number of nodes, then id, longitude and latitude in degrees and a flag, 1 on the coast, a line;
-// elem2d.out the number of triangles, then three ids a line. Ids are from 1 on.
+// elem2d.out the number of triangles, then three ids a line. Ids are from 1 on. aux3d.out has the
+// number of levels, their depths, and the depth of the bottom at each node, a number a line.
 
 namespace calotte::io_detail {
 namespace {
 
-std::string elements_beside(const std::string& path) {
-  return sibling(path, fesom_nodes_name, fesom_elements_name).value_or(path);
+std::string beside(const std::string& path, std::string_view name) {
+  return sibling(path, fesom_nodes_name, name).value_or(path);
 }
 
 template <class T>
@@ -86,20 +89,20 @@ Triangles read_elements(const std::string& path, std::int64_t nodes) {
 
 } // namespace
 
-void write_fesom(const std::string& path, const Mesh& mesh, const WriteOptions& options) {
+namespace {
+
+Writer to(OutputFile& file) {
+  return Writer([&file](std::string_view bytes) { file.append(bytes); });
+}
+
+void put_nodes(const Mesh& mesh, OutputFile& file) {
   std::vector<bool> coast(static_cast<std::size_t>(mesh.points.cols()));
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
     for (int i = 0; i < 3; ++i)
       if (mesh.neighbours(i, t) < 0)
         for (const int end : {1, 2})
           coast[static_cast<std::size_t>(mesh.triangles((i + end) % 3, t))] = true;
-
-  OutputFile nodes(path), elements(elements_beside(path));
-  nodes.watch(options.progress, 60 * mesh.points.cols());
-  const auto to = [](OutputFile& file) {
-    return Writer([&file](std::string_view bytes) { file.append(bytes); });
-  };
-  Writer out = to(nodes);
+  Writer out = to(file);
   out.number(std::int64_t{mesh.points.cols()}).text("\n");
   const Points3 units = on_sphere(mesh.points, 1);
   for (Eigen::Index i = 0; i < units.cols(); ++i) {
@@ -108,20 +111,47 @@ void write_fesom(const std::string& path, const Mesh& mesh, const WriteOptions& 
     out.number(place.latitude).text(coast[static_cast<std::size_t>(i)] ? " 1\n" : " 0\n");
   }
   out.flush();
-  Writer lines = to(elements);
-  lines.number(std::int64_t{mesh.triangles.cols()}).text("\n");
-  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
+}
+
+void put_elements(const Mesh& mesh, OutputFile& file) {
+  Writer out = to(file);
+  out.number(std::int64_t{mesh.triangles.cols()}).text("\n");
+  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
     for (int i = 0; i < 3; ++i)
-      lines.number(std::int64_t{mesh.triangles(i, t) + 1}).text(i < 2 ? " " : "\n");
+      out.number(std::int64_t{mesh.triangles(i, t) + 1}).text(i < 2 ? " " : "\n");
+  out.flush();
+}
+
+/// Depths below 0, as FESOM has them; it takes the sign of the second level for that of all.
+void put_depths(const WriteOptions& options, OutputFile& file) {
+  Writer out = to(file);
+  out.number(std::int64_t{options.depth_levels.size()}).text("\n");
+  for (const Eigen::VectorXd* depths : {&options.depth_levels, &options.site_depth})
+    for (const double depth : *depths)
+      out.number(depth == 0 ? 0 : -std::abs(depth)).text("\n");
+  out.flush();
+}
+
+} // namespace
+
+void write_fesom(const std::string& path, const Mesh& mesh, const WriteOptions& options) {
+  OutputFile nodes(path), elements(beside(path, fesom_elements_name));
+  std::optional<OutputFile> depths;
+  nodes.watch(options.progress, 60 * mesh.points.cols());
+  put_nodes(mesh, nodes);
+  put_elements(mesh, elements);
+  if (options.depth_levels.size() > 0) {
+    depths.emplace(beside(path, fesom_depths_name));
+    put_depths(options, *depths);
+    depths->commit();
   }
-  lines.flush();
   elements.commit();
   nodes.commit();
 }
 
 Soup read_fesom(const std::string& path) {
   Soup soup = read_nodes(path);
-  soup.triangles = read_elements(elements_beside(path), soup.points.cols());
+  soup.triangles = read_elements(beside(path, fesom_elements_name), soup.points.cols());
   return soup;
 }
 

@@ -25,6 +25,7 @@ inline constexpr std::string_view loop_counts_name = "SaveLoopCounts";
 // FESOM's names.
 inline constexpr std::string_view fesom_nodes_name = "nod2d.out";
 inline constexpr std::string_view fesom_elements_name = "elem2d.out";
+inline constexpr std::string_view fesom_depths_name = "aux3d.out";
 
 /// The suffix of a name in lower case, such as ".nc" for NAME.NC; empty if there is none.
 std::string suffix_of(const std::string& path);

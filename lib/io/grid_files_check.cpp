@@ -99,6 +99,53 @@ void check_sites(const std::vector<std::string>& names, const Points3& points, d
   }
 }
 
+// ---- Bounds
+
+/// Whether an angle in degrees is that of a place, or cannot be told there.
+bool is_angle(double stored, const LonLat& place, bool longitude, double tolerance) {
+  const double apart = stored - (longitude ? place.longitude : place.latitude);
+  return longitude ? std::abs(std::remainder(apart, 360.0)) *
+                             std::cos(place.latitude * std::numbers::pi / 180) <=
+                         tolerance
+                   : std::abs(apart) <= tolerance;
+}
+
+/// The bounds of the faces' longitudes or latitudes against their nodes. What follows the last
+/// corner is any of them, or no number.
+void check_bounds(const std::string& variable, bool longitude, const StoredGrid& grid,
+                  Deviations& deviations) {
+  const NetcdfReader& file = deviations.file();
+  const std::string name = file.text(variable, "bounds");
+  if (name.empty() || !deviations.has(name, {grid.polygons.size(), -1}))
+    return;
+  const double unit = degrees_per_unit(file, variable), fill = file.number(name, "_FillValue", NAN),
+               tolerance =
+                   1e-9 + (grid.rounding + rounding_of(file, name)) * 180 / std::numbers::pi;
+  const Polygons& faces = grid.polygons;
+  const std::int64_t width = deviations.width(name);
+  const auto corner_at = [&](std::int64_t face, std::int64_t k) {
+    return lonlat_of(column(faces.corners, faces.ids[faces.begin[face] + k]));
+  };
+  deviations.add(name,
+                 deviations.visit_rows<double>(
+                     name,
+                     [&](std::int64_t face, const double* row, Differences& out) {
+                       const std::int64_t count = faces.begin[face + 1] - faces.begin[face];
+                       for (std::int64_t k = 0; k < width; ++k) {
+                         const bool past = k >= count;
+                         bool fits = past && (row[k] == fill || std::isnan(row[k]));
+                         for (std::int64_t j = past ? 0 : k; !fits && j < (past ? count : k + 1);
+                              ++j)
+                           fits = is_angle(unit * row[k], corner_at(face, j), longitude, tolerance);
+                         const LonLat corner = corner_at(face, std::min(k, count - 1));
+                         if (!fits)
+                           out.note(face * width + k, row[k],
+                                    (longitude ? corner.longitude : corner.latitude) / unit, 1);
+                       }
+                     }),
+                 "the corners of the faces in their order");
+}
+
 // ---- SCRIP
 
 void check_grid_dims(std::int64_t cells, Deviations& deviations) {
@@ -168,6 +215,8 @@ void check_ugrid(const MeshFile& file, Deviations& deviations) {
   const Sides sides(grid.polygons);
   check_polygons(grid, sides, deviations);
   check_areas(grid, "cell_area", deviations);
+  for (std::size_t k = 0; k < topology.faces.size() && grid.polygons.on_sphere; ++k)
+    check_bounds(topology.faces[k], k == 0, grid, deviations);
   check_ugrid_connectivity(grid.polygons, sides, topology.mesh, deviations);
 }
 

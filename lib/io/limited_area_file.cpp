@@ -60,7 +60,7 @@ CutReport write_limited_area(const std::string& target, const Points3& generator
   write(whole.path(), spherical_delaunay(spanning(generators, meshed, written.density)), mpas);
   const io_detail::MpasSource source(whole.path());
   whole.remove(); // now, so that a run that is killed later leaves nothing
-  return io_detail::cut(source, target, containing(region), options);
+  return io_detail::cut(source, target, containing(region), options, io_detail::Nominal::of_cells);
 }
 
 } // namespace calotte

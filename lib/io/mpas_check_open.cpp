@@ -154,8 +154,10 @@ void check_open_mpas(const MeshFile& file, double radius, Deviations& deviations
     mark_incomplete_cells(radius, part);
   }
   const double width = whole ? part.dc.mean() : 1;
-  const MpasCheck check{deviations, part,  file.density,       numbering,
-                        radius,     width, rounding_of_others, false};
+  const Eigen::VectorXd density =
+      file.density.size() == part.cells.cols() ? file.density : Eigen::VectorXd();
+  const MpasCheck check{deviations,         part, density, numbering, radius, width,
+                        rounding_of_others, false};
   check_mpas_places(check);
   if (!whole)
     return;

@@ -9,6 +9,7 @@
 #include "base/matrix_memory.h"
 #include "voronoi/cell_fields.h"
 #include "voronoi/geometry.h"
+#include "voronoi/spacing_fit.h"
 #include "voronoi/stages.h"
 #include "voronoi/tangential_weights.h"
 
@@ -173,7 +174,7 @@ void put_fields(MpasFile& file, const Dimensions& dimensions, const MpasMesh& me
   file.doubles("nominalMinDc", {},
                described("m", "nominal distance of neighbouring generators where meshDensity is 1"),
                table<double>(1, [&mesh](std::int64_t, std::int64_t) {
-                 return mesh.radius * nominal_spacing(mesh.voronoi.cell_area, mesh.density);
+                 return mesh.radius * voronoi_detail::nominal_spacing(mesh.voronoi, mesh.density);
                }));
   file.doubles("cellQuality", {dimensions.cells},
                described("1", "shortest over longest edge of each cell"),
@@ -230,6 +231,8 @@ void write_full(const std::string& path, MpasMesh mesh, const WriteOptions& opti
   OutputFile graph(graph_path(path));
   MpasFile file(path, mesh, options);
   const Dimensions dimensions = full_dimensions(file.netcdf(), mesh);
+  for (const FieldDimension& added : options.dimensions)
+    file.netcdf().field_dimension(added.name, added.size);
   put_cells(file, dimensions.cells, mesh);
   put_begun_ids(file, dimensions, mesh.voronoi);
   file.after([&] {

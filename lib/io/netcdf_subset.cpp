@@ -120,6 +120,10 @@ std::vector<int> define_dimensions(const NetcdfSource& source, const NetcdfSubse
     else
       ids.push_back(size > 0 ? file.dimension(dimension.name, size) : -1);
   }
+  for (const FieldDimension& added : subset.dimensions)
+    if (std::none_of(source.dimensions().begin(), source.dimensions().end(),
+                     [&](const auto& dimension) { return dimension.name == added.name; }))
+      file.dimension(added.name, added.size);
   return ids;
 }
 

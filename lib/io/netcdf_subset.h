@@ -6,6 +6,8 @@
 #include "io/netcdf_writer.h"
 #include "io/room.h"
 
+#include <calotte/mesh_field.h>
+
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -65,6 +67,8 @@ struct NetcdfSubset {
     double value = 0;
   };
   std::vector<Number> numbers = {};
+  /// New dimensions, unless the source has one of that name.
+  std::vector<FieldDimension> dimensions = {};
 };
 
 /// Number of values in a row of a variable, as changes see it.

@@ -191,6 +191,8 @@ NetcdfMeshNames names_of(const NetcdfReader& file, const Topology& topology, boo
        {"edge_node_connectivity", "face_edge_connectivity", "face_face_connectivity",
         "edge_face_connectivity", "boundary_node_connectivity"})
     names.variables.insert(file.text(topology.mesh, attribute));
+  for (const std::string& face : topology.faces)
+    names.variables.insert(file.text(face, "bounds"));
   return names;
 }
 

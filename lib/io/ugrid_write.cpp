@@ -4,11 +4,15 @@
 #include "io/ugrid.h"
 #include "io/written_fields.h"
 
+#include "base/points.h"
+
+#include <algorithm>
+
 namespace calotte::io_detail {
 namespace {
 
 const std::string mesh_name = "mesh", node_name = "mesh_node", face_name = "mesh_face",
-                  face_nodes_name = "mesh_face_nodes";
+                  face_nodes_name = "mesh_face_nodes", bounds_end = "_bnds";
 
 NetcdfAttribute long_name(const std::string& text) { return {"long_name", text}; }
 
@@ -58,19 +62,39 @@ void add_projected(GridFile& file, const std::string& prefix, int dimension, con
   }
 }
 
-/// Longitudes and latitudes of nodes or faces. \param of in words.
+/// Longitudes and latitudes of nodes or faces. \param of in words. \param bounds whether these have
+/// bounds, see add_bounds().
 void add_lonlats(GridFile& file, const std::string& prefix, int dimension, const std::string& of,
-                 const Points3& points) {
-  file.doubles(prefix + "_lon", {dimension},
-               {{"units", std::string("degrees_east")},
-                {"standard_name", std::string("longitude")},
-                long_name("longitude of " + of)},
-               longitudes_of(points));
-  file.doubles(prefix + "_lat", {dimension},
-               {{"units", std::string("degrees_north")},
-                {"standard_name", std::string("latitude")},
-                long_name("latitude of " + of)},
-               latitudes_of(points));
+                 const Points3& points, bool bounds = false) {
+  const auto add = [&](const std::string& axis, const std::string& name, const std::string& units,
+                       const NetcdfWriter::Fill<double>& contents) {
+    NetcdfAttributes attributes{
+        {"units", units}, {"standard_name", name}, long_name(name + " of " + of)};
+    if (bounds)
+      attributes.push_back({"bounds", prefix + axis + bounds_end});
+    file.doubles(prefix + axis, {dimension}, attributes, contents);
+  };
+  add("_lon", "longitude", "degrees_east", longitudes_of(points));
+  add("_lat", "latitude", "degrees_north", latitudes_of(points));
+}
+
+/// The corners of the faces once more, as bounds of their longitudes and latitudes by the CF
+/// conventions, without which CDO knows no area of a face. The last corner fills what is left of a
+/// row.
+/// \param corner(face, k) the k-th corner of a face, k < most; the last one from there on.
+template <class Corner>
+void add_bounds(GridFile& file, int faces, std::int64_t most, const Corner& corner) {
+  const int corners = file.netcdf().dimension("mesh_max_face_bounds", most);
+  const auto add = [&](const std::string& axis, const std::string& what, const std::string& units,
+                       const auto& angle) {
+    file.doubles(face_name + axis + bounds_end, {faces, corners},
+                 {{"units", units}, long_name(what + " of the corners of the face")},
+                 table<double>(most, [corner, angle](std::int64_t face, std::int64_t k) {
+                   return angle(lonlat_of(corner(face, k)));
+                 }));
+  };
+  add("_lon", "longitude", "degrees_east", [](const LonLat& place) { return place.longitude; });
+  add("_lat", "latitude", "degrees_north", [](const LonLat& place) { return place.latitude; });
 }
 
 void add_places(GridFile& file, const std::string& prefix, int dimension, const Points3& points) {
@@ -129,27 +153,40 @@ NetcdfMeshNames ugrid_names(bool of_cells) {
   for (const std::string& prefix : {node_name, face_name})
     for (const char* end : {"_lon", "_lat", "_x", "_y", "_z"})
       names.variables.insert(prefix + end);
+  for (const char* end : {"_lon", "_lat"})
+    names.variables.insert(face_name + end + bounds_end);
   return names;
 }
 
 void write_ugrid(const std::string& path, const CellGrid& grid, const WriteOptions& options) {
   const Polygons& cells = grid.polygons;
   const bool on_sphere = cells.on_sphere;
-  const auto add_coordinates = on_sphere ? add_lonlats : add_projected;
+  GridFile file(path, on_sphere ? options : of_plane(options), conventions);
+  const auto add_coordinates = [&](const std::string& prefix, int dimension, const std::string& of,
+                                   const Points3& points) {
+    if (on_sphere)
+      add_lonlats(file, prefix, dimension, of, points, prefix == face_name);
+    else
+      add_projected(file, prefix, dimension, of, points);
+  };
   const bool has_centres = cells.centres.cols() > 0, has_sites = grid.sites.cols() > 0;
   const Points3 sites = io_detail::on_sphere(grid.sites, options.sphere_radius);
-  GridFile file(path, on_sphere ? options : of_plane(options), conventions);
   const int nodes = file.netcdf().dimension(node_name, cells.corners.cols());
   const int faces = file.netcdf().dimension(face_name, cells.size());
   add_areas(file, faces, grid.area, has_centres,
             on_sphere); // first: CDO takes its grid for the file's
   add_topology(file, has_sites ? "Voronoi cells of the sites" : "cells", has_sites ? face_name : "",
                has_centres, on_sphere);
-  add_coordinates(file, node_name, nodes, "the node, a corner of cells", cells.corners);
+  add_coordinates(node_name, nodes, "the node, a corner of cells", cells.corners);
   if (has_centres)
-    add_coordinates(file, face_name, faces, "the face's site", cells.centres);
+    add_coordinates(face_name, faces, "the face's site", cells.centres);
   add_face_nodes(file, faces, most_corners(cells),
                  [&cells](std::int64_t cell, std::int64_t k) { return corner(cells, cell, k); });
+  if (on_sphere && has_centres)
+    add_bounds(file, faces, most_corners(cells), [&cells](std::int64_t cell, std::int64_t k) {
+      const std::int64_t last = cells.begin[cell + 1] - 1;
+      return column(cells.corners, cells.ids[std::min(cells.begin[cell] + k, last)]);
+    });
   if (has_sites)
     add_places(file, face_name, faces, sites);
   add_fields(
@@ -170,10 +207,14 @@ void write_ugrid_triangles(const std::string& path, const Mesh& mesh, const Writ
   add_topology(file, "Delaunay triangles of the sites", node_name, mesh.closed(), true);
   add_lonlats(file, node_name, nodes, "the node, a site", directions);
   if (mesh.closed())
-    add_lonlats(file, face_name, faces, "the face's circumcentre", centres);
+    add_lonlats(file, face_name, faces, "the face's circumcentre", centres, true);
   add_face_nodes(file, faces, 3, [&mesh](std::int64_t triangle, std::int64_t k) {
     return mesh.triangles(k, triangle);
   });
+  if (mesh.closed())
+    add_bounds(file, faces, 3, [&](std::int64_t triangle, std::int64_t k) {
+      return column(directions, mesh.triangles(k, triangle));
+    });
   add_places(file, node_name, nodes, sites);
   add_fields(
       file, options,

@@ -110,7 +110,7 @@ void write_numbered(const std::string& path, AnyMesh&& mesh, const WriteOptions&
 
 /// The mesh in a file's numbering, and the options' values with it.
 Mesh renumbered_with_values(const Mesh& mesh, Numbering numbering, WriteOptions& options) {
-  if (options.site_density.size() == 0 && options.fields.empty())
+  if (options.site_density.size() == 0 && options.site_depth.size() == 0 && options.fields.empty())
     return renumbered(mesh, numbering);
   Mesh whole = mesh;
   whole.site_of_input = themselves(mesh.points.cols());

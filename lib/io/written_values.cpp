@@ -33,6 +33,27 @@ void require_density(const std::string& path, const Eigen::VectorXd& density, st
     refuse(path, "the density is zero at every site; make it positive somewhere");
 }
 
+/// What FESOM demands: it stops below three levels, and takes what is beyond 11 km for ids of an
+/// earlier version.
+void require_depths(const std::string& path, const WriteOptions& options, std::int64_t sites) {
+  constexpr double deepest = 11000; // metres
+  const Eigen::VectorXd levels = options.depth_levels.cwiseAbs();
+  if (options.depth_levels.size() < 3 || options.depth_levels[0] != 0)
+    refuse(path, "the levels of depth are fewer than 3, or do not begin with 0; give such as 0, "
+                 "10, 30, 100, in metres");
+  for (Eigen::Index k = 1; k < levels.size(); ++k)
+    if (!(levels[k] > levels[k - 1] && levels[k] <= deepest &&
+          std::signbit(options.depth_levels[k]) == std::signbit(options.depth_levels[1])))
+      refuse(path, "level " + std::to_string(k) + " of the depths is " +
+                       std::to_string(options.depth_levels[k]) +
+                       " m; each lies deeper than the one before, and none deeper than 11000 m");
+  require_size(path, "the depth of the bottom", options.site_depth.size(), sites);
+  for (Eigen::Index i = 0; i < options.site_depth.size(); ++i)
+    if (!(std::abs(options.site_depth[i]) <= deepest))
+      refuse(path, "the bottom is " + std::to_string(options.site_depth[i]) + " m deep at site " +
+                       std::to_string(i) + "; give metres, at most 11000");
+}
+
 void require_dimensions(const std::string& path, const MeshField& field) {
   for (const FieldDimension& dimension : field.dimensions)
     if (dimension.size < 1)
@@ -55,6 +76,8 @@ Pairs renamed(Pairs pairs, std::span<const std::int32_t> new_site) {
 void require_values(const std::string& path, const MeshSizes& mesh, const WriteOptions& options) {
   if (options.site_density.size() > 0)
     require_density(path, options.site_density, mesh.sites);
+  if (options.depth_levels.size() > 0)
+    require_depths(path, options, mesh.sites);
   for (const MeshField& field : options.fields) {
     require_dimensions(path, field);
     const bool at_edges = field.location == Location::edges;
@@ -70,9 +93,11 @@ void require_values(const std::string& path, const MeshSizes& mesh, const WriteO
 
 void renumber_values(const Mesh& mesh, std::span<const std::int32_t> new_site,
                      WriteOptions& options) {
-  if (const Eigen::VectorXd old = options.site_density; old.size() > 0)
+  for (Eigen::VectorXd* values : {&options.site_density, &options.site_depth}) {
+    const Eigen::VectorXd old = *values;
     for (Eigen::Index i = 0; i < old.size(); ++i)
-      options.site_density[new_site[static_cast<std::size_t>(i)]] = old[i];
+      (*values)[new_site[static_cast<std::size_t>(i)]] = old[i];
+  }
   mesh_detail::CanonicalPlaces places;
   EdgeOrder edges;
   for (MeshField& field : options.fields) {

@@ -8,6 +8,7 @@
 #include <calotte/delaunay.h>
 #include <calotte/density.h>
 #include <calotte/error.h>
+#include <calotte/voronoi.h>
 
 #include <doctest/doctest.h>
 
@@ -50,12 +51,12 @@ std::vector<NamedMesh> meshes() {
   return all;
 }
 
-/// A density that differs from cell to cell.
+/// A density that differs from cell to cell, and is that of the cells' areas, roughly.
 WriteOptions options_of(const Mesh& mesh, double radius, Format format) {
   WriteOptions options{.format = format, .sphere_radius = radius};
-  options.site_density.resize(mesh.points.cols());
+  options.site_density = voronoi(mesh).cell_area.cwiseAbs().cwiseInverse().cwiseAbs2();
   for (Eigen::Index i = 0; i < mesh.points.cols(); ++i)
-    options.site_density[i] = 2 + mesh.points.col(i).normalized().z();
+    options.site_density[i] *= 2 + mesh.points.col(i).normalized().z();
   return options;
 }
 

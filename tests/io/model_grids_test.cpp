@@ -169,6 +169,26 @@ void require_attributes(const NetcdfReader& file, double radius, const std::stri
   }
 }
 
+/// The bounds of the faces' longitudes and latitudes are those of their nodes, in their order; the
+/// last one fills the row.
+void require_bounds(const NetcdfReader& file) {
+  const std::vector<std::int64_t> shape = file.shape_of("mesh_face_nodes");
+  const std::vector<std::int32_t> ids = file.ints("mesh_face_nodes", shape);
+  for (const std::string axis : {"lon", "lat"}) {
+    const std::string name = file.text("mesh_face_" + axis, "bounds");
+    REQUIRE(file.shape_of(name) == shape);
+    const std::vector<double> bounds = file.doubles(name, shape),
+                              nodes = file.doubles("mesh_node_" + axis, {-1});
+    std::int32_t last = -1;
+    int wrong = 0;
+    for (std::size_t k = 0; k < ids.size(); ++k) {
+      last = ids[k] >= 0 ? ids[k] : last;
+      wrong += bounds[k] != nodes[static_cast<std::size_t>(last)];
+    }
+    CHECK(wrong == 0);
+  }
+}
+
 /// The polygons whose corners a table of node ids names; every node is a corner of three.
 std::vector<std::vector<Vec3>> polygons(const NetcdfReader& file, const std::string& name,
                                         const Points3& nodes) {
@@ -403,6 +423,7 @@ TEST_CASE("UGRID says what its variables are") {
     CHECK(file.number("mesh_face_nodes", "start_index", -1) == 0);
     CHECK(file.text("mesh_node_lat", "units") == "degrees_north");
     CHECK(file.text("mesh_node_lon", "units") == "degrees_east");
+    require_bounds(file);
   }
 }
 

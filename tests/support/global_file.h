@@ -98,7 +98,7 @@ inline void write_global(const Scratch& scratch, const std::string& path, const 
   WriteOptions options;
   options.format = Format::mpas;
   options.sphere_radius = file.radius;
-  options.density = tanh_bump({0, 0, 1}, 0.5, 0.2, 1.0 / 256);
+  options.density = tanh_bump({0, 0, 1}, 0.5, 0.2, 0.5); // about that of the lattice
   options.history = "made by a test";
   write(plain, spherical_delaunay(fibonacci_sphere(file.cells)), options);
   int in = -1, out = -1, dimensions = 0, variables = 0, attributes = 0, unlimited = -1;

@@ -184,7 +184,7 @@ TEST_CASE("standard input and output take the place of files") {
   bench.file("points.txt", octahedron);
   CHECK(bench.run("delaunay - -o mesh.tri <points.txt").code == 0);
   CHECK(bench.run("check mesh.tri --points - <points.txt").code == 0);
-  const Outcome points = bench.run("points icosahedron 0 -o -");
+  const Outcome points = bench.run("points icosahedron 12 -o -");
   CHECK(points.code == 0);
   CHECK(std::count(points.out.begin(), points.out.end(), '\n') == 12);
 }
@@ -280,11 +280,17 @@ TEST_CASE("every kind of points") {
   CHECK(count("random 7") == 7);
   CHECK(count("fibonacci 7") == 7);
   CHECK(count("spiral 7") == 7);
-  CHECK(count("icosahedron 2") == 162);
   CHECK(count("geodesic 163") == 163);
+  CHECK(count("icosahedron 162") == 162);
   CHECK(count("latlon 4") == 32);
   CHECK(count("latlon 4 --poles") == 34);
   CHECK(count("cubed 3") == 54);
+  const std::string bisected = "a bisected icosahedron has 12, 42, 162, 642 and so on points, not ";
+  check_refusal(bench, "points icosahedron 5 -o a.txt", 2, bisected + "5; give 12");
+  check_refusal(bench, "points icosahedron 100 -o a.txt", 2, bisected + "100; give 42 or 162");
+  check_refusal(
+      bench, "points icosahedron 10000000000 -o a.txt", 2,
+      "a bisected icosahedron of 10000000000 points is too large; give 671088642 or fewer");
 }
 
 TEST_CASE("the weather stations become a mesh") {
@@ -298,7 +304,7 @@ TEST_CASE("the weather stations become a mesh") {
 
 TEST_CASE("info prints a table of the mesh as a grid, and reports the same as JSON") {
   const Bench bench;
-  CHECK(bench.run("points icosahedron 0 -o points.txt").code == 0);
+  CHECK(bench.run("points icosahedron 12 -o points.txt").code == 0);
   CHECK(bench.run("delaunay points.txt -o mesh.tri").code == 0);
   const Outcome shown = bench.run("info mesh.tri --points points.txt --report report.json");
   CHECK(shown.code == 0);
@@ -339,7 +345,7 @@ TEST_CASE("info prints a table of the mesh as a grid, and reports the same as JS
 
 TEST_CASE("info measures against a density") {
   const Bench bench;
-  CHECK(bench.run("points icosahedron 2 -o points.txt").code == 0);
+  CHECK(bench.run("points icosahedron 162 -o points.txt").code == 0);
   CHECK(bench.run("delaunay points.txt -o mesh.vtp").code == 0);
   const Outcome uniform = bench.run("info mesh.vtp --density uniform");
   const Outcome bump =
@@ -355,7 +361,7 @@ TEST_CASE("info measures against a density") {
 
 TEST_CASE("info converts distances to km where a radius is known") {
   const Bench bench;
-  CHECK(bench.run("points icosahedron 0 -o points.txt").code == 0);
+  CHECK(bench.run("points icosahedron 12 -o points.txt").code == 0);
   CHECK(bench.run("delaunay points.txt -o mesh.vtp").code == 0);
   CHECK(bench.run("convert mesh.vtp mesh.nc --sphere-radius 1000000").code == 0);
   CHECK(bench.run("info mesh.vtp").out.find("km") == std::string::npos);

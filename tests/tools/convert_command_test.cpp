@@ -374,7 +374,13 @@ TEST_CASE("cut: a limited-area grid, which other commands read") {
   CHECK(made.err.empty());
   CHECK(made.code == 0);
   CHECK(made.out == "region.nc: 79 cells, 27 in the region and 52 in 2 rings around it, 270 edges, "
-                    "192 vertices\n");
+                    "192 vertices\n"
+                    "region.nc: unit sphere, for MPAS-Atmosphere; for others see --for\n");
+  const Outcome without = bench.run("cut global.nc --region circle=10,50,1500km -o a.nc --rings 0");
+  CHECK(without.out.starts_with("a.nc: 27 cells, all in the region, without rings, "));
+  CHECK(bench.file("a.nc").find("1 to 0") == std::string::npos);
+  CHECK(bench.run("cut global.nc --region circle=10,50,1500km -o a.nc --rings 1")
+            .out.find(" in 1 ring around it, ") != std::string::npos);
   CHECK(bench.names().contains("region.graph.info"));
   CHECK(bench.run("check region.nc").code == 0);
   CHECK(bench.run("cut global.nc --region channel=-20,20 -o band.nc --keep-radius").code == 0);

@@ -96,7 +96,7 @@ TEST_CASE("widths that are none are refused") {
                 "--cell-width applies to the sphere only; give --density or --density-raster");
 }
 
-TEST_CASE("MPAS files of grids in km have the Earth's radius by default, others 1") {
+TEST_CASE("files are on the unit sphere by default, also those of grids in km") {
   const Bench bench;
   const auto spacing = [&](const std::string& arguments) {
     good(bench, "cvt --cell-width 7000km --iterations 1 -o mesh.nc " + arguments);
@@ -104,16 +104,16 @@ TEST_CASE("MPAS files of grids in km have the Earth's radius by default, others 
     const std::size_t from = shown.find("spacing, ");
     return shown.substr(from, shown.find(' ', from + 22) - from);
   };
-  CHECK(spacing("") == "spacing, km           7053.9"); // atan(2) times 6371.229
-  CHECK(spacing("--format mpas-minimal") == "spacing, km           7053.9");
-  CHECK(spacing("--sphere-radius earth") == "spacing, km           7053.9");
+  CHECK(spacing("") == "spacing, degrees      63.4349");
+  CHECK(spacing("--format mpas-minimal") == "spacing, degrees      63.4349");
+  CHECK(spacing("--sphere-radius earth") == "spacing, km           7053.9"); // atan(2) 6371.229
   CHECK(spacing("--sphere-radius 1") == "spacing, degrees      63.4349");
   CHECK(spacing("--sphere-radius 2e6") == "spacing, km           2214.3");
   CHECK(spacing("--format ugrid") == "spacing, degrees      63.4349");
   good(bench, "cvt --cells 12 -o unit.nc");
   CHECK(has(good(bench, "info unit.nc").out, "spacing, degrees "));
-  good(bench, "convert unit.nc earth.nc --cell-width 7000km");
-  CHECK(has(good(bench, "info earth.nc").out, "spacing, km           7053.9"));
+  good(bench, "convert unit.nc same.nc --cell-width 7000km");
+  CHECK(has(good(bench, "info same.nc").out, "spacing, degrees "));
 }
 
 TEST_CASE("info speaks in km, degrees or radians") {

@@ -110,7 +110,7 @@ TEST_CASE("a density: spacings and their gradient are those of a profile in clos
 TEST_CASE("file sizes are those of the files that cvt writes") {
   const Bench bench;
   const nlohmann::json json = plan(bench, "--cells 2562 --density uniform");
-  CHECK(bench.run("points icosahedron 4 -o points.txt").code == 0);
+  CHECK(bench.run("points icosahedron 2562 -o points.txt").code == 0);
   constexpr double head = 20000;
   for (const auto& [name, key] :
        {std::pair("mesh.nc", "mpas_bytes"), std::pair("mesh.vtp", "vtp_bytes")}) {

@@ -166,8 +166,7 @@ void add_quadrature(CLI::App& command, CvtRequest& request) {
 
 void add_files(CLI::App& command, CvtRequest& request) {
   command.add_option("-o,--output", request.mesh, help_of_output())->type_name("FILE")->required();
-  request.format = add_format(
-      command, "1; for MPAS the Earth's with --cell-width, or 1000 times --earth-radius if given");
+  request.format = add_format(command);
   command
       .add_option("--report", request.report, "Write the data of every iteration to this JSON file")
       ->type_name("FILE");
@@ -261,11 +260,7 @@ CvtOptions options_of(const CvtRequest& request) {
 }
 
 WriteOptions write_options(const CvtRequest& request) {
-  WriteOptions options = options_of(*request.format, request.mesh);
-  const WidthWords& widths = request.density->widths;
-  if (!request.format->sphere_radius && widths.in_km() && is_mpas(options.format))
-    options.sphere_radius = model_radius(widths);
-  return options;
+  return options_of(*request.format, request.mesh);
 }
 
 std::shared_ptr<CvtRequest> add_cvt_options(CLI::App& command) {

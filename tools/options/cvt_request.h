@@ -76,8 +76,7 @@ std::string norm_word(const CvtRequest& request);
 /// \throws Error bad_option.
 CvtOptions options_of(const CvtRequest& request);
 
-/// The options of the mesh file, without density and history. An MPAS file of a grid whose widths
-/// are in km has the Earth's radius unless another is given.
+/// The options of the mesh file, without density and history.
 /// \throws Error as options_of(FormatWords) does.
 WriteOptions write_options(const CvtRequest& request);
 

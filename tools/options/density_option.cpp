@@ -275,6 +275,12 @@ std::string density_name(const DensityWords& words) {
   return name;
 }
 
+std::string derived_density(const std::string& path, const Eigen::VectorXd& density) {
+  return path + ": no density is given; meshDensity follows from the smoothed spacing of the " +
+         "cells, which varies by a factor of " +
+         formatted("%.3g", std::pow(density.minCoeff(), -0.25)) + "\n";
+}
+
 std::string density_configuration(const DensityWords& words) {
   if (words.widths.given())
     return width_configuration(words.widths);

@@ -48,6 +48,10 @@ std::vector<std::string> density_names(const DensityWords& words);
 /// These in one line, joined by "and".
 std::string density_name(const DensityWords& words);
 
+/// A line that says that a file's density follows from the spacing of its cells.
+/// \param density as spacing_density() returns it; not empty.
+std::string derived_density(const std::string& path, const Eigen::VectorXd& density);
+
 /// The input that determines it, lines "name value" for a run's configuration; for a file, its
 /// contents.
 /// \throws Error file.

@@ -17,12 +17,29 @@ namespace {
 const std::map<std::string, Numbering> numberings{
     {"curve", Numbering::curve}, {"rcm", Numbering::rcm}, {"input", Numbering::input}};
 
+/// The word of a format.
+std::string word_of(Format format) {
+  for (const auto& [word, of] : format_words())
+    if (of == format)
+      return word;
+  return "";
+}
+
 Format format_of(const FormatWords& words, const std::string& path) {
   Format given = Format::by_name;
   for (const auto& [word, format] : format_words())
     if (words.format == word)
       given = format;
-  return calotte::format_of(path, given);
+  const Model* const model = model_of(words.model);
+  const Format format = calotte::format_of(path, given);
+  if (model != nullptr && model->format != format)
+    throw Error(
+        ErrorCode::bad_option,
+        path + ": --for " + model->word + " writes the format " + word_of(model->format) +
+            ", not " + word_of(format) + "; give " +
+            (model->format == Format::fesom ? "the name nod2d.out" : "a name that ends in .nc") +
+            (words.format ? ", and leave --format out" : ""));
+  return format;
 }
 
 /// Nothing for a name that is no mesh's.
@@ -68,6 +85,7 @@ std::shared_ptr<FormatWords> add_format(CLI::App& command, const std::string& de
   std::vector<std::string> known;
   for (const auto& [word, format] : format_words())
     known.push_back(word);
+  add_model(command, words->model);
   command
       .add_option("--format", words->format,
                   "Format of the mesh; default: by the file name. NetCDF: mpas (complete), "
@@ -109,8 +127,14 @@ std::string help_of_output() {
 WriteOptions options_of(const FormatWords& words, const std::string& path) {
   WriteOptions options;
   options.format = format_of(words, path);
+  const Model* const model = model_of(words.model);
   options.sphere_radius = words.sphere_radius.value_or(options.sphere_radius);
   require_radius(options.sphere_radius, options.format, path);
+  if (model != nullptr) {
+    options.sphere_radius = *radius_for(model, words.sphere_radius);
+    options.numbering = model->numbering;
+    options.dimensions = model->dimensions;
+  }
   if (words.order)
     options.numbering = numberings.at(*words.order);
   if (words.order && *words.order != "input" && options.format == Format::triangles)

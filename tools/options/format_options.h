@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "options/model_option.h"
 #include "options/sphere_radius_option.h"
 
 #include <calotte/io.h>
@@ -18,9 +19,10 @@ struct FormatWords {
   std::optional<std::string> format; ///< by the file's name where none is given
   std::optional<std::string> order;  ///< by the format
   std::optional<double> sphere_radius;
+  std::optional<std::string> model; ///< --for
 };
 
-/// Adds --format, --sphere-radius and --order.
+/// Adds --for, --format, --sphere-radius and --order.
 /// \param default_radius for the help.
 std::shared_ptr<FormatWords> add_format(CLI::App& command, const std::string& default_radius = "1");
 
@@ -39,14 +41,15 @@ bool holds_triangles(const std::string& path);
 /// The help of an option for a mesh that is written in the format of its name or of --format.
 std::string help_of_output();
 
-/// Whether the format is MPAS's, which models read: its lengths are in metres.
+/// Whether the format is MPAS's.
 bool is_mpas(Format format);
 
-/// Without density and history, for a file of this name.
+/// Without density and history, for a file of this name. A model determines what the other options
+/// do not give.
 /// \throws Error bad_option, before any work: for a name that is no mesh's, or of another format
-///         than --format; for a radius that is not positive, or not 1 where the format takes points
-///         as they are; for an order of triangles alone, which go with the points they were made
-///         from.
+///         than --format or the model's; for a radius that the model cannot use, or one that is not
+///         positive, or not 1 where the format takes points as they are; for an order of triangles
+///         alone, which go with the points they were made from.
 WriteOptions options_of(const FormatWords& words, const std::string& path);
 
 } // namespace calotte::tools

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "options/global_option.h"
 
+#include "options/model_option.h"
+
 #include <calotte/error.h>
 #include <calotte/write.h>
 
@@ -18,6 +20,14 @@ void require_mpas_name(const std::string& output) {
   if (format_of(output) != Format::mpas)
     throw Error(ErrorCode::bad_option,
                 output + ": the grid is an MPAS file; give a name that ends in .nc");
+}
+
+void require_mpas_model(const std::optional<std::string>& model) {
+  if (const Model* const known = model_of(model); known != nullptr && known->format != Format::mpas)
+    throw Error(ErrorCode::bad_option,
+                "--for " + known->word +
+                    ": the grid is an MPAS file; leave the option out, and convert the grid with "
+                    "calotte convert GRID.nc nod2d.out");
 }
 
 } // namespace calotte::tools

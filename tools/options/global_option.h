@@ -3,6 +3,7 @@
 
 #include <CLI/App.hpp>
 
+#include <optional>
 #include <string>
 
 /// The global MPAS file from which a command takes a part, and the name of that part.
@@ -13,5 +14,9 @@ void add_global(CLI::App& command, std::string& path);
 
 /// \throws Error bad_option unless the name is that of a complete MPAS file.
 void require_mpas_name(const std::string& output);
+
+/// \param model the word of --for, if given.
+/// \throws Error bad_option for a model that reads other formats.
+void require_mpas_model(const std::optional<std::string>& model);
 
 } // namespace calotte::tools

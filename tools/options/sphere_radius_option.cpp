@@ -43,9 +43,4 @@ void warn_of_radius(double metres, const std::string& origin) {
          ", or --sphere-radius earth (" + shortest(earth_radius) + " m)");
 }
 
-double model_radius(const WidthWords& words) {
-  constexpr double metres = 1000; // a km
-  return words.radius == earth_radius_km ? earth_radius : metres * words.radius;
-}
-
 } // namespace calotte::tools

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "options/cell_width_option.h"
-
 #include <CLI/App.hpp>
 
 #include <optional>
@@ -24,9 +22,5 @@ void require_sphere_radius(double metres);
 /// Warns of a radius of 1000 to 10 000 m, which may be in km.
 /// \param origin the option or the file that gives it.
 void warn_of_radius(double metres, const std::string& origin);
-
-/// The radius in metres of a model's sphere whose cell widths are in km: that of --earth-radius;
-/// the Earth's in MPAS if that is not given.
-double model_radius(const WidthWords& words);
 
 } // namespace calotte::tools

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/command.h"
+
+#include <calotte/mesh_file.h>
+#include <calotte/read.h>
+
+#include <doctest/doctest.h>
+
+#include <sstream>
+#include <string>
+
+// --for: the files that models read.
+
+using namespace calotte::test;
+
+namespace {
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+std::string good(const Bench& bench, const std::string& arguments) {
+  CAPTURE(arguments);
+  const Outcome outcome = bench.run(arguments);
+  CAPTURE(outcome.err);
+  CHECK(outcome.code == 0);
+  return outcome.out;
+}
+
+double radius_of(const Bench& bench, const std::string& name) {
+  return calotte::read_mesh_file(bench.folder() / name).sphere_radius;
+}
+
+const std::string others = "; for others see --for\n";
+
+} // namespace
+
+TEST_CASE("a model sets the radius, in every command that writes a mesh") {
+  const Bench bench;
+  good(bench, "points fibonacci 600 -o points.txt");
+  const auto check = [&](const std::string& arguments, double radius, const std::string& names) {
+    CAPTURE(arguments);
+    const std::string said = good(bench, arguments + " -o mesh.nc");
+    CHECK(radius_of(bench, "mesh.nc") == radius);
+    CHECK(has(said, "mesh.nc: " + std::string(radius == 1 ? "unit sphere" : "sphere of 6371220 m") +
+                        ", for " + names + others));
+  };
+  const std::string sw = "MPAS-Atmosphere and MPAS' shallow-water core";
+  for (const std::string command : {"cvt --cells 600 --iterations 2", "delaunay points.txt"}) {
+    check(command, 1, "MPAS-Atmosphere");
+    check(command + " --for mpas-atmosphere", 1, "MPAS-Atmosphere");
+    check(command + " --for mpas-sw", 1, sw);
+    check(command + " --for mpas-ocean", 6371220, "MPAS-Ocean");
+  }
+  check("cvt --region circle=10,50,900km --cell-width 100km --limited-area --iterations 2", 1,
+        "MPAS-Atmosphere");
+  good(bench, "delaunay points.txt -o earth.nc --for mpas-ocean");
+  check("convert earth.nc", 6371220, "MPAS-Ocean");
+  check("convert earth.nc --for mpas-atmosphere", 1, "MPAS-Atmosphere");
+  const std::string cut = "cut earth.nc --region circle=10,50,3000km --rings 2";
+  check(cut, 1, "MPAS-Atmosphere");
+  check(cut + " --for mpas-sw", 1, sw);
+  check(cut + " --for mpas-ocean", 6371220, "MPAS-Ocean");
+  const std::string cull = " --field latCell --sea-below 0";
+  check("cull earth.nc" + cull, 6371220, "MPAS-Ocean");
+  good(bench, "delaunay points.txt -o unit.nc");
+  check("cull unit.nc" + cull, 1, "MPAS-Atmosphere");
+  check("cull unit.nc --for mpas-ocean" + cull, 6371220, "MPAS-Ocean");
+  good(bench, "convert unit.nc nod2d.out --for fesom");
+  CHECK(good(bench, "convert unit.nc grid.nc --format scrip") ==
+        "grid.nc: 600 sites, 1196 triangles, closed\n");
+}
+
+TEST_CASE("a model does not replace what is given: a contradiction is an error") {
+  const Bench bench;
+  const std::string run = "cvt --cells 42 --iterations 1 ";
+  good(bench, run + "-o mesh.nc --for mpas-ocean --sphere-radius earth");
+  CHECK(radius_of(bench, "mesh.nc") == 6371229);
+  CHECK(has(good(bench, run + "-o mesh.nc --sphere-radius 2"),
+            "mesh.nc: sphere of 2 m, for no model that is known" + others));
+  check_refusal(bench, run + "-o a.nc --for mpas-atmosphere --sphere-radius earth", 2,
+                "--for mpas-atmosphere needs a sphere with a radius of 1, not --sphere-radius "
+                "6371229; leave one of them out");
+  check_refusal(bench, run + "-o a.nc --for mpas-ocean --sphere-radius 1", 2,
+                "--for mpas-ocean needs a sphere with a radius of 6371220, not --sphere-radius 1; "
+                "leave one of them out");
+  check_refusal(bench, run + "-o a.nc --for mpas-ocean --format ugrid", 2,
+                "a.nc: --for mpas-ocean writes the format mpas, not ugrid; give a name that ends "
+                "in .nc, and leave --format out");
+  check_refusal(bench, run + "-o a.vtp --for mpas-sw", 2,
+                "a.vtp: --for mpas-sw writes the format mpas, not vtp; give a name that ends in "
+                ".nc");
+  check_refusal(bench, run + "-o a.nc --for fesom", 2,
+                "a.nc: --for fesom writes the format fesom, not mpas; give the name nod2d.out");
+  check_refusal_naming(bench, "cut mesh.nc --region circle=0,0,30deg -o a.nc --for fesom", 2,
+                       "--for fesom: the grid is an MPAS file");
+  check_refusal_naming(bench,
+                       "cut mesh.nc --region circle=0,0,30deg -o a.nc --for mpas-ocean "
+                       "--sphere-radius 1",
+                       2, "--for mpas-ocean needs");
+  check_refusal_naming(bench, run + "-o a.nc --for wrf", 2, "--for");
+}
+
+TEST_CASE("a mesh without a density gets that of its spacing, and says so") {
+  const Bench bench;
+  const std::string bump = " --density tanh:lon=0,lat=90,beta=40deg,alpha=0.3,gamma=x6";
+  good(bench, "cvt --cells 1500 -o mesh.msh" + bump);
+  const auto density = [&](const std::string& name) {
+    return calotte::read_mesh_file(bench.folder() / name).density;
+  };
+  const std::string said = good(bench, "convert mesh.msh grid.nc");
+  CHECK(has(said, "grid.nc: no density is given; meshDensity follows from the smoothed spacing of "
+                  "the cells, which varies by a factor of "));
+  CHECK(density("grid.nc").maxCoeff() == 1);
+  CHECK(density("grid.nc").minCoeff() < 1 / std::pow(4.0, 4));
+  good(bench, "check grid.nc");
+  const std::string given = good(bench, "convert mesh.msh grid.nc" + bump);
+  CHECK(!has(given, "no density is given"));
+  good(bench, "convert mesh.msh uniform.nc --density uniform");
+  CHECK(density("uniform.nc").minCoeff() == 1);
+  const Outcome wrong = bench.run("check uniform.nc");
+  CHECK(wrong.code == 1);
+  CHECK(has(wrong.out, "meshDensity: the cells (dcEdge) are "));
+  // What another program stored as 1 is as good as none.
+  CHECK(has(good(bench, "convert uniform.nc again.nc"), "no density is given"));
+  good(bench, "check again.nc");
+  good(bench, "cvt --cells 642 -o even.vtp");
+  CHECK(!has(good(bench, "convert even.vtp even.nc"), "no density is given"));
+  CHECK(density("even.nc").minCoeff() == 1);
+}
+
+TEST_CASE("FESOM: an ocean without ears, and its depths") {
+  const Bench bench;
+  good(bench, "points random 1500 --seed 3 -o points.txt");
+  good(bench, "delaunay points.txt -o global.nc");
+  bench.file("land.geojson", R"({"type":"Polygon","coordinates":[[[0,-60],[30,-60],[40,0],[30,60],)"
+                             R"([0,60],[-10,0],[0,-60]]]})");
+  good(bench, "cull global.nc --land land.geojson -o ocean.nc");
+  const std::string said =
+      good(bench, "convert ocean.nc nod2d.out --for fesom --depth-levels 0,10,30,100 --depth 80");
+  CHECK(has(said, "nod2d.out: without "));
+  CHECK(has(said, " triangles of fewer than two neighbours, and without the "));
+  const calotte::Mesh mesh = calotte::read_mesh(bench.folder() / "nod2d.out");
+  for (const auto& neighbours : mesh.neighbours.colwise())
+    CHECK((neighbours.array() >= 0).count() >= 2);
+  std::istringstream depths(bench.file("aux3d.out"));
+  std::int64_t count = 0;
+  for (std::string line; std::getline(depths, line);)
+    ++count;
+  CHECK(count == 1 + 4 + mesh.points.cols());
+  bench.file("levels.txt", "0\n-5\n-50\n");
+  good(bench, "convert ocean.nc nod2d.out --depth-levels levels.txt --depth mapCulledToBaseCell");
+  CHECK(bench.file("aux3d.out").starts_with("3\n0\n-5\n-50\n"));
+  check_refusal(bench, "convert ocean.nc nod2d.out --depth-levels 0,5,x --depth 3", 2,
+                "--depth-levels 0,5,x: \"x\" is not a number; give metres");
+  check_refusal_naming(bench, "convert ocean.nc nod2d.out --depth-levels 0,5,9 --depth none", 2,
+                       "--depth none: the input has no field of that name");
+  check_refusal_naming(bench, "convert ocean.nc nod2d.out --depth 9", 2, "--depth-levels");
+  check_refusal_naming(bench, "convert ocean.nc a.vtp --depth 9 --depth-levels 0,5,9", 2,
+                       "a.vtp: --depth-levels applies to FESOM's nod2d.out");
+}

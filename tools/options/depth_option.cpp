@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "options/depth_option.h"
+
+#include "options/numbers.h"
+
+#include <calotte/error.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <vector>
+
+namespace calotte::tools {
+namespace {
+
+[[noreturn]] void refuse(const std::string& problem) {
+  throw Error(ErrorCode::bad_option, problem);
+}
+
+std::optional<double> number_of(const std::string& text) {
+  double value = 0;
+  return CLI::detail::lexical_cast(text, value) ? std::optional(value) : std::nullopt;
+}
+
+/// The text of the option, or that of the file which it names.
+std::string text_of(const std::string& word) {
+  if (word.find(',') != std::string::npos)
+    return word;
+  std::ifstream in(word);
+  if (!in)
+    throw Error(ErrorCode::file, "cannot read " + word +
+                                     "; give --depth-levels numbers such as 0,10,30,100, or a "
+                                     "file of them");
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+Eigen::VectorXd levels_of(const std::string& word) {
+  std::string text = text_of(word);
+  std::replace(text.begin(), text.end(), ',', ' ');
+  std::istringstream in(text);
+  std::vector<double> levels;
+  for (std::string item; in >> item;) {
+    const std::optional<double> level = number_of(item);
+    if (!level)
+      refuse("--depth-levels " + word + ": \"" + item + "\" is not a number; give metres");
+    levels.push_back(*level);
+  }
+  return Eigen::Map<const Eigen::VectorXd>(levels.data(), std::ssize(levels));
+}
+
+/// The depths of a field of depths, or of heights, of which those of the sea are below 0.
+Eigen::VectorXd bottom_of(const std::string& name, const MeshFile& file) {
+  const std::int64_t sites = file.mesh ? file.mesh->points.cols() : 0;
+  if (const std::optional<double> flat = number_of(name))
+    return Eigen::VectorXd::Constant(sites, *flat);
+  for (const MeshField& field : file.fields)
+    if (field.name == name && field.location == Location::cells && field.values.size() == sites)
+      return field.values.minCoeff() < 0 ? (-field.values).cwiseMax(0.0).eval() : field.values;
+  refuse("--depth " + name +
+         ": the input has no field of that name with a number for each cell; give another, or "
+         "metres for a flat bottom");
+}
+
+} // namespace
+
+void add_depths(CLI::App& command, DepthWords& words) {
+  CLI::Option* const levels =
+      command
+          .add_option("--depth-levels", words.levels,
+                      "Bounds of the layers for FESOM's aux3d.out, metres, 0 first: numbers such "
+                      "as 0,10,30,100, at least 3, or a file of them. Default: none, no aux3d.out")
+          ->type_name("LIST|FILE");
+  CLI::Option* const bottom =
+      command
+          .add_option("--depth", words.bottom,
+                      "Depth of the bottom for aux3d.out: a field with a number for each cell, of "
+                      "depths or of heights, or metres for a flat bottom")
+          ->type_name("NAME|METRES");
+  levels->needs(bottom);
+  bottom->needs(levels);
+}
+
+void set_depths(const DepthWords& words, const MeshFile& file, WriteOptions& options) {
+  if (!words.given())
+    return;
+  options.depth_levels = levels_of(*words.levels);
+  options.site_depth = bottom_of(*words.bottom, file);
+}
+
+} // namespace calotte::tools

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <calotte/model.h>
+
+#include <CLI/App.hpp>
+
+#include <optional>
+#include <string>
+
+namespace calotte::tools {
+
+/// Adds --for.
+/// \param word receives the word of the model.
+CLI::Option* add_model(CLI::App& command, std::optional<std::string>& word);
+
+/// The model of a word; null without one.
+const Model* model_of(const std::optional<std::string>& word);
+
+/// The radius of a file for a model.
+/// \param given value of --sphere-radius, which stays.
+/// \returns nothing without a radius and without a model.
+/// \throws Error bad_option, for a radius that the model cannot use.
+std::optional<double> radius_for(const Model* model, std::optional<double> given);
+
+/// A line on the models that an MPAS file of the sphere suits; "" for other formats.
+/// \param format not by_name.
+std::string suited_models(const std::string& path, Format format, double sphere_radius,
+                          const std::vector<FieldDimension>& dimensions);
+
+} // namespace calotte::tools
