@@ -58,6 +58,10 @@ TEST_CASE("a width in km makes a uniform grid of the Earth, with the number of c
   good(bench, "cvt --cells 642 -o plain.vtp");
   CHECK(bench.file("mesh.vtp") == bench.file("plain.vtp"));
   CHECK(has(good(bench, "cvt --cell-width 1000km -o other.vtp").out, " 589 cells, "));
+  CHECK(has(good(bench, "plan --cell-width 1000km").out, "\ncells                 589\n"));
+  CHECK(has(good(bench, "cvt --cell-width 400km -o finer.vtp").out, " 3672 cells, converged, "));
+  CHECK(has(good(bench, "plan --cell-width 400km").out, "\ncells                 3672\n"));
+  CHECK(has(good(bench, "info finer.vtp").out, "\ndegree: cells         5: 12, 6: 3660\n"));
   CHECK(has(good(bench, "cvt --cell-width 300km --earth-radius 1000 -o small.vtp").out,
             " 161 cells, "));
 }
