@@ -87,6 +87,12 @@ struct CvtOptions {
   /// four times the weight. A mesh within the limits does not change. A descent before a finish
   /// also converges when 45 evaluations have not halved its norm. Default false: a pure CVT.
   bool well_centred = false;
+  /// In a finish: the least length of a Delaunay edge over the spacing that the density demands
+  /// there; 0 to 0.95. The shortest edge decides the stable step of gravity waves. Values near 1
+  /// move many generators away from their centroids. Where the widths do not allow it, the report
+  /// is not well_centred. Default 0.8.
+  double least_spacing = usual_least_spacing;
+  static constexpr double usual_least_spacing = 0.8; ///< its default
   /// Quadrature points per half kite: 1, 3, 6, 7, 13 or 19; no effect for uniform density.
   int rule = 3;
   /// Rule from the iteration on in which the norm is at most ten times the tolerance or a line

@@ -52,6 +52,9 @@ void require_options(const CvtOptions& options) {
   if (options.triangle_divisions < 1 || options.triangle_divisions > 100)
     refuse("triangle_divisions is " + std::to_string(options.triangle_divisions) +
            "; give a number from 1 to 100");
+  if (!(options.least_spacing >= 0 && options.least_spacing <= 0.95))
+    refuse("least_spacing is " + std::to_string(options.least_spacing) +
+           "; give a share of the demanded spacing, 0 to 0.95");
   quadrature_rule(options.rule);
   quadrature_rule(options.final_rule);
 }
@@ -138,7 +141,9 @@ Ending iterate(const World& world, CvtState& whole, Level&& level, const CvtOpti
   const Clock::time_point start = Clock::now();
   const std::unique_ptr<Functional> functional =
       world.functional(state.points, options, std::move(level));
-  functional->penalise_shapes(state.penalty, state.demanded_spacing);
+  ShapeLimits limits = shape_limits;
+  limits.least_spacing = options.least_spacing;
+  functional->penalise_shapes(state.penalty, state.demanded_spacing, limits);
   functional->hold(fixed_generators(state));
   Descent descent(state, options, *functional);
   const bool resumed = state.iterations_of_level > 0;

@@ -194,9 +194,10 @@ public:
 
   void set_centroids(const Points3& points, const Evaluation& at, Points3& to) const override;
 
-  void penalise_shapes(double factor, double spacing) override {
+  void penalise_shapes(double factor, double spacing, const ShapeLimits& limits) override {
     penalty_ = factor;
     demanded_spacing_ = spacing;
+    limits_ = limits;
   }
   void hold(std::vector<std::uint8_t> fixed) override { fixed_ = std::move(fixed); }
   std::int64_t glide(Points3& points) override {
@@ -220,9 +221,10 @@ private:
   Tessellation<Cells> tessellation_;
   Density density_;
   Integrand coarse_, fine_;
-  int rule_, final_rule_;           ///< their numbers of points, 0 where none is used
-  double penalty_ = 0;              ///< factor of the penalty of shape.h
-  double demanded_spacing_ = 1;     ///< at rho = 1
+  int rule_, final_rule_;       ///< their numbers of points, 0 where none is used
+  double penalty_ = 0;          ///< factor of the penalty of shape.h
+  double demanded_spacing_ = 1; ///< at rho = 1
+  ShapeLimits limits_;
   std::vector<std::uint8_t> fixed_; ///< by generator, or empty
   Array<SiteTerms> terms_;          ///< of the last evaluation
 };
@@ -297,8 +299,8 @@ void FunctionalOver<Cells>::add_penalty(const Points3& points, Evaluation& out) 
   const Eigen::VectorXd inverse_spacing =
       calotte::evaluate(density_, points).cwiseSqrt().cwiseSqrt() / demanded_spacing_;
   const ShapeTerms terms = add_shape_terms(tessellation_.cells(), tessellation_.mesh(),
-                                           tessellation_.distorted(inverse_spacing),
-                                           inverse_spacing, penalty_, out.gradient);
+                                           tessellation_.distorted(inverse_spacing, limits_),
+                                           inverse_spacing, limits_, penalty_, out.gradient);
   for_each_block(points.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     make_tangential(out.gradient, points, {begin, end});
   });

@@ -49,7 +49,7 @@ public:
 
   /// Adds a factor times the penalty of shape.h to each evaluation from here on.
   /// \param spacing that the density demands, times rho^(1/4).
-  virtual void penalise_shapes(double factor, double spacing) = 0;
+  virtual void penalise_shapes(double factor, double spacing, const ShapeLimits& limits) = 0;
 
   /// Holds generators where they are: each counts as being at its centroid, its gradient is 0, and
   /// it makes no motion.

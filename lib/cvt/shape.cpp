@@ -16,8 +16,6 @@
 namespace calotte::cvt_detail {
 namespace {
 
-constexpr ShapeLimits limits = shape_limits;
-
 /// The angle of a triangle at its vertex c, from a to b counter-clockwise.
 struct Angle {
   std::int32_t a, b, c;
@@ -82,10 +80,6 @@ Excess excess_of(double value, double least, double most) {
   return {std::max(value - most, 0.0), 1};
 }
 
-bool beyond_edges(double cotangent) {
-  return cotangent < limits.least_edge || cotangent > limits.most_edge;
-}
-
 /// The vertex of a triangle across from a neighbour.
 int across_from(const Connectivity& mesh, std::int32_t t, std::int32_t neighbour) {
   return mesh.neighbours(0, t) == neighbour ? 0 : mesh.neighbours(1, t) == neighbour ? 1 : 2;
@@ -93,8 +87,9 @@ int across_from(const Connectivity& mesh, std::int32_t t, std::int32_t neighbour
 
 template <class Cells> class Penalty {
 public:
-  Penalty(const Cells& cells, const Connectivity& mesh, const Eigen::VectorXd& inverse_spacing)
-      : cells_(cells), mesh_(mesh), inverse_spacing_(inverse_spacing) {}
+  Penalty(const Cells& cells, const Connectivity& mesh, const Eigen::VectorXd& inverse_spacing,
+          const ShapeLimits& limits)
+      : cells_(cells), mesh_(mesh), inverse_spacing_(inverse_spacing), limits_(limits) {}
 
   void add_triangle(std::int32_t t, Part& part) const {
     if (!is_inner(t))
@@ -105,7 +100,7 @@ public:
       const Angle angle = angle_at(mesh_, t, v);
       const Cotangent cotangent(cells_, angle);
       const Excess excess =
-          excess_of(cotangent.value, limits.least_cotangent, limits.most_cotangent);
+          excess_of(cotangent.value, limits_.least_cotangent, limits_.most_cotangent);
       if (excess.size > 0)
         part.add_shares(angle, cotangent, excess.sign * part.add(excess.size));
       add_side(angle, part);
@@ -115,6 +110,9 @@ public:
   }
 
 private:
+  bool beyond_edges(double cotangent) const {
+    return cotangent < limits_.least_edge || cotangent > limits_.most_edge;
+  }
   bool is_inner(std::int32_t t) const {
     const auto ids = mesh_.triangles.col(t);
     return ids.maxCoeff() < inverse_spacing_.size() && cells_.has_centre(ids[0], ids[1], ids[2]);
@@ -127,7 +125,7 @@ private:
                  demanded = (inverse_spacing_[angle.a] + inverse_spacing_[angle.b]) / 2;
     if (!(demanded > 0)) // where the density is 0, no length is too short
       return;
-    const Excess excess = excess_of(length * demanded, limits.least_spacing, limits.most_spacing);
+    const Excess excess = excess_of(length * demanded, limits_.least_spacing, limits_.most_spacing);
     if (!(excess.size > 0))
       return;
     const Vec3 pull = (excess.sign * part.add(excess.size) * demanded / length) * side;
@@ -147,7 +145,7 @@ private:
     if (beyond_edges(beyond.value) && other.c < angle.c)
       return;
     const Excess excess =
-        excess_of((cotangent.value + beyond.value) / 2, limits.least_edge, limits.most_edge);
+        excess_of((cotangent.value + beyond.value) / 2, limits_.least_edge, limits_.most_edge);
     if (!(excess.size > 0))
       return;
     const double slope = excess.sign * part.add(excess.size) / 2;
@@ -158,6 +156,7 @@ private:
   const Cells& cells_;
   const Connectivity& mesh_;
   const Eigen::VectorXd& inverse_spacing_;
+  const ShapeLimits& limits_;
 };
 
 /// The vertices of a triangle from the lowest on: a key that no other triangle has.
@@ -171,15 +170,16 @@ std::pair<std::int32_t, std::int32_t> key_of(const Connectivity& mesh, std::int3
 
 template <class Cells>
 bool is_distorted(const Cells& cells, const Connectivity& mesh,
-                  const Eigen::VectorXd& inverse_spacing, std::int32_t triangle) {
+                  const Eigen::VectorXd& inverse_spacing, const ShapeLimits& limits,
+                  std::int32_t triangle) {
   const auto ids = mesh.triangles.col(triangle);
   if (ids.maxCoeff() >= inverse_spacing.size())
     return false;
   const Vec3 &a = cells.place(ids[0]), &b = cells.place(ids[1]), &c = cells.place(ids[2]);
   const Vec3 ab = cells.offset(a, b), bc = cells.offset(b, c), ca = cells.offset(c, a);
   const Vec3 product = cross(ab, bc);
-  constexpr double least = std::max(limits.least_edge, limits.least_cotangent),
-                   most = std::min(limits.most_edge, limits.most_cotangent);
+  const double least = std::max(limits.least_edge, limits.least_cotangent),
+               most = std::min(limits.most_edge, limits.most_cotangent);
   const double area = norm(product), low = least * area, high = most * area;
   const double at_a = -dot(ca, ab), at_b = -dot(ab, bc), at_c = -dot(bc, ca);
   if (std::min({at_a, at_b, at_c}) < low || std::max({at_a, at_b, at_c}) > high)
@@ -194,15 +194,16 @@ bool is_distorted(const Cells& cells, const Connectivity& mesh,
 }
 
 template <class Cells>
-ShapeTerms
-add_shape_terms(const Cells& cells, const Connectivity& mesh, std::vector<std::int32_t> triangles,
-                const Eigen::VectorXd& inverse_spacing, double factor, Points3& gradient) {
+ShapeTerms add_shape_terms(const Cells& cells, const Connectivity& mesh,
+                           std::vector<std::int32_t> triangles,
+                           const Eigen::VectorXd& inverse_spacing, const ShapeLimits& limits,
+                           double factor, Points3& gradient) {
   constexpr std::int64_t chunk = 512;
   std::sort(triangles.begin(), triangles.end(),
             [&](std::int32_t t, std::int32_t u) { return key_of(mesh, t) < key_of(mesh, u); });
   const std::int64_t count = std::ssize(triangles);
   std::vector<Part> parts(static_cast<std::size_t>((count + chunk - 1) / chunk));
-  const Penalty<Cells> penalty(cells, mesh, inverse_spacing);
+  const Penalty<Cells> penalty(cells, mesh, inverse_spacing, limits);
   for_each_task(std::ssize(parts), [&](std::int64_t k) {
     for (std::int64_t i = k * chunk; i < std::min(count, (k + 1) * chunk); ++i)
       penalty.add_triangle(triangles[static_cast<std::size_t>(i)],
@@ -219,20 +220,19 @@ add_shape_terms(const Cells& cells, const Connectivity& mesh, std::vector<std::i
 }
 
 template bool is_distorted(const SphericalCells&, const Connectivity&, const Eigen::VectorXd&,
-                           std::int32_t);
-template bool is_distorted(const PlanarCells&, const Connectivity&, const Eigen::VectorXd&,
-                           std::int32_t);
+                           const ShapeLimits&, std::int32_t);
 template ShapeTerms add_shape_terms(const SphericalCells&, const Connectivity&,
-                                    std::vector<std::int32_t>, const Eigen::VectorXd&, double,
-                                    Points3&);
+                                    std::vector<std::int32_t>, const Eigen::VectorXd&,
+                                    const ShapeLimits&, double, Points3&);
+template bool is_distorted(const PlanarCells&, const Connectivity&, const Eigen::VectorXd&,
+                           const ShapeLimits&, std::int32_t);
 template ShapeTerms add_shape_terms(const PlanarCells&, const Connectivity&,
-                                    std::vector<std::int32_t>, const Eigen::VectorXd&, double,
-                                    Points3&);
-
+                                    std::vector<std::int32_t>, const Eigen::VectorXd&,
+                                    const ShapeLimits&, double, Points3&);
 template bool is_distorted(const RegionCells&, const Connectivity&, const Eigen::VectorXd&,
-                           std::int32_t);
+                           const ShapeLimits&, std::int32_t);
 template ShapeTerms add_shape_terms(const RegionCells&, const Connectivity&,
-                                    std::vector<std::int32_t>, const Eigen::VectorXd&, double,
-                                    Points3&);
+                                    std::vector<std::int32_t>, const Eigen::VectorXd&,
+                                    const ShapeLimits&, double, Points3&);
 
 } // namespace calotte::cvt_detail

@@ -4,6 +4,7 @@
 #include "cvt/room.h"
 #include "mesh/connectivity.h"
 
+#include <calotte/cvt.h>
 #include <calotte/types.h>
 
 #include <cstdint>
@@ -19,8 +20,8 @@ struct ShapeLimits {
   double least_cotangent = 0.05, most_cotangent = 1.3;
   /// Voronoi edge over Delaunay edge, which is the mean of the two cotangents across.
   double least_edge = 0.21, most_edge = 1.1;
-  /// Delaunay edge over the spacing that the density demands there.
-  double least_spacing = 0.8, most_spacing = 1.3;
+  /// Delaunay edge over the spacing that the density demands there; see CvtOptions::least_spacing.
+  double least_spacing = CvtOptions::usual_least_spacing, most_spacing = 1.3;
 };
 inline constexpr ShapeLimits shape_limits;
 
@@ -38,13 +39,15 @@ struct ShapeTerms {
 /// \param triangles all that may be beyond a limit; each once.
 /// \param inverse_spacing 1/h by generator, h the spacing that the density demands.
 template <class Cells>
-ShapeTerms
-add_shape_terms(const Cells& cells, const Connectivity& mesh, std::vector<std::int32_t> triangles,
-                const Eigen::VectorXd& inverse_spacing, double factor, Points3& gradient);
+ShapeTerms add_shape_terms(const Cells& cells, const Connectivity& mesh,
+                           std::vector<std::int32_t> triangles,
+                           const Eigen::VectorXd& inverse_spacing, const ShapeLimits& limits,
+                           double factor, Points3& gradient);
 
 /// Whether a triangle may be beyond a limit.
 template <class Cells>
 bool is_distorted(const Cells& cells, const Connectivity& mesh,
-                  const Eigen::VectorXd& inverse_spacing, std::int32_t triangle);
+                  const Eigen::VectorXd& inverse_spacing, const ShapeLimits& limits,
+                  std::int32_t triangle);
 
 } // namespace calotte::cvt_detail

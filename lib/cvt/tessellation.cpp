@@ -5,7 +5,6 @@
 #include "base/parallel.h"
 #include "cvt/planar_cells.h"
 #include "cvt/region_cells.h"
-#include "cvt/shape.h"
 #include "cvt/spherical_cells.h"
 #include "delaunay/divide.h"
 
@@ -261,13 +260,13 @@ template <class Cells> void Tessellation<Cells>::make_delaunay(Effort& effort) {
 }
 
 template <class Cells>
-std::vector<std::int32_t>
-Tessellation<Cells>::distorted(const Eigen::VectorXd& inverse_spacing) const {
+std::vector<std::int32_t> Tessellation<Cells>::distorted(const Eigen::VectorXd& inverse_spacing,
+                                                         const ShapeLimits& limits) const {
   const std::int64_t count = mesh_.triangles.cols();
   std::vector<std::vector<std::int32_t>> parts(static_cast<std::size_t>(block_count(count)));
   for_each_block(count, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
     for (auto t = static_cast<std::int32_t>(begin); t != end; ++t)
-      if (is_distorted(cells_, mesh_, inverse_spacing, t))
+      if (is_distorted(cells_, mesh_, inverse_spacing, limits, t))
         parts[static_cast<std::size_t>(block)].push_back(t);
   });
   std::vector<std::int32_t> all;

@@ -3,6 +3,7 @@
 
 #include "cvt/repair.h"
 #include "cvt/room.h"
+#include "cvt/shape.h"
 #include "delaunay/regions.h"
 #include "delaunay/sites.h"
 #include "integrals/moments.h"
@@ -108,7 +109,8 @@ public:
   void make_delaunay(Effort& effort);
 
   /// The triangles whose shape may be beyond the limits of a finish, each once.
-  std::vector<std::int32_t> distorted(const Eigen::VectorXd& inverse_spacing) const;
+  std::vector<std::int32_t> distorted(const Eigen::VectorXd& inverse_spacing,
+                                      const ShapeLimits& limits) const;
 
   /// Moves out the mesh, made Delaunay at the points; empty if flips do not suffice.
   std::optional<Connectivity> take_mesh(const Points3& points);

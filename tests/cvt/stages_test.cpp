@@ -215,6 +215,22 @@ TEST_CASE("stages: a finish leaves a mesh of good shapes as it is") {
   CHECK(finished.report.iterations.size() == pure.report.iterations.size() + 1);
 }
 
+TEST_CASE("stages: a least spacing is kept, or the report says that it is not") {
+  const auto least = [](const Cvt& grid) { return quality(grid.mesh, x8()).dc_over_h.min; };
+  CvtOptions options = graded(3001, 2, x8());
+  const Points3 start = start_of(190, x8());
+  const Cvt usual = spherical_cvt(start, options);
+  options.least_spacing = 0.9;
+  const Cvt wider = spherical_cvt(start, options);
+  CHECK(least(usual) < 0.86);
+  if (wider.report.well_centred)
+    CHECK(least(wider) > 0.9 - 0.03 - 0.01); // the demanded spacing follows from the energy
+  else
+    CHECK(wider.report.iterations.back().misshapen > 0.03);
+  options.least_spacing = 0.97;
+  CHECK_THROWS_AS(spherical_cvt(start, options), Error);
+}
+
 TEST_CASE("stages: in the plane, with a boundary and in a box [slow]") {
   const Density fine = tanh_bump({0.7, 0.5, 0}, 0.2, 0.2, 1.0 / 256);
   PlanarDomain box;

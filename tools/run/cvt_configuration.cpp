@@ -14,8 +14,9 @@ std::string stopping_rule(const CvtRequest& request) {
   if (request.iterations)
     return "iterations " + std::to_string(*request.iterations) + "\n";
   return "norm " + request.norm + "\nstop " +
-         (well_centred(request) ? "well-centred" : "tolerance") + "\ntolerance " +
-         shortest(tolerance_of(request)) + "\nmax-iterations " +
+         (well_centred(request) ? "well-centred\nleast-spacing " + shortest(request.least_spacing)
+                                : "tolerance") +
+         "\ntolerance " + shortest(tolerance_of(request)) + "\nmax-iterations " +
          std::to_string(request.max_iterations) + "\n";
 }
 

@@ -282,6 +282,7 @@ class CvtOptions:
     insertion_rounds: int
     cells: int
     well_centred: bool
+    least_spacing: float
     regions: int | None
 
 class Output:

@@ -212,12 +212,13 @@ def _cells_for(widths, part, earth_radius):
     return implied
 
 
-def _options(rho, method, norm, tolerance, max_iterations, well_centred, regions):
+def _options(rho, method, norm, tolerance, max_iterations, least_spacing, well_centred, regions):
     options = _calotte.CvtOptions()
     options.density = rho
     options.method = _choice(_METHODS, method, "method")
     options.norm = _choice(_NORMS, norm, "norm")
     options.well_centred = well_centred
+    options.least_spacing = least_spacing
     if tolerance is not None:
         options.tolerance = tolerance
     elif well_centred:
@@ -254,8 +255,8 @@ def cvt(start: int | ArrayLike | None = None, *, density: DensityLike | None = N
         cell_width: WidthLike = None, region: RegionLike | None = None,
         domain: DomainLike | None = None, seed: int = 1, method: str = "auto",
         norm: str = "l2-scaled", tolerance: float | None = None, max_iterations: int = 1000,
-        well_centred: bool | None = None, insertion_rounds: int | None = None,
-        regions: int | None = None, progress: Progress | bool | None = None,
+        well_centred: bool | None = None, least_spacing: float = 0.8,
+        insertion_rounds: int | None = None, regions: int | None = None, progress: Progress | bool | None = None,
         earth_radius: float = EARTH_RADIUS_KM) -> Cvt:
     """A centroidal Voronoi tessellation of the sphere, of a region, or of a planar domain.
 
@@ -271,10 +272,12 @@ def cvt(start: int | ArrayLike | None = None, *, density: DensityLike | None = N
     domain: a part of the plane, of rectangle(), periodic_box(), planar_polygon() or a file.
     seed: of random points. method: auto, lloyd, nesterov, lbfgs or lbfgs-laplacian.
     norm: that is compared with the tolerance: l2, linf, l2-scaled, linf-scaled or gradient.
-    tolerance: default 1e-6, and 3e-4 before a finish.
+    tolerance: default 1e-6, and 1e-4 with well_centred.
     max_iterations: on each level.
-    well_centred: end with a finish that removes bad shapes, as models need. Default: where a density
-        or widths are given with a number of cells.
+    well_centred: without obtuse triangles and short Voronoi edges, as models need. Default: where a
+        density or widths are given with a number of cells.
+    least_spacing: with well_centred, the least distance of neighbours over the demanded width, 0 to
+        0.95.
     insertion_rounds: default as `calotte cvt`. regions: parts that run in parallel.
     progress: a function that receives a dict after each iteration and ends the run by returning
         True; or True for a bar of tqdm.
@@ -289,7 +292,7 @@ def cvt(start: int | ArrayLike | None = None, *, density: DensityLike | None = N
             raise Error("a domain of the plane has no region and no cell widths in km; give a "
                         "density")
         return _planar_cvt(start, _arguments.domain(domain), density, seed,
-                           (method, norm, tolerance, max_iterations), well_centred,
+                           (method, norm, tolerance, max_iterations, least_spacing), well_centred,
                            insertion_rounds, regions, progress)
     widths = None if cell_width is None else _arguments.cell_width(cell_width, earth_radius)
     rho, part = _arguments.density(density, widths), _arguments.region(region)
@@ -300,7 +303,8 @@ def cvt(start: int | ArrayLike | None = None, *, density: DensityLike | None = N
     counted = np.ndim(start) == 0
     graded = counted and not (part.whole and rho.uniform)
     finish = graded if well_centred is None else well_centred
-    options = _options(rho, method, norm, tolerance, max_iterations, finish, regions)
+    options = _options(rho, method, norm, tolerance, max_iterations, least_spacing, finish,
+                       regions)
     if not counted:
         points = _arguments.sphere_points(start)
     elif graded:
@@ -320,8 +324,7 @@ def _planar_cvt(start, parts, density, seed, words, well_centred, insertion_roun
         raise Error("give a number of cells, or places in the domain")
     rho, counted = _arguments.density(density), np.ndim(start) == 0
     graded = counted and not rho.uniform
-    method, norm, tolerance, max_iterations = words
-    options = _options(rho, method, norm, tolerance, max_iterations,
+    options = _options(rho, *words,
                        graded if well_centred is None else well_centred, regions)
     if not counted:
         places = _arguments.plane_points(start)

@@ -106,6 +106,7 @@ void add_options(py::module_& module) {
       .def_readwrite("insertion_rounds", &CvtOptions::insertion_rounds)
       .def_readwrite("cells", &CvtOptions::cells)
       .def_readwrite("well_centred", &CvtOptions::well_centred)
+      .def_readwrite("least_spacing", &CvtOptions::least_spacing)
       .def_property(
           "regions", [](const CvtOptions& options) { return options.partition.regions; },
           [](CvtOptions& options, std::optional<int> regions) {
