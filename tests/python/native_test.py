@@ -144,6 +144,16 @@ def test_files(tmp_path):
     assert dataset.sizes["nCells"] == 642
 
 
+def test_a_density_that_is_not_given_follows_from_the_cells(tmp_path):
+    grid = calotte.cvt(2562, density="x8")
+    for density in (None, "x8"):
+        grid.mesh.to_mpas(tmp_path / "grid.nc", density=density)
+        run("check", tmp_path / "grid.nc")  # compares meshDensity with the cells
+    grid.mesh.to_mpas(tmp_path / "grid.nc", density="uniform")
+    with pytest.raises(AssertionError, match="1 variable deviates"):
+        run("check", tmp_path / "grid.nc")
+
+
 def test_a_limited_area_is_that_of_the_command(tmp_path):
     netcdf = pytest.importorskip("netCDF4")
     run("cvt", "--region", "circle=-105,40,1000km", "--cell-width", "150km", "--limited-area",

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "options/depth_option.h"
 
-#include "options/numbers.h"
-
 #include <calotte/error.h>
+#include <calotte/read.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <sstream>
 #include <vector>
 
@@ -27,12 +24,7 @@ std::optional<double> number_of(const std::string& text) {
 std::string text_of(const std::string& word) {
   if (word.find(',') != std::string::npos)
     return word;
-  std::ifstream in(word);
-  if (!in)
-    throw Error(ErrorCode::file, "cannot read " + word +
-                                     "; give --depth-levels numbers such as 0,10,30,100, or a "
-                                     "file of them");
-  return {std::istreambuf_iterator<char>(in), {}};
+  return read_file(word);
 }
 
 Eigen::VectorXd levels_of(const std::string& word) {
@@ -70,7 +62,7 @@ void add_depths(CLI::App& command, DepthWords& words) {
           .add_option("--depth-levels", words.levels,
                       "Bounds of the layers for FESOM's aux3d.out, metres, 0 first: numbers such "
                       "as 0,10,30,100, at least 3, or a file of them. Default: none, no aux3d.out")
-          ->type_name("LIST|FILE");
+          ->type_name("LEVELS");
   CLI::Option* const bottom =
       command
           .add_option("--depth", words.bottom,

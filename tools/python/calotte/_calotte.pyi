@@ -286,7 +286,7 @@ class CvtOptions:
     regions: int | None
 
 class Output:
-    def __init__(self, path: str, format: str, radius: float, density: Density,
+    def __init__(self, path: str, format: str, radius: float, density: Density, known: bool,
                  fields: dict[str, _Array], history: str, /) -> None: ...
 
 def set_threads(count: int, /) -> int: ...

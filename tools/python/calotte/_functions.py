@@ -496,15 +496,17 @@ def write(path: Path, mesh: Mesh | PlanarMesh, *, format: str = "by-name",
           fields: Mapping[str, ArrayLike] | None = None, history: str = "") -> None:
     """Writes a mesh in the format of the name (.nc: MPAS, .vtp, .geojson ...), or as `format`.
 
-    sphere_radius: of NetCDF files, in their unit (MPAS: metres).
-    density, cell_width: as for cvt(); they set meshDensity and nominalMinDc.
+    sphere_radius: of NetCDF files. MPAS-Atmosphere needs 1, MPAS-Ocean metres, 6371220.
+    density, cell_width: as for cvt(); they set meshDensity and nominalMinDc. Without them the density
+    of an MPAS file on the sphere follows from the smoothed spacing of the cells, if this varies.
     domain: of a planar mesh, which clips its cells.
     fields: a dict of n numbers at the cells.
     """
     widths = None if cell_width is None else _arguments.cell_width(cell_width)
     values = {name: _arguments.numbers(value, name) for name, value in (fields or {}).items()}
     output = _calotte.Output(str(path), format, sphere_radius,
-                             _arguments.density(density, widths), values, history)
+                             _arguments.density(density, widths),
+                             density is not None or cell_width is not None, values, history)
     if isinstance(mesh, _calotte.PlanarMesh):
         part = None if domain is None else _arguments.domain(domain)
         _calotte.write_in_plane(mesh, part, output)
@@ -533,8 +535,8 @@ def limited_area(path: Path, region: RegionLike, cell_width: WidthLike, *,
     widths, part = _arguments.cell_width(cell_width, earth_radius), _arguments.region(region)
     meshed = _calotte.with_rings(part, widths, earth_radius)
     grid = cvt(cell_width=widths, region=meshed, earth_radius=earth_radius, **options)
-    output = _calotte.Output(str(path), "mpas", sphere_radius, _arguments.density(None, widths), {},
-                             "")
+    output = _calotte.Output(str(path), "mpas", sphere_radius, _arguments.density(None, widths),
+                             True, {}, "")
     return _calotte.write_limited_area(output, grid.mesh.points, meshed, part)
 
 

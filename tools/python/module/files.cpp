@@ -8,6 +8,7 @@
 #include <calotte/error.h>
 #include <calotte/mesh_file.h>
 #include <calotte/read.h>
+#include <calotte/voronoi.h>
 #include <calotte/write.h>
 
 #include <pybind11/stl.h>
@@ -41,6 +42,7 @@ struct Output {
   Format format = Format::by_name;
   double radius = 1;
   Density density;
+  bool known = true; ///< whether the mesh was made for that density
   py::dict fields;
 };
 
@@ -60,8 +62,14 @@ WriteOptions options_of(const Output& output) {
 }
 
 void write_mesh(const Mesh& mesh, const Output& output) {
-  const WriteOptions options = options_of(output);
-  call([&] { write(output.path, mesh, options); });
+  WriteOptions options = options_of(output);
+  call([&] {
+    const Format format = format_of(output.path, output.format);
+    if (!output.known && mesh.closed() &&
+        (format == Format::mpas || format == Format::mpas_minimal))
+      options.site_density = spacing_density(voronoi(mesh));
+    write(output.path, mesh, options);
+  });
 }
 
 void write_plane(const PlanarMesh& mesh, std::optional<PlanarDomain> domain, const Output& output) {
@@ -139,9 +147,9 @@ Format format_named(const std::string& name) {
 }
 
 Output output_of(std::string path, const std::string& format, double radius, Density density,
-                 py::dict fields, std::string history) {
-  return {std::move(path), std::move(history), format_named(format),
-          radius,          std::move(density), std::move(fields)};
+                 bool known, py::dict fields, std::string history) {
+  return {std::move(path), std::move(history), format_named(format), radius, std::move(density),
+          known,           std::move(fields)};
 }
 
 } // namespace
