@@ -105,16 +105,18 @@ private:
 
   /// Adds the edge across from vertex v of triangle t, if its other triangle does not.
   void add_if_brink(std::int32_t t, int v, std::vector<Brink>& out) const {
-    constexpr const ShapeLimits& limits = shape_limits;
+    // A little within shape_limits, so that few shapes are left to the penalty.
+    constexpr double least_edge = shape_limits.least_edge + 0.03,
+                     least_cotangent = shape_limits.least_cotangent + 0.08;
     const std::int32_t u = mesh().neighbours(v, t);
     const double here = cotangent(t, v);
-    if (u < 0 || here >= std::max(limits.least_edge, limits.least_cotangent))
+    if (u < 0 || here >= std::max(least_edge, least_cotangent))
       return;
     const auto back = mesh().neighbours.col(u);
     const int w = back[0] == t ? 0 : back[1] == t ? 1 : 2;
     const double beyond = cotangent(u, w), ratio = (here + beyond) / 2;
     const bool theirs = beyond < here || (beyond == here && u < t);
-    if (theirs || (ratio >= limits.least_edge && here >= limits.least_cotangent))
+    if (theirs || (ratio >= least_edge && here >= least_cotangent))
       return;
     const std::array<std::int32_t, 2> ends{mesh().triangles(next_vertex(v), t),
                                            mesh().triangles(previous_vertex(v), t)};

@@ -12,12 +12,12 @@
 namespace calotte::cvt_detail {
 
 /// Moves dislocations (pairs of cells with 5 and 7 neighbours) that a descent has left on the brink
-/// of a glide, a step along their row. There a Voronoi edge is shorter than shape_limits allow, or
-/// an angle is nearly right. The four generators around the edge are pushed so that it flips, and
-/// those within some rings relax to the centroids of their cells; all others stay. The stress that
-/// brought the dislocation to the brink carries it on: afterwards the energy is lower, as a rule,
-/// and the cells around are as regular as others. A penalty for short edges would instead hold
-/// generators away from their centroids.
+/// of a glide, a step along their row. There a Voronoi edge is short, or an angle nearly right: by
+/// limits a little within shape_limits. The four generators around the edge are pushed so that it
+/// flips, and those within some rings relax to the centroids of their cells; all others stay. The
+/// stress that brought the dislocation to the brink carries it on: afterwards the energy is lower,
+/// as a rule, and the cells around are as regular as others. A penalty for short edges would
+/// instead hold generators away from their centroids.
 ///
 /// The result has the same bits for any number of threads and regions.
 ///
