@@ -157,7 +157,7 @@ def is_empty(text):
 
 
 WIDTHS = """\
-`bench/widths --jigsaw PATH -o bench-report/raw/widths.md` makes this table; PATH is the user's own
+`bench/widths --jigsaw PATH -o bench-report/raw/widths.md` makes these tables; PATH is the user's own
 build of JIGSAW, with `optm_qlim=0.9375`.
 """
 

@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Tables of grids from cell widths, out of the reports of calotte info --operators: shapes, what a
+model's operators make of them, and Calotte's numbers over JIGSAW's with thresholds."""
+
+GENERAL = ["widths", "cells", "program"]
+SHAPES = ["s", "ratio", "excess, %", "5- / 7-sided", "cell quality min, mean", "sigma mean",
+          "triangle quality min", "angles, degrees", "obtuse", "dc/h min, max", "dv/dc min", "remark"]
+ERRORS = {"divergence": "divergence", "gradient": "gradient", "laplacian": "Laplacian",
+          "kinetic_energy": "kinetic energy", "tangential": "tangential velocity", "curl": "curl"}
+STEPS = ["step x speed of waves, km", "step x viscosity of vorticity, km^2",
+         "largest eigenvalue, dual Laplacian", "off centroid rms, max"]
+JUDGED = ("x4", "x8", "latitude", "coast", "band", "rossby")  # rasters that thresholds hold for
+
+
+def line(cells):
+    return "| " + " | ".join(cells) + " |"
+
+
+def head(columns):
+    """The first lines of a table; all columns but words are numbers."""
+    rules = ["---" if name in ("widths", "program", "remark") else "--:" for name in columns]
+    return line(columns) + "\n" + line(rules)
+
+
+def shapes_head():
+    return head(GENERAL + SHAPES)
+
+
+def operators_head():
+    return head(GENERAL + [f"{name} l2, max" for name in ERRORS.values()]
+                + STEPS)
+
+
+def spaced(count):
+    return f"{count:,}".replace(",", " ")
+
+
+def defects(info):
+    """Cells that do not have six neighbours."""
+    return sum(count for degree, count in info["degrees"].items() if degree != "6")
+
+
+def shapes_row(name, program, seconds, ratio, info, remark):
+    degrees, fit = info["degrees"], info["dc_over_h"]
+    angles, quality = info["angles"], info["cell_quality"]
+    return line([name, spaced(info["cells"]), program, f"{seconds:.3g}",
+                 "" if ratio is None else f"{ratio:.2f}", f"{100 * info['excess']:.3f}",
+                 f"{degrees.get('5', 0)} / {degrees.get('7', 0)}",
+                 f"{quality['min']:.3f}, {quality['mean']:.3f}", f"{info['sigma']['mean']:.3f}",
+                 f"{info['triangle_quality']['min']:.3f}",
+                 f"{angles['min']:.1f} - {angles['max']:.1f}", str(info["obtuse"]),
+                 f"{fit['min']:.3f}, {fit['max']:.3f}", f"{info['dv_over_dc']['min']:.3f}", remark])
+
+
+def operators_row(name, program, info):
+    found, radius = info["operators"], info["radius_km"]
+    away = found["off_centroid"]
+    return line([name, spaced(info["cells"]), program]
+                + [f"{found[key]['l2']:.4f}, {found[key]['max']:.3f}" for key in ERRORS]
+                + [f"{radius * found['wave_step_times_speed']:.4g}",
+                   f"{radius**2 * found['vorticity_step_times_viscosity']:.4g}",
+                   f"{found['dual_eigenvalue']:.4g}", f"{away['rms']:.5f}, {away['max']:.3f}"])
+
+
+class Bound:
+    """A number of the comparison with its threshold, of which it is on the right side or not."""
+
+    def __init__(self, title, value, most=None, least=None):
+        self.title, self.value = title, value
+        self.met = (most is None or value <= most) and (least is None or value >= least)
+        self.threshold = f"at most {most:g}" if most is not None else f"at least {least:g}"
+
+    def text(self):
+        text = str(self.value) if isinstance(self.value, int) else f"{self.value:.2f}"
+        return text if self.met else f"**{text}**"
+
+
+def bounds(name, ours, theirs, ratio):
+    """What a grid of Calotte must show beside JIGSAW's of the same widths; all but the first two are
+    ratios. The ratio given is that of JIGSAW's seconds over Calotte's."""
+    mine, other = ours["operators"], theirs["operators"]
+
+    def over(key, norm):
+        return mine[key][norm] / other[key][norm]
+
+    def fit(end):
+        return ours["dc_over_h"][end] / theirs["dc_over_h"][end]
+
+    result = [Bound("obtuse", ours["obtuse"], most=0),
+              Bound("dv/dc min", ours["dv_over_dc"]["min"], least=0.18),
+              Bound("time", 1 / ratio, most=0.2 if name == "coast" else 0.15),
+              Bound("tangential l2", over("tangential", "l2"), most=0.5),
+              Bound("tangential max", over("tangential", "max"), most=0.7)]
+    result += [Bound(f"{ERRORS[key]} l2", over(key, "l2"), most=0.6)
+               for key in ("divergence", "laplacian", "kinetic_energy")]
+    result += [Bound(f"{title} max", over(key, "max"), most=1.0)
+               for key, title in ERRORS.items() if key != "tangential"]
+    result += [Bound("step of waves", mine["wave_step_times_speed"] / other["wave_step_times_speed"],
+                     least=1.0),
+               Bound("dual eigenvalue", mine["dual_eigenvalue"] / other["dual_eigenvalue"], most=1.02),
+               Bound("dc/h min", fit("min"), least=1.0), Bound("dc/h max", fit("max"), most=1.0),
+               Bound("excess", ours["excess"] / theirs["excess"], most=1.0),
+               Bound("defects", defects(ours) / defects(theirs), most=1.0)]
+    return result
+
+
+def verdict(name, found):
+    """In words."""
+    if name not in JUDGED:
+        return "no thresholds"
+    missed = [f"{bound.title} {bound.value:.3g} ({bound.threshold})" for bound in found
+              if not bound.met]
+    return "missed: " + ", ".join(missed) if missed else "all thresholds met"
+
+
+def comparison(compared):
+    """For (name, our report, theirs, ratio of seconds) a table of ratios, and below it a line with a
+    verdict for each."""
+    rows, verdicts = [], []
+    for name, ours, theirs, ratio in compared:
+        found = bounds(name, ours, theirs, ratio)
+        titles = [bound.title for bound in found]
+        rows.append(line([name, spaced(ours["cells"])] + [bound.text() for bound in found]))
+        verdicts.append(f"- {name}, {spaced(ours['cells'])} cells: {verdict(name, found)}")
+    return "\n".join([head(["widths", "cells"] + titles), *rows, "", *verdicts])
