@@ -14,9 +14,9 @@ namespace calotte {
 
 /// A model, and the options of write() that suit it.
 struct Model {
-  std::string word; ///< such as "mpas-ocean"
-  std::string name; ///< such as "MPAS-Ocean"
-  Format format;
+  std::string word;     ///< such as "mpas-ocean"
+  std::string name;     ///< such as "MPAS-Ocean"
+  Format format;        ///< of its files
   double sphere_radius; ///< of its files
   /// Whether it takes lengths as they are, in metres, so that other radii of a planet suit it, too.
   bool any_planet;
