@@ -56,10 +56,10 @@ def operators_row(name, program, info):
     found, radius = info["operators"], info["radius_km"]
     away = found["off_centroid"]
     return line([name, spaced(info["cells"]), program]
-                + [f"{found[key]['l2']:.4f}, {found[key]['max']:.3f}" for key in ERRORS]
+                + [f"{found[key]['l2']:.3g}, {found[key]['max']:.3g}" for key in ERRORS]
                 + [f"{radius * found['wave_step_times_speed']:.4g}",
                    f"{radius**2 * found['vorticity_step_times_viscosity']:.4g}",
-                   f"{found['dual_eigenvalue']:.4g}", f"{away['rms']:.5f}, {away['max']:.3f}"])
+                   f"{found['dual_eigenvalue']:.4g}", f"{away['rms']:.3g}, {away['max']:.3g}"])
 
 
 class Bound:
@@ -108,7 +108,7 @@ def verdict(name, found):
     """In words."""
     if name not in JUDGED:
         return "no thresholds"
-    missed = [f"{bound.title} {bound.value:.3g} ({bound.threshold})" for bound in found
+    missed = [f"{bound.title} {bound.value:.4g} ({bound.threshold})" for bound in found
               if not bound.met]
     return "missed: " + ", ".join(missed) if missed else "all thresholds met"
 
