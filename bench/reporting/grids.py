@@ -2,6 +2,8 @@
 """Tables of grids from cell widths, out of the reports of calotte info --operators: shapes, what a
 model's operators make of them, and Calotte's numbers over JIGSAW's with thresholds."""
 
+import re
+
 GENERAL = ["widths", "cells", "program"]
 SHAPES = ["s", "ratio", "excess, %", "5- / 7-sided", "cell quality min, mean", "sigma mean",
           "triangle quality min", "angles, degrees", "obtuse", "dc/h min, max", "dv/dc min", "remark"]
@@ -38,6 +40,17 @@ def spaced(count):
 def defects(info):
     """Cells that do not have six neighbours."""
     return sum(count for degree, count in info["degrees"].items() if degree != "6")
+
+
+def remark(code, printed):
+    """What calotte cvt says of a run that is less than well-centred: by its exit code, a warning of
+    shapes, and how many generators its finish has moved from their centroids."""
+    remarks = ["not converged"] if code == 1 else []
+    if shape := re.search(r"a shape is (\S+) beyond its limit", printed):
+        remarks.append(f"a shape {shape[1]} beyond its limit")
+    if moved := re.search(r"(\d+) generators more than 0.01", printed):
+        remarks.append(f"{moved[1]} generators displaced")
+    return "; ".join(remarks)
 
 
 def shapes_row(name, program, seconds, ratio, info, remark):

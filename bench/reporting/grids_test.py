@@ -114,5 +114,22 @@ class Tables(unittest.TestCase):
         self.assertIn("| 101.9 | 811.8 | 1e+05 |", row)  # 0.016 * 6371, 2e-5 * 6371^2
 
 
+class Remarks(unittest.TestCase):
+    def test_a_run_within_all_limits_has_none(self):
+        printed = "x8.vtp: 46497 cells, well-centred, 146 iterations, l2-scaled 8.3e-05, 0.71 s"
+        self.assertEqual(grids.remark(0, printed), "")
+
+    def test_faults_are_named_with_their_size(self):
+        printed = (
+            "x.vtp: 642 cells, not converged, 200 iterations, 12 generators more than 0.01 of the "
+            "spacing from their centroids (at most 0.04), 0.10 s\ncalotte: warning: a shape is 0.11 "
+            "beyond its limit, so that the mesh is not well-centred\n"
+        )
+        self.assertEqual(
+            grids.remark(1, printed),
+            "not converged; a shape 0.11 beyond its limit; 12 generators displaced",
+        )
+
+
 if __name__ == "__main__":
     unittest.main()
