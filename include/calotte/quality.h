@@ -32,7 +32,7 @@ struct Percentiles {
 };
 
 /// Limits beyond which models object to an edge.
-inline constexpr double short_voronoi_edge = 0.2; ///< of dv/dc
+inline constexpr double short_voronoi_edge = 0.18; ///< of dv/dc
 inline constexpr double least_fit = 0.75;         ///< of dc/h
 inline constexpr double greatest_fit = 1.4;       ///< of dc/h
 

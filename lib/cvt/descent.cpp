@@ -97,10 +97,13 @@ void Descent::step() {
     quasi_newton_step();
 }
 
-bool Descent::glide() {
-  if (functional_.glide(state_.points) == 0)
+bool Descent::glide(const ShapeLimits& limits) {
+  if (functional_.glide(state_.points, limits) == 0)
     return false;
   forget();
+  state_.memory.flipped = true;
+  state_.memory.before = {};
+  state_.memory.momentum = 1;
   evaluate(state_.points, here_);
   return true;
 }

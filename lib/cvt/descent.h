@@ -30,7 +30,7 @@ public:
 
   /// Moves dislocations of the state's points, see glide.h, and evaluates them. Returns false if
   /// there is none to move.
-  bool glide();
+  bool glide(const ShapeLimits& limits);
 
   /// The evaluation at the state's points.
   const Evaluation& here() const { return here_; }

@@ -200,8 +200,8 @@ public:
     limits_ = limits;
   }
   void hold(std::vector<std::uint8_t> fixed) override { fixed_ = std::move(fixed); }
-  std::int64_t glide(Points3& points) override {
-    return cvt_detail::glide(tessellation_, points, coarse_, fixed_);
+  std::int64_t glide(Points3& points, const ShapeLimits& limits) override {
+    return cvt_detail::glide(tessellation_, points, coarse_, fixed_, limits);
   }
   std::vector<CvtRegion> regions() const override { return tessellation_.regions(); }
   void retract(const Points3& x, double step, const Points3& d, Points3& to) const override;

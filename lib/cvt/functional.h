@@ -57,7 +57,7 @@ public:
   virtual void hold(std::vector<std::uint8_t> fixed) = 0;
 
   /// Moves dislocations, see glide.h. Returns the number of steps; 0 if the points stay.
-  virtual std::int64_t glide(Points3& points) = 0;
+  virtual std::int64_t glide(Points3& points, const ShapeLimits& limits) = 0;
 
   virtual std::vector<CvtRegion> regions() const = 0;
 

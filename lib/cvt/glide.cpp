@@ -6,7 +6,6 @@
 #include "base/triangle.h"
 #include "cvt/planar_cells.h"
 #include "cvt/region_cells.h"
-#include "cvt/shape.h"
 #include "cvt/spherical_cells.h"
 #include "density/hexagons.h"
 
@@ -53,9 +52,9 @@ std::vector<std::int32_t> triangles_around(const Connectivity& mesh, const Brink
 template <class Cells> class Glide {
 public:
   Glide(Tessellation<Cells>& tessellation, Points3& points, const Integrand& integrand,
-        const std::vector<std::uint8_t>& fixed, Effort& effort)
+        const std::vector<std::uint8_t>& fixed, const ShapeLimits& limits, Effort& effort)
       : tessellation_(tessellation), points_(points), integrand_(integrand), fixed_(fixed),
-        effort_(effort) {}
+        limits_(limits), effort_(effort) {}
 
   /// Tries a step at some brinks that are far from each other. Returns their number.
   std::int64_t step() {
@@ -75,6 +74,11 @@ private:
   const Cells& cells() const { return tessellation_.cells(); }
   bool is_free(std::int32_t site) const {
     return site < points_.cols() && (fixed_.empty() || fixed_[static_cast<std::size_t>(site)] == 0);
+  }
+
+  bool has_centre(std::int32_t t) const {
+    const auto sites = mesh().triangles.col(t);
+    return cells().has_centre(sites[0], sites[1], sites[2]);
   }
 
   /// The cotangent of a triangle's angle at its vertex v.
@@ -105,23 +109,21 @@ private:
 
   /// Adds the edge across from vertex v of triangle t, if its other triangle does not.
   void add_if_brink(std::int32_t t, int v, std::vector<Brink>& out) const {
-    // A little within shape_limits, so that few shapes are left to the penalty.
-    constexpr double least_edge = shape_limits.least_edge + 0.03,
-                     least_cotangent = shape_limits.least_cotangent + 0.08;
     const std::int32_t u = mesh().neighbours(v, t);
     const double here = cotangent(t, v);
-    if (u < 0 || here >= std::max(least_edge, least_cotangent))
+    if (u < 0 || here >= std::max(limits_.least_edge, limits_.least_cotangent))
       return;
     const auto back = mesh().neighbours.col(u);
     const int w = back[0] == t ? 0 : back[1] == t ? 1 : 2;
     const double beyond = cotangent(u, w), ratio = (here + beyond) / 2;
     const bool theirs = beyond < here || (beyond == here && u < t);
-    if (theirs || (ratio >= least_edge && here >= least_cotangent))
+    if (theirs || (ratio >= limits_.least_edge && here >= limits_.least_cotangent))
       return;
     const std::array<std::int32_t, 2> ends{mesh().triangles(next_vertex(v), t),
                                            mesh().triangles(previous_vertex(v), t)};
     const std::int32_t c = mesh().triangles(v, t), d = mesh().triangles(w, u);
-    if (is_free(ends[0]) && is_free(ends[1]) && is_free(c) && is_free(d))
+    const bool free = is_free(ends[0]) && is_free(ends[1]) && is_free(c) && is_free(d);
+    if (free && has_centre(t) && has_centre(u))
       out.push_back({ratio, std::min(ends[0], ends[1]), std::max(ends[0], ends[1]), c, d, {t, u}});
   }
 
@@ -245,6 +247,7 @@ private:
   Points3& points_;
   const Integrand& integrand_;
   const std::vector<std::uint8_t>& fixed_;
+  const ShapeLimits& limits_;
   Effort& effort_;
   std::vector<std::int32_t> moving_; ///< the generators of all brinks of a step, by brink
   std::vector<std::int64_t> begin_;  ///< by brink: its first one there
@@ -254,12 +257,12 @@ private:
 
 template <class Cells>
 std::int64_t glide(Tessellation<Cells>& tessellation, Points3& points, const Integrand& integrand,
-                   const std::vector<std::uint8_t>& fixed) {
+                   const std::vector<std::uint8_t>& fixed, const ShapeLimits& limits) {
   constexpr int most_rounds = 8; // a step may bring another dislocation to its brink
   Effort effort;
   tessellation.move(points);
   tessellation.make_delaunay(effort);
-  Glide<Cells> glide(tessellation, points, integrand, fixed, effort);
+  Glide<Cells> glide(tessellation, points, integrand, fixed, limits, effort);
   std::int64_t steps = 0;
   for (int round = 0; round < most_rounds; ++round) {
     const std::int64_t tried = glide.step();
@@ -271,10 +274,10 @@ std::int64_t glide(Tessellation<Cells>& tessellation, Points3& points, const Int
 }
 
 template std::int64_t glide(Tessellation<SphericalCells>&, Points3&, const Integrand&,
-                            const std::vector<std::uint8_t>&);
+                            const std::vector<std::uint8_t>&, const ShapeLimits&);
 template std::int64_t glide(Tessellation<PlanarCells>&, Points3&, const Integrand&,
-                            const std::vector<std::uint8_t>&);
+                            const std::vector<std::uint8_t>&, const ShapeLimits&);
 template std::int64_t glide(Tessellation<RegionCells>&, Points3&, const Integrand&,
-                            const std::vector<std::uint8_t>&);
+                            const std::vector<std::uint8_t>&, const ShapeLimits&);
 
 } // namespace calotte::cvt_detail

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cvt/room.h"
+#include "cvt/shape.h"
 #include "cvt/tessellation.h"
 
 #include <calotte/types.h>
@@ -12,21 +13,22 @@
 namespace calotte::cvt_detail {
 
 /// Moves dislocations (pairs of cells with 5 and 7 neighbours) that a descent has left on the brink
-/// of a glide, a step along their row. There a Voronoi edge is short, or an angle nearly right: by
-/// limits a little within shape_limits. The four generators around the edge are pushed so that it
-/// flips, and those within some rings relax to the centroids of their cells; all others stay. The
-/// stress that brought the dislocation to the brink carries it on: afterwards the energy is lower,
-/// as a rule, and the cells around are as regular as others. A penalty for short edges would
-/// instead hold generators away from their centroids.
+/// of a glide, a step along their row. There a Voronoi edge is short, or an angle nearly right. The
+/// four generators around the edge are pushed so that it flips, and those within some rings relax
+/// to the centroids of their cells; all others stay. The stress that brought the dislocation to the
+/// brink carries it on: afterwards the energy is lower, as a rule, and the cells around are as
+/// regular as others. A penalty for short edges would instead hold generators away from their
+/// centroids.
 ///
 /// The result has the same bits for any number of threads and regions.
 ///
 /// \param points the generators, which move.
 /// \param integrand of the cells' moments.
+/// \param limits whose least_edge and least_cotangent tell what is short and nearly right.
 /// \param fixed a flag for each generator that does not move; empty if there is none.
 /// \return number of steps that were tried; 0 if no edge is on the brink.
 template <class Cells>
 std::int64_t glide(Tessellation<Cells>& tessellation, Points3& points, const Integrand& integrand,
-                   const std::vector<std::uint8_t>& fixed);
+                   const std::vector<std::uint8_t>& fixed, const ShapeLimits& limits);
 
 } // namespace calotte::cvt_detail

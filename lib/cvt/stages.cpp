@@ -78,9 +78,19 @@ Stage stage_after(const State& state, const CvtOptions& options) {
 }
 
 bool may_glide(const State& state, const CvtOptions& options) {
-  constexpr int most = 3;
+  constexpr int most = 4;
   return options.well_centred && state.penalty == 0 && state.report.converged &&
          state.glides < most && stage_after(state, options) == Stage::finish;
+}
+
+ShapeLimits limits_of_glide(const State& state) {
+  constexpr int within = 2;
+  ShapeLimits limits = shape_limits;
+  if (state.glides < within) {
+    limits.least_edge += 0.03;
+    limits.least_cotangent += 0.08;
+  }
+  return limits;
 }
 
 CvtOptions options_of_descent(const State& state, const CvtOptions& options, bool at_sites) {
@@ -125,7 +135,7 @@ void begin_finish(State& state) {
   const CvtIteration& last = state.report.iterations.back();
   state.penalty = factor * last.energy / static_cast<double>(last.cells);
   state.demanded_spacing = spacing_of(last);
-  state.descended = state.report.converged;
+  state.descended = state.report.converged || state.glides > 0; // which need convergence
   begin_descent(state);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cvt/room.h"
+#include "cvt/shape.h"
 #include "cvt/state.h"
 #include "cvt/tessellation.h"
 #include "generators/insertion.h"
@@ -50,8 +51,12 @@ bool has_stalled(const State& state);
 
 Stage stage_after(const State& state, const CvtOptions& options);
 
-/// Whether dislocations may be moved: at the end of the descent before a finish.
+/// Whether dislocations may be moved: at the end of the descent before a finish, up to four times.
 bool may_glide(const State& state, const CvtOptions& options);
+
+/// The limits of the next glide: twice a little within shape_limits, so that few shapes come near
+/// these, then shape_limits, so that few are left to the penalty.
+ShapeLimits limits_of_glide(const State& state);
 
 /// The options of the current descent.
 /// \param at_sites whether the cells can be integrated with rule_at_sites.

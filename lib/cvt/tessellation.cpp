@@ -97,7 +97,7 @@ template <class Cells> void Tessellation<Cells>::set_division(Owners&& owners) {
 template <class Cells>
 Division Tessellation<Cells>::focus(Array<std::int32_t>&& owner, std::int32_t regions) {
   Division all = std::exchange(division_, {});
-  changed_.clear();
+  focused_ = true;
   rebuilt_ = false;
   set_division({std::move(owner), regions});
   return all;
@@ -109,6 +109,8 @@ template <class Cells> void Tessellation<Cells>::resume(Division&& all) {
     division_.patches = make_patches(mesh_.triangles, division_.ownership);
   else
     renew_patches(division_.patches, mesh_.triangles, division_.ownership, changed_);
+  focused_ = false;
+  changed_ = {};
 }
 
 template <class Cells> void Tessellation<Cells>::adopt(Owners&& owners) {
@@ -177,18 +179,21 @@ template <class Cells> Faults Tessellation<Cells>::find_faults(Effort& effort) {
       effort);
 }
 
+/// Makes the mesh Delaunay by flips. False if flips do not suffice; the mesh is then unusable.
 template <class Cells> bool Tessellation<Cells>::mend(const Faults& faults, Effort& effort) {
   Clock::time_point start = Clock::now();
   const std::optional<Repair> repaired = repair(mesh_, cells_.signs(), faults);
   if (repaired) {
     renew_patches(division_.patches, mesh_.triangles, division_.ownership, repaired->changed);
-    changed_.insert(changed_.end(), repaired->changed.begin(), repaired->changed.end());
+    if (focused_)
+      changed_.insert(changed_.end(), repaired->changed.begin(), repaired->changed.end());
     effort.flips += repaired->flips;
   }
   effort.seconds_repair += lap(start);
   return repaired.has_value();
 }
 
+/// Triangulates the points again.
 template <class Cells> void Tessellation<Cells>::rebuild(Effort& effort) {
   Clock::time_point start = Clock::now();
   division_.patches.clear();
@@ -200,6 +205,7 @@ template <class Cells> void Tessellation<Cells>::rebuild(Effort& effort) {
   effort.seconds_repair += lap(start);
 }
 
+/// Calls the receiver in the tasks of regions without faults, and returns the faults of others.
 template <class Cells>
 Faults Tessellation<Cells>::integrate(const Integrand& integrand, const Receiver& receive,
                                       Effort& effort) {

@@ -82,24 +82,13 @@ public:
   /// The faults of the mesh at the points.
   Faults find_faults(Effort& effort);
 
-  /// Makes the mesh Delaunay by flips. False if flips do not suffice; the mesh is then unusable.
-  bool mend(const Faults& faults, Effort& effort);
-
-  /// Triangulates the points again.
-  /// \throws Error as Cells::Signs::triangulate().
-  void rebuild(Effort& effort);
-
   /// The result of a region's task: moments by local number, complete for the patch's own sites.
   using Receiver = std::function<void(const Patch& patch, const Array<Vec3>& x,
                                       const Array<CellMoments>& moments)>;
 
-  /// Integrates over the cells and calls the receiver in each region's task. If it returns faults,
-  /// the caller repairs the mesh and integrates again; the receiver must therefore write slots that
-  /// a later call overwrites.
-  Faults integrate(const Integrand& integrand, const Receiver& receive, Effort& effort);
-
-  /// The same until no faults are left. Where flips do not suffice, the points are triangulated
-  /// anew.
+  /// Integrates over the cells and calls the receiver in each region's task. Where the mesh has
+  /// faults, it is repaired by flips, or else the points are triangulated anew, and the integration
+  /// starts again: the receiver must write slots that a later call overwrites.
   /// \param set_room called with true before each try, to make room for what the receiver writes,
   ///        and with false before the points are triangulated, to free it.
   void integrate_repaired(const Integrand& integrand, const std::function<void(bool)>& set_room,
@@ -135,6 +124,9 @@ private:
     std::int32_t regions;
   };
 
+  bool mend(const Faults& faults, Effort& effort);
+  void rebuild(Effort& effort);
+  Faults integrate(const Integrand& integrand, const Receiver& receive, Effort& effort);
   Owners owners_of(const Sites& sites, const Regions& regions) const;
   void set_division(Owners&& owners);
   void adopt(Owners&& owners);
@@ -148,6 +140,7 @@ private:
   Partition partition_;
   Connectivity mesh_;
   Division division_;
+  bool focused_ = false;              ///< between focus() and resume()
   std::vector<std::int32_t> changed_; ///< triangles that flips have changed since focus()
   bool rebuilt_ = false;              ///< the mesh, since focus()
   Array<Vec3> sample_;                ///< sampled points, as they were when the regions were chosen

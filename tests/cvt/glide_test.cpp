@@ -84,7 +84,7 @@ Moved moved(const Points3& points, const CvtOptions& options,
   Moved result{points, 0, std::nullopt};
   const auto functional = cvt_detail::make_functional(result.points, options);
   functional->hold(fixed);
-  result.steps = functional->glide(result.points);
+  result.steps = functional->glide(result.points, cvt_detail::shape_limits);
   result.mesh = functional->take_mesh(result.points);
   return result;
 }

@@ -505,11 +505,10 @@ TEST_CASE("the selected norm ends the run") {
 
 TEST_CASE("the report has the documented content") {
   const Bench bench;
-  CHECK(
-      bench
-          .run("cvt --cells 162 --start icosahedron --bisections 2 --method lloyd --iterations 2 "
-               "--threads 2 --regions 3 -o mesh.vtp --report report.json")
-          .code == 0);
+  CHECK(bench
+            .run("cvt --cells 162 --start icosahedron --bisections 2 --method lloyd --iterations 2 "
+                 "--threads 2 --regions 3 -o mesh.vtp --report report.json")
+            .code == 0);
   const std::string report = bench.file("report.json");
   for (const char* key : {"calotte",
                           "density",
@@ -915,6 +914,8 @@ TEST_CASE("a graded run reaches its number of cells and ends with good shapes") 
   const Outcome wide = bench.run("cvt --cells 1111 " + density + "--least-spacing 0.9 -o c.vtp");
   CHECK(wide.code == 0);
   CHECK(has(bench.run("cvt --cells 1111 --least-spacing 1.2 -o c.vtp").err, "--least-spacing"));
+  CHECK(has(bench.run("cvt --cells 1111 --least-spacing 0.9 -o c.vtp").err, // uniform
+            "applies to --stop well-centred only"));
   const Outcome pure =
       bench.run("cvt --cells 1111 " + density + "--stop tolerance --tolerance 1e-4 -o b.vtp");
   CHECK(has(pure.out, "b.vtp: 1111 cells, converged, "));

@@ -117,12 +117,12 @@ void add_end(CLI::App& command, CvtRequest& request) {
                       "multilevel, else tolerance")
           ->check(CLI::IsMember({"tolerance", "well-centred"}));
   command
-      .add_option("--least-spacing", request.least_spacing,
-                  "With --stop well-centred: least distance of neighbours over the demanded width, "
-                  "0 to 0.95. It decides a model's time step. Values near 1 move many generators "
-                  "away from their centroids")
-      ->check(CLI::Range(0.0, 0.95))
-      ->capture_default_str();
+      .add_option(
+          "--least-spacing", request.least_spacing,
+          "With --stop well-centred: least distance of neighbours over the demanded width, "
+          "0 to 0.95; default: 0.8. It decides a model's time step. Values near 1 move many "
+          "generators away from their centroids")
+      ->check(CLI::Range(0.0, 0.95));
   CLI::Option* norm =
       command
           .add_option("--norm", request.norm,
@@ -254,7 +254,7 @@ CvtOptions options_of(const CvtRequest& request) {
   options.norm = norms.at(norm_word(request));
   options.tolerance = tolerance_of(request);
   options.well_centred = well_centred(request);
-  options.least_spacing = request.least_spacing;
+  options.least_spacing = request.least_spacing.value_or(options.least_spacing);
   options.max_iterations = request.iterations.value_or(request.max_iterations);
   options.rule = request.rule;
   options.final_rule = request.final_rule;

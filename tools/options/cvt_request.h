@@ -35,7 +35,7 @@ struct CvtRequest {
   double relaxation = 1;
   std::string norm = "l2-scaled";
   std::optional<std::string> stop; ///< default: see well_centred()
-  double least_spacing = CvtOptions{}.least_spacing;
+  std::optional<double> least_spacing; ///< of a run that ends well-centred
   std::optional<double> given_tolerance;
   int max_iterations = CvtOptions{}.max_iterations;
   std::optional<int> iterations;

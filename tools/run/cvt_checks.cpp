@@ -68,6 +68,9 @@ void require_request(const CvtRequest& request) {
   require_positive("--checkpoint-minutes", request.checkpoint_minutes, "one such as 10");
   if (request.relaxation != 1 && request.method != "lloyd")
     throw Error(ErrorCode::bad_option, "--relaxation applies to --method lloyd only; leave it out");
+  if (request.least_spacing && !well_centred(request))
+    throw Error(ErrorCode::bad_option,
+                "--least-spacing applies to --stop well-centred only; leave it out");
   require_start(request);
   const WriteOptions options = write_options(request); // throws for a file that cannot be written
   if (planar(request))

@@ -13,10 +13,11 @@ namespace {
 std::string stopping_rule(const CvtRequest& request) {
   if (request.iterations)
     return "iterations " + std::to_string(*request.iterations) + "\n";
+  const std::string spacing =
+      request.least_spacing ? "\nleast-spacing " + shortest(*request.least_spacing) : "";
   return "norm " + request.norm + "\nstop " +
-         (well_centred(request) ? "well-centred\nleast-spacing " + shortest(request.least_spacing)
-                                : "tolerance") +
-         "\ntolerance " + shortest(tolerance_of(request)) + "\nmax-iterations " +
+         (well_centred(request) ? "well-centred" : "tolerance") + spacing + "\ntolerance " +
+         shortest(tolerance_of(request)) + "\nmax-iterations " +
          std::to_string(request.max_iterations) + "\n";
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "run/mesh_measures.h"
 
+#include "options/numbers.h"
 #include "run/operator_measures.h"
 #include "run/shapes.h"
 
@@ -142,7 +143,7 @@ void add_shape_rows(const Measured& measured, Table& table) {
   table.row("off-centring", quality.off_centring);
   table.row("dv / dc", quality.dv_over_dc);
   table.row("area ratio", ratio(quality.cell_area));
-  table.row("dv / dc below 0.2", quality.short_edges);
+  table.row("dv / dc below " + shortest(short_voronoi_edge), quality.short_edges);
 }
 
 void add_bad_cells(const Measured& measured, Table& table) {
