@@ -7,14 +7,14 @@ namespace calotte {
 
 const std::vector<Model>& models() {
   static const std::vector<Model> all{
-      {"mpas-atmosphere", "MPAS-Atmosphere", Format::mpas, 1, false, Numbering::curve, {}},
-      {"mpas-ocean", "MPAS-Ocean", Format::mpas, 6371220, true, Numbering::curve, {}},
+      {"mpas-atmosphere", "MPAS-Atmosphere", Format::mpas, 1, false, Numbering::by_format, {}},
+      {"mpas-ocean", "MPAS-Ocean", Format::mpas, 6371220, true, Numbering::by_format, {}},
       {"mpas-sw",
        "MPAS' shallow-water core",
        Format::mpas,
        1,
        false,
-       Numbering::curve,
+       Numbering::by_format,
        {{"nVertLevels", 1}, {"nTracers", 1}}},
       {"fesom", "FESOM", Format::fesom, 1, false, Numbering::curve, {}}};
   return all;

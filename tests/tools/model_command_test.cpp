@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/command.h"
 
+#include <calotte/delaunay.h>
+#include <calotte/generators.h>
 #include <calotte/mesh_file.h>
 #include <calotte/read.h>
+#include <calotte/write.h>
 
 #include <doctest/doctest.h>
 
@@ -101,6 +104,26 @@ TEST_CASE("a model does not replace what is given: a contradiction is an error")
   check_refusal_naming(bench, run + "-o a.nc --for wrf", 2, "--for");
 }
 
+TEST_CASE("a file of a plane keeps its order, and has no radius, for any model") {
+  const Bench bench;
+  for (const std::string run :
+       {"cvt --cells 40 --periodic 1,1", "cvt --cells 40 --rectangle 0,0,2,1"}) {
+    CAPTURE(run);
+    good(bench, run + " -o plain.nc");
+    const std::string plain = bench.file("plain.nc");
+    for (const std::string model : {"mpas-atmosphere", "mpas-ocean"}) {
+      good(bench, run + " -o mesh.nc --for " + model);
+      CHECK((bench.file("mesh.nc") == plain));
+    }
+    good(bench, run + " -o mesh.nc --for mpas-sw");
+    CHECK(has(bench.file("mesh.nc"), "nTracers"));
+    CHECK(!has(plain, "nTracers"));
+    good(bench, "convert plain.nc other.nc");
+    good(bench, "convert plain.nc mesh.nc --for mpas-ocean");
+    CHECK((bench.file("mesh.nc") == bench.file("other.nc")));
+  }
+}
+
 TEST_CASE("a mesh without a density gets that of its spacing, and says so") {
   const Bench bench;
   const std::string bump = " --density tanh:lon=0,lat=90,beta=40deg,alpha=0.3,gamma=x6";
@@ -158,4 +181,27 @@ TEST_CASE("FESOM: an ocean without ears, and its depths") {
   check_refusal_naming(bench, "convert ocean.nc nod2d.out --depth 9", 2, "--depth-levels");
   check_refusal_naming(bench, "convert ocean.nc a.vtp --depth 9 --depth-levels 0,5,9", 2,
                        "a.vtp: --depth-levels applies to FESOM's nod2d.out");
+}
+
+TEST_CASE("FESOM: the sum of a field tells heights from depths, and land has the depth 0") {
+  const Bench bench;
+  const calotte::Mesh mesh = calotte::spherical_delaunay(calotte::fibonacci_sphere(60));
+  Eigen::VectorXd values = Eigen::VectorXd::Constant(60, 4000);
+  values[7] = -50; // land in a field of depths
+  calotte::MeshField depths{.name = "depths", .values = values};
+  calotte::MeshField heights{.name = "heights", .values = -values};
+  calotte::write(bench.folder() / "mesh.nc", mesh, {.fields = {depths, heights}});
+  const auto count = [&](const std::string& line) {
+    std::istringstream in(bench.file("aux3d.out"));
+    std::int64_t found = 0;
+    for (std::string other; std::getline(in, other);)
+      found += other == line ? 1 : 0;
+    return found;
+  };
+  for (const std::string field : {"depths", "heights"}) {
+    CAPTURE(field);
+    good(bench, "convert mesh.nc nod2d.out --depth-levels 0,10,30 --depth " + field);
+    CHECK(count("-4000") == 59);
+    CHECK(count("0") == 2); // the first level, and the land
+  }
 }

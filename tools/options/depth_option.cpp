@@ -41,14 +41,20 @@ Eigen::VectorXd levels_of(const std::string& word) {
   return Eigen::Map<const Eigen::VectorXd>(levels.data(), std::ssize(levels));
 }
 
-/// The depths of a field of depths, or of heights, of which those of the sea are below 0.
+/// The depths of a field of depths, or of heights, of which those of the sea are below 0; 0 on
+/// land. No number stays none.
+Eigen::VectorXd depths_of(const Eigen::VectorXd& values) {
+  const double sign = values.sum() < 0 ? -1 : 1;
+  return (sign * values).unaryExpr([](double depth) { return depth <= 0 ? 0.0 : depth; });
+}
+
 Eigen::VectorXd bottom_of(const std::string& name, const MeshFile& file) {
   const std::int64_t sites = file.mesh ? file.mesh->points.cols() : 0;
   if (const std::optional<double> flat = number_of(name))
     return Eigen::VectorXd::Constant(sites, *flat);
   for (const MeshField& field : file.fields)
     if (field.name == name && field.location == Location::cells && field.values.size() == sites)
-      return field.values.minCoeff() < 0 ? (-field.values).cwiseMax(0.0).eval() : field.values;
+      return depths_of(field.values);
   refuse("--depth " + name +
          ": the input has no field of that name with a number for each cell; give another, or "
          "metres for a flat bottom");
@@ -66,8 +72,9 @@ void add_depths(CLI::App& command, DepthWords& words) {
   CLI::Option* const bottom =
       command
           .add_option("--depth", words.bottom,
-                      "Depth of the bottom for aux3d.out: a field with a number for each cell, of "
-                      "depths or of heights, or metres for a flat bottom")
+                      "Depth of the bottom for aux3d.out: a field with a number for each cell, or "
+                      "metres for a flat bottom. A field whose sum is below 0 is of heights, "
+                      "others are of depths; land has the depth 0")
           ->type_name("NAME|METRES");
   levels->needs(bottom);
   bottom->needs(levels);
