@@ -184,6 +184,10 @@ TEST_CASE("a page shows the errors of operators where they are asked for") {
           doctest::Approx(info[word]["max"]));
   for (const json& measure : make_page(bench, "grid.nc").mesh()["measures"])
     CHECK(!measure["name"].get<std::string>().starts_with("error_"));
+  bench.file("four.txt", "0.1 0.1 1\n-0.1 0.1 1\n-0.1 -0.11 1\n0.1 -0.1 1\n");
+  make(bench, "delaunay four.txt -o four.vtp"); // two triangles, no whole cell
+  for (const json& measure : make_page(bench, "four.vtp --operators").mesh()["measures"])
+    CHECK(!measure["name"].get<std::string>().starts_with("error_"));
 }
 
 TEST_CASE("open, planar and periodic meshes, and cells of any shape") {

@@ -162,14 +162,27 @@ std::vector<Quantity> measured(const MeshFile& file, const ViewChoice& choice) {
   return quantities_of(cell_measures(*file.mesh, density_of(file, choice)), unit);
 }
 
-/// The errors of operators; none for cells that are not Voronoi cells.
+/// Whether triangles surround a site.
+bool has_whole_cell(const Mesh& mesh) {
+  std::vector<bool> whole(static_cast<std::size_t>(mesh.points.cols()));
+  for (const std::int32_t site : mesh.triangles.reshaped())
+    whole[static_cast<std::size_t>(site)] = true;
+  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
+    for (int i = 0; i < 3; ++i)
+      if (mesh.neighbours(i, t) < 0)
+        for (const int end : {1, 2})
+          whole[static_cast<std::size_t>(mesh.triangles((i + end) % 3, t))] = false;
+  return std::find(whole.begin(), whole.end(), true) != whole.end();
+}
+
+/// The errors of operators; none for cells that are not Voronoi cells, nor where none is whole.
 std::vector<Quantity> operator_quantities(const MeshFile& file, const ViewChoice& choice) {
   if (!choice.operators || as_polygons(file))
     return {};
   if (file.plane)
     return quantities_of(
         operator_errors(*file.plane, domain_of(*file.plane, choice.domain)).by_cell);
-  if (count_edges(*file.mesh).not_delaunay > 0)
+  if (count_edges(*file.mesh).not_delaunay > 0 || !has_whole_cell(*file.mesh))
     return {};
   return quantities_of(operator_errors(*file.mesh).by_cell);
 }
