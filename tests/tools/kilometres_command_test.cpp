@@ -47,7 +47,7 @@ TEST_CASE("a width in km makes a uniform grid of the Earth, with the number of c
   const Outcome made =
       good(bench, "cvt --cell-width 960km -o mesh.nc"); // 639 cells; 642 are symmetric
   CHECK(made.out.starts_with("mesh.nc: 642 cells, converged, "));
-  CHECK(made.err == "calotte: cells 960 km wide require 639 cells; the nearest symmetric grid has "
+  CHECK(made.err == "calotte: cells 960 km wide require 639 cells; a symmetric grid near that has "
                     "642, 957.8 km wide\n");
   const std::string mesh = bench.file("mesh.nc");
   for (const char* same : {"960", "'960 km'", "960.0km"}) {

@@ -64,7 +64,7 @@ std::string note_on_uniform(double implied, const WidthWords& words,
       formatted("%.4g", *words.uniform * std::sqrt(implied / static_cast<double>(*cells))) +
       " km wide";
   if (*cells == cells_of_uniform(implied))
-    return note + "; the nearest symmetric grid has " + std::to_string(*cells) + ", " + width;
+    return note + "; a symmetric grid near that has " + std::to_string(*cells) + ", " + width;
   return note + "; the " + std::to_string(*cells) + " cells of the grid are " + width;
 }
 
