@@ -144,7 +144,7 @@ typedef struct calotte_cvt_options {
   double tolerance;   /**< of the rms distance to the centroids over the spacing; 0: the default */
   int64_t iterations; /**< the most of a level; 0: the default, 1000 */
   int64_t seed;       /**< of random points */
-  int32_t well_centred; /**< 1: end with a finish that removes shapes that models object to */
+  int32_t well_centred; /**< 1: without obtuse triangles and short Voronoi edges */
 } calotte_cvt_options;
 
 /** The course of a run, as calotte::CvtReport. */
@@ -160,7 +160,7 @@ typedef struct calotte_cvt_report {
 /** Zeros, and the seed 1. */
 CALOTTE_C_API void calotte_cvt_defaults(calotte_cvt_options* options);
 
-/** A grid of `cells` generators, from the start that the command takes: a bisected one if the
+/** A grid of `cells` generators, from the start that the command takes: a geodesic one if the
  * density is uniform, otherwise levels with insertion. Report and options may be null. */
 CALOTTE_C_API calotte_status calotte_grid(int64_t cells, const calotte_cvt_options* options,
                                           calotte_mesh** mesh, calotte_cvt_report* report,

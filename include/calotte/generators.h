@@ -90,11 +90,10 @@ Points3 geodesic_sphere(std::int64_t b, std::int64_t c);
 /// \param n 12 to 2^30, but not 13, for which there is no such triangulation.
 Points3 geodesic_sphere(std::int64_t n);
 
-/// A number of points for a uniform grid: the one of a symmetric geodesic grid, 10 (b^2 + b c +
-/// c^2)
-/// + 2, that is nearest to a number, such as the cells that a uniform width implies; of two the
-/// larger; and within 0.5 percent that of a bisected icosahedron, which many models know. If none
-/// is within 0.5 percent, the number itself, rounded. \param points 12 to 2^30.
+/// A number of points for a uniform grid. Of the numbers of symmetric geodesic grids it is the
+/// nearest, of two the larger; within 0.5 percent that of a bisected icosahedron, which many models
+/// know, comes first. If none is within 0.5 percent: the number itself, rounded.
+/// \param points 12 to 2^30.
 std::int64_t geodesic_count(double points);
 
 /// A regular latitude-longitude grid: rows of `longitudes` points at cell-centred latitudes, south

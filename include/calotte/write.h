@@ -72,8 +72,8 @@ struct WriteOptions {
   /// with one number for each place. Other formats and places ignore them. In names, NetCDF formats
   /// replace characters other than letters, digits and _.+-@ by _. Default: none.
   std::vector<MeshField> fields = {};
-  /// Dimensions of MPAS files besides those of the mesh and of fields: some models look for them,
-  /// see models(). Default: none.
+  /// Dimensions of complete MPAS files besides those of the mesh and of fields: some models look
+  /// for them, see models(). Default: none.
   std::vector<FieldDimension> dimensions = {};
   /// FESOM's aux3d.out beside nod2d.out: the bounds of the layers, metres, 0 first and falling or
   /// rising from there, at least 3, and by site the depth of the bottom, metres, of either sign.

@@ -3,8 +3,8 @@
 
 #include "density/room.h"
 
-/// Points to start from: random sets, lattices, spirals, bisected icosahedra, and the midpoints
-/// that a bisection adds.
+/// Points to start from: random sets, lattices, spirals, bisected icosahedra, geodesic nets, and
+/// the midpoints that a bisection adds.
 ///
 /// In: a number and a seed, or a mesh. Out: points; the same bits on every machine.
 namespace calotte::generators_detail {

@@ -6,7 +6,7 @@
 /// Measures of the quality of a grid: spacings, angles, areas, quality of cells and triangles,
 /// distance from the centroids, energy.
 ///
-/// In: a closed mesh, or one in a domain. Out: ranges and counts.
+/// In: a mesh, closed, open or in a domain. Out: ranges, counts, errors of operators, eigenvalues.
 namespace calotte::quality_detail {
 using namespace cvt_detail; // and the rooms below it
 }

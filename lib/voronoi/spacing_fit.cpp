@@ -81,7 +81,7 @@ Eigen::VectorXd log_spacings(const Voronoi& voronoi) {
   return logarithms;
 }
 
-/// The standard deviation of the numbers, and of what is left of them after smoothing.
+/// The standard deviation of the numbers.
 double deviation(const Eigen::VectorXd& of) {
   double count = 0, sum = 0, squares = 0;
   for (const double value : of)

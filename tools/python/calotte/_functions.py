@@ -256,7 +256,8 @@ def cvt(start: int | ArrayLike | None = None, *, density: DensityLike | None = N
         domain: DomainLike | None = None, seed: int = 1, method: str = "auto",
         norm: str = "l2-scaled", tolerance: float | None = None, max_iterations: int = 1000,
         well_centred: bool | None = None, least_spacing: float = 0.8,
-        insertion_rounds: int | None = None, regions: int | None = None, progress: Progress | bool | None = None,
+        insertion_rounds: int | None = None, regions: int | None = None,
+        progress: Progress | bool | None = None,
         earth_radius: float = EARTH_RADIUS_KM) -> Cvt:
     """A centroidal Voronoi tessellation of the sphere, of a region, or of a planar domain.
 
