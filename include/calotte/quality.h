@@ -33,8 +33,8 @@ struct Percentiles {
 
 /// Limits beyond which models object to an edge.
 inline constexpr double short_voronoi_edge = 0.18; ///< of dv/dc
-inline constexpr double least_fit = 0.75;         ///< of dc/h
-inline constexpr double greatest_fit = 1.4;       ///< of dc/h
+inline constexpr double least_fit = 0.75;          ///< of dc/h
+inline constexpr double greatest_fit = 1.4;        ///< of dc/h
 
 /// Quality of a closed mesh and its Voronoi cells. Lengths are arcs on the unit sphere in radians;
 /// areas are in steradians. Means give equal weight to every edge, cell, triangle or corner. A

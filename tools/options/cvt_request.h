@@ -34,7 +34,7 @@ struct CvtRequest {
   std::string method = "auto";
   double relaxation = 1;
   std::string norm = "l2-scaled";
-  std::optional<std::string> stop; ///< default: see well_centred()
+  std::optional<std::string> stop;     ///< default: see well_centred()
   std::optional<double> least_spacing; ///< of a run that ends well-centred
   std::optional<double> given_tolerance;
   int max_iterations = CvtOptions{}.max_iterations;
