@@ -94,7 +94,7 @@ struct Definition {
   void add(const Edge& edge, double fit, double ratio) {
     fits.push_back(fit);
     ratios.push_back(ratio);
-    const bool is_short = ratio < 0.2, unfit = fit < 0.75 || fit > 1.4;
+    const bool is_short = ratio < 0.18, unfit = fit < 0.75 || fit > 1.4;
     short_edges += is_short;
     unfit_edges += unfit;
     if (is_short || unfit)
