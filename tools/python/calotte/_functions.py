@@ -500,7 +500,7 @@ def write(path: Path, mesh: Mesh | PlanarMesh, *, format: str = "by-name",
     sphere_radius: of NetCDF files. MPAS-Atmosphere needs 1, MPAS-Ocean metres, 6371220.
     density, cell_width: as for cvt(); they set meshDensity and nominalMinDc. Without them the density
     of an MPAS file on the sphere follows from the smoothed spacing of the cells, if this varies.
-    domain: of a planar mesh, which clips its cells.
+    domain: of a planar mesh, which clips its cells. Its meshDensity follows from a density with it.
     fields: a dict of n numbers at the cells.
     """
     widths = None if cell_width is None else _arguments.cell_width(cell_width)

@@ -45,7 +45,7 @@ def build_planar_mesh(cellWidth, x, y, geom_points, geom_edges, out_filename="ba
     grid = _functions.cvt(_cells_in(domain, values, x, y), domain=domain, density=rho)
     if logger is not None:
         logger.info(f"{out_filename}: {len(grid.mesh)} cells, {grid.iterations} iterations")
-    grid.mesh.to_mpas(out_filename, domain=domain)
+    grid.mesh.to_mpas(out_filename, domain=domain, density=rho)
     return len(grid.mesh)
 
 

@@ -73,8 +73,12 @@ void write_mesh(const Mesh& mesh, const Output& output) {
 }
 
 void write_plane(const PlanarMesh& mesh, std::optional<PlanarDomain> domain, const Output& output) {
-  const WriteOptions options = options_of(output);
+  WriteOptions options = options_of(output);
   call([&] {
+    if (domain && !output.density.uniform()) {
+      options.site_density = evaluate(output.density, *domain, mesh.points);
+      options.density = {};
+    }
     if (domain)
       write(output.path, mesh, *domain, options);
     else
