@@ -108,7 +108,7 @@ bool is_power_of_four(std::int64_t square) {
 
 Points3 geodesic_sphere(std::int64_t b, std::int64_t c) {
   const std::int64_t most = 1 << 15; // whose square does not overflow
-  require(b >= 0 && c >= 0 && b + c > 0 && b < most && c < most && count_of({b, c}) <= most_points,
+  require(b >= 0 && c >= 0 && b < most && c < most && b + c > 0 && count_of({b, c}) <= most_points,
           "the vector is (" + std::to_string(b) + ", " + std::to_string(c) +
               "); give two numbers from 0, not both 0, with at most " +
               std::to_string(most_points) + " points, 10 (b^2 + b c + c^2) + 2");

@@ -43,14 +43,14 @@ double seconds_of_point(const Density& density) {
   return least / points;
 }
 
-// Fits of default runs on an AMD EPYC virtual machine, seconds of all threads together: x8 and
-// widths by latitude as rasters, with 46 000 to 744 000 cells, took the time of 100 to 170
-// evaluations; widths along a coast, with gradients six times above what models recommend, that of
-// 260. An evaluation took 290 to 540 ns of a cell.
+// Default runs with x4, x8, widths by latitude, in a band and by the Rossby radius as rasters, with
+// 41 000 to 111 000 cells, evaluate each cell 80 to 110 times, those with 28 000 cells along a
+// coast, with gradients ten times above what models recommend, 180 times. An evaluation took 290 to
+// 540 ns of a cell on an AMD EPYC virtual machine, of all threads together.
 
 /// In units of the result's cells; of a uniform grid of the sphere, see continuation(), and of all
 /// others.
-constexpr double evaluations_uniform = 30, evaluations = 150;
+constexpr double evaluations_uniform = 30, evaluations = 110;
 constexpr double seconds_of_cell = 280e-9; ///< per evaluation, without the density
 constexpr double points_of_cell = 36;      ///< at which the density is evaluated
 constexpr double efficiency = 0.9;         ///< of each further thread
