@@ -75,7 +75,7 @@ struct CvtOptions {
   /// bisections before the last has 4^-b times as many.
   std::int64_t cells = 0;
   /// Ends the run with the shapes that models ask for. A pure CVT has few others, at dislocations,
-  /// pairs of cells with 5 and 7 neighbours. First, up to three times after the last descent,
+  /// pairs of cells with 5 and 7 neighbours. First, up to four times after the last descent,
   /// dislocations at short Voronoi edges are moved along their rows, the generators around them
   /// relax, and the descent goes on. Then a finish minimises the energy plus the squares of
   /// excesses over limits that are left: angles of triangles from 38 to 87 degrees, Voronoi edges
