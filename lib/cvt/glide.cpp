@@ -113,8 +113,7 @@ private:
     const double here = cotangent(t, v);
     if (u < 0 || here >= std::max(limits_.least_edge, limits_.least_cotangent))
       return;
-    const auto back = mesh().neighbours.col(u);
-    const int w = back[0] == t ? 0 : back[1] == t ? 1 : 2;
+    const int w = vertex_across(mesh().neighbours, u, t);
     const double beyond = cotangent(u, w), ratio = (here + beyond) / 2;
     const bool theirs = beyond < here || (beyond == here && u < t);
     if (theirs || (ratio >= limits_.least_edge && here >= limits_.least_cotangent))

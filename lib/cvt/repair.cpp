@@ -13,25 +13,19 @@ Corners corners_of(const Connectivity& mesh, std::int32_t t) {
   return {mesh.triangles(0, t), mesh.triangles(1, t), mesh.triangles(2, t)};
 }
 
-/// Index in a triangle of the vertex across from its neighbour.
-int index_of(const Connectivity& mesh, std::int32_t triangle, std::int32_t neighbour) {
-  return mesh.neighbours(0, triangle) == neighbour   ? 0
-         : mesh.neighbours(1, triangle) == neighbour ? 1
-                                                     : 2;
-}
-
 template <class Signs>
 bool is_delaunay(const Connectivity& mesh, const Signs& signs, const TriangleEdge& edge) {
   const std::int32_t t = edge.triangle, beyond = mesh.neighbours(edge.across, t);
-  return beyond < 0 || !signs.circle_holds(corners_of(mesh, t), edge.across,
-                                           mesh.triangles(index_of(mesh, beyond, t), beyond));
+  return beyond < 0 ||
+         !signs.circle_holds(corners_of(mesh, t), edge.across,
+                             mesh.triangles(vertex_across(mesh.neighbours, beyond, t), beyond));
 }
 
 /// Replaces the edge bc of the triangles abc and dcb by ad, which gives abd and dca. The four outer
 /// edges must then be tested again.
 void flip(Connectivity& mesh, const TriangleEdge& edge, std::vector<TriangleEdge>& pending) {
   const std::int32_t t = edge.triangle, u = mesh.neighbours(edge.across, t);
-  const int at = edge.across, ut = index_of(mesh, u, t);
+  const int at = edge.across, ut = vertex_across(mesh.neighbours, u, t);
   const std::int32_t a = mesh.triangles(at, t), b = mesh.triangles(next_vertex(at), t),
                      c = mesh.triangles(previous_vertex(at), t), d = mesh.triangles(ut, u);
   const std::int32_t across_b = mesh.neighbours(next_vertex(at), t),
@@ -44,9 +38,9 @@ void flip(Connectivity& mesh, const TriangleEdge& edge, std::vector<TriangleEdge
   mesh.triangles.col(u) << d, c, a;
   mesh.neighbours.col(u) << across_b, t, beyond_dc;
   if (beyond_bd >= 0)
-    mesh.neighbours(index_of(mesh, beyond_bd, u), beyond_bd) = t;
+    mesh.neighbours(vertex_across(mesh.neighbours, beyond_bd, u), beyond_bd) = t;
   if (across_b >= 0)
-    mesh.neighbours(index_of(mesh, across_b, t), across_b) = u;
+    mesh.neighbours(vertex_across(mesh.neighbours, across_b, t), across_b) = u;
   for (const TriangleEdge& outer :
        {TriangleEdge{t, 0}, TriangleEdge{t, 2}, TriangleEdge{u, 0}, TriangleEdge{u, 2}})
     pending.push_back(outer);
@@ -74,7 +68,7 @@ bool turn_back(Connectivity& mesh, const Signs& signs, std::int32_t t,
       continue;
     const std::int32_t a = mesh.triangles(v, t), b = mesh.triangles(next_vertex(v), t),
                        c = mesh.triangles(previous_vertex(v), t),
-                       d = mesh.triangles(index_of(mesh, u, t), u);
+                       d = mesh.triangles(vertex_across(mesh.neighbours, u, t), u);
     if (a != d && signs.is_counter_clockwise({a, b, d}) && signs.is_counter_clockwise({d, c, a})) {
       flip_and_count(mesh, {t, v}, pending, result);
       return true;

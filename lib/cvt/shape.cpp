@@ -80,11 +80,6 @@ Excess excess_of(double value, double least, double most) {
   return {std::max(value - most, 0.0), 1};
 }
 
-/// The vertex of a triangle across from a neighbour.
-int across_from(const Connectivity& mesh, std::int32_t t, std::int32_t neighbour) {
-  return mesh.neighbours(0, t) == neighbour ? 0 : mesh.neighbours(1, t) == neighbour ? 1 : 2;
-}
-
 template <class Cells> class Penalty {
 public:
   Penalty(const Cells& cells, const Connectivity& mesh, const Eigen::VectorXd& inverse_spacing,
@@ -140,7 +135,7 @@ private:
     const std::int32_t u = mesh_.neighbours(v, t);
     if (u < 0 || !is_inner(u))
       return;
-    const Angle other = angle_at(mesh_, u, across_from(mesh_, u, t));
+    const Angle other = angle_at(mesh_, u, vertex_across(mesh_.neighbours, u, t));
     const Cotangent beyond(cells_, other);
     if (beyond_edges(beyond.value) && other.c < angle.c)
       return;

@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/triangle.h"
+#include "mesh/connectivity.h"
 #include "mesh/vertex_rings.h"
 #include "quality/room.h"
 
@@ -192,7 +193,7 @@ inline void add_edges(EdgePart& part, const Subject& subject, std::int64_t t) {
     const std::int32_t other = neighbours(v, t);
     if (other < t || !(subject.has(t) || subject.has(other)))
       continue;
-    const int w = neighbours(0, other) == t ? 0 : neighbours(1, other) == t ? 1 : 2;
+    const int w = mesh_detail::vertex_across(neighbours, other, t);
     const Edge edge = edge_of(subject.shapes, t, v, other, w);
     part.spacing.add(edge.arc);
     if (subject.inverse_spacing.size() > 0) {

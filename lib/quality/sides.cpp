@@ -3,6 +3,7 @@
 
 #include "base/points.h"
 #include "exact/predicates.h"
+#include "mesh/connectivity.h"
 
 #include <algorithm>
 #include <array>
@@ -42,7 +43,7 @@ void add_side(const Mesh& mesh, const Shapes& shapes, std::int64_t t, int v,
   const auto corner = static_cast<std::size_t>(v);
   std::optional<Edge> edge;
   if (other > t) {
-    const int w = mesh.neighbours(0, other) == t ? 0 : mesh.neighbours(1, other) == t ? 1 : 2;
+    const int w = mesh_detail::vertex_across(mesh.neighbours, other, t);
     edge = edge_of(shapes, t, v, other, w);
   }
   for (const int end : {next_vertex(v), previous_vertex(v)}) {
