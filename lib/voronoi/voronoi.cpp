@@ -138,6 +138,7 @@ Voronoi voronoi_of_open(const Mesh& mesh) {
     }
   });
   measure_open(out);
+  measure_areas(out); // of kites: the corners of a cell can be opposite each other
   return out;
 }
 

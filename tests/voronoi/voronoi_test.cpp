@@ -690,6 +690,7 @@ TEST_CASE("sites in a hemisphere have bounded cells that fill the sphere") {
   const std::vector<std::pair<std::string, Points3>> sets{
       {"four around the pole and one",
        from_degrees({{0, 50}, {90, 50}, {180, 50}, {270, 50}, {30, 70}})},
+      {"four on a circle", from_degrees({{0, 50}, {90, 50}, {180, 50}, {270, 50}})},
       {"four", from_degrees({{0, 10}, {80, 20}, {200, 15}, {40, 80}})},
       {"equator", equator},
       {"a cap", in_a_cap(60, 1.2, 4)},
