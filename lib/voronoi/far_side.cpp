@@ -12,6 +12,8 @@
 #include <calotte/error.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -178,6 +180,29 @@ Mesh hull_of(const Mesh& mesh) {
   hull.neighbours = neighbours_of(hull.triangles, mesh.points.cols());
   make_canonical(hull.triangles, hull.neighbours);
   return hull;
+}
+
+void measure_far(const Mesh& hull, std::int64_t triangle, Voronoi& out) {
+  std::array<Vec3, 3> corner;
+  for (int v = 0; v < 3; ++v)
+    corner[static_cast<std::size_t>(v)] = column(out.cells, out.cells_on_vertex(v, triangle));
+  const auto& [a, b, c] = corner;
+  const double height = 2 * std::abs(dot(cross(b - a, c - a), a));
+  std::array<double, 3> half{}; // of the edge across from each vertex
+  for (int v = 0; v < 3; ++v) {
+    const Vec3 &p = corner[static_cast<std::size_t>(v)],
+               &q = corner[static_cast<std::size_t>(next_vertex(v))],
+               &r = corner[static_cast<std::size_t>(previous_vertex(v))];
+    const double length = norm(r - q), sine = length * dot(q - p, r - p);
+    const double rise = length / (2 + norm(q + r)) * (std::hypot(sine, height) + height);
+    half[static_cast<std::size_t>(v)] =
+        2 * (is_far(hull, hull.neighbours(v, triangle)) ? std::atan2(-sine, rise)
+                                                        : std::atan2(rise, sine));
+  }
+  for (int v = 0; v < 3; ++v)
+    out.kites(v, triangle) = half[static_cast<std::size_t>(next_vertex(v))] +
+                             half[static_cast<std::size_t>(previous_vertex(v))];
+  out.vertex_area[triangle] = out.kites.col(triangle).sum();
 }
 
 bool is_far(const Mesh& hull, std::int64_t triangle) {

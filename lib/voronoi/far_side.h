@@ -4,6 +4,9 @@
 #include "voronoi/room.h"
 
 #include <calotte/types.h>
+#include <calotte/voronoi.h>
+
+#include <cstdint>
 
 /// The far side of a mesh whose sites lie in a hemisphere.
 namespace calotte::voronoi_detail {
@@ -20,6 +23,16 @@ namespace calotte::voronoi_detail {
 ///         hull: it has several parts, a corner to the inside, or sites without triangles; for one
 ///         that fails check_surface().
 Mesh hull_of(const Mesh& mesh);
+
+/// Sets the kites of a triangle on the far side, and its area.
+///
+/// The point opposite its circumcentre lies, from the middle of its edge ab, a signed arc delta
+/// towards its third vertex, see geometry.h; the circumcentre an arc pi - delta away from it. With
+/// theta the arc ab, a half kite at the boundary has the area 2 atan(tan(theta/4) cot(delta/2)),
+/// from the middle of ab. One between two triangles of the far side has that less pi, from the
+/// point opposite the middle, near which their Voronoi edge passes. No difference of large terms
+/// occurs where circumcentres are nearly opposite their sites.
+void measure_far(const Mesh& hull, std::int64_t triangle, Voronoi& out);
 
 /// True for a triangle of hull_of() on the far side, whose circumcentre is there.
 bool is_far(const Mesh& hull, std::int64_t triangle);

@@ -138,6 +138,9 @@ Voronoi voronoi_of_open(const Mesh& mesh) {
     }
   });
   measure_open(out);
+  for (std::int64_t t = 0; t < hull.triangles.cols(); ++t)
+    if (is_far(hull, t))
+      measure_far(hull, t, out);
   measure_areas(out); // of kites: the corners of a cell can be opposite each other
   return out;
 }

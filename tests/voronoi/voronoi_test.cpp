@@ -704,7 +704,7 @@ TEST_CASE("sites in a hemisphere have bounded cells that fill the sphere") {
     const Eigen::Index n = sites.cols();
     CHECK(cells.vertices.cols() == 2 * n - 4);
     CHECK(cells.cells_on_edge.cols() == 3 * n - 6);
-    CHECK(std::abs(cells.cell_area.sum() - 4 * pi) < 1e-9);
+    CHECK(std::abs(cells.cell_area.sum() - 4 * pi) < 1e-11);
     CHECK(cells.cell_area.minCoeff() > 0);
     for (Eigen::Index v = 0; v < cells.vertices.cols(); ++v) { // no site is nearer than its three
       const Eigen::VectorXd nearness = cells.cells.transpose() * cells.vertices.col(v);
