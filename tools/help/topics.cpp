@@ -11,8 +11,9 @@ constexpr const char* density =
 
   --density tanh:lon=270,lat=30,beta=30deg,alpha=0.20,gamma=x8
 
-The density is about 1 within the angle beta of the centre and gamma far from it. The width of a
-cell is proportional to density^(-1/4).
+--density x8 is short for it, and x4 or x16 for other contrasts. The density is about 1 within the
+angle beta of the centre and gamma far from it. The width of a cell is proportional to
+density^(-1/4).
 
   lon, lat   centre in degrees
   beta       radius of the bump, > 0: radians, or degrees as 30deg

@@ -161,18 +161,22 @@ def kilometres_in(unit):
     return names[unit]
 
 
+_USUAL = {"lon": "270", "lat": "30", "beta": "30deg", "alpha": "0.2", "gamma": "x8"}
 _ON_SPHERE = (("lon", "lat", "beta", "alpha", "gamma"), ("stretch", "azimuth"))
 _IN_PLANE = (("x", "y", "beta", "alpha", "gamma"), ("stretch", "angle"))
 
 
 def _bump_words(text, plane):
-    """A bump by its name: "x8", or tanh: with the words of `calotte help density`."""
+    """A bump by its name: "x8", or tanh: with the words of `calotte help density`.
+
+    On the sphere, words that are not given are those of the paper's bump.
+    """
     if text.startswith("x") and text[1:].isdigit() and not plane:
-        return {"lon": "270", "lat": "30", "beta": "30deg", "alpha": "0.2", "gamma": text}
+        return _USUAL | {"gamma": text}
     if not text.startswith("tanh:"):
         raise Error(f"no density {text}; give uniform, x4, x8, x16 or "
                     "tanh:lon=270,lat=30,beta=30deg,alpha=0.2,gamma=x8")
-    words = {}
+    words = {} if plane else dict(_USUAL)
     for word in filter(None, text.removeprefix("tanh:").split(",")):
         name, _, value = word.partition("=")
         words[name.strip()] = value.strip()

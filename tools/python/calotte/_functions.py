@@ -599,7 +599,8 @@ def write(path: Path, mesh: Grid, *, format: str = "by-name",
     part = None if domain is None else _arguments.domain(domain)
     content = content_of(mesh)
     if content is not None:
-        dropped = _calotte.write_content(content, mesh, part, output)
+        names = _calotte.write_content(content, mesh, part, output)
+        dropped = [name for name in names if name in content.fields or name in values]
         if dropped:
             warnings.warn(f"{path}: the format does not hold {', '.join(dropped)}", stacklevel=2)
     elif isinstance(mesh, Polygons):
