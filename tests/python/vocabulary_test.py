@@ -121,7 +121,7 @@ def test_widths_of_no_length(width):
 def rasters(folder, unit, lon, lat, scale=1.0):
     netcdf = pytest.importorskip("netCDF4")
     xarray = pytest.importorskip("xarray")
-    values = (900 + 2 * lat[:, np.newaxis] + 0 * lon) * scale
+    values = (300 + lat[:, np.newaxis] + 0 * lon) * scale
     with netcdf.Dataset(folder / "widths.nc", "w") as file:
         file.createDimension("lat", len(lat))
         file.createDimension("lon", len(lon))
@@ -160,7 +160,7 @@ def test_units_that_are_no_length(tmp_path, unit):
 def test_widths_must_cover_what_is_asked(tmp_path):
     array = rasters(tmp_path, "km", np.arange(0, 61, 5.0), np.arange(0, 61, 5.0))
     file = tmp_path / "widths.nc"
-    inside, outside = "circle=30,30,10deg", "circle=80,30,10deg"
+    inside, outside = "circle=30,30,20deg", "circle=80,30,20deg"
     for widths in (array, (array.values, array.lon.values, array.lat.values), file):
         assert calotte.plan(widths, region=inside).cells >= 12
         for region in (None, outside):

@@ -32,7 +32,7 @@ def version():
 
 def require_wheel():
     """Pip's own message, \"invalid command 'bdist_wheel'\", names neither the package nor a remedy."""
-    if "bdist_wheel" not in sys.argv:
+    if not {"bdist_wheel", "dist_info", "editable_wheel"} & set(sys.argv):
         return
     for module in ("setuptools.command.bdist_wheel", "wheel.bdist_wheel"):
         try:
