@@ -41,14 +41,14 @@ def escaped(text):
 def signature(name, function):
     plain = re.sub(r"(: |-> )'([^']*)'", r"\1\2", str(inspect.signature(function)))
     call = f"{name}{plain}"
-    if len(call) <= 100:
+    if len(call) <= 90:
         return call
-    inner, _, returned = plain[1:].rpartition(") -> ")
+    inner, returned = re.fullmatch(r"\((.*)\)( -> .*)?", plain).groups()
     parts = re.split(r", (?![^\[(]*[\])])", inner)
-    lines = textwrap.wrap(", ".join(part.replace(" ", "\0") for part in parts), 96,
+    lines = textwrap.wrap(", ".join(part.replace(" ", "\0") for part in parts), 90,
                           break_long_words=False)
     body = "\n".join("    " + line.replace("\0", " ") for line in lines)
-    return f"{name}(\n{body}\n) -> {returned}"
+    return f"{name}(\n{body}\n){returned or ''}"
 
 
 def documented(text):
@@ -56,9 +56,27 @@ def documented(text):
     return inspect.cleandoc(text).split(">>>")[0].rstrip()
 
 
+def wrapped(text, width=90):
+    """Paragraphs and indented descriptions of arguments, in lines that fit the page."""
+    lines = []
+    for paragraph in documented(text).split("\n\n"):
+        items = []
+        for line in paragraph.split("\n"):
+            if items and (line.startswith(" ") or not re.match(r"\w+(, \w+)*: |Returns", line)):
+                items[-1] += " " + line.strip()
+            else:
+                items.append(line)
+        for item in items:
+            named = re.match(r"\w+(, \w+)*: ", item)
+            lines += textwrap.wrap(item, width, subsequent_indent="    " if named else "",
+                                   break_long_words=False, break_on_hyphens=False)
+        lines.append("")
+    return "\n".join(lines).rstrip()
+
+
 def function_lines(name, function):
-    return [f"### {name}()", "", "```text", signature(name, function), "",
-            documented(function.__doc__), "```", ""]
+    return [f"### {name}", "", "```text", signature(name, function), "",
+            wrapped(function.__doc__), "```", ""]
 
 
 def comments(kind):
@@ -105,8 +123,8 @@ def page():
     lines += ["## Types", ""]
     for name in KINDS:
         lines += kind_lines(name)
-    lines += ["### plot()", "", "Of Mesh, PlanarMesh, Polygons and Cvt.", "", "```text",
-              signature("plot", calotte.Mesh.plot), "", documented(calotte.Mesh.plot.__doc__),
+    lines += ["### plot", "", "Of Mesh, PlanarMesh, Polygons and Cvt.", "", "```text",
+              signature("plot", calotte.Mesh.plot), "", wrapped(calotte.Mesh.plot.__doc__),
               "```"]
     return "\n".join(lines) + "\n"
 

@@ -305,12 +305,15 @@ def cvt(start: int | ArrayLike | None = None, *, density: DensityLike | None = N
     start: the number of cells; or the generators at the start, as points of delaunay(); or None,
         where cell_width gives the number.
     density: "uniform"; "x8", the paper's bump with an eightfold contrast of widths;
-        "tanh:lon=270,lat=30,beta=30deg,alpha=0.2,gamma=x8"; or a function of k x 3 unit vectors (in
-        a domain k x 2 places, z = 0) that returns k densities.
-    cell_width: in km, in place of a density: a number; (values, longitudes, latitudes) in degrees;
-        an xarray.DataArray over lat and lon; a file as `calotte cvt --cell-width` reads it; or a
+        "tanh:lon=270,lat=30,beta=30deg,alpha=0.2,gamma=x8"; several such names, of which the
+        maximum counts; the result of density(); or a function of k x 3 unit vectors (in a domain
+        k x 2 places, z = 0) that returns k densities.
+    cell_width: in km, in place of a density: a number; text with a unit, "60km" or "60000m";
+        (values, longitudes, latitudes) in degrees; an xarray.DataArray over lat and lon, in km or
+        in the length of its attribute units; a file as `calotte cvt --cell-width` reads it; or a
         function of arrays of longitudes and latitudes, which is sampled every quarter of a degree.
-    region: a part of the sphere, of circle(), ellipse(), channel(), polygon() or a file.
+    region: a part of the sphere, of circle(), ellipse(), channel() or polygon(); text as of
+        `calotte cvt --region`, such as "circle=-105,40,1000km"; or a file.
     domain: a part of the plane, of rectangle(), periodic_box(), planar_polygon() or a file.
     fixed: generators that stay, as points of delaunay(); the first cells of the result. A number of
         cells includes them, points of the start do not.

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Pictures of cells, by matplotlib; the projections of cartopy where it is installed."""
+from dataclasses import dataclass
+
 import numpy as np
 
 from . import _arguments, _calotte
@@ -295,20 +297,7 @@ def _new_axes(projection):
     return plt.figure(figsize=(9, 5), layout="constrained").add_subplot(projection=projection)
 
 
-def _limits(ax, parts, frame, whole, middle):
-    if frame is not None:
-        ax.set(xlim=(-1.02, 1.02), ylim=(-1.02, 1.02), aspect="equal")
-        ax.set_axis_off()
-        return
-    places = np.concatenate(parts)
-    low, high = np.nanmin(places, axis=0), np.nanmax(places, axis=0)
-    if whole:
-        low, high = np.array([middle - 180, -90]), np.array([middle + 180, 90])
-    margin = 0 if whole else 0.02 * (high - low).max()
-    ax.set(xlim=(low[0] - margin, high[0] + margin), ylim=(low[1] - margin, high[1] + margin))
-
-
-def plot(grid, field=None, *, ax=None, projection=None, view=None, coast=True, domain=None,
+def plot(self, field=None, *, ax=None, projection=None, view=None, coast=True, domain=None,
          cmap=None, vmin=None, vmax=None, edgecolor=None, linewidth=0.2, colorbar=True, label=None,
          earth_radius=EARTH_RADIUS_KM):
     """Draws the cells, coloured by a field. Returns the axes of matplotlib, which it needs.
@@ -330,48 +319,84 @@ def plot(grid, field=None, *, ax=None, projection=None, view=None, coast=True, d
     """
     _matplotlib()
     from matplotlib.collections import PolyCollection
-    spherical = _is_spherical(grid)
+    spherical = _is_spherical(self)
+    _require_projection(spherical, ax, projection, view)
+    begin, ids, corners = rings(self, domain)
+    if not len(ids):
+        raise Error("the mesh has no whole cell to draw")
+    areas = _areas(begin, ids, corners, spherical)
+    values, name = _values(self, field, areas, spherical, earth_radius)
+    if ax is None:
+        ax = _new_axes(projection)
+    picture = _picture(begin, ids, corners, areas, spherical, getattr(ax, "projection", None), view)
+    cells = PolyCollection(picture.parts, array=values[picture.cell], cmap=cmap,
+                           linewidths=linewidth,
+                           edgecolors="face" if edgecolor is None else edgecolor)
+    cells.set_clim(vmin, vmax)
+    ax.add_collection(cells, autolim=False)
+    _set_limits(ax, picture)
+    if spherical and coast:
+        _draw_coast(ax, coast, picture.middle, picture.frame)
+    if colorbar:
+        ax.figure.colorbar(cells, ax=ax, label=name if label is None else label, shrink=0.8)
+    return ax
+
+
+def _require_projection(spherical, ax, projection, view):
     if not spherical and (projection is not None or view is not None):
         raise Error("a projection or a view is of the sphere; leave it out for a plane")
     if view is not None and (projection is not None or hasattr(ax, "projection")):
         raise Error("a view is a projection of its own; give one of them")
-    begin, ids, corners = rings(grid, domain)
-    if not len(ids):
-        raise Error("the mesh has no whole cell to draw")
-    areas = _areas(begin, ids, corners, spherical)
-    values, name = _values(grid, field, areas, spherical, earth_radius)
-    if ax is None:
-        ax = _new_axes(projection)
-    frame, middle, whole = None, 0.0, False
+
+
+@dataclass
+class _Picture:
+    """Polygons of cells in the coordinates of a picture."""
+
+    parts: list  #: k x 2 each; on a map those of all cells, then copies at its ends
+    cell: np.ndarray  #: of each part
+    spherical: bool
+    frame: np.ndarray | None = None  #: of a globe: east, north and towards
+    middle: float = 0.0  #: meridian of a map
+    whole: bool = False  #: whether there are cells all around the sphere
+
+
+def _picture(begin, ids, corners, areas, spherical, projection, view):
     if not spherical:
-        parts, cell = _split(corners[ids, :2], begin), np.arange(len(begin) - 1)
-    elif hasattr(ax, "projection"):
-        parts, cell = _projected(begin, ids, corners, ax.projection)
+        picture = _Picture(_split(corners[ids, :2], begin), np.arange(len(begin) - 1), False)
     elif view is not None:
         frame = _globe_axes(view)
-        parts, cell = _globe(begin, ids, corners, frame)
+        picture = _Picture(*_globe(begin, ids, corners, frame), True, frame)
     else:
         towards = _middle(begin, ids, corners, areas)
-        whole = np.linalg.norm(towards) < 0.4  # cells all around
+        whole = bool(np.linalg.norm(towards) < 0.4)
         middle = 0.0 if whole else float(np.degrees(np.arctan2(towards[1], towards[0])))
-        parts, cell = _map(begin, ids, corners, middle)
-    used = [k for k, part in enumerate(parts) if len(part)]
-    parts, cell = [parts[k] for k in used], cell[used]
-    cells = PolyCollection(parts, array=values[cell], cmap=cmap, linewidths=linewidth,
-                           edgecolors="face" if edgecolor is None else edgecolor)
-    cells.set_clim(vmin, vmax)
-    ax.add_collection(cells, autolim=not spherical)
-    if hasattr(ax, "projection"):
-        ax.autoscale_view() if not whole else ax.set_global()
-    else:
-        _limits(ax, parts[:len(np.unique(cell))], frame, whole, middle)
-    if not hasattr(ax, "projection") and frame is None:
-        _label_axes(ax, spherical, whole)
-    if spherical and coast:
-        _draw_coast(ax, coast, middle, frame)
-    if colorbar:
-        ax.figure.colorbar(cells, ax=ax, label=name if label is None else label, shrink=0.8)
-    return ax
+        shapes = (_map(begin, ids, corners, middle) if projection is None
+                  else _projected(begin, ids, corners, projection))
+        picture = _Picture(*shapes, True, None, middle, whole)
+    used = [k for k, part in enumerate(picture.parts) if len(part)]
+    picture.parts, picture.cell = [picture.parts[k] for k in used], picture.cell[used]
+    return picture
+
+
+def _set_limits(ax, picture):
+    projected = hasattr(ax, "projection")
+    if picture.frame is not None:
+        ax.set(xlim=(-1.02, 1.02), ylim=(-1.02, 1.02), aspect="equal")
+        ax.set_axis_off()
+        return
+    if projected and picture.whole:
+        ax.set_global()
+        return
+    places = np.concatenate(picture.parts[:len(np.unique(picture.cell))])
+    low, high = np.nanmin(places, axis=0), np.nanmax(places, axis=0)
+    if picture.whole:
+        low = np.array([picture.middle - 180, -90])
+        high = low + [360, 180]
+    margin = 0 if picture.whole else 0.02 * (high - low).max()
+    ax.set(xlim=(low[0] - margin, high[0] + margin), ylim=(low[1] - margin, high[1] + margin))
+    if not projected:
+        _label_axes(ax, picture.spherical, picture.whole)
 
 
 def _label_axes(ax, spherical, whole):
