@@ -210,3 +210,52 @@ def test_culls_by_every_kind_of_land(tmp_path):
                 netcdf.Dataset(tmp_path / "python.nc") as b:
             assert (a["areaCell"][:] == b["areaCell"][:]).all()
             assert a.dimensions["nCells"].size == report["cells"] < 642
+
+
+def values_of(report, name=""):
+    """Numbers of a report, by the names of attributes."""
+    if isinstance(report, dict):
+        for key, value in report.items():
+            yield from values_of(value, f"{name}.{key}" if name else key)
+    else:
+        yield name, report
+
+
+RENAMED = {"short_voronoi_edges": "short_edges", "rms": "l2"}
+
+
+def attribute(value, name):
+    for word in name.split("."):
+        value = getattr(value, RENAMED.get(word, word))
+    return value
+
+
+def test_measures_have_the_names_and_units_of_a_report(tmp_path):
+    """Radians and steradians in both; the report has km beside them."""
+    grid = calotte.cvt(642)
+    grid.mesh.to_mpas(tmp_path / "grid.nc", sphere_radius=6371229.0)
+    made("info", tmp_path / "grid.nc", "--operators", "--report", tmp_path / "report.json")
+    report = json.loads((tmp_path / "report.json").read_text())
+    mesh = calotte.read(tmp_path / "grid.nc")
+    errors, quality = calotte.operator_errors(mesh), calotte.quality(mesh)
+    compared = 0
+    for name, value in values_of(report):
+        if name.startswith("operators.") and "_step_" not in name:
+            assert attribute(errors, name.removeprefix("operators.")) == pytest.approx(
+                tuple(value) if isinstance(value, list) else value, rel=1e-9), name
+        elif not name.startswith("operators.") and hasattr(quality, RENAMED.get(
+                name.split(".")[0], name.split(".")[0])) and not name.startswith("degrees"):
+            assert attribute(quality, name) == pytest.approx(value, rel=1e-9, abs=1e-14), name
+        else:
+            continue
+        compared += 1
+    assert compared > 60
+    steps = report["operators"]
+    assert errors.wave_step(1.0) == pytest.approx(steps["wave_step_times_speed"])
+    assert errors.wave_step(200.0, 6371229.0) == pytest.approx(
+        steps["wave_step_times_speed"] * 6371229.0 / 200)
+    assert errors.diffusion_step(1.0) == pytest.approx(steps["divergence_step_times_viscosity"])
+    assert errors.diffusion_step(10.0, 2.0, of="vorticity") == pytest.approx(
+        steps["vorticity_step_times_viscosity"] * 4 / 10)
+    with pytest.raises(calotte.Error, match="divergence or vorticity"):
+        errors.diffusion_step(1.0, of="heat")

@@ -87,10 +87,8 @@ def _density(density):
 
 
 def _numbers(value):
-    names = [name for name in dir(value) if not name.startswith("_")]
-    order = sorted(names, key=["min", "p1", "p5", "p50", "mean", "p95", "p99", "max", "l2", "cell",
-                               "place"].index)
-    words = (f"{name}={getattr(value, name):.4g}" for name in order if name != "place")
+    order = ["min", "p1", "p5", "p50", "mean", "p95", "p99", "max", "l2", "cell"]
+    words = (f"{name}={getattr(value, name):.4g}" for name in order if hasattr(value, name))
     return f"{type(value).__name__}({', '.join(words)})"
 
 

@@ -123,7 +123,14 @@ def voronoi(mesh: Grid, domain: DomainLike | None = None) -> Voronoi:
     return _calotte.voronoi(mesh) if part is None else _calotte.voronoi(mesh, part)
 
 
-def check(mesh: Mesh | PlanarMesh) -> Check:
+def _require_mesh(grid):
+    """Polygons have no triangles to measure."""
+    if isinstance(grid, Polygons):
+        raise Error("the file holds cells without triangles; measure the areas of its polygons, or "
+                    "the Voronoi cells of voronoi()")
+
+
+def check(mesh: Grid) -> Check:
     """Proves that a mesh is the Delaunay triangulation of its points, in exact arithmetic.
 
     Returns a Check, which is true if all laws hold; its failure names the first that does not.
@@ -131,11 +138,13 @@ def check(mesh: Mesh | PlanarMesh) -> Check:
     >>> bool(check(delaunay(random_sphere(100))))
     True
     """
+    _require_mesh(mesh)
     return _calotte.check(mesh)
 
 
 def _measured(measure, mesh, domain, density, cell_width):
     """measure(mesh, density), in the plane measure(mesh, domain, density)."""
+    _require_mesh(mesh)
     widths = None if cell_width is None else _arguments.cell_width(cell_width)
     rho = _arguments.density(density, widths, isinstance(mesh, _calotte.PlanarMesh))
     if isinstance(mesh, _calotte.PlanarMesh):
@@ -146,7 +155,7 @@ def _measured(measure, mesh, domain, density, cell_width):
     return measure(mesh, rho)
 
 
-def quality(mesh: Mesh | PlanarMesh, *, domain: DomainLike | None = None,
+def quality(mesh: Grid, *, domain: DomainLike | None = None,
             density: DensityLike | None = None, cell_width: WidthLike = None) -> Quality:
     """Measures a mesh and its Voronoi cells; see the attributes of Quality.
 
@@ -158,7 +167,7 @@ def quality(mesh: Mesh | PlanarMesh, *, domain: DomainLike | None = None,
     return _measured(_calotte.quality, mesh, domain, density, cell_width)
 
 
-def operator_errors(mesh: Mesh | PlanarMesh, *, domain: DomainLike | None = None,
+def operator_errors(mesh: Grid, *, domain: DomainLike | None = None,
                     density: DensityLike | None = None,
                     cell_width: WidthLike = None) -> OperatorErrors:
     """Measures the errors of the operators of a C-grid model (TRiSK) for smooth fields.
@@ -167,8 +176,7 @@ def operator_errors(mesh: Mesh | PlanarMesh, *, domain: DomainLike | None = None
     and the place of the greatest error, over the root mean square of the exact values; an attribute
     such as divergence_by_cell has the errors of all cells, NaN at a boundary. The largest
     eigenvalues of the Laplacians at cells and at vertices, over the square of the unit of length
-    (on the sphere radians), bound time steps: sqrt(8 / primal_eigenvalue) / c for gravity waves of
-    the speed c with a Runge-Kutta method of order 4.
+    (on the sphere radians), bound time steps: wave_step() and diffusion_step().
 
     density, cell_width: as for cvt(); they weight the centroids of off_centroid.
 

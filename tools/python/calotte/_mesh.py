@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Methods of Mesh, PlanarMesh and Polygons that are written in Python."""
+import math
 import os
 import tempfile
 import types
@@ -56,6 +57,39 @@ def _topology(mesh):
             "face_node_connectivity": faces, "fill_value": fill, "start_index": 0}
 
 
+# ---- What the command prints of operators
+
+def _at(norms):
+    """Longitude and latitude of the greatest value on the sphere, degrees; see place in a plane."""
+    if not norms.place.any():
+        return math.nan, math.nan
+    return tuple(_calotte.to_lonlat(norms.place[np.newaxis])[0].tolist())
+
+
+def _wave_step(errors, speed, radius=1.0):
+    """Longest stable step of gravity waves, by the Runge-Kutta method of order 4.
+
+    speed: sqrt(g H), in the unit of length over that of time. radius: of the sphere, in the unit of
+    length; 1 in a plane.
+    """
+    return float(np.sqrt(8 / errors.primal_eigenvalue)) * radius / speed
+
+
+def _diffusion_step(errors, viscosity, radius=1.0, of="divergence"):
+    """Longest stable step of a diffusion, by Euler's forward method.
+
+    viscosity: in the square of the unit of length over that of time. radius: as in wave_step(). of:
+    "divergence" or "vorticity".
+    """
+    values = {"divergence": errors.primal_eigenvalue, "vorticity": errors.dual_eigenvalue}
+    if of not in values:
+        raise _calotte.Error(f"no diffusion of {of}; give divergence or vorticity")
+    return 2 * radius**2 / (viscosity * values[of])
+
+
+_calotte.ErrorNorms.at = property(_at, doc=_at.__doc__)
+_calotte.OperatorErrors.wave_step = _wave_step
+_calotte.OperatorErrors.diffusion_step = _diffusion_step
 for _class in (_calotte.Mesh, _calotte.PlanarMesh, _calotte.Polygons):
     _class.fields = property(_fields, doc=_fields.__doc__)
     _class.to_mpas = _to_mpas
