@@ -16,6 +16,7 @@
 #include <calotte/generators.h>
 #include <calotte/io.h>
 #include <calotte/limited_area.h>
+#include <calotte/locate.h>
 #include <calotte/lonlat.h>
 #include <calotte/model.h>
 #include <calotte/ocean.h>
