@@ -14,6 +14,7 @@
 #include <calotte/error.h>
 #include <calotte/export.h>
 #include <calotte/generators.h>
+#include <calotte/interpolate.h>
 #include <calotte/io.h>
 #include <calotte/limited_area.h>
 #include <calotte/locate.h>

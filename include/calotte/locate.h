@@ -42,12 +42,5 @@ Locations locate(const Mesh& mesh, const PointsRef& positions);
 /// inside are located. \param positions 2 x n.
 Locations locate(const PlanarMesh& mesh, const PointsRef& positions);
 
-/// Values at positions, linear on each triangle; NaN outside.
-/// \param triangles of the mesh in which the positions were located.
-/// \param values by site.
-/// \throws Error bad_option unless the triangles and the locations fit the values.
-Eigen::VectorXd interpolate(const Triangles& triangles, const Eigen::VectorXd& values,
-                            const Locations& at);
-
 } // namespace calotte
 CALOTTE_API_END

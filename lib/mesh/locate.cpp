@@ -299,27 +299,4 @@ Locations locate(const PlanarMesh& mesh, const PointsRef& given) {
   return locate_all(mesh, InPlane(mesh, positions), positions.cols(), mesh.period.minCoeff() > 0);
 }
 
-Eigen::VectorXd interpolate(const Triangles& triangles, const Eigen::VectorXd& values,
-                            const Locations& at) {
-  using namespace mesh_detail;
-  require(triangles.cols() == 0 ||
-              (triangles.minCoeff() >= 0 && triangles.maxCoeff() < values.size()),
-          "a triangle has a site without a value; give a value for each site");
-  require(at.weights.cols() == at.triangle.size() &&
-              (at.triangle.size() == 0 || at.triangle.maxCoeff() < triangles.cols()),
-          "the locations are not those of this mesh; locate the positions in it");
-  Eigen::VectorXd out(at.triangle.size());
-  for_each_block(out.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-    for (std::int64_t i = begin; i != end; ++i) {
-      const std::int32_t t = at.triangle[i];
-      out[i] = std::numeric_limits<double>::quiet_NaN();
-      if (t >= 0)
-        out[i] = at.weights(0, i) * values[triangles(0, t)] +
-                 at.weights(1, i) * values[triangles(1, t)] +
-                 at.weights(2, i) * values[triangles(2, t)];
-    }
-  });
-  return out;
-}
-
 } // namespace calotte

@@ -18,8 +18,8 @@
 #include <cstdint>
 #include <limits>
 
-/// What locate() asks of the space in which a mesh lives: on which side of an edge a position is,
-/// and which site is nearer, both exact.
+/// What locate() and interpolation ask of the space in which a mesh lives: on which side of an edge
+/// a position is, whether it is in a circle, and which site is nearer, all exact.
 namespace calotte::mesh_detail {
 
 /// The sphere.
@@ -44,6 +44,15 @@ public:
   int compare(const Position& p, std::int32_t a, std::int32_t b) const {
     return a == b ? 0 : compare_distances(p, at(a), at(b));
   }
+
+  /// Positive if p is inside a triangle's circumcap.
+  int in_circle(std::int64_t t, const Position& p) const {
+    return exact_detail::in_circle(at(mesh_.triangles(0, t)), at(mesh_.triangles(1, t)),
+                                   at(mesh_.triangles(2, t)), p);
+  }
+  /// A site as p sees it, and p itself: points of one frame.
+  Vec3 seen(std::int32_t site, const Position&) const { return vertex(site); }
+  Vec3 seen(const Position& p) const { return exact_detail::normalised(p); }
 
   /// The area, up to a factor, of the triangle of p and the edge across from a vertex.
   double area(std::int64_t t, int v, const Position& given) const {
@@ -116,6 +125,14 @@ public:
   int compare(const Position& p, std::int32_t a, std::int32_t b) const {
     return a == b ? 0 : compare_distances(period_, p, near(a, p), near(b, p));
   }
+  int in_circle(std::int64_t t, const Position& p) const {
+    const std::array<Image, 3> corner = corners(t, p);
+    return exact_detail::in_circle(period_, corner[0], corner[1], corner[2], p);
+  }
+  Vec3 seen(std::int32_t site, const Position& p) const {
+    return coordinates(near(site, p)) - coordinates(p);
+  }
+  Vec3 seen(const Position&) const { return {0, 0, 0}; }
   double area(std::int64_t t, int v, const Position& p) const {
     const std::array<Image, 3> corner = corners(t, p);
     const Vec3 at = coordinates(p);

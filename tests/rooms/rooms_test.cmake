@@ -14,7 +14,7 @@ set(headers_of_mesh check locate renumber)
 set(headers_of_domain region)
 set(headers_of_density cell_width planar_raster)
 set(headers_of_generators lonlat)
-set(headers_of_voronoi limited_area ocean)
+set(headers_of_voronoi interpolate limited_area ocean)
 set(headers_of_quality operators)
 set(headers_of_io calotte check_file checkpoint cull cut mesh_file model read write)
 
