@@ -2,6 +2,7 @@
 #include "curve/hilbert.h"
 #include "exact/plane_predicates.h"
 #include "mesh/check_laws.h"
+#include "mesh/edge_counts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -129,6 +130,15 @@ struct InPlane : mesh_detail::Faces {
     return half_cross(p, q, std::max(error_of_way(p), error_of_way(q)));
   }
 
+  /// Half the sum of the cotangents of the angles at c and d.
+  double relative_length(std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t d) const {
+    const auto cotangent = [&](std::int32_t p, std::int32_t from, std::int32_t to) {
+      const Vec2 u = way(p, from), v = way(p, to);
+      return (u.x * v.x + u.y * v.y) / (u.x * v.y - u.y * v.x);
+    };
+    return (cotangent(c, a, b) + cotangent(d, b, a)) / 2;
+  }
+
   Area area(std::int64_t t) const { return scaled_area(vertex(t, 0), vertex(t, 1), vertex(t, 2)); }
 
   /// Of the box, or of the polygon that the boundary is.
@@ -180,6 +190,16 @@ Check check(const PlanarMesh& mesh, const ProgressCallback& progress) {
   return mesh_detail::check_laws(
       mesh, [&](std::int64_t site) { return place_failure(mesh, site); },
       [&] { return InPlane(mesh); }, mesh_detail::Proof::delaunay, progress);
+}
+
+Check check_surface(const PlanarMesh& mesh, const ProgressCallback& progress) {
+  return mesh_detail::check_laws(
+      mesh, [&](std::int64_t site) { return place_failure(mesh, site); },
+      [&] { return InPlane(mesh); }, mesh_detail::Proof::surface, progress);
+}
+
+EdgeCounts count_edges(const PlanarMesh& mesh) {
+  return mesh_detail::count_edges_of(InPlane(mesh));
 }
 
 } // namespace calotte
