@@ -114,6 +114,13 @@ enum class FieldChoice {
 MeshFile read_mesh_file(const std::string& path, const Points3* points = nullptr,
                         FieldChoice choice = FieldChoice::all);
 
+/// The tessellation of a file's cells: that of its mesh, or of its polygons where these are part of
+/// a Voronoi tessellation, such as the cells of an ocean or a limited area. Polygons keep their
+/// corners; edges at their boundary have one cell, as in a bounded plane.
+/// \throws Error as voronoi(); bad_option for polygons that are no Voronoi cells, with the reason,
+///         and for a bounded plane without a domain and polygons.
+Voronoi voronoi(const MeshFile& file);
+
 /// The density that follows from the cells of a file, see spacing_density(voronoi): those of its
 /// mesh, or of its polygons where these are part of a Voronoi tessellation.
 /// \returns by cell; none if the cells are uniform, or if they have no spacing: for other polygons,

@@ -12,6 +12,8 @@ class SphericalVoronoi:
     points: n x 3. radius: of the sphere; default 1. center: of the sphere; default the origin.
     threshold: relative tolerance for duplicates and for the distance of points to the sphere.
 
+    Points may lie in a hemisphere: on the sphere every cell is bounded.
+
     vertices: m x 3 corners of cells. regions: for each point the ids of its corners,
     counter-clockwise seen from outside. Raises ValueError for duplicates and for points off the
     sphere.
@@ -41,7 +43,7 @@ class SphericalVoronoi:
             if error.code == "duplicate":
                 raise ValueError(f"Duplicate generators present: {error}") from error
             raise
-        corners, starts, ids, shortest, coincide = _calotte.corners(self._mesh)
+        corners, starts, ids, shortest, coincide = self._corners()
         if shortest <= threshold:
             raise ValueError("Duplicate generators present: two points are within the threshold "
                              f"{threshold * self.radius:.3g} of each other; merge them")
@@ -49,8 +51,16 @@ class SphericalVoronoi:
             starts, ids, corners = _merged(starts, ids, corners)
         self._starts, self._ids = starts, ids
         self.vertices = self.radius * corners + self.center
-        self._simplices = self._mesh.triangles
         self._regions = None
+
+    def _corners(self):
+        if self._mesh.closed:
+            self._simplices = self._mesh.triangles
+            return _calotte.corners(self._mesh)
+        cells = _calotte.voronoi(self._mesh)  # the far side of points in a hemisphere as well
+        self._simplices = cells.cells_on_vertex
+        shortest = 2 * np.sin(cells.dc.min() / 2)
+        return cells.vertices, cells.begin, cells.vertices_on_cell, shortest, True
 
     @property
     def regions(self):

@@ -105,6 +105,7 @@ void add_options(py::module_& module) {
       .def_readwrite("bisections", &CvtOptions::bisections)
       .def_readwrite("insertion_rounds", &CvtOptions::insertion_rounds)
       .def_readwrite("cells", &CvtOptions::cells)
+      .def_readwrite("fixed", &CvtOptions::fixed)
       .def_readwrite("well_centred", &CvtOptions::well_centred)
       .def_readwrite("least_spacing", &CvtOptions::least_spacing)
       .def_property(
@@ -124,12 +125,13 @@ void add_tessellations(py::module_& module) {
     return start_of(call([&] { return continuation(cells, density, seed); }));
   });
   module.def("multilevel", [](std::int64_t cells, const Region& region, const Density& density,
-                              std::uint64_t seed) {
-    return start_of(call([&] { return multilevel(cells, region, density, seed); }));
+                              std::uint64_t seed, std::int64_t fixed) {
+    return start_of(call([&] { return multilevel(cells, region, density, seed, fixed); }));
   });
   module.def("multilevel_in_plane", [](std::int64_t cells, const PlanarDomain& domain,
-                                       const Density& density, std::uint64_t seed) {
-    return start_of(call([&] { return multilevel(cells, domain, density, seed); }));
+                                       const Density& density, std::uint64_t seed,
+                                       std::int64_t fixed) {
+    return start_of(call([&] { return multilevel(cells, domain, density, seed, fixed); }));
   });
   module.def("cvt", &cvt);
   module.def("cvt_in_plane", &cvt_in_plane);
