@@ -25,9 +25,9 @@ namespace {
 
 /// What is proven of a mesh, and counted where that is not all.
 struct Findings {
-  Check check;                     ///< of a mesh of the sphere that is not Delaunay: as a surface
+  Check check;                     ///< of a mesh that is not Delaunay: as a surface
   bool delaunay = false;           ///< the mesh is the Delaunay triangulation of its points
-  std::optional<EdgeCounts> edges; ///< of a mesh of the sphere that is not
+  std::optional<EdgeCounts> edges; ///< of a mesh that is not
   std::string failure;             ///< why the check fails; empty if it passes
 };
 
@@ -37,7 +37,7 @@ std::string first_edge(const EdgeCounts& edges) {
 
 /// A mesh whose edges are all Delaunay passes: a foreign mesh may have the other diagonals of
 /// cocircular sites, or a boundary that is not convex.
-Findings findings_of(const Mesh& mesh) {
+template <class AnyMesh> Findings findings_of(const AnyMesh& mesh) {
   Findings found;
   found.check = check(mesh);
   found.delaunay = found.check.passed();
@@ -55,14 +55,6 @@ Findings findings_of(const Mesh& mesh) {
                     " edges are not Delaunay; the first is from site " + first_edge(*found.edges);
   else if (found.edges->boundary == 0 && found.edges->cocircular == 0)
     found.failure = strict;
-  return found;
-}
-
-Findings findings_of(const PlanarMesh& mesh) {
-  Findings found;
-  found.check = check(mesh);
-  found.delaunay = found.check.passed();
-  found.failure = found.check.failure;
   return found;
 }
 

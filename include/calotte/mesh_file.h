@@ -20,15 +20,17 @@ CALOTTE_API_BEGIN
 namespace calotte {
 
 /// n polygons on the sphere, such as the cells of a grid that need not be Voronoi cells. Their
-/// sides are arcs of great circles. Or n polygons in a plane, with z = 0.
+/// sides are arcs of great circles. Or n polygons in a plane, with z = 0. In a direction in which
+/// the plane is periodic, the corners of a polygon are the copies nearest to its first corner.
 struct Polygons {
   Points3 corners; ///< 3 x m unit columns; in a plane in any unit of length
   /// n + 1: polygon i has the corners ids[begin[i]] to ids[begin[i + 1] - 1], counter-clockwise
   /// seen from outside. 0-based.
   Eigen::Matrix<std::int64_t, Eigen::Dynamic, 1> begin;
-  Ids ids;               ///< see `begin`
-  Points3 centres;       ///< 3 x n, as the corners; 3 x 0 if the file gives none
-  bool on_sphere = true; ///< false in a plane
+  Ids ids;                      ///< see `begin`
+  Points3 centres;              ///< 3 x n, as the corners; 3 x 0 if the file gives none
+  bool on_sphere = true;        ///< false in a plane
+  Eigen::Vector2d period{0, 0}; ///< of the plane, as PlanarMesh has it
 
   /// Their number.
   std::int64_t size() const { return begin.size() > 0 ? begin.size() - 1 : 0; }

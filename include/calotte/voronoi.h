@@ -34,7 +34,7 @@ using Pairs = Eigen::Matrix<std::int32_t, 2, Eigen::Dynamic>;
 /// cells, of which a pair may have several. A missing cell or edge has the id -1.
 struct Voronoi {
   bool on_sphere = true;        ///< false in a plane
-  Eigen::Vector2d period{0, 0}; ///< of a periodic plane; 0 elsewhere
+  Eigen::Vector2d period{0, 0}; ///< of the plane, as PlanarMesh has it; 0 on the sphere
 
   Points3 cells; ///< 3 x n: the sites; unit columns on the sphere
   Points3 edges; ///< 3 x e: midpoints of the Delaunay edges, which the Voronoi edges cross; of an

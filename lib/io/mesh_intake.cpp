@@ -370,6 +370,12 @@ MeshFile periodic_mesh_file_of(const std::string& name, PlanarMesh mesh, Soup re
   mesh.site_of_input = themselves(mesh.points.cols());
   settle_edge_fields(mesh.triangles, rest.edges, file.fields, file.changes, file.ignored);
   file.plane = std::move(mesh);
+  if (rest.polygons.size() > 0) {
+    turn_cells(name, rest.polygons, false, file);
+    require_no_overlap(rest.polygons, name);
+    file.not_voronoi = "the mesh is open";
+    file.polygons = std::move(rest.polygons);
+  }
   return file;
 }
 

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/parallel.h"
 #include "base/points.h"
+#include "domain/clipped_cell.h"
+#include "domain/periodic_box.h"
 #include "exact/predicates.h"
+#include "io/polygons.h"
 #include "io/room.h"
 
 #include <calotte/mesh_file.h>
@@ -14,14 +17,12 @@ namespace {
 
 using namespace io_detail;
 
-/// A polygon's corners in a circle.
+/// A polygon's corners in a circle; in a periodic plane copies near the first.
 struct Ring {
   const Polygons& polygons;
   std::int64_t begin, size;
 
-  const Vec3& at(std::int64_t k) const {
-    return column(polygons.corners, polygons.ids[begin + k % size]);
-  }
+  Vec3 at(std::int64_t k) const { return copy_near(polygons, begin, begin + k % size); }
 };
 
 Ring ring_of(const Polygons& polygons, std::int64_t i) {
@@ -46,7 +47,7 @@ bool is_convex(const Ring& ring) {
 Vec3 first_moment(const Ring& ring) {
   Vec3 sum{0, 0, 0};
   for (std::int64_t k = 0; k < ring.size; ++k) {
-    const Vec3 &a = ring.at(k), &b = ring.at(k + 1), side = b - a, normal = cross(a, side);
+    const Vec3 a = ring.at(k), b = ring.at(k + 1), side = b - a, normal = cross(a, side);
     const double sine = std::sqrt(dot(normal, normal));
     if (sine > 0)
       sum = sum + std::asin(std::sqrt(dot(side, side)) / 2) / sine * normal;
@@ -56,7 +57,7 @@ Vec3 first_moment(const Ring& ring) {
 
 /// Of a polygon in a plane: the mean of its triangles' from the first corner, by their areas.
 Vec3 planar_centroid(const Ring& ring) {
-  const Vec3& first = ring.at(0);
+  const Vec3 first = ring.at(0);
   Vec3 sum{0, 0, 0};
   double area = 0;
   for (std::int64_t k = 1; k + 1 < ring.size; ++k) {
@@ -74,8 +75,13 @@ Vec3 centroid(const Ring& ring) {
 
 /// The distance of a centre from the centroid, in widths.
 double off_centring(const Polygons& polygons, std::int64_t i, double area) {
-  const Vec3 apart = column(polygons.centres, i) - centroid(ring_of(polygons, i));
-  return std::sqrt(dot(apart, apart) / area);
+  const Vec3 &centre = column(polygons.centres, i), middle = centroid(ring_of(polygons, i));
+  const Vec2 period{polygons.period.x(), polygons.period.y()};
+  const double distance =
+      polygons.on_sphere
+          ? norm(centre - middle)
+          : domain_detail::norm(domain_detail::nearest_offset(centre, middle, period));
+  return distance / std::sqrt(area);
 }
 
 /// Of a block of polygons.

@@ -3,6 +3,7 @@
 
 #include "base/parallel.h"
 #include "base/points.h"
+#include "domain/periodic_box.h"
 
 #include <calotte/error.h>
 
@@ -30,8 +31,12 @@ const Vec3& place(const Polygons& polygons, std::int64_t k) {
 template <class Add>
 void for_each_triangle(const Polygons& polygons, std::int64_t polygon, const Add& add) {
   const std::int64_t first = polygons.begin[polygon], end = polygons.begin[polygon + 1];
+  const bool periodic = polygons.period.maxCoeff() > 0;
   for (std::int64_t k = first + 1; k + 1 < end; ++k)
-    add(place(polygons, first), place(polygons, k), place(polygons, k + 1));
+    if (periodic)
+      add(place(polygons, first), copy_near(polygons, first, k), copy_near(polygons, first, k + 1));
+    else
+      add(place(polygons, first), place(polygons, k), place(polygons, k + 1));
 }
 
 /// A triangle's area is 2 atan2(a . b x c, 1 + a.b + b.c + c.a) (Oosterom and Strackee, IEEE Trans.
@@ -152,9 +157,19 @@ Array<int> turns_of(const Polygons& polygons) {
 
 } // namespace
 
+Vec3 copy_near(const Polygons& polygons, std::int64_t first, std::int64_t k) {
+  const Vec3 &from = place(polygons, first), &to = place(polygons, k);
+  if (polygons.on_sphere)
+    return to;
+  const Vec2 way =
+      domain_detail::nearest_offset(from, to, {polygons.period.x(), polygons.period.y()});
+  return {from.x + way.x, from.y + way.y, 0};
+}
+
 Polygons polygons_of(Voronoi&& voronoi) {
-  return {std::move(voronoi.vertices), std::move(voronoi.begin),
-          std::move(voronoi.vertices_on_cell), std::move(voronoi.cells), voronoi.on_sphere};
+  return {
+      std::move(voronoi.vertices), std::move(voronoi.begin), std::move(voronoi.vertices_on_cell),
+      std::move(voronoi.cells),    voronoi.on_sphere,        voronoi.period};
 }
 
 Polygons polygons_of(const std::vector<std::int32_t>& corners, std::int64_t most, Points3 places,
@@ -164,9 +179,11 @@ Polygons polygons_of(const std::vector<std::int32_t>& corners, std::int64_t most
   polygons.begin.resize(count + 1);
   polygons.begin[0] = 0;
   for (std::int64_t i = 0; i < count; ++i) {
-    std::int32_t *const first = polygons.ids.data() + polygons.begin[i],
-                        *const end = std::unique_copy(corners.begin() + i * most,
-                                                      corners.begin() + (i + 1) * most, first);
+    std::int32_t *const first = polygons.ids.data() + polygons.begin[i], *end = first;
+    for (std::int64_t k = i * most; k < (i + 1) * most; ++k)
+      if (const std::int32_t id = corners[static_cast<std::size_t>(k)];
+          id >= 0 && (end == first || end[-1] != id))
+        *end++ = id;
     polygons.begin[i + 1] = polygons.begin[i] + (end - first);
     while (polygons.begin[i + 1] > polygons.begin[i] + 1 &&
            polygons.ids[polygons.begin[i + 1] - 1] == *first)

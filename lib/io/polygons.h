@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "base/vec3.h"
 #include "io/room.h"
 
 #include <calotte/mesh_file.h>
@@ -16,11 +17,14 @@ namespace calotte::io_detail {
 /// The cells of a tessellation, which is used up.
 Polygons polygons_of(Voronoi&& voronoi);
 
-/// Polygons from rows of corners, in which consecutive equal ones count once.
+/// Polygons from rows of corners, in which consecutive equal ones count once, and -1 is none.
 /// \param corners those of polygon i from i * most on.
 /// \param places of the corners.
 Polygons polygons_of(const std::vector<std::int32_t>& corners, std::int64_t most, Points3 places,
                      Points3 centres);
+
+/// The place of corner `ids[k]`; in a periodic plane of its copy nearest to corner `ids[first]`.
+Vec3 copy_near(const Polygons& polygons, std::int64_t first, std::int64_t k);
 
 /// Areas on the unit sphere in steradians, or in the plane, positive for counter-clockwise
 /// polygons. \pre on the sphere each is smaller than a hemisphere.

@@ -9,8 +9,8 @@
 #include "quality/cell_measures.h"
 #include "quality/demand.h"
 #include "quality/parts.h"
+#include "quality/voronoi_mesh.h"
 
-#include <calotte/check.h>
 #include <calotte/error.h>
 #include <calotte/voronoi.h>
 
@@ -185,11 +185,7 @@ double root_integral(const Points3& points, const Connectivity& mesh, const Plan
 void require_mesh(const PlanarMesh& mesh, const PlanarDomain& domain) {
   require_domain(domain);
   require_period(mesh, domain);
-  if (const Check found = check(mesh); !found.passed())
-    throw Error(ErrorCode::bad_option,
-                "the mesh is not the Delaunay triangulation of its points, so it has no Voronoi "
-                "cells: " +
-                    found.failure + "; triangulate the points anew");
+  require_voronoi_mesh(mesh);
   require_inside(mesh.points, domain);
 }
 

@@ -5,6 +5,7 @@
 #include "integrals/moments.h"
 #include "quality/demand.h"
 #include "quality/sides.h"
+#include "quality/voronoi_mesh.h"
 
 #include <calotte/check.h>
 #include <calotte/error.h>
@@ -58,19 +59,7 @@ MomentPart add_moments(const Mesh& mesh, const Density& density) {
 
 /// \returns the sum of the triangles' areas.
 double require_closed_delaunay(const Mesh& mesh) {
-  Check found = check(mesh);
-  if (!found.passed()) {
-    // The other diagonals of cocircular sites make the same cells.
-    const std::string failure = found.failure;
-    found = check_surface(mesh);
-    const EdgeCounts edges = found.passed() ? count_edges(mesh) : EdgeCounts{};
-    if (edges.boundary > 0 || edges.unused_sites > 0 || edges.cocircular == 0 ||
-        edges.not_delaunay > 0)
-      throw Error(ErrorCode::bad_option,
-                  "the mesh is not the Delaunay triangulation of its points, so it has no Voronoi "
-                  "cells: " +
-                      failure + "; triangulate the points anew");
-  }
+  const Check found = require_voronoi_mesh(mesh);
   if (found.boundary_edges > 0)
     throw Error(ErrorCode::bad_option,
                 "the mesh is open, as all its sites lie in a hemisphere, and its Voronoi cells do "

@@ -415,6 +415,89 @@ TEST_CASE("every flipped edge of a planar mesh is found, ties and copies too") {
         }
 }
 
+/// The area of a triangle of nearest copies, twice and signed: of integers, without rounding.
+double twice_area(const PlanarMesh& mesh, std::int64_t t) {
+  const auto way = [&](int to) {
+    Eigen::Vector2d out =
+        mesh.points.col(mesh.triangles(to, t)) - mesh.points.col(mesh.triangles(0, t));
+    for (int k = 0; k < 2; ++k)
+      if (mesh.period[k] > 0)
+        out[k] -= mesh.period[k] * std::round(out[k] / mesh.period[k]);
+    return out;
+  };
+  const Eigen::Vector2d p = way(1), q = way(2);
+  return p.x() * q.y() - p.y() * q.x();
+}
+
+TEST_CASE("in the plane the other diagonals of cocircular sites are counted, and are no fault") {
+  for (const PlanarMesh& mesh : {planar_delaunay(square_lattice(6)),
+                                 periodic_delaunay(square_lattice(8), Eigen::Vector2d(8, 8)),
+                                 planar_delaunay(Points2(1e150 * square_lattice(5)))}) {
+    CHECK(count_edges(mesh).cocircular == 0);
+    std::int64_t squares = 0;
+    for (std::int64_t t = 0; t < mesh.triangles.cols(); ++t)
+      for (int i = 0; i < 3; ++i) {
+        if (mesh.neighbours(i, t) < t)
+          continue;
+        const PlanarMesh other = flipped(mesh, t, i);
+        const bool diagonal =
+            (other.triangles.cols() == mesh.triangles.cols()) && check_surface(other).passed();
+        if (!diagonal) // two triangles of a straight line, or of one that is wider than the box
+          continue;
+        CAPTURE(t);
+        const EdgeCounts edges = count_edges(other);
+        CHECK(edges.edges == (3 * mesh.triangles.cols() + edges.boundary) / 2);
+        // The edge between two triangles of one unit square; of others, not Delaunay.
+        const bool square = edges.not_delaunay == 0;
+        squares += square;
+        CHECK(edges.cocircular == (square ? 1 : 0));
+      }
+    CHECK(squares == mesh.triangles.cols() / 2);
+  }
+}
+
+TEST_CASE(
+    "in the plane edges that are not Delaunay are counted, with the rounding of coordinates") {
+  const PlanarMesh random = planar_delaunay(scatter(60, 8));
+  std::int64_t flips = 0;
+  for (std::int64_t t = 0; t < random.triangles.cols(); ++t)
+    for (int i = 0; i < 3; ++i) {
+      if (random.neighbours(i, t) < t)
+        continue;
+      const PlanarMesh other = flipped(random, t, i);
+      if (!check_surface(other).passed()) // not a convex quadrangle
+        continue;
+      ++flips;
+      CHECK(count_edges(other).not_delaunay == 1);
+      CHECK(count_edges(other).cocircular == 0);
+    }
+  CHECK(flips > 60);
+
+  // A turned square: whichever diagonal, its sites are cocircular up to rounding.
+  Points2 corners(2, 4);
+  corners << 0.3, 1.1, 0.5, -0.3, 0.1, 0.7, 1.5, 0.9;
+  for (const std::vector<Triple>& triangles :
+       {std::vector<Triple>{{0, 1, 2}, {0, 2, 3}}, {{0, 1, 3}, {1, 2, 3}}}) {
+    PlanarMesh mesh;
+    mesh.points = corners;
+    mesh = planar_mesh_of(mesh, triangles);
+    CHECK(count_edges(mesh).not_delaunay == 0);
+    CHECK(count_edges(mesh).edges == 5);
+    CHECK(count_edges(mesh).boundary == 4);
+    CHECK(count_edges(mesh).loops == 1);
+  }
+  // 10% longer along one side it is a rectangle, and cocircular still; as a kite it is not.
+  PlanarMesh kite;
+  kite.points.resize(2, 4);
+  kite.points << 0, 1, 2, 1, 0, -0.1, 0, 0.1;
+  kite = planar_mesh_of(kite, {{0, 1, 2}, {0, 2, 3}});
+  const EdgeCounts edges = count_edges(kite);
+  CHECK(edges.not_delaunay == 1);
+  CHECK((edges.first[0] == 0 && edges.first[1] == 2));
+  // The angles at sites 1 and 3 are pi - 2 atan(1/10), whose cotangent is (1/100 - 1) / (2/10).
+  CHECK(edges.shortest == doctest::Approx((0.01 - 1) / 0.2));
+}
+
 TEST_CASE("arrays and sites of a planar mesh that are wrong are named") {
   const PlanarMesh open = planar_delaunay(scatter(30, 5)),
                    box = periodic_delaunay(scatter(60, 6), Eigen::Vector2d(1, 1));

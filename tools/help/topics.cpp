@@ -80,6 +80,7 @@ constexpr const char* codes =
   2  invalid options or input
   3  a file cannot be opened, read or written
   4  internal error
+  5  the run converged, but the mesh is not well-centred (it is written)
   130, 143  stopped by SIGINT or SIGTERM; --resume continues a run with --checkpoint
 )";
 
