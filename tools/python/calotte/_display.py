@@ -24,7 +24,8 @@ def _mesh(mesh):
     if kind == "Mesh":
         surface = "" if mesh.closed else ", open"
     else:
-        surface = ", periodic" if mesh.period.any() else ""
+        surface = (", periodic" if mesh.period.all() else
+                   f", periodic in {'xy'[int(mesh.period[1] > 0)]}" if mesh.period.any() else "")
     cells = "" if mesh.cells is None else f", {counted(len(mesh.cells), 'polygon')}"
     return (f"<calotte.{kind}: {counted(len(mesh), 'site')}, "
             f"{counted(len(mesh.triangles), 'triangle')}{surface}{cells}>")
@@ -133,9 +134,9 @@ def _seen(mesh):
     """x, y of the sites in the picture, and which of them it shows."""
     points = mesh.points
     if points.shape[1] == 2:
-        periodic = mesh.period.any()
-        low = np.zeros(2) if periodic else points.min(axis=0)
-        high = mesh.period if periodic else points.max(axis=0)
+        periodic = mesh.period > 0
+        low = np.where(periodic, 0, points.min(axis=0))
+        high = np.where(periodic, mesh.period, points.max(axis=0))
         return 2 * (points - low) / np.maximum(high - low, 1e-300).max() - 1, np.full(len(points), True)
     unit = points / np.linalg.norm(points, axis=1, keepdims=True)
     towards = np.array([1.0, 0.5, 0.6])
@@ -157,6 +158,12 @@ def _seen(mesh):
     return scale * np.stack([unit @ east, unit @ north], axis=1), shown
 
 
+def nearest(apart, period):
+    """Differences of places in a plane, those of nearest copies in its periodic directions."""
+    turn = np.where(period > 0, period, np.inf)
+    return apart - period * np.round(apart / turn)
+
+
 def _edges(triangles):
     pairs = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]],
                                     triangles[:, [2, 0]]]), axis=1)
@@ -164,12 +171,13 @@ def _edges(triangles):
 
 
 def _ends(mesh, places, edges):
-    """Both ends of edges; in a periodic box the second is the copy nearest to the first."""
-    a, b = places[edges[:, 0]], places[edges[:, 1]]
-    if isinstance(mesh, _calotte.PlanarMesh) and mesh.period.any():
-        period = 2 * mesh.period / mesh.period.max()
-        b = b - period * np.round((b - a) / period)
-    return a, b
+    """Both ends of edges; in a periodic plane the second is the copy nearest to the first."""
+    a, b = mesh.points[edges[:, 0]], mesh.points[edges[:, 1]]
+    if a.shape[1] == 3 or not mesh.period.any():
+        return places[edges[:, 0]], places[edges[:, 1]]
+    start = places[edges[:, 0]]
+    scale = 2 / max(np.where(mesh.period > 0, mesh.period, np.ptp(mesh.points, axis=0)))
+    return start, start + scale * nearest(b - a, mesh.period)
 
 
 def picture(mesh):

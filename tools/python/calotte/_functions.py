@@ -148,7 +148,7 @@ def _measured(measure, mesh, domain, density, cell_width):
     widths = None if cell_width is None else _arguments.cell_width(cell_width)
     rho = _arguments.density(density, widths, isinstance(mesh, _calotte.PlanarMesh))
     if isinstance(mesh, _calotte.PlanarMesh):
-        if domain is None and not mesh.period.any():
+        if domain is None and not mesh.period.all():
             raise Error("a planar mesh needs a domain, which clips its cells; give domain=")
         parts = periodic_box(*mesh.period) if domain is None else _arguments.domain(domain)
         return measure(mesh, parts, rho)
@@ -194,7 +194,9 @@ class Cvt:
 
     mesh: Mesh | PlanarMesh  #: the Delaunay triangulation of the generators
     converged: bool  #: whether the norm fell below the tolerance
-    well_centred: bool  #: whether no triangle is obtuse and no Voronoi edge short
+    well_centred: bool  #: whether all shapes are within the limits of models
+    misshapen_cells: int  #: number of cells beyond them, where that was asked for
+    worst_cell: int  #: the cell farthest beyond them; -1 for none
     residual: float  #: the norm at the end, relative to the spacing of the cells
     energy: float  #: at the end: integral of density times squared distance from the generator
     iterations: int  #: their number, on all levels
@@ -205,14 +207,17 @@ class Cvt:
 
     def __repr__(self) -> str:
         end = "converged after" if self.converged else "not converged in"
-        shape = "well-centred, " if self.well_centred else ""
+        shape = ("well-centred, " if self.well_centred else
+                 f"{_display.counted(self.misshapen_cells, 'misshapen cell')}, "
+                 if self.misshapen_cells else "")
         return (f"<calotte.Cvt: {_display.counted(len(self.mesh), 'cell')}, {end} "
                 f"{_display.counted(self.iterations, 'iteration')}, {shape}residual "
                 f"{self.residual:.2g}>")
 
     def _repr_html_(self) -> str:
         rows = [(name, getattr(self, name), "") for name in
-                ("converged", "well_centred", "residual", "energy", "iterations", "seconds")]
+                ("converged", "well_centred", "misshapen_cells", "worst_cell", "residual",
+                 "energy", "iterations", "seconds")]
         return self.mesh._repr_html_() + _display.table(repr(self).strip("<>"), rows)
 
     def plot(self, field: Any = None, **options: Any) -> Any:
@@ -279,8 +284,9 @@ def _options(rho, method, norm, tolerance, max_iterations, least_spacing, well_c
 
 def _multilevel(options, cells, insertion_rounds):
     options.cells = cells
-    options.insertion_rounds = (_calotte.usual_insertion_rounds if insertion_rounds is None
-                                else insertion_rounds)
+    usual = (_calotte.insertion_rounds_beside_fixed if options.fixed
+             else _calotte.usual_insertion_rounds)
+    options.insertion_rounds = usual if insertion_rounds is None else insertion_rounds
 
 
 def _reporting(progress):
@@ -302,8 +308,8 @@ def _reporting(progress):
 
 def cvt(start: int | ArrayLike | None = None, *, density: DensityLike | None = None,
         cell_width: WidthLike = None, region: RegionLike | None = None,
-        domain: DomainLike | None = None, fixed: ArrayLike | None = None, seed: int = 1, method: str = "auto",
-        norm: str = "l2-scaled", tolerance: float | None = None, max_iterations: int = 1000,
+        domain: DomainLike | None = None, fixed: ArrayLike | None = None, seed: int = 1,
+        method: str = "auto", norm: str = "l2-scaled", tolerance: float | None = None, max_iterations: int = 1000,
         well_centred: bool | None = None, least_spacing: float = 0.8,
         insertion_rounds: int | None = None, regions: int | None = None,
         progress: Progress | bool | None = None,
@@ -324,7 +330,8 @@ def cvt(start: int | ArrayLike | None = None, *, density: DensityLike | None = N
         `calotte cvt --region`, such as "circle=-105,40,1000km"; or a file.
     domain: a part of the plane, of rectangle(), periodic_box(), planar_polygon() or a file.
     fixed: generators that stay, as points of delaunay(); the first cells of the result. A number of
-        cells includes them, points of the start do not.
+        cells includes them, points of the start do not; without a number, free ones are added where
+        the fixed ones leave the widths unmet.
     seed: of random points. method: auto, lloyd, nesterov, lbfgs or lbfgs-laplacian.
     norm: that is compared with the tolerance: l2, linf, l2-scaled, linf-scaled or gradient.
     tolerance: default 1e-6, and 1e-4 with well_centred.
@@ -351,12 +358,14 @@ def cvt(start: int | ArrayLike | None = None, *, density: DensityLike | None = N
                            insertion_rounds, regions, progress)
     widths = None if cell_width is None else _arguments.cell_width(cell_width, earth_radius)
     rho, part = _arguments.density(density, widths), _arguments.region(region, earth_radius)
+    stay = np.empty((0, 3)) if fixed is None else _arguments.sphere_points(fixed, "fixed points")
     if start is None:
         if widths is None:
             raise Error("give a number of cells, points, or cell widths in km")
         start = _cells_for(widths, part, earth_radius)
+        if fixed is not None:
+            start = _calotte.cells_beside(stay, start, rho, part)
     counted = np.ndim(start) == 0
-    stay = np.empty((0, 3)) if fixed is None else _arguments.sphere_points(fixed, "fixed points")
     graded = counted and not (part.whole and rho.uniform and not len(stay))
     finish = graded if well_centred is None else well_centred
     options = _options(rho, method, norm, tolerance, max_iterations, least_spacing, finish,
@@ -366,7 +375,7 @@ def cvt(start: int | ArrayLike | None = None, *, density: DensityLike | None = N
         points = _arguments.sphere_points(start)
     elif graded:
         cells = _count(start, "the number of cells")
-        points, options.bisections = _calotte.multilevel(cells, part, rho, seed, len(stay))
+        points, options.bisections = _calotte.multilevel(cells, part, rho, seed, stay)
         _multilevel(options, cells, insertion_rounds)
     else:
         points, options.bisections = _calotte.continuation(_count(start, "the number of cells"),
@@ -390,8 +399,7 @@ def _planar_cvt(start, parts, density, fixed, seed, words, well_centred, inserti
         places = _arguments.plane_points(start)
     elif graded:
         cells = _count(start, "the number of cells")
-        places, options.bisections = _calotte.multilevel_in_plane(cells, parts, rho, seed,
-                                                                    len(stay))
+        places, options.bisections = _calotte.multilevel_in_plane(cells, parts, rho, seed, stay)
         _multilevel(options, cells, insertion_rounds)
     else:
         places = _calotte.random_places(_count(start, "the number of cells"), parts, rho, seed)
@@ -505,7 +513,8 @@ def ellipse(centre: ArrayLike, semi_major: float | str, semi_minor: float | str,
     semi_major, semi_minor: as the radius of circle(). bearing: of the major axis, degrees clockwise
     from north.
     """
-    axes = (_arguments.angle(size, "a semi-axis", earth_radius) for size in (semi_major, semi_minor))
+    axes = [_arguments.angle(size, "a semi-axis", earth_radius)
+            for size in (semi_major, semi_minor)]
     return _calotte.ellipse(_arguments.direction(centre, "the centre"), *axes,
                             math.radians(bearing), corners)
 

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from . import _arguments, _calotte
+from . import _arguments, _calotte, _display
 from ._arguments import EARTH_RADIUS_KM
 from ._calotte import Error
 
@@ -13,10 +13,11 @@ _DEGREES = 180 / np.pi
 
 # ---- The cells: begin, ids and corners, as Polygons has them
 
-def _around_sites(mesh, places, centres):
+def _around_sites(mesh, offsets):
     """The cells of the sites that triangles surround; others have no corners.
 
-    places, centres: of sites and triangles in a plane each; centres of triangles are the corners.
+    offsets: of triangles and their sites, the way from the site to the triangle's centre in a plane
+        at the site.
     """
     sites = mesh.triangles.ravel()
     triangle = np.repeat(np.arange(len(mesh.triangles)), 3)
@@ -27,7 +28,7 @@ def _around_sites(mesh, places, centres):
             outside[mesh.triangles[at_border, (slot + end) % 3]] = True
     keep = ~outside[sites]
     sites, triangle = sites[keep], triangle[keep]
-    offset = centres(triangle, sites)
+    offset = offsets(triangle, sites)
     order = np.lexsort((np.arctan2(offset[:, 1], offset[:, 0]), sites))
     begin = np.concatenate([[0], np.cumsum(np.bincount(sites, minlength=len(mesh)))])
     return begin, triangle[order]
@@ -50,29 +51,33 @@ def _whole_cells(mesh):
         return np.stack([np.einsum("ij,ij->i", apart, east[site]),
                          np.einsum("ij,ij->i", apart, north[site])], axis=1)
 
-    begin, ids = _around_sites(mesh, unit, offsets)
+    begin, ids = _around_sites(mesh, offsets)
     return begin, ids, corners
 
 
 def _whole_planar_cells(mesh):
     """Of a mesh of the plane without its domain."""
     a, b, c = (mesh.points[mesh.triangles[:, k]] for k in range(3))
-    b, c = b - a, c - a
+    b, c = (_display.nearest(end - a, mesh.period) for end in (b, c))
     twice = 2 * (b[:, 0] * c[:, 1] - b[:, 1] * c[:, 0])
     bb, cc = (b**2).sum(axis=1), (c**2).sum(axis=1)
     corners = a + np.stack([c[:, 1] * bb - b[:, 1] * cc, b[:, 0] * cc - c[:, 0] * bb],
                            axis=1) / twice[:, np.newaxis]
-    begin, ids = _around_sites(mesh, mesh.points,
-                               lambda triangle, site: corners[triangle] - mesh.points[site])
-    return begin, ids, np.column_stack([corners, np.zeros(len(corners))])
+
+    def offsets(triangle, site):
+        return _display.nearest(corners[triangle] - mesh.points[site], mesh.period)
+
+    begin, ids = _around_sites(mesh, offsets)
+    flat = np.column_stack([corners, np.zeros(len(corners))])
+    return _unrolled(begin, ids, flat, mesh.period) if mesh.period.any() else (begin, ids, flat)
 
 
-def _unrolled(cells):
-    """Of a periodic box: each cell with corners of its own, the copies nearest to the first."""
-    places = cells.vertices[cells.vertices_on_cell]
-    first = np.repeat(places[cells.begin[:-1], :2], np.diff(cells.begin), axis=0)
-    places[:, :2] -= cells.period * np.round((places[:, :2] - first) / cells.period)
-    return cells.begin, np.arange(len(places)), places
+def _unrolled(begin, ids, corners, period):
+    """In a periodic plane: each cell with corners of its own, the copies nearest to the first."""
+    places = corners[ids]
+    first = np.repeat(places[begin[:-1].clip(max=len(ids) - 1), :2], np.diff(begin), axis=0)
+    places[:, :2] = first + _display.nearest(places[:, :2] - first, period)
+    return begin, np.arange(len(places)), places
 
 
 def rings(grid, domain=None):
@@ -80,13 +85,16 @@ def rings(grid, domain=None):
     if isinstance(grid, _calotte.Polygons):
         return grid.begin, grid.ids, grid.corners
     if grid.cells is not None and domain is None:
-        return grid.cells.begin, grid.cells.ids, grid.cells.corners
+        shapes = grid.cells.begin, grid.cells.ids, grid.cells.corners
+        plane = isinstance(grid, _calotte.PlanarMesh)
+        return _unrolled(*shapes, grid.period) if plane and grid.period.any() else shapes
     if isinstance(grid, _calotte.Mesh):
         if not grid.closed:
             return _whole_cells(grid)
         cells = _calotte.voronoi(grid)
-    elif grid.period.any():
-        return _unrolled(_calotte.voronoi(grid))
+    elif grid.period.all():
+        cells = _calotte.voronoi(grid)
+        return _unrolled(cells.begin, cells.vertices_on_cell, cells.vertices, grid.period)
     elif domain is not None:
         cells = _calotte.voronoi(grid, _arguments.domain(domain))
     else:
