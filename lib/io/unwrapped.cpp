@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/unwrapped.h"
-
 #include "base/points.h"
 #include "domain/periodic_box.h"
+#include "io/room.h"
+
+#include <calotte/mesh_file.h>
 
 #include <array>
 #include <cmath>
@@ -10,8 +11,10 @@
 #include <utility>
 #include <vector>
 
-namespace calotte::io_detail {
+namespace calotte {
 namespace {
+
+using namespace io_detail;
 
 /// Corners, and copies of them by their shift in whole periods.
 class Copies {
@@ -70,4 +73,4 @@ Polygons unwrapped(Polygons polygons) {
   return polygons;
 }
 
-} // namespace calotte::io_detail
+} // namespace calotte

@@ -4,7 +4,6 @@
 #include "io/formats.h"
 #include "io/model_grid.h"
 #include "io/open_cells.h"
-#include "io/unwrapped.h"
 #include "io/write_mesh.h"
 #include "io/written_fields.h"
 

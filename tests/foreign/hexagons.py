@@ -11,7 +11,7 @@ CORNERS = [(1, -1), (1, 1), (0, 2), (-1, 1), (-1, -1), (0, -2)]
 
 
 class Hexagons:
-    """Rows of whole cells. All numbers are exact functions of columns, rows and the width dc."""
+    """Rows of whole cells, and what is true of them: functions of columns, rows and the width dc."""
 
     def __init__(self, columns, rows, dc, culled=(), box=False, turned=False):
         self.dc, self.turned = dc, turned
@@ -70,9 +70,9 @@ class Hexagons:
         return sum(1 for around in self.around if len(around) == 3)
 
     def boundary(self):
-        """Edges between two cells at a corner that lacks one, counted once for each such corner."""
-        return sum(1 for i, other, start, end in self.edges if other >= 0
-                   for v in (start, end) if len(self.around[v]) == 2)
+        """Edges between two cells of which one end alone has three cells."""
+        whole = lambda v: len(self.around[v]) == 3
+        return sum(1 for _, other, start, end in self.edges if other >= 0 and whole(start) != whole(end))
 
     def write(self, path, **attributes):
         n, m, e = len(self.cells), len(self.corners), len(self.edges)

@@ -255,7 +255,8 @@ def rows_of_cells_with_four_corners(bench):
         area = curvilinear(bench.path("ocean.nc"), 3, 4, pad)
         out = bench.passes("info", "ocean.nc")
         bench.require(bench.row(out, "cells ") == ["12"], "cells", out)
-        bench.close(bench.row(out, "cells / 4 pi")[0], area / (4 * math.pi), "the area", 1e-12)
+        bench.passes("convert", "ocean.nc", "copy.nc", "--format", "scrip")
+        bench.close(sum(netcdf3.File(bench.path("copy.nc")).values("grid_area")), area, "the area", 1e-12)
         bench.passes("draw", "ocean.nc", "-o", "ocean.png", "--what", "cells", "--size", "100")
 
 
@@ -312,7 +313,10 @@ for function in cases:
         continue
     count += 1
     with tempfile.TemporaryDirectory() as directory:
-        function(Bench(directory, title))
+        try:
+            function(Bench(directory, title))
+        except OSError as missing:
+            faults.append(f"{title}: {missing}")
 for fault in faults[:int(os.environ.get("FAULTS", "40"))]:
     print(fault)
 print(f"{count} cases, {len(faults)} faults")

@@ -89,6 +89,31 @@ Painting make_painting(const PlanarMesh& mesh, const Drawn& drawn, const DrawOpt
   return painting;
 }
 
+/// The values of the mesh's own shapes, without those of copies beside the period: cells of its
+/// sites, and triangles with their middle within the window.
+std::vector<double> own_values(const PlanarMesh& mesh, const Painting& painting, const Drawn& drawn,
+                               const Window& window) {
+  std::vector<double> values;
+  for (std::size_t i = 0; i < painting.values.size(); ++i) {
+    const auto shape = static_cast<Eigen::Index>(i);
+    if (painting.scene.shapes == Shapes::triangles) {
+      Vector2d sum = Vector2d::Zero();
+      for (const std::int32_t place : drawn.mesh.triangles.col(shape)) {
+        sum += drawn.places.col(place);
+      }
+      const auto inside =
+          sum.array() / 3 >= window.low.array() && sum.array() / 3 < window.high.array();
+      if (!(mesh.period.array() == 0 || inside).all()) {
+        continue;
+      }
+    } else if (shape >= mesh.points.cols()) {
+      break;
+    }
+    values.push_back(painting.values[i]);
+  }
+  return values;
+}
+
 /// The spacing is that of the cells for triangles too, as some of these reach across bays.
 std::string title_of(const PlanarMesh& mesh, const DrawOptions& asked,
                      const std::optional<PlanarDomain>& domain, const Window& window) {
@@ -169,7 +194,10 @@ void draw(const std::string& path, const PlanarMesh& mesh,
   const Window window = window_of(mesh, domain);
   const Drawn drawn = drawn_of(mesh, options.shapes, window);
   Painting painting = make_painting(mesh, drawn, options, domain, window);
-  const Legend legend = make_legend(painting, options);
+  Legend legend = make_legend(painting, options);
+  if (options.colouring == Colouring::valence && mesh.period.maxCoeff() > 0) {
+    legend.classes = valence_classes(own_values(mesh, painting, drawn, window));
+  }
   const std::string title = title_of(mesh, options, domain, window);
   const Page page = page_of_plane(options.look.size, window.extent().y() / window.extent().x(),
                                   options.colouring != Colouring::none);
