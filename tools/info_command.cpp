@@ -135,7 +135,19 @@ void measure_sphere(const Request& request, const MeshFile& file, Measured& meas
     measured.remarks.emplace_back(no_operators);
 }
 
+/// A plane with walls, such as a channel: as an open mesh of the sphere. The file's cells have the
+/// area.
+void measure_walls(const Request& request, const MeshFile& file, Measured& measured) {
+  find_boundary(count_edges(*file.plane), measured);
+  measured.quality = open_quality(*file.plane);
+  measured.domain_area = areas(*file.polygons).sum();
+  if (request.operators)
+    measured.remarks.emplace_back("the operators of a plane with walls are not measured");
+}
+
 void measure_plane(const Request& request, const MeshFile& file, Measured& measured) {
+  if (!request.domain->given() && file.polygons && file.plane->period.maxCoeff() > 0)
+    return measure_walls(request, file, measured);
   const PlanarDomain domain = domain_of(request, *file.plane);
   measured.density = density_name(*request.density);
   const Density density = density_of(*request.density, true);

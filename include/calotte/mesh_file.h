@@ -40,6 +40,11 @@ struct Polygons {
 /// \pre counter-clockwise; on the sphere each smaller than a hemisphere.
 Eigen::VectorXd areas(const Polygons& polygons);
 
+/// Polygons of a periodic plane in one without a period: each near its centre, or else near its
+/// first corner. Corners that are needed on both sides of a seam have copies, which follow the
+/// others. Other polygons stay as they are.
+Polygons unwrapped(Polygons polygons);
+
 /// Counts of polygons whose shape is not that of a centroidal Voronoi cell.
 struct PolygonShapes {
   /// Polygons that turn to the right at a corner, by more than 1e-9 radians.

@@ -126,6 +126,11 @@ Quality triangle_quality(const Mesh& mesh);
 /// \throws Error bad_option, for a mesh that fails check_surface().
 Quality open_quality(const Mesh& mesh);
 
+/// The same of a plane that is periodic in a direction and ends at walls, such as a channel.
+/// Lengths and areas are in the unit of the points and its square; cells_area and triangles_area
+/// are 0. \throws Error as above.
+Quality open_quality(const PlanarMesh& mesh);
+
 /// Measures a mesh of generators in a planar domain. Lengths and areas are in the domain's unit, h
 /// = sqrt(area / n), cells_area is divided by the domain's area, and triangles_area is 0. The
 /// domain clips the cells. cell_area, residual and energy include all cells; sigma, cell_quality,

@@ -74,7 +74,7 @@ struct FaceNodesReader {
   const NetcdfReader& file;
   const std::string& name;
   std::int64_t nodes;
-  double start = file.number(name, "start_index", 0);
+  double start;
   double fill = file.number(name, "_FillValue", std::numeric_limits<double>::quiet_NaN());
 
   std::int32_t id(double value, std::int64_t face) const {
@@ -101,6 +101,17 @@ struct FaceNodesReader {
   }
 };
 
+/// Without the attribute ids count from 0; those of FESOM's files, from 1: one is the number of
+/// nodes, and none is 0.
+double start_index_of(const NetcdfReader& file, const std::string& name, std::int64_t nodes,
+                      const std::vector<double>& ids) {
+  const auto has = [&](std::int64_t id) {
+    return std::find(ids.begin(), ids.end(), static_cast<double>(id)) != ids.end();
+  };
+  const double start = file.number(name, "start_index", -1);
+  return start != -1 ? start : has(nodes) && !has(0) ? 1 : 0;
+}
+
 FaceNodes face_nodes_of(const NetcdfReader& file, const Topology& topology, std::int64_t nodes) {
   const std::string& name = topology.face_nodes;
   // Doubles hold every padding that others use, whatever its type.
@@ -111,7 +122,7 @@ FaceNodes face_nodes_of(const NetcdfReader& file, const Topology& topology, std:
       dimensions[1] == topology.face_dimension && dimensions[0] != topology.face_dimension;
   const std::int64_t faces = shape[faces_last ? 1 : 0], most = shape[faces_last ? 0 : 1];
 
-  const FaceNodesReader reader{file, name, nodes};
+  const FaceNodesReader reader{file, name, nodes, start_index_of(file, name, nodes, values)};
   FaceNodes result(most, faces);
   for (std::int64_t face = 0; face < faces; ++face) {
     for (std::int64_t k = 0; k < most; ++k)

@@ -62,12 +62,12 @@ void write_open_mpas(const std::string& path, const MeshFile& file, const WriteO
   write_mpas(path, cells.voronoi, places_of(file, options.sphere_radius), options);
 }
 
-/// Whether a field is of polygons: at the cells, or, but in MPAS, which numbers them otherwise, at
-/// their corners.
+/// Whether a field is of polygons: at the cells, or, but in MPAS, which numbers them otherwise, and
+/// in a periodic plane, at their corners.
 bool is_of(const Polygons& polygons, const MeshField& field, Format format) {
   return field.location == Location::cells ||
          (field.location == Location::vertices && format != Format::mpas &&
-          has_values_for(field, polygons.corners.cols()));
+          !(polygons.period.maxCoeff() > 0) && has_values_for(field, polygons.corners.cols()));
 }
 
 void write_polygons_of(const std::string& path, const MeshFile& file, WriteOptions options) {
@@ -86,7 +86,7 @@ void write_polygons_of(const std::string& path, const MeshFile& file, WriteOptio
       options.fields.push_back({.name = "density", .values = file.density});
     if (is_netcdf(options.format))
       settle_names(options.fields);
-    write_polygons(path, cell_grid(*file.polygons), options);
+    write_polygons(path, cell_grid(unwrapped(*file.polygons)), options);
   }
   Monitor(options.progress).finish("write");
 }
