@@ -4,6 +4,7 @@
 #include "base/points.h"
 #include "integrals/moments.h"
 #include "quality/demand.h"
+#include "quality/flat_hull.h"
 #include "quality/sides.h"
 
 #include <calotte/check.h>
@@ -161,7 +162,7 @@ Quality measure_open(const Mesh& mesh, bool cells) {
   if (!found.passed())
     throw Error(ErrorCode::bad_option, "the triangles do not form a surface: " + found.failure +
                                            "; triangulate the points anew");
-  const Mesh unit = with_unit_columns(mesh);
+  const Mesh unit = without_flat_hull(with_unit_columns(mesh)).mesh;
   const Subject subject{unit.triangles, unit.neighbours, {}, make_shapes(unit), {}, {}, {}};
   Quality result = measure_shapes(subject, 0);
   if (cells) {
@@ -171,7 +172,8 @@ Quality measure_open(const Mesh& mesh, bool cells) {
     result.short_edges = 0;
   }
   result.cells = mesh.points.cols();
-  result.degrees = inner_degrees(mesh);
+  result.flat = mesh.triangles.cols() - unit.triangles.cols();
+  result.degrees = inner_degrees(unit);
   result.triangles_area = found.area / (4 * pi);
   return result;
 }
