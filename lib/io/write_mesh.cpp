@@ -202,7 +202,7 @@ void write(const std::string& path, const PlanarMesh& mesh, const WriteOptions& 
   WriteOptions resolved = options;
   resolved.format = format_of(path, options.format);
   require_options(path, resolved);
-  require_planar_format(path, mesh.period.minCoeff() > 0, resolved.format);
+  require_planar_format(path, mesh.period.maxCoeff() > 0, resolved.format);
   require_input_numbering(path, options.numbering);
   require_ids(path, mesh);
   require_values(path, sizes_of(mesh), resolved);
