@@ -24,7 +24,7 @@ GROUPS = [
                              "periodic_box", "planar_polygon"]),
     ("Files", ["read", "read_fields", "read_points", "write", "cut", "cull"]),
 ]
-KINDS = ["Mesh", "PlanarMesh", "Polygons", "Voronoi", "Cvt", "Plan", "Quality", "Range",
+KINDS = ["Mesh", "PlanarMesh", "Polygons", "PolygonShapes", "Voronoi", "Cvt", "Plan", "Quality", "Range",
          "Percentiles", "Check", "OperatorErrors", "ErrorNorms", "Density", "CellWidth", "Region",
          "PlanarDomain", "Error"]
 

@@ -38,6 +38,11 @@ def _polygons(cells):
             f"{counted(len(cells.corners), 'corner')}{centres}{plane}>")
 
 
+def _shapes(shapes):
+    return (f"<calotte.PolygonShapes: area {_range(shapes.area)}, {shapes.without_area} without area, "
+            f"{shapes.not_convex} not convex, {shapes.not_centroidal} not centroidal>")
+
+
 def _voronoi(cells):
     plane = "" if cells.on_sphere else ", in a plane"
     return (f"<calotte.Voronoi: {counted(len(cells.cells), 'cell')}, "
@@ -193,7 +198,8 @@ def picture(mesh):
 
 
 for _kind, _line in ((_calotte.Mesh, _mesh), (_calotte.PlanarMesh, _mesh),
-                     (_calotte.Polygons, _polygons), (_calotte.Voronoi, _voronoi),
+                     (_calotte.Polygons, _polygons), (_calotte.PolygonShapes, _shapes),
+                     (_calotte.Voronoi, _voronoi),
                      (_calotte.Quality, _quality), (_calotte.Check, _check),
                      (_calotte.OperatorErrors, _errors), (_calotte.Region, _region),
                      (_calotte.PlanarDomain, _domain), (_calotte.CellWidth, _widths),
@@ -201,7 +207,7 @@ for _kind, _line in ((_calotte.Mesh, _mesh), (_calotte.PlanarMesh, _mesh),
                      (_calotte.Percentiles, _numbers), (_calotte.ErrorNorms, _numbers)):
     _kind.__repr__ = _line
 for _kind in (_calotte.Voronoi, _calotte.Quality, _calotte.Check, _calotte.OperatorErrors,
-              _calotte.Polygons):
+              _calotte.Polygons, _calotte.PolygonShapes):
     _kind._repr_html_ = _as_table
 for _kind in (_calotte.Mesh, _calotte.PlanarMesh):
     _kind._repr_html_ = picture

@@ -161,9 +161,15 @@ def quality(mesh: Grid, *, domain: DomainLike | None = None,
 
     density, cell_width: as for cvt(); they set what dc_over_h and excess compare with.
 
+    A plane that ends at walls in one direction and is periodic in the other, such as a channel of a
+    file, needs no domain: its whole cells are measured.
+
     >>> quality(delaunay(bisected_icosahedron(3))).obtuse
     0
     """
+    _require_mesh(mesh)
+    if isinstance(mesh, PlanarMesh) and domain is None and mesh.period.any() != mesh.period.all():
+        return _calotte.open_quality(mesh)
     return _measured(_calotte.quality, mesh, domain, density, cell_width)
 
 

@@ -82,12 +82,10 @@ def _unrolled(begin, ids, corners, period):
 
 def rings(grid, domain=None):
     """begin, ids and corners of the cells of a mesh or of polygons; some may have no corners."""
-    if isinstance(grid, _calotte.Polygons):
-        return grid.begin, grid.ids, grid.corners
-    if grid.cells is not None and domain is None:
-        shapes = grid.cells.begin, grid.cells.ids, grid.cells.corners
-        plane = isinstance(grid, _calotte.PlanarMesh)
-        return _unrolled(*shapes, grid.period) if plane and grid.period.any() else shapes
+    polygons = grid if isinstance(grid, _calotte.Polygons) else grid.cells
+    if polygons is not None and domain is None:
+        shapes = polygons.begin, polygons.ids, polygons.corners
+        return _unrolled(*shapes, polygons.period) if polygons.period.any() else shapes
     if isinstance(grid, _calotte.Mesh):
         if not grid.closed:
             return _whole_cells(grid)

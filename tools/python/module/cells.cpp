@@ -42,6 +42,9 @@ void add_quality(py::module_& module) {
   add_members(
       quality, Member{"cells", &Quality::cells, "Number of cells."},
       Member{"triangles", &Quality::triangles, "Number of triangles."},
+      Member{
+          "flat", &Quality::flat,
+          "Number of triangles along an open boundary flatter than rounding; they do not count."},
       Member{"degrees", &Quality::degrees, "degrees[d]: number of cells with d neighbours."},
       Member{"spacing", &Quality::spacing,
              "Range of the distances between neighbours; radians, in the plane the points' unit."},
@@ -151,6 +154,8 @@ void add_cells(py::module_& module) {
              [](const PlanarMesh& mesh, const PlanarDomain& domain, const Density& density) {
                return call([&] { return quality(mesh, domain, density); });
              });
+  module.def("open_quality",
+             [](const PlanarMesh& mesh) { return call([&] { return open_quality(mesh); }); });
 }
 
 } // namespace calotte::python

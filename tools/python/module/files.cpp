@@ -152,6 +152,27 @@ std::shared_ptr<Polygons> polygons_from(const Doubles& corners, const Offsets& b
   return cells;
 }
 
+void add_shapes(py::module_& module) {
+  py::class_<PolygonShapes> shapes(module, "PolygonShapes",
+                                   "What polygons measure, of Polygons.shapes().");
+  add_members(
+      shapes,
+      Member{"area", &PolygonShapes::area,
+             "Range of the areas; steradians, in a plane the square of its unit."},
+      Member{"spacing", &PolygonShapes::spacing,
+             "Range of the distances between centres of polygons that share a side; radians, in a "
+             "plane its unit; 0 without centres."},
+      Member{"without_area", &PolygonShapes::without_area, "Number of polygons without area."},
+      Member{"first_without_area", &PolygonShapes::first_without_area, "The first; -1 for none."},
+      Member{"not_convex", &PolygonShapes::not_convex,
+             "Number of polygons that turn to the right at a corner."},
+      Member{"first_not_convex", &PolygonShapes::first_not_convex, "The first; -1 for none."},
+      Member{"not_centroidal", &PolygonShapes::not_centroidal,
+             "Number of polygons whose centre is not their centroid, by 1e-6 widths."},
+      Member{"off_centring", &PolygonShapes::off_centring, "The largest distance, in widths."},
+      Member{"worst_centred", &PolygonShapes::worst_centred, "Its polygon; -1 without centres."});
+}
+
 void add_content(py::module_& module) {
   py::class_<Polygons, std::shared_ptr<Polygons>> polygons(
       module, "Polygons",
@@ -169,16 +190,21 @@ void add_content(py::module_& module) {
   add_member(polygons, Member{"centres", &Polygons::centres,
                               "(n, 3) as the corners; (0, 3) if the file gives none."});
   add_member(polygons, Member{"on_sphere", &Polygons::on_sphere, "False in a plane."});
+  add_member(polygons, Member{"period", &Polygons::period,
+                              "(2,) side lengths of a periodic plane; 0 in other directions."});
   polygons.def("__len__", &Polygons::size)
       .def_property_readonly(
           "areas",
           [](const Polygons& cells) { return handed_over(call([&] { return areas(cells); })); },
           "(n,) their areas; steradians, in a plane the square of its unit.")
+      .def(
+          "shapes", [](const Polygons& cells) { return call([&] { return shapes(cells); }); },
+          "Measures of the polygons, see PolygonShapes.")
       .def(py::pickle(
           [](const py::object& self) {
             const auto& cells = self.cast<const Polygons&>();
             return py::make_tuple(cells.corners, cells.begin, cells.ids, cells.centres,
-                                  cells.on_sphere, self.attr("__dict__"));
+                                  cells.on_sphere, cells.period, self.attr("__dict__"));
           },
           [](const py::tuple& state) {
             auto cells = std::make_shared<Polygons>();
@@ -187,7 +213,8 @@ void add_content(py::module_& module) {
             cells->ids = state[2].cast<Ids>();
             cells->centres = state[3].cast<Points3>();
             cells->on_sphere = state[4].cast<bool>();
-            return std::pair(std::move(cells), state[5].cast<py::dict>());
+            cells->period = state[5].cast<Eigen::Vector2d>();
+            return std::pair(std::move(cells), state[6].cast<py::dict>());
           }));
   py::class_<MeshFile, Content>(module, "Content")
       .def_property_readonly("polygons", &polygons_of)
@@ -424,6 +451,7 @@ Output output_of(std::string path, const std::string& format, std::optional<doub
 
 void add_files(py::module_& module) {
   py::class_<Output>(module, "Output").def(py::init(&output_of));
+  add_shapes(module);
   add_content(module);
   module.def("read", &read);
   module.def("cells_of_file", &cells_of);
