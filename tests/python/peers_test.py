@@ -93,6 +93,10 @@ def test_errors():
         SphericalVoronoi(OCTAHEDRON, None)
     with pytest.raises(ValueError, match="n x 3"):
         SphericalVoronoi(np.ones((5, 4)))
+    with pytest.raises(ValueError, match="Duplicate generators"):
+        SphericalVoronoi([(1, 0), (0, 1), (-1, 0), (0, 1)])
+    with pytest.raises(ValueError, match="Rank"):
+        SphericalVoronoi([(1, 0), (0, 1)])
     with pytest.raises(ValueError):
         SphericalVoronoi(random_sphere(3))
 
@@ -138,6 +142,27 @@ def test_cells_of_points_in_a_hemisphere_fill_the_sphere(points):
     for a, b in zip(cells.regions, theirs.regions):
         p = {tuple(np.round(v, 7) + 0.0) for v in cells.vertices[a]}
         assert p == {tuple(np.round(v, 7) + 0.0) for v in theirs.vertices[b]}
+
+
+@pytest.mark.parametrize("angles", [(0, 1, 2.5, 4, 5), (0.1, 0.3, 0.2, 0.9), (3, 1, 2, -1, -3)])
+def test_points_on_a_circle(angles):
+    radius, center = 2.0, np.array([1.0, -1.0])
+    points = center + radius * np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    cells = SphericalVoronoi(points, radius, center)
+    places = np.linspace(0, 2 * np.pi, 20000, endpoint=False)  # each counts for the nearest point
+    nearness = np.cos(places[:, np.newaxis] - np.array(angles))
+    lengths = np.bincount(nearness.argmax(axis=1), minlength=len(angles)) * 2 * np.pi * radius / 20000
+    assert np.allclose(cells.calculate_areas(), lengths, atol=5e-3)
+    assert cells.calculate_areas().sum() == pytest.approx(2 * np.pi * radius)
+    distances = np.linalg.norm(cells.vertices[:, np.newaxis] - points, axis=2)
+    for site, region in enumerate(cells.regions):
+        assert len(region) == 2 and np.allclose(distances[region, site],
+                                                distances[region].min(axis=1))
+    spatial = pytest.importorskip("scipy.spatial")
+    theirs = spatial.SphericalVoronoi(points, radius, center)
+    for a, b in zip(cells.regions, theirs.regions):
+        p = {tuple(np.round(v, 9) + 0.0) for v in cells.vertices[a]}
+        assert p == {tuple(np.round(v, 9) + 0.0) for v in theirs.vertices[b]}
 
 
 def test_random_sets_of_six():
