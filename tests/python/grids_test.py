@@ -138,6 +138,8 @@ def test_the_cells_of_sites_in_a_hemisphere():
     mesh = calotte.delaunay([(0, 50), (90, 50), (180, 50), (270, 50), (30, 70)])
     cells = calotte.voronoi(mesh)
     assert cells.cell_area.sum() == pytest.approx(4 * math.pi) and len(cells.vertices) == 6
+    three = calotte.voronoi(calotte.delaunay(calotte.random_sphere(3)))
+    assert three.cell_area.sum() == pytest.approx(4 * math.pi) and len(three.vertices) == 2
     ends = calotte.cvt(300, region=calotte.polygon(
         [(0, 0), (60, 0), (60, 10), (30, 12), (60, 14), (60, 40), (0, 40)])).mesh
     with pytest.raises(calotte.Error, match="not the hull of its sites"):

@@ -112,12 +112,57 @@ def _sampled(function, step=0.25):
     return _raster(values, lon, lat)
 
 
-def cell_width(widths, earth_radius=EARTH_RADIUS_KM):
-    """Widths in km of a number, a raster, a file or a function, as CellWidth."""
+def cell_width(widths, earth_radius=EARTH_RADIUS_KM, region=None):
+    """Widths in km of a number, a raster, a file or a function, as CellWidth.
+
+    region: which a raster must cover; None for any raster.
+    """
+    made = _widths(widths, earth_radius)
+    if region is not None:
+        _require_covering(made, region)
+    return made
+
+
+def _places_of(region):
+    """Places all over a region, and on its boundary."""
+    inside = _calotte.random_sphere(2000, region, _calotte.Density(), 1)
+    rings = []
+    for ring in region.rings:
+        for part in np.linspace(0, 1, 8, endpoint=False):
+            rings.append((1 - part) * ring + part * np.roll(ring, -1, axis=0))
+    return _calotte.to_lonlat(np.concatenate([inside, *rings]))
+
+
+def _require_covering(widths, region):
+    """The rule of the command: half of the widest step beyond the nodes, 1.5 of it at a seam."""
+    lon, lat = widths.longitudes, widths.latitudes
+    step, rise, slack = np.diff(lon).max(), np.diff(lat).max(), 1e-3
+    around = 360 - (lon[-1] - lon[0]) <= 1.5 * step + slack
+    south = -np.inf if lat[0] + 90 <= 1.5 * rise + slack else lat[0] - rise / 2 - slack
+    north = np.inf if 90 - lat[-1] <= 1.5 * rise + slack else lat[-1] + rise / 2 + slack
+    if around and south < -90 and north > 90:
+        return
+    extent = (f"longitude runs from {lon[0]:g} to {lon[-1]:g}, latitude from {lat[0]:g} to "
+              f"{lat[-1]:g}")
+    if region.whole:
+        raise Error(f"cell widths: {extent}, and leaves part of the sphere out; give a global raster "
+                    "in degrees")
+    places = _places_of(region)
+    east = (places[:, 0] - (lon[0] - step / 2 - slack)) % 360
+    outside = (places[:, 1] < south) | (places[:, 1] > north)
+    if not around:
+        outside |= east > lon[-1] - lon[0] + step + 2 * slack
+    if outside.any():
+        place = places[outside.argmax()]
+        raise Error(f"cell widths: {extent}, and leaves out the place {place[0]:g} {place[1]:g} of "
+                    "the region; give a raster in degrees that covers it")
+
+
+def _widths(widths, earth_radius):
     if isinstance(widths, _calotte.CellWidth):
         return widths
     if isinstance(widths, str) and (parts := measure(widths)):
-        return cell_width(kilometres(*parts, "the cell width"))
+        return _widths(kilometres(*parts, "the cell width"), earth_radius)
     if isinstance(widths, str) or hasattr(widths, "__fspath__"):
         return _calotte.read_cell_width(str(widths), 0, 0, 0, earth_radius)
     if callable(widths):

@@ -255,8 +255,8 @@ def plan(cell_width: WidthLike, *, region: RegionLike | None = None,
     >>> plan(120.0).cells
     40962
     """
-    widths = _arguments.cell_width(cell_width, earth_radius)
     part = _arguments.region(region, earth_radius)
+    widths = _arguments.cell_width(cell_width, earth_radius, part)
     slope, longitude, latitude = _calotte.largest_gradient(widths, earth_radius)
     return Plan(_cells_for(widths, part, earth_radius), float(widths.widths.min()),
                 float(widths.widths.max()), slope, (longitude, latitude))
@@ -362,8 +362,10 @@ def cvt(start: int | ArrayLike | None = None, *, density: DensityLike | None = N
         return _planar_cvt(start, _arguments.domain(domain), density, fixed, seed,
                            (method, norm, tolerance, max_iterations, least_spacing), well_centred,
                            insertion_rounds, regions, progress)
-    widths = None if cell_width is None else _arguments.cell_width(cell_width, earth_radius)
-    rho, part = _arguments.density(density, widths), _arguments.region(region, earth_radius)
+    part = _arguments.region(region, earth_radius)
+    widths = (None if cell_width is None else
+              _arguments.cell_width(cell_width, earth_radius, part))
+    rho = _arguments.density(density, widths)
     stay = np.empty((0, 3)) if fixed is None else _arguments.sphere_points(fixed, "fixed points")
     if start is None:
         if widths is None:
@@ -656,8 +658,8 @@ def limited_area(path: Path, region: RegionLike, cell_width: WidthLike, *,
     options: seed, max_iterations, regions and progress as for cvt().
     Returns a dict of counts: cells, and cells_by_mask (inside, then by ring).
     """
-    widths = _arguments.cell_width(cell_width, earth_radius)
     part = _arguments.region(region, earth_radius)
+    widths = _arguments.cell_width(cell_width, earth_radius, part)
     meshed = _calotte.with_rings(part, widths, earth_radius)
     grid = cvt(cell_width=widths, region=meshed, earth_radius=earth_radius, **options)
     output = _calotte.Output(str(path), "mpas", sphere_radius, _arguments.density(None, widths),

@@ -60,6 +60,8 @@ class SphericalVoronoi:
         self._starts, self._ids = 2 * np.arange(len(order) + 1), np.ravel(self._regions)
 
     def _divide_sphere(self, offsets, threshold):
+        if len(offsets) < 4:
+            raise ValueError("Rank of input points must be at least 3")
         try:
             self._mesh = _calotte.delaunay(offsets, 0.0, False, None)
         except _calotte.Error as error:
