@@ -130,8 +130,22 @@ def test_cells_of_any_shape(tmp_path):
         calotte.voronoi(grid)
     with pytest.raises(calotte.Error, match="MPAS needs Voronoi cells"):
         grid.to_mpas(tmp_path / "no.nc")
+    shapes = cells.shapes()
+    assert shapes.not_convex == 0 and shapes.area.max == pytest.approx(cells.areas.max())
+    assert "not centroidal" in repr(shapes)
+    if grid is cells:
+        with pytest.raises(calotte.Error, match="polygons have no triangles"):
+            calotte.quality(grid)
     calotte.write(tmp_path / "again.nc", grid, format="ugrid")
     assert len(polygons_of(calotte.read(tmp_path / "again.nc")).areas) == 72
+
+
+def test_the_cells_of_a_plane_need_its_domain():
+    mesh = calotte.delaunay([(0, 0), (1, 0), (0, 1), (1, 1), (0.5, 0.4)], plane=True)
+    with pytest.raises(calotte.Error, match="give domain="):
+        calotte.voronoi(mesh)
+    cells = calotte.voronoi(mesh, calotte.rectangle((-1, -1), (2, 2)))
+    assert cells.cell_area.sum() == pytest.approx(9)
 
 
 def test_the_cells_of_sites_in_a_hemisphere():

@@ -120,14 +120,16 @@ def voronoi(mesh: Grid, domain: DomainLike | None = None) -> Voronoi:
         raise Error("polygons without the file that they are of have no Voronoi cells; use areas")
     if content is not None and content.polygons is not None:
         return _calotte.cells_of_file(content, mesh, part)
+    if isinstance(mesh, PlanarMesh) and part is None and not mesh.period.all():
+        raise Error("the cells of a bounded plane need its domain, which clips them; give domain=")
     return _calotte.voronoi(mesh) if part is None else _calotte.voronoi(mesh, part)
 
 
 def _require_mesh(grid):
     """Polygons have no triangles to measure."""
     if isinstance(grid, Polygons):
-        raise Error("the file holds cells without triangles; measure the areas of its polygons, or "
-                    "the Voronoi cells of voronoi()")
+        raise Error("polygons have no triangles to measure; use their areas and shapes(), or "
+                    "voronoi() where they are Voronoi cells")
 
 
 def check(mesh: Grid) -> Check:
