@@ -79,14 +79,11 @@ def function_lines(name, function):
             wrapped(function.__doc__), "```", ""]
 
 
-def comments(kind):
-    """What stands after #: beside the fields of a dataclass."""
-    return dict(re.findall(r"^    (\w+): .*?#: (.*)$", inspect.getsource(kind), re.M))
-
-
 def attributes(kind):
+    """Names and descriptions; of a dataclass those of its docstring."""
     if dataclasses.is_dataclass(kind):
-        return list(comments(kind).items())
+        items = wrapped(kind.__doc__, 10**6).split("\n\n", 1)[1].split("\n")
+        return [tuple(item.split(": ", 1)) for item in items]
     return [(name, member.__doc__) for name, member in vars(kind).items()
             if isinstance(member, property) and not name.startswith("_")]
 
@@ -102,7 +99,10 @@ def methods(kind):
 
 def kind_lines(name):
     kind = getattr(_calotte, name, None) or getattr(calotte, name)
-    lines = [f"### {name}", "", escaped(documented(kind.__doc__)), ""]
+    about = documented(kind.__doc__)
+    if dataclasses.is_dataclass(kind):
+        about = about.split("\n\n")[0]
+    lines = [f"### {name}", "", escaped(about), ""]
     rows = attributes(kind) + methods(kind)
     if rows:
         lines += ["| attribute | what it is |", "| --- | --- |"]

@@ -80,7 +80,7 @@ class CMakeBuild(build_ext):
             pass
         if shutil.which("ninja"):
             settings.append("-GNinja")
-        subprocess.run(["cmake", "-S", HERE, "-B", build, *settings], check=True)
+        subprocess.run(["cmake", "--fresh", "-S", HERE, "-B", build, *settings], check=True)
         jobs = self.parallel or os.cpu_count() or 1
         subprocess.run(["cmake", "--build", build, "--parallel", str(jobs)], check=True)
 

@@ -198,20 +198,34 @@ def operator_errors(mesh: Grid, *, domain: DomainLike | None = None,
 
 @dataclass(frozen=True, repr=False)
 class Cvt:
-    """A centroidal Voronoi tessellation: its mesh, and the course of its run, of cvt()."""
+    """A centroidal Voronoi tessellation: its mesh, and the course of its run, of cvt().
 
-    mesh: Mesh | PlanarMesh  #: the Delaunay triangulation of the generators
-    converged: bool  #: whether the norm fell below the tolerance
-    well_centred: bool  #: whether all shapes are within the limits of models
-    misshapen_cells: int  #: number of cells beyond them, where that was asked for
-    worst_cell: int  #: the cell farthest beyond them; -1 for none
-    residual: float  #: the norm at the end, relative to the spacing of the cells
-    energy: float  #: at the end: integral of density times squared distance from the generator
-    iterations: int  #: their number, on all levels
-    seconds: float  #: of wall-clock time
-    energies: Array  #: by iteration
-    norms: Array  #: by iteration, l2-scaled
-    domain: PlanarDomain | None = None  #: of the plane, which clips the cells
+    mesh: the Delaunay triangulation of the generators.
+    converged: whether the norm fell below the tolerance.
+    well_centred: whether all shapes are within the limits of models.
+    misshapen_cells: number of cells beyond them, where that was asked for.
+    worst_cell: the cell farthest beyond them; -1 for none.
+    residual: the norm at the end, relative to the spacing of the cells.
+    energy: at the end: integral of density times squared distance from the generator.
+    iterations: their number, on all levels.
+    seconds: of wall-clock time.
+    energies: by iteration.
+    norms: by iteration, l2-scaled.
+    domain: of the plane, which clips the cells.
+    """
+
+    mesh: Mesh | PlanarMesh
+    converged: bool
+    well_centred: bool
+    misshapen_cells: int
+    worst_cell: int
+    residual: float
+    energy: float
+    iterations: int
+    seconds: float
+    energies: Array
+    norms: Array
+    domain: PlanarDomain | None = None
 
     def __repr__(self) -> str:
         end = "converged after" if self.converged else "not converged in"
@@ -241,13 +255,20 @@ class Cvt:
 
 @dataclass(frozen=True)
 class Plan:
-    """What widths demand, before a mesh is made, of plan()."""
+    """What widths demand, before a mesh is made, of plan().
 
-    cells: int  #: their number
-    least_km: float  #: the least width, km
-    greatest_km: float  #: the greatest width, km
-    gradient: float  #: the largest, km per km; most models need less than 0.03
-    steepest: tuple[float, float]  #: longitude and latitude of it, degrees
+    cells: their number.
+    least_km: the least width, km.
+    greatest_km: the greatest width, km.
+    gradient: the largest, km per km; most models need less than 0.03.
+    steepest: longitude and latitude of it, degrees.
+    """
+
+    cells: int
+    least_km: float
+    greatest_km: float
+    gradient: float
+    steepest: tuple[float, float]
 
 
 def plan(cell_width: WidthLike, *, region: RegionLike | None = None,
