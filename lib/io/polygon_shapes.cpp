@@ -4,6 +4,7 @@
 #include "domain/clipped_cell.h"
 #include "domain/periodic_box.h"
 #include "exact/predicates.h"
+#include "io/centroids.h"
 #include "io/polygons.h"
 #include "io/room.h"
 
@@ -120,6 +121,18 @@ void add(const PolygonShapes& of_block, PolygonShapes& all) {
 }
 
 } // namespace
+
+Points3 io_detail::centroids_of(const Polygons& polygons) {
+  Points3 centroids(3, polygons.size());
+  for_each_block(polygons.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i != end; ++i) {
+      const Ring ring = ring_of(polygons, i);
+      const Vec3 middle = centroid(ring);
+      set_column(centroids, i, std::isfinite(norm(middle)) ? middle : ring.at(0));
+    }
+  });
+  return centroids;
+}
 
 PolygonShapes shapes(const Polygons& polygons) {
   const std::int64_t count = polygons.size();

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/centroids.h"
 #include "io/field_order.h"
 #include "io/file_names.h"
 #include "io/formats.h"
@@ -30,9 +31,6 @@ void require_polygon_format(const std::string& path, const MeshFile& file, Forma
   if (!holds_cells(format))
     refuse_to_write(path, "the format holds triangles, but the mesh consists of cells, and " +
                               file.not_voronoi + others);
-  if (format == Format::scrip && file.polygons->centres.cols() == 0)
-    refuse_to_write(path, "SCRIP needs the centre of each cell, but the cells have none; write "
-                          "ugrid, esmf, exodus, vtp-cells, vtu-cells or geojson");
   const auto& begin = file.polygons->begin;
   for (std::int64_t i = 0; i < file.polygons->size(); ++i)
     if (begin[i] == begin[i + 1])
@@ -86,7 +84,10 @@ void write_polygons_of(const std::string& path, const MeshFile& file, WriteOptio
       options.fields.push_back({.name = "density", .values = file.density});
     if (is_netcdf(options.format))
       settle_names(options.fields);
-    write_polygons(path, cell_grid(unwrapped(*file.polygons)), options);
+    Polygons polygons = unwrapped(*file.polygons);
+    if (options.format == Format::scrip && polygons.centres.cols() == 0)
+      polygons.centres = centroids_of(polygons);
+    write_polygons(path, cell_grid(polygons), options);
   }
   Monitor(options.progress).finish("write");
 }
