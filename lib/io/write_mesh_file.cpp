@@ -5,6 +5,7 @@
 #include "io/formats.h"
 #include "io/model_grid.h"
 #include "io/open_cells.h"
+#include "io/polygons.h"
 #include "io/write_mesh.h"
 #include "io/written_fields.h"
 
@@ -56,7 +57,8 @@ Points3 places_of(const MeshFile& file, double radius) {
 
 void write_open_mpas(const std::string& path, const MeshFile& file, const WriteOptions& options) {
   const OpenCells cells = open_cells(*file.polygons);
-  const bool closed = file.mesh && file.mesh->closed(); // its Voronoi cells are others
+  // The Voronoi cells of a whole sphere are others.
+  const bool closed = file.mesh ? file.mesh->closed() : cover_sphere(*file.polygons);
   if (!cells.problem.empty())
     refuse_to_write(path, "MPAS needs Voronoi cells, but " +
                               (closed ? file.not_voronoi : cells.problem) + "; write " +
