@@ -9,7 +9,9 @@
 #include "options/format_options.h"
 #include "options/mesh_source.h"
 #include "options/numbers.h"
+#include "run/exit_code.h"
 #include "run/progress.h"
+#include "run/shapes.h"
 
 #include <calotte/error.h>
 #include <calotte/mesh_file.h>
@@ -173,7 +175,7 @@ std::string describe(const Request& request, const EarReport& ears) {
 void run(const Request& request) {
   require_request(request);
   const Density density = density_of(*request.density);
-  std::string words;
+  std::string words, fault;
   {
     Progress progress;
     progress.stage("reading " + request.source->path);
@@ -185,8 +187,15 @@ void run(const Request& request) {
     words = changes_of(*request.source, file) + describe(request, ears) +
             remarks(request, file, options, written) + request.output + ": " + describe(file) +
             "\n";
+    if (file.polygons)
+      fault = without_area(shapes(*file.polygons));
   }
   std::cout << words;
+  if (fault.empty())
+    return;
+  std::cout.flush();
+  std::cerr << "calotte: " + request.source->path + ": " + fault + "\n";
+  finish(check_failed);
 }
 
 } // namespace

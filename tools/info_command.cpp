@@ -124,11 +124,17 @@ void measure_sphere(const Request& request, const MeshFile& file, Measured& meas
   find_boundary(count_edges(mesh), measured);
   if (measured.open)
     measured.masks = masks_of(request.source->path, mesh.points.cols());
+  if (measured.open && file.polygons)
+    measured.areas = shapes(*file.polygons).area;
   const Density density =
       measured.cells && !measured.open ? density_of(request, file, measured) : Density{};
   measured.quality = !measured.cells ? triangle_quality(mesh)
                      : measured.open ? open_quality(mesh)
                                      : quality(mesh, density);
+  if (measured.quality.flat > 0)
+    measured.remarks.push_back(
+        std::to_string(measured.quality.flat) +
+        " triangles along the boundary are flatter than rounding and are not measured");
   if (request.operators && measured.cells)
     measured.operators = operator_errors(mesh, density);
   else if (request.operators)

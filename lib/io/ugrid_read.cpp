@@ -176,11 +176,21 @@ Polygons faces_of(const FaceNodes& faces, Points3 nodes, Points3 centres, bool p
   return polygons;
 }
 
+/// The first node that three faces do not surround.
+std::int64_t first_without_triangle(const Dual& dual) {
+  if (dual.failed >= 0)
+    return dual.failed;
+  std::int64_t node = 0;
+  while (node < dual.corner.size() && dual.corner[node] == node)
+    ++node;
+  return node;
+}
+
 /// One triangle of faces a node.
 Triangles dual(const NetcdfReader& file, const FaceNodes& faces, std::int64_t nodes) {
   Dual dual = dual_of(faces_of(faces, {}, {}, false), nodes);
-  if (dual.failed >= 0)
-    file.fail("the faces around node " + std::to_string(dual.failed) +
+  if (dual.failed >= 0 || dual.triangles.cols() < nodes)
+    file.fail("the faces around node " + std::to_string(first_without_triangle(dual)) +
               " (0-based) are not three that share edges; make the file again");
   return std::move(dual.triangles);
 }

@@ -4,6 +4,7 @@
 #include "base/points.h"
 #include "integrals/moments.h"
 #include "quality/demand.h"
+#include "quality/flat_hull.h"
 #include "quality/sides.h"
 #include "quality/voronoi_mesh.h"
 
@@ -110,7 +111,7 @@ Quality measure_open(const Mesh& mesh, bool cells) {
   if (!found.passed())
     throw Error(ErrorCode::bad_option, "the triangles do not form a surface: " + found.failure +
                                            "; triangulate the points anew");
-  const Mesh unit = with_unit_columns(mesh);
+  const Mesh unit = without_flat_hull(with_unit_columns(mesh)).mesh;
   const Subject subject{unit.triangles, unit.neighbours, {}, make_shapes(unit), {}, {}, {}};
   Quality result = measure_shapes(subject, 0);
   const std::vector<Sides> sides = sides_of_cells(unit, subject.shapes);
@@ -121,6 +122,7 @@ Quality measure_open(const Mesh& mesh, bool cells) {
     result.short_edges = 0;
   }
   result.cells = mesh.points.cols();
+  result.flat = mesh.triangles.cols() - unit.triangles.cols();
   result.degrees = inner_degrees(sides);
   result.triangles_area = found.area / (4 * pi);
   return result;
