@@ -45,12 +45,14 @@ void require_report(const Request& request) {
                    request.domain->file.value_or("")});
 }
 
-/// The given domain, or the box of the mesh.
-PlanarDomain domain_of(const Request& request, const PlanarMesh& mesh) {
+/// The given domain, the box of the mesh, or what its cells fill.
+PlanarDomain domain_of(const Request& request, const MeshFile& file) {
   if (const std::optional<PlanarDomain> given = domain_of(*request.domain))
     return *given;
-  if (mesh.period.minCoeff() > 0)
-    return periodic_box(mesh.period);
+  if (file.plane->period.minCoeff() > 0)
+    return periodic_box(file.plane->period);
+  if (std::optional<PlanarDomain> filled = domain_of_cells(file))
+    return std::move(*filled);
   throw Error(ErrorCode::bad_option, request.source->path +
                                          ": a planar mesh needs its domain, which clips the cells; "
                                          "give --domain, --rectangle or --periodic");
@@ -154,7 +156,7 @@ void measure_walls(const Request& request, const MeshFile& file, Measured& measu
 void measure_plane(const Request& request, const MeshFile& file, Measured& measured) {
   if (!request.domain->given() && file.polygons && file.plane->period.maxCoeff() > 0)
     return measure_walls(request, file, measured);
-  const PlanarDomain domain = domain_of(request, *file.plane);
+  const PlanarDomain domain = domain_of(request, file);
   measured.density = density_name(*request.density);
   const Density density = density_of(*request.density, true);
   measured.quality = quality(*file.plane, domain, density);
@@ -223,6 +225,7 @@ void run(const Request& request) {
   if (request.domain->given() && !request.source->plane)
     throw Error(ErrorCode::bad_option,
                 "a domain requires --plane; add --plane, or leave the domain out");
+  request.density->widths.plane = request.source->plane;
   require_radius(request);
   require_report(request);
   std::cout << read_and_measure(request);

@@ -99,6 +99,33 @@ struct MeshFile {
   std::vector<std::string> ignored; ///< names of variables that were not read
 };
 
+/// The directions in which a plane ends at walls instead of being periodic.
+struct Walls {
+  bool x = false, y = false;
+};
+
+/// Regular hexagons in a plane that is periodic, as planar_hex of MPAS-Tools makes them: cell
+/// r columns + c has its centre at ((c + 1/2) d, (r + 1) d sqrt(3)/2), in odd rows at ((c + 1) d,
+/// ...), moved into the period. The periods are columns d and rows d sqrt(3)/2.
+///
+/// At walls the cells are whole hexagons, and the boundary runs along their sides: as in planar_hex
+/// the mesh has a row or a column more on either side, which is then removed (r and c count from
+/// 1). Periods across walls are 0. \param columns, rows numbers of cells, at most 2^28 in all:
+/// columns >= 3, with walls in x >= 2;
+///        rows >= 4 and even, with walls in y >= 2.
+/// \param spacing d, the distance of neighbours, in any unit of length; from 1e-20 to 1e20.
+/// \returns `plane` of a box without walls, else `polygons`.
+/// \throws Error bad_option for an argument out of range.
+MeshFile planar_hexagons(std::int64_t columns, std::int64_t rows, double spacing, Walls walls = {});
+
+/// The Voronoi cells of a doubly periodic box whose sites lie in a part of it, from 0 to `extent`
+/// in the directions of the walls; in the others the box stays periodic. The boundary runs along
+/// the sides of whole cells, as MPAS-Ocean has it. \param box its period is that of the part where
+/// there is no wall, and larger where there is one. \returns `polygons`, in the order of the sites.
+/// \throws Error bad_option for no wall, an extent that is not below the box's period, or no cell;
+///         as voronoi().
+MeshFile walled(const PlanarMesh& box, const Eigen::Vector2d& extent, Walls walls);
+
 /// Which fields read_mesh_file() reads from NetCDF files; the others are among `ignored`.
 enum class FieldChoice {
   none,    ///< none, and no variable is among `ignored`

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <string>
 
@@ -67,6 +68,23 @@ std::int64_t spreading(const Density& sites) {
              : generators_detail::most_points;
 }
 
+/// How many generators of a density leave no empty circle as wide as half of a periodic box, which
+/// would hold no triangulation: the largest of independent random points has a diameter of
+/// about 2.5 spacings. 0 of other domains.
+std::int64_t spreading(const Density& density, const PlanarDomain& domain) {
+  if (!domain.periodic())
+    return 0;
+  constexpr double spacings_across = 6;
+  const Eigen::VectorXd rho =
+      evaluate(density, domain, random_places(1 << 14, domain)).cwiseMax(1e-150);
+  const double root = area(domain) * rho.cwiseSqrt().mean(),
+               widest = domain.period.minCoeff() / spacings_across;
+  const double cells =
+      2 / std::numbers::sqrt3 * root / (std::sqrt(rho.minCoeff()) * widest * widest);
+  return static_cast<std::int64_t>(
+      std::ceil(std::min(cells, double(generators_detail::most_points))));
+}
+
 } // namespace
 
 Continuation continuation(std::int64_t cells, const Density& density, std::uint64_t seed) {
@@ -121,7 +139,8 @@ PlanarContinuation multilevel(std::int64_t cells, const PlanarDomain& domain,
   base_detail::require_count(cells, cvt_detail::PlanarWorld::fewest, "the number of cells");
   free_of(cells, fixed);
   PlanarContinuation result;
-  result.bisections = coarsen<cvt_detail::PlanarWorld>(cells, least_with(fixed));
+  result.bisections = coarsen<cvt_detail::PlanarWorld>(
+      cells, std::max(least_with(fixed), spreading(density, domain)));
   result.start = random_places(free_of(cells, fixed), domain, site_density(density, domain), seed);
   return result;
 }

@@ -278,6 +278,7 @@ std::shared_ptr<CvtRequest> add_cvt_options(CLI::App& command) {
     add_start(command, *request);
     add_region(command, request->part);
     request->domain = add_domain(command);
+    add_hexagons(command, *request->domain);
   }
   request->density = add_density(command);
   {

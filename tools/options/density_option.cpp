@@ -237,16 +237,21 @@ std::shared_ptr<DensityWords> add_density(CLI::App& command) {
   return words;
 }
 
-Resolution resolution_of(const DensityWords& words, bool planar) {
+Resolution resolution_of(const DensityWords& words, bool planar, const Region& region) {
   if (!words.widths.given())
-    return {bumps_of(words, planar), {}};
-  if (planar)
-    return {calotte::density_of(read_planar_raster(words.widths.raster)), {}};
-  CellWidth widths = read_widths(words.widths);
+    return {bumps_of(words, planar), {}, {}};
+  if (planar && !words.widths.in_km())
+    return {calotte::density_of(read_planar_raster(words.widths.raster)), {}, {}};
+  if (planar) {
+    PlanarCellWidth widths = read_planar_widths(words.widths);
+    Density density = words.widths.uniform ? Density{} : calotte::density_of(widths);
+    return {std::move(density), {}, std::move(widths)};
+  }
+  CellWidth widths = read_widths(words.widths, region);
   Density density = words.widths.uniform ? Density{} : calotte::density_of(widths);
   if (!words.widths.in_km()) // a density raster's widths have no unit
-    return {std::move(density), {}};
-  return {std::move(density), std::move(widths)};
+    return {std::move(density), {}, {}};
+  return {std::move(density), std::move(widths), {}};
 }
 
 Density density_of(const DensityWords& words, bool planar) {

@@ -238,6 +238,25 @@ std::vector<std::string> settle_region(CvtRequest& request, const Resolution& re
           (part.limited_area ? ", with those of the rings and some beyond" : "")};
 }
 
+/// The same in a domain of the plane.
+std::vector<std::string> settle_domain(CvtRequest& request, const Resolution& resolution,
+                                       const PlanarDomain& domain) {
+  if (!resolution.planar_widths)
+    return {};
+  const WidthWords& words = request.density->widths;
+  require_covering(*resolution.planar_widths, domain);
+  const double implied = implied_cells(*resolution.planar_widths, domain);
+  if (cells_follow(request)) {
+    constexpr double least = 3, most = 1 << 30;
+    if (!(std::round(implied) >= least && std::round(implied) <= most))
+      refuse("--cells auto: the widths require " + formatted("%.4g", implied) +
+             " cells, but a mesh has 3 to 1073741824; give widths in the unit of the domain");
+    request.cells = static_cast<int>(std::lround(implied));
+    require_cells(request);
+  }
+  return notes_on(*resolution.planar_widths, words, implied, request.cells);
+}
+
 } // namespace
 
 int rounds_of(const CvtRequest& request) {
@@ -258,7 +277,10 @@ void require_start(const CvtRequest& request) {
 }
 
 std::vector<std::string> settle_cells(CvtRequest& request, const Resolution& resolution,
-                                      const std::optional<RunRegion>& region) {
+                                      const std::optional<RunRegion>& region,
+                                      const std::optional<PlanarDomain>& domain) {
+  if (domain)
+    return settle_domain(request, resolution, *domain);
   const std::optional<CellWidth>& widths = resolution.widths;
   if (!widths)
     return {};

@@ -39,7 +39,8 @@ void require_start(const CvtRequest& request);
 /// \returns messages about the widths, one line each.
 /// \throws Error bad_option.
 std::vector<std::string> settle_cells(CvtRequest& request, const Resolution& resolution,
-                                      const std::optional<RunRegion>& region);
+                                      const std::optional<RunRegion>& region,
+                                      const std::optional<PlanarDomain>& domain);
 
 /// Reads or computes the fixed points and the others, if they come from files, and describes the
 /// input that determines them. \throws Error bad_option, parse, file.
