@@ -21,6 +21,7 @@
 
 #include <iostream>
 #include <limits>
+#include <numbers>
 #include <optional>
 
 namespace calotte::tools {
@@ -124,8 +125,10 @@ void measure_sphere(const Request& request, const MeshFile& file, Measured& meas
   find_boundary(count_edges(mesh), measured);
   if (measured.open)
     measured.masks = masks_of(request.source->path, mesh.points.cols());
-  if (measured.open && file.polygons)
+  if (measured.open && file.polygons) {
     measured.areas = shapes(*file.polygons).area;
+    measured.cells_area = areas(*file.polygons).sum() / (4 * std::numbers::pi);
+  }
   const Density density =
       measured.cells && !measured.open ? density_of(request, file, measured) : Density{};
   measured.quality = !measured.cells ? triangle_quality(mesh)

@@ -348,14 +348,13 @@ TEST_CASE("cells that are no Voronoi cells: what info, check and convert say of 
   CHECK(info.code == 0);
   CHECK(info.out.find("not convex            1; the first is cell 5\n") != std::string::npos);
   CHECK(info.out.find("not centroidal        2; the farthest centre is ") != std::string::npos);
-  CHECK(info.out.find("not Delaunay          0 edges\n") != std::string::npos);
+  CHECK(info.out.find("not Delaunay") == std::string::npos); // of no triangles
   const auto report = nlohmann::json::parse(calotte::read_file(in_folder(bench, "report.json")));
   CHECK(report["not_convex"] == 1);
   CHECK(report["first_not_convex"] == 5);
   CHECK(report["not_centroidal"] == 2);
   CHECK(report["off_centring"]["cell"] == 5);
   CHECK(report["off_centring"]["max"] > 0.1);
-  CHECK(report["not_delaunay"] == 0);
   const Outcome check = bench.run("check cube.geojson");
   CHECK(check.out.find("not convex      1; the first is cell 5\n") != std::string::npos);
   const Outcome made = bench.run("convert cube.geojson cube.nc --format ugrid");

@@ -91,6 +91,8 @@ void add_whole_cells(const Measured& measured, nlohmann::ordered_json& json) {
   const Quality& quality = measured.quality;
   if (whole_cells(quality) > 0 || measured.areas)
     add_areas(measured.areas.value_or(quality.cell_area), json);
+  if (measured.areas)
+    json["cells_area"] = measured.cells_area;
   if (whole_cells(quality) == 0)
     return;
   add_shapes(quality, json);
@@ -264,6 +266,8 @@ std::string table(const Measured& measured) {
   } else if (measured.cells) {
     add_cell_rows(measured, table);
   }
+  if (measured.areas)
+    table.row("cells / 4 pi", measured.cells_area, 15);
   if (!plane)
     table.row("triangles / 4 pi", quality.triangles_area, 15);
   if (measured.operators)
