@@ -84,11 +84,12 @@ WriteOptions write_options(const Request& request, const Density& density, const
 }
 
 std::string describe(const MeshFile& file) {
+  if (file.plane && file.polygons)
+    return std::to_string(file.polygons->size()) + " clipped cells of a plane";
   if (file.plane)
     return std::to_string(file.plane->points.cols()) + " sites, " +
            std::to_string(file.plane->triangles.cols()) + " triangles, a " +
-           (file.plane->period.minCoeff() > 0 ? "periodic plane" : "plane") +
-           (file.polygons ? " with clipped cells" : "");
+           (file.plane->period.minCoeff() > 0 ? "periodic plane" : "plane");
   if (!file.mesh || (file.polygons && file.mesh->closed()))
     return std::to_string(file.polygons->size()) + " cells, not Voronoi cells: " + file.not_voronoi;
   return std::to_string(file.mesh->points.cols()) + " sites, " +

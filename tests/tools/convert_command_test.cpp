@@ -393,8 +393,8 @@ TEST_CASE("a region of cells is measured as cells, without a triangle of the hul
     const auto place = [&](int x, int y) {
       return "[" + std::to_string(10 + k % 2 + x) + "," + std::to_string(50 + k / 2 + y) + "]";
     };
+    features += k > 0 ? "," : "";
     features +=
-        (k > 0 ? "," : "") +
         R"({"type":"Feature","properties":{},"geometry":{"type":"Polygon","coordinates":[[)" +
         place(0, 0) + "," + place(1, 0) + "," + place(1, 1) + "," + place(0, 1) + "," +
         place(0, 0) + "]]}}";
