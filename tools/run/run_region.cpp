@@ -34,7 +34,7 @@ std::optional<RunRegion> region_of_run(const RegionWords& words, const WidthWord
                                        const std::optional<CellWidth>& widths) {
   if (words.region.empty())
     return std::nullopt;
-  Region region = region_of(words.region, width_words.radius);
+  Region region = region_of(words.region, words.inside, width_words.radius);
   if (!words.limited_area)
     return RunRegion{region, region};
   if (!widths)

@@ -11,7 +11,9 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace calotte::python {
@@ -31,10 +33,23 @@ template <class Rings> py::list arrays_of(const Rings& rings, py::handle owner) 
   return arrays;
 }
 
+/// What rings enclose, or the side of them that contains a place.
+Region polygon(const std::vector<Doubles>& rings, const std::optional<Eigen::Vector3d>& inside) {
+  return call([&] {
+    return inside ? region_around(rings_of(rings), *inside) : enclosed_region(rings_of(rings));
+  });
+}
+
+/// A ring may repeat its first corner at its end.
 PlanarDomain domain_of(const std::vector<Doubles>& arrays) {
   PlanarDomain domain;
-  for (const Doubles& array : arrays)
-    domain.rings.emplace_back(columns(array));
+  for (const Doubles& array : arrays) {
+    Eigen::MatrixXd ring = columns(array);
+    const Eigen::Index last = ring.cols() - 1;
+    if (last > 0 && ring.col(last) == ring.col(0))
+      ring.conservativeResize(Eigen::NoChange, last);
+    domain.rings.push_back(std::move(ring));
+  }
   require_domain(domain);
   return domain;
 }
@@ -57,9 +72,7 @@ py::array_t<bool> contains_all(const Part& part, const Doubles& points) {
 void add_regions(py::module_& module) {
   py::class_<Region>(module, "Region")
       .def(py::init<>())
-      .def(py::init([](const std::vector<Doubles>& rings, bool smaller) {
-        if (smaller)
-          return smaller_region(rings_of(rings));
+      .def(py::init([](const std::vector<Doubles>& rings) {
         Region region{rings_of(rings)};
         require_region(region);
         return region;
@@ -71,6 +84,7 @@ void add_regions(py::module_& module) {
       .def_property_readonly("area", [](const Region& region) { return area(region); })
       .def("contains", &contains_all<Region, Eigen::Vector3d>)
       .def("widened", &widened);
+  module.def("polygon", &polygon);
   module.def("circle", &circle);
   module.def("ellipse", &ellipse);
   module.def("channel", &channel);
