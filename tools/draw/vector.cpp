@@ -2,8 +2,11 @@
 #include "draw/vector.h"
 
 #include "draw/coastlines.h"
+#include "draw/fine_coast.h"
 #include "draw/projection.h"
 #include "draw/text.h"
+
+#include <calotte/cell_width.h>
 
 namespace calotte::tools {
 
@@ -310,8 +313,17 @@ EarthLines graticule_lines() {
   return lines;
 }
 
-EarthLines coast_lines() {
+/// \param pixel its width on the Earth, km.
+EarthLines coast_lines(double pixel) {
   EarthLines lines;
+  for (const Points3& ring : fine_coast(pixel)) {
+    std::vector<Vector3d> line(ring.colwise().begin(), ring.colwise().end());
+    line.push_back(ring.col(0));
+    lines.push_back(std::move(line));
+  }
+  if (!lines.empty()) {
+    return lines;
+  }
   for (const std::vector<LonLat>& line : coastlines()) {
     lines.push_back(directions_of(line));
   }
@@ -335,7 +347,9 @@ void draw_graticule(cairo_t* context, const Eigen::Matrix3d& frame, const MapWin
 
 void draw_coastlines(cairo_t* context, const Eigen::Matrix3d& frame, const MapWindow& window,
                      double width, double line) {
-  draw_lines(context, coast_lines(), frame, window, width, {line, 0.8, 0.6});
+  const double scale =
+      with_map(window.projection, [&]<class Map>() { return window.scale<Map>(width); });
+  draw_lines(context, coast_lines(earth_radius_km / scale), frame, window, width, {line, 0.8, 0.6});
 }
 
 } // namespace calotte::tools
