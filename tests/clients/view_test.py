@@ -293,7 +293,9 @@ def test_far_ocean(pages):
     pages.calotte("delaunay", "fibonacci.txt", "-o", "fibonacci.nc")
     pages.calotte("cull", "fibonacci.nc", "--land", "land.geojson", "-o", "sea.nc")
     pages.open("sea", "sea.nc", "--no-coastlines")
-    places = [[s * x, t * y] for s in (-1, 1) for t in (-1, 1) for k in range(0, 38, 2) for x, y in ((k, 37), (37, k))]
+    inner = 38.5  # two cells and a pixel from the coast
+    places = [[sign * x, turn * y] for sign in (-1, 1) for turn in (-1, 1) for k in range(150)
+              for x, y in ((k / 4, inner), (inner, k / 4))]
     for zoom in (0.5, 1):
         pages.browser.run("calotte.turn(0, 0, arguments[0])", zoom)
         colours = pages.browser.asynchronous("calotte.coloursAt(arguments[0])", [[0, 0], [60, 0], *places])
