@@ -13,7 +13,7 @@ namespace calotte::tools {
 
 namespace {
 
-constexpr double coarse = 8;         ///< km of a pixel from which on these coasts suffice:
+constexpr double coarse = 16;        ///< km of a pixel from which on these coasts suffice:
 constexpr double coarse_detail = 50; ///< those of 1:110 million, whose details are so large
 
 /// The files of GSHHG and the size of their details, km (Wessel and Smith, 1996).

@@ -11,7 +11,7 @@ namespace calotte::tools {
 /// Where Debian's packages gmt-gshhg-low, -high and -full put the coasts of GSHHG.
 inline constexpr const char* coast_folder = "/usr/share/gmt-gshhg";
 
-/// The coasts for a map on which those of the command, of 1:110 million, are too coarse: rings of
+/// The coasts for an enlarged map, on which those of 1:110 million are too coarse: rings of
 /// unit columns, without those of a few pixels. Of the files of GSHHG in the folder, it reads the
 /// coarsest one whose details are about a pixel, or else the finest.
 /// \param pixel its width on the Earth, km.

@@ -314,16 +314,18 @@ EarthLines graticule_lines() {
 }
 
 /// \param pixel its width on the Earth, km.
-EarthLines coast_lines(double pixel) {
+EarthLines fine_coast_lines(double pixel) {
   EarthLines lines;
   for (const Points3& ring : fine_coast(pixel)) {
     std::vector<Vector3d> line(ring.colwise().begin(), ring.colwise().end());
     line.push_back(ring.col(0));
     lines.push_back(std::move(line));
   }
-  if (!lines.empty()) {
-    return lines;
-  }
+  return lines;
+}
+
+EarthLines coast_lines() {
+  EarthLines lines;
   for (const std::vector<LonLat>& line : coastlines()) {
     lines.push_back(directions_of(line));
   }
@@ -349,7 +351,12 @@ void draw_coastlines(cairo_t* context, const Eigen::Matrix3d& frame, const MapWi
                      double width, double line) {
   const double scale =
       with_map(window.projection, [&]<class Map>() { return window.scale<Map>(width); });
-  draw_lines(context, coast_lines(earth_radius_km / scale), frame, window, width, {line, 0.8, 0.6});
+  EarthLines lines;
+  if (!window.whole()) {
+    lines = fine_coast_lines(earth_radius_km / scale);
+  }
+  draw_lines(context, lines.empty() ? coast_lines() : lines, frame, window, width,
+             {line, 0.8, 0.6});
 }
 
 } // namespace calotte::tools
