@@ -21,7 +21,7 @@ namespace calotte::tools {
 namespace {
 
 struct Request {
-  std::string source, region, output;
+  std::string source, region, inside, output;
   int rings = limited_area_rings;
   std::optional<double> sphere_radius;
   std::optional<std::string> model;
@@ -48,7 +48,8 @@ CutOptions options_of(const Request& request) {
   if (const Model* const model = model_of(request.model))
     options.dimensions = model->dimensions;
   options.history = "calotte " CALOTTE_VERSION " cut: " + request.source + " --region " +
-                    request.region + " --rings " + std::to_string(request.rings);
+                    request.region + (request.inside.empty() ? "" : " --inside " + request.inside) +
+                    " --rings " + std::to_string(request.rings);
   return options;
 }
 
@@ -80,7 +81,7 @@ void run(const Request& request) {
   {
     Progress progress;
     progress.stage("reading " + request.region);
-    const Region region = region_of(request.region);
+    const Region region = region_of(request.region, request.inside);
     progress.stage("cutting " + request.source);
     report = cut(request.source, request.output, region, options_of(request));
   }
@@ -100,6 +101,7 @@ void add_cut(CLI::App& app) {
                    "such as circle=-105,40,1000km, or a file; see calotte help region.")
       ->type_name("SHAPE|FILE")
       ->required();
+  add_inside(*command, request->inside);
   command
       ->add_option("-o,--output", request->output,
                    "The MPAS file of the grid. NAME.graph.info is written beside NAME.nc.")

@@ -127,7 +127,8 @@ CellField field_of(const DrawOptions& options, const std::string& path, const Me
 /// Sets the region whose boundary is drawn, if one is given.
 void set_region(const DrawArguments& arguments, std::optional<double> radius_km, Look& look) {
   if (!arguments.region.empty()) {
-    look.region = region_of(arguments.region, radius_km.value_or(earth_radius_km));
+    look.region =
+        region_of(arguments.region, arguments.inside, radius_km.value_or(earth_radius_km));
   }
 }
 

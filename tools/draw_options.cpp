@@ -4,6 +4,7 @@
 #include "draw/history.h"
 #include "help/help.h"
 #include "options/coastlines_option.h"
+#include "options/region_option.h"
 #include "run/operator_measures.h"
 
 #include <calotte/error.h>
@@ -146,6 +147,34 @@ void add_zoom(CLI::App& command, std::optional<double>& zoom) {
       ->default_str("auto");
 }
 
+/// --range: two numbers.
+void add_range(CLI::App& command, std::optional<Range>& range) {
+  const auto set = [&range](const std::string& text) {
+    Range given;
+    std::string_view rest = text;
+    bool good = take_number(rest, given.low) && rest.starts_with(',');
+    if (good) {
+      rest.remove_prefix(1);
+      good = take_number(rest, given.high) && rest.empty() && std::isfinite(given.low) &&
+             std::isfinite(given.high) && given.low < given.high;
+    }
+    if (!good) {
+      throw Error(ErrorCode::bad_option,
+                  "--range " + text +
+                      " is no range of a colour bar; give its lower and its upper end, as in "
+                      "--range 30,120");
+    }
+    range = given;
+  };
+  command
+      .add_option_function<std::string>(
+          "--range", set,
+          "Ends of the colour bar, in the unit that it has, so that pictures can be compared. "
+          "Values beyond an end have its colour. Default: the range of the values, without a few "
+          "outliers")
+      ->type_name("LOW,HIGH");
+}
+
 void add_look(CLI::App& command, DrawArguments& arguments) {
   const OptionGroup group(command, "Map");
   Look& look = arguments.options.look;
@@ -162,14 +191,17 @@ void add_look(CLI::App& command, DrawArguments& arguments) {
           "0,0")
       ->type_name("LON,LAT");
   add_zoom(command, look.zoom);
-  command.add_flag("--graticule", look.graticule,
-                   "Draw meridians and parallels: every 30 degrees, or closer on an enlarged map");
+  command.add_flag(
+      "--graticule", look.graticule,
+      "Draw meridians and parallels: every 30 degrees, or closer on an enlarged map. An "
+      "enlarged globe has them also without this option where they are bent");
   command
       .add_option(
           "--region", arguments.region,
           "Draw the boundary of a region: circle=LON,LAT,RADIUS, ellipse=..., channel=... or "
           "a file; see calotte help region")
       ->type_name("REGION");
+  add_inside(command, arguments.inside);
   add_coastlines(command, arguments.coastlines);
   command.add_option("--size", look.size, "Width in pixels (points in SVG and PDF), 64 to 16384")
       ->check(CLI::Range(64, 16384))
@@ -182,6 +214,20 @@ void add_look(CLI::App& command, DrawArguments& arguments) {
       "cells)");
   arguments.what = command.get_option("--what");
   add_colour(command, arguments);
+  add_range(command, look.range);
+  add_choice<Palette>(
+      command, "--palette", look.palette,
+      {{"viridis", Palette::viridis},
+       {"cividis", Palette::cividis},
+       {"magma", Palette::magma},
+       {"diverging", Palette::diverging}},
+      "Colours of the colour bar: viridis, cividis, magma, or diverging (blue, grey, "
+      "red)");
+  command
+      .add_option("--title", look.title,
+                  "Title of the picture. Default: the name of the file, its cells and their "
+                  "spacing")
+      ->type_name("TEXT");
 }
 
 void add_density_options(CLI::App& command, DrawArguments& arguments) {
@@ -211,7 +257,11 @@ void add_plots(CLI::App& command, DrawArguments& arguments) {
     law->excludes(command.get_option(name));
     history->excludes(command.get_option(name));
   }
-  for (const char* name : {"MESH", "--points", "--lonlat", "--spacing-law"}) {
+  for (const char* name : {"--range", "--palette", "--title"}) {
+    law->excludes(command.get_option(name));
+  }
+  for (const char* name :
+       {"MESH", "--points", "--lonlat", "--spacing-law", "--range", "--palette", "--title"}) {
     history->excludes(command.get_option(name));
   }
   for (const CLI::Option* option : arguments.density_options) {

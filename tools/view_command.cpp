@@ -258,7 +258,7 @@ void add_plan_options(CLI::App& command, Request& request) {
 
 void add_view(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
-      "view", "Writes an HTML page that shows a mesh, or two side by side, in a browser: turn it, "
+      "view", "Writes an HTML page that shows a mesh, or two side by side, in a browser. Turn it, "
               "find its worst cells, read their numbers. The page needs no network.");
   auto request = std::make_shared<Request>();
   request->source = add_mesh_source(*command);

@@ -67,16 +67,14 @@ Points2 read_planar_points(const std::string& path, std::vector<std::int64_t>* l
 PlanarDomain read_domain(const std::string& path);
 
 /// Reads a region of the sphere. The name selects the format. An edge is the shorter arc of a great
-/// circle between two corners; a parallel needs corners at short intervals. Corners that repeat the
-/// one before are ignored, and a ring may repeat its first corner at its end.
+/// circle between two corners; a parallel needs corners at short intervals. Rings may run either
+/// way, be closed and be cut at a meridian, as for enclosed_region().
 ///
 /// .geojson, .json: Polygon and MultiPolygon geometries, alone or in features or collections, in
 /// longitude (any, the edge takes the shorter way) and latitude in degrees; all of them are one
-/// region. As RFC 7946 has it, an outer ring runs counter-clockwise. One that has more than half of
-/// the sphere to its left is an error, unless its feature names a place inside by the property
-/// "inside": [longitude, latitude]. With that place any ring of the feature may run either way;
-/// without it holes may. Edges that two polygons, or one, have in both directions are no boundary:
-/// polygons that are cut at a longitude of 180 degrees or along a line to a pole are joined.
+/// region. An outer ring encloses its polygon, and a hole what is left out of it, by the rule of
+/// enclosed_region() whichever way they run. If a feature names a place inside by the property
+/// "inside": [longitude, latitude], its rings enclose the side that contains the place.
 ///
 /// .pts: a point file of MPAS-Limited-Area, of the type custom, circle, ellipse or channel.
 /// Circles, ellipses and channels have 360 corners; metres are those of a sphere of radius 6371229
@@ -85,11 +83,10 @@ PlanarDomain read_domain(const std::string& path);
 ///
 /// SaveBoundaries..., of MPI-SCVT: on each line a corner, longitude and latitude in degrees or x y
 /// z. The file SaveLoopCounts... beside it has on each line the first and the last corner of a
-/// loop, counted from 1, or the number of its corners; without it there is one loop. Loops may run
-/// either way: the region is the smaller one of the two parts into which they cut the sphere.
+/// loop, counted from 1, or the number of its corners; without it there is one loop. The region is
+/// what all loops enclose together.
 /// \throws Error parse, naming the line, or the feature and its ring; as require_region(), with the
-///         file's name; bad_option for an unknown suffix, or an outer ring that runs clockwise;
-///         file.
+///         file's name; bad_option for an unknown suffix; file.
 Region read_region(const std::string& path);
 
 /// The same from a stream.
@@ -147,9 +144,8 @@ PlanarMesh read_planar_mesh(const std::string& path, const Points2* points = nul
 /// Reads areas of land.
 ///
 /// GeoJSON: Polygon and MultiPolygon geometries of longitude and latitude in degrees, alone or in
-/// features or collections. The edges are arcs of great circles. The land of a polygon is the
-/// smaller side of its outer ring without the smaller sides of its holes; the orientation of the
-/// rings does not matter. Polygons may share edges, but not overlap.
+/// features or collections. The edges are arcs of great circles. Rings enclose their land as those
+/// of read_region() do. Polygons may share edges, but not overlap.
 ///
 /// NetCDF: a binned file of GSHHG as GMT reads it, binned_GSHHS_c.nc to binned_GSHHS_f.nc. The land
 /// includes lakes, and the ice shelves of Antarctica.
@@ -218,9 +214,8 @@ double kilometres_in(const std::string& unit);
 ///
 /// .geojson, .json: Polygon and MultiPolygon geometries, alone or in features or collections. An
 /// edge is straight in longitude and latitude (RFC 7946, Sect. 3.1.1), runs the shorter way round,
-/// and once round the Earth where its longitudes differ by 360. A ring encloses what it cuts off
-/// from both poles; one that runs round the Earth encloses the smaller side. Its orientation does
-/// not matter. Rings after the first are holes. Inside a feature the width is its property
+/// and once round the Earth where its longitudes differ by 360. A ring encloses a side as those of
+/// read_region() do, and rings after the first are holes. In a feature the width is its property
 /// "cellWidth", or `inside`. Outside, the width approaches `outside` with the great-circle distance
 /// to the boundary. An edge between polygons of the same width, such as a cut along a meridian, is
 /// not a boundary. Where features or transitions overlap, the smallest width applies. The sampling

@@ -50,18 +50,26 @@ Region ellipse(const Eigen::Vector3d& centre, double semi_major, double semi_min
 /// \throws Error bad_option for a value out of range, and for the whole sphere.
 Region channel(double lower, double upper, int corners = 360);
 
-/// The region between rings of any orientation that contains a place. Rings that do not have it to
-/// their left are reversed.
-/// \param rings as in Region; at least one.
-/// \param place direction of any norm, not on a ring.
-/// \throws Error as require_region(), orientation aside; bad_option for a place on the boundary.
-Region region_around(std::vector<Points3> rings, const Eigen::Vector3d& place);
-
-/// The smaller one of the two parts into which rings of any orientation cut the sphere, such that
-/// every arc is between both. Of equal parts it is the one to the left of the first ring.
-/// \param rings as in Region; at least one.
+/// The region that rings enclose. One rule holds for all rings that users or files write, in either
+/// direction: they enclose the side without poles, as on a map of longitudes and latitudes; if both
+/// sides have a pole, or the rings pass through one, they enclose the smaller side, and of two
+/// equal ones that to the left of the first ring. So a ring of one continent or ocean encloses it,
+/// and a ring around a pole its polar cap.
+///
+/// Corners that repeat the one before are ignored, and a ring may repeat its first corner at its
+/// end. Arcs that occur in both directions are no boundary: areas that are cut at a meridian are
+/// joined, and a ring may reach a pole along a meridian and return along it. Where rings would
+/// meet, both sides of such a cut may differ by 1e-9 radians (6 mm on the Earth), and in their
+/// corners.
+/// \param rings as in Region; at least one. Several enclose one of the two parts into which they
+///        cut the sphere, such that every arc is between both.
 /// \throws Error as require_region(), orientation aside.
-Region smaller_region(std::vector<Points3> rings);
+Region enclosed_region(const std::vector<Points3>& rings);
+
+/// The same for the side of the rings that contains a place.
+/// \param place direction of any norm, not on a ring.
+/// \throws Error as above; bad_option for a place on the boundary.
+Region region_around(const std::vector<Points3>& rings, const Eigen::Vector3d& place);
 
 /// Throws unless the rings bound a region. The whole sphere is valid.
 /// \throws Error bad_option, naming ring and corner, with the ring as index(): fewer than three

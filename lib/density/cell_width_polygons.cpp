@@ -8,6 +8,7 @@
 #include "density/cell_width_field.h"
 #include "domain/arc_tree.h"
 #include "domain/arcs.h"
+#include "domain/written_rings.h"
 
 #include <calotte/error.h>
 
@@ -57,27 +58,50 @@ Longitude eastward(const Place& from, const Place& to) {
   return way < turn / 2 || (way == turn / 2 && written > 0) ? way : way - turn;
 }
 
+/// The arcs of an edge, from west to east. An edge is straight in longitude and latitude; parts of
+/// half a degree leave it by 30 m at most. body(arc, start, end) has the part, 0 to 1.
+template <class Body> void for_each_arc(const Edge& edge, const Body& body) {
+  constexpr double longest = 0.5;
+  const double north = edge.east_latitude - edge.west_latitude,
+               east = static_cast<double>(edge.span) / units;
+  const int parts =
+      static_cast<int>(std::ceil(std::max({1.0, std::abs(north) / longest, east / longest})));
+  const auto at = [&](int part) {
+    const double fraction = static_cast<double>(part) / parts;
+    return from_lonlat(static_cast<double>(edge.west) / units + fraction * east,
+                       part == parts ? edge.east_latitude : edge.west_latitude + fraction * north);
+  };
+  for (int part = 0; part < parts; ++part) {
+    const Vec3 from = at(part), to = at(part + 1), apart = to - from;
+    const bool is_point = !(dot(apart, apart) > 1e-24); // at a pole, or repeated
+    if (!is_point)
+      body(Arc{from, to}, static_cast<double>(part) / parts, static_cast<double>(part + 1) / parts);
+  }
+}
+
 /// Adds the edges of a ring; returns true if the north pole is inside it.
 bool add_edges(const Ring& ring, std::int32_t polygon, std::int32_t number,
                std::vector<Edge>& edges) {
   Longitude round = 0;
-  double northern = 0; // area to the north of a ring that runs east, in units of longitude
+  std::vector<Arc> arcs;
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const Place &from = ring[i], &to = ring[(i + 1) % ring.size()];
     const Longitude span = eastward(from, to), start = to_units(from.longitude);
+    const bool east = span >= 0;
     round += span;
-    northern +=
-        static_cast<double>(span) * (1 - from_lonlat(0, 0.5 * (from.latitude + to.latitude)).z);
-    if (span >= 0)
-      edges.push_back({wrapped(start), span, from.latitude, to.latitude, polygon, number});
-    else
-      edges.push_back({wrapped(start + span), -span, to.latitude, from.latitude, polygon, number});
+    edges.push_back(
+        east ? Edge{wrapped(start), span, from.latitude, to.latitude, polygon, number}
+             : Edge{wrapped(start + span), -span, to.latitude, from.latitude, polygon, number});
+    for_each_arc(edges.back(), [&](const Arc& arc, double, double) {
+      arcs.push_back(east ? arc : Arc{arc.to, arc.from});
+    });
   }
   if (std::abs(round) > turn)
     throw Error(ErrorCode::bad_option,
                 "polygon " + std::to_string(polygon) +
                     " of a width runs round the Earth more than once; cut it in parts");
-  return round != 0 && std::abs(northern) <= static_cast<double>(turn); // a sphere has twice that
+  const bool north_is_left = round > 0;
+  return round != 0 && domain_detail::enclose_left(arcs) == north_is_left;
 }
 
 /// Point-in-polygon test: counts the crossings of each ring along the meridian from the place to
@@ -87,8 +111,8 @@ public:
   explicit Inside(const std::vector<Polygon>& polygons) : bins_(bin_count) {
     for (std::size_t p = 0; p < polygons.size(); ++p) {
       bool pole = false;
-      for (std::size_t r = 0; r < polygons[p].size(); ++r)
-        pole ^= add_edges(polygons[p][r], static_cast<std::int32_t>(p),
+      for (std::size_t r = 0; r < polygons[p].rings.size(); ++r)
+        pole ^= add_edges(polygons[p].rings[r], static_cast<std::int32_t>(p),
                           static_cast<std::int32_t>(r), edges_);
       pole_.push_back(pole);
     }
@@ -98,11 +122,22 @@ public:
            bin < edges_[e].west / bin_width + bin_count;
            ++bin)
         bins_[static_cast<std::size_t>(bin % bin_count)].push_back(static_cast<std::int32_t>(e));
+    for (std::size_t p = 0; p < polygons.size(); ++p)
+      if (const auto& place = polygons[p].inside)
+        pole_[p] ^= !holds(p, to_units(place->longitude), place->latitude);
   }
 
   const std::vector<Edge>& edges() const { return edges_; }
 
   bool operator()(Longitude longitude, double latitude) const {
+    return any(longitude, latitude, [](std::size_t, bool inside) { return inside; });
+  }
+
+private:
+  static constexpr Longitude bin_count = 7200, bin_width = turn / bin_count;
+
+  /// True if holds(polygon, whether it contains the place) is true for a polygon.
+  template <class Holds> bool any(Longitude longitude, double latitude, const Holds& holds) const {
     // A pole counts as the places next to it.
     constexpr double highest = 90 - 1e-9;
     latitude = std::clamp(latitude, -highest, highest);
@@ -113,14 +148,17 @@ public:
       bool inside = pole_[p];
       for (; next != bin.end() && edge(*next).polygon == static_cast<std::int32_t>(p); ++next)
         inside ^= crosses(edge(*next), meridian, latitude);
-      if (inside)
+      if (holds(p, inside))
         return true;
     }
     return false;
   }
 
-private:
-  static constexpr Longitude bin_count = 7200, bin_width = turn / bin_count;
+  /// True if one polygon contains a place.
+  bool holds(std::size_t polygon, Longitude longitude, double latitude) const {
+    return any(longitude, latitude,
+               [&](std::size_t p, bool inside) { return p == polygon && inside; });
+  }
 
   const Edge& edge(std::int32_t e) const { return edges_[static_cast<std::size_t>(e)]; }
 
@@ -155,26 +193,11 @@ bool is_boundary(const Inside& inside, const Edge& edge, double start, double en
          inside(meridian + shift, latitude - scale * east);
 }
 
-/// The arcs of an edge that belong to the boundary. An edge is straight in longitude and latitude;
-/// parts of half a degree leave it by 30 m at most.
 void add_arcs(const Inside& inside, const Edge& edge, std::vector<Arc>& arcs) {
-  constexpr double longest = 0.5;
-  const double north = edge.east_latitude - edge.west_latitude,
-               east = static_cast<double>(edge.span) / units;
-  const int parts =
-      static_cast<int>(std::ceil(std::max({1.0, std::abs(north) / longest, east / longest})));
-  const auto at = [&](int part) {
-    const double fraction = static_cast<double>(part) / parts;
-    return from_lonlat(static_cast<double>(edge.west) / units + fraction * east,
-                       part == parts ? edge.east_latitude : edge.west_latitude + fraction * north);
-  };
-  for (int part = 0; part < parts; ++part) {
-    const Vec3 from = at(part), to = at(part + 1), apart = to - from;
-    const bool is_point = !(dot(apart, apart) > 1e-24); // at a pole, or repeated
-    if (!is_point && is_boundary(inside, edge, static_cast<double>(part) / parts,
-                                 static_cast<double>(part + 1) / parts))
-      arcs.push_back({from, to});
-  }
+  for_each_arc(edge, [&](const Arc& arc, double start, double end) {
+    if (is_boundary(inside, edge, start, end))
+      arcs.push_back(arc);
+  });
 }
 
 std::vector<Arc> boundary_arcs(const Inside& inside) {

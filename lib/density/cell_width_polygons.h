@@ -6,6 +6,7 @@
 #include <calotte/cell_width.h>
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace calotte::density_detail {
@@ -19,7 +20,11 @@ struct Place {
 using Ring = std::vector<Place>;
 
 /// The first ring and its holes: the interior is the set of places within an odd number of rings.
-using Polygon = std::vector<Ring>;
+struct Polygon {
+  std::vector<Ring> rings;
+  std::optional<Place> inside = std::nullopt; ///< a place of the interior, which is else that of
+                                              ///< rings that enclose what enclose_left() tells
+};
 
 /// Polygons with one width inside, in km.
 struct WidthRegion {

@@ -5,6 +5,7 @@
 #include "base/points.h"
 #include "base/require.h"
 #include "domain/spherical_outline.h"
+#include "domain/written_rings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -82,20 +83,6 @@ Points3 parallel(double latitude, int corners) {
 
 Points3 reversed(const Points3& ring) { return ring.rowwise().reverse(); }
 
-/// The sides of rings as if the region were to the left of the first one.
-SideCells sides_of(const Rings& rings) {
-  return {simple(rings, ArcTree(rings.arcs)).arcs, rings.corner_of(0)};
-}
-
-/// Reverses rings that do not have the inside, or else the outside, to their left.
-Region turned(std::vector<Points3> corners, const Rings& rings, const SideCells& cells,
-              bool inside) {
-  for (std::size_t r = 0; r < corners.size(); ++r)
-    if (cells.inside_is_left(rings.corner_of(r)) != inside)
-      corners[r] = reversed(corners[r]);
-  return {std::move(corners)};
-}
-
 } // namespace
 
 Region circle(const Eigen::Vector3d& centre, double radius, int corners) {
@@ -152,28 +139,17 @@ Region channel(double lower, double upper, int corners) {
   return region;
 }
 
-Region region_around(std::vector<Points3> corners, const Eigen::Vector3d& place) {
-  require(!corners.empty(), "the region has no rings; give one at least");
+Region region_around(const std::vector<Points3>& rings, const Eigen::Vector3d& place) {
+  require(!rings.empty(), "the region has no rings; give one at least");
   require(place.allFinite() && !place.isZero(0),
           "the place inside the region is no direction; give three finite numbers that are not "
           "all 0");
-  const Rings rings = rings_of(corners);
-  const SideCells cells = sides_of(rings);
-  const Side side = cells.side(as_unit({place.x(), place.y(), place.z()}));
-  require(side != Side::boundary,
-          "the place that is to be inside the region is on its boundary; give another");
-  return turned(std::move(corners), rings, cells, side == Side::inside);
+  return {corners_of(around(written(rings), as_unit({place.x(), place.y(), place.z()})))};
 }
 
-Region smaller_region(std::vector<Points3> corners) {
-  require(!corners.empty(), "the region has no rings; give one at least");
-  const Rings rings = rings_of(corners);
-  Region region = turned(std::move(corners), rings, sides_of(rings), true);
-  constexpr double roundoff_of_areas = 1e-12;
-  if (area(region) > 2 * half_turn + roundoff_of_areas)
-    for (Points3& ring : region.rings)
-      ring = reversed(ring);
-  return region;
+Region enclosed_region(const std::vector<Points3>& rings) {
+  require(!rings.empty(), "the region has no rings; give one at least");
+  return {corners_of(enclosed(written(rings)))};
 }
 
 void require_region(const Region& region) {

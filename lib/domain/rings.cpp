@@ -36,10 +36,7 @@ void append_ring(const Points3& corners, std::int64_t r, std::vector<Arc>& arcs)
                       (count == 1 ? " corner" : " corners") +
                       " and encloses nothing; give three at least",
                   r);
-  for (Eigen::Index i = 0; i < count; ++i)
-    if (!corners.col(i).allFinite() || (corners.col(i).array() == 0).all())
-      refuse_region(
-          corner_name(r, i) + " is no direction; give three finite numbers that are not all 0", r);
+  require_directions(corners, r);
   for (Eigen::Index i = 0; i < count; ++i)
     append_arc(corners, r, i, arcs);
 }
@@ -91,6 +88,13 @@ std::string Rings::name_of(std::int32_t arc) const {
   return corner_name(static_cast<std::int64_t>(ring), arc - begin[ring]);
 }
 
+void require_directions(const Points3& corners, std::int64_t r) {
+  for (Eigen::Index i = 0; i < corners.cols(); ++i)
+    if (!corners.col(i).allFinite() || (corners.col(i).array() == 0).all())
+      refuse_region(
+          corner_name(r, i) + " is no direction; give three finite numbers that are not all 0", r);
+}
+
 Rings rings_of(const std::vector<Points3>& corners) {
   Rings rings;
   for (std::size_t r = 0; r < corners.size(); ++r) {
@@ -101,7 +105,7 @@ Rings rings_of(const std::vector<Points3>& corners) {
   return rings;
 }
 
-const Rings& simple(const Rings& rings, const ArcTree& tree) {
+std::int64_t first_meeting(const Rings& rings, const ArcTree& tree) {
   FirstFault fault;
   for_each_block(std::ssize(rings.arcs), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t e = begin; e != end; ++e)
@@ -110,9 +114,14 @@ const Rings& simple(const Rings& rings, const ArcTree& tree) {
         return;
       }
   });
-  if (fault.index() < 0)
+  return fault.index();
+}
+
+const Rings& simple(const Rings& rings, const ArcTree& tree) {
+  const std::int64_t found = first_meeting(rings, tree);
+  if (found < 0)
     return rings;
-  const auto e = static_cast<std::int32_t>(fault.index());
+  const auto e = static_cast<std::int32_t>(found);
   refuse_region("the edges from " + rings.name_of(e) + " and from " +
                     rings.name_of(first_conflict(rings, tree, e)) +
                     " meet; rings may neither cross nor touch themselves or each other",

@@ -31,10 +31,16 @@ struct Rings {
   SideCells::Corner corner_of(std::size_t ring) const { return {begin[ring + 1] - 1, begin[ring]}; }
 };
 
+/// \throws Error bad_option, naming ring and corner, for a corner that is no direction.
+void require_directions(const Points3& corners, std::int64_t ring);
+
 /// The rings of corners, 3 x n directions each, rounded to unit vectors.
 /// \throws Error bad_option, naming ring and corner: fewer than three corners; a corner that is no
 ///         direction; equal or opposite neighbours. Its index() is the ring.
 Rings rings_of(const std::vector<Points3>& corners);
+
+/// The first arc that meets another elsewhere than in the corner that joins them; -1 for none.
+std::int64_t first_meeting(const Rings& rings, const ArcTree& tree);
 
 /// Throws where arcs meet elsewhere than in the corner that joins them.
 /// \throws Error bad_option, naming ring and corner of the first arc that meets another. Its

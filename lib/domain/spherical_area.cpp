@@ -57,8 +57,7 @@ Vec3 best_origin(std::span<const Arc> arcs) {
   return best;
 }
 
-/// The sum of the triangles between an origin and arcs: the area to the left of the arcs, less 4 pi
-/// if the origin's opposite is to the left.
+/// The sum of the triangles between an origin and arcs; see area_seen_from().
 DoubleDouble sum_from(const Vec3& origin, std::span<const Arc> arcs) {
   DoubleDouble sum;
   for (const Arc& arc : arcs)
@@ -74,6 +73,10 @@ double area_inside(const SideCells& cells) {
   const Vec3 origin = best_origin(cells.arcs());
   const DoubleDouble sum = sum_from(origin, cells.arcs());
   return cells.side(-origin) == Side::inside ? (sum + sphere).hi : sum.hi;
+}
+
+double area_seen_from(const Vec3& origin, std::span<const Arc> arcs) {
+  return sum_from(origin, arcs).hi;
 }
 
 double area_to_the_left(std::span<const Arc> arcs) {

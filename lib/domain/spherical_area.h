@@ -17,4 +17,8 @@ double area_inside(const SideCells& cells);
 /// directions have no effect.
 double area_to_the_left(std::span<const Arc> arcs);
 
+/// The area to the left of closed rings, less 4 pi if the opposite of the origin is to the left. It
+/// loses digits where an arc comes near that opposite.
+double area_seen_from(const Vec3& origin, std::span<const Arc> arcs);
+
 } // namespace calotte::domain_detail

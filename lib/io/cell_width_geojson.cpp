@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "density/cell_width_polygons.h"
 #include "io/cell_width_file.h"
-#include "io/geojson_polygons.h"
+#include "io/geojson_areas.h"
 
 #include <calotte/error.h>
 
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <optional>
 #include <set>
 
 namespace calotte::io_detail {
@@ -72,25 +73,29 @@ private:
     return widths_.inside;
   }
 
+  /// With a place inside, all rings of the geometry bound one area.
   WidthRegion region_of(const GeoGeometry& geometry) const {
     WidthRegion region{width_inside(geometry.properties), {}};
+    const std::optional<GeoPosition> inside = inside_of(geometry, name_);
+    if (inside)
+      region.polygons.push_back({{}, Place{(*inside)[0], (*inside)[1]}});
     std::int64_t rings = 0;
     for (const GeoPolygon& polygon : geometry.polygons) {
-      region.polygons.emplace_back();
+      if (!inside)
+        region.polygons.emplace_back();
       for (const GeoRing& ring : polygon)
-        region.polygons.back().push_back(places_of(ring, rings++));
+        region.polygons.back().rings.push_back(places_of(ring, rings++));
     }
     return region;
   }
 
   Ring places_of(const GeoRing& positions, std::int64_t number) const {
     Ring ring;
-    for (const auto& [longitude, latitude] : positions) {
-      if (!(std::abs(longitude) <= 720) || !(std::abs(latitude) <= 90))
-        fail("position " + std::to_string(ring.size()) + " of ring " + std::to_string(number) +
-             " is [" + Json(longitude).dump() + ", " + Json(latitude).dump() +
-             "], no longitude and latitude in degrees; correct it");
-      ring.push_back({longitude, latitude});
+    for (const GeoPosition& position : positions) {
+      require_degrees(position, name_,
+                      where_ + "position " + std::to_string(ring.size()) + " of ring " +
+                          std::to_string(number));
+      ring.push_back({position[0], position[1]});
     }
     return ring;
   }

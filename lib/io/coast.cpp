@@ -1,78 +1,66 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <calotte/read.h>
 
-#include "base/lonlat.h"
 #include "domain/spherical_area.h"
 #include "io/coast_file.h"
 #include "io/file.h"
-#include "io/geojson_polygons.h"
+#include "io/geojson_areas.h"
 
 #include <calotte/error.h>
 
-#include <algorithm>
+#include <nlohmann/json.hpp>
+
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 #include <string>
-#include <utility>
+#include <system_error>
 #include <vector>
 
 namespace calotte {
 namespace io_detail {
-namespace {
 
-constexpr double hemisphere = 2 * std::numbers::pi;
-
-/// Unit vectors. \throws Error parse, for what is no longitude and latitude.
-SphericalRing corners_of(const GeoRing& ring, const std::string& where) {
-  SphericalRing corners;
-  for (const auto& [longitude, latitude] : ring) {
-    if (!(std::abs(longitude) <= 720) || !(std::abs(latitude) <= 90))
-      throw Error(ErrorCode::parse, where + "a place is [" + std::to_string(longitude) + ", " +
-                                        std::to_string(latitude) +
-                                        "], no longitude and latitude in degrees; correct it");
-    corners.push_back(from_lonlat(longitude, latitude));
-  }
-  drop_repeated(corners);
-  return corners;
+void add_land(const std::vector<WrittenRing>& rings, Coast& coast) {
+  constexpr double sphere = 4 * std::numbers::pi;
+  double left = 0; // of all rings, as often as a ring has it to its left
+  for (const WrittenRing& ring : rings)
+    if (ring.corners.size() > 2) {
+      left += area_to_the_left(arcs_of(ring));
+      coast.rings.push_back(corners_of({ring})[0]);
+    }
+  coast.area += left - sphere * std::floor(left / sphere);
 }
 
-double area_to_the_left_of(const SphericalRing& ring) {
-  std::vector<Arc> arcs;
-  for (std::size_t i = 0; i < ring.size(); ++i)
-    arcs.push_back({ring[i], ring[(i + 1) % ring.size()]});
-  return area_to_the_left(arcs);
+namespace {
+
+/// Throws for a file of GSHHG that is not there, and names the package that has it.
+void require_gshhg(const std::string& path) {
+  const std::string name = std::filesystem::path(path).filename();
+  std::error_code error;
+  if (!name.starts_with("binned_GSHHS_") || std::filesystem::exists(path, error))
+    return;
+  const bool high = name.starts_with("binned_GSHHS_h"), full = name.starts_with("binned_GSHHS_f");
+  throw Error(ErrorCode::file, "cannot read " + path +
+                                   ": No such file; it comes with Debian's package gmt-gshhg-" +
+                                   (high   ? "high"
+                                    : full ? "full"
+                                           : "low") +
+                                   ", in /usr/share/gmt-gshhg; install it, or give other polygons "
+                                   "of land");
 }
 
 } // namespace
-
-void add_ring(SphericalRing ring, bool hole, Coast& coast) {
-  if (ring.size() < 3)
-    return; // a line or a place, without area
-  const double left = area_to_the_left_of(ring);
-  const bool larger = left > hemisphere;
-  if (larger != hole)
-    std::reverse(ring.begin(), ring.end());
-  const double smaller = larger ? 2 * hemisphere - left : left;
-  coast.area += hole ? -smaller : smaller;
-  Points3 corners(3, std::ssize(ring));
-  for (std::size_t i = 0; i < ring.size(); ++i)
-    corners.col(static_cast<Eigen::Index>(i)) << ring[i].x, ring[i].y, ring[i].z;
-  coast.rings.push_back(std::move(corners));
-}
-
 } // namespace io_detail
 
 Coast read_coast(const std::string& path) {
   using namespace io_detail;
+  require_gshhg(path);
   if (is_netcdf_file(path))
     return read_gshhg(NetcdfReader(path));
   std::ifstream in = open_input(path);
   Coast coast;
-  for (const GeoGeometry& geometry :
-       geojson_polygons(read_geojson(in, path), path, {"[longitude, latitude]", "give degrees"}))
-    for (const GeoPolygon& polygon : geometry.polygons)
-      for (std::size_t r = 0; r < polygon.size(); ++r)
-        add_ring(corners_of(polygon[r], path + ": " + geometry.where), r > 0, coast);
+  for (const GeoArea& area : geojson_areas(read_geojson(in, path), path))
+    add_land(area.rings, coast);
   return coast;
 }
 

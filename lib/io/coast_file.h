@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "domain/written_rings.h"
 #include "io/netcdf_reader.h"
-#include "io/region_file.h"
 #include "io/room.h"
 
 #include <calotte/ocean.h>
 
+#include <vector>
+
 /// Readers of coasts, one a format; see read_coast().
 namespace calotte::io_detail {
 
-/// Adds a ring, turned so that its smaller side is to its left, or to its right for a hole. A ring
-/// of fewer than three corners has no area and is left out.
-void add_ring(SphericalRing ring, bool hole, Coast& coast);
+/// Adds the land to the left of rings. A ring of fewer than three corners has no area and is left
+/// out.
+void add_land(const std::vector<WrittenRing>& rings, Coast& coast);
 
 /// The land of a binned file of GSHHG: level 1, Antarctica with its ice shelves.
 /// \throws Error parse.

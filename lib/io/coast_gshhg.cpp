@@ -89,13 +89,14 @@ private:
   }
 
   void add(const Line& line) {
-    SphericalRing ring;
+    WrittenRing ring;
     for (const auto& [x, y] : line)
-      ring.push_back(from_lonlat(
+      ring.corners.push_back(from_lonlat(
           360.0 * static_cast<double>(x) / static_cast<double>(bins_ * bin_units),
           180.0 * static_cast<double>(y) / static_cast<double>(rows_ * bin_units) - 90));
-    drop_repeated(ring);
-    add_ring(std::move(ring), false, coast_);
+    drop_repeated(ring.corners);
+    enclose(ring);
+    add_land({ring}, coast_);
   }
 
   const NetcdfReader& file_;

@@ -68,7 +68,7 @@ std::vector<Run> runs_of(std::istream& counts, const std::string& name, std::int
 Region read_region_loops(std::istream& in, const std::string& name, std::istream* counts,
                          const std::string& counts_name) {
   LineReader reader(in, name);
-  SphericalRing points;
+  std::vector<Vec3> points;
   std::vector<std::int64_t> lines;
   for (std::string_view line; reader.next_content(line);) {
     points.push_back(point_of(reader, line));
@@ -77,7 +77,7 @@ Region read_region_loops(std::istream& in, const std::string& name, std::istream
   if (points.size() < 3)
     throw Error(ErrorCode::parse, name + ": " + std::to_string(points.size()) +
                                       " points enclose nothing; give three at least");
-  std::vector<RegionRing> rings;
+  std::vector<WrittenRing> rings;
   for (const auto& [begin, end] : counts ? runs_of(*counts, counts_name, std::ssize(points))
                                          : std::vector<Run>{{0, std::ssize(points)}}) {
     rings.push_back(
@@ -85,11 +85,7 @@ Region read_region_loops(std::istream& in, const std::string& name, std::istream
          "the loop that begins in line " + std::to_string(lines[static_cast<std::size_t>(begin)])});
     drop_repeated(rings.back().corners);
   }
-  try {
-    return smaller_region(corners_of(rings));
-  } catch (const Error& error) {
-    throw Error(error.code(), explained(name, rings, error), error.index());
-  }
+  return named(name, [&] { return Region{corners_of(enclosed(rings))}; });
 }
 
 } // namespace calotte::io_detail

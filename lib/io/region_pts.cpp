@@ -140,7 +140,6 @@ private:
     if (type_ != "custom")
       fail((type_.empty() ? "no line \"Type:\"" : "the type " + in_quotes(type_) + " is unknown") +
            "; write Type: custom, circle, ellipse or channel");
-    drop_repeated(ring_);
     return region_around(corners_of({{ring_, ""}}), point());
   }
 
@@ -148,7 +147,7 @@ private:
   std::string type_;
   std::optional<Vec3> point_;
   std::map<std::string_view, double> values_;
-  SphericalRing ring_;
+  std::vector<Vec3> ring_;
 };
 
 } // namespace

@@ -7,8 +7,10 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstring>
 #include <istream>
+#include <system_error>
 
 namespace calotte::io_detail {
 namespace {
@@ -141,6 +143,34 @@ Columned parse_columns(std::string_view line, int count, double* values) {
 
 Columned parse_columns(std::string_view line, int count, std::int64_t* values) {
   return parse(line, count, values);
+}
+
+std::optional<std::vector<double>> numbers_of(std::string_view text) {
+  std::vector<double> numbers;
+  constexpr std::string_view blanks = " \t";
+  const char *at = text.data(), *const end = text.data() + text.size();
+  const auto skip = [&](std::string_view characters, int most) {
+    for (; at != end && most > 0 && characters.find(*at) != std::string_view::npos; --most)
+      ++at;
+  };
+  constexpr int any = 1 << 30;
+  for (skip(blanks, any); at != end; skip(blanks, any)) {
+    if (!numbers.empty()) {
+      skip(",;|", 1);
+      skip(blanks, any);
+    }
+    skip("+", 1);
+    double number = 0;
+    const auto [stop, problem] = std::from_chars(at, end, number);
+    if (problem != std::errc() || !std::isfinite(number))
+      return std::nullopt;
+    at = stop;
+    if (at != end && (blanks.find(*at) == std::string_view::npos) && *at != ',' && *at != ';' &&
+        *at != '|')
+      return std::nullopt;
+    numbers.push_back(number);
+  }
+  return numbers.empty() ? std::nullopt : std::optional(numbers);
 }
 
 bool holds_number(std::string_view line) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -65,6 +66,10 @@ struct Columned {
 /// and bar, separate them.
 Columned parse_columns(std::string_view line, int count, double* values);
 Columned parse_columns(std::string_view line, int count, std::int64_t* values);
+
+/// All of a text as finite numbers with blanks, or one of comma, semicolon and bar, between; none
+/// for any other text.
+std::optional<std::vector<double>> numbers_of(std::string_view text);
 
 /// True if one of the line's columns is a number.
 bool holds_number(std::string_view line);

@@ -284,6 +284,29 @@ def test_thinned_triangles(pages):
     check(pages.browser.run("calotte.pixels()")["checksum"] != before, "thinned: the filter shows all triangles")
 
 
+def test_far_ocean(pages):
+    """Cells smaller than a pixel, drawn as squares, do not cover land."""
+    land = [[x, -40] for x in range(-40, 40, 2)] + [[40, y] for y in range(-40, 40, 2)]
+    land += [[-x, -y] for x, y in land]
+    pathlib.Path("land.geojson").write_text(json.dumps({"type": "Polygon", "coordinates": [land + land[:1]]}))
+    pages.calotte("points", "fibonacci", "200000", "-o", "fibonacci.txt")
+    pages.calotte("delaunay", "fibonacci.txt", "-o", "fibonacci.nc")
+    pages.calotte("cull", "fibonacci.nc", "--land", "land.geojson", "-o", "sea.nc")
+    pages.open("sea", "sea.nc", "--no-coastlines")
+    inner = 38.5  # two cells and a pixel from the coast
+    places = [[sign * x, turn * y] for sign in (-1, 1) for turn in (-1, 1) for k in range(150)
+              for x, y in ((k / 4, inner), (inner, k / 4))]
+    for zoom in (0.5, 1):
+        pages.browser.run("calotte.turn(0, 0, arguments[0])", zoom)
+        colours = pages.browser.asynchronous("calotte.coloursAt(arguments[0])", [[0, 0], [60, 0], *places])
+        check(colours[0] != colours[1], f"sea: land and sea have the colour {colours[0]}")
+        covered = [place for place, colour in zip(places, colours[2:]) if colour != colours[0]]
+        check(not covered, f"sea: cells cover land at {covered}, zoom {zoom}")
+        seen = pages.browser.asynchronous("calotte.coloursAt(arguments[0])",
+                                          [[48, y] for y in range(-40, 41, 5)])
+        check(colours[0] not in seen, f"sea: gaps between the cells, zoom {zoom}")
+
+
 def test_triangles_beside_polygons(pages):
     """A mesh without triangles beside one that has them, in all measures and filters."""
     pages.open("beside", "random.vtp", "ring.geojson")
@@ -325,7 +348,7 @@ def main(path):
         sys.exit(1 if os.environ.get("CALOTTE_CLIENTS") == "required" else SKIPPED)
     tests = [test_grid, test_limited_area, test_plane, test_periodic, test_foreign, test_small_and_random,
              test_polygon_of_many_sides, test_two_and_states, test_finding,
-             test_thinned_triangles, test_triangles_beside_polygons, test_plan, test_keyboard_and_table]
+             test_thinned_triangles, test_far_ocean, test_triangles_beside_polygons, test_plan, test_keyboard_and_table]
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
         make_meshes(calotte)

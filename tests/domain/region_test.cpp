@@ -306,7 +306,7 @@ TEST_CASE("all edges within a distance are reported once, and few others") {
   }
 }
 
-TEST_CASE("rings of any orientation: around a place, or the smaller part") {
+TEST_CASE("rings of any orientation: around a place, or what they enclose") {
   for (Shape& shape : shapes()) {
     CAPTURE(shape.name);
     if (shape.name == "archipelago")
@@ -317,10 +317,114 @@ TEST_CASE("rings of any orientation: around a place, or the smaller part") {
     CHECK(region_around(mixed, vector(shape.known)).rings == shape.region.rings);
     const bool smaller = area(shape.region) <= 2 * pi;
     if (shape.name.find("hemisphere") == std::string::npos)
-      CHECK((smaller_region(mixed).rings == shape.region.rings) == smaller);
+      CHECK((enclosed_region(mixed).rings == shape.region.rings) == smaller);
     else
-      CHECK(smaller_region(shape.region.rings).rings == shape.region.rings);
+      CHECK(enclosed_region(shape.region.rings).rings == shape.region.rings);
   }
+}
+
+Points3 parallel(double latitude) {
+  std::vector<std::array<double, 2>> corners;
+  for (int longitude = -180; longitude < 180; longitude += 10)
+    corners.push_back({1.0 * longitude, latitude});
+  return ring_of(corners);
+}
+
+TEST_CASE("rings enclose the side without poles, or else the smaller side") {
+  struct Case {
+    std::string name;
+    std::vector<Points3> rings;
+    std::vector<std::array<double, 2>> in, out;
+  };
+  std::vector<std::array<double, 2>> wide; // 340 by 160 degrees
+  for (int longitude = -170; longitude <= 170; longitude += 10)
+    wide.push_back({1.0 * longitude, -80});
+  for (int longitude = 170; longitude >= -170; longitude -= 10)
+    wide.push_back({1.0 * longitude, 80});
+  const std::vector<Case> cases{
+      {"beside a pole", {ring_of({{10, 88}, {60, 88}, {30, 89.999}})}, {{30, 89}}, {{30, 0}}},
+      {"beside the other", {ring_of({{10, -88}, {60, -88}, {30, -89.999}})}, {{30, -89}}, {{0, 0}}},
+      {"round a pole", {parallel(30)}, {{0, 90}}, {{0, -90}, {0, 0}}},
+      {"round the other", {parallel(-10)}, {{0, -90}}, {{0, 90}, {0, 0}}},
+      {"most of the sphere", {ring_of(wide)}, {{0, 0}, {90, 70}}, {{180, 0}, {0, 90}, {0, -90}}},
+      {"a wide band", {parallel(-60), parallel(60)}, {{0, 0}}, {{0, 90}, {0, -90}}},
+      {"a band with a hole",
+       {parallel(-60), parallel(60), ring_of({{0, 0}, {9, 0}, {9, 9}})},
+       {{100, 0}},
+       {{0, 90}, {6, 3}}},
+      {"a corner at a pole", {ring_of({{0, 0}, {90, 0}, {0, 90}})}, {{45, 30}}, {{180, 0}}},
+      {"through a pole",
+       {ring_of({{0, 80}, {180, 80}, {135, 60}, {45, 60}})},
+       {{90, 70}},
+       {{-90, 85}, {0, 0}}},
+      {"two islands",
+       {ring_of({{0, 0}, {9, 0}, {9, 9}}), ring_of({{50, 0}, {59, 0}, {59, 9}})},
+       {{6, 3}, {56, 3}},
+       {{30, 0}, {0, 90}}}};
+  for (const Case& c : cases)
+    for (unsigned turned = 0; turned < 1U << c.rings.size(); ++turned) {
+      CAPTURE(c.name);
+      CAPTURE(turned);
+      std::vector<Points3> rings = c.rings;
+      for (std::size_t r = 0; r < rings.size(); ++r)
+        if ((turned >> r & 1U) != 0)
+          rings[r] = reversed(rings[r]);
+      const auto holds = containing(enclosed_region(rings));
+      for (const auto& [longitude, latitude] : c.in)
+        CHECK(holds(lonlat(longitude, latitude)));
+      for (const auto& [longitude, latitude] : c.out)
+        CHECK_FALSE(holds(lonlat(longitude, latitude)));
+    }
+  // Of equal sides it is the left one.
+  CHECK(contains(enclosed_region({parallel(0)}), lonlat(0, 90)));
+  CHECK(contains(enclosed_region({reversed(parallel(0))}), lonlat(0, -90)));
+}
+
+TEST_CASE("closed rings, repeated corners, and cuts along a meridian whose sides differ a little") {
+  const std::vector<std::array<double, 2>> around{{-180, 60}, {-120, 61}, {-60, 60},
+                                                  {0, 62},    {60, 60},   {120, 61}};
+  const Region cap = enclosed_region({ring_of(around)});
+  CHECK(contains(cap, lonlat(0, 90)));
+  const auto is_cap = [&](std::vector<std::array<double, 2>> rest, double tolerance = 1e-14) {
+    std::vector<std::array<double, 2>> corners(around.begin(), around.end());
+    corners.insert(corners.end(), rest.begin(), rest.end());
+    for (const bool backwards : {false, true}) {
+      const Points3 ring = backwards ? reversed(ring_of(corners)) : ring_of(corners);
+      const Region found = enclosed_region({ring});
+      CHECK(found.rings.size() == 1);
+      CHECK(std::abs(area(found) - area(cap)) < tolerance);
+      CHECK(contains(found, lonlat(180, 80)));
+      CHECK_FALSE(contains(region_around({ring}, lonlat(0, 0)), lonlat(180, 80)));
+    }
+  };
+  is_cap({{180, 60}});             // closed
+  is_cap({{180, 60}, {-180, 60}}); // twice
+  is_cap({{180, 60}, {180, 90}, {-180, 90}});
+  is_cap({{180, 60}, {180, 90}, {-180, 90}, {-180, 60}});
+  for (const double off : {1e-15, 1e-14, 1e-12, 1e-10, 1e-8, -1e-14, -1e-10}) {
+    CAPTURE(off);
+    is_cap({{180, 60 + off}, {180, 90}, {-180, 90}}, 1e-9);
+    is_cap({{180 + off, 60}, {180, 90}, {-180, 90}}, 1e-9);
+    is_cap({{180, 60 + off}, {180, 75}, {180, 90}, {-180, 90}, {-180 + off, 75}}, 1e-9);
+    is_cap({{180, 60}, {180, 90 - std::abs(off)}, {-180, 90 - std::abs(off)}}, 1e-9);
+  }
+  // Other corners on each side, as a part of a map's edge may have.
+  is_cap({{180, 60}, {180, 70}, {180, 85}, {180, 90}, {-180, 90}, {-180, 80}, {-180, 65}}, 1e-9);
+  // The ring does not meet itself at the cut: 0.5 degrees of it are left.
+  std::vector<std::array<double, 2>> step(around.begin(), around.end());
+  step.insert(step.end(), {{180, 60.5}, {180, 90}, {-180, 90}});
+  CHECK(enclosed_region({ring_of(step)}).rings[0].cols() == 7);
+  // Nor are thousands of corners in one place a cut.
+  std::vector<std::array<double, 2>> heap;
+  for (int i = 0; i < 20'000; ++i)
+    heap.push_back({1e-12 * (i * 7919 % 20'000), 1e-12 * (i * 104'729 % 20'011)});
+  CHECK_THROWS_AS(enclosed_region({ring_of(heap)}), Error);
+  // Two halves of a cap, cut at 0 and 180 degrees.
+  const Region halves = enclosed_region(
+      {ring_of({{0, 62}, {60, 60}, {120, 61}, {180, 60}, {180, 75}, {180, 90}, {0, 70}}),
+       ring_of({{-180, 60}, {-120, 61}, {-60, 60}, {0, 62}, {0, 65}, {0, 90}, {-180, 70}})});
+  CHECK(halves.rings.size() == 1);
+  CHECK(area(halves) == doctest::Approx(area(cap)).epsilon(1e-9));
 }
 
 // ---- Errors
@@ -382,7 +486,22 @@ TEST_CASE("rings that bound no region are refused, with ring and corner") {
       {ring_of({{0, 0}, {20, -10}, {40, 0}, {20, 0}, {10, 10}, {0, 10}, {20, 0}})})); // twice there
   CHECK(holds(refusal([&] { region_around({triangle}, lonlat(10, 0)); }), "is on its boundary"));
   CHECK(holds(refusal([&] { region_around({triangle}, {0, 0, 0}); }), "is no direction"));
-  CHECK(holds(refusal([&] { smaller_region({}); }), "no rings"));
+  CHECK(holds(refusal([&] { enclosed_region({}); }), "no rings"));
+  CHECK(holds(refusal([&] { enclosed_region({triangle, reversed(triangle)}); }), "bound nothing"));
+  CHECK(holds(refusal([&] {
+                enclosed_region({triangle, bad});
+              }),
+              "ring 1, corner 1 is no direction"));
+  CHECK(holds(refusal([&] {
+                enclosed_region({ring_of({{0, 0}, {20, 20}, {20, 0}, {0, 20}})});
+              }),
+              "the edges from ring 0, corner 0 and from ring 0, corner 2 meet"));
+  // Parts of a millimetre are not healed where they are no cut: a needle that crosses a side.
+  CHECK(holds(refusal([&] {
+                enclosed_region(
+                    {ring_of({{0, 0}, {20, 0}, {20, 20}, {10, -1e-6}, {10 + 1e-6, 20}, {0, 20}})});
+              }),
+              " meet; rings may neither cross nor touch"));
 }
 
 TEST_CASE("values out of range") {

@@ -808,6 +808,29 @@ TEST_CASE("a round polygon has the widths of the cap, wherever it lies and howev
     }
 }
 
+TEST_CASE("a place inside decides, for all rings of its feature") {
+  const Folder folder;
+  const Eigen::Vector3d centre = points_at({{10, 20}}).col(0);
+  const auto text = [&](const std::string& place, const std::string& rings) {
+    return R"({"type":"Feature","properties":{"inside":)" + place + R"(},"geometry":)" +
+           polygon(rings) + "}";
+  };
+  const std::string outer = ring(circle(10, 20, 50)), hole = ring(circle(10, 20, 25), true);
+  const auto angle = [&](const Eigen::Vector3d& p) { return angle_between(p, centre); };
+  for (const std::string place : {"[10,20]", "[10,57]", "[190,-80]"}) // within, between, beyond
+    for (const std::string& rings : {outer + "," + hole, hole + "," + outer}) {
+      const double sign = place == "[10,57]" ? 1 : -1;
+      check_widths(
+          read_cell_width(folder("told.geojson", text(place, rings)), coastal),
+          [&](const Eigen::Vector3d& p) {
+            return sign * std::max(25 * degree - angle(p), angle(p) - 50 * degree);
+          },
+          0.03); // the widths have a ridge between the circles
+    }
+  CHECK(refusal(folder("bad.geojson", text("7", outer)), coastal, ErrorCode::parse) ==
+        ": its property \"inside\" is not a position [longitude, latitude]; give degrees");
+}
+
 TEST_CASE("holes lie outside, also around a pole; narrow features win") {
   const Folder folder;
   for (const auto& [longitude, latitude] : Corners{{170, 20}, {0, 90}}) {

@@ -121,8 +121,8 @@ TEST_CASE("fractions: complements, adjoining polygons, islands in a cell, thread
   Points3 west(3, 4), east(3, 4); // share the arc from 0 to 1
   west << 1, 0.6, 0.2, 0.8, 0, 0, -0.5, -0.5, 0.1, 0.8, 0.8, 0.1;
   east << 0.6, 1, 0.8, 0.2, 0, 0, 0.5, 0.5, 0.8, 0.1, 0.1, 0.8;
-  const Region a = smaller_region({west.colwise().normalized()}),
-               b = smaller_region({east.colwise().normalized()});
+  const Region a = enclosed_region({west.colwise().normalized()}),
+               b = enclosed_region({east.colwise().normalized()});
   const Eigen::VectorXd both = land_fractions(cells, coast_of({a, b}));
   CHECK((both - land_fractions(cells, coast_of({a})) - land_fractions(cells, coast_of({b})))
             .cwiseAbs()
@@ -412,6 +412,20 @@ TEST_CASE("coasts of GeoJSON: orientation does not matter, holes, a cut along th
   CHECK(whole == doctest::Approx(0.1194).epsilon(0.01));
   CHECK(area_of("[" + turned + "]") == doctest::Approx(whole).epsilon(1e-14));
   CHECK(area_of("[" + turned + "," + hole + "]") == doctest::Approx(whole - small).epsilon(1e-14));
+  const std::string absent = scratch / "binned_GSHHS_h.nc";
+  CHECK(std::string(error_of([&] { read_coast(absent); }).what()) ==
+        "cannot read " + absent +
+            ": No such file; it comes with Debian's package gmt-gshhg-high, in "
+            "/usr/share/gmt-gshhg; install it, or give other polygons of land");
+  const auto area_around = [&](const std::string& place) {
+    write_text(path, R"({"type":"Feature","properties":{"inside":)" + place +
+                         R"(},"geometry":{"type":"Polygon","coordinates":[)" + turned + "," + hole +
+                         "]}}");
+    return read_coast(path).area;
+  };
+  CHECK(area_around("[2,3]") == doctest::Approx(whole - small).epsilon(1e-14));
+  CHECK(area_around("[7,8]") ==
+        doctest::Approx(4 * std::numbers::pi - whole + small).epsilon(1e-14));
   write_text(path, R"({"type":"MultiPolygon","coordinates":[
       [[[170,-5],[180,-5],[180,5],[170,5],[170,-5]]],
       [[[-180,-5],[-170,-5],[-170,5],[-180,5],[-180,-5]]],

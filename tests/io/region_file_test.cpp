@@ -159,12 +159,11 @@ TEST_CASE("GeoJSON: several polygons, and what is not one region") {
             "R.geojson: its polygons cover the sphere"));
 }
 
-TEST_CASE("GeoJSON: a place inside decides, otherwise the orientation of the outer ring") {
+TEST_CASE("GeoJSON: a place inside decides, otherwise rings of either orientation enclose") {
   const std::string clockwise = "[0,20],[20,20],[20,0],[0,0]";
-  CHECK(refusal("R.geojson", collection({feature(polygon({clockwise}))}), ErrorCode::bad_option) ==
-        "R.geojson: feature 0: ring 0 has more than half of the sphere to its left: it runs "
-        "clockwise, or its inside is that large; reverse it, or name the inside by a property "
-        "\"inside\": [longitude, latitude] of its feature");
+  CHECK(area(geojson(polygon({clockwise}))) == area(geojson(polygon({square}))));
+  CHECK(contains(geojson(polygon({clockwise, inner})), lonlat(2, 3)));
+  CHECK_FALSE(contains(geojson(polygon({clockwise, inner})), lonlat(7, 8)));
   for (const std::string& outer : {square, clockwise})
     for (const std::string& hole : {inner, inner_clockwise}) {
       const Region land = geojson(feature(polygon({outer, hole}), R"({"inside":[2,3]})"));
@@ -183,6 +182,32 @@ TEST_CASE("GeoJSON: a place inside decides, otherwise the orientation of the out
               "its property \"inside\" is not a position [longitude, latitude]; give degrees"));
   CHECK(holds(refusal("R.geojson", feature(polygon({square}), R"({"inside":[5,95]})")),
               "its property \"inside\" is [5.0, 95.0], no longitude"));
+}
+
+TEST_CASE("GeoJSON: the whole band between two parallels, cut at 180 degrees") {
+  std::string south, north;
+  for (int longitude = -180; longitude <= 180; longitude += 10) {
+    south += "[" + std::to_string(longitude) + ",-60],";
+    north += "[" + std::to_string(-longitude) + ",60.00000000000001],";
+  }
+  const Region band = geojson(polygon({south + north + "[-180,-60]"}));
+  CHECK(band.rings.size() == 2);
+  CHECK(contains(band, lonlat(180, 0)));
+  CHECK_FALSE(contains(band, lonlat(0, 90)));
+  CHECK_FALSE(contains(band, lonlat(0, -90)));
+  // Arcs of 10 degrees rise above the parallels.
+  CHECK(area(band) == doctest::Approx(4 * pi * std::sin(60 * degree)).epsilon(0.01));
+}
+
+TEST_CASE("GeoJSON: an ocean around a pole whose cut differs by rounding") {
+  const std::string around = "[-180,65.5],[-90,70],[0,72],[90,71],[180,";
+  const Region exact = geojson(polygon({around + "65.5],[180,90],[-180,90],[-180,65.5]"}));
+  for (const std::string end : {"65.50000000000003", "65.49999999999997", "65.5000000001"}) {
+    const Region region = geojson(polygon({around + end + "],[180,90],[-180,90],[-180,65.5]"}));
+    CHECK(region.rings.size() == 1);
+    CHECK(area(region) == doctest::Approx(area(exact)).epsilon(1e-9));
+    CHECK(contains(region, lonlat(180, 80)));
+  }
 }
 
 TEST_CASE("GeoJSON: positions") {

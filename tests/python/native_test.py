@@ -121,6 +121,16 @@ def test_errors_of_operators():
 def test_regions():
     region = calotte.polygon([(0, 0), (90, 0), (0, 90)])
     assert region.area == pytest.approx(math.pi / 2)
+    closed = [(0, 0), (90, 0), (0, 90), (0, 0)]
+    for ring in closed, closed[::-1], np.array(closed, float):
+        assert calotte.polygon(ring).area == pytest.approx(math.pi / 2)
+    assert calotte.polygon(closed, inside=(180, 0)).area == pytest.approx(3.5 * math.pi)
+    around = [(-180, 60), (-120, 60), (-60, 60), (0, 60), (60, 60), (120, 60)]
+    cut = around + [(180, 60 + 1e-13), (180, 90), (-180, 90)]
+    assert calotte.polygon(cut).area == pytest.approx(calotte.polygon(around).area)
+    assert calotte.polygon(cut).contains(calotte.from_lonlat([180, 0], [75, 0])).tolist() == [True, False]
+    square = [(0, 0), (1, 0), (1, 1), (0, 1)]
+    assert calotte.planar_polygon(square + square[:1]).area == calotte.planar_polygon(square).area
     inside = calotte.random_sphere(100, region=region)
     assert region.contains(inside).all() and not region.contains(-inside).any()
     grid = calotte.cvt(200, region=region)

@@ -105,6 +105,37 @@ TEST_CASE("a mesh is drawn on either map, by its shapes and by what they are col
   }
 }
 
+TEST_CASE("range, palette and title of a picture") {
+  const Bench bench;
+  make_run(bench, "a");
+  const auto drawn = [&](const std::string& options) {
+    const Outcome outcome = bench.run("draw a.vtp -o a.svg --size 300 " + options);
+    CAPTURE(options);
+    CHECK(outcome.err.empty());
+    CHECK(outcome.code == 0);
+    return bench.file("a.svg");
+  };
+  const std::string usual = drawn("");
+  CHECK(drawn("--palette viridis") == usual);
+  std::set<std::string> all{usual};
+  for (const char* options : {"--palette magma", "--palette cividis", "--palette diverging",
+                              "--range 10,20", "--range 10,30", "--title 'My grid'"})
+    CHECK(all.insert(drawn(options)).second);
+  CHECK(bench
+            .run("draw --density " + bump +
+                 " -o b.png --range 0,2 --palette magma --title x --size 200")
+            .code == 0);
+  for (const char* range : {"1", "2,1", "1,1", "a,b", "1,2,3", "nan,1", "0,inf"})
+    check_refusal(bench, "draw a.vtp -o b.svg --range " + std::string(range), 2,
+                  "--range " + std::string(range) +
+                      " is no range of a colour bar; give its lower and its upper end, as in "
+                      "--range 30,120");
+  check_refusal(bench, "draw a.vtp -o b.svg --colour valence --range 5,7", 2,
+                "--range sets the ends of a colour bar, which this --colour does not have; leave "
+                "--range out");
+  CHECK(bench.run("draw a.vtp -o b.svg --palette jet").err.find("--palette") != std::string::npos);
+}
+
 TEST_CASE("maps show the coastlines of the earth, unless they are turned off or the radius is "
           "another's") {
   const Bench bench;

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -103,6 +104,43 @@ TEST_CASE("the syntax of a density stands in one place, to which the options ref
   CHECK(has(shown(bench, "help exit-codes"), "1  the mesh failed its check"));
 }
 
+TEST_CASE("help explains each word that info prints") {
+  const Bench bench;
+  const std::string topic = shown(bench, "help measures");
+  for (const std::string& line : lines_of(topic))
+    CHECK(line.size() <= 100);
+  for (const char* command :
+       {"cvt --cells 642 -o closed.nc", "cvt --region circle=10,20,3000km --cells 300 -o open.vtp",
+        "cvt --region circle=10,20,2000km --cell-width 300km --limited-area -o area.nc",
+        "points random 60 -o random.txt", "delaunay random.txt -o random.vtp"})
+    CHECK(bench.run(command).code == 0);
+  const std::set<std::string> plain{"",     "cells",     "triangles", "distances",
+                                    "cell", "longitude", "latitude"};
+  const auto check_words = [&](const std::string& arguments, std::size_t width) {
+    CAPTURE(arguments);
+    for (const std::string& line : lines_of(shown(bench, arguments))) {
+      if (line.starts_with("- x") || line.starts_with("longest stable step ") ||
+          line.find(": the ") != std::string::npos)
+        continue; // the steps of other equations, whose rows are wider, or a remark
+      std::string word = line.substr(0, width);
+      for (const char* end : {",", " x speed", " / spacing", " / dc   ", " error  "})
+        word = word.substr(0, word.find(end));
+      word.erase(word.find_last_not_of(' ') + 1);
+      word.erase(0, word.find_first_not_of(' '));
+      CAPTURE(word);
+      CHECK((plain.contains(word) || has(topic, word)));
+    }
+  };
+  for (const char* file :
+       {"closed.nc", "closed.nc --density tanh:lon=9,lat=3,beta=30deg,alpha=0.2,gamma=x2",
+        "random.vtp", "open.vtp", "area.nc", "closed.nc --operators"})
+    check_words(std::string("info ") + file, 22);
+  CHECK(has(topic, "longest stable step"));
+  check_words("info closed.nc --cell 3 --operators --density "
+              "tanh:lon=9,lat=3,beta=30deg,alpha=0.2,gamma=x2",
+              28);
+}
+
 TEST_CASE("a misspelt option or command is answered with the nearest one") {
   const Bench bench;
   const auto check = [&](const std::string& arguments, const std::string& message) {
@@ -148,8 +186,8 @@ TEST_CASE("a manual page has every option, and completions have its names") {
     }
   }
   const std::string main = shown(bench, "help --man");
-  for (const char* part :
-       {".SH DENSITY\n", ".SH REGION\n", ".SH \"EXIT STATUS\"\n", "calotte\\-cvt"})
+  for (const char* part : {".SH DENSITY\n", ".SH REGION\n", ".SH MEASURES\n",
+                           ".SH \"EXIT STATUS\"\n", "calotte\\-cvt"})
     CHECK(has(main, part));
 }
 

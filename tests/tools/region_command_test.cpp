@@ -69,6 +69,42 @@ TEST_CASE("fixed points come first in the mesh, on the sphere and in a region") 
   }
 }
 
+TEST_CASE("rings of a file run either way, and --inside tells another side of them") {
+  const Bench bench;
+  bench.file("clockwise.geojson", R"({"type":"Polygon","coordinates":
+      [[[0,0],[0,20],[20,20],[20,0],[0,0]]]})");
+  bench.file("arctic.geojson", R"({"type":"Polygon","coordinates":
+      [[[-180,65.5],[-90,70],[0,72],[90,71],[180,65.50000000000003],[180,90],[-180,90],
+        [-180,65.5]]]})");
+  const auto made = [&](const std::string& region) {
+    const Outcome outcome =
+        bench.run("cvt --cells 100 --stop tolerance --tolerance 0.1 -o a.vtp --region " + region);
+    CAPTURE(outcome.err);
+    CHECK(outcome.code == 0);
+    return points_of(bench, "a.vtp");
+  };
+  const Eigen::Vector3d middle = directions("10 10\n", Columns::lonlat).col(0);
+  const auto nearest = [](const Points3& points, const Eigen::Vector3d& place) {
+    return (points.colwise() - place).colwise().norm().minCoeff();
+  };
+  const Points3 within = made("clockwise.geojson");
+  CHECK((within.colwise() - middle).colwise().norm().maxCoeff() < 15 * degree);
+  CHECK(nearest(made("clockwise.geojson --inside -100,0"), middle) > 7 * degree);
+  CHECK(nearest(made("clockwise.geojson --inside 10,10"), middle) < 2 * degree);
+  CHECK(nearest(made("circle=10,10,1000km --inside 100,0"), middle) > 0.15);
+  const Points3 arctic = made("arctic.geojson");
+  CHECK(arctic.row(2).minCoeff() > std::sin(65 * degree));
+  CHECK(nearest(arctic, directions("180 80\n", Columns::lonlat).col(0)) < 6 * degree);
+  const std::string cvt = "cvt --cells 100 -o b.vtp ";
+  check_refused(bench, cvt + "--inside 1,2", "--inside requires --region");
+  check_refused(bench, cvt + "--region clockwise.geojson --inside 1",
+                "--inside 1: the number of values is 1 instead of 2; give LON,LAT, as in -105,40");
+  check_refused(bench, cvt + "--region clockwise.geojson --inside 1,95",
+                "--inside 1,95: \"95\" is no angle from -90 to 90 degrees; give LON,LAT");
+  check_refused(bench, cvt + "--region clockwise.geojson --inside 0,5",
+                "--inside 0,5: the place that is to be inside the region is on its boundary");
+}
+
 TEST_CASE("fixed points beside a file of others, in the plane, and in a limited area") {
   const Bench bench;
   bench.file("fixed.txt", three);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/command.h"
 
+#include <calotte/read.h>
+
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
 #include <zlib.h>
@@ -198,6 +200,13 @@ TEST_CASE("open, planar and periodic meshes, and cells of any shape") {
   CHECK(sides.size() == open.mesh()["cells"]);
   CHECK(*std::min_element(sides.begin(), sides.end()) >= 3); // also at the boundary
   CHECK(open.measure("region")["classes"].size() == 8);
+  const std::vector<float> areas = open.numbers(open.measure("area")["values"]);
+  const Eigen::VectorXd of_file =
+      calotte::read_cell_field(bench.folder() / "la.nc", "areaCell", std::ssize(areas)).values;
+  CHECK(open.measure("area")["missing"] == 0); // those of the boundary, too
+  CHECK(open.measure("quality")["missing"] == 0);
+  for (std::size_t i = 0; i < areas.size(); ++i)
+    CHECK(areas[i] == doctest::Approx(of_file[static_cast<Eigen::Index>(i)]).epsilon(0x1p-15));
   make(bench, "cvt --cells 100 --periodic 2,1 -o box.nc");
   const Page box = make_page(bench, "box.nc --plane");
   const auto corners = places(box, box.mesh(), box.mesh()["corners"]);

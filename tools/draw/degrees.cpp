@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "draw/degrees.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <optional>
@@ -50,6 +51,8 @@ public:
   Degrees degrees() const {
     Degrees result;
     result.lines = lines();
+    result.bent = Map::period == 0 && std::any_of(result.lines.begin(), result.lines.end(),
+                                                  [this](const auto& line) { return bent(line); });
     using At = DegreeLabel::At;
     add_edge(At::bottom, false, result.labels);
     if (!extent_.pole) {
@@ -136,6 +139,22 @@ private:
       add({e.west, latitude}, {e.east, latitude});
     });
     return result;
+  }
+
+  /// Whether the visible part of a line runs aside, neither along nor across the window.
+  bool bent(const std::vector<Vector3d>& line) const {
+    double left = HUGE_VAL, right = -HUGE_VAL, low = HUGE_VAL, high = -HUGE_VAL;
+    for (const Vector3d& on_earth : line) {
+      if (shows(on_earth)) {
+        const Place place = Map::place(frame_ * on_earth);
+        left = std::min(left, place.u);
+        right = std::max(right, place.u);
+        low = std::min(low, place.v);
+        high = std::max(high, place.v);
+      }
+    }
+    constexpr double part = 1.0 / 40;
+    return std::min((right - left) / (2 * width_), (high - low) / (2 * height_)) > part;
   }
 
   static std::array<double, 2> on_edge(DegreeLabel::At edge, double t) {

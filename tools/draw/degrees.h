@@ -24,6 +24,9 @@ struct Degrees {
   /// Longitudes along the lower edge of the window, latitudes along the left one. Around a pole
   /// longitudes stand along the left, lower and right edges, latitudes inside.
   std::vector<DegreeLabel> labels;
+  /// True if a line leaves the straight line across the window through its label by more than a
+  /// fortieth of the window: the labels do not tell the place inside.
+  bool bent = false;
 };
 
 /// The degrees of a window that is not the whole map.

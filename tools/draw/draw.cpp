@@ -51,10 +51,9 @@ std::string in_powers(double value) {
 
 std::string field_caption(const DrawOptions& options) {
   const CellField& field = options.field;
-  const bool has_unit = !field.units.empty() && field.units != "1" && field.units != "-";
   return unmarked(options.field_name) +
          (field.long_name.empty() ? "" : ": " + unmarked(field.long_name)) +
-         (has_unit ? ", " + unit_text(field.units) : "");
+         (is_unit(field.units) ? ", " + unit_text(field.units) : "");
 }
 
 /// \param mean of the values.
@@ -128,6 +127,10 @@ Legend make_legend(Painting& painting, const DrawOptions& options) {
   }
   painting.scale = make_scale(painting.values, options.colouring);
   painting.scale.lengths = painting.scene.flat || in_km;
+  painting.scale.palette = options.look.palette;
+  if (options.look.range) {
+    set_range(painting.scale, *options.look.range);
+  }
   return {painting.scale, classes_of(painting), caption_of(options, mean, painting.scene.flat)};
 }
 
@@ -297,13 +300,18 @@ void draw(const std::string& path, const SphereField& field, const Look& asked) 
   const View view = view_of(asked, usual_middle);
   const Look look = seen(asked, view);
   const Eigen::VectorXd samples = field.values(fibonacci_sphere(field_samples));
-  const Scale scale =
-      make_scale({samples.data(), samples.data() + samples.size()}, Colouring::density);
+  Scale scale = make_scale({samples.data(), samples.data() + samples.size()}, Colouring::density);
+  scale.palette = look.palette;
+  if (look.range) {
+    set_range(scale, *look.range);
+  }
   const FieldPainting painting = {field.values, scale, frame_of(view.middle)};
   const Page page = page_of(look, true, view.window);
   const Legend legend = {scale, {}, field.caption};
   write_picture(path, page.width, page.height, [&](cairo_t* context) {
-    draw_page(context, page, {look, painting.frame, unmarked(field.title), legend, view.window},
+    draw_page(context, page,
+              {look, painting.frame, unmarked(look.title.empty() ? field.title : look.title),
+               legend, view.window},
               [&] {
                 paint_image(context, page.map,
                             raster_map(painting, view.window, image_size(context, page.map)));

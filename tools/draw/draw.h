@@ -48,6 +48,14 @@ struct LonLat {
 
 inline constexpr double most_zoom = 2000;
 
+/// The colours of a colour bar; see palette_colour().
+enum class Palette { viridis, cividis, magma, diverging };
+
+/// The ends of a colour bar, low < high, in the unit that its legend has.
+struct Range {
+  double low = 0, high = 1;
+};
+
 /// The style of a picture of the sphere.
 struct Look {
   Projection projection = Projection::globe;
@@ -57,10 +65,14 @@ struct Look {
   /// Enlargement of the map, 1 (all of it) to most_zoom. Default: 1, or for an open mesh that
   /// covers a small part of the map as much as lets it fill the picture.
   std::optional<double> zoom = {};
-  Region region = {};     ///< whose boundary is drawn; the whole sphere for none
-  bool graticule = false; ///< faint meridians and parallels, labelled
+  Region region = {}; ///< whose boundary is drawn; the whole sphere for none
+  /// Faint meridians and parallels, labelled. An enlarged globe has them wherever they are bent.
+  bool graticule = false;
   bool coastlines = true; ///< of the earth
   int size = 1200;        ///< width in pixels; in points for SVG and PDF. 64 to 16384
+  Palette palette = Palette::viridis;
+  std::optional<Range> range = {}; ///< of the colour bar; by default that of the values
+  std::string title = {};          ///< in place of the usual one
 };
 
 struct DrawOptions {
@@ -87,9 +99,9 @@ void draw(const std::string& path, const Mesh& mesh, const DrawOptions& options 
 /// \throws Error bad_option, also for triangles and for other colourings; file.
 void draw(const std::string& path, const Polygons& polygons, const DrawOptions& options = {});
 
-/// Draws a mesh of the plane; of the view, only the size has an effect. Cells are clipped by the
-/// domain, or otherwise by a box slightly larger than the sites; triangles are not. For a periodic
-/// mesh the box is drawn, with the Delaunay triangles of its own sites.
+/// Draws a mesh of the plane; of the look, only size, palette, range and title have an effect.
+/// Cells are clipped by the domain, or otherwise by a box slightly larger than the sites; triangles
+/// are not. For a periodic mesh the box is drawn, with the Delaunay triangles of its own sites.
 /// \throws Error bad_option, also for cells' area or quality of a mesh that is not periodic, for a
 ///         density that is ill-formed, and for a periodic domain that is not the mesh's; file.
 void draw(const std::string& path, const PlanarMesh& mesh,

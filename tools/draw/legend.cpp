@@ -5,16 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace calotte::tools {
 
 namespace {
 
-bool is_angle(const Scale& scale) {
-  return (scale.colouring == Colouring::spacing && !scale.lengths) ||
-         scale.colouring == Colouring::angle;
-}
+bool is_angle(const Scale& scale) { return scale.unit() != 1; }
 
 /// The power of ten that is factored out to shorten the labels.
 int common_exponent(const Axis& axis) {
@@ -26,8 +22,6 @@ int common_exponent(const Axis& axis) {
   const auto exponent = static_cast<int>(std::floor(std::log10(greatest)));
   return exponent >= 5 || exponent < -2 ? exponent : 0;
 }
-
-double unit_of(const Scale& scale) { return is_angle(scale) ? std::numbers::pi / 180 : 1; }
 
 /// A round number below the axis, in steps of a power of ten above its length, if the labels would
 /// otherwise agree in their first three digits.
@@ -76,9 +70,11 @@ void bar_path(cairo_t* context, const Scale& scale, const Bar& bar) {
 
 void fill_bar(cairo_t* context, const Scale& scale, const Bar& bar) {
   cairo_pattern_t* pattern = cairo_pattern_create_linear(bar.left, 0, bar.left + bar.width, 0);
-  for (int i = 0; i <= 10; ++i) {
-    const Rgb c = viridis(scale.constant ? 0.5 : i / 10.0);
-    cairo_pattern_add_color_stop_rgb(pattern, i / 10.0, c.r, c.g, c.b);
+  constexpr int steps = 24; // as many as a palette has
+  for (int i = 0; i <= steps; ++i) {
+    const double place = 1.0 * i / steps;
+    const Rgb c = palette_colour(scale.palette, scale.constant ? 0.5 : place);
+    cairo_pattern_add_color_stop_rgb(pattern, place, c.r, c.g, c.b);
   }
   bar_path(context, scale, bar);
   cairo_set_source(context, pattern);
@@ -172,7 +168,7 @@ void class_legend(cairo_t* context, const std::vector<ValenceClass>& classes, do
 } // namespace
 
 BarTicks bar_ticks(const Scale& scale, int most) {
-  const double unit = unit_of(scale);
+  const double unit = scale.unit();
   Axis axis = {scale.low / unit, scale.high / unit, scale.logarithmic};
   BarTicks bar;
   bar.offset = offset_of(axis);
@@ -213,7 +209,7 @@ BarTicks fitted_ticks(const Scale& scale, double bar_width, double gap,
 }
 
 std::string constant_text(const Scale& scale) {
-  const double unit = unit_of(scale);
+  const double unit = scale.unit();
   const std::string degrees = is_angle(scale) ? "\u00b0" : "";
   const double middle = scale.least + (scale.greatest - scale.least) / 2;
   if (scale.least == scale.greatest) {

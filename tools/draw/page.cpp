@@ -147,7 +147,7 @@ void draw_region(cairo_t* context, const Page& page, const Surroundings& around)
 
 void draw_enlarged(cairo_t* context, const Page& page, const Surroundings& around) {
   const Degrees degrees = degrees_of(around.window, around.frame);
-  if (around.look.graticule) {
+  if (around.look.graticule || (degrees.bent && page.labelled)) {
     draw_lines(context, degrees.lines, around.frame, around.window, page.map.width,
                {std::max(0.6, 0.04 * page.text), 0.35, 0.2});
   }

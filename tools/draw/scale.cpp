@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "draw/scale.h"
 
+#include <calotte/error.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
+#include <numbers>
 
 namespace calotte::tools {
 
@@ -78,7 +81,7 @@ Rgb Scale::colour(double value) const {
   }
   return colouring == Colouring::valence  ? valence_colour(value)
          : colouring == Colouring::region ? mask_colour(value)
-                                          : viridis(place(value));
+                                          : palette_colour(palette, place(value));
 }
 
 Scale make_scale(const std::vector<double>& values, Colouring colouring) {
@@ -112,12 +115,53 @@ bool has_classes(Colouring colouring) {
   return colouring == Colouring::valence || colouring == Colouring::region;
 }
 
-Rgb viridis(double place) {
-  static constexpr std::array<std::uint32_t, 11> anchors = {0x440154, 0x482576, 0x414487, 0x35608d,
-                                                            0x2a788e, 0x21908c, 0x22a884, 0x43bf71,
-                                                            0x7ad151, 0xbbdf27, 0xfde725};
-  const double x = std::clamp(place, 0.0, 1.0) * (anchors.size() - 1);
-  const auto i = std::min(static_cast<std::size_t>(x), anchors.size() - 2);
+double Scale::unit() const {
+  const bool angle = (colouring == Colouring::spacing && !lengths) || colouring == Colouring::angle;
+  return angle ? std::numbers::pi / 180 : 1;
+}
+
+void set_range(Scale& scale, const Range& range) {
+  if (scale.colouring == Colouring::none || has_classes(scale.colouring)) {
+    throw Error(ErrorCode::bad_option, "--range sets the ends of a colour bar, which this --colour "
+                                       "does not have; leave --range out");
+  }
+  scale.low = range.low * scale.unit();
+  scale.high = range.high * scale.unit();
+  scale.constant = false;
+  scale.logarithmic = is_magnitude(scale.colouring) && scale.low > 0 && scale.high > 4 * scale.low;
+  scale.below = scale.least < scale.low;
+  scale.above = scale.greatest > scale.high;
+}
+
+Rgb palette_colour(Palette palette, double place) {
+  constexpr std::size_t count = 25; // colours, at equal steps
+  // clang-format off
+  static constexpr std::array<std::array<std::uint32_t, count>, 4> colours{{
+    // viridis
+    {0x440154, 0x471063, 0x481f70, 0x472d7b, 0x443983, 0x404688, 0x3b528b, 0x365d8d,
+     0x31688e, 0x2c728e, 0x287c8e, 0x24868e, 0x21918c, 0x1f9a8a, 0x20a486, 0x28ae80,
+     0x35b779, 0x48c16e, 0x5ec962, 0x75d054, 0x90d743, 0xaddc30, 0xc8e020, 0xe5e419,
+     0xfde725},
+    // cividis
+    {0x00224e, 0x002a5f, 0x003170, 0x1a386f, 0x2a3f6d, 0x38476c, 0x434e6c, 0x4d556c,
+     0x575d6d, 0x61656f, 0x6a6c71, 0x737475, 0x7d7c78, 0x868379, 0x918b78, 0x9b9476,
+     0xa59c74, 0xb0a571, 0xbcae6c, 0xc6b667, 0xd2c060, 0xdec958, 0xe9d34e, 0xf6dd3f,
+     0xfee838},
+    // magma
+    {0x000004, 0x050416, 0x100b2d, 0x1d1147, 0x2c115f, 0x3f0f72, 0x51127c, 0x601880,
+     0x721f81, 0x832681, 0x932b80, 0xa5317e, 0xb73779, 0xc73d73, 0xd8456c, 0xe75263,
+     0xf1605d, 0xf8745c, 0xfc8961, 0xfd9b6b, 0xfeb078, 0xfec488, 0xfed799, 0xfdebac,
+     0xfcfdbf},
+    // diverging
+    {0x0b2a5b, 0x11366b, 0x18437b, 0x1e508c, 0x265d9d, 0x2d6bae, 0x447dbb, 0x6091c5,
+     0x7ba5d0, 0x96b9da, 0xb1cde3, 0xd0dee8, 0xefeeec, 0xf1d8cd, 0xf1c2ae, 0xeaab96,
+     0xe2937e, 0xda7b66, 0xd0634e, 0xc34c3b, 0xae4036, 0x993432, 0x85282d, 0x711c28,
+     0x5e0f23},
+  }};
+  // clang-format on
+  const auto& anchors = colours[static_cast<std::size_t>(palette)];
+  const double x = std::clamp(place, 0.0, 1.0) * (count - 1);
+  const auto i = std::min(static_cast<std::size_t>(x), count - 2);
   const Rgb a = hex(anchors[i]);
   const Rgb b = hex(anchors[i + 1]);
   const double t = x - static_cast<double>(i);

@@ -17,6 +17,7 @@ struct Rgb {
 /// Maps values to colours.
 struct Scale {
   Colouring colouring = Colouring::none;
+  Palette palette = Palette::viridis;
   double low = 0, high = 1;       ///< the values at the colour bar's ends
   double least = 0, greatest = 1; ///< the extreme values
   bool constant = false;          ///< true if they differ by at most a millionth: one colour
@@ -27,6 +28,8 @@ struct Scale {
   /// The position of a value on the bar, 0 to 1.
   double place(double value) const;
   Rgb colour(double value) const;
+  /// The size of the legend's unit in that of the values.
+  double unit() const;
 };
 
 /// A scale for these values, NaN excluded. Its ends are the extreme values, unless the outermost
@@ -34,11 +37,17 @@ struct Scale {
 /// range.
 Scale make_scale(const std::vector<double>& values, Colouring colouring);
 
+/// Makes the colour bar that of a range in the legend's unit.
+/// \throws Error bad_option for a colouring that has no colour bar.
+void set_range(Scale& scale, const Range& range);
+
 /// Whether the values are a few classes of a colour each, with a legend of these.
 bool has_classes(Colouring colouring);
 
-/// The colour bar's colour from 0 to 1: viridis (van der Walt and Smith, 2015).
-Rgb viridis(double place);
+/// The colour of a colour bar from 0 to 1: viridis and magma (van der Walt and Smith, 2015),
+/// cividis (Nunez, Anderton and Renslow, 2018), or from blue over grey to red. The page of calotte
+/// view has the same ones.
+Rgb palette_colour(Palette palette, double place);
 
 /// The value of a cell that the boundary of a plane clips, in place of its number of neighbours.
 inline constexpr double boundary_valence = 0;

@@ -4,9 +4,11 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <regex>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -65,6 +67,12 @@ void set_colour(cairo_t* context, const Rgb& colour) {
 }
 
 void select_font(cairo_t* context, double size) {
+  // Widths that grow with the size: of hinted letters each is a whole number of pixels, so that a
+  // line that was measured in one size does not fit in another.
+  cairo_font_options_t* const options = cairo_font_options_create();
+  cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);
+  cairo_set_font_options(context, options);
+  cairo_font_options_destroy(options);
   cairo_select_font_face(context, family, CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
   cairo_set_font_size(context, size);
 }
@@ -117,6 +125,12 @@ std::string unmarked(const std::string& text) {
   std::string result = shown(text);
   std::erase_if(result, [](char c) { return c == '*' || c == '{' || c == '}'; });
   return result;
+}
+
+bool is_unit(const std::string& units) {
+  static constexpr std::array<std::string_view, 6> none = {"",     "1",        "-",
+                                                           "none", "unitless", "dimensionless"};
+  return std::find(none.begin(), none.end(), units) == none.end();
 }
 
 std::string unit_text(const std::string& units) {

@@ -38,6 +38,9 @@ std::string shown(const std::string& text);
 /// Converts text to marked text without marks.
 std::string unmarked(const std::string& text);
 
+/// Whether a file's units name one, unlike those of a ratio ("1").
+bool is_unit(const std::string& units);
+
 /// Converts units in the style of files to marked text: exponents, as in "m s-1", are raised.
 std::string unit_text(const std::string& units);
 

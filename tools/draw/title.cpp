@@ -32,6 +32,8 @@ std::string range_text(double low, double high, const std::string& unit) {
 
 std::string mesh_title(const DrawOptions& options, const std::string& parts,
                        const std::string& length, const std::vector<double>& lengths, bool flat) {
+  if (!options.look.title.empty())
+    return unmarked(options.look.title);
   std::string title = options.name.empty() ? "" : unmarked(options.name) + ": ";
   title += parts;
   std::vector<double> known;

@@ -13,7 +13,7 @@ namespace calotte::tools {
 std::string range_text(double low, double high, const std::string& unit);
 
 /// The title of a picture of a mesh, marked text: its name, its parts and the range of a length,
-/// such as "a.nc: 10 242 cells, spacing 206 to 251 km".
+/// such as "a.nc: 10 242 cells, spacing 206 to 251 km"; or that of the look.
 /// \param lengths in radians, for the title in km if the radius is known, otherwise in degrees; of
 ///        a flat mesh in its own unit. NaN is left out.
 std::string mesh_title(const DrawOptions& options, const std::string& parts,

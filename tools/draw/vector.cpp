@@ -2,8 +2,11 @@
 #include "draw/vector.h"
 
 #include "draw/coastlines.h"
+#include "draw/fine_coast.h"
 #include "draw/projection.h"
 #include "draw/text.h"
+
+#include <calotte/cell_width.h>
 
 namespace calotte::tools {
 
@@ -310,6 +313,17 @@ EarthLines graticule_lines() {
   return lines;
 }
 
+/// \param pixel its width on the Earth, km.
+EarthLines fine_coast_lines(double pixel) {
+  EarthLines lines;
+  for (const Points3& ring : fine_coast(pixel)) {
+    std::vector<Vector3d> line(ring.colwise().begin(), ring.colwise().end());
+    line.push_back(ring.col(0));
+    lines.push_back(std::move(line));
+  }
+  return lines;
+}
+
 EarthLines coast_lines() {
   EarthLines lines;
   for (const std::vector<LonLat>& line : coastlines()) {
@@ -335,7 +349,14 @@ void draw_graticule(cairo_t* context, const Eigen::Matrix3d& frame, const MapWin
 
 void draw_coastlines(cairo_t* context, const Eigen::Matrix3d& frame, const MapWindow& window,
                      double width, double line) {
-  draw_lines(context, coast_lines(), frame, window, width, {line, 0.8, 0.6});
+  const double scale =
+      with_map(window.projection, [&]<class Map>() { return window.scale<Map>(width); });
+  EarthLines lines;
+  if (!window.whole()) {
+    lines = fine_coast_lines(earth_radius_km / scale);
+  }
+  draw_lines(context, lines.empty() ? coast_lines() : lines, frame, window, width,
+             {line, 0.8, 0.6});
 }
 
 } // namespace calotte::tools

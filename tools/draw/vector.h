@@ -45,7 +45,7 @@ void draw_lines(cairo_t* context, const EarthLines& lines, const Eigen::Matrix3d
 void draw_graticule(cairo_t* context, const Eigen::Matrix3d& frame, const MapWindow& window,
                     double width, double line);
 
-/// The coastlines of the earth, parameters as above.
+/// The coastlines of the earth, finer on an enlarged map (see fine_coast()); parameters as above.
 void draw_coastlines(cairo_t* context, const Eigen::Matrix3d& frame, const MapWindow& window,
                      double width, double line);
 

@@ -60,17 +60,79 @@ An edge of a polygon is the shorter arc of a great circle between two corners. G
 parallel: the arc from 130 W to 65 W at 50 N passes 4.7 degrees north of the parallel. Polygons may
 lie over the date line and around a pole.
 
-The outer ring of a GeoJSON polygon runs counter-clockwise. If it has more than half of the sphere to
-its left, its feature must name a place inside:
+Rings may run either way. They enclose the side without poles, as on a map of longitudes and
+latitudes; if both sides have a pole, the smaller side. A ring may reach a pole along a meridian and
+return along it. A place inside overrules this: --inside LON,LAT for all rings, or the property of a
+GeoJSON feature for its own:
 
   "properties": {"inside": [-100, 40]}
 
-In a .pts file the line Point: is a place inside. MPI-SCVT's loops cut the sphere in two parts, of
-which the smaller one is the region.
+In a .pts file the line Point: is a place inside. The same rule holds for the polygons of --land and
+--cell-width.
 
 The boundary clips the cells along it (--boundary clip): the mesh has the triangles whose circumcentre
 lies in the region. With --boundary generators some generators stay on the boundary, at the distances
 that the density demands, with one at each sharp corner. The mesh then ends at them.
+)";
+
+constexpr const char* measures =
+    R"(calotte info, and calotte view for each cell, measure a mesh by these words. dc is the distance
+between the generators of two neighbours, dv the length of the side that their cells share, and h
+the spacing that the density demands of so many cells.
+
+Cells and triangles:
+  degree: cells         numbers of neighbours, and how many cells have each
+  spacing               dc; of a cell, the mean over its neighbours
+  triangle quality      2 times the radius of the inner circle over that of the outer; best 1
+  angles                of the triangles
+  obtuse triangles      with an angle above 90 degrees; MPAS and other C-grid models need none
+  sigma                 dc to the nearest neighbour over dc to the farthest; best 1
+  cell quality          shortest side of a cell over its longest; best 1
+  cell area             of each cell
+  area ratio            area of the largest cell over that of the smallest
+  off-centring          distance from the middle of a side to that between its two generators, over
+                        dv; best 0; above 0.5 the line between them misses the side
+  dv / dc               0.577 for regular hexagons
+  dv / dc below 0.18    number of sides so short that models object to them
+  dc / h                how dc follows the density; best 1
+  outside 0.75 to 1.4   number of pairs of neighbours with such a dc / h
+  cells to object to    cells with a side or a neighbour of the two rows named before, or with a
+                        corner that is the centre of an obtuse triangle
+  their spacing         mean dc of each of these cells
+  cells / 4 pi          sum of their areas over that of the sphere; 1 but for rounding. The same:
+                        triangles / 4 pi, and of a plane cells / domain
+
+Distance from a CVT:
+  density               the one that h and the rows below refer to
+  residual / h          root mean square distance of generators to their cells' centroids; best 0
+  energy                integral of density times squared distance to the nearest generator
+  energy * cells        nearly the same for any number of cells; of a plane over its squared area
+  its limit             of regular hexagons everywhere; no CVT of many cells has less
+  excess                of the energy over its limit
+
+Open meshes and other cells:
+  boundary edges        sides of triangles without a neighbour; boundary loops: closed lines of them
+  whole cells           those that triangles surround
+  in the region         cells of a limited area; relaxation, specified: of its two outer zones
+  bdyMaskCell: cells    the values of this variable, and how many cells have each
+  corners               of polygons; sides: cells: how many cells have each number of sides
+  not convex            cells with a corner that turns inwards
+  not centroidal        cells with their centre off the centroid
+  not Delaunay          edges that are not
+
+With --operators, for smooth fields, over the root mean square of the exact values:
+  errors of operators   l2 (root mean square) and greatest error of divergence, gradient,
+                        Laplacian, curl, tangential velocity and kinetic energy, as TRiSK has them
+  off centroid          distance of a generator from the centroid of its cell, over its spacing
+  off midpoint          distance from the middle of a side to that between its generators, over dc
+  longest stable step   times the speed of waves, or times a viscosity
+
+Of one cell also:
+  neighbours, sides     their number
+  largest angle         of the triangles at the cell
+  distance to the centroid   of the generator, over the spacing
+  least dc/h, greatest dc/h  over the neighbours
+  prescribed spacing    h
 )";
 
 constexpr const char* codes =
@@ -90,6 +152,7 @@ const std::vector<Topic>& topics() {
   static const std::vector<Topic> all{
       {"density", "Syntax of --density, and of widths in km", density},
       {"region", "Syntax of --region: shapes and files", region},
+      {"measures", "Meaning of what info and view measure", measures},
       {"exit-codes", "Meaning of the exit codes", codes}};
   return all;
 }

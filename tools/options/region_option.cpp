@@ -22,15 +22,15 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-/// A word of the option and its parts after the equals sign.
+/// A word of an option and its parts after the equals sign.
 struct Word {
-  std::string text, form; ///< form: what to write instead, for messages
+  std::string option, text, form; ///< form: what to write instead, for messages
   std::vector<std::string> parts;
 };
 
 [[noreturn]] void refuse(const Word& word, const std::string& problem) {
   throw Error(ErrorCode::bad_option,
-              "--region " + word.text + ": " + problem + "; give " + word.form);
+              word.option + " " + word.text + ": " + problem + "; give " + word.form);
 }
 
 std::vector<std::string> split(std::string_view text) {
@@ -95,7 +95,39 @@ std::vector<std::string> parts_of(const std::string& word) {
   return parts;
 }
 
+/// \throws Error unless a word has so many parts.
+void require_parts(const Word& word, std::size_t count) {
+  if (word.parts.size() != count)
+    refuse(word, "the number of values is " + std::to_string(word.parts.size()) + " instead of " +
+                     std::to_string(count));
+}
+
+Region shape_or_file(const std::string& word, double radius_km) {
+  static const std::vector<std::pair<std::string, std::string>> shapes{
+      {"circle", "circle=LON,LAT,RADIUS, as in circle=-105,40,1000km"},
+      {"ellipse", "ellipse=LON,LAT,MAJOR,MINOR,BEARING, as in ellipse=138,38,1580km,1000km,45"},
+      {"channel", "channel=LOWER,UPPER, as in channel=-23.5,23.5"},
+      {"land", "land=FILE,LON,LAT, as in land=binned_GSHHS_l.nc,134,-25"}};
+  for (const auto& [shape, form] : shapes)
+    if (word.starts_with(shape + "=")) {
+      const Word parsed{"--region", word, form, parts_of(word)};
+      require_parts(parsed, split(form.substr(0, form.find(", as"))).size());
+      return made_of(parsed, shape, radius_km);
+    }
+  return read_region(word);
+}
+
 } // namespace
+
+void add_inside(CLI::App& command, std::string& inside) {
+  command
+      .add_option("--inside", inside,
+                  "A place inside the region, in degrees. Rings of a file may then run either way "
+                  "and bound a region of any size. Default: they enclose the side without poles, "
+                  "or else the smaller side")
+      ->type_name("LON,LAT")
+      ->needs(command.get_option("--region"));
+}
 
 void add_region(CLI::App& command, RegionWords& words) {
   command
@@ -103,6 +135,7 @@ void add_region(CLI::App& command, RegionWords& words) {
                   "Part of the sphere to tessellate: a shape such as circle=-105,40,1000km, or a "
                   "file; see calotte help region")
       ->type_name("SHAPE|FILE");
+  add_inside(command, words.inside);
   command.add_flag("--limited-area", words.limited_area,
                    "Write a grid for a regional model: the cells of the region and 7 rings of "
                    "boundary cells around it, with their masks, as an MPAS file. Requires --region "
@@ -130,22 +163,17 @@ void require_region_words(const RegionWords& words) {
         "region; leave one of them out");
 }
 
-Region region_of(const std::string& word, double radius_km) {
-  static const std::vector<std::pair<std::string, std::string>> shapes{
-      {"circle", "circle=LON,LAT,RADIUS, as in circle=-105,40,1000km"},
-      {"ellipse", "ellipse=LON,LAT,MAJOR,MINOR,BEARING, as in ellipse=138,38,1580km,1000km,45"},
-      {"channel", "channel=LOWER,UPPER, as in channel=-23.5,23.5"},
-      {"land", "land=FILE,LON,LAT, as in land=binned_GSHHS_l.nc,134,-25"}};
-  for (const auto& [shape, form] : shapes)
-    if (word.starts_with(shape + "=")) {
-      const Word parsed{word, form, parts_of(word)};
-      const std::size_t expected = split(form.substr(0, form.find(", as"))).size();
-      if (parsed.parts.size() != expected)
-        refuse(parsed, "the number of values is " + std::to_string(parsed.parts.size()) +
-                           " instead of " + std::to_string(expected));
-      return made_of(parsed, shape, radius_km);
-    }
-  return read_region(word);
+Region region_of(const std::string& word, const std::string& inside, double radius_km) {
+  Region region = shape_or_file(word, radius_km);
+  if (inside.empty())
+    return region;
+  const Word parsed{"--inside", inside, "LON,LAT, as in -105,40", split(inside)};
+  require_parts(parsed, 2);
+  try {
+    return region_around(region.rings, place(parsed));
+  } catch (const Error& error) {
+    throw Error(error.code(), "--inside " + inside + ": " + error.what());
+  }
 }
 
 std::string region_file(const std::string& word) {

@@ -13,6 +13,7 @@ namespace calotte::tools {
 /// The words for the region of a run.
 struct RegionWords {
   std::string region;            ///< a shape or a file, or none
+  std::string inside;            ///< LON,LAT of the region, or none
   bool limited_area = false;     ///< adds the rings of boundary cells
   std::string boundary = "clip"; ///< clip or generators
 };
@@ -20,7 +21,10 @@ struct RegionWords {
 /// Whether the mesh ends at generators on the region's boundary.
 inline bool ends_at_boundary(const RegionWords& words) { return words.boundary == "generators"; }
 
-/// Adds --region, --limited-area and --boundary.
+/// Adds --inside, which needs --region.
+void add_inside(CLI::App& command, std::string& inside);
+
+/// Adds --region, --inside, --limited-area and --boundary.
 void add_region(CLI::App& command, RegionWords& words);
 
 /// Rejects words that exclude each other. \throws Error bad_option.
@@ -29,10 +33,12 @@ void require_region_words(const RegionWords& words);
 /// The region of the word of --region: a file, or circle=LON,LAT,RADIUS,
 /// ellipse=LON,LAT,MAJOR,MINOR,BEARING, channel=LOWER,UPPER or land=FILE,LON,LAT, see `calotte help
 /// region`. Reads the file, if there is one.
+/// \param inside LON,LAT of the region, where its rings may have it on either side; or empty.
 /// \param radius_km radius of the sphere to which lengths in km refer.
-/// \throws Error bad_option naming the word and the remedy; as read_region, read_coast and
-///         land_around.
-Region region_of(const std::string& word, double radius_km = earth_radius_km);
+/// \throws Error bad_option naming the word and the remedy; as read_region, region_around,
+///         read_coast and land_around.
+Region region_of(const std::string& word, const std::string& inside,
+                 double radius_km = earth_radius_km);
 
 /// The file that the word names; empty if it names none.
 std::string region_file(const std::string& word);

@@ -31,7 +31,8 @@ void require_cell_inside(const RegionWords& words, const WidthWords& width_words
 } // namespace
 
 Region asked_region(const RegionWords& words, const WidthWords& width_words) {
-  return words.region.empty() ? Region{} : region_of(words.region, width_words.radius);
+  return words.region.empty() ? Region{}
+                              : region_of(words.region, words.inside, width_words.radius);
 }
 
 std::optional<RunRegion> region_of_run(const RegionWords& words, Region asked,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "view/quantities.h"
 
+#include "draw/text.h"
 #include "draw/values.h"
 #include "options/numbers.h"
 #include "run/operator_measures.h"
@@ -198,7 +199,7 @@ Quantity quantity_of(const MeshField& field) {
   const bool on_triangles = field.location == Location::vertices;
   Quantity quantity{.name = (on_triangles ? "triangle_field:" : "field:") + field.name,
                     .label = field.name,
-                    .unit = field.units,
+                    .unit = is_unit(field.units) ? field.units : "",
                     .help = field.long_name.empty() ? "A field of the file." : field.long_name,
                     .on_triangles = on_triangles,
                     .values = field.values};

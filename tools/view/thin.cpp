@@ -24,25 +24,63 @@ std::uint64_t spread(std::uint64_t x) {
   return (x | x << 2U) & 0x1249249249249249U;
 }
 
-/// The cells along a Z-order curve.
-std::vector<std::int32_t> along_curve(const Points3& points, std::int64_t cells) {
-  const Eigen::Vector3d low = points.rowwise().minCoeff();
-  const double side = (points.rowwise().maxCoeff() - low).maxCoeff();
-  const double unit = side > 0 ? ((1U << 21U) - 1) / side : 0;
-  std::vector<std::pair<std::uint64_t, std::int32_t>> keys;
-  for (std::int32_t i = 0; i < cells; ++i) {
-    const Eigen::Vector3d place = unit * (points.col(i) - low);
-    keys.emplace_back(spread(static_cast<std::uint64_t>(place.x())) |
-                          spread(static_cast<std::uint64_t>(place.y())) << 1U |
-                          spread(static_cast<std::uint64_t>(place.z())) << 2U,
-                      i);
+constexpr unsigned bits = 21; ///< of a coordinate
+
+/// Sites along a Z-order curve.
+class Curve {
+public:
+  Curve(const Points3& points, std::int64_t sites) : points_(points) {
+    low_ = points.rowwise().minCoeff();
+    const double side = (points.rowwise().maxCoeff() - low_).maxCoeff();
+    unit_ = side > 0 ? ((1U << bits) - 1) / side : 0;
+    for (std::int32_t i = 0; i < sites; ++i)
+      keys_.emplace_back(key_of((unit_ * (points.col(i) - low_)).array()), i);
+    std::sort(keys_.begin(), keys_.end());
   }
-  std::sort(keys.begin(), keys.end());
-  std::vector<std::int32_t> order;
-  for (const auto& [key, cell] : keys)
-    order.push_back(cell);
-  return order;
-}
+
+  std::int32_t operator[](std::int64_t k) const {
+    return keys_[static_cast<std::size_t>(k)].second;
+  }
+
+  /// Whether there is a site within a distance of a place.
+  bool reaches(const Eigen::Vector3d& place, double distance) const {
+    // A cube of the curve at least as wide, so that two in each direction hold what is near.
+    unsigned level = 0;
+    while (level < bits && static_cast<double>(1U << level) < unit_ * 2 * distance)
+      ++level;
+    const double most = (1U << bits) - 1;
+    const Eigen::Array3d middle = (unit_ * (place - low_)).array();
+    for (int corner = 0; corner < 8; ++corner) {
+      const Eigen::Array3d way(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
+      const Eigen::Array3d at = (middle + unit_ * distance * way).max(0).min(most);
+      if (holds(key_of(at) >> 3 * level << 3 * level, level, place, distance))
+        return true;
+    }
+    return false;
+  }
+
+private:
+  static std::uint64_t key_of(const Eigen::Array3d& at) {
+    return spread(static_cast<std::uint64_t>(at.x())) |
+           spread(static_cast<std::uint64_t>(at.y())) << 1U |
+           spread(static_cast<std::uint64_t>(at.z())) << 2U;
+  }
+
+  bool holds(std::uint64_t first, unsigned level, const Eigen::Vector3d& place,
+             double distance) const {
+    const std::uint64_t last = first + ((std::uint64_t{1} << 3 * level) - 1);
+    for (auto next = std::lower_bound(keys_.begin(), keys_.end(), std::pair(first, INT32_MIN));
+         next != keys_.end() && next->first <= last; ++next)
+      if ((points_.col(next->second) - place).squaredNorm() <= distance * distance)
+        return true;
+    return false;
+  }
+
+  const Points3& points_;
+  Eigen::Vector3d low_;
+  double unit_ = 0; ///< steps of a coordinate in a unit
+  std::vector<std::pair<std::uint64_t, std::int32_t>> keys_;
+};
 
 /// How bad a value is: the larger, the worse.
 double badness(const Quantity& quantity, double value) {
@@ -77,14 +115,13 @@ void add_worst(const Quantity& quantity, std::vector<std::int32_t>& cells) {
 }
 
 /// The cells to keep, in rising order.
-std::vector<std::int32_t> kept_cells(const ViewMesh& mesh, std::int64_t most) {
+std::vector<std::int32_t> kept_cells(const ViewMesh& mesh, const Curve& order, std::int64_t most) {
   std::vector<std::int32_t> kept;
   for (const Quantity& quantity : mesh.quantities)
     add_worst(quantity, kept);
-  const std::vector<std::int32_t> order = along_curve(mesh.points, mesh.cells);
   const std::int64_t others = std::max<std::int64_t>(12, most - std::ssize(kept));
   for (std::int64_t k = 0; k < others; ++k)
-    kept.push_back(order[static_cast<std::size_t>(k * mesh.cells / others)]);
+    kept.push_back(order[k * mesh.cells / others]);
   std::sort(kept.begin(), kept.end());
   kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
   return kept;
@@ -105,10 +142,46 @@ bool bulges_out(const Mesh& mesh, Eigen::Index t, const std::vector<bool>& left_
   return false;
 }
 
-/// The triangles of an open mesh without those that fill bays of its boundary: cells at them would
-/// reach far beyond the sites.
-Triangles without_bays(const Mesh& mesh) {
-  std::vector<bool> left_out(static_cast<std::size_t>(mesh.triangles.cols()));
+/// How far each cell of a mesh of the sphere may reach from its site; none for a mesh that covers
+/// the sphere.
+Eigen::VectorXd reaches_of(const ViewMesh& mesh) {
+  Eigen::VectorXd reach = Eigen::VectorXd::Zero(mesh.cells);
+  if (mesh.triangles.cols() == 2 * mesh.cells - 4)
+    return {};
+  if (mesh.shapes) {
+    const Polygons& cells = *mesh.shapes;
+    for (std::int64_t i = 0; i < mesh.cells; ++i)
+      for (std::int64_t k = cells.begin[i]; k < cells.begin[i + 1]; ++k)
+        reach[i] = std::max(
+            reach[i], (cells.corners.col(cells.ids[k]).normalized() - mesh.points.col(i)).norm());
+    return reach;
+  }
+  for (const auto& triangle : mesh.triangles.colwise())
+    for (int v = 0; v < 3; ++v) {
+      const std::int32_t a = triangle[v], b = triangle[(v + 1) % 3];
+      const double side = (mesh.points.col(a) - mesh.points.col(b)).norm();
+      reach[a] = std::max(reach[a], side);
+      reach[b] = std::max(reach[b], side);
+    }
+  return reach;
+}
+
+/// Whether the cells of a mesh cover a triangle of some of its sites: its middle and those of its
+/// sides are as near a site as the cells of the corners reach.
+bool is_covered(const Eigen::Vector3i& sites, const ViewMesh& mesh, const Curve& curve,
+                const Eigen::VectorXd& reach) {
+  const Eigen::Vector3d a = mesh.points.col(sites[0]), b = mesh.points.col(sites[1]),
+                        c = mesh.points.col(sites[2]);
+  const double near = reach(sites).maxCoeff();
+  const auto covered = [&](const Eigen::Vector3d& place) {
+    return curve.reaches(place.normalized(), near);
+  };
+  return covered(a + b + c) && covered(a + b) && covered(b + c) && covered(c + a);
+}
+
+/// Leaves out the triangles that fill bays of the boundary that the others have: cells at them
+/// would reach far beyond the sites.
+void leave_out_bays(const Mesh& mesh, std::vector<bool>& left_out) {
   std::vector<std::int32_t> open(left_out.size());
   std::iota(open.begin(), open.end(), 0);
   while (!open.empty()) {
@@ -120,22 +193,32 @@ Triangles without_bays(const Mesh& mesh) {
     for (const std::int32_t across : mesh.neighbours.col(t))
       open.push_back(across);
   }
-  Triangles kept(3, std::count(left_out.begin(), left_out.end(), false));
-  for (Eigen::Index t = 0, next = 0; t < mesh.triangles.cols(); ++t)
-    if (!left_out[static_cast<std::size_t>(t)])
-      kept.col(next++) = mesh.triangles.col(t);
-  return kept;
 }
 
-/// The triangulation of the points, its corners by column, although equal columns are one site.
-Triangles triangles_of(const Points3& points) {
+/// The triangulation of kept sites, its corners by column, although equal columns are one site;
+/// without triangles that the cells of the whole mesh do not cover.
+Triangles triangles_of(const Points3& points, const ViewMesh& whole, const Curve& curve) {
   const Mesh mesh = spherical_delaunay(points);
   std::vector<std::int32_t> column(static_cast<std::size_t>(mesh.points.cols()));
   for (auto i = std::ssize(mesh.site_of_input); i-- > 0;)
     column[static_cast<std::size_t>(mesh.site_of_input[static_cast<std::size_t>(i)])] =
         static_cast<std::int32_t>(i);
-  return without_bays(mesh).unaryExpr(
+  const Triangles corners = mesh.triangles.unaryExpr(
       [&](std::int32_t site) { return column[static_cast<std::size_t>(site)]; });
+  std::vector<bool> left_out(static_cast<std::size_t>(corners.cols()));
+  if (const Eigen::VectorXd reach = reaches_of(whole); reach.size() > 0)
+    for (Eigen::Index t = 0; t < corners.cols(); ++t)
+      left_out[static_cast<std::size_t>(t)] =
+          !is_covered(corners.col(t).unaryExpr([&](std::int32_t i) {
+            return whole.number[static_cast<std::size_t>(i)];
+          }),
+                      whole, curve, reach);
+  leave_out_bays(mesh, left_out);
+  Triangles kept(3, std::count(left_out.begin(), left_out.end(), false));
+  for (Eigen::Index t = 0, next = 0; t < corners.cols(); ++t)
+    if (!left_out[static_cast<std::size_t>(t)])
+      kept.col(next++) = corners.col(t);
+  return kept;
 }
 
 /// \throws Error bad_option where so few sites do not fill a periodic box.
@@ -154,7 +237,8 @@ PlanarMesh periodic_triangles(const Points2& places, const Eigen::Vector2d& peri
 } // namespace
 
 void thin(ViewMesh& mesh, const PlanarDomain& domain, std::int64_t most) {
-  mesh.number = kept_cells(mesh, most);
+  const Curve curve(mesh.points, mesh.cells);
+  mesh.number = kept_cells(mesh, curve, most);
   const auto n = std::ssize(mesh.number);
   Points3 points(3, n);
   for (std::int64_t i = 0; i < n; ++i)
@@ -166,10 +250,11 @@ void thin(ViewMesh& mesh, const PlanarDomain& domain, std::int64_t most) {
       values[i] = quantity.values[mesh.number[static_cast<std::size_t>(i)]];
     quantity.values = std::move(values);
   }
+  if (mesh.on_sphere)
+    mesh.triangles = triangles_of(points, mesh, curve);
   mesh.cells = n;
   mesh.shapes.reset();
   if (mesh.on_sphere) {
-    mesh.triangles = triangles_of(points);
     mesh.points = std::move(points);
   } else {
     const Points2 places = points.topRows<2>();

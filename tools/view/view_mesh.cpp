@@ -2,6 +2,7 @@
 #include "view/view_mesh.h"
 
 #include "draw/plane.h"
+#include "draw/values.h"
 
 #include <calotte/check.h>
 #include <calotte/error.h>
@@ -155,6 +156,19 @@ bool ends_at_walls(const MeshFile& file) {
   return file.plane && file.polygons && has_walls(*file.plane);
 }
 
+/// The measures of the cells; of an open mesh also of those at its boundary, if the file has them.
+CellMeasures measures_of(const MeshFile& file, const ViewChoice& choice) {
+  CellMeasures measures = cell_measures(*file.mesh, density_of(file, choice));
+  if (!file.polygons || file.polygons->size() != measures.area.size())
+    return measures;
+  const auto fill = [](Eigen::VectorXd& values, const Eigen::VectorXd& of_cells) {
+    values = values.array().isNaN().select(of_cells, values);
+  };
+  fill(measures.area, areas(*file.polygons));
+  fill(measures.quality, side_ratios(*file.polygons));
+  return measures;
+}
+
 /// The quantities of the cells and triangles.
 std::vector<Quantity> measured(const MeshFile& file, const ViewChoice& choice) {
   if (ends_at_walls(file))
@@ -166,7 +180,7 @@ std::vector<Quantity> measured(const MeshFile& file, const ViewChoice& choice) {
   const Unit unit = unit_of(choice.units, choice.radius_km);
   if (as_polygons(file))
     return quantities_of(*file.polygons, unit);
-  return quantities_of(cell_measures(*file.mesh, density_of(file, choice)), unit);
+  return quantities_of(measures_of(file, choice), unit);
 }
 
 /// Whether triangles surround a site.

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "draw/coastlines.h"
+#include "draw/fine_coast.h"
 #include "draw/projection.h"
 #include "draw/vector.h"
+#include "support/gshhg.h"
 #include "support/pictures.h"
 
 #include <cairo.h>
@@ -9,9 +11,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <numbers>
 #include <vector>
 
+using namespace calotte;
 using namespace calotte::test;
 using namespace calotte::tools;
 
@@ -170,6 +174,32 @@ TEST_CASE("coastlines divide land from sea") {
     CAPTURE(sea.longitude);
     CHECK(!on_land(sea));
   }
+}
+
+TEST_CASE("enlarged maps have the coasts of GSHHG, if these are installed") {
+  gshhg_file('l');
+  gshhg_file('i');
+  CHECK(fine_coast(20, CALOTTE_GSHHG).empty()); // the usual ones suffice
+  CHECK(fine_coast(1, "nowhere").empty());
+  const Eigen::Vector3d tarifa = tools::direction_of(LonLat{-5.609, 36.001});
+  std::size_t corners = 0;
+  for (const double pixel : {7., 3., 0.5}) {
+    CAPTURE(pixel);
+    const std::vector<Points3> rings = fine_coast(pixel, CALOTTE_GSHHG);
+    std::size_t count = 0;
+    double nearest = 2;
+    for (const Points3& ring : rings) {
+      count += static_cast<std::size_t>(ring.cols());
+      nearest = std::min(nearest, (ring.colwise() - tarifa).colwise().norm().minCoeff());
+      CHECK((ring.colwise() - ring.col(0)).colwise().norm().maxCoeff() > 3 * pixel / 6371.1);
+    }
+    CHECK(nearest * 6371 < std::max(10.0, 2 * pixel));
+    CHECK(static_cast<double>(count) > 1.3 * static_cast<double>(corners));
+    corners = count;
+  }
+  const Folder folder;
+  std::ofstream(folder.file("binned_GSHHS_l.nc")) << "CDF\x01 and no more";
+  CHECK(fine_coast(3, folder.path).empty());
 }
 
 TEST_CASE("maps show the coasts on the visible side, and nothing else") {

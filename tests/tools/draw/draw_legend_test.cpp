@@ -10,7 +10,10 @@
 #include <cairo.h>
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <numbers>
 #include <set>
@@ -123,8 +126,89 @@ TEST_CASE("the bar of a constant field has one colour, that of the field") {
     }
     return found;
   };
-  CHECK(colours(3) == std::set{packed(viridis(0.5))});
+  CHECK(colours(3) == std::set{packed(palette_colour(Palette::viridis, 0.5))});
   CHECK(colours(4).size() > 50);
+}
+
+TEST_CASE("a line of classes stays on the page, in letters of any size") {
+  Legend legend;
+  legend.scale.colouring = Colouring::valence;
+  for (int valence = 3; valence <= 9; ++valence)
+    legend.classes.push_back({{0.5, 0.5, 0.5}, std::to_string(valence), 88'888});
+  for (const int width : {200, 340, 500, 700, 1000, 1200, 2000}) {
+    CAPTURE(width);
+    const double text = std::clamp(width / 46.0, 7.0, 40.0);
+    cairo_surface_t* const surface =
+        cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, static_cast<int>(5 * text));
+    cairo_t* const context = cairo_create(surface);
+    cairo_set_source_rgb(context, 1, 1, 1);
+    cairo_paint(context);
+    draw_legend(context, legend, width, 0.5 * text, text);
+    cairo_surface_flush(surface);
+    int first = width, last = -1;
+    for (int y = 0; y < cairo_image_surface_get_height(surface); ++y)
+      for (int x = 0; x < width; ++x)
+        if (const auto* row =
+                cairo_image_surface_get_data(surface) +
+                static_cast<std::ptrdiff_t>(y) * cairo_image_surface_get_stride(surface);
+            (reinterpret_cast<const std::uint32_t*>(row)[x] & 0xffffff) != 0xffffff) {
+          first = std::min(first, x);
+          last = std::max(last, x);
+        }
+    cairo_destroy(context);
+    cairo_surface_destroy(surface);
+    CHECK(first > 0.01 * width);
+    CHECK(last < 0.99 * width);
+    CHECK(last > 0.9 * width); // it is not smaller than need be
+  }
+}
+
+TEST_CASE("a range sets the ends of the bar, in the unit of the legend") {
+  Scale scale = make_scale({1, 2, 3}, Colouring::field);
+  set_range(scale, {0, 10});
+  CHECK(scale.place(5) == 0.5);
+  CHECK_FALSE(scale.below);
+  CHECK_FALSE(scale.above);
+  set_range(scale, {1.5, 2.5});
+  CHECK(scale.below);
+  CHECK(scale.above);
+  CHECK(scale.place(3) == 1);
+  Scale constant = make_scale({2, 2}, Colouring::field);
+  set_range(constant, {0, 4});
+  CHECK_FALSE(constant.constant);
+  CHECK(constant.place(2) == 0.5);
+  Scale angles = make_scale({0.5, 1}, Colouring::angle); // radians
+  set_range(angles, {0, 90});
+  CHECK(angles.place(std::numbers::pi / 4) == doctest::Approx(0.5));
+  Scale wide = make_scale({1, 2}, Colouring::spacing);
+  wide.lengths = true;
+  set_range(wide, {10, 1000}); // a magnitude over powers of ten
+  CHECK(wide.place(100) == doctest::Approx(0.5));
+  for (const Colouring colouring : {Colouring::valence, Colouring::region, Colouring::none}) {
+    Scale classes = make_scale({5, 6}, colouring);
+    CHECK(code_of([&] { set_range(classes, {0, 1}); }) == ErrorCode::bad_option);
+  }
+}
+
+TEST_CASE("the palettes are those of the page of calotte view") {
+  const std::string page = bytes_of(CALOTTE_FIXTURES "/../../tools/view/page/colour/palettes.js");
+  const std::map<std::string, Palette> names{{"viridis", Palette::viridis},
+                                             {"cividis", Palette::cividis},
+                                             {"magma", Palette::magma},
+                                             {"diverging", Palette::diverging}};
+  for (const auto& [name, palette] : names) {
+    CAPTURE(name);
+    std::size_t at = page.find("\n  " + name + ":");
+    REQUIRE(at != std::string::npos);
+    std::string digits;
+    for (at += name.size() + 4; page[at] != ','; ++at)
+      if (std::isxdigit(static_cast<unsigned char>(page[at])) != 0)
+        digits += page[at];
+    REQUIRE(digits.size() == 150);
+    for (int k = 0; k < 25; ++k)
+      CHECK(packed(palette_colour(palette, k / 24.0)) ==
+            std::stoul(digits.substr(static_cast<std::size_t>(6 * k), 6), nullptr, 16));
+  }
 }
 
 TEST_CASE("a number is text in digits, or with a power of ten") {

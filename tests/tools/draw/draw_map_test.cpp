@@ -322,6 +322,18 @@ TEST_CASE("labels of an enlarged map stand where their degrees are") {
   }
 }
 
+TEST_CASE("an enlarged globe tells where its lines are bent, so that labels alone mislead") {
+  const auto bent = [](Projection projection, const LonLat& middle, double zoom) {
+    return degrees_of({projection, zoom, 0}, frame_of(middle)).bent;
+  };
+  CHECK(bent(Projection::globe, {18, 42}, 4)); // a meridian runs aside by a tenth of the width
+  CHECK(bent(Projection::globe, {0, 90}, 20));
+  CHECK(bent(Projection::globe, {0, 0}, 1.6));
+  CHECK_FALSE(bent(Projection::globe, {18, 42}, 100));
+  CHECK_FALSE(bent(Projection::globe, {-60, 0}, 20));
+  CHECK_FALSE(bent(Projection::plate_carree, {18, 0}, 2));
+}
+
 TEST_CASE("both: the picture of the cells, except for lines along the triangles' edges") {
   const Mesh mesh = spherical_delaunay(random_sphere(60, 5));
   for (const Projection projection : all_projections) {

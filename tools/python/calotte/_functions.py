@@ -555,15 +555,20 @@ def channel(lower: float, upper: float, corners: int = 360) -> Region:
     return _calotte.channel(math.radians(lower), math.radians(upper), corners)
 
 
-def polygon(*rings: ArrayLike, smaller: bool = False) -> Region:
-    """The region to the left of rings, each k x 2 longitudes and latitudes in degrees or k x 3.
+def polygon(*rings: ArrayLike, inside: ArrayLike | None = None) -> Region:
+    """The region that rings enclose, each k x 2 longitudes and latitudes in degrees or k x 3.
 
-    smaller: rings of any orientation bound the smaller of the parts that they make.
+    Rings may run either way, be closed, and reach a pole along a meridian. They enclose the side
+    without poles; if both sides have one, the smaller side.
+
+    inside: a place (longitude and latitude, or a vector) of the region, which decides instead.
 
     >>> round(polygon([(0, 0), (90, 0), (0, 90)]).area / (4 * math.pi), 12)
     0.125
     """
-    return _calotte.Region([_arguments.sphere_points(ring, "corners") for ring in rings], smaller)
+    return _calotte.polygon([_arguments.sphere_points(ring, "corners") for ring in rings],
+                            None if inside is None
+                            else _arguments.direction(inside, "the place inside"))
 
 
 def rectangle(lower: ArrayLike, upper: ArrayLike) -> PlanarDomain:

@@ -12,7 +12,9 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace calotte::python {
@@ -32,10 +34,23 @@ template <class Rings> py::list arrays_of(const Rings& rings, py::handle owner) 
   return arrays;
 }
 
+/// What rings enclose, or the side of them that contains a place.
+Region polygon(const std::vector<Doubles>& rings, const std::optional<Eigen::Vector3d>& inside) {
+  return call([&] {
+    return inside ? region_around(rings_of(rings), *inside) : enclosed_region(rings_of(rings));
+  });
+}
+
+/// A ring may repeat its first corner at its end.
 PlanarDomain domain_of(const std::vector<Doubles>& arrays) {
   PlanarDomain domain;
-  for (const Doubles& array : arrays)
-    domain.rings.emplace_back(columns(array));
+  for (const Doubles& array : arrays) {
+    Eigen::MatrixXd ring = columns(array);
+    const Eigen::Index last = ring.cols() - 1;
+    if (last > 0 && ring.col(last) == ring.col(0))
+      ring.conservativeResize(Eigen::NoChange, last);
+    domain.rings.push_back(std::move(ring));
+  }
   require_domain(domain);
   return domain;
 }
@@ -60,9 +75,7 @@ void add_regions(py::module_& module) {
                      "A part of the sphere, of circle(), ellipse(), channel(), polygon() or a "
                      "file.")
       .def(py::init<>())
-      .def(py::init([](const std::vector<Doubles>& rings, bool smaller) {
-        if (smaller)
-          return smaller_region(rings_of(rings));
+      .def(py::init([](const std::vector<Doubles>& rings) {
         Region region{rings_of(rings)};
         require_region(region);
         return region;
@@ -80,6 +93,7 @@ void add_regions(py::module_& module) {
       .def(py::pickle(
           [](const Region& region) { return py::make_tuple(region.rings); },
           [](const py::tuple& state) { return Region{state[0].cast<std::vector<Points3>>()}; }));
+  module.def("polygon", &polygon);
   module.def("circle", &circle);
   module.def("ellipse", &ellipse);
   module.def("channel", &channel);

@@ -3,6 +3,8 @@
  * window.calotte: what tests of the page drive. Indices of cells are those of the file. Functions that
  * decode return promises.
  */
+import { unitVector } from "../data/vector.js";
+import { offsetOf } from "../gl/context.js";
 import { markRanges } from "./marking.js";
 import { worstOf } from "./worst.js";
 
@@ -80,11 +82,30 @@ function drawingApi(app, stage) {
     },
     /** Resolves when everything in the window is decoded, built and drawn. */
     settled,
+    /** The colours of the pixels at places [lon, lat] on the near side of a globe. */
+    async coloursAt(places, view = 0) {
+      await settled();
+      return coloursAt(stage, places, view);
+    },
     async pixels(view = 0) {
       await settled();
       return digest(stage, view);
     },
   };
+}
+
+function coloursAt(stage, places, k) {
+  stage.draw(stage.pace.wholeRule);
+  const { gl } = stage;
+  const [left, bottom, width, height] = stage.pixelBox(stage.windows()[k]);
+  const frame = stage.views[k].camera.frame(width, height);
+  return places.map(([lon, lat]) => {
+    const [x, y] = offsetOf(frame, unitVector(lon, lat));
+    const bytes = new Uint8Array(4);
+    const at = [left + width / 2 + x * frame.scale, bottom + height / 2 + y * frame.scale].map(Math.floor);
+    gl.readPixels(...at, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, bytes);
+    return [...bytes.subarray(0, 3)];
+  });
 }
 
 /** A checksum of a view's pixels (FNV-1a) and the number of distinct colours. */

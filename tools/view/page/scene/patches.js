@@ -13,6 +13,9 @@ const halfWindow = 8;
  */
 const sizeOfStep = 0.83;
 
+/** The longest step of a curve through shapes without gaps, over the median of those near it. */
+const longestStep = 2.5;
+
 /**
  * The shapes of one kind in the order of drawing.
  *   order[slot]: the shape; sizes[slot]: the side of a square of its area, estimated;
@@ -109,17 +112,34 @@ function runs(keys) {
 /** For each place of a run the mean length of the steps near it, scaled to the side of a square. */
 function localSizes(places, shapes) {
   const count = places.length / 3;
+  const steps = withoutJumps(stepsOf(places));
   const sums = new Float64Array(count);
-  for (let k = 1; k < count; k++) {
-    const [x, y, z] = [0, 1, 2].map((d) => places[3 * k + d] - places[3 * k - 3 + d]);
-    sums[k] = sums[k - 1] + Math.sqrt(x * x + y * y + z * z);
-  }
+  steps.forEach((step, k) => (sums[k + 1] = sums[k] + step));
   const alone = shapes.mesh.plane ? 2 / Math.sqrt(shapes.count) : Math.sqrt(12.6 / shapes.count);
   return Float64Array.from(sums, (_, k) => {
     const from = Math.max(0, k - halfWindow);
     const to = Math.min(count - 1, k + halfWindow);
     return to > from ? (sizeOfStep * (sums[to] - sums[from])) / (to - from) || alone : alone;
   });
+}
+
+function stepsOf(places) {
+  const steps = new Float64Array(Math.max(0, places.length / 3 - 1));
+  for (let k = 0; k < steps.length; k++) {
+    const [x, y, z] = [0, 1, 2].map((d) => places[3 * k + 3 + d] - places[3 * k + d]);
+    steps[k] = Math.sqrt(x * x + y * y + z * z);
+  }
+  return steps;
+}
+
+/** A step over a gap between the shapes, such as land in an ocean, becomes a long one between neighbours. */
+function withoutJumps(steps) {
+  const limits = [];
+  for (let first = 0; first < steps.length; first += halfWindow) {
+    const near = steps.slice(Math.max(0, first - halfWindow), first + 2 * halfWindow).sort();
+    limits.push(longestStep * near[near.length >> 1]);
+  }
+  return steps.map((step, k) => Math.min(step, limits[Math.floor(k / halfWindow)]));
 }
 
 const orders = new Map();
