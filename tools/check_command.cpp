@@ -91,13 +91,14 @@ std::string table(const Findings& found, bool plane) {
   return out.str();
 }
 
-std::string table(const Polygons& polygons, const MeshFile& file) {
+/// \param found the shapes of the file's polygons.
+std::string table(const PolygonShapes& found, const MeshFile& file) {
   std::ostringstream out;
-  out << "cells           " << polygons.size() << "\n"
-      << "corners         " << polygons.corners.cols() << "\n"
+  out << "cells           " << file.polygons->size() << "\n"
+      << "corners         " << file.polygons->corners.cols() << "\n"
       << "Voronoi         no: " << file.not_voronoi << "\n";
   const bool counted = !file.mesh || !file.mesh->closed(); // with the open mesh
-  return out.str() + shape_rows(polygons, counted ? std::nullopt : file.mesh, 16);
+  return out.str() + shape_rows(found, counted ? std::nullopt : file.mesh, 16);
 }
 
 std::string lines_of(const std::vector<Deviation>& deviations) {
@@ -125,13 +126,18 @@ void run(const MeshSource& source) {
     MeshFile file = read_mesh_file(source, FieldChoice::none);
     progress.stage("checking " + source.path);
     text = changes_of(source, file);
-    if (file.plane || (file.mesh && !(file.polygons && file.mesh->closed()))) {
+    // Cells without triangles of their own are checked as cells.
+    if ((file.plane && !file.polygons) || (file.mesh && !(file.polygons && file.mesh->closed()))) {
       const Findings found = file.plane ? findings_of(*file.plane) : findings_of(*file.mesh);
       text += table(found, file.plane.has_value());
       failure = found.failure;
     }
-    if (file.polygons)
-      text += table(*file.polygons, file);
+    if (file.polygons) {
+      const PolygonShapes found = shapes(*file.polygons);
+      text += table(found, file);
+      if (failure.empty())
+        failure = without_area(found);
+    }
     const std::vector<Deviation> deviations = check_file(source.path, std::move(file));
     text += lines_of(deviations);
     if (failure.empty())

@@ -23,6 +23,7 @@
 #include <calotte/cut.h>
 #include <calotte/error.h>
 #include <calotte/io.h>
+#include <calotte/lonlat.h>
 #include <calotte/version.h>
 
 #include <oneapi/tbb/task_arena.h>
@@ -75,12 +76,13 @@ struct Outcome {
   Mesh mesh;        ///< on the sphere; empty after it is written
   PlanarMesh plane; ///< or in the plane
   std::int64_t cells = 0;
-  std::string grid;       ///< a line about a limited-area grid
-  std::string doubt;      ///< about a mesh that should end at the boundary, or ""
-  double area = 0;        ///< of the sphere, the region or the domain
-  int signal = 0;         ///< the signal that ended it early
-  bool kept = false;      ///< its state then
-  std::size_t before = 0; ///< iterations of the earlier parts of a resumed run
+  std::string grid;        ///< a line about a limited-area grid
+  std::string doubt;       ///< about a mesh that should end at the boundary, or ""
+  std::string worst_place; ///< of the cell of the worst shape: " (at ...)", or ""
+  double area = 0;         ///< of the sphere, the region or the domain
+  int signal = 0;          ///< the signal that ended it early
+  bool kept = false;       ///< its state then
+  std::size_t before = 0;  ///< iterations of the earlier parts of a resumed run
   std::vector<KeptState> states;
   int threads = 0;
 };
@@ -200,6 +202,19 @@ void run_plan(Plan& plan, const CvtCallback& callback, Outcome& outcome) {
   }
 }
 
+/// Where the cell of the worst shape is: " (at ...)"; "" without one.
+std::string worst_place(const Outcome& outcome) {
+  const std::int64_t cell = outcome.report.worst_cell;
+  if (cell < 0)
+    return "";
+  if (outcome.mesh.points.cols() == 0) {
+    const Eigen::Vector2d at = outcome.plane.points.col(cell);
+    return " (at x " + formatted("%.6g", at.x()) + ", y " + formatted("%.6g", at.y()) + ")";
+  }
+  const Points2 at = to_lonlat(outcome.mesh.points.col(cell));
+  return " (at " + lonlat_words(at(0, 0), at(1, 0)) + ")";
+}
+
 /// \param plan its state is moved out.
 Outcome tessellate(const CvtRequest& request, Plan& plan, Progress& progress) {
   Outcome outcome;
@@ -219,6 +234,7 @@ Outcome tessellate(const CvtRequest& request, Plan& plan, Progress& progress) {
     rethrow_with_line(error, plan.start);
   }
   outcome.states = states.all();
+  outcome.worst_place = worst_place(outcome);
   return outcome;
 }
 
@@ -240,13 +256,17 @@ Outcome tessellate(const CvtRequest& request, Plan& plan, Progress& progress) {
   finish(outcome.signal == SIGINT ? interrupted : terminated);
 }
 
-/// The mesh is a good CVT, but the widths change too steeply for good shapes.
-void warn_of_shapes(const CvtReport& report) {
+/// The mesh is a good CVT, but not all shapes are those asked for.
+[[noreturn]] void finish_not_well_centred(const Outcome& outcome) {
+  const CvtReport& report = outcome.report;
   std::cout.flush();
-  std::cerr
-      << "calotte: warning: a shape is " + formatted("%.2g", report.iterations.back().misshapen) +
-             " beyond its limit, so that the mesh is not well-centred; calotte info shows its "
-             "angles; give more cells, or make the density smoother\n";
+  std::cerr << "calotte: not well-centred: " + std::to_string(report.misshapen_cells) + " of " +
+                   std::to_string(outcome.cells) +
+                   " cells with shapes beyond their limits, the worst, " +
+                   formatted("%.2g", report.iterations.back().misshapen) + " beyond, at cell " +
+                   std::to_string(report.worst_cell) + outcome.worst_place +
+                   "; the mesh is written; make the widths smoother, or give more cells\n";
+  finish(not_well_centred);
 }
 
 [[noreturn]] void finish_not_converged(const CvtRequest& request, const CvtReport& report) {
@@ -408,7 +428,7 @@ void run(CvtRequest request) {
   if (!outcome.report.converged)
     finish_not_converged(request, outcome.report);
   if (well_centred(request) && !outcome.report.well_centred)
-    warn_of_shapes(outcome.report);
+    finish_not_well_centred(outcome);
 }
 
 } // namespace

@@ -126,18 +126,36 @@ void measure_sphere(const Request& request, const MeshFile& file, Measured& meas
   find_boundary(count_edges(mesh), measured);
   if (measured.open)
     measured.masks = masks_of(request.source->path, mesh.points.cols());
+  if (measured.open && file.polygons)
+    measured.areas = shapes(*file.polygons).area;
   const Density density =
       measured.cells && !measured.open ? density_of(request, file, measured) : Density{};
   measured.quality = !measured.cells ? triangle_quality(mesh)
                      : measured.open ? open_quality(mesh)
                                      : quality(mesh, density);
+  if (measured.quality.flat > 0)
+    measured.remarks.push_back(
+        std::to_string(measured.quality.flat) +
+        " triangles along the boundary are flatter than rounding and are not measured");
   if (request.operators && measured.cells)
     measured.operators = operator_errors(mesh, density);
   else if (request.operators)
     measured.remarks.emplace_back(no_operators);
 }
 
+/// A plane with walls, such as a channel: as an open mesh of the sphere. The file's cells have the
+/// area.
+void measure_walls(const Request& request, const MeshFile& file, Measured& measured) {
+  find_boundary(count_edges(*file.plane), measured);
+  measured.quality = open_quality(*file.plane);
+  measured.domain_area = areas(*file.polygons).sum();
+  if (request.operators)
+    measured.remarks.emplace_back("the operators of a plane with walls are not measured");
+}
+
 void measure_plane(const Request& request, const MeshFile& file, Measured& measured) {
+  if (!request.domain->given() && file.polygons && file.plane->period.maxCoeff() > 0)
+    return measure_walls(request, file, measured);
   const PlanarDomain domain = domain_of(request, file);
   measured.density = density_name(*request.density);
   const Density density = density_of(*request.density, true);

@@ -106,6 +106,11 @@ Region read_region(std::istream& in, const std::string& name);
 /// function checks that ids are in range; check() proves the geometry. Neighbours are rebuilt. An
 /// edge of three triangles, or of two that run through it in the same direction, stays open.
 ///
+/// Of NetCDF files that no program writes here, ICON's grids are read, cells with bounds as in the
+/// CF conventions (longitudes and latitudes with three corners or more for each cell), and the one
+/// grid of an OASIS file. Corners that are _FillValue or missing_value pad a cell. A .msh file is
+/// JIGSAW's, or the text of Gmsh's formats 2 and 4, whose triangles are read.
+///
 /// VTK files are XML (.vtp, .vtu: PolyData or UnstructuredGrid; text, base64 or appended; also
 /// compressed by zlib) or legacy (.vtk: POLYDATA or UNSTRUCTURED_GRID, to version 5.1). PLY files
 /// are text or binary. Their triangles are those of the points; a file with other polygons holds
@@ -131,8 +136,9 @@ bool is_netcdf_file(const std::string& path);
 Points3 read_sites(const std::string& path);
 
 /// Reads a mesh of the plane: a periodic mesh from an MPAS file (.nc), other meshes from the
-/// formats of write() for planar meshes and from JIGSAW files of NDIMS=2. Points without triangles,
-/// and the sites of cells that a boundary clips, are triangulated by planar_delaunay();
+/// formats of write() for planar meshes and from JIGSAW files of NDIMS=2. A mesh that is periodic
+/// in one direction, or has land in a box, has the triangles of three cells each. Points without
+/// triangles, and the sites of cells that a boundary clips, are triangulated by planar_delaunay();
 /// read_mesh_file() reads the cells, too.
 /// \param points 2 x n, as in read_mesh().
 /// \throws Error as read_mesh(); bad_option for a spherical mesh, which has a z that is not 0.

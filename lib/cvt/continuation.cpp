@@ -3,6 +3,7 @@
 #include <calotte/generators.h>
 
 #include "base/require.h"
+#include "cvt/free_points.h"
 #include "cvt/region_world.h"
 #include "cvt/room.h"
 #include "cvt/worlds.h"
@@ -40,13 +41,10 @@ template <class World> int coarsen(std::int64_t& cells, std::int64_t least) {
   return levels;
 }
 
-/// The number of points that a start has beside the fixed generators.
-std::int64_t free_of(std::int64_t cells, std::int64_t fixed) {
-  base_detail::require(fixed >= 0 && fixed < cells, "the number of fixed generators is " +
-                                                        std::to_string(fixed) +
-                                                        "; give 0 or more, and fewer than the " +
-                                                        std::to_string(cells) + " cells");
-  return cells - fixed;
+void require_room(std::int64_t cells, std::int64_t fixed) {
+  base_detail::require(fixed < cells, "there are " + std::to_string(fixed) +
+                                          " fixed generators; give fewer than the " +
+                                          std::to_string(cells) + " cells");
 }
 
 /// The least number of generators on a level with some fixed ones.
@@ -111,37 +109,39 @@ Continuation continuation(std::int64_t cells, const Density& density, std::uint6
 }
 
 Continuation multilevel(std::int64_t cells, const Density& density, std::uint64_t seed,
-                        std::int64_t fixed) {
+                        const Points3& fixed) {
   base_detail::require_count(cells, cvt_detail::SphericalWorld::fewest, "the number of cells");
-  free_of(cells, fixed);
+  require_room(cells, fixed.cols());
   Continuation result;
   const Density sites = site_density(density);
-  result.bisections =
-      coarsen<cvt_detail::SphericalWorld>(cells, std::max(least_with(fixed), spreading(sites)));
-  result.start = random_sphere(free_of(cells, fixed), sites, seed);
+  result.bisections = coarsen<cvt_detail::SphericalWorld>(
+      cells, std::max(least_with(fixed.cols()), spreading(sites)));
+  result.start = cvt_detail::free_points(cells - fixed.cols(), cells, fixed, Region{}, sites, seed);
   return result;
 }
 
 Continuation multilevel(std::int64_t cells, const Region& region, const Density& density,
-                        std::uint64_t seed, std::int64_t fixed) {
+                        std::uint64_t seed, const Points3& fixed) {
   if (region.whole())
     return multilevel(cells, density, seed, fixed);
   base_detail::require_count(cells, cvt_detail::RegionWorld::fewest, "the number of cells");
-  free_of(cells, fixed);
+  require_room(cells, fixed.cols());
   Continuation result;
-  result.bisections = coarsen<cvt_detail::RegionWorld>(cells, least_with(fixed));
-  result.start = random_sphere(free_of(cells, fixed), region, site_density(density), seed);
+  result.bisections = coarsen<cvt_detail::RegionWorld>(cells, least_with(fixed.cols()));
+  result.start = cvt_detail::free_points(cells - fixed.cols(), cells, fixed, region,
+                                         site_density(density), seed);
   return result;
 }
 
 PlanarContinuation multilevel(std::int64_t cells, const PlanarDomain& domain,
-                              const Density& density, std::uint64_t seed, std::int64_t fixed) {
+                              const Density& density, std::uint64_t seed, const Points2& fixed) {
   base_detail::require_count(cells, cvt_detail::PlanarWorld::fewest, "the number of cells");
-  free_of(cells, fixed);
+  require_room(cells, fixed.cols());
   PlanarContinuation result;
   result.bisections = coarsen<cvt_detail::PlanarWorld>(
-      cells, std::max(least_with(fixed), spreading(density, domain)));
-  result.start = random_places(free_of(cells, fixed), domain, site_density(density, domain), seed);
+      cells, std::max(least_with(fixed.cols()), spreading(density, domain)));
+  result.start = cvt_detail::free_points(cells - fixed.cols(), cells, fixed, domain,
+                                         site_density(density, domain), seed);
   return result;
 }
 

@@ -6,6 +6,7 @@
 #include "io/mpas.h"
 #include "io/netcdf_fields.h"
 #include "io/netcdf_reader.h"
+#include "io/polygons.h"
 
 #include "base/parallel.h"
 #include "base/points.h"
@@ -76,7 +77,8 @@ CompleteVertices complete_vertices(const NetcdfReader& file, std::int64_t cells)
 /// Whether each vertex is the circumcentre of its cells: within a millionth of the mean cell width,
 /// or of the circumcentre's distance from the cells, whichever is larger.
 bool are_cell_corners(const Points3& sites, const Triangles& triangles, const Points3& vertices) {
-  return are_circumcentres(sites, triangles, vertices, corner_tolerance(sites.cols(), 0), 1e-6);
+  return are_circumcentres(sites, triangles, vertices,
+                           corner_tolerance(mean_width(sites.cols()), 0), 1e-6);
 }
 
 /// The cells as the file has them. A cell with a missing vertex has none here.

@@ -84,6 +84,8 @@ double off_centring(const Polygons& polygons, std::int64_t i, double area) {
   return distance / std::sqrt(area);
 }
 
+double length(const Vec3& v) { return std::sqrt(dot(v, v)); }
+
 /// Of a block of polygons.
 PolygonShapes shapes_of(const Polygons& polygons, const Eigen::VectorXd& areas, std::int64_t begin,
                         std::int64_t end) {
@@ -93,6 +95,11 @@ PolygonShapes shapes_of(const Polygons& polygons, const Eigen::VectorXd& areas, 
     const Ring ring = ring_of(polygons, i);
     if (ring.size == 0)
       continue;
+    if (!has_area(polygons, i, areas[i])) {
+      if (found.without_area++ == 0)
+        found.first_without_area = i;
+      continue;
+    }
     if (!is_convex(ring) && found.not_convex++ == 0)
       found.first_not_convex = i;
     if (polygons.centres.cols() == 0)
@@ -108,6 +115,9 @@ PolygonShapes shapes_of(const Polygons& polygons, const Eigen::VectorXd& areas, 
 }
 
 void add(const PolygonShapes& of_block, PolygonShapes& all) {
+  if (all.without_area == 0)
+    all.first_without_area = of_block.first_without_area;
+  all.without_area += of_block.without_area;
   if (all.not_convex == 0)
     all.first_not_convex = of_block.first_not_convex;
   all.not_convex += of_block.not_convex;
@@ -117,6 +127,41 @@ void add(const PolygonShapes& of_block, PolygonShapes& all) {
     all.off_centring = of_block.off_centring;
     all.worst_centred = of_block.worst_centred;
   }
+}
+
+Range range_of(const Eigen::VectorXd& values) {
+  if (values.size() == 0)
+    return {};
+  return {values.minCoeff(), values.mean(), values.maxCoeff()};
+}
+
+/// The areas of the polygons that are known.
+Range area_range(const Polygons& polygons, const Eigen::VectorXd& areas) {
+  Eigen::VectorXd known(areas.size());
+  Eigen::Index count = 0;
+  for (Eigen::Index i = 0; i < areas.size(); ++i)
+    if (polygons.begin[i + 1] > polygons.begin[i])
+      known[count++] = areas[i];
+  return range_of(known.head(count));
+}
+
+double distance(const Vec3& a, const Vec3& b, bool on_sphere) {
+  return on_sphere ? 2 * std::atan2(length(b - a), length(a + b)) : length(b - a);
+}
+
+/// Between the centres of polygons that share a side.
+Range spacing_of(const Polygons& polygons) {
+  if (polygons.centres.cols() == 0)
+    return {};
+  const Sides sides(polygons);
+  std::vector<double> distances;
+  for (std::int32_t from = 0; from < sides.nodes(); ++from)
+    for (std::int64_t k = sides.begin[from]; k < sides.begin[from + 1]; ++k)
+      if (const auto [to, polygon] = sides.list[k]; from < to)
+        if (const std::int32_t other = sides.polygon_of(to, from); other >= 0)
+          distances.push_back(distance(column(polygons.centres, polygon),
+                                       column(polygons.centres, other), polygons.on_sphere));
+  return range_of(Eigen::Map<const Eigen::VectorXd>(distances.data(), std::ssize(distances)));
 }
 
 } // namespace
@@ -129,6 +174,8 @@ PolygonShapes shapes(const Polygons& polygons) {
     blocks[static_cast<std::size_t>(block)] = shapes_of(polygons, area, begin, end);
   });
   PolygonShapes all;
+  all.area = area_range(polygons, area);
+  all.spacing = spacing_of(polygons);
   for (const PolygonShapes& block : blocks)
     add(block, all);
   return all;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "base/memory.h"
 #include "base/vec3.h"
 #include "io/room.h"
 
@@ -13,6 +14,31 @@
 
 /// Cells as polygons: their orientation, their areas, and whether they are Voronoi cells.
 namespace calotte::io_detail {
+
+/// A side of a polygon that starts from a given corner.
+struct Side {
+  std::int32_t to;
+  std::int32_t polygon;
+
+  bool operator<(const Side& other) const {
+    return to < other.to || (to == other.to && polygon < other.polygon);
+  }
+};
+
+/// The sides of polygons by the corner that they start from, sorted.
+struct Sides {
+  Array<std::int64_t> begin; ///< by corner: its sides are list[begin] to list[begin + 1] - 1
+  Array<Side> list;
+
+  explicit Sides(const Polygons& polygons) : Sides(polygons, polygons.corners.cols()) {}
+  /// \param corners their number, where their places are not known.
+  Sides(const Polygons& polygons, std::int64_t corners);
+  std::int64_t nodes() const { return begin.size() - 1; }
+  /// The first polygon with a side; -1 if there is none.
+  std::int32_t polygon_of(std::int32_t from, std::int32_t to) const;
+  /// Whether a side from a corner belongs to one polygon only.
+  bool is_open(std::int32_t from) const;
+};
 
 /// The cells of a tessellation, which is used up.
 Polygons polygons_of(Voronoi&& voronoi);
@@ -38,13 +64,24 @@ std::int64_t turn_counter_clockwise(Polygons& polygons, const std::string& name,
 /// Whether values are the areas of polygons but for rounding.
 bool are_areas_of(const Polygons& polygons, const Eigen::VectorXd& values);
 
-/// \throws Error parse, where two polygons run through one side in the same direction, or all
-/// together are larger than the sphere. \pre counter-clockwise.
+/// Whether a polygon has a width: its area is more than what the rounding of its corners makes of
+/// its perimeter. \param area of the polygon.
+bool has_area(const Polygons& polygons, std::int64_t polygon, double area);
+
+/// \throws Error parse, where two polygons with an area run through one side in the same direction,
+/// or all together are larger than the sphere. \pre counter-clockwise.
 void require_no_overlap(const Polygons& polygons, const std::string& name);
 
-/// Corners of cells on the unit sphere are equal if they are closer: a millionth of the mean cell
-/// width, and the rounding of the file.
-double corner_tolerance(std::int64_t cells, double rounding);
+/// The square root of the mean area: of so many cells that cover the sphere, or of polygons.
+double mean_width(std::int64_t cells);
+double mean_width(const Polygons& polygons);
+
+/// Corners of cells are equal if they are closer: a millionth of the mean cell width, and the
+/// rounding of the file.
+double corner_tolerance(double mean_width, double rounding);
+
+/// Whether polygons leave less than half of their mean area of the sphere uncovered.
+bool cover_sphere(const Polygons& polygons);
 
 /// Why polygons are not the Voronoi cells of their centres, as a clause that names the first such
 /// cell; empty if they are. Corners count as

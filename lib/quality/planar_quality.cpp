@@ -9,6 +9,7 @@
 #include "quality/cell_measures.h"
 #include "quality/demand.h"
 #include "quality/parts.h"
+#include "quality/sides.h"
 #include "quality/voronoi_mesh.h"
 
 #include <calotte/error.h>
@@ -268,6 +269,28 @@ Quality quality(const PlanarMesh& mesh, const PlanarDomain& domain, const Densit
   result.residual = measured.l2 / measured.spacing;
   set_energy(result, measured.energy, root);
   result.cells_area = areas.sum / area(domain);
+  return result;
+}
+
+Quality open_quality(const PlanarMesh& mesh) {
+  using namespace quality_detail;
+  if (const Check found = check_surface(mesh); !found.passed())
+    throw Error(ErrorCode::bad_option, "the triangles do not form a surface: " + found.failure +
+                                           "; triangulate the points anew");
+  const Points3 points = with_z(mesh.points);
+  const Subject subject{mesh.triangles,
+                        mesh.neighbours,
+                        {},
+                        shapes_of(mesh.triangles, {mesh.period.x(), mesh.period.y()},
+                                  [&](std::int32_t site) { return column(points, site); }),
+                        {},
+                        {},
+                        {}};
+  Quality result = measure_shapes(subject, 0);
+  const std::vector<Sides> sides = sides_of_cells(mesh, subject.shapes);
+  set_whole_cells(sides, result);
+  result.cells = mesh.points.cols();
+  result.degrees = inner_degrees(sides);
   return result;
 }
 

@@ -4,6 +4,7 @@
 #include "base/points.h"
 #include "integrals/moments.h"
 #include "quality/demand.h"
+#include "quality/flat_hull.h"
 #include "quality/sides.h"
 #include "quality/voronoi_mesh.h"
 
@@ -67,46 +68,6 @@ double require_closed_delaunay(const Mesh& mesh) {
   return found.area;
 }
 
-/// How many sites with a closed ring of triangles have each number of neighbours.
-std::vector<std::int64_t> inner_degrees(const Mesh& mesh) {
-  std::vector<std::int64_t> degree(static_cast<std::size_t>(mesh.points.cols()));
-  std::vector<bool> open(degree.size());
-  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
-    for (int i = 0; i < 3; ++i) {
-      ++degree[static_cast<std::size_t>(mesh.triangles(i, t))];
-      if (mesh.neighbours(i, t) < 0)
-        for (const int end : {1, 2})
-          open[static_cast<std::size_t>(mesh.triangles((i + end) % 3, t))] = true;
-    }
-  CellPart inner;
-  for (std::size_t i = 0; i < degree.size(); ++i)
-    if (!open[i] && degree[i] > 0)
-      inner.count(static_cast<std::size_t>(degree[i]), 1);
-  return inner.degrees;
-}
-
-// ---- Open meshes
-
-/// Measures the cells that triangles surround.
-void add_whole_cells(const Mesh& mesh, const Shapes& shapes, Quality& result) {
-  Tally sigma, quality, area, bad;
-  for (const Sides& cell : sides_of_cells(mesh, shapes)) {
-    if (!cell.whole())
-      continue;
-    sigma.add(cell.arcs.min / cell.arcs.max);
-    quality.add(cell.voronoi.min / cell.voronoi.max);
-    area.add(cell.area);
-    if (cell.bad)
-      bad.add(cell.arcs.sum / static_cast<double>(cell.arcs.count));
-  }
-  result.sigma = sigma.range();
-  result.cell_quality = quality.range();
-  result.cell_area = area.range();
-  result.bad_cells = bad.count;
-  result.bad_spacing = bad.range();
-  result.cells_area = area.sum / (4 * pi);
-}
-
 Quality measure(const Mesh& mesh, const Density& density) {
   const MomentPart moments = add_moments(mesh, density);
   if (const std::int64_t i = moments.without_centroid; i >= 0)
@@ -150,17 +111,19 @@ Quality measure_open(const Mesh& mesh, bool cells) {
   if (!found.passed())
     throw Error(ErrorCode::bad_option, "the triangles do not form a surface: " + found.failure +
                                            "; triangulate the points anew");
-  const Mesh unit = with_unit_columns(mesh);
+  const Mesh unit = without_flat_hull(with_unit_columns(mesh)).mesh;
   const Subject subject{unit.triangles, unit.neighbours, {}, make_shapes(unit), {}, {}, {}};
   Quality result = measure_shapes(subject, 0);
+  const std::vector<Sides> sides = sides_of_cells(unit, subject.shapes);
   if (cells) {
-    add_whole_cells(unit, subject.shapes, result);
+    result.cells_area = set_whole_cells(sides, result) / (4 * pi);
   } else {
     result.off_centring = result.dv_over_dc = {};
     result.short_edges = 0;
   }
   result.cells = mesh.points.cols();
-  result.degrees = inner_degrees(mesh);
+  result.flat = mesh.triangles.cols() - unit.triangles.cols();
+  result.degrees = inner_degrees(sides);
   result.triangles_area = found.area / (4 * pi);
   return result;
 }

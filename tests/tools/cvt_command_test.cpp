@@ -9,8 +9,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <functional>
+#include <regex>
 #include <sstream>
 #include <string>
 #include <thread>
@@ -1045,14 +1047,20 @@ TEST_CASE("another number of cells than requested is said") {
   CHECK(has(made.err, " cells instead of 400: bisections of a domain with a boundary"));
 }
 
-TEST_CASE("widths that no grid can follow end in a grid and warnings") {
+TEST_CASE("widths that no grid can follow end in a grid and an exit code of their own") {
   const Bench bench;
   const Outcome made = bench.run("cvt --cells 1500 --density "
                                  "tanh:lon=270,lat=30,beta=30deg,alpha=0.02,gamma=x6 -o a.vtp");
-  CHECK(made.code == 0);
-  CHECK(has(made.out, "a.vtp: 1500 cells, converged, "));
+  CHECK(made.code == 5);
+  CHECK(has(made.out, "a.vtp: 1500 cells, not well-centred, "));
   CHECK(has(made.out, " generators more than 0.01 of the spacing from their centroids (at most "));
-  CHECK(has(made.err, "warning: a shape is "));
+  const std::regex message(
+      "not well-centred: (\\d+) of 1500 cells with shapes beyond their limits, the "
+      "worst, \\S+ beyond, at cell \\d+ \\(at \\S+ [EW] (\\S+) N\\); the mesh is");
+  std::smatch found;
+  REQUIRE(std::regex_search(made.err, found, message));
+  CHECK(std::stoi(found[1]) > 0);
+  CHECK(std::abs(std::stod(found[2]) - 30) < 40); // where the density is steep
   CHECK(bench.run("check a.vtp").code == 0);
 }
 

@@ -179,9 +179,7 @@ std::string distinct_from(double other, double value) {
 }
 
 std::string place_of(const Gradient& gradient) {
-  return formatted("%.1f", std::abs(gradient.longitude)) +
-         (gradient.longitude < 0 ? " W " : " E ") + formatted("%.1f", std::abs(gradient.latitude)) +
-         (gradient.latitude < 0 ? " S" : " N");
+  return lonlat_words(gradient.longitude, gradient.latitude);
 }
 
 std::string doubt_of(const CellWidth& widths, const WidthWords& words) {
