@@ -10,6 +10,8 @@
 #include <calotte/read.h>
 #include <calotte/write.h>
 
+#include <Eigen/Geometry>
+
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -211,7 +213,7 @@ TEST_CASE("cells without area are counted, and no neighbour overlaps them") {
   const Scratch scratch;
   for (const std::int64_t cell : {0, 9, 13}) {
     Polygons cells = patch(5, 4, 0, 10, 1, true);
-    const auto ids = cells.ids.segment(4 * cell, 4);
+    auto ids = cells.ids.segment(4 * cell, 4);
     ids[2] = ids[1];
     ids[3] = ids[0]; // both long sides are the southern one
     CHECK(shapes(cells).without_area == 1);
