@@ -96,8 +96,9 @@ TEST_CASE("widths that are none are refused") {
   check_refusal_naming(bench, "cvt -o mesh.vtp --cell-width 60.nc", 3, "60.nc"); // a file
   check_refusal(bench, "cvt -o mesh.vtp --cell-width 960km --transition 100km", 2,
                 "960 km holds no polygons; leave --transition out");
-  check_refusal(bench, "cvt -o mesh.vtp --cell-width 60km --rectangle 0,0,1,1", 2,
-                "--cell-width applies to the sphere only; give --density or --density-raster");
+  check_refusal(
+      bench, "cvt -o mesh.vtp --cell-width 60km --rectangle 0,0,1,1", 2,
+      "--cell-width 60km: the plane has the unit of its coordinates; give a number in that unit");
 }
 
 TEST_CASE("files are on the unit sphere by default, also those of grids in km") {

@@ -205,7 +205,9 @@ std::vector<std::string> notes_on(const CellWidth& widths, const WidthWords& wor
   if (std::abs(scale - 1) > 0.01)
     notes.front() += "; with " + std::to_string(*cells) + " cells, widths are " +
                      formatted("%.3g", scale) + " times as large";
-  const Gradient gradient = largest_gradient(widths, words.radius);
+  CellWidth scaled = widths;
+  scaled.widths *= scale;
+  const Gradient gradient = largest_gradient(scaled, words.radius);
   const std::string limit = shortest(steepest_width),
                     slope = distinct_from(steepest_width, gradient.slope);
   notes.front() += "; largest gradient " + slope + " km per km";

@@ -231,10 +231,11 @@ TEST_CASE("the widths' notes tell their range, number and gradient, and warn of 
   notes = notes_on(widths, words.widths, std::llround(implied / 4));
   CHECK(notes[0].find("; with " + std::to_string(std::llround(implied / 4)) +
                       " cells, widths are 2 times as large;") != std::string::npos);
-  widths.widths(1, 1) = 600; // 500 km over 10 007 km either way
+  // 500 km over 10 007 km either way; half a cell from the tip 1 - 300/10 007 of that.
+  widths.widths(1, 1) = 600;
   notes = notes_on(widths, words.widths, {});
   REQUIRE(notes.size() == 2);
-  CHECK(notes[1] == "warning: the cell width changes by 0.071 km per km at 90.0 E 0.0 N, above "
+  CHECK(notes[1] == "warning: the cell width changes by 0.069 km per km at 90.0 E 0.0 N, above "
                     "0.03, the limit for most models; make the widths smoother");
   widths.widths.setConstant(100000);
   CHECK_THROWS_AS(cells_for(widths, words.widths, true), Error);
