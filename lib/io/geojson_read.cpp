@@ -2,6 +2,7 @@
 #include "base/lonlat.h"
 #include "base/points.h"
 #include "io/formats.h"
+#include "io/geojson_corners.h"
 #include "io/json_stream.h"
 #include "io/model_grid.h"
 #include "io/polygons.h"
@@ -22,7 +23,6 @@
 #include <numeric>
 #include <optional>
 #include <set>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -53,45 +53,6 @@ struct Column {
     integer = integer && value.is_number_integer();
   }
   static constexpr double none = std::numeric_limits<double>::quiet_NaN();
-};
-
-/// Corners by longitude and latitude. Those that agree to 1e-9 degrees, with any number of turns,
-/// are one: neighbours may stand on both sides of the meridian of 180 degrees.
-class Corners {
-public:
-  std::int32_t id_of(double longitude, double latitude) {
-    constexpr double digits = 1e9, half_turn = 180 * digits;
-    const double north = std::round(latitude * digits);
-    double east = std::round(std::remainder(longitude, 360.0) * digits);
-    if (east == -half_turn)
-      east = half_turn;
-    if (std::abs(latitude) == 90)
-      east = 0;
-    const auto [known, is_new] = ids_.try_emplace({east, north}, std::ssize(places_));
-    if (is_new)
-      places_.push_back(from_lonlat(longitude, latitude));
-    return known->second;
-  }
-
-  const Vec3& place(std::int32_t id) const { return places_[static_cast<std::size_t>(id)]; }
-  bool is_pole(std::int32_t id) const { return place(id).x == 0 && place(id).y == 0; }
-
-  Points3 columns() const {
-    Points3 columns(3, std::ssize(places_));
-    for (std::int64_t i = 0; i < columns.cols(); ++i)
-      set_column(columns, i, places_[static_cast<std::size_t>(i)]);
-    return columns;
-  }
-
-private:
-  struct Hash {
-    std::size_t operator()(const std::array<double, 2>& key) const {
-      const std::hash<double> hash;
-      return 31 * hash(key[0]) + hash(key[1]);
-    }
-  };
-  std::unordered_map<std::array<double, 2>, std::int32_t, Hash> ids_;
-  std::vector<Vec3> places_;
 };
 
 /// The features of a collection, one after the other.
@@ -144,8 +105,6 @@ public:
   }
 
 private:
-  using Ring = std::vector<std::int32_t>; ///< corners
-
   [[noreturn]] void fail(const std::string& problem) const {
     throw Error(ErrorCode::parse, name_ + ": feature " + std::to_string(count_) + " " + problem,
                 count_);
@@ -220,61 +179,34 @@ private:
   }
 
   /// A cell that the meridian of 180 degrees cuts has several polygons, which are joined there.
-  Ring ring_of(const json& geometry, const std::string& type) {
+  CornerRing ring_of(const json& geometry, const std::string& type) {
     const json coordinates = geometry.value("coordinates", json());
     if (type == "Polygon")
       return ring_of(coordinates);
     if (!coordinates.is_array() || coordinates.empty())
       fail("has no ring of positions; give GeoJSON as RFC 7946 has it");
-    Ring whole = ring_of(coordinates[0]);
+    CornerRing whole = ring_of(coordinates[0]);
     for (std::size_t k = 1; k < coordinates.size(); ++k)
-      if (!join(ring_of(coordinates[k]), whole))
+      if (!corners_.join(ring_of(coordinates[k]), whole))
         fail("is a MultiPolygon whose parts do not share one side; only cells of one ring are "
              "read, so give it as one Polygon, whose longitudes may exceed 180 degrees");
     return whole;
   }
 
-  /// Adds a part that has a side of the whole in the other direction. The ends of that side are
-  /// left out where the cut made them, on a straight side of the cell.
-  bool join(const Ring& part, Ring& whole) const {
-    const auto next = [](const Ring& ring, std::size_t k) { return (k + 1) % ring.size(); };
-    for (std::size_t i = 0; i < whole.size(); ++i)
-      for (std::size_t j = 0; j < part.size(); ++j)
-        if (whole[i] == part[next(part, j)] && whole[next(whole, i)] == part[j]) {
-          Ring all; // from the end of the side around the whole, then around the part
-          for (std::size_t k = 0; k < whole.size(); ++k)
-            all.push_back(whole[(i + 1 + k) % whole.size()]);
-          for (std::size_t k = 2; k < part.size(); ++k)
-            all.push_back(part[(j + k) % part.size()]);
-          const std::int32_t ends[] = {all[0], all[whole.size() - 1]}; // of the side
-          for (const std::int32_t end : ends)
-            leave_out_cut(end, all);
-          whole = std::move(all);
-          return true;
-        }
-    return false;
-  }
-
-  bool is_straight(std::int32_t from, std::int32_t corner, std::int32_t to) const {
-    constexpr double digits = 1e-10; // of the places
-    const Vec3 normal = cross(corners_.place(from), corners_.place(to));
-    return std::abs(dot(normal, corners_.place(corner))) <= digits * norm(normal);
-  }
-
   /// Without consecutive equal places, and without the way to a pole and back along one meridian by
   /// which a ring around the pole is closed in the plane of longitude and latitude.
-  Ring ring_of(const json& rings) {
+  CornerRing ring_of(const json& rings) {
     if (!rings.is_array() || rings.empty() || !rings[0].is_array())
       fail("has no ring of positions; give GeoJSON as RFC 7946 has it");
     if (rings.size() > 1)
       fail("has a hole; only cells of one ring are read");
-    Ring ring;
+    CornerRing ring;
     std::int32_t cut = -1; // the corner at which the way to a pole begins and ends
     for (const json& place : rings[0]) {
       if (!is_position(place))
         fail("has a position that is no longitude and latitude in degrees; correct it");
       const std::int32_t corner = corners_.id_of(place[0].get<double>(), place[1].get<double>());
-      if (push(corner, ring))
+      if (corners_.push(corner, ring))
         cut = corner;
     }
     while (ring.size() > 1 && ring.front() == ring.back())
@@ -285,31 +217,10 @@ private:
       ring.resize(ring.size() - 2);
       cut = ring.front();
     }
-    leave_out_cut(cut, ring);
+    corners_.leave_out_cut(cut, ring);
     if (ring.size() < 3)
       fail("has a ring of fewer than 3 places; leave it out");
     return ring;
-  }
-
-  /// Leaves out a corner that a cut made on a straight side.
-  void leave_out_cut(std::int32_t cut, Ring& ring) const {
-    const auto found = std::find(ring.begin(), ring.end(), cut);
-    if (found == ring.end() || ring.size() < 4)
-      return;
-    const auto k = static_cast<std::size_t>(found - ring.begin());
-    if (is_straight(ring[(k + ring.size() - 1) % ring.size()], cut, ring[(k + 1) % ring.size()]))
-      ring.erase(found);
-  }
-
-  /// \returns whether the corner ends a way to a pole and back, which is left out.
-  bool push(std::int32_t corner, Ring& ring) const {
-    const std::size_t size = ring.size();
-    const bool back = size > 1 && corners_.is_pole(ring[size - 1]) && ring[size - 2] == corner;
-    if (back)
-      ring.pop_back(); // the place before the pole is the last again
-    else if (size == 0 || ring.back() != corner)
-      ring.push_back(corner);
-    return back;
   }
 
   static Points3 directions_of(const Points3& points) {
@@ -325,7 +236,7 @@ private:
     polygons.begin[0] = 0;
     std::vector<std::int32_t> ids;
     for (std::int64_t i = 0; i < count_; ++i) {
-      const Ring& ring = rings_[static_cast<std::size_t>(i)];
+      const CornerRing& ring = rings_[static_cast<std::size_t>(i)];
       ids.insert(ids.end(), ring.begin(), ring.end());
       polygons.begin[i + 1] = std::ssize(ids);
     }
@@ -363,10 +274,10 @@ private:
   const std::string& name_;
   std::int64_t count_ = 0;
   std::vector<Vec3> sites_; ///< of the features that have one
-  Corners corners_;
-  std::vector<Ring> rings_;  ///< of all features, or none
-  std::int64_t voronoi_ = 0; ///< features that are Voronoi cells of calotte
-  std::string unread_;       ///< what the first of them says whose ring is not read; or ""
+  GeoCorners corners_;
+  std::vector<CornerRing> rings_; ///< of all features, or none
+  std::int64_t voronoi_ = 0;      ///< features that are Voronoi cells of calotte
+  std::string unread_;            ///< what the first of them says whose ring is not read; or ""
   std::map<std::string, Column> columns_;
   std::set<std::string> ignored_;
 };
