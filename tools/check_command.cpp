@@ -25,9 +25,9 @@ namespace {
 
 /// What is proven of a mesh, and counted where that is not all.
 struct Findings {
-  Check check;                     ///< of a mesh of the sphere that is not Delaunay: as a surface
+  Check check;                     ///< of a mesh that is not Delaunay: as a surface
   bool delaunay = false;           ///< the mesh is the Delaunay triangulation of its points
-  std::optional<EdgeCounts> edges; ///< of a mesh of the sphere that is not
+  std::optional<EdgeCounts> edges; ///< of a mesh that is not
   std::string failure;             ///< why the check fails; empty if it passes
 };
 
@@ -37,7 +37,7 @@ std::string first_edge(const EdgeCounts& edges) {
 
 /// A mesh whose edges are all Delaunay passes: a foreign mesh may have the other diagonals of
 /// cocircular sites, or a boundary that is not convex.
-Findings findings_of(const Mesh& mesh) {
+template <class AnyMesh> Findings findings_of(const AnyMesh& mesh) {
   Findings found;
   found.check = check(mesh);
   found.delaunay = found.check.passed();
@@ -55,14 +55,6 @@ Findings findings_of(const Mesh& mesh) {
                     " edges are not Delaunay; the first is from site " + first_edge(*found.edges);
   else if (found.edges->boundary == 0 && found.edges->cocircular == 0)
     found.failure = strict;
-  return found;
-}
-
-Findings findings_of(const PlanarMesh& mesh) {
-  Findings found;
-  found.check = check(mesh);
-  found.delaunay = found.check.passed();
-  found.failure = found.check.failure;
   return found;
 }
 
@@ -99,13 +91,14 @@ std::string table(const Findings& found, bool plane) {
   return out.str();
 }
 
-std::string table(const Polygons& polygons, const MeshFile& file) {
+/// \param found the shapes of the file's polygons.
+std::string table(const PolygonShapes& found, const MeshFile& file) {
   std::ostringstream out;
-  out << "cells           " << polygons.size() << "\n"
-      << "corners         " << polygons.corners.cols() << "\n"
+  out << "cells           " << file.polygons->size() << "\n"
+      << "corners         " << file.polygons->corners.cols() << "\n"
       << "Voronoi         no: " << file.not_voronoi << "\n";
   const bool counted = !file.mesh || !file.mesh->closed(); // with the open mesh
-  return out.str() + shape_rows(polygons, counted ? std::nullopt : file.mesh, 16);
+  return out.str() + shape_rows(found, counted ? std::nullopt : file.mesh, 16);
 }
 
 std::string lines_of(const std::vector<Deviation>& deviations) {
@@ -133,13 +126,18 @@ void run(const MeshSource& source) {
     MeshFile file = read_mesh_file(source, FieldChoice::none);
     progress.stage("checking " + source.path);
     text = changes_of(source, file);
-    if (file.plane || (file.mesh && !(file.polygons && file.mesh->closed()))) {
+    // Cells without triangles of their own are checked as cells.
+    if ((file.plane && !file.polygons) || (file.mesh && !(file.polygons && file.mesh->closed()))) {
       const Findings found = file.plane ? findings_of(*file.plane) : findings_of(*file.mesh);
       text += table(found, file.plane.has_value());
       failure = found.failure;
     }
-    if (file.polygons)
-      text += table(*file.polygons, file);
+    if (file.polygons) {
+      const PolygonShapes found = shapes(*file.polygons);
+      text += table(found, file);
+      if (failure.empty())
+        failure = without_area(found);
+    }
     const std::vector<Deviation> deviations = check_file(source.path, std::move(file));
     text += lines_of(deviations);
     if (failure.empty())

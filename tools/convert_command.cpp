@@ -9,7 +9,9 @@
 #include "options/format_options.h"
 #include "options/mesh_source.h"
 #include "options/numbers.h"
+#include "run/exit_code.h"
 #include "run/progress.h"
+#include "run/shapes.h"
 
 #include <calotte/error.h>
 #include <calotte/mesh_file.h>
@@ -85,8 +87,12 @@ std::string describe(const MeshFile& file) {
   if (file.plane)
     return std::to_string(file.plane->points.cols()) + " sites, " +
            std::to_string(file.plane->triangles.cols()) + " triangles, a " +
-           (file.plane->period.minCoeff() > 0 ? "periodic plane" : "plane") +
-           (file.polygons ? " with clipped cells" : "");
+           (file.plane->period.minCoeff() > 0   ? "periodic plane"
+            : file.plane->period.maxCoeff() > 0 ? "channel"
+                                                : "plane") +
+           (!file.polygons                      ? ""
+            : file.plane->period.maxCoeff() > 0 ? " with a boundary"
+                                                : " with clipped cells");
   if (!file.mesh || (file.polygons && file.mesh->closed()))
     return std::to_string(file.polygons->size()) + " cells, not Voronoi cells: " + file.not_voronoi;
   return std::to_string(file.mesh->points.cols()) + " sites, " +
@@ -135,12 +141,12 @@ std::string remarks(const Request& request, const MeshFile& file, const WriteOpt
 MeshFile read_input(const Request& request) {
   MeshFile file = read_mesh_file(*request.source, FieldChoice::all);
   file.domain = domain_of(*request.domain);
-  if (file.domain && (!file.plane || file.plane->period.minCoeff() > 0))
+  if (file.domain && (!file.plane || file.plane->period.maxCoeff() > 0))
     throw Error(ErrorCode::bad_option, request.source->path +
                                            " holds no mesh of a bounded plane; leave --domain and "
                                            "--rectangle out");
   const Format format = options_of(*request.format, request.output).format;
-  if (file.plane && file.plane->period.minCoeff() == 0 && !file.domain && !file.polygons &&
+  if (file.plane && file.plane->period.maxCoeff() == 0 && !file.domain && !file.polygons &&
       holds_cells(format))
     throw Error(ErrorCode::bad_option,
                 request.output +
@@ -169,7 +175,7 @@ std::string describe(const Request& request, const EarReport& ears) {
 void run(const Request& request) {
   require_request(request);
   const Density density = density_of(*request.density);
-  std::string words;
+  std::string words, fault;
   {
     Progress progress;
     progress.stage("reading " + request.source->path);
@@ -181,8 +187,15 @@ void run(const Request& request) {
     words = changes_of(*request.source, file) + describe(request, ears) +
             remarks(request, file, options, written) + request.output + ": " + describe(file) +
             "\n";
+    if (file.polygons)
+      fault = without_area(shapes(*file.polygons));
   }
   std::cout << words;
+  if (fault.empty())
+    return;
+  std::cout.flush();
+  std::cerr << "calotte: " + request.source->path + ": " + fault + "\n";
+  finish(check_failed);
 }
 
 } // namespace

@@ -7,6 +7,7 @@
 #include "options/files.h"
 #include "options/numbers.h"
 #include "options/warning.h"
+#include "run/channel.h"
 #include "run/cvt_checks.h"
 #include "run/cvt_configuration.h"
 #include "run/cvt_costs.h"
@@ -22,6 +23,8 @@
 #include <calotte/cut.h>
 #include <calotte/error.h>
 #include <calotte/io.h>
+#include <calotte/lonlat.h>
+#include <calotte/version.h>
 
 #include <oneapi/tbb/task_arena.h>
 
@@ -73,12 +76,13 @@ struct Outcome {
   Mesh mesh;        ///< on the sphere; empty after it is written
   PlanarMesh plane; ///< or in the plane
   std::int64_t cells = 0;
-  std::string grid;       ///< a line about a limited-area grid
-  std::string doubt;      ///< about a mesh that should end at the boundary, or ""
-  double area = 0;        ///< of the sphere, the region or the domain
-  int signal = 0;         ///< the signal that ended it early
-  bool kept = false;      ///< its state then
-  std::size_t before = 0; ///< iterations of the earlier parts of a resumed run
+  std::string grid;        ///< a line about a limited-area grid
+  std::string doubt;       ///< about a mesh that should end at the boundary, or ""
+  std::string worst_place; ///< of the cell of the worst shape: " (at ...)", or ""
+  double area = 0;         ///< of the sphere, the region or the domain
+  int signal = 0;          ///< the signal that ended it early
+  bool kept = false;       ///< its state then
+  std::size_t before = 0;  ///< iterations of the earlier parts of a resumed run
   std::vector<KeptState> states;
   int threads = 0;
 };
@@ -120,12 +124,22 @@ bool after_iteration(const CvtProgress& now, const CvtRequest& request, const Cv
 /// The input of a run.
 struct Plan {
   CvtOptions options;
-  std::optional<PlanarDomain> domain; ///< of a plane
-  std::optional<RunRegion> region;    ///< of the sphere
+  std::optional<PlanarDomain> domain;     ///< of a plane
+  std::optional<Eigen::Vector2d> channel; ///< the part of the domain between walls
+  std::optional<RunRegion> region;        ///< of the sphere
   CvtStart start;
   std::string configuration;
   std::optional<CvtState> state; ///< where it goes on
 };
+
+/// Replaces a box that has walls by a wider one, and the number of its cells.
+void widen_channel(CvtRequest& request, Walls walls, Plan& plan) {
+  ChannelRun run = channel_run(*plan.domain, walls, plan.options.density, *request.cells);
+  plan.channel = plan.domain->period;
+  plan.domain = std::move(run.box);
+  plan.options.density = std::move(run.density);
+  request.cells = static_cast<int>(run.cells);
+}
 
 /// \param request receives the number of cells that the widths imply.
 Plan prepare(CvtRequest& request, Progress& progress) {
@@ -133,10 +147,15 @@ Plan prepare(CvtRequest& request, Progress& progress) {
   plan.options = options_of(request);
   plan.domain = domain_of(*request.domain);
   progress.stage("reading the density");
-  Resolution resolution = resolution_of(*request.density, planar(request));
+  Region asked = asked_region(request.part, request.density->widths);
+  Resolution resolution = resolution_of(*request.density, planar(request), asked);
   plan.options.density = resolution.density;
-  plan.region = region_of_run(request.part, request.density->widths, resolution.widths);
-  const std::vector<std::string> notes = settle_cells(request, resolution, plan.region);
+  plan.region =
+      region_of_run(request.part, std::move(asked), request.density->widths, resolution.widths);
+  const std::vector<std::string> notes =
+      settle_cells(request, resolution, plan.region, plan.domain);
+  if (const Walls walls = walls_of(*request.domain); walls.x || walls.y)
+    widen_channel(request, walls, plan);
   if (request.cells)
     require_space(request.mesh, file_bytes(format_of(request.mesh, write_options(request).format),
                                            *request.cells, plan.options.density.uniform()));
@@ -183,6 +202,19 @@ void run_plan(Plan& plan, const CvtCallback& callback, Outcome& outcome) {
   }
 }
 
+/// Where the cell of the worst shape is: " (at ...)"; "" without one.
+std::string worst_place(const Outcome& outcome) {
+  const std::int64_t cell = outcome.report.worst_cell;
+  if (cell < 0)
+    return "";
+  if (outcome.mesh.points.cols() == 0) {
+    const Eigen::Vector2d at = outcome.plane.points.col(cell);
+    return " (at x " + formatted("%.6g", at.x()) + ", y " + formatted("%.6g", at.y()) + ")";
+  }
+  const Points2 at = to_lonlat(outcome.mesh.points.col(cell));
+  return " (at " + lonlat_words(at(0, 0), at(1, 0)) + ")";
+}
+
 /// \param plan its state is moved out.
 Outcome tessellate(const CvtRequest& request, Plan& plan, Progress& progress) {
   Outcome outcome;
@@ -202,6 +234,7 @@ Outcome tessellate(const CvtRequest& request, Plan& plan, Progress& progress) {
     rethrow_with_line(error, plan.start);
   }
   outcome.states = states.all();
+  outcome.worst_place = worst_place(outcome);
   return outcome;
 }
 
@@ -223,13 +256,17 @@ Outcome tessellate(const CvtRequest& request, Plan& plan, Progress& progress) {
   finish(outcome.signal == SIGINT ? interrupted : terminated);
 }
 
-/// The mesh is a good CVT, but the widths change too steeply for good shapes.
-void warn_of_shapes(const CvtReport& report) {
+/// The mesh is a good CVT, but not all shapes are those asked for.
+[[noreturn]] void finish_not_well_centred(const Outcome& outcome) {
+  const CvtReport& report = outcome.report;
   std::cout.flush();
-  std::cerr
-      << "calotte: warning: a shape is " + formatted("%.2g", report.iterations.back().misshapen) +
-             " beyond its limit, so that the mesh is not well-centred; calotte info shows its "
-             "angles; give more cells, or make the density smoother\n";
+  std::cerr << "calotte: not well-centred: " + std::to_string(report.misshapen_cells) + " of " +
+                   std::to_string(outcome.cells) +
+                   " cells with shapes beyond their limits, the worst, " +
+                   formatted("%.2g", report.iterations.back().misshapen) + " beyond, at cell " +
+                   std::to_string(report.worst_cell) + outcome.worst_place +
+                   "; the mesh is written; make the widths smoother, or give more cells\n";
+  finish(not_well_centred);
 }
 
 [[noreturn]] void finish_not_converged(const CvtRequest& request, const CvtReport& report) {
@@ -254,6 +291,36 @@ void write_plane(const std::string& path, const PlanarMesh& mesh, const PlanarDo
     throw Error(error.code(), path + ": " + error.what() + "; " + kept + " has the triangles",
                 error.index());
   }
+}
+
+/// The periods and walls of a mesh.
+std::string kind_of_plane(const Eigen::Vector2d& period) {
+  const auto side = [](const char* name, double length) {
+    return length > 0 ? "periodic in " + std::string(name) + ", " + shortest(length)
+                      : "with walls in " + std::string(name);
+  };
+  return side("x", period.x()) + "; " + side("y", period.y());
+}
+
+/// Writes the cells between walls; the outcome receives their number.
+void write_channel(const CvtRequest& request, const Eigen::Vector2d& extent, Outcome& outcome,
+                   const WriteOptions& options) {
+  MeshFile file = walled(outcome.plane, extent, walls_of(*request.domain));
+  WriteOptions part = options;
+  if (options.site_density.size() > 0) { // of all sites
+    std::vector<double> values;
+    const Walls walls = walls_of(*request.domain);
+    for (Eigen::Index i = 0; i < outcome.plane.points.cols(); ++i)
+      if (!(walls.x && outcome.plane.points(0, i) > extent.x()) &&
+          !(walls.y && outcome.plane.points(1, i) > extent.y()))
+        values.push_back(options.site_density[i]);
+    part.site_density = Eigen::Map<const Eigen::VectorXd>(values.data(), std::ssize(values));
+  }
+  const std::int64_t cells = file.polygons->size();
+  const Eigen::Vector2d period = file.polygons->period;
+  write(request.mesh, file, part);
+  outcome.grid = request.mesh + ": " + std::to_string(cells) + " cells, " + kind_of_plane(period) +
+                 "; the others fill the gap beyond the walls\n";
 }
 
 /// Writes a limited-area grid; the outcome receives its number of cells.
@@ -282,6 +349,8 @@ void write_result(const CvtRequest& request, const Plan& plan, Outcome& outcome,
   options.history = history_of(request, plan.configuration, outcome.report);
   if (request.part.limited_area)
     write_region(request, *plan.region, outcome, options);
+  else if (plan.channel)
+    write_channel(request, *plan.channel, outcome, options);
   else if (plan.domain)
     write_plane(request.mesh, outcome.plane, *plan.domain, options);
   else
@@ -314,16 +383,40 @@ std::string models_of(const CvtRequest& request) {
 
 /// Prints what the run's result lacks.
 void warn_of_result(const CvtRequest& request, const Outcome& outcome) {
-  if (request.cells && outcome.cells != *request.cells)
+  if (request.cells && outcome.cells != *request.cells && !request.domain->walls)
     std::cerr << "calotte: " + std::to_string(outcome.cells) + " cells instead of " +
-                     std::to_string(*request.cells) +
-                     ": bisections of a domain with a boundary leave out midpoints outside it; "
-                     "--start multilevel gives exactly as many\n";
+                     std::to_string(*request.cells) + ": " +
+                     (start_kind(request) == "hexagonal"
+                          ? "the hexagonal lattice has whole rows and columns; --start density "
+                          : "bisections of a domain with a boundary leave out midpoints outside "
+                            "it; --start multilevel ") +
+                     "gives exactly as many\n";
   if (!outcome.doubt.empty())
     warn(outcome.doubt);
 }
 
+/// Writes the grid of --hexagons, which is the optimal one of its density: there is nothing to run.
+void write_hexagons(const CvtRequest& request) {
+  require_hexagons(request);
+  const MeshFile file = hexagons_of(*request.domain);
+  WriteOptions options = write_options(request);
+  options.history = "calotte " + std::string(CALOTTE_VERSION) + " cvt --hexagons " +
+                    *request.domain->hexagons +
+                    (request.domain->walls ? " --walls " + *request.domain->walls : "");
+  write(request.mesh, file, options);
+  const bool open = file.polygons.has_value();
+  std::cout << request.mesh + ": " +
+                   std::to_string(open ? file.polygons->size() : file.plane->points.cols()) +
+                   " hexagons, " +
+                   kind_of_plane(open ? file.polygons->period : file.plane->period) + "\n";
+}
+
 void run(CvtRequest request) {
+  request.density->widths.plane = planar(request);
+  if (request.domain->hexagons) {
+    write_hexagons(request);
+    return;
+  }
   require_request(request);
   const Outcome outcome = tessellate_and_write(request);
   if (outcome.signal != 0)
@@ -335,7 +428,7 @@ void run(CvtRequest request) {
   if (!outcome.report.converged)
     finish_not_converged(request, outcome.report);
   if (well_centred(request) && !outcome.report.well_centred)
-    warn_of_shapes(outcome.report);
+    finish_not_well_centred(outcome);
 }
 
 } // namespace
@@ -352,7 +445,8 @@ void add_cvt(CLI::App& app) {
                       .examples = {"calotte cvt --cell-width 60km -o earth.nc",
                                    "calotte cvt --cells 40962 -o uniform.nc --for mpas-ocean",
                                    "calotte cvt --cells 40962 -o x8.vtp --density "
-                                   "tanh:lon=270,lat=30,beta=30deg,alpha=0.20,gamma=x8"}});
+                                   "tanh:lon=270,lat=30,beta=30deg,alpha=0.20,gamma=x8",
+                                   "calotte cvt --hexagons 16,50,10000 --walls y -o channel.nc"}});
   command->callback([request, command] {
     request->options = given_options(*command);
     run(*request);

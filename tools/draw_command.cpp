@@ -3,6 +3,7 @@
 #include "draw/draw.h"
 #include "draw/history.h"
 #include "draw/picture.h"
+#include "draw/plane.h"
 #include "draw/spacing_law.h"
 #include "draw/title.h"
 #include "draw_options.h"
@@ -92,11 +93,15 @@ PlanarDomain domain_of_errors(const std::optional<PlanarDomain>& given, const Pl
 }
 
 void draw_planar_mesh(const DrawArguments& arguments) {
-  const std::optional<PlanarDomain> domain = domain_of(*arguments.domain);
+  std::optional<PlanarDomain> domain = domain_of(*arguments.domain);
   DrawOptions options = arguments.options;
   options.density = density_of(*arguments.density, true);
   options.name = file_name(*arguments.source);
-  const PlanarMesh mesh = read_planar_mesh(*arguments.source);
+  const MeshFile file = read_mesh_file(*arguments.source, FieldChoice::none);
+  const PlanarMesh& mesh = *file.plane;
+  if (!domain && file.polygons && has_walls(mesh)) {
+    domain = walls_of(*file.polygons);
+  }
   if (!arguments.error_of.empty()) {
     set_errors(arguments.error_of, operator_errors(mesh, domain_of_errors(domain, mesh)), options);
   } else if (options.colouring == Colouring::field) {

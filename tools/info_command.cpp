@@ -45,12 +45,14 @@ void require_report(const Request& request) {
                    request.domain->file.value_or("")});
 }
 
-/// The given domain, or the box of the mesh.
-PlanarDomain domain_of(const Request& request, const PlanarMesh& mesh) {
+/// The given domain, the box of the mesh, or what its cells fill.
+PlanarDomain domain_of(const Request& request, const MeshFile& file) {
   if (const std::optional<PlanarDomain> given = domain_of(*request.domain))
     return *given;
-  if (mesh.period.minCoeff() > 0)
-    return periodic_box(mesh.period);
+  if (file.plane->period.minCoeff() > 0)
+    return periodic_box(file.plane->period);
+  if (std::optional<PlanarDomain> filled = domain_of_cells(file))
+    return std::move(*filled);
   throw Error(ErrorCode::bad_option, request.source->path +
                                          ": a planar mesh needs its domain, which clips the cells; "
                                          "give --domain, --rectangle or --periodic");
@@ -124,19 +126,37 @@ void measure_sphere(const Request& request, const MeshFile& file, Measured& meas
   find_boundary(count_edges(mesh), measured);
   if (measured.open)
     measured.masks = masks_of(request.source->path, mesh.points.cols());
+  if (measured.open && file.polygons)
+    measured.areas = shapes(*file.polygons).area;
   const Density density =
       measured.cells && !measured.open ? density_of(request, file, measured) : Density{};
   measured.quality = !measured.cells ? triangle_quality(mesh)
                      : measured.open ? open_quality(mesh)
                                      : quality(mesh, density);
+  if (measured.quality.flat > 0)
+    measured.remarks.push_back(
+        std::to_string(measured.quality.flat) +
+        " triangles along the boundary are flatter than rounding and are not measured");
   if (request.operators && measured.cells)
     measured.operators = operator_errors(mesh, density);
   else if (request.operators)
     measured.remarks.emplace_back(no_operators);
 }
 
+/// A plane with walls, such as a channel: as an open mesh of the sphere. The file's cells have the
+/// area.
+void measure_walls(const Request& request, const MeshFile& file, Measured& measured) {
+  find_boundary(count_edges(*file.plane), measured);
+  measured.quality = open_quality(*file.plane);
+  measured.domain_area = areas(*file.polygons).sum();
+  if (request.operators)
+    measured.remarks.emplace_back("the operators of a plane with walls are not measured");
+}
+
 void measure_plane(const Request& request, const MeshFile& file, Measured& measured) {
-  const PlanarDomain domain = domain_of(request, *file.plane);
+  if (!request.domain->given() && file.polygons && file.plane->period.maxCoeff() > 0)
+    return measure_walls(request, file, measured);
+  const PlanarDomain domain = domain_of(request, file);
   measured.density = density_name(*request.density);
   const Density density = density_of(*request.density, true);
   measured.quality = quality(*file.plane, domain, density);
@@ -205,6 +225,7 @@ void run(const Request& request) {
   if (request.domain->given() && !request.source->plane)
     throw Error(ErrorCode::bad_option,
                 "a domain requires --plane; add --plane, or leave the domain out");
+  request.density->widths.plane = request.source->plane;
   require_radius(request);
   require_report(request);
   std::cout << read_and_measure(request);

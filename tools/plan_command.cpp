@@ -29,6 +29,7 @@
 #include <numbers>
 #include <optional>
 #include <sstream>
+#include <utility>
 
 namespace calotte::tools {
 namespace {
@@ -72,9 +73,10 @@ void plan_widths(const Request& request, const CellWidth& widths, Plan& plan) {
   plan.factor = std::sqrt(plan.implied / static_cast<double>(plan.cells));
   plan.radius_km = words.radius;
   const double unit = plan.factor / words.radius; // of a width in km
+  CellWidth scaled = widths;
+  scaled.widths *= plan.factor;
   plan.spacing = {unit * widths.widths.minCoeff(), unit * widths.widths.minCoeff(),
-                  unit * widths.widths.maxCoeff(), largest_gradient(widths, words.radius)};
-  plan.spacing.steepest.slope *= plan.factor;
+                  unit * widths.widths.maxCoeff(), largest_gradient(scaled, words.radius)};
 }
 
 /// Widths in km in a region: with the cells of the rings, and some beyond, of a limited area.
@@ -97,12 +99,12 @@ void plan_density(const Request& request, const Density& density, const Region& 
   plan.spacing = survey_spacing(density, plan.cells, region);
 }
 
-Plan plan_of(const Request& request, const Resolution& resolution) {
+Plan plan_of(const Request& request, const Resolution& resolution, Region asked) {
   Plan plan;
   plan.density = density_name(*request.density);
   plan.region = request.part.region;
   const std::optional<RunRegion> region =
-      region_of_run(request.part, request.density->widths, resolution.widths);
+      region_of_run(request.part, std::move(asked), request.density->widths, resolution.widths);
   if (resolution.widths && region)
     plan_region(request, resolution, *region, plan);
   else if (resolution.widths)
@@ -237,10 +239,11 @@ void require_request(const Request& request) {
 Plan make_plan(const Request& request) {
   Progress progress;
   progress.stage("reading the density");
-  const Resolution resolution = resolution_of(*request.density);
+  Region asked = asked_region(request.part, request.density->widths);
+  const Resolution resolution = resolution_of(*request.density, false, asked);
   Plan plan;
   with_threads(request.threads, [&] {
-    plan = plan_of(request, resolution);
+    plan = plan_of(request, resolution, std::move(asked));
     progress.stage("drawing " + request.picture);
     if (!request.picture.empty())
       draw_widths(request, resolution.density, plan);

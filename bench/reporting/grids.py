@@ -46,7 +46,7 @@ def remark(code, printed):
     """What calotte cvt says of a run that is less than well-centred: by its exit code, a warning of
     shapes, and how many generators its finish has moved from their centroids."""
     remarks = ["not converged"] if code == 1 else []
-    if shape := re.search(r"a shape is (\S+) beyond its limit", printed):
+    if shape := re.search(r"the worst, (\S+) beyond,", printed):
         remarks.append(f"a shape {shape[1]} beyond its limit")
     if moved := re.search(r"(\d+) generators more than 0.01", printed):
         remarks.append(f"{moved[1]} generators displaced")

@@ -122,8 +122,8 @@ class Remarks(unittest.TestCase):
     def test_faults_are_named_with_their_size(self):
         printed = (
             "x.vtp: 642 cells, not converged, 200 iterations, 12 generators more than 0.01 of the "
-            "spacing from their centroids (at most 0.04), 0.10 s\ncalotte: warning: a shape is 0.11 "
-            "beyond its limit, so that the mesh is not well-centred\n"
+            "spacing from their centroids (at most 0.04), 0.10 s\ncalotte: not well-centred: 3 of 642 "
+            "cells with shapes beyond their limits, the worst, 0.11 beyond, at cell 12\n"
         )
         self.assertEqual(
             grids.remark(1, printed),

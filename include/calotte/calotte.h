@@ -14,8 +14,10 @@
 #include <calotte/error.h>
 #include <calotte/export.h>
 #include <calotte/generators.h>
+#include <calotte/interpolate.h>
 #include <calotte/io.h>
 #include <calotte/limited_area.h>
+#include <calotte/locate.h>
 #include <calotte/lonlat.h>
 #include <calotte/model.h>
 #include <calotte/ocean.h>

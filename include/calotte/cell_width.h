@@ -50,6 +50,13 @@ double implied_cells(const CellWidth& cell_width, double radius_km = earth_radiu
 double implied_cells(const CellWidth& cell_width, const Region& region,
                      double radius_km = earth_radius_km);
 
+/// Throws unless the nodes cover a region: at its boundary the nearest nodes are at most half of
+/// the widest step away, between the last longitude and the first one and beyond the outer
+/// latitudes at most 1.5 of it. \throws Error bad_option, naming the extent of the nodes and a
+/// place of the region outside; as
+///         require_region().
+void require_covering(const CellWidth& cell_width, const Region& region = {});
+
 /// The gradient of the cell width at one location.
 struct Gradient {
   double slope = 0;     ///< |grad h|, km per km
@@ -57,10 +64,12 @@ struct Gradient {
   double latitude = 0;  ///< degrees
 };
 
-/// The largest |grad h| of the interpolated field. It is exact, because the maximum lies at a
-/// corner of a grid cell. Most models need a value below about 0.03.
-/// \param radius_km radius of the sphere, > 0 and finite; default that of the Earth.
-/// \throws Error as density_of; bad_option for a radius out of range.
+/// The largest |grad h| that cells see: the largest mean of the gradient over a square of the width
+/// h in the corner of a box between nodes, or over the box if that is smaller. (At a node the
+/// gradient of the interpolated field itself may be sqrt(2) times that of the widths that were
+/// sampled.) Most models need a value below about 0.03. \param radius_km radius of the sphere, > 0
+/// and finite; default that of the Earth. \throws Error as density_of; bad_option for a radius out
+/// of range.
 Gradient largest_gradient(const CellWidth& cell_width, double radius_km = earth_radius_km);
 
 /// Widths for the polygons of a GeoJSON file, all in km, see read_cell_width(). A width of 0, the

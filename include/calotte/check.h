@@ -50,7 +50,8 @@ Check check(const Mesh& mesh, const ProgressCallback& progress = {});
 /// The same in the plane: Euler's characteristic is 1, and the areas sum to that of the boundary
 /// polygon. In a periodic box there is no boundary, Euler's characteristic is 0, and the areas sum
 /// to that of the box; a triangle wider than half of the box is a failure, because
-/// periodic_delaunay() makes none.
+/// periodic_delaunay() makes none. In a channel Euler's characteristic is 0, the walls are straight,
+/// and the areas sum to the period times the distance of the walls.
 /// \throws Error cancelled.
 Check check(const PlanarMesh& mesh, const ProgressCallback& progress = {});
 
@@ -62,6 +63,10 @@ Check check(const PlanarMesh& mesh, const ProgressCallback& progress = {});
 /// near a site of one cycle or fan. \throws Error cancelled.
 Check check_surface(const Mesh& mesh, const ProgressCallback& progress = {});
 
+/// The same in the plane, where the areas sum to that of the boundary polygons or of the periodic
+/// box. \throws Error cancelled.
+Check check_surface(const PlanarMesh& mesh, const ProgressCallback& progress = {});
+
 /// Counts of what keeps a mesh from being the Delaunay triangulation of its points, or closed.
 struct EdgeCounts {
   std::int64_t edges = 0;    ///< of all triangles
@@ -70,8 +75,8 @@ struct EdgeCounts {
   /// Boundary sites at which the boundary turns towards the outside by more than a straight line:
   /// the mesh does not fill its hull there.
   std::int64_t not_convex = 0;
-  /// Edges whose opposite site lies inside the circumcap, by more than rounding: their Voronoi edge
-  /// has a length below -1e-9 of their own. The mesh has no Voronoi cells there.
+  /// Edges whose opposite site lies inside the circumcap or circumcircle, by more than rounding:
+  /// their Voronoi edge has a length below -1e-9 of their own. The mesh has no Voronoi cells there.
   std::int64_t not_delaunay = 0;
   /// Edges between sites that are cocircular up to that rounding, and that follow another diagonal
   /// than the library's rule. They make the same Voronoi cells.
@@ -86,6 +91,7 @@ struct EdgeCounts {
 /// \pre ids are in range, triangles are counter-clockwise, neighbours are mutual, as read_mesh()
 /// makes them.
 EdgeCounts count_edges(const Mesh& mesh);
+EdgeCounts count_edges(const PlanarMesh& mesh);
 
 } // namespace calotte
 CALOTTE_API_END

@@ -157,7 +157,10 @@ struct CvtReport {
   /// The norm of the last level, before a finish, is at most the tolerance; with Norm::none, all
   /// iterations are done.
   bool converged = false;
-  bool well_centred = false;            ///< a finish brought all shapes within their limits
+  bool well_centred = false; ///< a finish brought all shapes within their limits
+  /// After a finish that did not: the number of cells whose triangles are beyond a limit.
+  std::int64_t misshapen_cells = 0;
+  std::int64_t worst_cell = -1;         ///< one with the shape farthest beyond; -1 for none
   double residual = 0;                  ///< the selected norm at the end of the run
   std::vector<CvtIteration> iterations; ///< all evaluations, of all levels, in order
   std::vector<CvtRegion> regions;       ///< of the last level
@@ -322,20 +325,32 @@ inline constexpr double tolerance_before_finish = 1e-4;
 /// further rounds.
 inline constexpr int usual_insertion_rounds = 1;
 
+/// The same with fixed generators: further rounds move free ones away from places between these.
+inline constexpr int insertion_rounds_beside_fixed = 3;
+
 /// The start of a run with CvtOptions::insertion_rounds, for any number of cells: random points
 /// that follow site_density(), and as many bisections as leave at least 160 of them, and 12 in each
 /// hemisphere on average, and at least four times as many as fixed ones; or `cells` itself.
 /// \param cells value for CvtOptions::cells, 12 to 2^30.
-/// \param fixed number of fixed generators that the caller puts before the start, which has as many
-///        points fewer; 0 to cells - 1, default 0.
+/// \param fixed 3 x m, m < cells: generators that the caller puts before the start, see
+///        CvtOptions::fixed. The start has m points fewer, and where the fixed ones meet the
+///        density none. Default: none.
 /// \throws Error as above.
 Continuation multilevel(std::int64_t cells, const Density& density, std::uint64_t seed = 1,
-                        std::int64_t fixed = 0);
+                        const Points3& fixed = {});
 
 /// The same in a region; `cells` from 4 on.
 /// \throws Error as above and as require_region().
 Continuation multilevel(std::int64_t cells, const Region& region, const Density& density,
-                        std::uint64_t seed = 1, std::int64_t fixed = 0);
+                        std::uint64_t seed = 1, const Points3& fixed = {});
+
+/// The number of cells of a grid with fixed generators: theirs, and as many of those that a density
+/// demands as the fixed ones leave unmet. An estimate from random places.
+/// \param cells number that the density demands without fixed generators.
+/// \param region default: the sphere.
+/// \throws Error as above.
+std::int64_t cells_beside(const Points3& fixed, std::int64_t cells, const Density& density,
+                          const Region& region = {});
 
 /// The same in the plane.
 struct PlanarContinuation {
@@ -348,7 +363,7 @@ struct PlanarContinuation {
 /// seed).
 PlanarContinuation multilevel(std::int64_t cells, const PlanarDomain& domain,
                               const Density& density, std::uint64_t seed = 1,
-                              std::int64_t fixed = 0);
+                              const Points2& fixed = {});
 
 } // namespace calotte
 CALOTTE_API_END

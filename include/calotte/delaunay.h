@@ -48,11 +48,11 @@ struct DelaunayReport {
 /// resolves cocircular sites (design of the in-circle predicate in lib/exact/predicates.h). It runs
 /// in the caller's task arena.
 ///
-/// \param points 3 x n directions of any norm from 1e-200 to 1e200, n from 4 to 2^30.
+/// \param points 3 x n directions of any norm from 1e-200 to 1e200, n from 3 to 2^30.
 /// \param report if not null, receives times and counts; default null.
 /// \throws Error bad_option (not 3 rows, more than 2^30 points, or an option out of range; see
 ///         DelaunayOptions and Partition), not_finite, zero_vector, duplicate (when refused),
-///         too_few_sites (fewer than 4 distinct), degenerate (all on one great circle), cancelled
+///         too_few_sites (fewer than 3 distinct), degenerate (all on one great circle), cancelled
 ///         (by options.progress).
 ///
 /// Jacobsen, Gunzburger, Ringler, Burkardt, Peterson: Parallel algorithms for planar and spherical

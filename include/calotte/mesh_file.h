@@ -4,6 +4,7 @@
 #include <calotte/domain.h>
 #include <calotte/export.h>
 #include <calotte/mesh_field.h>
+#include <calotte/quality.h>
 #include <calotte/read.h>
 #include <calotte/types.h>
 #include <calotte/voronoi.h>
@@ -20,15 +21,17 @@ CALOTTE_API_BEGIN
 namespace calotte {
 
 /// n polygons on the sphere, such as the cells of a grid that need not be Voronoi cells. Their
-/// sides are arcs of great circles. Or n polygons in a plane, with z = 0.
+/// sides are arcs of great circles. Or n polygons in a plane, with z = 0. In a direction in which
+/// the plane is periodic, the corners of a polygon are the copies nearest to its first corner.
 struct Polygons {
   Points3 corners; ///< 3 x m unit columns; in a plane in any unit of length
   /// n + 1: polygon i has the corners ids[begin[i]] to ids[begin[i + 1] - 1], counter-clockwise
   /// seen from outside. 0-based.
   Eigen::Matrix<std::int64_t, Eigen::Dynamic, 1> begin;
-  Ids ids;               ///< see `begin`
-  Points3 centres;       ///< 3 x n, as the corners; 3 x 0 if the file gives none
-  bool on_sphere = true; ///< false in a plane
+  Ids ids;                      ///< see `begin`
+  Points3 centres;              ///< 3 x n, as the corners; 3 x 0 if the file gives none
+  bool on_sphere = true;        ///< false in a plane
+  Eigen::Vector2d period{0, 0}; ///< of the plane, as PlanarMesh has it
 
   /// Their number.
   std::int64_t size() const { return begin.size() > 0 ? begin.size() - 1 : 0; }
@@ -38,8 +41,21 @@ struct Polygons {
 /// \pre counter-clockwise; on the sphere each smaller than a hemisphere.
 Eigen::VectorXd areas(const Polygons& polygons);
 
-/// Counts of polygons whose shape is not that of a centroidal Voronoi cell.
+/// Polygons of a periodic plane in one without a period: each near its centre, or else near its
+/// first corner. Corners that are needed on both sides of a seam have copies, which follow the
+/// others. Other polygons stay as they are.
+Polygons unwrapped(Polygons polygons);
+
+/// What polygons measure, and counts of those whose shape is not that of a centroidal Voronoi cell.
 struct PolygonShapes {
+  Range area; ///< steradians; in a plane the square of its unit
+  /// Distance of the centres of two polygons that share a side, radians or the plane's unit; all 0
+  /// without centres, and if no two share one.
+  Range spacing;
+  /// Polygons whose area is 0 up to rounding: with fewer than three corners, or with sides that run
+  /// back along each other. They do not count below.
+  std::int64_t without_area = 0;
+  std::int64_t first_without_area = -1; ///< the first of them; -1 for none
   /// Polygons that turn to the right at a corner, by more than 1e-9 radians.
   std::int64_t not_convex = 0;
   std::int64_t first_not_convex = -1; ///< the first of them; -1 for none
@@ -58,17 +74,19 @@ PolygonShapes shapes(const Polygons& polygons);
 struct MeshFile {
   std::string format; ///< for messages, such as "MPAS" or "SCRIP"
 
-  /// The triangulation of the sites in canonical form. It is the file's, or, if the file holds
-  /// cells alone, that of the cells' centres, provided that the cells are their Voronoi cells.
+  /// The triangulation of the sites in canonical form. It is the file's. Cells alone have one if
+  /// they are the Voronoi cells of their centres; those of a part of the sphere, if each corner
+  /// that cells surround is the circumcentre of three centres: then it has their triangles, and no
+  /// others.
   std::optional<Mesh> mesh;
   std::optional<PlanarMesh> plane; ///< the same of a file in a plane
   /// The domain of `plane`, which clips its cells. No file holds it: a caller that knows it may set
   /// it for write().
   std::optional<PlanarDomain> domain;
-  /// The file's cells, unless they are the Voronoi cells of `mesh`; those of a plane with a
-  /// boundary always.
+  /// The file's cells, unless they are all the Voronoi cells of `mesh`; those of a part of the
+  /// sphere and of a plane with a boundary always.
   std::optional<Polygons> polygons;
-  /// Why `polygons` are not Voronoi cells, as a clause; empty without polygons.
+  /// Why `polygons` do not follow from `mesh`, as a clause; empty without polygons.
   std::string not_voronoi;
 
   /// Radius of the sphere on which all points lie, with 12 digits; 1 if they lie on none.
@@ -80,6 +98,33 @@ struct MeshFile {
       changes; ///< what reading changed, such as "turned 12 clockwise triangles"
   std::vector<std::string> ignored; ///< names of variables that were not read
 };
+
+/// The directions in which a plane ends at walls instead of being periodic.
+struct Walls {
+  bool x = false, y = false;
+};
+
+/// Regular hexagons in a plane that is periodic, as planar_hex of MPAS-Tools makes them: cell
+/// r columns + c has its centre at ((c + 1/2) d, (r + 1) d sqrt(3)/2), in odd rows at ((c + 1) d,
+/// ...), moved into the period. The periods are columns d and rows d sqrt(3)/2.
+///
+/// At walls the cells are whole hexagons, and the boundary runs along their sides: as in planar_hex
+/// the mesh has a row or a column more on either side, which is then removed (r and c count from
+/// 1). Periods across walls are 0. \param columns, rows numbers of cells, at most 2^28 in all:
+/// columns >= 3, with walls in x >= 2;
+///        rows >= 4 and even, with walls in y >= 2.
+/// \param spacing d, the distance of neighbours, in any unit of length; from 1e-20 to 1e20.
+/// \returns `plane` of a box without walls, else `polygons`.
+/// \throws Error bad_option for an argument out of range.
+MeshFile planar_hexagons(std::int64_t columns, std::int64_t rows, double spacing, Walls walls = {});
+
+/// The Voronoi cells of a doubly periodic box whose sites lie in a part of it, from 0 to `extent`
+/// in the directions of the walls; in the others the box stays periodic. The boundary runs along
+/// the sides of whole cells, as MPAS-Ocean has it. \param box its period is that of the part where
+/// there is no wall, and larger where there is one. \returns `polygons`, in the order of the sites.
+/// \throws Error bad_option for no wall, an extent that is not below the box's period, or no cell;
+///         as voronoi().
+MeshFile walled(const PlanarMesh& box, const Eigen::Vector2d& extent, Walls walls);
 
 /// Which fields read_mesh_file() reads from NetCDF files; the others are among `ignored`.
 enum class FieldChoice {
@@ -112,6 +157,13 @@ enum class FieldChoice {
 MeshFile read_mesh_file(const std::string& path, const Points3* points = nullptr,
                         FieldChoice choice = FieldChoice::all);
 
+/// The tessellation of a file's cells: that of its mesh, or of its polygons where these are part of
+/// a Voronoi tessellation, such as the cells of an ocean or a limited area. Polygons keep their
+/// corners; edges at their boundary have one cell, as in a bounded plane.
+/// \throws Error as voronoi(); bad_option for polygons that are no Voronoi cells, with the reason,
+///         and for a bounded plane without a domain and polygons.
+Voronoi voronoi(const MeshFile& file);
+
 /// The density that follows from the cells of a file, see spacing_density(voronoi): those of its
 /// mesh, or of its polygons where these are part of a Voronoi tessellation.
 /// \returns by cell; none if the cells are uniform, or if they have no spacing: for other polygons,
@@ -140,11 +192,12 @@ struct WrittenFields {
 };
 
 /// Writes what a file holds to another format. The cells keep their shapes: polygons go to formats
-/// of cells only. MPAS needs Voronoi cells: the polygons of an open mesh are written if each corner
-/// of three cells is the circumcentre of their centres, within a millionth of a cell's width.
-/// Density and fields at cells go along.
-/// \param options its density, if not uniform, replaces the file's.
-/// \throws Error as write(); bad_option if the format cannot hold the mesh, with the reason.
+/// of cells, and to those of triangles that can hold other faces (vtp, vtu, off, ply) where there
+/// is no mesh. Fields for whose values the format has no place are left out. MPAS needs Voronoi
+/// cells: the polygons of an open mesh are written if each corner of three cells is the
+/// circumcentre of their centres, within a millionth of a cell's width. Density and fields at cells
+/// go along. \param options its density, if not uniform, replaces the file's. \throws Error as
+/// write(); bad_option if the format cannot hold the mesh, with the reason.
 WrittenFields write(const std::string& path, const MeshFile& file,
                     const WriteOptions& options = {});
 

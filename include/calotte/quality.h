@@ -41,8 +41,11 @@ inline constexpr double greatest_fit = 1.4;        ///< of dc/h
 /// Voronoi edge joins the circumcentres of two triangles. It, or its extension, bisects the
 /// Delaunay edge between them at a right angle.
 struct Quality {
-  std::int64_t cells = 0;            ///< their number
-  std::int64_t triangles = 0;        ///< their number
+  std::int64_t cells = 0;     ///< their number
+  std::int64_t triangles = 0; ///< their number
+  /// Triangles along an open boundary that are flatter than rounding, such as those between sites
+  /// on one meridian, which lie on one great circle but for their last digits. They do not count.
+  std::int64_t flat = 0;
   std::vector<std::int64_t> degrees; ///< degrees[d]: number of cells with d neighbours
 
   Range spacing; ///< length of the Delaunay edges
@@ -109,11 +112,10 @@ struct Quality {
 ///         or zero over a whole cell.
 Quality quality(const Mesh& mesh, const Density& density = {});
 
-/// Measures the triangles of a mesh that need be neither closed nor Delaunay: triangles, spacing,
-/// triangle_quality, angles, obtuse and triangles_area. `cells` is the number of sites, and
-/// `degrees` counts the sites with a closed ring of triangles. The other fields, which belong to
-/// Voronoi cells, stay 0.
-/// \throws Error bad_option, for a mesh that fails check_surface().
+/// Measures the triangles of a mesh that need be neither closed nor Delaunay: triangles, flat,
+/// spacing, triangle_quality, angles, obtuse and triangles_area. `cells` is the number of sites,
+/// and `degrees` counts the sites with a closed ring of triangles. The other fields, which belong
+/// to Voronoi cells, stay 0. \throws Error bad_option, for a mesh that fails check_surface().
 Quality triangle_quality(const Mesh& mesh);
 
 /// Measures an open Delaunay triangulation, such as that of a limited-area grid: what
@@ -125,6 +127,11 @@ Quality triangle_quality(const Mesh& mesh);
 ///      count_edges().
 /// \throws Error bad_option, for a mesh that fails check_surface().
 Quality open_quality(const Mesh& mesh);
+
+/// The same of a plane that is periodic in a direction and ends at walls, such as a channel.
+/// Lengths and areas are in the unit of the points and its square; cells_area and triangles_area
+/// are 0. \throws Error as above.
+Quality open_quality(const PlanarMesh& mesh);
 
 /// Measures a mesh of generators in a planar domain. Lengths and areas are in the domain's unit, h
 /// = sqrt(area / n), cells_area is divided by the domain's area, and triangles_area is 0. The

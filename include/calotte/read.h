@@ -103,6 +103,11 @@ Region read_region(std::istream& in, const std::string& name);
 /// function checks that ids are in range; check() proves the geometry. Neighbours are rebuilt. An
 /// edge of three triangles, or of two that run through it in the same direction, stays open.
 ///
+/// Of NetCDF files that no program writes here, ICON's grids are read, cells with bounds as in the
+/// CF conventions (longitudes and latitudes with three corners or more for each cell), and the one
+/// grid of an OASIS file. Corners that are _FillValue or missing_value pad a cell. A .msh file is
+/// JIGSAW's, or the text of Gmsh's formats 2 and 4, whose triangles are read.
+///
 /// VTK files are XML (.vtp, .vtu: PolyData or UnstructuredGrid; text, base64 or appended; also
 /// compressed by zlib) or legacy (.vtk: POLYDATA or UNSTRUCTURED_GRID, to version 5.1). PLY files
 /// are text or binary. Their triangles are those of the points; a file with other polygons holds
@@ -128,8 +133,9 @@ bool is_netcdf_file(const std::string& path);
 Points3 read_sites(const std::string& path);
 
 /// Reads a mesh of the plane: a periodic mesh from an MPAS file (.nc), other meshes from the
-/// formats of write() for planar meshes and from JIGSAW files of NDIMS=2. Points without triangles,
-/// and the sites of cells that a boundary clips, are triangulated by planar_delaunay();
+/// formats of write() for planar meshes and from JIGSAW files of NDIMS=2. A mesh that is periodic
+/// in one direction, or has land in a box, has the triangles of three cells each. Points without
+/// triangles, and the sites of cells that a boundary clips, are triangulated by planar_delaunay();
 /// read_mesh_file() reads the cells, too.
 /// \param points 2 x n, as in read_mesh().
 /// \throws Error as read_mesh(); bad_option for a spherical mesh, which has a z that is not 0.
@@ -186,13 +192,19 @@ struct CellField {
 ///         parse; file.
 CellField read_cell_field(const std::string& path, const std::string& name, std::int64_t cells);
 
+/// The kilometres in a unit of length: 1 for km and 0.001 for m, by symbol or by name as UDUNITS
+/// spells them (km, kilometer, kilometres, m, meters, metre, ...); 1 for an empty text.
+/// \throws Error bad_option for any other unit.
+double kilometres_in(const std::string& unit);
+
 /// Reads cell widths from a file. The suffix selects the format:
 ///
-/// .nc (NetCDF): the variable cellWidth(lat, lon) in km, or in metres if its attribute `units` says
-/// so, with the coordinate variables lat and lon (or latitude and longitude) in degrees. A fill
-/// value is an error. Latitudes may descend. Longitudes cover any interval of 360 degrees; the
-/// first meridian may be repeated at the end. Both must cover the sphere without a gap wider
-/// than 1.5 times the widest step.
+/// .nc (NetCDF): the variable cellWidth(lat, lon) in km, or in the unit of length of its attribute
+/// `units`, see kilometres_in(), with the coordinate variables lat and lon (or latitude and
+/// longitude) in degrees. A fill value is an error. Latitudes may descend. Longitudes cover any
+/// interval of 360 degrees; the first meridian may be repeated at the end. Both must cover the
+/// sphere without a gap wider than 1.5 times the widest step, or the region as require_covering()
+/// demands.
 ///
 /// .msh (JIGSAW): an ellipsoid-grid, its longitudes and latitudes in radians, values in km by
 /// columns of latitudes; or a mesh (ellipsoid-mesh of longitude and latitude in radians,
@@ -210,21 +222,29 @@ CellField read_cell_field(const std::string& path, const std::string& name, std:
 /// interval of the widths is a sixteenth of the transition, from 0.05 to 1 degree.
 ///
 /// \param polygons widths for GeoJSON; other formats ignore them.
+/// \param region which the widths must cover; default the sphere.
 /// \throws Error bad_option for an unknown suffix, a width, transition or radius that is missing or
 ///         not positive, a transition narrower than 0.2 degrees, or points of a mesh within a
 ///         hemisphere; parse, naming the variable and its index, the line or the feature; file.
-CellWidth read_cell_width(const std::string& path, const PolygonWidths& polygons = {});
+CellWidth read_cell_width(const std::string& path, const PolygonWidths& polygons = {},
+                          const Region& region = {});
 
 /// Reads the variable density(lat, lon) of a NetCDF file, with the coordinates of read_cell_width.
 /// Densities are > 0. The result holds rho^(-1/4) divided by its minimum. These widths are
 /// relative; they imply no number of cells.
 /// \throws Error parse, naming the variable and its index; file.
-CellWidth read_density_raster(const std::string& path);
+CellWidth read_density_raster(const std::string& path, const Region& region = {});
 
 /// Reads the variable density(y, x) and the coordinate variables x(x) and y(y) of a NetCDF file.
 /// Densities are finite and >= 0; the coordinates are in the unit of the domain and may descend.
 /// \throws Error parse, naming the variable and its index; file.
 PlanarRaster read_planar_raster(const std::string& path);
+
+/// Reads the variable cellWidth(y, x) in the same way. Widths are > 0 and in the unit of the
+/// domain, which is that of x and y. Where cellWidth and x both have an attribute `units`, widths
+/// in km are converted to metres and the reverse, see kilometres_in(). \throws Error parse, naming
+/// the variable and its index; file.
+PlanarCellWidth read_planar_cell_width(const std::string& path);
 
 } // namespace calotte
 CALOTTE_API_END

@@ -53,15 +53,17 @@ struct Mesh {
   bool closed() const { return triangles.cols() == 2 * points.cols() - 4; }
 };
 
-/// A Delaunay triangulation in the plane: of the convex hull of the sites, or of the doubly
-/// periodic box [0, period.x) x [0, period.y). In the box the corners of a triangle are the nearest
-/// copies of its sites, and n sites have 2n triangles. Triangles and neighbours are as in Mesh.
+/// A Delaunay triangulation in the plane: of the convex hull of the sites; of the doubly periodic
+/// box [0, period.x) x [0, period.y); or of a channel, which is periodic in one direction and ends
+/// at walls in the other. In a periodic direction the corners of a triangle are the nearest copies
+/// of its sites. In the box n sites have 2n triangles; in a channel n sites, of which w are on the
+/// walls, have 2n - w. Triangles and neighbours are as in Mesh.
 struct PlanarMesh {
-  Points2 points;                          ///< 2 x n sites; in a periodic box, inside it
+  Points2 points;                          ///< 2 x n sites; in a periodic direction in [0, period)
   Triangles triangles;                     ///< 3 x m site ids, counter-clockwise
   Triangles neighbours;                    ///< 3 x m triangle ids; -1 along an open boundary
   std::vector<std::int32_t> site_of_input; ///< as in Mesh
-  Eigen::Vector2d period{0, 0};            ///< side lengths of the periodic box; 0 if there is none
+  Eigen::Vector2d period{0, 0}; ///< of the plane in x and y; 0 in a direction without one
 };
 
 } // namespace calotte

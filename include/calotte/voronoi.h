@@ -34,7 +34,7 @@ using Pairs = Eigen::Matrix<std::int32_t, 2, Eigen::Dynamic>;
 /// cells, of which a pair may have several. A missing cell or edge has the id -1.
 struct Voronoi {
   bool on_sphere = true;        ///< false in a plane
-  Eigen::Vector2d period{0, 0}; ///< of a periodic plane; 0 elsewhere
+  Eigen::Vector2d period{0, 0}; ///< of the plane, as PlanarMesh has it; 0 on the sphere
 
   Points3 cells; ///< 3 x n: the sites; unit columns on the sphere
   Points3 edges; ///< 3 x e: midpoints of the Delaunay edges, which the Voronoi edges cross; of an
@@ -74,15 +74,21 @@ struct Voronoi {
   Eigen::Matrix3Xd kites;
 };
 
-/// Computes the tessellation dual to a closed mesh. Locations, lengths and areas are accurate to
-/// rounding; the areas sum to 4 pi within 1e-12. For sites closer than about 1e-12, and for
-/// triangles as flat, only the sums are accurate. Unit columns keep their bits. The result has the
-/// same bits for any number of threads. The function runs in the caller's task arena.
-/// \param mesh the closed Delaunay triangulation of its points, which are directions of any norm.
-///         The function does not check the Delaunay property; check() does.
-/// \throws Error bad_option, for an open mesh, whose outer cells are unbounded; for ids, neighbours
-///         or points that do not form a triangulation, naming the first triangle or site; for more
-///         than 2^29 sites, whose edges exceed int32.
+/// Computes the tessellation of the sphere by the cells of a mesh's sites. Locations, lengths and
+/// areas are accurate to rounding; the areas sum to 4 pi within 1e-12. For sites closer than about
+/// 1e-12, and for triangles as flat, only the sums are accurate. Unit columns keep their bits. The
+/// result has the same bits for any number of threads. The function runs in the caller's task
+/// arena.
+///
+/// Sites in a hemisphere have cells that reach round the far side of the sphere. Their vertices
+/// there are the circumcentres of further triangles, the far side of the sites' convex hull as
+/// points of the unit sphere, which cells_on_vertex and edges_on_vertex contain, too: 2n - 4 in
+/// all. These run clockwise seen from outside the sphere.
+/// \param mesh the Delaunay triangulation of its points, which are directions of any norm. The
+///         function does not check the Delaunay property; check() does.
+/// \throws Error bad_option, for an open mesh whose boundary is not the hull of its sites; for ids,
+///         neighbours or points that do not form a triangulation, naming the first triangle or
+///         site; for more than 2^29 sites, whose edges exceed int32.
 Voronoi voronoi(const Mesh& mesh);
 
 /// The same for a periodic plane.

@@ -3,6 +3,7 @@
 #include <calotte/generators.h>
 
 #include "base/require.h"
+#include "cvt/free_points.h"
 #include "cvt/region_world.h"
 #include "cvt/room.h"
 #include "cvt/worlds.h"
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <string>
 
@@ -39,13 +41,10 @@ template <class World> int coarsen(std::int64_t& cells, std::int64_t least) {
   return levels;
 }
 
-/// The number of points that a start has beside the fixed generators.
-std::int64_t free_of(std::int64_t cells, std::int64_t fixed) {
-  base_detail::require(fixed >= 0 && fixed < cells, "the number of fixed generators is " +
-                                                        std::to_string(fixed) +
-                                                        "; give 0 or more, and fewer than the " +
-                                                        std::to_string(cells) + " cells");
-  return cells - fixed;
+void require_room(std::int64_t cells, std::int64_t fixed) {
+  base_detail::require(fixed < cells, "there are " + std::to_string(fixed) +
+                                          " fixed generators; give fewer than the " +
+                                          std::to_string(cells) + " cells");
 }
 
 /// The least number of generators on a level with some fixed ones.
@@ -65,6 +64,23 @@ std::int64_t spreading(const Density& sites) {
   return least * static_cast<double>(generators_detail::most_points) > in_hemisphere
              ? static_cast<std::int64_t>(std::ceil(in_hemisphere / least))
              : generators_detail::most_points;
+}
+
+/// How many generators of a density leave no empty circle as wide as half of a periodic box, which
+/// would hold no triangulation: the largest of independent random points has a diameter of
+/// about 2.5 spacings. 0 of other domains.
+std::int64_t spreading(const Density& density, const PlanarDomain& domain) {
+  if (!domain.periodic())
+    return 0;
+  constexpr double spacings_across = 6;
+  const Eigen::VectorXd rho =
+      evaluate(density, domain, random_places(1 << 14, domain)).cwiseMax(1e-150);
+  const double root = area(domain) * rho.cwiseSqrt().mean(),
+               widest = domain.period.minCoeff() / spacings_across;
+  const double cells =
+      2 / std::numbers::sqrt3 * root / (std::sqrt(rho.minCoeff()) * widest * widest);
+  return static_cast<std::int64_t>(
+      std::ceil(std::min(cells, double(generators_detail::most_points))));
 }
 
 } // namespace
@@ -93,36 +109,39 @@ Continuation continuation(std::int64_t cells, const Density& density, std::uint6
 }
 
 Continuation multilevel(std::int64_t cells, const Density& density, std::uint64_t seed,
-                        std::int64_t fixed) {
+                        const Points3& fixed) {
   base_detail::require_count(cells, cvt_detail::SphericalWorld::fewest, "the number of cells");
-  free_of(cells, fixed);
+  require_room(cells, fixed.cols());
   Continuation result;
   const Density sites = site_density(density);
-  result.bisections =
-      coarsen<cvt_detail::SphericalWorld>(cells, std::max(least_with(fixed), spreading(sites)));
-  result.start = random_sphere(free_of(cells, fixed), sites, seed);
+  result.bisections = coarsen<cvt_detail::SphericalWorld>(
+      cells, std::max(least_with(fixed.cols()), spreading(sites)));
+  result.start = cvt_detail::free_points(cells - fixed.cols(), cells, fixed, Region{}, sites, seed);
   return result;
 }
 
 Continuation multilevel(std::int64_t cells, const Region& region, const Density& density,
-                        std::uint64_t seed, std::int64_t fixed) {
+                        std::uint64_t seed, const Points3& fixed) {
   if (region.whole())
     return multilevel(cells, density, seed, fixed);
   base_detail::require_count(cells, cvt_detail::RegionWorld::fewest, "the number of cells");
-  free_of(cells, fixed);
+  require_room(cells, fixed.cols());
   Continuation result;
-  result.bisections = coarsen<cvt_detail::RegionWorld>(cells, least_with(fixed));
-  result.start = random_sphere(free_of(cells, fixed), region, site_density(density), seed);
+  result.bisections = coarsen<cvt_detail::RegionWorld>(cells, least_with(fixed.cols()));
+  result.start = cvt_detail::free_points(cells - fixed.cols(), cells, fixed, region,
+                                         site_density(density), seed);
   return result;
 }
 
 PlanarContinuation multilevel(std::int64_t cells, const PlanarDomain& domain,
-                              const Density& density, std::uint64_t seed, std::int64_t fixed) {
+                              const Density& density, std::uint64_t seed, const Points2& fixed) {
   base_detail::require_count(cells, cvt_detail::PlanarWorld::fewest, "the number of cells");
-  free_of(cells, fixed);
+  require_room(cells, fixed.cols());
   PlanarContinuation result;
-  result.bisections = coarsen<cvt_detail::PlanarWorld>(cells, least_with(fixed));
-  result.start = random_places(free_of(cells, fixed), domain, site_density(density, domain), seed);
+  result.bisections = coarsen<cvt_detail::PlanarWorld>(
+      cells, std::max(least_with(fixed.cols()), spreading(density, domain)));
+  result.start = cvt_detail::free_points(cells - fixed.cols(), cells, fixed, domain,
+                                         site_density(density, domain), seed);
   return result;
 }
 

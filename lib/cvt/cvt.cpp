@@ -27,9 +27,9 @@ namespace calotte {
 namespace cvt_detail {
 namespace {
 
-/// Of an excess over the limits of shape.h: a finish ends at the first, and has converged below the
-/// second, at which it ends where its penalty has been raised.
-constexpr double shape_tolerance = 0.02, accepted_shape = 0.03;
+/// Of an excess over the limits of shape.h, at which a finish ends; at accepted_excess where its
+/// penalty has been raised.
+constexpr double shape_tolerance = 0.02;
 
 void require_options(const CvtOptions& options) {
   const auto refuse = [](const std::string& what) { throw Error(ErrorCode::bad_option, what); };
@@ -93,7 +93,8 @@ void conclude(State& state, const CvtOptions& options, const CvtIteration& itera
   const bool by_final_rule = options.density.uniform() || iteration.rule == options.final_rule;
   report.residual = norm_of(iteration, options.norm);
   if (state.penalty > 0) {
-    report.converged = iteration.misshapen <= (state.raised > 0 ? accepted_shape : shape_tolerance);
+    report.converged =
+        iteration.misshapen <= (state.raised > 0 ? accepted_excess : shape_tolerance);
   } else if (options.norm == Norm::none) {
     report.converged = state.iterations_of_level >= options.max_iterations;
   } else {
@@ -113,10 +114,16 @@ bool level_ended(const State& state, const CvtOptions& options) {
 
 /// A CVT's generators are the centroids of its cells; a finish keeps its own.
 void end_descent(State& state, Descent& descent) {
-  if (state.penalty > 0)
-    state.report.converged = descent.here().iteration.misshapen <= accepted_shape;
-  else
+  if (state.penalty == 0) {
     descent.end_at_centroids();
+    return;
+  }
+  const ShapeTerms& shapes = descent.here().shapes;
+  CvtReport& report = state.report;
+  report.converged = shapes.worst <= accepted_excess;
+  report.misshapen_cells = shapes.generators;
+  report.worst_cell =
+      report.converged ? -1 : state.id[static_cast<std::size_t>(shapes.worst_generator)];
 }
 
 /// How a level ended.

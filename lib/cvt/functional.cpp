@@ -298,15 +298,15 @@ template <class Cells>
 void FunctionalOver<Cells>::add_penalty(const Points3& points, Evaluation& out) {
   const Eigen::VectorXd inverse_spacing =
       calotte::evaluate(density_, points).cwiseSqrt().cwiseSqrt() / demanded_spacing_;
-  const ShapeTerms terms = add_shape_terms(tessellation_.cells(), tessellation_.mesh(),
-                                           tessellation_.distorted(inverse_spacing, limits_),
-                                           inverse_spacing, limits_, penalty_, out.gradient);
+  out.shapes = add_shape_terms(tessellation_.cells(), tessellation_.mesh(),
+                               tessellation_.distorted(inverse_spacing, limits_), inverse_spacing,
+                               limits_, penalty_, out.gradient);
   for_each_block(points.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     make_tangential(out.gradient, points, {begin, end});
   });
   count_displaced(terms_, inverse_spacing, out.iteration);
-  out.penalty = penalty_ * terms.value;
-  out.iteration.misshapen = terms.worst;
+  out.penalty = penalty_ * out.shapes.value;
+  out.iteration.misshapen = out.shapes.worst;
 }
 
 template <class Cells>

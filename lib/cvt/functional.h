@@ -5,6 +5,7 @@
 #include "base/parallel.h"
 #include "cvt/laplacian.h"
 #include "cvt/room.h"
+#include "cvt/shape.h"
 #include "cvt/tessellation.h"
 #include "domain/spherical_outline.h"
 
@@ -26,6 +27,7 @@ struct Evaluation {
   Points3 gradient;       ///< dE/dx, tangential; on request
   Array<double> mass;     ///< with the gradient; see SphericalCells::Pull
   double penalty = 0;     ///< for the shapes of a finish; the gradient includes it
+  ShapeTerms shapes;      ///< of a finish
 
   /// What the steps of a descent lower.
   double value() const { return iteration.energy + penalty; }

@@ -54,11 +54,17 @@ struct Share {
 struct Part {
   ShapeTerms terms;
   std::vector<Share> shares;
+  std::vector<std::int32_t> generators; ///< of shapes with more than the accepted excess
 
-  /// Adds the square of an excess, and returns its derivative.
-  double add(double excess) {
+  /// Adds the square of the excess of an angle or a side, and returns its derivative.
+  double add(double excess, const std::array<std::int32_t, 2>& of) {
     terms.value += excess * excess;
-    terms.worst = std::max(terms.worst, excess);
+    if (excess > terms.worst) {
+      terms.worst = excess;
+      terms.worst_generator = of[0];
+    }
+    if (excess > accepted_excess)
+      generators.insert(generators.end(), of.begin(), of.end());
     return 2 * excess;
   }
   void add_shares(const Angle& angle, const Cotangent& cotangent, double slope) {
@@ -97,7 +103,7 @@ public:
       const Excess excess =
           excess_of(cotangent.value, limits_.least_cotangent, limits_.most_cotangent);
       if (excess.size > 0)
-        part.add_shares(angle, cotangent, excess.sign * part.add(excess.size));
+        part.add_shares(angle, cotangent, excess.sign * part.add(excess.size, {angle.c, angle.c}));
       add_side(angle, part);
       if (beyond_edges(cotangent.value))
         add_edge(t, v, angle, cotangent, part);
@@ -123,7 +129,8 @@ private:
     const Excess excess = excess_of(length * demanded, limits_.least_spacing, limits_.most_spacing);
     if (!(excess.size > 0))
       return;
-    const Vec3 pull = (excess.sign * part.add(excess.size) * demanded / length) * side;
+    const Vec3 pull =
+        (excess.sign * part.add(excess.size, {angle.a, angle.b}) * demanded / length) * side;
     part.shares.push_back({angle.a, -1 * pull});
     part.shares.push_back({angle.b, pull});
   }
@@ -143,7 +150,7 @@ private:
         excess_of((cotangent.value + beyond.value) / 2, limits_.least_edge, limits_.most_edge);
     if (!(excess.size > 0))
       return;
-    const double slope = excess.sign * part.add(excess.size) / 2;
+    const double slope = excess.sign * part.add(excess.size, {angle.a, angle.b}) / 2;
     part.add_shares(angle, cotangent, slope);
     part.add_shares(other, beyond, slope);
   }
@@ -205,12 +212,19 @@ ShapeTerms add_shape_terms(const Cells& cells, const Connectivity& mesh,
                            parts[static_cast<std::size_t>(k)]);
   });
   ShapeTerms all;
+  std::vector<std::int32_t> generators;
   for (const Part& part : parts) {
     all.value += part.terms.value;
-    all.worst = std::max(all.worst, part.terms.worst);
+    if (part.terms.worst > all.worst) {
+      all.worst = part.terms.worst;
+      all.worst_generator = part.terms.worst_generator;
+    }
+    generators.insert(generators.end(), part.generators.begin(), part.generators.end());
     for (const Share& share : part.shares)
       set_column(gradient, share.site, column(gradient, share.site) + factor * share.vector);
   }
+  std::sort(generators.begin(), generators.end());
+  all.generators = std::unique(generators.begin(), generators.end()) - generators.begin();
   return all;
 }
 

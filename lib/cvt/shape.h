@@ -25,10 +25,15 @@ struct ShapeLimits {
 };
 inline constexpr ShapeLimits shape_limits;
 
+/// A mesh whose shapes exceed no limit by more is well-centred.
+inline constexpr double accepted_excess = 0.03;
+
 /// The penalty for shapes beyond the limits.
 struct ShapeTerms {
   double value = 0; ///< sum of the squares by which the quantities exceed their limits
   double worst = 0; ///< the largest such excess
+  std::int32_t worst_generator = -1; ///< one of the worst shape
+  std::int64_t generators = 0;       ///< of all shapes with more than the accepted excess
 };
 
 /// Computes the penalty, and adds a factor times its derivatives to the gradient. The result has

@@ -35,7 +35,7 @@ inline bool is_zero(const Vec3& p) { return p.x == 0 && p.y == 0 && p.z == 0; }
 struct Directions {
   const Points3Ref points;
 
-  static constexpr std::int64_t fewest = 4;
+  static constexpr std::int64_t fewest = 3;
   static constexpr const char* distinct = "distinct directions";
   static constexpr const char* domain = "the sphere";
   static constexpr const char* twin = " has the direction of point ";

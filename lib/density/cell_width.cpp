@@ -2,8 +2,11 @@
 #include <calotte/cell_width.h>
 
 #include "base/elementary.h"
+#include "base/number_text.h"
 #include "base/parallel.h"
 #include "base/points.h"
+#include "base/require.h"
+#include "base/spherical_angles.h"
 #include "density/cell_width_field.h"
 #include "density/sampling.h"
 #include "domain/spherical_outline.h"
@@ -15,11 +18,14 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace calotte {
 namespace {
 
+using base_detail::shortly;
 using density_detail::WidthField;
 
 void require_radius(double radius_km) {
@@ -71,26 +77,36 @@ struct Corner {
   std::int64_t i = 0, j = 0;
 };
 
+/// How far from the end of an interval the middle of a cell is: half of its width, as a part of the
+/// interval, or the middle of the interval.
+double middle_of_cell(double width, double interval) {
+  return std::min(0.5, 0.5 * width / interval);
+}
+
 /// The steepest corner of the boxes between rows j and j + 1. In a box dh/dlat is linear in
-/// longitude and dh/dlon linear in latitude; divided by the cosine of the latitude, dh/dlon has no
-/// inner maximum. Towards a pole, where both dh/dlon and the cosine vanish, it falls; the east
-/// component is therefore 0 at the corners on a pole.
-Corner steepest_of_row(const WidthField& field, std::int64_t j) {
+/// longitude and dh/dlon linear in latitude, so that the mean over the cell in a corner is the
+/// value at its middle. \param radians of a width of 1.
+Corner steepest_of_row(const WidthField& field, std::int64_t j, double radians) {
   const double height = field.latitudes()[j + 1] - field.latitudes()[j];
   Corner steepest;
-  for (const std::int64_t row : {j, j + 1}) {
-    const bool pole = row == 0 || row == field.latitudes().intervals();
-    for (std::int64_t i = 0; i < field.longitudes().intervals(); ++i) {
-      const double step = field.longitudes()[i + 1] - field.longitudes()[i];
-      const double east =
-          pole ? 0 : (field.width(i + 1, row) - field.width(i, row)) / (step * field.cosine(row));
+  for (std::int64_t i = 0; i < field.longitudes().intervals(); ++i) {
+    const double length = field.longitudes()[i + 1] - field.longitudes()[i];
+    const double south = field.width(i + 1, j) - field.width(i, j),
+                 north = field.width(i + 1, j + 1) - field.width(i, j + 1),
+                 west = field.width(i, j + 1) - field.width(i, j),
+                 east = field.width(i + 1, j + 1) - field.width(i + 1, j);
+    for (const std::int64_t row : {j, j + 1})
       for (const std::int64_t column : {i, i + 1}) {
-        const double north = (field.width(column, j + 1) - field.width(column, j)) / height;
-        const double square = east * east + north * north;
-        if (square > steepest.square)
+        const double width = field.width(column, row) * radians;
+        const double up = middle_of_cell(width, height), v = row == j ? up : 1 - up;
+        const double cosine = std::cos(field.latitudes()[j] + v * height);
+        const double along = middle_of_cell(width, length * cosine),
+                     u = column == i ? along : 1 - along;
+        const double dx = (south + v * (north - south)) / (length * cosine),
+                     dy = (west + u * (east - west)) / height;
+        if (const double square = dx * dx + dy * dy; square > steepest.square)
           steepest = {square, column, row};
       }
-    }
   }
   return steepest;
 }
@@ -163,12 +179,115 @@ double implied_cells(const CellWidth& cell_width, const Region& region, double r
   return 2 / std::numbers::sqrt3 * radius_km * radius_km * outline.area() * mean;
 }
 
+namespace density_detail {
+namespace {
+
+double widest_step(const Eigen::VectorXd& values) {
+  return (values.tail(values.size() - 1) - values.head(values.size() - 1)).maxCoeff();
+}
+
+/// The part of the sphere that the nodes of a raster cover, in degrees.
+struct Cover {
+  double west, length, south, north;       ///< with half of the widest steps
+  bool around = false;                     ///< covers all longitudes
+  bool to_south = false, to_north = false; ///< covers a pole
+
+  bool whole() const { return around && to_south && to_north; }
+
+  bool holds(const Eigen::Vector3d& x) const {
+    constexpr double degrees = 180 / std::numbers::pi;
+    const double latitude = latitude_of(x.x(), x.y(), x.z()) * degrees;
+    if ((latitude < south && !to_south) || (latitude > north && !to_north))
+      return false;
+    const double east = longitude_of(x.x(), x.y()) * degrees - west;
+    return around || east - 360 * std::floor(east / 360) <= length;
+  }
+};
+
+Cover cover_of(const Eigen::VectorXd& longitudes, const Eigen::VectorXd& latitudes) {
+  constexpr double slack = 1e-3; // degrees, for coordinates rounded in a file
+  const double step = widest_step(longitudes), rise = widest_step(latitudes);
+  const double first = longitudes[0], last = longitudes[longitudes.size() - 1],
+               bottom = latitudes[0], top = latitudes[latitudes.size() - 1];
+  Cover cover{first - step / 2 - slack, last - first + step + 2 * slack, bottom - rise / 2 - slack,
+              top + rise / 2 + slack};
+  cover.around = 360 - (last - first) <= 1.5 * step + slack;
+  cover.to_south = bottom + 90 <= 1.5 * rise + slack;
+  cover.to_north = 90 - top <= 1.5 * rise + slack;
+  return cover;
+}
+
+/// A place of the region that is not covered, if there is one: on the boundary, which is sampled,
+/// or else the region holds all of a part that is not covered.
+std::optional<Eigen::Vector3d> place_outside(const Cover& cover, const Region& region) {
+  constexpr double apart = 1e-3; // radians
+  for (const Points3& ring : region.rings)
+    for (Eigen::Index i = 0; i < ring.cols(); ++i) {
+      const Eigen::Vector3d from = ring.col(i).normalized(),
+                            to = ring.col((i + 1) % ring.cols()).normalized();
+      const auto parts = static_cast<int>((to - from).norm() / apart) + 1;
+      for (int k = 0; k < parts; ++k) {
+        const Eigen::Vector3d at = from + (to - from) * (double(k) / parts);
+        if (!cover.holds(at))
+          return at;
+      }
+    }
+  const auto contained = containing(region);
+  std::vector<Eigen::Vector3d> others;
+  if (!cover.to_south || !cover.around)
+    others.emplace_back(0, 0, -1);
+  if (!cover.to_north || !cover.around)
+    others.emplace_back(0, 0, 1);
+  if (!cover.around) {
+    const double opposite =
+        (cover.west + cover.length / 2 + 180) * std::numbers::pi / 180; // of its middle
+    others.emplace_back(std::cos(opposite), std::sin(opposite), 0);
+  }
+  for (const Eigen::Vector3d& at : others)
+    if (contained(at))
+      return at;
+  return std::nullopt;
+}
+
+} // namespace
+
+std::string uncovered(const Eigen::VectorXd& longitudes, const Eigen::VectorXd& latitudes,
+                      const Region& region, const std::string& longitude,
+                      const std::string& latitude) {
+  const Cover cover = cover_of(longitudes, latitudes);
+  if (cover.whole())
+    return {};
+  const auto extent = [](const std::string& name, const Eigen::VectorXd& values) {
+    return name + " runs from " + shortly(values[0]) + " to " + shortly(values[values.size() - 1]);
+  };
+  if (region.whole())
+    return (cover.around ? extent(latitude, latitudes) : extent(longitude, longitudes)) +
+           " and leaves part of the sphere out; give a global raster in degrees";
+  const std::optional<Eigen::Vector3d> place = place_outside(cover, region);
+  if (!place)
+    return {};
+  constexpr double degrees = 180 / std::numbers::pi;
+  return extent(longitude, longitudes) + ", " + extent(latitude, latitudes) +
+         ", and leaves out the place " + shortly(longitude_of(place->x(), place->y()) * degrees) +
+         " " + shortly(latitude_of(place->x(), place->y(), place->z()) * degrees) +
+         " of the region; give a raster in degrees that covers it";
+}
+
+} // namespace density_detail
+
+void require_covering(const CellWidth& cell_width, const Region& region) {
+  const WidthField field(cell_width); // throws if it is ill-formed
+  const std::string problem = density_detail::uncovered(cell_width.longitudes, cell_width.latitudes,
+                                                        region, "longitude", "latitude");
+  base_detail::require(problem.empty(), "cell width: " + problem);
+}
+
 Gradient largest_gradient(const CellWidth& cell_width, double radius_km) {
   require_radius(radius_km);
   const WidthField field(cell_width);
   std::vector<Corner> rows(static_cast<std::size_t>(field.latitudes().intervals()));
   base_detail::for_each_task(field.latitudes().intervals(), [&](std::int64_t j) {
-    rows[static_cast<std::size_t>(j)] = steepest_of_row(field, j);
+    rows[static_cast<std::size_t>(j)] = steepest_of_row(field, j, 1 / radius_km);
   });
   Corner steepest;
   for (const Corner& corner : rows)

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace calotte::density_detail {
@@ -68,6 +69,13 @@ private:
   std::vector<double> cosines_, sines_;
   double least_ = 0; ///< of the nodes given
 };
+
+/// Why nodes do not cover a region, see require_covering(); empty if they do.
+/// \param longitude, latitude names of the coordinates in the message.
+/// \throws Error as require_region().
+std::string uncovered(const Eigen::VectorXd& longitudes, const Eigen::VectorXd& latitudes,
+                      const Region& region, const std::string& longitude,
+                      const std::string& latitude);
 
 /// The callable of a density (h_min/h)^4. DensityEvaluator calls the second operator.
 class WidthDensity {

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <calotte/planar_raster.h>
 
+#include "base/number_text.h"
 #include "base/require.h"
 #include "density/cell_width_field.h"
+#include "density/sampling.h"
 
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -13,45 +16,88 @@ namespace calotte {
 namespace {
 
 using base_detail::require;
+using base_detail::shortly;
 using density_detail::Axis;
+using density_detail::draw;
 
-void require_axis(const Eigen::VectorXd& values, const std::string& name) {
+void require_axis(const Eigen::VectorXd& values, const std::string& of, const std::string& name) {
   require(values.size() >= 2,
-          "density raster: fewer than 2 " + name + "; give a grid that covers the domain");
+          of + ": fewer than 2 " + name + "; give a grid that covers the domain");
   for (Eigen::Index i = 0; i < values.size(); ++i)
     require(std::isfinite(values[i]) && (i == 0 || values[i] > values[i - 1]),
-            "density raster: " + name + " " + std::to_string(i) +
+            of + ": " + name + " " + std::to_string(i) +
                 " is not finite and above the one before; sort them");
 }
 
-void require_raster(const PlanarRaster& raster) {
-  require_axis(raster.x, "x");
-  require_axis(raster.y, "y");
-  require(raster.density.rows() == raster.x.size() && raster.density.cols() == raster.y.size(),
-          "density raster: the values are not x by y; give one for each node");
-  for (Eigen::Index j = 0; j < raster.y.size(); ++j)
-    for (Eigen::Index i = 0; i < raster.x.size(); ++i)
-      require(raster.density(i, j) >= 0 && std::isfinite(raster.density(i, j)),
-              "density raster: density (" + std::to_string(i) + ", " + std::to_string(j) +
-                  ") is negative, infinite or NaN; correct it");
+void require_grid(const Eigen::VectorXd& x, const Eigen::VectorXd& y, const Eigen::MatrixXd& values,
+                  const std::string& of) {
+  require_axis(x, of, "x");
+  require_axis(y, of, "y");
+  require(values.rows() == x.size() && values.cols() == y.size(),
+          of + ": the values are not x by y; give one for each node");
 }
 
-/// A raster that finds intervals in constant time.
+/// \param name of one value. \param law what it must be, in words. \param fault what it is.
+template <class Law>
+void require_values(const Eigen::MatrixXd& values, const std::string& name, const Law& law,
+                    const std::string& fault) {
+  for (Eigen::Index j = 0; j < values.cols(); ++j)
+    for (Eigen::Index i = 0; i < values.rows(); ++i)
+      require(law(values(i, j)) && std::isfinite(values(i, j)),
+              name + " (" + std::to_string(i) + ", " + std::to_string(j) + ") is " + fault +
+                  "; correct it");
+}
+
+void require_raster(const PlanarRaster& raster) {
+  const std::string of = "density raster";
+  require_grid(raster.x, raster.y, raster.density, of);
+  require_values(
+      raster.density, of + ": density", [](double value) { return value >= 0; },
+      "negative, infinite or NaN");
+}
+
+void require_widths(const PlanarCellWidth& given) {
+  const std::string of = "cell width";
+  require_grid(given.x, given.y, given.widths, of);
+  require_values(
+      given.widths, of + ": width", [](double value) { return value > 0; },
+      "not positive and finite");
+}
+
+/// Values on a grid, which finds intervals in constant time.
 struct Field {
   Axis x, y;
-  Eigen::MatrixXd density;
+  Eigen::MatrixXd values;
 
   double at(double px, double py) const {
     const std::int64_t i = x.interval(px), j = y.interval(py);
     const double u = x.fraction(i, px), v = y.fraction(j, py);
-    const double low = density(i, j) + u * (density(i + 1, j) - density(i, j)),
-                 high = density(i, j + 1) + u * (density(i + 1, j + 1) - density(i, j + 1));
+    const double low = values(i, j) + u * (values(i + 1, j) - values(i, j)),
+                 high = values(i, j + 1) + u * (values(i + 1, j + 1) - values(i, j + 1));
     return low + v * (high - low);
   }
 };
 
 Axis axis_of(const Eigen::VectorXd& values) {
   return Axis(std::vector<double>(values.begin(), values.end()));
+}
+
+Field field_of(const PlanarCellWidth& given) {
+  require_widths(given);
+  return {axis_of(given.x), axis_of(given.y), given.widths};
+}
+
+double widest_step(const Eigen::VectorXd& values) {
+  return (values.tail(values.size() - 1) - values.head(values.size() - 1)).maxCoeff();
+}
+
+void require_extent(const Eigen::VectorXd& nodes, double low, double high,
+                    const std::string& name) {
+  const double slack = 0.5 * widest_step(nodes), first = nodes[0], last = nodes[nodes.size() - 1];
+  require(low >= first - slack && high <= last + slack,
+          "cell width: " + name + " runs from " + shortly(first) + " to " + shortly(last) +
+              ", but the domain from " + shortly(low) + " to " + shortly(high) +
+              "; give widths that cover the domain");
 }
 
 } // namespace
@@ -67,6 +113,46 @@ Density density_of(const PlanarRaster& raster) {
       rho[i] = field->at(x(0, i), x(1, i));
   };
   return density;
+}
+
+Density density_of(const PlanarCellWidth& cell_width) {
+  Density density;
+  density.kind = Density::Kind::callable;
+  density.callable = [field = std::make_shared<const Field>(field_of(cell_width)),
+                      least = cell_width.widths.minCoeff()](const Eigen::Ref<const Points3>& x,
+                                                            Eigen::Ref<Eigen::VectorXd> rho) {
+    for (Eigen::Index i = 0; i < x.cols(); ++i) {
+      const double ratio = least / field->at(x(0, i), x(1, i)), square = ratio * ratio;
+      rho[i] = square * square;
+    }
+  };
+  return density;
+}
+
+double implied_cells(const PlanarCellWidth& cell_width, const PlanarDomain& domain) {
+  constexpr std::int64_t samples = 1 << 18;
+  const Field field = field_of(cell_width);
+  const Points2 places = draw(samples, Density{}, domain, 1);
+  double sum = 0;
+  for (Eigen::Index i = 0; i < places.cols(); ++i) {
+    const double width = field.at(places(0, i), places(1, i));
+    sum += 1 / (width * width);
+  }
+  return 2 / std::numbers::sqrt3 * area(domain) * (sum / static_cast<double>(samples));
+}
+
+void require_covering(const PlanarCellWidth& cell_width, const PlanarDomain& domain) {
+  require_widths(cell_width);
+  require_domain(domain);
+  Eigen::Vector2d low(0, 0), high = domain.period;
+  for (std::size_t i = 0; i < domain.rings.size(); ++i) {
+    const Eigen::Vector2d least = domain.rings[i].rowwise().minCoeff(),
+                          most = domain.rings[i].rowwise().maxCoeff();
+    low = i == 0 ? least : Eigen::Vector2d(low.cwiseMin(least));
+    high = i == 0 ? most : Eigen::Vector2d(high.cwiseMax(most));
+  }
+  require_extent(cell_width.x, low.x(), high.x(), "x");
+  require_extent(cell_width.y, low.y(), high.y(), "y");
 }
 
 } // namespace calotte

@@ -31,12 +31,6 @@ bool reaches_from_left(const Vec3& start, const Arc& before, const Arc& after) {
                                                     : left_of_before && left_of_after;
 }
 
-Box3 joined(const Box3& a, const Box3& b) {
-  return {
-      {std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y), std::min(a.low.z, b.low.z)},
-      {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y), std::max(a.high.z, b.high.z)}};
-}
-
 // An arc of the chord c bulges by 1 - sqrt(1 - c^2/4) <= c^2/4 beyond its chord.
 Box3 box_of(const Arc& arc) {
   const Vec3 chord = arc.to - arc.from;

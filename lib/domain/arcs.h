@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "curve/box_tree.h"
 #include "domain/room.h"
 #include "exact/predicates.h"
 
@@ -73,28 +74,8 @@ bool fold(const Arc& a, const Arc& b);
 /// \pre neither great circle of an arc contains `start`.
 bool reaches_from_left(const Vec3& start, const Arc& before, const Arc& after);
 
-/// A box of space.
-struct Box3 {
-  Vec3 low{4, 4, 4}, high{-4, -4, -4}; ///< default: empty
-};
-
-Box3 joined(const Box3& a, const Box3& b);
-
 /// A box that contains an arc, with a margin for round-off.
 Box3 box_of(const Arc& arc);
-
-inline bool overlap(const Box3& a, const Box3& b) {
-  return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y &&
-         a.low.z <= b.high.z && b.low.z <= a.high.z;
-}
-
-/// The square of the distance from a place to a box; 0 inside it.
-inline double square_from(const Box3& box, const Vec3& p) {
-  const Vec3 beyond{std::max({0.0, box.low.x - p.x, p.x - box.high.x}),
-                    std::max({0.0, box.low.y - p.y, p.y - box.high.y}),
-                    std::max({0.0, box.low.z - p.z, p.z - box.high.z})};
-  return dot(beyond, beyond);
-}
 
 /// The square of the chord between a unit vector and the nearest place of an arc; rounded.
 double square_from(const Arc& arc, const Vec3& p);

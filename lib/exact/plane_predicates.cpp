@@ -56,6 +56,10 @@ int in_circle(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
   return CGAL::side_of_oriented_circle(point(a), point(b), point(c), point(d));
 }
 
+int compare_distances(const Vec2& p, const Vec2& a, const Vec2& b) {
+  return CGAL::compare_distance_to_point(point(p), point(a), point(b));
+}
+
 int in_circle_tie(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
   return tie(a, b, c, d, compare,
              [](const Vec2& p, const Vec2& q, const Vec2& r) { return orientation(p, q, r); });
@@ -65,6 +69,13 @@ int orientation(const Vec2& period, const Image& a, const Image& b, const Image&
   if (in_one_box(a, b) && in_one_box(a, c))
     return orientation(a.site, b.site, c.site);
   return CGAL::orientation(exact_point(period, a), exact_point(period, b), exact_point(period, c));
+}
+
+int compare_distances(const Vec2& period, const Image& p, const Image& a, const Image& b) {
+  if (in_one_box(p, a) && in_one_box(p, b))
+    return compare_distances(p.site, a.site, b.site);
+  return CGAL::compare_distance_to_point(exact_point(period, p), exact_point(period, a),
+                                         exact_point(period, b));
 }
 
 bool between(const Vec2& period, const Image& a, const Image& p, const Image& b) {

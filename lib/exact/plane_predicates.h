@@ -20,6 +20,9 @@ int orientation(const Vec2& a, const Vec2& b, const Vec2& c);
 /// 1 when d is inside the circumcircle of a, b, c counter-clockwise, 0 on it.
 int in_circle(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d);
 
+/// The order of sites by their distance from p: -1 when a is nearer than b.
+int compare_distances(const Vec2& p, const Vec2& a, const Vec2& b);
+
 /// The order of sites by (x, y), lexicographically: -1 when a comes first.
 inline int compare(const Vec2& a, const Vec2& b) {
   if (a.x != b.x)
@@ -50,6 +53,7 @@ struct Image {
 /// between copies of one site. If circles are small compared with the box, the mesh is therefore as
 /// periodic as the sites.
 int orientation(const Vec2& period, const Image& a, const Image& b, const Image& c);
+int compare_distances(const Vec2& period, const Image& p, const Image& a, const Image& b);
 bool between(const Vec2& period, const Image& a, const Image& p, const Image& b);
 int in_circle(const Vec2& period, const Image& a, const Image& b, const Image& c, const Image& d);
 int in_circle_tie(const Vec2& period, const Image& a, const Image& b, const Image& c,

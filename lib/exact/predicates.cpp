@@ -159,6 +159,18 @@ int compare_directions_exact(const Vec3& a, const Vec3& b) {
   return compare_quotients(ia.z, aa, ib.z, bb);
 }
 
+/// Sign of p.b/|b| - p.a/|a|.
+int compare_distances_exact(const Vec3& p, const Vec3& a, const Vec3& b) {
+  Vec3Integer ip, ia, ib;
+  set_integers(ip, p);
+  set_integers(ia, a);
+  set_integers(ib, b);
+  const auto product = [&](const Vec3Integer& x) -> mpz_class {
+    return ip.x * x.x + ip.y * x.y + ip.z * x.z;
+  };
+  return compare_quotients(product(ib), squared_norm(ib), product(ia), squared_norm(ia));
+}
+
 } // namespace
 
 Vec3 scaled_to_one(const Vec3& x) {
@@ -220,6 +232,14 @@ int compare_directions(const Vec3& a, const Vec3& b) {
   if (const double x = p.x - q.x; std::abs(x) > error)
     return sign_of(x);
   return compare_directions_exact(a, b);
+}
+
+// p.(b - a) of unit vectors good to 5 roundoffs u, |b - a| = D: the difference errs by 10u + uD, p
+// by 5u, the product by 6 sqrt(3) u D / 2 at most: (10 + 11.2 D) u.
+int compare_distances(const Vec3& p, const Vec3& a, const Vec3& b) {
+  const Vec3 apart = normalised(b) - normalised(a);
+  const double value = dot(normalised(p), apart), error = (11 + 13 * norm(apart)) * roundoff;
+  return std::abs(value) > error ? sign_of(value) : compare_distances_exact(p, a, b);
 }
 
 bool same_direction(const Vec3& a, const Vec3& b) {

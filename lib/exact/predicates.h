@@ -50,6 +50,10 @@ int orientation(const Vec3& a, const Vec3& b, const Vec3& c);
 /// first.
 int compare_directions(const Vec3& a, const Vec3& b);
 
+/// The order of directions by their exact distance from p: -1 when a is nearer than b, 0 when
+/// neither is.
+int compare_distances(const Vec3& p, const Vec3& a, const Vec3& b);
+
 /// True if a is a positive multiple of b.
 bool same_direction(const Vec3& a, const Vec3& b);
 

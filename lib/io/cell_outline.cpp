@@ -14,6 +14,17 @@ constexpr double cut = 180; ///< the meridian; any number of turns may be added
 
 using Ring = std::vector<MapPlace>;
 
+/// A place whose longitude continues beyond 180 degrees. The turns are kept apart: the longitude of
+/// a corner has the same bits in all cells that share it.
+struct TurnedPlace {
+  MapPlace place;
+  int turn = 0;
+
+  double longitude(int less = 0) const { return place.longitude + 360 * (turn - less); }
+};
+
+using TurnedRing = std::vector<TurnedPlace>;
+
 bool at_pole(const Vec3& p) { return std::hypot(p.x, p.y) < 1e-12 * std::abs(p.z); }
 
 double longitude_of(const Vec3& p) {
@@ -32,7 +43,7 @@ public:
     std::vector<Vec3> ring(start, corners.end());
     ring.insert(ring.end(), corners.begin(), start);
     ring.push_back(ring.front());
-    places_.push_back({longitude_of(ring.front()), latitude_of(ring.front())});
+    places_.push_back({{longitude_of(ring.front()), latitude_of(ring.front())}});
     for (std::size_t last = 0, next = 1; next < ring.size(); ++next)
       if (!at_pole(ring[next])) {
         append(ring[last], ring[next], next - last > 1 ? ring[last + 1] : ring[last] + ring[next],
@@ -42,75 +53,73 @@ public:
   }
 
   /// From the first place, which comes again at the end, to its turn or turns.
-  const Ring& places() const { return places_; }
+  const TurnedRing& places() const { return places_; }
 
   /// 1 around the north pole, -1 around the south pole, or else 0.
-  long turns() const {
-    return places_.empty()
-               ? 0
-               : std::lround((places_.back().longitude - places_.front().longitude) / 360);
-  }
+  int turns() const { return places_.empty() ? 0 : places_.back().turn - places_.front().turn; }
 
 private:
   /// Continues from a to b, which are no poles, through the pole on the side of `between` if that
   /// is a pole, or if the edge passes through it.
   void append(const Vec3& a, const Vec3& b, const Vec3& between, bool pole) {
     double step = std::remainder(longitude_of(b) - longitude_of(a), 360.0);
-    const double from = places_.back().longitude;
+    const TurnedPlace from = places_.back();
     if (pole || std::abs(step) > 180 - 1e-10) {
       // Seen from the pole the cell is a wedge to the west of the meridian that runs north.
       const double edge = std::copysign(90.0, between.z);
       if (std::abs(step) > 180 - 1e-10)
         step = -std::copysign(step, edge);
-      push({from, edge});
-      push({from + step, edge});
+      push({{from.place.longitude, edge}, from.turn});
+      push({{longitude_of(b), edge}, turn_of(from, step, b)});
     }
-    push({from + step, latitude_of(b)}, &a, &b);
+    push({{longitude_of(b), latitude_of(b)}, turn_of(from, step, b)}, &a, &b);
+  }
+
+  /// The turn of a corner that is a step from a place.
+  static int turn_of(const TurnedPlace& from, double step, const Vec3& corner) {
+    return static_cast<int>(std::lround((from.longitude() + step - longitude_of(corner)) / 360));
   }
 
   /// Adds a place if the path to it crosses the cut: on the arc from a to b, or at a pole.
-  void push(const MapPlace& place, const Vec3* a = nullptr, const Vec3* b = nullptr) {
-    const MapPlace last = places_.back();
-    const double low = std::min(last.longitude, place.longitude),
-                 high = std::max(last.longitude, place.longitude);
-    const double line = std::ceil((low - cut) / 360) * 360 + cut;
-    if (low < line && line < high)
+  void push(const TurnedPlace& next, const Vec3* a = nullptr, const Vec3* b = nullptr) {
+    const double last = places_.back().longitude(), low = std::min(last, next.longitude()),
+                 high = std::max(last, next.longitude());
+    const int turn = static_cast<int>(std::ceil((low - cut) / 360));
+    if (low < cut + 360 * turn && cut + 360 * turn < high)
       places_.push_back(
-          {line, a ? latitude_of(std::abs(b->y) * *a + std::abs(a->y) * *b) : place.latitude});
-    places_.push_back(place);
+          {{cut, a ? latitude_of(std::abs(b->y) * *a + std::abs(a->y) * *b) : next.place.latitude},
+           turn});
+    places_.push_back(next);
   }
 
-  Ring places_;
+  TurnedRing places_;
 };
 
 /// The part between two cuts, moved there from `turn` turns to the east.
-Ring between_cuts(const Ring& ring, int turn) {
+Ring between_cuts(const TurnedRing& ring, int turn) {
   Ring part;
-  for (const MapPlace& place : ring) {
-    const double longitude = place.longitude - 360 * turn;
-    if (-cut <= longitude && longitude <= cut)
-      part.push_back({longitude, place.latitude});
-  }
+  for (const TurnedPlace& place : ring)
+    if (const double longitude = place.longitude(turn); std::abs(longitude) <= cut)
+      part.push_back({longitude, place.place.latitude});
   return part;
 }
 
 /// A ring that runs round once, from the cut to the cut, and back along the pole's edge.
-Ring around_pole(Ring ring, long turns) {
+Ring around_pole(TurnedRing ring, int turns) {
   ring.pop_back();
-  const auto on_cut = [](const MapPlace& place) {
-    return std::remainder(place.longitude - cut, 360.0) == 0;
-  };
-  const auto start = std::find_if(ring.begin(), ring.end(), on_cut);
-  const double turn = turns > 0 ? 360 : -360;
+  const auto start = std::find_if(ring.begin(), ring.end(), [](const TurnedPlace& place) {
+    return std::abs(place.place.longitude) == cut;
+  });
   for (auto place = ring.begin(); place != start; ++place)
-    place->longitude += turn;
+    place->turn += turns;
   std::rotate(ring.begin(), start, ring.end());
-  const double begin = -std::copysign(cut, turn), shift = begin - ring.front().longitude;
-  for (MapPlace& place : ring)
-    place.longitude += shift;
-  const double edge = std::copysign(90.0, turn);
-  ring.insert(ring.end(), {{-begin, ring.front().latitude}, {-begin, edge}, {begin, edge}});
-  return ring;
+  const double begin = turns > 0 ? -cut : cut, edge = turns > 0 ? 90 : -90;
+  const int less = static_cast<int>(std::lround((ring.front().longitude() - begin) / 360));
+  Ring out;
+  for (const TurnedPlace& place : ring)
+    out.push_back({place.longitude(less), place.place.latitude});
+  out.insert(out.end(), {{-begin, out.front().latitude}, {-begin, edge}, {begin, edge}});
+  return out;
 }
 
 /// Removes places that repeat the one before; empty if the ring has no width.

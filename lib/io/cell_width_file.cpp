@@ -13,30 +13,32 @@
 namespace calotte {
 namespace io_detail {
 
-CellWidth checked(Raster raster, const std::string& name) {
+CellWidth checked(Raster raster, const std::string& name, const Region& region) {
   raster = ordered(
       std::move(raster), name,
-      {[](double width) { return width > 0 && std::isfinite(width); }, "positive and finite"});
+      {[](double width) { return width > 0 && std::isfinite(width); }, "positive and finite"},
+      region);
   return {vector_of(raster.longitudes), vector_of(raster.latitudes), std::move(raster.values)};
 }
 
 } // namespace io_detail
 
-CellWidth read_cell_width(const std::string& path, const PolygonWidths& polygons) {
+CellWidth read_cell_width(const std::string& path, const PolygonWidths& polygons,
+                          const Region& region) {
   const std::string suffix = io_detail::suffix_of(path);
   if (suffix == ".nc")
-    return io_detail::read_cell_width_netcdf(path, "cellWidth");
+    return io_detail::read_cell_width_netcdf(path, region);
   if (suffix != ".msh" && suffix != ".geojson" && suffix != ".json")
     throw Error(ErrorCode::bad_option,
                 path + ": unknown suffix of a file of cell widths; give .nc, .msh or "
                        ".geojson");
   std::ifstream in = io_detail::open_input(path);
-  return suffix == ".msh" ? io_detail::read_cell_width_msh(in, path)
+  return suffix == ".msh" ? io_detail::read_cell_width_msh(in, path, region)
                           : io_detail::read_cell_width_geojson(in, path, polygons);
 }
 
-CellWidth read_density_raster(const std::string& path) {
-  CellWidth raster = io_detail::read_cell_width_netcdf(path, "density");
+CellWidth read_density_raster(const std::string& path, const Region& region) {
+  CellWidth raster = io_detail::read_density_netcdf(path, region);
   const auto width_of = [](double density) { return 1 / std::sqrt(std::sqrt(density)); };
   raster.widths = raster.widths.unaryExpr(width_of).eval();
   raster.widths /= raster.widths.minCoeff();

@@ -22,7 +22,7 @@ void require_count(const JigsawFile& file, std::size_t nodes, const std::string&
                      std::to_string(nodes) + " nodes; give one for each");
 }
 
-CellWidth of_grid(const JigsawFile& file, const std::string& name) {
+CellWidth of_grid(const JigsawFile& file, const std::string& name, const Region& region) {
   require_count(file, file.x_grid.size() * file.y_grid.size(), name);
   Raster raster;
   raster.longitude_name = "COORD=1";
@@ -37,7 +37,7 @@ CellWidth of_grid(const JigsawFile& file, const std::string& name) {
                                                     static_cast<Eigen::Index>(file.y_grid.size()),
                                                     static_cast<Eigen::Index>(file.x_grid.size()))
                       .transpose();
-  return checked(std::move(raster), name);
+  return checked(std::move(raster), name, region);
 }
 
 CellWidth of_mesh(const JigsawFile& file, const std::string& name) {
@@ -58,10 +58,10 @@ CellWidth of_mesh(const JigsawFile& file, const std::string& name) {
 
 } // namespace
 
-CellWidth read_cell_width_msh(std::istream& in, const std::string& name) {
+CellWidth read_cell_width_msh(std::istream& in, const std::string& name, const Region& region) {
   const JigsawFile file = read_jigsaw(in, name);
   if (file.kind == "ellipsoid-grid")
-    return of_grid(file, name);
+    return of_grid(file, name, region);
   if (file.kind == "ellipsoid-mesh" || file.kind == "euclidean-mesh")
     return of_mesh(file, name);
   refuse(name, "no cell widths in a file of the kind \"" + file.kind +

@@ -33,6 +33,18 @@ void require_options(const CullOptions& options) {
           "the radius of the sphere is not positive and finite; give another");
 }
 
+/// Coasts and rasters are followed from cell to cell all around the sphere.
+/// \throws Error bad_option, for a part of the sphere.
+void require_global(const MpasSource& source, const Voronoi& cells) {
+  if (cells.cells_on_cell.minCoeff() < 0)
+    throw Error(
+        ErrorCode::bad_option,
+        source.netcdf().reader().path() +
+            " does not cover the sphere, so that coasts and rasters leave its cells; leave the "
+            "land out of the global mesh with calotte cull and cut the region from that "
+            "ocean with calotte cut, or tell the sea by a field (--field)");
+}
+
 /// The cells of the source, as far as options need them.
 struct Ground {
   Offsets begin;
@@ -47,6 +59,8 @@ Ground ground_of(const MpasSource& source, const CullOptions& options) {
     return {begin, source.lists("cellsOnCell", begin, source.cells()), {}};
   }
   Voronoi cells = tessellation_of(source);
+  if (!options.coast.rings.empty() || options.raster.land.size() > 0)
+    require_global(source, cells);
   return {cells.begin, cells.cells_on_cell, std::move(cells)};
 }
 

@@ -5,13 +5,17 @@
 #include "io/file_names.h"
 #include "io/formats.h"
 #include "io/model_grid.h"
+#include "mesh/orientation.h"
 
 #include <calotte/error.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <iomanip>
 #include <optional>
 #include <set>
+#include <sstream>
 #include <string_view>
 
 // The mesh files of FESOM (Danilov et al., Geosci. Model Dev. 10, 2017), text: nod2d.out has the
@@ -46,8 +50,9 @@ std::int64_t take_count(LineReader& reader, const std::string& of) {
   return count;
 }
 
-/// Consecutive ids are the rule; the flags go along as a field.
-Soup read_nodes(const std::string& path) {
+/// Consecutive ids are the rule; the flags go along as a field. \param longitudes receives those of
+/// the file.
+Soup read_nodes(const std::string& path, std::vector<double>& longitudes) {
   std::ifstream in = open_input(path);
   LineReader reader(in, path);
   const std::int64_t count = take_count(reader, "nodes");
@@ -62,6 +67,7 @@ Soup read_nodes(const std::string& path) {
     if (!std::isfinite(row[1]) || !(std::abs(row[2]) <= 90))
       reader.fail("longitude and latitude are no place on the sphere; make the file again");
     const Vec3 place = from_lonlat(row[1], row[2]);
+    longitudes.push_back(row[1]);
     places.insert(places.end(), {place.x, place.y, place.z});
     flags.push_back(row[3]);
   }
@@ -85,6 +91,50 @@ Triangles read_elements(const std::string& path, std::int64_t nodes) {
     parse_ids(reader, row.data(), nodes, ids, 1);
   }
   return Eigen::Map<const Triangles>(ids.data(), 3, count);
+}
+
+// ---- Channels
+
+/// The least and the greatest longitude of the corners of a triangle, degrees.
+struct Span {
+  double least = 1e300, greatest = -1e300;
+  void add(double x) {
+    least = std::min(least, x);
+    greatest = std::max(greatest, x);
+  }
+  double width() const { return greatest - least; }
+};
+
+/// FESOM reads meshes whose ends are joined after a number of degrees, cyclic_length, that the
+/// files do not hold. On the sphere the triangles that join them run all along the mesh, the other
+/// way round. \param longitudes of the nodes as the file has them.
+void require_no_channel(const std::string& path, const std::vector<double>& longitudes,
+                        const Soup& soup) {
+  const mesh_detail::Orientations found = mesh_detail::orientations_of(soup.points, soup.triangles);
+  if (!found.contradict())
+    return;
+  Span all, most_others;
+  std::int64_t joining = 0;
+  for (const double x : longitudes)
+    all.add(x);
+  for (Eigen::Index t = 0; t < soup.triangles.cols(); ++t) {
+    Span span;
+    for (const std::int32_t node : soup.triangles.col(t))
+      span.add(longitudes[static_cast<std::size_t>(node)]);
+    if (span.width() > all.width() / 2)
+      ++joining;
+    else
+      most_others.add(span.width());
+  }
+  if (joining != std::min(found.clockwise, found.counter_clockwise) || !(all.width() < 359))
+    return;
+  std::ostringstream text;
+  text << path << ": " << joining
+       << " triangles join both ends of a channel that is periodic after "
+       << "some " << std::setprecision(3) << all.width() + most_others.greatest
+       << " degrees of longitude (FESOM's cyclic_length), which the sphere does not hold; leave "
+          "these triangles out, or give a mesh that goes around the sphere";
+  throw Error(ErrorCode::parse, text.str());
 }
 
 } // namespace
@@ -150,8 +200,10 @@ void write_fesom(const std::string& path, const Mesh& mesh, const WriteOptions& 
 }
 
 Soup read_fesom(const std::string& path) {
-  Soup soup = read_nodes(path);
+  std::vector<double> longitudes;
+  Soup soup = read_nodes(path, longitudes);
   soup.triangles = read_elements(beside(path, fesom_elements_name), soup.points.cols());
+  require_no_channel(path, longitudes, soup);
   return soup;
 }
 

@@ -37,7 +37,9 @@ struct Soup {
 void put_points(const Sink& sink, const Points3& points);              ///< x y z a line
 void put_triangle_lines(const Sink& sink, const Triangles& triangles); ///< i j k a line
 void put_off(const Sink& sink, const Mesh& mesh);
+void put_off(const Sink& sink, const Polygons& polygons);
 void put_ply(const Sink& sink, const Mesh& mesh);
+void put_ply(const Sink& sink, const Polygons& polygons);
 void put_triangles_text(const Sink& sink, const Mesh& mesh);
 void put_msh(const Sink& sink, const Mesh& mesh);
 void put_vtp(const Sink& sink, const Mesh& mesh, const WriteOptions& options);
@@ -63,6 +65,10 @@ Triangles get_triangles_text(std::istream& in, const std::string& name, std::int
 /// Whether a format has a place for a field; all that have a place for fields at all have one for
 /// those with one number for each cell.
 bool holds_field(Format format, const MeshField& field);
+
+/// The format that holds polygons where one of triangles is asked for: vtp and vtu have a kind of
+/// their own for cells. none for a format that holds no other faces than triangles.
+std::optional<Format> polygon_format(Format format);
 
 // ---- Files of their own making. \throws Error bad_option, file.
 
@@ -110,10 +116,10 @@ Polygons read_esmf_cells(const NetcdfReader& file, const Points3& centres);
 Points3 read_esmf_centres(const NetcdfReader& file); ///< none where the file has none
 Soup read_mpi_scvt(const std::string& path);
 
-/// Appends three ids of one line of text, which count from `first` there and from 0 in `triangles`.
+/// Appends ids of one line of text, which count from `first` there and from 0 in `faces`.
 /// \throws Error parse for an id that is not one of the points.
 void parse_ids(const LineReader& reader, const std::int64_t* ids, std::int64_t points,
-               std::vector<std::int32_t>& triangles, std::int64_t first = 0);
+               std::vector<std::int32_t>& faces, std::int64_t first = 0, std::int64_t count = 3);
 
 /// An array's bytes.
 template <class T> std::string_view bytes_of(const T* data, Eigen::Index count) {

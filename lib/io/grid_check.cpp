@@ -61,13 +61,18 @@ void check_distinct_corners(const StoredGrid& grid, Deviations& deviations) {
                    found.first);
 }
 
-/// Whether a polygon shares a side, in its direction, with another.
-void check_overlap(const StoredGrid& grid, const Sides& sides, Deviations& deviations) {
+/// Whether a polygon shares a side, in its direction, with another. One without area covers
+/// nothing.
+void check_overlap(const StoredGrid& grid, const Sides& sides, const Eigen::VectorXd& areas,
+                   Deviations& deviations) {
+  const auto covers = [&](const Side& side) {
+    return has_area(grid.polygons, side.polygon, areas[side.polygon]);
+  };
   const Broken found = broken(sides.nodes(), [&](std::int64_t node) {
-    for (std::int64_t k = sides.begin[node]; k < sides.begin[node + 1]; ++k)
-      for (std::int64_t other = sides.begin[node]; other < k; ++other)
-        if (sides.to[k] == sides.to[other])
-          return Verdict::breaks;
+    for (std::int64_t k = sides.begin[node] + 1; k < sides.begin[node + 1]; ++k)
+      if (sides.list[k].to == sides.list[k - 1].to && covers(sides.list[k]) &&
+          covers(sides.list[k - 1]))
+        return Verdict::breaks;
     return Verdict::keeps;
   });
   if (found.any())
@@ -82,10 +87,7 @@ void check_overlap(const StoredGrid& grid, const Sides& sides, Deviations& devia
 void check_cover(const StoredGrid& grid, const Sides& sides, const Eigen::VectorXd& areas,
                  Deviations& deviations) {
   const Broken open = broken(sides.nodes(), [&](std::int64_t node) {
-    for (std::int64_t k = sides.begin[node]; k < sides.begin[node + 1]; ++k)
-      if (sides.polygon_of(sides.to[k], static_cast<std::int32_t>(node)) < 0)
-        return Verdict::breaks;
-    return Verdict::keeps;
+    return verdict_of(!sides.is_open(static_cast<std::int32_t>(node)));
   });
   if (!grid.polygons.on_sphere)
     return;
@@ -177,7 +179,7 @@ Verdict is_equidistant(const StoredGrid& grid, const Sides& sides, std::int64_t 
   Range range;
   for (std::int64_t k = sides.begin[node]; k < sides.begin[node + 1]; ++k)
     range.add(column(grid.polygons.corners, node) -
-              column(grid.polygons.centres, sides.polygon[k]));
+              column(grid.polygons.centres, sides.list[k].polygon));
   return verdict_of(range.is_one(grid.rounding));
 }
 
@@ -199,11 +201,11 @@ void check_voronoi(const StoredGrid& grid, const Sides& sides, Deviations& devia
                           "the others are; the first is corner " +
                           std::to_string(found.first) + " (0-based)";
   for (std::int64_t k = sides.begin[found.first]; k < sides.begin[found.first + 1]; ++k)
-    if (centre_is_wrong(grid, sides, sides.polygon[k]))
+    if (centre_is_wrong(grid, sides, sides.list[k].polygon))
       return deviations.add(grid.centres,
-                            grid.centres + law + "; the centre of " + cell_name(sides.polygon[k]) +
-                                " is not that of a Voronoi cell",
-                            sides.polygon[k]);
+                            grid.centres + law + "; the centre of " +
+                                cell_name(sides.list[k].polygon) + " is not that of a Voronoi cell",
+                            sides.list[k].polygon);
   deviations.add(grid.corners, grid.corners + law, found.first);
 }
 
@@ -213,36 +215,11 @@ bool has_triangles_only(const Polygons& polygons) {
 
 } // namespace
 
-Sides::Sides(const Polygons& polygons)
-    : begin(polygons.corners.cols() + 1), to(polygons.ids.size()), polygon(polygons.ids.size()) {
-  std::fill(begin.begin(), begin.end(), std::int64_t{0});
-  for (const std::int32_t id : polygons.ids)
-    ++begin[id];
-  exclusive_scan(std::span(begin.begin(), static_cast<std::size_t>(begin.size())));
-  for (std::int32_t i = 0; i < polygons.size(); ++i)
-    for (std::int64_t k = polygons.begin[i]; k < polygons.begin[i + 1]; ++k) {
-      const std::int64_t next = k + 1 < polygons.begin[i + 1] ? k + 1 : polygons.begin[i];
-      const std::int64_t at = begin[polygons.ids[k]]++;
-      to[at] = polygons.ids[next];
-      polygon[at] = i;
-    }
-  for (std::int64_t node = begin.size() - 1; node > 0; --node) // each start has become the end
-    begin[node] = begin[node - 1];
-  begin[0] = 0;
-}
-
-std::int32_t Sides::polygon_of(std::int32_t from, std::int32_t end) const {
-  for (std::int64_t k = begin[from]; k < begin[from + 1]; ++k)
-    if (to[k] == end)
-      return polygon[k];
-  return -1;
-}
-
 void check_polygons(const StoredGrid& grid, const Sides& sides, Deviations& deviations) {
   const Eigen::VectorXd areas = areas_of(grid.polygons);
   check_orientation(grid, areas, deviations);
   check_distinct_corners(grid, deviations);
-  check_overlap(grid, sides, deviations);
+  check_overlap(grid, sides, areas, deviations);
   check_cover(grid, sides, areas, deviations);
   if (grid.polygons.centres.cols() != grid.polygons.size())
     return;

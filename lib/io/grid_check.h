@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "base/memory.h"
 #include "io/deviations.h"
+#include "io/polygons.h"
 #include "io/room.h"
 
 #include <calotte/mesh_file.h>
@@ -24,18 +24,6 @@ struct StoredGrid {
   std::string corners; ///< of their places; two names in one text
   std::string centres;
   double rounding = 0; ///< of the places, radians
-};
-
-/// The sides of polygons by the node that they start from.
-struct Sides {
-  Array<std::int64_t> begin; ///< by node
-  Array<std::int32_t> to;
-  Array<std::int32_t> polygon;
-
-  explicit Sides(const Polygons& polygons);
-  std::int64_t nodes() const { return begin.size() - 1; }
-  /// The first polygon with a side; -1 if there is none.
-  std::int32_t polygon_of(std::int32_t from, std::int32_t end) const;
 };
 
 /// Orientation; a sphere covered once, where no side is open; centres inside. Where most corners

@@ -223,9 +223,12 @@ void check_ugrid(const MeshFile& file, Deviations& deviations) {
 void check_scrip(const MeshFile& /*file*/, Deviations& deviations) {
   const NetcdfReader& stored = deviations.file();
   check_all_names(deviations);
-  const Points3 centres = read_lonlats(stored, "grid_center_lon", "grid_center_lat");
-  check_grid_dims(centres.cols(), deviations);
-  check_mask("grid_imask", centres.cols(), deviations);
+  Points3 centres;
+  if (stored.has_variable("grid_center_lon"))
+    centres = read_lonlats(stored, "grid_center_lon", "grid_center_lat");
+  const std::int64_t cells = stored.dimension("grid_size");
+  check_grid_dims(cells, deviations);
+  check_mask("grid_imask", cells, deviations);
   for (const char* name :
        {"grid_center_lon", "grid_center_lat", "grid_corner_lon", "grid_corner_lat"})
     check_units(name, deviations);

@@ -46,6 +46,8 @@ public:
 private:
   /// "NAME=what": `what` is a number of lines for most.
   void section(std::string_view line) {
+    if (line.starts_with("$"))
+      reader_.fail("a file of Gmsh; give one of JIGSAW");
     const std::size_t equals = line.find('=');
     if (equals == std::string_view::npos)
       reader_.fail(in_quotes(line) +
@@ -56,7 +58,7 @@ private:
     if (name != "coord" && !seen_.insert(name).second)
       reader_.fail("the section " + in_quotes(name) + " comes twice; leave one of them out");
     if (name == "mshid")
-      file_.kind = trimmed_lower(what.substr(std::min(what.size(), what.find(';') + 1)));
+      file_.kind = kind_in(what);
     else if (name == "ndims")
       file_.dimensions = static_cast<int>(whole<1>(what)[0]);
     else if (name == "coord")
@@ -71,6 +73,14 @@ private:
       radii(what);
     else
       skip(whole<1>(what)[0]);
+  }
+
+  /// "3;ellipsoid-mesh"; the kind may be missing.
+  static std::string kind_in(const std::string& text) {
+    const std::size_t semicolon = text.find(';');
+    const std::string kind =
+        semicolon == std::string::npos ? "" : trimmed_lower(text.substr(semicolon + 1));
+    return kind.empty() ? "euclidean-mesh" : kind;
   }
 
   /// One for all axes, or three.

@@ -15,8 +15,9 @@ namespace calotte::io_detail {
 /// What a JIGSAW .msh file says, in its own units. Sections that are absent are empty; those of
 /// other names (EDGE2, POWER, ...) are passed over.
 struct JigsawFile {
-  std::string kind;       ///< in lower case: "euclidean-mesh", "ellipsoid-mesh", "ellipsoid-grid"
-  int dimensions = 0;     ///< NDIMS, 2 or 3
+  std::string kind;   ///< in lower case: "euclidean-mesh", which is the default of a header without
+                      ///< one, "ellipsoid-mesh", "ellipsoid-grid"
+  int dimensions = 0; ///< NDIMS, 2 or 3
   Eigen::MatrixXd points; ///< dimensions x n: of an ellipsoid-mesh of 2, longitude and latitude in
                           ///< radians
   Triangles triangles;    ///< 3 x m, 0-based columns of points

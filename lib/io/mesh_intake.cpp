@@ -165,15 +165,46 @@ void settle_polygons(const std::string& name, Soup soup, MeshFile& file) {
     file.not_voronoi = difference_from(cells, polygons, soup.corner_rounding);
     if (file.not_voronoi.empty())
       return move_to_triangles(cells, polygons, file.fields);
-  } else {
-    file.not_voronoi = !file.mesh ? "the cells have no centres"
-                       : !file.mesh->closed()
+  } else if (file.mesh) {
+    file.not_voronoi = !file.mesh->closed()
                            ? "the mesh is open"
                            : "there are " + std::to_string(polygons.size()) + " cells, but " +
                                  std::to_string(file.mesh->points.cols()) + " distinct centres";
   }
   require_no_overlap(polygons, name);
   file.polygons = std::move(polygons);
+}
+
+/// Cells whose centres have no Delaunay triangulation stay polygons.
+void triangulate_centres(const Points3& centres, MeshFile& file) {
+  try {
+    file.mesh = spherical_delaunay(centres);
+  } catch (const Error& error) {
+    file.not_voronoi = error.what();
+  }
+}
+
+/// Cells without triangles. A mesh is what their own corners make of them. Corners of more than
+/// three cells are those of Voronoi cells if they agree with the triangulation of the centres.
+void settle_cells(const std::string& name, Soup soup, MeshFile& file) {
+  if (soup.points.cols() == 0) {
+    file.not_voronoi = "the cells have no centres";
+    return settle_polygons(name, std::move(soup), file);
+  }
+  file.mesh = mesh_of_cells(soup.points, soup.polygons, soup.corner_rounding, file.fields);
+  if (file.mesh && file.mesh->closed())
+    return;
+  if (!file.mesh && cover_sphere(soup.polygons)) {
+    triangulate_centres(soup.points, file);
+    settle_polygons(name, std::move(soup), file);
+    if (file.polygons) // triangles of the centres are not the file's
+      file.mesh.reset();
+    return;
+  }
+  if (!file.mesh)
+    file.not_voronoi = "they are a part of the sphere, and their corners are not the circumcentres "
+                       "of three centres each";
+  settle_polygons(name, std::move(soup), file);
 }
 
 /// Keeps the polygons: their boundary is the file's alone. Each has a site.
@@ -211,15 +242,6 @@ void merge_values(const Mesh& mesh, MeshFile& file) {
   for (MeshField& field : file.fields)
     if (field.location == Location::cells && has_values_for(field, columns))
       select_values(field, lowest);
-}
-
-/// Cells whose centres have no Delaunay triangulation stay polygons.
-void triangulate_centres(const Points3& centres, MeshFile& file) {
-  try {
-    file.mesh = spherical_delaunay(centres);
-  } catch (const Error& error) {
-    file.not_voronoi = error.what();
-  }
 }
 
 MeshFile rest_of(const std::string& format, Soup& soup) {
@@ -291,21 +313,17 @@ MeshFile mesh_file_of(const std::string& name, const std::string& format, Soup s
     mesh.site_of_input = themselves(mesh.points.cols());
     settle_edge_fields(mesh.triangles, soup.edges, file.fields, file.changes, file.ignored);
     file.mesh = std::move(mesh);
+    if (has_cells)
+      settle_polygons(name, std::move(soup), file);
   } else if (!has_cells) {
     file.mesh = named(name, [&] { return spherical_delaunay(soup.points); });
     merge_values(*file.mesh, file);
     file.changes.push_back("triangulated " + std::to_string(soup.points.cols()) + " points");
-  } else if (soup.points.cols() > 0) {
-    file.mesh = mesh_of_cells(soup.points, soup.polygons, soup.corner_rounding, file.fields);
-    if (file.mesh)
-      soup.polygons = {};
-    else
-      triangulate_centres(soup.points, file);
+  } else {
+    settle_cells(name, std::move(soup), file);
   }
   if (file.mesh)
     file.sphere_radius = radius_of(file.mesh->points);
-  if (soup.polygons.size() > 0)
-    settle_polygons(name, std::move(soup), file);
   return file;
 }
 
@@ -370,6 +388,12 @@ MeshFile periodic_mesh_file_of(const std::string& name, PlanarMesh mesh, Soup re
   mesh.site_of_input = themselves(mesh.points.cols());
   settle_edge_fields(mesh.triangles, rest.edges, file.fields, file.changes, file.ignored);
   file.plane = std::move(mesh);
+  if (rest.polygons.size() > 0) {
+    turn_cells(name, rest.polygons, false, file);
+    require_no_overlap(rest.polygons, name);
+    file.not_voronoi = "the mesh is open";
+    file.polygons = std::move(rest.polygons);
+  }
   return file;
 }
 

@@ -25,7 +25,8 @@ MeshFile planar_mesh_file_of(const std::string& name, const std::string& format,
 MeshFile mesh_file_of_columns(const std::string& name, const Points3& points, Triangles triangles);
 MeshFile mesh_file_of_columns(const std::string& name, const Points2& points, Triangles triangles);
 
-/// A mesh in a doubly periodic box, whose points are in the box. \throws Error parse.
+/// A mesh in a periodic plane, whose points are within the periods. It has a boundary where `rest`
+/// has polygons, one for each point. \throws Error parse.
 MeshFile periodic_mesh_file_of(const std::string& name, PlanarMesh mesh, Soup rest);
 
 /// Whether z is 0 at all of three or more points: a mesh of the plane.

@@ -79,7 +79,7 @@ NetcdfAttributes described(const std::string& units, const std::string& long_nam
 
 MpasFile::MpasFile(const std::string& path, const MpasMesh& mesh, const WriteOptions& options)
     : GridFile(path, mesh.voronoi.on_sphere ? options : of_plane(options), "CF-1.8 MPAS") {
-  const bool on_sphere = mesh.voronoi.on_sphere, periodic = mesh.voronoi.period.minCoeff() > 0;
+  const bool on_sphere = mesh.voronoi.on_sphere, periodic = mesh.voronoi.period.maxCoeff() > 0;
   netcdf().attribute({"on_a_sphere", std::string(on_sphere ? "YES" : "NO")});
   netcdf().attribute({"is_periodic", std::string(periodic ? "YES" : "NO")});
   netcdf().attribute({"x_period", mesh.voronoi.period[0]});

@@ -90,7 +90,7 @@ void check_mpas(MeshFile file, Deviations& deviations) {
   try {
     if (file.mesh)
       check_sphere(file, deviations);
-    else if (file.plane && file.plane->period.minCoeff() == 0)
+    else if (file.plane && (file.polygons || file.plane->period.minCoeff() == 0))
       check_open_mpas(file, 1, deviations);
     else if (file.plane)
       check_closed(voronoi_of(std::move(*file.plane)), 1, std::move(file.density), deviations);

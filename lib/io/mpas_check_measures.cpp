@@ -113,11 +113,12 @@ void check_places(const MpasCheck& check, const Kind& kind) {
 double circumradius(const Voronoi& voronoi, std::int64_t v) {
   const std::int32_t cell = voronoi.cells_on_vertex.col(v).maxCoeff(); // one that is there
   const Vec3 apart = column(voronoi.vertices, v) - column(voronoi.cells, cell);
-  if (!(voronoi.period.minCoeff() > 0))
+  if (voronoi.on_sphere)
     return norm(apart);
-  const double x = std::remainder(apart.x, voronoi.period[0]),
-               y = std::remainder(apart.y, voronoi.period[1]);
-  return std::hypot(x, y);
+  const auto nearest = [](double way, double period) {
+    return period > 0 ? std::remainder(way, period) : way;
+  };
+  return std::hypot(nearest(apart.x, voronoi.period[0]), nearest(apart.y, voronoi.period[1]));
 }
 
 // ---- Lengths, areas and angles

@@ -2,6 +2,8 @@
 #include "io/mpas_check.h"
 
 #include "base/points.h"
+#include "domain/clipped_cell.h"
+#include "domain/periodic_box.h"
 #include "io/mpas.h"
 #include "io/mpas_open.h"
 #include "io/open_cells.h"
@@ -106,9 +108,11 @@ Points3 cut_edges(const Voronoi& part, double radius, Deviations& deviations) {
     return {};
   const std::vector<double> lengths = deviations.file().doubles("dcEdge", {edges});
   for (std::int64_t e = 0; e < edges; ++e) {
+    const Vec3 &edge = column(places, e), &cell = column(part.cells, part.cells_on_edge(0, e));
     const double dc = lengths[static_cast<std::size_t>(e)] / radius,
-                 chord = norm(column(places, e) - column(part.cells, part.cells_on_edge(0, e))),
-                 way = part.on_sphere ? 2 * std::asin(std::min(chord / 2, 1.0)) : chord;
+                 way = part.on_sphere ? 2 * std::asin(std::min(norm(edge - cell) / 2, 1.0))
+                                      : domain_detail::norm(domain_detail::nearest_offset(
+                                            cell, edge, {part.period.x(), part.period.y()}));
     if (part.cells_on_edge(1, e) >= 0 || !(std::abs(dc - 2 * way) < halves_agree * dc))
       places.col(e).setConstant(std::numeric_limits<double>::quiet_NaN());
   }
@@ -138,6 +142,8 @@ void check_open_mpas(const MeshFile& file, double radius, Deviations& deviations
   MpasNumbering numbering;
   OpenLists lists;
   part.on_sphere = file.mesh.has_value();
+  if (file.plane)
+    part.period = file.plane->period;
   part.cells = cells_of(file);
   Points3 vertices = stored_places(mpas_vertex, deviations.file().dimension("nVertices"),
                                    part.on_sphere, deviations);

@@ -6,9 +6,11 @@
 #include "io/mpas.h"
 #include "io/netcdf_fields.h"
 #include "io/netcdf_reader.h"
+#include "io/polygons.h"
 
 #include "base/parallel.h"
 #include "base/points.h"
+#include "domain/periodic_box.h"
 #include "exact/predicates.h"
 
 #include <calotte/error.h>
@@ -75,7 +77,8 @@ CompleteVertices complete_vertices(const NetcdfReader& file, std::int64_t cells)
 /// Whether each vertex is the circumcentre of its cells: within a millionth of the mean cell width,
 /// or of the circumcentre's distance from the cells, whichever is larger.
 bool are_cell_corners(const Points3& sites, const Triangles& triangles, const Points3& vertices) {
-  return are_circumcentres(sites, triangles, vertices, corner_tolerance(sites.cols(), 0), 1e-6);
+  return are_circumcentres(sites, triangles, vertices,
+                           corner_tolerance(mean_width(sites.cols()), 0), 1e-6);
 }
 
 /// The cells as the file has them. A cell with a missing vertex has none here.
@@ -110,18 +113,20 @@ void select_vertices(std::vector<MeshField>& fields, const std::vector<std::int3
       select_values(field, vertices);
 }
 
-double period_of(const NetcdfReader& file, const std::string& name) {
-  const double period = file.number("", name, 0);
-  if (!(period > 0 && std::isfinite(period)))
-    file.fail(name + " is missing or not positive; a plane has two periods, or the "
-                     "attribute is_periodic \"NO\"");
+/// The periods; 0 in the direction in which a channel has walls.
+Eigen::Vector2d periods_of(const NetcdfReader& file) {
+  const Eigen::Vector2d period(file.number("", "x_period", 0), file.number("", "y_period", 0));
+  if (!period.allFinite() || period.minCoeff() < 0 || period.maxCoeff() == 0)
+    file.fail("neither x_period nor y_period is positive, or one is negative; a plane has a "
+              "period in one direction or two, or the attribute is_periodic \"NO\"");
   return period;
 }
 
-/// Into [0, period); what is there keeps its bits.
-double wrapped(double x, double period) {
-  const double inside = x - period * std::floor(x / period);
-  return inside >= 0 && inside < period ? inside : 0;
+/// Rows x and y into [0, period); what is there keeps its bits.
+void wrap(Points3& places, const Eigen::Vector2d& period) {
+  for (int row = 0; row < 2; ++row)
+    for (double& x : places.row(row))
+      x = domain_detail::wrapped(x, period[row]);
 }
 
 bool has_edge_fields(const Soup& soup) {
@@ -152,16 +157,47 @@ bool has_cells(const NetcdfReader& file) {
          file.has_variable("xVertex");
 }
 
+Points3 finite_places_of(const NetcdfReader& file, const std::string& kind) {
+  Points3 places = places_of(file, kind);
+  if (!places.allFinite())
+    file.fail("a coordinate x" + kind + " or y" + kind +
+              " is NaN or infinite; make the file again");
+  places.row(2).setZero();
+  return places;
+}
+
+/// A channel has vertices without a cell along its walls. MPAS-Tools makes it of a plane that is
+/// periodic in both directions, with rows of cells that are to be removed.
+void require_walls(const NetcdfReader& file, const Eigen::Vector2d& period, bool closed) {
+  if (closed && period.minCoeff() == 0)
+    file.fail(std::string(period.x() == 0 ? "x_period" : "y_period") +
+              " is 0, which makes a channel, but cells join its walls" +
+              (file.has_variable("cullCell")
+                   ? "; remove those that cullCell marks, with MpasCellCuller.x"
+                   : "; give the period, or remove the cells between the walls"));
+}
+
+/// The cells of a channel, or of a box with land.
+Polygons cells_between_walls(const NetcdfReader& file, Points3 cells,
+                             const Eigen::Vector2d& period) {
+  if (!has_cells(file))
+    file.fail("a periodic plane with a boundary, but no cells (nEdgesOnCell, verticesOnCell and "
+              "xVertex); make the file again");
+  Points3 vertices = finite_places_of(file, "Vertex");
+  wrap(vertices, period);
+  Polygons polygons = cells_of(file, std::move(cells), std::move(vertices));
+  polygons.on_sphere = false;
+  polygons.period = period;
+  return polygons;
+}
+
 /// A plane with a boundary. Its triangles do not cover the hull; its vertices are no triangles.
 MeshFile read_bounded_plane(const NetcdfReader& file, FieldChoice choice) {
   if (!has_cells(file))
     file.fail("a plane without periods, but no cells (nEdgesOnCell, verticesOnCell and xVertex); "
               "make the file again");
   Soup soup{.points = places_of(file, "Cell")};
-  Points3 vertices = places_of(file, "Vertex");
-  if (!vertices.allFinite())
-    file.fail("a coordinate of the vertices is NaN or infinite; make the file again");
-  vertices.row(2).setZero();
+  Points3 vertices = finite_places_of(file, "Vertex");
   read_density_and_fields(file, soup.points.cols(), choice, soup);
   soup.polygons = cells_of(file, soup.points, std::move(vertices));
   soup.polygons.on_sphere = false;
@@ -210,20 +246,19 @@ MeshFile read_planar_mpas(const NetcdfReader& file, FieldChoice choice) {
   if (file.text("", "is_periodic").starts_with("NO"))
     return read_bounded_plane(file, choice);
   PlanarMesh mesh;
-  mesh.period = {period_of(file, "x_period"), period_of(file, "y_period")};
-  const Points3 places = places_of(file, "Cell");
-  if (!places.allFinite())
-    file.fail("a coordinate of the cells is NaN or infinite; make the file again");
+  mesh.period = periods_of(file);
+  Points3 places = finite_places_of(file, "Cell");
+  wrap(places, mesh.period);
   mesh.points = places.topRows<2>();
-  for (int row = 0; row < 2; ++row)
-    for (double& x : mesh.points.row(row))
-      x = wrapped(x, mesh.period[row]);
   CompleteVertices complete = complete_vertices(file, mesh.points.cols());
-  if (!complete.all)
-    file.fail("a vertex of the periodic plane has fewer than three cells; make the file again");
   mesh.triangles = std::move(complete.triangles);
   Soup rest;
   read_density_and_fields(file, mesh.points.cols(), choice, rest);
+  require_walls(file, mesh.period, complete.all);
+  if (!complete.all) {
+    rest.polygons = cells_between_walls(file, std::move(places), mesh.period);
+    select_vertices(rest.fields, complete.vertex);
+  }
   return periodic_mesh_file_of(file.path(), std::move(mesh), std::move(rest));
 }
 

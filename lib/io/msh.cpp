@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/formats.h"
+#include "io/gmsh.h"
 #include "io/jigsaw.h"
 
 #include <calotte/error.h>
@@ -25,6 +26,8 @@ void put_msh(const Sink& sink, const Mesh& mesh) {
 }
 
 Soup get_msh(std::istream& in, const std::string& name) {
+  if (is_gmsh(in))
+    return get_gmsh(in, name);
   const JigsawFile file = read_jigsaw(in, name);
   if (file.points.cols() == 0)
     throw Error(ErrorCode::parse,

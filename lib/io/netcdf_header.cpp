@@ -213,10 +213,10 @@ private:
       overflow |= shape.bytes < 0 ||
                   __builtin_add_overflow(before_last, extent.begin, &before_last) ||
                   __builtin_add_overflow(before_last, shape.bytes, &extent.end);
-      if (shape.of_records && records_ == 0)
-        extent.end = extent.begin;
       if (overflow)
         extent.end = INT64_MAX;
+      if (shape.of_records && records_ == 0) // its first byte may be past the end of the file
+        extent.end = position_;
     }
   }
 

@@ -3,6 +3,7 @@
 
 #include "base/points.h"
 #include "domain/clipped_cell.h"
+#include "domain/periodic_box.h"
 #include "exact/predicates.h"
 #include "voronoi/open.h"
 
@@ -25,6 +26,7 @@ void set_cells(const Polygons& polygons, Voronoi& out) {
   for (std::int32_t& id : vertex)
     id = id < 0 ? -1 : count++;
   out.on_sphere = polygons.on_sphere;
+  out.period = polygons.period;
   out.cells = polygons.centres;
   out.begin = polygons.begin;
   out.vertices.resize(3, count);
@@ -36,11 +38,20 @@ void set_cells(const Polygons& polygons, Voronoi& out) {
                  [&](std::int32_t id) { return vertex[static_cast<std::size_t>(id)]; });
 }
 
+Vec2 period_of(const Voronoi& cells) { return {cells.period.x(), cells.period.y()}; }
+
+/// The length of a chord; in a periodic plane to the nearest copy.
+double distance(const Voronoi& cells, const Vec3& from, const Vec3& to) {
+  return cells.on_sphere
+             ? norm(to - from)
+             : domain_detail::norm(domain_detail::nearest_offset(from, to, period_of(cells)));
+}
+
 /// The distance of a vertex from the circumcentre of its cells, in the unit that it may have.
 double distance_from_circumcentre(const Voronoi& cells, Eigen::Index v, double width) {
   const Vec3 centre = circumcentre_of(cells, v);
-  const double reach = norm(centre - column(cells.cells, cells.cells_on_vertex(0, v)));
-  return norm(column(cells.vertices, v) - centre) / std::max(width, reach);
+  const double reach = distance(cells, centre, column(cells.cells, cells.cells_on_vertex(0, v)));
+  return distance(cells, column(cells.vertices, v), centre) / std::max(width, reach);
 }
 
 /// The first vertex that is no circumcentre.
@@ -68,8 +79,11 @@ Vec3 circumcentre_of(const Voronoi& cells, Eigen::Index v) {
              &c = column(cells.cells, cells.cells_on_vertex(2, v));
   if (cells.on_sphere)
     return normalised(cross(b - a, c - a));
-  const Vec2 centre = domain_detail::circumcentre({b.x - a.x, b.y - a.y}, {c.x - a.x, c.y - a.y});
-  return {a.x + centre.x, a.y + centre.y, 0};
+  const Vec2 period = period_of(cells);
+  const Vec2 centre = domain_detail::circumcentre(domain_detail::nearest_offset(a, b, period),
+                                                  domain_detail::nearest_offset(a, c, period));
+  return {domain_detail::wrapped(a.x + centre.x, period.x),
+          domain_detail::wrapped(a.y + centre.y, period.y), 0};
 }
 
 OpenCells open_cells(const Polygons& polygons) {

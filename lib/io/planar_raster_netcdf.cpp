@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/cell_width_file.h"
 #include "io/netcdf_reader.h"
 
 #include <calotte/read.h>
 
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace calotte {
@@ -27,38 +29,63 @@ Eigen::VectorXd coordinate(const NetcdfReader& file, const std::string& name) {
   return Eigen::Map<const Eigen::VectorXd>(values.data(), std::ssize(values));
 }
 
-void require_values(const NetcdfReader& file, const Eigen::MatrixXd& density) {
-  for (Eigen::Index j = 0; j < density.cols(); ++j)
-    for (Eigen::Index i = 0; i < density.rows(); ++i)
-      if (!(density(i, j) >= 0) || !std::isfinite(density(i, j)))
-        file.fail("density[" + std::to_string(j) + "][" + std::to_string(i) +
-                  "] is negative, infinite or NaN; correct it");
+/// A variable(y, x) with its coordinates, ascending.
+struct Grid {
+  Eigen::VectorXd x, y;
+  Eigen::MatrixXd values; ///< x by y
+};
+
+/// \param law which values are accepted. \param fault what others are.
+Grid read_grid(const NetcdfReader& file, const std::string& variable, bool (*law)(double),
+               const std::string& fault) {
+  if (!file.has_variable(variable))
+    file.fail("no variable " + variable + "; give " + variable + "(y, x)");
+  Grid grid{coordinate(file, "x"), coordinate(file, "y"), {}};
+  const std::vector<std::string> expected{file.dimensions_of("y")[0], file.dimensions_of("x")[0]};
+  if (file.dimensions_of(variable) != expected)
+    file.fail(variable + " is not " + variable + "(" + expected[0] + ", " + expected[1] +
+              "); give it these dimensions, in this order");
+  const std::vector<double> values = file.doubles(variable, {grid.y.size(), grid.x.size()});
+  grid.values = Eigen::Map<const Eigen::MatrixXd>(values.data(), grid.x.size(), grid.y.size());
+  for (Eigen::Index j = 0; j < grid.values.cols(); ++j)
+    for (Eigen::Index i = 0; i < grid.values.rows(); ++i)
+      if (!law(grid.values(i, j)) || !std::isfinite(grid.values(i, j)))
+        file.fail(variable + "[" + std::to_string(j) + "][" + std::to_string(i) + "] is " + fault +
+                  "; correct it");
+  if (grid.x[0] > grid.x[1]) {
+    grid.x.reverseInPlace();
+    grid.values.colwise().reverseInPlace();
+  }
+  if (grid.y[0] > grid.y[1]) {
+    grid.y.reverseInPlace();
+    grid.values.rowwise().reverseInPlace();
+  }
+  return grid;
+}
+
+/// The factor that converts widths to the unit of x: 1 where either has none.
+double unit_of_x(const NetcdfReader& file, const std::string& variable) {
+  if (file.text(variable, "units").empty() || file.text("x", "units").empty())
+    return 1;
+  return io_detail::kilometres_of(file, variable) / io_detail::kilometres_of(file, "x");
 }
 
 } // namespace
 
 PlanarRaster read_planar_raster(const std::string& path) {
+  Grid grid = read_grid(
+      NetcdfReader(path), "density", [](double value) { return value >= 0; },
+      "negative, infinite or NaN");
+  return {std::move(grid.x), std::move(grid.y), std::move(grid.values)};
+}
+
+PlanarCellWidth read_planar_cell_width(const std::string& path) {
+  const std::string variable = "cellWidth";
   const NetcdfReader file(path);
-  if (!file.has_variable("density"))
-    file.fail("no variable density; give density(y, x)");
-  PlanarRaster raster{coordinate(file, "x"), coordinate(file, "y"), {}};
-  const std::vector<std::string> expected{file.dimensions_of("y")[0], file.dimensions_of("x")[0]};
-  if (file.dimensions_of("density") != expected)
-    file.fail("density is not density(" + expected[0] + ", " + expected[1] +
-              "); give it these dimensions, in this order");
-  const std::vector<double> values = file.doubles("density", {raster.y.size(), raster.x.size()});
-  raster.density =
-      Eigen::Map<const Eigen::MatrixXd>(values.data(), raster.x.size(), raster.y.size());
-  require_values(file, raster.density);
-  if (raster.x[0] > raster.x[1]) {
-    raster.x.reverseInPlace();
-    raster.density.colwise().reverseInPlace();
-  }
-  if (raster.y[0] > raster.y[1]) {
-    raster.y.reverseInPlace();
-    raster.density.rowwise().reverseInPlace();
-  }
-  return raster;
+  Grid grid = read_grid(
+      file, variable, [](double value) { return value > 0; }, "not positive and finite");
+  grid.values *= unit_of_x(file, variable);
+  return {std::move(grid.x), std::move(grid.y), std::move(grid.values)};
 }
 
 } // namespace calotte

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/parallel.h"
 #include "base/points.h"
+#include "domain/clipped_cell.h"
+#include "domain/periodic_box.h"
 #include "exact/predicates.h"
+#include "io/centroids.h"
+#include "io/polygons.h"
 #include "io/room.h"
 
 #include <calotte/mesh_file.h>
@@ -14,14 +18,12 @@ namespace {
 
 using namespace io_detail;
 
-/// A polygon's corners in a circle.
+/// A polygon's corners in a circle; in a periodic plane copies near the first.
 struct Ring {
   const Polygons& polygons;
   std::int64_t begin, size;
 
-  const Vec3& at(std::int64_t k) const {
-    return column(polygons.corners, polygons.ids[begin + k % size]);
-  }
+  Vec3 at(std::int64_t k) const { return copy_near(polygons, begin, begin + k % size); }
 };
 
 Ring ring_of(const Polygons& polygons, std::int64_t i) {
@@ -46,7 +48,7 @@ bool is_convex(const Ring& ring) {
 Vec3 first_moment(const Ring& ring) {
   Vec3 sum{0, 0, 0};
   for (std::int64_t k = 0; k < ring.size; ++k) {
-    const Vec3 &a = ring.at(k), &b = ring.at(k + 1), side = b - a, normal = cross(a, side);
+    const Vec3 a = ring.at(k), b = ring.at(k + 1), side = b - a, normal = cross(a, side);
     const double sine = std::sqrt(dot(normal, normal));
     if (sine > 0)
       sum = sum + std::asin(std::sqrt(dot(side, side)) / 2) / sine * normal;
@@ -56,7 +58,7 @@ Vec3 first_moment(const Ring& ring) {
 
 /// Of a polygon in a plane: the mean of its triangles' from the first corner, by their areas.
 Vec3 planar_centroid(const Ring& ring) {
-  const Vec3& first = ring.at(0);
+  const Vec3 first = ring.at(0);
   Vec3 sum{0, 0, 0};
   double area = 0;
   for (std::int64_t k = 1; k + 1 < ring.size; ++k) {
@@ -74,9 +76,16 @@ Vec3 centroid(const Ring& ring) {
 
 /// The distance of a centre from the centroid, in widths.
 double off_centring(const Polygons& polygons, std::int64_t i, double area) {
-  const Vec3 apart = column(polygons.centres, i) - centroid(ring_of(polygons, i));
-  return std::sqrt(dot(apart, apart) / area);
+  const Vec3 &centre = column(polygons.centres, i), middle = centroid(ring_of(polygons, i));
+  const Vec2 period{polygons.period.x(), polygons.period.y()};
+  const double distance =
+      polygons.on_sphere
+          ? norm(centre - middle)
+          : domain_detail::norm(domain_detail::nearest_offset(centre, middle, period));
+  return distance / std::sqrt(area);
 }
+
+double length(const Vec3& v) { return std::sqrt(dot(v, v)); }
 
 /// Of a block of polygons.
 PolygonShapes shapes_of(const Polygons& polygons, const Eigen::VectorXd& areas, std::int64_t begin,
@@ -87,6 +96,11 @@ PolygonShapes shapes_of(const Polygons& polygons, const Eigen::VectorXd& areas, 
     const Ring ring = ring_of(polygons, i);
     if (ring.size == 0)
       continue;
+    if (!has_area(polygons, i, areas[i])) {
+      if (found.without_area++ == 0)
+        found.first_without_area = i;
+      continue;
+    }
     if (!is_convex(ring) && found.not_convex++ == 0)
       found.first_not_convex = i;
     if (polygons.centres.cols() == 0)
@@ -102,6 +116,9 @@ PolygonShapes shapes_of(const Polygons& polygons, const Eigen::VectorXd& areas, 
 }
 
 void add(const PolygonShapes& of_block, PolygonShapes& all) {
+  if (all.without_area == 0)
+    all.first_without_area = of_block.first_without_area;
+  all.without_area += of_block.without_area;
   if (all.not_convex == 0)
     all.first_not_convex = of_block.first_not_convex;
   all.not_convex += of_block.not_convex;
@@ -113,7 +130,57 @@ void add(const PolygonShapes& of_block, PolygonShapes& all) {
   }
 }
 
+Range range_of(const Eigen::VectorXd& values) {
+  if (values.size() == 0)
+    return {};
+  return {values.minCoeff(), values.mean(), values.maxCoeff()};
+}
+
+/// The areas of the polygons that are known.
+Range area_range(const Polygons& polygons, const Eigen::VectorXd& areas) {
+  Eigen::VectorXd known(areas.size());
+  Eigen::Index count = 0;
+  for (Eigen::Index i = 0; i < areas.size(); ++i)
+    if (polygons.begin[i + 1] > polygons.begin[i])
+      known[count++] = areas[i];
+  return range_of(known.head(count));
+}
+
+/// In a periodic plane to the nearest copy.
+double distance(const Polygons& polygons, const Vec3& a, const Vec3& b) {
+  const Vec2 period{polygons.period.x(), polygons.period.y()};
+  return polygons.on_sphere ? 2 * std::atan2(length(b - a), length(a + b))
+                            : domain_detail::norm(domain_detail::nearest_offset(a, b, period));
+}
+
+/// Between the centres of polygons that share a side.
+Range spacing_of(const Polygons& polygons) {
+  if (polygons.centres.cols() == 0)
+    return {};
+  const Sides sides(polygons);
+  std::vector<double> distances;
+  for (std::int32_t from = 0; from < sides.nodes(); ++from)
+    for (std::int64_t k = sides.begin[from]; k < sides.begin[from + 1]; ++k)
+      if (const auto [to, polygon] = sides.list[k]; from < to)
+        if (const std::int32_t other = sides.polygon_of(to, from); other >= 0)
+          distances.push_back(distance(polygons, column(polygons.centres, polygon),
+                                       column(polygons.centres, other)));
+  return range_of(Eigen::Map<const Eigen::VectorXd>(distances.data(), std::ssize(distances)));
+}
+
 } // namespace
+
+Points3 io_detail::centroids_of(const Polygons& polygons) {
+  Points3 centroids(3, polygons.size());
+  for_each_block(polygons.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i != end; ++i) {
+      const Ring ring = ring_of(polygons, i);
+      const Vec3 middle = centroid(ring);
+      set_column(centroids, i, std::isfinite(norm(middle)) ? middle : ring.at(0));
+    }
+  });
+  return centroids;
+}
 
 PolygonShapes shapes(const Polygons& polygons) {
   const std::int64_t count = polygons.size();
@@ -123,6 +190,8 @@ PolygonShapes shapes(const Polygons& polygons) {
     blocks[static_cast<std::size_t>(block)] = shapes_of(polygons, area, begin, end);
   });
   PolygonShapes all;
+  all.area = area_range(polygons, area);
+  all.spacing = spacing_of(polygons);
   for (const PolygonShapes& block : blocks)
     add(block, all);
   return all;

@@ -3,15 +3,15 @@
 
 #include "base/parallel.h"
 #include "base/points.h"
+#include "domain/periodic_box.h"
 
 #include <calotte/error.h>
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <numbers>
-#include <tuple>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -30,8 +30,12 @@ const Vec3& place(const Polygons& polygons, std::int64_t k) {
 template <class Add>
 void for_each_triangle(const Polygons& polygons, std::int64_t polygon, const Add& add) {
   const std::int64_t first = polygons.begin[polygon], end = polygons.begin[polygon + 1];
+  const bool periodic = polygons.period.maxCoeff() > 0;
   for (std::int64_t k = first + 1; k + 1 < end; ++k)
-    add(place(polygons, first), place(polygons, k), place(polygons, k + 1));
+    if (periodic)
+      add(place(polygons, first), copy_near(polygons, first, k), copy_near(polygons, first, k + 1));
+    else
+      add(place(polygons, first), place(polygons, k), place(polygons, k + 1));
 }
 
 /// A triangle's area is 2 atan2(a . b x c, 1 + a.b + b.c + c.a) (Oosterom and Strackee, IEEE Trans.
@@ -61,44 +65,6 @@ double signed_area(const Polygons& polygons, std::int64_t polygon) {
 }
 
 std::string name_of(std::int64_t polygon) { return "cell " + std::to_string(polygon); }
-
-/// A side of a polygon from a corner, in its direction.
-struct Side {
-  std::int32_t to;
-  std::int32_t polygon;
-
-  bool operator<(const Side& other) const {
-    return std::tie(to, polygon) < std::tie(other.to, other.polygon);
-  }
-};
-
-/// All sides by their first corner: those from corner c are begin[c] to begin[c + 1] - 1.
-struct Sides {
-  std::vector<std::int64_t> begin;
-  std::vector<Side> sides;
-};
-
-Sides sides_of(const Polygons& polygons) {
-  const auto corners = static_cast<std::size_t>(polygons.corners.cols());
-  Sides out{std::vector<std::int64_t>(corners + 1),
-            std::vector<Side>(static_cast<std::size_t>(polygons.ids.size()))};
-  for (const std::int32_t id : polygons.ids)
-    ++out.begin[static_cast<std::size_t>(id)];
-  std::int64_t end = 0;
-  for (std::int64_t& count : out.begin) // the end of each corner's, which filling turns into begins
-    count = end += count;
-  for (auto i = static_cast<std::int32_t>(polygons.size()); i-- > 0;)
-    for (std::int64_t k = polygons.begin[i + 1]; k-- > polygons.begin[i];) {
-      const std::int64_t next = k + 1 < polygons.begin[i + 1] ? k + 1 : polygons.begin[i];
-      const std::int64_t place = --out.begin[static_cast<std::size_t>(polygons.ids[k])];
-      out.sides[static_cast<std::size_t>(place)] = {polygons.ids[next], i};
-    }
-  return out;
-}
-
-double mean_width(std::int64_t cells) {
-  return std::sqrt(4 * std::numbers::pi / static_cast<double>(std::max<std::int64_t>(cells, 1)));
-}
 
 /// The square of the distance from a point to the nearest of some columns.
 double nearest(const Vec3& p, const Points3& points, const Ids& ids, std::int64_t begin,
@@ -152,9 +118,19 @@ Array<int> turns_of(const Polygons& polygons) {
 
 } // namespace
 
+Vec3 copy_near(const Polygons& polygons, std::int64_t first, std::int64_t k) {
+  const Vec3 &from = place(polygons, first), &to = place(polygons, k);
+  if (polygons.on_sphere)
+    return to;
+  const Vec2 way =
+      domain_detail::nearest_offset(from, to, {polygons.period.x(), polygons.period.y()});
+  return {from.x + way.x, from.y + way.y, 0};
+}
+
 Polygons polygons_of(Voronoi&& voronoi) {
-  return {std::move(voronoi.vertices), std::move(voronoi.begin),
-          std::move(voronoi.vertices_on_cell), std::move(voronoi.cells), voronoi.on_sphere};
+  return {
+      std::move(voronoi.vertices), std::move(voronoi.begin), std::move(voronoi.vertices_on_cell),
+      std::move(voronoi.cells),    voronoi.on_sphere,        voronoi.period};
 }
 
 Polygons polygons_of(const std::vector<std::int32_t>& corners, std::int64_t most, Points3 places,
@@ -164,9 +140,11 @@ Polygons polygons_of(const std::vector<std::int32_t>& corners, std::int64_t most
   polygons.begin.resize(count + 1);
   polygons.begin[0] = 0;
   for (std::int64_t i = 0; i < count; ++i) {
-    std::int32_t *const first = polygons.ids.data() + polygons.begin[i],
-                        *const end = std::unique_copy(corners.begin() + i * most,
-                                                      corners.begin() + (i + 1) * most, first);
+    std::int32_t *const first = polygons.ids.data() + polygons.begin[i], *end = first;
+    for (std::int64_t k = i * most; k < (i + 1) * most; ++k)
+      if (const std::int32_t id = corners[static_cast<std::size_t>(k)];
+          id >= 0 && (end == first || end[-1] != id))
+        *end++ = id;
     polygons.begin[i + 1] = polygons.begin[i] + (end - first);
     while (polygons.begin[i + 1] > polygons.begin[i] + 1 &&
            polygons.ids[polygons.begin[i + 1] - 1] == *first)
@@ -217,20 +195,93 @@ bool are_areas_of(const Polygons& polygons, const Eigen::VectorXd& values) {
          ((areas - values).array().abs() <= rounding * areas.array()).all();
 }
 
+Sides::Sides(const Polygons& polygons, std::int64_t corners)
+    : begin(corners + 1), list(polygons.ids.size()) {
+  std::fill(begin.begin(), begin.end(), std::int64_t{0});
+  for (const std::int32_t id : polygons.ids)
+    ++begin[id];
+  std::int64_t end = 0;
+  for (std::int64_t& count : begin) // the end of each corner's, which filling turns into begins
+    count = end += count;
+  for (auto i = static_cast<std::int32_t>(polygons.size()); i-- > 0;)
+    for (std::int64_t k = polygons.begin[i + 1]; k-- > polygons.begin[i];) {
+      const std::int64_t next = k + 1 < polygons.begin[i + 1] ? k + 1 : polygons.begin[i];
+      list[--begin[polygons.ids[k]]] = {polygons.ids[next], i};
+    }
+  for (std::int64_t node = 0; node < nodes(); ++node)
+    std::sort(list.begin() + begin[node], list.begin() + begin[node + 1]);
+}
+
+std::int32_t Sides::polygon_of(std::int32_t from, std::int32_t to) const {
+  const Side *const first = list.begin() + begin[from],
+                    *const last = list.begin() + begin[from + 1],
+                    *const found = std::lower_bound(first, last, Side{to, -1});
+  return found != last && found->to == to ? found->polygon : -1;
+}
+
+bool Sides::is_open(std::int32_t from) const {
+  return std::any_of(list.begin() + begin[from], list.begin() + begin[from + 1],
+                     [&](const Side& side) { return polygon_of(side.to, from) < 0; });
+}
+
+Polygons with_merged_corners(Polygons polygons, const Eigen::VectorXd& areas) {
+  std::vector<std::int32_t> same; // by corner one of lower number, or itself
+  const auto lowest = [&](std::int32_t id) {
+    while (same[static_cast<std::size_t>(id)] != id)
+      id = same[static_cast<std::size_t>(id)];
+    return id;
+  };
+  for (std::int64_t i = 0; i < polygons.size(); ++i) {
+    const double least = 1e-9 * std::sqrt(std::abs(areas[i]));
+    const std::int64_t begin = polygons.begin[i], end = polygons.begin[i + 1];
+    for (std::int64_t k = begin; k < end; ++k) {
+      const std::int64_t next = k + 1 < end ? k + 1 : begin;
+      if (!(norm(place(polygons, next) - place(polygons, k)) < least))
+        continue;
+      if (same.empty()) {
+        same.resize(static_cast<std::size_t>(polygons.corners.cols()));
+        std::iota(same.begin(), same.end(), 0);
+      }
+      const auto [low, high] = std::minmax({lowest(polygons.ids[k]), lowest(polygons.ids[next])});
+      same[static_cast<std::size_t>(high)] = low;
+    }
+  }
+  for (std::size_t id = 0; id < same.size(); ++id)
+    polygons.corners.col(static_cast<Eigen::Index>(id)) =
+        polygons.corners.col(lowest(static_cast<std::int32_t>(id)));
+  return polygons;
+}
+
+bool has_area(const Polygons& polygons, std::int64_t polygon, double area) {
+  constexpr double rounding = 1e-14; // of a unit vector; of places in a plane, to their size
+  const std::int64_t begin = polygons.begin[polygon], end = polygons.begin[polygon + 1];
+  if (end - begin < 3)
+    return false;
+  double perimeter = 0;
+  for (std::int64_t k = begin; k < end; ++k)
+    perimeter += norm(copy_near(polygons, begin, k + 1 < end ? k + 1 : begin) -
+                      copy_near(polygons, begin, k));
+  return std::abs(area) > rounding * perimeter * norm(place(polygons, begin));
+}
+
 void require_no_overlap(const Polygons& polygons, const std::string& name) {
-  Sides all = sides_of(polygons);
-  for (std::size_t corner = 0; corner + 1 < all.begin.size(); ++corner) {
-    const auto first = all.sides.begin() + all.begin[corner],
-               last = all.sides.begin() + all.begin[corner + 1];
-    std::sort(first, last);
-    const auto twice = std::adjacent_find(
-        first, last, [](const Side& one, const Side& other) { return one.to == other.to; });
-    if (twice != last)
-      throw Error(ErrorCode::parse,
-                  name + ": " + name_of(twice->polygon) + " and " +
-                      name_of(std::next(twice)->polygon) +
-                      " overlap, as both lie to the left of one side; make the file again",
-                  twice->polygon);
+  const Sides all(polygons);
+  const auto covers = [&](const Side& side) {
+    return has_area(polygons, side.polygon, signed_area(polygons, side.polygon));
+  };
+  for (std::int64_t corner = 0; corner < all.nodes(); ++corner) {
+    std::int64_t known = all.begin[corner];
+    for (std::int64_t k = known + 1; k < all.begin[corner + 1]; ++k) {
+      const Side &side = all.list[known], &next = all.list[k];
+      if (side.to == next.to && !covers(next))
+        continue;
+      if (side.to == next.to && covers(side))
+        throw Error(ErrorCode::parse,
+                    name + ": " + name_of(side.polygon) + " and " + name_of(next.polygon) +
+                        " overlap, as both lie to the left of one side; make the file again",
+                    side.polygon);
+      known = k;
+    }
   }
   if (!polygons.on_sphere)
     return;
@@ -242,8 +293,20 @@ void require_no_overlap(const Polygons& polygons, const std::string& name) {
                                       " times the sphere's; make the file again");
 }
 
-double corner_tolerance(std::int64_t cells, double rounding) {
-  return 1e-6 * mean_width(cells) + rounding;
+double mean_width(std::int64_t cells) {
+  return std::sqrt(4 * std::numbers::pi / static_cast<double>(std::max<std::int64_t>(cells, 1)));
+}
+
+double mean_width(const Polygons& polygons) {
+  return std::sqrt(areas_of(polygons).cwiseAbs().sum() /
+                   static_cast<double>(std::max<std::int64_t>(polygons.size(), 1)));
+}
+
+double corner_tolerance(double mean_width, double rounding) { return 1e-6 * mean_width + rounding; }
+
+bool cover_sphere(const Polygons& polygons) {
+  const double whole = 4 * std::numbers::pi, mean = whole / static_cast<double>(polygons.size());
+  return polygons.on_sphere && areas_of(polygons).sum() > whole - mean / 2;
 }
 
 std::string difference_from(const Voronoi& voronoi, const Polygons& polygons, double rounding) {
@@ -251,7 +314,7 @@ std::string difference_from(const Voronoi& voronoi, const Polygons& polygons, do
   if (voronoi.cells.cols() != count)
     return "there are " + std::to_string(count) + " cells, but " +
            std::to_string(voronoi.cells.cols()) + " distinct centres";
-  const double width = mean_width(count), tolerance = corner_tolerance(count, rounding);
+  const double width = mean_width(count), tolerance = corner_tolerance(width, rounding);
   std::vector<std::int64_t> first(static_cast<std::size_t>(block_count(count)), -1);
   for_each_block(count, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
     std::int64_t& found = first[static_cast<std::size_t>(block)];

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/raster_file.h"
 
+#include "base/number_text.h"
+#include "density/cell_width_field.h"
+
 #include <calotte/error.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 namespace calotte::io_detail {
@@ -13,12 +15,6 @@ namespace {
 
 /// Tolerance in degrees for coordinates rounded in a file.
 constexpr double slack = 1e-3;
-
-std::string shortly(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%g", value);
-  return text;
-}
 
 [[noreturn]] void refuse(const std::string& name, const std::string& problem) {
   throw Error(ErrorCode::parse, name + ": " + problem);
@@ -39,21 +35,6 @@ void require_ascending(const std::vector<double>& values, const std::string& var
       refuse(name, at(variable, i) + " = " + shortly(values[i]) + " does not follow " +
                        shortly(values[i - 1]) + "; sort the raster along it");
   }
-}
-
-double widest_step(const std::vector<double>& values) {
-  double widest = 0;
-  for (std::size_t i = 1; i < values.size(); ++i)
-    widest = std::max(widest, values[i] - values[i - 1]);
-  return widest;
-}
-
-void require_covering(double gap, const std::vector<double>& values, const std::string& variable,
-                      const std::string& name) {
-  if (gap > 1.5 * widest_step(values) + slack)
-    refuse(name, variable + " runs from " + shortly(values.front()) + " to " +
-                     shortly(values.back()) +
-                     " and leaves part of the sphere out; give a global raster in degrees");
 }
 
 /// The first meridian may be repeated at the end.
@@ -111,7 +92,7 @@ void drop_fill(const NetcdfReader& file, const std::string& variable, Eigen::Mat
 
 } // namespace
 
-Raster ordered(Raster raster, const std::string& name, const RasterLaw& law) {
+Raster ordered(Raster raster, const std::string& name, const RasterLaw& law, const Region& region) {
   if (raster.latitudes.size() > 1 && raster.latitudes[1] < raster.latitudes[0]) {
     std::reverse(raster.latitudes.begin(), raster.latitudes.end());
     require_ascending(raster.latitudes, raster.latitude_name + " backwards", name);
@@ -130,10 +111,11 @@ Raster ordered(Raster raster, const std::string& name, const RasterLaw& law) {
   require_values(raster, name, law);
   drop_repeated(raster, name);
   require_ascending(raster.longitudes, raster.longitude_name, name);
-  require_covering(360 - (raster.longitudes.back() - raster.longitudes.front()), raster.longitudes,
-                   raster.longitude_name, name);
-  require_covering(std::max(raster.latitudes.front() + 90, 90 - raster.latitudes.back()),
-                   raster.latitudes, raster.latitude_name, name);
+  const std::string problem =
+      density_detail::uncovered(vector_of(raster.longitudes), vector_of(raster.latitudes), region,
+                                raster.longitude_name, raster.latitude_name);
+  if (!problem.empty())
+    refuse(name, problem);
   return raster;
 }
 

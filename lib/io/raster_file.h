@@ -4,6 +4,8 @@
 #include "io/netcdf_reader.h"
 #include "io/room.h"
 
+#include <calotte/region.h>
+
 #include <Eigen/Core>
 
 #include <iterator>
@@ -29,8 +31,9 @@ struct RasterLaw {
 
 /// The raster with both coordinates ascending and no longitude repeated.
 /// \throws Error parse, "NAME: ..." with the variable and its index, if it does not cover the
-///         sphere, or a value violates the law.
-Raster ordered(Raster raster, const std::string& name, const RasterLaw& law);
+///         region, or a value violates the law.
+Raster ordered(Raster raster, const std::string& name, const RasterLaw& law,
+               const Region& region = {});
 
 /// The coordinates as Eigen's vector.
 inline Eigen::VectorXd vector_of(const std::vector<double>& values) {

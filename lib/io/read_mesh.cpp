@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/cell_rows.h"
 #include "io/file.h"
 #include "io/file_names.h"
 #include "io/formats.h"
@@ -35,11 +36,6 @@ bool holds_netcdf(const std::string& path) {
 
 // ---- Files of each kind
 
-[[noreturn]] void refuse_netcdf(const NetcdfReader& file) {
-  file.fail("a NetCDF file, but no mesh of MPAS, UGRID, SCRIP, ESMF, Exodus or ICON; convert it to "
-            "one of them");
-}
-
 /// Formats that hold points in space may hold a mesh of the plane.
 MeshFile mesh_file_of_any(const std::string& path, const std::string& format, Soup soup) {
   return lies_in_plane(soup.points) ? planar_mesh_file_of(path, format, std::move(soup))
@@ -61,6 +57,8 @@ MeshFile read_netcdf(const std::string& path, FieldChoice choice) {
     return mesh_file_of(path, "Exodus", read_exodus(file, choice));
   if (is_icon(file))
     return mesh_file_of(path, "ICON", read_icon(file, choice));
+  if (const std::optional<CellRows> rows = cell_rows_of(file))
+    return mesh_file_of(path, "CF", read_cells(file, *rows, choice));
   refuse_netcdf(file);
 }
 
@@ -110,7 +108,7 @@ std::string name_of(Format format) {
   case Format::ply:
     return "PLY";
   case Format::msh:
-    return "JIGSAW";
+    return "MSH";
   case Format::mpi_scvt:
     return "MPI-SCVT";
   default:
@@ -160,15 +158,17 @@ Points3 sites_of(const std::string& path) {
   if (is_mpas(file))
     return read_mpas_sites(file);
   if (is_ugrid(file))
-    return read_ugrid(file, FieldChoice::none).points;
+    return sites_of(path, read_ugrid(file, FieldChoice::none));
   if (is_scrip(file))
-    return read_scrip(file, FieldChoice::none).points;
+    return sites_of(path, read_scrip(file, FieldChoice::none));
   if (is_esmf(file))
-    return read_esmf(file, FieldChoice::none).points;
+    return sites_of(path, read_esmf(file, FieldChoice::none));
   if (is_exodus(file))
-    return read_exodus(file, FieldChoice::none).points;
+    return sites_of(path, read_exodus(file, FieldChoice::none));
   if (is_icon(file))
-    return read_icon(file, FieldChoice::none).points;
+    return sites_of(path, read_icon(file, FieldChoice::none));
+  if (const std::optional<CellRows> rows = cell_rows_of(file))
+    return sites_of(path, read_cells(file, *rows, FieldChoice::none));
   refuse_netcdf(file);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/points.h"
-#include "io/distinct_places.h"
+#include "io/cell_rows.h"
 #include "io/formats.h"
 #include "io/model_grid.h"
 #include "io/netcdf_fields.h"
@@ -85,16 +85,14 @@ bool is_scrip(const NetcdfReader& file) {
 }
 
 Polygons read_scrip_cells(const NetcdfReader& file, const Points3& centres) {
-  const std::int64_t most = file.shape_of("grid_corner_lon").back();
-  const LonLats corners =
-      read_degrees(file, "grid_corner_lon", "grid_corner_lat", {centres.cols(), most});
-  const DistinctPlaces distinct = distinct_places(corners.longitudes, corners.latitudes);
-  return polygons_of(distinct.id, most, from_degrees(distinct.longitudes, distinct.latitudes),
-                     centres);
+  return read_cell_rows(
+      file, {"grid_corner_lon", "grid_corner_lat", "grid_center_lon", "grid_center_lat"}, centres);
 }
 
 Soup read_scrip(const NetcdfReader& file, FieldChoice choice) {
-  Soup soup{.points = read_lonlats(file, "grid_center_lon", "grid_center_lat")};
+  Soup soup;
+  if (file.has_variable("grid_center_lon") || !file.has_variable("grid_corner_lon"))
+    soup.points = read_lonlats(file, "grid_center_lon", "grid_center_lat");
   if (file.has_variable("grid_corner_lon")) {
     soup.polygons = read_scrip_cells(file, soup.points);
     soup.corner_rounding = file.is_float("grid_corner_lon") ? float_rounding : 0;

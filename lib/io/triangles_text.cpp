@@ -44,12 +44,12 @@ void put_triangles_text(const Sink& sink, const Mesh& mesh) {
 }
 
 void parse_ids(const LineReader& reader, const std::int64_t* ids, std::int64_t points,
-               std::vector<std::int32_t>& triangles, std::int64_t first) {
-  for (int i = 0; i < 3; ++i) {
+               std::vector<std::int32_t>& faces, std::int64_t first, std::int64_t count) {
+  for (std::int64_t i = 0; i < count; ++i) {
     if (ids[i] < first || ids[i] - first >= points)
       reader.fail("id " + std::to_string(ids[i]) + " is not one of the " + std::to_string(points) +
                   " points; ids count from " + std::to_string(first));
-    triangles.push_back(static_cast<std::int32_t>(ids[i] - first));
+    faces.push_back(static_cast<std::int32_t>(ids[i] - first));
   }
 }
 

@@ -74,7 +74,7 @@ struct FaceNodesReader {
   const NetcdfReader& file;
   const std::string& name;
   std::int64_t nodes;
-  double start = file.number(name, "start_index", 0);
+  double start;
   double fill = file.number(name, "_FillValue", std::numeric_limits<double>::quiet_NaN());
 
   std::int32_t id(double value, std::int64_t face) const {
@@ -101,6 +101,17 @@ struct FaceNodesReader {
   }
 };
 
+/// Without the attribute ids count from 0; those of FESOM's files, from 1: one is the number of
+/// nodes, and none is 0.
+double start_index_of(const NetcdfReader& file, const std::string& name, std::int64_t nodes,
+                      const std::vector<double>& ids) {
+  const auto has = [&](std::int64_t id) {
+    return std::find(ids.begin(), ids.end(), static_cast<double>(id)) != ids.end();
+  };
+  const double start = file.number(name, "start_index", -1);
+  return start != -1 ? start : has(nodes) && !has(0) ? 1 : 0;
+}
+
 FaceNodes face_nodes_of(const NetcdfReader& file, const Topology& topology, std::int64_t nodes) {
   const std::string& name = topology.face_nodes;
   // Doubles hold every padding that others use, whatever its type.
@@ -111,7 +122,7 @@ FaceNodes face_nodes_of(const NetcdfReader& file, const Topology& topology, std:
       dimensions[1] == topology.face_dimension && dimensions[0] != topology.face_dimension;
   const std::int64_t faces = shape[faces_last ? 1 : 0], most = shape[faces_last ? 0 : 1];
 
-  const FaceNodesReader reader{file, name, nodes};
+  const FaceNodesReader reader{file, name, nodes, start_index_of(file, name, nodes, values)};
   FaceNodes result(most, faces);
   for (std::int64_t face = 0; face < faces; ++face) {
     for (std::int64_t k = 0; k < most; ++k)
@@ -165,11 +176,21 @@ Polygons faces_of(const FaceNodes& faces, Points3 nodes, Points3 centres, bool p
   return polygons;
 }
 
+/// The first node that three faces do not surround.
+std::int64_t first_without_triangle(const Dual& dual) {
+  if (dual.failed >= 0)
+    return dual.failed;
+  std::int64_t node = 0;
+  while (node < dual.corner.size() && dual.corner[node] == node)
+    ++node;
+  return node;
+}
+
 /// One triangle of faces a node.
 Triangles dual(const NetcdfReader& file, const FaceNodes& faces, std::int64_t nodes) {
   Dual dual = dual_of(faces_of(faces, {}, {}, false), nodes);
-  if (dual.failed >= 0)
-    file.fail("the faces around node " + std::to_string(dual.failed) +
+  if (dual.failed >= 0 || dual.triangles.cols() < nodes)
+    file.fail("the faces around node " + std::to_string(first_without_triangle(dual)) +
               " (0-based) are not three that share edges; make the file again");
   return std::move(dual.triangles);
 }

@@ -46,9 +46,10 @@ MeshSizes sizes_of(const PlanarMesh& mesh) {
 void require_mesh(const std::string& path, const Mesh& mesh, Format format) {
   require_ids(path, mesh);
   if (holds_cells(format) && !mesh.closed())
-    refuse_to_write(path,
-                    "the mesh is open, and its outer cells have no end; write its triangles (.vtp, "
-                    ".vtu, .off, .ply, .msh), or add sites all around the sphere");
+    refuse_to_write(
+        path, "the mesh is open, and its outer cells would reach round the far side of the "
+              "sphere; write its triangles (.vtp, .vtu, .off, .ply, .msh), cut a limited area "
+              "out of a wider grid, or add sites all around the sphere");
 }
 
 Numbering numbering_of(const WriteOptions& options) {
@@ -201,7 +202,7 @@ void write(const std::string& path, const PlanarMesh& mesh, const WriteOptions& 
   WriteOptions resolved = options;
   resolved.format = format_of(path, options.format);
   require_options(path, resolved);
-  require_planar_format(path, mesh.period.minCoeff() > 0, resolved.format);
+  require_planar_format(path, mesh.period.maxCoeff() > 0, resolved.format);
   require_input_numbering(path, options.numbering);
   require_ids(path, mesh);
   require_values(path, sizes_of(mesh), resolved);

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/centroids.h"
+#include "io/dual.h"
 #include "io/field_order.h"
 #include "io/file_names.h"
 #include "io/formats.h"
 #include "io/model_grid.h"
 #include "io/open_cells.h"
+#include "io/polygons.h"
 #include "io/write_mesh.h"
 #include "io/written_fields.h"
 
@@ -13,6 +16,7 @@
 #include <calotte/mesh_file.h>
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,12 +31,9 @@ void require_polygon_format(const std::string& path, const MeshFile& file, Forma
   if (format == Format::mpas_minimal)
     refuse_to_write(path, "minimal MPAS files need Voronoi cells without a boundary, but " +
                               file.not_voronoi + others);
-  if (!holds_cells(format))
+  if (!polygon_format(format))
     refuse_to_write(path, "the format holds triangles, but the mesh consists of cells, and " +
                               file.not_voronoi + others);
-  if (format == Format::scrip && file.polygons->centres.cols() == 0)
-    refuse_to_write(path, "SCRIP needs the centre of each cell, but the cells have none; write "
-                          "ugrid, esmf, exodus, vtp-cells, vtu-cells or geojson");
   const auto& begin = file.polygons->begin;
   for (std::int64_t i = 0; i < file.polygons->size(); ++i)
     if (begin[i] == begin[i + 1])
@@ -54,7 +55,8 @@ Points3 places_of(const MeshFile& file, double radius) {
 
 void write_open_mpas(const std::string& path, const MeshFile& file, const WriteOptions& options) {
   const OpenCells cells = open_cells(*file.polygons);
-  const bool closed = file.mesh && file.mesh->closed(); // its Voronoi cells are others
+  // The Voronoi cells of a whole sphere are others.
+  const bool closed = file.mesh ? file.mesh->closed() : cover_sphere(*file.polygons);
   if (!cells.problem.empty())
     refuse_to_write(path, "MPAS needs Voronoi cells, but " +
                               (closed ? file.not_voronoi : cells.problem) + "; write " +
@@ -62,12 +64,12 @@ void write_open_mpas(const std::string& path, const MeshFile& file, const WriteO
   write_mpas(path, cells.voronoi, places_of(file, options.sphere_radius), options);
 }
 
-/// Whether a field is of polygons: at the cells, or, but in MPAS, which numbers them otherwise, at
-/// their corners.
+/// Whether a field is of polygons: at the cells, or, but in MPAS, which numbers them otherwise, and
+/// in a periodic plane, at their corners.
 bool is_of(const Polygons& polygons, const MeshField& field, Format format) {
   return field.location == Location::cells ||
          (field.location == Location::vertices && format != Format::mpas &&
-          has_values_for(field, polygons.corners.cols()));
+          !(polygons.period.maxCoeff() > 0) && has_values_for(field, polygons.corners.cols()));
 }
 
 void write_polygons_of(const std::string& path, const MeshFile& file, WriteOptions options) {
@@ -86,17 +88,29 @@ void write_polygons_of(const std::string& path, const MeshFile& file, WriteOptio
       options.fields.push_back({.name = "density", .values = file.density});
     if (is_netcdf(options.format))
       settle_names(options.fields);
-    write_polygons(path, cell_grid(*file.polygons), options);
+    Polygons polygons = unwrapped(*file.polygons);
+    if (options.format == Format::scrip && polygons.centres.cols() == 0)
+      polygons.centres = centroids_of(polygons);
+    write_polygons(path, cell_grid(polygons), options);
   }
   Monitor(options.progress).finish("write");
 }
 
-/// Cells that are not Voronoi cells are written as they are; triangles of the same file only to
-/// formats of triangles.
-bool writes_polygons(const MeshFile& file, Format format) {
+/// Cells are written as they are, to formats of triangles only where the file has no triangles.
+/// \param triangles of the cells of a plane, if there are any.
+bool writes_polygons(const MeshFile& file, const std::optional<PlanarMesh>& triangles,
+                     Format format) {
   if (!file.polygons || holds_cells(format))
     return file.polygons.has_value() && !(file.plane && file.domain);
-  return !file.plane && (!file.mesh || file.mesh->closed());
+  return file.plane ? !triangles && file.plane->period.maxCoeff() == 0
+                    : !file.mesh || file.mesh->closed();
+}
+
+/// What formats of triangles hold of the clipped cells of a plane. A periodic one has triangles.
+std::optional<PlanarMesh> triangles_of(const MeshFile& file, Format format) {
+  if (!file.plane || file.plane->period.maxCoeff() > 0 || !file.polygons || holds_cells(format))
+    return {};
+  return planar_mesh_of_cells(file.plane->points, *file.polygons);
 }
 
 /// Voronoi cells exist only for a Delaunay triangulation, of which edges between cocircular sites
@@ -114,13 +128,20 @@ void require_voronoi(const std::string& path, const Mesh& mesh, Format format) {
                   ".msh), or triangulate its points anew");
 }
 
+/// Whether a field stands at the corners of the file's cells, of which only some are triangles.
+bool is_at_corners(const MeshFile& file, const MeshField& field) {
+  return field.location == Location::vertices && file.mesh && file.polygons &&
+         !has_values_for(field, file.mesh->triangles.cols());
+}
+
 /// Names of the fields that a format cannot hold.
 std::vector<std::string> dropped_fields(const MeshFile& file, Format format, bool polygons) {
   const bool clipped = !polygons && file.plane && file.domain && holds_cells(format);
   std::vector<std::string> dropped;
   for (const MeshField& field : file.fields)
     if (!holds_field(format, field) || (clipped && field.location != Location::cells) ||
-        (polygons && !is_of(*file.polygons, field, format)))
+        (polygons && !is_of(*file.polygons, field, format)) ||
+        (!polygons && is_at_corners(file, field)))
       dropped.push_back(field.name);
   return dropped;
 }
@@ -134,11 +155,18 @@ WrittenFields write(const std::string& path, const MeshFile& file, const WriteOp
   WrittenFields written;
   if (is_netcdf(resolved.format))
     written.renamed = settle_names(resolved.fields);
-  const bool polygons = writes_polygons(file, resolved.format);
+  const std::optional<PlanarMesh> triangles = triangles_of(file, resolved.format);
+  const bool polygons = writes_polygons(file, triangles, resolved.format);
   if (!polygons && options.density.uniform() && options.site_density.size() == 0)
     resolved.site_density = file.density;
+  if (!polygons)
+    std::erase_if(resolved.fields,
+                  [&](const MeshField& field) { return is_at_corners(file, field); });
   if (polygons) {
+    resolved.format = polygon_format(resolved.format).value_or(resolved.format);
     write_polygons_of(path, file, resolved);
+  } else if (triangles) {
+    write(path, *triangles, resolved);
   } else if (file.plane && file.domain) {
     write(path, *file.plane, *file.domain, resolved);
   } else if (file.plane) {

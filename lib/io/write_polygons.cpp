@@ -52,6 +52,10 @@ void put_polygons(const Sink& sink, const Polygons& polygons, const WriteOptions
     return put_vtp_cells(sink, polygons, options);
   case Format::vtu_cells:
     return put_vtu_cells(sink, polygons, options);
+  case Format::off:
+    return put_off(sink, polygons);
+  case Format::ply:
+    return put_ply(sink, polygons);
   default:
     return put_geojson(sink, polygons, options);
   }
@@ -65,6 +69,20 @@ void require_plane_format(const std::string& path, Format format) {
 }
 
 } // namespace
+
+std::optional<Format> polygon_format(Format format) {
+  switch (format) {
+  case Format::vtp:
+    return Format::vtp_cells;
+  case Format::vtu:
+    return Format::vtu_cells;
+  case Format::off:
+  case Format::ply:
+    return format;
+  default:
+    return holds_cells(format) ? std::optional(format) : std::nullopt;
+  }
+}
 
 std::string formats_of_polygons(bool on_sphere) {
   return on_sphere ? "ugrid, scrip, esmf, exodus, vtp-cells, vtu-cells or geojson"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/check_laws.h"
+#include "mesh/edge_counts.h"
 
 #include "base/points.h"
 #include "curve/hilbert.h"
@@ -97,6 +98,15 @@ struct OnSphere : mesh_detail::Faces {
                      : exact_detail::in_circle_resolved({}, given(a), given(b), given(c), given(d));
   }
 
+  /// Half the sum of the cotangents of the angles at c and d, but for the sphere's curvature.
+  double relative_length(std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t d) const {
+    const auto cotangent = [&](const Vec3& p) {
+      const Vec3 u = unit[a] - p, v = unit[b] - p;
+      return dot(u, v) / base_detail::norm(cross(u, v));
+    };
+    return (cotangent(unit[c]) + cotangent(unit[d])) / 2;
+  }
+
   const void* stored(std::int32_t site) const { return &unit[site]; }
 
   static constexpr int cube_faces = 6;
@@ -123,106 +133,9 @@ struct OnSphere : mesh_detail::Faces {
   }
 };
 
-/// Half the sum of the cotangents of the angles across from an edge: the length of its Voronoi edge
-/// over its own, but for the sphere's curvature.
-double relative_length(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-  const auto cotangent = [&](const Vec3& p) {
-    const Vec3 u = a - p, v = b - p;
-    return dot(u, v) / base_detail::norm(cross(u, v));
-  };
-  return (cotangent(c) + cotangent(d)) / 2;
-}
-
-void join(EdgeCounts& all, const EdgeCounts& block) {
-  all.edges += block.edges;
-  all.boundary += block.boundary;
-  all.not_delaunay += block.not_delaunay;
-  all.cocircular += block.cocircular;
-  all.shortest = std::min(all.shortest, block.shortest);
-  if (all.first[0] < 0)
-    all.first = block.first;
-}
-
-/// The edge across from vertex i, seen from the triangle of the lower number.
-void count_edge(const OnSphere& s, std::int64_t t, int i, EdgeCounts& counts) {
-  constexpr double rounding = 1e-9;
-  const std::int32_t other = s.neighbour(t, i);
-  if (other >= 0 && other < t)
-    return;
-  ++counts.edges;
-  if (other < 0) {
-    ++counts.boundary;
-    return;
-  }
-  const std::int32_t a = s.vertex(t, i + 1), b = s.vertex(t, i + 2), c = s.vertex(t, i);
-  const std::int32_t d = s.vertex(other, mesh_detail::slot_of(s, other, b) + 2);
-  if (s.in_circle(a, b, c, d) < 0) // d is outside
-    return;
-  const double length = relative_length(s.unit[a], s.unit[b], s.unit[c], s.unit[d]);
-  if (length > -rounding) {
-    ++counts.cocircular;
-    return;
-  }
-  if (counts.not_delaunay++ == 0)
-    counts.first = {std::min(a, b), std::max(a, b)};
-  counts.shortest = std::min(counts.shortest, length);
-}
-
-/// The boundary as one successor for each of its sites; -1 elsewhere. Of a site at which the
-/// boundary passes more than once, one passage.
-std::vector<std::int32_t> boundary_successors(const OnSphere& s) {
-  std::vector<std::int32_t> next(static_cast<std::size_t>(s.sites()), -1);
-  for (std::int64_t t = 0; t < s.triangles(); ++t)
-    for (int i = 0; i < 3; ++i)
-      if (s.neighbour(t, i) < 0)
-        next[static_cast<std::size_t>(s.vertex(t, i + 1))] = s.vertex(t, i + 2);
-  return next;
-}
-
-void count_boundary(const OnSphere& s, EdgeCounts& counts) {
-  const std::vector<std::int32_t> next = boundary_successors(s);
-  const auto successor = [&](std::int32_t site) { return next[static_cast<std::size_t>(site)]; };
-  std::vector<bool> seen(next.size());
-  for (std::int32_t start = 0; start < s.sites(); ++start) {
-    if (successor(start) < 0 || seen[static_cast<std::size_t>(start)])
-      continue;
-    ++counts.loops;
-    for (std::int32_t site = start; site >= 0 && !seen[static_cast<std::size_t>(site)];
-         site = successor(site)) {
-      seen[static_cast<std::size_t>(site)] = true;
-      const std::int32_t middle = successor(site), end = middle < 0 ? -1 : successor(middle);
-      if (end >= 0 && end != site && s.orientation(site, middle, end) < 0)
-        ++counts.not_convex;
-    }
-  }
-}
-
-std::int64_t count_unused_sites(const Mesh& mesh) {
-  std::vector<bool> used(static_cast<std::size_t>(mesh.points.cols()));
-  for (const std::int32_t site : mesh.triangles.reshaped())
-    used[static_cast<std::size_t>(site)] = true;
-  return std::count(used.begin(), used.end(), false);
-}
-
 } // namespace
 
-EdgeCounts count_edges(const Mesh& mesh) {
-  const OnSphere s(mesh);
-  std::vector<EdgeCounts> blocks(static_cast<std::size_t>(base_detail::block_count(s.triangles())));
-  base_detail::for_each_block(s.triangles(),
-                              [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
-                                for (std::int64_t t = begin; t != end; ++t)
-                                  for (int i = 0; i < 3; ++i)
-                                    count_edge(s, t, i, blocks[static_cast<std::size_t>(block)]);
-                              });
-  EdgeCounts all;
-  for (const EdgeCounts& block : blocks)
-    join(all, block);
-  if (all.boundary > 0)
-    count_boundary(s, all);
-  all.unused_sites = count_unused_sites(mesh);
-  return all;
-}
+EdgeCounts count_edges(const Mesh& mesh) { return mesh_detail::count_edges_of(OnSphere(mesh)); }
 
 // Why local laws are enough. The triangles are counter-clockwise and turn around each inner site
 // once, so the mesh covers the sphere without folds or branch points. Closed, it is a covering of

@@ -43,9 +43,9 @@ template <class Sign> Orientations tally(const Triangles& triangles, const Sign&
   return all;
 }
 
-/// The copy of x nearest to the origin, in whole periods.
+/// The copy of x nearest to the origin, in whole periods; 0 if there is no period.
 int nearest_copy(double x, double origin, double period) {
-  return static_cast<int>(-std::lround((x - origin) / period));
+  return period > 0 ? static_cast<int>(-std::lround((x - origin) / period)) : 0;
 }
 
 /// A side of a triangle without a neighbour.

@@ -26,7 +26,8 @@ struct Orientations {
 Orientations orientations_of(const Points3& points, const Triangles& triangles);
 /// In the plane. \pre ids are in range, and points are finite.
 Orientations orientations_of(const Points2& points, const Triangles& triangles);
-/// In a doubly periodic box, where a triangle's corners are the nearest copies of its sites.
+/// In a periodic plane, where a triangle's corners are the nearest copies of its sites.
+/// \param period as in PlanarMesh.
 Orientations orientations_of(const Points2& points, const Triangles& triangles,
                              const Eigen::Vector2d& period);
 

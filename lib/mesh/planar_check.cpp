@@ -2,6 +2,7 @@
 #include "curve/hilbert.h"
 #include "exact/plane_predicates.h"
 #include "mesh/check_laws.h"
+#include "mesh/edge_counts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,16 +14,16 @@ using exact_detail::Image;
 using exact_detail::roundoff;
 using exact_detail::Vec2;
 using mesh_detail::Area;
-
-bool is_periodic(const PlanarMesh& mesh) { return mesh.period.minCoeff() > 0; }
+using mesh_detail::Proof;
 
 std::string place_failure(const PlanarMesh& mesh, std::int64_t site) {
   const auto p = mesh.points.col(site);
   if (!p.allFinite())
     return "site " + std::to_string(site) + " is not a place";
-  const bool outside = (p.array() < 0).any() || (p.array() >= mesh.period.array()).any();
-  return is_periodic(mesh) && outside
-             ? "site " + std::to_string(site) + " is outside the periodic box"
+  const auto outside = p.array() < 0 || p.array() >= mesh.period.array();
+  return (mesh.period.array() > 0 && outside).any()
+             ? "site " + std::to_string(site) + " is outside the periodic " +
+                   (mesh.period.minCoeff() > 0 ? "box" : "channel")
              : std::string();
 }
 
@@ -30,7 +31,7 @@ std::string place_failure(const PlanarMesh& mesh, std::int64_t site) {
 int scale_of(const PlanarMesh& mesh) {
   const double largest = mesh.points.size() > 0 ? mesh.points.cwiseAbs().maxCoeff() : 0;
   int exponent = 0;
-  std::frexp(std::max(largest, is_periodic(mesh) ? mesh.period.maxCoeff() : 0.0), &exponent);
+  std::frexp(std::max(largest, mesh.period.maxCoeff()), &exponent);
   return -exponent;
 }
 
@@ -44,33 +45,34 @@ Area half_cross(const Vec2& p, const Vec2& q, double off) {
           2 * largest * off + off * off + 2 * roundoff * largest * largest};
 }
 
-/// A mesh in the plane or in a periodic box. Predicates use the copies of sites nearest to a site:
-/// the shift of the copy of b near a is the opposite of the shift of the copy of a near b.
+/// A mesh in the plane, in a channel or in a periodic box. Predicates use the copies of sites
+/// nearest to a site: the shift of the copy of b near a is the opposite of the shift of the copy of
+/// a near b.
 struct InPlane : mesh_detail::Faces {
   static constexpr const char* circle = "circle";
 
   const PlanarMesh& mesh;
-  Vec2 period{0, 0}; ///< 0 of a plane without
-  int scale;         ///< exponent, for areas
+  Proof proof;
+  Vec2 period; ///< 0 in a direction without one
+  int scale;   ///< exponent, for areas
 
-  explicit InPlane(const PlanarMesh& given)
-      : Faces(mesh_detail::faces_of(given)), mesh(given), scale(scale_of(given)) {
-    if (is_periodic(given))
-      period = {given.period.x(), given.period.y()};
-  }
+  explicit InPlane(const PlanarMesh& given, Proof wanted = Proof::surface)
+      : Faces(mesh_detail::faces_of(given)), mesh(given),
+        proof(wanted), period{given.period.x(), given.period.y()}, scale(scale_of(given)) {}
 
-  bool periodic() const { return period.x > 0; }
+  bool periodic() const { return period.x > 0 || period.y > 0; }
+  bool is_box() const { return period.x > 0 && period.y > 0; }
   Vec2 given(std::int32_t site) const { return {mesh.points(0, site), mesh.points(1, site)}; }
 
   static int boxes_to(double from, double to, double length) {
+    if (!(length > 0))
+      return 0;
     const double way = to - from;
     return way > length / 2 ? -1 : way < -length / 2 ? 1 : 0;
   }
 
   Image image(std::int32_t site, std::int32_t near) const {
     const Vec2 p = given(site), q = given(near);
-    if (!periodic())
-      return {p, 0, 0};
     return {p, boxes_to(q.x, p.x, period.x), boxes_to(q.y, p.y, period.y)};
   }
 
@@ -90,7 +92,7 @@ struct InPlane : mesh_detail::Faces {
   static constexpr int cube_faces = 1;
   curve_detail::CubePoint square(std::int32_t site) const {
     const Vec2 p = given(site);
-    const double u = periodic() ? p.x / period.x : 0, v = periodic() ? p.y / period.y : 0;
+    const double u = is_box() ? p.x / period.x : 0, v = is_box() ? p.y / period.y : 0;
     return {0, 2 * u - 1, 2 * v - 1};
   }
 
@@ -103,7 +105,7 @@ struct InPlane : mesh_detail::Faces {
       j += next.j;
     }
     return i == 0 && j == 0 ? std::string()
-                            : triangle_name(*this, t) + " is wider than half of the periodic box";
+                            : triangle_name(*this, t) + " is wider than half of the period";
   }
 
   std::int64_t euler(std::int64_t) const { return periodic() ? 0 : 1; }
@@ -129,11 +131,40 @@ struct InPlane : mesh_detail::Faces {
     return half_cross(p, q, std::max(error_of_way(p), error_of_way(q)));
   }
 
+  /// Half the sum of the cotangents of the angles at c and d.
+  double relative_length(std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t d) const {
+    const auto cotangent = [&](std::int32_t p, std::int32_t from, std::int32_t to) {
+      const Vec2 u = way(p, from), v = way(p, to);
+      return (u.x * v.x + u.y * v.y) / (u.x * v.y - u.y * v.x);
+    };
+    return (cotangent(c, a, b) + cotangent(d, b, a)) / 2;
+  }
+
   Area area(std::int64_t t) const { return scaled_area(vertex(t, 0), vertex(t, 1), vertex(t, 2)); }
 
-  /// Of the box, or of the polygon that the boundary is.
+  /// What an edge of the boundary of a channel adds to the area: that between it and a line along
+  /// the period, through the origin. The products' factors are at most 2.
+  Area beside(std::int32_t from, std::int32_t to) const {
+    const Vec2 along = way(from, to), at = given(from);
+    const double area = period.x > 0 ? -(scaled(at.y) + along.y / 2) * along.x
+                                     : (scaled(at.x) + along.x / 2) * along.y;
+    return {area, 32 * roundoff};
+  }
+
+  /// Of a coordinate of the sites, or its period; it errs by a rounding.
+  double extent(int axis) const {
+    const auto row = mesh.points.row(axis);
+    const double length = axis == 0 ? period.x : period.y;
+    return length > 0 ? scaled(length) : scaled(row.maxCoeff()) - scaled(row.minCoeff());
+  }
+
+  /// Of the box, of a channel between straight walls, or of what the boundary encloses.
   Area whole() const {
-    if (periodic()) {
+    if (periodic() && proof == Proof::delaunay) {
+      const double area = extent(0) * extent(1);
+      return {area, 4 * roundoff * area};
+    }
+    if (is_box()) {
       const double box = scaled(period.x) * scaled(period.y);
       return {box, roundoff * box};
     }
@@ -144,7 +175,8 @@ struct InPlane : mesh_detail::Faces {
       for (int i = 0; i < 3; ++i)
         if (neighbour(t, i) < 0) {
           corner = corner < 0 ? vertex(t, i + 1) : corner;
-          const Area part = scaled_area(corner, vertex(t, i + 1), vertex(t, i + 2));
+          const Area part = periodic() ? beside(vertex(t, i + 1), vertex(t, i + 2))
+                                       : scaled_area(corner, vertex(t, i + 1), vertex(t, i + 2));
           sum.value += part.value;
           sum.error += part.error;
           ++edges;
@@ -158,12 +190,17 @@ struct InPlane : mesh_detail::Faces {
     result.whole = std::ldexp(whole().value, -2 * scale);
   }
 
-  std::string area_failure(const Area& area, const Check&) const {
+  /// In a box with a boundary the areas may sum to less.
+  std::string area_failure(const Area& area, const Check& result) const {
+    if (is_box() && result.boundary_edges > 0)
+      return {};
     const Area all = whole();
     if (std::abs(all.value - area.value) <= 2 * (area.error + all.error))
       return {};
     return "the areas sum to " + std::to_string(area.value / all.value) + " of the area of the " +
-           (periodic() ? "periodic box" : "hull");
+           (is_box()     ? "periodic box"
+            : periodic() ? "channel"
+                         : "hull");
   }
 };
 
@@ -173,13 +210,26 @@ struct InPlane : mesh_detail::Faces {
 // In the plane the mesh bends at its boundary to the left alone: by Gauss and Bonnet each part has
 // the characteristic 1, so there is one; and it is a convex one-sheeted polygon, as its boundary
 // turns around once. In a periodic box each part covers the torus by as many sheets as the box goes
-// into its area, so areas that sum to the box's leave one part of one sheet. Triangles narrower
+// into its area, so areas that sum to the box's leave one part of one sheet. In a channel a part
+// that bends to the left alone has the characteristic 1, or 0 and straight walls: the sum 0 leaves
+// the latter, and areas that sum to the channel between its outermost sites one of one sheet.
+// Triangles narrower
 // than half of the box lie in the plane without overlap, which is what in_circle() works in. Such a
 // mesh with Delaunay edges is Delaunay.
 Check check(const PlanarMesh& mesh, const ProgressCallback& progress) {
   return mesh_detail::check_laws(
       mesh, [&](std::int64_t site) { return place_failure(mesh, site); },
-      [&] { return InPlane(mesh); }, mesh_detail::Proof::delaunay, progress);
+      [&] { return InPlane(mesh, Proof::delaunay); }, Proof::delaunay, progress);
+}
+
+Check check_surface(const PlanarMesh& mesh, const ProgressCallback& progress) {
+  return mesh_detail::check_laws(
+      mesh, [&](std::int64_t site) { return place_failure(mesh, site); },
+      [&] { return InPlane(mesh); }, mesh_detail::Proof::surface, progress);
+}
+
+EdgeCounts count_edges(const PlanarMesh& mesh) {
+  return mesh_detail::count_edges_of(InPlane(mesh));
 }
 
 } // namespace calotte

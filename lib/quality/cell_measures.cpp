@@ -5,6 +5,7 @@
 #include "integrals/moments.h"
 #include "quality/cell_measures.h"
 #include "quality/demand.h"
+#include "quality/flat_hull.h"
 #include "quality/sides.h"
 
 #include <calotte/check.h>
@@ -29,6 +30,15 @@ void set_centroids(const Mesh& mesh, const Density& density, CellMeasures& out) 
   }
 }
 
+/// Values by triangle of a part of a mesh, for all of its triangles.
+Eigen::VectorXd of_all(const Eigen::VectorXd& values, const std::vector<std::int32_t>& triangle,
+                       Eigen::Index triangles) {
+  Eigen::VectorXd all = Eigen::VectorXd::Constant(triangles, no_value);
+  all(triangle) = values;
+  return all;
+}
+
+/// \param mesh without flat triangles along its boundary.
 CellMeasures measure_cells(const Mesh& mesh, const Density& density) {
   Subject subject{mesh.triangles, mesh.neighbours, {}, make_shapes(mesh), {}, {}, {}};
   CellMeasures out = unset_measures(mesh.points.cols(), mesh.triangles.cols());
@@ -62,7 +72,13 @@ CellMeasures cell_measures(const Mesh& mesh, const Density& density) {
   if (const Check found = check_surface(mesh); !found.passed())
     throw Error(ErrorCode::bad_option, "the triangles do not form a surface: " + found.failure +
                                            "; triangulate the points anew");
-  return quality_detail::measure_cells(quality_detail::with_unit_columns(mesh), density);
+  using namespace quality_detail;
+  const WithoutFlatHull part = without_flat_hull(with_unit_columns(mesh));
+  CellMeasures measures = measure_cells(part.mesh, density);
+  if (part.mesh.triangles.cols() < mesh.triangles.cols())
+    for (Eigen::VectorXd* values : {&measures.triangle_angle, &measures.triangle_quality})
+      *values = of_all(*values, part.triangle, mesh.triangles.cols());
+  return measures;
 }
 
 } // namespace calotte

@@ -6,6 +6,7 @@
 #include "integrals/moments.h"
 #include "quality/eigenvalues.h"
 #include "quality/error_norms.h"
+#include "quality/flat_hull.h"
 #include "quality/sides.h"
 #include "quality/truncation.h"
 #include "quality/whole_cells.h"
@@ -127,7 +128,7 @@ OperatorErrors operator_errors(const Mesh& mesh, const Density& density) {
   using namespace quality_detail;
   evaluate(density, Points3(Eigen::Vector3d::UnitZ())); // throws if the density is ill-formed
   const bool closed = require_delaunay(mesh);
-  const Mesh unit = with_unit_columns(mesh);
+  const Mesh unit = without_flat_hull(with_unit_columns(mesh)).mesh;
   return closed ? of_closed(unit, density) : of_open(unit);
 }
 

@@ -9,8 +9,9 @@
 #include "quality/cell_measures.h"
 #include "quality/demand.h"
 #include "quality/parts.h"
+#include "quality/sides.h"
+#include "quality/voronoi_mesh.h"
 
-#include <calotte/check.h>
 #include <calotte/error.h>
 #include <calotte/voronoi.h>
 
@@ -185,11 +186,7 @@ double root_integral(const Points3& points, const Connectivity& mesh, const Plan
 void require_mesh(const PlanarMesh& mesh, const PlanarDomain& domain) {
   require_domain(domain);
   require_period(mesh, domain);
-  if (const Check found = check(mesh); !found.passed())
-    throw Error(ErrorCode::bad_option,
-                "the mesh is not the Delaunay triangulation of its points, so it has no Voronoi "
-                "cells: " +
-                    found.failure + "; triangulate the points anew");
+  require_voronoi_mesh(mesh);
   require_inside(mesh.points, domain);
 }
 
@@ -272,6 +269,28 @@ Quality quality(const PlanarMesh& mesh, const PlanarDomain& domain, const Densit
   result.residual = measured.l2 / measured.spacing;
   set_energy(result, measured.energy, root);
   result.cells_area = areas.sum / area(domain);
+  return result;
+}
+
+Quality open_quality(const PlanarMesh& mesh) {
+  using namespace quality_detail;
+  if (const Check found = check_surface(mesh); !found.passed())
+    throw Error(ErrorCode::bad_option, "the triangles do not form a surface: " + found.failure +
+                                           "; triangulate the points anew");
+  const Points3 points = with_z(mesh.points);
+  const Subject subject{mesh.triangles,
+                        mesh.neighbours,
+                        {},
+                        shapes_of(mesh.triangles, {mesh.period.x(), mesh.period.y()},
+                                  [&](std::int32_t site) { return column(points, site); }),
+                        {},
+                        {},
+                        {}};
+  Quality result = measure_shapes(subject, 0);
+  const std::vector<Sides> sides = sides_of_cells(mesh, subject.shapes);
+  set_whole_cells(sides, result);
+  result.cells = mesh.points.cols();
+  result.degrees = inner_degrees(sides);
   return result;
 }
 

@@ -4,7 +4,9 @@
 #include "base/points.h"
 #include "integrals/moments.h"
 #include "quality/demand.h"
+#include "quality/flat_hull.h"
 #include "quality/sides.h"
+#include "quality/voronoi_mesh.h"
 
 #include <calotte/check.h>
 #include <calotte/error.h>
@@ -58,64 +60,12 @@ MomentPart add_moments(const Mesh& mesh, const Density& density) {
 
 /// \returns the sum of the triangles' areas.
 double require_closed_delaunay(const Mesh& mesh) {
-  Check found = check(mesh);
-  if (!found.passed()) {
-    // The other diagonals of cocircular sites make the same cells.
-    const std::string failure = found.failure;
-    found = check_surface(mesh);
-    const EdgeCounts edges = found.passed() ? count_edges(mesh) : EdgeCounts{};
-    if (edges.boundary > 0 || edges.unused_sites > 0 || edges.cocircular == 0 ||
-        edges.not_delaunay > 0)
-      throw Error(ErrorCode::bad_option,
-                  "the mesh is not the Delaunay triangulation of its points, so it has no Voronoi "
-                  "cells: " +
-                      failure + "; triangulate the points anew");
-  }
+  const Check found = require_voronoi_mesh(mesh);
   if (found.boundary_edges > 0)
     throw Error(ErrorCode::bad_option,
                 "the mesh is open, as all its sites lie in a hemisphere, and its Voronoi cells do "
                 "not tessellate the sphere: give sites all around");
   return found.area;
-}
-
-/// How many sites with a closed ring of triangles have each number of neighbours.
-std::vector<std::int64_t> inner_degrees(const Mesh& mesh) {
-  std::vector<std::int64_t> degree(static_cast<std::size_t>(mesh.points.cols()));
-  std::vector<bool> open(degree.size());
-  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
-    for (int i = 0; i < 3; ++i) {
-      ++degree[static_cast<std::size_t>(mesh.triangles(i, t))];
-      if (mesh.neighbours(i, t) < 0)
-        for (const int end : {1, 2})
-          open[static_cast<std::size_t>(mesh.triangles((i + end) % 3, t))] = true;
-    }
-  CellPart inner;
-  for (std::size_t i = 0; i < degree.size(); ++i)
-    if (!open[i] && degree[i] > 0)
-      inner.count(static_cast<std::size_t>(degree[i]), 1);
-  return inner.degrees;
-}
-
-// ---- Open meshes
-
-/// Measures the cells that triangles surround.
-void add_whole_cells(const Mesh& mesh, const Shapes& shapes, Quality& result) {
-  Tally sigma, quality, area, bad;
-  for (const Sides& cell : sides_of_cells(mesh, shapes)) {
-    if (!cell.whole())
-      continue;
-    sigma.add(cell.arcs.min / cell.arcs.max);
-    quality.add(cell.voronoi.min / cell.voronoi.max);
-    area.add(cell.area);
-    if (cell.bad)
-      bad.add(cell.arcs.sum / static_cast<double>(cell.arcs.count));
-  }
-  result.sigma = sigma.range();
-  result.cell_quality = quality.range();
-  result.cell_area = area.range();
-  result.bad_cells = bad.count;
-  result.bad_spacing = bad.range();
-  result.cells_area = area.sum / (4 * pi);
 }
 
 Quality measure(const Mesh& mesh, const Density& density) {
@@ -161,17 +111,19 @@ Quality measure_open(const Mesh& mesh, bool cells) {
   if (!found.passed())
     throw Error(ErrorCode::bad_option, "the triangles do not form a surface: " + found.failure +
                                            "; triangulate the points anew");
-  const Mesh unit = with_unit_columns(mesh);
+  const Mesh unit = without_flat_hull(with_unit_columns(mesh)).mesh;
   const Subject subject{unit.triangles, unit.neighbours, {}, make_shapes(unit), {}, {}, {}};
   Quality result = measure_shapes(subject, 0);
+  const std::vector<Sides> sides = sides_of_cells(unit, subject.shapes);
   if (cells) {
-    add_whole_cells(unit, subject.shapes, result);
+    result.cells_area = set_whole_cells(sides, result) / (4 * pi);
   } else {
     result.off_centring = result.dv_over_dc = {};
     result.short_edges = 0;
   }
   result.cells = mesh.points.cols();
-  result.degrees = inner_degrees(mesh);
+  result.flat = mesh.triangles.cols() - unit.triangles.cols();
+  result.degrees = inner_degrees(sides);
   result.triangles_area = found.area / (4 * pi);
   return result;
 }

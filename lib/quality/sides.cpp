@@ -30,13 +30,17 @@ Shape shape_of(const std::array<Vec3, 3>& p) {
 
 /// The part of a triangle that is nearer to one end of a side than to its other vertices, on that
 /// side's side of the circumcentre; signed (see Shape::delta).
-double half_kite(double side, double delta) {
+double half_kite(const Mesh& /*sphere*/, double side, double delta) {
   return 2 * std::atan(std::tan(side / 4) * std::tan(delta / 2));
+}
+double half_kite(const PlanarMesh& /*plane*/, double side, double delta) {
+  return side / 2 * delta / 2;
 }
 
 /// Adds a side of a triangle to the cells of its two ends; its edge, if it has not been added from
 /// the other triangle.
-void add_side(const Mesh& mesh, const Shapes& shapes, std::int64_t t, int v,
+template <class AnyMesh>
+void add_side(const AnyMesh& mesh, const Shapes& shapes, std::int64_t t, int v,
               std::vector<Sides>& cells) {
   const std::int32_t other = mesh.neighbours(v, t);
   const auto& [angle, side, delta] = shapes[t];
@@ -48,7 +52,7 @@ void add_side(const Mesh& mesh, const Shapes& shapes, std::int64_t t, int v,
   }
   for (const int end : {next_vertex(v), previous_vertex(v)}) {
     Sides& cell = cells[static_cast<std::size_t>(mesh.triangles(end, t))];
-    cell.area += half_kite(side[corner], delta[corner]);
+    cell.area += half_kite(mesh, side[corner], delta[corner]);
     cell.open = cell.open || other < 0;
     cell.bad = cell.bad || is_obtuse(shapes[t]) || (edge && is_short(*edge));
     if (edge || other < 0)
@@ -56,6 +60,14 @@ void add_side(const Mesh& mesh, const Shapes& shapes, std::int64_t t, int v,
     if (edge)
       cell.voronoi.add(edge->voronoi);
   }
+}
+
+template <class AnyMesh> std::vector<Sides> sides_of(const AnyMesh& mesh, const Shapes& shapes) {
+  std::vector<Sides> cells(static_cast<std::size_t>(mesh.points.cols()));
+  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
+    for (int v = 0; v < 3; ++v)
+      add_side(mesh, shapes, t, v, cells);
+  return cells;
 }
 
 } // namespace
@@ -82,11 +94,37 @@ Shapes make_shapes(const Mesh& mesh) {
 }
 
 std::vector<Sides> sides_of_cells(const Mesh& mesh, const Shapes& shapes) {
-  std::vector<Sides> cells(static_cast<std::size_t>(mesh.points.cols()));
-  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
-    for (int v = 0; v < 3; ++v)
-      add_side(mesh, shapes, t, v, cells);
-  return cells;
+  return sides_of(mesh, shapes);
+}
+std::vector<Sides> sides_of_cells(const PlanarMesh& mesh, const Shapes& shapes) {
+  return sides_of(mesh, shapes);
+}
+
+double set_whole_cells(const std::vector<Sides>& cells, Quality& result) {
+  Tally sigma, quality, area, bad;
+  for (const Sides& cell : cells) {
+    if (!cell.whole())
+      continue;
+    sigma.add(cell.arcs.min / cell.arcs.max);
+    quality.add(cell.voronoi.min / cell.voronoi.max);
+    area.add(cell.area);
+    if (cell.bad)
+      bad.add(cell.arcs.sum / static_cast<double>(cell.arcs.count));
+  }
+  result.sigma = sigma.range();
+  result.cell_quality = quality.range();
+  result.cell_area = area.range();
+  result.bad_cells = bad.count;
+  result.bad_spacing = bad.range();
+  return area.sum;
+}
+
+std::vector<std::int64_t> inner_degrees(const std::vector<Sides>& cells) {
+  CellPart inner;
+  for (const Sides& cell : cells)
+    if (cell.whole())
+      inner.count(static_cast<std::size_t>(cell.arcs.count), 1);
+  return inner.degrees;
 }
 
 } // namespace calotte::quality_detail

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-/// The triangles of a mesh of the sphere, and the cells that they surround.
+/// The triangles of a mesh, and the cells that they surround.
 namespace calotte::quality_detail {
 
 /// The mesh with all columns of norm 1.
@@ -33,5 +33,13 @@ struct Sides {
 /// By site.
 /// \param mesh may be open; \param shapes of its triangles.
 std::vector<Sides> sides_of_cells(const Mesh& mesh, const Shapes& shapes);
+std::vector<Sides> sides_of_cells(const PlanarMesh& mesh, const Shapes& shapes);
+
+/// Sets sigma, cell_quality, cell_area, bad_cells and bad_spacing by the cells that triangles
+/// surround. \returns the sum of their areas.
+double set_whole_cells(const std::vector<Sides>& cells, Quality& result);
+
+/// How many sites with a closed ring of triangles have each number of neighbours.
+std::vector<std::int64_t> inner_degrees(const std::vector<Sides>& cells);
 
 } // namespace calotte::quality_detail

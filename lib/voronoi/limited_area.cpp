@@ -74,10 +74,13 @@ Ids limited_area_mask(const Offsets& begin, const Ids& cells_on_cell,
                              "finer mesh");
   for (int k = 1; k <= rings; ++k)
     ring = next_ring(begin, cells_on_cell, ring, k, mask);
-  require(mask.minCoeff() == none, "the region and its " + std::to_string(rings) +
-                                       " rings hold all " + std::to_string(cells) +
-                                       " cells, so that there is no boundary; give a smaller "
-                                       "region, fewer rings or a finer mesh");
+  const bool open = std::any_of(cells_on_cell.begin(), cells_on_cell.end(),
+                                [](std::int32_t cell) { return cell < 0; });
+  require(open || mask.minCoeff() == none,
+          "the region and its " + std::to_string(rings) + " rings hold all " +
+              std::to_string(cells) +
+              " cells, so that there is no boundary; give a smaller "
+              "region, fewer rings or a finer mesh");
   remove_loose(begin, cells_on_cell, mask);
   require(mask.maxCoeff() >= 0, "no cell of the region has two neighbours in it; give a larger "
                                 "region or a finer mesh");

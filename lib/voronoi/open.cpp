@@ -4,6 +4,7 @@
 #include "base/matrix_memory.h"
 #include "base/parallel.h"
 #include "base/points.h"
+#include "domain/periodic_box.h"
 #include "exact/predicates.h"
 #include "voronoi/groups.h"
 #include "voronoi/triangle_area.h"
@@ -189,6 +190,7 @@ void set_vertex(std::int32_t v, const Fan& fan, Voronoi& out) {
 // ---- Measures
 
 struct Sphere {
+  static Vec3 way(const Vec3& a, const Vec3& b) { return b - a; }
   static Vec3 middle(const Vec3& a, const Vec3& b) { return normalised(a + b); }
   static double length(const Vec3& a, const Vec3& b) {
     return 2 * std::atan2(norm(b - a), norm(a + b));
@@ -201,11 +203,22 @@ struct Sphere {
   }
 };
 
+/// Ways lead to nearest copies where the plane is periodic.
 struct Plane {
-  static Vec3 middle(const Vec3& a, const Vec3& b) { return a + 0.5 * (b - a); }
-  static double length(const Vec3& a, const Vec3& b) { return norm(b - a); }
-  static double area(const Vec3& a, const Vec3& b, const Vec3& c) {
-    return cross(b - a, c - a).z / 2;
+  Vec2 period;
+
+  Vec3 way(const Vec3& a, const Vec3& b) const {
+    const Vec2 offset = domain_detail::nearest_offset(a, b, period);
+    return {offset.x, offset.y, 0};
+  }
+  Vec3 middle(const Vec3& a, const Vec3& b) const {
+    const Vec3 middle = a + 0.5 * way(a, b);
+    return {domain_detail::wrapped(middle.x, period.x), domain_detail::wrapped(middle.y, period.y),
+            0};
+  }
+  double length(const Vec3& a, const Vec3& b) const { return norm(way(a, b)); }
+  double area(const Vec3& a, const Vec3& b, const Vec3& c) const {
+    return cross(way(a, b), way(a, c)).z / 2;
   }
   static Vec3 to_the_right(const Vec3& way, const Vec3&) { return {way.y, -way.x, 0}; }
   static double angle(const Vec3&, const Vec3& direction) {
@@ -227,16 +240,16 @@ template <class Space>
 EdgeMeasure measured(const Space& space, std::int64_t e, const Vec3* cut, const Voronoi& of) {
   const Vec3& from = column(of.cells, of.cells_on_edge(0, e));
   if (cut != nullptr)
-    return {*cut, 2 * space.length(from, *cut), *cut - from};
+    return {*cut, 2 * space.length(from, *cut), space.way(from, *cut)};
   if (of.cells_on_edge(1, e) >= 0) {
     const Vec3& to = column(of.cells, of.cells_on_edge(1, e));
-    return {space.middle(from, to), space.length(from, to), to - from};
+    return {space.middle(from, to), space.length(from, to), space.way(from, to)};
   }
   const Vec3 &right = column(of.vertices, of.vertices_on_edge(0, e)),
              &left = column(of.vertices, of.vertices_on_edge(1, e));
   const Vec3 middle = space.middle(right, left);
   return {middle, std::numbers::sqrt3 * space.length(right, left),
-          space.to_the_right(left - right, middle)};
+          space.to_the_right(space.way(right, left), middle)};
 }
 
 template <class Space>
@@ -316,7 +329,7 @@ void measure_open(Voronoi& out, const Points3& cut_edges) {
   if (out.on_sphere)
     measure(Sphere{}, cut_edges, out);
   else
-    measure(Plane{}, cut_edges, out);
+    measure(Plane{{out.period.x(), out.period.y()}}, cut_edges, out);
 }
 
 } // namespace calotte::voronoi_detail

@@ -8,7 +8,9 @@
 #include "base/require.h"
 #include "exact/predicates.h"
 #include "voronoi/connectivity.h"
+#include "voronoi/far_side.h"
 #include "voronoi/geometry.h"
+#include "voronoi/open.h"
 #include "voronoi/stages.h"
 
 #include <calotte/error.h>
@@ -56,9 +58,8 @@ void set_cells(const PlanarMesh& mesh, Voronoi& out) {
 
 /// \throws Error bad_option for a mesh that does not cover its space.
 void set_space(const Mesh& mesh, Voronoi&) {
-  require(mesh.closed(),
-          "the mesh is open, as all its sites lie in a hemisphere, and its Voronoi cells do not "
-          "tessellate the sphere: give sites all around");
+  require(mesh.closed(), "the mesh is open, and a grid of its cells would reach round the far side "
+                         "of the sphere: give sites all around");
 }
 
 void set_space(const PlanarMesh& mesh, Voronoi& out) {
@@ -116,6 +117,34 @@ template <class AnyMesh> Voronoi voronoi_of(const AnyMesh& mesh) {
   return out;
 }
 
+/// Of an open mesh: measures place corners on the near side, thus those of the far side are set
+/// here.
+Voronoi voronoi_of_open(const Mesh& mesh) {
+  const Mesh hull = hull_of(mesh);
+  Voronoi out;
+  const Rings rings = begin(hull, out);
+  copy_triangles(hull.triangles, out);
+  connect(faces_of(hull), rings, out);
+  make_room(out.vertices, 3, hull.triangles.cols());
+  for_each_block(hull.triangles.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t t = begin; t != end; ++t) {
+      const Vec3 &a = column(out.cells, hull.triangles(0, t)),
+                 &b = column(out.cells, hull.triangles(1, t)),
+                 &c = column(out.cells, hull.triangles(2, t));
+      const Vec3 normal = normalised(cross(b - a, c - a));
+      // Rounding can turn the normal of a triangle whose corners are equal up to rounding.
+      const bool turned = dot(normal, a) < 0 ? !is_far(hull, t) : is_far(hull, t);
+      set_column(out.vertices, t, turned ? -normal : normal);
+    }
+  });
+  measure_open(out);
+  for (std::int64_t t = 0; t < hull.triangles.cols(); ++t)
+    if (is_far(hull, t))
+      measure_far(hull, t, out);
+  measure_areas(out); // of kites: the corners of a cell can be opposite each other
+  return out;
+}
+
 } // namespace
 
 BegunVoronoi begun(Mesh& mesh) { return begun_of(mesh); }
@@ -130,7 +159,9 @@ void connect(BegunVoronoi& out) {
 
 } // namespace voronoi_detail
 
-Voronoi voronoi(const Mesh& mesh) { return voronoi_detail::voronoi_of(mesh); }
+Voronoi voronoi(const Mesh& mesh) {
+  return mesh.closed() ? voronoi_detail::voronoi_of(mesh) : voronoi_detail::voronoi_of_open(mesh);
+}
 
 Voronoi voronoi(const PlanarMesh& mesh) { return voronoi_detail::voronoi_of(mesh); }
 

@@ -10,6 +10,7 @@
 #include <doctest/doctest.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -136,7 +137,7 @@ TEST_CASE("fixed generators through bisections, insertion and a finish [slow]") 
   const Points3 fixed = stations(cells);
   for (const Region& region : {Region{}, circle(centre, 35 * degree)}) {
     CvtOptions options = graded(cells, 12, 0);
-    const Continuation from = multilevel(cells, region, options.density, 1, 12);
+    const Continuation from = multilevel(cells, region, options.density, 1, fixed);
     CHECK(from.bisections > 0);
     options.bisections = from.bisections;
     const Points3 start = joined(fixed, from.start);
@@ -159,7 +160,7 @@ TEST_CASE("fixed generators: the same bits for all threads and regions, and resu
     CvtOptions options = graded(cells, 12, 0);
     options.well_centred = true;
     options.tolerance = 3e-4;
-    const Continuation from = multilevel(cells, region, options.density, 1, 12);
+    const Continuation from = multilevel(cells, region, options.density, 1, fixed);
     options.bisections = from.bisections;
     const Points3 start = joined(fixed, from.start);
     const auto with = [&](std::size_t threads, int regions) {
@@ -187,7 +188,7 @@ TEST_CASE("fixed generators: the same bits for all threads and regions, and resu
 TEST_CASE("fixed generators in the plane") {
   for (const PlanarDomain& domain : {rectangle({0, 0}, {4, 3}), periodic_box({4, 3})}) {
     const Points2 fixed = random_places(9, domain, 3);
-    PlanarContinuation from = multilevel(900, domain, {}, 1, 9);
+    PlanarContinuation from = multilevel(900, domain, {}, 1, fixed);
     CvtOptions options = fixing(9);
     options.insertion_rounds = 1;
     options.cells = 900;
@@ -227,6 +228,106 @@ TEST_CASE("fixed generators: bad input is one clear line with the index") {
   start.col(4) = -centre;
   CHECK(message_of(start, region, fixing(10)).find("fixed generator 4 is outside the region") == 0);
   CHECK(message_of(start, region, fixing(2)).find("generator 4 is outside the region") == 0);
-  CHECK_THROWS_AS(multilevel(100, Density{}, 1, 100), Error);
-  CHECK_THROWS_AS(multilevel(100, Density{}, 1, -1), Error);
+  CHECK_THROWS_AS(multilevel(100, Density{}, 1, random_sphere(100)), Error);
+}
+
+namespace {
+
+/// Widths of 1 far from the centre, and of a quarter near it.
+Density refined() { return tanh_bump(centre, 12 * degree, 3 * degree, 1.0 / 256); }
+
+/// The cells of a uniform grid that are not near the centre.
+Points3 kept_cells(std::int64_t cells) {
+  const Points3 grid = spherical_cvt(geodesic_sphere(cells)).mesh.points;
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index i = 0; i < grid.cols(); ++i)
+    if (grid.col(i).dot(centre) < std::cos(24 * degree))
+      kept.push_back(i);
+  return grid(Eigen::all, kept);
+}
+
+/// The cells that the density demands in all and near the centre, where a uniform grid of some
+/// cells meets it elsewhere: integrals of its square root.
+struct Demand {
+  std::int64_t all;
+  double near;
+};
+
+Demand demand_of(const Density& density, std::int64_t around) {
+  const Points3 samples = random_sphere(200000, 7);
+  const Eigen::VectorXd cells = evaluate(density, samples).cwiseSqrt() * 16 *
+                                static_cast<double>(around) / static_cast<double>(samples.cols());
+  const auto is_near = (centre.transpose() * samples).array() >= std::cos(24 * degree);
+  return {std::llround(cells.sum()), is_near.select(cells.transpose().array(), 0).sum()};
+}
+
+/// The smallest distance from one of the columns to those of the others.
+double nearest(const Points3& columns, const Points3& others) {
+  double least = 2;
+  for (const auto& p : columns.colwise())
+    least = std::min(least, (others.colwise() - p).colwise().norm().minCoeff());
+  return least;
+}
+
+} // namespace
+
+TEST_CASE("fixed generators: free ones start where these leave the density unmet") {
+  const std::int64_t around = 2562;
+  const Points3 fixed = kept_cells(around);
+  const Density density = refined();
+  const Demand demand = demand_of(density, around);
+  const std::int64_t cells = cells_beside(fixed, demand.all, density);
+  CHECK(std::abs(static_cast<double>(cells - fixed.cols()) - demand.near) < 0.05 * demand.near);
+
+  const Continuation from = multilevel(cells, density, 1, fixed);
+  CHECK(from.start.cols() == cells - fixed.cols());
+  for (const auto& p : from.start.colwise())
+    CHECK(p.dot(centre) > std::cos(25 * degree)); // a cell is 4 degrees wide
+  CHECK(multilevel(cells, density, 1, fixed).start == from.start);
+  CHECK(multilevel(cells, density, 2, fixed).start != from.start);
+}
+
+TEST_CASE("fixed generators: all free ones find a place where no gap is left") {
+  const Points3 fixed = spherical_cvt(geodesic_sphere(642)).mesh.points;
+  const Continuation from = multilevel(700, Density{}, 1, fixed);
+  CHECK(from.start.cols() == 58);
+  CHECK(nearest(from.start, fixed) > 0); // the farthest places, which are distinct from them
+  CHECK(cells_beside(fixed, 642, Density{}) == 642);
+}
+
+TEST_CASE("fixed generators: a refined part of a grid is well-centred [slow]") {
+  const Points3 fixed = kept_cells(10242);
+  CvtOptions options;
+  options.density = refined();
+  options.fixed = fixed.cols();
+  options.cells = cells_beside(fixed, demand_of(options.density, 10242).all, options.density);
+  options.insertion_rounds = insertion_rounds_beside_fixed;
+  options.well_centred = true;
+  options.tolerance = tolerance_before_finish;
+  const Continuation from = multilevel(options.cells, options.density, 1, fixed);
+  options.bisections = from.bisections;
+  const Cvt grid = spherical_cvt(joined(fixed, from.start), options);
+  CHECK(grid.report.converged);
+  CHECK(grid.mesh.points.leftCols(fixed.cols()) == fixed);
+  CHECK(check(grid.mesh).passed());
+  // No cell is squeezed: of a start anywhere, thousands are.
+  CHECK(grid.report.misshapen_cells <= 2);
+  CHECK(grid.report.iterations.back().misshapen < 0.1);
+}
+
+TEST_CASE("fixed generators in the plane: free ones start where these leave room") {
+  for (const PlanarDomain& domain : {rectangle({0, 0}, {4, 3}), periodic_box({4, 3})}) {
+    CvtOptions once;
+    once.tolerance = 1e-3;
+    const Points2 grid = planar_cvt(random_places(600, domain), domain, once).mesh.points;
+    std::vector<Eigen::Index> kept;
+    for (Eigen::Index i = 0; i < grid.cols(); ++i)
+      if (grid(0, i) < 3)
+        kept.push_back(i);
+    const Points2 fixed = grid(Eigen::all, kept);
+    const PlanarContinuation from = multilevel(600, domain, {}, 1, fixed);
+    CHECK(from.start.cols() == 600 - fixed.cols());
+    const double inside = (from.start.row(0).array() > 2.9).cast<double>().sum();
+    CHECK(inside > 0.9 * static_cast<double>(from.start.cols()));
+  }
 }

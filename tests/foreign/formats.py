@@ -52,6 +52,39 @@ def msh_ellipsoid(path, case):
          [f"TRIA3={len(case.triangles)}"] + [line(t, ";") + ";0" for t in case.triangles])
 
 
+def gmsh_elements(case):
+    """A point of the geometry, and a line, before the triangles; nodes have numbers of their own."""
+    number = [7 + 3 * i for i in range(len(case.points))]
+    a, b = number[:2]
+    return number, [(15, [5]), (1, [a, b])] + [(2, [number[i] for i in t]) for t in case.triangles]
+
+
+def gmsh2(path, case):
+    number, elements = gmsh_elements(case)
+    text(path, ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$PhysicalNames", "1", '2 1 "sea"',
+                "$EndPhysicalNames", "$Nodes", str(len(number) + 1), "5 0 0 0"] +
+         [f"{k} " + line(p) for k, p in zip(number, case.points)] +
+         ["$EndNodes", "$Elements", str(len(elements))] +
+         [f"{k + 1} {kind} 2 1 1 " + line(nodes) for k, (kind, nodes) in enumerate(elements)] +
+         ["$EndElements"])
+
+
+def gmsh4(path, case):
+    number, elements = gmsh_elements(case)
+    half = len(number) // 2
+    blocks = [(0, [5], [(0.0, 0.0, 0.0)]), (2, number[:half], case.points[:half]),
+              (2, number[half:], case.points[half:])]
+    lines = ["$MeshFormat", "4.1 0 8", "$EndMeshFormat", "$Entities", "0 0 0 0", "$EndEntities", "$Nodes",
+             f"3 {len(number) + 1} 5 {number[-1]}"]
+    for k, (dimension, tags, places) in enumerate(blocks):
+        lines += [f"{dimension} {k + 1} 0 {len(tags)}"] + [str(tag) for tag in tags] + [line(p) for p in places]
+    lines += ["$EndNodes", "$Elements", f"3 {len(elements)} 1 {len(elements)}"]
+    for kind, dimension in ((15, 0), (1, 1), (2, 2)):
+        own = [(k + 1, nodes) for k, (other, nodes) in enumerate(elements) if other == kind]
+        lines += [f"{dimension} 1 {kind} {len(own)}"] + [f"{k} " + line(nodes) for k, nodes in own]
+    text(path, lines + ["$EndElements"])
+
+
 def fesom(path, case):
     text(path, [str(len(case.points))] +
          [f"{i + 1} {lon(p)!r} {lat(p)!r} 0" for i, p in enumerate(case.points)])
@@ -125,6 +158,20 @@ def ugrid_triangles(path, case):
                                     {"units": "degrees_east", "standard_name": "longitude"}),
                    "Mesh2_node_y": (("nMesh2_node",), [lat(p) for p in case.points],
                                     {"units": "degrees_north", "standard_name": "latitude"})})
+
+
+def fesom_diag(path, case):
+    """FESOM's own description of its mesh: ids from 1 without start_index, the slower dimension last."""
+    turned = [[t[k] + 1 for t in case.triangles] for k in range(3)]
+    netcdf3.write(path, {"nod2": len(case.points), "elem": len(case.triangles), "n3": 3, "nz": 2},
+                  {"fesom_mesh": ((), [0], {"cf_role": "mesh_topology", "topology_dimension": 2,
+                                            "node_coordinates": "lon lat", "face_dimension": "elem",
+                                            "face_node_connectivity": "elements"}),
+                   "nlevels": (("elem",), [2] * len(case.triangles), {}),
+                   "lon": (("nod2",), [lon(p) for p in case.points], {"long_name": "longitude", "units": "degrees"}),
+                   "lat": (("nod2",), [lat(p) for p in case.points], {"long_name": "latitude", "units": "degrees"}),
+                   "nod_area": (("nz", "nod2"), [1.0] * (2 * len(case.points)), {}),
+                   "elements": (("n3", "elem"), flat(turned), {"long_name": "elements"})})
 
 
 def icon(path, case):
@@ -255,6 +302,69 @@ def scrip(path, case):
                    "grid_imask": (("grid_size",), [1] * len(case.cells), {})})
 
 
+def rows_of(case, pad):
+    """The longitudes and latitudes of the corners, in rows of one length."""
+    most = max(len(c) for c in case.cells)
+    return [[f(case.corners[c[k]]) if k < len(c) else pad for c in case.cells for k in range(most)]
+            for f in (lon, lat)], most
+
+
+def scrip_filled(path, case):
+    (east, north), most = rows_of(case, -9999.0)
+    degrees = {"units": "degrees", "_FillValue": -9999.0}
+    netcdf3.write(path, {"grid_size": len(case.cells), "grid_corners": most, "grid_rank": 1},
+                  {"grid_dims": (("grid_rank",), [len(case.cells)], {}),
+                   "grid_center_lat": (("grid_size",), [lat(p) for p in case.centres], {"units": "degrees"}),
+                   "grid_center_lon": (("grid_size",), [lon(p) for p in case.centres], {"units": "degrees"}),
+                   "grid_corner_lat": (("grid_size", "grid_corners"), north, degrees),
+                   "grid_corner_lon": (("grid_size", "grid_corners"), east, degrees),
+                   "grid_imask": (("grid_size",), [1] * len(case.cells), {})})
+
+
+def bounds(path, case):
+    """Output of a model by the CF conventions, in radians, whose bounds have no unit of their own. The
+    edges have places with bounds, too, but no variable of their own."""
+    (east, north), most = rows_of(case, math.nan)
+    filled = {"missing_value": math.nan}
+    places = lambda of, name: {"standard_name": name, "units": "radian", "bounds": of + "_bnds"}
+    netcdf3.write(path, {"time": 1, "edge": 2, "four": 4, "ncells": len(case.cells), "vertices": most},
+                  {"elon": (("edge",), [0.0, 1.0], places("elon", "longitude")),
+                   "elat": (("edge",), [0.0, 1.0], places("elat", "latitude")),
+                   "elon_bnds": (("edge", "four"), [0.0, 0.1, 0.2, 0.3] * 2, {}),
+                   "elat_bnds": (("edge", "four"), [0.0, 0.1, 0.2, 0.3] * 2, {}),
+                   "clon": (("ncells",), [math.radians(lon(p)) for p in case.centres], places("clon", "longitude")),
+                   "clat": (("ncells",), [math.radians(lat(p)) for p in case.centres], places("clat", "latitude")),
+                   "clon_bnds": (("ncells", "vertices"), [math.radians(x) for x in east], filled),
+                   "clat_bnds": (("ncells", "vertices"), [math.radians(x) for x in north], filled),
+                   "size": (("time", "ncells"), list(case.areas), {"coordinates": "clon clat", "units": "1"})},
+                  {"Conventions": "CF-1.6"})
+
+
+def oasis(path, case):
+    """The grids of OASIS: corners first, then y and x."""
+    (east, north), most = rows_of(case, None)
+    for values in (east, north):
+        for k, value in enumerate(values):
+            values[k] = values[k - 1] if value is None else value
+    turn = lambda values: [values[i * most + k] for k in range(most) for i in range(len(case.cells))]
+    degrees = {"units": "degrees"}
+    netcdf3.write(path, {"x": len(case.cells), "y": 1, "crn": most},
+                  {"atmo.lon": (("y", "x"), [lon(p) for p in case.centres], degrees),
+                   "atmo.lat": (("y", "x"), [lat(p) for p in case.centres], degrees),
+                   "atmo.clo": (("crn", "y", "x"), turn(east), degrees),
+                   "atmo.cla": (("crn", "y", "x"), turn(north), degrees)})
+
+
+def scrip_bare(path, case):
+    """Without centres."""
+    (east, north), most = rows_of(case, -999.0)
+    degrees = {"units": "degrees", "missing_value": -999.0}
+    netcdf3.write(path, {"grid_size": len(case.cells), "grid_corners": most, "grid_rank": 1},
+                  {"grid_dims": (("grid_rank",), [len(case.cells)], {}),
+                   "grid_corner_lat": (("grid_size", "grid_corners"), north, degrees),
+                   "grid_corner_lon": (("grid_size", "grid_corners"), east, degrees)})
+
+
 def esmf(path, case):
     most = max(len(c) for c in case.cells)
     rows = [[c[k] + case.base if k < len(c) else -1 for k in range(most)] for c in case.cells]
@@ -319,10 +429,12 @@ TRIANGLES = {"mesh.off": off, "mesh.msh": msh, "ellipsoid.msh": msh_ellipsoid, "
              "mesh.vtu": vtk_xml("UnstructuredGrid", "Cells", "NumberOfCells", True),
              "legacy.vtk": vtk_legacy, "ugrid.nc": ugrid_triangles, "icon.nc": icon,
              "triangles.g": exodus_triangles, "minimal.nc": mpas_minimal,
-             "full.nc": mpas_full, "SaveVertices": mpi_scvt}
+             "full.nc": mpas_full, "SaveVertices": mpi_scvt, "gmsh2.msh": gmsh2, "gmsh4.msh": gmsh4,
+             "fesom.mesh.diag.nc": fesom_diag}
 CELLS = {"cells.g": exodus_cells, "scrip.nc": scrip, "esmf.nc": esmf, "cells.nc": ugrid_cells,
-         "cells.geojson": geojson, "shapes.geojson": geojson_shapes}
-WITHOUT_CENTRES = {"cells.g", "shapes.geojson"}
+         "cells.geojson": geojson, "shapes.geojson": geojson_shapes, "filled.nc": scrip_filled,
+         "bounds.nc": bounds, "oasis.nc": oasis, "bare.nc": scrip_bare}
+WITHOUT_CENTRES = {"cells.g", "shapes.geojson", "bare.nc"}
 FREE_TURNING = {"cells.geojson", "shapes.geojson"}  # of each cell
-ANGLES = {"ellipsoid.msh", "nod2d.out", "ugrid.nc", "icon.nc"}  # hold no radius
+ANGLES = {"ellipsoid.msh", "nod2d.out", "ugrid.nc", "icon.nc", "fesom.mesh.diag.nc"}  # hold no radius
 FREE_BASE = {"ugrid.nc", "esmf.nc", "cells.nc"}

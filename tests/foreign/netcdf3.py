@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Classic NetCDF files (CDF-2) in a few lines, so that the tests need neither Calotte nor a package
-to make and to read them. Only what meshes need: fixed dimensions, text, int32 and doubles."""
+"""Classic NetCDF files in a few lines, so that the tests need neither Calotte nor a package to make and
+to read them. Only what meshes need: text, int32 and doubles; records are written, not read."""
 import array
 import struct
 import sys
@@ -21,55 +21,74 @@ def big_endian(code, values):
     return data.tobytes()
 
 
-def name_bytes(name):
-    data = name.encode()
-    return struct.pack(">i", len(data)) + padded(data)
+class Header:
+    """Counts take 8 bytes in CDF-5, and positions 4 in CDF-1."""
+
+    def __init__(self, version):
+        self.count_code, self.begin_code = (">q" if version == 5 else ">i"), (">i" if version == 1 else ">q")
+
+    def count(self, number):
+        return struct.pack(self.count_code, number)
+
+    def begin(self, position):
+        return struct.pack(self.begin_code, position)
+
+    def name(self, name):
+        data = name.encode()
+        return self.count(len(data)) + padded(data)
+
+    def list_of(self, tag, entries):
+        return struct.pack(">i", tag if entries else 0) + self.count(len(entries)) + b"".join(entries)
+
+    def attributes(self, attributes):
+        entries = []
+        for name, value in (attributes or {}).items():
+            if isinstance(value, str):
+                data = value.encode()
+                entries.append((CHAR, len(data), padded(data)))
+            elif isinstance(value, int):
+                entries.append((INT, 1, struct.pack(">i", value)))
+            else:
+                entries.append((DOUBLE, 1, struct.pack(">d", value)))
+            kind, size, data = entries[-1]
+            entries[-1] = self.name(name) + struct.pack(">i", kind) + self.count(size) + data
+        return self.list_of(12, entries)
 
 
-def attribute_list(attributes):
-    if not attributes:
-        return struct.pack(">ii", 0, 0)
-    out = struct.pack(">ii", 12, len(attributes))
-    for name, value in attributes.items():
-        out += name_bytes(name)
-        if isinstance(value, str):
-            data = value.encode()
-            out += struct.pack(">ii", CHAR, len(data)) + padded(data)
-        elif isinstance(value, int):
-            out += struct.pack(">iii", INT, 1, value)
-        else:
-            out += struct.pack(">iid", DOUBLE, 1, value)
-    return out
-
-
-def write(path, dimensions, variables, attributes=None):
-    """dimensions: name -> size. variables: name -> (dimension names, flat values, attributes).
-    Integers are int32 if all values are, else doubles."""
-    names = list(dimensions)
-    head = b"CDF\2" + struct.pack(">i", 0)
-    head += struct.pack(">ii", 10 if names else 0, len(names))
-    for name in names:
-        head += name_bytes(name) + struct.pack(">i", dimensions[name])
-    head += attribute_list(attributes)
-    head += struct.pack(">ii", 11 if variables else 0, len(variables))
-    entries, blobs = [], []
+def write(path, dimensions, variables, attributes=None, version=2, records=0):
+    """dimensions: name -> size, None for that of the records. variables: name -> (dimension names, flat
+    values, attributes). Integers are int32 if all values are, else doubles."""
+    head, names = Header(version), list(dimensions)
+    start = b"CDF" + bytes([version]) + head.count(records)
+    start += head.list_of(10, [head.name(name) + head.count(dimensions[name] or 0) for name in names])
+    start += head.attributes(attributes)
+    entries, fixed, of_records = [], [], []
     for name, (dims, values, own) in variables.items():
         values = list(values)
         kind = INT if all(isinstance(v, int) for v in values) else DOUBLE
-        entry = name_bytes(name) + struct.pack(">i", len(dims))
-        entry += b"".join(struct.pack(">i", names.index(d)) for d in dims)
-        entry += attribute_list(own)
-        blob = padded(big_endian(CODES[kind], values))
-        entries.append(entry + struct.pack(">ii", kind, len(blob)))
-        blobs.append(blob)
-    begin = len(head) + sum(len(entry) + 8 for entry in entries)
+        size = SIZES[kind]
+        for d in dims:
+            size *= dimensions[d] or 1
+        entry = head.name(name) + head.count(len(dims)) + b"".join(head.count(names.index(d)) for d in dims)
+        entries.append(entry + head.attributes(own) + struct.pack(">i", kind) + head.count(size))
+        data = big_endian(CODES[kind], values)
+        (of_records if dims and dimensions[dims[0]] is None else fixed).append((len(entries) - 1, data, size))
+    position = len(start) + 4 + len(head.count(0)) + sum(len(entry) + len(head.begin(0)) for entry in entries)
+    begins = {}
+    for k, data, _ in fixed:
+        begins[k] = position
+        position += len(padded(data))
+    for k, _, size in of_records:
+        begins[k] = position
+        position += size
+    start += head.list_of(11, [entry + head.begin(begins[k]) for k, entry in enumerate(entries)])
     with open(path, "wb") as out:
-        out.write(head)
-        for entry, blob in zip(entries, blobs):
-            out.write(entry + struct.pack(">q", begin))
-            begin += len(blob)
-        for blob in blobs:
-            out.write(blob)
+        out.write(start)
+        for _, data, _ in fixed:
+            out.write(padded(data))
+        for record in range(records):
+            for _, data, size in of_records:
+                out.write(data[record * size:(record + 1) * size])
 
 
 class File:

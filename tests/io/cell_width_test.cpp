@@ -291,7 +291,46 @@ TEST_CASE("a raster of a smooth field converges at second order, and so does its
   CHECK(excess(36) / excess(72) == doctest::Approx(4).epsilon(0.02));
 }
 
-TEST_CASE("the largest gradient is that of the field, where it is") {
+/// The mean of the gradient of the interpolated widths over the square of a cell's width in the
+/// corner of a box, from many differences; the largest of all corners.
+double largest_mean_gradient(const CellWidth& width, double radius) {
+  constexpr int parts = 24;
+  double largest = 0;
+  const Eigen::Index columns = width.longitudes.size(), rows = width.latitudes.size();
+  for (Eigen::Index j = 0; j + 1 < rows; ++j)
+    for (Eigen::Index i = 0; i < columns; ++i) {
+      const double west = width.longitudes[i], south = width.latitudes[j];
+      const double length =
+                       (i + 1 < columns ? width.longitudes[i + 1] : width.longitudes[0] + 360) -
+                       west,
+                   height = width.latitudes[j + 1] - south;
+      for (const bool upper : {false, true})
+        for (const bool eastern : {false, true}) {
+          const double h = width.widths((i + (eastern ? 1 : 0)) % columns, j + (upper ? 1 : 0)) /
+                           radius / degree;
+          const double tall = std::min(h, height),
+                       cosine = std::cos((upper ? south + height - tall / 2 : south + tall / 2) *
+                                         degree),
+                       wide = std::min(h / cosine, length);
+          const double x = eastern ? west + length - wide : west,
+                       y = upper ? south + height - tall : south;
+          Eigen::Vector2d sum(0, 0);
+          for (int k = 0; k < parts; ++k) {
+            const double part = (k + 0.5) / parts;
+            sum.x() +=
+                (width_at(width, x + wide, y + part * tall) - width_at(width, x, y + part * tall)) /
+                (wide * degree * cosine);
+            sum.y() +=
+                (width_at(width, x + part * wide, y + tall) - width_at(width, x + part * wide, y)) /
+                (tall * degree);
+          }
+          largest = std::max(largest, sum.norm() / parts / radius);
+        }
+    }
+  return largest;
+}
+
+TEST_CASE("the largest gradient is the largest mean over a cell, where it is") {
   // Along meridians: 3 km a degree up to 30 N.
   const Field ramp = [](double, double latitude) {
     return 100 + 3 * std::clamp(latitude, 0.0, 30.0);
@@ -300,38 +339,91 @@ TEST_CASE("the largest gradient is that of the field, where it is") {
   CHECK(up.slope == doctest::Approx(3 / (degree * earth_radius_km)).epsilon(1e-12));
   CHECK(up.latitude >= -1e-9);
   CHECK(up.latitude <= 30 + 1e-9);
-  // Along a parallel, once: it is steepest where meridians are closest.
-  CellWidth width = constant(100);
-  width.widths(4, 5) = 110; // 60 W 60 N, boxes of 30 degrees
-  const Gradient along = largest_gradient(width, 1);
-  CHECK(along.slope == doctest::Approx(10 / (30 * degree) * std::sqrt(1 + 4)).epsilon(1e-12));
-  CHECK(along.latitude == doctest::Approx(60));
-  CHECK(std::abs(along.longitude + 60) <= 30 + 1e-9);
-  CHECK(largest_gradient(width, 10).slope == doctest::Approx(along.slope / 10));
-  // No two near points differ by more, and some do nearly so much.
+  // Poles aside, of noise and of cells smaller and larger than the boxes, of 7.5 and 15 degrees.
   Random random(5);
-  const CellWidth noise = sampled([&](double, double) { return random.real(1, 2); }, 24, 12);
-  const Gradient most = largest_gradient(noise, 1);
-  const auto slope = [&](double longitude, double latitude) {
-    constexpr double step = 1e-5; // degrees
-    const double east = (width_at(noise, longitude + step, latitude) -
-                         width_at(noise, longitude, latitude)) /
-                        (step * degree * std::cos(latitude * degree)),
-                 north = (width_at(noise, longitude, latitude + step) -
-                          width_at(noise, longitude, latitude)) /
-                         (step * degree);
-    return std::hypot(east, north);
-  };
-  for (int k = 0; k < 2000; ++k)
-    CHECK(slope(random.real(-180, 180), random.real(-89, 89)) < most.slope * (1 + 1e-4));
-  double found = 0;
-  for (const double east : {-1e-4, 1e-4})
-    for (const double north : {-1e-4, 1e-4})
-      found = std::max(found, slope(most.longitude + east, most.latitude + north));
-  CHECK(found == doctest::Approx(most.slope).epsilon(1e-3));
+  for (const double scale : {1e-3, 500.0, 1200.0, 1e5}) {
+    CAPTURE(scale);
+    CellWidth noise = sampled([&](double, double) { return scale * random.real(1, 2); }, 24, 24);
+    for (const Eigen::Index row : {0, 1, 23, 24})
+      noise.widths.col(row).setConstant(1.5 * scale);
+    const Gradient most = largest_gradient(noise);
+    CHECK(most.slope ==
+          doctest::Approx(largest_mean_gradient(noise, earth_radius_km)).epsilon(1e-3));
+    CHECK(largest_gradient(noise, 2 * earth_radius_km).slope > 0.4 * most.slope);
+    CHECK(std::abs(most.latitude) < 80);
+  }
   // From pole to pole without a row between.
   CellWidth poles = sampled([](double, double latitude) { return latitude < 0 ? 1 : 2; }, 4, 1);
   CHECK(largest_gradient(poles, 1).slope == doctest::Approx(1 / pi));
+}
+
+TEST_CASE("the gradient of sampled widths is theirs, not that of the tips of their interpolation") {
+  // A cone around 10 E 20 N, which is a node, of 0.05 km per km.
+  const Eigen::Vector3d tip = points_at({{10, 20}}).col(0);
+  const Field cone = [&](double longitude, double latitude) {
+    const Eigen::Vector3d x = points_at({{longitude, latitude}}).col(0);
+    return 60 + 0.05 * earth_radius_km * std::atan2(x.cross(tip).norm(), x.dot(tip));
+  };
+  const Gradient fine = largest_gradient(sampled(cone, 720, 360));
+  CHECK(fine.slope > 0.0499);
+  CHECK(fine.slope < 0.0535); // 1.08 at most: four sampled edges of a box allow no more
+  // Nodes 20 cells apart: there the interpolated widths are steeper, over whole cells.
+  const Field small = [&](double longitude, double latitude) {
+    return cone(longitude, latitude) - 50;
+  };
+  CHECK(largest_gradient(sampled(small, 180, 90)).slope > 0.065);
+}
+
+TEST_CASE("widths cover a region with half of a step to spare") {
+  const auto part = [](double west, double east, double south, double north, double step) {
+    CellWidth width;
+    const auto columns = static_cast<Eigen::Index>(std::lround((east - west) / step)) + 1,
+               rows = static_cast<Eigen::Index>(std::lround((north - south) / step)) + 1;
+    width.longitudes = Eigen::VectorXd::LinSpaced(columns, west, east);
+    width.latitudes = Eigen::VectorXd::LinSpaced(rows, south, north);
+    width.widths.setConstant(columns, rows, 60);
+    return width;
+  };
+  const auto refusal_of = [](const CellWidth& width, const Region& region) -> std::string {
+    try {
+      require_covering(width, region);
+    } catch (const Error& error) {
+      CHECK(error.code() == ErrorCode::bad_option);
+      return error.what();
+    }
+    return "";
+  };
+  const auto disc = [](double longitude, double latitude, double degrees) {
+    return circle(points_at({{longitude, latitude}}).col(0), degrees * degree);
+  };
+  const CellWidth america = part(-120, -60, 10, 60, 1);
+  CHECK(refusal_of(america, disc(-90, 35, 20)) == "");
+  CHECK(refusal_of(america, disc(270, 35, 24.4)) == ""); // to 10.6 N
+  CHECK(refusal_of(america, disc(-90, 35, 25.4)) == ""); // to 9.6 N
+  CHECK(
+      refusal_of(america, disc(-90, 35, 26))
+          .starts_with("cell width: longitude runs from -120 to -60, latitude runs from 10 to 60, "
+                       "and leaves out the place "));
+  CHECK(refusal_of(america, disc(90, 35, 20)) != "");
+  CHECK(refusal_of(america, {}) == "cell width: longitude runs from -120 to -60 and leaves part of "
+                                   "the sphere out; give a global raster in degrees");
+  // A region around all that is covered, whose boundary is not.
+  CHECK(refusal_of(america, disc(-90, 35, 80)) != "");
+  // Its boundary is covered, but it holds what lies outside it.
+  Region outside = disc(-90, 35, 20);
+  for (Points3& ring : outside.rings)
+    ring.rowwise().reverseInPlace();
+  CHECK(refusal_of(america, outside) != "");
+  const CellWidth arctic = part(-180, 179, 60, 90, 1);
+  CHECK(refusal_of(arctic, disc(0, 90, 25)) == "");
+  CHECK(refusal_of(arctic, disc(30, 70, 15)) != "");
+  CHECK(refusal_of(part(-180, 179, -90, 90, 1), {}) == "");
+  // Over the date line, by either name of its longitudes.
+  for (const double turn : {0.0, 360.0}) {
+    CHECK(refusal_of(part(150 + turn, 210 + turn, -30, 30, 0.5), disc(180, 0, 25)) == "");
+    CHECK(refusal_of(part(-210 + turn, -150 + turn, -30, 30, 0.5), disc(-180, 0, 25)) == "");
+    CHECK(refusal_of(part(150 + turn, 210 + turn, -30, 30, 0.5), disc(0, 0, 25)) != "");
+  }
 }
 
 TEST_CASE("invalid grids are refused") {
@@ -382,6 +474,84 @@ TEST_CASE("a NetCDF raster comes in whatever order of meridians and parallels") 
   Raster metres = raster_of(width);
   metres.attributes = {{"units", std::string("m")}};
   CHECK(read_cell_width(written(folder, metres)).widths.isApprox(width.widths / 1000, 1e-15));
+}
+
+TEST_CASE("units of widths: km and m by symbol and name, and no other") {
+  for (const std::string unit :
+       {"", " ", "km", "kilometer", "kilometers", "kilometre", "kilometres", "Kilometers", " km "})
+    CHECK(kilometres_in(unit) == 1);
+  for (const std::string unit : {"m", "meter", "meters", "metre", "metres", "METERS"})
+    CHECK(kilometres_in(unit) == 0.001);
+  for (const std::string unit : {"degrees", "radians", "furlongs", "degree", "rad", "1", "M", "KM",
+                                 "Km", "mm", "mile", "km2", "km/h", "kmm", "deg"}) {
+    CAPTURE(unit);
+    CHECK_THROWS_WITH_AS(
+        kilometres_in(unit),
+        ("the unit \"" + unit + "\" is not one of cell widths; give km or m").c_str(), Error);
+  }
+  const Folder folder;
+  const CellWidth width = sampled(smooth, 24, 12);
+  Raster raster = raster_of(width);
+  for (const std::string unit : {"kilometers", "km"}) {
+    raster.attributes = {{"units", unit}};
+    check_equal(read_cell_width(written(folder, raster)), width);
+  }
+  raster.attributes = {{"units", std::string("degrees")}};
+  CHECK(refusal(written(folder, raster)) ==
+        ": cellWidth: the unit \"degrees\" is not one of cell widths; give km or m");
+  raster.variable = "density"; // of which the unit does not matter
+  CHECK(read_density_raster(written(folder, raster)).widths.minCoeff() == 1);
+}
+
+TEST_CASE("a raster of a part of the sphere is enough for a region in it") {
+  const Folder folder;
+  Raster raster;
+  for (int i = 0; i <= 40; ++i)
+    raster.lon.push_back(100 + i);
+  for (int j = 0; j <= 30; ++j)
+    raster.lat.push_back(20 + j);
+  raster.values.assign(41 * 31, 50);
+  const std::string path = written(folder, raster);
+  CHECK(refusal(path) == ": lon runs from 100 to 140 and leaves part of the sphere out; give a "
+                         "global raster in degrees");
+  const auto disc = [](double radius) {
+    return circle(points_at({{120, 35}}).col(0), radius * degree);
+  };
+  const CellWidth width = read_cell_width(path, {}, disc(10));
+  CHECK(width.longitudes.size() == 41);
+  CHECK(implied_cells(width, disc(10)) ==
+        doctest::Approx(area(disc(10)) * earth_radius_km * earth_radius_km * 2 / std::sqrt(3.0) /
+                        2500)
+            .epsilon(1e-6));
+  CHECK_THROWS_WITH_AS(read_cell_width(path, {}, disc(20)),
+                       doctest::Contains("lat runs from 20 to 50, and leaves out the place"),
+                       Error);
+}
+
+TEST_CASE("widths of the plane: from a file, their density and their number of cells") {
+  const Folder folder;
+  const Raster raster{{0, 1, 4}, {3, 0}, {0.4, 0.2, 0.1, 0.4, 0.2, 0.1}, "cellWidth", "y", "x"};
+  const PlanarCellWidth read = read_planar_cell_width(written(folder, raster));
+  CHECK(read.x == Eigen::Vector3d(0, 1, 4));
+  CHECK(read.widths(0, 1) == 0.4);
+  CHECK(read.widths(2, 0) == 0.1);
+  const PlanarDomain box = rectangle({0, 0}, {4, 3});
+  const Eigen::VectorXd rho = evaluate(density_of(read), box, Points2(Eigen::Vector2d(2.5, 1)));
+  CHECK(rho[0] == doctest::Approx(std::pow(0.1 / 0.15, 4)));
+  // The integral of 1/h^2 of a linear h from a to b over a length is the length over a b.
+  const double integral = 3 * (1 / (0.4 * 0.2) + 3 / (0.2 * 0.1));
+  CHECK(implied_cells(read, box) == doctest::Approx(2 / std::sqrt(3.0) * integral).epsilon(5e-3));
+  CHECK_NOTHROW(require_covering(read, rectangle({0, 0}, {4, 3})));
+  CHECK_NOTHROW(require_covering(read, rectangle({-1.4, -1.4}, {5.4, 4.4}))); // half a step
+  CHECK_THROWS_WITH_AS(require_covering(read, periodic_box({6, 3})),
+                       "cell width: x runs from 0 to 4, but the domain from 0 to 6; give widths "
+                       "that cover the domain",
+                       Error);
+  Raster bad = raster;
+  bad.values[4] = 0;
+  CHECK_THROWS_WITH_AS(
+      read_planar_cell_width(written(folder, bad)),
+      doctest::Contains(": cellWidth[1][1] is not positive and finite; correct it"), Error);
 }
 
 TEST_CASE("a density raster gives widths whose density it is") {

@@ -9,6 +9,7 @@
 #include "support/gshhg.h"
 
 #include <calotte/cull.h>
+#include <calotte/cut.h>
 #include <calotte/delaunay.h>
 #include <calotte/generators.h>
 #include <calotte/read.h>
@@ -232,6 +233,47 @@ TEST_CASE("maps of cells as text: forward by cell of the source, backward by cel
       REQUIRE(forward[i] == "-1");
     }
   CHECK(kept == report.cells);
+}
+
+TEST_CASE("an ocean can be cut, and a regional file loses land by a field") {
+  const Scratch scratch;
+  const std::string global = scratch / "global.nc", ocean = scratch / "ocean.nc",
+                    target = scratch / "target.nc";
+  Mesh mesh = spherical_delaunay(fibonacci_sphere(2000));
+  WriteOptions written;
+  written.fields = {{.name = "height", .values = mesh.points.row(0).transpose()}};
+  write(global, mesh, written);
+  CullOptions options;
+  options.field = {{}, "height", -2, 0.5}; // land around longitude 0
+  const CullReport culled = cull(global, ocean, options);
+  const auto near = [](double cosine) {
+    return [cosine](const Eigen::Vector3d& p) { return p.normalized().y() > cosine; };
+  };
+  CutOptions cut_options;
+  cut_options.rings = 0;
+  const CutReport part = cut(ocean, target, near(0.5), cut_options);
+  const auto count = [&](double least) {
+    std::int64_t cells = 0;
+    for (Eigen::Index i = 0; i < mesh.points.cols(); ++i)
+      cells += mesh.points(1, i) > least && mesh.points(0, i) < 0.5 ? 1 : 0;
+    return cells;
+  };
+  const auto is_nearly = [](std::int64_t cells, std::int64_t expected) {
+    return cells <= expected && cells >= expected - 5; // without cells of one neighbour
+  };
+  CHECK(is_nearly(part.cells, count(0.5)));
+  CHECK(cut(ocean, target, near(-2), cut_options).cells == culled.cells);
+
+  const std::string regional = scratch / "regional.nc";
+  cut(global, regional, near(0.3), cut_options);
+  CHECK(is_nearly(cull(regional, target, options).cells, count(0.3)));
+  CHECK(cull(regional, target, options).land > 0);
+  options.raster.land = Eigen::MatrixXd::Zero(4, 4);
+  for (const std::string& source : {regional, ocean}) {
+    const std::string problem = error_of([&] { cull(source, target, options); }).what();
+    CHECK(problem.find("does not cover the sphere") != std::string::npos);
+    CHECK(problem.find("calotte cut") != std::string::npos);
+  }
 }
 
 TEST_CASE("a cull that fails leaves no file, whichever output fails") {

@@ -248,6 +248,19 @@ TEST_CASE("a file that was cut can be cut again") {
   }
 }
 
+TEST_CASE("all cells of an open file may be kept: it has its boundary") {
+  const Scratch scratch;
+  const std::string source = scratch / "global.nc", middle = scratch / "middle.nc",
+                    target = scratch / "region.nc";
+  write_global(scratch, source, {.cells = 3000});
+  CutOptions options;
+  options.rings = 2;
+  const CutReport part = cut(source, middle, within(0.4), options);
+  const CutReport all = cut(middle, target, within(1.0), options);
+  CHECK(all.cells == part.cells);
+  CHECK(all.cells_by_mask == std::vector<std::int64_t>{part.cells, 0, 0});
+}
+
 TEST_CASE("the bits do not depend on the number of threads") {
   const Scratch scratch;
   const std::string source = scratch / "global.nc";

@@ -12,6 +12,7 @@
 
 #include <tbb/task_arena.h>
 
+#include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
@@ -388,6 +389,34 @@ std::vector<PlanarMesh> planar_meshes() {
   return meshes;
 }
 
+/// Six rows of eight nearly equilateral triangles between straight walls, whose sites are the 16 of
+/// the first and the last row; along y with negative x.
+PlanarMesh channel(bool along_x) {
+  const PlanarMesh box = periodic_hexagons(8, 6, 1);
+  PlanarMesh mesh = box;
+  std::vector<Triple> triangles;
+  for (const auto& t : box.triangles.colwise()) {
+    const Eigen::Vector3d y(box.points(1, t[0]), box.points(1, t[1]), box.points(1, t[2]));
+    if (y.maxCoeff() - y.minCoeff() < 2)
+      triangles.push_back({t[0], t[1], t[2]});
+  }
+  const double top = box.points.row(1).maxCoeff();
+  for (Eigen::Index i = 0; i < mesh.points.cols(); ++i)
+    if (const double y = box.points(1, i); y > 0 && y < top)
+      mesh.points.col(i) +=
+          0.04 * Eigen::Vector2d(std::sin(3.0 * double(i)), std::cos(double(i * i)));
+  mesh.points.row(0) =
+      mesh.points.row(0).unaryExpr([](double x) { return x - 8 * std::floor(x / 8); });
+  mesh.period = {8, 0};
+  if (!along_x) {
+    const Eigen::RowVectorXd x = mesh.points.row(0);
+    mesh.points.row(0) = -mesh.points.row(1);
+    mesh.points.row(1) = x;
+    mesh.period = {0, 8};
+  }
+  return planar_mesh_of(mesh, triangles);
+}
+
 } // namespace
 
 TEST_CASE("planar meshes pass, open and periodic, and their areas are known") {
@@ -405,14 +434,147 @@ TEST_CASE("planar meshes pass, open and periodic, and their areas are known") {
   CHECK(check(planar_delaunay(square_lattice(6))).area == 25);
 }
 
+TEST_CASE("channels pass between straight walls, along x and y, and their area is known") {
+  for (const bool along_x : {true, false}) {
+    const PlanarMesh mesh = channel(along_x);
+    CAPTURE(along_x);
+    const Check result = check(mesh);
+    CHECK(result.failure == "");
+    CHECK(result.triangles == 2 * mesh.points.cols() - 16);
+    CHECK(result.boundary_edges == 16);
+    CHECK(result.area == doctest::Approx(8 * 5 * std::sqrt(3) / 2));
+    CHECK(result.whole == doctest::Approx(8 * 5 * std::sqrt(3) / 2));
+    CHECK(check_surface(mesh).failure == "");
+
+    PlanarMesh wrong = mesh; // a dent and a bump in a wall
+    wrong.points(along_x ? 1 : 0, 0) += 0.1;
+    CHECK(check(wrong).failure.find("not convex") != std::string::npos);
+    CHECK(check_surface(wrong).failure == "");
+    wrong.points(along_x ? 1 : 0, 0) -= 0.2;
+    CHECK(check(wrong).failure.find("not convex") != std::string::npos);
+    CHECK(check_surface(wrong).failure == "");
+    wrong = mesh;
+    wrong.points(along_x ? 0 : 1, 3) = 8;
+    fails_with(wrong, "site 3 is outside the periodic channel");
+    wrong = mesh; // the triangles at the seam are missing
+    wrong.period *= 2;
+    CHECK_FALSE(check(wrong).passed());
+    wrong = mesh;
+    wrong.period.setZero();
+    CHECK_FALSE(check(wrong).passed());
+  }
+}
+
+TEST_CASE("two sheets over a channel, and two channels, are not one") {
+  const PlanarMesh one = channel(true);
+  const auto n = static_cast<std::int32_t>(one.points.cols());
+  for (const double apart : {0.0, 100.0}) {
+    PlanarMesh two = one;
+    two.points.resize(2, 2 * n);
+    two.points << one.points, (one.points.colwise() + Eigen::Vector2d(0, apart));
+    std::vector<Triple> triangles;
+    for (const std::int32_t shift : {0, n})
+      for (const auto& t : one.triangles.colwise())
+        triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
+    CAPTURE(apart);
+    CHECK_FALSE(check(planar_mesh_of(two, triangles)).passed());
+  }
+}
+
 TEST_CASE("every flipped edge of a planar mesh is found, ties and copies too") {
-  for (const PlanarMesh& mesh : planar_meshes())
+  std::vector<PlanarMesh> meshes = planar_meshes();
+  meshes.push_back(channel(true));
+  meshes.push_back(channel(false));
+  for (const PlanarMesh& mesh : meshes)
     for (std::int64_t t = 0; t < mesh.triangles.cols(); ++t)
       for (int i = 0; i < 3; ++i)
         if (mesh.neighbours(i, t) > t) {
           CAPTURE(t);
           CHECK_FALSE(check(flipped(mesh, t, i)).passed());
         }
+}
+
+/// The area of a triangle of nearest copies, twice and signed: of integers, without rounding.
+double twice_area(const PlanarMesh& mesh, std::int64_t t) {
+  const auto way = [&](int to) {
+    Eigen::Vector2d out =
+        mesh.points.col(mesh.triangles(to, t)) - mesh.points.col(mesh.triangles(0, t));
+    for (int k = 0; k < 2; ++k)
+      if (mesh.period[k] > 0)
+        out[k] -= mesh.period[k] * std::round(out[k] / mesh.period[k]);
+    return out;
+  };
+  const Eigen::Vector2d p = way(1), q = way(2);
+  return p.x() * q.y() - p.y() * q.x();
+}
+
+TEST_CASE("in the plane the other diagonals of cocircular sites are counted, and are no fault") {
+  for (const PlanarMesh& mesh : {planar_delaunay(square_lattice(6)),
+                                 periodic_delaunay(square_lattice(8), Eigen::Vector2d(8, 8)),
+                                 planar_delaunay(Points2(1e150 * square_lattice(5)))}) {
+    CHECK(count_edges(mesh).cocircular == 0);
+    std::int64_t squares = 0;
+    for (std::int64_t t = 0; t < mesh.triangles.cols(); ++t)
+      for (int i = 0; i < 3; ++i) {
+        if (mesh.neighbours(i, t) < t)
+          continue;
+        const PlanarMesh other = flipped(mesh, t, i);
+        const bool diagonal =
+            (other.triangles.cols() == mesh.triangles.cols()) && check_surface(other).passed();
+        if (!diagonal) // two triangles of a straight line, or of one that is wider than the box
+          continue;
+        CAPTURE(t);
+        const EdgeCounts edges = count_edges(other);
+        CHECK(edges.edges == (3 * mesh.triangles.cols() + edges.boundary) / 2);
+        // The edge between two triangles of one unit square; of others, not Delaunay.
+        const bool square = edges.not_delaunay == 0;
+        squares += square;
+        CHECK(edges.cocircular == (square ? 1 : 0));
+      }
+    CHECK(squares == mesh.triangles.cols() / 2);
+  }
+}
+
+TEST_CASE(
+    "in the plane edges that are not Delaunay are counted, with the rounding of coordinates") {
+  const PlanarMesh random = planar_delaunay(scatter(60, 8));
+  std::int64_t flips = 0;
+  for (std::int64_t t = 0; t < random.triangles.cols(); ++t)
+    for (int i = 0; i < 3; ++i) {
+      if (random.neighbours(i, t) < t)
+        continue;
+      const PlanarMesh other = flipped(random, t, i);
+      if (!check_surface(other).passed()) // not a convex quadrangle
+        continue;
+      ++flips;
+      CHECK(count_edges(other).not_delaunay == 1);
+      CHECK(count_edges(other).cocircular == 0);
+    }
+  CHECK(flips > 60);
+
+  // A turned square: whichever diagonal, its sites are cocircular up to rounding.
+  Points2 corners(2, 4);
+  corners << 0.3, 1.1, 0.5, -0.3, 0.1, 0.7, 1.5, 0.9;
+  for (const std::vector<Triple>& triangles :
+       {std::vector<Triple>{{0, 1, 2}, {0, 2, 3}}, {{0, 1, 3}, {1, 2, 3}}}) {
+    PlanarMesh mesh;
+    mesh.points = corners;
+    mesh = planar_mesh_of(mesh, triangles);
+    CHECK(count_edges(mesh).not_delaunay == 0);
+    CHECK(count_edges(mesh).edges == 5);
+    CHECK(count_edges(mesh).boundary == 4);
+    CHECK(count_edges(mesh).loops == 1);
+  }
+  // 10% longer along one side it is a rectangle, and cocircular still; as a kite it is not.
+  PlanarMesh kite;
+  kite.points.resize(2, 4);
+  kite.points << 0, 1, 2, 1, 0, -0.1, 0, 0.1;
+  kite = planar_mesh_of(kite, {{0, 1, 2}, {0, 2, 3}});
+  const EdgeCounts edges = count_edges(kite);
+  CHECK(edges.not_delaunay == 1);
+  CHECK((edges.first[0] == 0 && edges.first[1] == 2));
+  // The angles at sites 1 and 3 are pi - 2 atan(1/10), whose cotangent is (1/100 - 1) / (2/10).
+  CHECK(edges.shortest == doctest::Approx((0.01 - 1) / 0.2));
 }
 
 TEST_CASE("arrays and sites of a planar mesh that are wrong are named") {

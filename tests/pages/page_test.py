@@ -23,7 +23,7 @@ from pathlib import Path
 # A line that names the file whose content the next block is, and a block.
 BLOCK = re.compile(r"(?:`(?P<file>[\w./]+)`:\n\n)?^```(?P<language>\w+)\n(?P<text>.*?)^```$", re.M | re.S)
 SCRIPT = re.compile(r"^(tools/\w+)\b.*$", re.M)
-INSTALLING = re.compile(r"^(python3 -m venv|env/bin/pip)\b.*$", re.M)
+INSTALLING = re.compile(r"^((?:/usr/bin/)?python3 -m venv|env/bin/pip)\b.*$", re.M)
 INSTALLED = re.compile(r"^env/bin/python\b", re.M)
 FILES = {"cpp", "cmake", "python", "toml", "json"}
 START = """set -euo pipefail

@@ -31,7 +31,8 @@ def test_points():
     assert (error.code, error.index) == ("not_finite", 7)
     points[7] = 0
     assert refuses("", calotte.delaunay, points).code == "zero_vector"
-    assert refuses("", calotte.delaunay, points[:3]).code == "too_few_sites"
+    assert refuses("", calotte.delaunay, points[:2]).code == "too_few_sites"
+    assert len(calotte.delaunay(points[:3]).triangles) == 1
     points[7] = points[2]
     error = refuses("", calotte.delaunay, points, duplicates="refuse")
     assert (error.code, error.index) == ("duplicate", 7)
@@ -74,7 +75,8 @@ def test_widths_and_densities():
     refuses("", calotte.plan, (0 * good, lon, lat))
     refuses("12 to 1073741824", calotte.plan, (good / 1e9, lon, lat))
     with pytest.warns(UserWarning, match="not radians"):
-        calotte.plan((good, np.radians(lon), np.radians(lat)))
+        refuses("leaves part of the sphere out; give a global raster in degrees", calotte.plan,
+                (good, np.radians(lon), np.radians(lat)))
     refuses("no density y8", calotte.cvt, 100, density="y8")
     refuses("no parameter bta", calotte.cvt, 100, density="tanh:bta=1")
     refuses("could not convert", calotte.cvt, 100, density="tanh:lon=east")

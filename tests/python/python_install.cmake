@@ -10,8 +10,11 @@ if(missing OR NOT pybind11)
 endif()
 file(REMOVE_RECURSE ${SITE} ${SITE}-source)
 # pip builds in the folder of the sources, which stays clean this way.
-file(COPY ${ROOT}/tools/python/ DESTINATION ${SITE}-source)
+file(COPY ${ROOT}/tools/python/ DESTINATION ${SITE}-source PATTERN build EXCLUDE PATTERN *.egg-info EXCLUDE)
 file(COPY ${ROOT}/include DESTINATION ${SITE}-source/library)
+foreach(name coastlines.h coastlines.cpp draw.h)
+  file(COPY ${ROOT}/tools/draw/${name} DESTINATION ${SITE}-source/library/tools/draw)
+endforeach()
 execute_process(COMMAND ${CMAKE_COMMAND} -E env CALOTTE_PREFIX=${PREFIX} CXX=${CXX}
   ${PYTHON} -m pip install --quiet --no-index --no-build-isolation --no-deps --target ${SITE} ${SITE}-source
   RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)

@@ -10,11 +10,11 @@ set(most_lines 400)
 
 # The rooms of the public headers. One that has a room's name belongs to that room.
 set(headers_of_base error export mesh_field options points progress types version)
-set(headers_of_mesh check renumber)
+set(headers_of_mesh check locate renumber)
 set(headers_of_domain region)
 set(headers_of_density cell_width planar_raster)
 set(headers_of_generators lonlat)
-set(headers_of_voronoi limited_area ocean)
+set(headers_of_voronoi interpolate limited_area ocean)
 set(headers_of_quality operators)
 set(headers_of_io calotte check_file checkpoint cull cut mesh_file model read write)
 

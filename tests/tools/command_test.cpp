@@ -202,6 +202,29 @@ TEST_CASE("a mesh that is not Delaunay fails its check with exit code 1") {
   CHECK(outcome.out.find("Delaunay        no\n") != std::string::npos);
 }
 
+TEST_CASE("in the plane the other diagonal of cocircular sites passes, as on the sphere") {
+  const Bench bench;
+  bench.file("square.off", "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n");
+  bench.file("kite.off", "OFF\n4 2 0\n0 0 0\n1 -.1 0\n2 0 0\n1 .1 0\n3 0 1 2\n3 0 2 3\n");
+  const Outcome square = bench.run("check square.off --plane");
+  CHECK(square.code == 0);
+  CHECK(square.err.empty());
+  CHECK(square.out.ends_with("cocircular      1 edges take the other diagonal\n"
+                             "boundaries      1, not convex at 0 sites\n"
+                             "Delaunay        yes, every edge\n"));
+  const Outcome info = bench.run("info square.off --plane --rectangle 0,0,1,1");
+  CHECK(info.code == 0);
+  CHECK(info.out.find("cells                 4\n") != std::string::npos);
+  const Outcome kite = bench.run("check kite.off --plane");
+  CHECK(kite.code == 1);
+  CHECK(kite.err == "calotte: kite.off: 1 of 5 edges are not Delaunay; the first is from site 0 to "
+                    "2\n");
+  check_refusal(bench, "info kite.off --plane --rectangle 0,-1,2,1", 2,
+                "the mesh is not the Delaunay triangulation of its points, so it has no Voronoi "
+                "cells: edge (0, 2) of triangle 0 is not Delaunay: site 3 is inside the "
+                "circumcircle; triangulate the points anew");
+}
+
 TEST_CASE("a file that deviates from its mesh fails its check with exit code 1") {
   const Bench bench;
   bench.file("points.txt", octahedron);

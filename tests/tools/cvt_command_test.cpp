@@ -3,12 +3,16 @@
 
 #include <calotte/io.h>
 
+#include <calotte/mesh_file.h>
+
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <functional>
+#include <regex>
 #include <sstream>
 #include <string>
 #include <thread>
@@ -873,6 +877,79 @@ TEST_CASE("a periodic box: MPAS's file, bisections, hexagons at rest") {
   CHECK(bench.run("info --plane box.nc").code == 0);
 }
 
+TEST_CASE("hexagons with and without walls are written without a run, and read without a domain") {
+  const Bench bench;
+  const Outcome box = bench.run("cvt --hexagons 6,8,10 -o box.nc");
+  CHECK(box.code == 0);
+  CHECK(box.out == "box.nc: 48 hexagons, periodic in x, 60; periodic in y, 69.28203230275508\n");
+  const Outcome channel = bench.run("cvt --hexagons 6,8,10 --walls y -o channel.nc");
+  CHECK(channel.code == 0);
+  CHECK(channel.out == "channel.nc: 48 hexagons, periodic in x, 60; with walls in y\n");
+  CHECK(fs::exists(bench.folder() / "channel.graph.info"));
+  for (const char* name : {"box.nc", "channel.nc"})
+    CHECK(bench.run(std::string("check --plane ") + name).code == 0);
+  const Outcome info = bench.run("info box.nc");
+  CHECK(info.code == 0);
+  CHECK(has(info.out, "cells                 48\n"));
+  CHECK(has(info.out, "86.6025")); // the area of each cell, sqrt(3)/2 100
+}
+
+TEST_CASE("a channel: cells between walls, as many as asked for but for a few") {
+  const Bench bench;
+  const Outcome made = bench.run("cvt --periodic 3,1 --walls y --cells 600 --tolerance 1e-2 "
+                                 "--density tanh:x=1,y=0.5,beta=0.3,alpha=0.5,gamma=x2 -o c.nc");
+  CAPTURE(made.err);
+  CHECK(made.code == 0);
+  CHECK_FALSE(has(made.err, "instead of"));
+  CHECK(bench.run("check --plane c.nc").code == 0);
+  const calotte::MeshFile file = calotte::read_mesh_file(bench.folder() / "c.nc");
+  REQUIRE(file.plane);
+  CHECK(file.plane->period == Eigen::Vector2d(3, 0));
+  CHECK(file.plane->points.row(1).minCoeff() >= 0);
+  CHECK(file.plane->points.row(1).maxCoeff() <= 1);
+  CHECK(std::abs(static_cast<double>(file.plane->points.cols()) - 600) < 0.05 * 600);
+  REQUIRE(file.polygons);
+  CHECK(calotte::areas(*file.polygons).sum() == doctest::Approx(3).epsilon(0.05));
+  // x2: the square of the width at the bump over that far from it is near 1/4.
+  REQUIRE(file.density.size() == file.plane->points.cols());
+  CHECK(file.density.maxCoeff() / file.density.minCoeff() > 4);
+}
+
+TEST_CASE("in the plane a width has the unit of the domain, and gives the number of cells") {
+  const Bench bench;
+  const Outcome made =
+      bench.run("cvt --rectangle 0,0,4,3 --cell-width 0.2 --tolerance 1e-2 -o wide.nc");
+  CHECK(made.code == 0);
+  CHECK(has(made.out, "wide.nc: 346 cells, ")); // 12 / (sqrt(3)/2 0.04) = 346.4
+  CHECK(made.err == "calotte: cells 0.2 wide require 346 cells\n");
+  const Outcome info = bench.run("info wide.nc --plane"); // the domain is what the cells fill
+  CHECK(info.code == 0);
+  CHECK(info.err.empty());
+  CHECK(has(info.out, "cells                 346\n"));
+  const Outcome named = bench.run("info wide.nc --plane --rectangle 0,0,4,3");
+  const auto from_energy = [](const std::string& text) { return text.substr(text.find("energy")); };
+  CHECK(from_energy(info.out).substr(0, 20) == from_energy(named.out).substr(0, 20));
+}
+
+TEST_CASE("a lattice that misses the number of cells of a box says why") {
+  const Bench bench;
+  const Outcome made =
+      bench.run("cvt --periodic 100,86.6 --cells 4000 --start hexagonal --iterations 1 -o box.nc");
+  CHECK(made.code == 0);
+  CHECK(made.err == "calotte: 4032 cells instead of 4000: the hexagonal lattice has whole rows and "
+                    "columns; --start density gives exactly as many\n");
+}
+
+TEST_CASE("a graded box starts from as many cells as half of it needs") {
+  const Bench bench;
+  const Outcome made = bench.run("cvt --periodic 400,100 --cells 800 --tolerance 1e-2 --stop "
+                                 "tolerance --density tanh:x=50,y=50,beta=10,alpha=20,gamma=x4 "
+                                 "-o x4.nc");
+  CAPTURE(made.err);
+  CHECK(made.code == 0);
+  CHECK(has(made.out, "x4.nc: 800 cells, "));
+}
+
 TEST_CASE("options that a planar run does not support are refused before any work, in one line") {
   const Bench bench;
   bench.file("points.txt", "0.5 0.5\n0.1 0.2\n3 3\n0.9 0.1\n");
@@ -894,7 +971,20 @@ TEST_CASE("options that a planar run does not support are refused before any wor
   refused("--rectangle 1,0,0,1 --cells 100 -o m.vtp", "not a rectangle");
   refused(square + "--cells 100 --density tanh:lon=0,lat=0,beta=1,alpha=1,gamma=x8 -o m.vtp",
           "unknown key \"lon\"; the keys are x, y");
-  refused(square + "--cells 100 --cell-width w.nc -o m.vtp", "--cell-width applies to the sphere");
+  refused(square + "--cell-width 0.1km -o m.vtp",
+          "--cell-width 0.1km: the plane has the unit of its coordinates; give a number in that "
+          "unit");
+  refused(square + "--cell-width w.geojson -o m.vtp", "give NetCDF cellWidth(y, x) (.nc)");
+  refused(square + "--cell-width 1e-9 -o m.vtp",
+          "--cells auto: the widths require 1.155e+18 cells");
+  refused(square + "--cells 100 --walls y -o m.nc", "--walls applies to a periodic box");
+  refused("--periodic 1,1 --cells 100 --walls xy -o m.nc", "--walls xy leaves no period");
+  refused("--periodic 1,1 --cells 100 --walls y -o m.txt", "a plane with walls is written as MPAS");
+  refused("--hexagons 4,5,1 -o m.nc", "an even number for the period in y");
+  refused("--hexagons 4.5,6,1 -o m.nc", "--hexagons 4.5,6,1 is not two counts and a distance");
+  refused("--hexagons 4,6,1 --cells 24 -o m.nc",
+          "--hexagons makes a uniform grid without a run; leave --cells out");
+  refused("--hexagons 4,6,1 --walls y -o m.vtp", "a plane with walls is written as MPAS");
   refused("--cells 5 -o m.vtp", "at least 12");
 }
 
@@ -957,14 +1047,20 @@ TEST_CASE("another number of cells than requested is said") {
   CHECK(has(made.err, " cells instead of 400: bisections of a domain with a boundary"));
 }
 
-TEST_CASE("widths that no grid can follow end in a grid and warnings") {
+TEST_CASE("widths that no grid can follow end in a grid and an exit code of their own") {
   const Bench bench;
   const Outcome made = bench.run("cvt --cells 1500 --density "
                                  "tanh:lon=270,lat=30,beta=30deg,alpha=0.02,gamma=x6 -o a.vtp");
-  CHECK(made.code == 0);
-  CHECK(has(made.out, "a.vtp: 1500 cells, converged, "));
+  CHECK(made.code == 5);
+  CHECK(has(made.out, "a.vtp: 1500 cells, not well-centred, "));
   CHECK(has(made.out, " generators more than 0.01 of the spacing from their centroids (at most "));
-  CHECK(has(made.err, "warning: a shape is "));
+  const std::regex message(
+      "not well-centred: (\\d+) of 1500 cells with shapes beyond their limits, the "
+      "worst, \\S+ beyond, at cell \\d+ \\(at \\S+ [EW] (\\S+) N\\); the mesh is");
+  std::smatch found;
+  REQUIRE(std::regex_search(made.err, found, message));
+  CHECK(std::stoi(found[1]) > 0);
+  CHECK(std::abs(std::stod(found[2]) - 30) < 40); // where the density is steep
   CHECK(bench.run("check a.vtp").code == 0);
 }
 

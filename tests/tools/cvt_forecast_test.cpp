@@ -144,6 +144,25 @@ TEST_CASE("the time left is a range that holds the levels that follow") {
   CHECK(!remaining(decaying(9, 0.9), options));
 }
 
+TEST_CASE("the time left follows the wall clock, of which evaluations are a part") {
+  CvtOptions options;
+  options.norm = Norm::l2;
+  options.tolerance = std::pow(0.9, 300.5);
+  Standing state = decaying(101, 0.9);
+  const auto idle = remaining(state, options);
+  REQUIRE(idle);
+  state.report.seconds = 3 * 2 * 101;
+  const auto busy = remaining(state, options);
+  REQUIRE(busy);
+  CHECK(busy->least == doctest::Approx(3 * idle->least));
+  CHECK(busy->most == doctest::Approx(3 * idle->most));
+  state.bisections_left = 2;
+  options.insertion_rounds = 1;
+  const auto levels = remaining(state, options);
+  state.report.seconds = 0;
+  CHECK(levels->most == doctest::Approx(3 * remaining(state, options)->most));
+}
+
 TEST_CASE("progress names the level, the norm and the prediction") {
   Standing state = decaying(101, 0.9);
   state.bisections_left = 2;

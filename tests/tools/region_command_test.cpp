@@ -259,3 +259,33 @@ TEST_CASE("bad regions end in one clear line before any work") {
     check_refused(bench, command + none + " --limited-area",
                   "the region has room for 0.0091 cells only");
 }
+
+TEST_CASE("a raster of a part of the sphere is enough for a region in it, with its rings") {
+  const Bench bench;
+  std::string text = "mshid=3;ellipsoid-grid\nndims=2\ncoord=1;41\n";
+  for (int i = 0; i <= 40; ++i) // 100 to 180 E
+    text += std::to_string((100 + 2 * i) * degree) + "\n";
+  text += "coord=2;31\n";
+  for (int j = 0; j <= 30; ++j) // 0 to 60 N
+    text += std::to_string(2 * j * degree) + "\n";
+  text += "value=1271;1\n";
+  for (int k = 0; k < 1271; ++k)
+    text += "300\n";
+  bench.file("part.msh", text);
+  const std::string widths = " --cell-width part.msh ";
+  const Outcome plan = bench.run("plan --region circle=140,30,1500km" + widths);
+  CHECK(plan.code == 0);
+  // pi 1500^2 / (sqrt(3)/2 300^2), on a cap of the sphere 0.5% less.
+  CHECK(has(plan.out, "cells                 90\n"));
+  CHECK(bench.run("cvt --region circle=140,30,1500km --tolerance 1e-2 -o part.vtp" + widths).code ==
+        0);
+  check_refused(bench, "plan" + widths, "leaves part of the sphere out; give a global raster");
+  check_refused(bench, "cvt --region circle=140,30,3600km -o a.vtp" + widths,
+                "of the region; give a raster in degrees that covers it");
+  check_refused(bench, "cvt --region circle=-140,30,900km -o a.vtp" + widths,
+                "of the region; give a raster in degrees that covers it");
+  CHECK(bench.run("plan --region circle=140,30,2500km" + widths).code == 0);
+  check_refused(
+      bench, "plan --limited-area --region circle=140,30,2500km" + widths,
+      "of the region; give a raster in degrees that covers it"); // the rings reach farther
+}

@@ -2,6 +2,7 @@
 #include <calotte/voronoi.h>
 
 #include "mesh/adjacency.h"
+#include "mesh/canonical_order.h"
 #include "support/clouds.h"
 
 #include <calotte/delaunay.h>
@@ -643,6 +644,89 @@ TEST_CASE("the nominal spacing is that of hexagons that follow the density") {
   CHECK(nominal_spacing(fields) == doctest::Approx(3).epsilon(1e-14));
 }
 
+// ---- Sites in a hemisphere
+
+namespace {
+
+Points3 in_a_cap(std::int64_t n, double radius, std::uint64_t seed) {
+  Points3 points = random_sphere(n, seed);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double height = 1 - (1 - std::cos(radius)) * (1 - points(2, i)) / 2,
+                 ring = std::sqrt((1 - height * height) / (1 - points(2, i) * points(2, i)));
+    points.col(i) << ring * points(0, i), ring * points(1, i), height;
+  }
+  return points;
+}
+
+Points3 from_degrees(const std::vector<std::pair<double, double>>& places) {
+  Points3 out(3, std::ssize(places));
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const double lon = places[i].first * pi / 180, lat = places[i].second * pi / 180;
+    out.col(static_cast<Eigen::Index>(i)) << std::cos(lat) * std::cos(lon),
+        std::cos(lat) * std::sin(lon), std::sin(lat);
+  }
+  return out;
+}
+
+/// The part of random places that are nearest to each site.
+Eigen::VectorXd sampled_areas(const Points3& sites, std::int64_t samples) {
+  Eigen::VectorXd areas = Eigen::VectorXd::Zero(sites.cols());
+  const Points3 places = random_sphere(samples, 77);
+  for (Eigen::Index i = 0; i < samples; ++i) {
+    Eigen::Index nearest = 0;
+    (sites.transpose() * places.col(i)).maxCoeff(&nearest);
+    areas[nearest] += 4 * pi / static_cast<double>(samples);
+  }
+  return areas;
+}
+
+} // namespace
+
+TEST_CASE("sites in a hemisphere have bounded cells that fill the sphere") {
+  Points3 equator(3, 9); // on the border of the hemisphere, and some inside
+  equator << 1, 0, -1, 0, 0.6, -0.8, 0, 0.48, -0.6, //
+      0, 1, 0, -1, 0.8, -0.6, 0, 0.6, 0.64,         //
+      0, 0, 0, 0, 0, 0, 1, 0.64, 0.48;
+  const std::vector<std::pair<std::string, Points3>> sets{
+      {"four around the pole and one",
+       from_degrees({{0, 50}, {90, 50}, {180, 50}, {270, 50}, {30, 70}})},
+      {"four on a circle", from_degrees({{0, 50}, {90, 50}, {180, 50}, {270, 50}})},
+      {"four", from_degrees({{0, 10}, {80, 20}, {200, 15}, {40, 80}})},
+      {"equator", equator},
+      {"a cap", in_a_cap(60, 1.2, 4)},
+      {"a small cap", in_a_cap(200, 1e-3, 5)},
+      {"half of the sphere", in_a_cap(500, 1.57, 6)}};
+  for (const auto& [name, sites] : sets) {
+    CAPTURE(name);
+    const Mesh mesh = spherical_delaunay(sites);
+    REQUIRE(!mesh.closed());
+    const Voronoi cells = voronoi(mesh);
+    const Eigen::Index n = sites.cols();
+    CHECK(cells.vertices.cols() == 2 * n - 4);
+    CHECK(cells.cells_on_edge.cols() == 3 * n - 6);
+    CHECK(std::abs(cells.cell_area.sum() - 4 * pi) < 1e-11);
+    CHECK(cells.cell_area.minCoeff() > 0);
+    for (Eigen::Index v = 0; v < cells.vertices.cols(); ++v) { // no site is nearer than its three
+      const Eigen::VectorXd nearness = cells.cells.transpose() * cells.vertices.col(v);
+      for (const std::int32_t cell : cells.cells_on_vertex.col(v))
+        CHECK(nearness[cell] > nearness.maxCoeff() - 1e-9);
+    }
+    if (n > 100)
+      continue; // too many for few places
+    const std::int64_t samples = 40000;
+    const Eigen::VectorXd expected = sampled_areas(cells.cells, samples);
+    const double error = 5 * 4 * pi * 0.5 / std::sqrt(static_cast<double>(samples));
+    CHECK((cells.cell_area - expected).cwiseAbs().maxCoeff() < error);
+  }
+}
+
+TEST_CASE("the cells of sites in a hemisphere do not depend on the order of the sites") {
+  const Points3 sites = in_a_cap(300, 0.4, 8);
+  const Points3 turned = sites.rowwise().reverse();
+  const Voronoi a = voronoi(spherical_delaunay(sites)), b = voronoi(spherical_delaunay(turned));
+  CHECK((a.cell_area - b.cell_area.reverse()).cwiseAbs().maxCoeff() < 1e-12);
+}
+
 // ---- Refusals
 
 TEST_CASE("an input that is no closed mesh is refused in one line that names the place") {
@@ -662,7 +746,20 @@ TEST_CASE("an input that is no closed mesh is refused in one line that names the
   };
   const Mesh good = spherical_delaunay(random_sphere(50, 2));
   check_refused(Mesh{}, -1, "open");
-  check_refused(spherical_delaunay(upper_half(50, 1)), -1, "open");
+  Mesh bitten = spherical_delaunay(upper_half(50, 1)); // without a triangle of its boundary
+  Eigen::Index outer = 0;
+  while (bitten.neighbours.col(outer).minCoeff() >= 0)
+    ++outer;
+  bitten.triangles.col(outer) = bitten.triangles.rightCols(1).eval();
+  bitten.triangles.conservativeResize(3, bitten.triangles.cols() - 1);
+  mesh_detail::make_canonical(bitten.triangles, bitten.neighbours = Triangles(3, 0));
+  bitten.neighbours = mesh_detail::neighbours_of(bitten.triangles, 50);
+  try {
+    voronoi(bitten);
+    CHECK(false);
+  } catch (const Error& error) {
+    CHECK(std::string(error.what()).find("not the hull of its sites") != std::string::npos);
+  }
   const auto check_changed = [&](std::int64_t index, const std::string& words,
                                  const std::function<void(Mesh&)>& change) {
     Mesh mesh = good;

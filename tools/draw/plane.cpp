@@ -36,6 +36,22 @@ void hide_far_triangles(const Drawn& drawn, std::vector<float>& widths) {
   }
 }
 
+/// Whose cells lack a neighbour.
+std::vector<bool> sites_at_walls(const PlanarMesh& mesh) {
+  std::vector<bool> at_wall(static_cast<std::size_t>(mesh.points.cols()), true);
+  for (const std::int32_t site : mesh.triangles.reshaped()) {
+    at_wall[static_cast<std::size_t>(site)] = false;
+  }
+  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
+    for (int i = 0; i < 3; ++i) {
+      for (int end = 1; mesh.neighbours(i, t) < 0 && end < 3; ++end) {
+        at_wall[static_cast<std::size_t>(mesh.triangles((i + end) % 3, t))] = true;
+      }
+    }
+  }
+  return at_wall;
+}
+
 PlanarDomain box_around(const Points2& places) {
   return rectangle(places.rowwise().minCoeff(), places.rowwise().maxCoeff());
 }
@@ -45,7 +61,9 @@ Painting make_painting(const PlanarMesh& mesh, const Drawn& drawn, const DrawOpt
   Painting painting;
   painting.scene = scene_of(drawn, options.shapes, window);
   std::vector<bool> clipped;
-  if (options.colouring == Colouring::valence && !is_periodic(mesh)) {
+  if (options.colouring == Colouring::valence && has_walls(mesh)) {
+    clipped = sites_at_walls(mesh);
+  } else if (options.colouring == Colouring::valence && !is_periodic(mesh)) {
     clipped = clipped_cells(mesh, domain ? *domain : box_around(mesh.points));
   }
   if (options.shapes == Shapes::triangles) {
@@ -71,6 +89,31 @@ Painting make_painting(const PlanarMesh& mesh, const Drawn& drawn, const DrawOpt
   return painting;
 }
 
+/// The values of the mesh's own shapes, without those of copies beside the period: cells of its
+/// sites, and triangles with their middle within the window.
+std::vector<double> own_values(const PlanarMesh& mesh, const Painting& painting, const Drawn& drawn,
+                               const Window& window) {
+  std::vector<double> values;
+  for (std::size_t i = 0; i < painting.values.size(); ++i) {
+    const auto shape = static_cast<Eigen::Index>(i);
+    if (painting.scene.shapes == Shapes::triangles) {
+      Vector2d sum = Vector2d::Zero();
+      for (const std::int32_t place : drawn.mesh.triangles.col(shape)) {
+        sum += drawn.places.col(place);
+      }
+      const auto inside =
+          sum.array() / 3 >= window.low.array() && sum.array() / 3 < window.high.array();
+      if (!(mesh.period.array() == 0 || inside).all()) {
+        continue;
+      }
+    } else if (shape >= mesh.points.cols()) {
+      break;
+    }
+    values.push_back(painting.values[i]);
+  }
+  return values;
+}
+
 /// The spacing is that of the cells for triangles too, as some of these reach across bays.
 std::string title_of(const PlanarMesh& mesh, const DrawOptions& asked,
                      const std::optional<PlanarDomain>& domain, const Window& window) {
@@ -82,7 +125,7 @@ std::string title_of(const PlanarMesh& mesh, const DrawOptions& asked,
       grouped(mesh.points.cols()) + " cells" +
       (options.shapes == Shapes::triangles ? ", " + grouped(mesh.triangles.cols()) + " triangles"
                                            : "") +
-      (is_periodic(mesh) ? ", periodic" : "");
+      (mesh.period.maxCoeff() > 0 ? ", periodic" : "");
   return mesh_title(options, parts, "spacing",
                     values_of_cells(mesh, options, domain, {}, scene, window), true);
 }
@@ -113,6 +156,8 @@ void paint_plane(cairo_t* context, const Page& page, const Painting& painting,
   const double scale = page.map.width / window.extent().x();
   cairo_save(context);
   cairo_set_fill_rule(context, CAIRO_FILL_RULE_EVEN_ODD);
+  add_outline(context, std::nullopt, window, scale);
+  cairo_clip(context);
   add_outline(context, cut ? domain : std::nullopt, window, scale);
   set_colour(context, globe_colour);
   cairo_fill_preserve(context);
@@ -122,11 +167,17 @@ void paint_plane(cairo_t* context, const Page& page, const Painting& painting,
   draw_flat_markers(context, painting, unit, scale * scale * window.extent().prod(),
                     marker_radius(page));
   cairo_restore(context);
+  cairo_save(context);
+  if (domain && !domain->periodic()) { // walls go on beyond the window
+    add_outline(context, std::nullopt, window, scale);
+    cairo_clip(context);
+  }
   add_outline(context, domain, window, scale);
   set_colour(context, domain && !domain->periodic() ? text_colour : map_border_colour);
   cairo_set_line_width(context, std::max(0.8, 0.06 * page.text));
   cairo_set_line_join(context, CAIRO_LINE_JOIN_ROUND);
   cairo_stroke(context);
+  cairo_restore(context);
 }
 
 } // namespace
@@ -143,7 +194,10 @@ void draw(const std::string& path, const PlanarMesh& mesh,
   const Window window = window_of(mesh, domain);
   const Drawn drawn = drawn_of(mesh, options.shapes, window);
   Painting painting = make_painting(mesh, drawn, options, domain, window);
-  const Legend legend = make_legend(painting, options);
+  Legend legend = make_legend(painting, options);
+  if (options.colouring == Colouring::valence && mesh.period.maxCoeff() > 0) {
+    legend.classes = valence_classes(own_values(mesh, painting, drawn, window));
+  }
   const std::string title = title_of(mesh, options, domain, window);
   const Page page = page_of_plane(options.look.size, window.extent().y() / window.extent().x(),
                                   options.colouring != Colouring::none);

@@ -10,7 +10,19 @@
 /// Parts of the pictures of meshes of the plane.
 namespace calotte::tools {
 
-inline bool is_periodic(const PlanarMesh& mesh) { return mesh.period.minCoeff() > 0; }
+/// Whether the mesh covers a doubly periodic box.
+inline bool is_periodic(const PlanarMesh& mesh) {
+  return mesh.period.minCoeff() > 0 && mesh.triangles.cols() == 2 * mesh.points.cols();
+}
+
+/// Whether the plane is periodic in a direction, and the mesh has a boundary.
+inline bool has_walls(const PlanarMesh& mesh) {
+  return mesh.period.maxCoeff() > 0 && !is_periodic(mesh);
+}
+
+/// The domain that the cells of such a mesh fill, as far as the window and two periods beyond it:
+/// its rings are the sides that belong to one cell. None for a box with walls along a period.
+std::optional<PlanarDomain> walls_of(const Polygons& cells);
 
 /// The visible part of the plane.
 struct Window {

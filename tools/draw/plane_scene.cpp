@@ -4,8 +4,12 @@
 #include <calotte/delaunay.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <set>
+#include <utility>
 
 namespace calotte::tools {
 
@@ -18,6 +22,24 @@ Window window_around(const Points2& places, double margin) {
   const Vector2d high = places.rowwise().maxCoeff();
   const Vector2d room = Vector2d::Constant(margin * (high - low).maxCoeff());
   return {low - room, high + room};
+}
+
+/// From 0 to the period, and from wall to wall.
+Window window_between(const PlanarMesh& mesh, const std::optional<PlanarDomain>& domain) {
+  constexpr double room = 0.02; // of the period, for the walls' lines
+  Points2 places = mesh.points;
+  if (domain) {
+    places = domain->rings.back();
+  }
+  const Vector2d margin = Vector2d::Constant(room * mesh.period.maxCoeff());
+  Window window{places.rowwise().minCoeff() - margin, places.rowwise().maxCoeff() + margin};
+  for (int k = 0; k < 2; ++k) {
+    if (mesh.period[k] > 0) {
+      window.low[k] = 0;
+      window.high[k] = mesh.period[k];
+    }
+  }
+  return window;
 }
 
 /// Adds far sites around the mesh, which close the outer cells beyond the window.
@@ -37,41 +59,229 @@ Drawn closed_by_far_sites(const PlanarMesh& mesh, const Window& window) {
   return drawn;
 }
 
-/// Adds the copies of a box's sites near it.
-Drawn with_copies(const PlanarMesh& mesh) {
+/// Adds the copies of the sites that are near the window in the directions that have a period.
+PlanarMesh with_copies(const PlanarMesh& mesh, const Window& window,
+                       std::vector<std::int32_t>& site) {
   const Eigen::Index n = mesh.points.cols();
-  const double spacing = std::sqrt(mesh.period.prod() / static_cast<double>(n));
-  const double margin = std::min(mesh.period.maxCoeff() / 2, 8 * spacing);
+  const double spacing = std::sqrt(window.extent().prod() / static_cast<double>(n));
+  const double margin = std::min(window.extent().maxCoeff() / 2, 8 * spacing);
   std::vector<Vector2d> copies;
-  std::vector<std::int32_t> site;
+  const auto is_near = [&](const Vector2d& place) {
+    return (mesh.period.array() == 0 ||
+            (place.array() > -margin && place.array() < mesh.period.array() + margin))
+        .all();
+  };
   for (const int i : {-1, 0, 1}) {
     for (const int j : {-1, 0, 1}) {
+      if ((i != 0 && mesh.period.x() == 0) || (j != 0 && mesh.period.y() == 0)) {
+        continue;
+      }
       for (Eigen::Index s = 0; s < n; ++s) {
         const Vector2d place =
             mesh.points.col(s) + Vector2d(i * mesh.period.x(), j * mesh.period.y());
-        if ((i != 0 || j != 0) && (place.array() > -margin).all() &&
-            (place.array() < mesh.period.array() + margin).all()) {
+        if ((i != 0 || j != 0) && is_near(place)) {
           copies.push_back(place);
           site.push_back(static_cast<std::int32_t>(s));
         }
       }
     }
   }
-  Points2 places(2, n + std::ssize(copies));
-  places.leftCols(n) = mesh.points;
+  PlanarMesh wider;
+  wider.points.resize(2, n + std::ssize(copies));
+  wider.points.leftCols(n) = mesh.points;
   for (std::size_t k = 0; k < copies.size(); ++k) {
-    places.col(n + static_cast<Eigen::Index>(k)) = copies[k];
+    wider.points.col(n + static_cast<Eigen::Index>(k)) = copies[k];
   }
-  Drawn drawn(planar_delaunay(places));
-  std::copy(site.begin(), site.end(), drawn.site.begin() + n);
+  return wider;
+}
+
+/// The mesh of a box and its surroundings.
+Drawn with_copies(const PlanarMesh& mesh, const Window& window) {
+  std::vector<std::int32_t> site;
+  Drawn drawn(planar_delaunay(with_copies(mesh, window, site).points));
+  std::copy(site.begin(), site.end(), drawn.site.begin() + mesh.points.cols());
   return drawn;
+}
+
+/// Removes the triangles whose sites are none of the mesh's, such as those over land.
+void keep_triangles_of(const PlanarMesh& mesh, Drawn& drawn) {
+  std::set<std::array<std::int32_t, 3>> known;
+  const auto key = [](std::array<std::int32_t, 3> sites) {
+    std::sort(sites.begin(), sites.end());
+    return sites;
+  };
+  for (const auto& triangle : mesh.triangles.colwise()) {
+    known.insert(key({triangle[0], triangle[1], triangle[2]}));
+  }
+  const auto site = [&](std::int32_t place) { return drawn.site[static_cast<std::size_t>(place)]; };
+  std::vector<std::int32_t> number;
+  std::int32_t count = 0;
+  for (const auto& triangle : drawn.mesh.triangles.colwise()) {
+    const bool stays =
+        known.contains(key({site(triangle[0]), site(triangle[1]), site(triangle[2])}));
+    number.push_back(stays ? count++ : -1);
+  }
+  Triangles triangles(3, count);
+  Triangles neighbours(3, count);
+  for (Eigen::Index t = 0; t < drawn.mesh.triangles.cols(); ++t) {
+    const std::int32_t to = number[static_cast<std::size_t>(t)];
+    for (int i = 0; to >= 0 && i < 3; ++i) {
+      const std::int32_t other = drawn.mesh.neighbours(i, t);
+      triangles(i, to) = drawn.mesh.triangles(i, t);
+      neighbours(i, to) = other < 0 ? -1 : number[static_cast<std::size_t>(other)];
+    }
+  }
+  drawn.mesh.triangles = std::move(triangles);
+  drawn.mesh.neighbours = std::move(neighbours);
+}
+
+/// Of a mesh with walls, whose cells end at the domain.
+Drawn between_walls(const PlanarMesh& mesh, Shapes shapes, const Window& window) {
+  std::vector<std::int32_t> site;
+  const PlanarMesh wider = with_copies(mesh, window, site);
+  Drawn drawn = shapes == Shapes::triangles ? Drawn(planar_delaunay(wider.points))
+                                            : closed_by_far_sites(wider, window);
+  std::copy(site.begin(), site.end(), drawn.site.begin() + mesh.points.cols());
+  if (shapes == Shapes::triangles) {
+    keep_triangles_of(mesh, drawn);
+  }
+  return drawn;
+}
+
+/// The open sides of cells by the corner that they start from: where each ends, and the way there.
+using OpenSides = std::map<std::int32_t, std::vector<std::pair<std::int32_t, Vector2d>>>;
+
+Vector2d way_between(const Polygons& cells, std::int32_t from, std::int32_t to) {
+  Vector2d way = (cells.corners.col(to) - cells.corners.col(from)).head<2>();
+  for (int k = 0; k < 2; ++k) {
+    if (cells.period[k] > 0) {
+      way[k] -= cells.period[k] * std::round(way[k] / cells.period[k]);
+    }
+  }
+  return way;
+}
+
+OpenSides open_sides(const Polygons& cells) {
+  std::set<std::array<std::int32_t, 2>> sides;
+  for (std::int64_t i = 0; i < cells.size(); ++i) {
+    for (std::int64_t k = cells.begin[i]; k < cells.begin[i + 1]; ++k) {
+      const std::int32_t from = cells.ids[k];
+      const std::int32_t to = cells.ids[k + 1 < cells.begin[i + 1] ? k + 1 : cells.begin[i]];
+      if (sides.erase({to, from}) == 0) {
+        sides.insert({from, to});
+      }
+    }
+  }
+  OpenSides open;
+  for (const auto& [from, to] : sides) {
+    open[from].emplace_back(to, way_between(cells, from, to));
+  }
+  return open;
+}
+
+/// A closed line of open sides, with the cells to the left.
+struct Wall {
+  std::vector<Vector2d> corners;
+  Vector2d around; ///< from the first corner to its copy at the end: 0, or whole periods
+};
+
+/// Takes the sides of a wall.
+Wall next_wall(const Polygons& cells, OpenSides& sides) {
+  Wall wall;
+  const std::int32_t first = sides.begin()->first;
+  Vector2d place = cells.corners.col(first).head<2>();
+  std::int32_t here = first;
+  do {
+    wall.corners.push_back(place);
+    const auto at = sides.find(here);
+    if (at == sides.end()) {
+      break;
+    }
+    const auto [to, way] = at->second.back();
+    at->second.pop_back();
+    if (at->second.empty()) {
+      sides.erase(at);
+    }
+    place += way;
+    here = to;
+  } while (here != first);
+  wall.around = place - wall.corners.front();
+  return wall;
+}
+
+Eigen::MatrixXd ring_of(const std::vector<Vector2d>& corners, const Vector2d& shift) {
+  Eigen::MatrixXd ring(2, std::ssize(corners));
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    ring.col(static_cast<Eigen::Index>(k)) = corners[k] + shift;
+  }
+  return ring;
+}
+
+/// The ring along both walls of a channel, which go on for two periods beyond the window: there the
+/// ring has its ends.
+Eigen::MatrixXd ring_between(const Wall& one, const Wall& other) {
+  std::vector<Vector2d> corners;
+  for (const Wall* wall : {&one, &other}) {
+    for (const int k : {-2, -1, 0, 1, 2}) {
+      for (const Vector2d& corner : wall->corners) {
+        corners.push_back(corner + k * wall->around);
+      }
+    }
+  }
+  return ring_of(corners, Vector2d::Zero());
+}
+
+/// The copies of an island that meet the window.
+void add_island(const Wall& wall, const Vector2d& period, PlanarDomain& domain) {
+  for (const int i : {-1, 0, 1}) {
+    for (const int j : {-1, 0, 1}) {
+      if ((i != 0 && period.x() == 0) || (j != 0 && period.y() == 0)) {
+        continue;
+      }
+      const Eigen::MatrixXd ring = ring_of(wall.corners, {i * period.x(), j * period.y()});
+      const auto meets = [&](int k) {
+        return period[k] == 0 || (ring.row(k).maxCoeff() > 0 && ring.row(k).minCoeff() < period[k]);
+      };
+      if (meets(0) && meets(1)) {
+        domain.rings.push_back(ring);
+      }
+    }
+  }
+}
+
+/// A box that the copies of islands at the edge of the window do not reach.
+Eigen::MatrixXd wide_box(const Vector2d& period) {
+  return rectangle(-2 * period, 3 * period).rings.front();
 }
 
 } // namespace
 
+std::optional<PlanarDomain> walls_of(const Polygons& cells) {
+  OpenSides sides = open_sides(cells);
+  PlanarDomain domain;
+  std::vector<Wall> walls; // of a channel
+  while (!sides.empty()) {
+    Wall wall = next_wall(cells, sides);
+    if (wall.around.norm() > cells.period.maxCoeff() / 2) {
+      walls.push_back(std::move(wall));
+    } else {
+      add_island(wall, cells.period, domain);
+    }
+  }
+  const bool is_box = cells.period.minCoeff() > 0;
+  if (is_box ? !walls.empty() : walls.size() != 2 || walls[0].around.dot(walls[1].around) > 0) {
+    return std::nullopt;
+  }
+  domain.rings.push_back(is_box ? wide_box(cells.period) : ring_between(walls[0], walls[1]));
+  return domain;
+}
+
 Window window_of(const PlanarMesh& mesh, const std::optional<PlanarDomain>& domain) {
   if (is_periodic(mesh)) {
     return {Vector2d::Zero(), mesh.period};
+  }
+  if (has_walls(mesh)) {
+    return window_between(mesh, domain);
   }
   if (!domain) {
     return window_around(mesh.points, 0.04);
@@ -87,7 +297,10 @@ Window window_of(const PlanarMesh& mesh, const std::optional<PlanarDomain>& doma
 
 Drawn drawn_of(const PlanarMesh& mesh, Shapes shapes, const Window& window) {
   if (is_periodic(mesh)) {
-    return with_copies(mesh);
+    return with_copies(mesh, window);
+  }
+  if (has_walls(mesh)) {
+    return between_walls(mesh, shapes, window);
   }
   return shapes == Shapes::triangles ? Drawn(mesh) : closed_by_far_sites(mesh, window);
 }

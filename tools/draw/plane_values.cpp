@@ -24,7 +24,7 @@ double power_of(Colouring colouring) {
 /// Of a domain, a density depends on the period only.
 Eigen::VectorXd by_site(const PlanarMesh& mesh, const DrawOptions& options) {
   if (options.colouring == Colouring::density) {
-    const bool periodic = mesh.period.minCoeff() > 0;
+    const bool periodic = is_periodic(mesh);
     const Eigen::VectorXd density =
         evaluate(options.density, periodic ? periodic_box(mesh.period) : rectangle({0, 0}, {1, 1}),
                  mesh.points);
@@ -105,15 +105,19 @@ std::vector<double> spacings(const PlanarMesh& mesh, const std::optional<PlanarD
       const auto a = static_cast<std::size_t>(scene.mesh->triangles((i + 1) % 3, t));
       const auto b = static_cast<std::size_t>(scene.mesh->triangles((i + 2) % 3, t));
       const std::int32_t other = scene.mesh->neighbours(i, t);
-      if (other < t || a >= sites || b >= sites || !meet(corner(t), corner(other))) {
+      const bool counts_once = a < sites && b < sites;
+      const bool at_seam = has_walls(mesh) && (a < sites || b < sites); // to a copy
+      if (other < t || !(counts_once || at_seam) || !meet(corner(t), corner(other))) {
         continue;
       }
-      const double distance = (mesh.points.col(static_cast<Eigen::Index>(a)) -
-                               mesh.points.col(static_cast<Eigen::Index>(b)))
-                                  .norm();
+      const double distance = half * (scene.sites.col(static_cast<Eigen::Index>(a)) -
+                                      scene.sites.col(static_cast<Eigen::Index>(b)))
+                                         .norm();
       for (const std::size_t end : {a, b}) {
-        sums[end] += distance;
-        ++counts[end];
+        if (end < sites) {
+          sums[end] += distance;
+          ++counts[end];
+        }
       }
     }
   }

@@ -11,8 +11,9 @@ constexpr const char* density =
 
   --density tanh:lon=270,lat=30,beta=30deg,alpha=0.20,gamma=x8
 
-The density is about 1 within the angle beta of the centre and gamma far from it. The width of a
-cell is proportional to density^(-1/4).
+--density x8 is short for it, and x4 or x16 for other contrasts. The density is about 1 within the
+angle beta of the centre and gamma far from it. The width of a cell is proportional to
+density^(-1/4).
 
   lon, lat   centre in degrees
   beta       radius of the bump, > 0: radians, or degrees as 30deg
@@ -141,6 +142,7 @@ constexpr const char* codes =
   2  invalid options or input
   3  a file cannot be opened, read or written
   4  internal error
+  5  the run converged, but the mesh is not well-centred (it is written)
   130, 143  stopped by SIGINT or SIGTERM; --resume continues a run with --checkpoint
 )";
 

@@ -28,13 +28,15 @@ bool is_geojson(const std::string& path) {
 void set_widths(WidthWords& words, const std::string& text) {
   const std::optional<Measure> width = measure_of(text);
   words.uniform = width ? std::optional(width->value) : std::nullopt;
+  words.with_unit = width && !width->unit.empty();
   words.file = width ? "" : text;
 }
 
 /// A width in km, or any text that is none: the name of a file.
 CLI::Validator width_or_file() {
   return {[width = kilometres()](std::string& text) {
-            return measure_of(text) ? width(text) : std::string();
+            std::string number = text;
+            return measure_of(text) ? width(number) : std::string();
           },
           ""};
 }
@@ -83,8 +85,9 @@ void add_cell_width(CLI::App& command, WidthWords& words, CLI::Option* density) 
           .add_option_function<std::string>(
               "--cell-width", [&words](const std::string& text) { set_widths(words, text); },
               "Cell widths in km, instead of a density: one width, such as 60km, or a file. Files: "
-              "NetCDF cellWidth(lat, lon) (.nc), JIGSAW's spacings (.msh), or polygons (.geojson)")
-          ->transform(width_or_file())
+              "NetCDF cellWidth(lat, lon) (.nc), JIGSAW's spacings (.msh), or polygons "
+              "(.geojson). In the plane a number in its unit, or NetCDF cellWidth(y, x)")
+          ->check(width_or_file())
           ->type_name("KM|FILE")
           ->excludes(density);
   const auto add = [&](const std::string& name, std::optional<double>& value,
@@ -112,12 +115,12 @@ void add_cell_width(CLI::App& command, WidthWords& words, CLI::Option* density) 
 }
 
 std::string name_of(const WidthWords& words) {
-  return words.uniform ? shortest(*words.uniform) + " km" : words.file;
+  return words.uniform ? shortest(*words.uniform) + (words.plane ? "" : " km") : words.file;
 }
 
-CellWidth read_widths(const WidthWords& words) {
+CellWidth read_widths(const WidthWords& words, const Region& region) {
   if (!words.raster.empty())
-    return read_density_raster(words.raster);
+    return read_density_raster(words.raster, region);
   if (words.uniform || !is_geojson(words.file))
     for (const auto& [value, name] : {std::pair{words.inside, "--inside-width"},
                                       {words.outside, "--outside-width"},
@@ -126,10 +129,26 @@ CellWidth read_widths(const WidthWords& words) {
         refuse(name_of(words) + " holds no polygons; leave " + name + " out");
   if (words.uniform)
     return uniform_widths(*words.uniform);
-  return read_cell_width(words.file, {.inside = words.inside.value_or(0),
-                                      .outside = words.outside.value_or(0),
-                                      .transition = words.transition.value_or(0),
-                                      .radius_km = words.radius});
+  return read_cell_width(words.file,
+                         {.inside = words.inside.value_or(0),
+                          .outside = words.outside.value_or(0),
+                          .transition = words.transition.value_or(0),
+                          .radius_km = words.radius},
+                         region);
+}
+
+PlanarCellWidth read_planar_widths(const WidthWords& words) {
+  if (words.with_unit)
+    refuse("--cell-width " + shortest(*words.uniform) +
+           "km: the plane has the unit of its coordinates; give a number in that unit");
+  if (words.uniform) {
+    constexpr double far = 1e30; // the largest coordinate of a domain
+    return {Eigen::Vector2d(-far, far), Eigen::Vector2d(-far, far),
+            Eigen::MatrixXd::Constant(2, 2, *words.uniform)};
+  }
+  if (std::filesystem::path(words.file).extension() != ".nc")
+    refuse(words.file + ": no file of cell widths in the plane; give NetCDF cellWidth(y, x) (.nc)");
+  return read_planar_cell_width(words.file);
 }
 
 std::string width_configuration(const WidthWords& words) {
@@ -160,9 +179,7 @@ std::string distinct_from(double other, double value) {
 }
 
 std::string place_of(const Gradient& gradient) {
-  return formatted("%.1f", std::abs(gradient.longitude)) +
-         (gradient.longitude < 0 ? " W " : " E ") + formatted("%.1f", std::abs(gradient.latitude)) +
-         (gradient.latitude < 0 ? " S" : " N");
+  return lonlat_words(gradient.longitude, gradient.latitude);
 }
 
 std::string doubt_of(const CellWidth& widths, const WidthWords& words) {
@@ -197,6 +214,21 @@ std::vector<std::string> notes_on(const CellWidth& widths, const WidthWords& wor
                     place_of(gradient) + ", above " + limit + ", the limit for most models; " +
                     (words.transition ? "increase --transition" : "make the widths smoother"));
   return with_doubt(std::move(notes), widths, words);
+}
+
+std::vector<std::string> notes_on(const PlanarCellWidth& widths, const WidthWords& words,
+                                  double implied, std::optional<std::int64_t> cells) {
+  const std::string range =
+      words.uniform ? "cells " + shortest(*words.uniform) + " wide require "
+                    : words.file + ": cells " + formatted("%.4g", widths.widths.minCoeff()) +
+                          " to " + formatted("%.4g", widths.widths.maxCoeff()) + " wide, on " +
+                          std::to_string(widths.x.size()) + " x " +
+                          std::to_string(widths.y.size()) + " nodes, require ";
+  const double scale = cells ? std::sqrt(implied / static_cast<double>(*cells)) : 1;
+  return {range + formatted("%.0f", implied) + " cells" +
+          (std::abs(scale - 1) > 0.01 ? "; with " + std::to_string(*cells) + " cells, widths are " +
+                                            formatted("%.3g", scale) + " times as large"
+                                      : "")};
 }
 
 std::int64_t cells_for(const CellWidth& widths, const WidthWords& words, bool bisected) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <calotte/cell_width.h>
+#include <calotte/planar_raster.h>
 
 #include <CLI/App.hpp>
 
@@ -14,9 +15,11 @@ namespace calotte::tools {
 
 /// The values of the options for cell widths.
 struct WidthWords {
-  std::string file;                                  ///< of cell widths, or ""
-  std::optional<double> uniform;                     ///< km, of all cells, instead of the file
-  std::string raster;                                ///< of a density, or ""
+  std::string file;              ///< of cell widths, or ""
+  std::optional<double> uniform; ///< km, in the plane its unit, of all cells, instead of the file
+  bool with_unit = false;        ///< uniform is given as "60km"
+  bool plane = false;            ///< the mesh is planar, which the command knows
+  std::string raster;            ///< of a density, or ""
   std::optional<double> inside, outside, transition; ///< km, of polygons
   double radius = earth_radius_km;                   ///< km
 
@@ -30,14 +33,19 @@ struct WidthWords {
 /// \param density the option that they replace.
 void add_cell_width(CLI::App& command, WidthWords& words, CLI::Option* density);
 
-/// The name of widths in km, for messages: the file, or "60 km".
+/// The name of widths in km, for messages: the file, or "60 km", in the plane "60".
 /// \pre words.in_km().
 std::string name_of(const WidthWords& words);
 
 /// Reads widths from either file, or makes uniform ones; those of a density raster have no unit.
 /// \pre words.given().
 /// \throws Error as read_cell_width; bad_option for polygons' widths without polygons.
-CellWidth read_widths(const WidthWords& words);
+/// \param region which a raster must cover.
+CellWidth read_widths(const WidthWords& words, const Region& region = {});
+
+/// The same in the plane. \pre words.in_km().
+/// \throws Error as read_planar_cell_width; bad_option for a width with a unit, and for polygons.
+PlanarCellWidth read_planar_widths(const WidthWords& words);
 
 /// The input that determines the widths, one line each: the file's contents, and the numbers.
 /// \pre words.given().
@@ -55,6 +63,11 @@ std::string place_of(const Gradient& gradient);
 /// \param cells number of cells of the run, if known: it scales all widths.
 std::vector<std::string> notes_on(const CellWidth& widths, const WidthWords& words,
                                   std::optional<std::int64_t> cells);
+
+/// The same of widths in the plane.
+/// \param implied number of cells.
+std::vector<std::string> notes_on(const PlanarCellWidth& widths, const WidthWords& words,
+                                  double implied, std::optional<std::int64_t> cells);
 
 /// A remark on widths that may be in metres, above 2000 km; "" for others.
 std::string doubt_of(const CellWidth& widths, const WidthWords& words);

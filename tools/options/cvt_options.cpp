@@ -54,10 +54,12 @@ void add_start(CLI::App& command, CvtRequest& request) {
   command.add_flag("--lonlat", request.lonlat,
                    "The points of START and --fixed are longitude and latitude in degrees");
   command
-      .add_option("--fixed", request.fixed,
-                  "Generators that stay where they are: a file such as START. They are part of the "
-                  "number of cells and come first in the mesh. For --start multilevel, density and "
-                  "random, or beside START")
+      .add_option(
+          "--fixed", request.fixed,
+          "Generators that stay where they are: a file such as START. They are part of the "
+          "number of cells and come first in the mesh. The start multilevel puts the other "
+          "ones where these are not as dense as demanded; for density and random, or beside "
+          "START, they may be anywhere")
       ->type_name("FILE");
   add_cells(command, request);
   command
@@ -84,7 +86,7 @@ void add_start(CLI::App& command, CvtRequest& request) {
       .add_option(
           "--insertion-rounds", request.insertion_rounds,
           "Rounds of insertion and removal of cells on the last level of --start multilevel; 1 "
-          "to 100; default: 1. Coarser levels have more")
+          "to 100; default: 1, with --fixed 3. Coarser levels have more")
       ->transform(whole_number(1, 100));
 }
 
@@ -112,8 +114,9 @@ void add_end(CLI::App& command, CvtRequest& request) {
                       "that a model's diffusion of vorticity needs a shorter step), or "
                       "well-centred (then dislocations at such shapes are moved, and where that "
                       "does not suffice, a few generators leave their centroids: no obtuse "
-                      "triangle, Voronoi edges from 0.18 times the Delaunay edge on). The errors "
-                      "of a model are those of a pure CVT. Default: well-centred with --start "
+                      "triangle, Voronoi edges from 0.18 times the Delaunay edge on; exit code 5 "
+                      "if it is not reached). The errors of a model are those of a pure CVT. "
+                      "Default: well-centred with --start "
                       "multilevel, else tolerance")
           ->check(CLI::IsMember({"tolerance", "well-centred"}));
   command
@@ -278,6 +281,7 @@ std::shared_ptr<CvtRequest> add_cvt_options(CLI::App& command) {
     add_start(command, *request);
     add_region(command, request->part);
     request->domain = add_domain(command);
+    add_hexagons(command, *request->domain);
   }
   request->density = add_density(command);
   {

@@ -63,10 +63,20 @@ void require_known(const std::string& text, const std::string& key, const Gramma
   refuse(text, "unknown key \"" + key + "\"; the keys are " + known);
 }
 
+/// The paper's bump by its contrast of widths, such as x8.
+bool is_usual(const std::string& text, const Grammar& grammar) {
+  return &grammar == &on_sphere && text.size() > 1 && text[0] == 'x' &&
+         text.find_first_not_of("0123456789.", 1) == std::string::npos;
+}
+
 BumpWords split(const std::string& text, const Grammar& grammar) {
+  if (is_usual(text, grammar))
+    return {text,
+            {{"lon", "270"}, {"lat", "30"}, {"beta", "30deg"}, {"alpha", "0.2"}, {"gamma", text}}};
   constexpr std::string_view kind = "tanh:";
   if (!text.starts_with(kind))
-    refuse(text, std::string("not a density; give uniform or, for instance, ") + grammar.example);
+    refuse(text, std::string("not a density; give uniform or, for instance, ") +
+                     (&grammar == &on_sphere ? "x8 or " : "") + grammar.example);
   BumpWords words{text, {}};
   std::istringstream rest(text.substr(kind.size()));
   for (std::string word; std::getline(rest, word, ',');) {
@@ -226,9 +236,10 @@ std::shared_ptr<DensityWords> add_density(CLI::App& command) {
   const OptionGroup group(command, "Widths and density");
   CLI::Option* const density =
       command
-          .add_option("--density", words->densities,
-                      "Density: uniform (default), or a bump; see calotte help density. Such as " +
-                          std::string(example) + ". Repeat the option for several bumps")
+          .add_option(
+              "--density", words->densities,
+              "Density: uniform (default), or a bump; see calotte help density. Such as x8, or " +
+                  std::string(example) + ". Repeat the option for several bumps")
           ->allow_extra_args(false);
   command.add_option("--join", words->join, "Combination of several bumps")
       ->check(CLI::IsMember({"maximum", "sum"}))
@@ -237,16 +248,21 @@ std::shared_ptr<DensityWords> add_density(CLI::App& command) {
   return words;
 }
 
-Resolution resolution_of(const DensityWords& words, bool planar) {
+Resolution resolution_of(const DensityWords& words, bool planar, const Region& region) {
   if (!words.widths.given())
-    return {bumps_of(words, planar), {}};
-  if (planar)
-    return {calotte::density_of(read_planar_raster(words.widths.raster)), {}};
-  CellWidth widths = read_widths(words.widths);
+    return {bumps_of(words, planar), {}, {}};
+  if (planar && !words.widths.in_km())
+    return {calotte::density_of(read_planar_raster(words.widths.raster)), {}, {}};
+  if (planar) {
+    PlanarCellWidth widths = read_planar_widths(words.widths);
+    Density density = words.widths.uniform ? Density{} : calotte::density_of(widths);
+    return {std::move(density), {}, std::move(widths)};
+  }
+  CellWidth widths = read_widths(words.widths, region);
   Density density = words.widths.uniform ? Density{} : calotte::density_of(widths);
   if (!words.widths.in_km()) // a density raster's widths have no unit
-    return {std::move(density), {}};
-  return {std::move(density), std::move(widths)};
+    return {std::move(density), {}, {}};
+  return {std::move(density), std::move(widths), {}};
 }
 
 Density density_of(const DensityWords& words, bool planar) {

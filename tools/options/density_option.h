@@ -29,14 +29,16 @@ std::shared_ptr<DensityWords> add_density(CLI::App& command);
 /// The density of the options.
 struct Resolution {
   Density density;
-  std::optional<CellWidth> widths; ///< in km, where --cell-width gives them
+  std::optional<CellWidth> widths;              ///< in km, where --cell-width gives them
+  std::optional<PlanarCellWidth> planar_widths; ///< the same in the unit of the plane
 };
 
 /// Reads the file, if there is one.
 /// \param planar a bump's centre and lengths are in the plane: x and y, beta and alpha without a
-///        unit; a raster is one of x and y.
+///        unit; a raster is one of x and y, and a width has no unit.
+/// \param region which a raster must cover.
 /// \throws Error bad_option naming the word and the remedy; as read_cell_width.
-Resolution resolution_of(const DensityWords& words, bool planar = false);
+Resolution resolution_of(const DensityWords& words, bool planar = false, const Region& region = {});
 /// The same without the widths.
 Density density_of(const DensityWords& words, bool planar = false);
 

@@ -75,6 +75,45 @@ std::shared_ptr<DomainWords> add_domain(CLI::App& command) {
   return words;
 }
 
+void add_hexagons(CLI::App& command, DomainWords& words) {
+  command
+      .add_option("--hexagons", words.hexagons,
+                  "A grid of regular hexagons in the plane instead of a run: NX columns, NY rows, "
+                  "centres DC apart, as planar_hex of MPAS-Tools makes it. The box follows; it is "
+                  "periodic but for --walls")
+      ->type_name("NX,NY,DC")
+      ->excludes(command.get_option("--domain"))
+      ->excludes(command.get_option("--rectangle"))
+      ->excludes(command.get_option("--periodic"));
+  command
+      .add_option("--walls", words.walls,
+                  "Direction in which the box of --periodic or --hexagons ends at walls instead: y "
+                  "(a channel along x), x, or with --hexagons xy. Walls run along the sides of "
+                  "whole cells, as MPAS-Ocean has them")
+      ->check(CLI::IsMember({"x", "y", "xy"}));
+}
+
+Walls walls_of(const DomainWords& words) {
+  if (!words.walls)
+    return {};
+  if (!words.periodic && !words.hexagons)
+    throw Error(ErrorCode::bad_option,
+                "--walls applies to a periodic box; give --periodic or --hexagons, too");
+  return {*words.walls != "y", *words.walls != "x"};
+}
+
+MeshFile hexagons_of(const DomainWords& words) {
+  const auto numbers = numbers_of<3>(*words.hexagons);
+  const auto whole = [](double x) { return x >= 1 && x <= 1e9 && x == std::floor(x); };
+  if (!numbers || !whole((*numbers)[0]) || !whole((*numbers)[1]) || !((*numbers)[2] > 0))
+    throw Error(ErrorCode::bad_option,
+                "--hexagons " + *words.hexagons +
+                    " is not two counts and a distance; give columns, rows and the distance of "
+                    "the centres, as in --hexagons 16,50,10000");
+  return planar_hexagons(static_cast<std::int64_t>((*numbers)[0]),
+                         static_cast<std::int64_t>((*numbers)[1]), (*numbers)[2], walls_of(words));
+}
+
 std::optional<Eigen::Vector2d> period_of(const std::optional<std::string>& word) {
   if (!word)
     return std::nullopt;
@@ -90,7 +129,8 @@ std::string domain_configuration(const DomainWords& words) {
   if (words.file)
     return "domain of " + checksum_of(*words.file) + "\n";
   return words.rectangle ? "rectangle " + *words.rectangle + "\n"
-                         : "periodic " + *words.periodic + "\n";
+                         : "periodic " + *words.periodic + "\n" +
+                               (words.walls ? "walls " + *words.walls + "\n" : "");
 }
 
 std::optional<PlanarDomain> domain_of(const DomainWords& words) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <calotte/domain.h>
+#include <calotte/mesh_file.h>
 
 #include <CLI/App.hpp>
 
@@ -16,12 +17,23 @@ struct DomainWords {
   std::optional<std::string> file;      ///< of polygons
   std::optional<std::string> rectangle; ///< "X0,Y0,X1,Y1"
   std::optional<std::string> periodic;  ///< "WIDTH,HEIGHT" of a box from 0 0 on
+  std::optional<std::string> hexagons;  ///< "NX,NY,DC", which determine the box
+  std::optional<std::string> walls;     ///< "x", "y" or "xy": where the box is not periodic
 
-  bool given() const { return file || rectangle || periodic; }
+  bool given() const { return file || rectangle || periodic || hexagons; }
 };
 
 /// Adds --domain, --rectangle and --periodic.
 std::shared_ptr<DomainWords> add_domain(CLI::App& command);
+
+/// Adds --hexagons and --walls.
+void add_hexagons(CLI::App& command, DomainWords& words);
+
+/// The directions of --walls. \throws Error bad_option.
+Walls walls_of(const DomainWords& words);
+
+/// The mesh of --hexagons. \pre words.hexagons. \throws Error bad_option.
+MeshFile hexagons_of(const DomainWords& words);
 
 /// Adds --domain and --rectangle only.
 std::shared_ptr<DomainWords> add_bounded_domain(CLI::App& command);

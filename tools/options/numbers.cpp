@@ -22,6 +22,11 @@ std::string formatted(const char* format, double value) {
   return text.data();
 }
 
+std::string lonlat_words(double longitude, double latitude) {
+  return formatted("%.1f", std::abs(longitude)) + (longitude < 0 ? " W " : " E ") +
+         formatted("%.1f", std::abs(latitude)) + (latitude < 0 ? " S" : " N");
+}
+
 std::optional<Measure> measure_of(const std::string& text) {
   const char *begin = text.data(), *const end = begin + text.size();
   const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };

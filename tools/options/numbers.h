@@ -17,6 +17,9 @@ std::string shortest(double value);
 /// \param format with one conversion of a double.
 std::string formatted(const char* format, double value);
 
+/// "136.5 W 81.0 N". \param longitude, latitude degrees; from -180 to 180, and -90 to 90.
+std::string lonlat_words(double longitude, double latitude);
+
 /// A number with a unit.
 struct Measure {
   double value = 0;

@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Builds the library and the compiled part of the package with CMake.
+"""Builds the compiled part of the package with CMake, and the library with it where there is none.
 
-With CALOTTE_PREFIX in the environment the build uses the library that is installed there.
+The library is, in this order: the one that is installed in CALOTTE_PREFIX; in a clone, the one that
+tools/quickstart built in build/release; one of the same version where CMake looks for packages; or
+else it is built from its sources, which takes minutes of all cores.
 """
+import importlib
 import os
 import pathlib
 import re
@@ -17,12 +20,46 @@ from setuptools.command.sdist import sdist
 HERE = pathlib.Path(__file__).resolve().parent
 BUNDLED = HERE / "library"  # in a source distribution
 LIBRARY = BUNDLED if BUNDLED.is_dir() else HERE.parents[1]
-PARTS = ["CMakeLists.txt", "README.md", "cmake", "include", "lib"]  # of the library, for one
+PARTS = ["CMakeLists.txt", "README.md", "cmake", "include", "lib", "tools/draw/draw.h",
+         "tools/draw/coastlines.h", "tools/draw/coastlines.cpp"]  # of the library, for one
+BUILT = LIBRARY / "build/release"  # by tools/quickstart
 
 
 def version():
     text = (LIBRARY / "include/calotte/version.h").read_text()
     return re.search(r'CALOTTE_VERSION "([^"]+)"', text).group(1)
+
+
+def require_wheel():
+    """Pip's own message, \"invalid command 'bdist_wheel'\", names neither the package nor a remedy."""
+    if not {"bdist_wheel", "dist_info", "editable_wheel"} & set(sys.argv):
+        return
+    for module in ("setuptools.command.bdist_wheel", "wheel.bdist_wheel"):
+        try:
+            importlib.import_module(module)
+            return
+        except ImportError:
+            pass
+    sys.exit(f"calotte: {sys.executable} lacks the package wheel; leave --no-build-isolation out, "
+             "so that pip fetches it, or install it for this interpreter, or make the environment "
+             "with the one that tools/setup --python serves: /usr/bin/python3 -m venv "
+             "--system-site-packages env")
+
+
+def setting(name):
+    """A value of the cache of build/release."""
+    match = re.search(rf"^{name}:\w+=(.*)$", (BUILT / "CMakeCache.txt").read_text(), re.M)
+    return match.group(1) if match else ""
+
+
+def built_library(folder):
+    """Installs the archive of build/release, brought up to date, in a folder; None without one."""
+    if not (BUILT / "libcalotte.a").is_file() or setting("BUILD_SHARED_LIBS") in ("ON", "TRUE"):
+        return None
+    subprocess.run(["cmake", "--build", BUILT, "--target", "calotte"], check=True)
+    subprocess.run(["cmake", "--install", BUILT, "--component", "development", "--prefix", folder],
+                   check=True, stdout=subprocess.DEVNULL)
+    return folder
 
 
 class CMakeBuild(build_ext):
@@ -33,12 +70,17 @@ class CMakeBuild(build_ext):
         build = pathlib.Path(self.build_temp).resolve()
         settings = ["-DCMAKE_BUILD_TYPE=Release", f"-DPython_EXECUTABLE={sys.executable}",
                     f"-DCALOTTE_LIBRARY={LIBRARY}", f"-DCALOTTE_MODULE_DIR={module.parent}"]
-        prefix = os.environ.get("CALOTTE_PREFIX")
+        prefix = os.environ.get("CALOTTE_PREFIX") or built_library(build.parent / "library")
         if prefix:
             settings.append(f"-DCALOTTE_PREFIX={pathlib.Path(prefix).resolve()}")
+        try:  # that of the interpreter, if it has one
+            import pybind11
+            settings.append(f"-Dpybind11_DIR={pybind11.get_cmake_dir()}")
+        except ImportError:
+            pass
         if shutil.which("ninja"):
             settings.append("-GNinja")
-        subprocess.run(["cmake", "-S", HERE, "-B", build, *settings], check=True)
+        subprocess.run(["cmake", "--fresh", "-S", HERE, "-B", build, *settings], check=True)
         jobs = self.parallel or os.cpu_count() or 1
         subprocess.run(["cmake", "--build", build, "--parallel", str(jobs)], check=True)
 
@@ -57,5 +99,6 @@ class SourceDistribution(sdist):
                 shutil.copy2(source, target)
 
 
+require_wheel()
 setup(version=version(), ext_modules=[Extension("calotte._calotte", sources=[])],
       cmdclass={"build_ext": CMakeBuild, "sdist": SourceDistribution})

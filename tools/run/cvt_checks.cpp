@@ -24,16 +24,28 @@ void require_positive(const std::string& option, double value, const std::string
                 option + " " + shortest(value) + " is not a positive number; give " + remedy);
 }
 
+/// A mesh with walls is one of cells, which lose their periods in other formats.
+void require_walls_format(const CvtRequest& request, const WriteOptions& options) {
+  const Walls walls = walls_of(*request.domain);
+  if ((walls.x || walls.y) && format_of(request.mesh, options.format) != Format::mpas)
+    throw Error(ErrorCode::bad_option,
+                request.mesh + ": a plane with walls is written as MPAS; give a name in .nc");
+  if (request.domain->periodic && walls.x && walls.y)
+    throw Error(ErrorCode::bad_option,
+                "--walls xy leaves no period; give --rectangle, whose sides clip the cells");
+}
+
 /// Rejects options that a planar run does not support.
 void require_plane(const CvtRequest& request, const WriteOptions& options) {
   require_planar_format(request.mesh, request.domain->periodic.has_value(),
                         format_of(request.mesh, options.format),
                         !request.domain->periodic.has_value());
+  require_walls_format(request, options);
+  if (!request.points.empty() && request.domain->walls)
+    throw Error(ErrorCode::bad_option,
+                "--walls needs points beyond them, too; give --cells instead of START");
   if (request.format->sphere_radius)
     throw Error(ErrorCode::bad_option, "--sphere-radius does not apply to the plane; leave it out");
-  if (request.density->widths.in_km())
-    throw Error(ErrorCode::bad_option,
-                "--cell-width applies to the sphere only; give --density or --density-raster");
 }
 
 /// Rejects formats and options that a run in a region does not support.
@@ -62,6 +74,27 @@ std::string graph_of(const std::string& mesh, Format format) {
 }
 
 } // namespace
+
+void require_hexagons(const CvtRequest& request) {
+  const auto exclude = [](bool given, const std::string& option) {
+    if (given)
+      throw Error(ErrorCode::bad_option,
+                  "--hexagons makes a uniform grid without a run; leave " + option + " out");
+  };
+  exclude(!request.points.empty(), "START");
+  exclude(!request.fixed.empty(), "--fixed");
+  exclude(request.cells || request.cells_of_widths, "--cells");
+  exclude(request.start.has_value(), "--start");
+  exclude(request.bisections.has_value(), "--bisections");
+  exclude(!is_uniform(*request.density) || request.density->widths.given(),
+          "the density or the widths");
+  exclude(!request.part.region.empty(), "--region");
+  exclude(!request.report.empty(), "--report");
+  exclude(!request.checkpoint.empty(), "--checkpoint");
+  exclude(request.format->sphere_radius.has_value(), "--sphere-radius");
+  require_walls_format(request, write_options(request));
+  require_outputs({{"mesh", request.mesh}}, {*request.config});
+}
 
 void require_request(const CvtRequest& request) {
   require_positive("--tolerance", tolerance_of(request), "one such as 1e-6");

@@ -5,6 +5,9 @@
 
 namespace calotte::tools {
 
+/// Rejects options that do not apply to the grid of --hexagons. \throws Error bad_option.
+void require_hexagons(const CvtRequest& request);
+
 /// Checks all options of a run that can fail, before any work.
 /// \throws Error bad_option, file.
 void require_request(const CvtRequest& request);

@@ -86,6 +86,15 @@ std::optional<Forecast> forecast(const CvtProgress& progress, const CvtOptions& 
 
 namespace {
 
+/// The wall-clock time of the run over that of its evaluations, >= 1: between them it triangulates,
+/// bisects, and waits for processors that others use.
+double pace(const CvtProgress& progress) {
+  double seconds = 0;
+  for (const CvtIteration& iteration : progress.report.iterations)
+    seconds += iteration.seconds + iteration.seconds_solver;
+  return seconds > 0 ? std::max(1.0, progress.report.seconds / seconds) : 1;
+}
+
 /// Seconds spent on the current level, all of its descents.
 double spent_on_level(const CvtProgress& progress) {
   const std::vector<CvtIteration>& all = progress.report.iterations;
@@ -125,8 +134,9 @@ std::optional<Remaining> remaining(const CvtProgress& progress, const CvtOptions
   const auto descent = forecast(progress, inserts && !last ? early(options) : options);
   if (!descent)
     return std::nullopt;
+  const double scale = pace(progress);
   if (last && !inserts)
-    return Remaining{0.7 * descent->seconds, 1.4 * descent->seconds};
+    return Remaining{0.7 * scale * descent->seconds, 1.4 * scale * descent->seconds};
   double level = spent_on_level(progress) + descent->seconds, later = descent->seconds;
   later += progress.rounds_left * descent->seconds;
   level += progress.rounds_left * descent->seconds;
@@ -134,7 +144,7 @@ std::optional<Remaining> remaining(const CvtProgress& progress, const CvtOptions
     later += level *= next_level(left, options);
   if (options.well_centred)
     later += 0.2 * level;
-  return Remaining{0.5 * later, 2 * later};
+  return Remaining{0.5 * scale * later, 2 * scale * later};
 }
 
 std::string describe(const CvtProgress& progress, const CvtOptions& options,

@@ -61,6 +61,10 @@ std::string to_json(const CvtRequest& request, const CvtReport& report, std::int
   json["tolerance"] = tolerance_of(request);
   json["converged"] = report.converged;
   json["well_centred"] = report.well_centred;
+  if (report.worst_cell >= 0) {
+    json["misshapen_cells"] = report.misshapen_cells;
+    json["worst_cell"] = report.worst_cell;
+  }
   json["residual"] = report.residual;
   json["cells"] = cells;
   json["area"] = area;
@@ -82,9 +86,10 @@ std::string summary(const CvtRequest& request, const CvtReport& report, std::int
   const auto iterations = std::ssize(report.iterations);
   std::string line = request.mesh + ": " + std::to_string(cells) + " cells, ";
   if (!request.iterations)
-    line += !report.converged     ? "not converged, "
-            : report.well_centred ? "well-centred, "
-                                  : "converged, ";
+    line += !report.converged       ? "not converged, "
+            : report.well_centred   ? "well-centred, "
+            : well_centred(request) ? "not well-centred, "
+                                    : "converged, ";
   line += std::to_string(iterations) + (iterations == 1 ? " iteration" : " iterations");
   if (before > 0)
     line += " (" + std::to_string(before) + " before it was resumed)";

@@ -116,7 +116,6 @@ void add_boundary(const CvtRequest& request, const Region& region, const Density
   start.on_boundary = shore.cols();
   start.points = joined(start.points, shore);
   start.configuration += "boundary generators\n";
-  require_free(request, start);
 }
 
 void require_cells(const CvtRequest& request) {
@@ -202,12 +201,22 @@ Points2 generate(const std::string& kind, std::int64_t count, const PlanarDomain
 
 std::uint64_t seed_of(const CvtRequest& request) { return request.seed.value_or(1); }
 
-CvtStart announce(const CvtRequest& request) {
+std::string configuration_of_start(const CvtRequest& request) {
   const std::string kind = start_kind(request);
-  CvtStart start;
-  start.configuration = "start " + kind + "\ncells " + std::to_string(*request.cells) + "\n" +
-                        (seeded(kind) ? "seed " + std::to_string(seed_of(request)) + "\n" : "");
-  return start;
+  return "start " + kind + "\ncells " + std::to_string(*request.cells) + "\n" +
+         (seeded(kind) ? "seed " + std::to_string(seed_of(request)) + "\n" : "");
+}
+
+/// Sets a number of cells that follows from widths to that which fixed points leave.
+void count_beside_fixed(CvtRequest& request, const Density& density,
+                        const std::optional<RunRegion>& region, CvtStart& start) {
+  if (request.fixed.empty() || planar(request) || !cells_follow(request))
+    return;
+  request.cells = static_cast<int>(
+      cells_beside(start.points, *request.cells, density, region ? region->meshed : Region{}));
+  start.note = std::to_string(start.fixed) + " fixed points leave room for " +
+               std::to_string(*request.cells - start.fixed) +
+               " free ones: " + std::to_string(*request.cells) + " cells";
 }
 
 /// Sets the points and bisections of a start that insertion leads to any number of cells.
@@ -216,12 +225,12 @@ void make_multilevel(const CvtRequest& request, const Density& density,
                      const std::optional<RunRegion>& region, CvtStart& start) {
   if (domain) {
     PlanarContinuation from =
-        multilevel(*request.cells, *domain, density, seed_of(request), start.fixed);
+        multilevel(*request.cells, *domain, density, seed_of(request), start.places);
     start.bisections = from.bisections;
     start.places = joined(start.places, from.start);
   } else {
     Continuation from = multilevel(*request.cells, region ? region->meshed : Region{}, density,
-                                   seed_of(request), start.fixed);
+                                   seed_of(request), start.points);
     start.bisections = from.bisections;
     start.points = joined(start.points, from.start);
   }
@@ -233,15 +242,36 @@ std::vector<std::string> settle_region(CvtRequest& request, const Resolution& re
   if (!cells_follow(request))
     return {};
   const RegionWords& part = request.part;
+  request.cells_of_widths = true;
   request.cells = cells_of_region(part, request.density->widths, resolution, region);
   return {part.region + " requires " + std::to_string(*request.cells) + " cells" +
           (part.limited_area ? ", with those of the rings and some beyond" : "")};
 }
 
+/// The same in a domain of the plane.
+std::vector<std::string> settle_domain(CvtRequest& request, const Resolution& resolution,
+                                       const PlanarDomain& domain) {
+  if (!resolution.planar_widths)
+    return {};
+  const WidthWords& words = request.density->widths;
+  require_covering(*resolution.planar_widths, domain);
+  const double implied = implied_cells(*resolution.planar_widths, domain);
+  if (cells_follow(request)) {
+    constexpr double least = 3, most = 1 << 30;
+    if (!(std::round(implied) >= least && std::round(implied) <= most))
+      refuse("--cells auto: the widths require " + formatted("%.4g", implied) +
+             " cells, but a mesh has 3 to 1073741824; give widths in the unit of the domain");
+    request.cells = static_cast<int>(std::lround(implied));
+    require_cells(request);
+  }
+  return notes_on(*resolution.planar_widths, words, implied, request.cells);
+}
+
 } // namespace
 
 int rounds_of(const CvtRequest& request) {
-  return request.insertion_rounds.value_or(usual_insertion_rounds);
+  return request.insertion_rounds.value_or(request.fixed.empty() ? usual_insertion_rounds
+                                                                 : insertion_rounds_beside_fixed);
 }
 
 void require_start(const CvtRequest& request) {
@@ -258,7 +288,10 @@ void require_start(const CvtRequest& request) {
 }
 
 std::vector<std::string> settle_cells(CvtRequest& request, const Resolution& resolution,
-                                      const std::optional<RunRegion>& region) {
+                                      const std::optional<RunRegion>& region,
+                                      const std::optional<PlanarDomain>& domain) {
+  if (domain)
+    return settle_domain(request, resolution, *domain);
   const std::optional<CellWidth>& widths = resolution.widths;
   if (!widths)
     return {};
@@ -266,6 +299,7 @@ std::vector<std::string> settle_cells(CvtRequest& request, const Resolution& res
     return settle_region(request, resolution, *region);
   const WidthWords& words = request.density->widths;
   if (cells_follow(request)) {
+    request.cells_of_widths = true;
     request.cells =
         static_cast<int>(cells_for(*widths, words, start_kind(request) == "continuation"));
     require_cells(request);
@@ -273,12 +307,16 @@ std::vector<std::string> settle_cells(CvtRequest& request, const Resolution& res
   return notes_on(*widths, words, request.cells);
 }
 
-CvtStart open_start(const CvtRequest& request, const Density& density,
+CvtStart open_start(CvtRequest& request, const Density& density,
                     const std::optional<RunRegion>& region) {
-  CvtStart start = request.points.empty() ? announce(request) : read_start(request);
+  CvtStart start = request.points.empty() ? CvtStart{} : read_start(request);
   add_fixed(request, start);
   if (ends_at_boundary(request.part))
     add_boundary(request, region->meshed, density, start);
+  count_beside_fixed(request, density, region, start);
+  if (request.points.empty())
+    start.configuration = configuration_of_start(request) + start.configuration;
+  require_free(request, start);
   start.bisections = request.bisections.value_or(0);
   if (const std::string kind = start_kind(request); kind == "multilevel")
     start.configuration += "insertion-rounds " + std::to_string(rounds_of(request)) + "\n";

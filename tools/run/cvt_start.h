@@ -39,11 +39,14 @@ void require_start(const CvtRequest& request);
 /// \returns messages about the widths, one line each.
 /// \throws Error bad_option.
 std::vector<std::string> settle_cells(CvtRequest& request, const Resolution& resolution,
-                                      const std::optional<RunRegion>& region);
+                                      const std::optional<RunRegion>& region,
+                                      const std::optional<PlanarDomain>& domain);
 
 /// Reads or computes the fixed points and the others, if they come from files, and describes the
-/// input that determines them. \throws Error bad_option, parse, file.
-CvtStart open_start(const CvtRequest& request, const Density& density,
+/// input that determines them. Where the number of cells follows from widths, the request receives
+/// that beside the fixed points.
+/// \throws Error bad_option, parse, file.
+CvtStart open_start(CvtRequest& request, const Density& density,
                     const std::optional<RunRegion>& region);
 
 /// Computes the free points, unless they come from a file, and a continuation's bisections and

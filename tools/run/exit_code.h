@@ -12,6 +12,7 @@ enum ExitCode {
   bad_input = 2,
   file_trouble = 3,
   internal_error = 4,
+  not_well_centred = 5,
   interrupted = 130, ///< by SIGINT, as in a shell: 128 and the signal's number
   terminated = 143,  ///< by SIGTERM
 };

@@ -36,15 +36,19 @@ nlohmann::ordered_json to_json(const Percentiles& values) {
 void add_shapes(const Quality& quality, nlohmann::ordered_json& json) {
   json["sigma"] = to_json(quality.sigma);
   json["cell_quality"] = to_json(quality.cell_quality);
-  json["cell_area"] = to_json(quality.cell_area);
-  json["area_ratio"] = ratio(quality.cell_area);
   json["off_centring"] = to_json(quality.off_centring);
   json["dv_over_dc"] = to_json(quality.dv_over_dc);
   json["short_voronoi_edges"] = quality.short_edges;
 }
 
+void add_areas(const Range& areas, nlohmann::ordered_json& json) {
+  json["cell_area"] = to_json(areas);
+  json["area_ratio"] = ratio(areas);
+}
+
 void add_cells(const Quality& quality, nlohmann::ordered_json& json) {
   add_shapes(quality, json);
+  add_areas(quality.cell_area, json);
   json["residual"] = quality.residual;
   json["energy"] = quality.energy;
   json["energy_times_cells"] = quality.energy * static_cast<double>(quality.cells);
@@ -83,7 +87,12 @@ void add_boundary(const Measured& measured, nlohmann::ordered_json& json) {
 }
 
 /// The measures of cells that an open mesh has.
-void add_whole_cells(const Quality& quality, nlohmann::ordered_json& json) {
+void add_whole_cells(const Measured& measured, nlohmann::ordered_json& json) {
+  const Quality& quality = measured.quality;
+  if (whole_cells(quality) > 0 || measured.areas)
+    add_areas(measured.areas.value_or(quality.cell_area), json);
+  if (whole_cells(quality) == 0)
+    return;
   add_shapes(quality, json);
   json["bad_cells"] = quality.bad_cells;
   json["bad_spacing"] = to_json(quality.bad_spacing);
@@ -133,16 +142,21 @@ private:
   std::ostringstream out_;
 };
 
+/// \param of_whole the areas of whole cells, where those of all are not known.
+void add_area_row(const Measured& measured, const Range& of_whole, Table& table) {
+  table.row(measured.domain_area ? "cell area" : "cell area, " + measured.unit.area,
+            scaled(measured.areas.value_or(of_whole), measured.unit.of_steradian));
+}
+
 /// The shapes of cells, which those of an open mesh have, too.
 void add_shape_rows(const Measured& measured, Table& table) {
   const Quality& quality = measured.quality;
   table.row("sigma", quality.sigma);
   table.row("cell quality", quality.cell_quality);
-  table.row(measured.domain_area ? "cell area" : "cell area, " + measured.unit.area,
-            scaled(quality.cell_area, measured.unit.of_steradian));
+  add_area_row(measured, quality.cell_area, table);
   table.row("off-centring", quality.off_centring);
   table.row("dv / dc", quality.dv_over_dc);
-  table.row("area ratio", ratio(quality.cell_area));
+  table.row("area ratio", ratio(measured.areas.value_or(quality.cell_area)));
   table.row("dv / dc below " + shortest(short_voronoi_edge), quality.short_edges);
 }
 
@@ -210,7 +224,7 @@ std::string to_json(const Measured& measured) {
   if (measured.open)
     add_boundary(measured, json);
   if (measured.cells && measured.open) {
-    add_whole_cells(quality, json);
+    add_whole_cells(measured, json);
   } else if (measured.cells) {
     json["density"] = measured.density;
     add_cells(quality, json);
@@ -232,7 +246,8 @@ std::string table(const Measured& measured) {
   if (measured.open)
     add_boundary_rows(measured, table);
   table.row("triangles", quality.triangles);
-  table.row("degree: cells", degrees(quality));
+  if (!degrees(quality).empty())
+    table.row("degree: cells", degrees(quality));
   table.row<std::string>("", "min", "mean", "max");
   table.row(plane ? "spacing" : "spacing, " + measured.unit.name,
             scaled(quality.spacing, measured.unit.of_radian));
@@ -240,8 +255,12 @@ std::string table(const Measured& measured) {
   table.row("angles, degrees", quality.angles);
   table.row("obtuse triangles", quality.obtuse);
   if (measured.cells && measured.open) {
-    add_shape_rows(measured, table);
-    add_bad_cells(measured, table);
+    if (whole_cells(quality) > 0) {
+      add_shape_rows(measured, table);
+      add_bad_cells(measured, table);
+    } else if (measured.areas) {
+      add_area_row(measured, {}, table);
+    }
   } else if (measured.cells) {
     add_cell_rows(measured, table);
   }
@@ -254,7 +273,6 @@ std::string table(const Measured& measured) {
 }
 
 std::string table(const Polygons& polygons, const std::optional<Mesh>& mesh, const Unit& unit) {
-  const Eigen::VectorXd area = areas(polygons);
   std::vector<std::int64_t> sides;
   for (std::int64_t i = 0; i < polygons.size(); ++i) {
     const auto count = static_cast<std::size_t>(polygons.begin[i + 1] - polygons.begin[i]);
@@ -267,24 +285,28 @@ std::string table(const Polygons& polygons, const std::optional<Mesh>& mesh, con
   table.row("cells", polygons.size());
   table.row("corners", polygons.corners.cols());
   table.row("sides: cells", degrees(counts));
+  const PolygonShapes found = shapes(polygons);
   table.row<std::string>("", "min", "mean", "max");
-  table.row("cell area, " + unit.area,
-            scaled({area.minCoeff(), area.mean(), area.maxCoeff()}, unit.of_steradian));
-  table.row("cells / 4 pi", area.sum() / (4 * std::numbers::pi), 15);
-  return table.text() + shape_rows(polygons, mesh, 22);
+  if (found.spacing.max > 0)
+    table.row("spacing, " + unit.name, scaled(found.spacing, unit.of_radian));
+  table.row("cell area, " + unit.area, scaled(found.area, unit.of_steradian));
+  table.row("cells / 4 pi", areas(polygons).sum() / (4 * std::numbers::pi), 15);
+  return table.text() + shape_rows(found, mesh, 22);
 }
 
 std::string to_json(const Polygons& polygons, const std::optional<Mesh>& mesh,
                     const Measured& measured) {
-  const Eigen::VectorXd area = areas(polygons);
+  const PolygonShapes found = shapes(polygons);
   nlohmann::ordered_json json;
   json["changes"] = measured.changes;
   json["remarks"] = measured.remarks;
   json["cells"] = polygons.size();
   json["corners"] = polygons.corners.cols();
-  json["cell_area"] = to_json(Range{area.minCoeff(), area.mean(), area.maxCoeff()});
-  json["cells_area"] = area.sum() / (4 * std::numbers::pi);
-  add_shapes(polygons, mesh, json);
+  if (found.spacing.max > 0)
+    json["spacing"] = to_json(found.spacing);
+  json["cell_area"] = to_json(found.area);
+  json["cells_area"] = areas(polygons).sum() / (4 * std::numbers::pi);
+  add_shapes(found, mesh, json);
   return json.dump(2) + "\n";
 }
 

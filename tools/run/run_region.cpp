@@ -30,18 +30,24 @@ void require_cell_inside(const RegionWords& words, const WidthWords& width_words
 
 } // namespace
 
-std::optional<RunRegion> region_of_run(const RegionWords& words, const WidthWords& width_words,
+Region asked_region(const RegionWords& words, const WidthWords& width_words) {
+  return words.region.empty() ? Region{}
+                              : region_of(words.region, words.inside, width_words.radius);
+}
+
+std::optional<RunRegion> region_of_run(const RegionWords& words, Region asked,
+                                       const WidthWords& width_words,
                                        const std::optional<CellWidth>& widths) {
   if (words.region.empty())
     return std::nullopt;
-  Region region = region_of(words.region, words.inside, width_words.radius);
   if (!words.limited_area)
-    return RunRegion{region, region};
+    return RunRegion{asked, asked};
   if (!widths)
     refuse("--limited-area requires cell widths, from which the rings around the region follow; "
            "give --cell-width");
-  Region meshed = with_rings(region, *widths, width_words.radius);
-  return RunRegion{std::move(region), std::move(meshed)};
+  Region meshed = with_rings(asked, *widths, width_words.radius);
+  require_covering(*widths, meshed);
+  return RunRegion{std::move(asked), std::move(meshed)};
 }
 
 int cells_of_region(const RegionWords& words, const WidthWords& width_words,

@@ -19,10 +19,16 @@ struct RunRegion {
   Region meshed; ///< wider for a limited-area grid, whose rings lie outside the region
 };
 
-/// None for a run on the whole sphere or in a plane. Reads the file, if there is one.
+/// The region of the request; the whole sphere where there is none. Reads the file, if there is
+/// one. \throws Error as region_of().
+Region asked_region(const RegionWords& words, const WidthWords& width_words);
+
+/// None for a run on the whole sphere or in a plane.
+/// \param asked as asked_region() returns it.
 /// \param widths in km, if there are any; a limited-area grid requires them.
-/// \throws Error bad_option; as region_of().
-std::optional<RunRegion> region_of_run(const RegionWords& words, const WidthWords& width_words,
+/// \throws Error bad_option, also for widths that do not cover the rings.
+std::optional<RunRegion> region_of_run(const RegionWords& words, Region asked,
+                                       const WidthWords& width_words,
                                        const std::optional<CellWidth>& widths);
 
 /// The number of cells that the widths imply in a region.

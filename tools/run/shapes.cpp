@@ -10,12 +10,14 @@
 
 namespace calotte::tools {
 
-std::string shape_rows(const Polygons& polygons, const std::optional<Mesh>& mesh, int width) {
-  const PolygonShapes found = shapes(polygons);
+std::string shape_rows(const PolygonShapes& found, const std::optional<Mesh>& mesh, int width) {
   std::ostringstream out;
   const auto row = [&](const char* name) -> std::ostream& {
     return out << std::left << std::setw(width) << name;
   };
+  if (found.without_area > 0)
+    row("without area") << found.without_area << "; the first is cell " << found.first_without_area
+                        << "\n";
   row("not convex") << found.not_convex;
   if (found.not_convex > 0)
     out << "; the first is cell " << found.first_not_convex;
@@ -32,9 +34,12 @@ std::string shape_rows(const Polygons& polygons, const std::optional<Mesh>& mesh
   return out.str();
 }
 
-void add_shapes(const Polygons& polygons, const std::optional<Mesh>& mesh,
+void add_shapes(const PolygonShapes& found, const std::optional<Mesh>& mesh,
                 nlohmann::ordered_json& report) {
-  const PolygonShapes found = shapes(polygons);
+  if (found.without_area > 0) {
+    report["without_area"] = found.without_area;
+    report["first_without_area"] = found.first_without_area;
+  }
   report["not_convex"] = found.not_convex;
   if (found.not_convex > 0)
     report["first_not_convex"] = found.first_not_convex;
@@ -44,6 +49,15 @@ void add_shapes(const Polygons& polygons, const std::optional<Mesh>& mesh,
   }
   if (mesh)
     report["not_delaunay"] = count_edges(*mesh).not_delaunay;
+}
+
+std::string without_area(const PolygonShapes& found) {
+  if (found.without_area == 0)
+    return "";
+  return std::to_string(found.without_area) +
+         (found.without_area == 1 ? " cell has no area; it is cell "
+                                  : " cells have no area; the first is cell ") +
+         std::to_string(found.first_without_area);
 }
 
 } // namespace calotte::tools

@@ -13,10 +13,13 @@ namespace calotte::tools {
 
 /// Rows of a table, whose names have so many characters.
 /// \param mesh of the cells' centres, if there is one.
-std::string shape_rows(const Polygons& polygons, const std::optional<Mesh>& mesh, int width);
+std::string shape_rows(const PolygonShapes& found, const std::optional<Mesh>& mesh, int width);
 
 /// The same numbers for a report.
-void add_shapes(const Polygons& polygons, const std::optional<Mesh>& mesh,
+void add_shapes(const PolygonShapes& found, const std::optional<Mesh>& mesh,
                 nlohmann::ordered_json& report);
+
+/// What is wrong with a grid that has cells without area; empty if it has none.
+std::string without_area(const PolygonShapes& found);
 
 } // namespace calotte::tools

@@ -26,18 +26,17 @@ Eigen::Matrix<double, 3, 2> tangents(const Eigen::Vector3d& x) {
   return basis;
 }
 
-/// |grad h| by differences over a hundredth of a degree each way.
-Eigen::VectorXd slopes(const Values& spacing, const Points3& x) {
-  constexpr double step = 1.75e-4;
+/// |grad h| by differences over as much each way as `steps` has.
+Eigen::VectorXd slopes(const Values& spacing, const Points3& x, const Eigen::VectorXd& steps) {
   Eigen::VectorXd squares = Eigen::VectorXd::Zero(x.cols());
   for (int axis = 0; axis < 2; ++axis) {
     Points3 ahead(3, x.cols()), behind(3, x.cols());
     for (Eigen::Index i = 0; i < x.cols(); ++i) {
-      const Eigen::Vector3d way = step * tangents(x.col(i)).col(axis);
+      const Eigen::Vector3d way = steps[i] * tangents(x.col(i)).col(axis);
       ahead.col(i) = (x.col(i) + way).normalized();
       behind.col(i) = (x.col(i) - way).normalized();
     }
-    squares += ((spacing(ahead) - spacing(behind)) / (2 * step)).cwiseAbs2();
+    squares += ((spacing(ahead) - spacing(behind)).array() / (2 * steps.array())).square().matrix();
   }
   return squares.cwiseSqrt();
 }
@@ -100,7 +99,13 @@ SpacingSurvey survey_spacing(const Density& density, std::int64_t cells, const R
     return survey.unit * evaluate(density, x).array().max(1e-150).pow(-0.25);
   };
   const Values negative = [&](const Points3& x) -> Eigen::VectorXd { return -spacing(x); };
-  const Values slope = [&](const Points3& x) { return slopes(spacing, x); };
+  const Values slope = [&](const Points3& x) {
+    // Widths from node to node are steepest where they are interpolated, over less than a cell.
+    constexpr double hundredth = 1.75e-4; // of a degree
+    return slopes(spacing, x,
+                  unit > 0 ? Eigen::VectorXd(spacing(x) / 2)
+                           : Eigen::VectorXd::Constant(x.cols(), hundredth));
+  };
   const auto peak = [&](const Values& values) {
     return climb(inside(values, region), highest(values, places));
   };

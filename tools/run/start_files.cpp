@@ -68,7 +68,6 @@ void add_fixed(const CvtRequest& request, CvtStart& start) {
     start.configuration += fingerprint("fixed", fixed);
     start.points = joined(fixed, start.points);
   }
-  require_free(request, start);
 }
 
 void require_free(const CvtRequest& request, const CvtStart& start) {

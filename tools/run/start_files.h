@@ -13,7 +13,7 @@ namespace calotte::tools {
 CvtStart read_start(const CvtRequest& request);
 
 /// Reads the fixed points, if there are any, and puts them before those of START.
-/// \throws Error as above; bad_option if they leave no free one of the request's cells.
+/// \throws Error as above.
 void add_fixed(const CvtRequest& request, CvtStart& start);
 
 /// The columns of both.

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <utility>
 #include <vector>
 
 namespace calotte::tools {
@@ -73,24 +74,23 @@ Points3 with_z(const Points2& places) {
 
 } // namespace
 
-void set_plane(ViewMesh& mesh, const PlanarMesh& planar, const PlanarDomain& domain) {
-  const Voronoi cells = voronoi(planar, domain);
-  Copies corners(cells.vertices, planar.period), sites(with_z(planar.points), planar.period);
-  Polygons shapes;
-  shapes.on_sphere = false;
-  shapes.begin = cells.begin;
-  shapes.ids.resize(cells.vertices_on_cell.size());
-  for (Eigen::Index i = 0; i < planar.points.cols(); ++i)
-    for (std::int64_t k = cells.begin[i]; k != cells.begin[i + 1]; ++k)
-      shapes.ids[k] = corners.nearest(cells.vertices_on_cell[k], planar.points.col(i));
-  shapes.corners = corners.points();
+void set_plane(ViewMesh& mesh, const PlanarMesh& planar, const Polygons& cells) {
+  Copies sites(with_z(planar.points), planar.period);
   mesh.triangles = planar.triangles;
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
     for (int v = 1; v < 3; ++v)
       mesh.triangles(v, t) = sites.nearest(mesh.triangles(v, t), sites.place(mesh.triangles(0, t)));
   mesh.points = sites.points();
   mesh.copied = sites.copied();
-  mesh.shapes = std::move(shapes);
+  mesh.shapes = unwrapped(cells);
+}
+
+void set_plane(ViewMesh& mesh, const PlanarMesh& planar, const PlanarDomain& domain) {
+  Voronoi cells = voronoi(planar, domain);
+  set_plane(mesh, planar,
+            Polygons{std::move(cells.vertices), std::move(cells.begin),
+                     std::move(cells.vertices_on_cell), std::move(cells.cells), false,
+                     cells.period});
 }
 
 } // namespace calotte::tools

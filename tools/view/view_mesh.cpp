@@ -164,8 +164,15 @@ CellMeasures measures_of(const MeshFile& file, const ViewChoice& choice) {
   return measures;
 }
 
+/// Whether the file's cells are those of a plane that ends at walls, which no domain clips.
+bool ends_at_walls(const MeshFile& file) {
+  return file.plane && file.polygons && has_walls(*file.plane);
+}
+
 /// The quantities of the cells and triangles.
 std::vector<Quantity> measured(const MeshFile& file, const ViewChoice& choice) {
+  if (ends_at_walls(file))
+    return quantities_of(unwrapped(*file.polygons), Unit{"", 1, "", 1});
   if (file.plane)
     return quantities_of(
         cell_measures(*file.plane, domain_of(*file.plane, choice.domain), choice.density),
@@ -191,7 +198,7 @@ bool has_whole_cell(const Mesh& mesh) {
 
 /// The errors of operators; none for cells that are not Voronoi cells, nor where none is whole.
 std::vector<Quantity> operator_quantities(const MeshFile& file, const ViewChoice& choice) {
-  if (!choice.operators || as_polygons(file))
+  if (!choice.operators || as_polygons(file) || ends_at_walls(file))
     return {};
   if (file.plane)
     return quantities_of(
@@ -212,10 +219,15 @@ ViewMesh view_mesh(const std::string& name, const MeshFile& file, const ViewChoi
     mesh.quantities.push_back(std::move(quantity));
   add_fields(file, choice, mesh);
   const PlanarDomain domain = file.plane ? domain_of(*file.plane, choice.domain) : PlanarDomain{};
-  if (file.plane)
+  if (ends_at_walls(file))
+    set_plane(mesh, *file.plane, *file.polygons);
+  else if (file.plane)
     set_plane(mesh, *file.plane, domain);
   else
     set_sphere(file, mesh);
+  if (mesh.cells > choice.most_cells && ends_at_walls(file))
+    refuse(name + ": it has more than the " + std::to_string(choice.most_cells) +
+           " cells that a page holds, and a plane with walls is not thinned; raise the number");
   if (mesh.cells > choice.most_cells)
     thin(mesh, domain, choice.most_cells);
   return mesh;

@@ -58,7 +58,9 @@ std::string cell_table(const ViewMesh& mesh, std::int64_t cell);
 void thin(ViewMesh& mesh, const PlanarDomain& domain, std::int64_t most);
 
 /// Sets the shapes of the cells of a mesh of the plane, and its triangles, whose corners in a
-/// periodic box are next to each other. \param planar the sites and their triangles.
+/// periodic plane are next to each other. \param planar the sites and their triangles.
+void set_plane(ViewMesh& mesh, const PlanarMesh& planar, const Polygons& cells);
+/// The same for the cells that a domain clips.
 void set_plane(ViewMesh& mesh, const PlanarMesh& planar, const PlanarDomain& domain);
 
 /// The spacings that a density prescribes and their gradient, on a regular mesh of the sphere.

@@ -88,6 +88,13 @@ TEST_CASE("several bumps are joined; without bumps the density is uniform") {
   CHECK(density_of(DensityWords{{one}}).kind == Density::Kind::maximum);
   CHECK(density_of(DensityWords{{one, one}, "sum"}).kind == Density::Kind::sum);
   CHECK(density_of(DensityWords{{one, one}}).bumps.size() == 2);
+  const Bump usual =
+      density_of(DensityWords{{"tanh:lon=270,lat=30,beta=30deg,alpha=0.2,gamma=x4"}}).bumps[0];
+  const Bump small = density_of(DensityWords{{"x4"}}).bumps[0];
+  CHECK(small.centre == usual.centre);
+  CHECK(small.beta == usual.beta);
+  CHECK(small.alpha == usual.alpha);
+  CHECK(small.gamma == 1.0 / 256);
 }
 
 TEST_CASE("words that make no density are refused with the offending one") {
@@ -99,8 +106,10 @@ TEST_CASE("words that make no density are refused with the offending one") {
     return words.replace(place, words.find_first_of(",", place) - place, changed);
   };
   CHECK(refusal("gauss") == "not a density; give uniform or, for instance, "
-                            "tanh:lon=270,lat=30,beta=30deg,alpha=0.20,gamma=x8");
+                            "x8 or tanh:lon=270,lat=30,beta=30deg,alpha=0.20,gamma=x8");
   CHECK(refusal("") == refusal("gauss"));
+  CHECK(refusal("x") == refusal("gauss"));
+  CHECK(refusal("x0").ends_with("such a number, or x8 for spacings of 8:1"));
   CHECK(refusal("tanh:") == "lon is missing" + form);
   CHECK(refusal("tanh:lon=0,lat=0,beta=1,alpha=1") == "gamma is missing" + form);
   CHECK(refusal("tanh:lon=0,lon=1") == "lon is given twice; leave one out");

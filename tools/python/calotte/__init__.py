@@ -9,12 +9,16 @@ any number of threads. Functions raise calotte.Error, a ValueError.
 >>> grid = calotte.cvt(2562)
 >>> bool(calotte.check(grid.mesh))
 True
+
+calotte.scipy, calotte.stripy and calotte.mpas_tools replace classes and functions of these packages.
 """
-from . import _mesh  # adds the methods of meshes that are written in Python
+import importlib
+
+from . import _display, _mesh  # add the methods that are written in Python
 from ._calotte import (CellWidth, Check, Density, Error, Mesh, OperatorErrors, PlanarDomain,
-                       PlanarMesh, Quality, Region, Voronoi, __version__)
+                       PlanarMesh, Polygons, Quality, Region, Voronoi, __version__)
 from ._functions import (Cvt, Plan, bisect, bisected_icosahedron, channel, check, circle,
-                         cubed_sphere, cull, cut, cvt, delaunay, ellipse, fibonacci_sphere,
+                         cubed_sphere, cull, cut, cvt, delaunay, density, ellipse, fibonacci_sphere,
                          from_lonlat, geodesic_sphere, hexagonal_lattice, lat_lon_sphere,
                          limited_area, operator_errors, periodic_box, planar_polygon, plan, polygon,
                          quality, random_places, random_sphere, read, read_fields, read_points,
@@ -22,11 +26,23 @@ from ._functions import (Cvt, Plan, bisect, bisected_icosahedron, channel, check
 
 __all__ = [
     "CellWidth", "Check", "Cvt", "Density", "Error", "Mesh", "OperatorErrors", "Plan",
-    "PlanarDomain", "PlanarMesh", "Quality", "Region", "Voronoi", "__version__", "bisect",
+    "PlanarDomain", "PlanarMesh", "Polygons", "Quality", "Region", "Voronoi", "__version__", "bisect",
     "bisected_icosahedron", "channel", "check", "circle", "cubed_sphere", "cull", "cut", "cvt",
-    "delaunay", "ellipse", "fibonacci_sphere", "from_lonlat", "geodesic_sphere",
+    "delaunay", "density", "ellipse", "fibonacci_sphere", "from_lonlat", "geodesic_sphere",
     "hexagonal_lattice", "lat_lon_sphere", "limited_area", "operator_errors", "periodic_box",
     "planar_polygon", "plan", "polygon", "quality", "random_places", "random_sphere", "read",
     "read_fields", "read_points", "rectangle", "spiral_sphere", "threads", "to_lonlat", "voronoi",
     "write",
 ]
+
+_SUBMODULES = ("mpas_tools", "scipy", "stripy")
+
+
+def __getattr__(name):
+    if name in _SUBMODULES:
+        return importlib.import_module(f"{__name__}.{name}")
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def __dir__():
+    return sorted([*globals(), *_SUBMODULES])

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What users pass, checked and brought to the form that the compiled part takes."""
 import math
+import re
 import warnings
 
 import numpy as np
@@ -47,6 +48,41 @@ def direction(place, what):
     return sphere_points(np.asarray(place)[np.newaxis], what)[0]
 
 
+# ---- Numbers with units
+
+_MEASURE = re.compile(r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([A-Za-z]*)")
+
+
+def measure(text):
+    """A number and its unit, "" for none; None for other text, such as the name of a file."""
+    match = _MEASURE.fullmatch(text.strip())
+    return (float(match[1]), match[2]) if match else None
+
+
+def kilometres(value, unit, what):
+    """A length in km, of a unit that the command knows as well."""
+    factors = {"": 1, "km": 1, "m": 1e-3}
+    if unit not in factors:
+        raise Error(f"{what} has the unit {unit!r}; give km or m")
+    return value * factors[unit]
+
+
+def angle(size, what, earth_radius=EARTH_RADIUS_KM):
+    """A length on the sphere in radians: a number of degrees, or text such as "1000km", "30deg"."""
+    if isinstance(size, str):
+        parts = measure(size)
+        if parts is None or parts[1] not in ("km", "m", "deg"):
+            raise Error(f"{what} is {size!r}; give a number of degrees, or a length such as "
+                        "'1000km' or '30deg'")
+        value, unit = parts
+        radians = math.radians(value) if unit == "deg" else kilometres(value, unit, what) / earth_radius
+    else:
+        radians = math.radians(float(numbers(size, what)))
+    if not radians > 0:
+        raise Error(f"{what} is {size!r}; give a positive length")
+    return radians
+
+
 # ---- Widths and densities
 
 def _raster(values, longitudes, latitudes):
@@ -76,11 +112,58 @@ def _sampled(function, step=0.25):
     return _raster(values, lon, lat)
 
 
-def cell_width(widths, earth_radius=EARTH_RADIUS_KM):
-    """Widths in km of a number, a raster, a file or a function, as CellWidth."""
+def cell_width(widths, earth_radius=EARTH_RADIUS_KM, region=None):
+    """Widths in km of a number, a raster, a file or a function, as CellWidth.
+
+    region: which a raster must cover; None for any raster.
+    """
+    made = _widths(widths, earth_radius)
+    if region is not None:
+        _require_covering(made, region)
+    return made
+
+
+def _places_of(region):
+    """Places all over a region, and on its boundary."""
+    inside = _calotte.random_sphere(2000, region, _calotte.Density(), 1)
+    rings = []
+    for ring in region.rings:
+        for part in np.linspace(0, 1, 8, endpoint=False):
+            rings.append((1 - part) * ring + part * np.roll(ring, -1, axis=0))
+    return _calotte.to_lonlat(np.concatenate([inside, *rings]))
+
+
+def _require_covering(widths, region):
+    """The rule of the command: half of the widest step beyond the nodes, 1.5 of it at a seam."""
+    lon, lat = widths.longitudes, widths.latitudes
+    step, rise, slack = np.diff(lon).max(), np.diff(lat).max(), 1e-3
+    around = 360 - (lon[-1] - lon[0]) <= 1.5 * step + slack
+    south = -np.inf if lat[0] + 90 <= 1.5 * rise + slack else lat[0] - rise / 2 - slack
+    north = np.inf if 90 - lat[-1] <= 1.5 * rise + slack else lat[-1] + rise / 2 + slack
+    if around and south < -90 and north > 90:
+        return
+    extent = (f"longitude runs from {lon[0]:g} to {lon[-1]:g}, latitude from {lat[0]:g} to "
+              f"{lat[-1]:g}")
+    if region.whole:
+        raise Error(f"cell widths: {extent}, and leaves part of the sphere out; give a global raster "
+                    "in degrees")
+    places = _places_of(region)
+    east = (places[:, 0] - (lon[0] - step / 2 - slack)) % 360
+    outside = (places[:, 1] < south) | (places[:, 1] > north)
+    if not around:
+        outside |= east > lon[-1] - lon[0] + step + 2 * slack
+    if outside.any():
+        place = places[outside.argmax()]
+        raise Error(f"cell widths: {extent}, and leaves out the place {place[0]:g} {place[1]:g} of "
+                    "the region; give a raster in degrees that covers it")
+
+
+def _widths(widths, earth_radius):
     if isinstance(widths, _calotte.CellWidth):
         return widths
-    if isinstance(widths, (str, bytes)) or hasattr(widths, "__fspath__"):
+    if isinstance(widths, str) and (parts := measure(widths)):
+        return _widths(kilometres(*parts, "the cell width"), earth_radius)
+    if isinstance(widths, str) or hasattr(widths, "__fspath__"):
         return _calotte.read_cell_width(str(widths), 0, 0, 0, earth_radius)
     if callable(widths):
         return _sampled(widths)
@@ -108,49 +191,114 @@ def _labelled(array):
 
     lat, lon = axis("lat", "latitude"), axis("lon", "longitude")
     ordered = array.transpose(lat, lon)
-    return _raster(ordered.values, array.coords[lon].values, array.coords[lat].values)
+    unit = str(array.attrs.get("units", ""))
+    values = numbers(ordered.values, "cell widths") * kilometres_in(unit)
+    return _raster(values, array.coords[lon].values, array.coords[lat].values)
 
 
-def _bump_words(text):
-    """A bump of the paper by its name: "x8", or lon=...,lat=...,beta=...,alpha=...,gamma=..."""
-    if text.startswith("x") and text[1:].isdigit():
-        return {"gamma": text}
-    if not text.startswith("tanh"):
-        raise Error(f"no density {text}; give uniform, x4, x8, x16 or tanh:lon=270,lat=30,...")
-    words = {}
-    for word in filter(None, text.removeprefix("tanh").removeprefix(":").split(",")):
+def kilometres_in(unit):
+    """The kilometres in a unit of length of a file or of an xarray.DataArray."""
+    names = {"": 1, "km": 1, "m": 1e-3} | {
+        f"{prefix}met{ending}{plural}": factor for prefix, factor in (("", 1e-3), ("kilo", 1))
+        for ending in ("er", "re") for plural in ("", "s")}
+    if unit not in names:
+        raise Error(f"cell widths have the units {unit!r}; give km or m")
+    return names[unit]
+
+
+_USUAL = {"lon": "270", "lat": "30", "beta": "30deg", "alpha": "0.2", "gamma": "x8"}
+_ON_SPHERE = (("lon", "lat", "beta", "alpha", "gamma"), ("stretch", "azimuth"))
+_IN_PLANE = (("x", "y", "beta", "alpha", "gamma"), ("stretch", "angle"))
+
+
+def _bump_words(text, plane):
+    """A bump by its name: "x8", or tanh: with the words of `calotte help density`.
+
+    On the sphere, words that are not given are those of the paper's bump.
+    """
+    if text.startswith("x") and text[1:].isdigit() and not plane:
+        return _USUAL | {"gamma": text}
+    if not text.startswith("tanh:"):
+        raise Error(f"no density {text}; give uniform, x4, x8, x16 or "
+                    "tanh:lon=270,lat=30,beta=30deg,alpha=0.2,gamma=x8")
+    words = {} if plane else dict(_USUAL)
+    for word in filter(None, text.removeprefix("tanh:").split(",")):
         name, _, value = word.partition("=")
         words[name.strip()] = value.strip()
-    unknown = set(words) - {"lon", "lat", "beta", "alpha", "gamma"}
+    needed, further = _IN_PLANE if plane else _ON_SPHERE
+    unknown = set(words) - {*needed, *further}
     if unknown:
-        raise Error(f"no parameter {min(unknown)} of a density; the parameters are lon, lat, beta, "
-                    "alpha and gamma")
+        raise Error(f"no parameter {min(unknown)} of a density; the parameters are "
+                    f"{', '.join((*needed, *further))}")
+    missing = [name for name in needed if name not in words]
+    if missing or len(set(further) & set(words)) == 1:
+        name = missing[0] if missing else (set(further) - set(words)).pop()
+        raise Error(f"density {text}: {name} is missing")
     return words
 
 
-def _angle(text):
-    if text.endswith("deg"):
-        return float(text[:-3]) * math.pi / 180
-    return float(text)
+def _positive(text, name, value, in_degrees):
+    if in_degrees and value.endswith("deg"):
+        number = math.radians(float(value[:-3]))
+    else:
+        number = float(value)
+    if not number > 0:
+        raise Error(f"density {text}: {name} {value!r} is not positive")
+    return number
 
 
-def _bump(text):
-    words = _bump_words(text)
+def _contrast(text, gamma):
+    value = float(gamma.removeprefix("x"))
+    if gamma.startswith("x"):
+        value = 1 / (value * value * value * value)
+    if not 0 < value < 1:
+        raise Error(f"density {text}: gamma {gamma!r} is not between 0 and 1; give such a number, "
+                    "or x8 for widths of 8:1")
+    return value
+
+
+def _heading(longitude, latitude, azimuth):
+    """The unit tangent at a place, in the direction so many degrees clockwise from north."""
+    north = ([longitude + 180, 90 - latitude] if latitude > 0 else [longitude, 90 + latitude])
+    east, north, turn = _calotte.from_lonlat(np.array([[longitude + 90, 0], north, [azimuth, 0]],
+                                                      dtype=float))
+    return turn[0] * north + turn[1] * east
+
+
+def _bump(text, plane=False):
+    words = _bump_words(text, plane)
     try:
-        gamma = words.get("gamma", "x8")
-        contrast = float(gamma.removeprefix("x"))
-        ratio = 1 / (contrast * contrast * contrast * contrast) if gamma[0] == "x" else contrast
-        place = [[float(words.get("lon", 270)), float(words.get("lat", 30))]]
-        beta, alpha = _angle(words.get("beta", "30deg")), _angle(words.get("alpha", "0.2"))
+        ratio = _contrast(text, words["gamma"])
+        beta, alpha = (_positive(text, name, words[name], not plane) for name in ("beta", "alpha"))
+        stretch = float(words.get("stretch", 1))
+        if plane:
+            centre = [float(words["x"]), float(words["y"]), 0.0]
+            major = _calotte.from_lonlat(np.array([[float(words.get("angle", 0)), 0.0]]))[0]
+        else:
+            place = float(words["lon"]), float(words["lat"])
+            centre = _calotte.from_lonlat(np.array([place]))[0]
+            major = (_heading(*place, float(words["azimuth"])) if "azimuth" in words
+                     else np.array([1.0, 0.0, 0.0]))
     except ValueError as error:
         if isinstance(error, Error):
             raise
         raise Error(f"density {text}: {error}") from None
-    return _calotte.from_lonlat(np.array(place))[0], beta, alpha, ratio
+    if not stretch >= 1:
+        raise Error(f"density {text}: stretch is below 1; give the ratio of the axes")
+    return centre, beta, alpha, ratio, stretch, major
 
 
-def density(value, widths=None):
-    """A density of a name, of widths or of a function."""
+def bumps(names, join="maximum", plane=False):
+    """A density of the names of bumps, of which the maximum or the sum counts."""
+    if join not in ("maximum", "sum"):
+        raise Error(f"join is {join!r}; give maximum or sum")
+    if list(names) == ["uniform"]:
+        return _calotte.Density()
+    return _calotte.density_of_bumps([_bump(name, plane) for name in names], join == "sum")
+
+
+def density(value, widths=None, plane=False):
+    """A density of a name or several, of widths or of a function."""
     if widths is not None:
         if value is not None:
             raise Error("give a density or cell widths, not both")
@@ -161,23 +309,73 @@ def density(value, widths=None):
     if isinstance(value, _calotte.Density):
         return value
     if isinstance(value, str):
-        return _calotte.density_of_bumps([_bump(value)], False)
+        return bumps([value], plane=plane)
     if callable(value):
         return _calotte.density_of_function(value)
+    if isinstance(value, (list, tuple)) and value and all(isinstance(v, str) for v in value):
+        return bumps(value, plane=plane)
     raise Error("give a density as a name such as x8, or as a function of n x 3 points")
 
 
 # ---- Parts of the sphere and of the plane
 
-def region(value):
+_SHAPES = {"circle": ("LON,LAT,RADIUS", "-105,40,1000km"),
+           "ellipse": ("LON,LAT,MAJOR,MINOR,BEARING", "138,38,1580km,1000km,45"),
+           "channel": ("LOWER,UPPER", "-23.5,23.5"),
+           "land": ("FILE,LON,LAT", "binned_GSHHS_l.nc,134,-25")}
+
+
+def _degrees(text):
+    value = measure(text)
+    if value is None or value[1] not in ("", "deg"):
+        raise Error(f"{text!r} is no number of degrees")
+    return value[0]
+
+
+def _shape(text, earth_radius):
+    """A region of a word such as circle=-105,40,1000km, as the command has it; None for others."""
+    shape, equals, rest = text.partition("=")
+    if not equals or shape not in _SHAPES:
+        return None
+    form, example = _SHAPES[shape]
+    parts = rest.split(",")
+    if shape == "land" and len(parts) > 3:
+        parts = [",".join(parts[:-2]), *parts[-2:]]
+    try:
+        if len(parts) != form.count(",") + 1:
+            raise Error(f"it has {len(parts)} values")
+        if shape == "channel":
+            return _calotte.channel(*(math.radians(_degrees(part)) for part in parts), 360)
+        if shape == "land":
+            place = direction([_degrees(part) for part in parts[1:]], "the place")
+            return _calotte.land_around(parts[0], place)
+        centre = direction([_degrees(part) for part in parts[:2]], "the centre")
+        if shape == "circle":
+            return _calotte.circle(centre, _length(parts[2], earth_radius), 360)
+        return _calotte.ellipse(centre, *(_length(part, earth_radius) for part in parts[2:4]),
+                                math.radians(_degrees(parts[4])), 360)
+    except Error as error:
+        raise Error(f"region {text}: {error}; give {shape}={form}, as in {shape}={example}") from None
+
+
+def _length(text, earth_radius):
+    if measure(text) is None or not measure(text)[1]:
+        raise Error(f"{text!r} is no length such as 1000km or 30deg")
+    return angle(text, "a length", earth_radius)
+
+
+def region(value, earth_radius=EARTH_RADIUS_KM):
     """A region of the sphere; None is all of it."""
     if value is None:
         return _calotte.Region()
     if isinstance(value, _calotte.Region):
         return value
+    if isinstance(value, str) and (made := _shape(value, earth_radius)) is not None:
+        return made
     if isinstance(value, str) or hasattr(value, "__fspath__"):
         return _calotte.read_region(str(value))
-    raise Error("give a region as circle(), ellipse(), channel(), polygon() or a file")
+    raise Error("give a region as circle(), ellipse(), channel(), polygon(), as text such as "
+                "'circle=-105,40,1000km', or as a file")
 
 
 def domain(value):

@@ -1,22 +1,26 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The functions of the package."""
+from __future__ import annotations
+
 import contextlib
 import math
 import os
-from collections.abc import Callable, Iterator, Mapping
+import warnings
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _arguments, _calotte
+from . import _arguments, _calotte, _display
 from ._arguments import EARTH_RADIUS_KM
 from ._calotte import (CellWidth, Check, Density, Error, Mesh, OperatorErrors, PlanarDomain,
-                       PlanarMesh, Quality, Region, Voronoi)
+                       PlanarMesh, Polygons, Quality, Region, Voronoi)
 
 Array = NDArray[np.float64]
 Path = str | os.PathLike[str]
+Grid = Mesh | PlanarMesh | Polygons
 DensityLike = str | Density | Callable[[Array], ArrayLike]
 WidthLike = Any  #: a number, a file, (values, lon, lat), a DataArray or a function
 RegionLike = Path | Region
@@ -89,23 +93,46 @@ def delaunay(points: ArrayLike, *, plane: bool = False, period: ArrayLike | None
     return _calotte.delaunay_in_plane(places, period, merge_within, merge, regions)
 
 
-def voronoi(mesh: Mesh | PlanarMesh, domain: DomainLike | None = None) -> Voronoi:
-    """The Voronoi cells of a closed mesh, of a periodic box, or of a planar mesh in a domain.
+def content_of(grid):
+    """What came from a file with a mesh or polygons, or None."""
+    return vars(grid).get("_content")
+
+
+def voronoi(mesh: Grid, domain: DomainLike | None = None) -> Voronoi:
+    """The Voronoi cells of a mesh: of the sphere, of a periodic box, or of a plane in a domain.
 
     Cell i has the entries begin[i] to begin[i + 1] of edges_on_cell, vertices_on_cell and
     cells_on_cell, counter-clockwise. Areas are steradians and lengths radians, in the plane those of
     the points' unit.
 
+    mesh: what read() returns of a part of the sphere, such as an ocean or a limited area, has the
+        cells of its file. The cells of other sites in a hemisphere reach round the far side of the
+        sphere. Polygons that are no Voronoi cells raise Error; they have areas and corners.
+    domain: of a planar mesh, which clips its cells.
+
     >>> cells = voronoi(delaunay(fibonacci_sphere(500)))
     >>> bool(abs(cells.cell_area.sum() - 4 * math.pi) < 1e-12)
     True
     """
-    if domain is None:
-        return _calotte.voronoi(mesh)
-    return _calotte.voronoi(mesh, _arguments.domain(domain))
+    part = None if domain is None else _arguments.domain(domain)
+    content = content_of(mesh)
+    if isinstance(mesh, Polygons) and content is None:
+        raise Error("polygons without the file that they are of have no Voronoi cells; use areas")
+    if content is not None and content.polygons is not None:
+        return _calotte.cells_of_file(content, mesh, part)
+    if isinstance(mesh, PlanarMesh) and part is None and not mesh.period.all():
+        raise Error("the cells of a bounded plane need its domain, which clips them; give domain=")
+    return _calotte.voronoi(mesh) if part is None else _calotte.voronoi(mesh, part)
 
 
-def check(mesh: Mesh | PlanarMesh) -> Check:
+def _require_mesh(grid):
+    """Polygons have no triangles to measure."""
+    if isinstance(grid, Polygons):
+        raise Error("polygons have no triangles to measure; use their areas and shapes(), or "
+                    "voronoi() where they are Voronoi cells")
+
+
+def check(mesh: Grid) -> Check:
     """Proves that a mesh is the Delaunay triangulation of its points, in exact arithmetic.
 
     Returns a Check, which is true if all laws hold; its failure names the first that does not.
@@ -113,34 +140,42 @@ def check(mesh: Mesh | PlanarMesh) -> Check:
     >>> bool(check(delaunay(random_sphere(100))))
     True
     """
+    _require_mesh(mesh)
     return _calotte.check(mesh)
 
 
 def _measured(measure, mesh, domain, density, cell_width):
     """measure(mesh, density), in the plane measure(mesh, domain, density)."""
+    _require_mesh(mesh)
     widths = None if cell_width is None else _arguments.cell_width(cell_width)
-    rho = _arguments.density(density, widths)
+    rho = _arguments.density(density, widths, isinstance(mesh, _calotte.PlanarMesh))
     if isinstance(mesh, _calotte.PlanarMesh):
-        if domain is None and not mesh.period.any():
+        if domain is None and not mesh.period.all():
             raise Error("a planar mesh needs a domain, which clips its cells; give domain=")
         parts = periodic_box(*mesh.period) if domain is None else _arguments.domain(domain)
         return measure(mesh, parts, rho)
     return measure(mesh, rho)
 
 
-def quality(mesh: Mesh | PlanarMesh, *, domain: DomainLike | None = None,
+def quality(mesh: Grid, *, domain: DomainLike | None = None,
             density: DensityLike | None = None, cell_width: WidthLike = None) -> Quality:
     """Measures a mesh and its Voronoi cells; see the attributes of Quality.
 
     density, cell_width: as for cvt(); they set what dc_over_h and excess compare with.
 
+    A plane that ends at walls in one direction and is periodic in the other, such as a channel of a
+    file, needs no domain: its whole cells are measured.
+
     >>> quality(delaunay(bisected_icosahedron(3))).obtuse
     0
     """
+    _require_mesh(mesh)
+    if isinstance(mesh, PlanarMesh) and domain is None and mesh.period.any() != mesh.period.all():
+        return _calotte.open_quality(mesh)
     return _measured(_calotte.quality, mesh, domain, density, cell_width)
 
 
-def operator_errors(mesh: Mesh | PlanarMesh, *, domain: DomainLike | None = None,
+def operator_errors(mesh: Grid, *, domain: DomainLike | None = None,
                     density: DensityLike | None = None,
                     cell_width: WidthLike = None) -> OperatorErrors:
     """Measures the errors of the operators of a C-grid model (TRiSK) for smooth fields.
@@ -149,8 +184,7 @@ def operator_errors(mesh: Mesh | PlanarMesh, *, domain: DomainLike | None = None
     and the place of the greatest error, over the root mean square of the exact values; an attribute
     such as divergence_by_cell has the errors of all cells, NaN at a boundary. The largest
     eigenvalues of the Laplacians at cells and at vertices, over the square of the unit of length
-    (on the sphere radians), bound time steps: sqrt(8 / primal_eigenvalue) / c for gravity waves of
-    the speed c with a Runge-Kutta method of order 4.
+    (on the sphere radians), bound time steps: wave_step() and diffusion_step().
 
     density, cell_width: as for cvt(); they weight the centroids of off_centroid.
 
@@ -162,30 +196,79 @@ def operator_errors(mesh: Mesh | PlanarMesh, *, domain: DomainLike | None = None
 
 # ---- Centroidal Voronoi tessellations
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Cvt:
-    """A centroidal Voronoi tessellation: its mesh, and the course of its run."""
+    """A centroidal Voronoi tessellation: its mesh, and the course of its run, of cvt().
+
+    mesh: the Delaunay triangulation of the generators.
+    converged: whether the norm fell below the tolerance.
+    well_centred: whether all shapes are within the limits of models.
+    misshapen_cells: number of cells beyond them, where that was asked for.
+    worst_cell: the cell farthest beyond them; -1 for none.
+    residual: the norm at the end, relative to the spacing of the cells.
+    energy: at the end: integral of density times squared distance from the generator.
+    iterations: their number, on all levels.
+    seconds: of wall-clock time.
+    energies: by iteration.
+    norms: by iteration, l2-scaled.
+    domain: of the plane, which clips the cells.
+    """
 
     mesh: Mesh | PlanarMesh
     converged: bool
     well_centred: bool
-    residual: float  #: the norm at the end
-    energy: float  #: at the end
+    misshapen_cells: int
+    worst_cell: int
+    residual: float
+    energy: float
     iterations: int
     seconds: float
-    energies: Array  #: by iteration
-    norms: Array  #: by iteration, l2-scaled
+    energies: Array
+    norms: Array
+    domain: PlanarDomain | None = None
+
+    def __repr__(self) -> str:
+        end = "converged after" if self.converged else "not converged in"
+        shape = ("well-centred, " if self.well_centred else
+                 f"{_display.counted(self.misshapen_cells, 'misshapen cell')}, "
+                 if self.misshapen_cells else "")
+        return (f"<calotte.Cvt: {_display.counted(len(self.mesh), 'cell')}, {end} "
+                f"{_display.counted(self.iterations, 'iteration')}, {shape}residual "
+                f"{self.residual:.2g}>")
+
+    def _repr_html_(self) -> str:
+        rows = [(name, getattr(self, name), "") for name in
+                ("converged", "well_centred", "misshapen_cells", "worst_cell", "residual",
+                 "energy", "iterations", "seconds")]
+        return self.mesh._repr_html_() + _display.table(repr(self).strip("<>"), rows)
+
+    def plot(self, field: Any = None, **options: Any) -> Any:
+        """Draws the cells; see Mesh.plot()."""
+        if self.domain is not None:
+            options.setdefault("domain", self.domain)
+        return self.mesh.plot(field, **options)
+
+    def voronoi(self) -> Voronoi:
+        """The Voronoi cells; see voronoi()."""
+        return voronoi(self.mesh, self.domain)
 
 
 @dataclass(frozen=True)
 class Plan:
-    """What widths demand, before a mesh is made."""
+    """What widths demand, before a mesh is made, of plan().
+
+    cells: their number.
+    least_km: the least width, km.
+    greatest_km: the greatest width, km.
+    gradient: the largest, km per km; most models need less than 0.03.
+    steepest: longitude and latitude of it, degrees.
+    """
 
     cells: int
     least_km: float
     greatest_km: float
-    gradient: float  #: the largest, km per km; most models need less than 0.03
-    steepest: tuple[float, float]  #: longitude and latitude of it, degrees
+    gradient: float
+    steepest: tuple[float, float]
 
 
 def plan(cell_width: WidthLike, *, region: RegionLike | None = None,
@@ -195,8 +278,8 @@ def plan(cell_width: WidthLike, *, region: RegionLike | None = None,
     >>> plan(120.0).cells
     40962
     """
-    widths = _arguments.cell_width(cell_width, earth_radius)
-    part = _arguments.region(region)
+    part = _arguments.region(region, earth_radius)
+    widths = _arguments.cell_width(cell_width, earth_radius, part)
     slope, longitude, latitude = _calotte.largest_gradient(widths, earth_radius)
     return Plan(_cells_for(widths, part, earth_radius), float(widths.widths.min()),
                 float(widths.widths.max()), slope, (longitude, latitude))
@@ -230,8 +313,9 @@ def _options(rho, method, norm, tolerance, max_iterations, least_spacing, well_c
 
 def _multilevel(options, cells, insertion_rounds):
     options.cells = cells
-    options.insertion_rounds = (_calotte.usual_insertion_rounds if insertion_rounds is None
-                                else insertion_rounds)
+    usual = (_calotte.insertion_rounds_beside_fixed if options.fixed
+             else _calotte.usual_insertion_rounds)
+    options.insertion_rounds = usual if insertion_rounds is None else insertion_rounds
 
 
 def _reporting(progress):
@@ -253,8 +337,8 @@ def _reporting(progress):
 
 def cvt(start: int | ArrayLike | None = None, *, density: DensityLike | None = None,
         cell_width: WidthLike = None, region: RegionLike | None = None,
-        domain: DomainLike | None = None, seed: int = 1, method: str = "auto",
-        norm: str = "l2-scaled", tolerance: float | None = None, max_iterations: int = 1000,
+        domain: DomainLike | None = None, fixed: ArrayLike | None = None, seed: int = 1,
+        method: str = "auto", norm: str = "l2-scaled", tolerance: float | None = None, max_iterations: int = 1000,
         well_centred: bool | None = None, least_spacing: float = 0.8,
         insertion_rounds: int | None = None, regions: int | None = None,
         progress: Progress | bool | None = None,
@@ -264,13 +348,19 @@ def cvt(start: int | ArrayLike | None = None, *, density: DensityLike | None = N
     start: the number of cells; or the generators at the start, as points of delaunay(); or None,
         where cell_width gives the number.
     density: "uniform"; "x8", the paper's bump with an eightfold contrast of widths;
-        "tanh:lon=270,lat=30,beta=30deg,alpha=0.2,gamma=x8"; or a function of k x 3 unit vectors (in
-        a domain k x 2 places, z = 0) that returns k densities.
-    cell_width: in km, in place of a density: a number; (values, longitudes, latitudes) in degrees;
-        an xarray.DataArray over lat and lon; a file as `calotte cvt --cell-width` reads it; or a
+        "tanh:lon=270,lat=30,beta=30deg,alpha=0.2,gamma=x8"; several such names, of which the
+        maximum counts; the result of density(); or a function of k x 3 unit vectors (in a domain
+        k x 2 places, z = 0) that returns k densities.
+    cell_width: in km, in place of a density: a number; text with a unit, "60km" or "60000m";
+        (values, longitudes, latitudes) in degrees; an xarray.DataArray over lat and lon, in km or
+        in the length of its attribute units; a file as `calotte cvt --cell-width` reads it; or a
         function of arrays of longitudes and latitudes, which is sampled every quarter of a degree.
-    region: a part of the sphere, of circle(), ellipse(), channel(), polygon() or a file.
+    region: a part of the sphere, of circle(), ellipse(), channel() or polygon(); text as of
+        `calotte cvt --region`, such as "circle=-105,40,1000km"; or a file.
     domain: a part of the plane, of rectangle(), periodic_box(), planar_polygon() or a file.
+    fixed: generators that stay, as points of delaunay(); the first cells of the result. A number of
+        cells includes them, points of the start do not; without a number, free ones are added where
+        the fixed ones leave the widths unmet.
     seed: of random points. method: auto, lloyd, nesterov, lbfgs or lbfgs-laplacian.
     norm: that is compared with the tolerance: l2, linf, l2-scaled, linf-scaled or gradient.
     tolerance: default 1e-6, and 1e-4 with well_centred.
@@ -292,51 +382,61 @@ def cvt(start: int | ArrayLike | None = None, *, density: DensityLike | None = N
         if region is not None or cell_width is not None:
             raise Error("a domain of the plane has no region and no cell widths in km; give a "
                         "density")
-        return _planar_cvt(start, _arguments.domain(domain), density, seed,
+        return _planar_cvt(start, _arguments.domain(domain), density, fixed, seed,
                            (method, norm, tolerance, max_iterations, least_spacing), well_centred,
                            insertion_rounds, regions, progress)
-    widths = None if cell_width is None else _arguments.cell_width(cell_width, earth_radius)
-    rho, part = _arguments.density(density, widths), _arguments.region(region)
+    part = _arguments.region(region, earth_radius)
+    widths = (None if cell_width is None else
+              _arguments.cell_width(cell_width, earth_radius, part))
+    rho = _arguments.density(density, widths)
+    stay = np.empty((0, 3)) if fixed is None else _arguments.sphere_points(fixed, "fixed points")
     if start is None:
         if widths is None:
             raise Error("give a number of cells, points, or cell widths in km")
         start = _cells_for(widths, part, earth_radius)
+        if fixed is not None:
+            start = _calotte.cells_beside(stay, start, rho, part)
     counted = np.ndim(start) == 0
-    graded = counted and not (part.whole and rho.uniform)
+    graded = counted and not (part.whole and rho.uniform and not len(stay))
     finish = graded if well_centred is None else well_centred
     options = _options(rho, method, norm, tolerance, max_iterations, least_spacing, finish,
                        regions)
+    options.fixed = len(stay)
     if not counted:
         points = _arguments.sphere_points(start)
     elif graded:
         cells = _count(start, "the number of cells")
-        points, options.bisections = _calotte.multilevel(cells, part, rho, seed)
+        points, options.bisections = _calotte.multilevel(cells, part, rho, seed, stay)
         _multilevel(options, cells, insertion_rounds)
     else:
         points, options.bisections = _calotte.continuation(_count(start, "the number of cells"),
                                                            rho, seed)
+    points = np.concatenate([stay, points])
     result, report = _calotte.cvt(points, part, options, _reporting(progress))
     return Cvt(result, **report)
 
 
-def _planar_cvt(start, parts, density, seed, words, well_centred, insertion_rounds, regions,
-                progress):
+def _planar_cvt(start, parts, density, fixed, seed, words, well_centred, insertion_rounds,
+                regions, progress):
     if start is None:
         raise Error("give a number of cells, or places in the domain")
-    rho, counted = _arguments.density(density), np.ndim(start) == 0
-    graded = counted and not rho.uniform
+    rho, counted = _arguments.density(density, plane=True), np.ndim(start) == 0
+    stay = np.empty((0, 2)) if fixed is None else _arguments.plane_points(fixed, "fixed points")
+    graded = counted and not (rho.uniform and not len(stay))
     options = _options(rho, *words,
                        graded if well_centred is None else well_centred, regions)
+    options.fixed = len(stay)
     if not counted:
         places = _arguments.plane_points(start)
     elif graded:
         cells = _count(start, "the number of cells")
-        places, options.bisections = _calotte.multilevel_in_plane(cells, parts, rho, seed)
+        places, options.bisections = _calotte.multilevel_in_plane(cells, parts, rho, seed, stay)
         _multilevel(options, cells, insertion_rounds)
     else:
         places = _calotte.random_places(_count(start, "the number of cells"), parts, rho, seed)
+    places = np.concatenate([stay, places])
     result, report = _calotte.cvt_in_plane(places, parts, options, _reporting(progress))
-    return Cvt(result, **report)
+    return Cvt(result, **report, domain=parts)
 
 
 # ---- Points
@@ -392,7 +492,7 @@ def random_places(n: int, domain: DomainLike, *, density: DensityLike | None = N
                   seed: int = 1) -> Array:
     """Independent random places in a domain of the plane, n x 2."""
     return _calotte.random_places(_count(n, "the number of places"), _arguments.domain(domain),
-                                  _arguments.density(density), seed)
+                                  _arguments.density(density, plane=True), seed)
 
 
 def hexagonal_lattice(n: int, domain: DomainLike) -> Array:
@@ -423,21 +523,31 @@ def to_lonlat(points: ArrayLike) -> Array:
 
 # ---- Regions and domains
 
-def circle(centre: ArrayLike, radius: float, corners: int = 360) -> Region:
-    """The region within an angle (degrees) of a centre (longitude and latitude, or a vector).
+def circle(centre: ArrayLike, radius: float | str, corners: int = 360, *,
+           earth_radius: float = EARTH_RADIUS_KM) -> Region:
+    """The region around a centre (longitude and latitude in degrees, or a vector).
 
-    >>> round(circle((-105, 40), 10).area, 3)
-    0.095
+    radius: degrees, or text with a unit: "1000km", "500000m", "10deg". earth_radius: km, for these.
+
+    >>> round(circle((-105, 40), 10).area, 3), round(circle((-105, 40), "1000km").area, 3)
+    (0.095, 0.077)
     """
-    return _calotte.circle(_arguments.direction(centre, "the centre"), math.radians(radius),
-                           corners)
+    return _calotte.circle(_arguments.direction(centre, "the centre"),
+                           _arguments.angle(radius, "the radius", earth_radius), corners)
 
 
-def ellipse(centre: ArrayLike, semi_major: float, semi_minor: float, bearing: float = 0.0,
-            corners: int = 360) -> Region:
-    """The region in an ellipse; its axes and bearing (clockwise from north) in degrees."""
-    return _calotte.ellipse(_arguments.direction(centre, "the centre"), math.radians(semi_major),
-                            math.radians(semi_minor), math.radians(bearing), corners)
+def ellipse(centre: ArrayLike, semi_major: float | str, semi_minor: float | str,
+            bearing: float = 0.0, corners: int = 360, *,
+            earth_radius: float = EARTH_RADIUS_KM) -> Region:
+    """The region in an ellipse.
+
+    semi_major, semi_minor: as the radius of circle(). bearing: of the major axis, degrees clockwise
+    from north.
+    """
+    axes = [_arguments.angle(size, "a semi-axis", earth_radius)
+            for size in (semi_major, semi_minor)]
+    return _calotte.ellipse(_arguments.direction(centre, "the centre"), *axes,
+                            math.radians(bearing), corners)
 
 
 def channel(lower: float, upper: float, corners: int = 360) -> Region:
@@ -476,19 +586,46 @@ def planar_polygon(*rings: ArrayLike) -> PlanarDomain:
     return _calotte.PlanarDomain([_arguments.plane_points(ring, "corners") for ring in rings])
 
 
+def density(*names: str, join: str = "maximum", plane: bool = False) -> Density:
+    """A density of bumps by their names, as `calotte cvt --density` has them.
+
+    names: "x8", or "tanh:lon=270,lat=30,beta=30deg,alpha=0.2,gamma=x8", with stretch and azimuth for
+        an ellipse. With plane: "tanh:x=3,y=4,beta=1.5,alpha=0.5,gamma=x8", with stretch and angle.
+    join: the "maximum" of several, or their "sum".
+
+    >>> density("x8").uniform
+    False
+    """
+    if not names:
+        raise Error("give the name of a bump, such as x8")
+    return _arguments.bumps(names, join, plane)
+
+
 # ---- Files
 
-def read(path: Path) -> Mesh | PlanarMesh:
-    """The mesh of a file of any format that `calotte convert` reads.
+def read(path: Path, *, fields: str = "scalars") -> Grid:
+    """What a file holds, of any format that `calotte convert` reads.
 
-    Returns a Mesh, or a PlanarMesh. Raises Error, naming the line or the variable.
+    fields: which of the file's fields to read: "scalars", those with one number for each cell;
+        "all", or "none". They are the attribute `fields`, and written files get them again.
+    Returns a Mesh or a PlanarMesh, whose attribute `cells` has the file's cells where these are not
+    the Voronoi cells of a whole mesh; or Polygons, where the file has no triangles for its cells.
+    Raises Error, naming the line or the variable.
     """
-    return _calotte.read(str(path))[0]
+    if fields not in ("scalars", "all", "none"):
+        raise Error(f"fields is {fields!r}; give scalars, all or none")
+    grid, content = _read(path, fields)
+    grid._content = content
+    return grid
+
+
+def _read(path, fields):
+    return _calotte.read(str(path), fields)
 
 
 def read_fields(path: Path) -> dict[str, Array]:
     """The numbers at the cells of a file: a dict of arrays in the order of read()'s sites."""
-    return _calotte.read(str(path))[1]
+    return dict(_read(path, "scalars")[1].fields)
 
 
 def read_points(path: Path) -> Array:
@@ -496,25 +633,36 @@ def read_points(path: Path) -> Array:
     return _calotte.read_points(str(path))
 
 
-def write(path: Path, mesh: Mesh | PlanarMesh, *, format: str = "by-name",
-          sphere_radius: float = 1.0, density: DensityLike | None = None,
+def write(path: Path, mesh: Grid, *, format: str = "by-name",
+          sphere_radius: float | None = None, density: DensityLike | None = None,
           cell_width: WidthLike = None, domain: DomainLike | None = None,
           fields: Mapping[str, ArrayLike] | None = None, history: str = "") -> None:
     """Writes a mesh in the format of the name (.nc: MPAS, .vtp, .geojson ...), or as `format`.
 
-    sphere_radius: of NetCDF files. MPAS-Atmosphere needs 1, MPAS-Ocean metres, 6371220.
+    mesh: of read(), with its cells and fields, or of another function.
+    sphere_radius: of NetCDF files, metres. MPAS-Atmosphere needs 1, MPAS-Ocean 6371220. Default:
+        that of a file that was read, else 1.
     density, cell_width: as for cvt(); they set meshDensity and nominalMinDc. Without them the density
     of an MPAS file on the sphere follows from the smoothed spacing of the cells, if this varies.
     domain: of a planar mesh, which clips its cells. Its meshDensity follows from a density with it.
-    fields: a dict of n numbers at the cells.
+    fields: a dict of n numbers at the cells, beside those that were read.
     """
     widths = None if cell_width is None else _arguments.cell_width(cell_width)
     values = {name: _arguments.numbers(value, name) for name, value in (fields or {}).items()}
     output = _calotte.Output(str(path), format, sphere_radius,
-                             _arguments.density(density, widths),
+                             _arguments.density(density, widths, isinstance(mesh, PlanarMesh)),
                              density is not None or cell_width is not None, values, history)
-    if isinstance(mesh, _calotte.PlanarMesh):
-        part = None if domain is None else _arguments.domain(domain)
+    part = None if domain is None else _arguments.domain(domain)
+    content = content_of(mesh)
+    if content is not None:
+        names = _calotte.write_content(content, mesh, part, output)
+        dropped = [name for name in names if name in content.fields or name in values]
+        if dropped:
+            warnings.warn(f"{path}: the format does not hold {', '.join(dropped)}", stacklevel=2)
+    elif isinstance(mesh, Polygons):
+        raise Error("polygons without the file that they are of cannot be written; give what "
+                    "read() returns")
+    elif isinstance(mesh, PlanarMesh):
         _calotte.write_in_plane(mesh, part, output)
     else:
         _calotte.write(mesh, output)
@@ -538,7 +686,8 @@ def limited_area(path: Path, region: RegionLike, cell_width: WidthLike, *,
     options: seed, max_iterations, regions and progress as for cvt().
     Returns a dict of counts: cells, and cells_by_mask (inside, then by ring).
     """
-    widths, part = _arguments.cell_width(cell_width, earth_radius), _arguments.region(region)
+    part = _arguments.region(region, earth_radius)
+    widths = _arguments.cell_width(cell_width, earth_radius, part)
     meshed = _calotte.with_rings(part, widths, earth_radius)
     grid = cvt(cell_width=widths, region=meshed, earth_radius=earth_radius, **options)
     output = _calotte.Output(str(path), "mpas", sphere_radius, _arguments.density(None, widths),
@@ -546,15 +695,49 @@ def limited_area(path: Path, region: RegionLike, cell_width: WidthLike, *,
     return _calotte.write_limited_area(output, grid.mesh.points, meshed, part)
 
 
-def cull(source: Path, target: Path, *, coast: Path | None = None, land_fraction: float = 0.5,
-         passages: Path | None = None, barriers: Path | None = None, fill: bool = True,
-         seeds: ArrayLike = ()) -> dict[str, Any]:
+def _files(value):
+    """The names of one file or of several."""
+    if value is None:
+        return []
+    if isinstance(value, (str, os.PathLike)):
+        return [str(value)]
+    return [str(path) for path in value]
+
+
+def cull(source: Path, target: Path, *, land: Path | Sequence[Path] | None = None,
+         coast: Path | None = None, raster: Path | None = None, raster_variable: str = "",
+         raster_values: str = "height", land_fraction: float = 0.5, field: str = "",
+         field_file: Path | None = None, sea_below: float | None = None,
+         sea_from: float | None = None, passages: Path | Sequence[Path] | None = None,
+         barriers: Path | Sequence[Path] | None = None, fill: bool = True, seeds: ArrayLike = (),
+         mask: Path | None = None, cell_map: Path | None = None,
+         sphere_radius: float | None = None) -> dict[str, Any]:
     """Leaves the cells of land out of an MPAS file; all fields go along. Returns a dict of counts.
 
-    coast: GeoJSON of land, or a binned file of GSHHG. passages, barriers: GeoJSON of lines.
+    land: GeoJSON of land, or a binned file of GSHHG; one or several. coast: an older name of it.
+    raster: a NetCDF raster raster_variable(lat, lon), whose raster_values are "height" (below 0 is
+        sea), "sea-fraction" or "land-fraction".
+    land_fraction: cells with a larger fraction of land are land.
+    field: a variable with a number for each cell; from sea_from to below sea_below is sea (default
+        below 0). field_file: its NetCDF file; default the source.
+    passages, barriers: GeoJSON of lines whose cells are sea or land; one file or several.
+    fill: cells with a single neighbour in the sea become land.
     seeds: places in the sea, longitude and latitude in degrees; default its largest part.
+    mask: NetCDF file for masks by cell of the source. cell_map: folder for maps of cell numbers.
+    sphere_radius: of the new file, metres; default that of the source.
     """
+    if raster is not None and not raster_variable:
+        raise Error(f"{raster}: give the name of its variable as raster_variable")
+    if raster_values not in ("height", "sea-fraction", "land-fraction"):
+        raise Error(f"raster_values is {raster_values!r}; give height, sea-fraction or "
+                    "land-fraction")
     places = np.asarray(seeds, dtype=float).reshape(-1, 2 if np.size(seeds) % 2 == 0 else 3)
-    text = [None if path is None else str(path) for path in (coast, passages, barriers)]
-    return _calotte.cull(str(source), str(target), text[0], land_fraction, text[1], text[2], fill,
-                         _arguments.sphere_points(places, "seeds"))
+    words = {"land": _files(land) + _files(coast), "passages": _files(passages),
+             "barriers": _files(barriers), "raster": "" if raster is None else str(raster),
+             "raster_variable": raster_variable, "raster_values": raster_values, "field": field,
+             "field_file": "" if field_file is None else str(field_file), "sea_from": sea_from,
+             "sea_below": sea_below, "land_fraction": land_fraction}
+    return _calotte.cull(str(source), str(target), words, fill,
+                         _arguments.sphere_points(places, "seeds"),
+                         "" if mask is None else str(mask),
+                         "" if cell_map is None else str(cell_map), sphere_radius)

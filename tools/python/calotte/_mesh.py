@@ -1,97 +1,102 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Methods of Mesh and PlanarMesh that are written in Python."""
+"""Methods of Mesh, PlanarMesh and Polygons that are written in Python."""
+import math
 import os
 import tempfile
+import types
 
 import numpy as np
 
-from . import _calotte, _functions
-
-_MOST_EDGES = 3000  # of a picture in a notebook
+from . import _calotte, _functions, _plot
 
 
-def _describe(mesh):
-    kind = "Mesh" if isinstance(mesh, _calotte.Mesh) else "PlanarMesh"
-    return f"<calotte.{kind}: {len(mesh)} sites, {len(mesh.triangles)} triangles>"
+def _cells(mesh):
+    """Polygons of the file, where the cells are not the Voronoi cells of a whole mesh; or None."""
+    content = _functions.content_of(mesh)
+    return None if content is None else content.polygons
 
 
-def _to_mpas(mesh, path, **options):
+def _fields(grid):
+    """The file's numbers at cells by name, each n or n x further dimensions, in the file's units."""
+    content = _functions.content_of(grid)
+    return types.MappingProxyType({} if content is None else content.fields)
+
+
+def _not_voronoi(cells):
+    """Why the polygons are not the Voronoi cells of a whole mesh."""
+    content = _functions.content_of(cells)
+    return "" if content is None else content.not_voronoi
+
+
+def _to_mpas(grid, path, **options):
     """Writes a complete MPAS mesh and its graph.info; options as write()."""
-    _functions.write(path, mesh, format="mpas", **options)
+    _functions.write(path, grid, format="mpas", **options)
 
 
-def _to_xarray(mesh, kind="mpas", **options):
-    """The mesh as an xarray.Dataset of the conventions of MPAS or UGRID; options as write().
+def _to_xarray(grid, kind="mpas", **options):
+    """An xarray.Dataset of the conventions of a NetCDF format: mpas, ugrid, scrip ...
 
-    It needs xarray and netCDF4.
+    Options as write(). It needs xarray and netCDF4.
     """
     import xarray
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "mesh.nc")
-        _functions.write(path, mesh, format=kind, **options)
+        _functions.write(path, grid, format=kind, **options)
         return xarray.load_dataset(path)
 
 
 def _topology(mesh):
-    """The arguments of uxarray.Grid.from_topology for the Voronoi cells of the mesh."""
-    cells = _functions.voronoi(mesh)
-    degrees = np.diff(cells.begin)
+    """The arguments of uxarray.Grid.from_topology for the cells of the mesh."""
+    begin, ids, corners = _plot.rings(mesh)
+    degrees = np.diff(begin)
     width, fill = int(degrees.max()), -1
     faces = np.full((len(degrees), width), fill, dtype=np.int64)
-    faces[np.arange(width) < degrees[:, np.newaxis]] = cells.vertices_on_cell
-    nodes = _functions.to_lonlat(cells.vertices)
+    faces[np.arange(width) < degrees[:, np.newaxis]] = ids
+    nodes = _functions.to_lonlat(corners)
     return {"node_lon": nodes[:, 0].copy(), "node_lat": nodes[:, 1].copy(),
             "face_node_connectivity": faces, "fill_value": fill, "start_index": 0}
 
 
-# ---- A picture
+# ---- What the command prints of operators
 
-def _seen(mesh):
-    """x, y of the sites in the picture, and which of them it shows."""
-    points = mesh.points
-    if points.shape[1] == 2:
-        low, high = points.min(axis=0), points.max(axis=0)
-        return 2 * (points - low) / np.maximum(high - low, 1e-300).max() - 1, np.full(len(points), True)
-    unit = points / np.linalg.norm(points, axis=1, keepdims=True)
-    towards = np.array([1.0, 0.5, 0.6])
-    if len(mesh) > _MOST_EDGES // 3:  # the part around the smallest triangle
-        a, b, c = (unit[mesh.triangles[:, k]] for k in range(3))
-        smallest = np.argmin(np.linalg.norm(np.cross(b - a, c - a), axis=1))
-        towards = a[smallest]
-    towards = towards / np.linalg.norm(towards)
-    east = np.cross([0.0, 0.0, 1.0], towards)
-    east = east / np.linalg.norm(east) if np.linalg.norm(east) > 1e-9 else np.array([0.0, 1.0, 0.0])
-    north = np.cross(towards, east)
-    height = unit @ towards
-    count = min(len(mesh), max(12, _MOST_EDGES // 3))
-    reach = np.partition(-height, count - 1)[count - 1]
-    shown = (-height <= reach) & (height > 0)
-    scale = 1 / max(1e-300, np.sqrt(1 - max(-reach, 0.0)**2))
-    return scale * np.stack([unit @ east, unit @ north], axis=1), shown
+def _at(norms):
+    """Longitude and latitude of the greatest value on the sphere, degrees; see place in a plane."""
+    if not norms.place.any():
+        return math.nan, math.nan
+    return tuple(_calotte.to_lonlat(norms.place[np.newaxis])[0].tolist())
 
 
-def _edges(triangles):
-    pairs = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]],
-                                    triangles[:, [2, 0]]]), axis=1)
-    return np.unique(pairs, axis=0)
+def _wave_step(errors, speed, radius=1.0):
+    """Longest stable step of gravity waves, by the Runge-Kutta method of order 4.
+
+    speed: sqrt(g H), in the unit of length over that of time. radius: of the sphere, in the unit of
+    length; 1 in a plane.
+    """
+    return float(np.sqrt(8 / errors.primal_eigenvalue)) * radius / speed
 
 
-def _repr_html(mesh):
-    """A small picture of the triangles, for notebooks; of a large mesh its finest part."""
-    places, shown = _seen(mesh)
-    triangles = mesh.triangles[shown[mesh.triangles].all(axis=1)]
-    edges = _edges(triangles)[:_MOST_EDGES]
-    lines = "".join(f"M{a[0]:.3f} {-a[1]:.3f}L{b[0]:.3f} {-b[1]:.3f}"
-                    for a, b in zip(places[edges[:, 0]], places[edges[:, 1]]))
-    return (f'<figure><svg viewBox="-1.02 -1.02 2.04 2.04" width="240" height="240" role="img" '
-            f'aria-label="triangles"><path d="{lines}" fill="none" stroke="currentColor" '
-            f'stroke-width="0.004"/></svg><figcaption>{len(mesh)} sites, {len(mesh.triangles)} '
-            f"triangles</figcaption></figure>")
+def _diffusion_step(errors, viscosity, radius=1.0, of="divergence"):
+    """Longest stable step of a diffusion, by Euler's forward method.
+
+    viscosity: in the square of the unit of length over that of time. radius: as in wave_step(). of:
+    "divergence" or "vorticity".
+    """
+    values = {"divergence": errors.primal_eigenvalue, "vorticity": errors.dual_eigenvalue}
+    if of not in values:
+        raise _calotte.Error(f"no diffusion of {of}; give divergence or vorticity")
+    return 2 * radius**2 / (viscosity * values[of])
 
 
-for _class in (_calotte.Mesh, _calotte.PlanarMesh):
-    _class.__repr__ = _describe
-    _class._repr_html_ = _repr_html
+_calotte.ErrorNorms.at = property(_at, doc=_at.__doc__)
+_calotte.OperatorErrors.wave_step = _wave_step
+_calotte.OperatorErrors.diffusion_step = _diffusion_step
+for _class in (_calotte.Mesh, _calotte.PlanarMesh, _calotte.Polygons):
+    _class.fields = property(_fields, doc=_fields.__doc__)
     _class.to_mpas = _to_mpas
     _class.to_xarray = _to_xarray
+    _class.plot = _plot.plot
+for _class in (_calotte.Mesh, _calotte.PlanarMesh):
+    _class.cells = property(_cells, doc=_cells.__doc__)
 _calotte.Mesh.topology = _topology
+_calotte.Polygons.topology = _topology
+_calotte.Polygons.not_voronoi = property(_not_voronoi, doc=_not_voronoi.__doc__)

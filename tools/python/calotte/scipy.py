@@ -9,10 +9,12 @@ from ._arguments import numbers
 class SphericalVoronoi:
     """Voronoi cells of points on a sphere.
 
-    points: n x 3. radius: of the sphere; default 1. center: of the sphere; default the origin.
+    points: n x 3, or n x 2 on a circle. radius: of the sphere; default 1. center: of the sphere; default the origin.
     threshold: relative tolerance for duplicates and for the distance of points to the sphere.
 
-    vertices: m x 3 corners of cells. regions: for each point the ids of its corners,
+    Points may lie in a hemisphere: on the sphere every cell is bounded.
+
+    vertices: m x 3 (m x 2) corners of cells. regions: for each point the ids of its corners,
     counter-clockwise seen from outside. Raises ValueError for duplicates and for points off the
     sphere.
 
@@ -25,23 +27,48 @@ class SphericalVoronoi:
         if radius is None:
             raise ValueError("`radius` is None; give a positive number")
         self.points = np.array(numbers(points, "points"))
-        if self.points.ndim != 2 or self.points.shape[1] != 3:
-            raise ValueError("points must be n x 3; cells on a circle or a hypersphere are not "
-                             "supported")
+        if self.points.ndim != 2 or self.points.shape[1] not in (2, 3):
+            raise ValueError("points must be n x 3, or n x 2 on a circle; cells on a hypersphere are "
+                             "not supported")
         self.radius = float(radius)
-        self.center = np.zeros(3) if center is None else np.array(center, dtype=float)
-        self._dim = 3
+        self._dim = self.points.shape[1]
+        self.center = np.zeros(self._dim) if center is None else np.array(center, dtype=float)
         offsets = self.points - self.center
         distances = np.linalg.norm(offsets, axis=1)
         if not (self.radius > 0 and np.abs(distances - self.radius).max() < self.radius * threshold):
             raise ValueError("Radius inconsistent with generators.")
+        if self._dim == 2:
+            self._divide_circle(offsets, threshold)
+        else:
+            self._divide_sphere(offsets, threshold)
+
+    def _divide_circle(self, offsets, threshold):
+        """Vertex k lies in the middle of the arc from point k, in the order of angles, to the next."""
+        angles = np.arctan2(offsets[:, 1], offsets[:, 0])
+        order = np.argsort(angles)
+        self._gaps = np.diff(angles[order], append=angles[order[0]] + 2 * np.pi)
+        if len(order) < 3:
+            raise ValueError("Rank of input points must be at least 2")
+        if 2 * np.sin(np.minimum(self._gaps, np.pi) / 2).min() <= threshold:
+            raise ValueError("Duplicate generators present.")
+        middles = angles[order] + self._gaps / 2
+        self.vertices = (self.radius * np.stack([np.cos(middles), np.sin(middles)], axis=1)
+                         + self.center)
+        self._simplices = np.stack([order, np.roll(order, -1)], axis=1)
+        self._rank_of = np.argsort(order)
+        self._regions = [[int((rank - 1) % len(order)), int(rank)] for rank in self._rank_of]
+        self._starts, self._ids = 2 * np.arange(len(order) + 1), np.ravel(self._regions)
+
+    def _divide_sphere(self, offsets, threshold):
+        if len(offsets) < 4:
+            raise ValueError("Rank of input points must be at least 3")
         try:
             self._mesh = _calotte.delaunay(offsets, 0.0, False, None)
         except _calotte.Error as error:
             if error.code == "duplicate":
                 raise ValueError(f"Duplicate generators present: {error}") from error
             raise
-        corners, starts, ids, shortest, coincide = _calotte.corners(self._mesh)
+        corners, starts, ids, shortest, coincide = self._corners()
         if shortest <= threshold:
             raise ValueError("Duplicate generators present: two points are within the threshold "
                              f"{threshold * self.radius:.3g} of each other; merge them")
@@ -49,8 +76,16 @@ class SphericalVoronoi:
             starts, ids, corners = _merged(starts, ids, corners)
         self._starts, self._ids = starts, ids
         self.vertices = self.radius * corners + self.center
-        self._simplices = self._mesh.triangles
         self._regions = None
+
+    def _corners(self):
+        if self._mesh.closed:
+            self._simplices = self._mesh.triangles
+            return _calotte.corners(self._mesh)
+        cells = _calotte.voronoi(self._mesh)  # the far side of points in a hemisphere as well
+        self._simplices = cells.cells_on_vertex
+        shortest = 2 * np.sin(cells.dc.min() / 2)
+        return cells.vertices, cells.begin, cells.vertices_on_cell, shortest, True
 
     @property
     def regions(self):
@@ -68,7 +103,10 @@ class SphericalVoronoi:
         """Does nothing: corners are in order."""
 
     def calculate_areas(self):
-        """The area of each cell; they sum to that of the sphere."""
+        """The area of each cell, of points on a circle the length of its arc; of all they are whole."""
+        if self._dim == 2:
+            arcs = (self._gaps + np.roll(self._gaps, 1)) / 2
+            return self.radius * arcs[self._rank_of]
         return self.radius**2 * _calotte.voronoi(self._mesh).cell_area
 
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "arrays.h"
 #include "calls.h"
+#include "members.h"
 #include "module.h"
 
 #include <calotte/cell_width.h>
@@ -8,9 +8,6 @@
 #include <calotte/error.h>
 #include <calotte/planar_raster.h>
 #include <calotte/read.h>
-
-#include <pybind11/eigen.h>
-#include <pybind11/stl.h>
 
 #include <string>
 #include <tuple>
@@ -35,13 +32,18 @@ Density callable(py::object function) {
   return density;
 }
 
-using BumpWords = std::tuple<Eigen::Vector3d, double, double, double>;
+using BumpWords = std::tuple<Eigen::Vector3d, double, double, double, double, Eigen::Vector3d>;
 
 Density bumps(const std::vector<BumpWords>& words, bool sum) {
   Density density;
   density.kind = sum ? Density::Kind::sum : Density::Kind::maximum;
-  for (const auto& [centre, beta, alpha, gamma] : words)
-    density.bumps.push_back({.centre = centre, .beta = beta, .alpha = alpha, .gamma = gamma});
+  for (const auto& [centre, beta, alpha, gamma, stretch, major] : words)
+    density.bumps.push_back({.centre = centre,
+                             .beta = beta,
+                             .alpha = alpha,
+                             .gamma = gamma,
+                             .stretch = stretch,
+                             .major = major});
   return density;
 }
 
@@ -67,21 +69,22 @@ CellWidth read_widths(const std::string& path, double inside, double outside, do
 }
 
 void add_cell_width(py::module_& module) {
-  py::class_<CellWidth>(module, "CellWidth")
-      .def(py::init(&cell_width))
-      .def_property_readonly(
-          "widths",
-          [](py::object self) { return view(self.cast<const CellWidth&>().widths, self); })
-      .def_property_readonly(
-          "longitudes",
-          [](py::object self) { return view(self.cast<const CellWidth&>().longitudes, self); })
-      .def_property_readonly(
-          "latitudes",
-          [](py::object self) { return view(self.cast<const CellWidth&>().latitudes, self); })
-      .def("at", [](const CellWidth& widths, const Doubles& points) {
+  py::class_<CellWidth> widths(module, "CellWidth",
+                               "Cell widths at the nodes of longitudes and latitudes.");
+  widths.def(py::init(&cell_width));
+  add_members(widths,
+              Member{"widths", &CellWidth::widths,
+                     "(latitudes, longitudes) distances between "
+                     "centres of neighbouring cells, km."},
+              Member{"longitudes", &CellWidth::longitudes, "Degrees, ascending."},
+              Member{"latitudes", &CellWidth::latitudes, "Degrees, ascending."});
+  widths.def(
+      "at",
+      [](const CellWidth& widths, const Doubles& points) {
         const auto sites = columns(points);
         return handed_over(call([&] { return evaluate(widths, sites); }));
-      });
+      },
+      "(n,) the widths at n x 3 directions, km.");
   module.def("read_cell_width", &read_widths);
   module.def("implied_cells", [](const CellWidth& widths, const Region& region, double radius_km) {
     return call([&] {
@@ -98,13 +101,17 @@ void add_cell_width(py::module_& module) {
 } // namespace
 
 void add_densities(py::module_& module) {
-  py::class_<Density>(module, "Density")
+  py::class_<Density>(module, "Density",
+                      "A density of cells; their widths are proportional to its power -1/4.")
       .def(py::init<>())
-      .def_property_readonly("uniform", &Density::uniform)
-      .def("at", [](const Density& density, const Doubles& points) {
-        const auto sites = columns(points);
-        return handed_over(call([&] { return evaluate(density, sites); }));
-      });
+      .def_property_readonly("uniform", &Density::uniform, "True if all cells are as wide.")
+      .def(
+          "at",
+          [](const Density& density, const Doubles& points) {
+            const auto sites = columns(points);
+            return handed_over(call([&] { return evaluate(density, sites); }));
+          },
+          "(n,) the density at n x 3 directions.");
   module.def("density_of_function", &callable);
   module.def("density_of_bumps", &bumps);
   add_cell_width(module);

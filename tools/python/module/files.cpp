@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "arrays.h"
 #include "calls.h"
+#include "members.h"
 #include "module.h"
+
+#include "draw/coastlines.h"
 
 #include <calotte/cull.h>
 #include <calotte/cut.h>
@@ -11,8 +13,9 @@
 #include <calotte/voronoi.h>
 #include <calotte/write.h>
 
-#include <pybind11/stl.h>
-
+#include <algorithm>
+#include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -22,25 +25,214 @@
 namespace calotte::python {
 namespace {
 
-/// The mesh of a file, and its scalar fields at cells by name.
-py::tuple read(const std::string& path) {
-  MeshFile file = call([&] { return read_mesh_file(path, nullptr, FieldChoice::scalars); });
+/// What a file holds besides its mesh: polygons, fields, density and radius.
+using Content = std::shared_ptr<MeshFile>;
+
+FieldChoice choice_of(const std::string& fields) {
+  return fields == "none"  ? FieldChoice::none
+         : fields == "all" ? FieldChoice::all
+                           : FieldChoice::scalars;
+}
+
+/// The mesh of a file, or without one its polygons; and the content.
+py::tuple read(const std::string& path, const std::string& fields) {
+  auto content = std::make_shared<MeshFile>(
+      call([&] { return read_mesh_file(path, nullptr, choice_of(fields)); }));
+  py::object grid;
+  if (content->mesh)
+    grid = py::cast(std::make_shared<Mesh>(std::move(*content->mesh)));
+  else if (content->plane)
+    grid = py::cast(std::make_shared<PlanarMesh>(std::move(*content->plane)));
+  else
+    grid = py::cast(std::shared_ptr<Polygons>(content, &*content->polygons));
+  content->mesh.reset();
+  content->plane.reset();
+  return py::make_tuple(grid, content);
+}
+
+/// The polygons of a content, which keeps their memory; none where a mesh has the cells.
+std::shared_ptr<Polygons> polygons_of(const Content& content) {
+  return content->polygons ? std::shared_ptr<Polygons>(content, &*content->polygons) : nullptr;
+}
+
+/// The numbers at cells by name: n, or n x the sizes of a field's other dimensions.
+py::dict fields_of(py::object self) {
+  const auto& content = self.cast<const MeshFile&>();
   py::dict fields;
-  for (MeshField& field : file.fields)
-    if (field.location == Location::cells && field.count() == 1)
-      fields[py::str(field.name)] = handed_over(std::move(field.values));
-  if (file.mesh)
-    return py::make_tuple(std::make_shared<Mesh>(std::move(*file.mesh)), fields);
-  if (file.plane)
-    return py::make_tuple(std::make_shared<PlanarMesh>(std::move(*file.plane)), fields);
-  throw Error(ErrorCode::bad_option,
-              path + ": holds polygons that are not Voronoi cells: " + file.not_voronoi);
+  for (const MeshField& field : content.fields) {
+    if (field.location != Location::cells)
+      continue;
+    std::vector<py::ssize_t> shape{field.values.size() / field.count()};
+    for (const FieldDimension& dimension : field.dimensions)
+      shape.push_back(dimension.size);
+    py::array_t<double> values(shape, field.values.data(), self);
+    values.attr("setflags")(py::arg("write") = false);
+    fields[py::str(field.name)] = values;
+  }
+  return fields;
+}
+
+/// A content with the mesh that it came with.
+MeshFile whole(const MeshFile& content, const py::object& grid,
+               const std::optional<PlanarDomain>& domain) {
+  MeshFile file = content;
+  if (py::isinstance<Mesh>(grid))
+    file.mesh = grid.cast<const Mesh&>();
+  else if (py::isinstance<PlanarMesh>(grid))
+    file.plane = grid.cast<const PlanarMesh&>();
+  file.domain = domain;
+  return file;
+}
+
+std::shared_ptr<Voronoi> cells_of(const MeshFile& content, const py::object& grid,
+                                  const std::optional<PlanarDomain>& domain) {
+  const MeshFile file = whole(content, grid, domain);
+  return call([&] { return std::make_shared<Voronoi>(voronoi(file)); });
+}
+
+py::tuple state_of(const MeshFile& content) {
+  py::list fields;
+  for (const MeshField& field : content.fields) {
+    py::list dimensions;
+    for (const FieldDimension& dimension : field.dimensions)
+      dimensions.append(py::make_tuple(dimension.name, dimension.size));
+    fields.append(py::make_tuple(field.name, field.long_name, field.units,
+                                 static_cast<int>(field.location), field.values, dimensions,
+                                 field.leading, field.integer, field.directed));
+  }
+  return py::make_tuple(content.format, polygons_of(std::make_shared<MeshFile>(content)),
+                        content.not_voronoi, content.sphere_radius, content.density, fields);
+}
+
+MeshField field_of(const py::tuple& state) {
+  MeshField field{.name = state[0].cast<std::string>(),
+                  .long_name = state[1].cast<std::string>(),
+                  .units = state[2].cast<std::string>(),
+                  .location = static_cast<Location>(state[3].cast<int>()),
+                  .values = state[4].cast<Eigen::VectorXd>(),
+                  .leading = state[6].cast<int>(),
+                  .integer = state[7].cast<bool>(),
+                  .directed = state[8].cast<bool>()};
+  for (const auto& dimension : state[5].cast<std::vector<std::pair<std::string, std::int64_t>>>())
+    field.dimensions.push_back({dimension.first, dimension.second});
+  return field;
+}
+
+Content of_state(const py::tuple& state) {
+  auto content = std::make_shared<MeshFile>();
+  content->format = state[0].cast<std::string>();
+  if (!state[1].is_none())
+    content->polygons = state[1].cast<const Polygons&>();
+  content->not_voronoi = state[2].cast<std::string>();
+  content->sphere_radius = state[3].cast<double>();
+  content->density = state[4].cast<Eigen::VectorXd>();
+  for (const py::handle field : state[5])
+    content->fields.push_back(field_of(py::reinterpret_borrow<py::tuple>(field)));
+  return content;
+}
+
+using Offsets = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>;
+using CornerIds = py::array_t<std::int32_t, py::array::c_style | py::array::forcecast>;
+
+/// Cells on the sphere. \throws Error bad_option for ids out of range.
+std::shared_ptr<Polygons> polygons_from(const Doubles& corners, const Offsets& begin,
+                                        const CornerIds& ids) {
+  auto cells = std::make_shared<Polygons>();
+  cells->corners = columns(corners);
+  cells->begin = Eigen::Map<const decltype(cells->begin)>(begin.data(), begin.size());
+  cells->ids = Eigen::Map<const Ids>(ids.data(), ids.size());
+  const bool ascending = begin.size() > 0 && cells->begin[0] == 0 &&
+                         cells->begin[cells->size()] == ids.size() &&
+                         std::is_sorted(cells->begin.begin(), cells->begin.end());
+  if (corners.ndim() != 2 || corners.shape(1) != 3 || !ascending ||
+      (ids.size() > 0 && (cells->ids.minCoeff() < 0 || cells->ids.maxCoeff() >= corners.shape(0))))
+    throw Error(ErrorCode::bad_option,
+                "corners, begin and ids do not fit; give m x 3 corners, and ids below m of which "
+                "begin[i] to begin[i + 1] - 1 are those of polygon i");
+  return cells;
+}
+
+void add_shapes(py::module_& module) {
+  py::class_<PolygonShapes> shapes(module, "PolygonShapes",
+                                   "What polygons measure, of Polygons.shapes().");
+  add_members(
+      shapes,
+      Member{"area", &PolygonShapes::area,
+             "Range of the areas; steradians, in a plane the square of its unit."},
+      Member{"spacing", &PolygonShapes::spacing,
+             "Range of the distances between centres of polygons that share a side; radians, in a "
+             "plane its unit; 0 without centres."},
+      Member{"without_area", &PolygonShapes::without_area, "Number of polygons without area."},
+      Member{"first_without_area", &PolygonShapes::first_without_area, "The first; -1 for none."},
+      Member{"not_convex", &PolygonShapes::not_convex,
+             "Number of polygons that turn to the right at a corner."},
+      Member{"first_not_convex", &PolygonShapes::first_not_convex, "The first; -1 for none."},
+      Member{"not_centroidal", &PolygonShapes::not_centroidal,
+             "Number of polygons whose centre is not their centroid, by 1e-6 widths."},
+      Member{"off_centring", &PolygonShapes::off_centring, "The largest distance, in widths."},
+      Member{"worst_centred", &PolygonShapes::worst_centred, "Its polygon; -1 without centres."});
+}
+
+void add_content(py::module_& module) {
+  py::class_<Polygons, std::shared_ptr<Polygons>> polygons(
+      module, "Polygons",
+      "Cells of a file that are not the Voronoi cells of a whole mesh: those of a part of the\n"
+      "sphere, such as an ocean, of a bounded plane, or cells of any shape. Their sides are arcs\n"
+      "of great circles, in a plane straight.",
+      py::dynamic_attr());
+  polygons.def(py::init(&polygons_from), py::arg("corners"), py::arg("begin"), py::arg("ids"));
+  add_member(polygons, Member{"corners", &Polygons::corners,
+                              "(m, 3) unit vectors; in a plane in its unit, z = 0."});
+  add_member(polygons, Member{"begin", &Polygons::begin,
+                              "(n + 1,) polygon i has the corners ids[begin[i]] to "
+                              "ids[begin[i + 1] - 1], counter-clockwise."});
+  add_member(polygons, Member{"ids", &Polygons::ids, "Ids of corners; see begin."});
+  add_member(polygons, Member{"centres", &Polygons::centres,
+                              "(n, 3) as the corners; (0, 3) if the file gives none."});
+  add_member(polygons, Member{"on_sphere", &Polygons::on_sphere, "False in a plane."});
+  add_member(polygons, Member{"period", &Polygons::period,
+                              "(2,) side lengths of a periodic plane; 0 in other directions."});
+  polygons.def("__len__", &Polygons::size)
+      .def_property_readonly(
+          "areas",
+          [](const Polygons& cells) { return handed_over(call([&] { return areas(cells); })); },
+          "(n,) their areas; steradians, in a plane the square of its unit.")
+      .def(
+          "shapes", [](const Polygons& cells) { return call([&] { return shapes(cells); }); },
+          "Measures of the polygons, see PolygonShapes.")
+      .def(py::pickle(
+          [](const py::object& self) {
+            const auto& cells = self.cast<const Polygons&>();
+            return py::make_tuple(cells.corners, cells.begin, cells.ids, cells.centres,
+                                  cells.on_sphere, cells.period, self.attr("__dict__"));
+          },
+          [](const py::tuple& state) {
+            auto cells = std::make_shared<Polygons>();
+            cells->corners = state[0].cast<Points3>();
+            cells->begin = state[1].cast<decltype(cells->begin)>();
+            cells->ids = state[2].cast<Ids>();
+            cells->centres = state[3].cast<Points3>();
+            cells->on_sphere = state[4].cast<bool>();
+            cells->period = state[5].cast<Eigen::Vector2d>();
+            return std::pair(std::move(cells), state[6].cast<py::dict>());
+          }));
+  py::class_<MeshFile, Content>(module, "Content")
+      .def_property_readonly("polygons", &polygons_of)
+      .def_property_readonly("fields", &fields_of)
+      .def_readonly("format", &MeshFile::format)
+      .def_readonly("not_voronoi", &MeshFile::not_voronoi)
+      .def_readonly("sphere_radius", &MeshFile::sphere_radius)
+      .def_readonly("changes", &MeshFile::changes)
+      .def_property_readonly(
+          "density",
+          [](py::object self) { return view(self.cast<const MeshFile&>().density, self); })
+      .def(py::pickle(&state_of, &of_state));
 }
 
 struct Output {
   std::string path, history;
   Format format = Format::by_name;
-  double radius = 1;
+  std::optional<double> radius; ///< default: that of a file that was read, or 1
   Density density;
   bool known = true; ///< whether the mesh was made for that density
   py::dict fields;
@@ -49,7 +241,7 @@ struct Output {
 WriteOptions options_of(const Output& output) {
   WriteOptions options;
   options.format = output.format;
-  options.sphere_radius = output.radius;
+  options.sphere_radius = output.radius.value_or(1);
   options.density = output.density;
   options.history = output.history;
   for (const auto& [name, values] : output.fields) {
@@ -61,12 +253,13 @@ WriteOptions options_of(const Output& output) {
   return options;
 }
 
+bool is_mpas(Format format) { return format == Format::mpas || format == Format::mpas_minimal; }
+
 void write_mesh(const Mesh& mesh, const Output& output) {
   WriteOptions options = options_of(output);
   call([&] {
     const Format format = format_of(output.path, output.format);
-    if (!output.known && mesh.closed() &&
-        (format == Format::mpas || format == Format::mpas_minimal))
+    if (!output.known && mesh.closed() && is_mpas(format))
       options.site_density = spacing_density(voronoi(mesh));
     write(output.path, mesh, options);
   });
@@ -86,6 +279,32 @@ void write_plane(const PlanarMesh& mesh, std::optional<PlanarDomain> domain, con
   });
 }
 
+/// An Earth in kilometres, as JIGSAW's meshes have it; NetCDF formats are in metres.
+double radius_in_metres(double radius) {
+  return radius > 6300 && radius < 6400 ? 1000 * radius : radius;
+}
+
+/// Writes what was read. \returns the names of the fields that the format does not hold.
+std::vector<std::string> write_content(const MeshFile& content, const py::object& grid,
+                                       const std::optional<PlanarDomain>& domain,
+                                       const Output& output) {
+  const MeshFile file = whole(content, grid, domain);
+  WriteOptions options = options_of(output);
+  if (!output.radius)
+    options.sphere_radius = radius_in_metres(file.sphere_radius);
+  return call([&] {
+    if (file.plane && domain && !output.density.uniform()) {
+      options.site_density = evaluate(output.density, *domain, file.plane->points);
+      options.density = {};
+    }
+    const bool lacks_density =
+        file.density.size() == 0 || file.density.minCoeff() == file.density.maxCoeff();
+    if (!output.known && lacks_density && is_mpas(format_of(output.path, output.format)))
+      options.site_density = spacing_density(file);
+    return write(output.path, file, options).dropped;
+  });
+}
+
 py::dict cut_mesh(const std::string& source, const std::string& target, const Region& region,
                   int rings, std::optional<double> radius) {
   CutOptions options;
@@ -102,7 +321,7 @@ py::dict cut_mesh(const std::string& source, const std::string& target, const Re
 py::dict write_limited(const Output& output, const Doubles& generators, const Region& meshed,
                        const Region& region) {
   CutOptions options;
-  options.sphere_radius = output.radius;
+  options.sphere_radius = output.radius.value_or(1);
   const WriteOptions written = options_of(output);
   const Points3 points = columns(generators);
   const CutReport report = call(
@@ -113,21 +332,93 @@ py::dict write_limited(const Output& output, const Doubles& generators, const Re
   return values;
 }
 
-py::dict cull_mesh(const std::string& source, const std::string& target,
-                   const std::optional<std::string>& coast, double land_fraction,
-                   const std::optional<std::string>& passages,
-                   const std::optional<std::string>& barriers, bool fill, const Doubles& seeds) {
+/// Longitudes and latitudes, degrees, of each line.
+py::list coast_lines() {
+  py::list lines;
+  for (const auto& line : tools::coastlines()) {
+    Points2 places(2, std::ssize(line));
+    for (std::size_t k = 0; k < line.size(); ++k)
+      places.col(static_cast<Eigen::Index>(k)) << line[k].longitude, line[k].latitude;
+    lines.append(handed_over(std::move(places)));
+  }
+  return lines;
+}
+
+/// The boundaries of land of a file, unit vectors.
+py::list coast_rings(const std::string& path) {
+  Coast coast = call([&] { return read_coast(path); });
+  py::list rings;
+  for (Points3& ring : coast.rings)
+    rings.append(handed_over(std::move(ring)));
+  return rings;
+}
+
+RasterValues values_named(const std::string& name) {
+  return name == "height"         ? RasterValues::height
+         : name == "sea-fraction" ? RasterValues::sea_fraction
+                                  : RasterValues::land_fraction;
+}
+
+/// The land of an ocean grid, as the options of `calotte cull` name it.
+struct Land {
+  std::vector<std::string> land, passages, barriers; ///< files
+  std::string raster, raster_variable, raster_values;
+  std::string field, field_file;
+  std::optional<double> sea_from, sea_below;
+  double land_fraction = 0.5;
+};
+
+Land land_of(const py::dict& words) {
+  return {.land = words["land"].cast<std::vector<std::string>>(),
+          .passages = words["passages"].cast<std::vector<std::string>>(),
+          .barriers = words["barriers"].cast<std::vector<std::string>>(),
+          .raster = words["raster"].cast<std::string>(),
+          .raster_variable = words["raster_variable"].cast<std::string>(),
+          .raster_values = words["raster_values"].cast<std::string>(),
+          .field = words["field"].cast<std::string>(),
+          .field_file = words["field_file"].cast<std::string>(),
+          .sea_from = words["sea_from"].cast<std::optional<double>>(),
+          .sea_below = words["sea_below"].cast<std::optional<double>>(),
+          .land_fraction = words["land_fraction"].cast<double>()};
+}
+
+void set_land(const Land& land, CullOptions& options) {
+  for (const std::string& file : land.land) {
+    const Coast coast = read_coast(file);
+    options.coast.area += coast.area;
+    options.coast.rings.insert(options.coast.rings.end(), coast.rings.begin(), coast.rings.end());
+  }
+  const auto add_lines = [](const std::vector<std::string>& files, std::vector<Points3>& lines) {
+    for (const std::string& file : files)
+      for (Points3& line : read_lines(file))
+        lines.push_back(std::move(line));
+  };
+  add_lines(land.passages, options.passages);
+  add_lines(land.barriers, options.barriers);
+  if (!land.raster.empty())
+    options.raster =
+        read_land_raster(land.raster, land.raster_variable, values_named(land.raster_values));
+  options.land_fraction = land.land_fraction;
+  options.field.path = land.field_file;
+  options.field.variable = land.field;
+  if (land.sea_from)
+    options.field.least = *land.sea_from;
+  if (land.sea_from || land.sea_below)
+    options.field.most = land.sea_below.value_or(std::numeric_limits<double>::infinity());
+}
+
+py::dict cull_mesh(const std::string& source, const std::string& target, const py::dict& words,
+                   bool fill, const Doubles& seeds, const std::string& mask,
+                   const std::string& cell_map, std::optional<double> radius) {
+  const Land land = land_of(words);
   CullOptions options;
-  options.land_fraction = land_fraction;
   options.fill = fill;
   options.seeds = columns(seeds);
+  options.mask_path = mask;
+  options.cell_map_folder = cell_map;
+  options.sphere_radius = radius;
   const CullReport report = call([&] {
-    if (coast)
-      options.coast = read_coast(*coast);
-    if (passages)
-      options.passages = read_lines(*passages);
-    if (barriers)
-      options.barriers = read_lines(*barriers);
+    set_land(land, options);
     return cull(source, target, options);
   });
   py::dict values;
@@ -150,8 +441,8 @@ Format format_named(const std::string& name) {
   throw Error(ErrorCode::bad_option, "no format " + name + "; give one of: " + names);
 }
 
-Output output_of(std::string path, const std::string& format, double radius, Density density,
-                 bool known, py::dict fields, std::string history) {
+Output output_of(std::string path, const std::string& format, std::optional<double> radius,
+                 Density density, bool known, py::dict fields, std::string history) {
   return {std::move(path), std::move(history), format_named(format), radius, std::move(density),
           known,           std::move(fields)};
 }
@@ -160,7 +451,11 @@ Output output_of(std::string path, const std::string& format, double radius, Den
 
 void add_files(py::module_& module) {
   py::class_<Output>(module, "Output").def(py::init(&output_of));
+  add_shapes(module);
+  add_content(module);
   module.def("read", &read);
+  module.def("cells_of_file", &cells_of);
+  module.def("write_content", &write_content);
   module.def("read_points", [](const std::string& path) {
     return handed_over(call([&] { return read_sites(path); }));
   });
@@ -169,6 +464,8 @@ void add_files(py::module_& module) {
   module.def("cut", &cut_mesh);
   module.def("write_limited_area", &write_limited);
   module.def("cull", &cull_mesh);
+  module.def("coastlines", &coast_lines);
+  module.def("coast_rings", &coast_rings);
 }
 
 } // namespace calotte::python

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "arrays.h"
 #include "calls.h"
+#include "members.h"
 #include "module.h"
 
 #include <calotte/operators.h>
 
+#include <array>
+#include <cstddef>
 #include <memory>
 
 namespace calotte::python {
@@ -13,26 +15,27 @@ namespace {
 using Errors = py::class_<OperatorErrors, std::shared_ptr<OperatorErrors>>;
 
 void add_norms(py::module_& module) {
-  py::class_<ErrorNorms>(module, "ErrorNorms")
-      .def_readonly("l2", &ErrorNorms::l2)
-      .def_readonly("max", &ErrorNorms::max)
-      .def_readonly("cell", &ErrorNorms::cell)
-      .def_property_readonly(
-          "place", [](py::object self) { return view(self.cast<const ErrorNorms&>().place, self); })
-      .def("__repr__", [](const ErrorNorms& norms) {
-        return py::str("ErrorNorms(l2={}, max={}, cell={})")
-            .format(norms.l2, norms.max, norms.cell);
-      });
+  py::class_<ErrorNorms> norms(module, "ErrorNorms",
+                               "Norms of an operator's error over the root mean square of the "
+                               "exact values.");
+  add_members(
+      norms, Member{"l2", &ErrorNorms::l2, "Root mean square."},
+      Member{"max", &ErrorNorms::max, "The greatest value."},
+      Member{"cell", &ErrorNorms::cell, "A cell at the place of the greatest value."},
+      Member{"place", &ErrorNorms::place, "(3,) that place, a unit vector; in the plane z is 0."});
 }
 
 /// The norms of an operator, and its errors by cell.
 void add_operator(Errors& errors, const char* name, const char* by_cell,
-                  ErrorNorms OperatorErrors::*norms,
-                  Eigen::VectorXd OperatorErrorsByCell::*values) {
-  errors.def_readonly(name, norms);
-  errors.def_property_readonly(by_cell, [values](py::object self) {
-    return view(self.cast<const OperatorErrors&>().by_cell.*values, self);
-  });
+                  ErrorNorms OperatorErrors::*norms, Eigen::VectorXd OperatorErrorsByCell::*values,
+                  const char* doc) {
+  errors.def_readonly(name, norms, doc);
+  errors.def_property_readonly(
+      by_cell,
+      [values](py::object self) {
+        return view(self.cast<const OperatorErrors&>().by_cell.*values, self);
+      },
+      "(n,) the same error of each cell; NaN at a boundary.");
 }
 
 template <class... Arguments>
@@ -40,26 +43,65 @@ std::shared_ptr<OperatorErrors> errors_of(const Arguments&... arguments) {
   return call([&] { return std::make_shared<OperatorErrors>(operator_errors(arguments...)); });
 }
 
+constexpr std::array norms_of{&OperatorErrors::divergence,   &OperatorErrors::gradient,
+                              &OperatorErrors::laplacian,    &OperatorErrors::curl,
+                              &OperatorErrors::tangential,   &OperatorErrors::kinetic_energy,
+                              &OperatorErrors::off_centroid, &OperatorErrors::off_midpoint};
+constexpr std::array values_of{
+    &OperatorErrorsByCell::divergence, &OperatorErrorsByCell::gradient,
+    &OperatorErrorsByCell::laplacian,  &OperatorErrorsByCell::curl,
+    &OperatorErrorsByCell::tangential, &OperatorErrorsByCell::kinetic_energy};
+
+py::tuple state_of(const OperatorErrors& errors) {
+  py::list norms, values;
+  for (const auto pointer : norms_of)
+    norms.append(errors.*pointer);
+  for (const auto pointer : values_of)
+    values.append(py::cast(errors.by_cell.*pointer));
+  return py::make_tuple(norms, values, errors.primal_eigenvalue, errors.dual_eigenvalue);
+}
+
+std::shared_ptr<OperatorErrors> of_state(const py::tuple& state) {
+  auto errors = std::make_shared<OperatorErrors>();
+  const py::list norms = state[0], values = state[1];
+  for (std::size_t k = 0; k < norms_of.size(); ++k)
+    (*errors).*norms_of[k] = norms[k].cast<ErrorNorms>();
+  for (std::size_t k = 0; k < values_of.size(); ++k)
+    errors->by_cell.*values_of[k] = values[k].cast<Eigen::VectorXd>();
+  errors->primal_eigenvalue = state[2].cast<double>();
+  errors->dual_eigenvalue = state[3].cast<double>();
+  return errors;
+}
+
 } // namespace
 
 void add_operators(py::module_& module) {
   add_norms(module);
-  Errors errors(module, "OperatorErrors");
+  Errors errors(module, "OperatorErrors",
+                "Errors of the operators of a C-grid model (TRiSK), of operator_errors(). All are\n"
+                "relative, without unit.");
   add_operator(errors, "divergence", "divergence_by_cell", &OperatorErrors::divergence,
-               &OperatorErrorsByCell::divergence);
+               &OperatorErrorsByCell::divergence, "Of a velocity, at cells.");
   add_operator(errors, "gradient", "gradient_by_cell", &OperatorErrors::gradient,
-               &OperatorErrorsByCell::gradient);
+               &OperatorErrorsByCell::gradient, "Of a scalar, at edges.");
   add_operator(errors, "laplacian", "laplacian_by_cell", &OperatorErrors::laplacian,
-               &OperatorErrorsByCell::laplacian);
-  add_operator(errors, "curl", "curl_by_cell", &OperatorErrors::curl, &OperatorErrorsByCell::curl);
+               &OperatorErrorsByCell::laplacian, "Divergence of the gradient, at cells.");
+  add_operator(errors, "curl", "curl_by_cell", &OperatorErrors::curl, &OperatorErrorsByCell::curl,
+               "Of a velocity, at vertices.");
   add_operator(errors, "tangential", "tangential_by_cell", &OperatorErrors::tangential,
-               &OperatorErrorsByCell::tangential);
+               &OperatorErrorsByCell::tangential, "Velocity along an edge, at edges.");
   add_operator(errors, "kinetic_energy", "kinetic_energy_by_cell", &OperatorErrors::kinetic_energy,
-               &OperatorErrorsByCell::kinetic_energy);
-  errors.def_readonly("off_centroid", &OperatorErrors::off_centroid)
-      .def_readonly("off_midpoint", &OperatorErrors::off_midpoint)
-      .def_readonly("primal_eigenvalue", &OperatorErrors::primal_eigenvalue)
-      .def_readonly("dual_eigenvalue", &OperatorErrors::dual_eigenvalue);
+               &OperatorErrorsByCell::kinetic_energy, "Of a velocity, at cells.");
+  errors
+      .def_readonly("off_centroid", &OperatorErrors::off_centroid,
+                    "Distance of a site from its cell's centroid over that to its neighbours.")
+      .def_readonly("off_midpoint", &OperatorErrors::off_midpoint,
+                    "Distance between the midpoints of an edge's two arcs over their length dc.")
+      .def_readonly("primal_eigenvalue", &OperatorErrors::primal_eigenvalue,
+                    "Largest eigenvalue of the negative Laplacian at cells; 1 over the square of "
+                    "radians, in the plane of the points' unit.")
+      .def_readonly("dual_eigenvalue", &OperatorErrors::dual_eigenvalue, "The same at vertices.")
+      .def(py::pickle(&state_of, &of_state));
   module.def("operator_errors", &errors_of<Mesh, Density>);
   module.def("operator_errors", &errors_of<PlanarMesh, PlanarDomain, Density>);
 }

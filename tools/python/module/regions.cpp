@@ -5,6 +5,7 @@
 
 #include <calotte/domain.h>
 #include <calotte/limited_area.h>
+#include <calotte/ocean.h>
 #include <calotte/read.h>
 #include <calotte/region.h>
 
@@ -70,7 +71,9 @@ py::array_t<bool> contains_all(const Part& part, const Doubles& points) {
 } // namespace
 
 void add_regions(py::module_& module) {
-  py::class_<Region>(module, "Region")
+  py::class_<Region>(module, "Region",
+                     "A part of the sphere, of circle(), ellipse(), channel(), polygon() or a "
+                     "file.")
       .def(py::init<>())
       .def(py::init([](const std::vector<Doubles>& rings) {
         Region region{rings_of(rings)};
@@ -79,29 +82,51 @@ void add_regions(py::module_& module) {
       }))
       .def_property_readonly(
           "rings",
-          [](py::object self) { return arrays_of(self.cast<const Region&>().rings, self); })
-      .def_property_readonly("whole", &Region::whole)
-      .def_property_readonly("area", [](const Region& region) { return area(region); })
-      .def("contains", &contains_all<Region, Eigen::Vector3d>)
-      .def("widened", &widened);
+          [](py::object self) { return arrays_of(self.cast<const Region&>().rings, self); },
+          "List of the boundary's rings, each (k, 3) unit vectors, the region to the left.")
+      .def_property_readonly("whole", &Region::whole, "True if it is the whole sphere.")
+      .def_property_readonly(
+          "area", [](const Region& region) { return area(region); }, "Its area, steradians.")
+      .def("contains", &contains_all<Region, Eigen::Vector3d>,
+           "(n,) for each of n x 3 directions whether it lies in the region.")
+      .def("widened", &widened, "The region and what is within a distance of it, radians.")
+      .def(py::pickle(
+          [](const Region& region) { return py::make_tuple(region.rings); },
+          [](const py::tuple& state) { return Region{state[0].cast<std::vector<Points3>>()}; }));
   module.def("polygon", &polygon);
   module.def("circle", &circle);
   module.def("ellipse", &ellipse);
   module.def("channel", &channel);
   module.def("read_region", py::overload_cast<const std::string&>(&read_region));
+  module.def("land_around", [](const std::string& path, const Eigen::Vector3d& place) {
+    return call([&] { return land_around(read_coast(path), place); });
+  });
   module.def("with_rings", [](const Region& region, const CellWidth& widths, double radius_km) {
     return call([&] { return with_rings(region, widths, radius_km); });
   });
-  py::class_<PlanarDomain>(module, "PlanarDomain")
+  py::class_<PlanarDomain>(module, "PlanarDomain",
+                           "A part of the plane, of rectangle(), periodic_box(), planar_polygon() "
+                           "or a file.")
       .def(py::init(&domain_of))
       .def_property_readonly(
           "rings",
-          [](py::object self) { return arrays_of(self.cast<const PlanarDomain&>().rings, self); })
+          [](py::object self) { return arrays_of(self.cast<const PlanarDomain&>().rings, self); },
+          "List of the boundary's rings, each (k, 2) in the unit of the points.")
       .def_property_readonly(
           "period",
-          [](py::object self) { return view(self.cast<const PlanarDomain&>().period, self); })
-      .def_property_readonly("area", [](const PlanarDomain& domain) { return area(domain); })
-      .def("contains", &contains_all<PlanarDomain, Eigen::Vector2d>);
+          [](py::object self) { return view(self.cast<const PlanarDomain&>().period, self); },
+          "(2,) side lengths of a periodic box; 0 elsewhere.")
+      .def_property_readonly(
+          "area", [](const PlanarDomain& domain) { return area(domain); },
+          "Its area, in the square of the unit of the points.")
+      .def("contains", &contains_all<PlanarDomain, Eigen::Vector2d>,
+           "(n,) for each of n x 2 points whether it lies in the domain.")
+      .def(py::pickle(
+          [](const PlanarDomain& domain) { return py::make_tuple(domain.rings, domain.period); },
+          [](const py::tuple& state) {
+            return PlanarDomain{.rings = state[0].cast<decltype(PlanarDomain::rings)>(),
+                                .period = state[1].cast<Eigen::Vector2d>()};
+          }));
   module.def("rectangle", &rectangle);
   module.def("periodic_box", &periodic_box);
   module.def("read_domain", &read_domain);

@@ -43,6 +43,8 @@ py::dict report_of(const CvtReport& report) {
   py::dict values;
   values["converged"] = report.converged;
   values["well_centred"] = report.well_centred;
+  values["misshapen_cells"] = report.misshapen_cells;
+  values["worst_cell"] = report.worst_cell;
   values["residual"] = report.residual;
   values["iterations"] = report.iterations.size();
   values["energy"] = report.iterations.empty() ? 0 : report.iterations.back().energy;
@@ -105,6 +107,7 @@ void add_options(py::module_& module) {
       .def_readwrite("bisections", &CvtOptions::bisections)
       .def_readwrite("insertion_rounds", &CvtOptions::insertion_rounds)
       .def_readwrite("cells", &CvtOptions::cells)
+      .def_readwrite("fixed", &CvtOptions::fixed)
       .def_readwrite("well_centred", &CvtOptions::well_centred)
       .def_readwrite("least_spacing", &CvtOptions::least_spacing)
       .def_property(
@@ -120,16 +123,25 @@ void add_tessellations(py::module_& module) {
   add_options(module);
   module.attr("tolerance_before_finish") = tolerance_before_finish;
   module.attr("usual_insertion_rounds") = usual_insertion_rounds;
+  module.attr("insertion_rounds_beside_fixed") = insertion_rounds_beside_fixed;
   module.def("continuation", [](std::int64_t cells, const Density& density, std::uint64_t seed) {
     return start_of(call([&] { return continuation(cells, density, seed); }));
   });
   module.def("multilevel", [](std::int64_t cells, const Region& region, const Density& density,
-                              std::uint64_t seed) {
-    return start_of(call([&] { return multilevel(cells, region, density, seed); }));
+                              std::uint64_t seed, const Doubles& fixed) {
+    const Points3 stay = columns(fixed);
+    return start_of(call([&] { return multilevel(cells, region, density, seed, stay); }));
   });
   module.def("multilevel_in_plane", [](std::int64_t cells, const PlanarDomain& domain,
-                                       const Density& density, std::uint64_t seed) {
-    return start_of(call([&] { return multilevel(cells, domain, density, seed); }));
+                                       const Density& density, std::uint64_t seed,
+                                       const Doubles& fixed) {
+    const Points2 stay = columns(fixed);
+    return start_of(call([&] { return multilevel(cells, domain, density, seed, stay); }));
+  });
+  module.def("cells_beside", [](const Doubles& fixed, std::int64_t cells, const Density& density,
+                                const Region& region) {
+    const Points3 stay = columns(fixed);
+    return call([&] { return cells_beside(stay, cells, density, region); });
   });
   module.def("cvt", &cvt);
   module.def("cvt_in_plane", &cvt_in_plane);

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <calotte/error.h>
+#include <calotte/export.h>
+#include <calotte/types.h>
+
+#include <Eigen/SparseCore>
+
+CALOTTE_API_BEGIN
+namespace calotte {
+
+/// How values at sites become values elsewhere. Both are exact at the sites.
+enum class Interpolation {
+  linear, ///< on each triangle, by the weights of locate()
+  /// By the areas that a cell of the position would take from the cells of the sites around it
+  /// (Sibson, Math. Proc. Camb. Phil. Soc. 87, 1980). Smooth except at the sites. In the plane it
+  /// is exact for linear functions.
+  natural_neighbours,
+};
+
+/// Weights of sites: a row for each position, a column for each site. The weights of a row are >= 0
+/// and sum to 1; a row outside of an open mesh has none.
+using Weights = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+
+/// The weights that interpolate from the sites of a mesh to positions on the sphere.
+/// \param mesh, positions as for locate().
+/// \throws Error as locate().
+Weights interpolation_weights(const Mesh& mesh, const PointsRef& positions,
+                              Interpolation kind = Interpolation::linear);
+
+/// The same in the plane.
+Weights interpolation_weights(const PlanarMesh& mesh, const PointsRef& positions,
+                              Interpolation kind = Interpolation::linear);
+
+/// Values at positions: the product of weights and values; NaN outside.
+/// \param values by site.
+/// \throws Error bad_option unless there is a value for each site.
+Eigen::VectorXd interpolate(const Weights& weights, const Eigen::VectorXd& values);
+
+} // namespace calotte
+CALOTTE_API_END

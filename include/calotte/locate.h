@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <calotte/error.h>
+#include <calotte/export.h>
+#include <calotte/types.h>
+
+#include <cstdint>
+
+CALOTTE_API_BEGIN
+namespace calotte {
+
+/// Where positions lie in a mesh; one element, or column, for each position.
+struct Locations {
+  using Ids = Eigen::Matrix<std::int32_t, Eigen::Dynamic, 1>;
+
+  /// The triangle that holds the position, of several that hold it the lowest: triangles include
+  /// their edges and vertices. -1 outside of an open mesh. Exact.
+  Ids triangle;
+  /// 3 x n, barycentric: the position, or on the sphere its direction, is the sum of the triangle's
+  /// vertices, unit vectors on the sphere, times the weights, up to a factor. From 0 to 1, their
+  /// sum is 1; exactly 0 on the edge across. NaN outside.
+  Eigen::Matrix3Xd weights;
+  /// The nearest site, the lowest of those that are equally near. Exact.
+  Ids nearest;
+};
+
+/// Locates positions in a triangulation of the sphere.
+///
+/// The positions are sorted along a space-filling curve; from the triangle of each, a walk leads to
+/// that of the next across edges that separate them (Lawson, in: Mathematical Software III, 1977),
+/// in parallel. Sites without triangles are not found.
+/// \param mesh a Delaunay triangulation. In a closed mesh that is none, the nearest site may be
+///        another one; the triangle is exact.
+/// \param positions 3 x n directions of any norm but 0.
+/// \throws Error bad_option: other than 3 rows, or a mesh without triangles; not_finite,
+/// zero_vector
+///         with the index of the position.
+Locations locate(const Mesh& mesh, const PointsRef& positions);
+
+/// The same in the plane. In a periodic box the positions may lie outside of it: their copies
+/// inside are located. \param positions 2 x n.
+Locations locate(const PlanarMesh& mesh, const PointsRef& positions);
+
+} // namespace calotte
+CALOTTE_API_END

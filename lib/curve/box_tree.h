@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "base/vec3.h"
+#include "curve/room.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace calotte::curve_detail {
+
+/// A box of space, closed.
+struct Box3 {
+  Vec3 low = corner(std::numeric_limits<double>::infinity()),
+       high = corner(-std::numeric_limits<double>::infinity()); ///< default: empty
+
+  static constexpr Vec3 corner(double x) { return {x, x, x}; }
+};
+
+inline Box3 joined(const Box3& a, const Box3& b) {
+  return {
+      {std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y), std::min(a.low.z, b.low.z)},
+      {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y), std::max(a.high.z, b.high.z)}};
+}
+
+inline bool overlap(const Box3& a, const Box3& b) {
+  return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y &&
+         a.low.z <= b.high.z && b.low.z <= a.high.z;
+}
+
+/// The square of the distance from a point to a box; 0 inside it.
+inline double square_from(const Box3& box, const Vec3& p) {
+  const Vec3 beyond{std::max({0.0, box.low.x - p.x, p.x - box.high.x}),
+                    std::max({0.0, box.low.y - p.y, p.y - box.high.y}),
+                    std::max({0.0, box.low.z - p.z, p.z - box.high.z})};
+  return dot(beyond, beyond);
+}
+
+/// Items sorted along the space-filling curve, below a binary tree of boxes: node k has the
+/// children 2k and 2k + 1.
+class BoxTree {
+public:
+  BoxTree() = default;
+
+  /// \param boxes of the items.
+  /// \param keys of the items along the curve, see hilbert.h.
+  BoxTree(const std::vector<Box3>& boxes, const std::vector<std::uint64_t>& keys);
+
+  /// Calls body(item) once for each item whose box satisfies meets(box). The order of the calls is
+  /// a function of the items alone.
+  /// \param meets true for a box that contains one for which it is true.
+  template <class Meets, class Body> void visit(const Meets& meets, const Body& body) const {
+    if (order_.empty())
+      return;
+    std::size_t waiting[64]; // a node for each level, and its sibling
+    std::size_t count = 0;
+    waiting[count++] = 1;
+    while (count > 0) {
+      const std::size_t node = waiting[--count];
+      if (!meets(boxes_[node]))
+        continue;
+      if (node < leaves_) {
+        waiting[count++] = 2 * node + 1;
+        waiting[count++] = 2 * node;
+        continue;
+      }
+      for (std::size_t k = first_of(node - leaves_); k < first_of(node - leaves_ + 1); ++k)
+        if (meets(own_[k]))
+          body(order_[k]);
+    }
+  }
+
+private:
+  static constexpr std::size_t items_of_leaf = 4;
+
+  std::size_t first_of(std::size_t leaf) const { return leaf * order_.size() / leaves_; }
+
+  std::vector<std::int32_t> order_; ///< items along the curve
+  std::vector<Box3> own_;           ///< of the items, in this order
+  std::vector<Box3> boxes_;         ///< of the nodes
+  std::size_t leaves_ = 1;
+};
+
+} // namespace calotte::curve_detail

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "cvt/room.h"
+
+#include <calotte/density.h>
+#include <calotte/domain.h>
+#include <calotte/region.h>
+#include <calotte/types.h>
+
+#include <cstdint>
+
+/// Points to start from beside fixed generators. A descent does not move a free generator past the
+/// fixed ones around it, so a free one that starts among fixed ones that are as dense as demanded
+/// stays there, in a cell far too small.
+namespace calotte::cvt_detail {
+
+/// Random points that follow a density of sites where fixed generators leave it unmet: 0.85 of
+/// the demanded distance or more from each of them, and near to one whose neighbours leave a gap.
+/// Where such places do not suffice, those farthest from fixed generators are taken.
+/// \param count number of points; 0 or more.
+/// \param cells number of cells that the density demands in the region, fixed ones included.
+/// \param fixed 3 x m, of any norm; if there are none, the points are those of random_sphere().
+/// \param sites density of sites, see site_density().
+Points3 free_points(std::int64_t count, std::int64_t cells, const Points3& fixed,
+                    const Region& region, const Density& sites, std::uint64_t seed);
+
+/// The same in the plane. \param fixed 2 x m.
+Points2 free_points(std::int64_t count, std::int64_t cells, const Points2& fixed,
+                    const PlanarDomain& domain, const Density& sites, std::uint64_t seed);
+
+} // namespace calotte::cvt_detail

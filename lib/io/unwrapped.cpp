@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/points.h"
+#include "domain/periodic_box.h"
+#include "io/room.h"
+
+#include <calotte/mesh_file.h>
+
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace calotte {
+namespace {
+
+using namespace io_detail;
+
+/// Corners, and copies of them by their shift in whole periods.
+class Copies {
+public:
+  Copies(const Points3& corners, const Vec2& period) : corners_(corners), period_(period) {}
+
+  /// The corner's copy that is nearest to a place.
+  std::int32_t near(std::int32_t corner, const Vec3& place) {
+    const Vec3& here = column(corners_, corner);
+    const double i = domain_detail::periods_between(place.x, here.x, period_.x),
+                 j = domain_detail::periods_between(place.y, here.y, period_.y);
+    if (i == 0 && j == 0)
+      return corner;
+    const std::array<std::int32_t, 3> key{corner, static_cast<std::int32_t>(i),
+                                          static_cast<std::int32_t>(j)};
+    const auto [known, is_new] =
+        known_.try_emplace(key, static_cast<std::int32_t>(corners_.cols() + std::ssize(copies_)));
+    if (is_new)
+      copies_.push_back({here.x + i * period_.x, here.y + j * period_.y, 0});
+    return known->second;
+  }
+
+  Points3 all() const {
+    Points3 points(3, corners_.cols() + std::ssize(copies_));
+    points.leftCols(corners_.cols()) = corners_;
+    for (std::size_t k = 0; k < copies_.size(); ++k)
+      set_column(points, corners_.cols() + static_cast<std::int64_t>(k), copies_[k]);
+    return points;
+  }
+
+private:
+  const Points3& corners_;
+  Vec2 period_;
+  std::vector<Vec3> copies_;
+  std::map<std::array<std::int32_t, 3>, std::int32_t> known_;
+};
+
+} // namespace
+
+Polygons unwrapped(Polygons polygons) {
+  if (!(polygons.period.maxCoeff() > 0))
+    return polygons;
+  Copies copies(polygons.corners, {polygons.period.x(), polygons.period.y()});
+  const bool centred = polygons.centres.cols() == polygons.size();
+  for (std::int64_t i = 0; i < polygons.size(); ++i) {
+    if (polygons.begin[i] == polygons.begin[i + 1])
+      continue;
+    const Vec3 place = centred ? column(polygons.centres, i)
+                               : column(polygons.corners, polygons.ids[polygons.begin[i]]);
+    for (std::int64_t k = polygons.begin[i]; k < polygons.begin[i + 1]; ++k)
+      polygons.ids[k] = copies.near(polygons.ids[k], place);
+  }
+  Points3 corners = copies.all();
+  polygons.corners = std::move(corners);
+  polygons.period.setZero();
+  return polygons;
+}
+
+} // namespace calotte

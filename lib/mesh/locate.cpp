@@ -1,0 +1,302 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <calotte/locate.h>
+
+#include "base/parallel.h"
+#include "base/points.h"
+#include "base/require.h"
+#include "base/triangle.h"
+#include "curve/box_tree.h"
+#include "curve/hilbert.h"
+#include "curve/radix_sort.h"
+#include "mesh/connectivity.h"
+#include "mesh/faces.h"
+#include "mesh/locate_spaces.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace calotte {
+namespace mesh_detail {
+namespace {
+
+using base_detail::require;
+
+template <class Space, class AnyMesh> class Locator {
+public:
+  using Position = typename Space::Position;
+
+  Locator(const AnyMesh& mesh, const Space& space, bool closed)
+      : mesh_(mesh), faces_(faces_of(mesh)), space_(space), closed_(closed) {
+    set_starts();
+  }
+
+  /// Any triangle near a key along the curve.
+  std::int32_t start_near(std::uint64_t key) const {
+    const auto found = std::lower_bound(
+        starts_.begin(), starts_.end(), key,
+        [](const KeyedItem& start, std::uint64_t value) { return start.key < value; });
+    return found == starts_.end() ? starts_.back().item : found->item;
+  }
+
+  /// Sets the location of a position. Returns a triangle near it.
+  std::int32_t locate(const Position& p, std::int32_t from, std::int64_t i, Locations& out) const {
+    const std::int32_t end = walk(p, from);
+    const std::int32_t holder = end >= 0 ? lowest_at(end, p) : search(p);
+    out.triangle[i] = holder;
+    set_weights(holder, p, i, out);
+    const std::int32_t near = holder >= 0 ? holder : from;
+    out.nearest[i] = closed_ ? nearest_from(near, p) : nearest_of_all(near, p);
+    return near;
+  }
+
+private:
+  void set_starts() {
+    constexpr std::int64_t most = 4096;
+    const std::int64_t triangles = mesh_.triangles.cols(), count = std::min(most, triangles);
+    for (std::int64_t k = 0; k < count; ++k) {
+      const auto t = static_cast<std::int32_t>(k * triangles / count);
+      starts_.push_back({key_of(t), t});
+    }
+    std::sort(starts_.begin(), starts_.end(), precedes);
+  }
+  std::uint64_t key_of(std::int64_t t) const {
+    return curve_key(space_.square(space_.vertex(mesh_.triangles(0, t))));
+  }
+
+  /// Crosses edges that separate p from the triangle: in a Delaunay triangulation each step leads
+  /// to a higher plane of the convex hull over p, so that no triangle comes twice. Returns the
+  /// triangle that holds p, or -1 at an open edge, or where a mesh that is not Delaunay leads
+  /// round.
+  std::int32_t walk(const Position& p, std::int32_t t) const {
+    int came = 3; // from across this vertex: p is on the inner side there
+    for (std::int64_t steps = 0; steps <= mesh_.triangles.cols(); ++steps) {
+      int v = 0;
+      while (v < 3 && (v == came || space_.side(t, v, p) >= 0))
+        ++v;
+      if (v == 3)
+        return t;
+      const std::int32_t beyond = mesh_.neighbours(v, t);
+      if (beyond < 0)
+        return -1;
+      came = vertex_across(mesh_.neighbours, beyond, t);
+      t = beyond;
+    }
+    return -1;
+  }
+
+  bool holds(std::int64_t t, const Position& p) const {
+    return space_.side(t, 0, p) >= 0 && space_.side(t, 1, p) >= 0 && space_.side(t, 2, p) >= 0;
+  }
+
+  /// Of all triangles, the lowest that holds p; -1 without one. For a walk that left the mesh.
+  std::int32_t search(const Position& p) const {
+    std::int32_t lowest = -1;
+    for (int k = 0; k < Space::copies; ++k) {
+      const Position copy = space_.copy(p, k);
+      const Vec3 at = space_.coordinates(copy);
+      tree().visit([&](const Box3& box) { return square_from(box, at) <= 0; },
+                   [&](std::int32_t t) {
+                     if ((lowest < 0 || t < lowest) && holds(t, copy))
+                       lowest = t;
+                   });
+    }
+    return lowest;
+  }
+
+  /// Of the triangles that meet where p is, the lowest.
+  std::int32_t lowest_at(std::int32_t t, const Position& p) const {
+    std::array<bool, 3> on{};
+    int count = 0;
+    for (int v = 0; v < 3; ++v) {
+      on[static_cast<std::size_t>(v)] = space_.side(t, v, p) == 0;
+      count += on[static_cast<std::size_t>(v)] ? 1 : 0;
+    }
+    if (count == 0)
+      return t;
+    std::int32_t lowest = t;
+    for (int v = 0; v < 3; ++v) {
+      if (count == 1 && on[static_cast<std::size_t>(v)] && mesh_.neighbours(v, t) >= 0)
+        lowest = std::min(lowest, mesh_.neighbours(v, t));
+      if (count > 1 && !on[static_cast<std::size_t>(v)]) // p is that vertex
+        for_each_around({t, v}, [&](Corner corner) { lowest = std::min(lowest, corner.triangle); });
+    }
+    return lowest;
+  }
+
+  /// The corners at a site, from one of them in both directions.
+  template <class Body> void for_each_around(Corner corner, const Body& body) const {
+    const auto next = [&](Corner c) { return next_around(faces_, c); };
+    if (!exists(walk_around(corner, next, body)))
+      return;
+    const auto before = [&](Corner c) {
+      const std::int32_t beyond = mesh_.neighbours(previous_vertex(c.vertex), c.triangle);
+      return beyond < 0 ? no_corner
+                        : Corner{beyond, vertex_at(mesh_.triangles, beyond, site_at(faces_, c))};
+    };
+    walk_around(corner, before, body);
+  }
+
+  /// Calls body(site, corner at it) for the neighbours of a site of a closed mesh.
+  template <class Body> void for_each_neighbour(Corner corner, const Body& body) const {
+    for_each_around(corner, [&](Corner c) {
+      body(following_site(faces_, c), Corner{c.triangle, next_vertex(c.vertex)});
+    });
+  }
+
+  /// From site to site, each nearer than the last. A site of a Delaunay triangulation is nearest if
+  /// none of its neighbours is nearer.
+  std::int32_t nearest_from(std::int32_t t, const Position& p) const {
+    for (Corner here{t, 0};;) {
+      Corner best = here;
+      bool tied = false;
+      for_each_neighbour(here, [&](std::int32_t site, Corner corner) {
+        const int order = space_.compare(p, site, site_at(faces_, best));
+        if (order < 0)
+          best = corner;
+        tied = tied || order == 0;
+      });
+      const std::int32_t site = site_at(faces_, here);
+      if (site_at(faces_, best) == site)
+        return tied ? lowest_tie(here, p) : site;
+      here = best;
+    }
+  }
+
+  /// The lowest of the sites that are as near: their circle is empty, so that edges connect them.
+  std::int32_t lowest_tie(Corner from, const Position& p) const {
+    std::vector<Corner> found{from};
+    std::int32_t lowest = site_at(faces_, from);
+    for (std::size_t k = 0; k < found.size(); ++k)
+      for_each_neighbour(Corner(found[k]), [&](std::int32_t site, Corner corner) {
+        const bool known = std::any_of(found.begin(), found.end(),
+                                       [&](Corner c) { return site_at(faces_, c) == site; });
+        if (!known && space_.compare(p, site, lowest) == 0)
+          found.push_back(corner);
+      });
+    for (const Corner& corner : found)
+      lowest = std::min(lowest, site_at(faces_, corner));
+    return lowest;
+  }
+
+  /// Of all sites with triangles. \param t one whose sites may be near.
+  std::int32_t nearest_of_all(std::int32_t t, const Position& p) const {
+    const Vec3 at = space_.coordinates(p);
+    std::int32_t best = mesh_.triangles(0, t);
+    const auto square_to = [&](std::int32_t site) {
+      const Vec3 apart = space_.vertex(site) - at;
+      return dot(apart, apart);
+    };
+    double reach = square_to(best);
+    const auto consider = [&](std::int32_t site) {
+      const int order = space_.compare(p, site, best);
+      if (order < 0 || (order == 0 && site < best)) {
+        best = site;
+        reach = square_to(site);
+      }
+    };
+    for (int v = 0; v < 3; ++v)
+      consider(mesh_.triangles(v, t));
+    constexpr double rounding = 1 + 1e-9;
+    tree().visit([&](const Box3& box) { return square_from(box, at) <= reach * rounding + 1e-30; },
+                 [&](std::int32_t triangle) {
+                   for (int v = 0; v < 3; ++v)
+                     consider(mesh_.triangles(v, triangle));
+                 });
+    return best;
+  }
+
+  void set_weights(std::int32_t t, const Position& p, std::int64_t i, Locations& out) const {
+    if (t < 0) {
+      out.weights.col(i).setConstant(std::numeric_limits<double>::quiet_NaN());
+      return;
+    }
+    for (int v = 0; v < 3; ++v)
+      out.weights(v, i) = space_.side(t, v, p) == 0 ? 0 : std::max(0.0, space_.area(t, v, p));
+    out.weights.col(i) /= out.weights.col(i).sum();
+  }
+
+  const BoxTree& tree() const {
+    std::call_once(made_, [&] {
+      const std::int64_t count = mesh_.triangles.cols();
+      std::vector<Box3> boxes(static_cast<std::size_t>(count));
+      std::vector<std::uint64_t> keys(boxes.size());
+      for (std::int64_t t = 0; t < count; ++t) {
+        boxes[static_cast<std::size_t>(t)] = space_.box(t);
+        keys[static_cast<std::size_t>(t)] = key_of(t);
+      }
+      tree_ = BoxTree(boxes, keys);
+    });
+    return tree_;
+  }
+
+  const AnyMesh& mesh_;
+  Faces faces_;
+  const Space& space_;
+  bool closed_;
+  std::vector<KeyedItem> starts_; ///< some triangles, by key
+  mutable std::once_flag made_;
+  mutable BoxTree tree_; ///< of all triangles, once a walk leaves an open mesh
+};
+
+template <class Space, class AnyMesh>
+Locations locate_all(const AnyMesh& mesh, const Space& space, std::int64_t count, bool closed) {
+  require(mesh.triangles.cols() > 0, "the mesh has no triangles; give one that has");
+  Locations out{Locations::Ids(count), Eigen::Matrix3Xd(3, count), Locations::Ids(count)};
+  const Locator<Space, AnyMesh> locator(mesh, space, closed);
+  Array<std::uint64_t> keys(count);
+  for_each_block(count, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i != end; ++i)
+      keys[i] = curve_key(space.square(space.coordinates(space.position(i))));
+  });
+  const Order order = order_by_key(std::move(keys));
+  for_each_block(count, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    std::int32_t t = locator.start_near(order.keys[begin]);
+    for (std::int64_t k = begin; k != end; ++k) {
+      const std::int32_t i = order.items[k];
+      t = locator.locate(space.position(i), t, i, out);
+    }
+  });
+  return out;
+}
+
+/// \param bad(i) whether the position cannot be located.
+template <class Bad>
+void require_positions(std::int64_t count, const Bad& bad, ErrorCode code,
+                       const std::string& what) {
+  for (std::int64_t i = 0; i < count; ++i)
+    if (bad(i))
+      throw Error(code, "position " + std::to_string(i) + what, i);
+}
+
+} // namespace
+} // namespace mesh_detail
+
+Locations locate(const Mesh& mesh, const PointsRef& given) {
+  using namespace mesh_detail;
+  const base_detail::Points3Ref positions = base_detail::directions_of(given);
+  const auto at = [&](std::int64_t i) { return positions.col(i); };
+  require_positions(
+      positions.cols(), [&](std::int64_t i) { return !at(i).allFinite(); }, ErrorCode::not_finite,
+      " is not finite; leave it out");
+  require_positions(
+      positions.cols(), [&](std::int64_t i) { return (at(i).array() == 0).all(); },
+      ErrorCode::zero_vector, " is the zero vector, which is no direction; leave it out");
+  return locate_all(mesh, OnSphere(mesh, positions), positions.cols(), mesh.closed());
+}
+
+Locations locate(const PlanarMesh& mesh, const PointsRef& given) {
+  using namespace mesh_detail;
+  const base_detail::Points2Ref positions = base_detail::places_of(given);
+  require_positions(
+      positions.cols(), [&](std::int64_t i) { return !positions.col(i).allFinite(); },
+      ErrorCode::not_finite, " is not finite; leave it out");
+  return locate_all(mesh, InPlane(mesh, positions), positions.cols(), mesh.period.minCoeff() > 0);
+}
+
+} // namespace calotte

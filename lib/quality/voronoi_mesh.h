@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "quality/room.h"
+
+#include <calotte/check.h>
+#include <calotte/error.h>
+
+namespace calotte::quality_detail {
+
+/// Throws unless the mesh is the Delaunay triangulation of its points, but for the other diagonals
+/// of cocircular sites, which make the same cells.
+/// \param mesh of the sphere or the plane.
+/// \returns what check() or, with such diagonals, check_surface() finds.
+/// \throws Error bad_option.
+template <class AnyMesh> Check require_voronoi_mesh(const AnyMesh& mesh) {
+  Check found = check(mesh);
+  if (found.passed())
+    return found;
+  const std::string failure = found.failure;
+  found = check_surface(mesh);
+  const EdgeCounts edges = found.passed() ? count_edges(mesh) : EdgeCounts{};
+  if (edges.cocircular == 0 || edges.not_delaunay > 0 || edges.not_convex > 0 ||
+      edges.unused_sites > 0)
+    throw Error(ErrorCode::bad_option,
+                "the mesh is not the Delaunay triangulation of its points, so it has no Voronoi "
+                "cells: " +
+                    failure + "; triangulate the points anew");
+  return found;
+}
+
+} // namespace calotte::quality_detail

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <calotte/interpolate.h>
+
+#include "base/parallel.h"
+#include "base/points.h"
+#include "base/require.h"
+#include "mesh/connectivity.h"
+#include "mesh/faces.h"
+#include "mesh/locate_spaces.h"
+#include "voronoi/triangle_area.h"
+
+#include <calotte/locate.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace calotte {
+namespace voronoi_detail {
+namespace {
+
+using base_detail::require;
+
+struct Weight {
+  std::int32_t site;
+  double value;
+};
+using Row = std::vector<Weight>;
+
+// ---- Circles and areas of points that OnSphere and InPlane see
+
+Vec3 circumcentre(const OnSphere&, const Vec3& a, const Vec3& b, const Vec3& c) {
+  return exact_detail::normalised(cross(b - a, c - a));
+}
+Vec3 circumcentre(const InPlane&, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 u = b - a, v = c - a;
+  const double twice = 2 * cross(u, v).z, uu = dot(u, u), vv = dot(v, v);
+  return {a.x + (v.y * uu - u.y * vv) / twice, a.y + (u.x * vv - v.x * uu) / twice, 0};
+}
+double area(const OnSphere&, const Vec3& a, const Vec3& b, const Vec3& c) {
+  return triangle_area(a, b, c);
+}
+double area(const InPlane&, const Vec3& a, const Vec3& b, const Vec3& c) {
+  return cross(b - a, c - a).z / 2;
+}
+
+// ---- Natural neighbours
+
+/// An edge of the polygon around the triangles whose circumcaps hold a position, which lies to its
+/// left. The triangle is the one inside, with the edge across from its vertex `across`.
+struct Side {
+  std::int32_t triangle;
+  int across;
+};
+
+template <class Space, class AnyMesh> class NaturalNeighbours {
+public:
+  using Position = typename Space::Position;
+
+  NaturalNeighbours(const AnyMesh& mesh, const Space& space)
+      : mesh_(mesh), faces_(faces_of(mesh)), space_(space) {}
+
+  /// \param t the triangle that holds p, which is no site and not on an open edge.
+  void set(const Position& p, std::int32_t t, Row& out) const {
+    std::vector<Side> sides; // counter-clockwise
+    for (int v = 0; v < 3; ++v)
+      add_sides(p, {t, v}, sides);
+    out.clear();
+    double sum = 0;
+    for (std::size_t k = 0; k < sides.size(); ++k) {
+      const double stolen = std::max(0.0, area_between(p, sides[k], sides[(k + 1) % sides.size()]));
+      out.push_back({end_of(sides[k]), stolen});
+      sum += stolen;
+    }
+    for (Weight& weight : out)
+      weight.value /= sum;
+  }
+
+private:
+  std::int32_t start_of(const Side& side) const {
+    return mesh_.triangles(next_vertex(side.across), side.triangle);
+  }
+  std::int32_t end_of(const Side& side) const {
+    return mesh_.triangles(previous_vertex(side.across), side.triangle);
+  }
+
+  /// The sides beyond an edge of a triangle inside, or the edge itself if none of those beyond it
+  /// is inside. The triangles inside form a tree, as no site is inside of all.
+  void add_sides(const Position& p, const Side& edge, std::vector<Side>& out) const {
+    const std::int32_t beyond = mesh_.neighbours(edge.across, edge.triangle);
+    if (beyond < 0 || space_.in_circle(beyond, p) <= 0) {
+      out.push_back(edge);
+      return;
+    }
+    const int back = vertex_across(mesh_.neighbours, beyond, edge.triangle);
+    add_sides(p, {beyond, next_vertex(back)}, out);
+    add_sides(p, {beyond, previous_vertex(back)}, out);
+  }
+
+  Vec3 centre_with(const Position& p, const Side& side) const {
+    return circumcentre(space_, space_.seen(p), space_.seen(start_of(side), p),
+                        space_.seen(end_of(side), p));
+  }
+  Vec3 centre_of(std::int32_t t, const Position& p) const {
+    return circumcentre(space_, space_.seen(mesh_.triangles(0, t), p),
+                        space_.seen(mesh_.triangles(1, t), p),
+                        space_.seen(mesh_.triangles(2, t), p));
+  }
+
+  /// What the cell of p takes from the cell of the site between two sides: the polygon of the new
+  /// vertices on either side, and the old ones between them, which p removes.
+  double area_between(const Position& p, const Side& before, const Side& after) const {
+    const Vec3 first = centre_with(p, before);
+    Vec3 last = centre_with(p, after);
+    double sum = 0;
+    const auto add = [&](const Vec3& corner) {
+      sum += area(space_, first, last, corner);
+      last = corner;
+    };
+    Corner corner{after.triangle, next_vertex(after.across)};
+    while (corner.triangle != before.triangle) {
+      add(centre_of(corner.triangle, p));
+      corner = next_around(faces_, corner);
+    }
+    add(centre_of(corner.triangle, p));
+    return sum;
+  }
+
+  const AnyMesh& mesh_;
+  Faces faces_;
+  const Space& space_;
+};
+
+// ---- Rows
+
+void set_linear(const Triangles& triangles, const Locations& at, std::int64_t i, Row& out) {
+  out.clear();
+  for (int v = 0; v < 3; ++v)
+    if (at.weights(v, i) > 0)
+      out.push_back({triangles(v, at.triangle[i]), at.weights(v, i)});
+}
+
+/// Whether a position is on an open edge, or is a site: its weights are those of the edge's ends.
+bool on_boundary(const Triangles& neighbours, const Locations& at, std::int64_t i) {
+  int zeros = 0;
+  bool open = false;
+  for (int v = 0; v < 3; ++v)
+    if (at.weights(v, i) == 0) {
+      ++zeros;
+      open = open || neighbours(v, at.triangle[i]) < 0;
+    }
+  return zeros > 1 || open;
+}
+
+template <class AnyMesh, class Space>
+Weights weights_of(const AnyMesh& mesh, const Space& space, const Locations& at,
+                   Interpolation kind) {
+  const std::int64_t count = at.triangle.size();
+  const NaturalNeighbours<Space, AnyMesh> natural(mesh, space);
+  std::vector<std::vector<Row>> blocks(static_cast<std::size_t>(block_count(count)));
+  for_each_block(count, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
+    std::vector<Row>& rows = blocks[static_cast<std::size_t>(block)];
+    rows.resize(static_cast<std::size_t>(end - begin));
+    for (std::int64_t i = begin; i != end; ++i) {
+      Row& row = rows[static_cast<std::size_t>(i - begin)];
+      if (at.triangle[i] < 0)
+        continue;
+      if (kind == Interpolation::linear || on_boundary(mesh.neighbours, at, i))
+        set_linear(mesh.triangles, at, i, row);
+      else
+        natural.set(space.position(i), at.triangle[i], row);
+      std::sort(row.begin(), row.end(),
+                [](const Weight& a, const Weight& b) { return a.site < b.site; });
+    }
+  });
+  Weights out(count, mesh.points.cols());
+  std::int64_t entries = 0;
+  for (const std::vector<Row>& rows : blocks)
+    for (const Row& row : rows)
+      entries += std::ssize(row);
+  require(entries <= std::numeric_limits<int>::max(),
+          std::to_string(entries) + " weights are too many; give fewer positions at a time");
+  out.reserve(entries);
+  std::int64_t i = 0;
+  for (const std::vector<Row>& rows : blocks)
+    for (const Row& row : rows) {
+      out.startVec(i);
+      for (const Weight& weight : row)
+        out.insertBack(i, weight.site) = weight.value;
+      ++i;
+    }
+  out.finalize();
+  return out;
+}
+
+} // namespace
+} // namespace voronoi_detail
+
+Weights interpolation_weights(const Mesh& mesh, const PointsRef& given, Interpolation kind) {
+  const base_detail::Points3Ref positions = base_detail::directions_of(given);
+  return voronoi_detail::weights_of(mesh, mesh_detail::OnSphere(mesh, positions),
+                                    locate(mesh, positions), kind);
+}
+
+Weights interpolation_weights(const PlanarMesh& mesh, const PointsRef& given, Interpolation kind) {
+  const base_detail::Points2Ref positions = base_detail::places_of(given);
+  return voronoi_detail::weights_of(mesh, mesh_detail::InPlane(mesh, positions),
+                                    locate(mesh, positions), kind);
+}
+
+Eigen::VectorXd interpolate(const Weights& weights, const Eigen::VectorXd& values) {
+  base_detail::require(weights.cols() == values.size(),
+                       "there are " + std::to_string(values.size()) + " values for " +
+                           std::to_string(weights.cols()) + " sites; give one for each");
+  Eigen::VectorXd out(weights.rows());
+  base_detail::for_each_block(out.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i != end; ++i) {
+      double sum = 0;
+      bool any = false;
+      for (Weights::InnerIterator entry(weights, i); entry; ++entry) {
+        sum += entry.value() * values[entry.col()];
+        any = true;
+      }
+      out[i] = any ? sum : std::numeric_limits<double>::quiet_NaN();
+    }
+  });
+  return out;
+}
+
+} // namespace calotte

@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <calotte/delaunay.h>
+#include <calotte/generators.h>
+#include <calotte/locate.h>
+
+#include "base/points.h"
+#include "exact/plane_predicates.h"
+#include "exact/predicates.h"
+#include "support/clouds.h"
+
+#include <Eigen/Geometry>
+#include <doctest/doctest.h>
+#include <tbb/global_control.h>
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+using namespace calotte;
+using base_detail::column;
+using exact_detail::Image;
+using exact_detail::Vec2;
+
+namespace {
+
+/// Every triangle and every site, by exact signs.
+struct Found {
+  std::int32_t triangle = -1, nearest = -1;
+};
+
+Found by_all(const Mesh& mesh, const Eigen::Vector3d& position) {
+  const Points3 p = position;
+  const auto at = [&](std::int32_t site) { return column(mesh.points, site); };
+  Found out;
+  for (std::int32_t t = 0; out.triangle < 0 && t < mesh.triangles.cols(); ++t) {
+    const auto x = mesh.triangles.col(t);
+    if (exact_detail::orientation(at(x[0]), at(x[1]), column(p, 0)) >= 0 &&
+        exact_detail::orientation(at(x[1]), at(x[2]), column(p, 0)) >= 0 &&
+        exact_detail::orientation(at(x[2]), at(x[0]), column(p, 0)) >= 0)
+      out.triangle = t;
+  }
+  for (const std::int32_t site : mesh.triangles.reshaped())
+    if (out.nearest < 0 ||
+        exact_detail::compare_distances(column(p, 0), at(site), at(out.nearest)) < 0 ||
+        (site < out.nearest &&
+         exact_detail::compare_distances(column(p, 0), at(site), at(out.nearest)) == 0))
+      out.nearest = site;
+  return out;
+}
+
+/// In a periodic box over the copies of positions around it.
+Found by_all(const PlanarMesh& mesh, const Eigen::Vector2d& p) {
+  const Vec2 period{mesh.period.x(), mesh.period.y()};
+  const auto image = [&](std::int32_t site, int i, int j) {
+    return Image{{mesh.points(0, site), mesh.points(1, site)}, i, j};
+  };
+  // The copy of a site that is nearest to another point; triangles are smaller than half a box.
+  const auto near = [&](std::int32_t site, const Image& to) {
+    const auto shift = [](double x, double other, double length) {
+      return length > 0 ? static_cast<int>(std::lround((other - x) / length)) : 0;
+    };
+    return image(site, shift(mesh.points(0, site), to.site.x + to.i * period.x, period.x),
+                 shift(mesh.points(1, site), to.site.y + to.j * period.y, period.y));
+  };
+  const auto inside = [](double x, double length) {
+    return length > 0 ? -static_cast<int>(std::floor(x / length)) : 0;
+  };
+  const Image home{{p.x(), p.y()}, inside(p.x(), period.x), inside(p.y(), period.y)};
+  Found out;
+  for (std::int32_t t = 0; out.triangle < 0 && t < mesh.triangles.cols(); ++t)
+    for (int i = -1; i <= 1; ++i)
+      for (int j = -1; j <= 1; ++j) {
+        if ((i != 0 && period.x == 0) || (j != 0 && period.y == 0))
+          continue;
+        const Image at{home.site, home.i + i, home.j + j}, a = image(mesh.triangles(0, t), 0, 0),
+                                                           b = near(mesh.triangles(1, t), a),
+                                                           c = near(mesh.triangles(2, t), a);
+        if (exact_detail::orientation(period, a, b, at) >= 0 &&
+            exact_detail::orientation(period, b, c, at) >= 0 &&
+            exact_detail::orientation(period, c, a, at) >= 0)
+          out.triangle = t;
+      }
+  for (const std::int32_t site : mesh.triangles.reshaped()) {
+    const int order = out.nearest < 0
+                          ? -1
+                          : exact_detail::compare_distances(period, home, near(site, home),
+                                                            near(out.nearest, home));
+    if (order < 0 || (order == 0 && site < out.nearest))
+      out.nearest = site;
+  }
+  return out;
+}
+
+/// The law: what an exhaustive search finds, and weights that give the position back.
+template <class AnyMesh, class Points> void check_located(const AnyMesh& mesh, const Points& at) {
+  const Locations found = locate(mesh, at);
+  REQUIRE(found.triangle.size() == at.cols());
+  REQUIRE(found.nearest.size() == at.cols());
+  for (Eigen::Index i = 0; i < at.cols(); ++i) {
+    CAPTURE(i);
+    const Found wanted = by_all(mesh, at.col(i));
+    CHECK(found.triangle[i] == wanted.triangle);
+    CHECK(found.nearest[i] == wanted.nearest);
+    if (wanted.triangle < 0) {
+      CHECK(found.weights.col(i).array().isNaN().all());
+      continue;
+    }
+    CHECK(std::abs(found.weights.col(i).sum() - 1) < 1e-14);
+    CHECK(found.weights.col(i).minCoeff() >= 0);
+  }
+}
+
+/// The positions that the weights give.
+Points3 from_weights(const Mesh& mesh, const Locations& at) {
+  Points3 out(3, at.triangle.size());
+  for (Eigen::Index i = 0; i < out.cols(); ++i) {
+    out.col(i).setZero();
+    for (int v = 0; v < 3; ++v)
+      out.col(i) +=
+          at.weights(v, i) * mesh.points.col(mesh.triangles(v, at.triangle[i])).normalized();
+  }
+  return out.colwise().normalized();
+}
+
+/// Positions with ties: sites, midpoints of edges, centroids and circumcentres.
+Points3 special(const Mesh& mesh) {
+  Points3 out(3, mesh.points.cols() + 3 * mesh.triangles.cols());
+  out.leftCols(mesh.points.cols()) = 3.5 * mesh.points;
+  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
+    const Eigen::Vector3d a = mesh.points.col(mesh.triangles(0, t)),
+                          b = mesh.points.col(mesh.triangles(1, t)),
+                          c = mesh.points.col(mesh.triangles(2, t));
+    const Eigen::Index k = mesh.points.cols() + 3 * t;
+    out.col(k) = a + b; // on the edge, up to its rounding
+    out.col(k + 1) = a + b + c;
+    out.col(k + 2) = (b - a).cross(c - a);
+  }
+  return out;
+}
+
+} // namespace
+
+TEST_CASE("positions are where an exhaustive search finds them: closed meshes of the sphere") {
+  for (const Points3& points :
+       {random_sphere(300), fibonacci_sphere(200), lat_lon_sphere(9, 16, true), cubed_sphere(5),
+        bisected_icosahedron(2), Points3(test::with_antipodes(random_sphere(40))),
+        Points3(Points3::Identity(3, 3) * 2)}) {
+    if (points.cols() < 4)
+      continue;
+    const Mesh mesh = spherical_delaunay(points);
+    CAPTURE(points.cols());
+    check_located(mesh, random_sphere(500, 3));
+    check_located(mesh, special(mesh));
+  }
+}
+
+TEST_CASE("the octahedron: ties go to the lowest triangle and the lowest site") {
+  Points3 points(3, 6);
+  points << 1, -1, 0, 0, 0, 0, 0, 0, 1, -1, 0, 0, 0, 0, 0, 0, 1, -1;
+  const Mesh mesh = spherical_delaunay(points);
+  Points3 at(3, 4);
+  at << 1, 1, 0, -1, 0, 1, 5, -1, 0, 0, 0, -1;
+  const Locations found = locate(mesh, at);
+  check_located(mesh, at);
+  CHECK(found.nearest[0] == 0);
+  CHECK(found.nearest[1] == 0); // as near to site 2
+  CHECK(found.nearest[2] == 2);
+  CHECK(found.nearest[3] == 1); // as near to 3 and 5
+  CHECK(found.weights.col(0).maxCoeff() == 1);
+  CHECK(found.weights.col(1).minCoeff() == 0);
+  CHECK(found.weights.col(1).maxCoeff() == doctest::Approx(0.5));
+  CHECK(found.weights.col(3).minCoeff() == doctest::Approx(1.0 / 3));
+}
+
+TEST_CASE("open meshes: a hemisphere, and one with a hole and a bay") {
+  const Points3 all = random_sphere(400, 5);
+  std::vector<Eigen::Index> north;
+  for (Eigen::Index i = 0; i < all.cols(); ++i)
+    if (all(2, i) > 0.1)
+      north.push_back(i);
+  Mesh mesh = spherical_delaunay(Points3(all(Eigen::all, north)));
+  CHECK(!mesh.closed());
+  check_located(mesh, random_sphere(600, 6));
+
+  // Without the triangles of a hole and of a bay, so that a walk leaves the mesh on its way.
+  Mesh cut = spherical_delaunay(all);
+  std::vector<Eigen::Index> kept;
+  std::vector<std::int32_t> name(static_cast<std::size_t>(cut.triangles.cols()), -1);
+  for (Eigen::Index t = 0; t < cut.triangles.cols(); ++t) {
+    const Eigen::Vector3d x = cut.points.col(cut.triangles(0, t)) +
+                              cut.points.col(cut.triangles(1, t)) +
+                              cut.points.col(cut.triangles(2, t));
+    if (x.normalized().z() < 0.7 && !(x.normalized().x() > 0.3 && std::abs(x.y()) < 0.4)) {
+      name[static_cast<std::size_t>(t)] = static_cast<std::int32_t>(kept.size());
+      kept.push_back(t);
+    }
+  }
+  cut.triangles = Triangles(cut.triangles(Eigen::all, kept));
+  cut.neighbours = Triangles(cut.neighbours(Eigen::all, kept)).unaryExpr([&](std::int32_t t) {
+    return name[static_cast<std::size_t>(t)];
+  });
+  check_located(cut, random_sphere(800, 7));
+  check_located(cut, special(cut));
+}
+
+TEST_CASE("the plane and periodic boxes") {
+  const PlanarDomain domain = rectangle({0, 0}, {4, 3}), box = periodic_box({4, 3});
+  const Points2 inside = random_places(400, rectangle({-2, -1}, {8, 5}), 3);
+  for (const Points2& points : {random_places(200, domain), hexagonal_lattice(150, domain)}) {
+    const PlanarMesh mesh = planar_delaunay(points);
+    check_located(mesh, inside);
+    check_located(mesh, points);
+  }
+  for (const Points2& points : {random_places(200, box), hexagonal_lattice(150, box)}) {
+    const PlanarMesh mesh = periodic_delaunay(points, {4, 3});
+    check_located(mesh, inside);
+    check_located(mesh, Points2(points.colwise() + Eigen::Vector2d(8, -3)));
+  }
+  Points2 square(2, 4);
+  square << 0, 1, 0, 1, 0, 0, 1, 1;
+  const PlanarMesh mesh = planar_delaunay(square);
+  Points2 at(2, 3);
+  at << 0.5, 1, 2, 0.5, 0.5, 2;
+  const Locations found = locate(mesh, at);
+  CHECK(found.nearest[0] == 0); // as near to all
+  CHECK(found.nearest[1] == 1);
+  CHECK(found.triangle[2] == -1);
+  CHECK(found.nearest[2] == 3);
+}
+
+TEST_CASE("weights give the position back") {
+  const Mesh mesh = spherical_delaunay(random_sphere(5000));
+  const Points3 at = random_sphere(3000, 8);
+  CHECK((from_weights(mesh, locate(mesh, at)) - at).cwiseAbs().maxCoeff() < 1e-13);
+}
+
+TEST_CASE("the same for any number of threads and order of positions") {
+  const Mesh mesh = spherical_delaunay(random_sphere(20000));
+  const Points3 at = random_sphere(30000, 9);
+  const auto with = [&](std::size_t threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    return locate(mesh, at);
+  };
+  const Locations one = with(1), four = with(4), back = locate(mesh, at.rowwise().reverse());
+  CHECK(one.triangle == four.triangle);
+  CHECK(one.weights == four.weights);
+  CHECK(one.nearest == four.nearest);
+  CHECK(one.triangle == Locations::Ids(back.triangle.reverse()));
+  CHECK(one.nearest == Locations::Ids(back.nearest.reverse()));
+}
+
+TEST_CASE("bad input of locate is one clear line with the index") {
+  const Mesh mesh = spherical_delaunay(random_sphere(20));
+  Points3 at = random_sphere(5);
+  CHECK(locate(mesh, Points3(3, 0)).triangle.size() == 0);
+  at.col(3).setZero();
+  CHECK_THROWS_WITH_AS(locate(mesh, at),
+                       "position 3 is the zero vector, which is no direction; leave it out", Error);
+  at(1, 2) = std::nan("");
+  CHECK_THROWS_WITH_AS(locate(mesh, at), "position 2 is not finite; leave it out", Error);
+  CHECK_THROWS_AS(locate(mesh, random_places(3, rectangle({0, 0}, {1, 1}))), Error);
+  CHECK_THROWS_WITH_AS(locate(Mesh{}, random_sphere(3)),
+                       "the mesh has no triangles; give one that has", Error);
+}

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <calotte/delaunay.h>
+#include <calotte/generators.h>
+#include <calotte/interpolate.h>
+#include <calotte/voronoi.h>
+
+#include "support/clouds.h"
+
+#include <doctest/doctest.h>
+#include <tbb/global_control.h>
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+using namespace calotte;
+
+namespace {
+
+constexpr Interpolation natural = Interpolation::natural_neighbours;
+
+Eigen::VectorXd dense_row(const Weights& weights, std::int64_t i) {
+  return Eigen::MatrixXd(weights).row(i);
+}
+
+/// By the definition: what each cell loses when the position becomes a site.
+Eigen::VectorXd stolen(const Eigen::VectorXd& before, const Eigen::VectorXd& after) {
+  const Eigen::Index n = before.size();
+  return (before - after.head(n)) / after[n];
+}
+
+Points3 joined(const Points3& points, const Eigen::Vector3d& p) {
+  Points3 all(3, points.cols() + 1);
+  all << points, p;
+  return all;
+}
+
+Points2 joined(const Points2& points, const Eigen::Vector2d& p) {
+  Points2 all(2, points.cols() + 1);
+  all << points, p;
+  return all;
+}
+
+/// Weights of both kinds: >= 0, and their sum is 1.
+template <class AnyMesh, class Points> void check_rows(const AnyMesh& mesh, const Points& at) {
+  for (const Interpolation kind : {Interpolation::linear, natural}) {
+    const Weights weights = interpolation_weights(mesh, at, kind);
+    REQUIRE(weights.rows() == at.cols());
+    REQUIRE(weights.cols() == mesh.points.cols());
+    for (Eigen::Index i = 0; i < weights.rows(); ++i) {
+      double sum = 0;
+      for (Weights::InnerIterator entry(weights, i); entry; ++entry) {
+        CHECK(entry.value() >= 0);
+        sum += entry.value();
+      }
+      CHECK((sum == 0 || std::abs(sum - 1) < 1e-12));
+    }
+    const Weights at_sites = interpolation_weights(mesh, mesh.points, kind);
+    CHECK((Eigen::MatrixXd(at_sites) -
+           Eigen::MatrixXd::Identity(mesh.points.cols(), mesh.points.cols()))
+              .cwiseAbs()
+              .maxCoeff() < 1e-15);
+  }
+}
+
+} // namespace
+
+TEST_CASE("natural neighbours on the sphere have what the cells lose") {
+  for (const Points3& points : {random_sphere(150), fibonacci_sphere(120), cubed_sphere(4),
+                                lat_lon_sphere(6, 12, true), bisected_icosahedron(2)}) {
+    const Mesh mesh = spherical_delaunay(points);
+    const Eigen::VectorXd before = voronoi(mesh).cell_area;
+    const Points3 at = random_sphere(60, 11);
+    check_rows(mesh, at);
+    const Weights weights = interpolation_weights(mesh, at, natural);
+    for (Eigen::Index i = 0; i < at.cols(); ++i) {
+      const Eigen::VectorXd after =
+          voronoi(spherical_delaunay(joined(mesh.points, at.col(i)))).cell_area;
+      CHECK((dense_row(weights, i) - stolen(before, after)).cwiseAbs().maxCoeff() < 1e-9);
+    }
+  }
+}
+
+TEST_CASE("natural neighbours in a periodic box have what the cells lose") {
+  for (const Points2& points :
+       {random_places(120, periodic_box({4, 3})), hexagonal_lattice(100, periodic_box({4, 3}))}) {
+    const PlanarMesh mesh = periodic_delaunay(points, {4, 3});
+    const Eigen::VectorXd before = voronoi(mesh).cell_area;
+    const Points2 at = random_places(60, rectangle({-1, -1}, {6, 5}), 5);
+    check_rows(mesh, at);
+    const Weights weights = interpolation_weights(mesh, at, natural);
+    for (Eigen::Index i = 0; i < at.cols(); ++i) {
+      const Eigen::Vector2d home(at(0, i) - 4 * std::floor(at(0, i) / 4),
+                                 at(1, i) - 3 * std::floor(at(1, i) / 3));
+      const Eigen::VectorXd after =
+          voronoi(periodic_delaunay(joined(mesh.points, home), {4, 3})).cell_area;
+      CHECK((dense_row(weights, i) - stolen(before, after)).cwiseAbs().maxCoeff() < 1e-9);
+    }
+  }
+}
+
+TEST_CASE("in the plane both kinds are exact for linear functions, and say nothing outside") {
+  Points2 lattice(2, 36);
+  for (int k = 0; k < 36; ++k)
+    lattice.col(k) << (k % 6) / 5.0, (k / 6) / 5.0;
+  for (const Points2& points : {random_places(300, rectangle({0, 0}, {1, 1})), lattice}) {
+    const PlanarMesh mesh = planar_delaunay(points);
+    Points2 at(2, 500);
+    at << random_places(400, rectangle({-0.2, -0.2}, {1.2, 1.2}), 2),
+        (points.leftCols(36).replicate(1, 3).leftCols(100) +
+         points.rightCols(36).replicate(1, 3).rightCols(100)) /
+            2; // of a lattice on edges and sites
+    check_rows(mesh, at);
+    const Eigen::VectorXd linear = (3 * points.row(0) - points.row(1)).transpose().array() + 0.5;
+    const Eigen::VectorXd one = interpolate(interpolation_weights(mesh, at), linear),
+                          two = interpolate(interpolation_weights(mesh, at, natural), linear);
+    std::int64_t outside = 0;
+    for (Eigen::Index i = 0; i < at.cols(); ++i) {
+      CHECK(std::isnan(one[i]) == std::isnan(two[i]));
+      outside += std::isnan(one[i]) ? 1 : 0;
+      if (std::isnan(one[i]))
+        continue;
+      const double right = 3 * at(0, i) - at(1, i) + 0.5;
+      CHECK(std::abs(one[i] - right) < 1e-12);
+      CHECK(std::abs(two[i] - right) < 1e-9);
+    }
+    CHECK(outside > 100);
+  }
+}
+
+TEST_CASE("errors of a smooth function fall with the square of the spacing") {
+  const Points3 at = random_sphere(4000, 3);
+  const auto smooth = [](const Points3& x) -> Eigen::VectorXd {
+    return (x.row(0).array() * x.row(1).array() + x.row(2).array().cube()).transpose();
+  };
+  const auto error = [&](std::int64_t sites, Interpolation kind) {
+    const Mesh mesh = spherical_delaunay(random_sphere(sites));
+    return (interpolate(interpolation_weights(mesh, at, kind), smooth(mesh.points)) - smooth(at))
+        .norm();
+  };
+  for (const Interpolation kind : {Interpolation::linear, natural})
+    CHECK(error(2000, kind) > 6 * error(16000, kind)); // 8, but for chance
+}
+
+TEST_CASE("weights are the same for any number of threads") {
+  const Mesh mesh = spherical_delaunay(random_sphere(5000));
+  const Points3 at = random_sphere(8000, 9);
+  const auto with = [&](std::size_t threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    return interpolation_weights(mesh, at, natural);
+  };
+  const Weights one = with(1), four = with(4);
+  REQUIRE(one.nonZeros() == four.nonZeros());
+  CHECK(std::equal(one.valuePtr(), one.valuePtr() + one.nonZeros(), four.valuePtr()));
+  CHECK_THROWS_WITH_AS(interpolate(one, Eigen::VectorXd::Zero(7)),
+                       "there are 7 values for 5000 sites; give one for each", Error);
+}

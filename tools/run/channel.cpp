@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "run/channel.h"
+
+#include <calotte/generators.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace calotte::tools {
+namespace {
+
+constexpr std::int64_t samples = 1 << 16;
+
+/// Places on the walls.
+Points2 on_walls(const Eigen::Vector2d& extent, Walls walls) {
+  constexpr int side = 500;
+  Points2 places(2, 4 * side);
+  Eigen::Index count = 0;
+  for (int i = 0; i < side; ++i)
+    for (const double end : {0.0, 1.0}) {
+      const double part = (i + 0.5) / side;
+      if (walls.x)
+        places.col(count++) << end * extent.x(), part * extent.y();
+      if (walls.y)
+        places.col(count++) << part * extent.x(), end * extent.y();
+    }
+  return places.leftCols(count);
+}
+
+double mean_root(const Density& density, const PlanarDomain& box, const Points2& places) {
+  return evaluate(density, box, places).cwiseSqrt().mean();
+}
+
+/// A callable that sees beyond a wall the places from 0 on as those before 0, from the middle of
+/// the gap on.
+Density unwrapped(const Density& density, const Eigen::Vector2d& extent,
+                  const Eigen::Vector2d& period) {
+  if (density.kind != Density::Kind::callable)
+    return density;
+  Density out = density;
+  out.callable = [inner = density.callable, extent, period](const Eigen::Ref<const Points3>& x,
+                                                            Eigen::Ref<Eigen::VectorXd> rho) {
+    Points3 near = x;
+    for (Eigen::Index i = 0; i < near.cols(); ++i)
+      for (int k = 0; k < 2; ++k)
+        if (period[k] > extent[k] && near(k, i) > (extent[k] + period[k]) / 2)
+          near(k, i) -= period[k];
+    inner(near, rho);
+  };
+  return out;
+}
+
+} // namespace
+
+ChannelRun channel_run(const PlanarDomain& channel, Walls walls, const Density& density,
+                       std::int64_t cells) {
+  const Eigen::Vector2d extent = channel.period;
+  const auto widened = [&](double gap) -> Eigen::Vector2d {
+    return extent + Eigen::Vector2d(walls.x ? gap : 0, walls.y ? gap : 0);
+  };
+  const PlanarDomain apart = periodic_box(widened(10 * extent.maxCoeff())); // no copies across
+  const double root = mean_root(density, apart, random_places(samples, channel)) * extent.prod();
+  const double unit = std::sqrt(2 / std::numbers::sqrt3 * root / static_cast<double>(cells));
+  const double least =
+      std::max(evaluate(density, apart, on_walls(extent, walls)).minCoeff(), 1e-150);
+  constexpr double widths = 4;
+  const double gap = std::min(widths * unit * std::pow(least, -0.25), 4 * extent.maxCoeff());
+  ChannelRun run{periodic_box(widened(gap)), {}, 0};
+  run.density = unwrapped(density, extent, run.box.period);
+  const double all =
+      mean_root(run.density, run.box, random_places(samples, run.box)) * run.box.period.prod();
+  run.cells = std::max<std::int64_t>(std::llround(static_cast<double>(cells) * all / root), 12);
+  return run;
+}
+
+} // namespace calotte::tools
