@@ -151,11 +151,6 @@ PlanarDomain domain_of(const PlanarMesh& mesh, const std::optional<PlanarDomain>
   return rectangle(window.low, window.high);
 }
 
-/// Whether the file's cells are those of a plane that ends at walls, which no domain clips.
-bool ends_at_walls(const MeshFile& file) {
-  return file.plane && file.polygons && has_walls(*file.plane);
-}
-
 /// The measures of the cells; of an open mesh also of those at its boundary, if the file has them.
 CellMeasures measures_of(const MeshFile& file, const ViewChoice& choice) {
   CellMeasures measures = cell_measures(*file.mesh, density_of(file, choice));
@@ -167,6 +162,11 @@ CellMeasures measures_of(const MeshFile& file, const ViewChoice& choice) {
   fill(measures.area, areas(*file.polygons));
   fill(measures.quality, side_ratios(*file.polygons));
   return measures;
+}
+
+/// Whether the file's cells are those of a plane that ends at walls, which no domain clips.
+bool ends_at_walls(const MeshFile& file) {
+  return file.plane && file.polygons && has_walls(*file.plane);
 }
 
 /// The quantities of the cells and triangles.
