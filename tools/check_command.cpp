@@ -72,8 +72,9 @@ std::string table(const Findings& found, bool plane) {
   std::ostringstream out;
   out << "sites           " << found.check.sites << "\n"
       << "triangles       " << found.check.triangles << "\n"
-      << "boundary edges  " << found.check.boundary_edges << "\n"
-      << area_line(found.check, plane) << "\n";
+      << "boundary edges  " << found.check.boundary_edges << "\n";
+  if (found.check.area > 0) // an earlier law is kept
+    out << area_line(found.check, plane) << "\n";
   if (const std::optional<EdgeCounts>& edges = found.edges) {
     out << "not Delaunay    " << edges->not_delaunay << " edges\n"
         << "cocircular      " << edges->cocircular << " edges take the other diagonal\n";

@@ -84,15 +84,13 @@ WriteOptions write_options(const Request& request, const Density& density, const
 }
 
 std::string describe(const MeshFile& file) {
+  if (file.plane && file.polygons)
+    return std::to_string(file.polygons->size()) +
+           (file.plane->period.maxCoeff() > 0 ? " cells of a channel" : " clipped cells of a plane");
   if (file.plane)
     return std::to_string(file.plane->points.cols()) + " sites, " +
            std::to_string(file.plane->triangles.cols()) + " triangles, a " +
-           (file.plane->period.minCoeff() > 0   ? "periodic plane"
-            : file.plane->period.maxCoeff() > 0 ? "channel"
-                                                : "plane") +
-           (!file.polygons                      ? ""
-            : file.plane->period.maxCoeff() > 0 ? " with a boundary"
-                                                : " with clipped cells");
+           (file.plane->period.minCoeff() > 0 ? "periodic plane" : "plane");
   if (!file.mesh || (file.polygons && file.mesh->closed()))
     return std::to_string(file.polygons->size()) + " cells, not Voronoi cells: " + file.not_voronoi;
   return std::to_string(file.mesh->points.cols()) + " sites, " +

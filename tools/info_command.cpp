@@ -21,6 +21,7 @@
 
 #include <iostream>
 #include <limits>
+#include <numbers>
 #include <optional>
 
 namespace calotte::tools {
@@ -126,8 +127,10 @@ void measure_sphere(const Request& request, const MeshFile& file, Measured& meas
   find_boundary(count_edges(mesh), measured);
   if (measured.open)
     measured.masks = masks_of(request.source->path, mesh.points.cols());
-  if (measured.open && file.polygons)
+  if (measured.open && file.polygons) {
     measured.areas = shapes(*file.polygons).area;
+    measured.cells_area = areas(*file.polygons).sum() / (4 * std::numbers::pi);
+  }
   const Density density =
       measured.cells && !measured.open ? density_of(request, file, measured) : Density{};
   measured.quality = !measured.cells ? triangle_quality(mesh)
@@ -196,8 +199,14 @@ std::string read_and_measure(const Request& request) {
     return cell_table(request, file);
   Measured measured;
   measured.changes = file.changes;
-  const bool as_polygons = !file.plane && file.polygons && !(file.mesh && !file.mesh->closed());
-  if (as_polygons) {
+  const bool without_domain = !request.domain->given() && !request.operators,
+             open = file.mesh && !file.mesh->closed(),
+             as_polygons = file.polygons && (file.plane ? without_domain : !open);
+  if (as_polygons && file.plane) {
+    measured.remarks.emplace_back("the cells are measured as the file has them; give --domain for "
+                                  "the measures of a CVT");
+    measured.unit = {"", 1, "", 1};
+  } else if (as_polygons) {
     measured.remarks.push_back("the cells are not Voronoi cells: " + file.not_voronoi);
     if (request.operators)
       measured.remarks.emplace_back(no_operators);

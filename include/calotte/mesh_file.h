@@ -142,9 +142,10 @@ enum class FieldChoice {
 ///
 /// GeoJSON is a FeatureCollection. Polygons of one ring, longitude and latitude in degrees, are
 /// cells, whose corners agree to 1e-9 degrees; their sides are taken as arcs of great circles. The
-/// properties x, y and z of all features are the cells' centres; other numbers are fields, and
-/// `density` the density. Features without polygons, and Voronoi cells that this library wrote, are
-/// sites.
+/// parts of a MultiPolygon are joined at sides that they share, such as the meridian of 180
+/// degrees. The properties x, y and z of all features are the cells' centres; other numbers are
+/// fields, and `density` the density. Features without polygons, and Voronoi cells that this
+/// library wrote, are sites; such cells of a part of the sphere are cells.
 ///
 /// Values at edges are brought into the order of Location::edges. `changes` names the fields that
 /// are taken for components along the edges, MeshField::directed: those whose name, long_name or

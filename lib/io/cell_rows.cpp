@@ -80,16 +80,19 @@ std::vector<std::size_t> fill_missing(const NetcdfReader& file, const CellRows& 
 
 // ---- Names
 
+/// The units of the conventions end in "_east", "_E" or "E".
 bool says(const NetcdfReader& file, const std::string& name, const std::string& standard_name,
-          const std::string& direction) {
-  return file.is_numeric(name) && (file.text(name, "standard_name") == standard_name ||
-                                   file.text(name, "units").find(direction) != std::string::npos);
+          const std::string& direction, char letter) {
+  const std::string units = file.text(name, "units");
+  return file.is_numeric(name) &&
+         (file.text(name, "standard_name") == standard_name || units.ends_with(direction) ||
+          (units.starts_with("degree") && units.back() == letter));
 }
 bool is_longitude(const NetcdfReader& file, const std::string& name) {
-  return says(file, name, "longitude", "east");
+  return says(file, name, "longitude", "_east", 'E');
 }
 bool is_latitude(const NetcdfReader& file, const std::string& name) {
-  return says(file, name, "latitude", "north");
+  return says(file, name, "latitude", "_north", 'N');
 }
 
 /// The bounds of coordinates; empty without, or if they have another shape.
@@ -253,6 +256,11 @@ void refuse_netcdf(const NetcdfReader& file) {
   if (file.has_variable("elements") && file.has_variable("edge_cross_dxdy"))
     file.fail("the mesh information of an older FESOM, without the topology of UGRID; give the "
               "model's nod2d.out, or the fesom.mesh.diag.nc of FESOM 2.1 or later");
+  if (file.has_variable("nv") && file.has_variable("lonc"))
+    file.fail(
+        "the triangles of FVCOM (nv) without the topology of UGRID; add a variable of cf_role "
+        "\"mesh_topology\" and topology_dimension 2, whose face_node_connectivity is nv and "
+        "whose node_coordinates are lon lat, and to nv the attribute start_index 1");
   if (const std::string longitude = two_bounds(file); !longitude.empty())
     file.fail(
         "a grid of rows and columns, as " + longitude +

@@ -120,6 +120,8 @@ std::optional<Mesh> mesh_of_cells(Points3& centres, const Polygons& polygons, do
   const bool closed = dual.triangles.cols() == 2 * sites - 4;
   if (dual.failed >= 0 || dual.triangles.cols() == 0)
     return {};
+  if (!closed && cover_sphere(polygons))
+    return {}; // corners that cells share are not the same ones
   const double width = closed ? mean_width(sites) : mean_width(polygons);
   if (!are_circumcentres(centres, dual.triangles, polygons.corners,
                          corner_tolerance(width, rounding), closed ? 0 : 1e-6, dual.corner))

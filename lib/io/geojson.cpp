@@ -147,7 +147,7 @@ void put_fields(Writer& out, const std::vector<const MeshField*>& fields, std::i
 void put_geojson(const Sink& sink, const Mesh& mesh, const WriteOptions& options) {
   Voronoi voronoi = calotte::voronoi(mesh);
   const CellFields fields = fields_of(voronoi, options);
-  const Polygons cells = polygons_of(std::move(voronoi));
+  const Polygons cells = with_merged_corners(polygons_of(std::move(voronoi)), fields.area);
   const std::vector<const MeshField*> others = cell_fields_of(options, of_voronoi_cells);
   Writer out(sink);
   put_collection(out, cells.size(), [&](std::int64_t i) {
@@ -163,8 +163,9 @@ void put_geojson(const Sink& sink, const Mesh& mesh, const WriteOptions& options
   });
 }
 
-void put_geojson(const Sink& sink, const Polygons& polygons, const WriteOptions& options) {
-  const Eigen::VectorXd areas = areas_of(polygons);
+void put_geojson(const Sink& sink, const Polygons& given, const WriteOptions& options) {
+  const Eigen::VectorXd areas = areas_of(given);
+  const Polygons polygons = with_merged_corners(given, areas);
   const std::vector<const MeshField*> others = cell_fields_of(options, of_polygons);
   Writer out(sink);
   put_collection(out, polygons.size(), [&](std::int64_t i) {

@@ -18,6 +18,8 @@
 #include <istream>
 #include <limits>
 #include <map>
+#include <numbers>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <unordered_map>
@@ -25,7 +27,8 @@
 #include <vector>
 
 // GeoJSON (Butler et al., RFC 7946, 2016): a feature a cell. Features with a site, which are
-// Voronoi cells as calotte writes them or points, give the sites; polygons of others give cells.
+// Voronoi cells as calotte writes them or points, give the sites; polygons of others give cells,
+// and so do Voronoi cells of which some were left out.
 
 namespace calotte::io_detail {
 namespace {
@@ -70,10 +73,8 @@ public:
     return known->second;
   }
 
-  bool is_pole(std::int32_t id) const {
-    const Vec3& p = places_[static_cast<std::size_t>(id)];
-    return p.x == 0 && p.y == 0;
-  }
+  const Vec3& place(std::int32_t id) const { return places_[static_cast<std::size_t>(id)]; }
+  bool is_pole(std::int32_t id) const { return place(id).x == 0 && place(id).y == 0; }
 
   Points3 columns() const {
     Points3 columns(3, std::ssize(places_));
@@ -104,12 +105,15 @@ public:
     take_properties(properties);
     const std::optional<Vec3> site = site_of(properties);
     const std::string type = geometry.is_object() ? text_in(geometry, "type") : "";
-    const bool is_cell =
-        (type == "Polygon" || type == "MultiPolygon") && !(site && is_voronoi_cell(properties));
-    if (is_cell != (count_ > 0 ? !rings_.empty() : is_cell))
+    const bool is_polygon = type == "Polygon" || type == "MultiPolygon",
+               is_voronoi = is_polygon && site && is_voronoi_cell(properties),
+               is_cell = is_polygon && !is_voronoi;
+    if (is_cell != (count_ > 0 ? !rings_.empty() && voronoi_ == 0 : is_cell))
       fail("is " + std::string(is_cell ? "a cell" : "no polygon") + ", unlike those before it");
     if (is_cell)
       rings_.push_back(ring_of(geometry, type));
+    else if (is_voronoi)
+      take_voronoi_cell(geometry, type);
     if (site)
       sites_.push_back(*site);
     else if (!is_cell)
@@ -127,6 +131,10 @@ public:
       for (std::int64_t i = 0; i < count_; ++i)
         set_column(soup.points, i, sites_[static_cast<std::size_t>(i)]);
     }
+    if (voronoi_ > 0 && !are_part_of_sphere())
+      rings_.clear(); // their sites tell all
+    else if (!unread_.empty())
+      throw Error(ErrorCode::parse, unread_);
     if (!rings_.empty())
       soup.polygons = polygons(has_sites ? directions_of(soup.points) : Points3());
     soup.turns_each = true;
@@ -166,7 +174,30 @@ private:
                 properties["z"].get<double>()};
   }
 
-  /// Those that only Voronoi cells of calotte have: their sites tell all.
+  /// Its ring is of use only if other cells of the sphere are missing.
+  void take_voronoi_cell(const json& geometry, const std::string& type) {
+    ++voronoi_;
+    rings_.emplace_back();
+    try {
+      rings_.back() = ring_of(geometry, type);
+    } catch (const Error& error) {
+      if (unread_.empty())
+        unread_ = error.what();
+    }
+  }
+
+  /// Whether Voronoi cells of the sphere leave at least one uncovered.
+  bool are_part_of_sphere() const {
+    const std::vector<double>& areas = columns_.at("area").values;
+    if (voronoi_ < count_ || std::ssize(areas) < count_ ||
+        std::all_of(sites_.begin(), sites_.end(), [](const Vec3& site) { return site.z == 0; }))
+      return false;
+    constexpr double whole = 4 * std::numbers::pi;
+    return std::accumulate(areas.begin(), areas.end(), 0.0) <
+           whole * (1 - 0.5 / static_cast<double>(count_));
+  }
+
+  /// Those that only Voronoi cells of calotte have.
   static bool is_voronoi_cell(const json& properties) {
     return has_numbers(properties, std::array{"area", "spacing", "quality", "degree"});
   }
@@ -188,40 +219,97 @@ private:
     return on_sphere_at(place);
   }
 
+  /// A cell that the meridian of 180 degrees cuts has several polygons, which are joined there.
+  Ring ring_of(const json& geometry, const std::string& type) {
+    const json coordinates = geometry.value("coordinates", json());
+    if (type == "Polygon")
+      return ring_of(coordinates);
+    if (!coordinates.is_array() || coordinates.empty())
+      fail("has no ring of positions; give GeoJSON as RFC 7946 has it");
+    Ring whole = ring_of(coordinates[0]);
+    for (std::size_t k = 1; k < coordinates.size(); ++k)
+      if (!join(ring_of(coordinates[k]), whole))
+        fail("is a MultiPolygon whose parts do not share one side; only cells of one ring are "
+             "read, so give it as one Polygon, whose longitudes may exceed 180 degrees");
+    return whole;
+  }
+
+  /// Adds a part that has a side of the whole in the other direction. The ends of that side are
+  /// left out where the cut made them, on a straight side of the cell.
+  bool join(const Ring& part, Ring& whole) const {
+    const auto next = [](const Ring& ring, std::size_t k) { return (k + 1) % ring.size(); };
+    for (std::size_t i = 0; i < whole.size(); ++i)
+      for (std::size_t j = 0; j < part.size(); ++j)
+        if (whole[i] == part[next(part, j)] && whole[next(whole, i)] == part[j]) {
+          Ring all; // from the end of the side around the whole, then around the part
+          for (std::size_t k = 0; k < whole.size(); ++k)
+            all.push_back(whole[(i + 1 + k) % whole.size()]);
+          for (std::size_t k = 2; k < part.size(); ++k)
+            all.push_back(part[(j + k) % part.size()]);
+          const std::int32_t ends[] = {all[0], all[whole.size() - 1]}; // of the side
+          for (const std::int32_t end : ends)
+            leave_out_cut(end, all);
+          whole = std::move(all);
+          return true;
+        }
+    return false;
+  }
+
+  bool is_straight(std::int32_t from, std::int32_t corner, std::int32_t to) const {
+    constexpr double digits = 1e-10; // of the places
+    const Vec3 normal = cross(corners_.place(from), corners_.place(to));
+    return std::abs(dot(normal, corners_.place(corner))) <= digits * norm(normal);
+  }
+
   /// Without consecutive equal places, and without the way to a pole and back along one meridian by
   /// which a ring around the pole is closed in the plane of longitude and latitude.
-  Ring ring_of(const json& geometry, const std::string& type) {
-    if (type == "MultiPolygon")
-      fail("is a MultiPolygon; only cells of one ring are read, so give it as one Polygon, whose "
-           "longitudes may exceed 180 degrees");
-    const json rings = geometry.value("coordinates", json());
+  Ring ring_of(const json& rings) {
     if (!rings.is_array() || rings.empty() || !rings[0].is_array())
       fail("has no ring of positions; give GeoJSON as RFC 7946 has it");
     if (rings.size() > 1)
       fail("has a hole; only cells of one ring are read");
     Ring ring;
+    std::int32_t cut = -1; // the corner at which the way to a pole begins and ends
     for (const json& place : rings[0]) {
       if (!is_position(place))
         fail("has a position that is no longitude and latitude in degrees; correct it");
-      push(corners_.id_of(place[0].get<double>(), place[1].get<double>()), ring);
+      const std::int32_t corner = corners_.id_of(place[0].get<double>(), place[1].get<double>());
+      if (push(corner, ring))
+        cut = corner;
     }
     while (ring.size() > 1 && ring.front() == ring.back())
       ring.pop_back();
     if (!ring.empty() && corners_.is_pole(ring.front()))
       std::rotate(ring.begin(), ring.begin() + 1, ring.end());
-    if (ring.size() > 3 && ring[ring.size() - 2] == ring.front() && corners_.is_pole(ring.back()))
+    if (ring.size() > 3 && ring[ring.size() - 2] == ring.front() && corners_.is_pole(ring.back())) {
       ring.resize(ring.size() - 2);
+      cut = ring.front();
+    }
+    leave_out_cut(cut, ring);
     if (ring.size() < 3)
       fail("has a ring of fewer than 3 places; leave it out");
     return ring;
   }
 
-  void push(std::int32_t corner, Ring& ring) const {
+  /// Leaves out a corner that a cut made on a straight side.
+  void leave_out_cut(std::int32_t cut, Ring& ring) const {
+    const auto found = std::find(ring.begin(), ring.end(), cut);
+    if (found == ring.end() || ring.size() < 4)
+      return;
+    const auto k = static_cast<std::size_t>(found - ring.begin());
+    if (is_straight(ring[(k + ring.size() - 1) % ring.size()], cut, ring[(k + 1) % ring.size()]))
+      ring.erase(found);
+  }
+
+  /// \returns whether the corner ends a way to a pole and back, which is left out.
+  bool push(std::int32_t corner, Ring& ring) const {
     const std::size_t size = ring.size();
-    if (size > 1 && corners_.is_pole(ring[size - 1]) && ring[size - 2] == corner)
+    const bool back = size > 1 && corners_.is_pole(ring[size - 1]) && ring[size - 2] == corner;
+    if (back)
       ring.pop_back(); // the place before the pole is the last again
     else if (size == 0 || ring.back() != corner)
       ring.push_back(corner);
+    return back;
   }
 
   static Points3 directions_of(const Points3& points) {
@@ -252,7 +340,7 @@ private:
       return has_sites;
     if (name == "id")
       return values == Eigen::VectorXd::LinSpaced(count_, 0, static_cast<double>(count_ - 1));
-    if (soup.polygons.size() > 0)
+    if (soup.polygons.size() > 0 && voronoi_ == 0)
       return name == "area" && are_areas_of(soup.polygons, values);
     return name == "area" || name == "spacing" || name == "quality" || name == "degree";
   }
@@ -276,7 +364,9 @@ private:
   std::int64_t count_ = 0;
   std::vector<Vec3> sites_; ///< of the features that have one
   Corners corners_;
-  std::vector<Ring> rings_; ///< of all features, or none
+  std::vector<Ring> rings_;  ///< of all features, or none
+  std::int64_t voronoi_ = 0; ///< features that are Voronoi cells of calotte
+  std::string unread_;       ///< what the first of them says whose ring is not read; or ""
   std::map<std::string, Column> columns_;
   std::set<std::string> ignored_;
 };

@@ -216,7 +216,6 @@ void settle_clipped(const std::string& name, Polygons polygons, MeshFile& file) 
              "cell " + std::to_string(i) + " and cell " + std::to_string(sites[i]) +
                  " have one centre",
              static_cast<std::int64_t>(i));
-  file.changes.push_back("triangulated " + std::to_string(sites.size()) + " points");
   turn_cells(name, polygons, false, file);
   require_no_overlap(polygons, name);
   std::erase_if(file.fields, [&](const MeshField& field) { // corners are no triangles

@@ -4,6 +4,7 @@
 #include "domain/clipped_cell.h"
 #include "domain/periodic_box.h"
 #include "exact/predicates.h"
+#include "io/centroids.h"
 #include "io/polygons.h"
 #include "io/room.h"
 
@@ -145,8 +146,11 @@ Range area_range(const Polygons& polygons, const Eigen::VectorXd& areas) {
   return range_of(known.head(count));
 }
 
-double distance(const Vec3& a, const Vec3& b, bool on_sphere) {
-  return on_sphere ? 2 * std::atan2(length(b - a), length(a + b)) : length(b - a);
+/// In a periodic plane to the nearest copy.
+double distance(const Polygons& polygons, const Vec3& a, const Vec3& b) {
+  const Vec2 period{polygons.period.x(), polygons.period.y()};
+  return polygons.on_sphere ? 2 * std::atan2(length(b - a), length(a + b))
+                            : domain_detail::norm(domain_detail::nearest_offset(a, b, period));
 }
 
 /// Between the centres of polygons that share a side.
@@ -159,12 +163,24 @@ Range spacing_of(const Polygons& polygons) {
     for (std::int64_t k = sides.begin[from]; k < sides.begin[from + 1]; ++k)
       if (const auto [to, polygon] = sides.list[k]; from < to)
         if (const std::int32_t other = sides.polygon_of(to, from); other >= 0)
-          distances.push_back(distance(column(polygons.centres, polygon),
-                                       column(polygons.centres, other), polygons.on_sphere));
+          distances.push_back(distance(polygons, column(polygons.centres, polygon),
+                                       column(polygons.centres, other)));
   return range_of(Eigen::Map<const Eigen::VectorXd>(distances.data(), std::ssize(distances)));
 }
 
 } // namespace
+
+Points3 io_detail::centroids_of(const Polygons& polygons) {
+  Points3 centroids(3, polygons.size());
+  for_each_block(polygons.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i != end; ++i) {
+      const Ring ring = ring_of(polygons, i);
+      const Vec3 middle = centroid(ring);
+      set_column(centroids, i, std::isfinite(norm(middle)) ? middle : ring.at(0));
+    }
+  });
+  return centroids;
+}
 
 PolygonShapes shapes(const Polygons& polygons) {
   const std::int64_t count = polygons.size();

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -223,6 +224,34 @@ bool Sides::is_open(std::int32_t from) const {
                      [&](const Side& side) { return polygon_of(side.to, from) < 0; });
 }
 
+Polygons with_merged_corners(Polygons polygons, const Eigen::VectorXd& areas) {
+  std::vector<std::int32_t> same; // by corner one of lower number, or itself
+  const auto lowest = [&](std::int32_t id) {
+    while (same[static_cast<std::size_t>(id)] != id)
+      id = same[static_cast<std::size_t>(id)];
+    return id;
+  };
+  for (std::int64_t i = 0; i < polygons.size(); ++i) {
+    const double least = 1e-9 * std::sqrt(std::abs(areas[i]));
+    const std::int64_t begin = polygons.begin[i], end = polygons.begin[i + 1];
+    for (std::int64_t k = begin; k < end; ++k) {
+      const std::int64_t next = k + 1 < end ? k + 1 : begin;
+      if (!(norm(place(polygons, next) - place(polygons, k)) < least))
+        continue;
+      if (same.empty()) {
+        same.resize(static_cast<std::size_t>(polygons.corners.cols()));
+        std::iota(same.begin(), same.end(), 0);
+      }
+      const auto [low, high] = std::minmax({lowest(polygons.ids[k]), lowest(polygons.ids[next])});
+      same[static_cast<std::size_t>(high)] = low;
+    }
+  }
+  for (std::size_t id = 0; id < same.size(); ++id)
+    polygons.corners.col(static_cast<Eigen::Index>(id)) =
+        polygons.corners.col(lowest(static_cast<std::int32_t>(id)));
+  return polygons;
+}
+
 bool has_area(const Polygons& polygons, std::int64_t polygon, double area) {
   constexpr double rounding = 1e-14; // of a unit vector; of places in a plane, to their size
   const std::int64_t begin = polygons.begin[polygon], end = polygons.begin[polygon + 1];
@@ -230,7 +259,8 @@ bool has_area(const Polygons& polygons, std::int64_t polygon, double area) {
     return false;
   double perimeter = 0;
   for (std::int64_t k = begin; k < end; ++k)
-    perimeter += norm(place(polygons, k + 1 < end ? k + 1 : begin) - place(polygons, k));
+    perimeter += norm(copy_near(polygons, begin, k + 1 < end ? k + 1 : begin) -
+                      copy_near(polygons, begin, k));
   return std::abs(area) > rounding * perimeter * norm(place(polygons, begin));
 }
 

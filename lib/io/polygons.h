@@ -64,6 +64,11 @@ std::int64_t turn_counter_clockwise(Polygons& polygons, const std::string& name,
 /// Whether values are the areas of polygons but for rounding.
 bool are_areas_of(const Polygons& polygons, const Eigen::VectorXd& values);
 
+/// The same polygons with one place for the corners that sides join which are shorter than a
+/// billionth of their polygon's width: corners of cocircular sites, an ulp apart.
+/// \param areas of the polygons.
+Polygons with_merged_corners(Polygons polygons, const Eigen::VectorXd& areas);
+
 /// Whether a polygon has a width: its area is more than what the rounding of its corners makes of
 /// its perimeter. \param area of the polygon.
 bool has_area(const Polygons& polygons, std::int64_t polygon, double area);

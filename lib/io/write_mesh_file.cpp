@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/centroids.h"
 #include "io/dual.h"
 #include "io/field_order.h"
 #include "io/file_names.h"
 #include "io/formats.h"
 #include "io/model_grid.h"
 #include "io/open_cells.h"
+#include "io/polygons.h"
 #include "io/write_mesh.h"
 #include "io/written_fields.h"
 
@@ -32,9 +34,6 @@ void require_polygon_format(const std::string& path, const MeshFile& file, Forma
   if (!polygon_format(format))
     refuse_to_write(path, "the format holds triangles, but the mesh consists of cells, and " +
                               file.not_voronoi + others);
-  if (format == Format::scrip && file.polygons->centres.cols() == 0)
-    refuse_to_write(path, "SCRIP needs the centre of each cell, but the cells have none; write "
-                          "ugrid, esmf, exodus, vtp-cells, vtu-cells or geojson");
   const auto& begin = file.polygons->begin;
   for (std::int64_t i = 0; i < file.polygons->size(); ++i)
     if (begin[i] == begin[i + 1])
@@ -56,7 +55,8 @@ Points3 places_of(const MeshFile& file, double radius) {
 
 void write_open_mpas(const std::string& path, const MeshFile& file, const WriteOptions& options) {
   const OpenCells cells = open_cells(*file.polygons);
-  const bool closed = file.mesh && file.mesh->closed(); // its Voronoi cells are others
+  // The Voronoi cells of a whole sphere are others.
+  const bool closed = file.mesh ? file.mesh->closed() : cover_sphere(*file.polygons);
   if (!cells.problem.empty())
     refuse_to_write(path, "MPAS needs Voronoi cells, but " +
                               (closed ? file.not_voronoi : cells.problem) + "; write " +
@@ -88,7 +88,10 @@ void write_polygons_of(const std::string& path, const MeshFile& file, WriteOptio
       options.fields.push_back({.name = "density", .values = file.density});
     if (is_netcdf(options.format))
       settle_names(options.fields);
-    write_polygons(path, cell_grid(unwrapped(*file.polygons)), options);
+    Polygons polygons = unwrapped(*file.polygons);
+    if (options.format == Format::scrip && polygons.centres.cols() == 0)
+      polygons.centres = centroids_of(polygons);
+    write_polygons(path, cell_grid(polygons), options);
   }
   Monitor(options.progress).finish("write");
 }
@@ -99,12 +102,13 @@ bool writes_polygons(const MeshFile& file, const std::optional<PlanarMesh>& tria
                      Format format) {
   if (!file.polygons || holds_cells(format))
     return file.polygons.has_value() && !(file.plane && file.domain);
-  return file.plane ? !triangles : !file.mesh || file.mesh->closed();
+  return file.plane ? !triangles && file.plane->period.maxCoeff() == 0
+                    : !file.mesh || file.mesh->closed();
 }
 
-/// What formats of triangles hold of the clipped cells of a plane.
+/// What formats of triangles hold of the clipped cells of a plane. A periodic one has triangles.
 std::optional<PlanarMesh> triangles_of(const MeshFile& file, Format format) {
-  if (!file.plane || !file.polygons || holds_cells(format))
+  if (!file.plane || file.plane->period.maxCoeff() > 0 || !file.polygons || holds_cells(format))
     return {};
   return planar_mesh_of_cells(file.plane->points, *file.polygons);
 }

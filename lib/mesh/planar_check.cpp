@@ -14,6 +14,7 @@ using exact_detail::Image;
 using exact_detail::roundoff;
 using exact_detail::Vec2;
 using mesh_detail::Area;
+using mesh_detail::Proof;
 
 std::string place_failure(const PlanarMesh& mesh, std::int64_t site) {
   const auto p = mesh.points.col(site);
@@ -51,12 +52,13 @@ struct InPlane : mesh_detail::Faces {
   static constexpr const char* circle = "circle";
 
   const PlanarMesh& mesh;
+  Proof proof;
   Vec2 period; ///< 0 in a direction without one
   int scale;   ///< exponent, for areas
 
-  explicit InPlane(const PlanarMesh& given)
-      : Faces(mesh_detail::faces_of(given)),
-        mesh(given), period{given.period.x(), given.period.y()}, scale(scale_of(given)) {}
+  explicit InPlane(const PlanarMesh& given, Proof wanted = Proof::surface)
+      : Faces(mesh_detail::faces_of(given)), mesh(given),
+        proof(wanted), period{given.period.x(), given.period.y()}, scale(scale_of(given)) {}
 
   bool periodic() const { return period.x > 0 || period.y > 0; }
   bool is_box() const { return period.x > 0 && period.y > 0; }
@@ -149,8 +151,19 @@ struct InPlane : mesh_detail::Faces {
     return {area, 32 * roundoff};
   }
 
-  /// Of the box, or of what the boundary encloses.
+  /// Of a coordinate of the sites, or its period; it errs by a rounding.
+  double extent(int axis) const {
+    const auto row = mesh.points.row(axis);
+    const double length = axis == 0 ? period.x : period.y;
+    return length > 0 ? scaled(length) : scaled(row.maxCoeff()) - scaled(row.minCoeff());
+  }
+
+  /// Of the box, of a channel between straight walls, or of what the boundary encloses.
   Area whole() const {
+    if (periodic() && proof == Proof::delaunay) {
+      const double area = extent(0) * extent(1);
+      return {area, 4 * roundoff * area};
+    }
     if (is_box()) {
       const double box = scaled(period.x) * scaled(period.y);
       return {box, roundoff * box};
@@ -199,13 +212,14 @@ struct InPlane : mesh_detail::Faces {
 // turns around once. In a periodic box each part covers the torus by as many sheets as the box goes
 // into its area, so areas that sum to the box's leave one part of one sheet. In a channel a part
 // that bends to the left alone has the characteristic 1, or 0 and straight walls: the sum 0 leaves
-// the latter, and areas that sum to what the walls enclose one of one sheet. Triangles narrower
+// the latter, and areas that sum to the channel between its outermost sites one of one sheet.
+// Triangles narrower
 // than half of the box lie in the plane without overlap, which is what in_circle() works in. Such a
 // mesh with Delaunay edges is Delaunay.
 Check check(const PlanarMesh& mesh, const ProgressCallback& progress) {
   return mesh_detail::check_laws(
       mesh, [&](std::int64_t site) { return place_failure(mesh, site); },
-      [&] { return InPlane(mesh); }, mesh_detail::Proof::delaunay, progress);
+      [&] { return InPlane(mesh, Proof::delaunay); }, Proof::delaunay, progress);
 }
 
 Check check_surface(const PlanarMesh& mesh, const ProgressCallback& progress) {

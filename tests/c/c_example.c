@@ -122,7 +122,7 @@ static void errors(void) {
   xyz[4] = 1;
   expect(calotte_delaunay(xyz, 4, &mesh, &error) == CALOTTE_ZERO_VECTOR && error.index == 3,
          "a point at the origin");
-  expect(calotte_delaunay(xyz, 3, &mesh, &error) == CALOTTE_TOO_FEW_SITES, "3 points");
+  expect(calotte_delaunay(xyz, 2, &mesh, &error) == CALOTTE_TOO_FEW_SITES, "2 points");
   expect(calotte_delaunay(NULL, 3, &mesh, &error) == CALOTTE_BAD_OPTION, "a null pointer");
   expect(calotte_delaunay(xyz, -1, &mesh, NULL) == CALOTTE_BAD_OPTION, "a negative count");
   expect(calotte_read("no such file.nc", &mesh, &error) == CALOTTE_FILE, "no file");

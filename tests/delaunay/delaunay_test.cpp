@@ -3,6 +3,7 @@
 #include "support/clouds.h"
 #include "support/laws.h"
 
+#include <calotte/check.h>
 #include <calotte/delaunay.h>
 #include <calotte/error.h>
 #include <calotte/generators.h>
@@ -19,6 +20,7 @@
 #include <numeric>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 using namespace calotte;
@@ -263,7 +265,7 @@ TEST_CASE("clusters, fine lattices, weather stations: the same [slow]") {
 }
 
 TEST_CASE("small sets at random, in special position, any options: one mesh [slow]") {
-  int closed = 0, open = 0, degenerate = 0;
+  int closed = 0, open = 0, triangles = 0;
   for (std::uint64_t seed = 1; seed <= 3000; ++seed) {
     CAPTURE(seed);
     Random random(seed);
@@ -274,11 +276,11 @@ TEST_CASE("small sets at random, in special position, any options: one mesh [slo
       mesh = spherical_delaunay(points, with_regions(1));
     } catch (const Error& error) {
       has_mesh = false;
-      ++degenerate;
       CHECK((error.code() == ErrorCode::degenerate || error.code() == ErrorCode::too_few_sites));
     }
     if (has_mesh) {
       ++(mesh.closed() ? closed : open);
+      triangles += mesh.points.cols() == 3;
       CHECK(check(mesh).failure == "");
       CHECK((mesh.points.cols() > 12 ||
              same_bits(oracle::delaunay(mesh.points).triangles, mesh.triangles)));
@@ -293,7 +295,7 @@ TEST_CASE("small sets at random, in special position, any options: one mesh [slo
     }
   }
   CHECK(std::min(closed, open) > 50);
-  CHECK(degenerate > 0);
+  CHECK(triangles > 0);
 }
 
 TEST_CASE(
@@ -397,8 +399,8 @@ TEST_CASE("bad input is one error that names the first offending index") {
     points(1, 12) = nan;
     require_error(points, options, ErrorCode::zero_vector, 11);
     require_error(Points3(3, 0), options, ErrorCode::too_few_sites, -1);
-    require_error(good.leftCols(3), options, ErrorCode::too_few_sites, -1);
-    require_error(columns({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {2, 0, 0}, {0, 0, 5}}), options,
+    require_error(good.leftCols(2), options, ErrorCode::too_few_sites, -1);
+    require_error(columns({{1, 0, 0}, {0, 1, 0}, {2, 0, 0}, {0, 5, 0}}), options,
                   ErrorCode::too_few_sites, -1);
     require_error(exact_circle(0), options, ErrorCode::degenerate, -1);
     require_error(columns({{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}}), options,
@@ -406,6 +408,24 @@ TEST_CASE("bad input is one error that names the first offending index") {
     require_error(columns({{1, 2, 3}, {-1, -2, -3}, {4, 5, 6}, {5, 7, 9}, {3, 3, 3}}), options,
                   ErrorCode::degenerate, -1);
   }
+}
+
+TEST_CASE("three sites make one open triangle, counter-clockwise from outside") {
+  for (const int regions : {1, 12})
+    for (const auto& [points, triangle] :
+         {std::pair(columns({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}), Eigen::Vector3i(0, 1, 2)),
+          std::pair(columns({{1, 0, 0}, {0, 0, 7}, {0, 1e-9, 0}}), Eigen::Vector3i(0, 2, 1)),
+          std::pair(columns({{1, 0, 1e-12}, {-1, 1, 0}, {-1, -1, 0}}), Eigen::Vector3i(0, 1, 2)),
+          std::pair(columns({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {2, 0, 0}}),
+                    Eigen::Vector3i(0, 1, 2))}) {
+      const Mesh mesh = spherical_delaunay(points, with_regions(regions));
+      CHECK(mesh.points.cols() == 3);
+      REQUIRE(mesh.triangles.cols() == 1);
+      CHECK(mesh.triangles.col(0) == triangle);
+      CHECK((mesh.neighbours.array() == -1).all());
+      CHECK_FALSE(mesh.closed());
+      CHECK(check(mesh).failure == "");
+    }
 }
 
 TEST_CASE("options outside their range are an error") {

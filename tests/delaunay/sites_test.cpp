@@ -151,7 +151,7 @@ TEST_CASE("bad input is refused with its first offending index") {
   points(2, 17) = -infinity;
   CHECK(code_of(points, index) == ErrorCode::not_finite);
   CHECK(index == 17);
-  CHECK(code_of(points.leftCols(3), index) == ErrorCode::too_few_sites);
+  CHECK(code_of(points.leftCols(2), index) == ErrorCode::too_few_sites);
   CHECK(code_of(Points3(3, 0), index) == ErrorCode::too_few_sites);
   Points3 same = Points3::Ones(3, 10);
   CHECK(code_of(same, index) == ErrorCode::too_few_sites);

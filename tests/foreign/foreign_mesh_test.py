@@ -312,7 +312,8 @@ def run_cells(folder, name, state, case):
     if state == "half turned" and name not in formats.FREE_TURNING:
         refused(folder, name, [], "the file contradicts itself")
     elif state in ("open", "quads") or without_centres:
-        read_cells(folder, name, case, "the cells have no centres" if without_centres else "Voronoi",
+        read_cells(folder, name, case, "the cells have no centres" if without_centres else
+                   "the mesh is open" if state == "open" else "Voronoi",
                    state == "open" and not without_centres)
     else:
         read_right(folder, name, [], case, 1.0, state in ("clockwise", "half turned"))

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/points.h"
 #include "io/cell_outline.h"
+#include "io/polygons.h"
 
 #include <calotte/delaunay.h>
 #include <calotte/generators.h>
@@ -44,20 +45,27 @@ double twice_area(const std::vector<MapPlace>& ring) {
 
 TEST_CASE("a corner has the bits of its longitude and latitude in the ring of each cell") {
   const double degrees = 180 / std::numbers::pi;
-  for (const Points3& sites : {random_sphere(2000, 5), random_sphere(50, 6), fibonacci_sphere(3000),
-                               lat_lon_sphere(10, 20, true), bisected_icosahedron(3)}) {
-    const Voronoi cells = voronoi(spherical_delaunay(sites));
+  const std::vector<Points3> sets{random_sphere(2000, 5), random_sphere(50, 6),
+                                  fibonacci_sphere(3000), lat_lon_sphere(10, 20, true),
+                                  bisected_icosahedron(3)};
+  for (std::size_t s = 0; s < sets.size(); ++s) {
+    CAPTURE(s);
+    const Points3& sites = sets[s];
+    Voronoi voronoi = calotte::voronoi(spherical_delaunay(sites));
+    const Eigen::VectorXd areas = voronoi.cell_area; // lattices have corners an ulp apart
+    const Polygons cells =
+        io_detail::with_merged_corners(io_detail::polygons_of(std::move(voronoi)), areas);
     std::set<std::pair<std::uint64_t, std::uint64_t>> of_corners;
-    for (Eigen::Index v = 0; v < cells.vertices.cols(); ++v) {
-      const Eigen::Vector3d p = cells.vertices.col(v);
+    for (Eigen::Index v = 0; v < cells.corners.cols(); ++v) {
+      const Eigen::Vector3d p = cells.corners.col(v);
       of_corners.insert(bits_of({std::clamp(std::atan2(p.y(), p.x()) * degrees, -180.0, 180.0),
                                  std::atan2(p.z(), std::hypot(p.x(), p.y())) * degrees}));
     }
     double whole = 0;
-    for (Eigen::Index i = 0; i < cells.cells.cols(); ++i) {
+    for (Eigen::Index i = 0; i < cells.size(); ++i) {
       std::vector<Vec3> corners;
       for (std::int64_t k = cells.begin[i]; k < cells.begin[i + 1]; ++k)
-        corners.push_back(base_detail::column(cells.vertices, cells.vertices_on_cell[k]));
+        corners.push_back(base_detail::column(cells.corners, cells.ids[k]));
       for (const std::vector<MapPlace>& ring : io_detail::outline_of(corners)) {
         whole += twice_area(ring) / 2;
         std::set<std::pair<std::uint64_t, std::uint64_t>> places;

@@ -211,14 +211,19 @@ TEST_CASE("cells that are no Voronoi cells keep their shapes from format to form
       const MeshFile again = calotte::read_mesh_file(scratch / "other.nc");
       CHECK((calotte::areas(*again.polygons) - expected).cwiseAbs().maxCoeff() < 1e-13);
     }
-    for (const auto& [format, name] : {std::pair{Format::mpas, "full.nc"},
-                                       {Format::vtp, "mesh.vtp"},
-                                       {Format::off, "mesh.off"}}) {
+    for (const auto& [format, name] :
+         {std::pair{Format::mpas, "full.nc"}, {Format::msh, "mesh.msh"}}) {
       const calotte::Error error =
           error_of([&] { calotte::write(scratch / name, read, {.format = format}); });
       CHECK(error.code() == ErrorCode::bad_option);
       CHECK(std::string(error.what()).find("away from that of the Voronoi cell") !=
             std::string::npos);
+    }
+    for (const char* name : {"mesh.vtp", "mesh.vtu", "mesh.off", "mesh.ply"}) { // other faces
+      CAPTURE(name);
+      calotte::write(scratch / name, read);
+      const MeshFile again = calotte::read_mesh_file(scratch / name);
+      CHECK((calotte::areas(*again.polygons) - expected).cwiseAbs().maxCoeff() < 1e-13);
     }
     CHECK(error_of([&] { calotte::read_mesh(path); }).code() == ErrorCode::bad_option);
   }

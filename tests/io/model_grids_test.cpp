@@ -567,7 +567,9 @@ TEST_CASE("the mesh of Voronoi cells is found without a triangulation, and of no
            .location = Location::vertices,
            .values = Eigen::VectorXd::LinSpaced(polygons.corners.cols(), 0, 1)}};
       const Points3 given = sites;
-      const std::optional<Mesh> mesh = io_detail::mesh_of_cells(sites, polygons, 0, fields);
+      std::optional<Mesh> mesh = io_detail::mesh_of_cells(sites, polygons, 0, fields);
+      if (mesh && !mesh->closed()) // of the other cells, which are a part of the sphere
+        return std::optional<Mesh>();
       if (!mesh)
         CHECK(test::same_bits(sites, given)); // they stay the caller's
       else

@@ -12,6 +12,7 @@
 
 #include <tbb/task_arena.h>
 
+#include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
@@ -388,6 +389,34 @@ std::vector<PlanarMesh> planar_meshes() {
   return meshes;
 }
 
+/// Six rows of eight nearly equilateral triangles between straight walls, whose sites are the 16 of
+/// the first and the last row; along y with negative x.
+PlanarMesh channel(bool along_x) {
+  const PlanarMesh box = periodic_hexagons(8, 6, 1);
+  PlanarMesh mesh = box;
+  std::vector<Triple> triangles;
+  for (const auto& t : box.triangles.colwise()) {
+    const Eigen::Vector3d y(box.points(1, t[0]), box.points(1, t[1]), box.points(1, t[2]));
+    if (y.maxCoeff() - y.minCoeff() < 2)
+      triangles.push_back({t[0], t[1], t[2]});
+  }
+  const double top = box.points.row(1).maxCoeff();
+  for (Eigen::Index i = 0; i < mesh.points.cols(); ++i)
+    if (const double y = box.points(1, i); y > 0 && y < top)
+      mesh.points.col(i) +=
+          0.04 * Eigen::Vector2d(std::sin(3.0 * double(i)), std::cos(double(i * i)));
+  mesh.points.row(0) =
+      mesh.points.row(0).unaryExpr([](double x) { return x - 8 * std::floor(x / 8); });
+  mesh.period = {8, 0};
+  if (!along_x) {
+    const Eigen::RowVectorXd x = mesh.points.row(0);
+    mesh.points.row(0) = -mesh.points.row(1);
+    mesh.points.row(1) = x;
+    mesh.period = {0, 8};
+  }
+  return planar_mesh_of(mesh, triangles);
+}
+
 } // namespace
 
 TEST_CASE("planar meshes pass, open and periodic, and their areas are known") {
@@ -405,8 +434,58 @@ TEST_CASE("planar meshes pass, open and periodic, and their areas are known") {
   CHECK(check(planar_delaunay(square_lattice(6))).area == 25);
 }
 
+TEST_CASE("channels pass between straight walls, along x and y, and their area is known") {
+  for (const bool along_x : {true, false}) {
+    const PlanarMesh mesh = channel(along_x);
+    CAPTURE(along_x);
+    const Check result = check(mesh);
+    CHECK(result.failure == "");
+    CHECK(result.triangles == 2 * mesh.points.cols() - 16);
+    CHECK(result.boundary_edges == 16);
+    CHECK(result.area == doctest::Approx(8 * 5 * std::sqrt(3) / 2));
+    CHECK(result.whole == doctest::Approx(8 * 5 * std::sqrt(3) / 2));
+    CHECK(check_surface(mesh).failure == "");
+
+    PlanarMesh wrong = mesh; // a dent and a bump in a wall
+    wrong.points(along_x ? 1 : 0, 0) += 0.1;
+    CHECK(check(wrong).failure.find("not convex") != std::string::npos);
+    CHECK(check_surface(wrong).failure == "");
+    wrong.points(along_x ? 1 : 0, 0) -= 0.2;
+    CHECK(check(wrong).failure.find("not convex") != std::string::npos);
+    CHECK(check_surface(wrong).failure == "");
+    wrong = mesh;
+    wrong.points(along_x ? 0 : 1, 3) = 8;
+    fails_with(wrong, "site 3 is outside the periodic channel");
+    wrong = mesh; // the triangles at the seam are missing
+    wrong.period *= 2;
+    CHECK_FALSE(check(wrong).passed());
+    wrong = mesh;
+    wrong.period.setZero();
+    CHECK_FALSE(check(wrong).passed());
+  }
+}
+
+TEST_CASE("two sheets over a channel, and two channels, are not one") {
+  const PlanarMesh one = channel(true);
+  const auto n = static_cast<std::int32_t>(one.points.cols());
+  for (const double apart : {0.0, 100.0}) {
+    PlanarMesh two = one;
+    two.points.resize(2, 2 * n);
+    two.points << one.points, (one.points.colwise() + Eigen::Vector2d(0, apart));
+    std::vector<Triple> triangles;
+    for (const std::int32_t shift : {0, n})
+      for (const auto& t : one.triangles.colwise())
+        triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
+    CAPTURE(apart);
+    CHECK_FALSE(check(planar_mesh_of(two, triangles)).passed());
+  }
+}
+
 TEST_CASE("every flipped edge of a planar mesh is found, ties and copies too") {
-  for (const PlanarMesh& mesh : planar_meshes())
+  std::vector<PlanarMesh> meshes = planar_meshes();
+  meshes.push_back(channel(true));
+  meshes.push_back(channel(false));
+  for (const PlanarMesh& mesh : meshes)
     for (std::int64_t t = 0; t < mesh.triangles.cols(); ++t)
       for (int i = 0; i < 3; ++i)
         if (mesh.neighbours(i, t) > t) {

@@ -32,6 +32,7 @@ def test_points():
     points[7] = 0
     assert refuses("", calotte.delaunay, points).code == "zero_vector"
     assert refuses("", calotte.delaunay, points[:2]).code == "too_few_sites"
+    assert len(calotte.delaunay(points[:3]).triangles) == 1
     points[7] = points[2]
     error = refuses("", calotte.delaunay, points, duplicates="refuse")
     assert (error.code, error.index) == ("duplicate", 7)

@@ -348,14 +348,13 @@ TEST_CASE("cells that are no Voronoi cells: what info, check and convert say of 
   CHECK(info.code == 0);
   CHECK(info.out.find("not convex            1; the first is cell 5\n") != std::string::npos);
   CHECK(info.out.find("not centroidal        2; the farthest centre is ") != std::string::npos);
-  CHECK(info.out.find("not Delaunay          0 edges\n") != std::string::npos);
+  CHECK(info.out.find("not Delaunay") == std::string::npos); // of no triangles
   const auto report = nlohmann::json::parse(calotte::read_file(in_folder(bench, "report.json")));
   CHECK(report["not_convex"] == 1);
   CHECK(report["first_not_convex"] == 5);
   CHECK(report["not_centroidal"] == 2);
   CHECK(report["off_centring"]["cell"] == 5);
   CHECK(report["off_centring"]["max"] > 0.1);
-  CHECK(report["not_delaunay"] == 0);
   const Outcome check = bench.run("check cube.geojson");
   CHECK(check.out.find("not convex      1; the first is cell 5\n") != std::string::npos);
   const Outcome made = bench.run("convert cube.geojson cube.nc --format ugrid");
@@ -363,6 +362,51 @@ TEST_CASE("cells that are no Voronoi cells: what info, check and convert say of 
   CHECK(made.out.starts_with("cube.nc: names that NetCDF refuses: \"sea level\" became sea_level\n"
                              "cube.nc: not converted: name\n"
                              "cube.nc: 6 cells, not Voronoi cells: "));
+}
+
+TEST_CASE("cells without area are named with exit code 1, and converted as they are") {
+  const Bench bench;
+  const auto feature = [](const std::string& ring) {
+    return R"({"type":"Feature","properties":{},"geometry":{"type":"Polygon","coordinates":[)" +
+           ring + "]}}";
+  };
+  bench.file("flat.geojson",
+             R"({"type":"FeatureCollection","features":[)" +
+                 feature("[[0,0],[9,0],[9,9],[0,9],[0,0]]") + "," +
+                 feature("[[0,0],[4,0],[9,0],[0,0]]") + "]}"); // along the equator
+  const std::string fault = "calotte: flat.geojson: 1 cell has no area; it is cell 1\n";
+  const Outcome check = bench.run("check flat.geojson");
+  CHECK(check.code == 1);
+  CHECK(check.err == fault);
+  CHECK(check.out.find("without area    1; the first is cell 1\n") != std::string::npos);
+  const Outcome made = bench.run("convert flat.geojson flat.nc --format esmf");
+  CHECK(made.code == 1);
+  CHECK(made.err == fault);
+  CHECK(bench.run("info flat.nc").out.find("\ncells                 2\n") != std::string::npos);
+  CHECK(bench.run("check flat.nc").code == 1);
+}
+
+TEST_CASE("a region of cells is measured as cells, without a triangle of the hull") {
+  const Bench bench;
+  std::string features;
+  for (int k = 0; k < 4; ++k) { // of one degree, in a square
+    const auto place = [&](int x, int y) {
+      return "[" + std::to_string(10 + k % 2 + x) + "," + std::to_string(50 + k / 2 + y) + "]";
+    };
+    features += k > 0 ? "," : "";
+    features +=
+        R"({"type":"Feature","properties":{},"geometry":{"type":"Polygon","coordinates":[[)" +
+        place(0, 0) + "," + place(1, 0) + "," + place(1, 1) + "," + place(0, 1) + "," +
+        place(0, 0) + "]]}}";
+  }
+  bench.file("four.geojson", R"({"type":"FeatureCollection","features":[)" + features + "]}");
+  const Outcome info = bench.run("info four.geojson");
+  CHECK(info.code == 0);
+  CHECK(info.out.find("nan") == std::string::npos);
+  CHECK(info.out.find("triangles") == std::string::npos);
+  CHECK(info.out.find("\ncells                 4\n") != std::string::npos);
+  CHECK(bench.run("convert four.geojson four.off").code == 0);
+  CHECK(bench.file("four.off").starts_with("OFF\n9 4 0\n"));
 }
 
 TEST_CASE("cut: a limited-area grid, which other commands read") {

@@ -91,6 +91,8 @@ void add_whole_cells(const Measured& measured, nlohmann::ordered_json& json) {
   const Quality& quality = measured.quality;
   if (whole_cells(quality) > 0 || measured.areas)
     add_areas(measured.areas.value_or(quality.cell_area), json);
+  if (measured.areas)
+    json["cells_area"] = measured.cells_area;
   if (whole_cells(quality) == 0)
     return;
   add_shapes(quality, json);
@@ -264,6 +266,8 @@ std::string table(const Measured& measured) {
   } else if (measured.cells) {
     add_cell_rows(measured, table);
   }
+  if (measured.areas)
+    table.row("cells / 4 pi", measured.cells_area, 15);
   if (!plane)
     table.row("triangles / 4 pi", quality.triangles_area, 15);
   if (measured.operators)
@@ -287,10 +291,13 @@ std::string table(const Polygons& polygons, const std::optional<Mesh>& mesh, con
   table.row("sides: cells", degrees(counts));
   const PolygonShapes found = shapes(polygons);
   table.row<std::string>("", "min", "mean", "max");
+  const bool plane = !polygons.on_sphere;
   if (found.spacing.max > 0)
-    table.row("spacing, " + unit.name, scaled(found.spacing, unit.of_radian));
-  table.row("cell area, " + unit.area, scaled(found.area, unit.of_steradian));
-  table.row("cells / 4 pi", areas(polygons).sum() / (4 * std::numbers::pi), 15);
+    table.row(plane ? "spacing" : "spacing, " + unit.name, scaled(found.spacing, unit.of_radian));
+  table.row(plane ? "cell area" : "cell area, " + unit.area, scaled(found.area, unit.of_steradian));
+  const double sum = areas(polygons).sum();
+  table.row(plane ? "sum of areas" : "cells / 4 pi", plane ? sum : sum / (4 * std::numbers::pi),
+            15);
   return table.text() + shape_rows(found, mesh, 22);
 }
 
@@ -305,7 +312,7 @@ std::string to_json(const Polygons& polygons, const std::optional<Mesh>& mesh,
   if (found.spacing.max > 0)
     json["spacing"] = to_json(found.spacing);
   json["cell_area"] = to_json(found.area);
-  json["cells_area"] = areas(polygons).sum() / (4 * std::numbers::pi);
+  json["cells_area"] = areas(polygons).sum() / (polygons.on_sphere ? 4 * std::numbers::pi : 1);
   add_shapes(found, mesh, json);
   return json.dump(2) + "\n";
 }
