@@ -117,54 +117,19 @@ def cell_width(widths, earth_radius=EARTH_RADIUS_KM, region=None):
 
     region: which a raster must cover; None for any raster.
     """
-    made = _widths(widths, earth_radius)
+    made = _widths(widths, earth_radius, _calotte.Region() if region is None else region)
     if region is not None:
-        _require_covering(made, region)
+        _calotte.require_covering(made, region)
     return made
 
 
-def _places_of(region):
-    """Places all over a region, and on its boundary."""
-    inside = _calotte.random_sphere(2000, region, _calotte.Density(), 1)
-    rings = []
-    for ring in region.rings:
-        for part in np.linspace(0, 1, 8, endpoint=False):
-            rings.append((1 - part) * ring + part * np.roll(ring, -1, axis=0))
-    return _calotte.to_lonlat(np.concatenate([inside, *rings]))
-
-
-def _require_covering(widths, region):
-    """The rule of the command: half of the widest step beyond the nodes, 1.5 of it at a seam."""
-    lon, lat = widths.longitudes, widths.latitudes
-    step, rise, slack = np.diff(lon).max(), np.diff(lat).max(), 1e-3
-    around = 360 - (lon[-1] - lon[0]) <= 1.5 * step + slack
-    south = -np.inf if lat[0] + 90 <= 1.5 * rise + slack else lat[0] - rise / 2 - slack
-    north = np.inf if 90 - lat[-1] <= 1.5 * rise + slack else lat[-1] + rise / 2 + slack
-    if around and south < -90 and north > 90:
-        return
-    extent = (f"longitude runs from {lon[0]:g} to {lon[-1]:g}, latitude from {lat[0]:g} to "
-              f"{lat[-1]:g}")
-    if region.whole:
-        raise Error(f"cell widths: {extent}, and leaves part of the sphere out; give a global raster "
-                    "in degrees")
-    places = _places_of(region)
-    east = (places[:, 0] - (lon[0] - step / 2 - slack)) % 360
-    outside = (places[:, 1] < south) | (places[:, 1] > north)
-    if not around:
-        outside |= east > lon[-1] - lon[0] + step + 2 * slack
-    if outside.any():
-        place = places[outside.argmax()]
-        raise Error(f"cell widths: {extent}, and leaves out the place {place[0]:g} {place[1]:g} of "
-                    "the region; give a raster in degrees that covers it")
-
-
-def _widths(widths, earth_radius):
+def _widths(widths, earth_radius, region):
     if isinstance(widths, _calotte.CellWidth):
         return widths
     if isinstance(widths, str) and (parts := measure(widths)):
-        return _widths(kilometres(*parts, "the cell width"), earth_radius)
+        return _widths(kilometres(*parts, "the cell width"), earth_radius, region)
     if isinstance(widths, str) or hasattr(widths, "__fspath__"):
-        return _calotte.read_cell_width(str(widths), 0, 0, 0, earth_radius)
+        return _calotte.read_cell_width(str(widths), 0, 0, 0, earth_radius, region)
     if callable(widths):
         return _sampled(widths)
     if hasattr(widths, "dims") and hasattr(widths, "coords"):
@@ -192,18 +157,8 @@ def _labelled(array):
     lat, lon = axis("lat", "latitude"), axis("lon", "longitude")
     ordered = array.transpose(lat, lon)
     unit = str(array.attrs.get("units", ""))
-    values = numbers(ordered.values, "cell widths") * kilometres_in(unit)
+    values = numbers(ordered.values, "cell widths") * _calotte.kilometres_in(unit)
     return _raster(values, array.coords[lon].values, array.coords[lat].values)
-
-
-def kilometres_in(unit):
-    """The kilometres in a unit of length of a file or of an xarray.DataArray."""
-    names = {"": 1, "km": 1, "m": 1e-3} | {
-        f"{prefix}met{ending}{plural}": factor for prefix, factor in (("", 1e-3), ("kilo", 1))
-        for ending in ("er", "re") for plural in ("", "s")}
-    if unit not in names:
-        raise Error(f"cell widths have the units {unit!r}; give km or m")
-    return names[unit]
 
 
 _USUAL = {"lon": "270", "lat": "30", "beta": "30deg", "alpha": "0.2", "gamma": "x8"}

@@ -40,12 +40,11 @@ def build_planar_mesh(cellWidth, x, y, geom_points, geom_edges, out_filename="ba
     if values.shape != (y.size, x.size):
         raise Error(f"cell widths have the shape {values.shape}; give y x x, here {y.size} x "
                     f"{x.size}")
-    if not (values > 0).all():
-        raise Error("cell widths must be positive")
+    widths = _calotte.PlanarCellWidth(1000 * values, x, y)
     domain = _calotte.PlanarDomain(_rings(geom_points, geom_edges))
-    _require_cover(domain, x, y)
-    rho = _calotte.density_of_planar_raster((values.min() / values)**4, x, y)
-    grid = _functions.cvt(_cells_in(domain, values, x, y), domain=domain, density=rho)
+    widths.require_covering(domain)
+    rho = widths.density()
+    grid = _functions.cvt(round(widths.cells(domain)), domain=domain, density=rho)
     if logger is not None:
         logger.info(f"{out_filename}: {len(grid.mesh)} cells, {grid.iterations} iterations")
     grid.mesh.to_mpas(out_filename, domain=domain, density=rho)
@@ -105,25 +104,3 @@ def _rings(points, edges):
                                 None), here
         rings.append(np.ascontiguousarray(places[ring]))
     return rings
-
-
-def _require_cover(domain, x, y):
-    """Widths outside their grid would be those at its border."""
-    corners = np.concatenate(domain.rings)
-    for name, axis, values in (("x", x, corners[:, 0]), ("y", y, corners[:, 1])):
-        slack = 0.5 * np.diff(axis).max()
-        if values.min() < axis[0] - slack or values.max() > axis[-1] + slack:
-            raise Error(f"{name} of the cell widths runs from {axis[0]:g} to {axis[-1]:g} and the "
-                        f"domain from {values.min():g} to {values.max():g}; give widths for all "
-                        "of it")
-
-
-def _cells_in(domain, widths, x, y):
-    """The integral of 2/(sqrt(3) h^2) over the domain, by the mean over random places."""
-    places = _functions.random_places(1 << 16, domain)
-    i = np.clip(np.searchsorted(x, places[:, 0]) - 1, 0, x.size - 2)
-    j = np.clip(np.searchsorted(y, places[:, 1]) - 1, 0, y.size - 2)
-    s, t = (places[:, 0] - x[i]) / (x[i + 1] - x[i]), (places[:, 1] - y[j]) / (y[j + 1] - y[j])
-    h = 1000 * ((1 - t) * ((1 - s) * widths[j, i] + s * widths[j, i + 1])
-                + t * ((1 - s) * widths[j + 1, i] + s * widths[j + 1, i + 1]))
-    return round(2 / np.sqrt(3) * domain.area * np.mean(h**-2))

@@ -55,17 +55,19 @@ CellWidth cell_width(const Doubles& values, const Doubles& longitudes, const Dou
   return widths;
 }
 
-Density planar_raster(const Doubles& values, const Doubles& x, const Doubles& y) {
-  PlanarRaster raster;
-  raster.x = Eigen::Map<const Eigen::VectorXd>(x.data(), x.size());
-  raster.y = Eigen::Map<const Eigen::VectorXd>(y.data(), y.size());
-  raster.density = columns(values);
-  return density_of(raster);
+PlanarCellWidth planar_widths(const Doubles& values, const Doubles& x, const Doubles& y) {
+  PlanarCellWidth widths;
+  widths.x = Eigen::Map<const Eigen::VectorXd>(x.data(), x.size());
+  widths.y = Eigen::Map<const Eigen::VectorXd>(y.data(), y.size());
+  widths.widths = columns(values);
+  return widths;
 }
 
 CellWidth read_widths(const std::string& path, double inside, double outside, double transition,
-                      double radius_km) {
-  return call([&] { return read_cell_width(path, {inside, outside, transition, radius_km}); });
+                      double radius_km, const Region& region) {
+  return call([&] {
+    return read_cell_width(path, {inside, outside, transition, radius_km}, region);
+  });
 }
 
 void add_cell_width(py::module_& module) {
@@ -86,6 +88,10 @@ void add_cell_width(py::module_& module) {
       },
       "(n,) the widths at n x 3 directions, km.");
   module.def("read_cell_width", &read_widths);
+  module.def("require_covering", [](const CellWidth& widths, const Region& region) {
+    call([&] { require_covering(widths, region); });
+  });
+  module.def("kilometres_in", &kilometres_in);
   module.def("implied_cells", [](const CellWidth& widths, const Region& region, double radius_km) {
     return call([&] {
       return region.whole() ? implied_cells(widths, radius_km)
@@ -117,7 +123,16 @@ void add_densities(py::module_& module) {
   add_cell_width(module);
   module.def("density_of_widths",
              [](const CellWidth& widths) { return call([&] { return density_of(widths); }); });
-  module.def("density_of_planar_raster", &planar_raster);
+  py::class_<PlanarCellWidth>(module, "PlanarCellWidth")
+      .def(py::init(&planar_widths))
+      .def("density", [](const PlanarCellWidth& widths) { return density_of(widths); })
+      .def("cells",
+           [](const PlanarCellWidth& widths, const PlanarDomain& domain) {
+             return call([&] { return implied_cells(widths, domain); });
+           })
+      .def("require_covering", [](const PlanarCellWidth& widths, const PlanarDomain& domain) {
+        require_covering(widths, domain);
+      });
 }
 
 } // namespace calotte::python
