@@ -127,8 +127,9 @@ void run(const MeshSource& source) {
     MeshFile file = read_mesh_file(source, FieldChoice::none);
     progress.stage("checking " + source.path);
     text = changes_of(source, file);
-    // Cells without triangles of their own are checked as cells.
-    if ((file.plane && !file.polygons) || (file.mesh && !(file.polygons && file.mesh->closed()))) {
+    // Cells without triangles of their own are checked as cells; a periodic plane has triangles.
+    const bool own_triangles = file.plane && (!file.polygons || file.plane->period.maxCoeff() > 0);
+    if (own_triangles || (file.mesh && !(file.polygons && file.mesh->closed()))) {
       const Findings found = file.plane ? findings_of(*file.plane) : findings_of(*file.mesh);
       text += table(found, file.plane.has_value());
       failure = found.failure;
