@@ -263,7 +263,7 @@ TEST_CASE("options of widths that do not go together are refused") {
 /// The message of a rejection of a word of --region.
 std::string refused_region(const std::string& word) {
   try {
-    region_of(word);
+    region_of(word, "");
   } catch (const Error& error) {
     return error.what();
   }
@@ -272,13 +272,13 @@ std::string refused_region(const std::string& word) {
 
 TEST_CASE("--region: shapes") {
   const Eigen::Vector3d west(0, -1, 0);
-  CHECK(region_of("circle=-90,0,637.1km").rings == circle(west, 0.1).rings);
-  CHECK(region_of("circle=270,0,637100m").rings == circle(west, 0.1).rings);
-  CHECK(region_of("circle=-90,0,30deg").rings == circle(west, std::numbers::pi / 6).rings);
-  CHECK(region_of("circle=-90,0,100km", 1000).rings == circle(west, 0.1).rings);
-  CHECK(region_of("ellipse=-90deg,0,1274.2km,637.1km,90").rings ==
+  CHECK(region_of("circle=-90,0,637.1km", "").rings == circle(west, 0.1).rings);
+  CHECK(region_of("circle=270,0,637100m", "").rings == circle(west, 0.1).rings);
+  CHECK(region_of("circle=-90,0,30deg", "").rings == circle(west, std::numbers::pi / 6).rings);
+  CHECK(region_of("circle=-90,0,100km", "", 1000).rings == circle(west, 0.1).rings);
+  CHECK(region_of("ellipse=-90deg,0,1274.2km,637.1km,90", "").rings ==
         ellipse(west, 0.2, 0.1, std::numbers::pi / 2).rings);
-  CHECK(region_of("channel=-90,45").rings ==
+  CHECK(region_of("channel=-90,45", "").rings ==
         channel(-std::numbers::pi / 2, std::numbers::pi / 4).rings);
 }
 
@@ -305,8 +305,8 @@ TEST_CASE("--region: words that are refused") {
 }
 
 TEST_CASE("--region: a configuration names the corners") {
-  const Region region = region_of("channel=-90,45");
+  const Region region = region_of("channel=-90,45", "");
   CHECK(
       region_configuration(region).starts_with("region of 1 rings and 360 corners with checksum "));
-  CHECK(region_configuration(region) != region_configuration(region_of("channel=-90,46")));
+  CHECK(region_configuration(region) != region_configuration(region_of("channel=-90,46", "")));
 }
