@@ -46,17 +46,13 @@ void require_report(const Request& request) {
                    request.domain->file.value_or("")});
 }
 
-/// The given domain, the box of the mesh, or what its cells fill.
-PlanarDomain domain_of(const Request& request, const MeshFile& file) {
-  if (const std::optional<PlanarDomain> given = domain_of(*request.domain))
-    return *given;
-  if (file.plane->period.minCoeff() > 0)
+/// The given domain, the box of the mesh, or what its cells fill; none if nothing tells it.
+std::optional<PlanarDomain> domain_of(const Request& request, const MeshFile& file) {
+  if (std::optional<PlanarDomain> given = domain_of(*request.domain))
+    return given;
+  if (file.plane->period.minCoeff() > 0 && !file.polygons) // without walls
     return periodic_box(file.plane->period);
-  if (std::optional<PlanarDomain> filled = domain_of_cells(file))
-    return std::move(*filled);
-  throw Error(ErrorCode::bad_option, request.source->path +
-                                         ": a planar mesh needs its domain, which clips the cells; "
-                                         "give --domain, --rectangle or --periodic");
+  return domain_of_cells(file);
 }
 
 /// The radius that is given, that of a NetCDF file, or the one that the widths refer to.
@@ -157,15 +153,29 @@ void measure_walls(const Request& request, const MeshFile& file, Measured& measu
 }
 
 void measure_plane(const Request& request, const MeshFile& file, Measured& measured) {
-  if (!request.domain->given() && file.polygons && file.plane->period.maxCoeff() > 0)
+  const std::optional<PlanarDomain> domain = domain_of(request, file);
+  if (!domain && file.polygons && file.plane->period.maxCoeff() > 0)
     return measure_walls(request, file, measured);
-  const PlanarDomain domain = domain_of(request, file);
+  if (!domain)
+    throw Error(ErrorCode::bad_option,
+                request.source->path + ": a planar mesh needs its domain, which clips the cells; "
+                                       "give --domain, --rectangle or --periodic");
   measured.density = density_name(*request.density);
   const Density density = density_of(*request.density, true);
-  measured.quality = quality(*file.plane, domain, density);
+  measured.quality = quality(*file.plane, *domain, density);
   if (request.operators)
-    measured.operators = operator_errors(*file.plane, domain, density);
-  measured.domain_area = area(domain);
+    measured.operators = operator_errors(*file.plane, *domain, density);
+  measured.domain_area = area(*domain);
+}
+
+/// Whether the file's cells are measured by their corners alone: those of the sphere that are no
+/// Voronoi cells, and those of a plane whose domain nothing tells.
+bool as_polygons(const Request& request, const MeshFile& file) {
+  if (!file.polygons)
+    return false;
+  if (file.plane)
+    return !request.operators && file.plane->period.maxCoeff() == 0 && !domain_of(request, file);
+  return !file.mesh || file.mesh->closed();
 }
 
 std::string remarks_of(const Request& request, const Measured& measured) {
@@ -199,14 +209,12 @@ std::string read_and_measure(const Request& request) {
     return cell_table(request, file);
   Measured measured;
   measured.changes = file.changes;
-  const bool without_domain = !request.domain->given() && !request.operators,
-             open = file.mesh && !file.mesh->closed(),
-             as_polygons = file.polygons && (file.plane ? without_domain : !open);
-  if (as_polygons && file.plane) {
+  const bool by_corners = as_polygons(request, file);
+  if (by_corners && file.plane) {
     measured.remarks.emplace_back("the cells are measured as the file has them; give --domain for "
                                   "the measures of a CVT");
     measured.unit = {"", 1, "", 1};
-  } else if (as_polygons) {
+  } else if (by_corners) {
     measured.remarks.push_back("the cells are not Voronoi cells: " + file.not_voronoi);
     if (request.operators)
       measured.remarks.emplace_back(no_operators);
@@ -217,9 +225,9 @@ std::string read_and_measure(const Request& request) {
     measure_sphere(request, file, measured);
   if (!request.report.empty())
     write_file(request.report,
-               as_polygons ? to_json(*file.polygons, file.mesh, measured) : to_json(measured));
+               by_corners ? to_json(*file.polygons, file.mesh, measured) : to_json(measured));
   return remarks_of(request, measured) +
-         (as_polygons ? table(*file.polygons, file.mesh, measured.unit) : table(measured));
+         (by_corners ? table(*file.polygons, file.mesh, measured.unit) : table(measured));
 }
 
 void require_radius(const Request& request) {

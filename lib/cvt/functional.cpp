@@ -300,7 +300,7 @@ void FunctionalOver<Cells>::add_penalty(const Points3& points, Evaluation& out) 
       calotte::evaluate(density_, points).cwiseSqrt().cwiseSqrt() / demanded_spacing_;
   out.shapes = add_shape_terms(tessellation_.cells(), tessellation_.mesh(),
                                tessellation_.distorted(inverse_spacing, limits_), inverse_spacing,
-                               limits_, penalty_, out.gradient);
+                               limits_, fixed_, penalty_, out.gradient);
   for_each_block(points.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     make_tangential(out.gradient, points, {begin, end});
   });

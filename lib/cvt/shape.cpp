@@ -89,8 +89,9 @@ Excess excess_of(double value, double least, double most) {
 template <class Cells> class Penalty {
 public:
   Penalty(const Cells& cells, const Connectivity& mesh, const Eigen::VectorXd& inverse_spacing,
-          const ShapeLimits& limits)
-      : cells_(cells), mesh_(mesh), inverse_spacing_(inverse_spacing), limits_(limits) {}
+          const ShapeLimits& limits, const std::vector<std::uint8_t>& fixed)
+      : cells_(cells), mesh_(mesh), inverse_spacing_(inverse_spacing), limits_(limits),
+        fixed_(fixed) {}
 
   void add_triangle(std::int32_t t, Part& part) const {
     if (!is_inner(t))
@@ -102,7 +103,7 @@ public:
       const Cotangent cotangent(cells_, angle);
       const Excess excess =
           excess_of(cotangent.value, limits_.least_cotangent, limits_.most_cotangent);
-      if (excess.size > 0)
+      if (excess.size > 0 && may_change(angle))
         part.add_shares(angle, cotangent, excess.sign * part.add(excess.size, {angle.c, angle.c}));
       add_side(angle, part);
       if (beyond_edges(cotangent.value))
@@ -111,6 +112,12 @@ public:
   }
 
 private:
+  bool is_fixed(std::int32_t i) const {
+    return !fixed_.empty() && fixed_[static_cast<std::size_t>(i)] != 0;
+  }
+  bool may_change(const Angle& angle) const {
+    return !is_fixed(angle.a) || !is_fixed(angle.b) || !is_fixed(angle.c);
+  }
   bool beyond_edges(double cotangent) const {
     return cotangent < limits_.least_edge || cotangent > limits_.most_edge;
   }
@@ -125,6 +132,8 @@ private:
     const double length = norm(side),
                  demanded = (inverse_spacing_[angle.a] + inverse_spacing_[angle.b]) / 2;
     if (!(demanded > 0)) // where the density is 0, no length is too short
+      return;
+    if (is_fixed(angle.a) && is_fixed(angle.b))
       return;
     const Excess excess = excess_of(length * demanded, limits_.least_spacing, limits_.most_spacing);
     if (!(excess.size > 0))
@@ -148,7 +157,7 @@ private:
       return;
     const Excess excess =
         excess_of((cotangent.value + beyond.value) / 2, limits_.least_edge, limits_.most_edge);
-    if (!(excess.size > 0))
+    if (!(excess.size > 0) || !(may_change(angle) || may_change(other)))
       return;
     const double slope = excess.sign * part.add(excess.size, {angle.a, angle.b}) / 2;
     part.add_shares(angle, cotangent, slope);
@@ -159,6 +168,7 @@ private:
   const Connectivity& mesh_;
   const Eigen::VectorXd& inverse_spacing_;
   const ShapeLimits& limits_;
+  const std::vector<std::uint8_t>& fixed_;
 };
 
 /// The vertices of a triangle from the lowest on: a key that no other triangle has.
@@ -196,16 +206,16 @@ bool is_distorted(const Cells& cells, const Connectivity& mesh,
 }
 
 template <class Cells>
-ShapeTerms add_shape_terms(const Cells& cells, const Connectivity& mesh,
-                           std::vector<std::int32_t> triangles,
-                           const Eigen::VectorXd& inverse_spacing, const ShapeLimits& limits,
-                           double factor, Points3& gradient) {
+ShapeTerms
+add_shape_terms(const Cells& cells, const Connectivity& mesh, std::vector<std::int32_t> triangles,
+                const Eigen::VectorXd& inverse_spacing, const ShapeLimits& limits,
+                const std::vector<std::uint8_t>& fixed, double factor, Points3& gradient) {
   constexpr std::int64_t chunk = 512;
   std::sort(triangles.begin(), triangles.end(),
             [&](std::int32_t t, std::int32_t u) { return key_of(mesh, t) < key_of(mesh, u); });
   const std::int64_t count = std::ssize(triangles);
   std::vector<Part> parts(static_cast<std::size_t>((count + chunk - 1) / chunk));
-  const Penalty<Cells> penalty(cells, mesh, inverse_spacing, limits);
+  const Penalty<Cells> penalty(cells, mesh, inverse_spacing, limits, fixed);
   for_each_task(std::ssize(parts), [&](std::int64_t k) {
     for (std::int64_t i = k * chunk; i < std::min(count, (k + 1) * chunk); ++i)
       penalty.add_triangle(triangles[static_cast<std::size_t>(i)],
@@ -232,16 +242,19 @@ template bool is_distorted(const SphericalCells&, const Connectivity&, const Eig
                            const ShapeLimits&, std::int32_t);
 template ShapeTerms add_shape_terms(const SphericalCells&, const Connectivity&,
                                     std::vector<std::int32_t>, const Eigen::VectorXd&,
-                                    const ShapeLimits&, double, Points3&);
+                                    const ShapeLimits&, const std::vector<std::uint8_t>&, double,
+                                    Points3&);
 template bool is_distorted(const PlanarCells&, const Connectivity&, const Eigen::VectorXd&,
                            const ShapeLimits&, std::int32_t);
 template ShapeTerms add_shape_terms(const PlanarCells&, const Connectivity&,
                                     std::vector<std::int32_t>, const Eigen::VectorXd&,
-                                    const ShapeLimits&, double, Points3&);
+                                    const ShapeLimits&, const std::vector<std::uint8_t>&, double,
+                                    Points3&);
 template bool is_distorted(const RegionCells&, const Connectivity&, const Eigen::VectorXd&,
                            const ShapeLimits&, std::int32_t);
 template ShapeTerms add_shape_terms(const RegionCells&, const Connectivity&,
                                     std::vector<std::int32_t>, const Eigen::VectorXd&,
-                                    const ShapeLimits&, double, Points3&);
+                                    const ShapeLimits&, const std::vector<std::uint8_t>&, double,
+                                    Points3&);
 
 } // namespace calotte::cvt_detail

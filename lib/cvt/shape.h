@@ -43,11 +43,14 @@ struct ShapeTerms {
 ///
 /// \param triangles all that may be beyond a limit; each once.
 /// \param inverse_spacing 1/h by generator, h the spacing that the density demands.
+/// \param fixed a flag for each generator that does not move; empty if there is none. Shapes of
+/// such
+///        alone do not count.
 template <class Cells>
-ShapeTerms add_shape_terms(const Cells& cells, const Connectivity& mesh,
-                           std::vector<std::int32_t> triangles,
-                           const Eigen::VectorXd& inverse_spacing, const ShapeLimits& limits,
-                           double factor, Points3& gradient);
+ShapeTerms
+add_shape_terms(const Cells& cells, const Connectivity& mesh, std::vector<std::int32_t> triangles,
+                const Eigen::VectorXd& inverse_spacing, const ShapeLimits& limits,
+                const std::vector<std::uint8_t>& fixed, double factor, Points3& gradient);
 
 /// Whether a triangle may be beyond a limit.
 template <class Cells>

@@ -607,8 +607,8 @@ TEST_CASE("the mesh of Voronoi cells is found without a triangulation, and of no
 TEST_CASE("cells need a closed mesh, triangles do not") {
   const Scratch scratch;
   const Mesh open = spherical_delaunay(test::upper_half(30, 1));
-  for (const Write write : {write_ugrid, write_scrip, write_esmf})
-    CHECK_THROWS_AS(write(scratch / "a.nc", open, {}), Error);
+  for (const Format format : {Format::ugrid, Format::scrip, Format::esmf})
+    CHECK_THROWS_AS(write(scratch / "a.nc", open, {.format = format}), Error);
   CHECK(scratch.files() == 0);
   const Soup soup = written_and_read(scratch / "a.nc", open, io_detail::write_ugrid_triangles,
                                      io_detail::read_ugrid);

@@ -854,8 +854,9 @@ TEST_CASE("files that are not as they should be end in one line") {
   CHECK(message({.kind = "NO", .period = -1}, ErrorCode::bad_option) ==
         path + " holds a mesh of the plane, not of the sphere; read it with read_planar_mesh");
   CHECK(message({.kind = "NO"}) ==
-        path + ": x_period is missing or not positive; a plane has two periods, or the attribute "
-               "is_periodic \"NO\"");
+        path +
+            ": neither x_period nor y_period is positive, or one is negative; a plane has a period "
+            "in one direction or two, or the attribute is_periodic \"NO\"");
   Forged{}.write(path);
   CHECK(error_of([&] { io_detail::read_planar_mpas(NetcdfReader(path)); }).what() ==
         path + " holds a mesh of the sphere, not of the plane; read it with read_mesh");

@@ -5,6 +5,9 @@
 #include "options/point_file.h"
 #include "options/sphere_radius_option.h"
 
+#include <calotte/error.h>
+#include <calotte/voronoi.h>
+
 #include <set>
 #include <utility>
 #include <vector>
@@ -69,6 +72,21 @@ std::optional<std::vector<std::int32_t>> boundary_of(const Polygons& polygons) {
   return simple ? std::optional(std::move(next)) : std::nullopt;
 }
 
+/// Whether the file's cells are the Voronoi cells that a domain clips.
+bool clips_to_cells(const PlanarDomain& domain, const MeshFile& file) {
+  constexpr double rounding = 1e-6;
+  if (domain.rings.empty())
+    return false;
+  try {
+    const Eigen::VectorXd clipped = voronoi(*file.plane, domain).cell_area,
+                          own = areas(*file.polygons);
+    return clipped.size() == own.size() &&
+           ((clipped - own).array().abs() <= rounding * own.array()).all();
+  } catch (const Error&) { // a cell in several parts, for example
+    return false;
+  }
+}
+
 } // namespace
 
 std::optional<PlanarDomain> domain_of_cells(const MeshFile& file) {
@@ -91,7 +109,7 @@ std::optional<PlanarDomain> domain_of_cells(const MeshFile& file) {
       domain.rings.back().col(static_cast<Eigen::Index>(k)) =
           file.polygons->corners.col(ring[k]).head<2>();
   }
-  return domain.rings.empty() ? std::nullopt : std::optional(std::move(domain));
+  return clips_to_cells(domain, file) ? std::optional(std::move(domain)) : std::nullopt;
 }
 
 std::optional<double> radius_km(const MeshSource& source, const MeshFile& file) {

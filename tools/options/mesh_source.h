@@ -30,7 +30,8 @@ CLI::Option* add_plane(CLI::App& command, MeshSource& source);
 MeshFile read_mesh_file(const MeshSource& source, FieldChoice choice);
 
 /// The domain that the cells of a file in a plane fill, without a period: the rings along which
-/// they end. None for other files, and where rings touch.
+/// they end. None for other files, where rings touch, and for cells that are not those that the
+/// domain clips.
 std::optional<PlanarDomain> domain_of_cells(const MeshFile& file);
 
 /// The radius of the sphere, km, if the file is known to give one in metres: NetCDF.
