@@ -85,8 +85,9 @@ WriteOptions write_options(const Request& request, const Density& density, const
 
 std::string describe(const MeshFile& file) {
   if (file.plane && file.polygons)
-    return std::to_string(file.polygons->size()) +
-           (file.plane->period.maxCoeff() > 0 ? " cells of a channel" : " clipped cells of a plane");
+    return std::to_string(file.polygons->size()) + (file.plane->period.maxCoeff() > 0
+                                                        ? " cells of a channel"
+                                                        : " clipped cells of a plane");
   if (file.plane)
     return std::to_string(file.plane->points.cols()) + " sites, " +
            std::to_string(file.plane->triangles.cols()) + " triangles, a " +
