@@ -50,9 +50,9 @@ Check check(const Mesh& mesh, const ProgressCallback& progress = {});
 /// The same in the plane: Euler's characteristic is 1, and the areas sum to that of the boundary
 /// polygon. In a periodic box there is no boundary, Euler's characteristic is 0, and the areas sum
 /// to that of the box; a triangle wider than half of the box is a failure, because
-/// periodic_delaunay() makes none. In a channel Euler's characteristic is 0, the walls are straight,
-/// and the areas sum to the period times the distance of the walls.
-/// \throws Error cancelled.
+/// periodic_delaunay() makes none. In a channel Euler's characteristic is 0, the walls are
+/// straight, and the areas sum to the period times the distance of the walls. \throws Error
+/// cancelled.
 Check check(const PlanarMesh& mesh, const ProgressCallback& progress = {});
 
 /// Proves less, for a mesh that need be neither Delaunay nor convex, such as a region cut from a
