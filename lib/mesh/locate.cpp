@@ -186,28 +186,28 @@ private:
 
   /// Of all sites with triangles. \param t one whose sites may be near.
   std::int32_t nearest_of_all(std::int32_t t, const Position& p) const {
-    const Vec3 at = space_.coordinates(p);
     std::int32_t best = mesh_.triangles(0, t);
     const auto square_to = [&](std::int32_t site) {
-      const Vec3 apart = space_.vertex(site) - at;
+      const Vec3 apart = space_.seen(site, p) - space_.seen(p);
       return dot(apart, apart);
     };
     double reach = square_to(best);
-    const auto consider = [&](std::int32_t site) {
-      const int order = space_.compare(p, site, best);
-      if (order < 0 || (order == 0 && site < best)) {
-        best = site;
-        reach = square_to(site);
-      }
+    const auto consider = [&](std::int32_t triangle) {
+      for (const std::int32_t site : mesh_.triangles.col(triangle))
+        if (const int order = space_.compare(p, site, best);
+            order < 0 || (order == 0 && site < best)) {
+          best = site;
+          reach = square_to(site);
+        }
     };
-    for (int v = 0; v < 3; ++v)
-      consider(mesh_.triangles(v, t));
+    consider(t);
     constexpr double rounding = 1 + 1e-9;
-    tree().visit([&](const Box3& box) { return square_from(box, at) <= reach * rounding + 1e-30; },
-                 [&](std::int32_t triangle) {
-                   for (int v = 0; v < 3; ++v)
-                     consider(mesh_.triangles(v, triangle));
-                 });
+    for (int k = 0; k < Space::copies; ++k) {
+      const Vec3 at = space_.coordinates(space_.copy(p, k));
+      tree().visit(
+          [&](const Box3& box) { return square_from(box, at) <= reach * rounding + 1e-30; },
+          consider);
+    }
     return best;
   }
 

@@ -12,6 +12,7 @@
 #include <doctest/doctest.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -226,6 +227,32 @@ TEST_CASE("the plane and periodic boxes") {
   CHECK(found.nearest[1] == 1);
   CHECK(found.triangle[2] == -1);
   CHECK(found.nearest[2] == 3);
+}
+
+TEST_CASE("a channel, periodic in x") {
+  const Points2 points = random_places(200, periodic_box({4, 3}));
+  PlanarMesh mesh = periodic_delaunay(points, {4, 3});
+  std::vector<Eigen::Index> kept;
+  std::vector<std::int32_t> name(static_cast<std::size_t>(mesh.triangles.cols()), -1);
+  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
+    double low = 3, high = 0;
+    for (int v = 0; v < 3; ++v) {
+      low = std::min(low, points(1, mesh.triangles(v, t)));
+      high = std::max(high, points(1, mesh.triangles(v, t)));
+    }
+    if (high - low < 1.5) { // else it joins the walls
+      name[static_cast<std::size_t>(t)] = static_cast<std::int32_t>(kept.size());
+      kept.push_back(t);
+    }
+  }
+  CHECK(std::ssize(kept) < mesh.triangles.cols());
+  mesh.triangles = Triangles(mesh.triangles(Eigen::all, kept));
+  mesh.neighbours = Triangles(mesh.neighbours(Eigen::all, kept)).unaryExpr([&](std::int32_t t) {
+    return t < 0 ? t : name[static_cast<std::size_t>(t)];
+  });
+  mesh.period.y() = 0;
+  check_located(mesh, random_places(400, rectangle({-3, -1}, {9, 4}), 3));
+  check_located(mesh, points);
 }
 
 TEST_CASE("weights give the position back") {
