@@ -257,14 +257,23 @@ Outcome tessellate(const CvtRequest& request, Plan& plan, Progress& progress) {
 }
 
 /// The mesh is a good CVT, but not all shapes are those asked for.
-[[noreturn]] void finish_not_well_centred(const Outcome& outcome) {
+[[noreturn]] void finish_not_well_centred(const CvtRequest& request, const Outcome& outcome) {
   const CvtReport& report = outcome.report;
+  // A file of a part of the cells numbers them anew; a run that had ended does not know its worst.
+  const bool part =
+      request.part.limited_area || (request.domain->walls && !request.domain->walls->empty());
+  const std::string where =
+      part ? outcome.worst_place
+           : " at cell " + std::to_string(report.worst_cell) + outcome.worst_place;
+  const std::string cells = report.worst_cell < 0
+                                ? "a shape is "
+                                : std::to_string(report.misshapen_cells) + " of " +
+                                      std::to_string(report.iterations.back().cells) +
+                                      " cells with shapes beyond their limits, the worst, ";
   std::cout.flush();
-  std::cerr << "calotte: not well-centred: " + std::to_string(report.misshapen_cells) + " of " +
-                   std::to_string(outcome.cells) +
-                   " cells with shapes beyond their limits, the worst, " +
-                   formatted("%.2g", report.iterations.back().misshapen) + " beyond, at cell " +
-                   std::to_string(report.worst_cell) + outcome.worst_place +
+  std::cerr << "calotte: not well-centred: " + cells +
+                   formatted("%.2g", report.iterations.back().misshapen) + " beyond" +
+                   (report.worst_cell < 0 ? " its limit" : "," + where) +
                    "; the mesh is written; make the widths smoother, or give more cells\n";
   finish(not_well_centred);
 }
@@ -428,7 +437,7 @@ void run(CvtRequest request) {
   if (!outcome.report.converged)
     finish_not_converged(request, outcome.report);
   if (well_centred(request) && !outcome.report.well_centred)
-    finish_not_well_centred(outcome);
+    finish_not_well_centred(request, outcome);
 }
 
 } // namespace

@@ -200,9 +200,12 @@ Polygons read_cell_rows(const NetcdfReader& file, const CellRows& rows, const Po
   if (shape.size() < 2)
     file.fail(rows.corner_longitude + " has no dimension of corners; make the file again");
   const std::int64_t most = rows.corners_first ? shape.front() : shape.back();
+  if (most < 3)
+    file.fail(rows.corner_longitude + " has " + std::to_string(most) +
+              " corners a cell; make the file again with three or more");
   LonLats places{file.doubles(rows.corner_longitude, shape),
                  file.doubles(rows.corner_latitude, shape)};
-  const std::int64_t cells = most > 0 ? std::ssize(places.longitudes) / most : 0;
+  const std::int64_t cells = std::ssize(places.longitudes) / most;
   if (centres.cols() > 0 && cells != centres.cols())
     file.fail(rows.corner_longitude + " holds " + std::to_string(cells) + " cells, but there are " +
               std::to_string(centres.cols()) + " centres; make the file again");

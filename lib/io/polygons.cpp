@@ -257,11 +257,13 @@ bool has_area(const Polygons& polygons, std::int64_t polygon, double area) {
   const std::int64_t begin = polygons.begin[polygon], end = polygons.begin[polygon + 1];
   if (end - begin < 3)
     return false;
-  double perimeter = 0;
-  for (std::int64_t k = begin; k < end; ++k)
+  double perimeter = 0, size = 0;
+  for (std::int64_t k = begin; k < end; ++k) {
+    size = std::max(size, norm(place(polygons, k)));
     perimeter += norm(copy_near(polygons, begin, k + 1 < end ? k + 1 : begin) -
                       copy_near(polygons, begin, k));
-  return std::abs(area) > rounding * perimeter * norm(place(polygons, begin));
+  }
+  return std::abs(area) > rounding * perimeter * size;
 }
 
 void require_no_overlap(const Polygons& polygons, const std::string& name) {

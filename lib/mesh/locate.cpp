@@ -246,7 +246,6 @@ private:
 
 template <class Space, class AnyMesh>
 Locations locate_all(const AnyMesh& mesh, const Space& space, std::int64_t count, bool closed) {
-  require(mesh.triangles.cols() > 0, "the mesh has no triangles; give one that has");
   Locations out{Locations::Ids(count), Eigen::Matrix3Xd(3, count), Locations::Ids(count)};
   const Locator<Space, AnyMesh> locator(mesh, space, closed);
   Array<std::uint64_t> keys(count);
@@ -265,6 +264,10 @@ Locations locate_all(const AnyMesh& mesh, const Space& space, std::int64_t count
   return out;
 }
 
+template <class AnyMesh> void require_triangles(const AnyMesh& mesh) {
+  require(mesh.triangles.cols() > 0, "the mesh has no triangles; give one that has");
+}
+
 /// \param bad(i) whether the position cannot be located.
 template <class Bad>
 void require_positions(std::int64_t count, const Bad& bad, ErrorCode code,
@@ -279,6 +282,7 @@ void require_positions(std::int64_t count, const Bad& bad, ErrorCode code,
 
 Locations locate(const Mesh& mesh, const PointsRef& given) {
   using namespace mesh_detail;
+  require_triangles(mesh);
   const base_detail::Points3Ref positions = base_detail::directions_of(given);
   const auto at = [&](std::int64_t i) { return positions.col(i); };
   require_positions(
@@ -292,11 +296,21 @@ Locations locate(const Mesh& mesh, const PointsRef& given) {
 
 Locations locate(const PlanarMesh& mesh, const PointsRef& given) {
   using namespace mesh_detail;
+  require_triangles(mesh);
   const base_detail::Points2Ref positions = base_detail::places_of(given);
   require_positions(
       positions.cols(), [&](std::int64_t i) { return !positions.col(i).allFinite(); },
       ErrorCode::not_finite, " is not finite; leave it out");
-  return locate_all(mesh, InPlane(mesh, positions), positions.cols(), mesh.period.minCoeff() > 0);
+  constexpr double most_periods = 1 << 30;
+  const auto is_far = [&](std::int64_t i) {
+    return (positions.col(i).array().abs() > most_periods * mesh.period.array() &&
+            mesh.period.array() > 0)
+        .any();
+  };
+  require_positions(positions.cols(), is_far, ErrorCode::bad_option,
+                    " is more than 2^30 periods away; give its copy in the box");
+  const bool closed = mesh.period.minCoeff() > 0 && mesh.triangles.cols() == 2 * mesh.points.cols();
+  return locate_all(mesh, InPlane(mesh, positions), positions.cols(), closed);
 }
 
 } // namespace calotte

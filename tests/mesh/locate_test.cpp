@@ -288,4 +288,11 @@ TEST_CASE("bad input of locate is one clear line with the index") {
   CHECK_THROWS_AS(locate(mesh, random_places(3, rectangle({0, 0}, {1, 1}))), Error);
   CHECK_THROWS_WITH_AS(locate(Mesh{}, random_sphere(3)),
                        "the mesh has no triangles; give one that has", Error);
+  const Points2 places = random_places(3, rectangle({0, 0}, {1, 1}));
+  CHECK_THROWS_WITH_AS(locate(PlanarMesh{}, places), "the mesh has no triangles; give one that has",
+                       Error);
+  const PlanarMesh box = periodic_delaunay(random_places(30, periodic_box({1, 1})), {1, 1});
+  CHECK_THROWS_WITH_AS(locate(box, Points2(1e12 * places)),
+                       "position 0 is more than 2^30 periods away; give its copy in the box",
+                       Error);
 }
