@@ -12,6 +12,8 @@
 
 #include <cmath>
 #include <filesystem>
+#include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -76,22 +78,18 @@ std::string graph_of(const std::string& mesh, Format format) {
 } // namespace
 
 void require_hexagons(const CvtRequest& request) {
-  const auto exclude = [](bool given, const std::string& option) {
-    if (given)
-      throw Error(ErrorCode::bad_option,
-                  "--hexagons makes a uniform grid without a run; leave " + option + " out");
+  static const std::set<std::string> allowed{"hexagons", "walls",  "output",  "format",
+                                             "for",      "config", "threads", "numbering"};
+  const auto exclude = [](const std::string& option) {
+    throw Error(ErrorCode::bad_option,
+                "--hexagons makes a uniform grid without a run; leave " + option + " out");
   };
-  exclude(!request.points.empty(), "START");
-  exclude(!request.fixed.empty(), "--fixed");
-  exclude(request.cells || request.cells_of_widths, "--cells");
-  exclude(request.start.has_value(), "--start");
-  exclude(request.bisections.has_value(), "--bisections");
-  exclude(!is_uniform(*request.density) || request.density->widths.given(),
-          "the density or the widths");
-  exclude(!request.part.region.empty(), "--region");
-  exclude(!request.report.empty(), "--report");
-  exclude(!request.checkpoint.empty(), "--checkpoint");
-  exclude(request.format->sphere_radius.has_value(), "--sphere-radius");
+  if (!request.points.empty())
+    exclude("START");
+  std::istringstream given(request.options);
+  for (std::string line; std::getline(given, line);)
+    if (const std::string name = line.substr(0, line.find('\t')); !allowed.contains(name))
+      exclude("--" + name);
   require_walls_format(request, write_options(request));
   require_outputs({{"mesh", request.mesh}}, {*request.config});
 }
