@@ -987,8 +987,7 @@ TEST_CASE("options that a planar run does not support are refused before any wor
   refused("--hexagons 4.5,6,1 -o m.nc", "--hexagons 4.5,6,1 is not two counts and a distance");
   refused("--hexagons 4,6,1 --cells 24 -o m.nc",
           "--hexagons makes a uniform grid without a run; leave --cells out");
-  for (const std::string option :
-       {"seed 2", "tolerance 1e-3", "resume c", "density x4:0,0", "fixed f"})
+  for (const std::string option : {"seed 2", "tolerance 1e-3", "density x4:0,0", "fixed f"})
     refused("--hexagons 4,6,1 --" + option + " -o m.nc",
             "without a run; leave --" + option.substr(0, option.find(' ')) + " out");
   refused("--hexagons 4,6,1 --walls y -o m.vtp", "a plane with walls is written as MPAS");

@@ -86,6 +86,8 @@ void require_hexagons(const CvtRequest& request) {
   };
   if (!request.points.empty())
     exclude("START");
+  if (!request.resume.empty())
+    exclude("--resume");
   std::istringstream given(request.options);
   for (std::string line; std::getline(given, line);)
     if (const std::string name = line.substr(0, line.find('\t')); !allowed.contains(name))
