@@ -91,6 +91,7 @@ struct EdgeCounts {
 /// \pre ids are in range, triangles are counter-clockwise, neighbours are mutual, as read_mesh()
 /// makes them.
 EdgeCounts count_edges(const Mesh& mesh);
+/// The same in the plane.
 EdgeCounts count_edges(const PlanarMesh& mesh);
 
 } // namespace calotte

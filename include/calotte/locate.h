@@ -12,7 +12,7 @@ namespace calotte {
 
 /// Where positions lie in a mesh; one element, or column, for each position.
 struct Locations {
-  using Ids = Eigen::Matrix<std::int32_t, Eigen::Dynamic, 1>;
+  using Ids = Eigen::Matrix<std::int32_t, Eigen::Dynamic, 1>; ///< of triangles or sites
 
   /// The triangle that holds the position, of several that hold it the lowest: triangles include
   /// their edges and vertices. -1 outside of an open mesh. Exact.

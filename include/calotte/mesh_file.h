@@ -101,7 +101,8 @@ struct MeshFile {
 
 /// The directions in which a plane ends at walls instead of being periodic.
 struct Walls {
-  bool x = false, y = false;
+  bool x = false; ///< walls at the ends of x
+  bool y = false; ///< walls at the ends of y
 };
 
 /// Regular hexagons in a plane that is periodic, as planar_hex of MPAS-Tools makes them: cell
