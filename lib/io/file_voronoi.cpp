@@ -10,11 +10,9 @@ namespace calotte {
 namespace {
 
 Voronoi of_polygons(const MeshFile& file) {
-  io_detail::OpenCells cells = io_detail::open_cells(*file.polygons);
-  const bool closed = file.mesh && file.mesh->closed(); // its Voronoi cells are others
-  const std::string& problem = closed ? file.not_voronoi : cells.problem;
-  if (!problem.empty())
-    throw Error(ErrorCode::bad_option, "the cells are not Voronoi cells: " + problem +
+  io_detail::OpenCells cells = io_detail::open_cells(file);
+  if (!cells.problem.empty())
+    throw Error(ErrorCode::bad_option, "the cells are not Voronoi cells: " + cells.problem +
                                            "; use areas() and the corners of the polygons");
   return std::move(cells.voronoi);
 }

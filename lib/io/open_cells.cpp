@@ -5,6 +5,7 @@
 #include "domain/clipped_cell.h"
 #include "domain/periodic_box.h"
 #include "exact/predicates.h"
+#include "io/polygons.h"
 #include "voronoi/open.h"
 
 #include <calotte/error.h>
@@ -102,6 +103,13 @@ OpenCells open_cells(const Polygons& polygons) {
   voronoi_detail::measure_open(out.voronoi);
   out.problem = first_difference(out.voronoi);
   return out;
+}
+
+OpenCells open_cells(const MeshFile& file) {
+  OpenCells cells = open_cells(*file.polygons);
+  if (!cells.problem.empty() && (file.mesh ? file.mesh->closed() : cover_sphere(*file.polygons)))
+    cells.problem = file.not_voronoi;
+  return cells;
 }
 
 } // namespace calotte::io_detail

@@ -22,6 +22,10 @@ struct OpenCells {
 /// them. Other corners may be anywhere, but on the boundary. The polygons keep their corners.
 OpenCells open_cells(const Polygons& polygons);
 
+/// The same of a file's polygons. Those of the whole sphere have been compared with Voronoi cells
+/// when they were read: the problem is that of the comparison. \pre the file has polygons.
+OpenCells open_cells(const MeshFile& file);
+
 /// Of a vertex that has three cells.
 Vec3 circumcentre_of(const Voronoi& cells, Eigen::Index vertex);
 

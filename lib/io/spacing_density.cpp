@@ -9,7 +9,7 @@ Eigen::VectorXd spacing_density(const MeshFile& file) {
   if (file.plane && (file.domain || (file.plane->period.minCoeff() > 0 && !file.polygons)))
     return spacing_density(file.domain ? voronoi(*file.plane, *file.domain) : voronoi(*file.plane));
   if (file.polygons) {
-    const io_detail::OpenCells cells = io_detail::open_cells(*file.polygons);
+    const io_detail::OpenCells cells = io_detail::open_cells(file);
     return cells.problem.empty() ? spacing_density(cells.voronoi) : Eigen::VectorXd();
   }
   if (file.mesh && file.mesh->closed())

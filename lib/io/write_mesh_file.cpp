@@ -54,12 +54,9 @@ Points3 places_of(const MeshFile& file, double radius) {
 }
 
 void write_open_mpas(const std::string& path, const MeshFile& file, const WriteOptions& options) {
-  const OpenCells cells = open_cells(*file.polygons);
-  // The Voronoi cells of a whole sphere are others.
-  const bool closed = file.mesh ? file.mesh->closed() : cover_sphere(*file.polygons);
+  const OpenCells cells = open_cells(file);
   if (!cells.problem.empty())
-    refuse_to_write(path, "MPAS needs Voronoi cells, but " +
-                              (closed ? file.not_voronoi : cells.problem) + "; write " +
+    refuse_to_write(path, "MPAS needs Voronoi cells, but " + cells.problem + "; write " +
                               formats_of_polygons(file.polygons->on_sphere));
   write_mpas(path, cells.voronoi, places_of(file, options.sphere_radius), options);
 }
