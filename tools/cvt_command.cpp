@@ -160,7 +160,7 @@ Plan prepare(CvtRequest& request, Progress& progress) {
     require_space(request.mesh, file_bytes(format_of(request.mesh, write_options(request).format),
                                            *request.cells, plan.options.density.uniform()));
   progress.stage("making the start");
-  plan.start = open_start(request, plan.options.density, plan.region);
+  plan.start = open_start(request, plan.options.density, plan.domain, plan.region);
   plan.options.fixed = plan.start.fixed;
   if (start_kind(request) == "multilevel") {
     plan.options.insertion_rounds = rounds_of(request);

@@ -352,6 +352,10 @@ Continuation multilevel(std::int64_t cells, const Region& region, const Density&
 std::int64_t cells_beside(const Points3& fixed, std::int64_t cells, const Density& density,
                           const Region& region = {});
 
+/// The same in the plane. \param fixed 2 x m places in the domain.
+std::int64_t cells_beside(const Points2& fixed, std::int64_t cells, const Density& density,
+                          const PlanarDomain& domain);
+
 /// The same in the plane.
 struct PlanarContinuation {
   Points2 start;      ///< 2 x n places

@@ -159,6 +159,18 @@ auto free_points_of(const Supply& from, std::int64_t count, std::int64_t cells,
   return decltype(in.places)(in.places(Eigen::all, chosen));
 }
 
+template <class Supply> std::int64_t cells_beside_fixed(const Supply& from, std::int64_t cells) {
+  constexpr double radius_of_hexagon = 0.525; // of a disc of its area
+  base_detail::require_count(cells, 1, "the number of cells");
+  if (from.fixed.cols() == 0)
+    return cells;
+  const auto in = candidates(from, candidates_for(cells), cells, 1);
+  const std::vector<bool> room = have_room(in, from.fixed.cols(), radius_of_hexagon);
+  const double share = static_cast<double>(std::count(room.begin(), room.end(), true)) /
+                       static_cast<double>(room.size());
+  return from.fixed.cols() + std::llround(share * static_cast<double>(cells));
+}
+
 } // namespace
 
 Points3 free_points(std::int64_t count, std::int64_t cells, const Points3& fixed,
@@ -177,18 +189,14 @@ namespace calotte {
 
 std::int64_t cells_beside(const Points3& fixed, std::int64_t cells, const Density& density,
                           const Region& region) {
-  using namespace cvt_detail;
-  base_detail::require_count(cells, 1, "the number of cells");
-  if (fixed.cols() == 0)
-    return cells;
   const Density sites = site_density(density);
-  const auto in =
-      candidates(SphericalSupply{fixed, region, sites}, candidates_for(cells), cells, 1);
-  constexpr double radius_of_hexagon = 0.525; // of a disc of its area
-  const std::vector<bool> room = have_room(in, fixed.cols(), radius_of_hexagon);
-  const double share = static_cast<double>(std::count(room.begin(), room.end(), true)) /
-                       static_cast<double>(room.size());
-  return fixed.cols() + std::llround(share * static_cast<double>(cells));
+  return cvt_detail::cells_beside_fixed(cvt_detail::SphericalSupply{fixed, region, sites}, cells);
+}
+
+std::int64_t cells_beside(const Points2& fixed, std::int64_t cells, const Density& density,
+                          const PlanarDomain& domain) {
+  const Density sites = site_density(density, domain);
+  return cvt_detail::cells_beside_fixed(cvt_detail::PlanarSupply{fixed, domain, sites}, cells);
 }
 
 } // namespace calotte

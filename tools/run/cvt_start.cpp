@@ -209,11 +209,14 @@ std::string configuration_of_start(const CvtRequest& request) {
 
 /// Sets a number of cells that follows from widths to that which fixed points leave.
 void count_beside_fixed(CvtRequest& request, const Density& density,
+                        const std::optional<PlanarDomain>& domain,
                         const std::optional<RunRegion>& region, CvtStart& start) {
-  if (request.fixed.empty() || planar(request) || !cells_follow(request))
+  if (request.fixed.empty() || !cells_follow(request))
     return;
-  request.cells = static_cast<int>(
-      cells_beside(start.points, *request.cells, density, region ? region->meshed : Region{}));
+  request.cells =
+      static_cast<int>(domain ? cells_beside(start.places, *request.cells, density, *domain)
+                              : cells_beside(start.points, *request.cells, density,
+                                             region ? region->meshed : Region{}));
   start.note = std::to_string(start.fixed) + " fixed points leave room for " +
                std::to_string(*request.cells - start.fixed) +
                " free ones: " + std::to_string(*request.cells) + " cells";
@@ -308,12 +311,13 @@ std::vector<std::string> settle_cells(CvtRequest& request, const Resolution& res
 }
 
 CvtStart open_start(CvtRequest& request, const Density& density,
+                    const std::optional<PlanarDomain>& domain,
                     const std::optional<RunRegion>& region) {
   CvtStart start = request.points.empty() ? CvtStart{} : read_start(request);
   add_fixed(request, start);
   if (ends_at_boundary(request.part))
     add_boundary(request, region->meshed, density, start);
-  count_beside_fixed(request, density, region, start);
+  count_beside_fixed(request, density, domain, region, start);
   if (request.points.empty())
     start.configuration = configuration_of_start(request) + start.configuration;
   require_free(request, start);

@@ -47,6 +47,7 @@ std::vector<std::string> settle_cells(CvtRequest& request, const Resolution& res
 /// that beside the fixed points.
 /// \throws Error bad_option, parse, file.
 CvtStart open_start(CvtRequest& request, const Density& density,
+                    const std::optional<PlanarDomain>& domain,
                     const std::optional<RunRegion>& region);
 
 /// Computes the free points, unless they come from a file, and a continuation's bisections and
