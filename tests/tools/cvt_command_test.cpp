@@ -925,6 +925,10 @@ TEST_CASE("in the plane a width has the unit of the domain, and gives the number
   CHECK(made.code == 0);
   CHECK(has(made.out, "wide.nc: 346 cells, ")); // 12 / (sqrt(3)/2 0.04) = 346.4
   CHECK(made.err == "calotte: cells 0.2 wide require 346 cells\n");
+  bench.file("two.txt", "1 1\n3 2\n");
+  const Outcome beside = bench.run(
+      "cvt --rectangle 0,0,4,3 --cell-width 0.2 --fixed two.txt --tolerance 1e-2 -o beside.nc");
+  CHECK(has(beside.err, "2 fixed points leave room for 344 free ones: 346 cells")); // one cell each
   const Outcome info = bench.run("info wide.nc --plane"); // the domain is what the cells fill
   CHECK(info.code == 0);
   CHECK(info.err.empty());

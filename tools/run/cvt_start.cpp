@@ -264,6 +264,7 @@ std::vector<std::string> settle_domain(CvtRequest& request, const Resolution& re
     if (!(std::round(implied) >= least && std::round(implied) <= most))
       refuse("--cells auto: the widths require " + formatted("%.4g", implied) +
              " cells, but a mesh has 3 to 1073741824; give widths in the unit of the domain");
+    request.cells_of_widths = true;
     request.cells = static_cast<int>(std::lround(implied));
     require_cells(request);
   }
