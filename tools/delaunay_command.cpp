@@ -88,16 +88,13 @@ WriteOptions write_options(const Request& request, std::int64_t points) {
   return options;
 }
 
-bool has_no_boundary(const Mesh& mesh) { return mesh.closed(); }
-bool has_no_boundary(const PlanarMesh& mesh) { return mesh.period.minCoeff() > 0; }
-
 template <class AnyMesh>
 std::string to_json(const Result<AnyMesh>& result, double read, double write) {
   const DelaunayReport& report = result.report;
   nlohmann::ordered_json json;
   json["sites"] = report.sites;
   json["triangles"] = result.mesh.triangles.cols();
-  json["closed"] = has_no_boundary(result.mesh);
+  json["closed"] = result.mesh.closed();
   json["duplicates"] = report.duplicates;
   json["regions"] = report.regions;
   json["threads"] = report.threads;
@@ -126,7 +123,7 @@ std::string kind_of(const Mesh& mesh) {
   return mesh.closed() ? "closed" : "open: all sites lie in a hemisphere";
 }
 std::string kind_of(const PlanarMesh& mesh) {
-  if (has_no_boundary(mesh))
+  if (mesh.closed())
     return "periodic";
   return std::to_string(2 * mesh.points.cols() - 2 - mesh.triangles.cols()) + " sites on the hull";
 }
@@ -182,13 +179,13 @@ std::string triangulate_file(const Request& request, const DelaunayOptions& opti
   progress.stage("writing " + request.mesh);
   WriteOptions output = write_options(request, input.points.cols());
   const double written = seconds_of([&] {
-    if (is_mpas(output.format) && has_no_boundary(result.mesh))
+    if (is_mpas(output.format) && result.mesh.closed())
       output.site_density = spacing_density(voronoi(result.mesh));
     write(request.mesh, result.mesh, output);
   });
   if (!request.report.empty())
     write_file(request.report, to_json(result, read, written));
-  return warning_of(request.points, has_no_boundary(result.mesh)) + remarks(request, output) +
+  return warning_of(request.points, result.mesh.closed()) + remarks(request, output) +
          summary(request, result);
 }
 

@@ -86,7 +86,7 @@ void set_errors(const std::string& word, const OperatorErrors& errors, DrawOptio
 PlanarDomain domain_of_errors(const std::optional<PlanarDomain>& given, const PlanarMesh& mesh) {
   if (given)
     return *given;
-  if (mesh.period.minCoeff() > 0)
+  if (mesh.closed())
     return periodic_box(mesh.period);
   throw Error(ErrorCode::bad_option, "the errors of operators depend on the domain, which clips "
                                      "the cells; give --domain, --rectangle or --periodic");

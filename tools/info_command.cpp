@@ -50,7 +50,7 @@ void require_report(const Request& request) {
 std::optional<PlanarDomain> domain_of(const Request& request, const MeshFile& file) {
   if (std::optional<PlanarDomain> given = domain_of(*request.domain))
     return given;
-  if (file.plane->period.minCoeff() > 0 && !file.polygons) // without walls
+  if (file.plane->closed())
     return periodic_box(file.plane->period);
   return domain_of_cells(file);
 }

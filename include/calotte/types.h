@@ -64,6 +64,9 @@ struct PlanarMesh {
   Triangles neighbours;                    ///< 3 x m triangle ids; -1 along an open boundary
   std::vector<std::int32_t> site_of_input; ///< as in Mesh
   Eigen::Vector2d period{0, 0}; ///< of the plane in x and y; 0 in a direction without one
+
+  /// True if it covers a doubly periodic box; false in a channel, and in a box with land.
+  bool closed() const { return period.minCoeff() > 0 && triangles.cols() == 2 * points.cols(); }
 };
 
 } // namespace calotte

@@ -240,7 +240,7 @@ Points2 hexagonal_lattice(std::int64_t n, const PlanarDomain& domain) {
 }
 
 Points2 bisect(const PlanarMesh& mesh, const PlanarDomain& domain) {
-  const bool periodic = mesh.period.minCoeff() > 0;
+  const bool periodic = mesh.closed();
   require(periodic == domain.periodic() && (!periodic || mesh.period == domain.period),
           "the mesh and the domain are not both of one periodic box, or neither; give the domain "
           "that the mesh was made for");

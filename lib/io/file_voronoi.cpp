@@ -26,7 +26,7 @@ Voronoi voronoi(const MeshFile& file) {
     return of_polygons(file);
   if (file.mesh)
     return voronoi(*file.mesh);
-  if (file.plane && file.plane->period.minCoeff() > 0)
+  if (file.plane && file.plane->closed())
     return voronoi(*file.plane);
   throw Error(ErrorCode::bad_option,
               "the cells of a bounded plane need its domain, which clips them; give it");

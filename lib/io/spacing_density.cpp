@@ -6,7 +6,7 @@
 namespace calotte {
 
 Eigen::VectorXd spacing_density(const MeshFile& file) {
-  if (file.plane && (file.domain || (file.plane->period.minCoeff() > 0 && !file.polygons)))
+  if (file.plane && (file.domain || file.plane->closed()))
     return spacing_density(file.domain ? voronoi(*file.plane, *file.domain) : voronoi(*file.plane));
   if (file.polygons) {
     const io_detail::OpenCells cells = io_detail::open_cells(file);

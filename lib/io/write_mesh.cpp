@@ -40,7 +40,7 @@ MeshSizes sizes_of(const Mesh& mesh) {
   return {mesh.points.cols(), mesh.triangles.cols(), mesh.closed()};
 }
 MeshSizes sizes_of(const PlanarMesh& mesh) {
-  return {mesh.points.cols(), mesh.triangles.cols(), mesh.period.minCoeff() > 0};
+  return {mesh.points.cols(), mesh.triangles.cols(), mesh.closed()};
 }
 
 void require_mesh(const std::string& path, const Mesh& mesh, Format format) {

@@ -31,8 +31,8 @@ template <class Space, class AnyMesh> class Locator {
 public:
   using Position = typename Space::Position;
 
-  Locator(const AnyMesh& mesh, const Space& space, bool closed)
-      : mesh_(mesh), faces_(faces_of(mesh)), space_(space), closed_(closed) {
+  Locator(const AnyMesh& mesh, const Space& space)
+      : mesh_(mesh), faces_(faces_of(mesh)), space_(space) {
     set_starts();
   }
 
@@ -51,7 +51,7 @@ public:
     out.triangle[i] = holder;
     set_weights(holder, p, i, out);
     const std::int32_t near = holder >= 0 ? holder : from;
-    out.nearest[i] = closed_ ? nearest_from(near, p) : nearest_of_all(near, p);
+    out.nearest[i] = mesh_.closed() ? nearest_from(near, p) : nearest_of_all(near, p);
     return near;
   }
 
@@ -238,16 +238,15 @@ private:
   const AnyMesh& mesh_;
   Faces faces_;
   const Space& space_;
-  bool closed_;
   std::vector<KeyedItem> starts_; ///< some triangles, by key
   mutable std::once_flag made_;
   mutable BoxTree tree_; ///< of all triangles, once a walk leaves an open mesh
 };
 
 template <class Space, class AnyMesh>
-Locations locate_all(const AnyMesh& mesh, const Space& space, std::int64_t count, bool closed) {
+Locations locate_all(const AnyMesh& mesh, const Space& space, std::int64_t count) {
   Locations out{Locations::Ids(count), Eigen::Matrix3Xd(3, count), Locations::Ids(count)};
-  const Locator<Space, AnyMesh> locator(mesh, space, closed);
+  const Locator<Space, AnyMesh> locator(mesh, space);
   Array<std::uint64_t> keys(count);
   for_each_block(count, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i)
@@ -291,7 +290,7 @@ Locations locate(const Mesh& mesh, const PointsRef& given) {
   require_positions(
       positions.cols(), [&](std::int64_t i) { return (at(i).array() == 0).all(); },
       ErrorCode::zero_vector, " is the zero vector, which is no direction; leave it out");
-  return locate_all(mesh, OnSphere(mesh, positions), positions.cols(), mesh.closed());
+  return locate_all(mesh, OnSphere(mesh, positions), positions.cols());
 }
 
 Locations locate(const PlanarMesh& mesh, const PointsRef& given) {
@@ -309,8 +308,7 @@ Locations locate(const PlanarMesh& mesh, const PointsRef& given) {
   };
   require_positions(positions.cols(), is_far, ErrorCode::bad_option,
                     " is more than 2^30 periods away; give its copy in the box");
-  const bool closed = mesh.period.minCoeff() > 0 && mesh.triangles.cols() == 2 * mesh.points.cols();
-  return locate_all(mesh, InPlane(mesh, positions), positions.cols(), closed);
+  return locate_all(mesh, InPlane(mesh, positions), positions.cols());
 }
 
 } // namespace calotte

@@ -229,30 +229,37 @@ TEST_CASE("the plane and periodic boxes") {
   CHECK(found.nearest[2] == 3);
 }
 
-TEST_CASE("a channel, periodic in x") {
+TEST_CASE("a channel, and a periodic box with land") {
   const Points2 points = random_places(200, periodic_box({4, 3}));
-  PlanarMesh mesh = periodic_delaunay(points, {4, 3});
-  std::vector<Eigen::Index> kept;
-  std::vector<std::int32_t> name(static_cast<std::size_t>(mesh.triangles.cols()), -1);
-  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
-    double low = 3, high = 0;
-    for (int v = 0; v < 3; ++v) {
-      low = std::min(low, points(1, mesh.triangles(v, t)));
-      high = std::max(high, points(1, mesh.triangles(v, t)));
+  for (const bool channel : {true, false}) {
+    PlanarMesh mesh = periodic_delaunay(points, {4, 3});
+    CHECK(mesh.closed());
+    std::vector<Eigen::Index> kept;
+    std::vector<std::int32_t> name(static_cast<std::size_t>(mesh.triangles.cols()), -1);
+    for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
+      double low = 3, high = 0;
+      bool land = false;
+      for (int v = 0; v < 3; ++v) {
+        const Eigen::Vector2d x = points.col(mesh.triangles(v, t));
+        low = std::min(low, x.y());
+        high = std::max(high, x.y());
+        land = land || (x - Eigen::Vector2d(2, 1.5)).norm() < 0.8;
+      }
+      if (channel ? high - low < 1.5 : !land) { // without those that join the walls, or of the land
+        name[static_cast<std::size_t>(t)] = static_cast<std::int32_t>(kept.size());
+        kept.push_back(t);
+      }
     }
-    if (high - low < 1.5) { // else it joins the walls
-      name[static_cast<std::size_t>(t)] = static_cast<std::int32_t>(kept.size());
-      kept.push_back(t);
-    }
+    mesh.triangles = Triangles(mesh.triangles(Eigen::all, kept));
+    mesh.neighbours = Triangles(mesh.neighbours(Eigen::all, kept)).unaryExpr([&](std::int32_t t) {
+      return t < 0 ? t : name[static_cast<std::size_t>(t)];
+    });
+    if (channel)
+      mesh.period.y() = 0;
+    CHECK_FALSE(mesh.closed());
+    check_located(mesh, random_places(400, rectangle({-3, -1}, {9, 4}), 3));
+    check_located(mesh, points);
   }
-  CHECK(std::ssize(kept) < mesh.triangles.cols());
-  mesh.triangles = Triangles(mesh.triangles(Eigen::all, kept));
-  mesh.neighbours = Triangles(mesh.neighbours(Eigen::all, kept)).unaryExpr([&](std::int32_t t) {
-    return t < 0 ? t : name[static_cast<std::size_t>(t)];
-  });
-  mesh.period.y() = 0;
-  check_located(mesh, random_places(400, rectangle({-3, -1}, {9, 4}), 3));
-  check_located(mesh, points);
 }
 
 TEST_CASE("weights give the position back") {

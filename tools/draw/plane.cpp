@@ -63,7 +63,7 @@ Painting make_painting(const PlanarMesh& mesh, const Drawn& drawn, const DrawOpt
   std::vector<bool> clipped;
   if (options.colouring == Colouring::valence && has_walls(mesh)) {
     clipped = sites_at_walls(mesh);
-  } else if (options.colouring == Colouring::valence && !is_periodic(mesh)) {
+  } else if (options.colouring == Colouring::valence && !mesh.closed()) {
     clipped = clipped_cells(mesh, domain ? *domain : box_around(mesh.points));
   }
   if (options.shapes == Shapes::triangles) {
@@ -185,7 +185,7 @@ void paint_plane(cairo_t* context, const Page& page, const Painting& painting,
 void draw(const std::string& path, const PlanarMesh& mesh,
           const std::optional<PlanarDomain>& domain, const DrawOptions& options) {
   require_picture(path, options.look.size);
-  if (domain && (domain->periodic() != is_periodic(mesh) ||
+  if (domain && (domain->periodic() != mesh.closed() ||
                  (domain->periodic() && domain->period != mesh.period))) {
     throw Error(ErrorCode::bad_option,
                 "the domain is not the one that the mesh was made for: one of the two is periodic, "

@@ -10,14 +10,9 @@
 /// Parts of the pictures of meshes of the plane.
 namespace calotte::tools {
 
-/// Whether the mesh covers a doubly periodic box.
-inline bool is_periodic(const PlanarMesh& mesh) {
-  return mesh.period.minCoeff() > 0 && mesh.triangles.cols() == 2 * mesh.points.cols();
-}
-
 /// Whether the plane is periodic in a direction, and the mesh has a boundary.
 inline bool has_walls(const PlanarMesh& mesh) {
-  return mesh.period.maxCoeff() > 0 && !is_periodic(mesh);
+  return mesh.period.maxCoeff() > 0 && !mesh.closed();
 }
 
 /// The domain that the cells of such a mesh fill, as far as the window and two periods beyond it:

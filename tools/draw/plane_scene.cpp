@@ -277,7 +277,7 @@ std::optional<PlanarDomain> walls_of(const Polygons& cells) {
 }
 
 Window window_of(const PlanarMesh& mesh, const std::optional<PlanarDomain>& domain) {
-  if (is_periodic(mesh)) {
+  if (mesh.closed()) {
     return {Vector2d::Zero(), mesh.period};
   }
   if (has_walls(mesh)) {
@@ -296,7 +296,7 @@ Window window_of(const PlanarMesh& mesh, const std::optional<PlanarDomain>& doma
 }
 
 Drawn drawn_of(const PlanarMesh& mesh, Shapes shapes, const Window& window) {
-  if (is_periodic(mesh)) {
+  if (mesh.closed()) {
     return with_copies(mesh, window);
   }
   if (has_walls(mesh)) {

@@ -24,7 +24,7 @@ double power_of(Colouring colouring) {
 /// Of a domain, a density depends on the period only.
 Eigen::VectorXd by_site(const PlanarMesh& mesh, const DrawOptions& options) {
   if (options.colouring == Colouring::density) {
-    const bool periodic = is_periodic(mesh);
+    const bool periodic = mesh.closed();
     const Eigen::VectorXd density =
         evaluate(options.density, periodic ? periodic_box(mesh.period) : rectangle({0, 0}, {1, 1}),
                  mesh.points);
@@ -135,7 +135,7 @@ std::vector<double> values_of_cells(const PlanarMesh& mesh, const DrawOptions& o
                                     const Window& window) {
   const bool tessellated =
       options.colouring == Colouring::area || options.colouring == Colouring::quality;
-  const bool periodic = is_periodic(mesh);
+  const bool periodic = mesh.closed();
   if (tessellated && periodic) {
     const Voronoi cells = voronoi(mesh);
     const Eigen::VectorXd values =

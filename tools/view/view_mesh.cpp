@@ -145,7 +145,7 @@ void set_sphere(const MeshFile& file, ViewMesh& mesh) {
 PlanarDomain domain_of(const PlanarMesh& mesh, const std::optional<PlanarDomain>& given) {
   if (given)
     return *given;
-  if (is_periodic(mesh))
+  if (mesh.closed())
     return periodic_box(mesh.period);
   const Window window = window_of(mesh, given);
   return rectangle(window.low, window.high);
