@@ -46,15 +46,6 @@ void require_report(const Request& request) {
                    request.domain->file.value_or("")});
 }
 
-/// The given domain, the box of the mesh, or what its cells fill; none if nothing tells it.
-std::optional<PlanarDomain> domain_of(const Request& request, const MeshFile& file) {
-  if (std::optional<PlanarDomain> given = domain_of(*request.domain))
-    return given;
-  if (file.plane->closed())
-    return periodic_box(file.plane->period);
-  return domain_of_cells(file);
-}
-
 /// The radius that is given, that of a NetCDF file, or the one that the widths refer to.
 std::optional<double> radius_of(const Request& request, const MeshFile& file) {
   constexpr double metres = 1000; // a km
@@ -152,8 +143,8 @@ void measure_walls(const Request& request, const MeshFile& file, Measured& measu
     measured.remarks.emplace_back("the operators of a plane with walls are not measured");
 }
 
-void measure_plane(const Request& request, const MeshFile& file, Measured& measured) {
-  const std::optional<PlanarDomain> domain = domain_of(request, file);
+void measure_plane(const Request& request, const MeshFile& file,
+                   const std::optional<PlanarDomain>& domain, Measured& measured) {
   if (!domain && file.polygons && file.plane->period.maxCoeff() > 0)
     return measure_walls(request, file, measured);
   if (!domain)
@@ -170,11 +161,12 @@ void measure_plane(const Request& request, const MeshFile& file, Measured& measu
 
 /// Whether the file's cells are measured by their corners alone: those of the sphere that are no
 /// Voronoi cells, and those of a plane whose domain nothing tells.
-bool as_polygons(const Request& request, const MeshFile& file) {
+bool as_polygons(const Request& request, const MeshFile& file,
+                 const std::optional<PlanarDomain>& domain) {
   if (!file.polygons)
     return false;
   if (file.plane)
-    return !request.operators && file.plane->period.maxCoeff() == 0 && !domain_of(request, file);
+    return !request.operators && file.plane->period.maxCoeff() == 0 && !domain;
   return !file.mesh || file.mesh->closed();
 }
 
@@ -189,7 +181,7 @@ std::string remarks_of(const Request& request, const Measured& measured) {
 /// The numbers of one cell, a line each.
 std::string cell_table(const Request& request, const MeshFile& file) {
   const ViewMesh mesh = view_mesh(request.source->path, file,
-                                  {.domain = domain_of(*request.domain),
+                                  {.domain = filled_domain(file),
                                    .density = density_of(*request.density, request.source->plane),
                                    .radius_km = radius_of(request, file),
                                    .units = request.units,
@@ -202,14 +194,16 @@ std::string cell_table(const Request& request, const MeshFile& file) {
 std::string read_and_measure(const Request& request) {
   Progress progress;
   progress.stage("reading " + request.source->path);
-  const MeshFile file =
+  MeshFile file =
       read_mesh_file(*request.source, request.cell ? FieldChoice::scalars : FieldChoice::none);
+  file.domain = domain_of(*request.domain);
   progress.stage("measuring " + request.source->path);
   if (request.cell)
     return cell_table(request, file);
   Measured measured;
   measured.changes = file.changes;
-  const bool by_corners = as_polygons(request, file);
+  const std::optional<PlanarDomain> domain = filled_domain(file);
+  const bool by_corners = as_polygons(request, file, domain);
   if (by_corners && file.plane) {
     measured.remarks.emplace_back("the cells are measured as the file has them; give --domain for "
                                   "the measures of a CVT");
@@ -220,7 +214,7 @@ std::string read_and_measure(const Request& request) {
       measured.remarks.emplace_back(no_operators);
     measured.unit = unit_of(request.units, radius_of(request, file));
   } else if (file.plane)
-    measure_plane(request, file, measured);
+    measure_plane(request, file, domain, measured);
   else
     measure_sphere(request, file, measured);
   if (!request.report.empty())

@@ -159,6 +159,11 @@ enum class FieldChoice {
 MeshFile read_mesh_file(const std::string& path, const Points3* points = nullptr,
                         FieldChoice choice = FieldChoice::all);
 
+/// The domain of a file in a plane: its own, or the box of a closed mesh, or what its cells fill,
+/// provided that they are the Voronoi cells that this domain clips.
+/// \returns none for other files, where boundaries touch, and for channels.
+std::optional<PlanarDomain> filled_domain(const MeshFile& file);
+
 /// The tessellation of a file's cells: that of its mesh, or of its polygons where these are part of
 /// a Voronoi tessellation, such as the cells of an ocean or a limited area. Polygons keep their
 /// corners; edges at their boundary have one cell, as in a bounded plane.

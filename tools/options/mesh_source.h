@@ -29,11 +29,6 @@ CLI::Option* add_plane(CLI::App& command, MeshSource& source);
 /// \throws Error as read_mesh_file and read_points do.
 MeshFile read_mesh_file(const MeshSource& source, FieldChoice choice);
 
-/// The domain that the cells of a file in a plane fill, without a period: the rings along which
-/// they end. None for other files, where rings touch, and for cells that are not those that the
-/// domain clips.
-std::optional<PlanarDomain> domain_of_cells(const MeshFile& file);
-
 /// The radius of the sphere, km, if the file is known to give one in metres: NetCDF.
 std::optional<double> radius_km(const MeshSource& source, const MeshFile& file);
 

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/polygons.h"
+
+#include <calotte/error.h>
+#include <calotte/mesh_file.h>
+
+#include <utility>
+#include <vector>
+
+namespace calotte {
+namespace {
+
+using namespace io_detail;
+
+/// For each corner of polygons the next one along their boundary, -1 elsewhere; none if several
+/// boundaries pass a corner.
+std::optional<std::vector<std::int32_t>> boundary_of(const Polygons& polygons) {
+  const Sides sides(polygons);
+  std::vector<std::int32_t> next(static_cast<std::size_t>(sides.nodes()), -1);
+  for (std::int32_t from = 0; from < sides.nodes(); ++from)
+    for (std::int64_t k = sides.begin[from]; k < sides.begin[from + 1]; ++k) {
+      const std::int32_t to = sides.list[k].to;
+      if (sides.polygon_of(to, from) >= 0)
+        continue;
+      std::int32_t& after = next[static_cast<std::size_t>(from)];
+      if (after >= 0)
+        return std::nullopt;
+      after = to;
+    }
+  return next;
+}
+
+/// The closed lines of that boundary.
+PlanarDomain domain_in(std::vector<std::int32_t> next, const Polygons& polygons) {
+  PlanarDomain domain;
+  for (std::size_t start = 0; start < next.size(); ++start) {
+    std::vector<std::int32_t> ring;
+    for (auto at = static_cast<std::int32_t>(start); next[static_cast<std::size_t>(at)] >= 0;) {
+      ring.push_back(at);
+      at = std::exchange(next[static_cast<std::size_t>(at)], -1);
+    }
+    if (!ring.empty())
+      domain.rings.emplace_back(polygons.corners(Eigen::all, ring).topRows<2>());
+  }
+  return domain;
+}
+
+/// Whether the polygons are the Voronoi cells that a domain clips.
+bool clips_to(const PlanarDomain& domain, const PlanarMesh& mesh, const Polygons& polygons) {
+  try {
+    return !domain.rings.empty() && are_areas_of(polygons, voronoi(mesh, domain).cell_area);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::bad_option) // a cell in several parts, or rings that touch
+      throw;
+    return false;
+  }
+}
+
+} // namespace
+
+std::optional<PlanarDomain> filled_domain(const MeshFile& file) {
+  if (!file.plane || file.domain)
+    return file.domain;
+  if (file.plane->closed())
+    return periodic_box(file.plane->period);
+  if (!file.polygons || file.plane->period.maxCoeff() > 0)
+    return std::nullopt;
+  std::optional<std::vector<std::int32_t>> next = boundary_of(*file.polygons);
+  if (!next)
+    return std::nullopt;
+  PlanarDomain domain = domain_in(*std::move(next), *file.polygons);
+  return clips_to(domain, *file.plane, *file.polygons) ? std::optional(std::move(domain))
+                                                       : std::nullopt;
+}
+
+} // namespace calotte
