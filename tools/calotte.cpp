@@ -7,10 +7,14 @@
 #include <calotte/error.h>
 #include <calotte/version.h>
 
+#include <gmp.h>
+
+#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <exception>
 #include <iostream>
 #include <new>
@@ -137,6 +141,18 @@ void keep_reserve() {
   std::set_new_handler(handle_no_memory);
 }
 
+/// GMP ends the process where its own functions find no memory; these throw.
+void let_gmp_throw() {
+  mp_set_memory_functions([](std::size_t bytes) { return ::operator new(bytes); },
+                          [](void* block, std::size_t before, std::size_t bytes) {
+                            void* const larger = ::operator new(bytes);
+                            std::memcpy(larger, block, std::min(before, bytes));
+                            ::operator delete(block);
+                            return larger;
+                          },
+                          [](void* block, std::size_t) { ::operator delete(block); });
+}
+
 std::terminate_handler terminate_otherwise = nullptr;
 
 /// Memory can end in a function that may not throw: CLI11 finds options in such ones.
@@ -161,6 +177,7 @@ int main(int argc, char** argv) try {
   // Makes a file larger than the limit an error like a full disk, instead of a fatal signal.
   std::signal(SIGXFSZ, SIG_IGN);
   keep_reserve();
+  let_gmp_throw();
   terminate_otherwise = std::set_terminate(calotte::tools::terminate);
   std::ios::sync_with_stdio(false);
   CLI::App app("Computes exact Delaunay triangulations and centroidal Voronoi tessellations (CVTs) "
