@@ -217,6 +217,11 @@ std::string read_and_measure(const Request& request) {
     measure_plane(request, file, domain, measured);
   else
     measure_sphere(request, file, measured);
+  if (const std::string given = density_name(*request.density), none = Measured().density;
+      given != none && measured.density == none)
+    measured.remarks.push_back("the density " + given +
+                               " is not used: closed meshes and domains of a plane are compared "
+                               "with one");
   if (!request.report.empty())
     write_file(request.report,
                by_corners ? to_json(*file.polygons, file.mesh, measured) : to_json(measured));

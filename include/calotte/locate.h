@@ -39,7 +39,9 @@ struct Locations {
 Locations locate(const Mesh& mesh, const PointsRef& positions);
 
 /// The same in the plane. In a periodic box the positions may lie outside of it: their copies
-/// inside are located. \param positions 2 x n.
+/// inside are located.
+/// \param positions 2 x n; in a periodic direction at most 2^30 periods from the box.
+/// \throws Error as above; bad_option with the index of a position farther away.
 Locations locate(const PlanarMesh& mesh, const PointsRef& positions);
 
 } // namespace calotte

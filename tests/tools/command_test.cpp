@@ -475,6 +475,10 @@ TEST_CASE("info measures an open mesh, and refuses a report in its place") {
   CHECK(bench.run("delaunay points.txt -o mesh.vtp").code == 0);
   const Outcome open = bench.run("info mesh.vtp --report report.json");
   CHECK(open.code == 0);
+  CHECK(
+      bench.run("info mesh.vtp --density x8")
+          .out.find("mesh.vtp: the density x8 is not used: closed meshes and domains of a plane") !=
+      std::string::npos);
   CHECK(open.out.starts_with("mesh.vtp: the mesh is open: 3 boundary edges in 1 loop; its "
                              "triangles and whole cells are measured\n"));
   CHECK(bench.file("report.json").find("\"whole_cells\": 1,") != std::string::npos);
