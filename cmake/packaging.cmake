@@ -38,9 +38,6 @@ if(calotte_type STREQUAL "STATIC_LIBRARY")
   set(calotte_pc_requires_private "tbb, gmp, netcdf, expat, zlib")
   set(calotte_pc_libs_private "-ltbbmalloc") # oneTBB has no .pc file for its allocator
 endif()
-get_target_property(definitions calotte INTERFACE_COMPILE_DEFINITIONS)
-list(TRANSFORM definitions PREPEND -D)
-list(JOIN definitions " " calotte_pc_definitions)
 foreach(kind LIB INCLUDE) # found from where the .pc file stands
   file(RELATIVE_PATH calotte_pc_${kind} ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_FULL_${kind}DIR})
 endforeach()

@@ -64,7 +64,7 @@ CellField read_field(const std::string& path, const std::string& name, const Any
                          : static_cast<std::int64_t>(mesh.site_of_input.size());
   CellField field = read_cell_field(path, name, cells);
   if (cells != mesh.points.cols()) {
-    const Eigen::VectorXd values = field.values;
+    const DoubleVector values = field.values;
     field.values.resize(mesh.points.cols());
     for (auto cell = cells; cell-- > 0;) {
       field.values[mesh.site_of_input[static_cast<std::size_t>(cell)]] = values[cell];
@@ -234,8 +234,8 @@ std::string title_of(const DensityWords& words) {
 }
 
 /// The spacings that a density implies; `unit` is the spacing at density 1.
-std::function<Eigen::VectorXd(const Points3&)> spacings_by(const Density& density, double unit) {
-  return [density, unit](const Points3& x) -> Eigen::VectorXd {
+std::function<DoubleVector(const Points3&)> spacings_by(const Density& density, double unit) {
+  return [density, unit](const Points3& x) -> DoubleVector {
     return unit * evaluate(density, x).array().max(1e-150).pow(-0.25);
   };
 }
@@ -248,7 +248,7 @@ SphereField field_of(const DrawArguments& arguments) {
   const bool asked = arguments.colour->count() > 0;
   const bool density_asked = asked && arguments.options.colouring == Colouring::density;
   if (resolution.widths && !density_asked) {
-    const Eigen::MatrixXd& widths = resolution.widths->widths;
+    const DoubleMatrix& widths = resolution.widths->widths;
     return {spacings_by(density, widths.minCoeff()),
             title + ", " + range_text(widths.minCoeff(), widths.maxCoeff(), "km"),
             "cell width, km"};

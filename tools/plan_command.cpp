@@ -204,7 +204,7 @@ std::string to_json(const Plan& plan) {
 void draw_widths(const Request& request, const Density& density, const Plan& plan) {
   const double radius = plan.radius_km.value_or(1 / degree);
   const double unit = plan.spacing.unit * radius;
-  const auto values = [&](const Points3& x) -> Eigen::VectorXd {
+  const auto values = [&](const Points3& x) -> DoubleVector {
     return unit * evaluate(density, x).array().max(1e-150).pow(-0.25);
   };
   const std::string range = range_text(radius * plan.spacing.least, radius * plan.spacing.greatest,

@@ -4,8 +4,7 @@
 #include <calotte/density.h>
 #include <calotte/export.h>
 #include <calotte/region.h>
-
-#include <Eigen/Core>
+#include <calotte/types.h>
 
 #include <cstdint>
 
@@ -18,10 +17,10 @@ namespace calotte {
 /// it is linear; the value at the pole is the mean of that row. The field is continuous on the
 /// whole sphere.
 struct CellWidth {
-  Eigen::VectorXd
+  DoubleVector
       longitudes; ///< nx >= 2 degrees, ascending by 1e-9 at least, the last below the first + 360
-  Eigen::VectorXd latitudes; ///< ny >= 2 degrees, ascending likewise, within -90 to 90
-  Eigen::MatrixXd widths;    ///< nx x ny, > 0 and finite, in km; max / min at most 1e30
+  DoubleVector latitudes; ///< ny >= 2 degrees, ascending likewise, within -90 to 90
+  DoubleMatrix widths;    ///< nx x ny, > 0 and finite, in km; max / min at most 1e30
 };
 
 /// The radius of the Earth in km, the default of the functions below.
@@ -37,7 +36,7 @@ Density density_of(const CellWidth& cell_width);
 /// The widths in km at n points.
 /// \param points 3 x n unit columns.
 /// \throws Error as density_of; bad_option unless the points have 3 rows.
-Eigen::VectorXd evaluate(const CellWidth& cell_width, const PointsRef& points);
+DoubleVector evaluate(const CellWidth& cell_width, const PointsRef& points);
 
 /// The number of cells that the widths h imply: the integral of 2/(sqrt(3) h^2) over the sphere. A
 /// regular hexagon of width h has the area sqrt(3)/2 h^2.

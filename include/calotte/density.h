@@ -74,13 +74,12 @@ Density site_density(const Density& density, const PlanarDomain& domain);
 /// \param points 3 x n.
 /// \throws Error bad_option: not 3 rows; an ill-formed density; a callable's value that is
 ///         negative, infinite or NaN.
-Eigen::VectorXd evaluate(const Density& density, const PointsRef& points);
+DoubleVector evaluate(const Density& density, const PointsRef& points);
 
 /// The density at n places of a planar domain.
 /// \param places 2 x n, in the unit of the domain.
 /// \throws Error bad_option as above, with 2 rows.
-Eigen::VectorXd evaluate(const Density& density, const PlanarDomain& domain,
-                         const PointsRef& places);
+DoubleVector evaluate(const Density& density, const PlanarDomain& domain, const PointsRef& places);
 
 /// The density that values at the sites of a mesh give everywhere: rho^(-1/4), which cell widths
 /// are proportional to, is linear on each triangle of unit vectors. Outside an open mesh the
@@ -88,7 +87,7 @@ Eigen::VectorXd evaluate(const Density& density, const PlanarDomain& domain,
 /// \param mesh a mesh of the sphere; the density keeps a copy of what it needs.
 /// \param density n values >= 0, finite, by site.
 /// \throws Error bad_option for another number of values, a value out of range, or no triangle.
-Density interpolated_density(const Mesh& mesh, const Eigen::VectorXd& density);
+Density interpolated_density(const Mesh& mesh, const DoubleVector& density);
 
 } // namespace calotte
 CALOTTE_API_END

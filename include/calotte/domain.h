@@ -16,7 +16,7 @@ struct PlanarDomain {
   /// joins the last corner to the first. A point is inside the domain if it lies inside an odd
   /// number of rings, so that rings can be outer boundaries, holes and islands. Default: none, a
   /// periodic box.
-  std::vector<Eigen::MatrixXd> rings;
+  std::vector<DoubleMatrix> rings;
   /// Side lengths of the box [0, period.x) x [0, period.y); from 1e-30 to 1e30 without rings, else
   /// 0.
   Eigen::Vector2d period{0, 0};

@@ -36,7 +36,7 @@ Weights interpolation_weights(const PlanarMesh& mesh, const PointsRef& positions
 /// Values at positions: the product of weights and values; NaN outside.
 /// \param values by site.
 /// \throws Error bad_option unless there is a value for each site.
-Eigen::VectorXd interpolate(const Weights& weights, const Eigen::VectorXd& values);
+DoubleVector interpolate(const Weights& weights, const DoubleVector& values);
 
 } // namespace calotte
 CALOTTE_API_END

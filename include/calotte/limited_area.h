@@ -13,10 +13,6 @@
 CALOTTE_API_BEGIN
 namespace calotte {
 
-/// Lists of neighbours, edges or vertices of n cells: the entries of cell i are begin[i] to
-/// begin[i + 1] - 1, as in Voronoi.
-using Offsets = Eigen::Matrix<std::int64_t, Eigen::Dynamic, 1>;
-
 /// The rings of boundary cells that MPAS-Atmosphere needs: 5 of relaxation, 2 specified.
 inline constexpr int limited_area_rings = 7;
 

@@ -12,7 +12,7 @@ namespace calotte {
 
 /// Where positions lie in a mesh; one element, or column, for each position.
 struct Locations {
-  using Ids = Eigen::Matrix<std::int32_t, Eigen::Dynamic, 1>; ///< of triangles or sites
+  using Ids = calotte::Ids; ///< of triangles or sites
 
   /// The triangle that holds the position, of several that hold it the lowest: triangles include
   /// their edges and vertices. -1 outside of an open mesh. Exact.
@@ -20,7 +20,7 @@ struct Locations {
   /// 3 x n, barycentric: the position, or on the sphere its direction, is the sum of the triangle's
   /// vertices, unit vectors on the sphere, times the weights, up to a factor. From 0 to 1, their
   /// sum is 1; exactly 0 on the edge across. NaN outside.
-  Eigen::Matrix3Xd weights;
+  Triples weights;
   /// The nearest site, the lowest of those that are equally near. Exact.
   Ids nearest;
 };

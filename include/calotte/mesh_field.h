@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <Eigen/Core>
+#include <calotte/types.h>
 
 #include <cstdint>
 #include <string>
@@ -34,7 +34,7 @@ struct MeshField {
   Location location = Location::cells; ///< what has the numbers
   /// count() numbers for each place, place after place, and for each place in the order of
   /// `dimensions`, of which the last is the fastest. NaN where a file has its _FillValue.
-  Eigen::VectorXd values = {};
+  DoubleVector values = {};
   std::vector<FieldDimension> dimensions = {}; ///< none for one number for each place
   /// How many of the dimensions come before the location's in a file: 1 for (Time, nCells, levels).
   int leading = 0;

@@ -27,7 +27,7 @@ struct Polygons {
   Points3 corners; ///< 3 x m unit columns; in a plane in any unit of length
   /// n + 1: polygon i has the corners ids[begin[i]] to ids[begin[i + 1] - 1], counter-clockwise
   /// seen from outside. 0-based.
-  Eigen::Matrix<std::int64_t, Eigen::Dynamic, 1> begin;
+  Offsets begin;
   Ids ids;                      ///< see `begin`
   Points3 centres;              ///< 3 x n, as the corners; 3 x 0 if the file gives none
   bool on_sphere = true;        ///< false in a plane
@@ -39,7 +39,7 @@ struct Polygons {
 
 /// Areas of polygons on the unit sphere, steradians; in a plane in the square of its unit.
 /// \pre counter-clockwise; on the sphere each smaller than a hemisphere.
-Eigen::VectorXd areas(const Polygons& polygons);
+DoubleVector areas(const Polygons& polygons);
 
 /// Polygons of a periodic plane in one without a period: each near its centre, or else near its
 /// first corner. Corners that are needed on both sides of a seam have copies, which follow the
@@ -91,7 +91,7 @@ struct MeshFile {
 
   /// Radius of the sphere on which all points lie, with 12 digits; 1 if they lie on none.
   double sphere_radius = 1;
-  Eigen::VectorXd density;       ///< by site, as the file has it; empty if it has none
+  DoubleVector density;          ///< by site, as the file has it; empty if it has none
   std::vector<MeshField> fields; ///< the file's fields
 
   std::vector<std::string>
@@ -176,7 +176,7 @@ Voronoi voronoi(const MeshFile& file);
 /// \returns by cell; none if the cells are uniform, or if they have no spacing: for other polygons,
 ///          an open mesh, and a plane without a domain.
 /// \throws Error as voronoi().
-Eigen::VectorXd spacing_density(const MeshFile& file);
+DoubleVector spacing_density(const MeshFile& file);
 
 /// What without_ears() removed.
 struct EarReport {

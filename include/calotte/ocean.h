@@ -38,15 +38,15 @@ Region land_around(const Coast& coast, const Eigen::Vector3d& place);
 /// \returns n fractions from 0 to 1.
 /// \throws Error bad_option, for cells that do not cover the sphere; for an area that is not that
 ///         of the rings, and for places covered twice.
-Eigen::VectorXd land_fractions(const Voronoi& cells, const Coast& coast);
+DoubleVector land_fractions(const Voronoi& cells, const Coast& coast);
 
 /// The land by a raster of longitudes and latitudes, which may be irregular. A value holds in the
 /// rectangle between the middles to its neighbours; those of the first and the last latitude reach
 /// to the poles.
 struct LandRaster {
-  Eigen::VectorXd longitudes; ///< nx >= 2 degrees, ascending, the last below the first + 360
-  Eigen::VectorXd latitudes;  ///< ny >= 2 degrees, ascending, within -90 to 90
-  Eigen::MatrixXd land;       ///< nx x ny, fractions of land from 0 to 1
+  DoubleVector longitudes; ///< nx >= 2 degrees, ascending, the last below the first + 360
+  DoubleVector latitudes;  ///< ny >= 2 degrees, ascending, within -90 to 90
+  DoubleMatrix land;       ///< nx x ny, fractions of land from 0 to 1
 };
 
 /// The fraction of each cell that is land, by sampling: each rectangle of the raster is cut into
@@ -59,7 +59,7 @@ struct LandRaster {
 /// \returns n fractions from 0 to 1.
 /// \throws Error bad_option, for cells that do not cover the sphere, and for shapes, coordinates or
 ///         values that violate the conditions of LandRaster.
-Eigen::VectorXd land_fractions(const Voronoi& cells, const LandRaster& raster);
+DoubleVector land_fractions(const Voronoi& cells, const LandRaster& raster);
 
 /// The cells that lines cross, in increasing order. Successive cells of a line share an edge.
 /// \param lines each 3 x places, unit columns, joined by arcs shorter than a half circle.

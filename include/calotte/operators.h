@@ -27,12 +27,12 @@ struct ErrorNorms {
 /// Errors by cell, relative as in OperatorErrors. A cell has the greatest error of its edges or
 /// vertices. NaN where a stencil is not complete.
 struct OperatorErrorsByCell {
-  Eigen::VectorXd divergence;     ///< n
-  Eigen::VectorXd gradient;       ///< n; of its edges
-  Eigen::VectorXd laplacian;      ///< n
-  Eigen::VectorXd curl;           ///< n; of its vertices
-  Eigen::VectorXd tangential;     ///< n; of its edges
-  Eigen::VectorXd kinetic_energy; ///< n
+  DoubleVector divergence;     ///< n
+  DoubleVector gradient;       ///< n; of its edges
+  DoubleVector laplacian;      ///< n
+  DoubleVector curl;           ///< n; of its vertices
+  DoubleVector tangential;     ///< n; of its edges
+  DoubleVector kinetic_energy; ///< n
 };
 
 /// What a C-grid model sees of a mesh: errors of the operators of TRiSK (Ringler, Thuburn, Klemp

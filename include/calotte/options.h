@@ -3,8 +3,7 @@
 
 #include <calotte/export.h>
 #include <calotte/progress.h>
-
-#include <Eigen/Core>
+#include <calotte/types.h>
 
 #include <optional>
 
@@ -42,7 +41,7 @@ struct Partition {
   /// The centres of the regions (MPI-SCVT's RegionList), at least one column; overrides the two
   /// options above. On the sphere 3 x k finite, non-zero directions of any norm. In the plane 2 x k
   /// finite places in the unit of the points, or 3 x k, whose third row is ignored. Default: none.
-  std::optional<Eigen::MatrixXd> given_centres = {};
+  std::optional<DoubleMatrix> given_centres = {};
   Sort sort = Sort::halo; ///< no effect if there is one region
 };
 

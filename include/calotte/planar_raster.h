@@ -4,8 +4,7 @@
 #include <calotte/density.h>
 #include <calotte/domain.h>
 #include <calotte/export.h>
-
-#include <Eigen/Core>
+#include <calotte/types.h>
 
 CALOTTE_API_BEGIN
 namespace calotte {
@@ -13,9 +12,9 @@ namespace calotte {
 /// A density of the plane at the nodes of a grid, which may be irregular. Between nodes it is
 /// bilinear. Outside the grid it has the value of the nearest point of the grid.
 struct PlanarRaster {
-  Eigen::VectorXd x;       ///< nx >= 2, finite and ascending, in the unit of the domain
-  Eigen::VectorXd y;       ///< ny >= 2, finite and ascending, in the unit of the domain
-  Eigen::MatrixXd density; ///< nx x ny, finite and >= 0; only ratios matter
+  DoubleVector x;       ///< nx >= 2, finite and ascending, in the unit of the domain
+  DoubleVector y;       ///< ny >= 2, finite and ascending, in the unit of the domain
+  DoubleMatrix density; ///< nx x ny, finite and >= 0; only ratios matter
 };
 
 /// The density of a raster, a callable for planar domains.
@@ -26,9 +25,9 @@ Density density_of(const PlanarRaster& raster);
 /// nodes of a grid, which may be irregular. Between nodes the width is bilinear. Outside the grid
 /// it has the value of the nearest point of the grid.
 struct PlanarCellWidth {
-  Eigen::VectorXd x;      ///< nx >= 2, finite and ascending, in the unit of the domain
-  Eigen::VectorXd y;      ///< ny >= 2, finite and ascending, in the unit of the domain
-  Eigen::MatrixXd widths; ///< nx x ny, > 0 and finite, in the unit of the domain
+  DoubleVector x;      ///< nx >= 2, finite and ascending, in the unit of the domain
+  DoubleVector y;      ///< ny >= 2, finite and ascending, in the unit of the domain
+  DoubleMatrix widths; ///< nx x ny, > 0 and finite, in the unit of the domain
 };
 
 /// The density rho = (h_min/h)^4 of the interpolated width h, see density_of(const CellWidth&).

@@ -149,22 +149,22 @@ Quality quality(const PlanarMesh& mesh, const PlanarDomain& domain, const Densit
 /// square. NaN where a cell has no such measure: at sites that triangles do not surround, and at
 /// all sites of a mesh that is not Delaunay, sigma, quality and area; degree as well at the former.
 struct CellMeasures {
-  Eigen::VectorXd spacing;       ///< n: mean length of the Delaunay edges at the site
-  Eigen::VectorXd area;          ///< n
-  Eigen::VectorXd sigma;         ///< n: shortest over longest of these edges
-  Eigen::VectorXd quality;       ///< n: shortest over longest Voronoi edge
-  Eigen::VectorXd degree;        ///< n: number of neighbours
-  Eigen::VectorXd largest_angle; ///< n: of the triangles at the site, degrees
+  DoubleVector spacing;       ///< n: mean length of the Delaunay edges at the site
+  DoubleVector area;          ///< n
+  DoubleVector sigma;         ///< n: shortest over longest of these edges
+  DoubleVector quality;       ///< n: shortest over longest Voronoi edge
+  DoubleVector degree;        ///< n: number of neighbours
+  DoubleVector largest_angle; ///< n: of the triangles at the site, degrees
   /// n: distance of the site from the constrained centroid of its cell, over spacing. NaN for an
   /// open mesh.
-  Eigen::VectorXd off_centroid;
+  DoubleVector off_centroid;
   /// n: the spacing h that the density demands of n cells, see Quality::dc_over_h. Empty for an
   /// open mesh.
-  Eigen::VectorXd prescribed;
-  Eigen::VectorXd least_fit;        ///< n: least dc/h of the edges at the site; or empty
-  Eigen::VectorXd greatest_fit;     ///< n: greatest dc/h of these edges; or empty
-  Eigen::VectorXd triangle_angle;   ///< m: largest angle, degrees
-  Eigen::VectorXd triangle_quality; ///< m: as Quality::triangle_quality
+  DoubleVector prescribed;
+  DoubleVector least_fit;        ///< n: least dc/h of the edges at the site; or empty
+  DoubleVector greatest_fit;     ///< n: greatest dc/h of these edges; or empty
+  DoubleVector triangle_angle;   ///< m: largest angle, degrees
+  DoubleVector triangle_quality; ///< m: as Quality::triangle_quality
 };
 
 /// Measures the cells and triangles of a mesh of the sphere, which may be open, and need not be

@@ -178,9 +178,9 @@ std::string read_file(const std::string& path);
 
 /// A variable of a NetCDF file with one number for each cell.
 struct CellField {
-  Eigen::VectorXd values; ///< NaN where the file has its _FillValue
-  std::string long_name;  ///< the variable's attribute, or empty
-  std::string units;      ///< the variable's attribute, or empty
+  DoubleVector values;   ///< NaN where the file has its _FillValue
+  std::string long_name; ///< the variable's attribute, or empty
+  std::string units;     ///< the variable's attribute, or empty
 };
 
 /// Reads a NetCDF variable whose last dimension has the size `cells`; any other dimensions have the

@@ -11,12 +11,6 @@
 CALOTTE_API_BEGIN
 namespace calotte {
 
-/// Ids of cells, edges or vertices.
-using Ids = Eigen::Matrix<std::int32_t, Eigen::Dynamic, 1>;
-
-/// 2 x m ids, one pair a column.
-using Pairs = Eigen::Matrix<std::int32_t, 2, Eigen::Dynamic>;
-
 /// The Voronoi tessellation dual to a Delaunay triangulation, as a C-grid model staggers it
 /// (Ringler, Thuburn, Klemp and Skamarock, J. Comput. Phys. 229, 2010): cell i belongs to site i,
 /// vertex t is the circumcentre of triangle t, and an edge is the pair of a Delaunay edge, which
@@ -44,10 +38,10 @@ struct Voronoi {
   /// The entries of cell i are begin[i] to begin[i + 1] - 1 of the next three arrays. Edge k lies
   /// between vertices k - 1 and k; neighbour k is the cell across edge k, -1 on the boundary. The
   /// first edge is the one towards the lowest neighbour.
-  Eigen::Matrix<std::int64_t, Eigen::Dynamic, 1> begin; ///< n + 1
-  Ids edges_on_cell;                                    ///< by `begin`
-  Ids vertices_on_cell;                                 ///< by `begin`
-  Ids cells_on_cell;                                    ///< by `begin`
+  Offsets begin;        ///< n + 1
+  Ids edges_on_cell;    ///< by `begin`
+  Ids vertices_on_cell; ///< by `begin`
+  Ids cells_on_cell;    ///< by `begin`
 
   /// 3 x m: the mesh's triangles; on the boundary one or two cells, then -1.
   Triangles cells_on_vertex;
@@ -59,19 +53,18 @@ struct Voronoi {
   Pairs cells_on_edge;
   Pairs vertices_on_edge; ///< 2 x e: to the right and to the left of that normal
 
-  Eigen::VectorXd dc; ///< e: distance between the two cells; on the boundary sqrt(3) dv
-  Eigen::VectorXd
-      dv; ///< e: distance between the two vertices; 0 up to rounding for cocircular sites
-  Eigen::VectorXd
+  DoubleVector dc; ///< e: distance between the two cells; on the boundary sqrt(3) dv
+  DoubleVector dv; ///< e: distance between the two vertices; 0 up to rounding for cocircular sites
+  DoubleVector
       angle; ///< e: angle of the normal from east, -pi to pi; in the plane from x, [0, 2 pi)
 
-  Eigen::VectorXd cell_area; ///< n
+  DoubleVector cell_area; ///< n
   /// m: area of the triangle, the sum of its kites; on the boundary of the part that is inside.
-  Eigen::VectorXd vertex_area;
+  DoubleVector vertex_area;
   /// 3 x m areas: kite j is the part of the triangle that is closest to its cell j, with the
   /// corners vertex, edge j, cell j, edge j + 1. Areas are signed: a part is negative if the
   /// circumcentre lies beyond its edge.
-  Eigen::Matrix3Xd kites;
+  Triples kites;
 };
 
 /// Computes the tessellation of the sphere by the cells of a mesh's sites. Locations, lengths and
@@ -117,10 +110,9 @@ Voronoi voronoi(const PlanarMesh& mesh, const PlanarDomain& domain);
 /// and for an edge between cells that coincide up to rounding. An edge on the boundary has those of
 /// its one cell.
 struct TangentialWeights {
-  Eigen::Matrix<std::int64_t, Eigen::Dynamic, 1>
-      begin;               ///< entries of the k-th edge: begin[k] to begin[k + 1] - 1
-  Ids edges;               ///< by entry: the other edge e'
-  Eigen::VectorXd weights; ///< by entry: its weight, without unit
+  Offsets begin;        ///< entries of the k-th edge: begin[k] to begin[k + 1] - 1
+  Ids edges;            ///< by entry: the other edge e'
+  DoubleVector weights; ///< by entry: its weight, without unit
 };
 
 /// The weights of edges first to last - 1. A caller may process a large mesh in parts.
@@ -129,12 +121,12 @@ TangentialWeights tangential_weights(const Voronoi& voronoi, std::int64_t first,
 
 /// Scalar fields of the n cells, for pictures and files. Units are those of Voronoi.
 struct CellFields {
-  Eigen::VectorXd area; ///< as Voronoi::cell_area
+  DoubleVector area; ///< as Voronoi::cell_area
   /// Density at the site, divided by its maximum over the sites; 1 if uniform.
-  Eigen::VectorXd density;
-  Eigen::VectorXd spacing; ///< mean of Voronoi::dc over the edges: distance to the neighbours
-  Eigen::VectorXd quality; ///< shortest over longest Voronoi edge
-  Ids degree;              ///< number of neighbours
+  DoubleVector density;
+  DoubleVector spacing; ///< mean of Voronoi::dc over the edges: distance to the neighbours
+  DoubleVector quality; ///< shortest over longest Voronoi edge
+  Ids degree;           ///< number of neighbours
 };
 
 /// Computes the fields.
@@ -152,7 +144,7 @@ double nominal_spacing(const CellFields& fields);
 /// not the scatter of its cells. Cells that lack a neighbour have the mean of those next to them.
 /// \returns n values, the maximum 1; none if the mesh is uniform: 90% of the smoothed spacings lie
 ///          within 10%, or most of the variation is scatter, as that of random sites.
-Eigen::VectorXd spacing_density(const Voronoi& voronoi);
+DoubleVector spacing_density(const Voronoi& voronoi);
 
 } // namespace calotte
 CALOTTE_API_END

@@ -66,7 +66,7 @@ struct WriteOptions {
   /// Default: uniform.
   Density density = {};
   /// n values >= 0, one of them positive, by site; they replace `density`. Default: none.
-  Eigen::VectorXd site_density = {};
+  DoubleVector site_density = {};
   /// Fields of the mesh, in its order. NetCDF formats hold them at cells, all but SCRIP at
   /// vertices, full MPAS at edges. VTK holds those at cells and vertices, GeoJSON those at cells,
   /// with one number for each place. Other formats and places ignore them. In names, NetCDF formats
@@ -78,8 +78,8 @@ struct WriteOptions {
   /// FESOM's aux3d.out beside nod2d.out: the bounds of the layers, metres, 0 first and falling or
   /// rising from there, at least 3, and by site the depth of the bottom, metres, of either sign.
   /// Default: empty, no such file.
-  Eigen::VectorXd depth_levels = {};
-  Eigen::VectorXd site_depth = {}; ///< see `depth_levels`
+  DoubleVector depth_levels = {};
+  DoubleVector site_depth = {}; ///< see `depth_levels`
   /// How the mesh was made, one fact a line; the attribute `history` of NetCDF files. Default:
   /// empty, no attribute.
   std::string history = {};

@@ -21,7 +21,8 @@ double inner(const Points3& a, const Points3& b, Part part);
 /// Vectors in single precision, times a factor that keeps them in its range. For vectors that a
 /// method reads often and that need not be exact: half of the memory to read.
 struct CompactField {
-  Eigen::Matrix<float, 3, Eigen::Dynamic> values; ///< of a root mean square of about 1
+  Eigen::Matrix<float, 3, Eigen::Dynamic, Eigen::DontAlign>
+      values; ///< of a root mean square of about 1
   double scale = 0;
 };
 

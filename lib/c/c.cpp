@@ -72,7 +72,7 @@ void require(bool holds, const char* problem) {
     throw Error(ErrorCode::bad_option, problem);
 }
 
-Eigen::Map<const Eigen::MatrixXd> points_of(const double* values, std::int64_t n, int rows) {
+Eigen::Map<const DoubleMatrix> points_of(const double* values, std::int64_t n, int rows) {
   require(n >= 0, "the number of points is negative; give 0 or more");
   require(values != nullptr || n == 0, "the points are a null pointer; give an array");
   return {values, rows, n};

@@ -55,10 +55,10 @@ std::int64_t least_with(std::int64_t fixed) { return std::max(fewest_at_start, 4
 std::int64_t spreading(const Density& sites) {
   constexpr double in_hemisphere = 12;
   const Points3 samples = bisected_icosahedron(5), directions = bisected_icosahedron(1);
-  const Eigen::VectorXd weights = evaluate(sites, samples);
+  const DoubleVector weights = evaluate(sites, samples);
   double least = 1; // share of a hemisphere
   for (const auto& direction : directions.colwise()) {
-    const auto inside = (direction.transpose() * samples).array() > 0;
+    const auto inside = direction.transpose().lazyProduct(samples).array() > 0;
     least = std::min(least, inside.select(weights.transpose().array(), 0).sum() / weights.sum());
   }
   return least * static_cast<double>(generators_detail::most_points) > in_hemisphere
@@ -73,7 +73,7 @@ std::int64_t spreading(const Density& density, const PlanarDomain& domain) {
   if (!domain.periodic())
     return 0;
   constexpr double spacings_across = 6;
-  const Eigen::VectorXd rho =
+  const DoubleVector rho =
       evaluate(density, domain, random_places(1 << 14, domain)).cwiseMax(1e-150);
   const double root = area(domain) * rho.cwiseSqrt().mean(),
                widest = domain.period.minCoeff() / spacings_across;

@@ -27,7 +27,7 @@ using delaunay_detail::owners;
 template <class Points> struct Candidates {
   Points places;
   Array<std::int32_t> nearest; ///< fixed generator
-  Eigen::VectorXd distance;    ///< from it, over the demanded distance of neighbours
+  DoubleVector distance;       ///< from it, over the demanded distance of neighbours
 };
 
 /// The sphere, or a region of it.
@@ -39,7 +39,7 @@ struct SphericalSupply {
   Points3 draw(std::int64_t n, std::uint64_t seed) const {
     return random_sphere(n, region, sites, seed);
   }
-  Eigen::VectorXd density(const Points3& places) const { return evaluate(sites, places); }
+  DoubleVector density(const Points3& places) const { return evaluate(sites, places); }
   double area() const { return calotte::area(region); }
   Sites sorted(const Points3& places) const {
     return delaunay_detail::make_sites(places, Duplicates::merge, 0);
@@ -61,7 +61,7 @@ struct PlanarSupply {
   Points2 draw(std::int64_t n, std::uint64_t seed) const {
     return random_places(n, domain, sites, seed);
   }
-  Eigen::VectorXd density(const Points2& places) const { return evaluate(sites, domain, places); }
+  DoubleVector density(const Points2& places) const { return evaluate(sites, domain, places); }
   double area() const { return calotte::area(domain); }
   Sites sorted(const Points2& places) const {
     return delaunay_detail::make_planar_sites(places, Duplicates::merge, 0);
@@ -83,8 +83,8 @@ struct PlanarSupply {
 template <class Supply>
 auto candidates(const Supply& from, std::int64_t n, std::int64_t cells, std::uint64_t seed) {
   Candidates<decltype(from.draw(n, seed))> out{from.draw(n, seed), Array<std::int32_t>(n),
-                                               Eigen::VectorXd(n)};
-  const Eigen::VectorXd inverse = from.density(out.places).cwiseInverse();
+                                               DoubleVector(n)};
+  const DoubleVector inverse = from.density(out.places).cwiseInverse();
   const double scale = from.area() / (inverse.mean() * static_cast<double>(cells));
   const Sites sites = from.sorted(out.places);
   const std::vector<Vec3> centres = from.centres(sites);

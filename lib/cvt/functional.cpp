@@ -167,7 +167,7 @@ void make_room(Evaluation& out, Eigen::Index n, bool with_gradient) {
 }
 
 /// Counts the generators away from their centroids.
-void count_displaced(const Array<SiteTerms>& terms, const Eigen::VectorXd& inverse_spacing,
+void count_displaced(const Array<SiteTerms>& terms, const DoubleVector& inverse_spacing,
                      CvtIteration& iteration) {
   constexpr double least = 0.01;
   double most = 0;
@@ -296,7 +296,7 @@ void FunctionalOver<Cells>::set_centroids(const Points3& points, const Evaluatio
 
 template <class Cells>
 void FunctionalOver<Cells>::add_penalty(const Points3& points, Evaluation& out) {
-  const Eigen::VectorXd inverse_spacing =
+  const DoubleVector inverse_spacing =
       calotte::evaluate(density_, points).cwiseSqrt().cwiseSqrt() / demanded_spacing_;
   out.shapes = add_shape_terms(tessellation_.cells(), tessellation_.mesh(),
                                tessellation_.distorted(inverse_spacing, limits_), inverse_spacing,

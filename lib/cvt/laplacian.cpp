@@ -186,13 +186,13 @@ private:
 
 /// The input of a matrix.
 struct Source {
-  Source(const Connectivity& connectivity, Eigen::VectorXd&& density)
+  Source(const Connectivity& connectivity, DoubleVector&& density)
       : rho(std::move(density)), mesh{connectivity.triangles, connectivity.neighbours, rho.size()},
         starts(ring_starts(mesh)) {}
 
   std::int64_t rows() const { return rho.size(); }
 
-  Eigen::VectorXd rho;  ///< at the sites with rows; later sites have none
+  DoubleVector rho;     ///< at the sites with rows; later sites have none
   Faces mesh;           ///< with these sites
   Array<Corner> starts; ///< of their rings
 };

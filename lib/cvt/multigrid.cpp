@@ -159,18 +159,6 @@ void scale(const Array<double>& diagonal, Rows& weights, Array<double>& constant
   });
 }
 
-Eigen::SparseMatrix<double> eigen_matrix(const Rows& weights) {
-  std::vector<Eigen::Triplet<double>> elements;
-  for (std::int32_t i = 0; i != weights.size(); ++i) {
-    elements.emplace_back(i, i, 1);
-    for (std::int32_t k = weights.begin[i]; k != weights.begin[i + 1]; ++k)
-      elements.emplace_back(i, weights.column[k], -weights.value[k]);
-  }
-  Eigen::SparseMatrix<double> matrix(weights.size(), weights.size());
-  matrix.setFromTriplets(elements.begin(), elements.end());
-  return matrix;
-}
-
 // ---- The cycle, in single precision; each function for rows from begin to end
 
 /// One sweep forward, from zero, and one backward; elements outside the block do not count. Both
@@ -272,7 +260,9 @@ Multigrid::Multigrid(Laplacian matrix) : scale_(std::move(matrix.scale)) {
     weights = std::move(coarse);
   }
   coarsest_ = Vectors(weights.size());
-  factors_.compute(eigen_matrix(weights));
+  factors_ = Cholesky({weights.begin.begin(), weights.begin.end()},
+                      {weights.column.begin(), weights.column.end()},
+                      {weights.value.begin(), weights.value.end()});
 }
 
 void Multigrid::solve(Points3& vectors) {
@@ -338,14 +328,15 @@ void Multigrid::restrict_residual(Level& level) {
 }
 
 const Multigrid::Vectors& Multigrid::solve_coarsest(Column right_side) {
-  Eigen::MatrixXd right(coarsest_.size(), 3);
-  for (Eigen::Index i = 0; i < right.rows(); ++i)
+  const std::int64_t n = coarsest_.size();
+  Array<double> columns(3 * n);
+  for (std::int64_t i = 0; i < n; ++i)
     for (int k = 0; k < 3; ++k)
-      right(i, k) = right_side[i][k];
-  const Eigen::MatrixXd x = factors_.solve(right);
-  for (Eigen::Index i = 0; i < right.rows(); ++i)
+      columns[k * n + i] = right_side[i][k];
+  factors_.solve({columns.begin(), columns.end()});
+  for (std::int64_t i = 0; i < n; ++i)
     for (int k = 0; k < 3; ++k)
-      coarsest_[i][k] = static_cast<float>(x(i, k));
+      coarsest_[i][k] = static_cast<float>(columns[k * n + i]);
   return coarsest_;
 }
 

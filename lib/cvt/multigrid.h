@@ -2,10 +2,9 @@
 #pragma once
 
 #include "base/memory.h"
+#include "base/solvers.h"
 #include "cvt/laplacian.h"
 #include "cvt/room.h"
-
-#include <Eigen/SparseCholesky>
 
 #include <cstdint>
 #include <cstring>
@@ -65,8 +64,8 @@ private:
 
   Array<double> scale_; ///< by row: the inverse root of the diagonal
   std::vector<Level> levels_;
-  Vectors coarsest_;                                           ///< the solution there
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors_; ///< of the coarsest matrix
+  Vectors coarsest_; ///< the solution there
+  Cholesky factors_; ///< of the coarsest matrix
 };
 
 } // namespace calotte::cvt_detail

@@ -88,7 +88,7 @@ Excess excess_of(double value, double least, double most) {
 
 template <class Cells> class Penalty {
 public:
-  Penalty(const Cells& cells, const Connectivity& mesh, const Eigen::VectorXd& inverse_spacing,
+  Penalty(const Cells& cells, const Connectivity& mesh, const DoubleVector& inverse_spacing,
           const ShapeLimits& limits, const std::vector<std::uint8_t>& fixed)
       : cells_(cells), mesh_(mesh), inverse_spacing_(inverse_spacing), limits_(limits),
         fixed_(fixed) {}
@@ -166,7 +166,7 @@ private:
 
   const Cells& cells_;
   const Connectivity& mesh_;
-  const Eigen::VectorXd& inverse_spacing_;
+  const DoubleVector& inverse_spacing_;
   const ShapeLimits& limits_;
   const std::vector<std::uint8_t>& fixed_;
 };
@@ -181,9 +181,8 @@ std::pair<std::int32_t, std::int32_t> key_of(const Connectivity& mesh, std::int3
 } // namespace
 
 template <class Cells>
-bool is_distorted(const Cells& cells, const Connectivity& mesh,
-                  const Eigen::VectorXd& inverse_spacing, const ShapeLimits& limits,
-                  std::int32_t triangle) {
+bool is_distorted(const Cells& cells, const Connectivity& mesh, const DoubleVector& inverse_spacing,
+                  const ShapeLimits& limits, std::int32_t triangle) {
   const auto ids = mesh.triangles.col(triangle);
   if (ids.maxCoeff() >= inverse_spacing.size())
     return false;
@@ -206,10 +205,10 @@ bool is_distorted(const Cells& cells, const Connectivity& mesh,
 }
 
 template <class Cells>
-ShapeTerms
-add_shape_terms(const Cells& cells, const Connectivity& mesh, std::vector<std::int32_t> triangles,
-                const Eigen::VectorXd& inverse_spacing, const ShapeLimits& limits,
-                const std::vector<std::uint8_t>& fixed, double factor, Points3& gradient) {
+ShapeTerms add_shape_terms(const Cells& cells, const Connectivity& mesh,
+                           std::vector<std::int32_t> triangles, const DoubleVector& inverse_spacing,
+                           const ShapeLimits& limits, const std::vector<std::uint8_t>& fixed,
+                           double factor, Points3& gradient) {
   constexpr std::int64_t chunk = 512;
   std::sort(triangles.begin(), triangles.end(),
             [&](std::int32_t t, std::int32_t u) { return key_of(mesh, t) < key_of(mesh, u); });
@@ -238,22 +237,22 @@ add_shape_terms(const Cells& cells, const Connectivity& mesh, std::vector<std::i
   return all;
 }
 
-template bool is_distorted(const SphericalCells&, const Connectivity&, const Eigen::VectorXd&,
+template bool is_distorted(const SphericalCells&, const Connectivity&, const DoubleVector&,
                            const ShapeLimits&, std::int32_t);
 template ShapeTerms add_shape_terms(const SphericalCells&, const Connectivity&,
-                                    std::vector<std::int32_t>, const Eigen::VectorXd&,
+                                    std::vector<std::int32_t>, const DoubleVector&,
                                     const ShapeLimits&, const std::vector<std::uint8_t>&, double,
                                     Points3&);
-template bool is_distorted(const PlanarCells&, const Connectivity&, const Eigen::VectorXd&,
+template bool is_distorted(const PlanarCells&, const Connectivity&, const DoubleVector&,
                            const ShapeLimits&, std::int32_t);
 template ShapeTerms add_shape_terms(const PlanarCells&, const Connectivity&,
-                                    std::vector<std::int32_t>, const Eigen::VectorXd&,
+                                    std::vector<std::int32_t>, const DoubleVector&,
                                     const ShapeLimits&, const std::vector<std::uint8_t>&, double,
                                     Points3&);
-template bool is_distorted(const RegionCells&, const Connectivity&, const Eigen::VectorXd&,
+template bool is_distorted(const RegionCells&, const Connectivity&, const DoubleVector&,
                            const ShapeLimits&, std::int32_t);
 template ShapeTerms add_shape_terms(const RegionCells&, const Connectivity&,
-                                    std::vector<std::int32_t>, const Eigen::VectorXd&,
+                                    std::vector<std::int32_t>, const DoubleVector&,
                                     const ShapeLimits&, const std::vector<std::uint8_t>&, double,
                                     Points3&);
 

@@ -47,15 +47,14 @@ struct ShapeTerms {
 /// such
 ///        alone do not count.
 template <class Cells>
-ShapeTerms
-add_shape_terms(const Cells& cells, const Connectivity& mesh, std::vector<std::int32_t> triangles,
-                const Eigen::VectorXd& inverse_spacing, const ShapeLimits& limits,
-                const std::vector<std::uint8_t>& fixed, double factor, Points3& gradient);
+ShapeTerms add_shape_terms(const Cells& cells, const Connectivity& mesh,
+                           std::vector<std::int32_t> triangles, const DoubleVector& inverse_spacing,
+                           const ShapeLimits& limits, const std::vector<std::uint8_t>& fixed,
+                           double factor, Points3& gradient);
 
 /// Whether a triangle may be beyond a limit.
 template <class Cells>
-bool is_distorted(const Cells& cells, const Connectivity& mesh,
-                  const Eigen::VectorXd& inverse_spacing, const ShapeLimits& limits,
-                  std::int32_t triangle);
+bool is_distorted(const Cells& cells, const Connectivity& mesh, const DoubleVector& inverse_spacing,
+                  const ShapeLimits& limits, std::int32_t triangle);
 
 } // namespace calotte::cvt_detail

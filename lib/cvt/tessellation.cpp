@@ -266,7 +266,7 @@ template <class Cells> void Tessellation<Cells>::make_delaunay(Effort& effort) {
 }
 
 template <class Cells>
-std::vector<std::int32_t> Tessellation<Cells>::distorted(const Eigen::VectorXd& inverse_spacing,
+std::vector<std::int32_t> Tessellation<Cells>::distorted(const DoubleVector& inverse_spacing,
                                                          const ShapeLimits& limits) const {
   const std::int64_t count = mesh_.triangles.cols();
   std::vector<std::vector<std::int32_t>> parts(static_cast<std::size_t>(block_count(count)));

@@ -98,7 +98,7 @@ public:
   void make_delaunay(Effort& effort);
 
   /// The triangles whose shape may be beyond the limits of a finish, each once.
-  std::vector<std::int32_t> distorted(const Eigen::VectorXd& inverse_spacing,
+  std::vector<std::int32_t> distorted(const DoubleVector& inverse_spacing,
                                       const ShapeLimits& limits) const;
 
   /// Moves out the mesh, made Delaunay at the points; empty if flips do not suffice.

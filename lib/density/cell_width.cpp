@@ -145,10 +145,10 @@ Density density_of(const CellWidth& cell_width) {
   return density;
 }
 
-Eigen::VectorXd evaluate(const CellWidth& cell_width, const PointsRef& points) {
+DoubleVector evaluate(const CellWidth& cell_width, const PointsRef& points) {
   const base_detail::Points3Ref x = base_detail::directions_of(points);
   const WidthField field(cell_width);
-  Eigen::VectorXd widths(x.cols());
+  DoubleVector widths(x.cols());
   base_detail::for_each_block(x.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     evaluate_block(field, x.middleCols(begin, end - begin), widths.segment(begin, end - begin));
   });
@@ -182,7 +182,7 @@ double implied_cells(const CellWidth& cell_width, const Region& region, double r
 namespace density_detail {
 namespace {
 
-double widest_step(const Eigen::VectorXd& values) {
+double widest_step(const DoubleVector& values) {
   return (values.tail(values.size() - 1) - values.head(values.size() - 1)).maxCoeff();
 }
 
@@ -204,7 +204,7 @@ struct Cover {
   }
 };
 
-Cover cover_of(const Eigen::VectorXd& longitudes, const Eigen::VectorXd& latitudes) {
+Cover cover_of(const DoubleVector& longitudes, const DoubleVector& latitudes) {
   constexpr double slack = 1e-3; // degrees, for coordinates rounded in a file
   const double step = widest_step(longitudes), rise = widest_step(latitudes);
   const double first = longitudes[0], last = longitudes[longitudes.size() - 1],
@@ -251,13 +251,13 @@ std::optional<Eigen::Vector3d> place_outside(const Cover& cover, const Region& r
 
 } // namespace
 
-std::string uncovered(const Eigen::VectorXd& longitudes, const Eigen::VectorXd& latitudes,
+std::string uncovered(const DoubleVector& longitudes, const DoubleVector& latitudes,
                       const Region& region, const std::string& longitude,
                       const std::string& latitude) {
   const Cover cover = cover_of(longitudes, latitudes);
   if (cover.whole())
     return {};
-  const auto extent = [](const std::string& name, const Eigen::VectorXd& values) {
+  const auto extent = [](const std::string& name, const DoubleVector& values) {
     return name + " runs from " + shortly(values[0]) + " to " + shortly(values[values.size() - 1]);
   };
   if (region.whole())

@@ -22,7 +22,7 @@ constexpr double radians = std::numbers::pi / 180;
 
 constexpr double nearest = 1e-9; // degrees between nodes; slopes overflow where they are closer
 
-void require_ascending(const Eigen::VectorXd& values, const std::string& name) {
+void require_ascending(const DoubleVector& values, const std::string& name) {
   if (values.size() < 2)
     refuse("fewer than 2 " + name + "; give a grid that covers the sphere");
   for (Eigen::Index i = 0; i < values.size(); ++i)
@@ -32,7 +32,7 @@ void require_ascending(const Eigen::VectorXd& values, const std::string& name) {
 }
 
 void require(const CellWidth& cell_width) {
-  const Eigen::VectorXd &longitudes = cell_width.longitudes, &latitudes = cell_width.latitudes;
+  const DoubleVector &longitudes = cell_width.longitudes, &latitudes = cell_width.latitudes;
   require_ascending(longitudes, "longitudes");
   require_ascending(latitudes, "latitudes");
   if (!(longitudes[longitudes.size() - 1] < longitudes[0] + 360))
@@ -106,7 +106,7 @@ double Axis::fraction(std::int64_t i, double x) const {
 
 WidthField::WidthField(const CellWidth& cell_width) {
   require(cell_width);
-  const Eigen::VectorXd &longitudes = cell_width.longitudes, &latitudes = cell_width.latitudes;
+  const DoubleVector &longitudes = cell_width.longitudes, &latitudes = cell_width.latitudes;
   const double shift = 360 * std::floor((longitudes[0] + 180) / 360);
   std::vector<double> columns;
   for (const double longitude : longitudes)

@@ -73,7 +73,7 @@ private:
 /// Why nodes do not cover a region, see require_covering(); empty if they do.
 /// \param longitude, latitude names of the coordinates in the message.
 /// \throws Error as require_region().
-std::string uncovered(const Eigen::VectorXd& longitudes, const Eigen::VectorXd& latitudes,
+std::string uncovered(const DoubleVector& longitudes, const DoubleVector& latitudes,
                       const Region& region, const std::string& longitude,
                       const std::string& latitude);
 

@@ -255,7 +255,7 @@ void DensityEvaluator::call(std::span<const double> x, std::span<const double> y
   Points3 columns(3, static_cast<Eigen::Index>(x.size()));
   for (std::size_t j = 0; j < x.size(); ++j)
     columns.col(static_cast<Eigen::Index>(j)) << x[j], y[j], z[j];
-  Eigen::VectorXd values = Eigen::VectorXd::Zero(columns.cols());
+  DoubleVector values = DoubleVector::Zero(columns.cols());
   density_.callable(columns, values);
   if (values.size() != columns.cols() || !(values.array() >= 0).all() || // NaN included
       !values.allFinite())
@@ -279,8 +279,8 @@ Density site_density(const Density& density) {
   root.kind = Density::Kind::callable;
   root.callable = [evaluator = std::make_shared<const density_detail::DensityEvaluator>(density)](
                       const Eigen::Ref<const Points3>& points, Eigen::Ref<Eigen::VectorXd> rho) {
-    const Eigen::VectorXd x = points.row(0), y = points.row(1), z = points.row(2);
-    Eigen::VectorXd values(x.size());
+    const DoubleVector x = points.row(0), y = points.row(1), z = points.row(2);
+    DoubleVector values(x.size());
     (*evaluator)({x.data(), static_cast<std::size_t>(x.size())},
                  {y.data(), static_cast<std::size_t>(y.size())},
                  {z.data(), static_cast<std::size_t>(z.size())},
@@ -290,10 +290,10 @@ Density site_density(const Density& density) {
   return root;
 }
 
-Eigen::VectorXd evaluate(const Density& density, const PointsRef& points) {
+DoubleVector evaluate(const Density& density, const PointsRef& points) {
   const base_detail::Points3Ref x = base_detail::directions_of(points);
   const density_detail::DensityEvaluator evaluator(density);
-  Eigen::VectorXd rho(x.cols());
+  DoubleVector rho(x.cols());
   base_detail::for_each_block(x.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     if (x.outerStride() == 3) {
       evaluator(&base_detail::column(x, begin), end - begin, rho.data() + begin);

@@ -118,7 +118,7 @@ private:
 
 } // namespace
 
-Density interpolated_density(const Mesh& mesh, const Eigen::VectorXd& density) {
+Density interpolated_density(const Mesh& mesh, const DoubleVector& density) {
   constexpr double least = 1e-150; // a density that is 0 has no cell width
   base_detail::require(density.size() == mesh.points.cols(),
                        "the density has " + std::to_string(density.size()) +
@@ -131,8 +131,7 @@ Density interpolated_density(const Mesh& mesh, const Eigen::VectorXd& density) {
                          "the density is " + std::to_string(density[i]) + " at site " +
                              std::to_string(i) + "; give finite numbers that are not negative");
   const auto locator = std::make_shared<const Locator>(mesh);
-  const auto widths =
-      std::make_shared<const Eigen::VectorXd>(density.array().max(least).pow(-0.25));
+  const auto widths = std::make_shared<const DoubleVector>(density.array().max(least).pow(-0.25));
   Density result;
   result.kind = Density::Kind::callable;
   result.callable = [locator, widths](const Eigen::Ref<const Points3>& x,

@@ -90,8 +90,7 @@ Density planar_density(const Density& density, const PlanarDomain& domain) {
 
 namespace calotte {
 
-Eigen::VectorXd evaluate(const Density& density, const PlanarDomain& domain,
-                         const PointsRef& places) {
+DoubleVector evaluate(const Density& density, const PlanarDomain& domain, const PointsRef& places) {
   Points3 x = Points3::Zero(3, places.cols());
   x.topRows<2>() = base_detail::places_of(places);
   return evaluate(density_detail::planar_density(density, domain), x);

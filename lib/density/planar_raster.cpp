@@ -20,7 +20,7 @@ using base_detail::shortly;
 using density_detail::Axis;
 using density_detail::draw;
 
-void require_axis(const Eigen::VectorXd& values, const std::string& of, const std::string& name) {
+void require_axis(const DoubleVector& values, const std::string& of, const std::string& name) {
   require(values.size() >= 2,
           of + ": fewer than 2 " + name + "; give a grid that covers the domain");
   for (Eigen::Index i = 0; i < values.size(); ++i)
@@ -29,7 +29,7 @@ void require_axis(const Eigen::VectorXd& values, const std::string& of, const st
                 " is not finite and above the one before; sort them");
 }
 
-void require_grid(const Eigen::VectorXd& x, const Eigen::VectorXd& y, const Eigen::MatrixXd& values,
+void require_grid(const DoubleVector& x, const DoubleVector& y, const DoubleMatrix& values,
                   const std::string& of) {
   require_axis(x, of, "x");
   require_axis(y, of, "y");
@@ -39,7 +39,7 @@ void require_grid(const Eigen::VectorXd& x, const Eigen::VectorXd& y, const Eige
 
 /// \param name of one value. \param law what it must be, in words. \param fault what it is.
 template <class Law>
-void require_values(const Eigen::MatrixXd& values, const std::string& name, const Law& law,
+void require_values(const DoubleMatrix& values, const std::string& name, const Law& law,
                     const std::string& fault) {
   for (Eigen::Index j = 0; j < values.cols(); ++j)
     for (Eigen::Index i = 0; i < values.rows(); ++i)
@@ -67,7 +67,7 @@ void require_widths(const PlanarCellWidth& given) {
 /// Values on a grid, which finds intervals in constant time.
 struct Field {
   Axis x, y;
-  Eigen::MatrixXd values;
+  DoubleMatrix values;
 
   double at(double px, double py) const {
     const std::int64_t i = x.interval(px), j = y.interval(py);
@@ -78,7 +78,7 @@ struct Field {
   }
 };
 
-Axis axis_of(const Eigen::VectorXd& values) {
+Axis axis_of(const DoubleVector& values) {
   return Axis(std::vector<double>(values.begin(), values.end()));
 }
 
@@ -87,12 +87,11 @@ Field field_of(const PlanarCellWidth& given) {
   return {axis_of(given.x), axis_of(given.y), given.widths};
 }
 
-double widest_step(const Eigen::VectorXd& values) {
+double widest_step(const DoubleVector& values) {
   return (values.tail(values.size() - 1) - values.head(values.size() - 1)).maxCoeff();
 }
 
-void require_extent(const Eigen::VectorXd& nodes, double low, double high,
-                    const std::string& name) {
+void require_extent(const DoubleVector& nodes, double low, double high, const std::string& name) {
   const double slack = 0.5 * widest_step(nodes), first = nodes[0], last = nodes[nodes.size() - 1];
   require(low >= first - slack && high <= last + slack,
           "cell width: " + name + " runs from " + shortly(first) + " to " + shortly(last) +

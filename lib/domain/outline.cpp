@@ -28,7 +28,7 @@ struct Name {
   }
 };
 
-void require_ring(const Eigen::MatrixXd& ring, std::int64_t r) {
+void require_ring(const DoubleMatrix& ring, std::int64_t r) {
   const std::string name = "ring " + std::to_string(r);
   if (ring.rows() != 2)
     refuse(name + " has " + std::to_string(ring.rows()) + (ring.rows() == 1 ? " row" : " rows") +
@@ -168,7 +168,7 @@ void Outline::orient() {
 Outline::Outline(const PlanarDomain& domain) {
   ring_begin_.push_back(0);
   for (std::size_t r = 0; r < domain.rings.size(); ++r) {
-    const Eigen::MatrixXd& ring = domain.rings[r];
+    const DoubleMatrix& ring = domain.rings[r];
     require_ring(ring, static_cast<std::int64_t>(r));
     for (Eigen::Index i = 0; i < ring.cols(); ++i) {
       const Eigen::Vector2d from = ring.col(i), to = ring.col((i + 1) % ring.cols());

@@ -46,7 +46,7 @@ bool is_shorter(const Edge& e, const Edge& f) {
 }
 
 /// rho^(1/4) at columns: 1/h up to a factor.
-Eigen::VectorXd fineness(const Density& density, const Points3& points) {
+DoubleVector fineness(const Density& density, const Points3& points) {
   return evaluate(density, points).cwiseSqrt().cwiseSqrt();
 }
 
@@ -159,7 +159,7 @@ template <class AnyMesh, class Space>
 std::vector<Edge> edges_of(const AnyMesh& mesh, const Points3& points, const Density& density,
                            const Space& space) {
   constexpr double preference = 2;
-  const Eigen::VectorXd fine = fineness(density, points);
+  const DoubleVector fine = fineness(density, points);
   const std::vector<std::int8_t> odd = oddities(mesh);
   std::vector<Edge> edges;
   edges.reserve(static_cast<std::size_t>(mesh_detail::count_edges(mesh).all));
@@ -265,7 +265,7 @@ Points3 unit(const Points3& points, std::int64_t fixed = 0) {
 template <class AnyMesh>
 double sum_dislocations(const AnyMesh& mesh, const Points3& points, const Density& density) {
   constexpr double per_edge = std::numbers::sqrt3 / 2 * (std::numbers::pi / 2) / 3;
-  const Eigen::VectorXd fine = fineness(density, points);
+  const DoubleVector fine = fineness(density, points);
   double sum = 0;
   mesh_detail::for_each_edge(mesh, [&](std::int32_t a, std::int32_t b) {
     if (const double larger = std::max(fine[a], fine[b]); larger > 0)

@@ -46,7 +46,7 @@ CellField read_cell_field(const std::string& path, const std::string& name, std:
   const std::vector<double> values = file.doubles(name, file.shape_of(name));
   const double fill = file.number(name, "_FillValue", std::numeric_limits<double>::quiet_NaN());
   CellField field;
-  field.values = Eigen::Map<const Eigen::VectorXd>(values.data(), cells);
+  field.values = Eigen::Map<const DoubleVector>(values.data(), cells);
   field.values =
       (field.values.array() == fill).select(std::numeric_limits<double>::quiet_NaN(), field.values);
   field.long_name = file.text(name, "long_name");

@@ -40,7 +40,7 @@ CellWidth read_cell_width(const std::string& path, const PolygonWidths& polygons
 CellWidth read_density_raster(const std::string& path, const Region& region) {
   CellWidth raster = io_detail::read_density_netcdf(path, region);
   const auto width_of = [](double density) { return 1 / std::sqrt(std::sqrt(density)); };
-  raster.widths = raster.widths.unaryExpr(width_of).eval();
+  raster.widths = raster.widths.unaryExpr(width_of);
   raster.widths /= raster.widths.minCoeff();
   return raster;
 }

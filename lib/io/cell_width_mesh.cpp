@@ -50,7 +50,7 @@ std::int32_t locate(const Mesh& mesh, std::int32_t triangle, const Vec3& p) {
   return triangle;
 }
 
-double interpolate(const Mesh& mesh, const Eigen::VectorXd& widths, std::int32_t triangle,
+double interpolate(const Mesh& mesh, const DoubleVector& widths, std::int32_t triangle,
                    const Vec3& p) {
   const std::array<double, 3> weights = weights_in(mesh, triangle, p);
   double sum = 0, total = 0;
@@ -80,12 +80,12 @@ double step_for(const Mesh& mesh) {
 
 } // namespace
 
-CellWidth resampled(const Points3& points, const Eigen::VectorXd& widths) {
+CellWidth resampled(const Points3& points, const DoubleVector& widths) {
   const Mesh mesh = spherical_delaunay(points);
   if (!mesh.closed())
     throw Error(ErrorCode::bad_option, "the points lie within a hemisphere; give widths on the "
                                        "whole sphere");
-  Eigen::VectorXd of_site(mesh.points.cols());
+  DoubleVector of_site(mesh.points.cols());
   for (Eigen::Index i = points.cols(); i-- > 0;) // the lowest duplicate is assigned last
     of_site[mesh.site_of_input[static_cast<std::size_t>(i)]] = widths[i];
   CellWidth grid = regular_grid(step_for(mesh));

@@ -13,6 +13,6 @@ namespace calotte::io_detail {
 /// \param points 3 x n directions.
 /// \param widths n.
 /// \throws Error as spherical_delaunay(); bad_option if the points leave a hemisphere empty.
-CellWidth resampled(const Points3& points, const Eigen::VectorXd& widths);
+CellWidth resampled(const Points3& points, const DoubleVector& widths);
 
 } // namespace calotte::io_detail

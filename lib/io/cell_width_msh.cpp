@@ -33,16 +33,16 @@ CellWidth of_grid(const JigsawFile& file, const std::string& name, const Region&
     raster.longitudes.push_back(longitude * degrees);
   for (const double latitude : file.y_grid)
     raster.latitudes.push_back(latitude * degrees);
-  raster.values = Eigen::Map<const Eigen::MatrixXd>(file.values.data(),
-                                                    static_cast<Eigen::Index>(file.y_grid.size()),
-                                                    static_cast<Eigen::Index>(file.x_grid.size()))
+  raster.values = Eigen::Map<const DoubleMatrix>(file.values.data(),
+                                                 static_cast<Eigen::Index>(file.y_grid.size()),
+                                                 static_cast<Eigen::Index>(file.x_grid.size()))
                       .transpose();
   return checked(std::move(raster), name, region);
 }
 
 CellWidth of_mesh(const JigsawFile& file, const std::string& name) {
   require_count(file, static_cast<std::size_t>(file.points.cols()), name);
-  const Eigen::VectorXd widths = Eigen::Map<const Eigen::VectorXd>(
+  const DoubleVector widths = Eigen::Map<const DoubleVector>(
       file.values.data(), static_cast<Eigen::Index>(file.values.size()));
   for (Eigen::Index i = 0; i < widths.size(); ++i)
     if (!(widths[i] > 0))

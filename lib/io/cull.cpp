@@ -65,20 +65,20 @@ Ground ground_of(const MpasSource& source, const CullOptions& options) {
 }
 
 /// The fractions of land by the coast or the raster, of both the greater; empty without these.
-Eigen::VectorXd fractions_of(const Ground& ground, const CullOptions& options) {
-  Eigen::VectorXd fractions;
+DoubleVector fractions_of(const Ground& ground, const CullOptions& options) {
+  DoubleVector fractions;
   if (!options.coast.rings.empty())
     fractions = land_fractions(*ground.cells, options.coast);
   if (options.raster.land.size() == 0)
     return fractions;
-  const Eigen::VectorXd sampled = land_fractions(*ground.cells, options.raster);
-  return fractions.size() > 0 ? fractions.cwiseMax(sampled).eval() : sampled;
+  const DoubleVector sampled = land_fractions(*ground.cells, options.raster);
+  return fractions.size() > 0 ? DoubleVector(fractions.cwiseMax(sampled)) : sampled;
 }
 
 /// By cell: whether it is land.
 struct Land {
   std::vector<std::uint8_t> flags;
-  Eigen::VectorXd fractions;
+  DoubleVector fractions;
 };
 
 Land land_of(const std::string& source, const Ground& ground, const CullOptions& options) {
@@ -86,7 +86,7 @@ Land land_of(const std::string& source, const Ground& ground, const CullOptions&
   Land land{std::vector<std::uint8_t>(static_cast<std::size_t>(n), 0),
             fractions_of(ground, options)};
   const SeaField& field = options.field;
-  Eigen::VectorXd values;
+  DoubleVector values;
   if (!field.variable.empty())
     values = read_cell_field(field.path.empty() ? source : field.path, field.variable, n).values;
   for (std::int64_t i = 0; i < n; ++i) {
@@ -149,7 +149,7 @@ void add_maps(const MpasPart& part, NetcdfSubset& subset) {
 // ---- Files beside the grid
 
 /// The masks that MPAS-Tools culls by.
-void put_mask(const Ids& sea, const Eigen::VectorXd& fractions, NetcdfWriter& file) {
+void put_mask(const Ids& sea, const DoubleVector& fractions, NetcdfWriter& file) {
   const int cells = file.dimension("nCells", sea.size()), regions = file.dimension("nRegions", 1);
   const auto define = [&](const std::string& name, NetcdfType type, std::vector<int> dimensions,
                           const std::string& long_name) {
@@ -194,7 +194,7 @@ template <class Id> void put_lines(std::int64_t count, const Id& id, OutputFile&
 /// The files beside the grid: written and finished at once, named later.
 class Companions {
 public:
-  Companions(const CullOptions& options, const Ids& sea, const Eigen::VectorXd& fractions,
+  Companions(const CullOptions& options, const Ids& sea, const DoubleVector& fractions,
              const Kept& cells) {
     if (!options.mask_path.empty()) {
       mask_ = std::make_unique<NetcdfWriter>(options.mask_path);

@@ -64,12 +64,12 @@ void add_masks(const Masks& masks, int rings, NetcdfSubset& subset) {
 // ---- Density
 
 /// The values of a variable with one for each cell, of the kept ones; empty if the file has none.
-Eigen::VectorXd kept_values(const MpasSource& source, const std::string& name, const Kept& kept) {
+DoubleVector kept_values(const MpasSource& source, const std::string& name, const Kept& kept) {
   const NetcdfReader& file = source.netcdf().reader();
   if (!file.has_variable(name) || file.shape_of(name) != std::vector<std::int64_t>{source.cells()})
     return {};
   const std::vector<double> all = file.doubles(name, {source.cells()});
-  Eigen::VectorXd values(kept.count());
+  DoubleVector values(kept.count());
   for (std::int64_t i = 0; i < kept.count(); ++i)
     values[i] = all[static_cast<std::size_t>(kept.old[i])];
   return values;
@@ -78,7 +78,7 @@ Eigen::VectorXd kept_values(const MpasSource& source, const std::string& name, c
 /// The density has the maximum 1 over the kept cells; its nominal spacing is that of the maximum.
 void add_density(const MpasSource& source, const MpasPart& part, double radius, Nominal nominal,
                  NetcdfSubset& subset) {
-  Eigen::VectorXd density = kept_values(source, "meshDensity", part.cells);
+  DoubleVector density = kept_values(source, "meshDensity", part.cells);
   const double greatest = density.size() > 0 ? density.maxCoeff() : 0;
   if (!(greatest > 0 && std::isfinite(greatest)))
     return;
@@ -87,7 +87,7 @@ void add_density(const MpasSource& source, const MpasPart& part, double radius, 
   if (nominal == Nominal::of_source && source.netcdf().find("nominalMinDc") >= 0)
     return add_division(source, "nominalMinDc", std::pow(greatest, 0.25), subset);
   subset.left_out.emplace_back("nominalMinDc");
-  const Eigen::VectorXd area = kept_values(source, "areaCell", part.cells);
+  const DoubleVector area = kept_values(source, "areaCell", part.cells);
   if (area.size() > 0)
     subset.numbers.push_back(
         {"nominalMinDc", "m", "nominal distance of neighbouring generators where meshDensity is 1",

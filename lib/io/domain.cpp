@@ -97,7 +97,7 @@ Rings rings_of_geojson(std::istream& in, const std::string& name) {
 PlanarDomain domain_of(const Rings& rings) {
   PlanarDomain domain;
   for (const GeoRing& corners : rings.corners) {
-    Eigen::MatrixXd ring(2, std::ssize(corners));
+    DoubleMatrix ring(2, std::ssize(corners));
     for (std::size_t i = 0; i < corners.size(); ++i)
       ring.col(static_cast<Eigen::Index>(i)) << corners[i][0], corners[i][1];
     domain.rings.push_back(std::move(ring));

@@ -117,7 +117,7 @@ MeshFile without_ears(MeshFile file, EarReport* report) {
   file.polygons.reset();
   select_fields(before, sites, triangles, file.fields);
   if (file.density.size() == before.points.cols()) {
-    const Eigen::VectorXd all = std::move(file.density);
+    const DoubleVector all = std::move(file.density);
     file.density.resize(std::ssize(sites.old));
     for (Eigen::Index i = 0; i < file.density.size(); ++i)
       file.density[i] = all[sites.old[static_cast<std::size_t>(i)]];

@@ -62,8 +62,7 @@ public:
 
   Polygons polygons(Points3 nodes) const {
     return {std::move(nodes),
-            Eigen::Map<const Eigen::Matrix<std::int64_t, Eigen::Dynamic, 1>>(begin_.data(),
-                                                                             std::ssize(begin_)),
+            Eigen::Map<const Offsets>(begin_.data(), std::ssize(begin_)),
             Eigen::Map<const Ids>(ids_.data(), std::ssize(ids_)),
             {}};
   }

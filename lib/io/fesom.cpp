@@ -74,7 +74,7 @@ Soup read_nodes(const std::string& path, std::vector<double>& longitudes) {
   Soup soup{.points = Eigen::Map<const Points3>(places.data(), 3, count)};
   soup.fields.push_back({.name = "coast",
                          .long_name = "1 for a node on the coast",
-                         .values = Eigen::Map<const Eigen::VectorXd>(flags.data(), count)});
+                         .values = Eigen::Map<const DoubleVector>(flags.data(), count)});
   return soup;
 }
 
@@ -176,7 +176,7 @@ void put_elements(const Mesh& mesh, OutputFile& file) {
 void put_depths(const WriteOptions& options, OutputFile& file) {
   Writer out = to(file);
   out.number(std::int64_t{options.depth_levels.size()}).text("\n");
-  for (const Eigen::VectorXd* depths : {&options.depth_levels, &options.site_depth})
+  for (const DoubleVector* depths : {&options.depth_levels, &options.site_depth})
     for (const double depth : *depths)
       out.number(depth == 0 ? 0 : -std::abs(depth)).text("\n");
   out.flush();

@@ -9,7 +9,7 @@ namespace calotte::io_detail {
 namespace {
 
 /// The numbers of a place are a column.
-Eigen::Map<Eigen::MatrixXd> columns_of(Eigen::VectorXd& values, std::int64_t count) {
+Eigen::Map<DoubleMatrix> columns_of(DoubleVector& values, std::int64_t count) {
   return {values.data(), count, count > 0 ? values.size() / count : 0};
 }
 
@@ -55,7 +55,7 @@ bool has_values_for(const MeshField& field, std::int64_t places) {
 }
 
 void move_values(MeshField& field, std::span<const std::int32_t> place) {
-  Eigen::VectorXd moved(field.values.size());
+  DoubleVector moved(field.values.size());
   const auto from = columns_of(field.values, field.count());
   auto to = columns_of(moved, field.count());
   for (std::size_t i = 0; i < place.size(); ++i)
@@ -70,7 +70,7 @@ void move_vertex_values(std::vector<MeshField>& fields, std::span<const std::int
 }
 
 void select_values(MeshField& field, std::span<const std::int32_t> from) {
-  Eigen::VectorXd selected(field.count() * std::ssize(from));
+  DoubleVector selected(field.count() * std::ssize(from));
   const auto all = columns_of(field.values, field.count());
   auto to = columns_of(selected, field.count());
   for (std::size_t i = 0; i < from.size(); ++i)

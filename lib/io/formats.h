@@ -26,7 +26,7 @@ struct Soup {
   bool turns_each = false;
   /// How far a corner may be from its place by the file's digits alone, radians.
   double corner_rounding = 0;
-  Eigen::VectorXd density = {}; ///< by site, or empty
+  DoubleVector density = {}; ///< by site, or empty
   std::vector<MeshField> fields = {};
   Pairs edges = {};                      ///< the sites of the edges that fields have; -1 for none
   std::vector<std::string> ignored = {}; ///< variables that are neither the mesh's nor fields

@@ -164,7 +164,7 @@ void put_geojson(const Sink& sink, const Mesh& mesh, const WriteOptions& options
 }
 
 void put_geojson(const Sink& sink, const Polygons& given, const WriteOptions& options) {
-  const Eigen::VectorXd areas = areas_of(given);
+  const DoubleVector areas = areas_of(given);
   const Polygons polygons = with_merged_corners(given, areas);
   const std::vector<const MeshField*> others = cell_fields_of(options, of_polygons);
   Writer out(sink);

@@ -245,12 +245,12 @@ private:
   }
 
   /// Without those that a writer makes anew.
-  bool is_derived(const std::string& name, const Eigen::VectorXd& values, bool has_sites,
+  bool is_derived(const std::string& name, const DoubleVector& values, bool has_sites,
                   const Soup& soup) const {
     if (name == "x" || name == "y" || name == "z")
       return has_sites;
     if (name == "id")
-      return values == Eigen::VectorXd::LinSpaced(count_, 0, static_cast<double>(count_ - 1));
+      return values == DoubleVector::LinSpaced(count_, 0, static_cast<double>(count_ - 1));
     if (soup.polygons.size() > 0 && voronoi_ == 0)
       return name == "area" && are_areas_of(soup.polygons, values);
     return name == "area" || name == "spacing" || name == "quality" || name == "degree";
@@ -259,8 +259,8 @@ private:
   void add_fields(bool has_sites, Soup& soup) {
     for (auto& [name, column] : columns_) {
       column.values.resize(static_cast<std::size_t>(count_), Column::none);
-      Eigen::VectorXd values =
-          Eigen::Map<const Eigen::VectorXd>(column.values.data(), std::ssize(column.values));
+      DoubleVector values =
+          Eigen::Map<const DoubleVector>(column.values.data(), std::ssize(column.values));
       if (is_derived(name, values, has_sites, soup))
         continue;
       if (name == "density" && values.allFinite())

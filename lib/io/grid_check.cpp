@@ -28,8 +28,7 @@ std::string cell_name(std::int64_t i) { return "cell " + std::to_string(i) + " (
 
 // ---- Orientation and cover
 
-void check_orientation(const StoredGrid& grid, const Eigen::VectorXd& areas,
-                       Deviations& deviations) {
+void check_orientation(const StoredGrid& grid, const DoubleVector& areas, Deviations& deviations) {
   const Broken found = broken(areas.size(), [&](std::int64_t i) {
     // Files of others have cells without corners where their mask is 0.
     return corners_of(grid.polygons, i) < 3 ? Verdict::untested : verdict_of(areas[i] > 0);
@@ -63,7 +62,7 @@ void check_distinct_corners(const StoredGrid& grid, Deviations& deviations) {
 
 /// Whether a polygon shares a side, in its direction, with another. One without area covers
 /// nothing.
-void check_overlap(const StoredGrid& grid, const Sides& sides, const Eigen::VectorXd& areas,
+void check_overlap(const StoredGrid& grid, const Sides& sides, const DoubleVector& areas,
                    Deviations& deviations) {
   const auto covers = [&](const Side& side) {
     return has_area(grid.polygons, side.polygon, areas[side.polygon]);
@@ -84,7 +83,7 @@ void check_overlap(const StoredGrid& grid, const Sides& sides, const Eigen::Vect
                    found.first);
 }
 
-void check_cover(const StoredGrid& grid, const Sides& sides, const Eigen::VectorXd& areas,
+void check_cover(const StoredGrid& grid, const Sides& sides, const DoubleVector& areas,
                  Deviations& deviations) {
   const Broken open = broken(sides.nodes(), [&](std::int64_t node) {
     return verdict_of(!sides.is_open(static_cast<std::int32_t>(node)));
@@ -123,7 +122,7 @@ double turn_around(const Polygons& polygons, std::int64_t i, const Vec3& centre)
 /// In a plane a site may be on the boundary, even at a corner.
 constexpr double on_boundary = 1e-3;
 
-void check_inside(const StoredGrid& grid, const Eigen::VectorXd& areas, Deviations& deviations) {
+void check_inside(const StoredGrid& grid, const DoubleVector& areas, Deviations& deviations) {
   const Polygons& polygons = grid.polygons;
   const Broken found = broken(polygons.size(), [&](std::int64_t i) {
     if (corners_of(polygons, i) < 3)
@@ -216,7 +215,7 @@ bool has_triangles_only(const Polygons& polygons) {
 } // namespace
 
 void check_polygons(const StoredGrid& grid, const Sides& sides, Deviations& deviations) {
-  const Eigen::VectorXd areas = areas_of(grid.polygons);
+  const DoubleVector areas = areas_of(grid.polygons);
   check_orientation(grid, areas, deviations);
   check_distinct_corners(grid, deviations);
   check_overlap(grid, sides, areas, deviations);
@@ -236,7 +235,7 @@ void check_areas(const StoredGrid& grid, const std::string& variable, Deviations
       units.empty() || units.starts_with("rad") || units.starts_with("ster") || units == "sr";
   if ((on_sphere && !on_unit_sphere) || !deviations.has(variable, {grid.polygons.size()}))
     return;
-  const Eigen::VectorXd areas = areas_of(grid.polygons);
+  const DoubleVector areas = areas_of(grid.polygons);
   const double width = std::sqrt(areas.cwiseAbs().mean());
   const double tolerance = rounding_of_others + 4 * grid.rounding / width;
   deviations.add(

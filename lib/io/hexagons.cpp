@@ -185,8 +185,7 @@ MeshFile walled(const PlanarMesh& box, const Eigen::Vector2d& extent, Walls wall
   out.corners.resize(3, std::ssize(corners));
   for (std::size_t k = 0; k < corners.size(); ++k)
     out.corners.col(static_cast<Eigen::Index>(k)) = corners[k];
-  out.begin = Eigen::Map<const Eigen::Matrix<std::int64_t, Eigen::Dynamic, 1>>(begin.data(),
-                                                                               std::ssize(begin));
+  out.begin = Eigen::Map<const Offsets>(begin.data(), std::ssize(begin));
   out.ids = Eigen::Map<const Ids>(ids.data(), std::ssize(ids));
   return file;
 }

@@ -148,9 +148,9 @@ private:
       reader_.fail("points of " + std::to_string(file_.dimensions) +
                    " dimensions; write NDIMS=2 or NDIMS=3 before them");
     const std::vector<double> all = numbers(count, file_.dimensions, 1);
-    file_.points = Eigen::Map<const Eigen::MatrixXd>(
-        all.data(), file_.dimensions,
-        static_cast<Eigen::Index>(all.size()) / static_cast<Eigen::Index>(file_.dimensions));
+    file_.points = Eigen::Map<const DoubleMatrix>(all.data(), file_.dimensions,
+                                                  static_cast<Eigen::Index>(all.size()) /
+                                                      static_cast<Eigen::Index>(file_.dimensions));
   }
 
   void triangles(std::int64_t count) {

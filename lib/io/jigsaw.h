@@ -18,9 +18,9 @@ struct JigsawFile {
   std::string kind;   ///< in lower case: "euclidean-mesh", which is the default of a header without
                       ///< one, "ellipsoid-mesh", "ellipsoid-grid"
   int dimensions = 0; ///< NDIMS, 2 or 3
-  Eigen::MatrixXd points; ///< dimensions x n: of an ellipsoid-mesh of 2, longitude and latitude in
-                          ///< radians
-  Triangles triangles;    ///< 3 x m, 0-based columns of points
+  DoubleMatrix points; ///< dimensions x n: of an ellipsoid-mesh of 2, longitude and latitude in
+                       ///< radians
+  Triangles triangles; ///< 3 x m, 0-based columns of points
   std::array<double, 3> radii{1, 1, 1}; ///< of the ellipsoid
   std::vector<double> x_grid, y_grid; ///< of an ellipsoid-grid: longitudes and latitudes in radians
   std::vector<double>

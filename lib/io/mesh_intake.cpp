@@ -237,7 +237,7 @@ void merge_values(const Mesh& mesh, MeshFile& file) {
     lowest[static_cast<std::size_t>(mesh.site_of_input[static_cast<std::size_t>(i)])] =
         static_cast<std::int32_t>(i);
   if (file.density.size() == columns)
-    file.density = Eigen::VectorXd(file.density(lowest));
+    file.density = DoubleVector(file.density(lowest));
   for (MeshField& field : file.fields)
     if (field.location == Location::cells && has_values_for(field, columns))
       select_values(field, lowest);
@@ -288,7 +288,7 @@ double radius_of(const Points3& points) {
   constexpr double rounding = 1e-6;
   if (points.cols() == 0)
     return 1;
-  const Eigen::RowVectorXd norms = points.colwise().stableNorm();
+  const DoubleVector norms = points.colwise().stableNorm();
   const double mean = norms.mean();
   if (!((norms.array() - mean).abs() <= rounding * mean).all())
     return 1;

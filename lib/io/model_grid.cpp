@@ -60,7 +60,7 @@ WriteOptions of_plane(WriteOptions options) {
   return options;
 }
 
-Eigen::VectorXd density_of(const Voronoi& voronoi, const WriteOptions& options) {
+DoubleVector density_of(const Voronoi& voronoi, const WriteOptions& options) {
   if (options.site_density.size() == 0)
     return voronoi_detail::relative_density(voronoi, options.density);
   return options.site_density / options.site_density.maxCoeff();
@@ -76,7 +76,7 @@ CellFields fields_of(const Voronoi& voronoi, const WriteOptions& options) {
 
 CellGrid cell_grid(const Mesh& mesh) {
   Voronoi cells = voronoi(mesh);
-  Eigen::VectorXd area = std::move(cells.cell_area);
+  DoubleVector area = std::move(cells.cell_area);
   return {polygons_of(std::move(cells)), std::move(area), mesh.points};
 }
 
@@ -109,7 +109,7 @@ NetcdfWriter::Fill<double> row_of(const Points3& points, int row) {
       1, [&points, row](std::int64_t i, std::int64_t /*k*/) { return points(row, i); });
 }
 
-NetcdfWriter::Fill<double> values_of(const Eigen::VectorXd& values) {
+NetcdfWriter::Fill<double> values_of(const DoubleVector& values) {
   return table<double>(1, [&values](std::int64_t i, std::int64_t /*k*/) { return values[i]; });
 }
 
@@ -174,7 +174,7 @@ NetcdfWriter::Fill<std::int32_t> mask_of(const WriteOptions& options) {
   const auto mask = std::find_if(options.fields.begin(), options.fields.end(), is_mask);
   if (mask == options.fields.end())
     return constant(1);
-  const Eigen::VectorXd& values = mask->values;
+  const DoubleVector& values = mask->values;
   return table<std::int32_t>(1, [&values](std::int64_t i, std::int64_t /*k*/) {
     return static_cast<std::int32_t>(values[i]);
   });

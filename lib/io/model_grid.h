@@ -42,13 +42,13 @@ WriteOptions of_plane(WriteOptions options);
 /// Cells as a file of polygons shall hold them.
 struct CellGrid {
   Polygons polygons;
-  Eigen::VectorXd area; ///< steradians; in a plane the square of its unit
-  Points3 sites;        ///< of the cells, with their norms; 3 x 0 where they have none
+  DoubleVector area; ///< steradians; in a plane the square of its unit
+  Points3 sites;     ///< of the cells, with their norms; 3 x 0 where they have none
 };
 
 /// The options' density at the cells, that of the sites first, divided by its maximum; empty if it
 /// is uniform. \throws Error bad_option.
-Eigen::VectorXd density_of(const Voronoi& voronoi, const WriteOptions& options);
+DoubleVector density_of(const Voronoi& voronoi, const WriteOptions& options);
 /// The cells' fields with that density. \throws Error bad_option.
 CellFields fields_of(const Voronoi& voronoi, const WriteOptions& options);
 
@@ -64,7 +64,7 @@ NetcdfWriter::Fill<double> longitudes_of(const Points3& points);
 NetcdfWriter::Fill<double> latitudes_of(const Points3& points);
 NetcdfWriter::Fill<double> lonlats_of(const Points3& points); ///< two a row
 NetcdfWriter::Fill<double> row_of(const Points3& points, int row);
-NetcdfWriter::Fill<double> values_of(const Eigen::VectorXd& values);
+NetcdfWriter::Fill<double> values_of(const DoubleVector& values);
 NetcdfWriter::Fill<std::int32_t> constant(std::int64_t value);
 
 /// of(row, k) for 0 <= k < width of each row.

@@ -25,7 +25,7 @@ struct MpasMesh {
   double radius;    ///< of the sphere; 1 in a plane
   std::function<void()> connect = {}; ///< voronoi; empty if that is whole
   Array<double> surplus = {};         ///< of begin_measures(), unless voronoi is whole
-  Eigen::VectorXd density = {};       ///< as density_of()
+  DoubleVector density = {};          ///< as density_of()
 
   bool whole() const { return !connect; }
   const Points3& sites() const { return voronoi.on_sphere ? places : voronoi.cells; }

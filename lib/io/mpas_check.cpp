@@ -39,7 +39,7 @@ double radius_of(const NetcdfReader& file, const MeshFile& mesh) {
 }
 
 /// \param density as MeshFile has it; without effect unless it has a value for each cell.
-void check_closed(const Voronoi& voronoi, double radius, Eigen::VectorXd density,
+void check_closed(const Voronoi& voronoi, double radius, DoubleVector density,
                   Deviations& deviations) {
   if (density.size() != voronoi.cells.cols())
     release(density);

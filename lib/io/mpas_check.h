@@ -15,7 +15,7 @@ namespace calotte::io_detail {
 struct MpasCheck {
   Deviations& deviations;
   const Voronoi& voronoi;
-  const Eigen::VectorXd& density; ///< of the file, by cell; empty if it has none
+  const DoubleVector& density; ///< of the file, by cell; empty if it has none
   const MpasNumbering& numbering;
   double radius;    ///< of the sphere; 1 in a plane
   double width;     ///< mean width of a cell, in the unit of voronoi

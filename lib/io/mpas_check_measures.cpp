@@ -143,7 +143,7 @@ void check_rows(const MpasCheck& check, const Array<std::int32_t>& numbers,
 void check_lengths(const MpasCheck& check) {
   const Voronoi& voronoi = check.voronoi;
   const std::vector<std::int64_t> shape{voronoi.dc.size()};
-  const auto compare = [&](const std::string& name, const Eigen::VectorXd& lengths,
+  const auto compare = [&](const std::string& name, const DoubleVector& lengths,
                            const std::string& rule) {
     check_rows(check, check.numbering.edge, name, shape, rule,
                [&](std::int64_t row, std::int32_t e, const double* stored, Differences& out) {
@@ -244,7 +244,7 @@ void check_triangle_areas(const MpasCheck& check) {
 }
 
 void check_cell_areas(const MpasCheck& check) {
-  const Eigen::VectorXd& areas = check.voronoi.cell_area;
+  const DoubleVector& areas = check.voronoi.cell_area;
   if (!check.deviations.has("areaCell", {areas.size()}))
     return;
   check.deviations.add("areaCell",

@@ -83,9 +83,10 @@ Points3 stored_places(const MpasKind& kind, std::int64_t count, bool on_sphere,
     const std::vector<double> values = deviations.file().doubles(name, {count});
     places.row(row) = Eigen::Map<const Eigen::RowVectorXd>(values.data(), count);
   }
-  if (!on_sphere)
-    return places;
-  return places.colwise().normalized();
+  if (on_sphere)
+    for (auto place : places.colwise())
+      place /= place.norm();
+  return places;
 }
 
 void place_vertices(Points3 stored, Voronoi& out) {
@@ -128,8 +129,12 @@ void mark_incomplete_cells(double radius, Voronoi& out) {
 
 /// The cells as the file has them.
 Points3 cells_of(const MeshFile& file) {
-  if (file.mesh)
-    return file.mesh->points.colwise().normalized();
+  if (file.mesh) {
+    Points3 units = file.mesh->points;
+    for (auto unit : units.colwise())
+      unit /= unit.norm();
+    return units;
+  }
   Points3 cells = Points3::Zero(3, file.plane->points.cols());
   cells.topRows<2>() = file.plane->points;
   return cells;
@@ -160,8 +165,8 @@ void check_open_mpas(const MeshFile& file, double radius, Deviations& deviations
     mark_incomplete_cells(radius, part);
   }
   const double width = whole ? part.dc.mean() : 1;
-  const Eigen::VectorXd density =
-      file.density.size() == part.cells.cols() ? file.density : Eigen::VectorXd();
+  const DoubleVector density =
+      file.density.size() == part.cells.cols() ? file.density : DoubleVector();
   const MpasCheck check{deviations,         part, density, numbering, radius, width,
                         rounding_of_others, false};
   check_mpas_places(check);

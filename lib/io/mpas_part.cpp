@@ -189,8 +189,11 @@ Ids MpasSource::lists(const std::string& variable, const Offsets& begin, std::in
 
 Voronoi tessellation_of(const MpasSource& source) {
   Voronoi cells;
-  cells.cells = source.places().colwise().normalized();
-  cells.vertices = source.vertex_places().colwise().normalized();
+  cells.cells = source.places();
+  cells.vertices = source.vertex_places();
+  for (Points3* places : {&cells.cells, &cells.vertices})
+    for (auto place : places->colwise())
+      place /= place.norm();
   cells.begin = source.begins();
   cells.edges_on_cell = source.lists("edgesOnCell", cells.begin, source.edges());
   cells.vertices_on_cell = source.lists("verticesOnCell", cells.begin, source.vertices());

@@ -114,7 +114,7 @@ void put_vertex_ids(MpasFile& file, const Dimensions& dimensions, const Voronoi&
 
 // ---- The tangential velocity
 
-NetcdfWriter::Fill<double> scaled(const Eigen::VectorXd& values, double factor) {
+NetcdfWriter::Fill<double> scaled(const DoubleVector& values, double factor) {
   return table<double>(
       1, [&values, factor](std::int64_t i, std::int64_t) { return factor * values[i]; });
 }

@@ -26,7 +26,7 @@ std::string beside(const std::string& path, std::string_view name) {
   return sibling(path, vertices_name, name).value_or(path);
 }
 
-void put_values(const Sink& sink, const Eigen::VectorXd& values) {
+void put_values(const Sink& sink, const DoubleVector& values) {
   Writer out(sink);
   for (const double value : values)
     out.number(value).text("\n");
@@ -89,7 +89,7 @@ void read_density(const std::string& path, Soup& soup) {
     values.push_back(value);
   }
   if (valid && std::ssize(values) == soup.points.cols())
-    soup.density = Eigen::Map<const Eigen::VectorXd>(values.data(), std::ssize(values));
+    soup.density = Eigen::Map<const DoubleVector>(values.data(), std::ssize(values));
   else
     soup.ignored.push_back(std::string(density_name));
 }
@@ -100,7 +100,7 @@ void write_mpi_scvt(const std::string& path, const Mesh& mesh, const WriteOption
   Points3 units(3, mesh.points.cols());
   for (Eigen::Index i = 0; i < units.cols(); ++i)
     set_column(units, i, normalised(column(mesh.points, i)));
-  const Eigen::VectorXd density =
+  const DoubleVector density =
       options.site_density.size() > 0 ? options.site_density : evaluate(options.density, units);
   OutputFile vertices(path), triangles(beside(path, triangles_name)),
       densities(beside(path, density_name));

@@ -55,14 +55,14 @@ std::optional<MeshField> field_of(const NetcdfReader& file, const NetcdfMeshName
 }
 
 /// From the order of a file, in which leading dimensions come before the location's.
-Eigen::VectorXd by_place(const MeshField& field, Eigen::VectorXd values) {
+DoubleVector by_place(const MeshField& field, DoubleVector values) {
   std::int64_t before = 1;
   for (int d = 0; d < field.leading; ++d)
     before *= field.dimensions[static_cast<std::size_t>(d)].size;
   const std::int64_t after = field.count() / before, places = values.size() / field.count();
   if (before == 1)
     return values;
-  Eigen::VectorXd out(values.size());
+  DoubleVector out(values.size());
   for (std::int64_t b = 0; b < before; ++b)
     for (std::int64_t i = 0; i < places; ++i)
       out.segment((i * before + b) * after, after) =
@@ -71,7 +71,7 @@ Eigen::VectorXd by_place(const MeshField& field, Eigen::VectorXd values) {
 }
 
 /// Whether all are numbers that NetCDF's int can hold, besides its own _FillValue.
-bool fit_int(const Eigen::VectorXd& values) {
+bool fit_int(const DoubleVector& values) {
   using Limits = std::numeric_limits<std::int32_t>;
   return std::all_of(values.begin(), values.end(), [](double value) {
     return std::isnan(value) || (value >= Limits::min() + 2.0 && value <= Limits::max());
@@ -103,13 +103,13 @@ void read_values(const NetcdfReader& file, MeshField& field) {
 
 } // namespace
 
-Eigen::VectorXd values_with_fill(const NetcdfReader& file, const std::string& name) {
+DoubleVector values_with_fill(const NetcdfReader& file, const std::string& name) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const std::vector<double> read = file.doubles(name, file.shape_of(name));
   const double fill = file.number(name, "_FillValue", none),
                factor = file.number(name, "scale_factor", 1),
                offset = file.number(name, "add_offset", 0);
-  const Eigen::Map<const Eigen::VectorXd> values(read.data(), std::ssize(read));
+  const Eigen::Map<const DoubleVector> values(read.data(), std::ssize(read));
   if (factor == 1 && offset == 0)
     return (values.array() == fill).select(none, values);
   return (values.array() == fill).select(none, offset + factor * values.array());

@@ -30,6 +30,6 @@ void read_fields(const NetcdfReader& file, const NetcdfMeshNames& names, FieldCh
 
 /// The values of a variable, NaN where it has its _FillValue, unpacked by its scale_factor and
 /// add_offset. \throws Error parse, file.
-Eigen::VectorXd values_with_fill(const NetcdfReader& file, const std::string& name);
+DoubleVector values_with_fill(const NetcdfReader& file, const std::string& name);
 
 } // namespace calotte::io_detail

@@ -14,7 +14,7 @@ namespace {
 
 using io_detail::NetcdfReader;
 
-Eigen::VectorXd coordinate(const NetcdfReader& file, const std::string& name) {
+DoubleVector coordinate(const NetcdfReader& file, const std::string& name) {
   if (!file.has_variable(name) || file.shape_of(name).size() != 1)
     file.fail("no coordinate variable " + name + "; give " + name + "(" + name + ")");
   const std::vector<double> values = file.doubles(name, {-1});
@@ -26,13 +26,13 @@ Eigen::VectorXd coordinate(const NetcdfReader& file, const std::string& name) {
                 "] is not finite and beyond the one before; sort the raster");
   if (values.size() < 2)
     file.fail(name + " has fewer than 2 values; give a grid that covers the domain");
-  return Eigen::Map<const Eigen::VectorXd>(values.data(), std::ssize(values));
+  return Eigen::Map<const DoubleVector>(values.data(), std::ssize(values));
 }
 
 /// A variable(y, x) with its coordinates, ascending.
 struct Grid {
-  Eigen::VectorXd x, y;
-  Eigen::MatrixXd values; ///< x by y
+  DoubleVector x, y;
+  DoubleMatrix values; ///< x by y
 };
 
 /// \param law which values are accepted. \param fault what others are.
@@ -46,7 +46,7 @@ Grid read_grid(const NetcdfReader& file, const std::string& variable, bool (*law
     file.fail(variable + " is not " + variable + "(" + expected[0] + ", " + expected[1] +
               "); give it these dimensions, in this order");
   const std::vector<double> values = file.doubles(variable, {grid.y.size(), grid.x.size()});
-  grid.values = Eigen::Map<const Eigen::MatrixXd>(values.data(), grid.x.size(), grid.y.size());
+  grid.values = Eigen::Map<const DoubleMatrix>(values.data(), grid.x.size(), grid.y.size());
   for (Eigen::Index j = 0; j < grid.values.cols(); ++j)
     for (Eigen::Index i = 0; i < grid.values.rows(); ++i)
       if (!law(grid.values(i, j)) || !std::isfinite(grid.values(i, j)))

@@ -88,7 +88,7 @@ double off_centring(const Polygons& polygons, std::int64_t i, double area) {
 double length(const Vec3& v) { return std::sqrt(dot(v, v)); }
 
 /// Of a block of polygons.
-PolygonShapes shapes_of(const Polygons& polygons, const Eigen::VectorXd& areas, std::int64_t begin,
+PolygonShapes shapes_of(const Polygons& polygons, const DoubleVector& areas, std::int64_t begin,
                         std::int64_t end) {
   constexpr double rounding = 1e-6;
   PolygonShapes found;
@@ -130,15 +130,15 @@ void add(const PolygonShapes& of_block, PolygonShapes& all) {
   }
 }
 
-Range range_of(const Eigen::VectorXd& values) {
+Range range_of(const DoubleVector& values) {
   if (values.size() == 0)
     return {};
   return {values.minCoeff(), values.mean(), values.maxCoeff()};
 }
 
 /// The areas of the polygons that are known.
-Range area_range(const Polygons& polygons, const Eigen::VectorXd& areas) {
-  Eigen::VectorXd known(areas.size());
+Range area_range(const Polygons& polygons, const DoubleVector& areas) {
+  DoubleVector known(areas.size());
   Eigen::Index count = 0;
   for (Eigen::Index i = 0; i < areas.size(); ++i)
     if (polygons.begin[i + 1] > polygons.begin[i])
@@ -165,7 +165,7 @@ Range spacing_of(const Polygons& polygons) {
         if (const std::int32_t other = sides.polygon_of(to, from); other >= 0)
           distances.push_back(distance(polygons, column(polygons.centres, polygon),
                                        column(polygons.centres, other)));
-  return range_of(Eigen::Map<const Eigen::VectorXd>(distances.data(), std::ssize(distances)));
+  return range_of(Eigen::Map<const DoubleVector>(distances.data(), std::ssize(distances)));
 }
 
 } // namespace
@@ -184,7 +184,7 @@ Points3 io_detail::centroids_of(const Polygons& polygons) {
 
 PolygonShapes shapes(const Polygons& polygons) {
   const std::int64_t count = polygons.size();
-  const Eigen::VectorXd area = areas(polygons);
+  const DoubleVector area = areas(polygons);
   std::vector<PolygonShapes> blocks(static_cast<std::size_t>(block_count(count)));
   for_each_block(count, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
     blocks[static_cast<std::size_t>(block)] = shapes_of(polygons, area, begin, end);

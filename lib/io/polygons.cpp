@@ -154,8 +154,8 @@ Polygons polygons_of(const std::vector<std::int32_t>& corners, std::int64_t most
   return polygons;
 }
 
-Eigen::VectorXd areas_of(const Polygons& polygons) {
-  Eigen::VectorXd areas(polygons.size());
+DoubleVector areas_of(const Polygons& polygons) {
+  DoubleVector areas(polygons.size());
   for_each_block(areas.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i)
       areas[i] = signed_area(polygons, i);
@@ -188,9 +188,9 @@ std::int64_t turn_counter_clockwise(Polygons& polygons, const std::string& name,
   return clockwise;
 }
 
-bool are_areas_of(const Polygons& polygons, const Eigen::VectorXd& values) {
+bool are_areas_of(const Polygons& polygons, const DoubleVector& values) {
   constexpr double rounding = 1e-6;
-  const Eigen::VectorXd areas = areas_of(polygons).cwiseAbs();
+  const DoubleVector areas = areas_of(polygons).cwiseAbs();
   return areas.size() == values.size() &&
          ((areas - values).array().abs() <= rounding * areas.array()).all();
 }
@@ -224,7 +224,7 @@ bool Sides::is_open(std::int32_t from) const {
                      [&](const Side& side) { return polygon_of(side.to, from) < 0; });
 }
 
-Polygons with_merged_corners(Polygons polygons, const Eigen::VectorXd& areas) {
+Polygons with_merged_corners(Polygons polygons, const DoubleVector& areas) {
   std::vector<std::int32_t> same; // by corner one of lower number, or itself
   const auto lowest = [&](std::int32_t id) {
     while (same[static_cast<std::size_t>(id)] != id)
@@ -371,6 +371,6 @@ std::int32_t corner_or_last(const Polygons& polygons, std::int64_t polygon, std:
 
 namespace calotte {
 
-Eigen::VectorXd areas(const Polygons& polygons) { return io_detail::areas_of(polygons); }
+DoubleVector areas(const Polygons& polygons) { return io_detail::areas_of(polygons); }
 
 } // namespace calotte

@@ -54,7 +54,7 @@ Vec3 copy_near(const Polygons& polygons, std::int64_t first, std::int64_t k);
 
 /// Areas on the unit sphere in steradians, or in the plane, positive for counter-clockwise
 /// polygons. \pre on the sphere each is smaller than a hemisphere.
-Eigen::VectorXd areas_of(const Polygons& polygons);
+DoubleVector areas_of(const Polygons& polygons);
 
 /// Turns polygons that run clockwise. \returns how many were turned.
 /// \param each they may be of either orientation.
@@ -62,12 +62,12 @@ Eigen::VectorXd areas_of(const Polygons& polygons);
 std::int64_t turn_counter_clockwise(Polygons& polygons, const std::string& name, bool each);
 
 /// Whether values are the areas of polygons but for rounding.
-bool are_areas_of(const Polygons& polygons, const Eigen::VectorXd& values);
+bool are_areas_of(const Polygons& polygons, const DoubleVector& values);
 
 /// The same polygons with one place for the corners that sides join which are shorter than a
 /// billionth of their polygon's width: corners of cocircular sites, an ulp apart.
 /// \param areas of the polygons.
-Polygons with_merged_corners(Polygons polygons, const Eigen::VectorXd& areas);
+Polygons with_merged_corners(Polygons polygons, const DoubleVector& areas);
 
 /// Whether a polygon has a width: its area is more than what the rounding of its corners makes of
 /// its perimeter. \param area of the polygon.

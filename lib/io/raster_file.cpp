@@ -81,7 +81,7 @@ std::string coordinate(const NetcdfReader& file, const std::string& name,
 }
 
 /// Replaces fill values by NaN.
-void drop_fill(const NetcdfReader& file, const std::string& variable, Eigen::MatrixXd& values) {
+void drop_fill(const NetcdfReader& file, const std::string& variable, DoubleMatrix& values) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   for (const std::string attribute : {"_FillValue", "missing_value"}) {
     const double fill = file.number(variable, attribute, none);

@@ -18,7 +18,7 @@ namespace calotte::io_detail {
 /// A raster as stored in a file, with the names of its variables there.
 struct Raster {
   std::vector<double> longitudes, latitudes; ///< degrees
-  Eigen::MatrixXd values;                    ///< longitudes x latitudes
+  DoubleMatrix values;                       ///< longitudes x latitudes
   std::string longitude_name, latitude_name, value_name;
   bool longitude_fastest = true; ///< in the file: how messages give a value's index
 };
@@ -36,8 +36,8 @@ Raster ordered(Raster raster, const std::string& name, const RasterLaw& law,
                const Region& region = {});
 
 /// The coordinates as Eigen's vector.
-inline Eigen::VectorXd vector_of(const std::vector<double>& values) {
-  return Eigen::Map<const Eigen::VectorXd>(values.data(), std::ssize(values));
+inline DoubleVector vector_of(const std::vector<double>& values) {
+  return Eigen::Map<const DoubleVector>(values.data(), std::ssize(values));
 }
 
 /// Reads a variable(lat, lon) with its coordinate variables, lat or latitude and lon or longitude.

@@ -5,12 +5,12 @@
 
 namespace calotte {
 
-Eigen::VectorXd spacing_density(const MeshFile& file) {
+DoubleVector spacing_density(const MeshFile& file) {
   if (file.plane && (file.domain || file.plane->closed()))
     return spacing_density(file.domain ? voronoi(*file.plane, *file.domain) : voronoi(*file.plane));
   if (file.polygons) {
     const io_detail::OpenCells cells = io_detail::open_cells(file);
-    return cells.problem.empty() ? spacing_density(cells.voronoi) : Eigen::VectorXd();
+    return cells.problem.empty() ? spacing_density(cells.voronoi) : DoubleVector();
   }
   if (file.mesh && file.mesh->closed())
     return spacing_density(voronoi(*file.mesh));

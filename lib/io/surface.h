@@ -13,15 +13,14 @@
 /// Polygons with data, as files of graphics programs hold them: VTK and PLY.
 namespace calotte::io_detail {
 
-template <class T> using Column = Eigen::Matrix<T, Eigen::Dynamic, 1>;
-using Offsets = Column<std::int64_t>;
+template <class T> using Column = Eigen::Matrix<T, Eigen::Dynamic, 1, Eigen::DontAlign>;
 
 /// Data of the points or of the polygons.
 struct SurfaceArray {
   std::string name;
   bool of_polygons = false;
   int components = 1;
-  Eigen::VectorXd values; ///< tuple after tuple
+  DoubleVector values; ///< tuple after tuple
 };
 
 /// A file's contents, before it is known whether its points are sites or corners of cells.

@@ -67,7 +67,7 @@ Topology topology_of(const NetcdfReader& file) {
 namespace {
 
 /// Node ids, 0-based, a face a column; -1 past its last corner.
-using FaceNodes = Eigen::Matrix<std::int32_t, Eigen::Dynamic, Eigen::Dynamic>;
+using FaceNodes = Eigen::Matrix<std::int32_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::DontAlign>;
 
 /// Turns what a file holds into such ids.
 struct FaceNodesReader {

@@ -133,7 +133,7 @@ NetcdfAttributes located(const std::string& location, const std::string& coordin
 }
 
 /// A variable of data at the faces: without one, CDO sees no unstructured grid.
-void add_areas(GridFile& file, int faces, const Eigen::VectorXd& areas, bool face_places,
+void add_areas(GridFile& file, int faces, const DoubleVector& areas, bool face_places,
                bool on_sphere) {
   NetcdfAttributes attributes =
       located("face", face_places ? coordinates_of(face_name, on_sphere) : "");

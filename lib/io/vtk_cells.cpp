@@ -55,7 +55,7 @@ void put_vtk_cells(const Sink& sink, const Mesh& mesh, const WriteOptions& optio
 
 void put_vtk_cells(const Sink& sink, const Polygons& polygons, const WriteOptions& options,
                    const VtkFlavour& flavour) {
-  const Eigen::VectorXd areas = areas_of(polygons);
+  const DoubleVector areas = areas_of(polygons);
   VtkHead head{flavour, polygons.corners.cols(), polygons.size(), {}};
   std::vector<VtkContent> contents;
   add_fields("PointData", options.fields, Location::vertices, head, contents);

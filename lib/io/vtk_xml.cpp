@@ -74,7 +74,7 @@ void add_field_arrays(const std::string& element, std::int64_t cells, VtkHead& h
 }
 
 void add_field_contents(const CellFields& fields, std::vector<VtkContent>& contents) {
-  for (const Eigen::VectorXd* field :
+  for (const DoubleVector* field :
        {&fields.area, &fields.density, &fields.spacing, &fields.quality})
     contents.emplace_back(
         [field](Writer& out) { out.text(bytes_of(field->data(), field->size())); });
@@ -91,7 +91,7 @@ void add_fields(const std::string& element, const std::vector<MeshField>& fields
   for (const MeshField& field : fields) {
     if (field.location != location || is_taken(field.name))
       continue;
-    const Eigen::VectorXd& values = field.values;
+    const DoubleVector& values = field.values;
     head.arrays.push_back({element, "Float64", xml_text(field.name), values.size()});
     contents.emplace_back(
         [&values](Writer& out) { out.text(bytes_of(values.data(), values.size())); });

@@ -234,7 +234,7 @@ void write_cells(const std::string& path, Voronoi cells, WriteOptions options) {
     return write_mpas(path, std::move(cells), {}, options);
   if (options.format != Format::ugrid)
     add_cell_fields(cells, options);
-  Eigen::VectorXd area = std::move(cells.cell_area);
+  DoubleVector area = std::move(cells.cell_area);
   write_polygons(path, {polygons_of(std::move(cells)), std::move(area), {}}, options);
 }
 

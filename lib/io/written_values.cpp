@@ -23,7 +23,7 @@ void require_size(const std::string& path, const std::string& what, std::int64_t
                      std::to_string(expected));
 }
 
-void require_density(const std::string& path, const Eigen::VectorXd& density, std::int64_t sites) {
+void require_density(const std::string& path, const DoubleVector& density, std::int64_t sites) {
   require_size(path, "the density of the sites", density.size(), sites);
   for (Eigen::Index i = 0; i < density.size(); ++i)
     if (!(density[i] >= 0 && std::isfinite(density[i])))
@@ -37,7 +37,7 @@ void require_density(const std::string& path, const Eigen::VectorXd& density, st
 /// earlier version.
 void require_depths(const std::string& path, const WriteOptions& options, std::int64_t sites) {
   constexpr double deepest = 11000; // metres
-  const Eigen::VectorXd levels = options.depth_levels.cwiseAbs();
+  const DoubleVector levels = options.depth_levels.cwiseAbs();
   if (options.depth_levels.size() < 3 || options.depth_levels[0] != 0)
     refuse(path, "the levels of depth are fewer than 3, or do not begin with 0; give such as 0, "
                  "10, 30, 100, in metres");
@@ -93,8 +93,8 @@ void require_values(const std::string& path, const MeshSizes& mesh, const WriteO
 
 void renumber_values(const Mesh& mesh, std::span<const std::int32_t> new_site,
                      WriteOptions& options) {
-  for (Eigen::VectorXd* values : {&options.site_density, &options.site_depth}) {
-    const Eigen::VectorXd old = *values;
+  for (DoubleVector* values : {&options.site_density, &options.site_depth}) {
+    const DoubleVector old = *values;
     for (Eigen::Index i = 0; i < old.size(); ++i)
       (*values)[new_site[static_cast<std::size_t>(i)]] = old[i];
   }

@@ -31,9 +31,9 @@ void set_centroids(const Mesh& mesh, const Density& density, CellMeasures& out) 
 }
 
 /// Values by triangle of a part of a mesh, for all of its triangles.
-Eigen::VectorXd of_all(const Eigen::VectorXd& values, const std::vector<std::int32_t>& triangle,
-                       Eigen::Index triangles) {
-  Eigen::VectorXd all = Eigen::VectorXd::Constant(triangles, no_value);
+DoubleVector of_all(const DoubleVector& values, const std::vector<std::int32_t>& triangle,
+                    Eigen::Index triangles) {
+  DoubleVector all = DoubleVector::Constant(triangles, no_value);
   all(triangle) = values;
   return all;
 }
@@ -76,7 +76,7 @@ CellMeasures cell_measures(const Mesh& mesh, const Density& density) {
   const WithoutFlatHull part = without_flat_hull(with_unit_columns(mesh));
   CellMeasures measures = measure_cells(part.mesh, density);
   if (part.mesh.triangles.cols() < mesh.triangles.cols())
-    for (Eigen::VectorXd* values : {&measures.triangle_angle, &measures.triangle_quality})
+    for (DoubleVector* values : {&measures.triangle_angle, &measures.triangle_quality})
       *values = of_all(*values, part.triangle, mesh.triangles.cols());
   return measures;
 }

@@ -18,10 +18,10 @@ inline constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 /// Measures of n cells and m triangles, none of them set but the degrees, which are 0.
 inline CellMeasures unset_measures(Eigen::Index n, Eigen::Index m) {
   CellMeasures out;
-  out.spacing = Eigen::VectorXd::Constant(n, no_value);
+  out.spacing = DoubleVector::Constant(n, no_value);
   out.area = out.sigma = out.quality = out.largest_angle = out.off_centroid = out.spacing;
-  out.degree = Eigen::VectorXd::Zero(n);
-  out.triangle_angle = out.triangle_quality = Eigen::VectorXd::Constant(m, no_value);
+  out.degree = DoubleVector::Zero(n);
+  out.triangle_angle = out.triangle_quality = DoubleVector::Constant(m, no_value);
   return out;
 }
 
@@ -46,7 +46,7 @@ inline void set_angles(const Subject& subject, CellMeasures& out) {
 /// Sets the spacings that the density prescribes, and the least and the greatest dc/h at each site.
 inline void set_fits(const Subject& subject, CellMeasures& out) {
   out.prescribed = subject.inverse_spacing.cwiseInverse();
-  out.least_fit = Eigen::VectorXd::Constant(out.prescribed.size(), no_value);
+  out.least_fit = DoubleVector::Constant(out.prescribed.size(), no_value);
   out.greatest_fit = out.least_fit;
   for (std::int64_t t = 0; t < subject.shapes.size(); ++t)
     for (int v = 0; v < 3 && subject.has(t); ++v) {

@@ -100,8 +100,7 @@ void set_energy(Quality& quality, double energy, double root_integral) {
   quality.excess = energy * static_cast<double>(quality.cells) / quality.limit - 1;
 }
 
-Eigen::VectorXd inverse_spacings(const Points3& points, const Density& density,
-                                 double root_integral) {
+DoubleVector inverse_spacings(const Points3& points, const Density& density, double root_integral) {
   const double h = hexagon_width(root_integral / static_cast<double>(points.cols())); // at rho = 1
   return evaluate(density, points).cwiseSqrt().cwiseSqrt() / h;
 }

@@ -27,7 +27,6 @@ void set_energy(Quality& quality, double energy, double root_integral);
 /// \param points 3 x n, as the density takes them.
 /// \param root_integral r, of rho^(1/2) over the domain.
 /// \throws Error bad_option as DensityEvaluator.
-Eigen::VectorXd inverse_spacings(const Points3& points, const Density& density,
-                                 double root_integral);
+DoubleVector inverse_spacings(const Points3& points, const Density& density, double root_integral);
 
 } // namespace calotte::quality_detail

@@ -3,9 +3,8 @@
 
 #include "base/memory.h"
 #include "base/parallel.h"
+#include "base/solvers.h"
 #include "base/split_mix.h"
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -37,16 +36,6 @@ void fill_with_noise(Values& x) {
     value *= scale;
 }
 
-/// The largest eigenvalue of the tridiagonal matrix of the method.
-double ritz_value(const std::vector<double>& diagonal, const std::vector<double>& beside) {
-  const auto size = std::ssize(diagonal);
-  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
-  solver.computeFromTridiagonal(Eigen::Map<const Eigen::VectorXd>(diagonal.data(), size),
-                                Eigen::Map<const Eigen::VectorXd>(beside.data(), size - 1),
-                                Eigen::EigenvaluesOnly);
-  return solver.eigenvalues().maxCoeff();
-}
-
 /// The largest eigenvalue of a symmetric matrix, to a few parts in a thousand.
 /// \param row(x, i) the product of row i with x.
 template <class Row> double largest_eigenvalue(std::int64_t n, const Row& row) {
@@ -75,7 +64,7 @@ template <class Row> double largest_eigenvalue(std::int64_t n, const Row& row) {
     diagonal.push_back(along);
     const bool complete = !(rest > 1e-12 * std::abs(along)); // the space holds the eigenvector
     if ((step >= first_test && step % between == 0) || complete) {
-      const double ritz = ritz_value(diagonal, beside);
+      const double ritz = largest_tridiagonal_eigenvalue(diagonal, beside);
       if (complete || ritz - found <= enough * ritz)
         return ritz;
       found = ritz;

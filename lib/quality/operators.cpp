@@ -103,9 +103,9 @@ void renumber(const std::vector<std::int32_t>& site, std::int64_t sites, Operato
     if (norms->cell >= 0)
       norms->cell = site[static_cast<std::size_t>(norms->cell)];
   OperatorErrorsByCell& by_cell = out.by_cell;
-  for (Eigen::VectorXd* values : {&by_cell.divergence, &by_cell.gradient, &by_cell.laplacian,
-                                  &by_cell.curl, &by_cell.tangential, &by_cell.kinetic_energy}) {
-    Eigen::VectorXd of_sites = Eigen::VectorXd::Constant(sites, no_value);
+  for (DoubleVector* values : {&by_cell.divergence, &by_cell.gradient, &by_cell.laplacian,
+                               &by_cell.curl, &by_cell.tangential, &by_cell.kinetic_energy}) {
+    DoubleVector of_sites = DoubleVector::Constant(sites, no_value);
     for (std::size_t i = 0; i < site.size(); ++i)
       of_sites[site[i]] = (*values)[static_cast<Eigen::Index>(i)];
     *values = std::move(of_sites);
@@ -135,7 +135,7 @@ OperatorErrors operator_errors(const Mesh& mesh, const Density& density) {
 OperatorErrors operator_errors(const PlanarMesh& mesh, const PlanarDomain& domain,
                                const Density& density) {
   using namespace quality_detail;
-  const Eigen::VectorXd off = cell_measures(mesh, domain, density).off_centroid;
+  const DoubleVector off = cell_measures(mesh, domain, density).off_centroid;
   const Voronoi cells = voronoi(mesh, domain);
   OperatorErrors out = errors_of(cells);
   out.off_centroid = distance_norms(off.size(), [&](std::int64_t i) { return off[i]; });

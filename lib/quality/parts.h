@@ -67,7 +67,7 @@ struct Subject {
   const Triangles& neighbours;
   VertexRings rings; ///< of the sites with cells
   Shapes shapes;
-  Eigen::VectorXd inverse_spacing; ///< by site: 1/h of the density; none to leave it out
+  DoubleVector inverse_spacing; ///< by site: 1/h of the density; none to leave it out
   Array<std::uint8_t>
       inside;                ///< by triangle: whether it is one of the domain's; of all others none
   Array<std::uint8_t> whole; ///< by site: whether the domain holds its cell; of all others none

@@ -121,7 +121,7 @@ Shapes shapes_of(const Triangles& triangles, const Vec2& period, const Place& pl
 /// \param mesh of the n generators and the hull.
 /// \param inverse_spacing by generator.
 Quality measure(const PlanarCells& cells, const Connectivity& mesh, const PlanarDomain& domain,
-                std::int64_t n, Eigen::VectorXd&& inverse_spacing) {
+                std::int64_t n, DoubleVector&& inverse_spacing) {
   const Vec2 period = domain.periodic() ? Vec2{domain.period.x(), domain.period.y()} : Vec2{0, 0};
   Subject subject{
       mesh.triangles,

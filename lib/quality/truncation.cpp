@@ -242,12 +242,12 @@ private:
     return placed(norms, of_.edges, [&](std::int64_t e) { return of_.cells_on_edge(0, e); });
   }
 
-  static Eigen::VectorXd as_vector(const Errors& errors) {
-    return Eigen::Map<const Eigen::VectorXd>(errors.begin(), errors.size());
+  static DoubleVector as_vector(const Errors& errors) {
+    return Eigen::Map<const DoubleVector>(errors.begin(), errors.size());
   }
   /// The greatest error at the places of each cell.
-  Eigen::VectorXd by_cell(const Errors& errors, const Ids& places) const {
-    Eigen::VectorXd out(of_.cells.cols());
+  DoubleVector by_cell(const Errors& errors, const Ids& places) const {
+    DoubleVector out(of_.cells.cols());
     for_each_block(out.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
       for (std::int64_t i = begin; i != end; ++i) {
         out[i] = no_value;

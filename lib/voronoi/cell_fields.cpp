@@ -13,11 +13,11 @@
 namespace calotte {
 namespace voronoi_detail {
 
-Eigen::VectorXd relative_density(const Voronoi& voronoi, const Density& density) {
+DoubleVector relative_density(const Voronoi& voronoi, const Density& density) {
   require(density.uniform() || voronoi.on_sphere, "a plane supports uniform density only");
   if (density.uniform())
     return {};
-  Eigen::VectorXd rho = evaluate(density, voronoi.cells);
+  DoubleVector rho = evaluate(density, voronoi.cells);
   const double greatest = rho.maxCoeff();
   require(greatest > 0,
           "the density is zero at every cell: make it positive somewhere on the mesh");
@@ -43,7 +43,7 @@ double quality_at(const Voronoi& voronoi, std::int64_t cell) {
   return longest > 0 ? shortest / longest : 0;
 }
 
-double nominal_spacing(const Eigen::VectorXd& area, const Eigen::VectorXd& density) {
+double nominal_spacing(const DoubleVector& area, const DoubleVector& density) {
   double sum = 0; // in the order of the cells: the same bits for any number of threads
   for (Eigen::Index i = 0; i < area.size(); ++i)
     sum += density.size() == 0 ? area[i] : area[i] * std::sqrt(density[i]);

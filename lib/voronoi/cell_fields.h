@@ -13,12 +13,12 @@ namespace calotte::voronoi_detail {
 
 /// The density at the cells divided by its maximum; empty if it is uniform.
 /// \throws Error bad_option, as cell_fields().
-Eigen::VectorXd relative_density(const Voronoi& voronoi, const Density& density);
+DoubleVector relative_density(const Voronoi& voronoi, const Density& density);
 
 double spacing_at(const Voronoi& voronoi, std::int64_t cell); ///< CellFields::spacing
 double quality_at(const Voronoi& voronoi, std::int64_t cell); ///< CellFields::quality
 
 /// As nominal_spacing(fields). \param density empty if it is uniform.
-double nominal_spacing(const Eigen::VectorXd& area, const Eigen::VectorXd& density);
+double nominal_spacing(const DoubleVector& area, const DoubleVector& density);
 
 } // namespace calotte::voronoi_detail

@@ -212,11 +212,11 @@ Weights interpolation_weights(const PlanarMesh& mesh, const PointsRef& given, In
                                     locate(mesh, positions), kind);
 }
 
-Eigen::VectorXd interpolate(const Weights& weights, const Eigen::VectorXd& values) {
+DoubleVector interpolate(const Weights& weights, const DoubleVector& values) {
   base_detail::require(weights.cols() == values.size(),
                        "there are " + std::to_string(values.size()) + " values for " +
                            std::to_string(weights.cols()) + " sites; give one for each");
-  Eigen::VectorXd out(weights.rows());
+  DoubleVector out(weights.rows());
   base_detail::for_each_block(out.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i) {
       double sum = 0;

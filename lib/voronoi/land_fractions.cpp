@@ -245,7 +245,7 @@ double land_along(const Voronoi& cells, const EdgeCrossings& crossings,
 }
 
 struct CellAreas {
-  Eigen::VectorXd land, whole; ///< the land less as many spheres as counts are too low
+  DoubleVector land, whole; ///< the land less as many spheres as counts are too low
 };
 
 CellAreas areas_of(const Voronoi& cells, const EdgeCrossings& crossings,
@@ -253,7 +253,7 @@ CellAreas areas_of(const Voronoi& cells, const EdgeCrossings& crossings,
   const std::vector<std::int32_t> counts = counts_at_vertices(cells, crossings);
   const CellWalk walk(cells);
   const std::int64_t n = cells.cells.cols();
-  CellAreas areas{Eigen::VectorXd(n), Eigen::VectorXd(n)};
+  CellAreas areas{DoubleVector(n), DoubleVector(n)};
   for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (auto i = static_cast<std::int32_t>(begin); i < end; ++i) {
       double land = 0, whole = 0;
@@ -272,11 +272,11 @@ CellAreas areas_of(const Voronoi& cells, const EdgeCrossings& crossings,
 }
 
 /// The fractions, once it is known how many spheres the areas are too low.
-Eigen::VectorXd fractions_of(const CellAreas& areas, double area) {
+DoubleVector fractions_of(const CellAreas& areas, double area) {
   const double excess = (area - areas.land.sum()) / sphere, spheres = std::round(excess);
   require(std::abs(excess - spheres) < 1e-6,
           "the area of the land is not that of its coast; give both anew");
-  Eigen::VectorXd fractions = areas.land.cwiseQuotient(areas.whole).array() + spheres;
+  DoubleVector fractions = areas.land.cwiseQuotient(areas.whole).array() + spheres;
   Eigen::Index cell = 0;
   const double beyond = (fractions.array() - 0.5).abs().maxCoeff(&cell) - 0.5;
   require(beyond <= 1e-6,
@@ -288,7 +288,7 @@ Eigen::VectorXd fractions_of(const CellAreas& areas, double area) {
 } // namespace
 } // namespace voronoi_detail
 
-Eigen::VectorXd land_fractions(const Voronoi& cells, const Coast& coast) {
+DoubleVector land_fractions(const Voronoi& cells, const Coast& coast) {
   using namespace voronoi_detail;
   Traces traces = traces_of(cells, arcs_of(coast));
   const EdgeCrossings crossings(std::move(traces.crossings), cells.edges_on_cell.maxCoeff() + 1);

@@ -102,8 +102,11 @@ Region with_rings(const Region& region, const CellWidth& widths, double radius_k
   for (int k = 0; k < 3; ++k) { // the widths may grow outwards
     double widest = 0;
     for (const Region* boundary : std::initializer_list<const Region*>{&region, &meshed})
-      for (const Points3& ring : boundary->rings)
-        widest = std::max(widest, evaluate(widths, ring.colwise().normalized()).maxCoeff());
+      for (Points3 ring : boundary->rings) {
+        for (auto corner : ring.colwise())
+          corner /= corner.norm();
+        widest = std::max(widest, evaluate(widths, ring).maxCoeff());
+      }
     meshed = widened(region, (limited_area_rings + beyond) * widest / radius_km);
   }
   return meshed;

@@ -321,7 +321,7 @@ void connect_open(Voronoi& out) {
 void measure_open(Voronoi& out, const Points3& cut_edges) {
   const std::int64_t edges = out.cells_on_edge.cols(), vertices = out.cells_on_vertex.cols();
   make_room(out.edges, 3, edges);
-  for (Eigen::VectorXd* values : {&out.dc, &out.dv, &out.angle})
+  for (DoubleVector* values : {&out.dc, &out.dv, &out.angle})
     make_room(*values, edges, 1);
   make_room(out.kites, 3, vertices);
   make_room(out.vertex_area, vertices, 1);

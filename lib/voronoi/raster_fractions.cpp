@@ -29,7 +29,7 @@ constexpr double degree = std::numbers::pi / 180;
 constexpr double parts_across_cell = 4;
 constexpr int most_parts = 256; ///< of a rectangle in each direction
 
-bool ascends(const Eigen::VectorXd& values) {
+bool ascends(const DoubleVector& values) {
   for (Eigen::Index i = 1; i < values.size(); ++i)
     if (!(values[i] > values[i - 1]))
       return false;
@@ -37,7 +37,7 @@ bool ascends(const Eigen::VectorXd& values) {
 }
 
 void require_raster(const LandRaster& raster) {
-  const Eigen::VectorXd &lon = raster.longitudes, &lat = raster.latitudes;
+  const DoubleVector &lon = raster.longitudes, &lat = raster.latitudes;
   require(ascends(lon) && ascends(lat) && lon[lon.size() - 1] < lon[0] + 360 && lat[0] >= -90 &&
               lat[lat.size() - 1] <= 90,
           "the raster's longitudes and latitudes do not ascend within 360 and -90 to 90 degrees; "
@@ -50,7 +50,7 @@ void require_raster(const LandRaster& raster) {
 }
 
 /// The n + 1 borders of the rectangles of n values, with the first and the last given.
-std::vector<double> borders(const Eigen::VectorXd& values, double first, double last) {
+std::vector<double> borders(const DoubleVector& values, double first, double last) {
   std::vector<double> all{first};
   for (Eigen::Index i = 1; i < values.size(); ++i)
     all.push_back(0.5 * (values[i - 1] + values[i]));
@@ -58,7 +58,7 @@ std::vector<double> borders(const Eigen::VectorXd& values, double first, double 
   return all;
 }
 
-std::vector<double> borders_of_longitudes(const Eigen::VectorXd& lon) {
+std::vector<double> borders_of_longitudes(const DoubleVector& lon) {
   const double last = 0.5 * (lon[lon.size() - 1] + lon[0] + 360);
   return borders(lon, last - 360, last);
 }
@@ -106,8 +106,8 @@ private:
 
   const Voronoi& cells_;
   const CellWalk walk_;
-  Eigen::VectorXd reach_; ///< squared
-  Eigen::VectorXd size_;
+  DoubleVector reach_; ///< squared
+  DoubleVector size_;
 };
 
 /// The n + 1 sines, of latitudes or longitudes, of the borders of n equal parts, and the directions
@@ -248,13 +248,13 @@ double value_at(const LandRaster& raster, const Grid& grid, const Vec3& place) {
 } // namespace
 } // namespace voronoi_detail
 
-Eigen::VectorXd land_fractions(const Voronoi& cells, const LandRaster& raster) {
+DoubleVector land_fractions(const Voronoi& cells, const LandRaster& raster) {
   using namespace voronoi_detail;
   require_raster(raster);
   const Grid grid(raster);
   const Finder finder(cells);
   const std::int64_t n = cells.cells.cols(), rows = raster.latitudes.size();
-  Eigen::VectorXd land = Eigen::VectorXd::Zero(n), whole = Eigen::VectorXd::Zero(n);
+  DoubleVector land = DoubleVector::Zero(n), whole = DoubleVector::Zero(n);
   constexpr std::int64_t at_once = 256; // rows: bounds the memory
   for (std::int64_t first = 0; first < rows; first += at_once) {
     std::vector<std::vector<Sum>> sums(static_cast<std::size_t>(std::min(at_once, rows - first)));

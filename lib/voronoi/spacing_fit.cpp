@@ -32,9 +32,9 @@ bool is_whole(const Voronoi& voronoi, std::int64_t cell) {
 /// Replaces the logarithms of cells by the mean of themselves and of the mean of their neighbours,
 /// several times: a weight that reaches two cells far (its variance grows by half a spacing squared
 /// in each pass). Cells without a number stay so.
-void smooth(const Voronoi& voronoi, Eigen::VectorXd& logarithms) {
+void smooth(const Voronoi& voronoi, DoubleVector& logarithms) {
   constexpr int passes = 8;
-  Eigen::VectorXd next(logarithms.size());
+  DoubleVector next(logarithms.size());
   for (int pass = 0; pass < passes; ++pass) {
     base_detail::for_each_block(
         logarithms.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
@@ -57,7 +57,7 @@ void smooth(const Voronoi& voronoi, Eigen::VectorXd& logarithms) {
 
 /// \returns the values at a share of the sorted numbers; without numbers none.
 template <std::size_t n>
-std::array<double, n> quantiles(const Eigen::VectorXd& of, const std::array<double, n>& shares) {
+std::array<double, n> quantiles(const DoubleVector& of, const std::array<double, n>& shares) {
   std::vector<double> known;
   std::copy_if(of.begin(), of.end(), std::back_inserter(known),
                [](double value) { return !std::isnan(value); });
@@ -72,8 +72,8 @@ std::array<double, n> quantiles(const Eigen::VectorXd& of, const std::array<doub
 }
 
 /// The logarithms of the cells' spacings; no number for cells that are not whole.
-Eigen::VectorXd log_spacings(const Voronoi& voronoi) {
-  Eigen::VectorXd logarithms(voronoi.cells.cols());
+DoubleVector log_spacings(const Voronoi& voronoi) {
+  DoubleVector logarithms(voronoi.cells.cols());
   for (Eigen::Index i = 0; i < logarithms.size(); ++i)
     logarithms[i] = is_whole(voronoi, i)
                         ? std::log(density_detail::hexagon_width(voronoi.cell_area[i]))
@@ -82,7 +82,7 @@ Eigen::VectorXd log_spacings(const Voronoi& voronoi) {
 }
 
 /// The standard deviation of the numbers.
-double deviation(const Eigen::VectorXd& of) {
+double deviation(const DoubleVector& of) {
   double count = 0, sum = 0, squares = 0;
   for (const double value : of)
     if (!std::isnan(value))
@@ -91,10 +91,10 @@ double deviation(const Eigen::VectorXd& of) {
 }
 
 /// Gives cells along a boundary the mean of those next to them, from these on outwards.
-void extend(const Voronoi& voronoi, Eigen::VectorXd& logarithms) {
+void extend(const Voronoi& voronoi, DoubleVector& logarithms) {
   for (bool grew = true; grew;) {
     grew = false;
-    const Eigen::VectorXd before = logarithms;
+    const DoubleVector before = logarithms;
     for (Eigen::Index i = 0; i < logarithms.size(); ++i) {
       double sum = 0;
       int count = 0;
@@ -110,7 +110,7 @@ void extend(const Voronoi& voronoi, Eigen::VectorXd& logarithms) {
 
 } // namespace
 
-double nominal_spacing(const Voronoi& voronoi, const Eigen::VectorXd& density) {
+double nominal_spacing(const Voronoi& voronoi, const DoubleVector& density) {
   const auto mean_over = [&](const auto& counts) {
     double sum = 0, count = 0; // in the order of the cells: the same bits for any number of threads
     for (Eigen::Index i = 0; i < voronoi.cell_area.size(); ++i)
@@ -126,9 +126,9 @@ double nominal_spacing(const Voronoi& voronoi, const Eigen::VectorXd& density) {
       inner > 0 ? inner : mean_over([&](Eigen::Index i) { return voronoi.cell_area[i] > 0; }));
 }
 
-SpacingFit spacing_fit(const Voronoi& voronoi, const Eigen::VectorXd& density, double nominal) {
+SpacingFit spacing_fit(const Voronoi& voronoi, const DoubleVector& density, double nominal) {
   constexpr std::array<double, 3> shares{0.5, 0.05, 0.95};
-  Eigen::VectorXd logarithms = log_spacings(voronoi);
+  DoubleVector logarithms = log_spacings(voronoi);
   SpacingFit fit;
   for (Eigen::Index i = 0; i < logarithms.size(); ++i) {
     const double rho = density.size() == 0 ? 1 : density[i];
@@ -143,11 +143,11 @@ SpacingFit spacing_fit(const Voronoi& voronoi, const Eigen::VectorXd& density, d
 
 } // namespace voronoi_detail
 
-Eigen::VectorXd spacing_density(const Voronoi& voronoi) {
+DoubleVector spacing_density(const Voronoi& voronoi) {
   using namespace voronoi_detail;
   constexpr double uniform = 1.1; // ratio of spacings
   constexpr std::array<double, 2> shares{0.05, 0.95};
-  Eigen::VectorXd logarithms = log_spacings(voronoi);
+  DoubleVector logarithms = log_spacings(voronoi);
   const double scatter = deviation(logarithms);
   smooth(voronoi, logarithms);
   const auto [low, high] = quantiles(logarithms, shares);

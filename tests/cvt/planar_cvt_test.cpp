@@ -194,7 +194,7 @@ TEST_CASE("areas sum where the boundary runs along cells' sides and through thei
         if (size * place > 1e30)
           continue;
         PlanarDomain domain;
-        for (const Eigen::MatrixXd& ring : straight.rings)
+        for (const DoubleMatrix& ring : straight.rings)
           domain.rings.push_back(moved(ring));
         Points2 lattice(2, 12);
         for (int i = 0; i < 12; ++i)

@@ -131,7 +131,7 @@ TEST_CASE("domains at the ends of the range") {
 }
 
 TEST_CASE("rings that do not bound a well-defined region are refused, with ring and corner") {
-  const auto domain = [](const std::vector<Eigen::MatrixXd>& rings) {
+  const auto domain = [](const std::vector<DoubleMatrix>& rings) {
     return PlanarDomain{rings, {0, 0}};
   };
   CHECK(refusal(domain({square(0, 0, 1)})) == "");

@@ -126,7 +126,7 @@ void check_mpas_laws(const std::string& path, const PlanarDomain& domain) {
       on_shore.insert(file.id("verticesOnEdge", e, k));
   }
   double perimeter = 0;
-  for (const Eigen::MatrixXd& line : domain.rings)
+  for (const DoubleMatrix& line : domain.rings)
     for (Eigen::Index k = 0; k < line.cols(); ++k)
       perimeter += (line.col((k + 1) % line.cols()) - line.col(k)).norm();
   CHECK(shore == doctest::Approx(perimeter).epsilon(1e-12));

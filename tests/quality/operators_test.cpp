@@ -31,7 +31,6 @@ using Eigen::Matrix3d;
 using Eigen::MatrixXd;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-using Eigen::VectorXd;
 
 namespace {
 
@@ -45,7 +44,7 @@ std::vector<Named> norms_of(const OperatorErrors& errors) {
           {"tangential", &errors.tangential}, {"kinetic energy", &errors.kinetic_energy}};
 }
 
-std::vector<const VectorXd*> maps_of(const OperatorErrorsByCell& by_cell) {
+std::vector<const DoubleVector*> maps_of(const OperatorErrorsByCell& by_cell) {
   return {&by_cell.divergence, &by_cell.gradient,   &by_cell.laplacian,
           &by_cell.curl,       &by_cell.tangential, &by_cell.kinetic_energy};
 }
@@ -92,12 +91,12 @@ std::array<Matrix3d, 5> forms() {
 
 /// Errors at places, one field after the other.
 struct Direct {
-  VectorXd weight;
-  VectorXd error, exact; ///< squares by place, summed over the fields
+  DoubleVector weight;
+  DoubleVector error, exact; ///< squares by place, summed over the fields
 
-  explicit Direct(VectorXd weights)
-      : weight(std::move(weights)), error(VectorXd::Zero(weight.size())), exact(error) {}
-  void add(const VectorXd& value, const VectorXd& expected) {
+  explicit Direct(DoubleVector weights)
+      : weight(std::move(weights)), error(DoubleVector::Zero(weight.size())), exact(error) {}
+  void add(const DoubleVector& value, const DoubleVector& expected) {
     error += (value - expected).cwiseAbs2();
     exact += expected.cwiseAbs2();
   }
@@ -134,7 +133,7 @@ struct Matrices {
 };
 
 /// The components of tangential gradients along directions.
-VectorXd along(const Points3& gradients, const Points3& directions) {
+DoubleVector along(const Points3& gradients, const Points3& directions) {
   return gradients.cwiseProduct(directions).colwise().sum();
 }
 
@@ -145,7 +144,7 @@ Points3 gradients(const Matrix3d& form, const Points3& places) {
   return out;
 }
 
-VectorXd values(const Matrix3d& form, const Points3& places) {
+DoubleVector values(const Matrix3d& form, const Points3& places) {
   return along(form * places, places);
 }
 
@@ -162,10 +161,10 @@ std::vector<std::array<double, 2>> direct_norms(const Voronoi& of) {
       curl(of.vertex_area), tangential(gradient.weight), energy(of.cell_area);
   for (const Matrix3d& form : forms()) {
     const Points3 slopes = gradients(form, of.edges);
-    const VectorXd u = along(slopes, normal), v = along(slopes, tangent);
-    const VectorXd at_cells = values(form, of.cells), at_vertices = values(form, of.vertices);
-    const VectorXd none_at_cells = 0 * at_cells, none_at_vertices = 0 * at_vertices;
-    const VectorXd speed = gradients(form, of.cells).colwise().squaredNorm() / 2;
+    const DoubleVector u = along(slopes, normal), v = along(slopes, tangent);
+    const DoubleVector at_cells = values(form, of.cells), at_vertices = values(form, of.vertices);
+    const DoubleVector none_at_cells = 0 * at_cells, none_at_vertices = 0 * at_vertices;
+    const DoubleVector speed = gradients(form, of.cells).colwise().squaredNorm() / 2;
     divergence.add(matrix.divergence * u, -6 * at_cells);
     divergence.add(matrix.divergence * -v, none_at_cells);
     gradient.add(matrix.gradient * at_cells, u);
@@ -284,7 +283,7 @@ TEST_CASE("by cell: the greatest value is the norm, at the cell that it names") 
     CAPTURE(named.name);
     const OperatorErrors errors = operator_errors(named.mesh);
     const std::vector<Named> norms = norms_of(errors);
-    const std::vector<const VectorXd*> maps = maps_of(errors.by_cell);
+    const std::vector<const DoubleVector*> maps = maps_of(errors.by_cell);
     for (std::size_t k = 0; k < norms.size(); ++k) {
       CAPTURE(norms[k].first);
       CHECK(maps[k]->maxCoeff() == norms[k].second->max);
@@ -296,7 +295,7 @@ TEST_CASE("by cell: the greatest value is the norm, at the cell that it names") 
 TEST_CASE("distances from centroids are those of cell_measures()") {
   const Mesh mesh = uneven();
   for (const Density& density : {Density{}, x8()}) {
-    const VectorXd off = cell_measures(mesh, density).off_centroid;
+    const DoubleVector off = cell_measures(mesh, density).off_centroid;
     const ErrorNorms norms = operator_errors(mesh, density).off_centroid;
     check_close(norms.max, off.maxCoeff(), 1e-9);
     check_close(norms.l2, std::sqrt(off.squaredNorm() / static_cast<double>(off.size())), 1e-9);
@@ -359,7 +358,8 @@ TEST_CASE("an open mesh: whole cells have the errors that they have in a closed 
   const Mesh open = part_of(closed, kept);
   REQUIRE(!open.closed());
   const OperatorErrors of_part = operator_errors(open), of_all = operator_errors(closed);
-  const std::vector<const VectorXd*> part = maps_of(of_part.by_cell), all = maps_of(of_all.by_cell);
+  const std::vector<const DoubleVector*> part = maps_of(of_part.by_cell),
+                                         all = maps_of(of_all.by_cell);
   for (std::size_t k = 0; k < part.size(); ++k) {
     CAPTURE(norms_of(of_part)[k].first);
     // They are relative to the mean over another part of the sphere.

@@ -106,7 +106,7 @@ std::vector<double> areas_by_cutting(const Points2& sites, const PlanarDomain& d
 
 double perimeter(const PlanarDomain& domain) {
   double sum = 0;
-  for (const Eigen::MatrixXd& ring : domain.rings)
+  for (const DoubleMatrix& ring : domain.rings)
     for (Eigen::Index k = 0; k < ring.cols(); ++k)
       sum += (ring.col((k + 1) % ring.cols()) - ring.col(k)).norm();
   return sum;
@@ -119,7 +119,7 @@ double cross(const Place& a, const Place& b) { return a.x() * b.y() - a.y() * b.
 /// Of the largest coordinate, and of the domain.
 double size_of(const PlanarDomain& domain) {
   double size = 0;
-  for (const Eigen::MatrixXd& ring : domain.rings)
+  for (const DoubleMatrix& ring : domain.rings)
     size = std::max(size, ring.cwiseAbs().maxCoeff());
   return size;
 }
@@ -334,7 +334,7 @@ TEST_CASE("sites on the boundary and at its corners") {
 
 TEST_CASE("the example's lake, far from the origin") {
   PlanarDomain domain = read_domain(CALOTTE_FIXTURES "/../../tools/examples/lake.geojson");
-  for (Eigen::MatrixXd& ring : domain.rings)
+  for (DoubleMatrix& ring : domain.rings)
     ring.colwise() += Place(5e3, -2e3);
   // Sites at random leave cells in several parts around its capes.
   CHECK(euler(checked(relaxed(500, domain, 1), domain)) == 1 - 3); // three islands

@@ -606,7 +606,7 @@ TEST_CASE("chunks of weights are parts of the whole") {
        {std::pair<std::int64_t, std::int64_t>{0, 1}, {1, 1}, {1, 500}, {500, v.dc.size()}}) {
     const TangentialWeights part = tangential_weights(v, first, last);
     const std::int64_t size = part.weights.size();
-    CHECK(same(part.weights, Eigen::VectorXd(whole.weights.segment(at, size))));
+    CHECK(same(part.weights, DoubleVector(whole.weights.segment(at, size))));
     CHECK(same(part.edges, Ids(whole.edges.segment(at, size))));
     CHECK((part.begin.array() + at == whole.begin.segment(first, last - first + 1).array()).all());
     at += size;

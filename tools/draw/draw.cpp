@@ -146,7 +146,7 @@ void require_field(const DrawOptions& options, std::int64_t sites) {
 namespace {
 
 /// The values per site of the colourings that have such values.
-Eigen::VectorXd by_site(const Mesh& mesh, const DrawOptions& options) {
+DoubleVector by_site(const Mesh& mesh, const DrawOptions& options) {
   if (options.colouring == Colouring::field || options.colouring == Colouring::region) {
     require_field(options, mesh.points.cols());
     return options.field.values;
@@ -158,7 +158,7 @@ Eigen::VectorXd by_site(const Mesh& mesh, const DrawOptions& options) {
   for (Eigen::Index i = 0; i < sites.cols(); ++i) {
     sites.col(i) = direction_of(Eigen::Vector3d(mesh.points.col(i)));
   }
-  const Eigen::VectorXd rho = evaluate(options.density, sites);
+  const DoubleVector rho = evaluate(options.density, sites);
   const double greatest = rho.maxCoeff();
   if (!(greatest > 0)) {
     throw Error(ErrorCode::bad_option,
@@ -209,7 +209,7 @@ Painting make_painting(const Mesh& mesh, const DrawOptions& options, const LonLa
 
 /// The values of cells of any shape.
 std::vector<double> values_of(const Polygons& polygons, const DrawOptions& options) {
-  const auto by_cell = [](const Eigen::VectorXd& values) {
+  const auto by_cell = [](const DoubleVector& values) {
     return std::vector<double>(values.begin(), values.end());
   };
   switch (options.colouring) {
@@ -299,7 +299,7 @@ void draw(const std::string& path, const SphereField& field, const Look& asked) 
   require_picture(path, asked.size);
   const View view = view_of(asked, usual_middle);
   const Look look = seen(asked, view);
-  const Eigen::VectorXd samples = field.values(fibonacci_sphere(field_samples));
+  const DoubleVector samples = field.values(fibonacci_sphere(field_samples));
   Scale scale = make_scale({samples.data(), samples.data() + samples.size()}, Colouring::density);
   scale.palette = look.palette;
   if (look.range) {

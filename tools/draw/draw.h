@@ -110,7 +110,7 @@ void draw(const std::string& path, const PlanarMesh& mesh,
 /// A scalar field on the whole sphere.
 struct SphereField {
   /// At each of n unit columns; finite.
-  std::function<Eigen::VectorXd(const Points3& x)> values;
+  std::function<DoubleVector(const Points3& x)> values;
   std::string title, caption;
 };
 

@@ -140,7 +140,7 @@ void add_outline(cairo_t* context, const std::optional<PlanarDomain>& domain, co
     cairo_rectangle(context, -extent.x() / 2, -extent.y() / 2, extent.x(), extent.y());
     return;
   }
-  for (const Eigen::MatrixXd& ring : domain->rings) {
+  for (const DoubleMatrix& ring : domain->rings) {
     cairo_new_sub_path(context);
     for (const auto& corner : ring.colwise()) {
       const Vector2d place = scale * (corner - window.middle());

@@ -209,8 +209,8 @@ Wall next_wall(const Polygons& cells, OpenSides& sides) {
   return wall;
 }
 
-Eigen::MatrixXd ring_of(const std::vector<Vector2d>& corners, const Vector2d& shift) {
-  Eigen::MatrixXd ring(2, std::ssize(corners));
+DoubleMatrix ring_of(const std::vector<Vector2d>& corners, const Vector2d& shift) {
+  DoubleMatrix ring(2, std::ssize(corners));
   for (std::size_t k = 0; k < corners.size(); ++k) {
     ring.col(static_cast<Eigen::Index>(k)) = corners[k] + shift;
   }
@@ -219,7 +219,7 @@ Eigen::MatrixXd ring_of(const std::vector<Vector2d>& corners, const Vector2d& sh
 
 /// The ring along both walls of a channel, which go on for two periods beyond the window: there the
 /// ring has its ends.
-Eigen::MatrixXd ring_between(const Wall& one, const Wall& other) {
+DoubleMatrix ring_between(const Wall& one, const Wall& other) {
   std::vector<Vector2d> corners;
   for (const Wall* wall : {&one, &other}) {
     for (const int k : {-2, -1, 0, 1, 2}) {
@@ -238,7 +238,7 @@ void add_island(const Wall& wall, const Vector2d& period, PlanarDomain& domain) 
       if ((i != 0 && period.x() == 0) || (j != 0 && period.y() == 0)) {
         continue;
       }
-      const Eigen::MatrixXd ring = ring_of(wall.corners, {i * period.x(), j * period.y()});
+      const DoubleMatrix ring = ring_of(wall.corners, {i * period.x(), j * period.y()});
       const auto meets = [&](int k) {
         return period[k] == 0 || (ring.row(k).maxCoeff() > 0 && ring.row(k).minCoeff() < period[k]);
       };
@@ -250,7 +250,7 @@ void add_island(const Wall& wall, const Vector2d& period, PlanarDomain& domain) 
 }
 
 /// A box that the copies of islands at the edge of the window do not reach.
-Eigen::MatrixXd wide_box(const Vector2d& period) {
+DoubleMatrix wide_box(const Vector2d& period) {
   return rectangle(-2 * period, 3 * period).rings.front();
 }
 
@@ -287,7 +287,7 @@ Window window_of(const PlanarMesh& mesh, const std::optional<PlanarDomain>& doma
     return window_around(mesh.points, 0.04);
   }
   Points2 corners(2, 0);
-  for (const Eigen::MatrixXd& ring : domain->rings) {
+  for (const DoubleMatrix& ring : domain->rings) {
     const Eigen::Index before = corners.cols();
     corners.conservativeResize(Eigen::NoChange, before + ring.cols());
     corners.rightCols(ring.cols()) = ring;

@@ -22,10 +22,10 @@ double power_of(Colouring colouring) {
 }
 
 /// Of a domain, a density depends on the period only.
-Eigen::VectorXd by_site(const PlanarMesh& mesh, const DrawOptions& options) {
+DoubleVector by_site(const PlanarMesh& mesh, const DrawOptions& options) {
   if (options.colouring == Colouring::density) {
     const bool periodic = mesh.closed();
-    const Eigen::VectorXd density =
+    const DoubleVector density =
         evaluate(options.density, periodic ? periodic_box(mesh.period) : rectangle({0, 0}, {1, 1}),
                  mesh.points);
     return density / density.maxCoeff();
@@ -138,7 +138,7 @@ std::vector<double> values_of_cells(const PlanarMesh& mesh, const DrawOptions& o
   const bool periodic = mesh.closed();
   if (tessellated && periodic) {
     const Voronoi cells = voronoi(mesh);
-    const Eigen::VectorXd values =
+    const DoubleVector values =
         options.colouring == Colouring::area ? cells.cell_area : cell_fields(cells).quality;
     return {values.data(), values.data() + values.size()};
   }
@@ -148,7 +148,7 @@ std::vector<double> values_of_cells(const PlanarMesh& mesh, const DrawOptions& o
   const Drawn own(mesh);
   const Scene own_scene = scene_of(own, Shapes::cells, window);
   // In a box the values of copies are used as well as the sites' own.
-  Eigen::VectorXd given = by_site(mesh, options);
+  DoubleVector given = by_site(mesh, options);
   std::vector<double> values;
   if (periodic) {
     given.conservativeResize(given.size() > 0 ? scene.sites.cols() : 0);
@@ -173,8 +173,8 @@ std::vector<bool> by_place(const Drawn& drawn, const std::vector<bool>& by_site)
 std::vector<double> values_of_triangles(const PlanarMesh& mesh, const DrawOptions& options,
                                         const std::vector<bool>& clipped, const Drawn& drawn,
                                         const Scene& scene, const Window& window) {
-  const Eigen::VectorXd given = by_site(mesh, options);
-  Eigen::VectorXd of_places(given.size() > 0 ? scene.sites.cols() : 0);
+  const DoubleVector given = by_site(mesh, options);
+  DoubleVector of_places(given.size() > 0 ? scene.sites.cols() : 0);
   for (Eigen::Index i = 0; i < of_places.size(); ++i) {
     of_places[i] = given[drawn.site[static_cast<std::size_t>(i)]];
   }

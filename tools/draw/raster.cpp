@@ -194,7 +194,7 @@ template <class Map> void paint_field(Samples<Map>& samples, const FieldPainting
       continue;
     }
     const Points3 places = (painting.frame.transpose() * rays).colwise().normalized();
-    const Eigen::VectorXd values = painting.values(places);
+    const DoubleVector values = painting.values(places);
     for (std::size_t i = 0; i < columns.size(); ++i) {
       samples.at(row, columns[i]) =
           pack(painting.scale.colour(values[static_cast<Eigen::Index>(i)]));

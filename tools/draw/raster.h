@@ -22,7 +22,7 @@ cairo_surface_t* raster_map(const Painting& painting, const MapWindow& window, c
 
 /// A field, evaluated at up to four samples a pixel.
 struct FieldPainting {
-  std::function<Eigen::VectorXd(const Points3& x)> values;
+  std::function<DoubleVector(const Points3& x)> values;
   Scale scale;
   Eigen::Matrix3d frame; ///< from places on the earth to directions of the scene
 };

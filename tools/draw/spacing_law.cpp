@@ -72,7 +72,7 @@ Points3 unit_sites(const Mesh& mesh) {
 /// The spacings by the law of the cells that have a spacing, up to a common factor: rho^(-1/4).
 std::vector<double> lawful_spacings(const Mesh& mesh, const Density& density,
                                     const std::vector<double>& spacings) {
-  const Eigen::VectorXd rho = evaluate(density, unit_sites(mesh));
+  const DoubleVector rho = evaluate(density, unit_sites(mesh));
   std::vector<double> lawful;
   for (std::size_t i = 0; i < spacings.size(); ++i) {
     const double value = rho[static_cast<Eigen::Index>(i)];

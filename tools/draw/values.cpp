@@ -35,7 +35,7 @@ double oddest_valence(const Corners& corners, const std::vector<double>& valence
 }
 
 double triangle_value(const Corners& corners, Colouring colouring,
-                      const std::vector<double>& valence, const Eigen::VectorXd& by_site) {
+                      const std::vector<double>& valence, const DoubleVector& by_site) {
   switch (colouring) {
   case Colouring::spacing:
     return corners.mean_side();
@@ -70,7 +70,7 @@ std::vector<double> smallest_angles(const Scene& scene) {
   return values;
 }
 
-std::vector<double> as_vector(const Eigen::VectorXd& values) {
+std::vector<double> as_vector(const DoubleVector& values) {
   return {values.data(), values.data() + values.size()};
 }
 
@@ -89,8 +89,7 @@ std::vector<double> tessellation_values(const Scene& scene, Colouring colouring)
 }
 
 std::vector<double> cell_values(const Scene& scene, Colouring colouring,
-                                const std::vector<double>& valence,
-                                const Eigen::VectorXd& by_site) {
+                                const std::vector<double>& valence, const DoubleVector& by_site) {
   switch (colouring) {
   case Colouring::spacing:
     return mean_distances(scene);
@@ -112,8 +111,8 @@ std::vector<double> cell_values(const Scene& scene, Colouring colouring,
 
 } // namespace
 
-Eigen::VectorXd side_ratios(const Polygons& cells) {
-  Eigen::VectorXd ratios = Eigen::VectorXd::Constant(cells.size(), nothing);
+DoubleVector side_ratios(const Polygons& cells) {
+  DoubleVector ratios = DoubleVector::Constant(cells.size(), nothing);
   for (std::int64_t i = 0; i < cells.size(); ++i) {
     double shortest = HUGE_VAL, longest = 0;
     const std::int64_t begin = cells.begin[i], end = cells.begin[i + 1];
@@ -172,8 +171,8 @@ std::vector<double> site_valences(const Scene& scene, const std::vector<bool>& c
   return count;
 }
 
-std::vector<double> values_of(const Scene& scene, Colouring colouring,
-                              const Eigen::VectorXd& by_site, const std::vector<bool>& clipped) {
+std::vector<double> values_of(const Scene& scene, Colouring colouring, const DoubleVector& by_site,
+                              const std::vector<bool>& clipped) {
   const std::vector<double> valence = site_valences(scene, clipped);
   if (scene.shapes == Shapes::cells) {
     std::vector<double> values = cell_values(scene, colouring, valence, by_site);

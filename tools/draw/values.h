@@ -11,7 +11,7 @@
 namespace calotte::tools {
 
 /// For each polygon its shortest over its longest side; NaN for one without corners.
-Eigen::VectorXd side_ratios(const Polygons& cells);
+DoubleVector side_ratios(const Polygons& cells);
 
 /// For each site the mean distance to its neighbours, in radians; in a plane in the scene's unit.
 std::vector<double> mean_distances(const Scene& scene);
@@ -27,7 +27,7 @@ std::vector<double> site_valences(const Scene& scene, const std::vector<bool>& c
 /// \param clipped for Colouring::valence of a plane, as above.
 /// \throws Error bad_option for the area or quality of cells of an open mesh.
 std::vector<double> values_of(const Scene& scene, Colouring colouring,
-                              const Eigen::VectorXd& by_site = {},
+                              const DoubleVector& by_site = {},
                               const std::vector<bool>& clipped = {});
 
 } // namespace calotte::tools

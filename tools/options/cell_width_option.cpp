@@ -43,7 +43,7 @@ CLI::Validator width_or_file() {
 
 /// One width at all nodes of the coarsest grid.
 CellWidth uniform_widths(double km) {
-  return {Eigen::Vector2d(0, 180), Eigen::Vector2d(-90, 90), Eigen::MatrixXd::Constant(2, 2, km)};
+  return {DoubleVector{{0, 180}}, DoubleVector{{-90, 90}}, DoubleMatrix::Constant(2, 2, km)};
 }
 
 constexpr double fewest = 12, most = 1 << 30;
@@ -143,8 +143,8 @@ PlanarCellWidth read_planar_widths(const WidthWords& words) {
            "km: the plane has the unit of its coordinates; give a number in that unit");
   if (words.uniform) {
     constexpr double far = 1e30; // the largest coordinate of a domain
-    return {Eigen::Vector2d(-far, far), Eigen::Vector2d(-far, far),
-            Eigen::MatrixXd::Constant(2, 2, *words.uniform)};
+    return {DoubleVector{{-far, far}}, DoubleVector{{-far, far}},
+            DoubleMatrix::Constant(2, 2, *words.uniform)};
   }
   if (std::filesystem::path(words.file).extension() != ".nc")
     refuse(words.file + ": no file of cell widths in the plane; give NetCDF cellWidth(y, x) (.nc)");

@@ -291,7 +291,7 @@ std::string density_name(const DensityWords& words) {
   return name;
 }
 
-std::string derived_density(const std::string& path, const Eigen::VectorXd& density) {
+std::string derived_density(const std::string& path, const DoubleVector& density) {
   return path + ": no density is given; meshDensity follows from the smoothed spacing of the " +
          "cells, which varies by a factor of " +
          formatted("%.3g", std::pow(density.minCoeff(), -0.25)) + "\n";

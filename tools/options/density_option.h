@@ -52,7 +52,7 @@ std::string density_name(const DensityWords& words);
 
 /// A line that says that a file's density follows from the spacing of its cells.
 /// \param density as spacing_density() returns it; not empty.
-std::string derived_density(const std::string& path, const Eigen::VectorXd& density);
+std::string derived_density(const std::string& path, const DoubleVector& density);
 
 /// The input that determines it, lines "name value" for a run's configuration; for a file, its
 /// contents.

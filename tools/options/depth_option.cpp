@@ -27,7 +27,7 @@ std::string text_of(const std::string& word) {
   return read_file(word);
 }
 
-Eigen::VectorXd levels_of(const std::string& word) {
+DoubleVector levels_of(const std::string& word) {
   std::string text = text_of(word);
   std::replace(text.begin(), text.end(), ',', ' ');
   std::istringstream in(text);
@@ -43,15 +43,15 @@ Eigen::VectorXd levels_of(const std::string& word) {
 
 /// The depths of a field of depths, or of heights, of which those of the sea are below 0; 0 on
 /// land. No number stays none.
-Eigen::VectorXd depths_of(const Eigen::VectorXd& values) {
+DoubleVector depths_of(const DoubleVector& values) {
   const double sign = values.sum() < 0 ? -1 : 1;
   return (sign * values).unaryExpr([](double depth) { return depth <= 0 ? 0.0 : depth; });
 }
 
-Eigen::VectorXd bottom_of(const std::string& name, const MeshFile& file) {
+DoubleVector bottom_of(const std::string& name, const MeshFile& file) {
   const std::int64_t sites = file.mesh ? file.mesh->points.cols() : 0;
   if (const std::optional<double> flat = number_of(name))
-    return Eigen::VectorXd::Constant(sites, *flat);
+    return DoubleVector::Constant(sites, *flat);
   for (const MeshField& field : file.fields)
     if (field.name == name && field.location == Location::cells && field.values.size() == sites)
       return depths_of(field.values);

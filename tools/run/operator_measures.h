@@ -18,7 +18,7 @@ struct OperatorName {
   const char* word;  ///< on the command line and in reports
   const char* label; ///< for people
   ErrorNorms OperatorErrors::*norms;
-  Eigen::VectorXd OperatorErrorsByCell::*by_cell;
+  DoubleVector OperatorErrorsByCell::*by_cell;
 };
 
 inline constexpr std::array<OperatorName, 6> operator_names = {{

@@ -16,7 +16,7 @@ namespace {
 constexpr std::int64_t lattice = 165'000;
 constexpr double apart = 0.0087; // radians
 
-using Values = std::function<Eigen::VectorXd(const Points3&)>;
+using Values = std::function<DoubleVector(const Points3&)>;
 
 /// The columns of a basis of the tangent plane.
 Eigen::Matrix<double, 3, 2> tangents(const Eigen::Vector3d& x) {
@@ -27,8 +27,8 @@ Eigen::Matrix<double, 3, 2> tangents(const Eigen::Vector3d& x) {
 }
 
 /// |grad h| by differences over as much each way as `steps` has.
-Eigen::VectorXd slopes(const Values& spacing, const Points3& x, const Eigen::VectorXd& steps) {
-  Eigen::VectorXd squares = Eigen::VectorXd::Zero(x.cols());
+DoubleVector slopes(const Values& spacing, const Points3& x, const DoubleVector& steps) {
+  DoubleVector squares = DoubleVector::Zero(x.cols());
   for (int axis = 0; axis < 2; ++axis) {
     Points3 ahead(3, x.cols()), behind(3, x.cols());
     for (Eigen::Index i = 0; i < x.cols(); ++i) {
@@ -47,7 +47,7 @@ struct Peak {
 };
 
 Peak highest(const Values& values, const Points3& x) {
-  const Eigen::VectorXd all = values(x);
+  const DoubleVector all = values(x);
   Eigen::Index best = 0;
   all.maxCoeff(&best);
   return {x.col(best), all[best]};
@@ -76,8 +76,8 @@ Peak climb(const Values& values, Peak peak) {
 Values inside(const Values& values, const Region& region) {
   if (region.whole())
     return values;
-  return [values, contained = containing(region)](const Points3& x) -> Eigen::VectorXd {
-    Eigen::VectorXd all = values(x);
+  return [values, contained = containing(region)](const Points3& x) -> DoubleVector {
+    DoubleVector all = values(x);
     for (Eigen::Index i = 0; i < x.cols(); ++i)
       if (!contained(x.col(i)))
         all[i] = -std::numeric_limits<double>::infinity();
@@ -95,16 +95,16 @@ SpacingSurvey survey_spacing(const Density& density, std::int64_t cells, const R
   SpacingSurvey survey;
   survey.unit =
       unit > 0 ? unit : std::sqrt(2 / std::numbers::sqrt3 * root / static_cast<double>(cells));
-  const Values spacing = [&](const Points3& x) -> Eigen::VectorXd {
+  const Values spacing = [&](const Points3& x) -> DoubleVector {
     return survey.unit * evaluate(density, x).array().max(1e-150).pow(-0.25);
   };
-  const Values negative = [&](const Points3& x) -> Eigen::VectorXd { return -spacing(x); };
+  const Values negative = [&](const Points3& x) -> DoubleVector { return -spacing(x); };
   const Values slope = [&](const Points3& x) {
     // Widths from node to node are steepest where they are interpolated, over less than a cell.
     constexpr double hundredth = 1.75e-4; // of a degree
     return slopes(spacing, x,
-                  unit > 0 ? Eigen::VectorXd(spacing(x) / 2)
-                           : Eigen::VectorXd::Constant(x.cols(), hundredth));
+                  unit > 0 ? DoubleVector(spacing(x) / 2)
+                           : DoubleVector::Constant(x.cols(), hundredth));
   };
   const auto peak = [&](const Values& values) {
     return climb(inside(values, region), highest(values, places));

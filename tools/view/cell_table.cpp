@@ -22,7 +22,7 @@ std::string cell_table(const ViewMesh& mesh, std::int64_t cell) {
   row("cell", std::to_string(cell));
   const Eigen::Vector3d place = mesh.points.col(cell);
   if (mesh.on_sphere) {
-    const Eigen::Matrix2Xd at = to_lonlat(place);
+    const Points2 at = to_lonlat(place);
     row("longitude", formatted("%.6g", at(0, 0)));
     row("latitude", formatted("%.6g", at(1, 0)));
   } else {

@@ -98,7 +98,7 @@ nlohmann::ordered_json Blocks::add(const std::vector<std::int32_t>& numbers, int
   return add(words, bytes_for(greatest), "int", delta);
 }
 
-nlohmann::ordered_json Blocks::add(const Eigen::VectorXd& numbers) {
+nlohmann::ordered_json Blocks::add(const DoubleVector& numbers) {
   const bool narrow = std::all_of(numbers.begin(), numbers.end(), fits_float);
   std::vector<std::uint32_t> words;
   words.reserve(static_cast<std::size_t>(numbers.size()));

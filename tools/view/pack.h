@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <Eigen/Core>
+#include <calotte/types.h>
+
 #include <nlohmann/json.hpp>
 
 #include <cstdint>
@@ -22,7 +23,7 @@ class Blocks {
 public:
   /// \returns the description of the new block for the page's header.
   nlohmann::ordered_json add(const std::vector<std::int32_t>& numbers, int delta);
-  nlohmann::ordered_json add(const Eigen::VectorXd& numbers);
+  nlohmann::ordered_json add(const DoubleVector& numbers);
 
   const std::vector<std::string>& base64() const { return base64_; }
 

@@ -80,7 +80,7 @@ Json json_of_classes(const std::vector<double>& classes) {
 }
 
 /// The place of each value among the classes; their number where there is no value.
-std::vector<std::int32_t> places_of(const Eigen::VectorXd& values,
+std::vector<std::int32_t> places_of(const DoubleVector& values,
                                     const std::vector<double>& classes) {
   std::vector<std::int32_t> places;
   places.reserve(static_cast<std::size_t>(values.size()));

@@ -16,8 +16,8 @@ constexpr int level = 7; // of the icosahedron: 163 842 places, some 60 km apart
 
 /// The largest slope of a function along the edges of each triangle's plane: the norm of its
 /// gradient there, per radian; at a site the largest of its triangles.
-Eigen::VectorXd gradients(const Mesh& mesh, const Eigen::VectorXd& values) {
-  Eigen::VectorXd slopes = Eigen::VectorXd::Zero(values.size());
+DoubleVector gradients(const Mesh& mesh, const DoubleVector& values) {
+  DoubleVector slopes = DoubleVector::Zero(values.size());
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
     const Eigen::Vector3i id = mesh.triangles.col(t);
     const Eigen::Vector3d a = mesh.points.col(id[0]), b = mesh.points.col(id[1]),
@@ -43,7 +43,7 @@ ViewMesh view_plan(const std::string& name, const Density& density, double unit,
   mesh.notice = "The widths that the options prescribe, at " + std::to_string(mesh.cells) +
                 " places; no grid is made yet. ";
   const Unit lengths = unit_of({}, radius_km);
-  const Eigen::VectorXd widths =
+  const DoubleVector widths =
       unit * evaluate(density, sphere.points).array().max(1e-150).pow(-0.25);
   mesh.quantities.push_back({.name = "prescribed",
                              .label = "cell width",

@@ -13,7 +13,7 @@
 namespace calotte::tools {
 namespace {
 
-bool has_values(const Eigen::VectorXd& values) {
+bool has_values(const DoubleVector& values) {
   return std::any_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
 }
 
@@ -113,7 +113,7 @@ void add_triangles(const CellMeasures& measures, std::vector<Quantity>& list) {
 }
 
 /// Whether all finite values are a few whole numbers.
-bool are_classes(const Eigen::VectorXd& values) {
+bool are_classes(const DoubleVector& values) {
   constexpr std::size_t most = 12;
   std::vector<double> found;
   for (const double value : values) {
@@ -171,7 +171,7 @@ std::vector<Quantity> quantities_of(const OperatorErrorsByCell& errors) {
 
 std::vector<Quantity> quantities_of(const Polygons& cells, const Unit& unit) {
   std::vector<Quantity> list;
-  Eigen::VectorXd sides(cells.size());
+  DoubleVector sides(cells.size());
   for (std::int64_t i = 0; i < cells.size(); ++i)
     sides[i] = static_cast<double>(cells.begin[i + 1] - cells.begin[i]);
   add(list, {.name = "area",

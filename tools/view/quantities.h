@@ -29,8 +29,8 @@ struct Quantity {
   bool classes = false;     ///< few whole numbers
   bool logarithmic = false; ///< of a length or an area
   Worst worst = Worst::none;
-  double reference = 1;        ///< for far_from_reference
-  Eigen::VectorXd values = {}; ///< NaN where there is none
+  double reference = 1;     ///< for far_from_reference
+  DoubleVector values = {}; ///< NaN where there is none
 
   // Of all values of the mesh; `values` may become a part of them.
   std::optional<double> least = {}, mean = {}, greatest = {}; ///< of the finite values

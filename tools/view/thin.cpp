@@ -144,8 +144,8 @@ bool bulges_out(const Mesh& mesh, Eigen::Index t, const std::vector<bool>& left_
 
 /// How far each cell of a mesh of the sphere may reach from its site; none for a mesh that covers
 /// the sphere.
-Eigen::VectorXd reaches_of(const ViewMesh& mesh) {
-  Eigen::VectorXd reach = Eigen::VectorXd::Zero(mesh.cells);
+DoubleVector reaches_of(const ViewMesh& mesh) {
+  DoubleVector reach = DoubleVector::Zero(mesh.cells);
   if (mesh.triangles.cols() == 2 * mesh.cells - 4)
     return {};
   if (mesh.shapes) {
@@ -169,7 +169,7 @@ Eigen::VectorXd reaches_of(const ViewMesh& mesh) {
 /// Whether the cells of a mesh cover a triangle of some of its sites: its middle and those of its
 /// sides are as near a site as the cells of the corners reach.
 bool is_covered(const Eigen::Vector3i& sites, const ViewMesh& mesh, const Curve& curve,
-                const Eigen::VectorXd& reach) {
+                const DoubleVector& reach) {
   const Eigen::Vector3d a = mesh.points.col(sites[0]), b = mesh.points.col(sites[1]),
                         c = mesh.points.col(sites[2]);
   const double near = reach(sites).maxCoeff();
@@ -206,7 +206,7 @@ Triangles triangles_of(const Points3& points, const ViewMesh& whole, const Curve
   const Triangles corners = mesh.triangles.unaryExpr(
       [&](std::int32_t site) { return column[static_cast<std::size_t>(site)]; });
   std::vector<bool> left_out(static_cast<std::size_t>(corners.cols()));
-  if (const Eigen::VectorXd reach = reaches_of(whole); reach.size() > 0)
+  if (const DoubleVector reach = reaches_of(whole); reach.size() > 0)
     for (Eigen::Index t = 0; t < corners.cols(); ++t)
       left_out[static_cast<std::size_t>(t)] =
           !is_covered(corners.col(t).unaryExpr([&](std::int32_t i) {
@@ -245,7 +245,7 @@ void thin(ViewMesh& mesh, const PlanarDomain& domain, std::int64_t most) {
     points.col(i) = mesh.points.col(mesh.number[static_cast<std::size_t>(i)]);
   std::erase_if(mesh.quantities, [](const Quantity& quantity) { return quantity.on_triangles; });
   for (Quantity& quantity : mesh.quantities) {
-    Eigen::VectorXd values(n);
+    DoubleVector values(n);
     for (std::int64_t i = 0; i < n; ++i)
       values[i] = quantity.values[mesh.number[static_cast<std::size_t>(i)]];
     quantity.values = std::move(values);

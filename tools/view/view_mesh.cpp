@@ -44,12 +44,12 @@ Density density_of(const MeshFile& file, const ViewChoice& choice) {
 
 /// The values of a field's cells or triangles; empty if they are not of the mesh's.
 /// A site with duplicates has the value of the first.
-Eigen::VectorXd values_of(const MeshField& field, const MeshFile& file) {
+DoubleVector values_of(const MeshField& field, const MeshFile& file) {
   const std::int64_t n = cells_of(file);
   if (field.count() != 1 || field.location == Location::edges)
     return {};
   if (field.location == Location::vertices)
-    return field.values.size() == triangles_of(file) ? field.values : Eigen::VectorXd();
+    return field.values.size() == triangles_of(file) ? field.values : DoubleVector();
   if (field.values.size() == n)
     return field.values;
   const std::vector<std::int32_t>& site = file.plane  ? file.plane->site_of_input
@@ -57,13 +57,13 @@ Eigen::VectorXd values_of(const MeshField& field, const MeshFile& file) {
                                                       : std::vector<std::int32_t>();
   if (field.values.size() != std::ssize(site))
     return {};
-  Eigen::VectorXd values(n);
+  DoubleVector values(n);
   for (auto cell = std::ssize(site); cell-- > 0;)
     values[site[static_cast<std::size_t>(cell)]] = field.values[cell];
   return values;
 }
 
-Quantity shown(const MeshField& field, Eigen::VectorXd values) {
+Quantity shown(const MeshField& field, DoubleVector values) {
   Quantity quantity = quantity_of({.name = field.name,
                                    .long_name = field.long_name,
                                    .units = field.units,
@@ -104,7 +104,7 @@ void add_fields(const MeshFile& file, const ViewChoice& choice, ViewMesh& mesh) 
         std::find(choice.fields.begin(), choice.fields.end(), field.name) != choice.fields.end();
     if (!choice.fields.empty() && !asked)
       continue;
-    Eigen::VectorXd values = values_of(field, file);
+    DoubleVector values = values_of(field, file);
     if (values.size() == 0)
       continue;
     if (choice.fields.empty() && field.name != mask_name && added == most_fields) {
@@ -156,7 +156,7 @@ CellMeasures measures_of(const MeshFile& file, const ViewChoice& choice) {
   CellMeasures measures = cell_measures(*file.mesh, density_of(file, choice));
   if (!file.polygons || file.polygons->size() != measures.area.size())
     return measures;
-  const auto fill = [](Eigen::VectorXd& values, const Eigen::VectorXd& of_cells) {
+  const auto fill = [](DoubleVector& values, const DoubleVector& of_cells) {
     values = values.array().isNaN().select(of_cells, values);
   };
   fill(measures.area, areas(*file.polygons));

@@ -19,9 +19,6 @@
 namespace calotte::python {
 namespace {
 
-using Offsets = Eigen::Matrix<std::int64_t, Eigen::Dynamic, 1>;
-using Ids = Eigen::Matrix<std::int32_t, Eigen::Dynamic, 1>;
-
 /// The corners of Voronoi cells and nothing else, for callers that need no edges and areas.
 struct Corners {
   Points3 points;  ///< by triangle its circumcentre on the unit sphere

@@ -27,7 +27,7 @@ void add_norms(py::module_& module) {
 
 /// The norms of an operator, and its errors by cell.
 void add_operator(Errors& errors, const char* name, const char* by_cell,
-                  ErrorNorms OperatorErrors::*norms, Eigen::VectorXd OperatorErrorsByCell::*values,
+                  ErrorNorms OperatorErrors::*norms, DoubleVector OperatorErrorsByCell::*values,
                   const char* doc) {
   errors.def_readonly(name, norms, doc);
   errors.def_property_readonly(

@@ -45,7 +45,7 @@ Region polygon(const std::vector<Doubles>& rings, const std::optional<Eigen::Vec
 PlanarDomain domain_of(const std::vector<Doubles>& arrays) {
   PlanarDomain domain;
   for (const Doubles& array : arrays) {
-    Eigen::MatrixXd ring = columns(array);
+    DoubleMatrix ring = columns(array);
     const Eigen::Index last = ring.cols() - 1;
     if (last > 0 && ring.col(last) == ring.col(0))
       ring.conservativeResize(Eigen::NoChange, last);

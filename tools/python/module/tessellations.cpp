@@ -49,7 +49,7 @@ py::dict report_of(const CvtReport& report) {
   values["iterations"] = report.iterations.size();
   values["energy"] = report.iterations.empty() ? 0 : report.iterations.back().energy;
   values["seconds"] = report.seconds;
-  Eigen::VectorXd energies(std::ssize(report.iterations)), norms(std::ssize(report.iterations));
+  DoubleVector energies(std::ssize(report.iterations)), norms(std::ssize(report.iterations));
   Eigen::Index k = 0;
   for (const CvtIteration& iteration : report.iterations) {
     energies[k] = iteration.energy;
