@@ -178,6 +178,40 @@ TEST_CASE("empty matrices are refused, or give nothing") {
   CHECK(evaluate(wide_cells(), Eigen::MatrixXd(3, 0)).size() == 0);
 }
 
+TEST_CASE("matrices of any options are read in place, and take results") {
+  const auto read = [](const PointsRef& x) { return x.data(); };
+  const Points3 points = random_sphere(9, 3);
+  const Eigen::Matrix3Xd aligned = points;
+  const Eigen::MatrixXd dynamic = points;
+  const Eigen::Matrix<double, 3, 9> fixed = points;
+  CHECK(read(points) == points.data());
+  CHECK(read(aligned) == aligned.data());
+  CHECK(read(dynamic) == dynamic.data());
+  CHECK(read(fixed) == fixed.data());
+  CHECK(read(points.middleCols(2, 4)) == points.col(2).data());
+  CHECK(read(aligned.col(5)) == aligned.col(5).data());
+  CHECK(read(Eigen::Map<const Eigen::Matrix3Xd>(points.data(), 3, 9)) == points.data());
+
+  Density density;
+  density.kind = Density::Kind::callable;
+  const double* last = nullptr;
+  density.callable = [&](const Eigen::Ref<const Eigen::Matrix3Xd>& x,
+                         Eigen::Ref<DoubleVector> rho) {
+    last = x.data();
+    rho = x.row(2).array().abs() + 1;
+  };
+  DoubleVector rho(9);
+  density.callable(points, rho);
+  CHECK(last == points.data());
+  CHECK(rho == DoubleVector(points.row(2).cwiseAbs().array() + 1));
+
+  Eigen::VectorXd values = evaluate(density, aligned);
+  CHECK(values == evaluate(density, points));
+  values = evaluate(wide_cells(), fixed);
+  const Mesh mesh = spherical_delaunay(random_sphere(50, 3));
+  CHECK_NOTHROW(interpolated_density(mesh, Eigen::VectorXd::Ones(50)));
+}
+
 TEST_CASE("any kind of matrix gives the same mesh of the sphere") {
   const Points3 points = random_sphere(5000, 3);
   const Mesh mesh = spherical_delaunay(points);
