@@ -5,6 +5,7 @@
 // generators are compared; a difference ends in a message and exit code 1.
 
 #include "clouds.h"
+#include "cvt/cvt.h"
 #include "cvt_tables.h"
 #include "density_cost.h"
 #include "lloyd.h"

@@ -5,9 +5,12 @@
 // measurements.
 
 #include "clouds.h"
+#include "cvt/cvt.h"
+#include "delaunay/delaunay.h"
 #include "program.h"
 #include "report.h"
 #include "stopwatch.h"
+#include "support/starts.h"
 
 #include "cvt/functional.h"
 #include "delaunay/centres.h"
@@ -68,7 +71,7 @@ std::string name_of(const Cut& cut) {
 Points3 generators(const std::string& set, std::int64_t n) {
   const Density density = named_density(set);
   const std::int64_t coarse = std::min<std::int64_t>(n, 10242);
-  const Continuation from = continuation(coarse, density);
+  const test::FirstGenerators from = test::continuation(coarse, density);
   CvtOptions options;
   options.density = density;
   options.bisections = from.bisections;

@@ -6,6 +6,7 @@
 // warm cache on one thread; a row's name gives the size of its file.
 
 #include "base/parallel.h"
+#include "delaunay/delaunay.h"
 #include "io/file.h"
 #include "program.h"
 #include "report.h"

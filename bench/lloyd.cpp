@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "lloyd.h"
+#include "cvt/cvt.h"
 
 #include "report.h"
 #include "stripack.h"

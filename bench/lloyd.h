@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "cvt/cvt.h"
+
 #include <calotte/cvt.h>
 #include <calotte/density.h>
 #include <calotte/types.h>

@@ -4,8 +4,10 @@
 // level.
 
 #include "clouds.h"
+#include "cvt/cvt.h"
 #include "program.h"
 #include "report.h"
+#include "support/starts.h"
 
 #include <calotte/cvt.h>
 #include <calotte/delaunay.h>
@@ -52,7 +54,7 @@ CvtOptions options_of(const Density& density, Method method, int limit) {
 
 /// The bisected optimum of the coarser level, by the default method.
 Points3 start_of(std::int64_t cells, const Density& density) {
-  const Continuation from = continuation((cells - 2) / 4 + 2, density);
+  const test::FirstGenerators from = test::continuation((cells - 2) / 4 + 2, density);
   CvtOptions options = options_of(density, Method::automatic, 3000);
   options.tolerance = 1e-9;
   options.bisections = from.bisections;

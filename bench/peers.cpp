@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "peers.h"
+#include "delaunay/delaunay.h"
 
 #include "stripack.h"
 

@@ -2,6 +2,7 @@
 // Times the planar calotte::delaunay and CGAL's own triangulation of the plane in one process, in
 // rounds as delaunay_bench does. The triangles of both are compared in every round.
 
+#include "delaunay/delaunay.h"
 #include "peers.h"
 #include "program.h"
 #include "report.h"

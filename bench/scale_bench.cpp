@@ -5,6 +5,9 @@
 // triangulation compares with the first of the many sites, both in memory that is mostly new to the
 // process; later ones compare with a second.
 
+#include "cvt/cvt.h"
+#include "delaunay/delaunay.h"
+
 #include <calotte/check.h>
 #include <calotte/cvt.h>
 #include <calotte/delaunay.h>

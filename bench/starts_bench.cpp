@@ -3,8 +3,10 @@
 // distance of generators from their centroids of 1e-6 on the unit sphere.
 
 #include "clouds.h"
+#include "cvt/cvt.h"
 #include "program.h"
 #include "report.h"
+#include "support/starts.h"
 
 #include <calotte/cvt.h>
 #include <calotte/generators.h>
@@ -78,7 +80,7 @@ struct Start {
 Start start_of(bool bisected, std::int64_t n, const Density& density) {
   if (!bisected)
     return {random_sphere(n, site_density(density)), 0};
-  const Continuation from = continuation(n, density);
+  const test::FirstGenerators from = test::continuation(n, density);
   return {from.start, from.bisections};
 }
 

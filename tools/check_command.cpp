@@ -37,7 +37,7 @@ std::string first_edge(const EdgeCounts& edges) {
 
 /// A mesh whose edges are all Delaunay passes: a foreign mesh may have the other diagonals of
 /// cocircular sites, or a boundary that is not convex.
-template <class AnyMesh> Findings findings_of(const AnyMesh& mesh) {
+Findings findings_of(const Mesh& mesh) {
   Findings found;
   found.check = check(mesh);
   found.delaunay = found.check.passed();
@@ -98,7 +98,7 @@ std::string table(const PolygonShapes& found, const MeshFile& file) {
   out << "cells           " << file.polygons->size() << "\n"
       << "corners         " << file.polygons->corners.cols() << "\n"
       << "Voronoi         no: " << file.not_voronoi << "\n";
-  const bool counted = !file.mesh || !file.mesh->closed(); // with the open mesh
+  const bool counted = !file.sphere() || !file.mesh->closed(); // with the open mesh
   return out.str() + shape_rows(found, counted ? std::nullopt : file.mesh, 16);
 }
 
@@ -128,10 +128,12 @@ void run(const MeshSource& source) {
     progress.stage("checking " + source.path);
     text = changes_of(source, file);
     // Cells without triangles of their own are checked as cells; a periodic plane has triangles.
-    const bool own_triangles = file.plane && (!file.polygons || file.plane->period.maxCoeff() > 0);
-    if (own_triangles || (file.mesh && !(file.polygons && file.mesh->closed()))) {
-      const Findings found = file.plane ? findings_of(*file.plane) : findings_of(*file.mesh);
-      text += table(found, file.plane.has_value());
+    const Mesh* plane = file.plane();
+    const bool own_triangles = plane ? !file.polygons || plane->surface.period().maxCoeff() > 0
+                                     : file.mesh && !(file.polygons && file.mesh->closed());
+    if (own_triangles) {
+      const Findings found = findings_of(*file.mesh);
+      text += table(found, plane != nullptr);
       failure = found.failure;
     }
     if (file.polygons) {

@@ -84,14 +84,15 @@ WriteOptions write_options(const Request& request, const Density& density, const
 }
 
 std::string describe(const MeshFile& file) {
-  if (file.plane && file.polygons)
-    return std::to_string(file.polygons->size()) + (file.plane->period.maxCoeff() > 0
+  const Mesh* plane = file.plane();
+  if (plane && file.polygons)
+    return std::to_string(file.polygons->size()) + (plane->surface.period().maxCoeff() > 0
                                                         ? " cells of a channel"
                                                         : " clipped cells of a plane");
-  if (file.plane)
-    return std::to_string(file.plane->points.cols()) + " sites, " +
-           std::to_string(file.plane->triangles.cols()) + " triangles, a " +
-           (file.plane->period.minCoeff() > 0 ? "periodic plane" : "plane");
+  if (plane)
+    return std::to_string(plane->points.cols()) + " sites, " +
+           std::to_string(plane->triangles.cols()) + " triangles, a " +
+           (plane->surface.is_box() ? "periodic plane" : "plane");
   if (!file.mesh || (file.polygons && file.mesh->closed()))
     return std::to_string(file.polygons->size()) + " cells, not Voronoi cells: " + file.not_voronoi;
   return std::to_string(file.mesh->points.cols()) + " sites, " +
@@ -130,7 +131,7 @@ std::string remarks(const Request& request, const MeshFile& file, const WriteOpt
     lines += request.output + ": not converted: " + joined(file.ignored) + "\n";
   if (options.site_density.size() > 0)
     lines += derived_density(request.output, options.site_density);
-  if (!file.plane)
+  if (!file.plane())
     lines +=
         suited_models(request.output, options.format, options.sphere_radius, options.dimensions);
   return lines;
@@ -139,14 +140,16 @@ std::string remarks(const Request& request, const MeshFile& file, const WriteOpt
 /// \throws Error bad_option, where the domain of a plane is missing or in vain.
 MeshFile read_input(const Request& request) {
   MeshFile file = read_mesh_file(*request.source, FieldChoice::all);
-  file.domain = domain_of(*request.domain);
-  if (file.domain && (!file.plane || file.plane->period.maxCoeff() > 0))
+  const bool unbounded = file.plane() && file.mesh->surface.period().maxCoeff() == 0;
+  const std::optional<Surface> part = surface_of(*request.domain);
+  if (part && !unbounded)
     throw Error(ErrorCode::bad_option, request.source->path +
                                            " holds no mesh of a bounded plane; leave --domain and "
                                            "--rectangle out");
   const Format format = options_of(*request.format, request.output).format;
-  if (file.plane && file.plane->period.maxCoeff() == 0 && !file.domain && !file.polygons &&
-      holds_cells(format))
+  if (part)
+    file.mesh->surface = *part;
+  else if (unbounded && !file.polygons && holds_cells(format))
     throw Error(ErrorCode::bad_option,
                 request.output +
                     ": the cells of a bounded plane need its domain, which clips them; "
@@ -157,7 +160,7 @@ MeshFile read_input(const Request& request) {
 /// Makes an open mesh one that FESOM reads, where it is written for it.
 EarReport remove_ears(const Request& request, MeshFile& file) {
   EarReport report;
-  if (file.mesh && !file.mesh->closed() &&
+  if (file.sphere() && !file.mesh->closed() &&
       options_of(*request.format, request.output).format == Format::fesom)
     file = without_ears(std::move(file), &report);
   return report;

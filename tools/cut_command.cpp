@@ -81,7 +81,7 @@ void run(const Request& request) {
   {
     Progress progress;
     progress.stage("reading " + request.region);
-    const Region region = region_of(request.region, request.inside);
+    const Surface region = region_of(request.region, request.inside);
     progress.stage("cutting " + request.source);
     report = cut(request.source, request.output, region, options_of(request));
   }

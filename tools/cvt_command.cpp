@@ -7,30 +7,29 @@
 #include "options/files.h"
 #include "options/numbers.h"
 #include "options/warning.h"
-#include "run/channel.h"
 #include "run/cvt_checks.h"
 #include "run/cvt_configuration.h"
 #include "run/cvt_costs.h"
 #include "run/cvt_forecast.h"
+#include "run/cvt_input.h"
 #include "run/cvt_report.h"
-#include "run/cvt_start.h"
 #include "run/exit_code.h"
 #include "run/interruption.h"
 #include "run/kept_states.h"
 #include "run/progress.h"
-#include "run/start_files.h"
 
-#include <calotte/cut.h>
 #include <calotte/error.h>
 #include <calotte/io.h>
 #include <calotte/lonlat.h>
 #include <calotte/version.h>
+#include <calotte/write_grid.h>
 
 #include <oneapi/tbb/task_arena.h>
 
 #include <chrono>
 #include <iostream>
 #include <optional>
+#include <utility>
 
 namespace calotte::tools {
 namespace {
@@ -73,13 +72,12 @@ private:
 
 struct Outcome {
   CvtReport report;
-  Mesh mesh;        ///< on the sphere; empty after it is written
-  PlanarMesh plane; ///< or in the plane
+  Mesh mesh; ///< empty after it is written
   std::int64_t cells = 0;
-  std::string grid;        ///< a line about a limited-area grid
+  std::string grid;        ///< a line about the part of the mesh that is written, or ""
   std::string doubt;       ///< about a mesh that should end at the boundary, or ""
   std::string worst_place; ///< of the cell of the worst shape: " (at ...)", or ""
-  double area = 0;         ///< of the sphere, the region or the domain
+  double area = 0;         ///< of the surface
   int signal = 0;          ///< the signal that ended it early
   bool kept = false;       ///< its state then
   std::size_t before = 0;  ///< iterations of the earlier parts of a resumed run
@@ -108,9 +106,9 @@ void keep(const CvtState& state, KeptStates& states, Progress& progress) {
 }
 
 /// Shows progress, keeps states and checkpoints, and ends the run after a signal.
-bool after_iteration(const CvtProgress& now, const CvtRequest& request, const CvtOptions& options,
-                     Keeper& keeper, KeptStates& states, Progress& progress, Outcome& outcome) {
-  progress.stage(describe(now, options, norm_word(request)), std::to_string(now.bisections_left));
+bool after_iteration(const CvtProgress& now, const Schedule& schedule, Keeper& keeper,
+                     KeptStates& states, Progress& progress, Outcome& outcome) {
+  progress.stage(describe(now, schedule), std::to_string(now.bisections_left));
   if (states.due(now.report))
     keep(now.state, states, progress);
   outcome.signal = Interruption::signal();
@@ -121,85 +119,31 @@ bool after_iteration(const CvtProgress& now, const CvtRequest& request, const Cv
   return outcome.signal != 0;
 }
 
-/// The input of a run.
-struct Plan {
-  CvtOptions options;
-  std::optional<PlanarDomain> domain;     ///< of a plane
-  std::optional<Eigen::Vector2d> channel; ///< the part of the domain between walls
-  std::optional<RunRegion> region;        ///< of the sphere
-  CvtStart start;
+/// A run before its first descent.
+struct Run {
+  CvtInput input;
+  Schedule schedule;
   std::string configuration;
   std::optional<CvtState> state; ///< where it goes on
 };
 
-/// Replaces a box that has walls by a wider one, and the number of its cells.
-void widen_channel(CvtRequest& request, Walls walls, Plan& plan) {
-  ChannelRun run = channel_run(*plan.domain, walls, plan.options.density, *request.cells);
-  plan.channel = plan.domain->period;
-  plan.domain = std::move(run.box);
-  plan.options.density = std::move(run.density);
-  request.cells = static_cast<int>(run.cells);
-}
-
-/// \param request receives the number of cells that the widths imply.
-Plan prepare(CvtRequest& request, Progress& progress) {
-  Plan plan;
-  plan.options = options_of(request);
-  plan.domain = domain_of(*request.domain);
+Run prepare(const CvtRequest& request, Progress& progress) {
   progress.stage("reading the density");
-  Region asked = asked_region(request.part, request.density->widths);
-  Resolution resolution = resolution_of(*request.density, planar(request), asked);
-  plan.options.density = resolution.density;
-  plan.region =
-      region_of_run(request.part, std::move(asked), request.density->widths, resolution.widths);
-  const std::vector<std::string> notes =
-      settle_cells(request, resolution, plan.region, plan.domain);
-  if (const Walls walls = walls_of(*request.domain); walls.x || walls.y)
-    widen_channel(request, walls, plan);
-  if (request.cells)
-    require_space(request.mesh, file_bytes(format_of(request.mesh, write_options(request).format),
-                                           *request.cells, plan.options.density.uniform()));
-  progress.stage("making the start");
-  plan.start = open_start(request, plan.options.density, plan.domain, plan.region);
-  plan.options.fixed = plan.start.fixed;
-  if (start_kind(request) == "multilevel") {
-    plan.options.insertion_rounds = rounds_of(request);
-    plan.options.cells = *request.cells;
-  }
-  plan.configuration = configuration_of(request, plan.options, plan.start);
+  Run run{read_input(request), {}, {}, {}};
+  run.schedule = plan_of(run.input);
+  require_used(request, run.schedule);
+  run.input.recipe.start.points.resize(3, 0); // the schedule has them
+  const Recipe& recipe = run.schedule.recipe;
+  require_space(request.mesh, file_bytes(format_of(request.mesh, write_options(request).format),
+                                         recipe.cells, recipe.density.uniform()));
+  run.configuration = configuration_of(request, run.input, run.schedule);
   if (!request.resume.empty()) {
-    plan.state = read_checkpoint(request.resume, plan.configuration);
-    return plan;
+    run.state = read_checkpoint(request.resume, run.configuration);
+    return run;
   }
-  for (const std::string& note : notes)
+  for (const std::string& note : notes_on(request, run.input, run.schedule))
     progress.say("calotte: " + note);
-  generate_points(request, plan.options.density, plan.domain, plan.region, plan.start);
-  plan.options.bisections = plan.start.bisections;
-  if (!plan.start.note.empty())
-    progress.say("calotte: " + plan.start.note);
-  return plan;
-}
-
-/// Runs the plan on the sphere or in the plane; the outcome has the mesh of that kind.
-void run_plan(Plan& plan, const CvtCallback& callback, Outcome& outcome) {
-  const CvtOptions& options = plan.options;
-  if (plan.domain) {
-    PlanarCvt result = plan.state
-                           ? planar_cvt(std::move(*plan.state), *plan.domain, options, callback)
-                           : planar_cvt(plan.start.places, *plan.domain, options, callback);
-    outcome.plane = std::move(result.mesh);
-    outcome.report = std::move(result.report);
-    outcome.cells = outcome.plane.points.cols();
-    outcome.area = area(*plan.domain);
-  } else {
-    const Region region = plan.region ? plan.region->meshed : Region{};
-    Cvt result = plan.state ? spherical_cvt(std::move(*plan.state), region, options, callback)
-                            : spherical_cvt(plan.start.points, region, options, callback);
-    outcome.mesh = std::move(result.mesh);
-    outcome.report = std::move(result.report);
-    outcome.cells = outcome.mesh.points.cols();
-    outcome.area = area(region);
-  }
+  return run;
 }
 
 /// Where the cell of the worst shape is: " (at ...)"; "" without one.
@@ -207,32 +151,38 @@ std::string worst_place(const Outcome& outcome) {
   const std::int64_t cell = outcome.report.worst_cell;
   if (cell < 0)
     return "";
-  if (outcome.mesh.points.cols() == 0) {
-    const Eigen::Vector2d at = outcome.plane.points.col(cell);
+  if (!outcome.mesh.surface.is_sphere()) {
+    const Eigen::Vector3d at = outcome.mesh.points.col(cell);
     return " (at x " + formatted("%.6g", at.x()) + ", y " + formatted("%.6g", at.y()) + ")";
   }
   const Points2 at = to_lonlat(outcome.mesh.points.col(cell));
   return " (at " + lonlat_words(at(0, 0), at(1, 0)) + ")";
 }
 
-/// \param plan its state is moved out.
-Outcome tessellate(const CvtRequest& request, Plan& plan, Progress& progress) {
+/// \param run its state is moved out.
+Outcome tessellate(const CvtRequest& request, Run& run, Progress& progress) {
   Outcome outcome;
-  outcome.before = plan.state ? plan.state->report().iterations.size() : 0;
-  Keeper keeper(request, plan.configuration, outcome.before);
-  KeptStates states(request, plan.domain, outcome.before);
-  const CvtCallback callback = [&](const CvtProgress& now) {
-    return after_iteration(now, request, plan.options, keeper, states, progress, outcome);
-  };
-  progress.stage("triangulating the start");
+  outcome.before = run.state ? run.state->report().iterations.size() : 0;
+  Keeper keeper(request, run.configuration, outcome.before);
+  KeptStates states(request, run.schedule.recipe.surface, outcome.before);
+  RunOptions options{options_of(*request.partition, planar(request)).partition,
+                     [&](const CvtProgress& now) {
+                       return after_iteration(now, run.schedule, keeper, states, progress, outcome);
+                     },
+                     std::move(run.state)};
+  progress.stage("making the start");
   try {
     with_threads(request.partition->threads, [&] {
       outcome.threads = tbb::this_task_arena::max_concurrency();
-      run_plan(plan, callback, outcome);
+      Cvt grid = make_grid(run.schedule, std::move(options));
+      outcome.mesh = std::move(grid.mesh);
+      outcome.report = std::move(grid.report);
     });
   } catch (const Error& error) {
-    rethrow_with_line(error, plan.start);
+    rethrow_with_line(error, run.input);
   }
+  outcome.cells = outcome.mesh.points.cols();
+  outcome.area = run.schedule.recipe.surface.area();
   outcome.states = states.all();
   outcome.worst_place = worst_place(outcome);
   return outcome;
@@ -278,28 +228,14 @@ Outcome tessellate(const CvtRequest& request, Plan& plan, Progress& progress) {
   finish(not_well_centred);
 }
 
-[[noreturn]] void finish_not_converged(const CvtRequest& request, const CvtReport& report) {
+[[noreturn]] void finish_not_converged(const CvtRequest& request, const Stop& stop,
+                                       const CvtReport& report) {
   std::cout.flush();
   std::cerr << "calotte: not converged: " + residual_words(request, report) +
-                   " is above the tolerance " + shortest(tolerance_of(request)) + " after " +
-                   std::to_string(request.max_iterations) +
+                   " is above the tolerance " + shortest(*stop.tolerance) + " after " +
+                   std::to_string(stop.max_iterations) +
                    " iterations; the mesh is written; increase --max-iterations\n";
   finish(not_converged);
-}
-
-/// Whether a cell is one polygon is known only now. If not, the triangles keep the run's result.
-void write_plane(const std::string& path, const PlanarMesh& mesh, const PlanarDomain& domain,
-                 const WriteOptions& options) {
-  try {
-    write(path, mesh, domain, options);
-  } catch (const Error& error) {
-    if (error.code() != ErrorCode::bad_option)
-      throw;
-    const std::string kept = path + ".vtp";
-    write(kept, mesh);
-    throw Error(error.code(), path + ": " + error.what() + "; " + kept + " has the triangles",
-                error.index());
-  }
 }
 
 /// The periods and walls of a mesh.
@@ -311,74 +247,63 @@ std::string kind_of_plane(const Eigen::Vector2d& period) {
   return side("x", period.x()) + "; " + side("y", period.y());
 }
 
-/// Writes the cells between walls; the outcome receives their number.
-void write_channel(const CvtRequest& request, const Eigen::Vector2d& extent, Outcome& outcome,
-                   const WriteOptions& options) {
-  MeshFile file = walled(outcome.plane, extent, walls_of(*request.domain));
-  WriteOptions part = options;
-  if (options.site_density.size() > 0) { // of all sites
-    std::vector<double> values;
-    const Walls walls = walls_of(*request.domain);
-    for (Eigen::Index i = 0; i < outcome.plane.points.cols(); ++i)
-      if (!(walls.x && outcome.plane.points(0, i) > extent.x()) &&
-          !(walls.y && outcome.plane.points(1, i) > extent.y()))
-        values.push_back(options.site_density[i]);
-    part.site_density = Eigen::Map<const Eigen::VectorXd>(values.data(), std::ssize(values));
+/// Whether a cell is one polygon is known only now. If not, the triangles keep the run's result.
+[[noreturn]] void keep_triangles(const std::string& path, Mesh mesh, const Error& error) {
+  const std::string kept = path + ".vtp";
+  mesh.surface = Surface::plane();
+  write(kept, mesh);
+  throw Error(error.code(), path + ": " + error.what() + "; " + kept + " has the triangles",
+              error.index());
+}
+
+GridFile write_file_of(const CvtRequest& request, const Run& run, Mesh& mesh,
+                       const WriteOptions& options) {
+  try {
+    return write_grid(request.mesh, std::move(mesh), run.input.recipe, run.schedule, options);
+  } catch (const Error& error) {
+    const Surface& surface = run.schedule.recipe.surface;
+    if (error.code() == ErrorCode::bad_option && !surface.is_sphere() && surface.is_bounded() &&
+        mesh.points.cols() > 0)
+      keep_triangles(request.mesh, std::move(mesh), error);
+    throw;
   }
-  const std::int64_t cells = file.polygons->size();
-  const Eigen::Vector2d period = file.polygons->period;
-  write(request.mesh, file, part);
-  outcome.grid = request.mesh + ": " + std::to_string(cells) + " cells, " + kind_of_plane(period) +
-                 "; the others fill the gap beyond the walls\n";
 }
 
-/// Writes a limited-area grid; the outcome receives its number of cells.
-void write_region(const CvtRequest& request, const RunRegion& region, Outcome& outcome,
-                  const WriteOptions& options) {
-  CutOptions cut;
-  cut.sphere_radius = options.sphere_radius;
-  cut.dimensions = options.dimensions;
-  cut.history = options.history;
-  const CutReport report = write_limited_area(request.mesh, outcome.mesh.points, region.meshed,
-                                              region.region, options, cut);
-  outcome.grid = request.mesh + ": " + std::to_string(report.cells) + " cells, " +
-                 std::to_string(report.cells_by_mask.front()) + " in the region and " +
-                 std::to_string(report.cells - report.cells_by_mask.front()) +
-                 " in the rings around it\n";
+/// A line about a file that holds a part of the mesh; "" for others.
+std::string part_line(const std::string& path, const Recipe& asked, const GridFile& file) {
+  const std::string cells = path + ": " + std::to_string(file.cells) + " cells, ";
+  if (asked.limited_area)
+    return cells + std::to_string(file.inside) + " in the region and " +
+           std::to_string(file.cells - file.inside) + " in the rings around it\n";
+  if (asked.walls.x || asked.walls.y)
+    return cells + kind_of_plane(file.period) + "; the others fill the gap beyond the walls\n";
+  return "";
 }
 
-void write_result(const CvtRequest& request, const Plan& plan, Outcome& outcome,
-                  Progress& progress) {
+void write_result(const CvtRequest& request, const Run& run, Outcome& outcome, Progress& progress) {
   progress.stage("writing " + request.mesh);
+  const Recipe& made = run.schedule.recipe;
   WriteOptions options = write_options(request);
-  if (!plan.domain)
-    options.density = plan.options.density;
-  else if (!plan.options.density.uniform())
-    options.site_density = evaluate(plan.options.density, *plan.domain, outcome.plane.points);
-  options.history = history_of(request, plan.configuration, outcome.report);
-  if (request.part.limited_area)
-    write_region(request, *plan.region, outcome, options);
-  else if (plan.channel)
-    write_channel(request, *plan.channel, outcome, options);
-  else if (plan.domain)
-    write_plane(request.mesh, outcome.plane, *plan.domain, options);
-  else
-    write(request.mesh, std::move(outcome.mesh), options);
+  options.history = history_of(request, made.stop, run.configuration, outcome.report);
+  outcome.grid =
+      part_line(request.mesh, run.input.recipe, write_file_of(request, run, outcome.mesh, options));
   if (!request.report.empty())
-    write_file(request.report, to_json(request, outcome.report, outcome.cells, outcome.area,
-                                       outcome.threads, outcome.states));
+    write_file(request.report, to_json(request, made.stop, outcome.report, outcome.cells,
+                                       outcome.area, outcome.threads, outcome.states));
 }
 
 /// From here on a signal ends the run after the current iteration, with its output complete.
-Outcome tessellate_and_write(CvtRequest& request) {
+/// \param schedule receives that of the run.
+Outcome tessellate_and_write(const CvtRequest& request, Schedule& schedule) {
   Progress progress;
-  Plan plan = prepare(request, progress);
+  Run run = prepare(request, progress);
   const Interruption interruption;
-  Outcome outcome = tessellate(request, plan, progress);
-  if (const CvtStart& start = plan.start; start.on_boundary > 0)
+  Outcome outcome = tessellate(request, run, progress);
+  if (const std::int64_t count = run.schedule.on_boundary; count > 0)
     outcome.doubt =
-        doubt_of_boundary(outcome.mesh, start.fixed - start.on_boundary, start.on_boundary);
-  write_result(request, plan, outcome, progress);
+        doubt_of_boundary(outcome.mesh, run.schedule.recipe.fixed.cols() - count, count);
+  write_result(request, run, outcome, progress);
+  schedule = std::move(run.schedule);
   return outcome;
 }
 
@@ -391,11 +316,11 @@ std::string models_of(const CvtRequest& request) {
 }
 
 /// Prints what the run's result lacks.
-void warn_of_result(const CvtRequest& request, const Outcome& outcome) {
-  if (request.cells && outcome.cells != *request.cells && !request.domain->walls)
+void warn_of_result(const CvtRequest& request, const Schedule& schedule, const Outcome& outcome) {
+  if (request.points.empty() && outcome.cells != schedule.recipe.cells && !request.domain->walls)
     std::cerr << "calotte: " + std::to_string(outcome.cells) + " cells instead of " +
-                     std::to_string(*request.cells) + ": " +
-                     (start_kind(request) == "hexagonal"
+                     std::to_string(schedule.recipe.cells) + ": " +
+                     (schedule.recipe.start.kind == Start::Kind::hexagonal
                           ? "the hexagonal lattice has whole rows and columns; --start density "
                           : "bisections of a domain with a boundary leave out midpoints outside "
                             "it; --start multilevel ") +
@@ -415,9 +340,9 @@ void write_hexagons(const CvtRequest& request) {
   write(request.mesh, file, options);
   const bool open = file.polygons.has_value();
   std::cout << request.mesh + ": " +
-                   std::to_string(open ? file.polygons->size() : file.plane->points.cols()) +
+                   std::to_string(open ? file.polygons->size() : file.mesh->points.cols()) +
                    " hexagons, " +
-                   kind_of_plane(open ? file.polygons->period : file.plane->period) + "\n";
+                   kind_of_plane(open ? file.polygons->period : file.mesh->surface.period()) + "\n";
 }
 
 void run(CvtRequest request) {
@@ -427,16 +352,19 @@ void run(CvtRequest request) {
     return;
   }
   require_request(request);
-  const Outcome outcome = tessellate_and_write(request);
+  Schedule schedule;
+  const Outcome outcome = tessellate_and_write(request, schedule);
+  const Stop& stop = schedule.recipe.stop;
   if (outcome.signal != 0)
     finish_interrupted(request, outcome);
-  std::cout << summary(request, outcome.report, outcome.cells, planar(request) ? outcome.area : 1,
+  std::cout << summary(request, stop, outcome.report, outcome.cells,
+                       planar(request) ? outcome.area : 1,
                        static_cast<std::int64_t>(outcome.before)) +
                    "\n" + outcome.grid + models_of(request);
-  warn_of_result(request, outcome);
+  warn_of_result(request, schedule, outcome);
   if (!outcome.report.converged)
-    finish_not_converged(request, outcome.report);
-  if (well_centred(request) && !outcome.report.well_centred)
+    finish_not_converged(request, stop, outcome.report);
+  if (*stop.well_centred && !outcome.report.well_centred)
     finish_not_well_centred(request, outcome);
 }
 

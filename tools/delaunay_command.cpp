@@ -22,6 +22,7 @@
 
 #include <iostream>
 #include <optional>
+#include <utility>
 
 namespace calotte::tools {
 namespace {
@@ -33,11 +34,6 @@ struct Request {
   std::shared_ptr<PartitionWords> partition;
   std::shared_ptr<FormatWords> format;
   std::shared_ptr<std::string> config;
-};
-
-template <class AnyMesh> struct Result {
-  AnyMesh mesh;
-  DelaunayReport report;
 };
 
 /// Checks all options that can fail, before any work.
@@ -54,25 +50,18 @@ void require_request(const Request& request) {
                   {request.points, centres_file(*request.partition), *request.config});
 }
 
-Mesh mesh_of(const Points3& points, const Request& /*request*/, const DelaunayOptions& options,
-             DelaunayReport& report) {
-  return spherical_delaunay(points, options, &report);
-}
-
-PlanarMesh mesh_of(const Points2& points, const Request& request, const DelaunayOptions& options,
-                   DelaunayReport& report) {
+Surface surface_of(const Request& request) {
   const std::optional<Eigen::Vector2d> period = period_of(request.periodic);
-  return period ? periodic_delaunay(points, *period, options, &report)
-                : planar_delaunay(points, options, &report);
+  return period ? Surface::periodic(*period) : request.plane ? Surface::plane() : Surface::sphere();
 }
 
-template <class AnyMesh, class File>
-Result<AnyMesh> triangulate(const File& input, const Request& request,
-                            const DelaunayOptions& options) {
-  Result<AnyMesh> result;
+Triangulation triangulate(PointFile&& input, const Request& request,
+                          const DelaunayOptions& options) {
+  Triangulation result;
   try {
-    with_threads(request.partition->threads,
-                 [&] { result.mesh = mesh_of(input.points, request, options, result.report); });
+    with_threads(request.partition->threads, [&] {
+      result = calotte::triangulate(std::move(input.points), surface_of(request), options);
+    });
   } catch (const Error& error) {
     rethrow_with_line(error, input.name, input.lines);
   }
@@ -88,8 +77,7 @@ WriteOptions write_options(const Request& request, std::int64_t points) {
   return options;
 }
 
-template <class AnyMesh>
-std::string to_json(const Result<AnyMesh>& result, double read, double write) {
+std::string to_json(const Triangulation& result, double read, double write) {
   const DelaunayReport& report = result.report;
   nlohmann::ordered_json json;
   json["sites"] = report.sites;
@@ -120,16 +108,14 @@ std::string to_json(const Result<AnyMesh>& result, double read, double write) {
 }
 
 std::string kind_of(const Mesh& mesh) {
-  return mesh.closed() ? "closed" : "open: all sites lie in a hemisphere";
-}
-std::string kind_of(const PlanarMesh& mesh) {
+  if (mesh.surface.is_sphere())
+    return mesh.closed() ? "closed" : "open: all sites lie in a hemisphere";
   if (mesh.closed())
     return "periodic";
   return std::to_string(2 * mesh.points.cols() - 2 - mesh.triangles.cols()) + " sites on the hull";
 }
 
-template <class AnyMesh>
-std::string summary(const Request& request, const Result<AnyMesh>& result) {
+std::string summary(const Request& request, const Triangulation& result) {
   const std::int64_t duplicates = result.report.duplicates;
   std::string line = request.mesh + ": " + std::to_string(result.mesh.points.cols()) + " sites, " +
                      std::to_string(result.mesh.triangles.cols()) + " triangles, ";
@@ -166,18 +152,20 @@ std::string warning_of(const std::string& points, bool closed) {
   }
 }
 
-/// \param read_file reads the points.
-template <class AnyMesh, class ReadFile>
-std::string triangulate_file(const Request& request, const DelaunayOptions& options,
-                             const ReadFile& read_file) {
+/// \returns the lines to print.
+std::string triangulate_file(const Request& request, const DelaunayOptions& options) {
   Progress progress;
-  decltype(read_file()) input;
+  PointFile input;
   progress.stage("reading points");
-  const double read = seconds_of([&] { input = read_file(); });
-  progress.stage("triangulating " + std::to_string(input.points.cols()) + " points");
-  const Result<AnyMesh> result = triangulate<AnyMesh>(input, request, options);
+  const double read = seconds_of([&] {
+    input = request.plane ? read_planar_point_file(request.points)
+                          : read_point_file(request.points, request.lonlat);
+  });
+  const std::int64_t points = input.points.cols();
+  progress.stage("triangulating " + std::to_string(points) + " points");
+  const Triangulation result = triangulate(std::move(input), request, options);
   progress.stage("writing " + request.mesh);
-  WriteOptions output = write_options(request, input.points.cols());
+  WriteOptions output = write_options(request, points);
   const double written = seconds_of([&] {
     if (is_mpas(output.format) && result.mesh.closed())
       output.site_density = spacing_density(voronoi(result.mesh));
@@ -192,13 +180,7 @@ std::string triangulate_file(const Request& request, const DelaunayOptions& opti
 void run(const Request& request) {
   require_request(request);
   const DelaunayOptions options = options_of(*request.partition, request.plane); // reads centres
-  const std::string line =
-      request.plane
-          ? triangulate_file<PlanarMesh>(request, options,
-                                         [&] { return read_planar_point_file(request.points); })
-          : triangulate_file<Mesh>(request, options,
-                                   [&] { return read_point_file(request.points, request.lonlat); });
-  std::cout << line;
+  std::cout << triangulate_file(request, options);
 }
 
 } // namespace

@@ -62,7 +62,7 @@ std::optional<double> radius_of(const Request& request, const MeshFile& file) {
 Density density_of(const Request& request, const MeshFile& file, Measured& measured) {
   const Density given = density_of(*request.density, request.source->plane);
   measured.density = density_name(*request.density);
-  if (!given.uniform() || file.density.size() == 0 || !file.mesh ||
+  if (!given.uniform() || file.density.size() == 0 || !file.sphere() ||
       file.density.minCoeff() == file.density.maxCoeff())
     return given;
   measured.density = "of the file";
@@ -136,37 +136,50 @@ void measure_sphere(const Request& request, const MeshFile& file, Measured& meas
 /// A plane with walls, such as a channel: as an open mesh of the sphere. The file's cells have the
 /// area.
 void measure_walls(const Request& request, const MeshFile& file, Measured& measured) {
-  find_boundary(count_edges(*file.plane), measured);
-  measured.quality = open_quality(*file.plane);
+  find_boundary(count_edges(*file.mesh), measured);
+  measured.quality = open_quality(*file.mesh);
   measured.domain_area = areas(*file.polygons).sum();
   if (request.operators)
     measured.remarks.emplace_back("the operators of a plane with walls are not measured");
 }
 
 void measure_plane(const Request& request, const MeshFile& file,
-                   const std::optional<PlanarDomain>& domain, Measured& measured) {
-  if (!domain && file.polygons && file.plane->period.maxCoeff() > 0)
+                   const std::optional<Surface>& covered, Measured& measured) {
+  if (!covered && file.polygons && file.mesh->surface.period().maxCoeff() > 0)
     return measure_walls(request, file, measured);
-  if (!domain)
+  if (!covered)
     throw Error(ErrorCode::bad_option,
                 request.source->path + ": a planar mesh needs its domain, which clips the cells; "
                                        "give --domain, --rectangle or --periodic");
   measured.density = density_name(*request.density);
   const Density density = density_of(*request.density, true);
-  measured.quality = quality(*file.plane, *domain, density);
+  Mesh mesh = *file.mesh;
+  mesh.surface = *covered;
+  measured.quality = quality(mesh, density);
   if (request.operators)
-    measured.operators = operator_errors(*file.plane, *domain, density);
-  measured.domain_area = area(*domain);
+    measured.operators = operator_errors(mesh, density);
+  measured.domain_area = covered->area();
+}
+
+/// Sets the part of the plane that clips the cells, or the box.
+/// \throws Error bad_option for a box where the file's plane has another period.
+void set_surface(const Surface& part, MeshFile& file) {
+  const Eigen::Vector2d& period = file.mesh->surface.period();
+  if (period != part.period())
+    throw Error(ErrorCode::bad_option, "the domain's period is not that of the mesh, " +
+                                           shortest(period.x()) + " x " + shortest(period.y()) +
+                                           "; leave the domain out, or give that of the mesh");
+  file.mesh->surface = part;
 }
 
 /// Whether the file's cells are measured by their corners alone: those of the sphere that are no
 /// Voronoi cells, and those of a plane whose domain nothing tells.
 bool as_polygons(const Request& request, const MeshFile& file,
-                 const std::optional<PlanarDomain>& domain) {
+                 const std::optional<Surface>& covered) {
   if (!file.polygons)
     return false;
-  if (file.plane)
-    return !request.operators && file.plane->period.maxCoeff() == 0 && !domain;
+  if (file.plane())
+    return !request.operators && file.mesh->surface.period().maxCoeff() == 0 && !covered;
   return !file.mesh || file.mesh->closed();
 }
 
@@ -181,7 +194,7 @@ std::string remarks_of(const Request& request, const Measured& measured) {
 /// The numbers of one cell, a line each.
 std::string cell_table(const Request& request, const MeshFile& file) {
   const ViewMesh mesh = view_mesh(request.source->path, file,
-                                  {.domain = filled_domain(file),
+                                  {.surface = filled_surface(file),
                                    .density = density_of(*request.density, request.source->plane),
                                    .radius_km = radius_of(request, file),
                                    .units = request.units,
@@ -196,15 +209,16 @@ std::string read_and_measure(const Request& request) {
   progress.stage("reading " + request.source->path);
   MeshFile file =
       read_mesh_file(*request.source, request.cell ? FieldChoice::scalars : FieldChoice::none);
-  file.domain = domain_of(*request.domain);
+  if (const std::optional<Surface> part = surface_of(*request.domain))
+    set_surface(*part, file);
   progress.stage("measuring " + request.source->path);
   if (request.cell)
     return cell_table(request, file);
   Measured measured;
   measured.changes = file.changes;
-  const std::optional<PlanarDomain> domain = filled_domain(file);
-  const bool by_corners = as_polygons(request, file, domain);
-  if (by_corners && file.plane) {
+  const std::optional<Surface> covered = filled_surface(file);
+  const bool by_corners = as_polygons(request, file, covered);
+  if (by_corners && file.plane()) {
     measured.remarks.emplace_back("the cells are measured as the file has them; give --domain for "
                                   "the measures of a CVT");
     measured.unit = {"", 1, "", 1};
@@ -213,8 +227,8 @@ std::string read_and_measure(const Request& request) {
     if (request.operators)
       measured.remarks.emplace_back(no_operators);
     measured.unit = unit_of(request.units, radius_of(request, file));
-  } else if (file.plane)
-    measure_plane(request, file, domain, measured);
+  } else if (file.plane())
+    measure_plane(request, file, covered, measured);
   else
     measure_sphere(request, file, measured);
   if (const std::string given = density_name(*request.density), none = Measured().density;

@@ -10,14 +10,15 @@
 #include "options/files.h"
 #include "options/numbers.h"
 #include "options/partition_options.h"
+#include "options/region_option.h"
 #include "options/sphere_radius_option.h"
 #include "options/warning.h"
 #include "run/cvt_costs.h"
 #include "run/progress.h"
-#include "run/run_region.h"
 #include "run/spacing_survey.h"
 
 #include <calotte/error.h>
+#include <calotte/grid.h>
 #include <calotte/read.h>
 
 #include <nlohmann/json.hpp>
@@ -53,8 +54,9 @@ struct Plan {
   std::string density; ///< its name
   std::string doubt;   ///< about widths that may be in metres, or ""
   std::int64_t cells = 0;
-  double implied = 0; ///< cells that widths in km imply; 0 for a density
-  double factor = 1;  ///< of the widths of the file, in this grid
+  double implied = 0;           ///< cells that widths in km imply; 0 for a density
+  double factor = 1;            ///< of the widths of the file, in this grid
+  std::vector<CvtLevel> levels; ///< of the run
   SpacingSurvey spacing;
   std::optional<double> radius_km; ///< of the sphere, if known
   int threads = 1;
@@ -65,57 +67,55 @@ struct Plan {
   throw Error(ErrorCode::bad_option, problem);
 }
 
-/// Widths in km: all quantities follow from the file's nodes.
-void plan_widths(const Request& request, const CellWidth& widths, Plan& plan) {
+Recipe recipe_of(const Request& request) {
+  Recipe recipe;
   const WidthWords& words = request.density->widths;
-  plan.implied = implied_cells(widths, words.radius);
-  plan.cells = request.cells ? *request.cells : cells_for(widths, words, false);
-  plan.factor = std::sqrt(plan.implied / static_cast<double>(plan.cells));
-  plan.radius_km = words.radius;
-  const double unit = plan.factor / words.radius; // of a width in km
-  CellWidth scaled = widths;
-  scaled.widths *= plan.factor;
-  plan.spacing = {unit * widths.widths.minCoeff(), unit * widths.widths.minCoeff(),
-                  unit * widths.widths.maxCoeff(), largest_gradient(scaled, words.radius)};
+  if (!request.part.region.empty())
+    recipe.surface = region_of(request.part.region, request.part.inside, words.radius);
+  Resolution resolution = resolution_of(*request.density, false, recipe.surface);
+  recipe.cells = request.cells.value_or(0);
+  if (resolution.widths)
+    recipe.widths = std::move(resolution.widths);
+  else
+    recipe.density = std::move(resolution.density);
+  recipe.radius_km = words.radius;
+  recipe.limited_area = request.part.limited_area;
+  recipe.boundary = ends_at_boundary(request.part) ? Boundary::generators : Boundary::clip;
+  return recipe;
 }
 
-/// Widths in km in a region: with the cells of the rings, and some beyond, of a limited area.
-void plan_region(const Request& request, const Resolution& resolution, const RunRegion& region,
-                 Plan& plan) {
-  const WidthWords& words = request.density->widths;
-  plan.implied = cells_of_region(request.part, words, resolution, region);
-  plan.cells = request.cells.value_or(static_cast<std::int64_t>(plan.implied));
-  plan.factor = std::sqrt(plan.implied / static_cast<double>(plan.cells));
-  plan.radius_km = words.radius;
-  const double unit = plan.factor * resolution.widths->widths.minCoeff() / words.radius;
-  plan.spacing = survey_spacing(resolution.density, plan.cells, region.meshed, unit);
+/// Widths in km: on the whole sphere all quantities follow from the file's nodes.
+SpacingSurvey survey(const Recipe& asked, const Recipe& made, double factor) {
+  if (!asked.widths)
+    return survey_spacing(made.density, made.cells, made.surface);
+  CellWidth scaled = *asked.widths;
+  scaled.widths *= factor;
+  const double least = scaled.widths.minCoeff() / asked.radius_km;
+  if (made.surface.is_bounded())
+    return survey_spacing(made.density, made.cells, made.surface, least);
+  return {least, least, scaled.widths.maxCoeff() / asked.radius_km,
+          largest_gradient(scaled, asked.radius_km)};
 }
 
-void plan_density(const Request& request, const Density& density, const Region& region,
-                  Plan& plan) {
-  plan.cells = *request.cells;
-  if (request.sphere_radius)
-    plan.radius_km = *request.sphere_radius / metres;
-  plan.spacing = survey_spacing(density, plan.cells, region);
-}
-
-Plan plan_of(const Request& request, const Resolution& resolution, Region asked) {
+Plan plan_of(const Request& request, const Recipe& recipe, const Schedule& schedule) {
   Plan plan;
   plan.density = density_name(*request.density);
   plan.region = request.part.region;
-  const std::optional<RunRegion> region =
-      region_of_run(request.part, std::move(asked), request.density->widths, resolution.widths);
-  if (resolution.widths && region)
-    plan_region(request, resolution, *region, plan);
-  else if (resolution.widths)
-    plan_widths(request, *resolution.widths, plan);
-  else
-    plan_density(request, resolution.density, region ? region->meshed : Region{}, plan);
-  if (resolution.widths)
-    plan.doubt = doubt_of(*resolution.widths, request.density->widths);
+  const Recipe& made = schedule.recipe;
+  plan.cells = made.cells;
+  plan.implied = schedule.implied_cells;
+  plan.levels = schedule.levels;
+  if (plan.implied > 0)
+    plan.factor = std::sqrt(plan.implied / static_cast<double>(plan.cells));
+  if (recipe.widths)
+    plan.radius_km = recipe.radius_km;
+  else if (request.sphere_radius)
+    plan.radius_km = *request.sphere_radius / metres;
+  plan.spacing = survey(recipe, made, plan.factor);
+  if (recipe.widths)
+    plan.doubt = doubt_of(*recipe.widths, request.density->widths);
   plan.threads = tbb::this_task_arena::max_concurrency();
-  plan.costs =
-      cvt_costs(plan.cells, resolution.density, region ? region->meshed : Region{}, plan.threads);
+  plan.costs = cvt_costs(plan.cells, made.density, made.surface, plan.threads);
   return plan;
 }
 
@@ -146,6 +146,15 @@ std::string gradient_words(const Gradient& gradient) {
          (gradient.slope > steepest_width ? ", above 0.03, the limit for most models" : "");
 }
 
+/// "642 cells, up to 14 rounds of insertion".
+std::string level_words(const CvtLevel& level) {
+  return std::to_string(level.cells) + " cells" +
+         (level.insertion_rounds == 0 ? ""
+          : level.insertion_rounds == 1
+              ? ", 1 round of insertion"
+              : ", up to " + std::to_string(level.insertion_rounds) + " rounds of insertion");
+}
+
 std::string table(const Plan& plan) {
   std::ostringstream out;
   const auto row = [&out](const std::string& name, const std::string& value) {
@@ -164,6 +173,8 @@ std::string table(const Plan& plan) {
         interval(plan.spacing.least * *plan.radius_km, plan.spacing.greatest * *plan.radius_km));
   row("cell width, degrees", interval(plan.spacing.least / degree, plan.spacing.greatest / degree));
   row("steepest gradient", gradient_words(plan.spacing.steepest));
+  for (const CvtLevel& level : plan.levels)
+    row("level of the run", level_words(level));
   out << "estimates for " << plan.threads
       << (plan.threads == 1 ? " thread, within a factor of 3:\n"
                             : " threads, within a factor of 3:\n");
@@ -192,6 +203,9 @@ std::string to_json(const Plan& plan) {
   json["gradient"] = {{"slope", plan.spacing.steepest.slope},
                       {"longitude", plan.spacing.steepest.longitude},
                       {"latitude", plan.spacing.steepest.latitude}};
+  for (const CvtLevel& level : plan.levels)
+    json["levels"].push_back(
+        {{"cells", level.cells}, {"insertion_rounds", level.insertion_rounds}});
   json["estimates"] = {{"threads", plan.threads},
                        {"seconds", plan.costs.seconds},
                        {"memory_bytes", plan.costs.memory},
@@ -239,14 +253,14 @@ void require_request(const Request& request) {
 Plan make_plan(const Request& request) {
   Progress progress;
   progress.stage("reading the density");
-  Region asked = asked_region(request.part, request.density->widths);
-  const Resolution resolution = resolution_of(*request.density, false, asked);
+  const Recipe recipe = recipe_of(request);
   Plan plan;
   with_threads(request.threads, [&] {
-    plan = plan_of(request, resolution, std::move(asked));
+    const Schedule schedule = calotte::plan(recipe);
+    plan = plan_of(request, recipe, schedule);
     progress.stage("drawing " + request.picture);
     if (!request.picture.empty())
-      draw_widths(request, resolution.density, plan);
+      draw_widths(request, schedule.recipe.density, plan);
   });
   if (!request.report.empty())
     write_file(request.report, to_json(plan));

@@ -88,10 +88,10 @@ Points3 generate(const Request& request) {
   return cubed_sphere(request.count);
 }
 
-Points2 generate_in(const PlanarDomain& domain, const Request& request) {
+Points2 generate_in(const Surface& part, const Request& request) {
   return request.kind == "hexagonal"
-             ? hexagonal_lattice(request.count, domain)
-             : random_places(request.count, domain, request.seed.value_or(1));
+             ? hexagonal_lattice(request.count, part).topRows<2>()
+             : random_points(request.count, part, {}, request.seed.value_or(1)).topRows<2>();
 }
 
 template <class Points> void put(const Points& points, const Request& request) {
@@ -105,8 +105,8 @@ template <class Points> void put(const Points& points, const Request& request) {
 
 void run(const Request& request) {
   require_options(request);
-  if (const std::optional<PlanarDomain> domain = domain_of(*request.domain))
-    put(generate_in(*domain, request), request);
+  if (const std::optional<Surface> part = surface_of(*request.domain))
+    put(generate_in(*part, request), request);
   else
     put(generate(request), request);
 }

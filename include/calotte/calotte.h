@@ -14,11 +14,13 @@
 #include <calotte/error.h>
 #include <calotte/export.h>
 #include <calotte/generators.h>
+#include <calotte/grid.h>
 #include <calotte/interpolate.h>
 #include <calotte/io.h>
 #include <calotte/limited_area.h>
 #include <calotte/locate.h>
 #include <calotte/lonlat.h>
+#include <calotte/matrices.h>
 #include <calotte/model.h>
 #include <calotte/ocean.h>
 #include <calotte/operators.h>
@@ -29,7 +31,9 @@
 #include <calotte/read.h>
 #include <calotte/region.h>
 #include <calotte/renumber.h>
+#include <calotte/surface.h>
 #include <calotte/types.h>
 #include <calotte/version.h>
 #include <calotte/voronoi.h>
 #include <calotte/write.h>
+#include <calotte/write_grid.h>

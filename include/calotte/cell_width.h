@@ -44,17 +44,25 @@ DoubleVector evaluate(const CellWidth& cell_width, const PointsRef& points);
 /// \throws Error as density_of; bad_option for a radius out of range.
 double implied_cells(const CellWidth& cell_width, double radius_km = earth_radius_km);
 
-/// The same over a region, within about 0.2%: a mean over 2^18 random places.
-/// \throws Error as above and as require_region().
+/// The same integral over the sphere or a region of it; over a region within about 0.2%, as a mean
+/// over 2^18 random places.
+/// \throws Error as above and as require_region(); bad_option for a plane.
+double implied_cells(const CellWidth& cell_width, const Surface& surface,
+                     double radius_km = earth_radius_km);
+
+/// As above, for a Region.
 double implied_cells(const CellWidth& cell_width, const Region& region,
                      double radius_km = earth_radius_km);
 
-/// Throws unless the nodes cover a region: at its boundary the nearest nodes are at most half of
-/// the widest step away, between the last longitude and the first one and beyond the outer
-/// latitudes at most 1.5 of it. \throws Error bad_option, naming the extent of the nodes and a
-/// place of the region outside; as
-///         require_region().
-void require_covering(const CellWidth& cell_width, const Region& region = {});
+/// Throws unless the nodes cover the sphere, or a region of it: at its boundary the nearest nodes
+/// are at most half of the widest step away, between the last longitude and the first one and
+/// beyond the outer latitudes at most 1.5 of it.
+/// \throws Error bad_option, naming the extent of the nodes and a place of the region outside; for
+///         a plane; as require_region().
+void require_covering(const CellWidth& cell_width, const Surface& surface = {});
+
+/// As above, for a Region.
+void require_covering(const CellWidth& cell_width, const Region& region);
 
 /// The gradient of the cell width at one location.
 struct Gradient {

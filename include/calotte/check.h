@@ -23,22 +23,31 @@ struct Check {
   /// Sum of the areas of the triangles: steradians on the unit sphere; in the plane the square of
   /// the points' unit. 0 if an earlier law is violated.
   double area = 0;
-  /// Expected area: 4 pi (0 for an open mesh); in the plane that of the boundary polygon or box.
+  /// Expected area: 4 pi (0 for an open mesh); in the plane that of the boundary polygon, the box
+  /// or the channel.
   double whole = 0;
 
   /// True if all laws hold.
   bool passed() const { return failure.empty(); }
 };
 
-/// Proves that a mesh is the Delaunay triangulation of its points. It checks that
+/// Proves that a mesh is the Delaunay triangulation of its points on its surface, whose rings do
+/// not count. It checks that
+/// - in the plane z = 0, and in a periodic direction every site is in [0, period);
 /// - ids are in range, triangles are in canonical order, and neighbours are mutual;
 /// - each edge belongs to two triangles, or to one along an open boundary;
 /// - every site is a vertex with a single cycle of triangles, on the boundary with a single fan;
-/// - Euler's characteristic is 2, or 1 for an open mesh;
+/// - Euler's characteristic is 2 for a closed mesh of the sphere, 1 for an open one and in the
+///   plane, and 0 with a period;
 /// - every triangle is counter-clockwise;
 /// - every edge is Delaunay in exact arithmetic, with the library's tie-breaking rule;
-/// - the boundary is convex, and the areas of a closed mesh sum to 4 pi. These local properties
-///   imply the global one (Delaunay, 1934), so the time is linear.
+/// - the boundary is convex, in a channel straight;
+/// - the areas of a closed mesh of the sphere sum to 4 pi, in the plane to that of the boundary
+///   polygon, in a box to that of the box, in a channel to the period times the distance of the
+///   walls;
+/// - with a period no triangle is wider than half of it: triangulate() makes none.
+///
+/// These local properties imply the global one (Delaunay, 1934), so the time is linear.
 ///
 /// A mesh that violates a law is a result, not an error.
 ///
@@ -47,24 +56,20 @@ struct Check {
 /// \throws Error cancelled.
 Check check(const Mesh& mesh, const ProgressCallback& progress = {});
 
-/// The same in the plane: Euler's characteristic is 1, and the areas sum to that of the boundary
-/// polygon. In a periodic box there is no boundary, Euler's characteristic is 0, and the areas sum
-/// to that of the box; a triangle wider than half of the box is a failure, because
-/// periodic_delaunay() makes none. In a channel Euler's characteristic is 0, the walls are
-/// straight, and the areas sum to the period times the distance of the walls. \throws Error
-/// cancelled.
+/// As above, for a PlanarMesh.
 Check check(const PlanarMesh& mesh, const ProgressCallback& progress = {});
 
 /// Proves less, for a mesh that need be neither Delaunay nor convex, such as a region cut from a
 /// larger mesh, or an ocean: ids, canonical order and neighbours as above; every triangle
 /// counter-clockwise; the triangles at each site a single cycle that turns around it once, a single
-/// fan, or several fans where the boundary passes more than once; and the areas of a closed mesh
-/// sum to 4 pi. Sites in no triangle are allowed. Such triangles do not overlap near any edge, nor
-/// near a site of one cycle or fan. \throws Error cancelled.
+/// fan, or several fans where the boundary passes more than once; and the areas of a closed mesh of
+/// the sphere sum to 4 pi, in the plane to that of the boundary polygons or of the closed box.
+/// Sites in no triangle are allowed. Such triangles do not overlap near any edge, nor near a site
+/// of one cycle or fan.
+/// \throws Error cancelled.
 Check check_surface(const Mesh& mesh, const ProgressCallback& progress = {});
 
-/// The same in the plane, where the areas sum to that of the boundary polygons or of the periodic
-/// box. \throws Error cancelled.
+/// As above, for a PlanarMesh.
 Check check_surface(const PlanarMesh& mesh, const ProgressCallback& progress = {});
 
 /// Counts of what keeps a mesh from being the Delaunay triangulation of its points, or closed.
@@ -91,7 +96,7 @@ struct EdgeCounts {
 /// \pre ids are in range, triangles are counter-clockwise, neighbours are mutual, as read_mesh()
 /// makes them.
 EdgeCounts count_edges(const Mesh& mesh);
-/// The same in the plane.
+/// As above, for a PlanarMesh.
 EdgeCounts count_edges(const PlanarMesh& mesh);
 
 } // namespace calotte

@@ -4,7 +4,7 @@
 #include <calotte/export.h>
 #include <calotte/limited_area.h>
 #include <calotte/progress.h>
-#include <calotte/region.h>
+#include <calotte/surface.h>
 #include <calotte/write.h>
 
 #include <Eigen/Core>
@@ -71,7 +71,7 @@ struct CutReport {
 /// \throws Error bad_option as require_region() and limited_area_mask(), for a source that holds no
 ///         such mesh, for a radius that is not positive and finite, and for a variable with two of
 ///         the dimensions; parse; cancelled; file.
-CutReport cut(const std::string& source, const std::string& target, const Region& region,
+CutReport cut(const std::string& source, const std::string& target, const Surface& region,
               const CutOptions& options = {});
 
 /// The same with another kind of region.
@@ -84,13 +84,12 @@ CutReport cut(const std::string& source, const std::string& target,
 /// Writes the limited-area grid of generators, of a run in a region that is wider than the grid's:
 /// the cells of the grid's region with their rings, as cut() does. nominalMinDc is that of these
 /// cells. The whole tessellation stands in a file beside the new one for a while.
-/// \param generators 3 x n unit columns in `meshed`.
-/// \param meshed a region that holds the grid's and its rings, such as widened(); or the whole
-///        sphere.
+/// \param mesh of the wider region, as make_grid() makes it with Recipe::limited_area; its surface
+///        holds the region and its rings.
+/// \param region that of the recipe.
 /// \param written what write() adds to an MPAS file; its sphere_radius has no effect.
 /// \throws Error as cut(), and as write().
-CutReport write_limited_area(const std::string& target, const Points3& generators,
-                             const Region& meshed, const Region& region,
+CutReport write_limited_area(const std::string& target, const Mesh& mesh, const Surface& region,
                              const WriteOptions& written = {}, const CutOptions& options = {});
 
 } // namespace calotte

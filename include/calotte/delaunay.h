@@ -8,6 +8,7 @@
 
 #include <concepts>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 CALOTTE_API_BEGIN
@@ -41,58 +42,81 @@ struct DelaunayReport {
   std::int64_t exact_predicates = 0;    ///< predicates that needed exact arithmetic
 };
 
-/// The Delaunay triangulation of the directions of `points` on the unit sphere.
+/// A matrix, a map, a block or an expression of Eigen.
+template <class T>
+concept EigenMatrix = std::derived_from<T, Eigen::MatrixBase<T>>;
+
+/// A Delaunay triangulation, and how it was made.
+struct Triangulation {
+  Mesh mesh;             ///< its surface is the given one
+  DelaunayReport report; ///< times and counts
+};
+
+/// The Delaunay triangulation of points of a surface, counter-clockwise, on the sphere seen from
+/// outside.
 ///
-/// The result depends only on the set of directions: it has the same bits for any number of threads
-/// and regions, any `sort` and any centres; a permuted input permutes the ids. One symbolic rule
-/// resolves cocircular sites (design of the in-circle predicate in lib/exact/predicates.h). It runs
-/// in the caller's task arena.
+/// - On the sphere a point is a direction, of any norm from 1e-200 to 1e200. The triangulation
+///   covers the sphere, or, if all points lie in a hemisphere, their spherical convex hull.
+/// - In the plane it covers the convex hull. Coordinates of any size are exact as stored.
+/// - In a plane with two periods it has 2n triangles and no boundary; the points lie in [0,
+///   period), and their copies are at the exact sums of coordinates and periods. All counts of the
+///   report but `sites` and `duplicates` include the copies around the box.
 ///
-/// \param points 3 x n directions of any norm from 1e-200 to 1e200, n from 3 to 2^30.
-/// \param report if not null, receives times and counts; default null.
-/// \throws Error bad_option (not 3 rows, more than 2^30 points, or an option out of range; see
-///         DelaunayOptions and Partition), not_finite, zero_vector, duplicate (when refused),
-///         too_few_sites (fewer than 3 distinct), degenerate (all on one great circle), cancelled
-///         (by options.progress).
+/// Rings of the surface do not change the triangulation. The mesh keeps them, and they clip the
+/// cells of voronoi().
+///
+/// The result depends only on the set of points: it has the same bits for any number of threads and
+/// regions, any `sort` and any centres; a permuted input permutes the ids. One symbolic rule
+/// resolves cocircular points (lib/exact/predicates.h). The function runs in the caller's task
+/// arena.
 ///
 /// Jacobsen, Gunzburger, Ringler, Burkardt, Peterson: Parallel algorithms for planar and spherical
 /// Delaunay construction, Geosci. Model Dev. 6, 1353-1365, 2013.
-Mesh spherical_delaunay(const PointsRef& points, const DelaunayOptions& options = {},
-                        DelaunayReport* report = nullptr);
-
-/// The same for points handed over: an rvalue Points3. The mesh takes them over without a copy,
-/// unless some of them merge.
-template <std::same_as<Points3> Points>
-Mesh spherical_delaunay(Points&& points, const DelaunayOptions& options = {},
-                        DelaunayReport* report = nullptr);
-/// Its one specialisation.
-template <>
-CALOTTE_API_SPECIALISATION Mesh spherical_delaunay(Points3&& points, const DelaunayOptions& options,
-                                                   DelaunayReport* report);
-
-/// The Delaunay triangulation of the convex hull of places in the plane, counter-clockwise.
-/// Coordinates of any size are exact as stored. The result is unique as that of
-/// spherical_delaunay().
 ///
-/// \param points 2 x n places in any unit of length, n from 3 to 2^30.
-/// \param options merge_within is a distance in that unit.
-/// \param report if not null, receives times and counts; default null.
-/// \throws Error bad_option (not 2 rows, more than 2^30 points, or an option out of range),
-///         not_finite, duplicate (when refused), too_few_sites (fewer than 3 distinct), degenerate
-///         (all on one line), cancelled (by options.progress).
-PlanarMesh planar_delaunay(const PointsRef& points, const DelaunayOptions& options = {},
-                           DelaunayReport* report = nullptr);
+/// \param points n columns, n from 3 to 2^30: 3 rows on the sphere; in the plane 2, or 3 of which z
+///        is 0; in any unit of length.
+/// \param surface where the points live. Default: the sphere.
+/// \param options merge_within is an angle in radians on the sphere, in the plane a distance.
+/// \throws Error bad_option: another number of rows, more than 2^30 points, an option out of range
+///         (see DelaunayOptions and Partition); with its index a point that has a z in the plane or
+///         is outside the box; a plane with one period, whose meshes come from make_grid() or a
+///         file. Also not_finite, zero_vector (on the sphere), duplicate
+///         (when refused); too_few_sites, for fewer than 3 distinct points, and if a circle wider
+///         than half of the box holds none; degenerate, for points on one great circle or line;
+///         cancelled by options.progress.
+Triangulation triangulate(const PointsRef& points, const Surface& surface = {},
+                          const DelaunayOptions& options = {});
 
-/// The Delaunay triangulation of the doubly periodic box [0, period.x) x [0, period.y): 2n
-/// triangles, no boundary. It is exact for copies at the exact sums of coordinates and periods. All
-/// counts of the report but `sites` and `duplicates` include the copies around the box.
-///
-/// \param points 2 x n places inside the box.
-/// \param period side lengths of the box, positive, at most 1e300, in the unit of the points.
-/// \throws Error as planar_delaunay(); bad_option for a period out of range or a point outside the
-///         box; too_few_sites if a circle wider than half of the box holds no site.
-PlanarMesh periodic_delaunay(const PointsRef& points, const Eigen::Vector2d& period,
-                             const DelaunayOptions& options = {}, DelaunayReport* report = nullptr);
+/// As above, for points handed over, as in triangulate(std::move(points)): on the sphere the mesh
+/// takes them over without a copy, unless some of them merge.
+Triangulation triangulate(Points3&& points, const Surface& surface = {},
+                          const DelaunayOptions& options = {});
+
+/// As above, for all else of Eigen: without it most would convert to both PointsRef and Points3.
+template <EigenMatrix Points>
+Triangulation triangulate(const Points& points, const Surface& surface = {},
+                          const DelaunayOptions& options = {}) {
+  return triangulate(PointsRef(points), surface, options);
+}
+
+/// The mesh of triangulate() alone; parameters and errors as there.
+inline Mesh delaunay(const PointsRef& points, const Surface& surface = {},
+                     const DelaunayOptions& options = {}) {
+  return triangulate(points, surface, options).mesh;
+}
+
+/// As above, for points handed over.
+inline Mesh delaunay(Points3&& points, const Surface& surface = {},
+                     const DelaunayOptions& options = {}) {
+  return triangulate(std::move(points), surface, options).mesh;
+}
+
+/// As above, for all else of Eigen.
+template <EigenMatrix Points>
+Mesh delaunay(const Points& points, const Surface& surface = {},
+              const DelaunayOptions& options = {}) {
+  return triangulate(PointsRef(points), surface, options).mesh;
+}
 
 } // namespace calotte
 CALOTTE_API_END

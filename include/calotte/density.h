@@ -63,28 +63,30 @@ Density tanh_bump(const Eigen::Vector3d& centre, double beta, double alpha, doub
 /// The density of the generators of an optimal CVT with many cells: rho^(1/2); uniform for uniform
 /// density. Random starts should follow it. (In d dimensions rho^(d/(d+2)); Gersho, IEEE Trans.
 /// Inf. Theory 25, 1979.)
+/// \param surface where the density is; in a periodic plane the result is periodic. Default: the
+///        sphere.
 /// \throws Error bad_option if the density is ill-formed.
-Density site_density(const Density& density);
+Density site_density(const Density& density, const Surface& surface = {});
 
-/// The same for a density in a planar domain. In a periodic box the result is periodic.
-/// \throws Error bad_option if the density is ill-formed.
+/// As above, for a PlanarDomain.
 Density site_density(const Density& density, const PlanarDomain& domain);
 
-/// The density at each of n unit columns.
-/// \param points 3 x n.
-/// \throws Error bad_option: not 3 rows; an ill-formed density; a callable's value that is
-///         negative, infinite or NaN.
-DoubleVector evaluate(const Density& density, const PointsRef& points);
+/// The density at each of n points.
+/// \param points on the sphere 3 x n unit columns; in the plane 2 x n, or 3 x n with z = 0.
+/// \param surface where the points are; in a periodic plane the density is periodic. Its rings have
+///        no effect. Default: the sphere.
+/// \throws Error bad_option: another number of rows, or a z in the plane; an ill-formed density; a
+///         callable's value that is negative, infinite or NaN.
+DoubleVector evaluate(const Density& density, const PointsRef& points, const Surface& surface = {});
 
-/// The density at n places of a planar domain.
+/// As above, for a PlanarDomain.
 /// \param places 2 x n, in the unit of the domain.
-/// \throws Error bad_option as above, with 2 rows.
 DoubleVector evaluate(const Density& density, const PlanarDomain& domain, const PointsRef& places);
 
-/// The density that values at the sites of a mesh give everywhere: rho^(-1/4), which cell widths
-/// are proportional to, is linear on each triangle of unit vectors. Outside an open mesh the
-/// nearest triangle found holds.
-/// \param mesh a mesh of the sphere; the density keeps a copy of what it needs.
+/// The density that values at the sites of a mesh give everywhere on its surface: rho^(-1/4), which
+/// cell widths are proportional to, is linear on each triangle, on the sphere of unit vectors. With
+/// a period it is periodic. Outside an open mesh the nearest triangle found holds.
+/// \param mesh the density keeps a copy of what it needs.
 /// \param density n values >= 0, finite, by site.
 /// \throws Error bad_option for another number of values, a value out of range, or no triangle.
 Density interpolated_density(const Mesh& mesh, const DoubleVector& density);

@@ -5,6 +5,7 @@
 #include <calotte/types.h>
 
 #include <functional>
+#include <utility>
 #include <vector>
 
 CALOTTE_API_BEGIN
@@ -20,6 +21,12 @@ struct PlanarDomain {
   /// Side lengths of the box [0, period.x) x [0, period.y); from 1e-30 to 1e30 without rings, else
   /// 0.
   Eigen::Vector2d period{0, 0};
+
+  PlanarDomain() = default; ///< neither rings nor a box
+  /// The members.
+  PlanarDomain(std::vector<DoubleMatrix> all, const Eigen::Vector2d& box = {0, 0})
+      : rings(std::move(all)), period(box) {}
+  PlanarDomain(const Surface& surface); ///< \throws Error bad_option for the sphere
 
   /// True for a periodic box.
   bool periodic() const { return rings.empty(); }

@@ -6,10 +6,7 @@
 #ifdef __GNUC__
 #define CALOTTE_API_BEGIN _Pragma("GCC visibility push(default)")
 #define CALOTTE_API_END _Pragma("GCC visibility pop")
-/// For a specialisation: it would take the visibility of its template arguments, Eigen's types.
-#define CALOTTE_API_SPECIALISATION __attribute__((visibility("default")))
 #else
 #define CALOTTE_API_BEGIN
 #define CALOTTE_API_END
-#define CALOTTE_API_SPECIALISATION
 #endif

@@ -12,9 +12,31 @@
 CALOTTE_API_BEGIN
 namespace calotte {
 
-/// Starts of a CVT and test sets. Functions for the sphere return 3 x n Cartesian unit columns,
-/// with the same bits on every machine. All functions throw Error bad_option for a count out of
-/// range; the largest count is 2^30.
+/// Starts of a CVT and test sets. All functions return 3 x n points: Cartesian unit columns on the
+/// sphere, with the same bits on every machine; x, y and 0 in the plane, in its unit of length;
+/// those of a PlanarDomain 2 x n. They throw Error bad_option for a count out of range; the largest
+/// count is 2^30.
+
+/// Independent random points of a surface. They depend on n, surface, density and seed, not on the
+/// number of threads; a smaller n gives the first points of a larger n.
+///
+/// Uniform points of the whole sphere come from Marsaglia's rejection (Ann. Math. Stat. 43, 1972)
+/// with SplitMix64; others from von Neumann's rejection (1951) from a bound of the density that is
+/// constant on small boxes, so that narrow bumps cost no more than wide ones. The bound of a
+/// callable, and in the plane that of any density, comes from values on a lattice. If the density
+/// exceeds it at a proposed point, the function improves the bound and draws all points again; then
+/// a smaller n may give other points. The lattice can miss features narrower than 0.01 radians
+/// (0.001 where the density is zero elsewhere), in the plane 1/500 of the longer extent; they then
+/// receive too few points.
+/// \param n number of points, 1 to 2^30.
+/// \param surface the sphere, a region of it, a box, or a part of the plane.
+/// \param density default: uniform.
+/// \param seed any value; default 1.
+/// \throws Error bad_option for a plane without rings and two periods; as require_region() or
+///         require_domain(); if the density is ill-formed; negative, infinite or NaN somewhere;
+///         zero everywhere; or a callable without a maximum.
+Points3 random_points(std::int64_t n, const Surface& surface, const Density& density = {},
+                      std::uint64_t seed = 1);
 
 /// Independent random points, uniform on the sphere. A smaller n gives the first points of a larger
 /// n with the same seed. Method: Marsaglia's rejection (Ann. Math. Stat. 43, 1972) with SplitMix64.
@@ -38,12 +60,12 @@ Points3 random_sphere(std::int64_t n, std::uint64_t seed = 1);
 ///         everywhere; or a callable without a maximum.
 Points3 random_sphere(std::int64_t n, const Density& density, std::uint64_t seed = 1);
 
-/// The same in a region.
+/// As above, in a region.
 /// \throws Error as above and as require_region().
 Points3 random_sphere(std::int64_t n, const Region& region, const Density& density = {},
                       std::uint64_t seed = 1);
 
-/// Generators along the boundary of a region, ring by ring, for CvtOptions::fixed of a run with
+/// Generators along the boundary of a region, ring by ring, for Recipe::fixed of a run with
 /// Boundary::generators: at the distances of neighbours that a density demands of so many
 /// generators, of which those on the boundary have half a cell. Corners where the boundary turns by
 /// 20 degrees or more have a generator unless a sharper one is nearer than two thirds of such a
@@ -51,10 +73,14 @@ Points3 random_sphere(std::int64_t n, const Region& region, const Density& densi
 /// ring has at least three generators, whose distances may be smaller.
 ///
 /// The generators lie on the boundary up to 1e-15, and not outside the region.
+/// \param surface the sphere or a region of it.
 /// \param cells number of generators of the run, 4 to 2^30.
 /// \returns 3 x n unit columns; none for the whole sphere.
-/// \throws Error as require_region(); bad_option for an ill-formed density, cells out of range, and
-///         if the boundary takes all of the cells.
+/// \throws Error as require_region(); bad_option for a plane, an ill-formed density, cells out of
+///         range, and if the boundary takes all of the cells.
+Points3 boundary_points(const Surface& surface, std::int64_t cells, const Density& density = {});
+
+/// As above, for a Region.
 Points3 boundary_points(const Region& region, std::int64_t cells, const Density& density = {});
 
 /// The Fibonacci lattice, from north to south: z_i = 1 - (2i + 1)/n, longitude i times the golden
@@ -107,9 +133,11 @@ Points3 lat_lon_sphere(std::int64_t latitudes, std::int64_t longitudes, bool pol
 /// \param m number of cells along an edge, 1 to 13377.
 Points3 cubed_sphere(std::int64_t m);
 
-/// The points of a mesh, unchanged, followed by the unit midpoints of all edges in the order of the
-/// triangles; edge i of a triangle is opposite vertex i. A closed mesh of n points gives 4n - 6
-/// points.
+/// The points of a mesh, unchanged, followed by the midpoints of its edges, in the order of the
+/// triangles; edge i of a triangle is opposite vertex i. On the sphere a midpoint is a unit column;
+/// in a periodic direction it is that between nearest copies, moved into [0, period). On a bounded
+/// surface midpoints outside are left out. A closed mesh of n points gives 4n - 6 points on the
+/// sphere, 4n in a box.
 /// \throws Error bad_option if an id is out of range.
 Points3 bisect(const Mesh& mesh);
 
@@ -117,70 +145,67 @@ Points3 bisect(const Mesh& mesh);
 /// its midpoint. Lengths are relative to the spacing h ~ rho^(-1/4) at the ends of the edge. No end
 /// of a chosen edge is an end of another one or next to it; if a mesh has no more such edges, fewer
 /// are chosen. Equal lengths are ordered by the edges' ends. Edges at a site with 8 neighbours or
-/// more count as twice as long, those at a site with 4 or fewer as half as long.
+/// more count as twice as long, those at a site with 4 or fewer as half as long. On a bounded
+/// surface edges are chosen whose midpoint lies inside.
 ///
 /// In a graded mesh of minimal CVT energy, pairs of cells with 5 and 7 neighbours (dislocations)
 /// let rows of cells end. A descent cannot create them; this function can.
-/// \param mesh of columns of any norm.
+/// \param mesh on the sphere of columns of any norm.
 /// \param inserted, contracted numbers of edges, >= 0.
-/// \returns unit columns: the points that remain, in their order, a midpoint in the place of the
-///          lower end of a contracted edge, then the inserted midpoints.
+/// \returns the points that remain, in their order, a midpoint in the place of the lower end of a
+///          contracted edge, then the inserted midpoints; on the sphere unit columns.
 /// \throws Error bad_option for a negative number, more than 2^30 points, an id out of range, or an
 ///         ill-formed density.
 Points3 insert_and_contract(const Mesh& mesh, const Density& density, std::int64_t inserted,
                             std::int64_t contracted);
 
-/// Regular hexagons in the doubly periodic box [0, columns spacing) x [0, rows spacing sqrt(3)/2).
-/// Every second row is shifted by half a spacing. Site r columns + c is in row r.
-/// The mesh is the Delaunay triangulation of the sites.
+/// The mesh of regular hexagons in the doubly periodic box [0, columns spacing) x [0, rows spacing
+/// sqrt(3)/2). Every second row is shifted by half a spacing. Site r columns + c is in row r. The
+/// mesh is the Delaunay triangulation of the sites.
 /// \param columns number of columns, >= 3; columns times rows is at most 2^30.
 /// \param rows number of rows, even, >= 4.
 /// \param spacing distance between neighbouring sites, in any unit of length; > 0 and finite.
 /// \throws Error bad_option for an argument out of range.
+Mesh hexagonal_box(std::int64_t columns, std::int64_t rows, double spacing);
+
+/// As above, as a PlanarMesh.
 PlanarMesh periodic_hexagons(std::int64_t columns, std::int64_t rows, double spacing);
 
-// ---- The plane: 2 x n points inside a domain, in its unit. These functions also throw as
-// require_domain().
-
-/// Independent random points, uniform in the domain. They do not depend on the number of threads; a
-/// smaller n gives the first points of a larger n.
-/// \param n number of points, 1 to 2^30.
-/// \param seed any value; default 1.
+/// As random_points(), 2 x n points of a PlanarDomain, uniform.
 Points2 random_places(std::int64_t n, const PlanarDomain& domain, std::uint64_t seed = 1);
 
-/// The same with the given density. The function bounds a density that is not uniform as
-/// random_sphere(n, density, seed) bounds a callable. It can miss features narrower than 1/500 of
-/// the longer extent of the domain; they then receive too few points.
-/// \param density in the plane, see Bump and Density::Callable.
-/// \throws Error bad_option as random_sphere(n, density, seed).
+/// As above, with a density.
 Points2 random_places(std::int64_t n, const PlanarDomain& domain, const Density& density,
                       std::uint64_t seed = 1);
 
-/// A regular hexagonal lattice with rows along x, from the bottom up.
-/// \param n approximate number of points, 1 to 2^30; in a periodic box >= 12.
+/// A regular hexagonal lattice in a box or a part of the plane, with rows along x, from the bottom
+/// up. For the sphere see geodesic_sphere().
 ///
-/// In polygons the result is the lattice points inside the domain: x_0 + (i + 1/4) s, in every
-/// second row x_0 + (i + 3/4) s, and y_0 + (j + 1/2) s sqrt(3)/2, where (x_0, y_0) is the lower
-/// left corner of the bounding box. Bisection from sqrt(2 area / (sqrt(3) n)) finds the spacing s
-/// whose number of points is closest to n; the difference may be about half a row. The lattice
-/// fills a rectangle of whole rows and columns evenly.
+/// Between rings the result is the lattice points inside: x_0 + (i + 1/4) s, in every second row
+/// x_0 + (i + 3/4) s, and y_0 + (j + 1/2) s sqrt(3)/2, where (x_0, y_0) is the lower left corner of
+/// the bounding box. Bisection from sqrt(2 area / (sqrt(3) n)) finds the spacing s whose number of
+/// points is closest to n; the difference may be about half a row. The lattice fills a rectangle of
+/// whole rows and columns evenly.
 ///
 /// In a periodic box the lattice is stretched to fit. It has at least 3 columns and an even number
 /// of rows, at least 4. The function minimises the sum of two relative errors: that of the number
-/// of points, and that of the ratio sqrt(3)/2 of row to column distance. A box of
-/// periodic_hexagons() gives their points.
-/// \throws Error bad_option also for n < 12 in a periodic box, and if no lattice point is inside.
+/// of points, and that of the ratio sqrt(3)/2 of row to column distance. A box of hexagonal_box()
+/// gives its points.
+/// \param n approximate number of points, 1 to 2^30; in a periodic box >= 12.
+/// \throws Error bad_option for the sphere, and for a plane without rings and two periods; for
+///         fewer points than 12 in a periodic box; if no lattice point is inside; as
+///         require_domain().
+Points3 hexagonal_lattice(std::int64_t n, const Surface& surface);
+
+/// As above, 2 x n points of a PlanarDomain.
 Points2 hexagonal_lattice(std::int64_t n, const PlanarDomain& domain);
 
-/// The points of a mesh, 2 x n, unchanged, followed by the midpoints of its edges that lie inside
-/// the domain or on its boundary, in the order of bisect(mesh). In a periodic box the midpoints are
-/// those between nearest copies, moved into the box; n points give 4n.
-/// \throws Error bad_option if an id is out of range, or the period of the mesh is not the
-///         domain's.
+/// As bisect(mesh), for a PlanarMesh and its domain.
+/// \throws Error bad_option also if the period of the mesh is not the domain's.
 Points2 bisect(const PlanarMesh& mesh, const PlanarDomain& domain);
 
-/// The same in a planar domain: edges are chosen if their midpoint lies inside.
-/// \throws Error as above and as require_domain().
+/// As insert_and_contract(mesh, density, inserted, contracted), for a PlanarMesh and its domain.
+/// \throws Error as there and as require_domain().
 Points2 insert_and_contract(const PlanarMesh& mesh, const PlanarDomain& domain,
                             const Density& density, std::int64_t inserted, std::int64_t contracted);
 

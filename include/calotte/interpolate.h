@@ -23,13 +23,13 @@ enum class Interpolation {
 /// and sum to 1; a row outside of an open mesh has none.
 using Weights = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
-/// The weights that interpolate from the sites of a mesh to positions on the sphere.
+/// The weights that interpolate from the sites of a mesh to positions on its surface.
 /// \param mesh, positions as for locate().
 /// \throws Error as locate().
 Weights interpolation_weights(const Mesh& mesh, const PointsRef& positions,
                               Interpolation kind = Interpolation::linear);
 
-/// The same in the plane.
+/// As above, for a PlanarMesh.
 Weights interpolation_weights(const PlanarMesh& mesh, const PointsRef& positions,
                               Interpolation kind = Interpolation::linear);
 

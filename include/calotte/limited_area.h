@@ -45,8 +45,13 @@ Ids least_mask(const Offsets& begin, const Ids& ids, const Ids& mask, std::int64
 /// The region that a run meshes for a limited-area grid: another one, the rings around it and some
 /// cells more, so that the outermost ring has whole cells. The whole sphere where that is larger
 /// than widened() allows.
+/// \param surface a region of the sphere.
 /// \param radius_km radius of the sphere of the widths.
-/// \throws Error as widened() and evaluate().
+/// \throws Error as widened() and evaluate(); bad_option for a plane.
+Surface with_rings(const Surface& surface, const CellWidth& widths,
+                   double radius_km = earth_radius_km);
+
+/// As above, for a Region.
 Region with_rings(const Region& region, const CellWidth& widths,
                   double radius_km = earth_radius_km);
 

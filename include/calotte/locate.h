@@ -25,23 +25,22 @@ struct Locations {
   Ids nearest;
 };
 
-/// Locates positions in a triangulation of the sphere.
+/// Locates positions in a triangulation. With a period the positions may lie outside of the box:
+/// their copies inside are located.
 ///
 /// The positions are sorted along a space-filling curve; from the triangle of each, a walk leads to
 /// that of the next across edges that separate them (Lawson, in: Mathematical Software III, 1977),
 /// in parallel. Sites without triangles are not found.
 /// \param mesh a Delaunay triangulation. In a closed mesh that is none, the nearest site may be
 ///        another one; the triangle is exact.
-/// \param positions 3 x n directions of any norm but 0.
-/// \throws Error bad_option: other than 3 rows, or a mesh without triangles; not_finite,
-/// zero_vector
-///         with the index of the position.
+/// \param positions 3 x n directions of any norm but 0; in the plane 2 x n, or 3 x n with z = 0, in
+///        the unit of the mesh, and in a periodic direction at most 2^30 periods from the box.
+/// \throws Error bad_option: another number of rows, a mesh without triangles, and with the index
+///         of the position a z in the plane, or a distance above 2^30 periods; not_finite and
+///         zero_vector (on the sphere), with the index of the position.
 Locations locate(const Mesh& mesh, const PointsRef& positions);
 
-/// The same in the plane. In a periodic box the positions may lie outside of it: their copies
-/// inside are located.
-/// \param positions 2 x n; in a periodic direction at most 2^30 periods from the box.
-/// \throws Error as above; bad_option with the index of a position farther away.
+/// As above, for a PlanarMesh.
 Locations locate(const PlanarMesh& mesh, const PointsRef& positions);
 
 } // namespace calotte

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <calotte/domain.h>
 #include <calotte/export.h>
 #include <calotte/mesh_field.h>
 #include <calotte/quality.h>
@@ -31,7 +30,7 @@ struct Polygons {
   Ids ids;                      ///< see `begin`
   Points3 centres;              ///< 3 x n, as the corners; 3 x 0 if the file gives none
   bool on_sphere = true;        ///< false in a plane
-  Eigen::Vector2d period{0, 0}; ///< of the plane, as PlanarMesh has it
+  Eigen::Vector2d period{0, 0}; ///< of the plane, as Surface has it
 
   /// Their number.
   std::int64_t size() const { return begin.size() > 0 ? begin.size() - 1 : 0; }
@@ -70,19 +69,16 @@ struct PolygonShapes {
 /// \pre counter-clockwise, each smaller than a hemisphere.
 PolygonShapes shapes(const Polygons& polygons);
 
-/// What a mesh file holds. At least one of `mesh`, `plane` and `polygons` is present.
+/// What a mesh file holds. At least one of `mesh` and `polygons` is present.
 struct MeshFile {
   std::string format; ///< for messages, such as "MPAS" or "SCRIP"
 
   /// The triangulation of the sites in canonical form. It is the file's. Cells alone have one if
   /// they are the Voronoi cells of their centres; those of a part of the sphere, if each corner
   /// that cells surround is the circumcentre of three centres: then it has their triangles, and no
-  /// others.
+  /// others. No file holds the rings of a plane's surface, which clip the cells: a caller that
+  /// knows them may set `mesh->surface` for write().
   std::optional<Mesh> mesh;
-  std::optional<PlanarMesh> plane; ///< the same of a file in a plane
-  /// The domain of `plane`, which clips its cells. No file holds it: a caller that knows it may set
-  /// it for write().
-  std::optional<PlanarDomain> domain;
   /// The file's cells, unless they are all the Voronoi cells of `mesh`; those of a part of the
   /// sphere and of a plane with a boundary always.
   std::optional<Polygons> polygons;
@@ -97,12 +93,11 @@ struct MeshFile {
   std::vector<std::string>
       changes; ///< what reading changed, such as "turned 12 clockwise triangles"
   std::vector<std::string> ignored; ///< names of variables that were not read
-};
 
-/// The directions in which a plane ends at walls instead of being periodic.
-struct Walls {
-  bool x = false; ///< walls at the ends of x
-  bool y = false; ///< walls at the ends of y
+  /// The mesh if it is one of the sphere; otherwise null.
+  const Mesh* sphere() const { return mesh && mesh->surface.is_sphere() ? &*mesh : nullptr; }
+  /// The mesh if it is one of a plane; otherwise null.
+  const Mesh* plane() const { return mesh && !mesh->surface.is_sphere() ? &*mesh : nullptr; }
 };
 
 /// Regular hexagons in a plane that is periodic, as planar_hex of MPAS-Tools makes them: cell
@@ -115,17 +110,18 @@ struct Walls {
 /// columns >= 3, with walls in x >= 2;
 ///        rows >= 4 and even, with walls in y >= 2.
 /// \param spacing d, the distance of neighbours, in any unit of length; from 1e-20 to 1e20.
-/// \returns `plane` of a box without walls, else `polygons`.
+/// \returns `mesh` of a box without walls, else `polygons`.
 /// \throws Error bad_option for an argument out of range.
 MeshFile planar_hexagons(std::int64_t columns, std::int64_t rows, double spacing, Walls walls = {});
 
 /// The Voronoi cells of a doubly periodic box whose sites lie in a part of it, from 0 to `extent`
 /// in the directions of the walls; in the others the box stays periodic. The boundary runs along
-/// the sides of whole cells, as MPAS-Ocean has it. \param box its period is that of the part where
-/// there is no wall, and larger where there is one. \returns `polygons`, in the order of the sites.
+/// the sides of whole cells, as MPAS-Ocean has it. \param box as make_grid() makes it with
+/// Recipe::walls: its period is that of the part where there is no wall, and larger where there is
+/// one. \returns `polygons`, in the order of the sites.
 /// \throws Error bad_option for no wall, an extent that is not below the box's period, or no cell;
 ///         as voronoi().
-MeshFile walled(const PlanarMesh& box, const Eigen::Vector2d& extent, Walls walls);
+MeshFile walled(const Mesh& box, const Eigen::Vector2d& extent, Walls walls);
 
 /// Which fields read_mesh_file() reads from NetCDF files; the others are among `ignored`.
 enum class FieldChoice {
@@ -159,22 +155,22 @@ enum class FieldChoice {
 MeshFile read_mesh_file(const std::string& path, const Points3* points = nullptr,
                         FieldChoice choice = FieldChoice::all);
 
-/// The domain of a file in a plane: its own, or the box of a closed mesh, or what its cells fill,
-/// provided that they are the Voronoi cells that this domain clips.
+/// The part of a plane that a file covers: its mesh's surface if that is bounded or a box, or what
+/// its cells fill, provided that they are the Voronoi cells that this part clips.
 /// \returns none for other files, where boundaries touch, and for channels.
-std::optional<PlanarDomain> filled_domain(const MeshFile& file);
+std::optional<Surface> filled_surface(const MeshFile& file);
 
 /// The tessellation of a file's cells: that of its mesh, or of its polygons where these are part of
 /// a Voronoi tessellation, such as the cells of an ocean or a limited area. Polygons keep their
 /// corners; edges at their boundary have one cell, as in a bounded plane.
 /// \throws Error as voronoi(); bad_option for polygons that are no Voronoi cells, with the reason,
-///         and for a bounded plane without a domain and polygons.
+///         and for a plane whose surface is not bounded, without polygons.
 Voronoi voronoi(const MeshFile& file);
 
 /// The density that follows from the cells of a file, see spacing_density(voronoi): those of its
 /// mesh, or of its polygons where these are part of a Voronoi tessellation.
 /// \returns by cell; none if the cells are uniform, or if they have no spacing: for other polygons,
-///          an open mesh, and a plane without a domain.
+///          an open mesh, and a plane whose surface is not bounded.
 /// \throws Error as voronoi().
 DoubleVector spacing_density(const MeshFile& file);
 

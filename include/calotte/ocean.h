@@ -27,7 +27,7 @@ struct Coast {
 /// contains it, without the loops in which a simplified coast crosses itself.
 /// \param place direction of any norm.
 /// \throws Error bad_option for a place in the sea; as require_region() for the rings around it.
-Region land_around(const Coast& coast, const Eigen::Vector3d& place);
+Surface land_around(const Coast& coast, const Eigen::Vector3d& place);
 
 /// The fraction of each cell that is land, from the exact intersections of the coast's arcs with
 /// the cells, whose sides are arcs between their vertices. The areas sum to that of the land within

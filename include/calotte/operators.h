@@ -88,19 +88,20 @@ inline double diffusion_step(double eigenvalue, double viscosity) {
   return 2 / (viscosity * eigenvalue);
 }
 
-/// Measures a mesh of the sphere; lengths are radians. Of an open mesh, such as a limited area, it
-/// measures the cells that triangles surround. The result has the same bits for any number of
-/// threads.
-/// \param mesh the Delaunay triangulation of its points, which are directions of any norm.
+/// Measures a mesh of the sphere, in radians, or of a box or a bounded part of the plane, in the
+/// unit of the points. Of an open mesh of the sphere, such as a limited area, it measures the cells
+/// that triangles surround. The result has the same bits for any number of threads.
+/// \param mesh the Delaunay triangulation of its points: on the sphere directions of any norm, in
+///        the plane as in quality().
 /// \param density weights the centroids, as in quality(). Default: uniform. Without effect on an
-///        open mesh.
-/// \throws Error bad_option as voronoi(); for a mesh that fails check_surface() or has edges that
-///         are not Delaunay, see count_edges(); for an open mesh no site of which is surrounded by
-///         triangles; for a density as quality().
+///        open mesh of the sphere.
+/// \throws Error bad_option as voronoi() and quality(), but open meshes of the sphere are measured;
+///         for a mesh that fails check_surface() or has edges that are not Delaunay, see
+///         count_edges(); for an open mesh of the sphere no site of which is surrounded by
+///         triangles.
 OperatorErrors operator_errors(const Mesh& mesh, const Density& density = {});
 
-/// The same in a planar domain, in its unit of length.
-/// \param mesh, density as in quality(). \throws Error as quality() and voronoi().
+/// As above, for a PlanarMesh and its domain.
 OperatorErrors operator_errors(const PlanarMesh& mesh, const PlanarDomain& domain,
                                const Density& density = {});
 

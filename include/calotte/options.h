@@ -61,7 +61,7 @@ struct DelaunayOptions {
   /// periodic box.
   double merge_within = 0;
   Partition partition = {}; ///< affects time and memory, not the result
-  /// Stages: sites, regions, triangulate, unite; periodic_delaunay() may repeat the last three.
+  /// Stages: sites, regions, triangulate, unite; in a periodic box it may repeat the last three.
   /// Default: none.
   ProgressCallback progress = {};
 };

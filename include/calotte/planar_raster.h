@@ -34,13 +34,21 @@ struct PlanarCellWidth {
 /// \throws Error bad_option if shapes, coordinates or values violate the conditions above.
 Density density_of(const PlanarCellWidth& cell_width);
 
-/// The number of cells that the widths h imply: the integral of 2/(sqrt(3) h^2) over the domain,
-/// within about 0.2%: a mean over 2^18 random places.
-/// \throws Error as above and as require_domain().
+/// The number of cells that the widths h imply: the integral of 2/(sqrt(3) h^2) over a box or a
+/// part of the plane, within about 0.2%: a mean over 2^18 random places.
+/// \throws Error as above and as require_domain(); bad_option for the sphere, and for a plane
+///         without rings and two periods.
+double implied_cells(const PlanarCellWidth& cell_width, const Surface& surface);
+
+/// As above, for a PlanarDomain.
 double implied_cells(const PlanarCellWidth& cell_width, const PlanarDomain& domain);
 
-/// Throws unless the nodes cover the domain, except for half of the widest step.
-/// \throws Error bad_option, naming the extents; as require_domain().
+/// Throws unless the nodes cover a box or a part of the plane, except for half of the widest step.
+/// \throws Error bad_option, naming the extents; for the sphere, and for a plane without rings and
+///         two periods; as require_domain().
+void require_covering(const PlanarCellWidth& cell_width, const Surface& surface);
+
+/// As above, for a PlanarDomain.
 void require_covering(const PlanarCellWidth& cell_width, const PlanarDomain& domain);
 
 } // namespace calotte

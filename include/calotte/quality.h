@@ -36,10 +36,11 @@ inline constexpr double short_voronoi_edge = 0.18; ///< of dv/dc
 inline constexpr double least_fit = 0.75;          ///< of dc/h
 inline constexpr double greatest_fit = 1.4;        ///< of dc/h
 
-/// Quality of a closed mesh and its Voronoi cells. Lengths are arcs on the unit sphere in radians;
-/// areas are in steradians. Means give equal weight to every edge, cell, triangle or corner. A
-/// Voronoi edge joins the circumcentres of two triangles. It, or its extension, bisects the
-/// Delaunay edge between them at a right angle.
+/// Quality of a mesh and its Voronoi cells. On the sphere lengths are arcs in radians, and areas
+/// are in steradians; in a plane lengths are in the unit of the points, and areas in its square.
+/// Means give equal weight to every edge, cell, triangle or corner. A Voronoi edge joins the
+/// circumcentres of two triangles. It, or its extension, bisects the Delaunay edge between them at
+/// a right angle.
 struct Quality {
   std::int64_t cells = 0;     ///< their number
   std::int64_t triangles = 0; ///< their number
@@ -52,7 +53,7 @@ struct Quality {
   Range sigma;   ///< per cell: distance to the nearest neighbour / distance to the farthest
   /// Per cell: shortest Voronoi edge / longest; 0 where cocircular sites share a corner.
   Range cell_quality;
-  Range cell_area; ///< per cell, steradians; max / min is the area ratio
+  Range cell_area; ///< per cell; max / min is the area ratio
 
   /// Per triangle: (b + c - a) (c + a - b) (a + b - c) / (a b c), with a, b, c the arcs of the
   /// sides; 1 if equilateral. With chords it is twice the inradius divided by the circumradius
@@ -69,9 +70,9 @@ struct Quality {
   /// share a corner there.
   Range off_centring;
 
-  /// sqrt( (1/n) sum |x_i - c_i|^2 ) / h with h = sqrt(4 pi / n). c_i = M/|M| is the constrained
-  /// centroid of the cell, M the integral of rho x. It equals Norm::l2_scaled of the next Lloyd
-  /// step.
+  /// sqrt( (1/n) sum |x_i - c_i|^2 ) / h with h = sqrt(area / n), on the sphere sqrt(4 pi / n). c_i
+  /// = M/|M| is the constrained centroid of the cell, M the integral of rho x. It equals
+  /// Norm::l2_scaled of the next Lloyd step.
   double residual = 0;
   /// Sum over the cells of the integral of rho |x - x_i|^2. For uniform density, n times the energy
   /// of flat regular hexagons of equal size is 5 (4 pi)^2 / (18 sqrt 3) = 25.325.
@@ -97,51 +98,50 @@ struct Quality {
   std::int64_t bad_cells = 0;
   Range bad_spacing; ///< mean distance of each of these cells to its neighbours
 
-  double cells_area = 0;     ///< sum of areas / 4 pi; 1 up to rounding
-  double triangles_area = 0; ///< the same of the triangles
+  double cells_area = 0;     ///< sum of areas over that of the surface; 1 up to rounding
+  double triangles_area = 0; ///< sum of the triangles' areas / 4 pi; in a plane 0
 };
 
-/// Measures a mesh. Areas are exact up to rounding, and so are the residual, the energy and its
-/// limit for uniform density; for other densities these use the 6-point rule. The result has the
-/// same bits for any number of threads.
+/// Measures a mesh of the whole sphere, of a box, or of a part of the plane, whose rings clip the
+/// cells. Areas are exact up to rounding, and so are the residual, the energy and its limit for
+/// uniform density; for other densities these use the 6-point rule. The result has the same bits
+/// for any number of threads.
 ///
-/// \param mesh the closed Delaunay triangulation of its points, which are directions of any norm.
+/// In a part of the plane cell_area, residual and energy include all cells; sigma, cell_quality,
+/// degrees and bad_cells only the unclipped ones. Triangles are those with their circumcentre
+/// inside; edges are theirs, and a Voronoi edge counts if it joins two of them.
+///
+/// \param mesh the Delaunay triangulation of its points: on the sphere closed, of directions of any
+///        norm; in a part of the plane of points inside it or on its boundary.
 /// \param density default: uniform.
-/// \throws Error bad_option, for a mesh that fails check(); for an open mesh, whose cells do not
-///         cover the sphere; for a density that is ill-formed, negative, infinite or NaN somewhere,
-///         or zero over a whole cell.
+/// \throws Error bad_option, for a mesh that fails check(); for an open mesh of the sphere, whose
+///         cells do not cover it, see open_quality(); for a plane without rings and two periods;
+///         with the index of a point outside its surface; for a density that is ill-formed,
+///         negative, infinite or NaN somewhere, or zero over a whole cell.
 Quality quality(const Mesh& mesh, const Density& density = {});
 
-/// Measures the triangles of a mesh that need be neither closed nor Delaunay: triangles, flat,
-/// spacing, triangle_quality, angles, obtuse and triangles_area. `cells` is the number of sites,
-/// and `degrees` counts the sites with a closed ring of triangles. The other fields, which belong
-/// to Voronoi cells, stay 0. \throws Error bad_option, for a mesh that fails check_surface().
+/// Measures the triangles of a mesh that need be neither closed nor Delaunay; rings of its surface
+/// have no effect: triangles, flat (on the sphere), spacing, triangle_quality, angles, obtuse and
+/// triangles_area. `cells` is the number of sites, and `degrees` counts the sites with a closed
+/// ring of triangles. The other fields, which belong to Voronoi cells, stay 0.
+/// \throws Error bad_option, for a mesh that fails check_surface().
 Quality triangle_quality(const Mesh& mesh);
 
-/// Measures an open Delaunay triangulation, such as that of a limited-area grid: what
-/// triangle_quality() measures, and the Voronoi cells as far as triangles surround them. Edges of
-/// two triangles have dv_over_dc, off_centring and short_edges. Sites with a closed ring of
+/// Measures an open Delaunay triangulation, such as that of a limited-area grid or of a channel:
+/// what triangle_quality() measures, and the Voronoi cells as far as triangles surround them. Edges
+/// of two triangles have dv_over_dc, off_centring and short_edges. Sites with a closed ring of
 /// triangles have sigma, cell_quality, cell_area, bad_cells (by short edges and obtuse triangles
-/// alone) and bad_spacing; cells_area is the sum of their areas.
+/// alone) and bad_spacing; cells_area is the sum of their areas over 4 pi, in a plane 0.
 /// \pre no edge but those whose opposite sites are cocircular fails to be Delaunay: see
 ///      count_edges().
 /// \throws Error bad_option, for a mesh that fails check_surface().
 Quality open_quality(const Mesh& mesh);
 
-/// The same of a plane that is periodic in a direction and ends at walls, such as a channel.
-/// Lengths and areas are in the unit of the points and its square; cells_area and triangles_area
-/// are 0. \throws Error as above.
+/// As above, for a PlanarMesh.
 Quality open_quality(const PlanarMesh& mesh);
 
-/// Measures a mesh of generators in a planar domain. Lengths and areas are in the domain's unit, h
-/// = sqrt(area / n), cells_area is divided by the domain's area, and triangles_area is 0. The
-/// domain clips the cells. cell_area, residual and energy include all cells; sigma, cell_quality,
-/// degrees and bad_cells only the unclipped ones. Triangles are those with their circumcentre
-/// inside the domain; edges are theirs, and a Voronoi edge counts if it joins two of them.
-///
-/// \param mesh the Delaunay triangulation of its points; periodic if the domain is.
-/// \param domain contains all generators.
-/// \throws Error as above; bad_option as require_domain(), or for a generator outside the domain.
+/// As quality(const Mesh&), for a PlanarMesh and its domain.
+/// \throws Error as there and as require_domain(); bad_option for a mesh of another period.
 Quality quality(const PlanarMesh& mesh, const PlanarDomain& domain, const Density& density = {});
 
 /// The measures of Quality cell by cell and triangle by triangle, for maps and lists. Lengths are
@@ -167,20 +167,27 @@ struct CellMeasures {
   DoubleVector triangle_quality; ///< m: as Quality::triangle_quality
 };
 
-/// Measures the cells and triangles of a mesh of the sphere, which may be open, and need not be
-/// Delaunay. \param density as in quality(); without effect on an open mesh.
-/// \throws Error bad_option, for a mesh that fails check_surface(); for a density as quality().
+/// Measures the cells and triangles of a mesh. One of the sphere may be open, and need not be
+/// Delaunay. The rings of a part of the plane clip the cells: clipped ones have no degree, sigma
+/// and quality; triangles whose circumcentre lies outside have no values.
+/// \param mesh in the plane as in quality().
+/// \param density as in quality(); without effect on an open mesh of the sphere.
+/// \throws Error bad_option, for a mesh that fails check_surface(); for a density as quality(); in
+///         the plane as quality() and voronoi().
 CellMeasures cell_measures(const Mesh& mesh, const Density& density = {});
 
-/// The same for a planar domain, which clips the cells. Clipped cells have no degree, sigma and
-/// quality; triangles whose circumcentre lies outside have no values. \param mesh and density as in
-/// quality(). \throws Error as quality() and voronoi().
+/// As above, for a PlanarMesh and its domain.
 CellMeasures cell_measures(const PlanarMesh& mesh, const PlanarDomain& domain,
                            const Density& density = {});
 
-/// For each generator in a planar domain whether the boundary clips its cell, or the generator lies
-/// outside the domain. quality() leaves these cells out of `degrees`.
-/// \param mesh its points only; periodic if the domain is, which then clips no cell.
+/// For each site whether the boundary of the mesh's surface clips its cell, or the site lies
+/// outside. quality() leaves these cells out of `degrees`. The whole sphere and a box clip no cell.
+/// \param mesh its points and its surface only.
+/// \throws Error bad_option for a region of the sphere, whose cells quality() does not clip, and
+///         for a plane without rings and two periods.
+std::vector<bool> clipped_cells(const Mesh& mesh);
+
+/// As above, for a PlanarMesh and its domain.
 /// \throws Error as require_domain(); bad_option for a domain of another period.
 std::vector<bool> clipped_cells(const PlanarMesh& mesh, const PlanarDomain& domain);
 

@@ -64,7 +64,7 @@ Points2 read_planar_points(const std::string& path, std::vector<std::int64_t>* l
 /// A ring may repeat its first corner at its end.
 /// \throws Error parse, naming the line, or the feature and its ring; as require_domain(), with the
 ///         file's name; file.
-PlanarDomain read_domain(const std::string& path);
+Surface read_domain(const std::string& path);
 
 /// Reads a region of the sphere. The name selects the format. An edge is the shorter arc of a great
 /// circle between two corners; a parallel needs corners at short intervals. Rings may run either
@@ -87,21 +87,25 @@ PlanarDomain read_domain(const std::string& path);
 /// what all loops enclose together.
 /// \throws Error parse, naming the line, or the feature and its ring; as require_region(), with the
 ///         file's name; bad_option for an unknown suffix; file.
-Region read_region(const std::string& path);
+Surface read_region(const std::string& path);
 
 /// The same from a stream.
 /// \param name the name of the stream in messages, which selects the format; of SaveBoundaries a
 ///        stream has one loop.
-Region read_region(std::istream& in, const std::string& name);
+Surface read_region(std::istream& in, const std::string& name);
 
-/// Reads a mesh of the sphere in any format that `write` supports, also from other programs. The
-/// name selects the format as in `write`. A file of suffix .nc, or a NetCDF file of unknown suffix,
-/// has the format of its content. Coordinates keep their bits if the format holds them. Formats
-/// without triangles of the sites (scrip, esmf, geojson, and cells of UGRID that others wrote) and
-/// files of points alone give the sites' Delaunay triangulation, in which equal directions are one
-/// site; so does SaveVertices without a SaveTriangles beside it that closes the sphere. The
-/// function checks that ids are in range; check() proves the geometry. Neighbours are rebuilt. An
-/// edge of three triangles, or of two that run through it in the same direction, stays open.
+/// Reads a mesh in any format that `write` supports, also from other programs. The surface is the
+/// sphere, or a plane if an MPAS file says so, a JIGSAW file has NDIMS=2, or z is 0 at all of three
+/// or more points. Of a plane, a mesh that is periodic in one direction, or has land in a box, has
+/// the triangles of three cells each, and the sites of cells that a boundary clips are
+/// triangulated; read_mesh_file() reads the cells, too. The name selects the format as in `write`.
+/// A file of suffix .nc, or a NetCDF file of unknown suffix, has the format of its content.
+/// Coordinates keep their bits if the format holds them. Formats without triangles of the sites
+/// (scrip, esmf, geojson, and cells of UGRID that others wrote) and files of points alone give the
+/// sites' Delaunay triangulation, in which equal directions are one site; so does SaveVertices
+/// without a SaveTriangles beside it that closes the sphere. The function checks that ids are in
+/// range; check() proves the geometry. Neighbours are rebuilt. An edge of three triangles, or of
+/// two that run through it in the same direction, stays open.
 ///
 /// Of NetCDF files that no program writes here, ICON's grids are read, cells with bounds as in the
 /// CF conventions (longitudes and latitudes with three corners or more for each cell), and the one
@@ -116,9 +120,8 @@ Region read_region(std::istream& in, const std::string& name);
 /// \param points 3 x n, the points that the ids of a .txt or .tri file refer to; other formats
 ///         ignore them. A column in no triangle is a duplicate of a column of the same direction,
 ///         or else a site without triangles. Default null.
-/// \throws Error bad_option for an unknown suffix, a planar mesh (all z are 0), or a .txt or .tri
-///         file without `points`; parse; file; for sites that spherical_delaunay() refuses, its
-///         code.
+/// \throws Error bad_option for an unknown suffix, or a .txt or .tri file without `points`; parse;
+///         file; for sites that delaunay() refuses, its code.
 Mesh read_mesh(const std::string& path, const Points3* points = nullptr);
 
 /// Whether a regular file starts as NetCDF files do, classic or HDF5; false for any other path.
@@ -131,15 +134,6 @@ bool is_netcdf_file(const std::string& path);
 /// (read_mesh triangulates these.)
 /// \throws Error as read_mesh.
 Points3 read_sites(const std::string& path);
-
-/// Reads a mesh of the plane: a periodic mesh from an MPAS file (.nc), other meshes from the
-/// formats of write() for planar meshes and from JIGSAW files of NDIMS=2. A mesh that is periodic
-/// in one direction, or has land in a box, has the triangles of three cells each. Points without
-/// triangles, and the sites of cells that a boundary clips, are triangulated by planar_delaunay();
-/// read_mesh_file() reads the cells, too.
-/// \param points 2 x n, as in read_mesh().
-/// \throws Error as read_mesh(); bad_option for a spherical mesh, which has a z that is not 0.
-PlanarMesh read_planar_mesh(const std::string& path, const Points2* points = nullptr);
 
 /// Reads areas of land.
 ///
@@ -227,13 +221,13 @@ double kilometres_in(const std::string& unit);
 ///         not positive, a transition narrower than 0.2 degrees, or points of a mesh within a
 ///         hemisphere; parse, naming the variable and its index, the line or the feature; file.
 CellWidth read_cell_width(const std::string& path, const PolygonWidths& polygons = {},
-                          const Region& region = {});
+                          const Surface& region = {});
 
 /// Reads the variable density(lat, lon) of a NetCDF file, with the coordinates of read_cell_width.
 /// Densities are > 0. The result holds rho^(-1/4) divided by its minimum. These widths are
 /// relative; they imply no number of cells.
 /// \throws Error parse, naming the variable and its index; file.
-CellWidth read_density_raster(const std::string& path, const Region& region = {});
+CellWidth read_density_raster(const std::string& path, const Surface& region = {});
 
 /// Reads the variable density(y, x) and the coordinate variables x(x) and y(y) of a NetCDF file.
 /// Densities are finite and >= 0; the coordinates are in the unit of the domain and may descend.

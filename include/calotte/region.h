@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <utility>
 #include <vector>
 
 CALOTTE_API_BEGIN
@@ -18,6 +19,11 @@ struct Region {
   /// ring, seen from outside the sphere: an outer boundary runs counter-clockwise, a hole
   /// clockwise. Default: none, which is the whole sphere.
   std::vector<Points3> rings;
+
+  Region() = default; ///< the whole sphere
+  /// The part within these rings.
+  Region(std::vector<Points3> all) : rings(std::move(all)) {}
+  Region(const Surface& surface); ///< \throws Error bad_option for a plane
 
   /// True for the whole sphere.
   bool whole() const { return rings.empty(); }

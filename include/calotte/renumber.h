@@ -16,13 +16,14 @@ enum class Numbering {
 };
 
 /// The same mesh with its sites in another order and its triangles in canonical order. For a
-/// Delaunay mesh the result is that of spherical_delaunay() for the permuted points. site_of_input
-/// maps each input column to its new site. Numbering::curve keeps the order of sites that already
-/// follow the curve. The time is linear.
-/// \param mesh as spherical_delaunay() or read_mesh() returns it; it may be open.
+/// Delaunay mesh the result is that of delaunay() for the permuted points. site_of_input maps each
+/// input column to its new site. Numbering::curve keeps the order of sites that already follow the
+/// curve. The time is linear.
+/// \param mesh as delaunay() or read_mesh() returns it; it may be open.
 /// \param numbering by_format and input return the mesh unchanged.
 /// \throws Error bad_option for ids out of range, or neighbours that do not match the triangles;
-///         with Numbering::curve not_finite and zero_vector, with the index of the point.
+///         with Numbering::curve not_finite and zero_vector (on the sphere), with the index of the
+///         point.
 Mesh renumbered(const Mesh& mesh, Numbering numbering);
 
 } // namespace calotte

@@ -28,7 +28,7 @@ namespace calotte {
 /// cells, of which a pair may have several. A missing cell or edge has the id -1.
 struct Voronoi {
   bool on_sphere = true;        ///< false in a plane
-  Eigen::Vector2d period{0, 0}; ///< of the plane, as PlanarMesh has it; 0 on the sphere
+  Eigen::Vector2d period{0, 0}; ///< of the plane, as Surface has it; 0 on the sphere
 
   Points3 cells; ///< 3 x n: the sites; unit columns on the sphere
   Points3 edges; ///< 3 x e: midpoints of the Delaunay edges, which the Voronoi edges cross; of an
@@ -67,39 +67,35 @@ struct Voronoi {
   Triples kites;
 };
 
-/// Computes the tessellation of the sphere by the cells of a mesh's sites. Locations, lengths and
-/// areas are accurate to rounding; the areas sum to 4 pi within 1e-12. For sites closer than about
-/// 1e-12, and for triangles as flat, only the sums are accurate. Unit columns keep their bits. The
-/// result has the same bits for any number of threads. The function runs in the caller's task
-/// arena.
+/// Computes the tessellation of a mesh's surface by the cells of its sites: of the sphere, of a
+/// plane with two periods, or of the part of the plane that the surface's rings bound, which clip
+/// the cells. Locations, lengths and areas are accurate to rounding; the areas sum to that of the
+/// surface within 1e-12. For sites of the sphere closer than about 1e-12, and for triangles as
+/// flat, only the sums are accurate. Unit columns keep their bits. The result has the same bits for
+/// any number of threads. The function runs in the caller's task arena. Time: O(n log n) for the
+/// cells, and for a boundary its edges and crossings times the degree of a cell.
 ///
-/// Sites in a hemisphere have cells that reach round the far side of the sphere. Their vertices
-/// there are the circumcentres of further triangles, the far side of the sites' convex hull as
-/// points of the unit sphere, which cells_on_vertex and edges_on_vertex contain, too: 2n - 4 in
-/// all. These run clockwise seen from outside the sphere.
-/// \param mesh the Delaunay triangulation of its points, which are directions of any norm. The
-///         function does not check the Delaunay property; check() does.
-/// \throws Error bad_option, for an open mesh whose boundary is not the hull of its sites; for ids,
-///         neighbours or points that do not form a triangulation, naming the first triangle or
-///         site; for more than 2^29 sites, whose edges exceed int32.
+/// On the sphere rings have no effect. Sites in a hemisphere have cells that reach round the far
+/// side of the sphere. Their vertices there are the circumcentres of further triangles, the far
+/// side of the sites' convex hull as points of the unit sphere, which cells_on_vertex and
+/// edges_on_vertex contain, too: 2n - 4 in all. These run clockwise seen from outside the sphere.
+/// \param mesh the Delaunay triangulation of its points: on the sphere directions of any norm, in a
+///        part of the plane inside it or on its boundary. The function does not check the Delaunay
+///        property; check() does.
+/// \throws Error bad_option. In all cases: ids, neighbours or points that do not form a
+///         triangulation, naming the first triangle or site; more than 2^29 sites, whose edges
+///         exceed int32. On the sphere: an open mesh whose boundary is not the hull of its sites.
+///         In a plane without rings: other than two periods between 1e-30 and 1e30; a site outside
+///         the box; a box so narrow that two cells share two edges. In a part of the plane, with
+///         the index: the first point outside; the first cell that is no single polygon, because
+///         the boundary cuts it into several parts or encloses an island in it.
 Voronoi voronoi(const Mesh& mesh);
 
-/// The same for a periodic plane.
-/// \param mesh the Delaunay triangulation of a periodic box with periods between 1e-30 and 1e30.
-/// \throws Error as above; bad_option for a period out of range, for a site outside the box, and
-///         for a box so narrow that two cells share two edges.
+/// As above, for a PlanarMesh of a box.
 Voronoi voronoi(const PlanarMesh& mesh);
 
-/// The cells of a planar mesh in its domain, each clipped by the boundary. Their areas sum to that
-/// of the domain within 1e-12. Time: O(n log n) for the cells, and for the boundary its edges and
-/// crossings times the degree of a cell.
-/// \param mesh the Delaunay triangulation of its points, all inside the domain or on its boundary.
-/// \param domain rings, in the unit of the points; or the mesh's periodic box, as above.
-/// \throws Error as require_domain(); bad_option for a mesh of another period, for ids and
-/// triangles
-///         that do not form a triangulation, and with the index of the first point outside the
-///         domain, or of the first cell that is no single polygon, because the boundary cuts it
-///         into several parts or encloses an island in it.
+/// As above, for a PlanarMesh and its domain.
+/// \throws Error as above and as require_domain(); bad_option for a mesh of another period.
 Voronoi voronoi(const PlanarMesh& mesh, const PlanarDomain& domain);
 
 /// TRiSK weights, which reconstruct the tangential velocity from the normal velocity: v_e is the

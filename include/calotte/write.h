@@ -101,7 +101,7 @@ struct WriteOptions {
 ///
 /// Formats of cells require a closed mesh. Coordinates in NetCDF files are sphere_radius times the
 /// unit vectors; a point whose norm equals that radius up to rounding keeps its bits.
-/// \param mesh as spherical_delaunay() or read_mesh() returns it: columns of any norm, triangles
+/// \param mesh as delaunay() or read_mesh() returns it: columns of any norm, triangles
 ///        counter-clockwise seen from outside.
 /// \throws Error bad_option for an unknown suffix, a radius out of range, an ill-formed density,
 ///         ids out of range, or an open mesh in a format of cells, all before any file is written;

@@ -145,4 +145,8 @@ template <class T> T exclusive_scan(std::span<T> values) {
 /// creates it; as long as that one computes, the new one gets no turn for milliseconds.
 void start_workers(std::int64_t items);
 
+/// Does work during which this thread takes no other task, so that it may be done under a lock or
+/// once for all threads.
+template <class Work> void in_isolation(const Work& work) { tbb::this_task_arena::isolate(work); }
+
 } // namespace calotte::base_detail

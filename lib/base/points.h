@@ -57,6 +57,30 @@ inline Points2Ref places_of(const PointsRef& points, const std::string& spherica
   return points;
 }
 
+/// A caller's points in the plane, in place: without their z.
+/// \throws Error bad_option unless they have 2 rows, or 3 of which z is 0; with the index of the
+///         first other point.
+inline Points2Ref plane_points_of(const PointsRef& points) {
+  if (points.rows() != 3) {
+    require_rows(points, 2, "2 x n columns x y, or 3 x n with z = 0", {});
+    return points;
+  }
+  for (Eigen::Index i = 0; i < points.cols(); ++i)
+    if (!(points(2, i) == 0))
+      throw Error(ErrorCode::bad_option,
+                  "point " + std::to_string(i) + " of the plane has the z " +
+                      std::to_string(points(2, i)) + "; give z = 0, or 2 rows",
+                  i);
+  return points.topRows<2>();
+}
+
+/// Points of the plane with z = 0.
+inline Points3 with_z(const Points2Ref& places) {
+  Points3 points = Points3::Zero(3, places.cols());
+  points.topRows<2>() = places;
+  return points;
+}
+
 /// site_of_input if no input is merged: 0 to n - 1.
 inline std::vector<std::int32_t> themselves(std::int64_t n) {
   std::vector<std::int32_t> sites(static_cast<std::size_t>(n));

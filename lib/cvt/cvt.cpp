@@ -4,6 +4,7 @@
 #include "base/clock.h"
 #include "base/points.h"
 #include "base/require.h"
+#include "cvt/cvt.h"
 #include "cvt/descent.h"
 #include "cvt/laplacian.h"
 #include "cvt/planar_cells.h"
@@ -25,11 +26,6 @@
 
 namespace calotte {
 namespace cvt_detail {
-namespace {
-
-/// Of an excess over the limits of shape.h, at which a finish ends; at accepted_excess where its
-/// penalty has been raised.
-constexpr double shape_tolerance = 0.02;
 
 void require_options(const CvtOptions& options) {
   const auto refuse = [](const std::string& what) { throw Error(ErrorCode::bad_option, what); };
@@ -58,6 +54,12 @@ void require_options(const CvtOptions& options) {
   quadrature_rule(options.rule);
   quadrature_rule(options.final_rule);
 }
+
+namespace {
+
+/// Of an excess over the limits of shape.h, at which a finish ends; at accepted_excess where its
+/// penalty has been raised.
+constexpr double shape_tolerance = 0.02;
 
 /// Throws for a state that no run can have left, in any space.
 void require_state(const State& state) {
@@ -244,6 +246,8 @@ typename World::Result run(const World& world, CvtState whole, Level&& level, Cv
   require_state(state);
   world.require_points(state);
   require_room(world, state, options);
+  if (state.report.levels.empty())
+    state.report.levels = levels_of(world, state.points.cols(), state.bisections_left, options);
   Clock::time_point mark = Clock::now();
   const double before = state.report.seconds;
   const auto descend = [&](Level&& start) {
@@ -269,9 +273,9 @@ typename World::Result run(const World& world, CvtState whole, Level&& level, Cv
 }
 
 template <class World>
-typename World::Result run(const World& world, Start&& begun, const CvtOptions& options,
+typename World::Result run(const World& world, Begun&& begun, const CvtOptions& options,
                            const CvtCallback& callback) {
-  begun.state.rounds_left = rounds_of_level(begun.state, options);
+  begun.state.rounds_left = rounds_of_level(begun.state.bisections_left, options);
   return run(world, CvtState(std::move(begun.state)), std::move(begun.level), options, callback);
 }
 

@@ -6,6 +6,7 @@
 #include "base/parallel.h"
 #include "base/points.h"
 #include "base/vector_field.h"
+#include "cvt/cvt.h"
 
 #include <algorithm>
 #include <array>

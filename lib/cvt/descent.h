@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "cvt/cvt.h"
 #include "cvt/functional.h"
 #include "cvt/multigrid.h"
 #include "cvt/room.h"

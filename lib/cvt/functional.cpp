@@ -6,6 +6,7 @@
 #include "base/parallel.h"
 #include "base/points.h"
 #include "base/vector_loops.h"
+#include "cvt/cvt.h"
 #include "cvt/glide.h"
 #include "cvt/planar_cells.h"
 #include "cvt/region_cells.h"

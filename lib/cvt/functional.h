@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 #include "base/parallel.h"
+#include "cvt/cvt.h"
 #include "cvt/laplacian.h"
 #include "cvt/room.h"
 #include "cvt/shape.h"

@@ -5,6 +5,7 @@
 #include "base/parallel.h"
 #include "base/points.h"
 #include "base/triangle.h"
+#include "cvt/cvt.h"
 #include "cvt/region_cells.h"
 #include "delaunay/sites.h"
 #include "generators/insertion.h"
@@ -120,7 +121,7 @@ void require_inside(const SphericalOutline& outline, const Points3Ref& points, s
 
 } // namespace
 
-Start RegionWorld::begin(const Points3Ref& start, const CvtOptions& options) const {
+Begun RegionWorld::begin(const Points3Ref& start, const CvtOptions& options) const {
   Sites sites =
       distinct_units(make_sites(start, options.duplicates, options.merge_within), options);
   require_inside(*outline_, start, options.fixed);

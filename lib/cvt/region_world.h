@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "cvt/cvt.h"
 #include "cvt/worlds.h"
 #include "domain/spherical_outline.h"
 
@@ -24,7 +25,7 @@ public:
       : outline_(std::make_shared<const SphericalOutline>(region)) {}
 
   /// \throws Error as SphericalWorld; bad_option with the index of the first point outside.
-  Start begin(const Points3Ref& start, const CvtOptions& options) const;
+  Begun begin(const Points3Ref& start, const CvtOptions& options) const;
   static Density density(const Density& density) { return SphericalWorld::density(density); }
   void require_points(const State& state) const;
   std::unique_ptr<Functional> functional(const Points3& points, const CvtOptions& options,

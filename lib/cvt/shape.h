@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "cvt/cvt.h"
 #include "cvt/room.h"
 #include "mesh/connectivity.h"
 

@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "base/vec3.h"
 #include "cvt/room.h"
+#include "delaunay/delaunay.h"
 #include "domain/periodic_box.h"
 #include "exact/plane_predicates.h"
 #include "mesh/connectivity.h"

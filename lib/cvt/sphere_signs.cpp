@@ -2,6 +2,7 @@
 #include "base/points.h"
 #include "base/triangle.h"
 #include "cvt/signs.h"
+#include "delaunay/delaunay.h"
 #include "exact/predicates.h"
 
 #include <calotte/delaunay.h>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cvt/stages.h"
 
+#include "cvt/cvt.h"
 #include "density/hexagons.h"
 #include "integrals/integrand.h"
 
@@ -93,9 +94,21 @@ ShapeLimits limits_of_glide(const State& state) {
   return limits;
 }
 
+CvtOptions early(const CvtOptions& options) {
+  constexpr int most = 75;
+  constexpr double tolerance = 1e-3;
+  CvtOptions here = options;
+  here.tolerance =
+      options.norm == Norm::l2_scaled ? std::max(tolerance, options.tolerance) : tolerance;
+  here.norm = Norm::l2_scaled;
+  here.well_centred = false; // its end by creeping is for the last descent
+  here.max_iterations = std::min(options.max_iterations, most);
+  return here;
+}
+
 CvtOptions options_of_descent(const State& state, const CvtOptions& options, bool at_sites) {
-  constexpr int most_in_finish = 60, most_early = 75;
-  constexpr double early = 1e-3, fine = 1e-5;
+  constexpr int most_in_finish = 60;
+  constexpr double fine = 1e-5;
   constexpr std::int64_t resolving = 2000; // generators, between which a density is nearly linear
   CvtOptions here = options;
   if (state.penalty > 0) {
@@ -114,11 +127,8 @@ CvtOptions options_of_descent(const State& state, const CvtOptions& options, boo
     here.final_rule = options.tolerance < fine ? options.final_rule : options.rule;
     return here;
   }
-  here.tolerance = options.norm == Norm::l2_scaled ? std::max(early, options.tolerance) : early;
-  here.norm = Norm::l2_scaled;
-  here.well_centred = false; // its end by creeping is for the last descent
+  here = early(here);
   here.final_rule = here.rule;
-  here.max_iterations = std::min(options.max_iterations, most_early);
   return here;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "cvt/cvt.h"
 #include "cvt/room.h"
 #include "cvt/shape.h"
 #include "cvt/state.h"
@@ -21,6 +22,9 @@
 /// A glide is part of the descent before the finish, see glide.h.
 namespace calotte::cvt_detail {
 
+/// \throws Error bad_option for a value out of range.
+void require_options(const CvtOptions& options);
+
 /// What follows a descent.
 enum class Stage {
   insert, ///< insertion and contraction on the same level
@@ -30,11 +34,10 @@ enum class Stage {
   end,
 };
 
-/// The number of generators at the end of the current level of a run with insertion.
+/// The number of generators at the end of a level of a run with insertion.
 template <class World>
-std::int64_t cells_of_level(const World& world, const State& state, const CvtOptions& options) {
-  std::int64_t cells = options.cells;
-  for (int k = 0; k < state.bisections_left; ++k)
+std::int64_t cells_of_level(const World& world, std::int64_t cells, int bisections_left) {
+  for (int k = 0; k < bisections_left; ++k)
     cells = world.halved(cells);
   return cells;
 }
@@ -65,10 +68,32 @@ CvtOptions options_of_descent(const State& state, const CvtOptions& options, boo
 void begin_descent(State& state);
 
 /// Coarser levels, where rounds are cheap, have more of them.
-inline int rounds_of_level(const State& state, const CvtOptions& options) {
+inline int rounds_of_level(int bisections_left, const CvtOptions& options) {
   constexpr int most = 14;
-  return std::min(options.insertion_rounds * (state.bisections_left + 1),
+  return std::min(options.insertion_rounds * (bisections_left + 1),
                   std::max(options.insertion_rounds, most));
+}
+
+/// The tolerance, norm and number of evaluations of all descents but the last of a run with
+/// insertion. \pre the run has insertion rounds and a norm.
+CvtOptions early(const CvtOptions& options);
+
+/// The levels of a run.
+/// \param first number of generators of the start. \param bisections that follow.
+template <class World>
+std::vector<CvtLevel> levels_of(const World& world, std::int64_t first, int bisections,
+                                const CvtOptions& options) {
+  const bool inserts = options.insertion_rounds > 0, counted = options.norm == Norm::none;
+  const CvtOptions here = inserts && !counted ? early(options) : options;
+  std::vector<CvtLevel> levels;
+  for (int left = bisections; left >= 0; --left) {
+    levels.push_back({inserts ? cells_of_level(world, options.cells, left) : first,
+                      inserts ? rounds_of_level(left, options) : 0, counted ? 0 : here.tolerance,
+                      here.max_iterations});
+    if (left > 0)
+      first = world.bisected(first);
+  }
+  return levels;
 }
 
 /// A round after a descent of more than 15 evaluations counts for two: where widths are steep, a
@@ -84,7 +109,7 @@ Level begin_level(const World& world, State& state, const CvtOptions& options,
                   const AnyMesh& mesh) {
   Level level = world.set_bisected(state, mesh);
   --state.bisections_left;
-  state.rounds_left = rounds_of_level(state, options);
+  state.rounds_left = rounds_of_level(state.bisections_left, options);
   state.site_of_input.clear();
   begin_descent(state);
   return level;
@@ -112,9 +137,10 @@ Exchange exchange_of(const State& state, const AnyMesh& mesh, const Density& den
 template <class World, class AnyMesh>
 Level begin_round(const World& world, State& state, const CvtOptions& options,
                   const AnyMesh& mesh) {
-  Level level = world.set_exchanged(
-      state, mesh, options.density,
-      exchange_of(state, mesh, options.density, cells_of_level(world, state, options)));
+  Level level =
+      world.set_exchanged(state, mesh, options.density,
+                          exchange_of(state, mesh, options.density,
+                                      cells_of_level(world, options.cells, state.bisections_left)));
   state.rounds_left = std::max(state.rounds_left - count_of_round(state), 0);
   state.site_of_input.clear();
   begin_descent(state);

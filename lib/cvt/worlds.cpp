@@ -6,7 +6,9 @@
 #include "base/split_mix.h"
 #include "curve/hilbert.h"
 #include "curve/radix_sort.h"
+#include "cvt/cvt.h"
 #include "cvt/planar_cells.h"
+#include "delaunay/delaunay.h"
 #include "delaunay/sites.h"
 #include "density/planar_density.h"
 #include "domain/arcs.h"
@@ -82,7 +84,7 @@ void set_places(State& state, const Sites& sites) {
 }
 
 /// A run on the sphere from its distinct generators.
-Start begun_at(Sites&& sites, const CvtOptions& options) {
+Begun begun_at(Sites&& sites, const CvtOptions& options) {
   if (sites.size() < 12)
     throw Error(ErrorCode::too_few_sites, "there are " + std::to_string(sites.size()) +
                                               " distinct generators: give at least 12");
@@ -167,14 +169,14 @@ void refuse_state() {
 
 // ---- The sphere
 
-Start SphericalWorld::begin(Points3&& start, const CvtOptions& options) {
+Begun SphericalWorld::begin(Points3&& start, const CvtOptions& options) {
   return begun_at(
       distinct_units(make_sites(std::move(start), options.duplicates, options.merge_within),
                      options),
       options);
 }
 
-Start SphericalWorld::begin(const Points3Ref& start, const CvtOptions& options) {
+Begun SphericalWorld::begin(const Points3Ref& start, const CvtOptions& options) {
   return begun_at(
       distinct_units(make_sites(start, options.duplicates, options.merge_within), options),
       options);
@@ -224,7 +226,7 @@ Level SphericalWorld::set_exchanged(State& state, const Mesh& mesh, const Densit
 
 PlanarWorld::PlanarWorld(const PlanarDomain& domain) : domain_(domain) { require_domain(domain); }
 
-Start PlanarWorld::begin(const Points2Ref& start, const CvtOptions& options) {
+Begun PlanarWorld::begin(const Points2Ref& start, const CvtOptions& options) {
   Sites sites = make_planar_sites(start, options.duplicates, options.merge_within);
   require_triangle(sites);
   require_fixed(sites, options.fixed);

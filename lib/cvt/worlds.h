@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/points.h"
+#include "cvt/cvt.h"
 #include "cvt/functional.h"
 #include "cvt/state.h"
 #include "cvt/tessellation.h"
@@ -34,7 +35,7 @@ Sites distinct_units(Sites&& sites, const CvtOptions& options);
 void set_points(State& state, const Sites& sites, const Array<Vec3>& points);
 
 /// The start of a run.
-struct Start {
+struct Begun {
   State state;
   Level level;
 };
@@ -47,8 +48,8 @@ public:
   static constexpr bool at_sites = true;     ///< its cells can be integrated with rule_at_sites
 
   /// \throws Error as make_sites(); too_few_sites.
-  static Start begin(Points3&& start, const CvtOptions& options);
-  static Start begin(const Points3Ref& start, const CvtOptions& options);
+  static Begun begin(Points3&& start, const CvtOptions& options);
+  static Begun begin(const Points3Ref& start, const CvtOptions& options);
 
   /// The density in the form that the functional takes.
   /// \throws Error bad_option if it is ill-formed.
@@ -92,7 +93,7 @@ public:
   /// \throws Error as require_domain().
   explicit PlanarWorld(const PlanarDomain& domain);
 
-  static Start begin(const Points2Ref& start, const CvtOptions& options);
+  static Begun begin(const Points2Ref& start, const CvtOptions& options);
   Density density(const Density& density) const;
   void require_points(const State& state) const;
   std::unique_ptr<Functional> functional(const Points3& points, const CvtOptions& options,

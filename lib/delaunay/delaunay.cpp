@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <calotte/delaunay.h>
+#include "delaunay/delaunay.h"
 
 #include "base/clock.h"
 #include "base/monitor.h"
 #include "delaunay/centres.h"
 #include "delaunay/cull.h"
-#include "delaunay/delaunay.h"
 #include "delaunay/divide.h"
 #include "delaunay/owners.h"
 #include "delaunay/periodic.h"
@@ -13,6 +12,7 @@
 #include "delaunay/sample.h"
 #include "delaunay/unite.h"
 #include "mesh/edges.h"
+#include "mesh/planar_mesh.h"
 
 #include <calotte/error.h>
 
@@ -22,8 +22,7 @@
 #include <type_traits>
 #include <utility>
 
-namespace calotte {
-namespace delaunay_detail {
+namespace calotte::delaunay_detail {
 namespace {
 
 /// The ends of the stages, as fractions of the run time.
@@ -318,25 +317,62 @@ Sites sites_of(Points&& points, const DelaunayOptions& options, DelaunayReport& 
   return sites;
 }
 
-PlanarMesh planar(Mesh&& mesh) {
-  return {mesh.points.topRows<2>(), std::move(mesh.triangles), std::move(mesh.neighbours),
-          std::move(mesh.site_of_input)};
-}
-
 template <class Points>
-Mesh triangulate_sphere(Points&& points, const DelaunayOptions& options, DelaunayReport* report) {
-  DelaunayReport unused;
-  DelaunayReport& used = report != nullptr ? *report : unused;
+Mesh triangulate_sphere(Points&& points, const DelaunayOptions& options, DelaunayReport& report) {
   Clock::time_point start = Clock::now();
   Monitor monitor(options.progress);
-  Sites sites = sites_of<Sphere>(std::forward<Points>(points), options, used, monitor);
-  Mesh mesh = triangulate<Sphere>(std::move(sites), options.partition, used, monitor);
-  used.seconds.total = lap(start);
+  Sites sites = sites_of<Sphere>(std::forward<Points>(points), options, report, monitor);
+  Mesh mesh = triangulate<Sphere>(std::move(sites), options.partition, report, monitor);
+  report.seconds.total = lap(start);
   monitor.finish();
   return mesh;
 }
 
 } // namespace
+
+Mesh mesh_of_sphere(const Points3Ref& points, const DelaunayOptions& options,
+                    DelaunayReport& report) {
+  return triangulate_sphere(points, options, report);
+}
+
+Mesh mesh_of_sphere(Points3&& points, const DelaunayOptions& options, DelaunayReport& report) {
+  return triangulate_sphere(std::move(points), options, report);
+}
+
+Mesh mesh_of_plane(const Points2Ref& points, const DelaunayOptions& options,
+                   DelaunayReport& report) {
+  Clock::time_point start = Clock::now();
+  Monitor monitor(options.progress);
+  Sites sites = sites_of<Plane>(points, options, report, monitor);
+  Mesh mesh = triangulate<Plane>(std::move(sites), options.partition, report, monitor);
+  mesh.surface = Surface::plane();
+  report.seconds.total = lap(start);
+  monitor.finish();
+  return mesh;
+}
+
+PlanarMesh mesh_of_box(const Points2Ref& points, const Eigen::Vector2d& period,
+                       const DelaunayOptions& options, DelaunayReport& report) {
+  Clock::time_point start = Clock::now();
+  require_in_box(points, period);
+  Monitor monitor(options.progress);
+  Sites sites = sites_of<Plane>(points, options, report, monitor);
+  const Points2 distinct = sites.points.topRows<2>();
+  const auto triangulate_images = [&](std::vector<Image> images, const Vec2& box) {
+    Sites copies = make_sites(std::move(images), box);
+    report.sites_per_region.clear();
+    report.owned_per_region.clear();
+    report.seconds_per_region.clear();
+    Mesh whole = triangulate<Plane>(std::move(copies), options.partition, report, monitor);
+    whole.surface = Surface::plane();
+    return planar(std::move(whole));
+  };
+  PlanarMesh mesh = triangulate_periodic(distinct, period, triangulate_images);
+  mesh.site_of_input = std::move(sites.site_of_input);
+  report.seconds.total = lap(start);
+  monitor.finish();
+  return mesh;
+}
 
 Mesh spherical_mesh(Sites&& sites, Regions&& regions) {
   DelaunayReport unused;
@@ -344,57 +380,4 @@ Mesh spherical_mesh(Sites&& sites, Regions&& regions) {
   return triangulate_regions<Sphere>(std::move(sites), std::move(regions), unused, monitor);
 }
 
-} // namespace delaunay_detail
-
-Mesh spherical_delaunay(const PointsRef& points, const DelaunayOptions& options,
-                        DelaunayReport* report) {
-  return delaunay_detail::triangulate_sphere(
-      base_detail::directions_of(points, "planar_delaunay()"), options, report);
-}
-
-template <>
-Mesh spherical_delaunay(Points3&& points, const DelaunayOptions& options, DelaunayReport* report) {
-  return delaunay_detail::triangulate_sphere(std::move(points), options, report);
-}
-
-PlanarMesh planar_delaunay(const PointsRef& points, const DelaunayOptions& options,
-                           DelaunayReport* report) {
-  using namespace delaunay_detail;
-  DelaunayReport unused;
-  DelaunayReport& used = report != nullptr ? *report : unused;
-  const Points2Ref places = places_of(points, "spherical_delaunay()");
-  Clock::time_point start = Clock::now();
-  Monitor monitor(options.progress);
-  Sites sites = sites_of<Plane>(places, options, used, monitor);
-  PlanarMesh mesh = planar(triangulate<Plane>(std::move(sites), options.partition, used, monitor));
-  used.seconds.total = lap(start);
-  monitor.finish();
-  return mesh;
-}
-
-PlanarMesh periodic_delaunay(const PointsRef& points, const Eigen::Vector2d& period,
-                             const DelaunayOptions& options, DelaunayReport* report) {
-  using namespace delaunay_detail;
-  DelaunayReport unused;
-  DelaunayReport& used = report != nullptr ? *report : unused;
-  const Points2Ref places = places_of(points, "spherical_delaunay()");
-  Clock::time_point start = Clock::now();
-  require_in_box(places, period);
-  Monitor monitor(options.progress);
-  Sites sites = sites_of<Plane>(places, options, used, monitor);
-  const Points2 distinct = sites.points.topRows<2>();
-  const auto triangulate_images = [&](std::vector<Image> images, const Vec2& box) {
-    Sites copies = make_sites(std::move(images), box);
-    used.sites_per_region.clear();
-    used.owned_per_region.clear();
-    used.seconds_per_region.clear();
-    return planar(triangulate<Plane>(std::move(copies), options.partition, used, monitor));
-  };
-  PlanarMesh mesh = triangulate_periodic(distinct, period, triangulate_images);
-  mesh.site_of_input = std::move(sites.site_of_input);
-  used.seconds.total = lap(start);
-  monitor.finish();
-  return mesh;
-}
-
-} // namespace calotte
+} // namespace calotte::delaunay_detail

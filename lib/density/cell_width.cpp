@@ -10,6 +10,7 @@
 #include "density/cell_width_field.h"
 #include "density/sampling.h"
 #include "domain/spherical_outline.h"
+#include "domain/surface.h"
 
 #include <calotte/error.h>
 
@@ -27,6 +28,9 @@ namespace {
 
 using base_detail::shortly;
 using density_detail::WidthField;
+using domain_detail::part_of_sphere;
+
+const char* const widths_are = "cell widths by longitude and latitude are";
 
 void require_radius(double radius_km) {
   if (!(radius_km > 0) || !std::isfinite(radius_km))
@@ -168,6 +172,10 @@ double implied_cells(const CellWidth& cell_width, double radius_km) {
   return 2 / std::numbers::sqrt3 * radius_km * radius_km * sum;
 }
 
+double implied_cells(const CellWidth& cell_width, const Surface& surface, double radius_km) {
+  return implied_cells(cell_width, part_of_sphere(surface, widths_are), radius_km);
+}
+
 double implied_cells(const CellWidth& cell_width, const Region& region, double radius_km) {
   if (region.whole())
     return implied_cells(cell_width, radius_km);
@@ -274,6 +282,10 @@ std::string uncovered(const DoubleVector& longitudes, const DoubleVector& latitu
 }
 
 } // namespace density_detail
+
+void require_covering(const CellWidth& cell_width, const Surface& surface) {
+  require_covering(cell_width, part_of_sphere(surface, widths_are));
+}
 
 void require_covering(const CellWidth& cell_width, const Region& region) {
   const WidthField field(cell_width); // throws if it is ill-formed

@@ -4,6 +4,7 @@
 #include "base/parallel.h"
 #include "base/points.h"
 #include "density/density_evaluator.h"
+#include "domain/surface.h"
 #include "exact/predicates.h"
 
 #include <calotte/error.h>
@@ -272,7 +273,9 @@ Density tanh_bump(const Eigen::Vector3d& centre, double beta, double alpha, doub
   return density;
 }
 
-Density site_density(const Density& density) {
+Density site_density(const Density& density, const Surface& surface) {
+  if (!surface.is_sphere())
+    return site_density(density, domain_detail::domain_of(surface));
   if (density.uniform())
     return density;
   Density root;
@@ -290,7 +293,10 @@ Density site_density(const Density& density) {
   return root;
 }
 
-DoubleVector evaluate(const Density& density, const PointsRef& points) {
+DoubleVector evaluate(const Density& density, const PointsRef& points, const Surface& surface) {
+  if (!surface.is_sphere())
+    return evaluate(density, domain_detail::domain_of(surface),
+                    base_detail::plane_points_of(points));
   const base_detail::Points3Ref x = base_detail::directions_of(points);
   const density_detail::DensityEvaluator evaluator(density);
   DoubleVector rho(x.cols());

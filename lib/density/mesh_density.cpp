@@ -3,6 +3,7 @@
 #include "base/require.h"
 #include "curve/hilbert.h"
 #include "density/room.h"
+#include "domain/periodic_box.h"
 #include "exact/predicates.h"
 
 #include <calotte/density.h>
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -19,22 +21,81 @@ namespace {
 
 using namespace density_detail;
 
-/// Triangles of unit vectors, and where to start looking for the one that holds a direction.
-class Locator {
+/// Unit vectors, in squares on the faces of a cube.
+struct OnSphere {
+  static constexpr int faces = 6;
+  static constexpr bool wraps = false;
+
+  explicit OnSphere(const Mesh&) {}
+
+  static Vec3 vertex(const Vec3& x) { return normalised(x); }
+  static CubePoint square(const Vec3& x) { return to_cube(x); }
+  static Vec3 from_square(const CubePoint& place) { return from_cube(place); }
+
+  /// For each corner of a triangle the volume of x and the edge across from it: negative beyond
+  /// that edge.
+  static std::array<double, 3> sides(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& x) {
+    return {dot(x, cross(b - x, c - x)), dot(x, cross(c - x, a - x)), dot(x, cross(a - x, b - x))};
+  }
+};
+
+/// The plane, which may have periods, in the square around the sites.
+struct InPlane {
+  static constexpr int faces = 1;
+  static constexpr bool wraps = true;
+
+  explicit InPlane(const Mesh& mesh)
+      : period{mesh.surface.period().x(), mesh.surface.period().y()} {
+    const Eigen::Vector3d least = mesh.points.rowwise().minCoeff();
+    low = {least.x(), least.y(), 0};
+    half = std::max((mesh.points.rowwise().maxCoeff() - least).maxCoeff() / 2,
+                    std::numeric_limits<double>::min());
+  }
+
+  static Vec3 vertex(const Vec3& x) { return x; }
+  CubePoint square(const Vec3& x) const {
+    const auto part = [&](double value, double from) {
+      return std::clamp((value - from) / half - 1, -1.0, 1.0);
+    };
+    return {0, part(domain_detail::wrapped(x.x, period.x), low.x),
+            part(domain_detail::wrapped(x.y, period.y), low.y)};
+  }
+  Vec3 from_square(const CubePoint& place) const {
+    return {low.x + (place.u + 1) * half, low.y + (place.v + 1) * half, 0};
+  }
+
+  /// The areas instead of volumes, of the copies of the corners near x.
+  std::array<double, 3> sides(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& x) const {
+    const auto offset = [&](const Vec3& from, const Vec3& to) -> Vec3 {
+      const Vec2 way = domain_detail::nearest_offset(from, to, period);
+      return {way.x, way.y, 0};
+    };
+    const Vec3 to_a = offset(x, a), to_b = to_a + offset(a, b), to_c = to_a + offset(a, c);
+    return {cross(to_b, to_c).z, cross(to_c, to_a).z, cross(to_a, to_b).z};
+  }
+
+  Vec2 period;
+  Vec3 low{0, 0, 0};
+  double half = 1;
+};
+
+/// The triangles of a mesh, and where to start looking for the one that holds a place.
+template <class Space> class Locator {
 public:
   explicit Locator(const Mesh& mesh)
-      : unit_(3, mesh.points.cols()), triangles_(mesh.triangles), neighbours_(mesh.neighbours) {
-    for (Eigen::Index i = 0; i < unit_.cols(); ++i)
-      set_column(unit_, i, normalised(column(mesh.points, i)));
-    while (4 * cells_a_side_ * cells_a_side_ < triangles_.cols() / 6)
+      : space_(mesh), vertices_(3, mesh.points.cols()), triangles_(mesh.triangles),
+        neighbours_(mesh.neighbours) {
+    for (Eigen::Index i = 0; i < vertices_.cols(); ++i)
+      set_column(vertices_, i, Space::vertex(column(mesh.points, i)));
+    while (4 * cells_a_side_ * cells_a_side_ < triangles_.cols() / Space::faces)
       cells_a_side_ *= 2;
-    start_.assign(static_cast<std::size_t>(6 * cells_a_side_ * cells_a_side_), -1);
+    start_.assign(static_cast<std::size_t>(Space::faces * cells_a_side_ * cells_a_side_), -1);
     for (std::int32_t t = 0; t < triangles_.cols(); ++t)
-      start_[bucket_of(column(unit_, triangles_(0, t)))] = t;
+      start_[bucket_of(column(vertices_, triangles_(0, t)))] = t;
     fill_empty();
   }
 
-  /// A triangle, and the weights of its vertices at a direction: not negative, with the sum 1.
+  /// A triangle, and the weights of its vertices at a place: not negative, with the sum 1.
   struct Place {
     std::int32_t triangle;
     std::array<double, 3> weight;
@@ -57,20 +118,32 @@ private:
         return {t, weights_of(sides)};
       t = beyond;
     }
+    if constexpr (Space::wraps) // half a period away a walk may lead round
+      t = holder_of(x, t);
     return {t, weights_of(sides_of(t, x))};
+  }
+
+  /// Of all triangles; `otherwise` if there is none.
+  std::int32_t holder_of(const Vec3& x, std::int32_t otherwise) const {
+    for (std::int32_t t = 0; t < triangles_.cols(); ++t) {
+      const std::array<double, 3> sides = sides_of(t, x);
+      if (*std::min_element(sides.begin(), sides.end()) >= 0)
+        return t;
+    }
+    return otherwise;
   }
 
   /// Where triangles are larger than the cells, most of these hold no vertex: their walks start at
   /// the triangle of their middle, which a walk from the cell before finds.
   void fill_empty() {
     std::int32_t t = 0;
-    for (int face = 0; face < 6; ++face)
+    for (int face = 0; face < Space::faces; ++face)
       for (std::int64_t row = 0; row < cells_a_side_; ++row)
         for (std::int64_t k = 0; k < cells_a_side_; ++k) {
           const std::int64_t column = row % 2 == 0 ? k : cells_a_side_ - 1 - k; // to and fro
           std::int32_t& start = start_[bucket(face, row, column)];
           if (start < 0)
-            start = place_from(t, from_cube({face, middle(row), middle(column)})).triangle;
+            start = place_from(t, space_.from_square({face, middle(row), middle(column)})).triangle;
           t = start;
         }
   }
@@ -85,7 +158,7 @@ private:
   }
 
   std::size_t bucket_of(const Vec3& x) const {
-    const CubePoint place = to_cube(x);
+    const CubePoint place = space_.square(x);
     const auto cell = [&](double u) { // -1 to 1
       const auto scaled =
           static_cast<std::int64_t>((u + 1) / 2 * static_cast<double>(cells_a_side_));
@@ -94,11 +167,9 @@ private:
     return bucket(place.face, cell(place.u), cell(place.v));
   }
 
-  /// For each vertex the volume of x and the edge across from it: negative beyond that edge.
   std::array<double, 3> sides_of(std::int32_t t, const Vec3& x) const {
-    const Vec3 a = column(unit_, triangles_(0, t)), b = column(unit_, triangles_(1, t)),
-               c = column(unit_, triangles_(2, t));
-    return {dot(x, cross(b - x, c - x)), dot(x, cross(c - x, a - x)), dot(x, cross(a - x, b - x))};
+    return space_.sides(column(vertices_, triangles_(0, t)), column(vertices_, triangles_(1, t)),
+                        column(vertices_, triangles_(2, t)), x);
   }
 
   static std::array<double, 3> weights_of(std::array<double, 3> sides) {
@@ -110,16 +181,33 @@ private:
     return sides;
   }
 
-  Points3 unit_;
+  Space space_;
+  Points3 vertices_;
   Triangles triangles_, neighbours_;
   std::int64_t cells_a_side_ = 1;
-  std::vector<std::int32_t> start_; ///< a triangle near each cell of the cube's faces
+  std::vector<std::int32_t> start_; ///< a triangle near each cell
 };
+
+template <class Space>
+Density::Callable interpolation(const Mesh& mesh, const DoubleVector& density) {
+  constexpr double least = 1e-150; // a density that is 0 has no cell width
+  const auto locator = std::make_shared<const Locator<Space>>(mesh);
+  const auto widths = std::make_shared<const DoubleVector>(density.array().max(least).pow(-0.25));
+  return [locator, widths](const Eigen::Ref<const Points3>& x, Eigen::Ref<Eigen::VectorXd> rho) {
+    for (Eigen::Index j = 0; j < x.cols(); ++j) {
+      const auto place = locator->place_of({x(0, j), x(1, j), x(2, j)});
+      double width = 0;
+      for (std::size_t i = 0; i < 3; ++i)
+        width += place.weight[i] *
+                 (*widths)[locator->triangles()(static_cast<Eigen::Index>(i), place.triangle)];
+      rho[j] = 1 / (width * width * width * width);
+    }
+  };
+}
 
 } // namespace
 
 Density interpolated_density(const Mesh& mesh, const DoubleVector& density) {
-  constexpr double least = 1e-150; // a density that is 0 has no cell width
   base_detail::require(density.size() == mesh.points.cols(),
                        "the density has " + std::to_string(density.size()) +
                            " values; give one for each of the mesh's " +
@@ -130,21 +218,10 @@ Density interpolated_density(const Mesh& mesh, const DoubleVector& density) {
     base_detail::require(density[i] >= 0 && std::isfinite(density[i]),
                          "the density is " + std::to_string(density[i]) + " at site " +
                              std::to_string(i) + "; give finite numbers that are not negative");
-  const auto locator = std::make_shared<const Locator>(mesh);
-  const auto widths = std::make_shared<const DoubleVector>(density.array().max(least).pow(-0.25));
   Density result;
   result.kind = Density::Kind::callable;
-  result.callable = [locator, widths](const Eigen::Ref<const Points3>& x,
-                                      Eigen::Ref<Eigen::VectorXd> rho) {
-    for (Eigen::Index j = 0; j < x.cols(); ++j) {
-      const Locator::Place place = locator->place_of({x(0, j), x(1, j), x(2, j)});
-      double width = 0;
-      for (std::size_t i = 0; i < 3; ++i)
-        width += place.weight[i] *
-                 (*widths)[locator->triangles()(static_cast<Eigen::Index>(i), place.triangle)];
-      rho[j] = 1 / (width * width * width * width);
-    }
-  };
+  result.callable = mesh.surface.is_sphere() ? interpolation<OnSphere>(mesh, density)
+                                             : interpolation<InPlane>(mesh, density);
   return result;
 }
 

@@ -91,9 +91,8 @@ Density planar_density(const Density& density, const PlanarDomain& domain) {
 namespace calotte {
 
 DoubleVector evaluate(const Density& density, const PlanarDomain& domain, const PointsRef& places) {
-  Points3 x = Points3::Zero(3, places.cols());
-  x.topRows<2>() = base_detail::places_of(places);
-  return evaluate(density_detail::planar_density(density, domain), x);
+  return evaluate(density_detail::planar_density(density, domain),
+                  base_detail::with_z(base_detail::places_of(places)));
 }
 
 Density site_density(const Density& density, const PlanarDomain& domain) {

@@ -5,6 +5,7 @@
 #include "base/require.h"
 #include "density/cell_width_field.h"
 #include "density/sampling.h"
+#include "domain/surface.h"
 
 #include <cmath>
 #include <memory>
@@ -19,6 +20,9 @@ using base_detail::require;
 using base_detail::shortly;
 using density_detail::Axis;
 using density_detail::draw;
+using domain_detail::part_of_plane;
+
+const char* const widths_are = "cell widths by x and y are";
 
 void require_axis(const DoubleVector& values, const std::string& of, const std::string& name) {
   require(values.size() >= 2,
@@ -128,6 +132,10 @@ Density density_of(const PlanarCellWidth& cell_width) {
   return density;
 }
 
+double implied_cells(const PlanarCellWidth& cell_width, const Surface& surface) {
+  return implied_cells(cell_width, part_of_plane(surface, widths_are));
+}
+
 double implied_cells(const PlanarCellWidth& cell_width, const PlanarDomain& domain) {
   constexpr std::int64_t samples = 1 << 18;
   const Field field = field_of(cell_width);
@@ -138,6 +146,10 @@ double implied_cells(const PlanarCellWidth& cell_width, const PlanarDomain& doma
     sum += 1 / (width * width);
   }
   return 2 / std::numbers::sqrt3 * area(domain) * (sum / static_cast<double>(samples));
+}
+
+void require_covering(const PlanarCellWidth& cell_width, const Surface& surface) {
+  require_covering(cell_width, part_of_plane(surface, widths_are));
 }
 
 void require_covering(const PlanarCellWidth& cell_width, const PlanarDomain& domain) {

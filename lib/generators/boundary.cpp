@@ -7,6 +7,7 @@
 #include "density/hexagons.h"
 #include "domain/rings.h"
 #include "domain/spherical_outline.h"
+#include "domain/surface.h"
 #include "generators/room.h"
 
 #include <algorithm>
@@ -195,6 +196,11 @@ double whole_cells(double n, double edges) {
 }
 
 } // namespace
+
+Points3 boundary_points(const Surface& surface, std::int64_t cells, const Density& density) {
+  return boundary_points(
+      domain_detail::part_of_sphere(surface, "generators along the boundary are"), cells, density);
+}
 
 Points3 boundary_points(const Region& region, std::int64_t cells, const Density& density) {
   constexpr std::int64_t samples = 65536;

@@ -9,9 +9,11 @@
 #include "base/vec3.h"
 #include "density/sampling.h"
 #include "domain/spherical_outline.h"
+#include "domain/surface.h"
 #include "generators/midpoints.h"
 #include "generators/room.h"
 #include "mesh/edges.h"
+#include "mesh/planar_mesh.h"
 
 #include <algorithm>
 #include <array>
@@ -19,6 +21,7 @@
 #include <numbers>
 #include <numeric>
 #include <string>
+#include <utility>
 #include <vector>
 
 // The code uses only + - * / and sqrt, each rounded once, so that every machine gives the same
@@ -122,7 +125,24 @@ void set_hexagons_triangles(std::int64_t columns, std::int64_t rows, PlanarMesh&
   }
 }
 
+/// Leaves out the points from the first on that lie outside.
+Points3 inside_after(std::int64_t first, Points3&& points, const Surface& surface) {
+  std::int64_t next = first;
+  for (std::int64_t i = first; i < points.cols(); ++i)
+    if (surface.contains(points.col(i)))
+      points.col(next++) = points.col(i);
+  points.conservativeResize(Eigen::NoChange, next);
+  return std::move(points);
+}
+
 } // namespace
+
+Points3 random_points(std::int64_t n, const Surface& surface, const Density& density,
+                      std::uint64_t seed) {
+  return surface.is_sphere() ? random_sphere(n, domain_detail::region_of(surface), density, seed)
+                             : base_detail::with_z(random_places(
+                                   n, domain_detail::domain_of(surface), density, seed));
+}
 
 Points3 random_sphere(std::int64_t n, std::uint64_t seed) {
   require_count(n, 1, "the number of points");
@@ -240,6 +260,9 @@ Points3 cubed_sphere(std::int64_t m) {
 }
 
 Points3 bisect(const Mesh& mesh) {
+  if (!mesh.surface.is_sphere())
+    return base_detail::with_z(generators_detail::bisected(mesh_detail::planar(mesh),
+                                                           domain_detail::domain_of(mesh.surface)));
   const std::int64_t n = mesh.points.cols();
   const mesh_detail::EdgeCount edges = mesh_detail::count_edges(mesh);
   Points3 points(3, n + edges.all);
@@ -247,7 +270,13 @@ Points3 bisect(const Mesh& mesh) {
   mesh_detail::for_each_edge(mesh, edges, [&](std::int64_t e, std::int32_t a, std::int32_t b) {
     put(points, n + e, midpoint(get(points, a), get(points, b)));
   });
-  return points;
+  return mesh.surface.is_bounded() ? inside_after(n, std::move(points), mesh.surface) : points;
+}
+
+Mesh hexagonal_box(std::int64_t columns, std::int64_t rows, double spacing) {
+  PlanarMesh mesh = periodic_hexagons(columns, rows, spacing);
+  const Surface box = Surface::periodic(mesh.period);
+  return mesh_detail::spatial(std::move(mesh), box);
 }
 
 PlanarMesh periodic_hexagons(std::int64_t columns, std::int64_t rows, double spacing) {

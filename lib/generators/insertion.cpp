@@ -9,8 +9,10 @@
 #include "domain/arcs.h"
 #include "domain/outline.h"
 #include "domain/periodic_box.h"
+#include "domain/surface.h"
 #include "generators/midpoints.h"
 #include "mesh/edges.h"
+#include "mesh/planar_mesh.h"
 
 #include <algorithm>
 #include <cmath>
@@ -234,7 +236,7 @@ struct InRegion : OnSphere {
 
 struct InPlane {
   Vec2 period;
-  const Outline* outline; ///< none of a periodic box
+  const Outline* outline; ///< none without a boundary
 
   Vec3 offset(const Vec3& a, const Vec3& b) const {
     const Vec2 way = nearest_offset(a, b, period);
@@ -274,10 +276,14 @@ double sum_dislocations(const AnyMesh& mesh, const Points3& points, const Densit
   return per_edge * sum;
 }
 
-Points3 in_space(const PlanarMesh& mesh) {
-  Points3 places = Points3::Zero(3, mesh.points.cols());
-  places.topRows<2>() = mesh.points;
-  return places;
+/// \param points of the mesh, with z = 0.
+Points3 exchanged_in_plane(const PlanarMesh& mesh, const Points3& points,
+                           const PlanarDomain& domain, const Density& density,
+                           const Exchange& numbers) {
+  const std::unique_ptr<const Outline> outline =
+      domain.periodic() ? nullptr : std::make_unique<const Outline>(domain);
+  const InPlane space{{domain.period.x(), domain.period.y()}, outline.get()};
+  return exchange(mesh, points, density_detail::planar_density(density, domain), space, numbers);
 }
 
 } // namespace
@@ -289,7 +295,7 @@ double dislocations(const Mesh& mesh, const Density& density) {
 }
 
 double dislocations(const PlanarMesh& mesh, const Density& density) {
-  return sum_dislocations(mesh, in_space(mesh), density);
+  return sum_dislocations(mesh, base_detail::with_z(mesh.points), density);
 }
 
 Points3 exchanged(const Mesh& mesh, const Density& density, const Exchange& exchange) {
@@ -304,11 +310,7 @@ Points3 exchanged(const Mesh& mesh, const SphericalOutline& outline, const Densi
 
 Points2 exchanged(const PlanarMesh& mesh, const PlanarDomain& domain, const Density& density,
                   const Exchange& exchange) {
-  const std::unique_ptr<const Outline> outline =
-      domain.periodic() ? nullptr : std::make_unique<const Outline>(domain);
-  const InPlane space{{domain.period.x(), domain.period.y()}, outline.get()};
-  return calotte::exchange(mesh, in_space(mesh), density_detail::planar_density(density, domain),
-                           space, exchange)
+  return exchanged_in_plane(mesh, base_detail::with_z(mesh.points), domain, density, exchange)
       .topRows<2>();
 }
 
@@ -325,7 +327,13 @@ bool lies_along(const SphericalOutline& outline, const Vec3& a, const Vec3& b) {
 
 Points3 insert_and_contract(const Mesh& mesh, const Density& density, std::int64_t inserted,
                             std::int64_t contracted) {
-  return generators_detail::exchanged(mesh, density, {inserted, contracted});
+  const Exchange numbers{inserted, contracted};
+  if (!mesh.surface.is_sphere())
+    return exchanged_in_plane(mesh_detail::planar(mesh), mesh.points, domain_of(mesh.surface),
+                              density, numbers);
+  if (mesh.surface.is_bounded())
+    return exchanged(mesh, SphericalOutline(region_of(mesh.surface)), density, numbers);
+  return exchanged(mesh, density, numbers);
 }
 
 Points2 insert_and_contract(const PlanarMesh& mesh, const PlanarDomain& domain,

@@ -37,7 +37,7 @@ Vec3 midpoint(const Vec3& a, const Vec3& b) {
 
 double middle_in_box(double a, double b, double length) {
   const double middle = a / 2 + b / 2;
-  if (std::abs(a - b) <= length / 2)
+  if (!(length > 0) || std::abs(a - b) <= length / 2)
     return middle;
   const double across = middle < length / 2 ? middle + length / 2 : middle - length / 2;
   return across < length ? across : 0;

@@ -4,6 +4,10 @@
 #include "base/vec3.h"
 #include "generators/room.h"
 
+#include "generators/room.h"
+#include <calotte/domain.h>
+#include <calotte/types.h>
+
 /// The points that a bisection or an insertion adds.
 namespace calotte::generators_detail {
 
@@ -15,7 +19,10 @@ Vec3 midpoint(const Vec3& a, const Vec3& b);
 
 /// The middle of the shorter way from one place in a box to another, in the box; for one
 /// coordinate.
-/// \param length of the box.
+/// \param length of the box; 0 in a direction without a period.
 double middle_in_box(double a, double b, double length);
+
+/// As bisect(). \param domain the rings alone: none if all midpoints stay.
+Points2 bisected(const PlanarMesh& mesh, const PlanarDomain& domain);
 
 } // namespace calotte::generators_detail

@@ -2,10 +2,12 @@
 #include <calotte/generators.h>
 
 #include "base/parallel.h"
+#include "base/points.h"
 #include "base/require.h"
 #include "density/planar_density.h"
 #include "density/sampling.h"
 #include "domain/outline.h"
+#include "domain/surface.h"
 #include "generators/midpoints.h"
 #include "generators/room.h"
 #include "mesh/edges.h"
@@ -221,6 +223,10 @@ Points2 bisected_inside(const PlanarMesh& mesh, const Outline& outline) {
 
 } // namespace
 
+Points2 generators_detail::bisected(const PlanarMesh& mesh, const PlanarDomain& domain) {
+  return domain.rings.empty() ? bisected_box(mesh) : bisected_inside(mesh, Outline(domain));
+}
+
 Points2 random_places(std::int64_t n, const PlanarDomain& domain, std::uint64_t seed) {
   return random_places(n, domain, Density{}, seed);
 }
@@ -229,6 +235,11 @@ Points2 random_places(std::int64_t n, const PlanarDomain& domain, const Density&
                       std::uint64_t seed) {
   require_count(n, 1, "the number of points");
   return density_detail::draw(n, density_detail::planar_density(density, domain), domain, seed);
+}
+
+Points3 hexagonal_lattice(std::int64_t n, const Surface& surface) {
+  return base_detail::with_z(
+      hexagonal_lattice(n, domain_detail::part_of_plane(surface, "a hexagonal lattice is")));
 }
 
 Points2 hexagonal_lattice(std::int64_t n, const PlanarDomain& domain) {
@@ -244,7 +255,7 @@ Points2 bisect(const PlanarMesh& mesh, const PlanarDomain& domain) {
   require(periodic == domain.periodic() && (!periodic || mesh.period == domain.period),
           "the mesh and the domain are not both of one periodic box, or neither; give the domain "
           "that the mesh was made for");
-  return periodic ? bisected_box(mesh) : bisected_inside(mesh, Outline(domain));
+  return generators_detail::bisected(mesh, domain);
 }
 
 } // namespace calotte

@@ -13,7 +13,7 @@
 namespace calotte {
 namespace io_detail {
 
-CellWidth checked(Raster raster, const std::string& name, const Region& region) {
+CellWidth checked(Raster raster, const std::string& name, const Surface& region) {
   raster = ordered(
       std::move(raster), name,
       {[](double width) { return width > 0 && std::isfinite(width); }, "positive and finite"},
@@ -24,7 +24,7 @@ CellWidth checked(Raster raster, const std::string& name, const Region& region) 
 } // namespace io_detail
 
 CellWidth read_cell_width(const std::string& path, const PolygonWidths& polygons,
-                          const Region& region) {
+                          const Surface& region) {
   const std::string suffix = io_detail::suffix_of(path);
   if (suffix == ".nc")
     return io_detail::read_cell_width_netcdf(path, region);
@@ -37,7 +37,7 @@ CellWidth read_cell_width(const std::string& path, const PolygonWidths& polygons
                           : io_detail::read_cell_width_geojson(in, path, polygons);
 }
 
-CellWidth read_density_raster(const std::string& path, const Region& region) {
+CellWidth read_density_raster(const std::string& path, const Surface& region) {
   CellWidth raster = io_detail::read_density_netcdf(path, region);
   const auto width_of = [](double density) { return 1 / std::sqrt(std::sqrt(density)); };
   raster.widths = raster.widths.unaryExpr(width_of);

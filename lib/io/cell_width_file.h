@@ -15,15 +15,15 @@ namespace calotte::io_detail {
 /// Brings a raster into the order of CellWidth: latitudes ascending, no longitude repeated.
 /// \throws Error parse, "NAME: ..." with the variable and its index, if it does not cover the
 ///         region, or a width is not positive.
-CellWidth checked(Raster raster, const std::string& name, const Region& region);
+CellWidth checked(Raster raster, const std::string& name, const Surface& region);
 
 /// The factor that converts values of a variable to km, from its attribute `units`.
 /// \throws Error parse, naming the variable.
 double kilometres_of(const NetcdfReader& file, const std::string& variable);
 
-CellWidth read_cell_width_netcdf(const std::string& path, const Region& region);
-CellWidth read_density_netcdf(const std::string& path, const Region& region);
-CellWidth read_cell_width_msh(std::istream& in, const std::string& name, const Region& region);
+CellWidth read_cell_width_netcdf(const std::string& path, const Surface& region);
+CellWidth read_density_netcdf(const std::string& path, const Surface& region);
+CellWidth read_cell_width_msh(std::istream& in, const std::string& name, const Surface& region);
 CellWidth read_cell_width_geojson(std::istream& in, const std::string& name,
                                   const PolygonWidths& widths);
 

@@ -5,6 +5,7 @@
 #include "base/lonlat.h"
 #include "base/parallel.h"
 #include "base/vec3.h"
+#include "delaunay/delaunay.h"
 #include "density/cell_width_field.h"
 #include "exact/predicates.h"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "delaunay/delaunay.h"
 #include "io/room.h"
 
 #include <calotte/cell_width.h>

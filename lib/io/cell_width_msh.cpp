@@ -22,7 +22,7 @@ void require_count(const JigsawFile& file, std::size_t nodes, const std::string&
                      std::to_string(nodes) + " nodes; give one for each");
 }
 
-CellWidth of_grid(const JigsawFile& file, const std::string& name, const Region& region) {
+CellWidth of_grid(const JigsawFile& file, const std::string& name, const Surface& region) {
   require_count(file, file.x_grid.size() * file.y_grid.size(), name);
   Raster raster;
   raster.longitude_name = "COORD=1";
@@ -58,7 +58,7 @@ CellWidth of_mesh(const JigsawFile& file, const std::string& name) {
 
 } // namespace
 
-CellWidth read_cell_width_msh(std::istream& in, const std::string& name, const Region& region) {
+CellWidth read_cell_width_msh(std::istream& in, const std::string& name, const Surface& region) {
   const JigsawFile file = read_jigsaw(in, name);
   if (file.kind == "ellipsoid-grid")
     return of_grid(file, name, region);

@@ -55,7 +55,7 @@ double kilometres_of(const NetcdfReader& file, const std::string& variable) {
   }
 }
 
-CellWidth read_cell_width_netcdf(const std::string& path, const Region& region) {
+CellWidth read_cell_width_netcdf(const std::string& path, const Surface& region) {
   const std::string variable = "cellWidth";
   const NetcdfReader file(path);
   Raster raster = read_raster(file, variable);
@@ -64,7 +64,7 @@ CellWidth read_cell_width_netcdf(const std::string& path, const Region& region) 
   return checked(std::move(raster), path, region);
 }
 
-CellWidth read_density_netcdf(const std::string& path, const Region& region) {
+CellWidth read_density_netcdf(const std::string& path, const Surface& region) {
   return checked(read_raster(NetcdfReader(path), "density"), path, region);
 }
 

@@ -27,7 +27,7 @@ constexpr std::string_view format = "calotte checkpoint ";
 
 std::string head() {
   std::string line(format);
-  line += "9, ";
+  line += "10, ";
   line += little_endian ? "little" : "big";
   line += "-endian\n";
   return line;
@@ -44,6 +44,10 @@ template <class Iteration, class Visit> void visit_iteration(Iteration& i, const
 
 template <class Region, class Visit> void visit_region(Region& r, const Visit& visit) {
   visit(r.sites), visit(r.seconds);
+}
+
+template <class Level, class Visit> void visit_level(Level& l, const Visit& visit) {
+  visit(l.cells), visit(l.insertion_rounds), visit(l.tolerance), visit(l.max_iterations);
 }
 
 template <class State, class Visit> void visit_scalars(State& s, const Visit& visit) {
@@ -91,6 +95,9 @@ void put_checkpoint(const Sink& sink, const State& state, const std::string& con
   out.raw(std::ssize(command)).text(command);
   visit_arrays(state, Put{&out});
   visit_scalars(state, raw);
+  out.raw(std::ssize(state.report.levels));
+  for (const CvtLevel& level : state.report.levels)
+    visit_level(level, raw);
   out.raw(std::ssize(state.report.iterations));
   for (const CvtIteration& iteration : state.report.iterations)
     visit_iteration(iteration, raw);
@@ -156,6 +163,8 @@ State take_state(Bytes& bytes) {
   visit_arrays(state, TakeArray{&bytes});
   const Take take{&bytes};
   visit_scalars(state, take);
+  for (std::int64_t k = take_count(bytes); k > 0; --k)
+    visit_level(state.report.levels.emplace_back(), take);
   for (std::int64_t k = take_count(bytes); k > 0; --k)
     visit_iteration(state.report.iterations.emplace_back(), take);
   for (std::int64_t k = take_count(bytes); k > 0; --k)

@@ -139,9 +139,12 @@ CutReport cut(const MpasSource& source, const std::string& target,
 
 } // namespace io_detail
 
-CutReport cut(const std::string& source, const std::string& target, const Region& region,
+CutReport cut(const std::string& source, const std::string& target, const Surface& region,
               const CutOptions& options) {
-  return cut(source, target, containing(region), options);
+  const std::function<bool(const Eigen::Vector3d&)> inside = [&](const Eigen::Vector3d& place) {
+    return region.contains(place);
+  };
+  return cut(source, target, inside, options);
 }
 
 CutReport cut(const std::string& source, const std::string& target,

@@ -107,7 +107,7 @@ PlanarDomain domain_of(const Rings& rings) {
 
 } // namespace
 
-PlanarDomain read_domain(const std::string& path) {
+Surface read_domain(const std::string& path) {
   std::ifstream in = open_input(path);
   const std::string suffix = suffix_of(path);
   const bool json = suffix == ".geojson" || suffix == ".json";

@@ -20,16 +20,10 @@ Voronoi of_polygons(const MeshFile& file) {
 } // namespace
 
 Voronoi voronoi(const MeshFile& file) {
-  if (file.plane && file.domain)
-    return voronoi(*file.plane, *file.domain);
-  if (file.polygons)
-    return of_polygons(file);
-  if (file.mesh)
-    return voronoi(*file.mesh);
-  if (file.plane && file.plane->closed())
-    return voronoi(*file.plane);
-  throw Error(ErrorCode::bad_option,
-              "the cells of a bounded plane need its domain, which clips them; give it");
+  if (!file.mesh && !file.polygons)
+    throw Error(ErrorCode::bad_option, "the file holds neither a mesh nor cells");
+  const bool clipped = file.plane() && file.mesh->surface.is_bounded();
+  return file.polygons && !clipped ? of_polygons(file) : voronoi(*file.mesh);
 }
 
 } // namespace calotte

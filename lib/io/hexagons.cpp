@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/require.h"
+#include "delaunay/delaunay.h"
 #include "domain/periodic_box.h"
 #include "io/room.h"
+#include "mesh/planar_mesh.h"
 
 #include <calotte/voronoi.h>
 
@@ -137,14 +139,16 @@ MeshFile planar_hexagons(std::int64_t columns, std::int64_t rows, double spacing
   for_each_cell(lattice, [&](std::int64_t row, std::int64_t column) {
     places.col(next++) = within(lattice.centre(row, column), lattice.period()).head<2>();
   });
-  file.plane = periodic_delaunay(places, lattice.period());
+  file.mesh = mesh_detail::spatial(periodic_delaunay(places, lattice.period()),
+                                   periodic_box(lattice.period()));
   return file;
 }
 
-MeshFile walled(const PlanarMesh& box, const Eigen::Vector2d& extent, Walls walls) {
+MeshFile walled(const Mesh& box, const Eigen::Vector2d& extent, Walls walls) {
   require(walls.x || walls.y, "no wall is given; write the periodic mesh, or give one");
+  const Eigen::Vector2d& period = box.surface.period();
   for (int k = 0; k < 2; ++k)
-    require(!(k == 0 ? walls.x : walls.y) || (extent[k] > 0 && extent[k] < box.period[k]),
+    require(!(k == 0 ? walls.x : walls.y) || (extent[k] > 0 && extent[k] < period[k]),
             "the distance of the walls is not positive and below the period of the box; give a "
             "larger box");
   const Voronoi cells = voronoi(box);
@@ -153,7 +157,7 @@ MeshFile walled(const PlanarMesh& box, const Eigen::Vector2d& extent, Walls wall
   file.not_voronoi = "they have a boundary";
   Polygons& out = file.polygons.emplace();
   out.on_sphere = false;
-  out.period = {walls.x ? 0 : box.period.x(), walls.y ? 0 : box.period.y()};
+  out.period = {walls.x ? 0 : period.x(), walls.y ? 0 : period.y()};
   std::vector<std::int32_t> number(static_cast<std::size_t>(cells.vertices.cols()), -1), ids;
   std::vector<std::int64_t> begin{0}, site;
   std::vector<Eigen::Vector3d> corners;
@@ -169,8 +173,7 @@ MeshFile walled(const PlanarMesh& box, const Eigen::Vector2d& extent, Walls wall
         Eigen::Vector3d corner = cells.vertices.col(cells.vertices_on_cell[k]);
         for (int axis = 0; axis < 2; ++axis) // across a wall the copy beside the cell
           if (out.period[axis] == 0)
-            corner[axis] +=
-                box.period[axis] * std::round((centre[axis] - corner[axis]) / box.period[axis]);
+            corner[axis] += period[axis] * std::round((centre[axis] - corner[axis]) / period[axis]);
         corners.push_back(corner);
       }
       ids.push_back(to);

@@ -3,6 +3,7 @@
 
 #include "cvt/region_cells.h"
 #include "domain/spherical_outline.h"
+#include "domain/surface.h"
 #include "io/mpas.h"
 #include "io/mpas_cut.h"
 
@@ -38,11 +39,12 @@ private:
 };
 
 /// The generators, and places far from their region, so that no hemisphere is empty.
-Points3 spanning(const Points3& generators, const Region& meshed, const Density& density) {
-  if (meshed.whole())
+Points3 spanning(const Points3& generators, const Surface& meshed, const Density& density) {
+  if (!meshed.is_bounded())
     return generators;
   const Points3 hull =
-      cvt_detail::hull_of(domain_detail::SphericalOutline(meshed), density, generators.cols());
+      cvt_detail::hull_of(domain_detail::SphericalOutline(domain_detail::region_of(meshed)),
+                          density, generators.cols());
   Points3 all(3, generators.cols() + hull.cols());
   all << generators, hull;
   return all;
@@ -50,17 +52,17 @@ Points3 spanning(const Points3& generators, const Region& meshed, const Density&
 
 } // namespace
 
-CutReport write_limited_area(const std::string& target, const Points3& generators,
-                             const Region& meshed, const Region& region,
+CutReport write_limited_area(const std::string& target, const Mesh& mesh, const Surface& region,
                              const WriteOptions& written, const CutOptions& options) {
   Scrap whole(target + ".whole.nc");
   WriteOptions mpas = written;
   mpas.format = Format::mpas;
   mpas.sphere_radius = 1;
-  write(whole.path(), spherical_delaunay(spanning(generators, meshed, written.density)), mpas);
+  write(whole.path(), delaunay(spanning(mesh.points, mesh.surface, written.density)), mpas);
   const io_detail::MpasSource source(whole.path());
   whole.remove(); // now, so that a run that is killed later leaves nothing
-  return io_detail::cut(source, target, containing(region), options, io_detail::Nominal::of_cells);
+  const auto inside = [&](const Eigen::Vector3d& place) { return region.contains(place); };
+  return io_detail::cut(source, target, inside, options, io_detail::Nominal::of_cells);
 }
 
 } // namespace calotte

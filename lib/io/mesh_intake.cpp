@@ -2,12 +2,14 @@
 #include "io/mesh_intake.h"
 
 #include "base/points.h"
+#include "delaunay/delaunay.h"
 #include "io/dual.h"
 #include "io/field_order.h"
 #include "io/polygons.h"
 #include "mesh/adjacency.h"
 #include "mesh/canonical_order.h"
 #include "mesh/orientation.h"
+#include "mesh/planar_mesh.h"
 
 #include <calotte/delaunay.h>
 #include <calotte/error.h>
@@ -209,7 +211,7 @@ void settle_cells(const std::string& name, Soup soup, MeshFile& file) {
 
 /// Keeps the polygons: their boundary is the file's alone. Each has a site.
 void settle_clipped(const std::string& name, Polygons polygons, MeshFile& file) {
-  const auto& sites = file.plane->site_of_input;
+  const auto& sites = file.mesh->site_of_input;
   for (std::size_t i = 0; i < sites.size(); ++i)
     if (sites[i] != static_cast<std::int32_t>(i))
       refuse(name,
@@ -306,7 +308,7 @@ MeshFile mesh_file_of(const std::string& name, const std::string& format, Soup s
     turn_cells(name, soup.polygons, soup.turns_each, file);
   if (soup.triangles.cols() > 0) {
     require_ids(name, soup.triangles, soup.points.cols());
-    Mesh mesh{std::move(soup.points), std::move(soup.triangles), {}, {}};
+    Mesh mesh{std::move(soup.points), std::move(soup.triangles), {}, {}, {}};
     mesh.neighbours = canonical(name, mesh.triangles, mesh.points.cols(),
                                 orientations_of(mesh.points, mesh.triangles), file, &soup.polygons);
     mesh.site_of_input = themselves(mesh.points.cols());
@@ -335,7 +337,8 @@ MeshFile planar_mesh_file_of(const std::string& name, const std::string& format,
     throw Error(ErrorCode::bad_option,
                 name + ": it holds cells of the sphere; of a plane only triangles are read");
   if (soup.triangles.cols() == 0) {
-    file.plane = named(name, [&] { return planar_delaunay(mesh.points); });
+    file.mesh =
+        spatial(named(name, [&] { return planar_delaunay(mesh.points); }), Surface::plane());
     if (soup.polygons.size() > 0)
       settle_clipped(name, std::move(soup.polygons), file);
     return file;
@@ -345,7 +348,7 @@ MeshFile planar_mesh_file_of(const std::string& name, const std::string& format,
   mesh.neighbours = canonical(name, mesh.triangles, mesh.points.cols(),
                               orientations_of(mesh.points, mesh.triangles), file);
   mesh.site_of_input = themselves(mesh.points.cols());
-  file.plane = std::move(mesh);
+  file.mesh = spatial(std::move(mesh), Surface::plane());
   return file;
 }
 
@@ -362,21 +365,18 @@ auto mesh_of_columns_in_order(const std::string& name, const Points& points, Tri
 } // namespace
 
 MeshFile mesh_file_of_columns(const std::string& name, const Points3& points, Triangles triangles) {
-  require_directions(name, points);
   MeshFile file;
   file.format = "triangles";
+  if (lies_in_plane(points)) {
+    require_places(name, points);
+    file.mesh =
+        spatial(mesh_of_columns_in_order(name, Points2(points.topRows<2>()), triangles, file),
+                Surface::plane());
+    return file;
+  }
+  require_directions(name, points);
   file.mesh = mesh_of_columns_in_order(name, points, triangles, file);
   file.sphere_radius = radius_of(points);
-  return file;
-}
-
-MeshFile mesh_file_of_columns(const std::string& name, const Points2& points, Triangles triangles) {
-  for (Eigen::Index i = 0; i < points.cols(); ++i)
-    if (!points.col(i).allFinite())
-      refuse(name, "point " + std::to_string(i) + " has no place (NaN or infinite)", i);
-  MeshFile file;
-  file.format = "triangles";
-  file.plane = mesh_of_columns_in_order(name, points, triangles, file);
   return file;
 }
 
@@ -386,7 +386,8 @@ MeshFile periodic_mesh_file_of(const std::string& name, PlanarMesh mesh, Soup re
                               orientations_of(mesh.points, mesh.triangles, mesh.period), file);
   mesh.site_of_input = themselves(mesh.points.cols());
   settle_edge_fields(mesh.triangles, rest.edges, file.fields, file.changes, file.ignored);
-  file.plane = std::move(mesh);
+  const Surface surface = PlanarDomain{{}, mesh.period};
+  file.mesh = spatial(std::move(mesh), surface);
   if (rest.polygons.size() > 0) {
     turn_cells(name, rest.polygons, false, file);
     require_no_overlap(rest.polygons, name);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "delaunay/delaunay.h"
 #include "io/formats.h"
 #include "io/room.h"
 
@@ -21,9 +22,9 @@ MeshFile mesh_file_of(const std::string& name, const std::string& format, Soup s
 /// not 0.
 MeshFile planar_mesh_file_of(const std::string& name, const std::string& format, Soup soup);
 
-/// A mesh whose triangles refer to columns of points that a caller has. \throws Error parse.
+/// A mesh whose triangles refer to columns of points that a caller has, of the plane if z is 0 at
+/// all of them. \throws Error parse.
 MeshFile mesh_file_of_columns(const std::string& name, const Points3& points, Triangles triangles);
-MeshFile mesh_file_of_columns(const std::string& name, const Points2& points, Triangles triangles);
 
 /// A mesh in a periodic plane, whose points are within the periods. It has a boundary where `rest`
 /// has polygons, one for each point. \throws Error parse.

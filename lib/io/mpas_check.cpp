@@ -5,6 +5,7 @@
 #include "base/points.h"
 #include "io/formats.h"
 #include "io/model_grid.h"
+#include "mesh/planar_mesh.h"
 #include "voronoi/geometry.h"
 #include "voronoi/stages.h"
 
@@ -86,14 +87,15 @@ void check_mpas_attributes(Deviations& deviations, bool on_sphere) {
 }
 
 void check_mpas(MeshFile file, Deviations& deviations) {
-  check_mpas_attributes(deviations, file.mesh.has_value());
+  check_mpas_attributes(deviations, file.sphere() != nullptr);
   try {
-    if (file.mesh)
+    if (file.sphere())
       check_sphere(file, deviations);
-    else if (file.plane && (file.polygons || file.plane->period.minCoeff() == 0))
+    else if (file.plane() && (file.polygons || !file.mesh->surface.is_box()))
       check_open_mpas(file, 1, deviations);
-    else if (file.plane)
-      check_closed(voronoi_of(std::move(*file.plane)), 1, std::move(file.density), deviations);
+    else if (file.plane())
+      check_closed(voronoi_of(mesh_detail::planar(*file.mesh)), 1, std::move(file.density),
+                   deviations);
   } catch (const Error& error) {
     if (error.code() != ErrorCode::bad_option)
       throw;

@@ -129,14 +129,10 @@ void mark_incomplete_cells(double radius, Voronoi& out) {
 
 /// The cells as the file has them.
 Points3 cells_of(const MeshFile& file) {
-  if (file.mesh) {
-    Points3 units = file.mesh->points;
-    for (auto unit : units.colwise())
+  Points3 cells = file.mesh->points;
+  if (file.sphere())
+    for (auto unit : cells.colwise())
       unit /= unit.norm();
-    return units;
-  }
-  Points3 cells = Points3::Zero(3, file.plane->points.cols());
-  cells.topRows<2>() = file.plane->points;
   return cells;
 }
 
@@ -146,9 +142,8 @@ void check_open_mpas(const MeshFile& file, double radius, Deviations& deviations
   Voronoi part;
   MpasNumbering numbering;
   OpenLists lists;
-  part.on_sphere = file.mesh.has_value();
-  if (file.plane)
-    part.period = file.plane->period;
+  part.on_sphere = file.sphere() != nullptr;
+  part.period = file.mesh->surface.period();
   part.cells = cells_of(file);
   Points3 vertices = stored_places(mpas_vertex, deviations.file().dimension("nVertices"),
                                    part.on_sphere, deviations);

@@ -217,7 +217,7 @@ bool is_planar_mpas(const NetcdfReader& file) {
 Points3 read_mpas_sites(const NetcdfReader& file) {
   if (is_planar_mpas(file))
     throw Error(ErrorCode::bad_option, file.path() + " holds a mesh of the plane, not of the "
-                                                     "sphere; read it with read_planar_mesh");
+                                                     "sphere; read it with read_mesh()");
   return places_of(file, "Cell");
 }
 
@@ -240,9 +240,6 @@ Soup read_mpas(const NetcdfReader& file, FieldChoice choice) {
 }
 
 MeshFile read_planar_mpas(const NetcdfReader& file, FieldChoice choice) {
-  if (!is_planar_mpas(file))
-    throw Error(ErrorCode::bad_option, file.path() + " holds a mesh of the sphere, not of the "
-                                                     "plane; read it with read_mesh");
   if (file.text("", "is_periodic").starts_with("NO"))
     return read_bounded_plane(file, choice);
   PlanarMesh mesh;

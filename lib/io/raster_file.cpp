@@ -92,7 +92,8 @@ void drop_fill(const NetcdfReader& file, const std::string& variable, DoubleMatr
 
 } // namespace
 
-Raster ordered(Raster raster, const std::string& name, const RasterLaw& law, const Region& region) {
+Raster ordered(Raster raster, const std::string& name, const RasterLaw& law,
+               const Surface& region) {
   if (raster.latitudes.size() > 1 && raster.latitudes[1] < raster.latitudes[0]) {
     std::reverse(raster.latitudes.begin(), raster.latitudes.end());
     require_ascending(raster.latitudes, raster.latitude_name + " backwards", name);

@@ -33,7 +33,7 @@ struct RasterLaw {
 /// \throws Error parse, "NAME: ..." with the variable and its index, if it does not cover the
 ///         region, or a value violates the law.
 Raster ordered(Raster raster, const std::string& name, const RasterLaw& law,
-               const Region& region = {});
+               const Surface& region = {});
 
 /// The coordinates as Eigen's vector.
 inline DoubleVector vector_of(const std::vector<double>& values) {

@@ -193,13 +193,7 @@ MeshFile read_mesh_file(const std::string& path, const Points3* points, FieldCho
 
 Mesh read_mesh(const std::string& path, const Points3* points) {
   MeshFile file = read_mesh_file(path, points, FieldChoice::none);
-  if (file.plane)
-    throw Error(
-        ErrorCode::bad_option,
-        path + ": " +
-            (file.plane->period.minCoeff() > 0 ? "it is periodic" : "z is 0 at all points") +
-            ", which makes a mesh of the plane; read it as one of the plane");
-  if (file.polygons && !(file.mesh && !file.mesh->closed()))
+  if (file.polygons && !file.plane() && !(file.mesh && !file.mesh->closed()))
     throw Error(ErrorCode::bad_option, path +
                                            ": the cells are not the Voronoi cells of their "
                                            "centres (" +
@@ -214,28 +208,6 @@ Points3 read_sites(const std::string& path) {
   require_sphere(path, sites);
   require_directions(path, sites);
   return sites;
-}
-
-PlanarMesh read_planar_mesh(const std::string& path, const Points2* points) {
-  if (holds_netcdf(path)) {
-    const NetcdfReader file(path);
-    if (is_ugrid(file))
-      return std::move(
-          *planar_mesh_file_of(path, "UGRID", read_ugrid(file, FieldChoice::none)).plane);
-    if (!is_mpas(file))
-      file.fail("not a mesh of MPAS or UGRID, the NetCDF formats of planar meshes");
-    return std::move(*read_planar_mpas(file, FieldChoice::none).plane);
-  }
-  const Format format = *format_of_name(path);
-  if (format != Format::vtk)
-    require_planar_format(path, false, format);
-  if (format != Format::triangles)
-    return std::move(*planar_mesh_file_of(path, name_of(format), read_stream(path, format)).plane);
-  if (!points)
-    refuse_triangles_alone(path);
-  std::ifstream in = open_input(path);
-  return std::move(
-      *mesh_file_of_columns(path, *points, get_triangles_text(in, path, points->cols())).plane);
 }
 
 } // namespace calotte

@@ -34,14 +34,14 @@ void require_format(const std::string& name) {
 
 } // namespace
 
-Region read_region(std::istream& in, const std::string& name) {
+Surface read_region(std::istream& in, const std::string& name) {
   require_format(name);
   if (counts_beside(name))
     return read_region_loops(in, name, nullptr, "");
   return is_geojson(name) ? read_region_geojson(in, name) : read_region_pts(in, name);
 }
 
-Region read_region(const std::string& path) {
+Surface read_region(const std::string& path) {
   require_format(path);
   std::ifstream in = open_input(path);
   const std::optional<std::string> counts = counts_beside(path);

@@ -6,13 +6,13 @@
 namespace calotte {
 
 DoubleVector spacing_density(const MeshFile& file) {
-  if (file.plane && (file.domain || file.plane->closed()))
-    return spacing_density(file.domain ? voronoi(*file.plane, *file.domain) : voronoi(*file.plane));
+  if (const Mesh* plane = file.plane(); plane && (plane->surface.is_bounded() || plane->closed()))
+    return spacing_density(voronoi(*plane));
   if (file.polygons) {
     const io_detail::OpenCells cells = io_detail::open_cells(file);
     return cells.problem.empty() ? spacing_density(cells.voronoi) : DoubleVector();
   }
-  if (file.mesh && file.mesh->closed())
+  if (file.sphere() && file.mesh->closed())
     return spacing_density(voronoi(*file.mesh));
   return {};
 }

@@ -10,7 +10,9 @@
 
 #include "base/monitor.h"
 #include "base/points.h"
+#include "domain/surface.h"
 #include "mesh/ids.h"
+#include "mesh/planar_mesh.h"
 #include "mesh/renumber.h"
 
 #include <calotte/check.h>
@@ -167,12 +169,35 @@ void write_sphere(const std::string& path, AnyMesh&& mesh, const WriteOptions& o
 
 } // namespace
 
+namespace {
+
+/// Files of a plane hold the density by site.
+void write_plane(const std::string& path, const Mesh& mesh, WriteOptions options) {
+  const PlanarMesh plane = mesh_detail::planar(mesh);
+  const PlanarDomain domain = domain_detail::domain_of(mesh.surface);
+  if (options.site_density.size() == 0 && !options.density.uniform())
+    options.site_density = evaluate(options.density, domain, plane.points);
+  options.density = {};
+  if (mesh.surface.is_bounded() || mesh.surface.is_box())
+    write(path, plane, domain, options);
+  else
+    write(path, plane, options);
+}
+
+} // namespace
+
 void write(const std::string& path, const Mesh& mesh, const WriteOptions& options) {
-  write_sphere(path, mesh, options);
+  if (mesh.surface.is_sphere())
+    write_sphere(path, mesh, options);
+  else
+    write_plane(path, mesh, options);
 }
 
 void write(const std::string& path, Mesh&& mesh, const WriteOptions& options) {
-  write_sphere(path, std::move(mesh), options);
+  if (mesh.surface.is_sphere())
+    write_sphere(path, std::move(mesh), options);
+  else
+    write_plane(path, mesh, options);
   mesh = {};
 }
 

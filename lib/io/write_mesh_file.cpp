@@ -11,6 +11,7 @@
 #include "io/written_fields.h"
 
 #include "base/monitor.h"
+#include "mesh/planar_mesh.h"
 
 #include <calotte/check.h>
 #include <calotte/mesh_file.h>
@@ -93,21 +94,28 @@ void write_polygons_of(const std::string& path, const MeshFile& file, WriteOptio
   Monitor(options.progress).finish("write");
 }
 
+/// Whether the rings of a plane's surface clip the cells of its mesh.
+bool is_clipped(const MeshFile& file) { return file.plane() && file.mesh->surface.is_bounded(); }
+
 /// Cells are written as they are, to formats of triangles only where the file has no triangles.
 /// \param triangles of the cells of a plane, if there are any.
-bool writes_polygons(const MeshFile& file, const std::optional<PlanarMesh>& triangles,
-                     Format format) {
+bool writes_polygons(const MeshFile& file, const std::optional<Mesh>& triangles, Format format) {
   if (!file.polygons || holds_cells(format))
-    return file.polygons.has_value() && !(file.plane && file.domain);
-  return file.plane ? !triangles && file.plane->period.maxCoeff() == 0
-                    : !file.mesh || file.mesh->closed();
+    return file.polygons.has_value() && !is_clipped(file);
+  return file.plane() ? !triangles && file.mesh->surface.period().maxCoeff() == 0
+                      : !file.mesh || file.mesh->closed();
 }
 
 /// What formats of triangles hold of the clipped cells of a plane. A periodic one has triangles.
-std::optional<PlanarMesh> triangles_of(const MeshFile& file, Format format) {
-  if (!file.plane || file.plane->period.maxCoeff() > 0 || !file.polygons || holds_cells(format))
+std::optional<Mesh> triangles_of(const MeshFile& file, Format format) {
+  if (!file.plane() || file.mesh->surface.period().maxCoeff() > 0 || !file.polygons ||
+      holds_cells(format))
     return {};
-  return planar_mesh_of_cells(file.plane->points, *file.polygons);
+  std::optional<PlanarMesh> mesh =
+      planar_mesh_of_cells(file.mesh->points.topRows<2>(), *file.polygons);
+  if (!mesh)
+    return {};
+  return mesh_detail::spatial(std::move(*mesh), Surface::plane());
 }
 
 /// Voronoi cells exist only for a Delaunay triangulation, of which edges between cocircular sites
@@ -133,7 +141,7 @@ bool is_at_corners(const MeshFile& file, const MeshField& field) {
 
 /// Names of the fields that a format cannot hold.
 std::vector<std::string> dropped_fields(const MeshFile& file, Format format, bool polygons) {
-  const bool clipped = !polygons && file.plane && file.domain && holds_cells(format);
+  const bool clipped = !polygons && is_clipped(file) && holds_cells(format);
   std::vector<std::string> dropped;
   for (const MeshField& field : file.fields)
     if (!holds_field(format, field) || (clipped && field.location != Location::cells) ||
@@ -152,7 +160,7 @@ WrittenFields write(const std::string& path, const MeshFile& file, const WriteOp
   WrittenFields written;
   if (is_netcdf(resolved.format))
     written.renamed = settle_names(resolved.fields);
-  const std::optional<PlanarMesh> triangles = triangles_of(file, resolved.format);
+  const std::optional<Mesh> triangles = triangles_of(file, resolved.format);
   const bool polygons = writes_polygons(file, triangles, resolved.format);
   if (!polygons && options.density.uniform() && options.site_density.size() == 0)
     resolved.site_density = file.density;
@@ -164,12 +172,9 @@ WrittenFields write(const std::string& path, const MeshFile& file, const WriteOp
     write_polygons_of(path, file, resolved);
   } else if (triangles) {
     write(path, *triangles, resolved);
-  } else if (file.plane && file.domain) {
-    write(path, *file.plane, *file.domain, resolved);
-  } else if (file.plane) {
-    write(path, *file.plane, resolved);
   } else {
-    require_voronoi(path, *file.mesh, resolved.format);
+    if (file.sphere())
+      require_voronoi(path, *file.mesh, resolved.format);
     write(path, *file.mesh, resolved);
   }
   written.dropped = dropped_fields(file, resolved.format, polygons);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/check_laws.h"
 #include "mesh/edge_counts.h"
+#include "mesh/planar_check.h"
+#include "mesh/planar_mesh.h"
 
 #include "base/points.h"
 #include "curve/hilbert.h"
@@ -133,9 +135,20 @@ struct OnSphere : mesh_detail::Faces {
   }
 };
 
+Check prove(const Mesh& mesh, mesh_detail::Proof proof, const ProgressCallback& progress) {
+  if (!mesh.surface.is_sphere())
+    return mesh_detail::check_in_plane(mesh, proof, progress);
+  return mesh_detail::check_laws(
+      mesh, [&](std::int64_t site) { return direction_failure(mesh, site); },
+      [&] { return OnSphere(mesh); }, proof, progress);
+}
+
 } // namespace
 
-EdgeCounts count_edges(const Mesh& mesh) { return mesh_detail::count_edges_of(OnSphere(mesh)); }
+EdgeCounts count_edges(const Mesh& mesh) {
+  return mesh.surface.is_sphere() ? mesh_detail::count_edges_of(OnSphere(mesh))
+                                  : count_edges(mesh_detail::planar(mesh));
+}
 
 // Why local laws are enough. The triangles are counter-clockwise and turn around each inner site
 // once, so the mesh covers the sphere without folds or branch points. Closed, it is a covering of
@@ -145,15 +158,11 @@ EdgeCounts count_edges(const Mesh& mesh) { return mesh_detail::count_edges_of(On
 // joined by a shortest path, which is not longer than pi and runs along a great circle: they are
 // one place. Such a mesh with Delaunay edges is Delaunay.
 Check check(const Mesh& mesh, const ProgressCallback& progress) {
-  return mesh_detail::check_laws(
-      mesh, [&](std::int64_t site) { return direction_failure(mesh, site); },
-      [&] { return OnSphere(mesh); }, mesh_detail::Proof::delaunay, progress);
+  return prove(mesh, mesh_detail::Proof::delaunay, progress);
 }
 
 Check check_surface(const Mesh& mesh, const ProgressCallback& progress) {
-  return mesh_detail::check_laws(
-      mesh, [&](std::int64_t site) { return direction_failure(mesh, site); },
-      [&] { return OnSphere(mesh); }, mesh_detail::Proof::surface, progress);
+  return prove(mesh, mesh_detail::Proof::surface, progress);
 }
 
 } // namespace calotte

@@ -11,6 +11,7 @@
 #include "mesh/connectivity.h"
 #include "mesh/faces.h"
 #include "mesh/locate_spaces.h"
+#include "mesh/planar_mesh.h"
 
 #include <algorithm>
 #include <array>
@@ -281,6 +282,8 @@ void require_positions(std::int64_t count, const Bad& bad, ErrorCode code,
 
 Locations locate(const Mesh& mesh, const PointsRef& given) {
   using namespace mesh_detail;
+  if (!mesh.surface.is_sphere())
+    return locate(planar(mesh), base_detail::plane_points_of(given));
   require_triangles(mesh);
   const base_detail::Points3Ref positions = base_detail::directions_of(given);
   const auto at = [&](std::int64_t i) { return positions.col(i); };

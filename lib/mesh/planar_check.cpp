@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/planar_check.h"
+
 #include "curve/hilbert.h"
 #include "exact/plane_predicates.h"
-#include "mesh/check_laws.h"
 #include "mesh/edge_counts.h"
+#include "mesh/planar_mesh.h"
 
 #include <algorithm>
 #include <cmath>
@@ -226,6 +228,17 @@ Check check_surface(const PlanarMesh& mesh, const ProgressCallback& progress) {
   return mesh_detail::check_laws(
       mesh, [&](std::int64_t site) { return place_failure(mesh, site); },
       [&] { return InPlane(mesh); }, mesh_detail::Proof::surface, progress);
+}
+
+Check mesh_detail::check_in_plane(const Mesh& mesh, Proof proof, const ProgressCallback& progress) {
+  const PlanarMesh plane = planar(mesh);
+  const auto site_failure = [&](std::int64_t site) {
+    return mesh.points(2, site) == 0
+               ? place_failure(plane, site)
+               : "site " + std::to_string(site) + " of the plane has a z that is not 0";
+  };
+  return check_laws(
+      plane, site_failure, [&] { return InPlane(plane, proof); }, proof, progress);
 }
 
 EdgeCounts count_edges(const PlanarMesh& mesh) {

@@ -19,6 +19,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <string>
 
@@ -39,6 +40,11 @@ bool are_directions(const Points3& points) {
   });
 }
 
+[[noreturn]] void refuse_infinite(std::int64_t i) {
+  throw Error(ErrorCode::not_finite,
+              "point " + std::to_string(i) + " has a coordinate that is NaN or infinite", i);
+}
+
 void require_directions(const Points3& points) {
   if (are_directions(points))
     return;
@@ -47,8 +53,7 @@ void require_directions(const Points3& points) {
     if (is_zero(p))
       throw Error(ErrorCode::zero_vector, "point " + std::to_string(i) + " is the zero vector", i);
     if (!is_finite(p))
-      throw Error(ErrorCode::not_finite,
-                  "point " + std::to_string(i) + " has a coordinate that is NaN or infinite", i);
+      refuse_infinite(i);
   }
 }
 
@@ -57,6 +62,16 @@ template <class Body>
 void for_each_key(const Points3& points, std::int64_t begin, std::int64_t end, const Body& body) {
   for_each_curve_key(
       begin, end, [&](std::int64_t i) { return to_cube(column(points, i)); }, body);
+}
+
+/// The curve keys of points. \param square of a point by its id.
+template <class Square> Array<std::uint64_t> keys_of(const Points3& points, const Square& square) {
+  Array<std::uint64_t> keys(points.cols());
+  for_each_block(keys.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for_each_curve_key(begin, end, square,
+                       [&](std::int64_t i, std::uint64_t key) { keys[i] = key; });
+  });
+  return keys;
 }
 
 /// For each site its position in the order.
@@ -88,21 +103,37 @@ void require_ids(const Mesh& mesh) {
   const std::int64_t sites = mesh.points.cols(), triangles = mesh.triangles.cols();
   if (!are_ids(mesh.triangles, sites) || mesh.neighbours.cols() != triangles ||
       !are_ids(mesh.neighbours, triangles, -1) || !are_ids(mesh.site_of_input, sites))
-    throw Error(ErrorCode::bad_option,
-                "the mesh to renumber has an id out of range, or not the "
-                "neighbours of its triangles; give one as spherical_delaunay() or "
-                "read_mesh() makes it");
+    throw Error(ErrorCode::bad_option, "the mesh to renumber has an id out of range, or not the "
+                                       "neighbours of its triangles; give one as delaunay() or "
+                                       "read_mesh() makes it");
+}
+
+/// Along the curve in the bounding box of points of the plane.
+Array<std::int32_t> curve_order_in_plane(const Points3& points) {
+  for (Eigen::Index i = 0; i < points.cols(); ++i)
+    if (!is_finite(column(points, i)))
+      refuse_infinite(i);
+  const Eigen::Vector3d low = points.rowwise().minCoeff();
+  const double half = std::max((points.rowwise().maxCoeff() - low).maxCoeff() / 2,
+                               std::numeric_limits<double>::min());
+  const auto part = [&](double value, double least) {
+    return std::clamp((value - least) / half - 1, -1.0, 1.0);
+  };
+  return order_by_key(
+             keys_of(
+                 points,
+                 [&](std::int64_t i) {
+                   return CubePoint{0, part(points(0, i), low.x()), part(points(1, i), low.y())};
+                 }))
+      .items;
 }
 
 } // namespace
 
 Array<std::int32_t> curve_order(const Points3& points) {
   require_directions(points);
-  Array<std::uint64_t> keys(points.cols());
-  for_each_block(keys.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-    for_each_key(points, begin, end, [&](std::int64_t i, std::uint64_t key) { keys[i] = key; });
-  });
-  return order_by_key(std::move(keys)).items;
+  return order_by_key(keys_of(points, [&](std::int64_t i) { return to_cube(column(points, i)); }))
+      .items;
 }
 
 bool is_in_curve_order(const Mesh& mesh) {
@@ -144,6 +175,7 @@ Array<std::int32_t> reverse_cuthill_mckee_order(const Mesh& mesh) {
 Mesh in_order(const Mesh& mesh, const Array<std::int32_t>& order) {
   const Array<std::int32_t> place = inverse(order);
   Mesh out;
+  out.surface = mesh.surface;
   make_room(out.points, 3, mesh.points.cols());
   for_each_block(order.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i)
@@ -165,7 +197,8 @@ Mesh renumbered(const Mesh& mesh, Numbering numbering) {
   require_ids(mesh);
   switch (numbering) {
   case Numbering::curve:
-    return in_order(mesh, curve_order(mesh.points));
+    return in_order(mesh, mesh.surface.is_sphere() ? curve_order(mesh.points)
+                                                   : curve_order_in_plane(mesh.points));
   case Numbering::rcm:
     return in_order(mesh, reverse_cuthill_mckee_order(mesh));
   default:

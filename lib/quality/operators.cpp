@@ -3,7 +3,9 @@
 
 #include "base/first_fault.h"
 #include "base/points.h"
+#include "domain/surface.h"
 #include "integrals/moments.h"
+#include "mesh/planar_mesh.h"
 #include "quality/eigenvalues.h"
 #include "quality/error_norms.h"
 #include "quality/flat_hull.h"
@@ -126,6 +128,9 @@ OperatorErrors of_open(const Mesh& mesh) {
 
 OperatorErrors operator_errors(const Mesh& mesh, const Density& density) {
   using namespace quality_detail;
+  if (!mesh.surface.is_sphere())
+    return operator_errors(mesh_detail::planar(mesh), domain_detail::domain_of(mesh.surface),
+                           density);
   evaluate(density, Points3(Eigen::Vector3d::UnitZ())); // throws if the density is ill-formed
   const bool closed = require_delaunay(mesh);
   const Mesh unit = without_flat_hull(with_unit_columns(mesh)).mesh;

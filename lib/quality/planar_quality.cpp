@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <calotte/quality.h>
+#include "quality/planar_quality.h"
 
+#include "base/points.h"
 #include "base/require.h"
+#include "cvt/cvt.h"
 #include "cvt/functional.h"
 #include "cvt/planar_cells.h"
 #include "density/planar_density.h"
 #include "domain/clipped_cell.h"
+#include "domain/surface.h"
+#include "mesh/planar_mesh.h"
 #include "quality/cell_measures.h"
 #include "quality/demand.h"
 #include "quality/parts.h"
@@ -162,12 +166,6 @@ void require_period(const PlanarMesh& mesh, const PlanarDomain& domain) {
           "the mesh and the domain have different periods; give the domain of the mesh");
 }
 
-Points3 with_z(const Points2& places) {
-  Points3 points = Points3::Zero(3, places.cols());
-  points.topRows<2>() = places;
-  return points;
-}
-
 /// The integral of rho^(1/2) over the domain. Errors of 1e-6 remain with few points a cell, if
 /// there are many cells: in the sum most of them cancel.
 double root_integral(const Points3& points, const Connectivity& mesh, const PlanarDomain& domain,
@@ -273,7 +271,10 @@ Quality quality(const PlanarMesh& mesh, const PlanarDomain& domain, const Densit
 }
 
 Quality open_quality(const PlanarMesh& mesh) {
-  using namespace quality_detail;
+  return quality_detail::measure_open_plane(mesh, true);
+}
+
+Quality quality_detail::measure_open_plane(const PlanarMesh& mesh, bool cells) {
   if (const Check found = check_surface(mesh); !found.passed())
     throw Error(ErrorCode::bad_option, "the triangles do not form a surface: " + found.failure +
                                            "; triangulate the points anew");
@@ -288,10 +289,26 @@ Quality open_quality(const PlanarMesh& mesh) {
                         {}};
   Quality result = measure_shapes(subject, 0);
   const std::vector<Sides> sides = sides_of_cells(mesh, subject.shapes);
-  set_whole_cells(sides, result);
+  if (cells) {
+    set_whole_cells(sides, result);
+  } else {
+    result.off_centring = result.dv_over_dc = {};
+    result.short_edges = 0;
+  }
   result.cells = mesh.points.cols();
   result.degrees = inner_degrees(sides);
   return result;
+}
+
+std::vector<bool> clipped_cells(const Mesh& mesh) {
+  const Surface& surface = mesh.surface;
+  if (surface.is_whole_sphere())
+    return std::vector<bool>(static_cast<std::size_t>(mesh.points.cols()));
+  quality_detail::require(
+      !surface.is_sphere(),
+      "the mesh is one of a region of the sphere, which clips no cells; give one "
+      "of the plane or of the whole sphere");
+  return clipped_cells(mesh_detail::planar(mesh), domain_detail::domain_of(surface));
 }
 
 std::vector<bool> clipped_cells(const PlanarMesh& mesh, const PlanarDomain& domain) {

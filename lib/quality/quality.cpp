@@ -2,9 +2,12 @@
 #include <calotte/quality.h>
 
 #include "base/points.h"
+#include "domain/surface.h"
 #include "integrals/moments.h"
+#include "mesh/planar_mesh.h"
 #include "quality/demand.h"
 #include "quality/flat_hull.h"
+#include "quality/planar_quality.h"
 #include "quality/sides.h"
 #include "quality/voronoi_mesh.h"
 
@@ -95,6 +98,8 @@ Quality measure(const Mesh& mesh, const Density& density) {
 } // namespace quality_detail
 
 Quality quality(const Mesh& mesh, const Density& density) {
+  if (!mesh.surface.is_sphere())
+    return quality(mesh_detail::planar(mesh), domain_detail::domain_of(mesh.surface), density);
   evaluate(density, Points3(Eigen::Vector3d::UnitZ())); // throws if the density is ill-formed
   const double triangles_area = quality_detail::require_closed_delaunay(mesh);
   Quality result = quality_detail::measure(quality_detail::with_unit_columns(mesh), density);
@@ -107,6 +112,8 @@ namespace {
 
 /// \param cells whether the Voronoi cells are measured, too.
 Quality measure_open(const Mesh& mesh, bool cells) {
+  if (!mesh.surface.is_sphere())
+    return measure_open_plane(mesh_detail::planar(mesh), cells);
   const Check found = check_surface(mesh);
   if (!found.passed())
     throw Error(ErrorCode::bad_option, "the triangles do not form a surface: " + found.failure +

@@ -7,6 +7,7 @@
 #include "mesh/connectivity.h"
 #include "mesh/faces.h"
 #include "mesh/locate_spaces.h"
+#include "mesh/planar_mesh.h"
 #include "voronoi/triangle_area.h"
 
 #include <calotte/locate.h>
@@ -201,6 +202,9 @@ Weights weights_of(const AnyMesh& mesh, const Space& space, const Locations& at,
 } // namespace voronoi_detail
 
 Weights interpolation_weights(const Mesh& mesh, const PointsRef& given, Interpolation kind) {
+  if (!mesh.surface.is_sphere())
+    return interpolation_weights(mesh_detail::planar(mesh), base_detail::plane_points_of(given),
+                                 kind);
   const base_detail::Points3Ref positions = base_detail::directions_of(given);
   return voronoi_detail::weights_of(mesh, mesh_detail::OnSphere(mesh, positions),
                                     locate(mesh, positions), kind);

@@ -46,7 +46,7 @@ bool is_left_of(const Points3& ring, const Compass& compass) {
 
 } // namespace
 
-Region land_around(const Coast& coast, const Eigen::Vector3d& place) {
+Surface land_around(const Coast& coast, const Eigen::Vector3d& place) {
   require(place.allFinite() && !place.isZero(0),
           "the place on land is no direction; give three finite numbers that are not all 0");
   const Vec3 here = normalised(Vec3{place.x(), place.y(), place.z()});

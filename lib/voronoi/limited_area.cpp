@@ -2,6 +2,7 @@
 #include <calotte/limited_area.h>
 
 #include "base/require.h"
+#include "domain/surface.h"
 #include "voronoi/room.h"
 
 #include <algorithm>
@@ -94,6 +95,10 @@ Ids least_mask(const Offsets& begin, const Ids& ids, const Ids& mask, std::int64
       if (ids[k] >= 0 && (least[ids[k]] < 0 || mask[i] < least[ids[k]]))
         least[ids[k]] = mask[i];
   return least;
+}
+
+Surface with_rings(const Surface& surface, const CellWidth& widths, double radius_km) {
+  return with_rings(domain_detail::part_of_sphere(surface, "a limited area is"), widths, radius_km);
 }
 
 Region with_rings(const Region& region, const CellWidth& widths, double radius_km) {

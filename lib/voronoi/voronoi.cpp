@@ -6,7 +6,9 @@
 #include "base/parallel.h"
 #include "base/points.h"
 #include "base/require.h"
+#include "domain/surface.h"
 #include "exact/predicates.h"
+#include "mesh/planar_mesh.h"
 #include "voronoi/connectivity.h"
 #include "voronoi/far_side.h"
 #include "voronoi/geometry.h"
@@ -160,6 +162,11 @@ void connect(BegunVoronoi& out) {
 } // namespace voronoi_detail
 
 Voronoi voronoi(const Mesh& mesh) {
+  if (!mesh.surface.is_sphere()) {
+    const PlanarMesh plane = mesh_detail::planar(mesh);
+    return mesh.surface.is_bounded() ? voronoi(plane, domain_detail::domain_of(mesh.surface))
+                                     : voronoi(plane);
+  }
   return mesh.closed() ? voronoi_detail::voronoi_of(mesh) : voronoi_detail::voronoi_of_open(mesh);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "curve/radix_sort.h"
+#include "delaunay/delaunay.h"
 
 #include "curve/traversal.h"
 #include "support/random.h"

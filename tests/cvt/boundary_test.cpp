@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "cvt/cvt.h"
+#include "support/starts.h"
+
 #include <calotte/check.h>
 #include <calotte/cvt.h>
 #include <calotte/generators.h>
@@ -124,7 +127,7 @@ Run run_of(const Case& here, std::int64_t cells) {
   run.options.insertion_rounds = 2;
   run.options.tolerance = 3e-4;
   run.options.well_centred = true;
-  const Continuation from = multilevel(cells, here.region, here.density, 1, shore);
+  const test::FirstGenerators from = test::multilevel(cells, here.region, here.density, 1, shore);
   run.options.bisections = from.bisections;
   run.start.resize(3, shore.cols() + from.start.cols());
   run.start << shore, from.start;

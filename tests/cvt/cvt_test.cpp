@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <calotte/cvt.h>
 
+#include "cvt/cvt.h"
 #include "cvt/state.h"
+#include "delaunay/delaunay.h"
 #include "integrals/moments.h"
 #include "support/densities.h"
 

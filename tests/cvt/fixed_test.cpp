@@ -5,7 +5,9 @@
 #include <calotte/io.h>
 #include <calotte/region.h>
 
+#include "cvt/cvt.h"
 #include "support/files.h"
+#include "support/starts.h"
 
 #include <doctest/doctest.h>
 #include <tbb/global_control.h>
@@ -31,6 +33,13 @@ Points3 stations(std::int64_t cells) {
   Points3 points(3, 12);
   points.leftCols(8) = random_sphere(8, circle(centre, 30 * degree), {}, 5);
   points.rightCols(4) = random_sphere(4, circle(centre, h / 2), {}, 6);
+  return points;
+}
+
+/// With z = 0.
+Points3 spatial(const Points2& places) {
+  Points3 points = Points3::Zero(3, places.cols());
+  points.topRows<2>() = places;
   return points;
 }
 
@@ -137,7 +146,7 @@ TEST_CASE("fixed generators through bisections, insertion and a finish [slow]") 
   const Points3 fixed = stations(cells);
   for (const Region& region : {Region{}, circle(centre, 35 * degree)}) {
     CvtOptions options = graded(cells, 12, 0);
-    const Continuation from = multilevel(cells, region, options.density, 1, fixed);
+    const test::FirstGenerators from = test::multilevel(cells, region, options.density, 1, fixed);
     CHECK(from.bisections > 0);
     options.bisections = from.bisections;
     const Points3 start = joined(fixed, from.start);
@@ -160,7 +169,7 @@ TEST_CASE("fixed generators: the same bits for all threads and regions, and resu
     CvtOptions options = graded(cells, 12, 0);
     options.well_centred = true;
     options.tolerance = 3e-4;
-    const Continuation from = multilevel(cells, region, options.density, 1, fixed);
+    const test::FirstGenerators from = test::multilevel(cells, region, options.density, 1, fixed);
     options.bisections = from.bisections;
     const Points3 start = joined(fixed, from.start);
     const auto with = [&](std::size_t threads, int regions) {
@@ -188,13 +197,14 @@ TEST_CASE("fixed generators: the same bits for all threads and regions, and resu
 TEST_CASE("fixed generators in the plane") {
   for (const PlanarDomain& domain : {rectangle({0, 0}, {4, 3}), periodic_box({4, 3})}) {
     const Points2 fixed = random_places(9, domain, 3);
-    PlanarContinuation from = multilevel(900, domain, {}, 1, fixed);
+    const test::FirstGenerators from = test::multilevel(900, domain, {}, 1, spatial(fixed));
     CvtOptions options = fixing(9);
     options.insertion_rounds = 1;
     options.cells = 900;
     options.bisections = from.bisections;
     options.tolerance = 1e-4;
-    const PlanarCvt grid = planar_cvt(joined(fixed, from.start), domain, options);
+    const PlanarCvt grid =
+        planar_cvt(joined(spatial(fixed), from.start).topRows<2>(), domain, options);
     CHECK(grid.report.converged);
     CHECK(grid.mesh.points.cols() == 900);
     CHECK(grid.mesh.points.leftCols(9) == fixed);
@@ -228,7 +238,7 @@ TEST_CASE("fixed generators: bad input is one clear line with the index") {
   start.col(4) = -centre;
   CHECK(message_of(start, region, fixing(10)).find("fixed generator 4 is outside the region") == 0);
   CHECK(message_of(start, region, fixing(2)).find("generator 4 is outside the region") == 0);
-  CHECK_THROWS_AS(multilevel(100, Density{}, 1, random_sphere(100)), Error);
+  CHECK_THROWS_AS(test::multilevel(100, {}, Density{}, 1, random_sphere(100)), Error);
 }
 
 namespace {
@@ -276,23 +286,23 @@ TEST_CASE("fixed generators: free ones start where these leave the density unmet
   const Points3 fixed = kept_cells(around);
   const Density density = refined();
   const Demand demand = demand_of(density, around);
-  const std::int64_t cells = cells_beside(fixed, demand.all, density);
+  const std::int64_t cells = grids_detail::cells_beside(fixed, demand.all, density, {});
   CHECK(std::abs(static_cast<double>(cells - fixed.cols()) - demand.near) < 0.05 * demand.near);
 
-  const Continuation from = multilevel(cells, density, 1, fixed);
+  const test::FirstGenerators from = test::multilevel(cells, {}, density, 1, fixed);
   CHECK(from.start.cols() == cells - fixed.cols());
   for (const auto& p : from.start.colwise())
     CHECK(p.dot(centre) > std::cos(25 * degree)); // a cell is 4 degrees wide
-  CHECK(multilevel(cells, density, 1, fixed).start == from.start);
-  CHECK(multilevel(cells, density, 2, fixed).start != from.start);
+  CHECK(test::multilevel(cells, {}, density, 1, fixed).start == from.start);
+  CHECK(test::multilevel(cells, {}, density, 2, fixed).start != from.start);
 }
 
 TEST_CASE("fixed generators: all free ones find a place where no gap is left") {
   const Points3 fixed = spherical_cvt(geodesic_sphere(642)).mesh.points;
-  const Continuation from = multilevel(700, Density{}, 1, fixed);
+  const test::FirstGenerators from = test::multilevel(700, {}, Density{}, 1, fixed);
   CHECK(from.start.cols() == 58);
   CHECK(nearest(from.start, fixed) > 0); // the farthest places, which are distinct from them
-  CHECK(cells_beside(fixed, 642, Density{}) == 642);
+  CHECK(grids_detail::cells_beside(fixed, 642, Density{}, {}) == 642);
 }
 
 TEST_CASE("fixed generators: a refined part of a grid is well-centred [slow]") {
@@ -300,11 +310,12 @@ TEST_CASE("fixed generators: a refined part of a grid is well-centred [slow]") {
   CvtOptions options;
   options.density = refined();
   options.fixed = fixed.cols();
-  options.cells = cells_beside(fixed, demand_of(options.density, 10242).all, options.density);
-  options.insertion_rounds = insertion_rounds_beside_fixed;
+  options.cells =
+      grids_detail::cells_beside(fixed, demand_of(options.density, 10242).all, options.density, {});
+  options.insertion_rounds = 3;
   options.well_centred = true;
-  options.tolerance = tolerance_before_finish;
-  const Continuation from = multilevel(options.cells, options.density, 1, fixed);
+  options.tolerance = 1e-4;
+  const test::FirstGenerators from = test::multilevel(options.cells, {}, options.density, 1, fixed);
   options.bisections = from.bisections;
   const Cvt grid = spherical_cvt(joined(fixed, from.start), options);
   CHECK(grid.report.converged);
@@ -325,11 +336,13 @@ TEST_CASE("fixed generators in the plane: free ones start where these leave room
       if (grid(0, i) < 3)
         kept.push_back(i);
     const Points2 fixed = grid(Eigen::all, kept);
-    const PlanarContinuation from = multilevel(600, domain, {}, 1, fixed);
+    const test::FirstGenerators from = test::multilevel(600, domain, {}, 1, spatial(fixed));
     CHECK(from.start.cols() == 600 - fixed.cols());
     const double inside = (from.start.row(0).array() > 2.9).cast<double>().sum();
     CHECK(inside > 0.9 * static_cast<double>(from.start.cols()));
     // The gap is a quarter of the domain; the fixed cells at its edge lie half outside of it.
-    CHECK(std::abs(static_cast<double>(cells_beside(fixed, 600, {}, domain)) - 600) < 20);
+    CHECK(
+        std::abs(static_cast<double>(grids_detail::cells_beside(spatial(fixed), 600, {}, domain)) -
+                 600) < 20);
   }
 }

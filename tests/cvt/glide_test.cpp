@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "cvt/cvt.h"
 #include "cvt/glide.h"
+#include "delaunay/delaunay.h"
 
 #include "cvt/functional.h"
 #include "cvt/shape.h"
 #include "mesh/canonical_order.h"
 #include "support/densities.h"
+#include "support/starts.h"
 
 #include <calotte/check.h>
 #include <calotte/cvt.h>
@@ -36,7 +39,7 @@ Points3 relaxed(std::int64_t n, const Density& density, std::uint64_t seed) {
 
 /// The same with few dislocations.
 Points3 refined(std::int64_t n, const Density& density, std::uint64_t seed) {
-  const Continuation start = multilevel(n, density, seed);
+  const test::FirstGenerators start = test::multilevel(n, {}, density, seed);
   CvtOptions options;
   options.density = density;
   options.tolerance = 1e-4;

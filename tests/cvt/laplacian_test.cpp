@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/vector_field.h"
+#include "cvt/cvt.h"
 #include "cvt/functional.h"
 #include "cvt/laplacian.h"
 #include "cvt/multigrid.h"
 #include "cvt/signs.h"
 #include "cvt/state.h"
 #include "support/densities.h"
+#include "support/starts.h"
 
 #include <calotte/cvt.h>
 #include <calotte/generators.h>
@@ -30,7 +32,7 @@ constexpr double pi = std::numbers::pi;
 
 /// Generators along a space-filling curve, near an optimum of the energy.
 Points3 near_optimum(const Density& density, std::int64_t cells) {
-  const Continuation from = continuation(cells, density);
+  const test::FirstGenerators from = test::continuation(cells, density);
   CvtOptions options;
   options.density = density;
   options.bisections = from.bisections;

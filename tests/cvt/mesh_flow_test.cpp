@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "cvt/cvt.h"
+#include "delaunay/delaunay.h"
 #include "support/densities.h"
 
 #include <calotte/cvt.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cvt/repair.h"
+#include "delaunay/delaunay.h"
 #include "integrals/patches.h"
 
 #include <calotte/delaunay.h>

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "cvt/cvt.h"
 #include "cvt/planar_cells.h"
+#include "delaunay/delaunay.h"
 #include "density/planar_density.h"
 
 #include "support/random.h"

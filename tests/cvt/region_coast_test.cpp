@@ -5,9 +5,11 @@
 #include <calotte/ocean.h>
 #include <calotte/region.h>
 
+#include "cvt/cvt.h"
 #include "support/files.h"
 #include "support/gshhg.h"
 #include "support/region_laws.h"
+#include "support/starts.h"
 
 #include <doctest/doctest.h>
 #include <tbb/global_control.h>
@@ -34,9 +36,9 @@ TEST_CASE("the land around a place: the smallest ring that contains it") {
   Region lake = circle(at(20, 10), 5 * degree);
   lake.rings[0] = lake.rings[0].rowwise().reverse().eval();
   const Coast coast{{continent.rings[0], lake.rings[0], island.rings[0]}, 0};
-  CHECK(land_around(coast, at(20, 10)).rings == island.rings);
-  CHECK(land_around(coast, at(40, 10)).rings == continent.rings);
-  CHECK(land_around(coast, at(23, 10)).rings == continent.rings); // in the lake
+  CHECK(land_around(coast, at(20, 10)) == Surface(island));
+  CHECK(land_around(coast, at(40, 10)) == Surface(continent));
+  CHECK(land_around(coast, at(23, 10)) == Surface(continent)); // in the lake
   for (const Eigen::Vector3d& sea : {at(-160, -10), at(60, 10)})
     CHECK(std::string(error_of([&] { land_around(coast, sea); }).what()) ==
           "no ring of the coast contains the place; give one on land");
@@ -49,7 +51,7 @@ TEST_CASE("the land around a place: the smallest ring that contains it") {
 TEST_CASE("the land around a place is without the loops in which its coast crosses itself") {
   const Region island = circle(at(20, 10), degree, 100);
   const double whole = area(island);
-  const auto around = [&](const std::vector<Eigen::Index>& order) {
+  const auto around = [&](const std::vector<Eigen::Index>& order) -> Region {
     Points3 ring(3, std::ssize(order));
     for (std::size_t k = 0; k < order.size(); ++k)
       ring.col(static_cast<Eigen::Index>(k)) = island.rings[0].col(order[k]);
@@ -76,7 +78,7 @@ TEST_CASE("the land around a place is without the loops in which its coast cross
 TEST_CASE("GSHHG: continents and islands around places, by their known areas") {
   const Coast coast = gshhg('l');
   const auto area_around = [&](double lon, double lat) {
-    return area(land_around(coast, at(lon, lat))) / square_km;
+    return land_around(coast, at(lon, lat)).area() / square_km;
   };
   CHECK(area_around(134, -25) == doctest::Approx(7.59e6).epsilon(0.01)); // Australia's mainland
   CHECK(area_around(47, -19) == doctest::Approx(587e3).epsilon(0.02));   // Madagascar
@@ -89,7 +91,7 @@ TEST_CASE("GSHHG: the area of a continent hardly depends on the resolution") {
   for (const Eigen::Vector3d& place : {at(60, 50), at(20, 0), at(-60, -10), at(-100, 45)}) {
     double least = 10, most = 0;
     for (const char resolution : {'c', 'l', 'i'}) {
-      const double size = area(land_around(gshhg(resolution), place));
+      const double size = land_around(gshhg(resolution), place).area();
       least = std::min(least, size);
       most = std::max(most, size);
     }
@@ -126,7 +128,7 @@ TEST_CASE("Australia: a graded grid has the same bits for all threads and region
   const Region australia = land_around(gshhg('i'), at(134, -25));
   CvtOptions options;
   options.density = tanh_bump(at(146, -38), 6 * degree, 4 * degree, 1.0 / 81);
-  const Continuation from = multilevel(1500, australia, options.density);
+  const test::FirstGenerators from = test::multilevel(1500, australia, options.density);
   options.insertion_rounds = 1;
   options.cells = 1500;
   options.bisections = from.bisections;

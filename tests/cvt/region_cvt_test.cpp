@@ -5,8 +5,10 @@
 #include <calotte/io.h>
 #include <calotte/region.h>
 
+#include "cvt/cvt.h"
 #include "support/files.h"
 #include "support/region_laws.h"
+#include "support/starts.h"
 
 #include <Eigen/Geometry>
 #include <doctest/doctest.h>
@@ -156,7 +158,7 @@ TEST_CASE("region: uniform density by closed forms and by quadrature") {
 TEST_CASE(
     "region: a graded grid has the same bits for all threads and regions, and resumes [slow]") {
   const Region region = circle(at(20, 40), 14 * degree);
-  const Continuation from = multilevel(1500, region, graded(1500, 0).density);
+  const test::FirstGenerators from = test::multilevel(1500, region, graded(1500, 0).density);
   const auto with = [&](std::size_t threads, int regions) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     CvtOptions options = graded(1500, from.bisections);

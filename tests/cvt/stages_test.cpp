@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "cvt/cvt.h"
 #include "cvt/stages.h"
 
 #include "support/densities.h"
@@ -31,9 +32,9 @@ namespace {
 CvtOptions graded(std::int64_t cells, int bisections, const Density& density) {
   CvtOptions options;
   options.density = density;
-  options.tolerance = tolerance_before_finish;
+  options.tolerance = 1e-4;
   options.bisections = bisections;
-  options.insertion_rounds = usual_insertion_rounds;
+  options.insertion_rounds = 1;
   options.cells = cells;
   options.well_centred = true;
   return options;

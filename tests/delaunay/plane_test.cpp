@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "delaunay/delaunay.h"
 #include "delaunay/plane.h"
 #include "support/plane_laws.h"
 #include "support/random.h"

@@ -17,7 +17,7 @@ using namespace calotte::delaunay_detail;
 
 namespace {
 
-using Cap = Triangulation<Sphere>;
+using Cap = delaunay_detail::Triangulation<Sphere>;
 using Triple = std::array<std::int32_t, 3>;
 
 std::vector<Member> all_members(const Sites& sites) {

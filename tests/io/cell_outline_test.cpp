@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/points.h"
+#include "delaunay/delaunay.h"
 #include "io/cell_outline.h"
 #include "io/polygons.h"
 

@@ -3,6 +3,7 @@
 
 #include "base/lonlat.h"
 #include "base/spherical_angles.h"
+#include "cvt/cvt.h"
 #include "exact/predicates.h"
 #include "io/netcdf_writer.h"
 #include "support/files.h"

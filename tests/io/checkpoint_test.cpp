@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "cvt/cvt.h"
 #include "cvt/state.h"
 #include "support/files.h"
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/lonlat.h"
+#include "delaunay/delaunay.h"
 #include "io/netcdf_reader.h"
 #include "io/netcdf_writer.h"
 #include "support/cut_laws.h"

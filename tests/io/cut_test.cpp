@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "cvt/cvt.h"
+#include "delaunay/delaunay.h"
 #include "support/cut_laws.h"
 #include "support/files.h"
 #include "support/global_file.h"
@@ -354,7 +356,10 @@ TEST_CASE("a grid made in a region keeps all rules, and is that cut from a globa
       spherical_cvt(random_sphere(1900, meshed), meshed, options).mesh.points;
   const std::string made = scratch / "made.nc", global = scratch / "global.nc",
                     cut_out = scratch / "cut.nc";
-  write_limited_area(made, generators, meshed, region);
+  Mesh run;
+  run.points = generators;
+  run.surface = meshed;
+  write_limited_area(made, run, region);
   const Contents file = contents_of(made);
   const std::vector<int> distance = distances(file, flags_of(file, containing(region)));
   for (std::size_t i = 0; i < distance.size(); ++i)

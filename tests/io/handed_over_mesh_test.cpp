@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "delaunay/delaunay.h"
 #include "io/formats.h"
 #include "io/model_grid.h"
 #include "support/files.h"

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "delaunay/delaunay.h"
 #include "support/files.h"
+#include "support/planes.h"
 
 #include <calotte/check.h>
 #include <calotte/check_file.h>
@@ -66,8 +68,8 @@ std::string refusal(std::int64_t columns, std::int64_t rows, double spacing, Wal
 TEST_CASE("hexagons of a box lie where planar_hex puts them, moved into the period") {
   const double d = 1234.5;
   const MeshFile file = planar_hexagons(6, 8, d);
-  REQUIRE(file.plane);
-  const PlanarMesh& mesh = *file.plane;
+  REQUIRE(file.plane());
+  const PlanarMesh mesh = mesh_detail::planar(*file.plane());
   CHECK(mesh.period.x() == 6 * d);
   CHECK(mesh.period.y() == doctest::Approx(8 * d * root3 / 2).epsilon(1e-15));
   CHECK(check(mesh).failure == "");
@@ -132,14 +134,14 @@ TEST_CASE("an MPAS file of a channel keeps its cells, and passes its check") {
     const MeshFile made = planar_hexagons(6, 4, 500, walls);
     write(path, made, {});
     const MeshFile read = read_mesh_file(path);
-    REQUIRE(read.plane);
+    REQUIRE(read.plane());
     REQUIRE(read.polygons);
-    CHECK(read.plane->period == made.polygons->period);
+    CHECK(read.mesh->surface.period() == made.polygons->period);
     CHECK(read.polygons->centres == made.polygons->centres);
     CHECK(read.polygons->size() == 24);
     CHECK((areas(*read.polygons).array() / (root3 / 2 * 500 * 500) - 1).abs().maxCoeff() < 1e-12);
     CHECK(check_file(path, read_mesh_file(path)).empty());
-    CHECK(count_edges(*read.plane).not_delaunay == 0);
+    CHECK(count_edges(*read.mesh).not_delaunay == 0);
     const Eigen::VectorXd dc = read_cell_field(path, "areaCell", 24).values;
     CHECK((dc.array() / (root3 / 2 * 500 * 500) - 1).abs().maxCoeff() < 1e-12);
   }
@@ -161,8 +163,9 @@ TEST_CASE("hexagons out of range are refused") {
 TEST_CASE("between walls stay the cells whose sites are there, with corners beside them") {
   const PlanarDomain box = periodic_box({10, 8});
   const PlanarMesh mesh = periodic_delaunay(random_places(400, box, 3), box.period);
+  const Mesh spatial = mesh_detail::spatial(PlanarMesh(mesh), box);
   const Voronoi cells = voronoi(mesh);
-  const MeshFile file = walled(mesh, {10, 6}, {.y = true});
+  const MeshFile file = walled(spatial, {10, 6}, {.y = true});
   REQUIRE(file.polygons);
   CHECK(file.polygons->period == Eigen::Vector2d(10, 0));
   std::int64_t next = 0;
@@ -175,6 +178,6 @@ TEST_CASE("between walls stay the cells whose sites are there, with corners besi
     }
   CHECK(next == file.polygons->size());
   CHECK(file.polygons->corners.row(1).minCoeff() < 0); // beside the cells at the lower wall
-  CHECK_THROWS_AS(walled(mesh, {10, 6}, {}), Error);
-  CHECK_THROWS_AS(walled(mesh, {10, 8}, {.y = true}), Error);
+  CHECK_THROWS_AS(walled(spatial, {10, 6}, {}), Error);
+  CHECK_THROWS_AS(walled(spatial, {10, 8}, {.y = true}), Error);
 }

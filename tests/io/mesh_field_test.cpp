@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "delaunay/delaunay.h"
 #include "support/files.h"
 #include "support/meshes.h"
 #include "support/spoilt_files.h"

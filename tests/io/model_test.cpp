@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "cvt/cvt.h"
+#include "delaunay/delaunay.h"
 #include "support/files.h"
 #include "support/spoilt_files.h"
 
@@ -151,11 +153,12 @@ TEST_CASE("the nominal spacing of a limited area is that of its cells, not of th
   for (Eigen::Index i = 0; i < generators.cols() && inside.size() < 3000; ++i)
     if (generators(2, i) > std::cos(0.5))
       inside.push_back(i);
-  const Cvt grid = spherical_cvt(generators(Eigen::all, inside), meshed, {.tolerance = 1e-3});
+  Cvt grid = spherical_cvt(generators(Eigen::all, inside), meshed, {.tolerance = 1e-3});
+  grid.mesh.surface = meshed;
   for (const double radius : {1.0, 6371229.0}) {
     CutOptions options;
     options.sphere_radius = radius;
-    write_limited_area(path, grid.mesh.points, meshed, region, {}, options);
+    write_limited_area(path, grid.mesh, region, {}, options);
     CHECK(number(path, "nominalMinDc") == doctest::Approx(median_of_dc(path)).epsilon(0.02));
     // Hexagons of the disc's area: what the run was asked for.
     const double area = 2 * std::numbers::pi * (1 - std::cos(0.5)) / 3000;

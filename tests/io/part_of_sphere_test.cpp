@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "delaunay/delaunay.h"
 #include "support/files.h"
 #include "support/open_mpas.h"
 
@@ -293,5 +294,5 @@ TEST_CASE("clipped cells of a plane are written as their own triangles, not as t
   const auto inner = std::count(cells_at.begin(), cells_at.end(), 3);
   CHECK(inner < mesh.triangles.cols()); // some circumcentres are outside
   write(scratch / "plane.vtp", file);
-  CHECK(read_mesh_file(scratch / "plane.vtp").plane->triangles.cols() == inner);
+  CHECK(read_mesh_file(scratch / "plane.vtp").mesh->triangles.cols() == inner);
 }

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Points come in from a caller's matrix of any kind; the number of rows is checked at run time.
+#include "cvt/cvt.h"
+#include "delaunay/delaunay.h"
 #include "support/files.h"
 
 #include <calotte/cell_width.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Progress and cancellation of triangulation, check and write.
+#include "delaunay/delaunay.h"
 #include "support/files.h"
 
 #include <calotte/check.h>

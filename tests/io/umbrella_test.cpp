@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One header brings all of the library.
+#include "delaunay/delaunay.h"
+
 #include <calotte/calotte.h>
 
 #include <doctest/doctest.h>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "delaunay/delaunay.h"
 #include "support/files.h"
 #include "support/meshes.h"
+#include "support/planes.h"
 #include "support/polyhedra.h"
 
 #include <calotte/io.h>
@@ -224,7 +226,7 @@ TEST_CASE("legacy VTK: a mesh of the plane") {
   square.add({0, 2, 3});
   for (const Style& style : styles()) {
     write_text(scratch / "mesh.vtk", vtk_text(square, style));
-    CHECK(calotte::read_planar_mesh(scratch / "mesh.vtk").triangles.cols() == 2);
+    CHECK(calotte::test::read_planar_mesh(scratch / "mesh.vtk").triangles.cols() == 2);
   }
   Faces quad = square;
   quad.ids = {0, 1, 2, 3};

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "delaunay/delaunay.h"
 #include "support/files.h"
 #include "support/meshes.h"
+#include "support/planes.h"
 #include "support/polyhedra.h"
 #include "support/vtk_text.h"
 
@@ -206,7 +208,7 @@ TEST_CASE(
     check_equal(*file.mesh, mesh);
     CHECK((file.fields.at(0).values - cells.vertices.row(2).transpose()).norm() < 1e-13);
   }
-  CHECK(error_of([&] { calotte::read_planar_mesh(scratch / "mesh.vtp"); }).code() ==
+  CHECK(error_of([&] { calotte::test::read_planar_mesh(scratch / "mesh.vtp"); }).code() ==
         ErrorCode::bad_option);
 }
 

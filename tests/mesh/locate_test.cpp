@@ -4,6 +4,7 @@
 #include <calotte/locate.h>
 
 #include "base/points.h"
+#include "delaunay/delaunay.h"
 #include "exact/plane_predicates.h"
 #include "exact/predicates.h"
 #include "support/clouds.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <calotte/quality.h>
 
+#include "delaunay/delaunay.h"
 #include "support/densities.h"
 #include "support/laws.h"
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <calotte/operators.h>
 
+#include "cvt/cvt.h"
+#include "delaunay/delaunay.h"
 #include "support/clouds.h"
 #include "support/densities.h"
 #include "support/meshes.h"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <calotte/quality.h>
 
+#include "cvt/cvt.h"
+#include "delaunay/delaunay.h"
 #include "support/clouds.h"
 #include "support/laws.h"
 

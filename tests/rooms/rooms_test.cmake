@@ -5,18 +5,19 @@
 cmake_minimum_required(VERSION 3.25)
 
 # Bottom to top: a room includes those before it.
-set(rooms base exact curve mesh domain density generators integrals delaunay voronoi cvt quality io c)
+set(rooms base exact curve mesh domain density generators integrals delaunay voronoi cvt grids quality io c)
 set(most_lines 400)
 
 # The rooms of the public headers. One that has a room's name belongs to that room.
-set(headers_of_base error export mesh_field options points progress types version)
+set(headers_of_base error export matrices mesh_field options points progress surface types version)
 set(headers_of_mesh check locate renumber)
 set(headers_of_domain region)
 set(headers_of_density cell_width planar_raster)
 set(headers_of_generators lonlat)
 set(headers_of_voronoi interpolate limited_area ocean)
+set(headers_of_grids grid)
 set(headers_of_quality operators)
-set(headers_of_io calotte check_file checkpoint cull cut mesh_file model read write)
+set(headers_of_io calotte check_file checkpoint cull cut mesh_file model read write write_grid)
 
 foreach(room ${rooms})
   foreach(header ${room} ${headers_of_${room}})

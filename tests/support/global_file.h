@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "delaunay/delaunay.h"
 #include "support/files.h"
 #include "support/spoilt_files.h"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "delaunay/delaunay.h"
 #include "support/clouds.h"
 #include "support/oracle.h"
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/points.h"
+#include "delaunay/delaunay.h"
 #include "support/files.h"
 #include "support/spoilt_files.h"
 

@@ -36,15 +36,28 @@ Standing decaying(int iterations, double factor) {
   return state;
 }
 
+/// A run of one level, in the norm l2.
+Schedule one_level(double tolerance) {
+  Schedule schedule;
+  schedule.recipe.stop.norm = Norm::l2;
+  schedule.recipe.stop.tolerance = tolerance;
+  schedule.recipe.stop.well_centred = false;
+  schedule.levels.resize(1);
+  return schedule;
+}
+
+const std::vector<CvtLevel> rounds_of_insertion{
+    {12, 3, 1e-3, 75}, {12, 2, 1e-3, 75}, {12, 1, 1e-3, 75}};
+
 } // namespace
 
 TEST_CASE("the end of an exponential decay is predicted to the iteration") {
-  CvtOptions options;
-  options.tolerance = std::pow(0.9, 300.5); // 0.9^301 is the first below
+  DescentEnd end_of_descent{Norm::l2_scaled, 1e-6, 1000};
+  end_of_descent.tolerance = std::pow(0.9, 300.5); // 0.9^301 is the first below
   for (const Norm norm : {Norm::l2, Norm::linf, Norm::gradient})
     for (const int iterations : {10, 11, 100, 290}) {
-      options.norm = norm;
-      const auto end = forecast(decaying(iterations, 0.9), options);
+      end_of_descent.norm = norm;
+      const auto end = forecast(decaying(iterations, 0.9), end_of_descent);
       REQUIRE(end);
       CHECK(end->converges);
       CHECK(end->seconds == doctest::Approx(2 * (301 - (iterations - 1))));
@@ -52,13 +65,13 @@ TEST_CASE("the end of an exponential decay is predicted to the iteration") {
 }
 
 TEST_CASE("the limit of iterations ends longer runs, and runs of a fixed number of iterations") {
-  CvtOptions options;
-  options.tolerance = 1e-9;
-  options.max_iterations = 100;
+  DescentEnd end_of_descent{Norm::l2_scaled, 1e-6, 1000};
+  end_of_descent.tolerance = 1e-9;
+  end_of_descent.max_iterations = 100;
   for (const Norm norm : {Norm::l2_scaled, Norm::none}) {
-    options.norm = norm;
+    end_of_descent.norm = norm;
     for (const double factor : {0.99, 1.0, 1.01}) { // also for a norm that does not fall
-      const auto end = forecast(decaying(40, factor), options);
+      const auto end = forecast(decaying(40, factor), end_of_descent);
       REQUIRE(end);
       CHECK(!end->converges);
       CHECK(end->seconds == doctest::Approx(2 * 60));
@@ -67,27 +80,27 @@ TEST_CASE("the limit of iterations ends longer runs, and runs of a fixed number 
 }
 
 TEST_CASE("a last step that went beyond the limit of iterations leaves no time") {
-  CvtOptions options;
-  options.norm = Norm::none;
-  options.max_iterations = 38;
-  CHECK(forecast(decaying(40, 0.9), options)->seconds == 0);
+  DescentEnd end_of_descent{Norm::l2_scaled, 1e-6, 1000};
+  end_of_descent.norm = Norm::none;
+  end_of_descent.max_iterations = 38;
+  CHECK(forecast(decaying(40, 0.9), end_of_descent)->seconds == 0);
 }
 
 TEST_CASE("there is no prediction from few iterations, or from those of another level") {
-  CvtOptions options;
-  CHECK(!forecast(decaying(9, 0.9), options));
+  DescentEnd end_of_descent{Norm::l2_scaled, 1e-6, 1000};
+  CHECK(!forecast(decaying(9, 0.9), end_of_descent));
   Standing next = decaying(50, 0.9);
   next.iterations_of_level = 9;
-  CHECK(!forecast(next, options));
+  CHECK(!forecast(next, end_of_descent));
   next.iterations_of_level = 0;
-  CHECK(!forecast(next, options));
+  CHECK(!forecast(next, end_of_descent));
 }
 
 TEST_CASE("rejected trials count in the time but not in the norms") {
-  CvtOptions options;
-  options.norm = Norm::l2;
-  options.tolerance = std::pow(0.9, 300.5);
-  options.max_iterations = 1000;
+  DescentEnd end_of_descent{Norm::l2_scaled, 1e-6, 1000};
+  end_of_descent.norm = Norm::l2;
+  end_of_descent.tolerance = std::pow(0.9, 300.5);
+  end_of_descent.max_iterations = 1000;
   Standing state = decaying(101, 0.9);
   for (std::size_t k = 1; k < 101; k += 3) {
     state.report.iterations[k].accepted = false;
@@ -95,16 +108,16 @@ TEST_CASE("rejected trials count in the time but not in the norms") {
   }
   for (CvtIteration& iteration : state.report.iterations)
     iteration.seconds = 1.5, iteration.seconds_solver = 0.5;
-  const auto end = forecast(state, options);
+  const auto end = forecast(state, end_of_descent);
   REQUIRE(end);
   CHECK(end->converges);
   CHECK(end->seconds == doctest::Approx(2 * (301 - 100)));
 }
 
 TEST_CASE("a converged level takes no more time") {
-  CvtOptions options;
-  options.tolerance = 0.5;
-  const auto end = forecast(decaying(50, 0.9), options);
+  DescentEnd end_of_descent{Norm::l2_scaled, 1e-6, 1000};
+  end_of_descent.tolerance = 0.5;
+  const auto end = forecast(decaying(50, 0.9), end_of_descent);
   REQUIRE(end);
   CHECK(end->seconds == 0);
 }
@@ -124,57 +137,50 @@ TEST_CASE("the norms are those of the report") {
 }
 
 TEST_CASE("the time left is a range that holds the levels that follow") {
-  CvtOptions options;
-  options.norm = Norm::l2;
-  options.tolerance = std::pow(0.9, 300.5);
+  Schedule schedule = one_level(std::pow(0.9, 300.5));
   Standing state = decaying(101, 0.9);
   const double rest = 2 * (301 - 100), level = 2 * 101 + rest;
-  auto left = remaining(state, options);
+  auto left = remaining(state, schedule);
   REQUIRE(left);
   CHECK(left->least == doctest::Approx(0.7 * rest));
   CHECK(left->most == doctest::Approx(1.4 * rest));
   state.bisections_left = 2;
-  options.insertion_rounds = 1; // two descents on the last level, three and four before it
-  options.tolerance = std::max(options.tolerance, 1e-30);
-  left = remaining(state, options);
+  schedule.levels = rounds_of_insertion; // two descents on the last level, three and four before it
+  left = remaining(state, schedule);
   REQUIRE(left);
   CHECK(left->least < left->most);
   CHECK(left->most > 1.99 * 2 * 101 * (4 * 3.0 / 4 + 4 * 3.0 / 4 * 4 * 2.0 / 3));
   CHECK(level > rest);
-  CHECK(!remaining(decaying(9, 0.9), options));
+  CHECK(!remaining(decaying(9, 0.9), schedule));
 }
 
 TEST_CASE("the time left follows the wall clock, of which evaluations are a part") {
-  CvtOptions options;
-  options.norm = Norm::l2;
-  options.tolerance = std::pow(0.9, 300.5);
+  Schedule schedule = one_level(std::pow(0.9, 300.5));
   Standing state = decaying(101, 0.9);
-  const auto idle = remaining(state, options);
+  const auto idle = remaining(state, schedule);
   REQUIRE(idle);
   state.report.seconds = 3 * 2 * 101;
-  const auto busy = remaining(state, options);
+  const auto busy = remaining(state, schedule);
   REQUIRE(busy);
   CHECK(busy->least == doctest::Approx(3 * idle->least));
   CHECK(busy->most == doctest::Approx(3 * idle->most));
   state.bisections_left = 2;
-  options.insertion_rounds = 1;
-  const auto levels = remaining(state, options);
+  schedule.levels = rounds_of_insertion;
+  const auto levels = remaining(state, schedule);
   state.report.seconds = 0;
-  CHECK(levels->most == doctest::Approx(3 * remaining(state, options)->most));
+  CHECK(levels->most == doctest::Approx(3 * remaining(state, schedule)->most));
 }
 
 TEST_CASE("progress names the level, the norm and the prediction") {
   Standing state = decaying(101, 0.9);
   state.bisections_left = 2;
-  CvtOptions options;
-  options.norm = Norm::l2;
-  options.tolerance = std::pow(0.9, 110);
-  CHECK(describe(state, options, "l2")
+  Schedule schedule = one_level(std::pow(0.9, 110));
+  schedule.levels.resize(3);
+  CHECK(describe(state, schedule)
             .starts_with("12 cells, iteration 101, l2 2.66e-05 of 9e-06, energy x cells 0, then 2 "
                          "finer levels, "));
-  options.norm = Norm::none;
+  schedule.recipe.stop.iterations = 4000;
   state.bisections_left = 0;
-  options.max_iterations = 4000;
-  CHECK(describe(state, options, "none") ==
+  CHECK(describe(state, schedule) ==
         "12 cells, iteration 101, energy x cells 0, 91 min to 3.0 h left");
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/command.h"
+#include "support/planes.h"
 
 #include <calotte/io.h>
 #include <calotte/region.h>
@@ -116,7 +117,7 @@ TEST_CASE("fixed points beside a file of others, in the plane, and in a limited 
   CHECK(made.leftCols(2) == directions("1 0 0\n0 0.6 0.8\n", Columns::xyz));
   bench.file("fixed.xy", "0.25 0.5\n0.75 0.125\n");
   CHECK(bench.run("cvt --rectangle 0,0,1,1 --cells 60 --fixed fixed.xy -o plane.vtp").code == 0);
-  const Points2 places = read_planar_mesh(bench.folder() / "plane.vtp").points;
+  const Points2 places = test::read_planar_mesh(bench.folder() / "plane.vtp").points;
   CHECK(places.cols() == 60);
   CHECK(places.leftCols(2) == (Points2(2, 2) << 0.25, 0.75, 0.5, 0.125).finished());
   CHECK(bench
@@ -142,7 +143,7 @@ TEST_CASE("bad fixed points are refused in one line that names the line of the f
   check_refused(bench, "cvt --lonlat --cells 3 --fixed fixed.txt -o a.vtp " + region,
                 "fixed.txt line 3: fixed point 2 leaves no free one of the 3 cells");
   check_refused(bench, run + "--fixed fixed.txt --start fibonacci",
-                "--start fibonacci does not leave room for fixed points");
+                "the start fibonacci does not leave room for fixed points");
   check_refused(bench, "cvt - --fixed - -o a.vtp", "both standard input");
 }
 
@@ -253,11 +254,12 @@ TEST_CASE("bad regions end in one clear line before any work") {
                   "bow.geojson: ");
   check_refused(bench, "cvt --region Bow.pts --cell-width 60km -o a.vtp", "Bow.pts");
   const std::string none = "--region circle=10,50,3km --cell-width 60km";
-  check_refused(bench, "cvt " + none + " -o a.vtp", "the widths require 0 cells");
-  check_refused(bench, "plan " + none, "the widths require 0 cells");
+  check_refused(bench, "cvt " + none + " -o a.vtp",
+                "the widths require 0.00906854 cells in the region");
+  check_refused(bench, "plan " + none, "the widths require 0.00906854 cells in the region");
   for (const std::string command : {"plan ", "cvt -o a.nc "})
     check_refused(bench, command + none + " --limited-area",
-                  "the region has room for 0.0091 cells only");
+                  "the region has room for 0.00906854 cells only");
 }
 
 TEST_CASE("a raster of a part of the sphere is enough for a region in it, with its rings") {

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "cvt/cvt.h"
+#include "delaunay/delaunay.h"
+
 #include <calotte/cvt.h>
 #include <calotte/delaunay.h>
 #include <calotte/domain.h>

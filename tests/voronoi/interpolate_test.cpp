@@ -4,6 +4,7 @@
 #include <calotte/interpolate.h>
 #include <calotte/voronoi.h>
 
+#include "delaunay/delaunay.h"
 #include "support/clouds.h"
 
 #include <doctest/doctest.h>

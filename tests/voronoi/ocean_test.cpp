@@ -6,6 +6,7 @@
 #include <calotte/voronoi.h>
 
 #include "base/lonlat.h"
+#include "delaunay/delaunay.h"
 #include "support/gshhg.h"
 
 #include <doctest/doctest.h>

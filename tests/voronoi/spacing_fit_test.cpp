@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "delaunay/delaunay.h"
 #include "voronoi/spacing_fit.h"
 
 #include <calotte/delaunay.h>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <calotte/voronoi.h>
 
+#include "delaunay/delaunay.h"
 #include "mesh/adjacency.h"
 #include "mesh/canonical_order.h"
 #include "support/clouds.h"

@@ -118,7 +118,7 @@ std::string name_of(const WidthWords& words) {
   return words.uniform ? shortest(*words.uniform) + (words.plane ? "" : " km") : words.file;
 }
 
-CellWidth read_widths(const WidthWords& words, const Region& region) {
+CellWidth read_widths(const WidthWords& words, const Surface& region) {
   if (!words.raster.empty())
     return read_density_raster(words.raster, region);
   if (words.uniform || !is_geojson(words.file))
@@ -231,21 +231,6 @@ std::vector<std::string> notes_on(const PlanarCellWidth& widths, const WidthWord
           (std::abs(scale - 1) > 0.01 ? "; with " + std::to_string(*cells) + " cells, widths are " +
                                             formatted("%.3g", scale) + " times as large"
                                       : "")};
-}
-
-std::int64_t cells_for(const CellWidth& widths, const WidthWords& words, bool bisected) {
-  constexpr std::int64_t coarsest = 642; // see continuation()
-  const double implied = std::round(implied_cells(widths, words.radius));
-  if (!(implied >= fewest && implied <= most))
-    refuse("--cells auto: " + name_of(words) + " requires " + formatted("%.4g", implied) +
-           " cells, but a grid has 12 to 1073741824; give widths in km");
-  if (words.uniform)
-    return cells_of_uniform(implied);
-  const auto cells = static_cast<std::int64_t>(implied);
-  std::int64_t parts = 1; // of a coarse grid's cell
-  while (bisected && (cells - 2) / (4 * parts) >= coarsest - 2)
-    parts *= 4;
-  return (cells - 2 + parts / 2) / parts * parts + 2;
 }
 
 } // namespace calotte::tools

@@ -41,7 +41,7 @@ std::string name_of(const WidthWords& words);
 /// \pre words.given().
 /// \throws Error as read_cell_width; bad_option for polygons' widths without polygons.
 /// \param region which a raster must cover.
-CellWidth read_widths(const WidthWords& words, const Region& region = {});
+CellWidth read_widths(const WidthWords& words, const Surface& region = {});
 
 /// The same in the plane. \pre words.in_km().
 /// \throws Error as read_planar_cell_width; bad_option for a width with a unit, and for polygons.
@@ -71,11 +71,5 @@ std::vector<std::string> notes_on(const PlanarCellWidth& widths, const WidthWord
 
 /// A remark on widths that may be in metres, above 2000 km; "" for others.
 std::string doubt_of(const CellWidth& widths, const WidthWords& words);
-
-/// The number of cells that widths in km imply; for a uniform width that of geodesic_count().
-/// \param bisected rounds it, by less than a thousandth, to the nearest number that a continuation
-///         reaches from a coarse grid: few numbers can be bisected to.
-/// \throws Error bad_option if no CVT has so many or so few.
-std::int64_t cells_for(const CellWidth& widths, const WidthWords& words, bool bisected);
 
 } // namespace calotte::tools

@@ -9,25 +9,25 @@
 #include <calotte/io.h>
 
 #include <limits>
-#include <map>
+#include <set>
+#include <span>
 #include <string>
-#include <utility>
+#include <string_view>
+#include <vector>
 
 namespace calotte::tools {
 namespace {
 
-const std::map<std::string, Norm> norms{{"l2", Norm::l2},
-                                        {"linf", Norm::linf},
-                                        {"l2-scaled", Norm::l2_scaled},
-                                        {"linf-scaled", Norm::linf_scaled},
-                                        {"gradient", Norm::gradient},
-                                        {"none", Norm::none}};
-
-const std::map<std::string, Method> methods{{"auto", Method::automatic},
-                                            {"lloyd", Method::lloyd},
-                                            {"nesterov", Method::nesterov},
-                                            {"lbfgs", Method::lbfgs},
-                                            {"lbfgs-laplacian", Method::lbfgs_laplacian}};
+/// The words of an option's values but some.
+template <class Value>
+std::vector<std::string> words_of(std::span<const Word<Value>> words,
+                                  const std::set<std::string_view>& but = {}) {
+  std::vector<std::string> names;
+  for (const Word<Value>& word : words)
+    if (!but.contains(word.word))
+      names.emplace_back(word.word);
+  return names;
+}
 
 void add_cells(CLI::App& command, CvtRequest& request) {
   const auto set = [&request](const std::string& text) {
@@ -73,8 +73,7 @@ void add_start(CLI::App& command, CvtRequest& request) {
           "plane if the density is uniform), random (uniform), fibonacci, spiral, icosahedron "
           "(bisected) or geodesic (12 cells of five neighbours, all others of six, for any number "
           "of cells) on the sphere, or hexagonal in the plane")
-      ->check(CLI::IsMember({"multilevel", "continuation", "random", "density", "fibonacci",
-                             "spiral", "icosahedron", "geodesic", "hexagonal"}));
+      ->check(CLI::IsMember(words_of(start_words(), {"automatic", "points"})));
   command.add_option("--seed", request.seed, "Seed of random points, >= 0; default: 1")
       ->transform(whole_number(0, std::numeric_limits<std::uint64_t>::max()));
   command
@@ -97,7 +96,7 @@ void add_method(CLI::App& command, CvtRequest& request) {
                   "lbfgs-laplacian near it), lloyd (moves each generator to its centroid), "
                   "nesterov (accelerated Lloyd), lbfgs (quasi-Newton) or lbfgs-laplacian (L-BFGS "
                   "preconditioned with the graph Laplacian of the mesh)")
-      ->check(CLI::IsMember({"auto", "lloyd", "nesterov", "lbfgs", "lbfgs-laplacian"}))
+      ->check(CLI::IsMember(words_of(method_words())))
       ->capture_default_str();
   command
       .add_option("--relaxation", request.relaxation,
@@ -133,7 +132,7 @@ void add_end(CLI::App& command, CvtRequest& request) {
                       "that the generators move), linf (largest distance), l2-scaled and "
                       "linf-scaled (the same divided by the spacing, the square root of the mean "
                       "cell area), or gradient (of the energy)")
-          ->check(CLI::IsMember({"l2", "linf", "l2-scaled", "linf-scaled", "gradient"}))
+          ->check(CLI::IsMember(words_of(norm_words(), {"none"})))
           ->capture_default_str();
   CLI::Option* tolerance = command.add_option("--tolerance", request.given_tolerance,
                                               "Stop when the norm is at most this value; > 0; "
@@ -218,57 +217,6 @@ void add_saved(CLI::App& command, CvtRequest& request) {
 }
 
 } // namespace
-
-std::string start_kind(const CvtRequest& request) {
-  if (!request.points.empty())
-    return "points";
-  if (request.start)
-    return *request.start;
-  const bool follows = !request.part.region.empty() || !request.fixed.empty();
-  if ((follows || !is_uniform(*request.density)) && !request.iterations && !request.bisections)
-    return "multilevel";
-  return planar(request) || follows ? "density" : "continuation";
-}
-
-bool cells_follow(const CvtRequest& request) {
-  return request.cells_of_widths ||
-         (request.points.empty() && !request.cells && request.density->widths.in_km());
-}
-
-bool well_centred(const CvtRequest& request) {
-  if (request.stop)
-    return *request.stop == "well-centred";
-  return start_kind(request) == "multilevel" && !request.iterations;
-}
-
-double tolerance_of(const CvtRequest& request) {
-  return request.given_tolerance.value_or(well_centred(request) ? tolerance_before_finish
-                                                                : CvtOptions{}.tolerance);
-}
-
-std::string norm_word(const CvtRequest& request) {
-  return request.iterations ? "none" : request.norm;
-}
-
-CvtOptions options_of(const CvtRequest& request) {
-  CvtOptions options;
-  options.method = methods.at(request.method);
-  options.relaxation = request.relaxation;
-  options.norm = norms.at(norm_word(request));
-  options.tolerance = tolerance_of(request);
-  options.well_centred = well_centred(request);
-  options.least_spacing = request.least_spacing.value_or(options.least_spacing);
-  options.max_iterations = request.iterations.value_or(request.max_iterations);
-  options.rule = request.rule;
-  options.final_rule = request.final_rule;
-  options.triangle_divisions = request.triangle_divisions;
-  DelaunayOptions start = options_of(*request.partition, planar(request));
-  options.duplicates = start.duplicates;
-  options.merge_within = start.merge_within;
-  options.partition = std::move(start.partition);
-  options.boundary = ends_at_boundary(request.part) ? Boundary::generators : Boundary::clip;
-  return options;
-}
 
 WriteOptions write_options(const CvtRequest& request) {
   return options_of(*request.format, request.mesh);

@@ -7,7 +7,7 @@
 #include "options/partition_options.h"
 #include "options/region_option.h"
 
-#include <calotte/cvt.h>
+#include <calotte/grid.h>
 
 #include <cstdint>
 #include <memory>
@@ -25,7 +25,7 @@ struct CvtRequest {
   RegionWords part;                    ///< of the sphere
   std::optional<int> cells;            ///< of the result
   bool cells_of_widths = false;        ///< --cells auto: the number that the cell widths imply
-  std::optional<std::string> start;    ///< default: see start_kind()
+  std::optional<std::string> start;    ///< default: see Start
   std::optional<std::uint64_t> seed;
   std::optional<int> bisections;
   std::optional<int> insertion_rounds; ///< of a multilevel start
@@ -34,13 +34,13 @@ struct CvtRequest {
   std::string method = "auto";
   double relaxation = 1;
   std::string norm = "l2-scaled";
-  std::optional<std::string> stop;     ///< default: see well_centred()
+  std::optional<std::string> stop;     ///< default: see Stop
   std::optional<double> least_spacing; ///< of a run that ends well-centred
   std::optional<double> given_tolerance;
-  int max_iterations = CvtOptions{}.max_iterations;
+  int max_iterations = Stop{}.max_iterations;
   std::optional<int> iterations;
-  int rule = CvtOptions{}.rule, final_rule = CvtOptions{}.final_rule;
-  int triangle_divisions = CvtOptions{}.triangle_divisions;
+  int rule = Recipe{}.rule, final_rule = Recipe{}.final_rule;
+  int triangle_divisions = Recipe{}.triangle_divisions;
   std::shared_ptr<PartitionWords> partition;
 
   std::shared_ptr<FormatWords> format;
@@ -55,27 +55,6 @@ struct CvtRequest {
 
 /// True for a run in the plane.
 inline bool planar(const CvtRequest& request) { return request.domain->given(); }
-
-/// The kind of start. Default: multilevel for a density that is not uniform, for a region and with
-/// fixed generators, otherwise continuation on the sphere and density in the plane.
-std::string start_kind(const CvtRequest& request);
-
-/// Whether the cell widths determine the number of cells: --cells auto, or widths in km without a
-/// file of points and without --cells.
-bool cells_follow(const CvtRequest& request);
-
-/// Whether the run ends with a finish. Default: that of a multilevel start does.
-bool well_centred(const CvtRequest& request);
-
-/// The value of --tolerance, whose default depends on the end of the run.
-double tolerance_of(const CvtRequest& request);
-
-/// The value of --norm; "none" for a run of --iterations.
-std::string norm_word(const CvtRequest& request);
-
-/// The options of the run except the bisections, which belong to the start, and the density.
-/// \throws Error bad_option.
-CvtOptions options_of(const CvtRequest& request);
 
 /// The options of the mesh file, without density and history.
 /// \throws Error as options_of(FormatWords) does.

@@ -248,7 +248,7 @@ std::shared_ptr<DensityWords> add_density(CLI::App& command) {
   return words;
 }
 
-Resolution resolution_of(const DensityWords& words, bool planar, const Region& region) {
+Resolution resolution_of(const DensityWords& words, bool planar, const Surface& region) {
   if (!words.widths.given())
     return {bumps_of(words, planar), {}, {}};
   if (planar && !words.widths.in_km())

@@ -38,7 +38,8 @@ struct Resolution {
 ///        unit; a raster is one of x and y, and a width has no unit.
 /// \param region which a raster must cover.
 /// \throws Error bad_option naming the word and the remedy; as read_cell_width.
-Resolution resolution_of(const DensityWords& words, bool planar = false, const Region& region = {});
+Resolution resolution_of(const DensityWords& words, bool planar = false,
+                         const Surface& region = {});
 /// The same without the widths.
 Density density_of(const DensityWords& words, bool planar = false);
 

@@ -29,7 +29,7 @@ std::optional<std::array<double, count>> numbers_of(const std::string& text) {
   return at == end ? std::optional(numbers) : std::nullopt;
 }
 
-PlanarDomain rectangle_of(const std::string& word) {
+Surface rectangle_of(const std::string& word) {
   const auto sides = numbers_of<4>(word);
   if (!sides || !((*sides)[0] < (*sides)[2]) || !((*sides)[1] < (*sides)[3]))
     throw Error(ErrorCode::bad_option, "--rectangle " + word +
@@ -133,13 +133,13 @@ std::string domain_configuration(const DomainWords& words) {
                                (words.walls ? "walls " + *words.walls + "\n" : "");
 }
 
-std::optional<PlanarDomain> domain_of(const DomainWords& words) {
+std::optional<Surface> surface_of(const DomainWords& words) {
   if (words.file)
     return read_domain(*words.file);
   if (words.rectangle)
     return rectangle_of(*words.rectangle);
   if (const std::optional<Eigen::Vector2d> period = period_of(words.periodic))
-    return periodic_box(*period);
+    return Surface::periodic(*period);
   return std::nullopt;
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <calotte/domain.h>
 #include <calotte/mesh_file.h>
+#include <calotte/surface.h>
 
 #include <CLI/App.hpp>
 
@@ -38,9 +38,9 @@ MeshFile hexagons_of(const DomainWords& words);
 /// Adds --domain and --rectangle only.
 std::shared_ptr<DomainWords> add_bounded_domain(CLI::App& command);
 
-/// The domain of the options; none if no option is given. Reads the file, if there is one.
-/// \throws Error bad_option naming the word and the remedy; as read_domain.
-std::optional<PlanarDomain> domain_of(const DomainWords& words);
+/// The part of the plane, or the box, of the options; none if no option is given. Reads the file,
+/// if there is one. \throws Error bad_option naming the word and the remedy; as read_domain.
+std::optional<Surface> surface_of(const DomainWords& words);
 
 /// The input that determines it, a line "name value" for a run's configuration; for a file, its
 /// contents.

@@ -5,6 +5,8 @@
 #include "options/point_file.h"
 #include "options/sphere_radius_option.h"
 
+#include <calotte/error.h>
+
 namespace calotte::tools {
 
 std::shared_ptr<MeshSource> add_mesh_source(CLI::App& command, const std::string& names) {
@@ -22,23 +24,30 @@ std::shared_ptr<MeshSource> add_mesh_source(CLI::App& command, const std::string
   return source;
 }
 
+namespace {
+
+/// Why points are none of a plane, a clause; "" where z is 0 at all of them.
+std::string first_off_plane(const MeshFile& file) {
+  for (Eigen::Index i = 0; file.mesh && i < file.mesh->points.cols(); ++i)
+    if (file.mesh->points(2, i) != 0)
+      return ": z is not 0 at point " + std::to_string(i);
+  return "";
+}
+
+} // namespace
+
 MeshFile read_mesh_file(const MeshSource& source, FieldChoice choice) {
-  if (source.plane) {
-    MeshFile file;
-    if (source.points.empty() && is_netcdf_file(source.path)) // has density, fields and cells, too
-      file = calotte::read_mesh_file(source.path, nullptr, choice);
-    if (!file.plane) // or say why there is none
-      file.plane = read_planar_mesh(source);
-    return file;
-  }
-  if (source.points.empty()) {
-    MeshFile file = calotte::read_mesh_file(source.path, nullptr, choice);
-    if (is_netcdf_file(source.path))
-      warn_of_radius(file.sphere_radius, source.path);
-    return file;
-  }
-  const Points3 points = read_point_file(source.points, source.lonlat).points;
-  return calotte::read_mesh_file(source.path, &points, choice);
+  std::optional<Points3> points;
+  if (!source.points.empty())
+    points = source.plane ? read_planar_point_file(source.points).points
+                          : read_point_file(source.points, source.lonlat).points;
+  MeshFile file = calotte::read_mesh_file(source.path, points ? &*points : nullptr, choice);
+  if (source.plane && !file.plane())
+    throw Error(ErrorCode::bad_option, source.path + ": it holds no mesh of the plane" +
+                                           first_off_plane(file) + "; leave --plane out");
+  if (!source.plane && source.points.empty() && is_netcdf_file(source.path))
+    warn_of_radius(file.sphere_radius, source.path);
+  return file;
 }
 
 std::optional<double> radius_km(const MeshSource& source, const MeshFile& file) {
@@ -55,13 +64,6 @@ std::string changes_of(const MeshSource& source, const MeshFile& file) {
   return lines;
 }
 
-Mesh read_mesh(const MeshSource& source) {
-  if (source.points.empty())
-    return calotte::read_mesh(source.path);
-  const Points3 points = read_point_file(source.points, source.lonlat).points;
-  return calotte::read_mesh(source.path, &points);
-}
-
 CLI::Option* add_plane(CLI::App& command, MeshSource& source) {
   return command
       .add_flag(
@@ -69,13 +71,6 @@ CLI::Option* add_plane(CLI::App& command, MeshSource& source) {
           "The mesh is planar. Formats: .vtp, .vtu, .off, .ply or .msh with z = 0, planar MPAS or "
           "UGRID, or .txt and .tri with --points (x y on each line)")
       ->excludes(command.get_option("--lonlat"));
-}
-
-PlanarMesh read_planar_mesh(const MeshSource& source) {
-  if (source.points.empty())
-    return calotte::read_planar_mesh(source.path);
-  const Points2 points = read_planar_point_file(source.points).points;
-  return calotte::read_planar_mesh(source.path, &points);
 }
 
 } // namespace calotte::tools

@@ -16,7 +16,7 @@ struct MeshSource {
   std::string path = {};
   std::string points = {};
   bool lonlat = false;
-  bool plane = false; ///< a mesh of the plane, read by read_planar_mesh
+  bool plane = false; ///< a mesh of the plane
 };
 
 /// Adds the positional MESH, or of another name, and the options --points and --lonlat.
@@ -25,8 +25,8 @@ std::shared_ptr<MeshSource> add_mesh_source(CLI::App& command, const std::string
 /// Adds --plane. \returns the option.
 CLI::Option* add_plane(CLI::App& command, MeshSource& source);
 
-/// A mesh of the sphere or, with --plane or where the file holds no other, of the plane.
-/// \throws Error as read_mesh_file and read_points do.
+/// \throws Error as read_mesh_file and read_points do; bad_option, with --plane, for a mesh of the
+///         sphere.
 MeshFile read_mesh_file(const MeshSource& source, FieldChoice choice);
 
 /// The radius of the sphere, km, if the file is known to give one in metres: NetCDF.
@@ -34,9 +34,5 @@ std::optional<double> radius_km(const MeshSource& source, const MeshFile& file);
 
 /// The lines that say what reading changed, each after the file's name.
 std::string changes_of(const MeshSource& source, const MeshFile& file);
-
-/// \throws Error as read_mesh and read_points do.
-Mesh read_mesh(const MeshSource& source);
-PlanarMesh read_planar_mesh(const MeshSource& source);
 
 } // namespace calotte::tools

@@ -5,6 +5,7 @@
 
 #include <iostream>
 #include <string_view>
+#include <utility>
 
 namespace calotte::tools {
 namespace {
@@ -30,11 +31,20 @@ PointFile read_point_file(const std::string& path, bool lonlat) {
   return file;
 }
 
-PlanarPointFile read_planar_point_file(const std::string& path) {
-  PlanarPointFile file;
+PointFile read_planar_point_file(const std::string& path) {
+  PointFile file;
   file.name = path == "-" ? "standard input" : path;
-  file.points = path == "-" ? read_planar_points(std::cin, file.name, &file.lines)
-                            : read_planar_points(path, &file.lines);
+  if (holds_points(path)) {
+    Mesh mesh = read_mesh(path);
+    if (mesh.surface.is_sphere())
+      throw Error(ErrorCode::bad_option, path + ": it holds points of the sphere, not of a plane");
+    file.points = std::move(mesh.points);
+    return file;
+  }
+  const Points2 places = path == "-" ? read_planar_points(std::cin, file.name, &file.lines)
+                                     : read_planar_points(path, &file.lines);
+  file.points = Points3::Zero(3, places.cols());
+  file.points.topRows<2>() = places;
   return file;
 }
 
@@ -47,7 +57,8 @@ void rethrow_with_line(const Error& error, const std::string& name,
                         (error.code() == ErrorCode::bad_option &&
                          (std::string_view(error.what()).starts_with("point ") ||
                           std::string_view(error.what()).starts_with("generator ") ||
-                          std::string_view(error.what()).starts_with("fixed generator ")));
+                          std::string_view(error.what()).starts_with("fixed generator ") ||
+                          std::string_view(error.what()).starts_with("fixed point ")));
   if (!of_input || error.index() < 0 || error.index() >= static_cast<std::int64_t>(lines.size()))
     throw error;
   const std::int64_t line = lines[static_cast<std::size_t>(error.index())];

@@ -19,21 +19,17 @@ struct PointFile {
 
 /// Text (MPI-SCVT's SaveVertices and RegionList are such), or the points of a mesh, see
 /// mesh_suffixes, which have no lines.
-/// \throws Error as points_from and read_sites; bad_option for a mesh in longitude and latitude.
+/// \throws Error as read_points() and read_sites(); bad_option for a mesh in longitude and
+/// latitude.
 PointFile read_point_file(const std::string& path, bool lonlat);
 
-/// Places in a plane, likewise.
-struct PlanarPointFile {
-  std::string name;
-  Points2 points;
-  std::vector<std::int64_t> lines;
-};
+/// Points of the plane, with z = 0: text, x y a line ("-" is standard input), or the points of a
+/// mesh. \throws Error as read_planar_points() and read_mesh(); bad_option for a mesh of the
+/// sphere.
+PointFile read_planar_point_file(const std::string& path);
 
-/// Text, x y a line; "-" is standard input. \throws Error as read_planar_points.
-PlanarPointFile read_planar_point_file(const std::string& path);
-
-/// Runs a function; if it throws an Error with the column of a bad point, replaces the column by
-/// the line in the file.
+/// Throws the error again; of one that names the column of a bad point with the line in the file
+/// instead.
 /// \param lines of the columns of the file `name`; empty if it has none.
 [[noreturn]] void rethrow_with_line(const Error& error, const std::string& name,
                                     const std::vector<std::int64_t>& lines);

@@ -74,7 +74,7 @@ Eigen::Vector3d place(const Word& word, std::size_t part = 0) {
   return read_points(in, "--region", Columns::lonlat).col(0);
 }
 
-Region made_of(const Word& word, std::string_view shape, double radius_km) {
+Surface made_of(const Word& word, std::string_view shape, double radius_km) {
   if (shape == "circle")
     return circle(place(word), length(word, 2, radius_km));
   if (shape == "ellipse")
@@ -102,7 +102,7 @@ void require_parts(const Word& word, std::size_t count) {
                      std::to_string(count));
 }
 
-Region shape_or_file(const std::string& word, double radius_km) {
+Surface shape_or_file(const std::string& word, double radius_km) {
   static const std::vector<std::pair<std::string, std::string>> shapes{
       {"circle", "circle=LON,LAT,RADIUS, as in circle=-105,40,1000km"},
       {"ellipse", "ellipse=LON,LAT,MAJOR,MINOR,BEARING, as in ellipse=138,38,1580km,1000km,45"},
@@ -163,14 +163,14 @@ void require_region_words(const RegionWords& words) {
         "region; leave one of them out");
 }
 
-Region region_of(const std::string& word, const std::string& inside, double radius_km) {
-  Region region = shape_or_file(word, radius_km);
+Surface region_of(const std::string& word, const std::string& inside, double radius_km) {
+  Surface region = shape_or_file(word, radius_km);
   if (inside.empty())
     return region;
   const Word parsed{"--inside", inside, "LON,LAT, as in -105,40", split(inside)};
   require_parts(parsed, 2);
   try {
-    return region_around(region.rings, place(parsed));
+    return region_around({region.rings().begin(), region.rings().end()}, place(parsed));
   } catch (const Error& error) {
     throw Error(error.code(), "--inside " + inside + ": " + error.what());
   }
@@ -182,14 +182,14 @@ std::string region_file(const std::string& word) {
   return word.find('=') == std::string::npos ? word : "";
 }
 
-std::string region_configuration(const Region& region) {
+std::string region_configuration(const Surface& region) {
   boost::crc_32_type checksum;
   Eigen::Index corners = 0;
-  for (const Points3& ring : region.rings) {
+  for (const auto& ring : region.rings()) {
     checksum.process_bytes(ring.data(), static_cast<std::size_t>(ring.size()) * sizeof(double));
     corners += ring.cols();
   }
-  return "region of " + std::to_string(region.rings.size()) + " rings and " +
+  return "region of " + std::to_string(region.rings().size()) + " rings and " +
          std::to_string(corners) + " corners with checksum " + std::to_string(checksum.checksum()) +
          "\n";
 }

@@ -37,13 +37,13 @@ void require_region_words(const RegionWords& words);
 /// \param radius_km radius of the sphere to which lengths in km refer.
 /// \throws Error bad_option naming the word and the remedy; as read_region, region_around,
 ///         read_coast and land_around.
-Region region_of(const std::string& word, const std::string& inside,
-                 double radius_km = earth_radius_km);
+Surface region_of(const std::string& word, const std::string& inside,
+                  double radius_km = earth_radius_km);
 
 /// The file that the word names; empty if it names none.
 std::string region_file(const std::string& word);
 
 /// A fingerprint of the corners, a line for a run's configuration.
-std::string region_configuration(const Region& region);
+std::string region_configuration(const Surface& region);
 
 } // namespace calotte::tools

@@ -5,7 +5,7 @@
 #include "options/global_option.h"
 #include "options/numbers.h"
 #include "options/region_option.h"
-#include "run/cvt_start.h"
+#include "run/cvt_input.h"
 
 #include <calotte/cut.h>
 #include <calotte/error.h>
@@ -97,13 +97,10 @@ void require_hexagons(const CvtRequest& request) {
 }
 
 void require_request(const CvtRequest& request) {
-  require_positive("--tolerance", tolerance_of(request), "one such as 1e-6");
+  require_positive("--tolerance", request.given_tolerance.value_or(1), "one such as 1e-6");
   require_positive("--checkpoint-minutes", request.checkpoint_minutes, "one such as 10");
   if (request.relaxation != 1 && request.method != "lloyd")
     throw Error(ErrorCode::bad_option, "--relaxation applies to --method lloyd only; leave it out");
-  if (request.least_spacing && !well_centred(request))
-    throw Error(ErrorCode::bad_option,
-                "--least-spacing applies to --stop well-centred only; leave it out");
   require_start(request);
   const WriteOptions options = write_options(request); // throws for a file that cannot be written
   if (planar(request))

@@ -10,30 +10,51 @@
 namespace calotte::tools {
 namespace {
 
-std::string stopping_rule(const CvtRequest& request) {
-  if (request.iterations)
-    return "iterations " + std::to_string(*request.iterations) + "\n";
+std::string start_of(const CvtRequest& request, const CvtInput& input, const Schedule& schedule) {
+  const Recipe& recipe = schedule.recipe;
+  const Start::Kind kind = recipe.start.kind;
+  std::string text = "start " + std::string(word_of(kind)) + "\n" + input.points;
+  if (kind != Start::Kind::points)
+    text += "cells " + std::to_string(recipe.cells) + "\n";
+  if (is_drawn(kind))
+    text += "seed " + std::to_string(recipe.seed) + "\n";
+  text += input.fixed;
+  if (schedule.on_boundary > 0)
+    text += "boundary generators\n";
+  if (kind == Start::Kind::multilevel)
+    text += "insertion-rounds " + std::to_string(*recipe.start.insertion_rounds) + "\n";
+  else if (kind != Start::Kind::continuation) // whose bisections follow from cells and density
+    text += "bisections " + std::to_string(recipe.start.bisections.value_or(0)) + "\n";
+  if (planar(request))
+    text += domain_configuration(*request.domain);
+  if (!request.part.region.empty())
+    text += region_configuration(recipe.surface);
+  return text;
+}
+
+std::string stopping_rule(const CvtRequest& request, const Stop& stop) {
+  if (stop.iterations)
+    return "iterations " + std::to_string(*stop.iterations) + "\n";
   const std::string spacing =
       request.least_spacing ? "\nleast-spacing " + shortest(*request.least_spacing) : "";
-  return "norm " + request.norm + "\nstop " +
-         (well_centred(request) ? "well-centred" : "tolerance") + spacing + "\ntolerance " +
-         shortest(tolerance_of(request)) + "\nmax-iterations " +
-         std::to_string(request.max_iterations) + "\n";
+  return "norm " + request.norm + "\nstop " + (*stop.well_centred ? "well-centred" : "tolerance") +
+         spacing + "\ntolerance " + shortest(*stop.tolerance) + "\nmax-iterations " +
+         std::to_string(stop.max_iterations) + "\n";
 }
 
 } // namespace
 
-std::string configuration_of(const CvtRequest& request, const CvtOptions& options,
-                             const CvtStart& start) {
-  std::string text = "calotte " CALOTTE_VERSION "\n" + start.configuration;
+std::string configuration_of(const CvtRequest& request, const CvtInput& input,
+                             const Schedule& schedule) {
+  std::string text = "calotte " CALOTTE_VERSION "\n" + start_of(request, input, schedule);
   const auto add = [&](const std::string& name, const std::string& value) {
     text += name + " " + value + "\n";
   };
   text += density_configuration(*request.density);
   add("method", request.method);
-  if (options.method == Method::lloyd)
+  if (schedule.recipe.method == Method::lloyd)
     add("relaxation", shortest(request.relaxation));
-  if (!options.density.uniform()) {
+  if (!schedule.recipe.density.uniform()) {
     add("rule", std::to_string(request.rule));
     add("final-rule", std::to_string(request.final_rule));
     add("triangle-divisions", std::to_string(request.triangle_divisions));
@@ -43,9 +64,9 @@ std::string configuration_of(const CvtRequest& request, const CvtOptions& option
   return text;
 }
 
-std::string history_of(const CvtRequest& request, const std::string& configuration,
-                       const CvtReport& report) {
-  std::istringstream lines(configuration + stopping_rule(request));
+std::string history_of(const CvtRequest& request, const Stop& stop,
+                       const std::string& configuration, const CvtReport& report) {
+  std::istringstream lines(configuration + stopping_rule(request, stop));
   std::string history, fact;
   std::getline(lines, history); // "calotte VERSION"
   history += " cvt";

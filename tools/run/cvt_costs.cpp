@@ -48,7 +48,7 @@ double seconds_of_point(const Density& density) {
 // coast, with gradients ten times above what models recommend, 180 times. An evaluation took 290 to
 // 540 ns of a cell on an AMD EPYC virtual machine, of all threads together.
 
-/// In units of the result's cells; of a uniform grid of the sphere, see continuation(), and of all
+/// In units of the result's cells; of a uniform grid of the sphere, see Start, and of all
 /// others.
 constexpr double evaluations_uniform = 30, evaluations = 110;
 constexpr double seconds_of_cell = 280e-9; ///< per evaluation, without the density
@@ -62,14 +62,14 @@ constexpr double many = 1e6;
 
 } // namespace
 
-CvtCosts cvt_costs(std::int64_t cells, const Density& density, const Region& region, int threads) {
+CvtCosts cvt_costs(std::int64_t cells, const Density& density, const Surface& region, int threads) {
   const auto n = static_cast<double>(cells);
   const bool uniform = density.uniform();
   const double of_cell =
       seconds_of_cell + (uniform ? 0 : points_of_cell * seconds_of_point(density));
   CvtCosts costs;
-  costs.seconds = (uniform && region.whole() ? evaluations_uniform : evaluations) * n * of_cell /
-                  (1 + efficiency * (threads - 1));
+  costs.seconds = (uniform && !region.is_bounded() ? evaluations_uniform : evaluations) * n *
+                  of_cell / (1 + efficiency * (threads - 1));
   costs.memory = memory_of_program + (n < many ? memory_of_cell : memory_of_cell_of_many) * n;
   costs.mpas_file = file_bytes(Format::mpas, cells, uniform);
   costs.vtp_file = file_bytes(Format::vtp, cells, uniform);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <calotte/density.h>
-#include <calotte/region.h>
+#include <calotte/surface.h>
 #include <calotte/write.h>
 
 #include <cstdint>
@@ -27,7 +27,7 @@ struct CvtCosts {
 /// \param region where the run meshes.
 /// \param threads >= 1.
 /// \throws Error as evaluate().
-CvtCosts cvt_costs(std::int64_t cells, const Density& density, const Region& region, int threads);
+CvtCosts cvt_costs(std::int64_t cells, const Density& density, const Surface& region, int threads);
 
 /// The size alone of a file in a format; 0 where it is not known.
 double file_bytes(Format format, std::int64_t cells, bool uniform);

@@ -64,7 +64,7 @@ std::string duration(double seconds) {
 
 } // namespace
 
-std::optional<Forecast> forecast(const CvtProgress& progress, const CvtOptions& options) {
+std::optional<Forecast> forecast(const CvtProgress& progress, const DescentEnd& end) {
   const std::span<const CvtIteration> iterations = recent(progress);
   if (iterations.empty())
     return std::nullopt;
@@ -73,14 +73,14 @@ std::optional<Forecast> forecast(const CvtProgress& progress, const CvtOptions& 
     seconds +=
         (iteration.seconds + iteration.seconds_solver) / static_cast<double>(iterations.size());
   // The trials of the last step may exceed the limit.
-  const double to_limit = std::max(options.max_iterations - progress.iterations_of_level, 0);
-  if (options.norm == Norm::none)
+  const double to_limit = std::max(end.max_iterations - progress.iterations_of_level, 0);
+  if (end.norm == Norm::none)
     return Forecast{seconds * to_limit, false};
-  const Decay decay = fit(iterations, options.norm);
+  const Decay decay = fit(iterations, end.norm);
   if (!(decay.slope < 0))
     return Forecast{seconds * to_limit, false};
   const double to_tolerance =
-      std::ceil(std::max((std::log(options.tolerance) - decay.last) / decay.slope, 0.0));
+      std::ceil(std::max((std::log(end.tolerance) - decay.last) / decay.slope, 0.0));
   return Forecast{seconds * std::min(to_tolerance, to_limit), to_tolerance <= to_limit};
 }
 
@@ -108,30 +108,35 @@ double spent_on_level(const CvtProgress& progress) {
   return seconds;
 }
 
-/// The options of the descents that other levels follow in a run with insertion, see
-/// CvtOptions::insertion_rounds.
-CvtOptions early(CvtOptions options) {
-  options.tolerance = std::max(options.tolerance, 1e-3);
-  options.max_iterations = std::min(options.max_iterations, 75);
-  return options;
+DescentEnd end_of(const Stop& stop) {
+  return stop.iterations ? DescentEnd{Norm::none, 0, *stop.iterations}
+                         : DescentEnd{stop.norm, *stop.tolerance, stop.max_iterations};
 }
 
-/// A level of four times as many cells takes four times as long, and has fewer rounds of insertion.
-double next_level(int bisections_left, const CvtOptions& options) {
-  constexpr int most_rounds = 14; // on coarser levels, see CvtOptions::insertion_rounds
+/// The end of the current descent.
+DescentEnd end_of(const CvtProgress& progress, const Schedule& schedule) {
+  const CvtLevel& level = schedule.levels.end()[-1 - std::ptrdiff_t{progress.bisections_left}];
+  const bool last = progress.bisections_left == 0 && progress.rounds_left == 0;
+  if (last || level.insertion_rounds == 0 || schedule.recipe.stop.iterations)
+    return end_of(schedule.recipe.stop);
+  return {Norm::l2_scaled, level.tolerance, level.max_iterations};
+}
+
+/// The time of the next level over that of the current one: four times for four times as many
+/// cells, less for its fewer rounds of insertion.
+double next_level(int bisections_left, const Schedule& schedule) {
   const auto descents = [&](int left) {
-    return 1.0 + std::min(options.insertion_rounds * (left + 1),
-                          std::max(options.insertion_rounds, most_rounds));
+    return 1.0 + schedule.levels.end()[-1 - std::ptrdiff_t{left}].insertion_rounds;
   };
   return 4 * descents(bisections_left - 1) / descents(bisections_left);
 }
 
 } // namespace
 
-std::optional<Remaining> remaining(const CvtProgress& progress, const CvtOptions& options) {
-  const bool inserts = options.insertion_rounds > 0;
+std::optional<Remaining> remaining(const CvtProgress& progress, const Schedule& schedule) {
+  const bool inserts = schedule.levels.back().insertion_rounds > 0;
   const bool last = progress.bisections_left == 0 && progress.rounds_left == 0;
-  const auto descent = forecast(progress, inserts && !last ? early(options) : options);
+  const auto descent = forecast(progress, end_of(progress, schedule));
   if (!descent)
     return std::nullopt;
   const double scale = pace(progress);
@@ -141,14 +146,14 @@ std::optional<Remaining> remaining(const CvtProgress& progress, const CvtOptions
   later += progress.rounds_left * descent->seconds;
   level += progress.rounds_left * descent->seconds;
   for (int left = progress.bisections_left; left > 0; --left)
-    later += level *= next_level(left, options);
-  if (options.well_centred)
+    later += level *= next_level(left, schedule);
+  if (*schedule.recipe.stop.well_centred)
     later += 0.2 * level;
   return Remaining{0.5 * scale * later, 2 * scale * later};
 }
 
-std::string describe(const CvtProgress& progress, const CvtOptions& options,
-                     const std::string& norm) {
+std::string describe(const CvtProgress& progress, const Schedule& schedule) {
+  const Stop& stop = schedule.recipe.stop;
   const CvtIteration& last = progress.report.iterations.back();
   std::string text = std::to_string(last.cells) + " cells, iteration " +
                      std::to_string(progress.iterations_of_level);
@@ -158,10 +163,10 @@ std::string describe(const CvtProgress& progress, const CvtOptions& options,
     std::snprintf(number.data(), number.size(), ", shapes %.2g beyond their limits",
                   last.misshapen);
     text += number.data();
-  } else if (options.norm != Norm::none) {
+  } else if (!stop.iterations) {
     std::snprintf(number.data(), number.size(), " %.2e of %.0e", progress.report.residual,
-                  options.tolerance);
-    text += ", " + norm + number.data();
+                  *stop.tolerance);
+    text += ", " + std::string(word_of(stop.norm)) + number.data();
   }
   std::snprintf(number.data(), number.size(), ", energy x cells %.6g",
                 last.energy * static_cast<double>(last.cells));
@@ -169,7 +174,7 @@ std::string describe(const CvtProgress& progress, const CvtOptions& options,
   if (progress.bisections_left > 0)
     text += ", then " + std::to_string(progress.bisections_left) +
             (progress.bisections_left == 1 ? " finer level" : " finer levels");
-  if (const auto left = remaining(progress, options); left && !finishes) {
+  if (const auto left = remaining(progress, schedule); left && !finishes) {
     const std::string from = duration(left->least), to = duration(left->most);
     text += ", " + (from == to ? from : from + " to " + to) + " left";
   }

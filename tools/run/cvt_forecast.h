@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <calotte/cvt.h>
+#include <calotte/grid.h>
 
 #include <optional>
 #include <string>
@@ -15,11 +15,18 @@ struct Forecast {
       false; ///< the norm reaches the tolerance; otherwise the limit of iterations ends the level
 };
 
+/// Where a descent ends.
+struct DescentEnd {
+  Norm norm = Norm::l2_scaled;
+  double tolerance = 0;
+  int max_iterations = 0;
+};
+
 /// Extrapolates the decay of the norm over the last half of the level, 10 to 500 iterations: a
 /// straight line through the logarithms of the accepted norms, and the mean time of all
 /// evaluations, trials included. If the norm does not decrease, the prediction is the limit. No
 /// prediction before 10 iterations.
-std::optional<Forecast> forecast(const CvtProgress& progress, const CvtOptions& options);
+std::optional<Forecast> forecast(const CvtProgress& progress, const DescentEnd& end);
 
 /// Seconds that the rest of a run takes.
 struct Remaining {
@@ -28,11 +35,10 @@ struct Remaining {
 
 /// From the forecast of the descent and, if levels follow, the times of the current one. A wide
 /// range as long as levels or rounds of insertion follow.
-std::optional<Remaining> remaining(const CvtProgress& progress, const CvtOptions& options);
+std::optional<Remaining> remaining(const CvtProgress& progress, const Schedule& schedule);
 
 /// The line of a run's progress and of its log: the level, the iteration, the norm, the energy, and
 /// the time left.
-std::string describe(const CvtProgress& progress, const CvtOptions& options,
-                     const std::string& norm);
+std::string describe(const CvtProgress& progress, const Schedule& schedule);
 
 } // namespace calotte::tools

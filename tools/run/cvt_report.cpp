@@ -33,6 +33,13 @@ Json to_json(const CvtIteration& iteration) {
           {"seconds_solver", iteration.seconds_solver}};
 }
 
+Json to_json(const CvtLevel& level) {
+  return {{"cells", level.cells},
+          {"insertion_rounds", level.insertion_rounds},
+          {"tolerance", level.tolerance},
+          {"max_iterations", level.max_iterations}};
+}
+
 Json to_json(const CvtRegion& region) {
   return {{"sites", region.sites}, {"seconds", region.seconds}};
 }
@@ -50,15 +57,16 @@ template <class List> Json array_of(const List& list) {
 
 } // namespace
 
-std::string to_json(const CvtRequest& request, const CvtReport& report, std::int64_t cells,
-                    double area, int threads, const std::vector<KeptState>& states) {
+std::string to_json(const CvtRequest& request, const Stop& stop, const CvtReport& report,
+                    std::int64_t cells, double area, int threads,
+                    const std::vector<KeptState>& states) {
   Json json;
   json["calotte"] = CALOTTE_VERSION;
   json["density"] = density_names(*request.density);
   json["method"] = request.method;
-  json["norm"] = norm_word(request);
-  json["stop"] = well_centred(request) ? "well-centred" : "tolerance";
-  json["tolerance"] = tolerance_of(request);
+  json["norm"] = stop.iterations ? "none" : request.norm;
+  json["stop"] = *stop.well_centred ? "well-centred" : "tolerance";
+  json["tolerance"] = *stop.tolerance;
   json["converged"] = report.converged;
   json["well_centred"] = report.well_centred;
   if (report.worst_cell >= 0) {
@@ -70,6 +78,7 @@ std::string to_json(const CvtRequest& request, const CvtReport& report, std::int
   json["area"] = area;
   json["threads"] = threads;
   json["seconds"] = report.seconds;
+  json["levels"] = array_of(report.levels);
   json["iterations"] = array_of(report.iterations);
   json["regions"] = array_of(report.regions);
   if (!states.empty())
@@ -81,15 +90,15 @@ std::string residual_words(const CvtRequest& request, const CvtReport& report) {
   return request.iterations ? "" : request.norm + " " + formatted("%.3g", report.residual);
 }
 
-std::string summary(const CvtRequest& request, const CvtReport& report, std::int64_t cells,
-                    double area, std::int64_t before) {
+std::string summary(const CvtRequest& request, const Stop& stop, const CvtReport& report,
+                    std::int64_t cells, double area, std::int64_t before) {
   const auto iterations = std::ssize(report.iterations);
   std::string line = request.mesh + ": " + std::to_string(cells) + " cells, ";
   if (!request.iterations)
-    line += !report.converged       ? "not converged, "
-            : report.well_centred   ? "well-centred, "
-            : well_centred(request) ? "not well-centred, "
-                                    : "converged, ";
+    line += !report.converged     ? "not converged, "
+            : report.well_centred ? "well-centred, "
+            : *stop.well_centred  ? "not well-centred, "
+                                  : "converged, ";
   line += std::to_string(iterations) + (iterations == 1 ? " iteration" : " iterations");
   if (before > 0)
     line += " (" + std::to_string(before) + " before it was resumed)";

@@ -13,8 +13,6 @@ namespace {
 
 constexpr std::size_t digits = 6;
 
-bool is_periodic(const std::optional<PlanarDomain>& domain) { return domain && domain->periodic(); }
-
 /// "out/grid.000010.vtp"; a periodic box requires ".nc", which holds its periods.
 std::filesystem::path path_of(const std::string& mesh, std::size_t evaluation, bool periodic) {
   const std::string number = std::to_string(evaluation);
@@ -37,12 +35,11 @@ Points2 in_box(Points2 points, const Eigen::Vector2d& period) {
 
 } // namespace
 
-KeptStates::KeptStates(const CvtRequest& request, const std::optional<PlanarDomain>& domain,
-                       std::size_t before)
-    : mesh_(request.mesh), domain_(domain),
+KeptStates::KeptStates(const CvtRequest& request, const Surface& surface, std::size_t before)
+    : mesh_(request.mesh), surface_(surface),
       every_(static_cast<std::size_t>(request.keep_every.value_or(0))), last_(before) {
   for (std::size_t k = 1; every_ > 0 && k <= before; ++k)
-    if (const std::filesystem::path path = path_of(mesh_, k, is_periodic(domain_));
+    if (const std::filesystem::path path = path_of(mesh_, k, surface_.is_box());
         std::filesystem::exists(path))
       states_.push_back({static_cast<std::int64_t>(k), path.filename()});
 }
@@ -53,15 +50,15 @@ bool KeptStates::due(const CvtReport& report) const {
 
 void KeptStates::keep(const CvtState& state) {
   last_ = state.report().iterations.size();
-  const std::filesystem::path path = path_of(mesh_, last_, is_periodic(domain_));
+  const std::filesystem::path path = path_of(mesh_, last_, surface_.is_box());
   const Points3 points = state.points();
-  if (!domain_)
-    write(path, spherical_delaunay(points));
-  else if (domain_->periodic())
-    write(path, periodic_delaunay(in_box(points.topRows<2>(), domain_->period), domain_->period),
+  if (surface_.is_sphere())
+    write(path, delaunay(points));
+  else if (surface_.is_box())
+    write(path, delaunay(in_box(points.topRows<2>(), surface_.period()), surface_),
           {.format = Format::mpas_minimal});
   else
-    write(path, planar_delaunay(points.topRows<2>()));
+    write(path, delaunay(points, Surface::plane()));
   states_.push_back({static_cast<std::int64_t>(last_), path.filename()});
 }
 

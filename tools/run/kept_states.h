@@ -6,7 +6,6 @@
 #include <calotte/cvt.h>
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,8 +22,8 @@ struct KeptState {
 class KeptStates {
 public:
   /// \param before evaluations of the earlier parts of a resumed run, whose files are listed, too.
-  KeptStates(const CvtRequest& request, const std::optional<PlanarDomain>& domain,
-             std::size_t before);
+  /// \param surface of the run.
+  KeptStates(const CvtRequest& request, const Surface& surface, std::size_t before);
 
   bool due(const CvtReport& report) const;
 
@@ -35,7 +34,7 @@ public:
 
 private:
   std::string mesh_; ///< the result's path
-  std::optional<PlanarDomain> domain_;
+  Surface surface_;
   std::size_t every_, last_;
   std::vector<KeptState> states_;
 };

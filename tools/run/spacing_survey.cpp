@@ -72,26 +72,30 @@ Peak climb(const Values& values, Peak peak) {
   return peak;
 }
 
-/// The values in a region, and less than any outside.
-Values inside(const Values& values, const Region& region) {
-  if (region.whole())
+/// The values on a surface, and less than any outside.
+Values inside(const Values& values, const Surface& surface) {
+  if (!surface.is_bounded())
     return values;
-  return [values, contained = containing(region)](const Points3& x) -> DoubleVector {
+  return [values, surface](const Points3& x) -> DoubleVector {
     DoubleVector all = values(x);
     for (Eigen::Index i = 0; i < x.cols(); ++i)
-      if (!contained(x.col(i)))
+      if (!surface.contains(x.col(i)))
         all[i] = -std::numeric_limits<double>::infinity();
     return all;
   };
 }
 
+/// Places spread over a surface of the sphere.
+Points3 samples(const Surface& surface) {
+  return surface.is_bounded() ? random_points(lattice, surface) : fibonacci_sphere(lattice);
+}
+
 } // namespace
 
-SpacingSurvey survey_spacing(const Density& density, std::int64_t cells, const Region& region,
+SpacingSurvey survey_spacing(const Density& density, std::int64_t cells, const Surface& surface,
                              double unit) {
-  const Points3 places =
-      region.whole() ? fibonacci_sphere(lattice) : random_sphere(lattice, region);
-  const double root = area(region) * evaluate(density, places).cwiseSqrt().mean();
+  const Points3 places = samples(surface);
+  const double root = surface.area() * evaluate(density, places).cwiseSqrt().mean();
   SpacingSurvey survey;
   survey.unit =
       unit > 0 ? unit : std::sqrt(2 / std::numbers::sqrt3 * root / static_cast<double>(cells));
@@ -107,7 +111,7 @@ SpacingSurvey survey_spacing(const Density& density, std::int64_t cells, const R
                            : DoubleVector::Constant(x.cols(), hundredth));
   };
   const auto peak = [&](const Values& values) {
-    return climb(inside(values, region), highest(values, places));
+    return climb(inside(values, surface), highest(values, places));
   };
   survey.least = -peak(negative).value;
   survey.greatest = peak(spacing).value;

@@ -3,7 +3,7 @@
 
 #include <calotte/cell_width.h>
 #include <calotte/density.h>
-#include <calotte/region.h>
+#include <calotte/surface.h>
 
 #include <cstdint>
 
@@ -25,7 +25,7 @@ struct SpacingSurvey {
 /// \param cells > 0, in the region.
 /// \param unit the spacing where the density is 1, if it is known; 0 otherwise.
 /// \throws Error as evaluate() and random_sphere().
-SpacingSurvey survey_spacing(const Density& density, std::int64_t cells, const Region& region = {},
+SpacingSurvey survey_spacing(const Density& density, std::int64_t cells, const Surface& region = {},
                              double unit = 0);
 
 } // namespace calotte::tools

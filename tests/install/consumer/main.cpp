@@ -21,7 +21,7 @@ bool misses_a_file() {
 } // namespace
 
 int main() {
-  const calotte::Mesh mesh = calotte::spherical_delaunay(calotte::fibonacci_sphere(1000));
+  const calotte::Mesh mesh = calotte::delaunay(calotte::fibonacci_sphere(1000));
   std::cout << mesh.triangles.cols() << " triangles\n";
   return mesh.closed() && misses_a_file() ? 0 : 1;
 }

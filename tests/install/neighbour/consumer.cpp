@@ -4,10 +4,10 @@
 #include "consumer.h"
 #include "neighbour.h"
 
-#include <calotte/cvt.h>
 #include <calotte/delaunay.h>
 #include <calotte/density.h>
 #include <calotte/generators.h>
+#include <calotte/grid.h>
 #include <calotte/interpolate.h>
 #include <calotte/locate.h>
 #include <calotte/voronoi.h>
@@ -32,17 +32,17 @@ void expect(bool right, const char* what) {
 void pass_points() {
   using namespace calotte;
   const Points3 points = fibonacci_sphere(1000);
-  Mesh mesh = spherical_delaunay(neighbour::extended(fibonacci_sphere(1000), 10));
+  Mesh mesh = delaunay(neighbour::extended(fibonacci_sphere(1000), 10));
   expect(mesh.points == points && mesh.triangles.cols() == 1996,
          "a mesh of the neighbour's points");
   expect(neighbour::sum(std::move(mesh)) == points.sum(), "a mesh that the neighbour frees");
 
   Eigen::Matrix3Xd aligned = points;
   aligned = neighbour::extended(std::move(aligned), 10);
-  expect(spherical_delaunay(aligned).points == points, "a mesh of aligned points");
-  expect(spherical_delaunay(neighbour::extended(Eigen::Matrix3Xd(points), 10)).closed(),
+  expect(delaunay(aligned).points == points, "a mesh of aligned points");
+  expect(delaunay(neighbour::extended(Eigen::Matrix3Xd(points), 10)).closed(),
          "a mesh of aligned points handed over");
-  expect(spherical_delaunay(2 * aligned).triangles.cols() == 1996, "a mesh of an expression");
+  expect(delaunay(2 * aligned).triangles.cols() == 1996, "a mesh of an expression");
 }
 
 /// A density of the neighbour's values; Calotte's results grow in the neighbour.
@@ -67,7 +67,7 @@ void pass_values() {
 
 void pass_weights() {
   using namespace calotte;
-  const Mesh mesh = spherical_delaunay(random_sphere(500, 2));
+  const Mesh mesh = delaunay(random_sphere(500, 2));
   const Weights weights = interpolation_weights(mesh, random_sphere(100, 3));
   const Eigen::VectorXd at_sites = Eigen::VectorXd::Ones(500);
   const Eigen::VectorXd values = interpolate(weights, at_sites);
@@ -83,9 +83,10 @@ void pass_weights() {
 /// Whole runs, with the factors that the library computes for itself.
 void run() {
   using namespace calotte;
-  CvtOptions options;
-  options.max_iterations = 3;
-  Cvt cvt = spherical_cvt(neighbour::extended(random_sphere(2000, 4), 1), options);
+  Recipe recipe;
+  recipe.start.points = neighbour::extended(random_sphere(2000, 4), 1);
+  recipe.stop.iterations = 3;
+  Cvt cvt = make_grid(recipe);
   expect(cvt.mesh.triangles.cols() == 3996, "a tessellation");
   Voronoi cells = voronoi(cvt.mesh);
   expect(cells.cell_area.size() == 2000, "cells");

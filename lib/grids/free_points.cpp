@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cvt/free_points.h"
+#include "grids/free_points.h"
 
 #include "base/parallel.h"
 #include "base/points.h"
@@ -18,7 +18,7 @@
 #include <numeric>
 #include <vector>
 
-namespace calotte::cvt_detail {
+namespace calotte::grids_detail {
 namespace {
 
 using delaunay_detail::owners;
@@ -183,20 +183,14 @@ Points2 free_points(std::int64_t count, std::int64_t cells, const Points2& fixed
   return free_points_of(PlanarSupply{fixed, domain, sites}, count, cells, seed);
 }
 
-} // namespace calotte::cvt_detail
-
-namespace calotte {
-
-std::int64_t cells_beside(const Points3& fixed, std::int64_t cells, const Density& density,
-                          const Region& region) {
-  const Density sites = site_density(density);
-  return cvt_detail::cells_beside_fixed(cvt_detail::SphericalSupply{fixed, region, sites}, cells);
+std::int64_t cells_beside_fixed(const Points3& fixed, std::int64_t cells, const Region& region,
+                                const Density& sites) {
+  return cells_beside_fixed(SphericalSupply{fixed, region, sites}, cells);
 }
 
-std::int64_t cells_beside(const Points2& fixed, std::int64_t cells, const Density& density,
-                          const PlanarDomain& domain) {
-  const Density sites = site_density(density, domain);
-  return cvt_detail::cells_beside_fixed(cvt_detail::PlanarSupply{fixed, domain, sites}, cells);
+std::int64_t cells_beside_fixed(const Points2& fixed, std::int64_t cells,
+                                const PlanarDomain& domain, const Density& sites) {
+  return cells_beside_fixed(PlanarSupply{fixed, domain, sites}, cells);
 }
 
-} // namespace calotte
+} // namespace calotte::grids_detail

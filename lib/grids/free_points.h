@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "cvt/room.h"
+#include "grids/room.h"
 
 #include <calotte/density.h>
 #include <calotte/domain.h>
@@ -13,7 +13,7 @@
 /// Points to start from beside fixed generators. A descent does not move a free generator past the
 /// fixed ones around it, so a free one that starts among fixed ones that are as dense as demanded
 /// stays there, in a cell far too small.
-namespace calotte::cvt_detail {
+namespace calotte::grids_detail {
 
 /// Random points that follow a density of sites where fixed generators leave it unmet: 0.85 of
 /// the demanded distance or more from each of them, and near to one whose neighbours leave a gap.
@@ -29,4 +29,12 @@ Points3 free_points(std::int64_t count, std::int64_t cells, const Points3& fixed
 Points2 free_points(std::int64_t count, std::int64_t cells, const Points2& fixed,
                     const PlanarDomain& domain, const Density& sites, std::uint64_t seed);
 
-} // namespace calotte::cvt_detail
+/// The number of cells of a grid with fixed generators: theirs, and as many of `cells`, which the
+/// density demands without them, as they leave unmet. An estimate from random places.
+std::int64_t cells_beside_fixed(const Points3& fixed, std::int64_t cells, const Region& region,
+                                const Density& sites);
+/// The same in the plane.
+std::int64_t cells_beside_fixed(const Points2& fixed, std::int64_t cells,
+                                const PlanarDomain& domain, const Density& sites);
+
+} // namespace calotte::grids_detail

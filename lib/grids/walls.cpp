@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "run/channel.h"
+#include "grids/walls.h"
+
+#include "domain/surface.h"
 
 #include <calotte/generators.h>
 
@@ -7,7 +9,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace calotte::tools {
+namespace calotte::grids_detail {
 namespace {
 
 constexpr std::int64_t samples = 1 << 16;
@@ -40,7 +42,7 @@ Density unwrapped(const Density& density, const Eigen::Vector2d& extent,
     return density;
   Density out = density;
   out.callable = [inner = density.callable, extent, period](const Eigen::Ref<const Points3>& x,
-                                                            Eigen::Ref<Eigen::VectorXd> rho) {
+                                                            Eigen::Ref<DoubleVector> rho) {
     Points3 near = x;
     for (Eigen::Index i = 0; i < near.cols(); ++i)
       for (int k = 0; k < 2; ++k)
@@ -53,25 +55,25 @@ Density unwrapped(const Density& density, const Eigen::Vector2d& extent,
 
 } // namespace
 
-ChannelRun channel_run(const PlanarDomain& channel, Walls walls, const Density& density,
-                       std::int64_t cells) {
-  const Eigen::Vector2d extent = channel.period;
+WallsRun run_between_walls(const Surface& channel, Walls walls, const Density& density,
+                           std::int64_t cells) {
+  const Eigen::Vector2d extent = channel.period();
   const auto widened = [&](double gap) -> Eigen::Vector2d {
     return extent + Eigen::Vector2d(walls.x ? gap : 0, walls.y ? gap : 0);
   };
   const PlanarDomain apart = periodic_box(widened(10 * extent.maxCoeff())); // no copies across
-  const double root = mean_root(density, apart, random_places(samples, channel)) * extent.prod();
+  const double root =
+      mean_root(density, apart, random_places(samples, domain_of(channel))) * extent.prod();
   const double unit = std::sqrt(2 / std::numbers::sqrt3 * root / static_cast<double>(cells));
   const double least =
       std::max(evaluate(density, apart, on_walls(extent, walls)).minCoeff(), 1e-150);
   constexpr double widths = 4;
   const double gap = std::min(widths * unit * std::pow(least, -0.25), 4 * extent.maxCoeff());
-  ChannelRun run{periodic_box(widened(gap)), {}, 0};
-  run.density = unwrapped(density, extent, run.box.period);
-  const double all =
-      mean_root(run.density, run.box, random_places(samples, run.box)) * run.box.period.prod();
+  const PlanarDomain box = periodic_box(widened(gap));
+  WallsRun run{box, unwrapped(density, extent, box.period), 0};
+  const double all = mean_root(run.density, box, random_places(samples, box)) * box.period.prod();
   run.cells = std::max<std::int64_t>(std::llround(static_cast<double>(cells) * all / root), 12);
   return run;
 }
 
-} // namespace calotte::tools
+} // namespace calotte::grids_detail

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "cvt/cvt.h"
+#include "delaunay/delaunay.h"
 #include "support/densities.h"
+#include "support/starts.h"
 
 #include <calotte/cvt.h>
 #include <calotte/delaunay.h>
@@ -23,7 +26,7 @@ namespace {
 Density bump() { return tanh_bump({1, -2, 2}, 0.5, 0.2, 1.0 / 4096); }
 
 /// A bisection takes n sites to 4 n - 6.
-std::int64_t after(const Continuation& c) {
+std::int64_t after(const test::FirstGenerators& c) {
   std::int64_t n = c.start.cols();
   for (int b = 0; b < c.bisections; ++b)
     n = 4 * n - 6;
@@ -43,7 +46,7 @@ bool is_geodesic(std::int64_t cells, const Density& density) {
 
 void check(std::int64_t cells, const Density& density, std::int64_t least) {
   CAPTURE(cells);
-  const Continuation c = continuation(cells, density, 5);
+  const test::FirstGenerators c = test::continuation(cells, density, 5);
   const std::int64_t n = c.start.cols();
   CHECK(after(c) == cells);
   if (is_geodesic(cells, density)) {
@@ -71,31 +74,30 @@ TEST_CASE(
 }
 
 TEST_CASE("continuation: the kind of start") {
-  CHECK(continuation(42, {}).start == bisected_icosahedron(0));
-  CHECK(continuation(655362, bump()).start == bisected_icosahedron(3));
-  CHECK(continuation(162, bump()).start == bisected_icosahedron(2));
-  CHECK(continuation(50, {}).start == fibonacci_sphere(14));
-  CHECK(continuation(149, {}).start == fibonacci_sphere(149));
-  CHECK(continuation(150, {}).start == geodesic_sphere(150));
-  CHECK(continuation(1009, bump(), 7).start == random_sphere(1009, site_density(bump()), 7));
-  CHECK(continuation(4 * 1001 + 2, bump(), 7).start ==
+  CHECK(test::continuation(42, {}).start == bisected_icosahedron(0));
+  CHECK(test::continuation(655362, bump()).start == bisected_icosahedron(3));
+  CHECK(test::continuation(162, bump()).start == bisected_icosahedron(2));
+  CHECK(test::continuation(50, {}).start == fibonacci_sphere(14));
+  CHECK(test::continuation(149, {}).start == fibonacci_sphere(149));
+  CHECK(test::continuation(150, {}).start == geodesic_sphere(150));
+  CHECK(test::continuation(1009, bump(), 7).start == random_sphere(1009, site_density(bump()), 7));
+  CHECK(test::continuation(4 * 1001 + 2, bump(), 7).start ==
         random_sphere(1003, site_density(bump()), 7));
   // Two thirds of a billion cells, from the smallest start.
-  CHECK(continuation(10 * (std::int64_t{1} << 26) + 2, bump()).bisections == 10);
+  CHECK(test::continuation(10 * (std::int64_t{1} << 26) + 2, bump()).bisections == 10);
 }
 
 TEST_CASE("continuation refuses what it cannot reach in one line") {
   const auto message = [](std::int64_t cells, const Density& density) -> std::string {
     try {
-      continuation(cells, density);
+      test::continuation(cells, density);
     } catch (const Error& error) {
       CHECK(error.code() == ErrorCode::bad_option);
       return error.what();
     }
     return "";
   };
-  for (const std::int64_t cells :
-       {std::int64_t{-1}, std::int64_t{0}, std::int64_t{11}, (std::int64_t{1} << 30) + 1})
+  for (const std::int64_t cells : {std::int64_t{-1}, std::int64_t{11}, (std::int64_t{1} << 30) + 1})
     CHECK(message(cells, {}).find("number of cells is " + std::to_string(cells)) !=
           std::string::npos);
   const Density bad = tanh_bump({0, 0, 1}, 0.5, -1, 0.1);
@@ -108,7 +110,7 @@ TEST_CASE("drawn starts of a peaked density span the sphere, and converge") {
     CvtOptions options;
     options.density = test::x8();
     options.tolerance = 1e-3;
-    const Continuation from = continuation(cells, test::x8());
+    const test::FirstGenerators from = test::continuation(cells, test::x8());
     options.bisections = from.bisections;
     const Cvt grid = spherical_cvt(from.start, options);
     CHECK(!from.icosahedral);
@@ -124,7 +126,7 @@ TEST_CASE("continuation: uniform grids of any number of cells have 12 defects af
   for (const std::int64_t cells : numbers) {
     CAPTURE(cells);
     CvtOptions options;
-    const Continuation from = continuation(cells, {});
+    const test::FirstGenerators from = test::continuation(cells, {});
     options.bisections = from.bisections;
     const Cvt grid = spherical_cvt(from.start, options);
     CHECK(grid.report.converged);
@@ -160,7 +162,7 @@ TEST_CASE(
     for (std::uint64_t seed = 1; seed <= 12; ++seed) {
       CAPTURE(ratio);
       CAPTURE(seed);
-      const Continuation from = multilevel(3000, steep(ratio), seed);
+      const test::FirstGenerators from = test::multilevel(3000, {}, steep(ratio), seed);
       CHECK(from.start.cols() >= 160);
       CHECK(spherical_delaunay(from.start).closed());
       CvtOptions options;

@@ -31,7 +31,7 @@ std::optional<std::vector<std::int32_t>> boundary_of(const Polygons& polygons) {
 }
 
 /// The closed lines of that boundary.
-PlanarDomain domain_in(std::vector<std::int32_t> next, const Polygons& polygons) {
+Surface domain_in(std::vector<std::int32_t> next, const Polygons& polygons) {
   PlanarDomain domain;
   for (std::size_t start = 0; start < next.size(); ++start) {
     std::vector<std::int32_t> ring;
@@ -45,10 +45,11 @@ PlanarDomain domain_in(std::vector<std::int32_t> next, const Polygons& polygons)
   return domain;
 }
 
-/// Whether the polygons are the Voronoi cells that a domain clips.
-bool clips_to(const PlanarDomain& domain, const PlanarMesh& mesh, const Polygons& polygons) {
+/// Whether the polygons are the Voronoi cells that a part of the plane clips.
+bool clips_to(const Surface& part, Mesh mesh, const Polygons& polygons) {
   try {
-    return !domain.rings.empty() && are_areas_of(polygons, voronoi(mesh, domain).cell_area);
+    mesh.surface = part;
+    return part.is_bounded() && are_areas_of(polygons, voronoi(mesh).cell_area);
   } catch (const Error& error) {
     if (error.code() != ErrorCode::bad_option) // a cell in several parts, or rings that touch
       throw;
@@ -58,19 +59,19 @@ bool clips_to(const PlanarDomain& domain, const PlanarMesh& mesh, const Polygons
 
 } // namespace
 
-std::optional<PlanarDomain> filled_domain(const MeshFile& file) {
-  if (!file.plane || file.domain)
-    return file.domain;
-  if (file.plane->closed())
-    return periodic_box(file.plane->period);
-  if (!file.polygons || file.plane->period.maxCoeff() > 0)
+std::optional<Surface> filled_surface(const MeshFile& file) {
+  const Mesh* plane = file.plane();
+  if (!plane)
+    return std::nullopt;
+  if (plane->surface.is_bounded() || plane->closed())
+    return plane->surface;
+  if (!file.polygons || plane->surface.period().maxCoeff() > 0)
     return std::nullopt;
   std::optional<std::vector<std::int32_t>> next = boundary_of(*file.polygons);
   if (!next)
     return std::nullopt;
-  PlanarDomain domain = domain_in(*std::move(next), *file.polygons);
-  return clips_to(domain, *file.plane, *file.polygons) ? std::optional(std::move(domain))
-                                                       : std::nullopt;
+  const Surface part = domain_in(*std::move(next), *file.polygons);
+  return clips_to(part, *plane, *file.polygons) ? std::optional(part) : std::nullopt;
 }
 
 } // namespace calotte

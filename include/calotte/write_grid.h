@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <calotte/export.h>
+#include <calotte/grid.h>
+#include <calotte/write.h>
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <string>
+
+CALOTTE_API_BEGIN
+namespace calotte {
+
+/// What write_grid() wrote.
+struct GridFile {
+  std::int64_t cells = 0; ///< of the file
+  /// Those whose generators lie in the surface of the recipe: the cells of a limited area but for
+  /// its rings; else all.
+  std::int64_t inside = 0;
+  Eigen::Vector2d period{0, 0}; ///< of the file's plane; 0 across walls, and on the sphere
+};
+
+/// Writes the part of a run's mesh that its recipe asks for:
+///
+/// - of a limited area the cells of the region and of the rings around it, see
+///   write_limited_area(); an MPAS file;
+/// - with walls the cells between them, see walled();
+/// - else the mesh, see write().
+///
+///     const Schedule schedule = plan(recipe);
+///     write_grid("grid.nc", make_grid(schedule).mesh, recipe, schedule);
+///
+/// \param mesh of make_grid(schedule).
+/// \param recipe what was asked for.
+/// \param schedule plan(recipe); its density is that of the file.
+/// \param options `density` and `site_density` have no effect; fields apply to a mesh that is
+///        written whole.
+/// \throws Error as write(), write_limited_area() and walled(); bad_option for a mesh of another
+///         surface than the schedule's, and for a limited area in another format.
+GridFile write_grid(const std::string& path, const Mesh& mesh, const Recipe& recipe,
+                    const Schedule& schedule, const WriteOptions& options = {});
+
+/// The same for a mesh handed over, which needs less memory, see write(). The mesh is empty
+/// afterwards. If the function throws, the mesh is unchanged or empty.
+GridFile write_grid(const std::string& path, Mesh&& mesh, const Recipe& recipe,
+                    const Schedule& schedule, const WriteOptions& options = {});
+
+} // namespace calotte
+CALOTTE_API_END

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "domain/surface.h"
+
+#include "base/parallel.h"
+#include "base/require.h"
+#include "domain/outline.h"
+#include "domain/spherical_outline.h"
+
+#include <algorithm>
+#include <limits>
+#include <mutex>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+namespace calotte {
+
+/// What is prepared for queries is made by the first of them.
+struct Surface::Bounds {
+  explicit Bounds(Rings given) : rings(std::move(given)) {}
+
+  const domain_detail::SphericalOutline& on_sphere() const {
+    std::call_once(once,
+                   [this] { base_detail::in_isolation([this] { spherical.emplace(region()); }); });
+    return *spherical;
+  }
+  const domain_detail::Outline& in_plane() const {
+    std::call_once(once, [this] {
+      base_detail::in_isolation([this] { planar.emplace(PlanarDomain{rings, {0, 0}}); });
+    });
+    return *planar;
+  }
+  Region region() const { return std::vector<Points3>(rings.begin(), rings.end()); }
+
+  Rings rings;
+  mutable std::once_flag once;
+  mutable std::optional<domain_detail::SphericalOutline> spherical;
+  mutable std::optional<domain_detail::Outline> planar;
+};
+
+Surface::Surface(const Region& region) {
+  if (!region.whole())
+    bounds_ = std::make_shared<Bounds>(Rings(region.rings.begin(), region.rings.end()));
+}
+
+Surface::Surface(const PlanarDomain& domain) : sphere_(false), period_(domain.period) {
+  if (!domain.rings.empty()) {
+    bounds_ = std::make_shared<Bounds>(domain.rings);
+    period_.setZero();
+  }
+}
+
+Surface Surface::plane() { return PlanarDomain{}; }
+
+Surface Surface::periodic(const Eigen::Vector2d& period) {
+  const auto good = [](double side) { return side == 0 || (side >= 1e-30 && side <= 1e30); };
+  base_detail::require(good(period.x()) && good(period.y()) && period.maxCoeff() > 0,
+                       "the period is " + std::to_string(period.x()) + " x " +
+                           std::to_string(period.y()) +
+                           "; give two lengths from 1e-30 to 1e30, or one and 0");
+  return PlanarDomain{{}, period};
+}
+
+Surface Surface::within(Rings rings) const {
+  base_detail::require(!bounds_ && period_.isZero(0),
+                       "rings bound the whole sphere or the whole plane only; give one of these");
+  base_detail::require(!rings.empty(), "there are no rings; give one or more");
+  for (std::size_t k = 0; sphere_ && k < rings.size(); ++k)
+    base_detail::require(rings[k].rows() == 3,
+                         "ring " + std::to_string(k) + ": it has " +
+                             std::to_string(rings[k].rows()) +
+                             " rows; give 3, the coordinates x y z of a direction");
+  Surface part = *this;
+  const auto bounds = std::make_shared<Bounds>(std::move(rings));
+  if (sphere_)
+    bounds->on_sphere();
+  else
+    bounds->in_plane();
+  part.bounds_ = bounds;
+  return part;
+}
+
+const Surface::Rings& Surface::rings() const {
+  static const Rings none;
+  return bounds_ ? bounds_->rings : none;
+}
+
+double Surface::area() const {
+  if (bounds_)
+    return sphere_ ? bounds_->on_sphere().area() : bounds_->in_plane().area();
+  if (sphere_)
+    return 4 * std::numbers::pi;
+  return is_box() ? period_.prod() : std::numeric_limits<double>::infinity();
+}
+
+bool Surface::contains(const Eigen::Vector3d& point) const {
+  using domain_detail::Side;
+  if (!point.allFinite() || (sphere_ && point.isZero(0)))
+    return false;
+  if (bounds_)
+    return (sphere_ ? bounds_->on_sphere().side({point.x(), point.y(), point.z()})
+                    : bounds_->in_plane().side({point.x(), point.y()})) != Side::outside;
+  for (int k = 0; k < 2; ++k)
+    if (period_[k] > 0 && !(point[k] >= 0 && point[k] < period_[k]))
+      return false;
+  return true;
+}
+
+bool Surface::equals(const Surface& other) const {
+  const auto same = [](const DoubleMatrix& a, const DoubleMatrix& b) {
+    return a.rows() == b.rows() && a.cols() == b.cols() && a == b;
+  };
+  return sphere_ == other.sphere_ && period_ == other.period_ &&
+         (bounds_ == other.bounds_ || std::ranges::equal(rings(), other.rings(), same));
+}
+
+Region::Region(const Surface& surface) {
+  base_detail::require(surface.is_sphere(),
+                       "the surface is a plane; give the sphere or a part of it");
+  rings.assign(surface.rings().begin(), surface.rings().end());
+}
+
+PlanarDomain::PlanarDomain(const Surface& surface)
+    : rings(surface.rings()), period(surface.period()) {
+  base_detail::require(!surface.is_sphere(), "the surface is on the sphere; give one of the plane");
+}
+
+namespace domain_detail {
+
+Region region_of(const Surface& surface) { return surface; }
+
+PlanarDomain domain_of(const Surface& surface) { return surface; }
+
+Region part_of_sphere(const Surface& surface, const std::string& what) {
+  base_detail::require(surface.is_sphere(), what + " for the sphere, and the surface is a plane; "
+                                                   "give one of the sphere");
+  return region_of(surface);
+}
+
+PlanarDomain part_of_plane(const Surface& surface, const std::string& what) {
+  base_detail::require(!surface.is_sphere(), what + " for the plane, and the surface is one of the "
+                                                    "sphere; give one of the plane");
+  return domain_of(surface);
+}
+
+} // namespace domain_detail
+} // namespace calotte

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "domain/room.h"
+
+#include <calotte/domain.h>
+#include <calotte/region.h>
+#include <calotte/surface.h>
+
+#include <string>
+
+namespace calotte::domain_detail {
+
+/// The part of the sphere. \pre the surface is on the sphere.
+Region region_of(const Surface& surface);
+
+/// The part of the sphere, or of the plane, for a function that knows this kind of surface alone.
+/// \param what is of that kind, for the message: "a lattice is".
+/// \throws Error bad_option for a surface of the other kind.
+Region part_of_sphere(const Surface& surface, const std::string& what);
+PlanarDomain part_of_plane(const Surface& surface, const std::string& what);
+
+/// The part of the plane. A plane without an end, or with one period, has no rings and no box.
+/// \pre the surface is a plane.
+PlanarDomain domain_of(const Surface& surface);
+
+} // namespace calotte::domain_detail

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <calotte/grid.h>
+
+#include "base/require.h"
+#include "cvt/cvt.h"
+#include "domain/surface.h"
+#include "grids/schedule.h"
+#include "grids/start.h"
+#include "mesh/planar_mesh.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <utility>
+
+namespace calotte {
+namespace {
+
+using namespace grids_detail;
+
+constexpr std::array<Word<Start::Kind>, 11> starts{{{"automatic", Start::Kind::automatic},
+                                                    {"points", Start::Kind::points},
+                                                    {"multilevel", Start::Kind::multilevel},
+                                                    {"continuation", Start::Kind::continuation},
+                                                    {"density", Start::Kind::density},
+                                                    {"random", Start::Kind::random},
+                                                    {"fibonacci", Start::Kind::fibonacci},
+                                                    {"spiral", Start::Kind::spiral},
+                                                    {"icosahedron", Start::Kind::icosahedron},
+                                                    {"geodesic", Start::Kind::geodesic},
+                                                    {"hexagonal", Start::Kind::hexagonal}}};
+
+constexpr std::array<Word<Norm>, 6> norms{{{"l2", Norm::l2},
+                                           {"linf", Norm::linf},
+                                           {"l2-scaled", Norm::l2_scaled},
+                                           {"linf-scaled", Norm::linf_scaled},
+                                           {"gradient", Norm::gradient},
+                                           {"none", Norm::none}}};
+
+constexpr std::array<Word<Method>, 5> methods{{{"auto", Method::automatic},
+                                               {"lloyd", Method::lloyd},
+                                               {"nesterov", Method::nesterov},
+                                               {"lbfgs", Method::lbfgs},
+                                               {"lbfgs-laplacian", Method::lbfgs_laplacian}}};
+
+/// The fixed generators, then the free ones.
+Points3 generators(const Schedule& schedule) {
+  const Recipe& recipe = schedule.recipe;
+  Points3 free =
+      recipe.start.kind == Start::Kind::points ? recipe.start.points : free_generators(schedule);
+  if (recipe.fixed.cols() == 0)
+    return free;
+  Points3 all(3, recipe.fixed.cols() + free.cols());
+  all << recipe.fixed, free;
+  return all;
+}
+
+/// \throws Error bad_option for a state of a run whose levels are others.
+void require_levels(const Schedule& schedule, const CvtState& state) {
+  const std::vector<CvtLevel>& theirs = state.report().levels;
+  const auto same = [](const CvtLevel& a, const CvtLevel& b) {
+    return a.insertion_rounds == b.insertion_rounds &&
+           (a.insertion_rounds == 0 || a.cells == b.cells);
+  };
+  base_detail::require(std::ranges::equal(theirs, schedule.levels, same),
+                       "the state is of a run with other levels; give the recipe that it was "
+                       "made with, or no state");
+}
+
+Cvt in_plane(const Schedule& schedule, const CvtOptions& options, RunOptions&& run) {
+  const Surface& surface = schedule.recipe.surface;
+  const PlanarDomain domain = domain_of(surface);
+  PlanarCvt result =
+      run.state ? planar_cvt(std::move(*run.state), domain, options, run.callback)
+                : planar_cvt(generators(schedule).topRows<2>(), domain, options, run.callback);
+  return {mesh_detail::spatial(std::move(result.mesh), surface), std::move(result.report)};
+}
+
+Cvt on_sphere(const Schedule& schedule, const CvtOptions& options, RunOptions&& run) {
+  const Surface& surface = schedule.recipe.surface;
+  const Region region = region_of(surface);
+  Cvt result = run.state ? spherical_cvt(std::move(*run.state), region, options, run.callback)
+               : region.whole()
+                   ? spherical_cvt(generators(schedule), options, run.callback)
+                   : spherical_cvt(generators(schedule), region, options, run.callback);
+  result.mesh.surface = surface;
+  return result;
+}
+
+} // namespace
+
+Cvt make_grid(const Schedule& schedule, RunOptions run) {
+  const Recipe& recipe = schedule.recipe;
+  base_detail::require(
+      !schedule.levels.empty() && recipe.stop.tolerance && recipe.stop.well_centred &&
+          (recipe.start.kind != Start::Kind::multilevel || recipe.start.insertion_rounds),
+      "the schedule lacks choices; give one of plan()");
+  CvtOptions options = options_of(schedule);
+  options.partition = run.partition;
+  if (run.state)
+    require_levels(schedule, *run.state);
+  return schedule.recipe.surface.is_sphere() ? on_sphere(schedule, options, std::move(run))
+                                             : in_plane(schedule, options, std::move(run));
+}
+
+Cvt make_grid(const Recipe& recipe, RunOptions options) {
+  return make_grid(plan(recipe), std::move(options));
+}
+
+std::span<const Word<Start::Kind>> start_words() { return starts; }
+std::span<const Word<Norm>> norm_words() { return norms; }
+std::span<const Word<Method>> method_words() { return methods; }
+
+std::string_view word_of(Start::Kind kind) {
+  return std::ranges::find(starts, kind, &Word<Start::Kind>::value)->word;
+}
+
+std::string_view word_of(Norm norm) {
+  return std::ranges::find(norms, norm, &Word<Norm>::value)->word;
+}
+
+} // namespace calotte

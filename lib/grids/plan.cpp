@@ -1,0 +1,380 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/number_text.h"
+#include "base/require.h"
+#include "cvt/cvt.h"
+#include "cvt/region_world.h"
+#include "cvt/stages.h"
+#include "cvt/worlds.h"
+#include "domain/surface.h"
+#include "grids/schedule.h"
+#include "grids/start.h"
+#include "grids/walls.h"
+
+#include <calotte/error.h>
+#include <calotte/generators.h>
+#include <calotte/grid.h>
+#include <calotte/limited_area.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace calotte {
+namespace grids_detail {
+namespace {
+
+using base_detail::require;
+
+constexpr double tolerance_well_centred = 1e-4, tolerance_pure = 1e-6;
+constexpr int usual_rounds = 1, rounds_beside_fixed = 3;
+constexpr int most_bisections = 13, most_rounds = 100;
+
+bool chooses_bisections(Start::Kind kind) {
+  return kind == Start::Kind::multilevel || kind == Start::Kind::continuation;
+}
+
+bool draws(Start::Kind kind) {
+  return kind == Start::Kind::multilevel || kind == Start::Kind::density ||
+         kind == Start::Kind::random;
+}
+
+/// The numbers of a shape and kind that do not depend on others.
+void require_values(const Recipe& recipe) {
+  const bool plane = !recipe.surface.is_sphere();
+  if (recipe.cells != 0) // before any work; the least number follows below
+    base_detail::require_count(recipe.cells, 1, "the number of cells");
+  require(!recipe.widths || !recipe.planar_widths,
+          "the recipe has widths of the sphere and of the plane; give one of them");
+  require(!recipe.widths || !plane,
+          "widths in km are those of the sphere; give planar_widths for a plane");
+  require(!recipe.planar_widths || plane,
+          "planar_widths are those of a plane; give widths for the sphere");
+  require((!recipe.widths && !recipe.planar_widths) || recipe.density.uniform(),
+          "the recipe has widths and a density; give one of them");
+  require(!plane || recipe.surface.is_bounded() || recipe.surface.is_box(),
+          "a grid does not fill a plane that has no end; give rings, or two periods");
+  const std::optional<int>& bisections = recipe.start.bisections;
+  require(!bisections || (*bisections >= 0 && *bisections <= most_bisections),
+          "the number of bisections is " + std::to_string(bisections.value_or(0)) +
+              "; give 0 to 13");
+  const int rounds = recipe.start.insertion_rounds.value_or(1);
+  require(rounds >= 1 && rounds <= most_rounds, "the number of rounds of insertion is " +
+                                                    std::to_string(rounds) + "; give 1 to " +
+                                                    std::to_string(most_rounds));
+  require(recipe.stop.iterations.value_or(1) >= 1,
+          "the number of iterations is " + std::to_string(recipe.stop.iterations.value_or(1)) +
+              "; give 1 or more");
+  require(recipe.stop.norm != Norm::none,
+          "the norm none tests nothing; give a number of iterations instead");
+}
+
+/// \throws Error with the index of a fixed generator that is no point of the surface's kind.
+void require_fixed_points(const Recipe& recipe) {
+  for (Eigen::Index i = 0; i < recipe.fixed.cols(); ++i) {
+    const std::string name = "fixed generator " + std::to_string(i);
+    if (!recipe.fixed.col(i).allFinite())
+      throw Error(ErrorCode::not_finite, name + " is not finite; give finite coordinates", i);
+    if (recipe.surface.is_sphere() && recipe.fixed.col(i).isZero(0))
+      throw Error(ErrorCode::zero_vector, name + " is 0 0 0; give a direction", i);
+  }
+}
+
+/// Widths give the density; those of one size a uniform one.
+void take_widths(Recipe& recipe) {
+  const auto uniform = [](const auto& widths) {
+    return widths.size() > 0 && widths.minCoeff() == widths.maxCoeff();
+  };
+  if (recipe.widths) {
+    require_covering(*recipe.widths, recipe.surface);
+    if (!uniform(recipe.widths->widths))
+      recipe.density = density_of(*recipe.widths);
+  }
+  if (recipe.planar_widths) {
+    require_covering(*recipe.planar_widths, domain_of(recipe.surface));
+    if (!uniform(recipe.planar_widths->widths))
+      recipe.density = density_of(*recipe.planar_widths);
+  }
+}
+
+/// \throws Error bad_option for an ill-formed density, even if the start does not use it.
+void require_density(const Recipe& recipe) {
+  if (recipe.surface.is_sphere())
+    evaluate(recipe.density, bisected_icosahedron(0));
+  else
+    site_density(recipe.density, domain_of(recipe.surface));
+}
+
+/// The run of a limited area covers the rings around it, too.
+void take_limited_area(Recipe& recipe) {
+  if (!recipe.limited_area)
+    return;
+  require(recipe.surface.is_sphere() && recipe.surface.is_bounded(),
+          "a limited area is a part of the sphere; give the rings that bound it");
+  require(recipe.widths.has_value(), "a limited area requires cell widths, from which the rings "
+                                     "around the region follow; give them");
+  const Region meshed = with_rings(region_of(recipe.surface), *recipe.widths, recipe.radius_km);
+  require_covering(*recipe.widths, meshed);
+  recipe.surface = meshed;
+}
+
+void choose_start(Recipe& recipe) {
+  Start& start = recipe.start;
+  const bool plane = !recipe.surface.is_sphere(),
+             follows = recipe.surface.is_sphere() && recipe.surface.is_bounded(),
+             beside = recipe.fixed.cols() > 0;
+  if (start.kind == Start::Kind::automatic && start.points.cols() > 0)
+    start.kind = Start::Kind::points;
+  if (start.kind == Start::Kind::automatic) {
+    if ((follows || beside || !recipe.density.uniform()) && !recipe.stop.iterations &&
+        !start.bisections)
+      start.kind = Start::Kind::multilevel;
+    else
+      start.kind = plane || follows || beside ? Start::Kind::density : Start::Kind::continuation;
+  }
+  const bool given = start.kind == Start::Kind::points;
+  require(given == (start.points.cols() > 0),
+          given ? "the start has no points; give some, or another kind of start"
+                : "the start has points and another kind; give one of them");
+  require(!given || recipe.cells == 0,
+          "the start is given by its points; leave the number of cells out");
+  const std::string name = "the start " + std::string(word_of(start.kind));
+  const bool anywhere = draws(start.kind) || given;
+  require(anywhere || !follows,
+          name + " applies to the whole sphere only; give multilevel, density or random");
+  require(anywhere || !beside,
+          name + " does not leave room for fixed points; give multilevel, density or random");
+  const bool in_plane = start.kind == Start::Kind::hexagonal;
+  require(!plane || anywhere || in_plane,
+          name + " applies to the sphere only; give multilevel, density, random or hexagonal");
+  require(plane || !in_plane,
+          "the start hexagonal applies to the plane only; give a surface of the plane");
+  require(!start.bisections || !chooses_bisections(start.kind),
+          name + " chooses the bisections; leave them out");
+  require(!start.insertion_rounds || start.kind == Start::Kind::multilevel,
+          "rounds of insertion apply to the start multilevel only; leave them out");
+  if (start.kind == Start::Kind::multilevel &&
+      !start.insertion_rounds) // on the boundary none counts
+    start.insertion_rounds = beside ? rounds_beside_fixed : usual_rounds;
+}
+
+// ---- The number of cells
+
+/// A number of cells that widths imply, within what a grid can have.
+/// \param where " in the region", or "".
+double within_range(double implied, double least, const std::string& where = "") {
+  constexpr double most = 1 << 30;
+  const double cells = std::round(implied);
+  require(cells >= least && cells <= most,
+          "the widths require " + base_detail::shortly(implied) + " cells" + where +
+              ", but a grid has " + base_detail::shortly(least) +
+              " to 1073741824; give other widths" + (where.empty() ? "" : " or a larger region"));
+  return cells;
+}
+
+/// The number of cells that a uniform width or bisections can reach, near one that widths imply.
+std::int64_t reachable(const Recipe& recipe, double implied) {
+  if (recipe.density.uniform())
+    return geodesic_count(implied);
+  constexpr std::int64_t coarsest = 642; // see Start::Kind::continuation
+  const auto cells = static_cast<std::int64_t>(implied);
+  std::int64_t parts = 1; // of a coarse grid's cell
+  while (recipe.start.kind == Start::Kind::continuation &&
+         (cells - 2) / (4 * parts) >= coarsest - 2)
+    parts *= 4;
+  return (cells - 2 + parts / 2) / parts * parts + 2;
+}
+
+/// The number of cells for the widths in a part of the sphere.
+/// \param implied by the widths, without half a cell of each generator on the boundary.
+double cells_in_part(const Recipe& recipe, const Surface& asked, double implied) {
+  constexpr double fewest = 40;
+  implied = within_range(implied, fewest, " in the region");
+  if (recipe.limited_area) { // whose rings lie around the cells inside
+    const double inside = implied_cells(*recipe.widths, region_of(asked), recipe.radius_km);
+    require(inside >= 1, "the region has room for " + base_detail::shortly(inside) +
+                             " cells only, without those of the rings; give smaller widths or a "
+                             "larger region");
+  }
+  double cells = implied;
+  for (int k = 0; k < 3 && recipe.boundary == Boundary::generators; ++k) // with half a cell each
+    cells = implied +
+            static_cast<double>(boundary_points(region_of(recipe.surface),
+                                                static_cast<std::int64_t>(cells), recipe.density)
+                                    .cols() /
+                                2);
+  return std::min(cells, double(1 << 30));
+}
+
+/// Sets the number of cells where it follows from widths. \returns what they imply.
+double take_cells(Recipe& recipe, const Surface& asked) {
+  const bool counts = recipe.cells == 0 && recipe.start.kind != Start::Kind::points;
+  require(!counts || recipe.widths || recipe.planar_widths,
+          "there is no number of cells; give one, or cell widths, or the points of the start");
+  if (recipe.planar_widths) {
+    const double implied = implied_cells(*recipe.planar_widths, domain_of(recipe.surface));
+    if (counts)
+      recipe.cells = static_cast<std::int64_t>(
+          within_range(implied, static_cast<double>(PlanarWorld::fewest)));
+    return implied;
+  }
+  if (!recipe.widths)
+    return 0;
+  const double implied = implied_cells(*recipe.widths, region_of(recipe.surface), recipe.radius_km);
+  if (!counts)
+    return implied;
+  if (!recipe.surface.is_bounded()) {
+    recipe.cells = reachable(recipe, within_range(implied, double(SphericalWorld::fewest)));
+    return implied;
+  }
+  recipe.cells = static_cast<std::int64_t>(cells_in_part(recipe, asked, implied));
+  return static_cast<double>(recipe.cells);
+}
+
+/// Replaces a box that has walls by a wider one, and the number of its cells.
+void take_walls(Recipe& recipe) {
+  if (!recipe.walls.x && !recipe.walls.y)
+    return;
+  require(recipe.surface.is_box(), "walls end a periodic box; give two periods");
+  require(!recipe.walls.x || !recipe.walls.y,
+          "walls in x and y leave no period; give a rectangle, whose sides clip the cells");
+  require(recipe.start.kind != Start::Kind::points,
+          "walls need points beyond them, too; give a number of cells instead of points");
+  WallsRun run = run_between_walls(recipe.surface, recipe.walls, recipe.density, recipe.cells);
+  recipe.surface = std::move(run.box);
+  recipe.density = std::move(run.density);
+  const int bisections =
+      chooses_bisections(recipe.start.kind) ? 0 : recipe.start.bisections.value_or(0);
+  const std::int64_t parts = std::int64_t{1} << (2 * bisections); // of a cell of the start
+  recipe.cells = std::max((run.cells + parts / 2) / parts, std::int64_t{3}) * parts;
+}
+
+Points3 joined(const Points3& a, const Points3& b) {
+  Points3 all(3, a.cols() + b.cols());
+  all << a, b;
+  return all;
+}
+
+/// Puts generators on the boundary after the other fixed ones. \returns their number.
+std::int64_t take_boundary(Recipe& recipe) {
+  if (recipe.boundary != Boundary::generators)
+    return 0;
+  require(recipe.surface.is_sphere() && recipe.surface.is_bounded(),
+          "a mesh ends at generators in a part of the sphere only; give the rings that bound it");
+  require(recipe.start.kind != Start::Kind::points,
+          "a mesh that ends at generators does not take points of the start; give a number of "
+          "cells, or fixed points on the boundary");
+  const Points3 points = boundary_points(region_of(recipe.surface), recipe.cells, recipe.density);
+  recipe.fixed = joined(recipe.fixed, points);
+  return points.cols();
+}
+
+void require_free(const Recipe& recipe) {
+  if (recipe.start.kind == Start::Kind::points)
+    return;
+  if (recipe.cells >= 1 && recipe.fixed.cols() >= recipe.cells)
+    throw Error(ErrorCode::bad_option,
+                "fixed point " + std::to_string(recipe.cells - 1) + " leaves no free one of the " +
+                    std::to_string(recipe.cells) + " cells; give more cells or fewer fixed points",
+                recipe.cells - 1);
+  base_detail::require_count(recipe.cells, least_cells(recipe.surface), "the number of cells");
+}
+
+// ---- The descents
+
+void choose_stop(Recipe& recipe) {
+  Stop& stop = recipe.stop;
+  const bool multilevel = recipe.start.kind == Start::Kind::multilevel;
+  stop.well_centred = stop.well_centred.value_or(multilevel && !stop.iterations);
+  stop.tolerance =
+      stop.tolerance.value_or(*stop.well_centred ? tolerance_well_centred : tolerance_pure);
+}
+
+FirstLevel first_level(const Recipe& recipe) {
+  const Start& start = recipe.start;
+  const std::int64_t fixed = recipe.fixed.cols();
+  if (start.kind == Start::Kind::points)
+    return {start.kind, fixed + start.points.cols(), start.bisections.value_or(0)};
+  if (start.kind == Start::Kind::continuation)
+    return first_of_continuation(recipe.cells, recipe.density.uniform());
+  if (start.kind == Start::Kind::multilevel)
+    return first_of_multilevel(recipe.cells, recipe.surface, recipe.density, fixed);
+  return first_of_kind(start.kind, recipe.cells, start.bisections.value_or(0), recipe.surface,
+                       fixed);
+}
+
+/// The world of the levels' numbers, whose boundary is not asked for.
+struct Numbers {
+  bool sphere;
+  std::int64_t bisected(std::int64_t n) const {
+    return sphere ? SphericalWorld::bisected(n) : PlanarWorld::bisected(n);
+  }
+  std::int64_t halved(std::int64_t n) const {
+    return sphere ? SphericalWorld::halved(n) : PlanarWorld::halved(n);
+  }
+};
+
+} // namespace
+
+CvtOptions options_of(const Schedule& schedule) {
+  const Recipe& recipe = schedule.recipe;
+  CvtOptions options;
+  options.density = recipe.density;
+  options.method = recipe.method;
+  options.relaxation = recipe.relaxation;
+  options.norm = recipe.stop.iterations ? Norm::none : recipe.stop.norm;
+  options.tolerance = *recipe.stop.tolerance;
+  options.max_iterations = recipe.stop.iterations.value_or(recipe.stop.max_iterations);
+  options.bisections = static_cast<int>(schedule.levels.size()) - 1;
+  if (recipe.start.kind == Start::Kind::multilevel) {
+    options.insertion_rounds = *recipe.start.insertion_rounds;
+    options.cells = recipe.cells;
+  }
+  options.well_centred = *recipe.stop.well_centred;
+  options.least_spacing = recipe.stop.least_spacing;
+  options.rule = recipe.rule;
+  options.final_rule = recipe.final_rule;
+  options.triangle_divisions = recipe.triangle_divisions;
+  options.duplicates = recipe.duplicates;
+  options.merge_within = recipe.merge_within;
+  options.fixed = recipe.fixed.cols();
+  options.boundary = recipe.boundary;
+  return options;
+}
+
+} // namespace grids_detail
+
+Schedule plan(Recipe recipe) {
+  using namespace grids_detail;
+  require_values(recipe);
+  require_fixed_points(recipe);
+  Schedule schedule;
+  Recipe& all = schedule.recipe;
+  all = std::move(recipe);
+  const Surface asked = all.surface;
+  const bool counts = all.cells == 0;
+  take_widths(all);
+  require_density(all);
+  take_limited_area(all);
+  choose_start(all);
+  schedule.implied_cells = take_cells(all, asked);
+  take_walls(all);
+  schedule.on_boundary = take_boundary(all);
+  if (counts && all.start.kind != Start::Kind::points && all.fixed.cols() > schedule.on_boundary)
+    all.cells = cells_beside(all.fixed, all.cells, all.density, all.surface);
+  require_free(all);
+  choose_stop(all);
+  all.limited_area = false;
+  all.walls = {};
+  all.widths = {};
+  all.planar_widths = {};
+  const FirstLevel first = first_level(all);
+  schedule.first = first.kind;
+  schedule.levels.resize(static_cast<std::size_t>(first.bisections) + 1); // for their number
+  schedule.levels = levels_of(Numbers{all.surface.is_whole_sphere()}, first.cells, first.bisections,
+                              options_of(schedule));
+  cvt_detail::require_options(options_of(schedule));
+  return schedule;
+}
+
+} // namespace calotte

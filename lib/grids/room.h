@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "cvt/room.h"
+
+/// Grids as users ask for them: the choices of a recipe, the points to start from, and the run.
+///
+/// In: a recipe. Out: the schedule of its descents; a mesh with a report.
+namespace calotte::grids_detail {
+using namespace cvt_detail; // and the rooms below it
+}

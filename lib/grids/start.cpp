@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grids/start.h"
+
+#include "base/require.h"
+#include "cvt/region_world.h"
+#include "cvt/worlds.h"
+#include "domain/surface.h"
+#include "generators/room.h"
+#include "grids/free_points.h"
+
+#include <calotte/generators.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+namespace calotte::grids_detail {
+namespace {
+
+using base_detail::require;
+
+/// Below that a grid of a density that is not uniform does not resolve it.
+constexpr std::int64_t fewest_graded = 642;
+
+/// With fewer, cells of five neighbours are so near to each other that a descent may change the
+/// neighbours of cells.
+constexpr std::int64_t fewest_geodesic = 150;
+
+/// Calls work with the world of a surface, of which only static members may be used.
+template <class Work> auto in_world(const Surface& surface, const Work& work) {
+  if (!surface.is_sphere())
+    return work(static_cast<const PlanarWorld*>(nullptr));
+  return surface.is_bounded() ? work(static_cast<const RegionWorld*>(nullptr))
+                              : work(static_cast<const SphericalWorld*>(nullptr));
+}
+
+/// The number of cells after bisections of n on the whole sphere.
+std::int64_t bisected(std::int64_t n, int bisections) { return ((n - 2) << (2 * bisections)) + 2; }
+
+bool is_icosahedral(std::int64_t n) {
+  std::int64_t tens = n - 2;
+  while (tens % 4 == 0 && tens > 10)
+    tens /= 4;
+  return tens == 10;
+}
+
+int icosahedral_level(std::int64_t n) {
+  int level = 0;
+  while (bisected(SphericalWorld::fewest, level) < n)
+    ++level;
+  return level;
+}
+
+/// How many points that follow a density spread over the sphere: on average 12 lie in the emptiest
+/// hemisphere. A descent from fewer may lose the last of these, so that no triangulation exists.
+std::int64_t spreading(const Density& sites) {
+  constexpr double in_hemisphere = 12;
+  const Points3 samples = bisected_icosahedron(5), directions = bisected_icosahedron(1);
+  const DoubleVector weights = evaluate(sites, samples);
+  double least = 1; // share of a hemisphere
+  for (const auto& direction : directions.colwise()) {
+    const auto inside = direction.transpose().lazyProduct(samples).array() > 0;
+    least = std::min(least, inside.select(weights.transpose().array(), 0).sum() / weights.sum());
+  }
+  return least * static_cast<double>(generators_detail::most_points) > in_hemisphere
+             ? static_cast<std::int64_t>(std::ceil(in_hemisphere / least))
+             : generators_detail::most_points;
+}
+
+/// How many generators of a density leave no empty circle as wide as half of a periodic box, which
+/// would hold no triangulation: the largest of independent random points has a diameter of
+/// about 2.5 spacings. 0 of other domains.
+std::int64_t spreading(const Density& density, const PlanarDomain& domain) {
+  if (!domain.periodic())
+    return 0;
+  constexpr double spacings_across = 6;
+  const DoubleVector rho =
+      evaluate(density, domain, random_places(1 << 14, domain)).cwiseMax(1e-150);
+  const double root = area(domain) * rho.cwiseSqrt().mean(),
+               widest = domain.period.minCoeff() / spacings_across;
+  const double cells =
+      2 / std::numbers::sqrt3 * root / (std::sqrt(rho.minCoeff()) * widest * widest);
+  return static_cast<std::int64_t>(
+      std::ceil(std::min(cells, double(generators_detail::most_points))));
+}
+
+/// "the nearest numbers are ...": those of `below` and `above` that a run can have.
+std::string nearest(std::int64_t below, std::int64_t above, std::int64_t least) {
+  return below < least
+             ? "the nearest number is " + std::to_string(std::max(above, least))
+             : "the nearest numbers are " + std::to_string(below) + " and " + std::to_string(above);
+}
+
+std::string words_of(int bisections) {
+  return std::to_string(bisections) + (bisections == 1 ? " bisection" : " bisections");
+}
+
+std::string not_leading(int bisections, std::int64_t cells) {
+  return words_of(bisections) + (bisections == 1 ? " does" : " do") + " not lead to " +
+         std::to_string(cells) + " cells; ";
+}
+
+void require_icosahedral(std::int64_t cells, int bisections) {
+  constexpr std::int64_t fewest = SphericalWorld::fewest;
+  if (is_icosahedral(cells) && icosahedral_level(cells) >= bisections)
+    return;
+  const int level = std::max(icosahedral_level(cells), bisections);
+  require(false, "the start icosahedron makes 10 x 4^k + 2 cells, not " + std::to_string(cells) +
+                     "; " +
+                     nearest(level == bisections ? 0 : bisected(fewest, level - 1),
+                             bisected(fewest, level), fewest));
+}
+
+/// The number of generators from which bisections lead to a number of cells of the whole sphere.
+std::int64_t start_on_sphere(std::int64_t cells, int bisections) {
+  const std::int64_t n = ((cells - 2) >> (2 * bisections)) + 2;
+  require(n >= SphericalWorld::fewest && bisected(n, bisections) == cells,
+          not_leading(bisections, cells) + nearest(bisected(n, bisections),
+                                                   bisected(n + 1, bisections),
+                                                   bisected(SphericalWorld::fewest, bisections)));
+  return n;
+}
+
+/// The same in a plane: in a box n cells become 4n; elsewhere midpoints outside are left out.
+std::int64_t start_in_plane(std::int64_t cells, int bisections, bool box) {
+  const std::int64_t divisor = std::int64_t{1} << (2 * bisections), n = cells / divisor;
+  require(n >= PlanarWorld::fewest, words_of(bisections) + " to " + std::to_string(cells) +
+                                        " cells need a start of fewer than 3 cells; give more "
+                                        "cells or fewer bisections");
+  require(!box || cells % divisor == 0,
+          not_leading(bisections, cells) + nearest(n * divisor, (n + 1) * divisor, 3 * divisor));
+  return n;
+}
+
+Points3 flat(const Points2& places) {
+  Points3 points = Points3::Zero(3, places.cols());
+  points.topRows<2>() = places;
+  return points;
+}
+
+Points3 free_in_plane(const Schedule& schedule, std::int64_t count) {
+  const Recipe& recipe = schedule.recipe;
+  const PlanarDomain domain = domain_of(recipe.surface);
+  if (recipe.start.kind == Start::Kind::multilevel)
+    return flat(free_points(count, schedule.levels.front().cells,
+                            Points2(recipe.fixed.topRows<2>()), domain,
+                            site_density(recipe.density, domain), recipe.seed));
+  if (schedule.first == Start::Kind::hexagonal)
+    return flat(hexagonal_lattice(count, domain));
+  if (schedule.first == Start::Kind::random)
+    return flat(random_places(count, domain, recipe.seed));
+  return flat(random_places(count, domain, site_density(recipe.density, domain), recipe.seed));
+}
+
+} // namespace
+
+FirstLevel first_of_continuation(std::int64_t cells, bool uniform) {
+  if (uniform && cells >= fewest_geodesic)
+    return {Start::Kind::geodesic, cells, 0};
+  const std::int64_t least = uniform ? SphericalWorld::fewest : fewest_graded;
+  FirstLevel first{Start::Kind::density, cells, 0};
+  std::int64_t& n = first.cells;
+  for (; (n - 2) % 4 == 0 && (n - 2) / 4 + 2 >= least; n = (n - 2) / 4 + 2)
+    ++first.bisections;
+  if (is_icosahedral(n))
+    first.kind = Start::Kind::icosahedron;
+  else if (uniform)
+    first.kind = Start::Kind::fibonacci;
+  return first;
+}
+
+FirstLevel first_of_multilevel(std::int64_t cells, const Surface& surface, const Density& density,
+                               std::int64_t fixed) {
+  constexpr std::int64_t fewest_at_start = 160;
+  std::int64_t least = std::max(fewest_at_start, 4 * fixed);
+  if (!surface.is_sphere())
+    least = std::max(least, spreading(density, domain_of(surface)));
+  else if (!surface.is_bounded())
+    least = std::max(least, spreading(site_density(density)));
+  FirstLevel first{Start::Kind::density, cells, 0};
+  const auto halved = [&](std::int64_t n) {
+    return in_world(surface, [n](const auto* world) { return world->halved(n); });
+  };
+  for (; halved(first.cells) >= least; first.cells = halved(first.cells))
+    ++first.bisections;
+  return first;
+}
+
+FirstLevel first_of_kind(Start::Kind kind, std::int64_t cells, int bisections,
+                         const Surface& surface, std::int64_t fixed) {
+  FirstLevel first{kind, cells, bisections};
+  if (!surface.is_sphere())
+    first.cells = start_in_plane(cells, bisections, surface.is_box());
+  else if (surface.is_bounded())
+    first.cells = cells >> (2 * bisections);
+  else if (kind == Start::Kind::icosahedron)
+    require_icosahedral(cells, bisections);
+  if (surface.is_whole_sphere())
+    first.cells = start_on_sphere(cells, bisections);
+  require(first.cells > fixed, words_of(bisections) + " to " + std::to_string(cells) +
+                                   " cells leave no free point in the start beside " +
+                                   std::to_string(fixed) +
+                                   " fixed ones; give more cells or fewer bisections");
+  return first;
+}
+
+Points3 free_generators(const Schedule& schedule) {
+  const Recipe& recipe = schedule.recipe;
+  const std::int64_t count = schedule.levels.front().cells - recipe.fixed.cols();
+  if (!recipe.surface.is_sphere())
+    return free_in_plane(schedule, count);
+  const Region region = region_of(recipe.surface);
+  if (recipe.start.kind == Start::Kind::multilevel)
+    return free_points(count, schedule.levels.front().cells, recipe.fixed, region,
+                       site_density(recipe.density), recipe.seed);
+  switch (schedule.first) {
+  case Start::Kind::geodesic:
+    return geodesic_sphere(count);
+  case Start::Kind::icosahedron:
+    return bisected_icosahedron(icosahedral_level(count));
+  case Start::Kind::fibonacci:
+    return fibonacci_sphere(count);
+  case Start::Kind::spiral:
+    return spiral_sphere(count);
+  case Start::Kind::random:
+    return random_sphere(count, region, {}, recipe.seed);
+  default:
+    return random_sphere(count, region, site_density(recipe.density), recipe.seed);
+  }
+}
+
+std::int64_t least_cells(const Surface& surface) {
+  return in_world(surface, [](const auto* world) { return std::int64_t{world->fewest}; });
+}
+
+std::int64_t cells_beside(const Points3& fixed, std::int64_t cells, const Density& density,
+                          const Surface& surface) {
+  if (surface.is_sphere())
+    return cells_beside_fixed(fixed, cells, region_of(surface), site_density(density));
+  const PlanarDomain domain = domain_of(surface);
+  return cells_beside_fixed(Points2(fixed.topRows<2>()), cells, domain,
+                            site_density(density, domain));
+}
+
+} // namespace calotte::grids_detail

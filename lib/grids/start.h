@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "grids/room.h"
+
+#include <calotte/grid.h>
+
+#include <cstdint>
+
+namespace calotte::grids_detail {
+
+/// The first level of a run, from which bisections lead to the last.
+struct FirstLevel {
+  Start::Kind kind = Start::Kind::density; ///< of its points
+  std::int64_t cells = 0;                  ///< fixed ones among them
+  int bisections = 0;
+};
+
+/// That of Start::Kind::continuation.
+FirstLevel first_of_continuation(std::int64_t cells, bool uniform);
+
+/// That of Start::Kind::multilevel: as few generators as resolve the density. They are at least
+/// 160, 12 in each hemisphere on average or 6 across a box, and four times as many as fixed ones.
+/// \throws Error bad_option for an ill-formed density.
+FirstLevel first_of_multilevel(std::int64_t cells, const Surface& surface, const Density& density,
+                               std::int64_t fixed);
+
+/// That of another kind with a number of bisections. \throws Error bad_option if these do not lead
+/// to the number of cells, with the nearest numbers to which they do.
+FirstLevel first_of_kind(Start::Kind kind, std::int64_t cells, int bisections,
+                         const Surface& surface, std::int64_t fixed);
+
+/// The free generators of a schedule's first level: 3 x n, in the plane with z = 0.
+/// \throws Error as random_sphere() and the like.
+Points3 free_generators(const Schedule& schedule);
+
+/// The least number of generators on a surface.
+std::int64_t least_cells(const Surface& surface);
+
+/// The number of cells of a grid with fixed generators: theirs, and as many of those that a density
+/// demands as the fixed ones leave unmet. An estimate from random places.
+/// \param cells number that the density demands without fixed generators.
+std::int64_t cells_beside(const Points3& fixed, std::int64_t cells, const Density& density,
+                          const Surface& surface);
+
+} // namespace calotte::grids_detail

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <calotte/write_grid.h>
+
+#include "base/require.h"
+
+#include <calotte/cut.h>
+#include <calotte/mesh_file.h>
+
+#include <utility>
+
+namespace calotte {
+namespace {
+
+using base_detail::require;
+
+/// The options with the density of the schedule. \throws Error bad_option for a mesh of another
+/// run.
+WriteOptions options_for(const Mesh& mesh, const Schedule& schedule, const WriteOptions& options) {
+  require(mesh.surface == schedule.recipe.surface,
+          "the mesh lies on another surface than that of the recipe's run; give the mesh that "
+          "make_grid() makes of this recipe");
+  WriteOptions all = options;
+  all.density = schedule.recipe.density;
+  all.site_density = {};
+  return all;
+}
+
+bool has_walls(const Recipe& recipe) { return recipe.walls.x || recipe.walls.y; }
+
+GridFile write_with_rings(const std::string& path, const Mesh& mesh, const Recipe& recipe,
+                          const WriteOptions& options) {
+  require(format_of(path, options.format) == Format::mpas,
+          path + ": a limited area is written as MPAS; give a name that ends in .nc");
+  CutOptions cut;
+  cut.sphere_radius = options.sphere_radius;
+  cut.dimensions = options.dimensions;
+  cut.history = options.history;
+  cut.progress = options.progress;
+  const CutReport report = write_limited_area(path, mesh, recipe.surface, options, cut);
+  return {report.cells, report.cells_by_mask.front(), {0, 0}};
+}
+
+GridFile write_between_walls(const std::string& path, const Mesh& mesh, const Recipe& recipe,
+                             WriteOptions options) {
+  const MeshFile file = walled(mesh, recipe.surface.period(), recipe.walls);
+  if (!options.density.uniform()) // by site of the file
+    options.site_density =
+        evaluate(std::exchange(options.density, {}), file.polygons->centres, mesh.surface);
+  write(path, file, options);
+  const std::int64_t cells = file.polygons->size();
+  return {cells, cells, file.polygons->period};
+}
+
+} // namespace
+
+GridFile write_grid(const std::string& path, const Mesh& mesh, const Recipe& recipe,
+                    const Schedule& schedule, const WriteOptions& options) {
+  const WriteOptions all = options_for(mesh, schedule, options);
+  if (recipe.limited_area)
+    return write_with_rings(path, mesh, recipe, all);
+  if (has_walls(recipe))
+    return write_between_walls(path, mesh, recipe, all);
+  write(path, mesh, all);
+  return {mesh.points.cols(), mesh.points.cols(), mesh.surface.period()};
+}
+
+GridFile write_grid(const std::string& path, Mesh&& mesh, const Recipe& recipe,
+                    const Schedule& schedule, const WriteOptions& options) {
+  const GridFile whole{mesh.points.cols(), mesh.points.cols(), mesh.surface.period()};
+  if (recipe.limited_area || has_walls(recipe)) {
+    const GridFile part = write_grid(path, std::as_const(mesh), recipe, schedule, options);
+    mesh = {};
+    return part;
+  }
+  write(path, std::move(mesh), options_for(mesh, schedule, options));
+  return whole;
+}
+
+} // namespace calotte

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "mesh/check_laws.h"
+#include "mesh/room.h"
+
+#include <calotte/check.h>
+
+namespace calotte::mesh_detail {
+
+/// What check() or check_surface() finds. \pre the mesh is one of the plane.
+Check check_in_plane(const Mesh& mesh, Proof proof, const ProgressCallback& progress);
+
+} // namespace calotte::mesh_detail

@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/densities.h"
+
+#include <calotte/calotte.h>
+#include <calotte/grid.h>
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+
+using namespace calotte;
+
+namespace {
+
+constexpr double degree = 3.14159265358979323846 / 180;
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+Region part() { return circle({1, 1, 1}, 20 * degree); }
+
+/// Widths from 400 km at the equator to `poles` km at the poles.
+CellWidth widths(double poles) {
+  CellWidth table;
+  table.longitudes = Eigen::Vector2d(0, 180);
+  table.latitudes = Eigen::Vector3d(-90, 0, 90);
+  table.widths.resize(2, 3);
+  table.widths << poles, 400, poles, poles, 400, poles;
+  return table;
+}
+
+Recipe with(Start::Kind kind, std::int64_t cells, const Surface& surface = {}) {
+  Recipe recipe;
+  recipe.cells = cells;
+  recipe.surface = surface;
+  recipe.start.kind = kind;
+  return recipe;
+}
+
+std::string message_of(const Recipe& recipe) {
+  try {
+    plan(recipe);
+  } catch (const Error& error) {
+    return error.what() + (error.index() < 0 ? "" : " @" + std::to_string(error.index()));
+  }
+  return "";
+}
+
+} // namespace
+
+TEST_CASE("plan: the start follows from density, surface and fixed generators") {
+  const Surface box = Surface::periodic({2, 1});
+  Recipe recipe;
+  recipe.cells = 500;
+  const auto kind = [](const Recipe& of) { return plan(of).recipe.start.kind; };
+  CHECK(kind(recipe) == Start::Kind::continuation);
+  CHECK(plan(recipe).first == Start::Kind::geodesic);
+  recipe.surface = box;
+  CHECK(kind(recipe) == Start::Kind::density);
+  recipe.surface = part();
+  CHECK(kind(recipe) == Start::Kind::multilevel);
+  recipe.start.bisections = 1;
+  CHECK(kind(recipe) == Start::Kind::density);
+  recipe = {};
+  recipe.cells = 500;
+  recipe.fixed = random_sphere(3);
+  CHECK(kind(recipe) == Start::Kind::multilevel);
+  CHECK(plan(recipe).levels.back().insertion_rounds == 3);
+  recipe.stop.iterations = 20;
+  CHECK(kind(recipe) == Start::Kind::density);
+  recipe = {};
+  recipe.cells = 2562;
+  recipe.density = test::x8();
+  CHECK(kind(recipe) == Start::Kind::multilevel);
+  recipe.cells = 0;
+  recipe.start.points = random_sphere(100);
+  CHECK(kind(recipe) == Start::Kind::points);
+  CHECK(plan(recipe).levels.front().cells == 100);
+}
+
+TEST_CASE("plan: a run that follows widths ends well-centred, at a wider tolerance") {
+  Recipe recipe;
+  recipe.cells = 2562;
+  CHECK(plan(recipe).recipe.stop.well_centred == false);
+  CHECK(plan(recipe).recipe.stop.tolerance == 1e-6);
+  recipe.density = test::x8();
+  CHECK(plan(recipe).recipe.stop.well_centred == true);
+  CHECK(plan(recipe).recipe.stop.tolerance == 1e-4);
+  recipe.stop.well_centred = false;
+  CHECK(plan(recipe).recipe.stop.tolerance == 1e-6);
+  recipe.stop.tolerance = 1e-3;
+  CHECK(plan(recipe).recipe.stop.tolerance == 1e-3);
+}
+
+TEST_CASE("plan: levels lead from a coarse grid to the number of cells") {
+  Recipe recipe;
+  recipe.cells = 40962;
+  recipe.density = test::x8();
+  const Schedule schedule = plan(recipe);
+  REQUIRE(schedule.levels.size() > 2);
+  CHECK(schedule.levels.back().cells == 40962);
+  for (std::size_t k = 1; k < schedule.levels.size(); ++k) {
+    const CvtLevel &coarse = schedule.levels[k - 1], &fine = schedule.levels[k];
+    CHECK(std::abs(fine.cells - 4 * coarse.cells) <= 8);
+    CHECK(fine.insertion_rounds < coarse.insertion_rounds);
+    CHECK(fine.tolerance == 1e-3);
+  }
+  const Schedule bisected = plan(with(Start::Kind::icosahedron, 642));
+  CHECK(bisected.levels.size() == 1);
+  recipe = with(Start::Kind::icosahedron, 642);
+  recipe.start.bisections = 2;
+  CHECK(plan(recipe).levels.front().cells == 42);
+  CHECK(plan(recipe).levels.back().cells == 642);
+}
+
+TEST_CASE("plan: the levels are those of the run") {
+  Recipe recipe;
+  recipe.cells = 800;
+  recipe.density = test::x8();
+  for (const Surface& surface : {Surface::sphere(), Surface(part())}) {
+    recipe.surface = surface;
+    const Schedule schedule = plan(recipe);
+    const Cvt grid = make_grid(schedule);
+    REQUIRE(grid.report.levels.size() == schedule.levels.size());
+    for (std::size_t k = 0; k < schedule.levels.size(); ++k) {
+      CHECK(grid.report.levels[k].cells == schedule.levels[k].cells);
+      CHECK(grid.report.levels[k].insertion_rounds == schedule.levels[k].insertion_rounds);
+    }
+    CHECK(grid.mesh.points.cols() == 800);
+    CHECK(grid.mesh.surface == surface);
+    CHECK(grid.report.converged);
+  }
+}
+
+TEST_CASE("plan: widths give the number of cells") {
+  Recipe recipe;
+  recipe.widths = widths(800);
+  const Schedule schedule = plan(recipe);
+  CHECK(schedule.recipe.cells == std::llround(schedule.implied_cells));
+  CHECK(!schedule.recipe.density.uniform());
+  recipe.widths = widths(400); // of one size
+  CHECK(plan(recipe).recipe.density.uniform());
+  CHECK(plan(recipe).recipe.cells == geodesic_count(plan(recipe).implied_cells));
+  recipe.surface = part();
+  const std::int64_t inside = plan(recipe).recipe.cells;
+  recipe.limited_area = true;
+  const Schedule wider = plan(recipe);
+  CHECK(wider.recipe.cells > inside);
+  CHECK(wider.recipe.surface.area() > recipe.surface.area());
+  recipe.limited_area = false;
+  recipe.boundary = Boundary::generators;
+  const Schedule ending = plan(recipe);
+  CHECK(ending.on_boundary > 0);
+  CHECK(ending.recipe.fixed.cols() == ending.on_boundary);
+  CHECK(ending.recipe.cells > inside);
+  CHECK(*ending.recipe.start.insertion_rounds == 1); // generators on the boundary do not count
+}
+
+TEST_CASE("plan: walls widen the box") {
+  Recipe recipe;
+  recipe.cells = 300;
+  recipe.surface = Surface::periodic({2, 1});
+  recipe.walls.y = true;
+  const Schedule schedule = plan(recipe);
+  CHECK(schedule.recipe.surface.period().x() == 2);
+  CHECK(schedule.recipe.surface.period().y() > 1);
+  CHECK(schedule.recipe.cells > 300);
+  const Cvt grid = make_grid(schedule);
+  const double between = (grid.mesh.points.row(1).array() <= 1).cast<double>().sum();
+  CHECK(std::abs(between - 300) < 20);
+  for (const int bisections : {1, 2}) { // the box has as many cells as they lead to
+    recipe.start.bisections = bisections;
+    CHECK(plan(recipe).recipe.cells % (1 << 2 * bisections) == 0);
+    CHECK(std::abs(plan(recipe).recipe.cells - schedule.recipe.cells) <= 2 << 2 * bisections);
+  }
+}
+
+TEST_CASE("plan: recipes that do not fit together are refused, with the remedy") {
+  Recipe recipe;
+  CHECK(message_of(recipe).find("there is no number of cells; give one, or cell widths") == 0);
+  CHECK(message_of(with(Start::Kind::automatic, 11)) ==
+        "the number of cells is 11; give a number from 12 to 1073741824");
+  CHECK(message_of(with(Start::Kind::automatic, 3, part())).find("number from 4") !=
+        std::string::npos);
+  CHECK(message_of(with(Start::Kind::spiral, 100, part())).find("the whole sphere only") !=
+        std::string::npos);
+  CHECK(message_of(with(Start::Kind::hexagonal, 100)).find("the plane only") != std::string::npos);
+  CHECK(message_of(with(Start::Kind::geodesic, 100, Surface::periodic({1, 1})))
+            .find("the sphere only") != std::string::npos);
+  CHECK(message_of(with(Start::Kind::icosahedron, 100)) ==
+        "the start icosahedron makes 10 x 4^k + 2 cells, not 100; the nearest numbers are 42 and "
+        "162");
+  CHECK(message_of(with(Start::Kind::points, 100)).find("no points") != std::string::npos);
+  recipe = with(Start::Kind::random, 100);
+  recipe.start.bisections = 1;
+  CHECK(message_of(recipe) ==
+        "1 bisection does not lead to 100 cells; the nearest numbers are 98 and 102");
+  recipe.start.bisections = 14;
+  CHECK(message_of(recipe) == "the number of bisections is 14; give 0 to 13");
+  recipe = with(Start::Kind::automatic, 100, Surface::plane());
+  CHECK(message_of(recipe).find("a plane that has no end") != std::string::npos);
+  recipe = with(Start::Kind::automatic, 100);
+  recipe.fixed = random_sphere(120);
+  CHECK(message_of(recipe) == "fixed point 99 leaves no free one of the 100 cells; give more cells "
+                              "or fewer fixed points @99");
+  recipe = with(Start::Kind::automatic, 0);
+  recipe.widths = widths(800);
+  recipe.density = test::x8();
+  CHECK(message_of(recipe).find("widths and a density") != std::string::npos);
+  recipe.density = {};
+  recipe.widths->widths *= 1000;
+  CHECK(message_of(recipe).find("a grid has 12 to 1073741824") != std::string::npos);
+  recipe.widths = {};
+  recipe.cells = 100;
+  recipe.limited_area = true;
+  CHECK(message_of(recipe).find("give the rings that bound it") != std::string::npos);
+  recipe = with(Start::Kind::automatic, 100);
+  recipe.density = tanh_bump({0, 0, 1}, 0.5, -1, 0.1);
+  CHECK(message_of(recipe).find("alpha") != std::string::npos);
+}
+
+TEST_CASE("plan: values out of range are refused before any work") {
+  const auto refused = [](const auto& change, const std::string& words) {
+    Recipe recipe = with(Start::Kind::automatic, 100);
+    change(recipe);
+    CAPTURE(words);
+    CHECK(message_of(recipe).find(words) != std::string::npos);
+  };
+  refused([](Recipe& r) { r.cells = -1; }, "the number of cells is -1");
+  refused([](Recipe& r) { r.stop.tolerance = not_a_number; }, "the tolerance is nan");
+  refused([](Recipe& r) { r.stop.max_iterations = -5; }, "-5");
+  refused([](Recipe& r) { r.stop.least_spacing = not_a_number; }, "least_spacing is nan");
+  refused([](Recipe& r) { r.relaxation = 7; }, "the relaxation is 7");
+  refused([](Recipe& r) { r.rule = 5; }, "5");
+  refused([](Recipe& r) { r.start.insertion_rounds = 1 << 30; }, "give 1 to 100");
+  refused([](Recipe& r) { r.fixed = Points3::Constant(3, 2, not_a_number); },
+          "fixed generator 0 is not finite; give finite coordinates @0");
+  refused([](Recipe& r) { r.fixed = Points3::Zero(3, 1); },
+          "fixed generator 0 is 0 0 0; give a direction @0");
+  refused(
+      [](Recipe& r) {
+        r.widths = widths(800);
+        r.widths->longitudes[1] = 10;
+      },
+      "longitude");
+  CHECK_THROWS_AS(make_grid(Schedule{}), Error);
+  const Surface square = rectangle({0, 0}, {1, 1});
+  CHECK_THROWS_AS(random_sphere(100, Region(square)), Error);
+  CHECK_THROWS_AS(random_places(100, PlanarDomain(Surface::sphere())), Error);
+}
+
+TEST_CASE("make_grid: a run that is stopped goes on from its state to the same bits") {
+  Recipe recipe;
+  recipe.cells = 400;
+  recipe.density = test::x8();
+  const Cvt whole = make_grid(recipe);
+  RunOptions stopping;
+  std::optional<CvtState> state;
+  stopping.callback = [&](const CvtProgress& now) {
+    state = now.state;
+    return now.report.iterations.size() >= 20;
+  };
+  make_grid(recipe, stopping);
+  REQUIRE(state);
+  RunOptions going;
+  going.state = state;
+  CHECK(make_grid(recipe, going).mesh.points == whole.mesh.points);
+  recipe.cells = 900;
+  CHECK_THROWS_AS(make_grid(recipe, going), Error);
+}

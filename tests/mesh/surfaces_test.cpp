@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Functions of all surfaces give the bits of each surface's own, and errors that say what to do.
+#include "delaunay/delaunay.h"
+#include "mesh/planar_mesh.h"
+#include "support/files.h"
+#include "support/meshes.h"
+
+#include <calotte/calotte.h>
+
+#include <doctest/doctest.h>
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+using namespace calotte;
+using calotte::mesh_detail::planar;
+using calotte::test::equal_bits;
+using calotte::test::error_of;
+
+namespace {
+
+const PlanarDomain rectangle_of = rectangle({0, 0}, {2, 1});
+const PlanarDomain box_of = periodic_box({2, 1});
+
+Region cap() { return circle({0.2, 0.3, 0.9}, 0.8, 60); }
+
+/// A box, and a part of the plane.
+struct Case {
+  PlanarDomain domain;
+  PlanarMesh old; ///< by the plane's own functions
+
+  Mesh mesh() const { return delaunay(old.points, domain); }
+};
+
+std::vector<Case> planes() {
+  return {{rectangle_of, planar_delaunay(random_places(300, rectangle_of, 5))},
+          {box_of, periodic_delaunay(random_places(300, box_of, 6), box_of.period)}};
+}
+
+/// Rows of triangles between walls along x.
+Mesh channel() {
+  const Mesh box = hexagonal_box(8, 6, 1);
+  std::vector<oracle::Triple> triangles;
+  for (const auto& t : box.triangles.colwise()) {
+    const Eigen::Vector3d y(box.points(1, t[0]), box.points(1, t[1]), box.points(1, t[2]));
+    if (y.maxCoeff() - y.minCoeff() < 2)
+      triangles.push_back({t[0], t[1], t[2]});
+  }
+  Mesh mesh = oracle::mesh_of(box.points, std::move(triangles));
+  mesh.surface = Surface::periodic({8, 0});
+  return mesh;
+}
+
+std::vector<Mesh> all_planes() {
+  std::vector<Mesh> meshes{channel(), hexagonal_box(4, 4, 1)};
+  for (const Case& plane : planes())
+    meshes.push_back(plane.mesh());
+  return meshes;
+}
+
+template <class AnyMesh> void check_same(const AnyMesh& mesh, const AnyMesh& old) {
+  CHECK(equal_bits(mesh.points, old.points));
+  CHECK(mesh.triangles == old.triangles);
+  CHECK(mesh.neighbours == old.neighbours);
+  CHECK(mesh.site_of_input == old.site_of_input);
+}
+
+std::vector<double> values(const Quality& of) {
+  return {of.sigma.min, of.cell_quality.mean, of.cell_area.max,  of.residual,
+          of.excess,    of.dc_over_h.p50,     of.dv_over_dc.min, of.cells_area};
+}
+
+Density bump() { return tanh_bump({0.7, 0.4, 0.5}, 0.3, 0.2, 0.1); }
+
+} // namespace
+
+TEST_CASE("points of a sphere are read in place, evaluated or taken over") {
+  Points3 points = random_sphere(200, 3);
+  const Mesh old = spherical_delaunay(points);
+  const Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor> row_major = points;
+  const Eigen::MatrixXd any = points;
+  check_same(delaunay(points), old);
+  check_same(delaunay(any), old);
+  check_same(delaunay(row_major), old);
+  check_same(delaunay(Eigen::Map<const Points3>(points.data(), 3, 200)), old);
+  check_same(delaunay(2 * points / 2), old);
+  check_same(delaunay(PointsRef(points)), old);
+  check_same(delaunay(random_sphere(200, 3)), old);
+  const Triangulation both = triangulate(points, cap());
+  check_same(both.mesh, old);
+  CHECK(both.report.sites == 200);
+  CHECK(both.mesh.surface == Surface(cap()));
+  const double* const memory = points.data();
+  CHECK(delaunay(std::move(points)).points.data() == memory);
+}
+
+TEST_CASE("meshes of the plane have the triangles of the plane's own functions, and z = 0") {
+  for (const Case& plane : planes()) {
+    const Mesh mesh = plane.mesh();
+    check_same(planar(mesh), plane.old);
+    CHECK(mesh.surface == Surface(plane.domain));
+    CHECK(mesh.closed() == plane.domain.periodic());
+    check_same(delaunay(mesh.points, plane.domain), mesh); // 3 rows
+    check_same(delaunay(Points3(mesh.points), plane.domain), mesh);
+  }
+  const Mesh hexagons = hexagonal_box(8, 6, 0.5);
+  check_same(planar(hexagons), periodic_hexagons(8, 6, 0.5));
+  check_same(hexagons, delaunay(hexagons.points, hexagons.surface));
+}
+
+TEST_CASE("meshes of the plane are proven and searched as the plane's own are") {
+  for (Mesh mesh : all_planes()) {
+    const PlanarMesh old = planar(mesh);
+    CHECK(check(mesh).failure == "");
+    CHECK(check(mesh).area == check(old).area);
+    CHECK(check_surface(mesh).whole == check_surface(old).whole);
+    CHECK(count_edges(mesh).boundary == count_edges(old).boundary);
+    const Points3 at = random_points(100, periodic_box({4, 3}));
+    for (const PointsRef& positions : {PointsRef(at), PointsRef(at.topRows<2>())}) {
+      const Locations found = locate(mesh, positions), known = locate(old, at.topRows<2>());
+      CHECK(found.triangle == known.triangle);
+      CHECK(equal_bits(found.weights, known.weights));
+      CHECK(found.nearest == known.nearest);
+      const auto kind = Interpolation::natural_neighbours;
+      CHECK(interpolation_weights(mesh, positions, kind)
+                .isApprox(interpolation_weights(old, at.topRows<2>(), kind), 0));
+    }
+    CHECK(values(open_quality(mesh)) == values(open_quality(old)));
+    CHECK(triangle_quality(mesh).angles.max == open_quality(old).angles.max);
+    const Mesh other = renumbered(mesh, Numbering::curve);
+    CHECK(check(other).failure == "");
+    CHECK(other.surface == mesh.surface);
+    mesh.points(2, 7) = 1;
+    CHECK(check(mesh).failure == "site 7 of the plane has a z that is not 0");
+  }
+}
+
+TEST_CASE("cells and quality are those of the surface") {
+  for (const Case& plane : planes()) {
+    const Mesh mesh = plane.mesh();
+    const Voronoi cells = voronoi(mesh), old = voronoi(plane.old, plane.domain);
+    CHECK(equal_bits(cells.vertices, old.vertices));
+    CHECK(cells.cells_on_cell == old.cells_on_cell);
+    CHECK(equal_bits(cells.cell_area, old.cell_area));
+    CHECK(cells.cell_area.sum() == doctest::Approx(mesh.surface.area()).epsilon(1e-12));
+    for (const Density& density : {Density(), bump()}) {
+      CHECK(values(quality(mesh, density)) == values(quality(plane.old, plane.domain, density)));
+      const CellMeasures measures = cell_measures(mesh, density),
+                         known = cell_measures(plane.old, plane.domain, density);
+      CHECK(equal_bits(measures.off_centroid, known.off_centroid));
+      CHECK(equal_bits(measures.prescribed, known.prescribed));
+      CHECK(operator_errors(mesh, density).curl.l2 ==
+            operator_errors(plane.old, plane.domain, density).curl.l2);
+    }
+    CHECK(clipped_cells(mesh) == clipped_cells(plane.old, plane.domain));
+  }
+  Mesh part = delaunay(random_points(300, cap(), {}, 4), cap());
+  const Voronoi cells = voronoi(part);
+  part.surface = {}; // rings have no effect on the sphere
+  CHECK(equal_bits(cells.cell_area, voronoi(part).cell_area));
+  CHECK(clipped_cells(part) == std::vector<bool>(300, false));
+}
+
+TEST_CASE("points and densities are those of the surface") {
+  CHECK(equal_bits(random_points(50, {}), random_sphere(50)));
+  CHECK(equal_bits(random_points(50, {}, bump(), 3), random_sphere(50, bump(), 3)));
+  CHECK(equal_bits(random_points(50, cap(), bump(), 3), random_sphere(50, cap(), bump(), 3)));
+  CHECK(equal_bits(boundary_points(Surface(cap()), 200), boundary_points(cap(), 200)));
+  for (const Case& plane : planes()) {
+    const Surface surface = plane.domain;
+    const Points3 points = random_points(50, surface, bump(), 3);
+    CHECK(points.row(2).isZero(0));
+    CHECK(points.topRows<2>() == random_places(50, plane.domain, bump(), 3));
+    CHECK(hexagonal_lattice(40, surface).topRows<2>() == hexagonal_lattice(40, plane.domain));
+    CHECK(evaluate(bump(), points, surface) == evaluate(bump(), plane.domain, points.topRows<2>()));
+    CHECK(evaluate(site_density(bump(), surface), points) ==
+          evaluate(site_density(bump(), plane.domain), points));
+    const Mesh mesh = plane.mesh();
+    CHECK(bisect(mesh).topRows<2>() == bisect(plane.old, plane.domain));
+    CHECK(insert_and_contract(mesh, bump(), 9, 5).topRows<2>() ==
+          insert_and_contract(plane.old, plane.domain, bump(), 9, 5));
+    const PlanarCellWidth widths{Eigen::Vector2d(0, 2), Eigen::Vector2d(0, 1),
+                                 Eigen::MatrixXd::Constant(2, 2, 0.1)};
+    CHECK(implied_cells(widths, surface) == implied_cells(widths, plane.domain));
+    CHECK_NOTHROW(require_covering(widths, surface));
+  }
+  const CellWidth widths{Eigen::Vector3d(-120, 0, 120), Eigen::Vector2d(-80, 80),
+                         Eigen::MatrixXd::Constant(3, 2, 300)};
+  CHECK(implied_cells(widths, Surface(cap())) == implied_cells(widths, cap()));
+  CHECK(with_rings(Surface(cap()), widths) == Surface(with_rings(cap(), widths)));
+  CHECK_NOTHROW(require_covering(widths));
+}
+
+TEST_CASE("midpoints stay on the surface") {
+  const Mesh part = delaunay(random_points(100, cap(), {}, 4), cap());
+  const Points3 finer = bisect(part), exchanged = insert_and_contract(part, {}, 20, 0);
+  CHECK(finer.cols() > 300);
+  for (const Points3& points : {finer, exchanged})
+    for (Eigen::Index i = 0; i < points.cols(); ++i)
+      CHECK(part.surface.contains(points.col(i)));
+  const Mesh walls = channel();
+  const Points3 fine = bisect(walls);
+  CHECK(fine.cols() == walls.points.cols() + count_edges(walls).edges);
+  CHECK((fine.row(0).array() >= 0 && fine.row(0).array() < 8).all());
+  CHECK(fine.row(1).maxCoeff() == walls.points.row(1).maxCoeff());
+}
+
+TEST_CASE("values at the sites of a mesh are a density of its surface") {
+  for (const Mesh& mesh : all_planes()) {
+    const Eigen::VectorXd rho = (mesh.points.row(1).array() + 1).pow(2).transpose();
+    const Density density = interpolated_density(mesh, rho);
+    CHECK((evaluate(density, mesh.points, mesh.surface) - rho).cwiseAbs().maxCoeff() < 1e-12);
+    const Points3 at = random_points(200, rectangle_of);
+    const Eigen::VectorXd widths = rho.array().pow(-0.25),
+                          found = evaluate(density, at, mesh.surface).array().pow(-0.25),
+                          known = interpolate(interpolation_weights(mesh, at), widths);
+    for (Eigen::Index i = 0; i < at.cols(); ++i)
+      if (known[i] == known[i]) // inside
+        CHECK(found[i] == doctest::Approx(known[i]).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("errors name the point and the remedy") {
+  const Surface box = box_of, plane = Surface::plane(), walls = Surface::periodic({1, 0});
+  Points3 points = random_points(20, box);
+  points(2, 4) = 0.5;
+  const auto names = [](const std::function<void()>& work, const std::string& part) {
+    const std::string text = error_of(work).what();
+    CAPTURE(text);
+    CHECK(text.find(part) != std::string::npos);
+  };
+  for (const Surface& surface : {box, plane})
+    CHECK(error_of([&] { delaunay(points, surface); }).index() == 4);
+  CHECK(error_of([&] { evaluate({}, points, plane); }).index() == 4);
+  CHECK(error_of([&] { locate(hexagonal_box(4, 4, 1), points); }).index() == 4);
+  points.row(2).setZero();
+  names([&] { delaunay(points, walls); }, "make_grid()");
+  names([&] { delaunay(points.topRows<2>()); }, "a surface of the plane");
+  names([&] { delaunay(Eigen::MatrixXd(4, 9), plane); }, "or 3 x n with z = 0");
+  names([&] { voronoi(delaunay(points, plane)); }, "give two positive periods");
+  names([&] { quality(delaunay(points, plane)); }, "give rings");
+  names([&] { random_points(9, plane); }, "give rings");
+  names([&] { random_points(9, walls); }, "give rings");
+  CHECK(error_of([&] { voronoi(delaunay(points, rectangle({0, 0}, {2, 0.5}))); }).index() >= 0);
+  names([&] { hexagonal_lattice(9, Surface()); }, "give one of the plane");
+  names([&] { boundary_points(plane, 99); }, "give one of the sphere");
+  names([&] { clipped_cells(delaunay(random_sphere(9), cap())); }, "region of the sphere");
+}

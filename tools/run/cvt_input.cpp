@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "run/cvt_input.h"
+
+#include "options/format_options.h"
+#include "options/numbers.h"
+#include "options/point_file.h"
+#include "options/region_option.h"
+
+#include <calotte/io.h>
+
+#include <boost/crc.hpp>
+
+#include <algorithm>
+#include <utility>
+
+namespace calotte::tools {
+namespace {
+
+[[noreturn]] void refuse(const std::string& problem) {
+  throw Error(ErrorCode::bad_option, problem);
+}
+
+// ---- Points
+
+/// "NAME n with checksum c", a line of the configuration.
+template <class Points> std::string fingerprint(const std::string& name, const Points& points) {
+  boost::crc_32_type checksum;
+  checksum.process_bytes(points.data(), sizeof(double) * static_cast<std::size_t>(points.size()));
+  return name + " " + std::to_string(points.cols()) + " with checksum " +
+         std::to_string(checksum.checksum()) + "\n";
+}
+
+/// The points of a file of either kind, in the plane with z = 0.
+/// \param name of them in the configuration, whose line is added.
+Points3 read(const CvtRequest& request, const std::string& path, const std::string& name,
+             CvtInput::File& origin, std::string& configuration) {
+  if (!planar(request)) {
+    PointFile file = read_point_file(path, request.lonlat);
+    origin = {std::move(file.name), std::move(file.lines)};
+    configuration = fingerprint(name, file.points);
+    return std::move(file.points);
+  }
+  PointFile file = read_planar_point_file(path);
+  origin = {std::move(file.name), std::move(file.lines)};
+  configuration = fingerprint(name, Points2(file.points.topRows<2>()));
+  return std::move(file.points);
+}
+
+// ---- The recipe
+
+Start::Kind start_named(const std::string& word) {
+  return std::ranges::find(start_words(), word, &Word<Start::Kind>::word)->value;
+}
+
+Start start_of(const CvtRequest& request) {
+  Start start;
+  if (request.start)
+    start.kind = start_named(*request.start);
+  start.bisections = request.bisections;
+  start.insertion_rounds = request.insertion_rounds;
+  return start;
+}
+
+Stop stop_of(const CvtRequest& request) {
+  Stop stop;
+  stop.norm = std::ranges::find(norm_words(), request.norm, &Word<Norm>::word)->value;
+  stop.tolerance = request.given_tolerance;
+  stop.max_iterations = request.max_iterations;
+  stop.iterations = request.iterations;
+  if (request.stop)
+    stop.well_centred = *request.stop == "well-centred";
+  stop.least_spacing = request.least_spacing.value_or(stop.least_spacing);
+  return stop;
+}
+
+/// The part of the sphere that a request asks for; the whole sphere if it asks for none.
+Surface part_of(const CvtRequest& request) {
+  return request.part.region.empty()
+             ? Surface()
+             : region_of(request.part.region, request.part.inside, request.density->widths.radius);
+}
+
+/// "once", "3 times".
+std::string times(std::size_t count) {
+  return count == 1 ? "once" : std::to_string(count) + " times";
+}
+
+} // namespace
+
+void require_start(const CvtRequest& request) {
+  require_region_words(request.part);
+  if (planar(request) && request.lonlat)
+    refuse("--lonlat applies to the sphere only; leave it out");
+  const bool file = !request.points.empty();
+  if (ends_at_boundary(request.part) && file)
+    refuse("--boundary generators does not apply to a file of points; give --cells, or fixed "
+           "points on the boundary (--fixed)");
+  if (request.fixed == "-" && request.points == "-")
+    refuse("START and --fixed are both standard input; give a file for one of them");
+  const auto exclude = [&](bool given, const std::string& option) {
+    if (file && given)
+      refuse("the start is the file " + request.points + "; leave " + option + " out");
+  };
+  exclude(request.cells.has_value() || request.cells_of_widths, "--cells");
+  exclude(request.start.has_value(), "--start");
+  exclude(request.seed.has_value(), "--seed");
+  exclude(request.insertion_rounds.has_value(), "--insertion-rounds");
+  const bool widths = request.density->widths.in_km();
+  if (request.cells_of_widths && !widths)
+    refuse("--cells auto requires cell widths; give --cell-width, or a number of cells");
+  if (!file && !request.cells && !widths)
+    refuse("no start: give a file of points, or the number of cells (--cells N), or cell widths "
+           "(--cell-width 60km)");
+  if (request.lonlat && !file && request.fixed.empty())
+    refuse("--lonlat applies to a file of points only; leave it out");
+}
+
+CvtInput read_input(const CvtRequest& request) {
+  CvtInput input;
+  Recipe& recipe = input.recipe;
+  recipe.cells = request.cells.value_or(0);
+  recipe.surface = planar(request) ? *surface_of(*request.domain) : part_of(request);
+  Resolution resolution = resolution_of(*request.density, planar(request),
+                                        planar(request) ? Surface() : recipe.surface);
+  recipe.widths = std::move(resolution.widths);
+  recipe.planar_widths = std::move(resolution.planar_widths);
+  if (!recipe.widths && !recipe.planar_widths)
+    recipe.density = std::move(resolution.density);
+  recipe.radius_km = request.density->widths.radius;
+  recipe.limited_area = request.part.limited_area;
+  recipe.walls = walls_of(*request.domain);
+  recipe.boundary = ends_at_boundary(request.part) ? Boundary::generators : Boundary::clip;
+  recipe.start = start_of(request);
+  recipe.stop = stop_of(request);
+  recipe.seed = request.seed.value_or(recipe.seed);
+  recipe.method = std::ranges::find(method_words(), request.method, &Word<Method>::word)->value;
+  recipe.relaxation = request.relaxation;
+  recipe.rule = request.rule;
+  recipe.final_rule = request.final_rule;
+  recipe.triangle_divisions = request.triangle_divisions;
+  const DelaunayOptions merging = options_of(*request.partition, planar(request));
+  recipe.duplicates = merging.duplicates;
+  recipe.merge_within = merging.merge_within;
+  if (!request.points.empty())
+    recipe.start.points = read(request, request.points, "points", input.file, input.points);
+  if (!request.fixed.empty())
+    recipe.fixed = read(request, request.fixed, "fixed", input.fixed_file, input.fixed);
+  return input;
+}
+
+Schedule plan_of(const CvtInput& input) {
+  try {
+    return plan(input.recipe);
+  } catch (const Error& error) {
+    rethrow_with_line(error, input);
+  }
+}
+
+void require_used(const CvtRequest& request, const Schedule& schedule) {
+  if (request.seed && !is_drawn(schedule.recipe.start.kind))
+    refuse("--seed applies to the starts multilevel, continuation, random and density only; leave "
+           "it out");
+  if (request.least_spacing && !*schedule.recipe.stop.well_centred)
+    refuse("--least-spacing applies to --stop well-centred only; leave it out");
+}
+
+std::vector<std::string> notes_on(const CvtRequest& request, const CvtInput& input,
+                                  const Schedule& schedule) {
+  const WidthWords& words = request.density->widths;
+  const std::int64_t cells = schedule.recipe.cells, fixed = input.recipe.fixed.cols();
+  const bool follows = input.recipe.cells == 0 && input.file.name.empty();
+  std::vector<std::string> notes;
+  if (input.recipe.planar_widths)
+    notes = notes_on(*input.recipe.planar_widths, words, schedule.implied_cells,
+                     input.recipe.cells == 0 ? std::nullopt : std::optional(input.recipe.cells));
+  else if (input.recipe.widths && input.recipe.surface.is_bounded() && follows)
+    notes.push_back(request.part.region + " requires " + std::to_string(cells) + " cells" +
+                    (request.part.limited_area ? ", with those of the rings and some beyond" : ""));
+  else if (input.recipe.widths && !input.recipe.surface.is_bounded())
+    notes = notes_on(*input.recipe.widths, words,
+                     input.file.name.empty() && !(follows && fixed > 0) ? std::optional(cells)
+                                                                        : std::nullopt);
+  if (follows && fixed > 0)
+    notes.push_back(std::to_string(fixed) + " fixed points leave room for " +
+                    std::to_string(cells - fixed) + " free ones: " + std::to_string(cells) +
+                    " cells");
+  if (schedule.recipe.start.kind == Start::Kind::continuation &&
+      schedule.first == Start::Kind::density)
+    notes.push_back(
+        std::to_string(cells) + " cells is not 10 x 4^k + 2: the start is " +
+        std::to_string(schedule.levels.front().cells) + " points drawn from the density" +
+        (schedule.levels.size() > 1 ? ", bisected " + times(schedule.levels.size() - 1) : ""));
+  return notes;
+}
+
+void rethrow_with_line(const Error& error, const CvtInput& input) {
+  const std::int64_t fixed = input.recipe.fixed.cols();
+  if (error.index() < fixed)
+    rethrow_with_line(error, input.fixed_file.name, input.fixed_file.lines);
+  std::vector<std::int64_t> lines(static_cast<std::size_t>(fixed), 0);
+  lines.insert(lines.end(), input.file.lines.begin(), input.file.lines.end());
+  rethrow_with_line(error, input.file.name, lines);
+}
+
+std::string doubt_of_boundary(const Mesh& mesh, std::int64_t first, std::int64_t count) {
+  std::int64_t outer = 0, away = 0;
+  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
+    for (int v = 0; v < 3; ++v) {
+      if (mesh.neighbours(v, t) >= 0)
+        continue;
+      const std::int32_t a = mesh.triangles((v + 1) % 3, t), b = mesh.triangles((v + 2) % 3, t);
+      ++outer;
+      away += std::min(a, b) < first || std::max(a, b) >= first + count;
+    }
+  if (away == 0 && outer == count)
+    return "";
+  return "the mesh leaves the boundary of the region in places: its " + std::to_string(outer) +
+         " outer edges do not join the " + std::to_string(count) +
+         " generators on the boundary; where the region or what it leaves out is narrower than "
+         "its cells, give more cells";
+}
+
+} // namespace calotte::tools

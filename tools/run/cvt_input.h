@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "options/cvt_request.h"
+
+#include <calotte/error.h>
+#include <calotte/grid.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace calotte::tools {
+
+/// What a request asks for, with its files read.
+struct CvtInput {
+  /// A file of points, and the lines of it where they stand.
+  struct File {
+    std::string name; ///< or ""
+    std::vector<std::int64_t> lines;
+  };
+  Recipe recipe;
+  File fixed_file, file; ///< of the fixed points, which come first in a run, and of the start's
+  /// Checksums of these points, lines "name value" of a run's configuration.
+  std::string points, fixed;
+};
+
+/// Whether points of a start depend on the seed.
+inline bool is_drawn(Start::Kind kind) {
+  return kind == Start::Kind::multilevel || kind == Start::Kind::continuation ||
+         kind == Start::Kind::random || kind == Start::Kind::density;
+}
+
+/// Validates the options of the start before any work. \throws Error bad_option.
+void require_start(const CvtRequest& request);
+
+/// Reads all files that a recipe takes.
+/// \throws Error bad_option, parse, file.
+CvtInput read_input(const CvtRequest& request);
+
+/// The schedule of its recipe. An error that names a point names its line, too.
+/// \throws Error as plan().
+Schedule plan_of(const CvtInput& input);
+
+/// Rejects options that the start chosen for the request does not have. \throws Error bad_option.
+void require_used(const CvtRequest& request, const Schedule& schedule);
+
+/// Remarks on the widths and on the number of cells, a line each, without an end.
+std::vector<std::string> notes_on(const CvtRequest& request, const CvtInput& input,
+                                  const Schedule& schedule);
+
+/// Replaces the column of a bad point of the start in an error by the line in its file.
+[[noreturn]] void rethrow_with_line(const Error& error, const CvtInput& input);
+
+/// A remark on a mesh that should end at generators on the boundary, where it does not; "" for
+/// others. \param first the first generator on the boundary. \param count their number.
+std::string doubt_of_boundary(const Mesh& mesh, std::int64_t first, std::int64_t count);
+
+} // namespace calotte::tools
