@@ -57,8 +57,7 @@ void require_density(const DrawArguments& arguments) {
 }
 
 /// The values of the mesh's sites; a cell whose site has duplicates has the value of the first.
-template <class AnyMesh>
-CellField read_field(const std::string& path, const std::string& name, const AnyMesh& mesh) {
+CellField read_field(const std::string& path, const std::string& name, const Mesh& mesh) {
   const auto cells = mesh.site_of_input.empty()
                          ? static_cast<std::int64_t>(mesh.points.cols())
                          : static_cast<std::int64_t>(mesh.site_of_input.size());
@@ -82,34 +81,16 @@ void set_errors(const std::string& word, const OperatorErrors& errors, DrawOptio
   options.field_name = std::string("error of the ") + name->label;
 }
 
-/// The domain that clips the cells, or the box of the mesh.
-PlanarDomain domain_of_errors(const std::optional<PlanarDomain>& given, const PlanarMesh& mesh) {
-  if (given)
-    return *given;
-  if (mesh.closed())
-    return periodic_box(mesh.period);
-  throw Error(ErrorCode::bad_option, "the errors of operators depend on the domain, which clips "
-                                     "the cells; give --domain, --rectangle or --periodic");
-}
-
-void draw_planar_mesh(const DrawArguments& arguments) {
-  std::optional<PlanarDomain> domain = domain_of(*arguments.domain);
-  DrawOptions options = arguments.options;
-  options.density = density_of(*arguments.density, true);
-  options.name = file_name(*arguments.source);
-  const MeshFile file = read_mesh_file(*arguments.source, FieldChoice::none);
-  const PlanarMesh& mesh = *file.plane;
-  if (!domain && file.polygons && has_walls(mesh)) {
-    domain = walls_of(*file.polygons);
-  }
-  if (!arguments.error_of.empty()) {
-    set_errors(arguments.error_of, operator_errors(mesh, domain_of_errors(domain, mesh)), options);
-  } else if (options.colouring == Colouring::field) {
-    options.field = read_field(arguments.source->path, options.field_name, mesh);
-  }
-  draw(arguments.output, mesh, domain, options);
-  std::cout << arguments.output << ": picture of " << mesh.points.cols() << " sites, "
-            << mesh.triangles.cols() << " triangles\n";
+/// \throws Error bad_option in a plane without an end, whose cells nothing clips, and for a mesh
+///         that ends at walls; as operator_errors().
+OperatorErrors errors_of(const Mesh& mesh) {
+  if (mesh.surface == Surface::plane())
+    throw Error(ErrorCode::bad_option, "the errors of operators depend on the domain, which clips "
+                                       "the cells; give --domain, --rectangle or --periodic");
+  if (has_walls(mesh))
+    throw Error(ErrorCode::bad_option, "the mesh ends at walls, where its cells have no errors of "
+                                       "operators; choose another --colour");
+  return operator_errors(mesh);
 }
 
 /// A field of the file, read with the cells.
@@ -191,29 +172,31 @@ void draw_mesh(const DrawArguments& arguments) {
   require_distinct(arguments.output, arguments.source->path);
   require_distinct(arguments.output, arguments.source->points);
   require_density(arguments);
-  if (arguments.source->plane) {
-    draw_planar_mesh(arguments);
-    return;
-  }
-  const Density density = density_of(*arguments.density);
-  const MeshFile file = read_mesh_file(*arguments.source, FieldChoice::scalars);
+  const bool plane = arguments.source->plane;
+  const std::optional<Surface> domain = surface_of(*arguments.domain);
+  const Density density = density_of(*arguments.density, plane);
+  MeshFile file =
+      read_mesh_file(*arguments.source, plane ? FieldChoice::none : FieldChoice::scalars);
   DrawOptions options = options_for(arguments, file);
   options.density = density;
-  if (file.plane) {
+  if (!plane && file.plane()) {
     throw Error(ErrorCode::bad_option,
                 arguments.source->path +
                     ": it holds a mesh of the plane; read it as one of the plane");
   }
-  if (file.polygons && !(file.mesh && !file.mesh->closed())) {
+  if (!plane && file.polygons && !(file.mesh && !file.mesh->closed())) {
     draw_cells(arguments, file);
     return;
+  }
+  if (domain) {
+    set_domain(*file.mesh, *domain);
   }
   const Mesh& mesh = *file.mesh;
   if (file.polygons && file.polygons->size() == mesh.points.cols()) {
     options.cells = &*file.polygons;
   }
   if (!arguments.error_of.empty()) {
-    set_errors(arguments.error_of, operator_errors(mesh), options);
+    set_errors(arguments.error_of, errors_of(mesh), options);
   } else if (shows_field(options)) {
     options.field = read_field(arguments.source->path, options.field_name, mesh);
   }
@@ -222,7 +205,7 @@ void draw_mesh(const DrawArguments& arguments) {
   } else {
     draw(arguments.output, mesh, options);
   }
-  std::cout << changes_of(*arguments.source, file) << arguments.output << ": "
+  std::cout << (plane ? "" : changes_of(*arguments.source, file)) << arguments.output << ": "
             << (arguments.spacing_law ? "spacing law of " : "picture of ") << mesh.points.cols()
             << " sites, " << mesh.triangles.cols() << " triangles\n";
 }

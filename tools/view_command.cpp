@@ -110,7 +110,7 @@ struct Input {
 Input read_input(const Request& request, const MeshSource& source, Progress& progress) {
   progress.stage("reading " + source.path);
   Input input{source, read_mesh_file(source, FieldChoice::scalars), std::nullopt};
-  if (!input.file.plane)
+  if (!input.file.plane())
     input.radius_km = radius_of(request, source, input.file);
   return input;
 }
@@ -123,7 +123,7 @@ std::vector<Input> read_inputs(const Request& request, Progress& progress) {
     return inputs;
   inputs.push_back(
       read_input(request, {.path = request.other, .plane = request.source->plane}, progress));
-  if (inputs[0].file.plane.has_value() != inputs[1].file.plane.has_value())
+  if (!inputs[0].file.plane() != !inputs[1].file.plane())
     refuse(request.other + ": one mesh is of the sphere and one of the plane; view them apart");
   for (std::size_t k = 0; k < 2; ++k)
     if (!inputs[k].radius_km)
@@ -132,7 +132,7 @@ std::vector<Input> read_inputs(const Request& request, Progress& progress) {
 }
 
 ViewChoice choice_of(const Request& request) {
-  return {.domain = domain_of(*request.domain),
+  return {.surface = surface_of(*request.domain),
           .density = density_of(*request.density, request.source->plane),
           .fields = request.fields,
           .units = request.units,
@@ -143,12 +143,13 @@ ViewChoice choice_of(const Request& request) {
 View view_of_meshes(const Request& request, Progress& progress) {
   ViewChoice choice = choice_of(request);
   View view;
-  for (const Input& input : read_inputs(request, progress)) {
+  for (Input& input : read_inputs(request, progress)) {
     progress.stage("measuring " + input.source.path);
     choice.radius_km = input.radius_km;
     view.title += (view.title.empty() ? "" : " and ") + file_name(input.source.path);
-    view.meshes.push_back(view_mesh(file_name(input.source.path), input.file, choice));
-    std::cerr << changes_of(input.source, input.file);
+    const std::string changes = changes_of(input.source, input.file);
+    view.meshes.push_back(view_mesh(file_name(input.source.path), std::move(input.file), choice));
+    std::cerr << changes;
   }
   view.side_by_side = view.meshes.size();
   choice.radius_km = view.meshes.front().radius_km;

@@ -302,6 +302,7 @@ TEST_CASE("a mesh of the plane becomes a picture, with its domain") {
                        "the domain is not the one");
   check_refusal_naming(bench, "draw --plane box.nc --rectangle 0,0,1,1 -o a.png", 2,
                        "the domain is not the one");
+  check_refusal_naming(bench, "draw --plane mesh.vtp --colour region -o a.png", 2, "mesh.vtp");
   check_refusal_naming(bench, "draw mesh.vtp -o a.png", 2, "(--plane)");
   check_refusal_naming(bench, "draw mesh.vtp --domain lake.txt -o a.png", 2, "--plane");
   check_refusal_naming(bench, "draw --plane mesh.vtp --view 1,2 -o a.png", 2, "excludes");

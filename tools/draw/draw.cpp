@@ -6,6 +6,7 @@
 #include "draw/page.h"
 #include "draw/painting.h"
 #include "draw/picture.h"
+#include "draw/plane.h"
 #include "draw/raster.h"
 #include "draw/text.h"
 #include "draw/title.h"
@@ -134,6 +135,9 @@ Legend make_legend(Painting& painting, const DrawOptions& options) {
   return {painting.scale, classes_of(painting), caption_of(options, mean, painting.scene.flat)};
 }
 
+namespace {
+
+/// \throws Error bad_option unless the field has one value for each site.
 void require_field(const DrawOptions& options, std::int64_t sites) {
   if (options.field.values.size() != sites) {
     throw Error(ErrorCode::bad_option, options.field_name + " has " +
@@ -143,9 +147,20 @@ void require_field(const DrawOptions& options, std::int64_t sites) {
   }
 }
 
-namespace {
+/// A density is periodic in a box only.
+DoubleVector density_at_sites(const Mesh& mesh, const Density& density) {
+  if (!mesh.surface.is_sphere()) {
+    return evaluate(density, mesh.points, mesh.closed() ? mesh.surface : Surface::plane());
+  }
+  Points3 sites(3, mesh.points.cols());
+  for (Eigen::Index i = 0; i < sites.cols(); ++i) {
+    sites.col(i) = direction_of(Eigen::Vector3d(mesh.points.col(i)));
+  }
+  return evaluate(density, sites);
+}
 
-/// The values per site of the colourings that have such values.
+} // namespace
+
 DoubleVector by_site(const Mesh& mesh, const DrawOptions& options) {
   if (options.colouring == Colouring::field || options.colouring == Colouring::region) {
     require_field(options, mesh.points.cols());
@@ -154,11 +169,7 @@ DoubleVector by_site(const Mesh& mesh, const DrawOptions& options) {
   if (options.colouring != Colouring::density) {
     return {};
   }
-  Points3 sites(3, mesh.points.cols());
-  for (Eigen::Index i = 0; i < sites.cols(); ++i) {
-    sites.col(i) = direction_of(Eigen::Vector3d(mesh.points.col(i)));
-  }
-  const DoubleVector rho = evaluate(options.density, sites);
+  const DoubleVector rho = density_at_sites(mesh, options.density);
   const double greatest = rho.maxCoeff();
   if (!(greatest > 0)) {
     throw Error(ErrorCode::bad_option,
@@ -166,6 +177,8 @@ DoubleVector by_site(const Mesh& mesh, const DrawOptions& options) {
   }
   return rho / greatest;
 }
+
+namespace {
 
 constexpr LonLat usual_middle = {15, 25};
 
@@ -265,14 +278,22 @@ void draw_painting(const std::string& path, Painting& painting, const DrawOption
   });
 }
 
+void draw_sphere(const std::string& path, const Mesh& mesh, const DrawOptions& options) {
+  const View view = view_of(options, mesh);
+  Painting painting = make_painting(mesh, options, view.middle);
+  draw_painting(path, painting, options, view, title_of(painting.scene, options));
+}
+
 } // namespace
 
 void draw(const std::string& path, const Mesh& mesh, const DrawOptions& options) {
   require_picture(path, options.look.size);
   require_cells(options, mesh);
-  const View view = view_of(options, mesh);
-  Painting painting = make_painting(mesh, options, view.middle);
-  draw_painting(path, painting, options, view, title_of(painting.scene, options));
+  if (mesh.surface.is_sphere()) {
+    draw_sphere(path, mesh, options);
+  } else {
+    draw_plane(path, mesh, options);
+  }
 }
 
 void draw(const std::string& path, const Polygons& polygons, const DrawOptions& asked) {

@@ -2,9 +2,8 @@
 #pragma once
 
 #include <calotte/density.h>
-#include <calotte/domain.h>
 #include <calotte/mesh_file.h>
-#include <calotte/region.h>
+#include <calotte/surface.h>
 #include <calotte/types.h>
 
 #include <functional>
@@ -65,7 +64,7 @@ struct Look {
   /// Enlargement of the map, 1 (all of it) to most_zoom. Default: 1, or for an open mesh that
   /// covers a small part of the map as much as lets it fill the picture.
   std::optional<double> zoom = {};
-  Region region = {}; ///< whose boundary is drawn; the whole sphere for none
+  Surface region = {}; ///< whose boundary is drawn; the whole sphere for none
   /// Faint meridians and parallels, labelled. An enlarged globe has them wherever they are bent.
   bool graticule = false;
   bool coastlines = true; ///< of the earth
@@ -85,11 +84,17 @@ struct DrawOptions {
   std::string name = {};                ///< of the mesh, such as its file's, for the title
   std::optional<double> radius_km = {}; ///< of the sphere; without it lengths are in degrees
   /// The cells of an open mesh, one for each site, if known: also those at the boundary are drawn.
+  /// Of those of a plane only the boundary counts, where it is periodic: the walls.
   const Polygons* cells = nullptr;
 };
 
-/// Draws a mesh of the sphere with a legend and a title: name, number of cells, range of spacing.
-/// The points may have any norm. The file is written beside its place and renamed when whole.
+/// Draws a mesh with a legend and a title: name, number of cells, range of spacing. The file is
+/// written beside its place and renamed when whole.
+///
+/// On the sphere the points may have any norm. In the plane, of the look, only size, palette, range
+/// and title have an effect. The rings of the mesh's surface clip the cells, or otherwise a box
+/// slightly larger than the sites does; triangles are not clipped. Of a periodic plane the box is
+/// drawn, with the Delaunay triangles of its own sites.
 /// \throws Error bad_option, also for cells' area or quality of an open mesh, and for a density or
 ///         field that does not fit; file.
 void draw(const std::string& path, const Mesh& mesh, const DrawOptions& options = {});
@@ -98,14 +103,6 @@ void draw(const std::string& path, const Mesh& mesh, const DrawOptions& options 
 /// valence (the number of their sides), a field, or not at all.
 /// \throws Error bad_option, also for triangles and for other colourings; file.
 void draw(const std::string& path, const Polygons& polygons, const DrawOptions& options = {});
-
-/// Draws a mesh of the plane; of the look, only size, palette, range and title have an effect.
-/// Cells are clipped by the domain, or otherwise by a box slightly larger than the sites; triangles
-/// are not. For a periodic mesh the box is drawn, with the Delaunay triangles of its own sites.
-/// \throws Error bad_option, also for cells' area or quality of a mesh that is not periodic, for a
-///         density that is ill-formed, and for a periodic domain that is not the mesh's; file.
-void draw(const std::string& path, const PlanarMesh& mesh,
-          const std::optional<PlanarDomain>& domain, const DrawOptions& options = {});
 
 /// A scalar field on the whole sphere.
 struct SphereField {

@@ -4,7 +4,7 @@
 #include "draw/legend.h"
 #include "draw/painting.h"
 
-#include <cstdint>
+#include <Eigen/Core>
 
 /// Common code of the pictures of meshes of the sphere and of the plane.
 namespace calotte::tools {
@@ -13,7 +13,8 @@ namespace calotte::tools {
 /// multiplies spacings by a radius in km.
 Legend make_legend(Painting& painting, const DrawOptions& options);
 
-/// \throws Error bad_option unless the field has one value for each site.
-void require_field(const DrawOptions& options, std::int64_t sites);
+/// The values of the sites for Colouring::density, over their greatest, field and region; else
+/// none. \throws Error bad_option for a density or field that does not fit.
+DoubleVector by_site(const Mesh& mesh, const DrawOptions& options);
 
 } // namespace calotte::tools

@@ -133,7 +133,7 @@ void draw_border(cairo_t* context, const Page& page, const MapWindow& window) {
 /// The boundary of a region, each ring a closed line.
 void draw_region(cairo_t* context, const Page& page, const Surroundings& around) {
   EarthLines lines;
-  for (const Points3& ring : around.look.region.rings) {
+  for (const DoubleMatrix& ring : around.look.region.rings()) {
     std::vector<Eigen::Vector3d> line;
     for (Eigen::Index i = 0; i <= ring.cols(); ++i) {
       line.push_back(direction_of(Eigen::Vector3d(ring.col(i % ring.cols()))));
@@ -151,7 +151,7 @@ void draw_enlarged(cairo_t* context, const Page& page, const Surroundings& aroun
     draw_lines(context, degrees.lines, around.frame, around.window, page.map.width,
                {std::max(0.6, 0.04 * page.text), 0.35, 0.2});
   }
-  if (!around.look.region.whole()) {
+  if (around.look.region.is_bounded()) {
     draw_region(context, page, around);
   }
   draw_border(context, page, around.window);
@@ -174,7 +174,7 @@ void draw_surroundings_of_map(cairo_t* context, const Page& page, const Surround
     draw_graticule(context, around.frame, around.window, page.map.width,
                    std::max(0.6, 0.04 * page.text));
   }
-  if (!around.look.region.whole()) {
+  if (around.look.region.is_bounded()) {
     draw_region(context, page, around);
   }
   draw_border(context, page, around.window);

@@ -4,20 +4,27 @@
 #include "draw/draw.h"
 #include "draw/shapes.h"
 
-#include <optional>
+#include <numeric>
+#include <string>
+#include <utility>
 #include <vector>
 
 /// Parts of the pictures of meshes of the plane.
 namespace calotte::tools {
 
 /// Whether the plane is periodic in a direction, and the mesh has a boundary.
-inline bool has_walls(const PlanarMesh& mesh) {
-  return mesh.period.maxCoeff() > 0 && !mesh.closed();
+inline bool has_walls(const Mesh& mesh) {
+  return mesh.surface.period().maxCoeff() > 0 && !mesh.closed();
 }
 
-/// The domain that the cells of such a mesh fill, as far as the window and two periods beyond it:
-/// its rings are the sides that belong to one cell. None for a box with walls along a period.
-std::optional<PlanarDomain> walls_of(const Polygons& cells);
+/// The part of the plane that the cells of such a mesh fill, as far as the window and two periods
+/// beyond it: its rings are the sides that belong to one cell. All of the plane for a box with
+/// walls along a period.
+Surface walls_of(const Polygons& cells);
+
+/// Sets the part of the plane that clips the cells of a mesh.
+/// \throws Error bad_option for a domain with another period.
+void set_domain(Mesh& mesh, const Surface& domain);
 
 /// The visible part of the plane.
 struct Window {
@@ -27,27 +34,24 @@ struct Window {
   Eigen::Vector2d extent() const { return high - low; }
 };
 
-/// The box of a periodic mesh, otherwise the domain or the sites with a margin.
-Window window_of(const PlanarMesh& mesh, const std::optional<PlanarDomain>& domain);
+/// The box of a periodic mesh, otherwise its part of the plane or its sites with a margin.
+/// \param part the mesh's surface, or its walls.
+Window window_of(const Mesh& mesh, const Surface& part);
 
 /// The mesh to draw, or a larger one that contains it.
 struct Drawn {
-  Mesh mesh; ///< triangles and neighbours
-  Points2 places;
-  std::vector<std::int32_t> site; ///< of each place, or -1
+  Mesh mesh;
+  std::vector<std::int32_t> site; ///< of each of its points, or -1
 
-  explicit Drawn(const PlanarMesh& from)
-      : mesh{{}, from.triangles, from.neighbours, {}}, places(from.points),
-        site(static_cast<std::size_t>(from.points.cols())) {
-    for (std::size_t i = 0; i < site.size(); ++i) {
-      site[i] = static_cast<std::int32_t>(i);
-    }
+  explicit Drawn(Mesh from)
+      : mesh(std::move(from)), site(static_cast<std::size_t>(mesh.points.cols())) {
+    std::iota(site.begin(), site.end(), 0);
   }
 };
 
 /// The mesh, with the sites beyond it that close the cells in the window. Triangles without a
 /// period need no further sites.
-Drawn drawn_of(const PlanarMesh& mesh, Shapes shapes, const Window& window);
+Drawn drawn_of(const Mesh& mesh, Shapes shapes, const Window& window);
 
 Scene scene_of(const Drawn& drawn, Shapes shapes, const Window& window);
 
@@ -56,15 +60,17 @@ std::vector<bool> by_place(const Drawn& drawn, const std::vector<bool>& by_site)
 
 /// The values of the mesh's own cells, in the unit of the mesh.
 /// \param clipped by site, the cells at the boundary for Colouring::valence; otherwise empty.
-/// \param scene of cells.
-std::vector<double> values_of_cells(const PlanarMesh& mesh, const DrawOptions& options,
-                                    const std::optional<PlanarDomain>& domain,
-                                    const std::vector<bool>& clipped, const Scene& scene,
-                                    const Window& window);
+/// \param part whose rings clip the cells; \param scene of cells.
+std::vector<double> values_of_cells(const Mesh& mesh, const DrawOptions& options,
+                                    const Surface& part, const std::vector<bool>& clipped,
+                                    const Scene& scene, const Window& window);
 
 /// The values of the scene's triangles, in the unit of the mesh.
-std::vector<double> values_of_triangles(const PlanarMesh& mesh, const DrawOptions& options,
+std::vector<double> values_of_triangles(const Mesh& mesh, const DrawOptions& options,
                                         const std::vector<bool>& clipped, const Drawn& drawn,
                                         const Scene& scene, const Window& window);
+
+/// The picture of a mesh of the plane. \pre the path and the options are checked.
+void draw_plane(const std::string& path, const Mesh& mesh, const DrawOptions& options);
 
 } // namespace calotte::tools

@@ -2,6 +2,7 @@
 #include "draw/plane.h"
 
 #include <calotte/delaunay.h>
+#include <calotte/domain.h>
 
 #include <algorithm>
 #include <array>
@@ -17,7 +18,7 @@ using Eigen::Vector2d;
 
 namespace {
 
-Window window_around(const Points2& places, double margin) {
+Window window_around(const Eigen::Ref<const Points2>& places, double margin) {
   const Vector2d low = places.rowwise().minCoeff();
   const Vector2d high = places.rowwise().maxCoeff();
   const Vector2d room = Vector2d::Constant(margin * (high - low).maxCoeff());
@@ -25,60 +26,63 @@ Window window_around(const Points2& places, double margin) {
 }
 
 /// From 0 to the period, and from wall to wall.
-Window window_between(const PlanarMesh& mesh, const std::optional<PlanarDomain>& domain) {
+Window window_between(const Mesh& mesh, const Surface& part) {
   constexpr double room = 0.02; // of the period, for the walls' lines
-  Points2 places = mesh.points;
-  if (domain) {
-    places = domain->rings.back();
+  const Vector2d period = mesh.surface.period();
+  Points2 places = mesh.points.topRows<2>();
+  if (part.is_bounded()) {
+    places = part.rings().back();
   }
-  const Vector2d margin = Vector2d::Constant(room * mesh.period.maxCoeff());
+  const Vector2d margin = Vector2d::Constant(room * period.maxCoeff());
   Window window{places.rowwise().minCoeff() - margin, places.rowwise().maxCoeff() + margin};
   for (int k = 0; k < 2; ++k) {
-    if (mesh.period[k] > 0) {
+    if (period[k] > 0) {
       window.low[k] = 0;
-      window.high[k] = mesh.period[k];
+      window.high[k] = period[k];
     }
   }
   return window;
 }
 
-/// Adds far sites around the mesh, which close the outer cells beyond the window.
-Drawn closed_by_far_sites(const PlanarMesh& mesh, const Window& window) {
+/// Adds far sites around the points of a mesh, which close the outer cells beyond the window.
+Drawn closed_by_far_sites(const Points3& points, const Window& window) {
   constexpr int around = 64;
   constexpr double far = 40; // of the window's extent
-  const Eigen::Index n = mesh.points.cols();
-  Points2 places(2, n + around);
-  places.leftCols(n) = mesh.points;
+  const Eigen::Index n = points.cols();
+  Points3 places = Points3::Zero(3, n + around);
+  places.leftCols(n) = points;
   const double reach = far * window.extent().maxCoeff();
   for (int i = 0; i < around; ++i) {
     const double angle = 2 * std::numbers::pi * i / around;
-    places.col(n + i) = window.middle() + reach * Vector2d(std::cos(angle), std::sin(angle));
+    places.col(n + i).head<2>() =
+        window.middle() + reach * Vector2d(std::cos(angle), std::sin(angle));
   }
-  Drawn drawn(planar_delaunay(places));
+  Drawn drawn(delaunay(std::move(places), Surface::plane()));
   std::fill(drawn.site.begin() + n, drawn.site.end(), -1);
   return drawn;
 }
 
-/// Adds the copies of the sites that are near the window in the directions that have a period.
-PlanarMesh with_copies(const PlanarMesh& mesh, const Window& window,
-                       std::vector<std::int32_t>& site) {
+/// The points of a mesh, and their copies that are near the window in the directions that have a
+/// period. \param site receives the site of each copy.
+Points3 with_copies(const Mesh& mesh, const Window& window, std::vector<std::int32_t>& site) {
   const Eigen::Index n = mesh.points.cols();
+  const Vector2d period = mesh.surface.period();
   const double spacing = std::sqrt(window.extent().prod() / static_cast<double>(n));
   const double margin = std::min(window.extent().maxCoeff() / 2, 8 * spacing);
   std::vector<Vector2d> copies;
   const auto is_near = [&](const Vector2d& place) {
-    return (mesh.period.array() == 0 ||
-            (place.array() > -margin && place.array() < mesh.period.array() + margin))
+    return (period.array() == 0 ||
+            (place.array() > -margin && place.array() < period.array() + margin))
         .all();
   };
   for (const int i : {-1, 0, 1}) {
     for (const int j : {-1, 0, 1}) {
-      if ((i != 0 && mesh.period.x() == 0) || (j != 0 && mesh.period.y() == 0)) {
+      if ((i != 0 && period.x() == 0) || (j != 0 && period.y() == 0)) {
         continue;
       }
       for (Eigen::Index s = 0; s < n; ++s) {
         const Vector2d place =
-            mesh.points.col(s) + Vector2d(i * mesh.period.x(), j * mesh.period.y());
+            mesh.points.col(s).head<2>() + Vector2d(i * period.x(), j * period.y());
         if ((i != 0 || j != 0) && is_near(place)) {
           copies.push_back(place);
           site.push_back(static_cast<std::int32_t>(s));
@@ -86,25 +90,24 @@ PlanarMesh with_copies(const PlanarMesh& mesh, const Window& window,
       }
     }
   }
-  PlanarMesh wider;
-  wider.points.resize(2, n + std::ssize(copies));
-  wider.points.leftCols(n) = mesh.points;
+  Points3 wider = Points3::Zero(3, n + std::ssize(copies));
+  wider.leftCols(n) = mesh.points;
   for (std::size_t k = 0; k < copies.size(); ++k) {
-    wider.points.col(n + static_cast<Eigen::Index>(k)) = copies[k];
+    wider.col(n + static_cast<Eigen::Index>(k)).head<2>() = copies[k];
   }
   return wider;
 }
 
 /// The mesh of a box and its surroundings.
-Drawn with_copies(const PlanarMesh& mesh, const Window& window) {
+Drawn with_copies(const Mesh& mesh, const Window& window) {
   std::vector<std::int32_t> site;
-  Drawn drawn(planar_delaunay(with_copies(mesh, window, site).points));
+  Drawn drawn(delaunay(with_copies(mesh, window, site), Surface::plane()));
   std::copy(site.begin(), site.end(), drawn.site.begin() + mesh.points.cols());
   return drawn;
 }
 
 /// Removes the triangles whose sites are none of the mesh's, such as those over land.
-void keep_triangles_of(const PlanarMesh& mesh, Drawn& drawn) {
+void keep_triangles_of(const Mesh& mesh, Drawn& drawn) {
   std::set<std::array<std::int32_t, 3>> known;
   const auto key = [](std::array<std::int32_t, 3> sites) {
     std::sort(sites.begin(), sites.end());
@@ -136,10 +139,10 @@ void keep_triangles_of(const PlanarMesh& mesh, Drawn& drawn) {
 }
 
 /// Of a mesh with walls, whose cells end at the domain.
-Drawn between_walls(const PlanarMesh& mesh, Shapes shapes, const Window& window) {
+Drawn between_walls(const Mesh& mesh, Shapes shapes, const Window& window) {
   std::vector<std::int32_t> site;
-  const PlanarMesh wider = with_copies(mesh, window, site);
-  Drawn drawn = shapes == Shapes::triangles ? Drawn(planar_delaunay(wider.points))
+  const Points3 wider = with_copies(mesh, window, site);
+  Drawn drawn = shapes == Shapes::triangles ? Drawn(delaunay(wider, Surface::plane()))
                                             : closed_by_far_sites(wider, window);
   std::copy(site.begin(), site.end(), drawn.site.begin() + mesh.points.cols());
   if (shapes == Shapes::triangles) {
@@ -231,8 +234,8 @@ DoubleMatrix ring_between(const Wall& one, const Wall& other) {
   return ring_of(corners, Vector2d::Zero());
 }
 
-/// The copies of an island that meet the window.
-void add_island(const Wall& wall, const Vector2d& period, PlanarDomain& domain) {
+/// Adds the copies of an island that meet the window.
+void add_island(const Wall& wall, const Vector2d& period, Surface::Rings& rings) {
   for (const int i : {-1, 0, 1}) {
     for (const int j : {-1, 0, 1}) {
       if ((i != 0 && period.x() == 0) || (j != 0 && period.y() == 0)) {
@@ -243,7 +246,7 @@ void add_island(const Wall& wall, const Vector2d& period, PlanarDomain& domain) 
         return period[k] == 0 || (ring.row(k).maxCoeff() > 0 && ring.row(k).minCoeff() < period[k]);
       };
       if (meets(0) && meets(1)) {
-        domain.rings.push_back(ring);
+        rings.push_back(ring);
       }
     }
   }
@@ -251,43 +254,44 @@ void add_island(const Wall& wall, const Vector2d& period, PlanarDomain& domain) 
 
 /// A box that the copies of islands at the edge of the window do not reach.
 DoubleMatrix wide_box(const Vector2d& period) {
-  return rectangle(-2 * period, 3 * period).rings.front();
+  const Surface box = rectangle(-2 * period, 3 * period);
+  return box.rings().front();
 }
 
 } // namespace
 
-std::optional<PlanarDomain> walls_of(const Polygons& cells) {
+Surface walls_of(const Polygons& cells) {
   OpenSides sides = open_sides(cells);
-  PlanarDomain domain;
+  Surface::Rings rings;
   std::vector<Wall> walls; // of a channel
   while (!sides.empty()) {
     Wall wall = next_wall(cells, sides);
     if (wall.around.norm() > cells.period.maxCoeff() / 2) {
       walls.push_back(std::move(wall));
     } else {
-      add_island(wall, cells.period, domain);
+      add_island(wall, cells.period, rings);
     }
   }
   const bool is_box = cells.period.minCoeff() > 0;
   if (is_box ? !walls.empty() : walls.size() != 2 || walls[0].around.dot(walls[1].around) > 0) {
-    return std::nullopt;
+    return Surface::periodic(cells.period);
   }
-  domain.rings.push_back(is_box ? wide_box(cells.period) : ring_between(walls[0], walls[1]));
-  return domain;
+  rings.push_back(is_box ? wide_box(cells.period) : ring_between(walls[0], walls[1]));
+  return Surface::plane().within(std::move(rings));
 }
 
-Window window_of(const PlanarMesh& mesh, const std::optional<PlanarDomain>& domain) {
+Window window_of(const Mesh& mesh, const Surface& part) {
   if (mesh.closed()) {
-    return {Vector2d::Zero(), mesh.period};
+    return {Vector2d::Zero(), mesh.surface.period()};
   }
   if (has_walls(mesh)) {
-    return window_between(mesh, domain);
+    return window_between(mesh, part);
   }
-  if (!domain) {
-    return window_around(mesh.points, 0.04);
+  if (!part.is_bounded()) {
+    return window_around(mesh.points.topRows<2>(), 0.04);
   }
   Points2 corners(2, 0);
-  for (const DoubleMatrix& ring : domain->rings) {
+  for (const DoubleMatrix& ring : part.rings()) {
     const Eigen::Index before = corners.cols();
     corners.conservativeResize(Eigen::NoChange, before + ring.cols());
     corners.rightCols(ring.cols()) = ring;
@@ -295,19 +299,20 @@ Window window_of(const PlanarMesh& mesh, const std::optional<PlanarDomain>& doma
   return window_around(corners, 0.01);
 }
 
-Drawn drawn_of(const PlanarMesh& mesh, Shapes shapes, const Window& window) {
+Drawn drawn_of(const Mesh& mesh, Shapes shapes, const Window& window) {
   if (mesh.closed()) {
     return with_copies(mesh, window);
   }
   if (has_walls(mesh)) {
     return between_walls(mesh, shapes, window);
   }
-  return shapes == Shapes::triangles ? Drawn(mesh) : closed_by_far_sites(mesh, window);
+  return shapes == Shapes::triangles ? Drawn(mesh) : closed_by_far_sites(mesh.points, window);
 }
 
 Scene scene_of(const Drawn& drawn, Shapes shapes, const Window& window) {
   const double half = window.extent().maxCoeff() / 2;
-  return make_flat_scene(drawn.mesh, shapes, (drawn.places.colwise() - window.middle()) / half);
+  return make_flat_scene(drawn.mesh, shapes,
+                         (drawn.mesh.points.topRows<2>().colwise() - window.middle()) / half);
 }
 
 } // namespace calotte::tools

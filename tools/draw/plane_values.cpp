@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 
 namespace calotte::tools {
 
@@ -19,22 +18,6 @@ namespace {
 /// The power of the scene's unit in a quantity: 1 for lengths, 2 for areas, otherwise 0.
 double power_of(Colouring colouring) {
   return colouring == Colouring::spacing ? 1 : colouring == Colouring::area ? 2 : 0;
-}
-
-/// Of a domain, a density depends on the period only.
-DoubleVector by_site(const PlanarMesh& mesh, const DrawOptions& options) {
-  if (options.colouring == Colouring::density) {
-    const bool periodic = mesh.closed();
-    const DoubleVector density =
-        evaluate(options.density, periodic ? periodic_box(mesh.period) : rectangle({0, 0}, {1, 1}),
-                 mesh.points);
-    return density / density.maxCoeff();
-  }
-  if (options.colouring != Colouring::field) {
-    return {};
-  }
-  require_field(options, mesh.points.cols());
-  return options.field.values;
 }
 
 /// The part of a segment within the window; none if it misses the window.
@@ -62,21 +45,17 @@ std::optional<std::array<Vector2d, 2>> within(const Window& window, const Vector
 /// True if two cells meet in the visible part: tests some places of their common side.
 class Meeting {
 public:
-  Meeting(const std::optional<PlanarDomain>& domain, const Window& window) : window_(window) {
-    if (domain) {
-      inside_ = containing(*domain);
-    }
-  }
+  Meeting(const Surface& part, const Window& window) : part_(part), window_(window) {}
 
   bool operator()(const Vector2d& from, const Vector2d& to) const {
     constexpr int places = 16;
     const auto side = within(window_, from, to);
-    if (!side || !inside_) {
+    if (!side || !part_.is_bounded()) {
       return side.has_value();
     }
     for (int i = 0; i <= places; ++i) {
       const Vector2d place = (*side)[0] + (i / double(places)) * ((*side)[1] - (*side)[0]);
-      if (inside_(place)) {
+      if (part_.contains({place.x(), place.y(), 0})) {
         return true;
       }
     }
@@ -84,15 +63,15 @@ public:
   }
 
 private:
+  Surface part_;
   Window window_;
-  std::function<bool(const Vector2d&)> inside_;
 };
 
 /// For an open mesh: mean distances to the neighbours. Neighbours are sites whose cells meet the
-/// site's own inside the domain; triangles reach across bays and islands.
-std::vector<double> spacings(const PlanarMesh& mesh, const std::optional<PlanarDomain>& domain,
-                             const Scene& scene, const Window& window) {
-  const Meeting meet(domain, window);
+/// site's own inside the part; triangles reach across bays and islands.
+std::vector<double> spacings(const Mesh& mesh, const Surface& part, const Scene& scene,
+                             const Window& window) {
+  const Meeting meet(part, window);
   const double half = window.extent().maxCoeff() / 2;
   const auto corner = [&](std::int32_t t) -> Vector2d {
     return window.middle() + half * scene.circumcentres.col(t).head<2>();
@@ -129,10 +108,9 @@ std::vector<double> spacings(const PlanarMesh& mesh, const std::optional<PlanarD
 
 } // namespace
 
-std::vector<double> values_of_cells(const PlanarMesh& mesh, const DrawOptions& options,
-                                    const std::optional<PlanarDomain>& domain,
-                                    const std::vector<bool>& clipped, const Scene& scene,
-                                    const Window& window) {
+std::vector<double> values_of_cells(const Mesh& mesh, const DrawOptions& options,
+                                    const Surface& part, const std::vector<bool>& clipped,
+                                    const Scene& scene, const Window& window) {
   const bool tessellated =
       options.colouring == Colouring::area || options.colouring == Colouring::quality;
   const bool periodic = mesh.closed();
@@ -143,7 +121,7 @@ std::vector<double> values_of_cells(const PlanarMesh& mesh, const DrawOptions& o
     return {values.data(), values.data() + values.size()};
   }
   if (!periodic && options.colouring == Colouring::spacing) {
-    return spacings(mesh, domain, scene, window);
+    return spacings(mesh, part, scene, window);
   }
   const Drawn own(mesh);
   const Scene own_scene = scene_of(own, Shapes::cells, window);
@@ -170,7 +148,7 @@ std::vector<bool> by_place(const Drawn& drawn, const std::vector<bool>& by_site)
   return result;
 }
 
-std::vector<double> values_of_triangles(const PlanarMesh& mesh, const DrawOptions& options,
+std::vector<double> values_of_triangles(const Mesh& mesh, const DrawOptions& options,
                                         const std::vector<bool>& clipped, const Drawn& drawn,
                                         const Scene& scene, const Window& window) {
   const DoubleVector given = by_site(mesh, options);

@@ -35,7 +35,7 @@ DoubleVector gradients(const Mesh& mesh, const DoubleVector& values) {
 
 ViewMesh view_plan(const std::string& name, const Density& density, double unit,
                    std::optional<double> radius_km) {
-  const Mesh sphere = spherical_delaunay(bisected_icosahedron(level));
+  const Mesh sphere = delaunay(bisected_icosahedron(level));
   ViewMesh mesh{.name = name, .radius_km = radius_km};
   mesh.cells = mesh.total = sphere.points.cols();
   mesh.points = sphere.points;

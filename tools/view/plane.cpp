@@ -66,16 +66,10 @@ private:
   std::map<std::array<std::int32_t, 3>, std::int32_t> copies_;
 };
 
-Points3 with_z(const Points2& places) {
-  Points3 points = Points3::Zero(3, places.cols());
-  points.topRows<2>() = places;
-  return points;
-}
-
 } // namespace
 
-void set_plane(ViewMesh& mesh, const PlanarMesh& planar, const Polygons& cells) {
-  Copies sites(with_z(planar.points), planar.period);
+void set_plane(ViewMesh& mesh, const Mesh& planar, const Polygons& cells) {
+  Copies sites(planar.points, planar.surface.period());
   mesh.triangles = planar.triangles;
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
     for (int v = 1; v < 3; ++v)
@@ -85,8 +79,8 @@ void set_plane(ViewMesh& mesh, const PlanarMesh& planar, const Polygons& cells) 
   mesh.shapes = unwrapped(cells);
 }
 
-void set_plane(ViewMesh& mesh, const PlanarMesh& planar, const PlanarDomain& domain) {
-  Voronoi cells = voronoi(planar, domain);
+void set_plane(ViewMesh& mesh, const Mesh& planar) {
+  Voronoi cells = voronoi(planar);
   set_plane(mesh, planar,
             Polygons{std::move(cells.vertices), std::move(cells.begin),
                      std::move(cells.vertices_on_cell), std::move(cells.cells), false,

@@ -198,7 +198,7 @@ void leave_out_bays(const Mesh& mesh, std::vector<bool>& left_out) {
 /// The triangulation of kept sites, its corners by column, although equal columns are one site;
 /// without triangles that the cells of the whole mesh do not cover.
 Triangles triangles_of(const Points3& points, const ViewMesh& whole, const Curve& curve) {
-  const Mesh mesh = spherical_delaunay(points);
+  const Mesh mesh = delaunay(points);
   std::vector<std::int32_t> column(static_cast<std::size_t>(mesh.points.cols()));
   for (auto i = std::ssize(mesh.site_of_input); i-- > 0;)
     column[static_cast<std::size_t>(mesh.site_of_input[static_cast<std::size_t>(i)])] =
@@ -222,13 +222,13 @@ Triangles triangles_of(const Points3& points, const ViewMesh& whole, const Curve
 }
 
 /// \throws Error bad_option where so few sites do not fill a periodic box.
-PlanarMesh periodic_triangles(const Points2& places, const Eigen::Vector2d& period) {
+Mesh planar_mesh(const Points3& points, const Surface& surface) {
   try {
-    return periodic_delaunay(places, period);
+    return delaunay(points, surface);
   } catch (const Error& error) {
-    if (error.code() != ErrorCode::too_few_sites)
+    if (error.code() != ErrorCode::too_few_sites || !surface.is_box())
       throw;
-    throw Error(ErrorCode::bad_option, std::to_string(places.cols()) +
+    throw Error(ErrorCode::bad_option, std::to_string(points.cols()) +
                                            " cells are too few for the periodic box; give a "
                                            "greater number to --most-cells");
   }
@@ -236,7 +236,7 @@ PlanarMesh periodic_triangles(const Points2& places, const Eigen::Vector2d& peri
 
 } // namespace
 
-void thin(ViewMesh& mesh, const PlanarDomain& domain, std::int64_t most) {
+void thin(ViewMesh& mesh, const Surface& surface, std::int64_t most) {
   const Curve curve(mesh.points, mesh.cells);
   mesh.number = kept_cells(mesh, curve, most);
   const auto n = std::ssize(mesh.number);
@@ -250,19 +250,14 @@ void thin(ViewMesh& mesh, const PlanarDomain& domain, std::int64_t most) {
       values[i] = quantity.values[mesh.number[static_cast<std::size_t>(i)]];
     quantity.values = std::move(values);
   }
-  if (mesh.on_sphere)
+  if (surface.is_sphere())
     mesh.triangles = triangles_of(points, mesh, curve);
   mesh.cells = n;
   mesh.shapes.reset();
-  if (mesh.on_sphere) {
+  if (surface.is_sphere())
     mesh.points = std::move(points);
-  } else {
-    const Points2 places = points.topRows<2>();
-    set_plane(mesh,
-              domain.periodic() ? periodic_triangles(places, domain.period)
-                                : planar_delaunay(places),
-              domain);
-  }
+  else
+    set_plane(mesh, planar_mesh(points, surface));
   mesh.notice += "The page shows " + std::to_string(n) + " of " + std::to_string(mesh.total) +
                  " cells, evenly spread, and the worst ones; they are drawn larger. The table is "
                  "of all cells. ";

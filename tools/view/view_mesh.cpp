@@ -5,6 +5,7 @@
 #include "draw/values.h"
 
 #include <calotte/check.h>
+#include <calotte/domain.h>
 #include <calotte/error.h>
 #include <calotte/operators.h>
 
@@ -22,21 +23,24 @@ constexpr const char* mask_name = "bdyMaskCell";
   throw Error(ErrorCode::bad_option, problem);
 }
 
-bool as_polygons(const MeshFile& file) { return !file.plane && !file.mesh; }
+/// Whether the cells are measured as the file has them: those that are not Voronoi cells, and
+/// those of a plane that ends at walls, which no domain clips.
+bool by_corners(const MeshFile& file) {
+  return !file.mesh || (file.plane() && file.polygons && has_walls(*file.mesh));
+}
 
 std::int64_t cells_of(const MeshFile& file) {
-  return file.plane  ? file.plane->points.cols()
-         : file.mesh ? file.mesh->points.cols()
-                     : file.polygons->size();
+  return file.mesh ? file.mesh->points.cols() : file.polygons->size();
 }
 
 std::int64_t triangles_of(const MeshFile& file) {
-  return file.plane ? file.plane->triangles.cols() : file.mesh ? file.mesh->triangles.cols() : 0;
+  return file.mesh ? file.mesh->triangles.cols() : 0;
 }
 
+/// The density of the choice, or that of the file of a closed mesh of the sphere.
 Density density_of(const MeshFile& file, const ViewChoice& choice) {
   const bool varies = file.density.size() > 0 && file.density.minCoeff() != file.density.maxCoeff();
-  if (!choice.density.uniform() || !varies || !file.mesh || !file.mesh->closed() ||
+  if (!choice.density.uniform() || !varies || !file.sphere() || !file.mesh->closed() ||
       file.density.size() != file.mesh->points.cols())
     return choice.density;
   return interpolated_density(*file.mesh, file.density);
@@ -52,9 +56,8 @@ DoubleVector values_of(const MeshField& field, const MeshFile& file) {
     return field.values.size() == triangles_of(file) ? field.values : DoubleVector();
   if (field.values.size() == n)
     return field.values;
-  const std::vector<std::int32_t>& site = file.plane  ? file.plane->site_of_input
-                                          : file.mesh ? file.mesh->site_of_input
-                                                      : std::vector<std::int32_t>();
+  const std::vector<std::int32_t>& site =
+      file.mesh ? file.mesh->site_of_input : std::vector<std::int32_t>();
   if (field.values.size() != std::ssize(site))
     return {};
   DoubleVector values(n);
@@ -141,20 +144,22 @@ void set_sphere(const MeshFile& file, ViewMesh& mesh) {
     mesh.shapes = file.polygons;
 }
 
-/// The given domain, the periodic box, or the box that a picture shows.
-PlanarDomain domain_of(const PlanarMesh& mesh, const std::optional<PlanarDomain>& given) {
-  if (given)
-    return *given;
-  if (mesh.closed())
-    return periodic_box(mesh.period);
-  const Window window = window_of(mesh, given);
-  return rectangle(window.low, window.high);
+/// Sets the part of the plane that clips the cells: the given one, or the box that a picture shows
+/// of a plane without an end.
+void set_surface(Mesh& mesh, const std::optional<Surface>& given) {
+  if (given) {
+    set_domain(mesh, *given);
+  } else if (mesh.surface == Surface::plane()) {
+    const Window window = window_of(mesh, mesh.surface);
+    mesh.surface = rectangle(window.low, window.high);
+  }
 }
 
-/// The measures of the cells; of an open mesh also of those at its boundary, if the file has them.
+/// The measures of the cells; of an open mesh of the sphere also of those at its boundary, if the
+/// file has them.
 CellMeasures measures_of(const MeshFile& file, const ViewChoice& choice) {
   CellMeasures measures = cell_measures(*file.mesh, density_of(file, choice));
-  if (!file.polygons || file.polygons->size() != measures.area.size())
+  if (file.plane() || !file.polygons || file.polygons->size() != measures.area.size())
     return measures;
   const auto fill = [](DoubleVector& values, const DoubleVector& of_cells) {
     values = values.array().isNaN().select(of_cells, values);
@@ -164,23 +169,11 @@ CellMeasures measures_of(const MeshFile& file, const ViewChoice& choice) {
   return measures;
 }
 
-/// Whether the file's cells are those of a plane that ends at walls, which no domain clips.
-bool ends_at_walls(const MeshFile& file) {
-  return file.plane && file.polygons && has_walls(*file.plane);
-}
-
 /// The quantities of the cells and triangles.
 std::vector<Quantity> measured(const MeshFile& file, const ViewChoice& choice) {
-  if (ends_at_walls(file))
-    return quantities_of(unwrapped(*file.polygons), Unit{"", 1, "", 1});
-  if (file.plane)
-    return quantities_of(
-        cell_measures(*file.plane, domain_of(*file.plane, choice.domain), choice.density),
-        Unit{"", 1, "", 1});
-  const Unit unit = unit_of(choice.units, choice.radius_km);
-  if (as_polygons(file))
-    return quantities_of(*file.polygons, unit);
-  return quantities_of(measures_of(file, choice), unit);
+  const Unit unit = file.plane() ? Unit{"", 1, "", 1} : unit_of(choice.units, choice.radius_km);
+  return by_corners(file) ? quantities_of(unwrapped(*file.polygons), unit)
+                          : quantities_of(measures_of(file, choice), unit);
 }
 
 /// Whether triangles surround a site.
@@ -198,38 +191,38 @@ bool has_whole_cell(const Mesh& mesh) {
 
 /// The errors of operators; none for cells that are not Voronoi cells, nor where none is whole.
 std::vector<Quantity> operator_quantities(const MeshFile& file, const ViewChoice& choice) {
-  if (!choice.operators || as_polygons(file) || ends_at_walls(file))
+  if (!choice.operators || by_corners(file))
     return {};
-  if (file.plane)
-    return quantities_of(
-        operator_errors(*file.plane, domain_of(*file.plane, choice.domain)).by_cell);
-  if (count_edges(*file.mesh).not_delaunay > 0 || !has_whole_cell(*file.mesh))
+  if (file.sphere() && (count_edges(*file.mesh).not_delaunay > 0 || !has_whole_cell(*file.mesh)))
     return {};
   return quantities_of(operator_errors(*file.mesh).by_cell);
 }
 
 } // namespace
 
-ViewMesh view_mesh(const std::string& name, const MeshFile& file, const ViewChoice& choice) {
+ViewMesh view_mesh(const std::string& name, MeshFile file, const ViewChoice& choice) {
   require_fields(file, choice);
-  ViewMesh mesh{.name = name, .on_sphere = !file.plane, .radius_km = choice.radius_km};
+  const bool walled = file.plane() && by_corners(file);
+  if (file.plane() && !walled)
+    set_surface(*file.mesh, choice.surface);
+  ViewMesh mesh{.name = name, .on_sphere = !file.plane(), .radius_km = choice.radius_km};
   mesh.cells = mesh.total = cells_of(file);
   mesh.quantities = measured(file, choice);
   for (Quantity& quantity : operator_quantities(file, choice))
     mesh.quantities.push_back(std::move(quantity));
   add_fields(file, choice, mesh);
-  const PlanarDomain domain = file.plane ? domain_of(*file.plane, choice.domain) : PlanarDomain{};
-  if (ends_at_walls(file))
-    set_plane(mesh, *file.plane, *file.polygons);
-  else if (file.plane)
-    set_plane(mesh, *file.plane, domain);
+  if (walled)
+    set_plane(mesh, *file.mesh, *file.polygons);
+  else if (file.plane())
+    set_plane(mesh, *file.mesh);
   else
     set_sphere(file, mesh);
-  if (mesh.cells > choice.most_cells && ends_at_walls(file))
+  if (mesh.cells <= choice.most_cells)
+    return mesh;
+  if (walled)
     refuse(name + ": it has more than the " + std::to_string(choice.most_cells) +
            " cells that a page holds, and a plane with walls is not thinned; raise the number");
-  if (mesh.cells > choice.most_cells)
-    thin(mesh, domain, choice.most_cells);
+  thin(mesh, file.mesh ? file.mesh->surface : Surface::sphere(), choice.most_cells);
   return mesh;
 }
 

@@ -5,8 +5,8 @@
 
 #include <calotte/cell_width.h>
 #include <calotte/density.h>
-#include <calotte/domain.h>
 #include <calotte/mesh_file.h>
+#include <calotte/surface.h>
 
 #include <cstdint>
 #include <optional>
@@ -36,32 +36,33 @@ struct ViewMesh {
 
 /// What a page shows of a mesh.
 struct ViewChoice {
-  std::optional<PlanarDomain> domain = {}; ///< of a plane; by default a box around the sites
-  Density density = {};                    ///< otherwise the file's
-  std::vector<std::string> fields = {};    ///< names; by default the first ones of the file
+  /// Of a plane; by default the mesh's surface, or a box around the sites where that has no end.
+  std::optional<Surface> surface = {};
+  Density density = {};                 ///< otherwise the file's
+  std::vector<std::string> fields = {}; ///< names; by default the first ones of the file
   std::optional<double> radius_km = {};
   std::optional<std::string> units = {};
   bool operators = false;            ///< adds the errors of operators
   std::int64_t most_cells = 1000000; ///< larger meshes are thinned
 };
 
-/// \throws Error bad_option for a field that the file does not have at cells or triangles; as
-///         cell_measures() and voronoi().
-ViewMesh view_mesh(const std::string& name, const MeshFile& file, const ViewChoice& choice);
+/// \throws Error bad_option for a field that the file does not have at cells or triangles, and for
+///         a domain of another period; as cell_measures() and voronoi().
+ViewMesh view_mesh(const std::string& name, MeshFile file, const ViewChoice& choice);
 
 /// The numbers of one cell, a line each: its location and its quantities.
 /// \throws Error bad_option if the mesh does not have it.
 std::string cell_table(const ViewMesh& mesh, std::int64_t cell);
 
 /// Keeps some of the cells, evenly spread, and the ten worst of each quantity; triangulates them.
-/// \param domain of a plane.
-void thin(ViewMesh& mesh, const PlanarDomain& domain, std::int64_t most);
+/// \param surface of the mesh; in a plane its rings clip the cells.
+void thin(ViewMesh& mesh, const Surface& surface, std::int64_t most);
 
 /// Sets the shapes of the cells of a mesh of the plane, and its triangles, whose corners in a
 /// periodic plane are next to each other. \param planar the sites and their triangles.
-void set_plane(ViewMesh& mesh, const PlanarMesh& planar, const Polygons& cells);
-/// The same for the cells that a domain clips.
-void set_plane(ViewMesh& mesh, const PlanarMesh& planar, const PlanarDomain& domain);
+void set_plane(ViewMesh& mesh, const Mesh& planar, const Polygons& cells);
+/// The same for the cells that voronoi() makes.
+void set_plane(ViewMesh& mesh, const Mesh& planar);
 
 /// The spacings that a density prescribes and their gradient, on a regular mesh of the sphere.
 /// \param unit the spacing where the density is 1, radians.

@@ -8,6 +8,7 @@
 #include "support/pictures.h"
 
 #include <calotte/delaunay.h>
+#include <calotte/domain.h>
 #include <calotte/generators.h>
 #include <calotte/quality.h>
 
@@ -17,7 +18,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <optional>
+#include <utility>
 #include <vector>
 
 using namespace calotte;
@@ -35,37 +36,35 @@ std::map<double, std::int64_t> counts_of(const std::vector<double>& values) {
   return counts;
 }
 
-std::vector<double> degrees_of_cells(const PlanarMesh& mesh,
-                                     const std::optional<PlanarDomain>& domain,
-                                     const std::vector<bool>& clipped) {
-  const Window window = window_of(mesh, domain);
+std::vector<double> degrees_of_cells(const Mesh& mesh) {
+  const Window window = window_of(mesh, mesh.surface);
   const Drawn drawn = drawn_of(mesh, Shapes::cells, window);
   const Scene scene = scene_of(drawn, Shapes::cells, window);
-  return values_of_cells(mesh, {.shapes = Shapes::cells, .colouring = Colouring::valence}, domain,
-                         clipped, scene, window);
+  return values_of_cells(mesh, {.shapes = Shapes::cells, .colouring = Colouring::valence},
+                         mesh.surface, clipped_cells(mesh), scene, window);
 }
 
-PlanarDomain ring(double turn) {
-  PlanarDomain domain;
+Surface ring(double turn) {
+  Surface::Rings rings;
   for (const double radius : {1.0, 0.3}) {
     Points2 corners(2, 5);
     for (int i = 0; i < 5; ++i) {
       const double angle = turn + 2 * std::numbers::pi * i / 5;
       corners.col(i) = radius * Eigen::Vector2d(std::cos(angle), std::sin(angle));
     }
-    domain.rings.emplace_back(corners);
+    rings.emplace_back(corners);
   }
-  return domain;
+  return Surface::plane().within(std::move(rings));
 }
 
 } // namespace
 
 TEST_CASE("a planar map of degrees has the counts of quality(), and cells at the boundary apart") {
   for (const double turn : {0.0, 0.4}) {
-    const PlanarDomain domain = ring(turn);
-    const PlanarMesh mesh = planar_delaunay(random_places(600, domain, 7));
-    const auto counts = counts_of(degrees_of_cells(mesh, domain, clipped_cells(mesh, domain)));
-    const std::vector<std::int64_t> degrees = quality(mesh, domain).degrees;
+    const Surface domain = ring(turn);
+    const Mesh mesh = delaunay(random_points(600, domain, {}, 7), domain);
+    const auto counts = counts_of(degrees_of_cells(mesh));
+    const std::vector<std::int64_t> degrees = quality(mesh).degrees;
     std::int64_t whole = 0;
     for (std::size_t degree = 1; degree < degrees.size(); ++degree) {
       const auto found = counts.find(static_cast<double>(degree));
@@ -75,11 +74,11 @@ TEST_CASE("a planar map of degrees has the counts of quality(), and cells at the
     CHECK(counts.at(boundary_valence) == 600 - whole);
     CHECK(whole > 400);
   }
-  const Eigen::Vector2d period(2, 1);
-  const PlanarMesh box = periodic_delaunay(random_places(200, periodic_box({2, 1}), 3), period);
-  const auto counts = counts_of(degrees_of_cells(box, std::nullopt, {}));
+  const Surface periodic = Surface::periodic({2, 1});
+  const Mesh box = delaunay(random_points(200, periodic, {}, 3), periodic);
+  const auto counts = counts_of(degrees_of_cells(box));
   CHECK(!counts.contains(boundary_valence));
-  const std::vector<std::int64_t> degrees = quality(box, periodic_box({2, 1})).degrees;
+  const std::vector<std::int64_t> degrees = quality(box).degrees;
   for (const auto& [degree, count] : counts) {
     CHECK(degrees[static_cast<std::size_t>(degree)] == count);
   }
@@ -87,18 +86,19 @@ TEST_CASE("a planar map of degrees has the counts of quality(), and cells at the
 
 TEST_CASE("a lattice in a rectangle shows no defects, as cells or as triangles") {
   const Folder folder;
-  const PlanarDomain domain = rectangle({0, 0}, {3, 2});
-  const PlanarMesh mesh = planar_delaunay(hexagonal_lattice(300, domain));
-  const auto counts = counts_of(degrees_of_cells(mesh, domain, clipped_cells(mesh, domain)));
+  const Surface domain = rectangle({0, 0}, {3, 2});
+  Mesh mesh = delaunay(hexagonal_lattice(300, domain), domain);
+  const auto counts = counts_of(degrees_of_cells(mesh));
   CHECK(counts.size() == 2);
   CHECK(counts.contains(6));
   CHECK(counts.contains(boundary_valence));
   const Scale scale = make_scale({5, 6, 7}, Colouring::valence);
   for (const Shapes shapes : {Shapes::triangles, Shapes::cells}) {
-    for (const std::optional<PlanarDomain>& given : {std::optional(domain), {std::nullopt}}) {
+    for (const Surface& surface : {domain, Surface::plane()}) {
+      mesh.surface = surface;
       const DrawOptions options = {
           .look = {.size = 200}, .shapes = shapes, .colouring = Colouring::valence};
-      draw(folder.file("a.png"), mesh, given, options);
+      draw(folder.file("a.png"), mesh, options);
       const Picture picture(folder.file("a.png"));
       int defects = 0;
       for (int y = 0; y < picture.height(); ++y) {
@@ -115,7 +115,7 @@ TEST_CASE("a lattice in a rectangle shows no defects, as cells or as triangles")
 
 TEST_CASE("each pentagon is seen where cells are smaller than a pixel") {
   const Folder folder;
-  const Mesh mesh = spherical_delaunay(bisected_icosahedron(7)); // 163 842 cells
+  const Mesh mesh = delaunay(bisected_icosahedron(7)); // 163 842 cells
   const Look look = {.view = LonLat{10, 0}, .coastlines = false, .size = 300};
   const Rgb pentagon = make_scale({5, 6}, Colouring::valence).colour(5);
   for (const Shapes shapes : {Shapes::triangles, Shapes::cells}) {
@@ -124,7 +124,7 @@ TEST_CASE("each pentagon is seen where cells are smaller than a pixel") {
     const Picture picture(folder.file("a.png"));
     const Page page = page_of(look, true);
     const Eigen::Matrix3d frame = frame_of({10, 0});
-    const Mesh corners = spherical_delaunay(bisected_icosahedron(0));
+    const Mesh corners = delaunay(bisected_icosahedron(0));
     int visible = 0;
     for (const auto& corner : corners.points.colwise()) {
       const Vector3d p = frame * corner;
@@ -155,7 +155,7 @@ TEST_CASE("each pentagon is seen where cells are smaller than a pixel") {
 
 TEST_CASE("dots cover at most a fifth of a map, and none is too small to see") {
   for (const std::int64_t n : {3000, 200000}) {
-    const Mesh mesh = spherical_delaunay(random_sphere(n)); // two of three cells are defects
+    const Mesh mesh = delaunay(random_sphere(n)); // two of three cells are defects
     for (const Projection projection : {Projection::globe, Projection::plate_carree}) {
       Painting painting;
       painting.scene = make_scene(mesh, Shapes::cells, {});

@@ -108,7 +108,7 @@ TEST_CASE("a scale of equal values says that they are constant, or how much they
 
 TEST_CASE("the bar of a constant field has one colour, that of the field") {
   const Folder folder;
-  const Mesh mesh = spherical_delaunay(fibonacci_sphere(50));
+  const Mesh mesh = delaunay(fibonacci_sphere(50));
   DrawOptions options = {.look = {.coastlines = false, .size = 400},
                          .shapes = Shapes::cells,
                          .colouring = Colouring::field,

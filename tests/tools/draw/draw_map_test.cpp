@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "draw/degrees.h"
 #include "draw/page.h"
+#include "draw/plane.h"
 #include "draw/raster.h"
 #include "draw/values.h"
 #include "draw/vector.h"
@@ -177,9 +178,9 @@ Rgb colour_of(const Painting& painting, int shape) {
 
 /// Meshes with sites and corners on poles and on the seam, sides along meridians, wide triangles.
 std::vector<Mesh> hard_meshes() {
-  return {spherical_delaunay(random_sphere(60, 5)), spherical_delaunay(octahedron()),
-          spherical_delaunay(lat_lon_sphere(5, 12, true)), spherical_delaunay(cubed_sphere(3)),
-          spherical_delaunay(bisected_icosahedron(0))};
+  return {delaunay(random_sphere(60, 5)), delaunay(octahedron()),
+          delaunay(lat_lon_sphere(5, 12, true)), delaunay(cubed_sphere(3)),
+          delaunay(bisected_icosahedron(0))};
 }
 
 } // namespace
@@ -214,7 +215,7 @@ TEST_CASE("each pixel has the colour of the cell of the nearest site, or of its 
 }
 
 TEST_CASE("a tilted globe shows the cells of the nearest sites") {
-  const Mesh mesh = spherical_delaunay(random_sphere(60, 5));
+  const Mesh mesh = delaunay(random_sphere(60, 5));
   for (const LonLat& view : {LonLat{15, 25}, LonLat{-120, -60}, LonLat{40, 90}}) {
     const MapSize size = map_size(Projection::globe, 140);
     const Painting painting = painting_of(mesh, Shapes::cells, view);
@@ -229,7 +230,7 @@ TEST_CASE("a tilted globe shows the cells of the nearest sites") {
 }
 
 TEST_CASE("an enlarged map shows the cells of the nearest sites") {
-  const Mesh mesh = spherical_delaunay(random_sphere(400, 5));
+  const Mesh mesh = delaunay(random_sphere(400, 5));
   const Locator locator(mesh, Shapes::cells);
   for (const MapWindow& window :
        {MapWindow(Projection::globe, 1.2, 0), MapWindow(Projection::globe, 5, 0),
@@ -335,7 +336,7 @@ TEST_CASE("an enlarged globe tells where its lines are bent, so that labels alon
 }
 
 TEST_CASE("both: the picture of the cells, except for lines along the triangles' edges") {
-  const Mesh mesh = spherical_delaunay(random_sphere(60, 5));
+  const Mesh mesh = delaunay(random_sphere(60, 5));
   for (const Projection projection : all_projections) {
     const LonLat view = {33, 0};
     const MapSize size = map_size(projection, 200);
@@ -394,7 +395,7 @@ TEST_CASE("a picture of a field is written in every format, on both maps") {
 
 TEST_CASE("a graticule changes only the map") {
   const Folder folder;
-  const Mesh mesh = spherical_delaunay(random_sphere(60, 5));
+  const Mesh mesh = delaunay(random_sphere(60, 5));
   for (const int size : {100, 300}) {
     DrawOptions options = {.look = {.projection = Projection::plate_carree, .size = size}};
     draw(folder.file("a.png"), mesh, options);
@@ -534,7 +535,7 @@ TEST_CASE("an unknown field is refused with the names of the fields in the file"
 
 TEST_CASE("each cell shows its own value of a field, and every cell is painted") {
   const Folder folder;
-  const Mesh mesh = spherical_delaunay(fibonacci_sphere(cells));
+  const Mesh mesh = delaunay(fibonacci_sphere(cells));
   write_fields(folder.file("a.nc"));
   const CellField field = read_cell_field(folder.file("a.nc"), "index", cells);
   const Scene scene = make_scene(mesh, Shapes::cells, {});
@@ -564,27 +565,27 @@ TEST_CASE("each cell shows its own value of a field, and every cell is painted")
 namespace {
 
 /// A rectangle of 2 x 1 with a hole.
-PlanarDomain holed() {
-  PlanarDomain domain = rectangle({0, 0}, {2, 1});
+Surface holed() {
+  const Surface box = rectangle({0, 0}, {2, 1});
+  Surface::Rings rings = box.rings();
   Points2 hole(2, 4);
   hole << 0.8, 1.2, 1.2, 0.8, 0.4, 0.4, 0.6, 0.6;
-  domain.rings.push_back(hole);
-  return domain;
+  rings.emplace_back(hole);
+  return Surface::plane().within(std::move(rings));
 }
 
 struct PlaneCase {
-  PlanarMesh mesh;
-  PlanarDomain domain;
+  Mesh mesh;
   double margin; ///< of the window around the domain
 };
 
 std::vector<PlaneCase> plane_cases() {
-  return {{planar_delaunay(random_places(80, holed(), 2)), holed(), 0.02},
-          {periodic_delaunay(random_places(80, periodic_box({2, 1}), 3), Eigen::Vector2d(2, 1)),
-           periodic_box({2, 1}), 0}};
+  const Surface box = Surface::periodic({2, 1});
+  return {{delaunay(random_points(80, holed(), {}, 2), holed()), 0.02},
+          {delaunay(random_points(80, box, {}, 3), box), 0}};
 }
 
-DrawOptions coloured_by_number(const PlanarMesh& mesh, Shapes shapes) {
+DrawOptions coloured_by_number(const Mesh& mesh, Shapes shapes) {
   DrawOptions options;
   options.look.size = 600;
   options.shapes = shapes;
@@ -611,9 +612,9 @@ struct Nearest {
 Nearest nearest(const PlaneCase& c, const Eigen::Vector2d& place) {
   Eigen::VectorXd distances(c.mesh.points.cols());
   for (Eigen::Index i = 0; i < distances.size(); ++i) {
-    Eigen::Vector2d way = c.mesh.points.col(i) - place;
-    for (int k = 0; k < 2 && c.domain.periodic(); ++k)
-      way[k] = std::remainder(way[k], c.mesh.period[k]);
+    Eigen::Vector2d way = c.mesh.points.col(i).head<2>() - place;
+    for (int k = 0; k < 2 && c.mesh.surface.is_box(); ++k)
+      way[k] = std::remainder(way[k], c.mesh.surface.period()[k]);
     distances[i] = way.norm();
   }
   Eigen::Index site = 0;
@@ -628,7 +629,7 @@ TEST_CASE("a plane's cells are those of the nearest sites, cut off at the domain
   const Folder folder;
   for (const PlaneCase& c : plane_cases()) {
     const DrawOptions options = coloured_by_number(c.mesh, Shapes::cells);
-    draw(folder.file("plane.png"), c.mesh, c.domain, options);
+    draw(folder.file("plane.png"), c.mesh, options);
     const Picture picture(folder.file("plane.png"));
     const double width = 2 + 2 * c.margin, height = 1 + 2 * c.margin;
     const Page page = page_of_plane(600, height / width, true);
@@ -645,7 +646,7 @@ TEST_CASE("a plane's cells are those of the nearest sites, cut off at the domain
         const int px = static_cast<int>(page.middle_x - page.map.width / 2.0) + x,
                   py = static_cast<int>(page.middle_y - page.map.height / 2.0) + y;
         const auto inside = [&](double dx, double dy) {
-          return contains(c.domain, place + Eigen::Vector2d(dx, dy) / unit);
+          return c.mesh.surface.contains({place.x() + dx / unit, place.y() + dy / unit, 0});
         };
         const int around = inside(3, 3) + inside(-3, 3) + inside(3, -3) + inside(-3, -3);
         if (around == 0) {
@@ -657,7 +658,7 @@ TEST_CASE("a plane's cells are those of the nearest sites, cut off at the domain
         }
       }
     CHECK(seen > 5000);
-    CHECK((beyond > 50) == !c.domain.periodic());
+    CHECK((beyond > 50) == !c.mesh.surface.is_box());
   }
 }
 
@@ -673,27 +674,39 @@ TEST_CASE("a plane's pictures are written in every format, shape and colouring")
         options.density = tanh_bump({0.5, 0.5, 0}, 0.3, 0.2, 0.1);
         options.look.size = 200;
         const bool of_cells = colouring == Colouring::area || colouring == Colouring::quality;
-        if (of_cells && shapes != Shapes::triangles && !c.domain.periodic()) {
-          const Error error =
-              error_of([&] { draw(folder.file("a.png"), c.mesh, c.domain, options); });
+        if (of_cells && shapes != Shapes::triangles && !c.mesh.closed()) {
+          const Error error = error_of([&] { draw(folder.file("a.png"), c.mesh, options); });
           CHECK(std::string(error.what()).find("open boundary") != std::string::npos);
           continue;
         }
+        Mesh mesh = c.mesh;
+        if (!mesh.closed())
+          mesh.surface = Surface::plane();
         for (const std::string name : {"a.png", "a.svg", "a.pdf"}) {
-          draw(folder.file(name), c.mesh, std::nullopt, options);
+          draw(folder.file(name), mesh, options);
           CHECK(bytes_of(folder.file(name)).size() > 1000);
         }
       }
-  const std::vector<PlaneCase> cases = plane_cases();
-  DrawOptions options = coloured_by_number(cases[0].mesh, Shapes::cells);
-  CHECK(code_of([&] { draw(folder.file("b.png"), cases[0].mesh, cases[1].domain, options); }) ==
-        ErrorCode::bad_option);
+  const Mesh mesh = plane_cases().front().mesh;
+  DrawOptions options = coloured_by_number(mesh, Shapes::cells);
   options.field.values.resize(3);
-  CHECK(code_of([&] { draw(folder.file("b.png"), cases[0].mesh, cases[0].domain, options); }) ==
-        ErrorCode::bad_option);
+  CHECK(code_of([&] { draw(folder.file("b.png"), mesh, options); }) == ErrorCode::bad_option);
   options.colouring = Colouring::density;
   options.density.kind = Density::Kind::maximum; // of no bumps
-  CHECK(code_of([&] { draw(folder.file("b.png"), cases[0].mesh, cases[0].domain, options); }) ==
-        ErrorCode::bad_option);
+  CHECK(code_of([&] { draw(folder.file("b.png"), mesh, options); }) == ErrorCode::bad_option);
   CHECK(!fs::exists(folder.file("b.png")));
+}
+
+TEST_CASE("a domain of another period is not one of the mesh") {
+  for (const PlaneCase& c : plane_cases())
+    for (const Surface& domain : {holed(), Surface::periodic({2, 1}), Surface::periodic({2, 2})}) {
+      Mesh mesh = c.mesh;
+      if (domain.period() == mesh.surface.period()) {
+        set_domain(mesh, domain);
+        CHECK(mesh.surface == domain);
+      } else {
+        CHECK(code_of([&] { set_domain(mesh, domain); }) == ErrorCode::bad_option);
+        CHECK(mesh.surface == c.mesh.surface);
+      }
+    }
 }

@@ -43,7 +43,7 @@ Density obeyed_by(const Mesh& mesh, const std::function<double(std::size_t)>& fa
 } // namespace
 
 TEST_CASE("a mesh that obeys its density has every cell on the line") {
-  const Mesh mesh = spherical_delaunay(random_sphere(400));
+  const Mesh mesh = delaunay(random_sphere(400));
   const std::vector<double> spacings = spacings_of(mesh);
   const auto [least, greatest] = std::minmax_element(spacings.begin(), spacings.end());
   for (const double factor : {1., 7e5, 1e-9}) { // the factor of the density does not matter
@@ -62,7 +62,7 @@ TEST_CASE("a mesh that obeys its density has every cell on the line") {
 }
 
 TEST_CASE("odd cells are off the line by their factor, and do not shift others") {
-  const Mesh mesh = spherical_delaunay(random_sphere(400));
+  const Mesh mesh = delaunay(random_sphere(400));
   const std::vector<double> spacings = spacings_of(mesh);
   const auto odd = [&](std::size_t i) { // the smallest cells keep the largest density
     return i % 5 == 0 && spacings[i] > 0.1 ? std::pow(1.3, 4) : 1;
@@ -79,7 +79,7 @@ TEST_CASE("odd cells are off the line by their factor, and do not shift others")
 }
 
 TEST_CASE("norms of the sites do not matter") {
-  Mesh mesh = spherical_delaunay(random_sphere(300));
+  Mesh mesh = delaunay(random_sphere(300));
   const Density bump = tanh_bump({1, 2, 3}, 0.7, 0.2, 0.01);
   const SpacingLaw unit = spacing_law(mesh, bump);
   for (Eigen::Index i = 0; i < mesh.points.cols(); ++i) {
@@ -93,7 +93,7 @@ TEST_CASE("norms of the sites do not matter") {
 }
 
 TEST_CASE("a law's slope and intercept come from the density, not from the mesh") {
-  const Mesh mesh = spherical_delaunay(fibonacci_sphere(2000)); // of one spacing
+  const Mesh mesh = delaunay(fibonacci_sphere(2000)); // of one spacing
   const SpacingLaw uniform = spacing_law(mesh, {});
   CHECK(uniform.lawful_ratio == 1);
   CHECK(uniform.measured_ratio == doctest::Approx(1).epsilon(0.02));
@@ -104,19 +104,19 @@ TEST_CASE("a law's slope and intercept come from the density, not from the mesh"
 
 TEST_CASE("an open mesh: its unbounded cells are left out; with no other there is no law") {
   const Points3 all = fibonacci_sphere(600); // from the north pole down
-  const Mesh cap = spherical_delaunay(all.leftCols(200));
+  const Mesh cap = delaunay(all.leftCols(200));
   const auto boundary = (cap.neighbours.array() < 0).count();
   CHECK(boundary > 0);
   CHECK(spacing_law(cap, {}).measured.size() == static_cast<std::size_t>(200 - boundary));
   Points3 square(3, 5);
   square << 0, 1, 0, -1, 0, /**/ 0, 0, 1, 0, -1, /**/ 1, 1, 1, 1, 1;
-  CHECK(spacing_law(spherical_delaunay(square), {}).measured.size() == 1); // the one in the middle
-  const Mesh none = spherical_delaunay(square.rightCols(4));
+  CHECK(spacing_law(delaunay(square), {}).measured.size() == 1); // the one in the middle
+  const Mesh none = delaunay(square.rightCols(4));
   CHECK(code_of([&] { spacing_law(none, {}); }) == ErrorCode::bad_option);
 }
 
 TEST_CASE("a density of 0 at a site is refused by the site's number") {
-  const Mesh mesh = spherical_delaunay(random_sphere(50));
+  const Mesh mesh = delaunay(random_sphere(50));
   const Density density = obeyed_by(mesh, [](std::size_t i) { return i < 37 ? 1 : 0; });
   const Error error = error_of([&] { spacing_law(mesh, density); });
   CHECK(error.code() == ErrorCode::bad_option);
@@ -125,7 +125,7 @@ TEST_CASE("a density of 0 at a site is refused by the site's number") {
 
 TEST_CASE("the picture has its size, the law's line is a diagonal, and odd cells are dots off it") {
   const Folder folder;
-  const Mesh mesh = spherical_delaunay(random_sphere(200));
+  const Mesh mesh = delaunay(random_sphere(200));
   const std::vector<double> spacings = spacings_of(mesh);
   const auto middle = static_cast<std::size_t>(
       std::find_if(spacings.begin(), spacings.end(), [](double h) { return h > 0.25; }) -
@@ -161,7 +161,7 @@ TEST_CASE("the picture has its size, the law's line is a diagonal, and odd cells
 
 TEST_CASE("every format and size; a picture that cannot be drawn leaves no file") {
   const Folder folder;
-  const Mesh mesh = spherical_delaunay(random_sphere(60));
+  const Mesh mesh = delaunay(random_sphere(60));
   for (const char* name : {"a.png", "a.svg", "a.pdf"}) {
     draw_spacing_law(folder.file(name), mesh, {}, 64);
   }
@@ -178,7 +178,7 @@ TEST_CASE("every format and size; a picture that cannot be drawn leaves no file"
 TEST_CASE("a large mesh is drawn by a sample: the file does not grow with it") {
   const Folder folder;
   const auto size = [&](std::int64_t cells) {
-    draw_spacing_law(folder.file("a.svg"), spherical_delaunay(fibonacci_sphere(cells)), {});
+    draw_spacing_law(folder.file("a.svg"), delaunay(fibonacci_sphere(cells)), {});
     return fs::file_size(folder.file("a.svg"));
   };
   const auto full = size(static_cast<std::int64_t>(most_dots));

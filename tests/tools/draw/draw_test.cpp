@@ -53,7 +53,7 @@ Mesh polar_cap() {
   while (all(2, count) > std::cos(40 * degree)) {
     ++count;
   }
-  return spherical_delaunay(all.leftCols(count));
+  return delaunay(all.leftCols(count));
 }
 
 /// Calls visit(pixel) for those of the map's image that are within 0.97 of its radius, or for all
@@ -91,7 +91,7 @@ Painting painting_of(const Mesh& mesh, Shapes shapes, Colouring colouring, const
 
 TEST_CASE("a picture has its format's signature, and is the only file that appears") {
   const Folder folder;
-  const Mesh mesh = spherical_delaunay(random_sphere(300));
+  const Mesh mesh = delaunay(random_sphere(300));
   for (const char* name : {"a.png", "a.svg", "a.PDF"}) {
     draw(folder.file(name), mesh, {.look = {.size = 300}});
   }
@@ -131,7 +131,7 @@ TEST_CASE("a full disk is an error in every format") {
 
 TEST_CASE("four sites, an open mesh and a usual one can be drawn in every way") {
   const Folder folder;
-  for (const Mesh& mesh : {tetrahedron(), polar_cap(), spherical_delaunay(random_sphere(100))}) {
+  for (const Mesh& mesh : {tetrahedron(), polar_cap(), delaunay(random_sphere(100))}) {
     for (const Shapes shapes : all_shapes) {
       for (const Colouring colouring : all_colourings) {
         if (!mesh.closed() && shapes != Shapes::triangles &&
@@ -166,14 +166,14 @@ TEST_CASE("paths are drawn of all shapes, on both maps, and many shapes become a
     CHECK(text.ends_with("</svg>\n"));
     return text.find("<image") != std::string::npos;
   };
-  for (const Mesh& mesh : {tetrahedron(), polar_cap(), spherical_delaunay(random_sphere(100))}) {
+  for (const Mesh& mesh : {tetrahedron(), polar_cap(), delaunay(random_sphere(100))}) {
     for (const Projection projection : all_projections) {
       for (const Shapes shapes : all_shapes) {
         CHECK(!has_image(mesh, projection, shapes));
       }
     }
   }
-  const Mesh large = spherical_delaunay(fibonacci_sphere(16000)); // 31 996 triangles
+  const Mesh large = delaunay(fibonacci_sphere(16000)); // 31 996 triangles
   CHECK(has_image(large, Projection::plate_carree, Shapes::triangles));
 }
 
@@ -197,7 +197,7 @@ TEST_CASE("the hidden side is not drawn, and the near side is") {
 }
 
 TEST_CASE("shapes leave no gap: a sample that none covers would change its pixel's mean") {
-  const Mesh mesh = spherical_delaunay(fibonacci_sphere(30000)); // too small here for outlines
+  const Mesh mesh = delaunay(fibonacci_sphere(30000)); // too small here for outlines
   for (const Shapes shapes : both_shapes) {
     for (const Projection projection : all_projections) {
       const Painting painting =
@@ -213,7 +213,7 @@ TEST_CASE("shapes leave no gap: a sample that none covers would change its pixel
 
 TEST_CASE("sites are directions: their norms change no byte of the picture") {
   const Folder folder;
-  Mesh mesh = spherical_delaunay(random_sphere(200));
+  Mesh mesh = delaunay(random_sphere(200));
   draw(folder.file("a.png"), mesh, {.look = {.size = 300}, .shapes = Shapes::cells});
   for (Eigen::Index i = 0; i < mesh.points.cols(); ++i) {
     mesh.points.col(i) *= std::ldexp(1.0, static_cast<int>(i * 6) - 600); // to 1e-180 and 1e179
@@ -223,8 +223,8 @@ TEST_CASE("sites are directions: their norms change no byte of the picture") {
 }
 
 TEST_CASE("values: the icosahedron's are known, and 6 - valence sums to 12") {
-  const Mesh icosahedron = spherical_delaunay(bisected_icosahedron(0));
-  const Mesh random = spherical_delaunay(random_sphere(1000));
+  const Mesh icosahedron = delaunay(bisected_icosahedron(0));
+  const Mesh random = delaunay(random_sphere(1000));
   const LonLat view = {.longitude = 40, .latitude = -20};
   for (const Shapes shapes : both_shapes) {
     const Scene scene = make_scene(icosahedron, shapes, view);

@@ -44,13 +44,13 @@ TEST_CASE("a title has the name, the number of cells and the range: in km if the
 }
 
 TEST_CASE("the spacing in a title is the mean distance of a site to its neighbours") {
-  const Mesh icosahedron = spherical_delaunay(bisected_icosahedron(0));
+  const Mesh icosahedron = delaunay(bisected_icosahedron(0));
   for (const Shapes shapes : {Shapes::triangles, Shapes::cells}) {
     for (const double spacing : mean_distances(make_scene(icosahedron, shapes, {}))) {
       CHECK(spacing == doctest::Approx(std::atan(2)).epsilon(1e-14));
     }
   }
-  const Mesh random = spherical_delaunay(random_sphere(100));
+  const Mesh random = delaunay(random_sphere(100));
   const Scene scene = make_scene(random, Shapes::cells, {});
   CHECK(mean_distances(scene) == values_of(scene, Colouring::spacing));
 }

@@ -27,7 +27,7 @@ struct Hole {
 
 /// A triangulation of the sphere without the sites in holes, nor triangles at them.
 ViewMesh sea(std::int64_t sites, const std::vector<Hole>& holes) {
-  const Mesh whole = spherical_delaunay(fibonacci_sphere(sites));
+  const Mesh whole = delaunay(fibonacci_sphere(sites));
   std::vector<std::int32_t> number;
   ViewMesh mesh;
   mesh.points.resize(3, sites);
