@@ -6,13 +6,27 @@
  * The library for C, and for languages that call C (Fortran by iso_c_binding, Julia by ccall,
  * Rust).
  *
+ *     calotte_recipe recipe = {.size = sizeof recipe, .cells = 40962};
+ *     calotte_error error = {.size = sizeof error};
+ *     calotte_mesh* mesh = NULL;
+ *     if (calotte_make_grid(&recipe, NULL, NULL, &mesh, NULL, &error) != CALOTTE_OK)
+ *       fprintf(stderr, "%s\n", error.message);
+ *
  * A function returns CALOTTE_OK or a code, and then fills *error, unless that is null; its outputs
  * are unchanged. No C++ exception leaves a function. Points on the sphere are x y z, x y z, ... of
  * any norm; in a plane x y, x y, ... Ids are 0-based. Lengths on the sphere are radians and areas
- * steradians, of the unit sphere. Results have the same bits for any number of threads. Threads may
- * call functions at the same time, also with the same mesh.
+ * steradians, of the unit sphere; in a plane its unit of length and the square of it. Results have
+ * the same bits for any number of threads. Threads may call functions at the same time, also with
+ * the same mesh.
+ *
+ * Every struct starts with its size, which the caller sets to sizeof: a program that was compiled
+ * with an older header works with a newer library. The library reads and writes as many bytes at
+ * most. Members that are 0 have their defaults, and so have those that the caller's struct lacks. A
+ * size of 0 is CALOTTE_BAD_OPTION, and so is a member that the library does not know and that is
+ * not 0. All members but arrays of characters have 8 bytes where pointers have.
  */
 
+#include <stddef.h>
 #include <stdint.h>
 
 #ifdef __cplusplus
@@ -43,8 +57,9 @@ typedef enum calotte_status {
 
 /** The error of a function. */
 typedef struct calotte_error {
+  size_t size;       /**< sizeof(calotte_error) */
   int64_t index;     /**< 0-based index of the offender, or 1-based line of a file; -1 for none */
-  char message[500]; /**< one line, ended by 0, with the remedy */
+  char message[512]; /**< one line, ended by 0, with the remedy */
 } calotte_error;
 
 /** "MAJOR.MINOR.PATCH", for ever valid. */
@@ -53,30 +68,50 @@ CALOTTE_C_API const char* calotte_version(void);
 /** The threads of later calls of this thread; 0 for all cores, the default. */
 CALOTTE_C_API void calotte_set_threads(int count);
 
+/* ---- Surfaces */
+
+/** Values of calotte_surface.kind. */
+typedef enum calotte_kind {
+  CALOTTE_SPHERE = 0, /**< the unit sphere */
+  CALOTTE_PLANE = 1   /**< the plane, in any unit of length */
+} calotte_kind;
+
+/** Where points live, as calotte::Surface. All members 0: the whole sphere. */
+typedef struct calotte_surface {
+  size_t size;      /**< sizeof(calotte_surface) */
+  int64_t kind;     /**< a calotte_kind */
+  double period[2]; /**< of a plane in x and y; 0 in a direction without one */
+  int64_t rings;    /**< number of closed rings that bound the part; 0: the whole surface */
+  /** Of all rings, one after the other: directions on the sphere, where the part lies to the left
+   * of every ring, seen from outside; x y in a plane. The last corner is joined to the first. */
+  const double* corners;
+  const int64_t* begin; /**< rings + 1: ring i has the corners begin[i] to begin[i + 1] - 1 */
+} calotte_surface;
+
 /* ---- Meshes */
 
-/** A Delaunay triangulation of the sphere or of a plane. */
+/** A triangulation of the sphere or of a plane. */
 typedef struct calotte_mesh calotte_mesh;
 
 /** Frees a mesh and all that pointers from it point to. Null is ignored. */
 CALOTTE_C_API void calotte_mesh_free(calotte_mesh* mesh);
 
-/** Triangulates n directions, which merge where they are equal. */
-CALOTTE_C_API calotte_status calotte_delaunay(const double* xyz, int64_t n, calotte_mesh** mesh,
+/** The Delaunay triangulation of n points. Equal points merge.
+ * surface: null for the sphere; a plane, whose rings clip the Voronoi cells; or the doubly periodic
+ * box [0, period[0]) x [0, period[1]), which the points lie in. Rings on the sphere are
+ * CALOTTE_BAD_OPTION.
+ * points: 3 numbers each on the sphere, 2 in a plane; 3 points or more. */
+CALOTTE_C_API calotte_status calotte_delaunay(const double* points, int64_t n,
+                                              const calotte_surface* surface, calotte_mesh** mesh,
                                               calotte_error* error);
-
-/** Triangulates n places in the plane; in the doubly periodic box [0, period_x) x [0, period_y) if
- * both are > 0. */
-CALOTTE_C_API calotte_status calotte_delaunay_in_plane(const double* xy, int64_t n, double period_x,
-                                                       double period_y, calotte_mesh** mesh,
-                                                       calotte_error* error);
 
 /** What a mesh holds; the pointers are valid until it is freed. */
 typedef struct calotte_triangulation {
-  int dimensions;               /**< 3 on the sphere, 2 in a plane */
+  size_t size;                  /**< sizeof(calotte_triangulation) */
+  int64_t dimensions;           /**< 3 on the sphere, 2 in a plane */
   int64_t sites;                /**< number of sites */
   int64_t triangles;            /**< number of triangles */
-  const double* points;         /**< dimensions numbers a site */
+  const double* points;         /**< `dimensions` numbers a site */
   const int32_t* corners;       /**< 3 sites a triangle, counter-clockwise seen from outside */
   const int32_t* neighbours;    /**< 3 a triangle: entry i is across corner i; -1 for none */
   int64_t inputs;               /**< number of input points */
@@ -84,27 +119,52 @@ typedef struct calotte_triangulation {
 } calotte_triangulation;
 
 /** Fills *view. */
-CALOTTE_C_API void calotte_mesh_view(const calotte_mesh* mesh, calotte_triangulation* view);
+CALOTTE_C_API calotte_status calotte_mesh_view(const calotte_mesh* mesh,
+                                               calotte_triangulation* view, calotte_error* error);
 
-/** Proves that a mesh is the Delaunay triangulation of its points. CALOTTE_BAD_OPTION with the
- * violated law in the message if it is not. */
+/** Proves that a mesh is the Delaunay triangulation of its points; of a part of the sphere, that
+ * its triangles are well-formed and do not overlap, see calotte::check_surface().
+ * CALOTTE_BAD_OPTION with the violated law in the message if it is not. */
 CALOTTE_C_API calotte_status calotte_check(const calotte_mesh* mesh, calotte_error* error);
+
+/** Locates n positions in the triangles of a mesh. An output that is null is not computed for the
+ * caller.
+ * positions: 3 numbers each on the sphere, 2 in a plane.
+ * triangles: n; the triangle that holds the position, of several the lowest; -1 outside of an open
+ * mesh.
+ * weights: 3 n; barycentric weights of the triangle's corners, from 0 to 1; NaN outside.
+ * nearest: n; the nearest site, of several the lowest. */
+CALOTTE_C_API calotte_status calotte_locate(const calotte_mesh* mesh, const double* positions,
+                                            int64_t n, int32_t* triangles, double* weights,
+                                            int32_t* nearest, calotte_error* error);
+
+/** Interpolates values at the sites of a mesh to n positions.
+ * values: one for each site.
+ * positions: as for calotte_locate().
+ * natural: 0: linear on each triangle; 1: natural neighbours, smooth except at the sites.
+ * out: n; NaN outside of an open mesh. */
+CALOTTE_C_API calotte_status calotte_interpolate(const calotte_mesh* mesh, const double* values,
+                                                 const double* positions, int64_t n, int natural,
+                                                 double* out, calotte_error* error);
 
 /* ---- Voronoi cells */
 
-/** The Voronoi cells of a closed mesh or of a periodic box. */
+/** The Voronoi cells of a mesh. */
 typedef struct calotte_cells calotte_cells;
 
 /** Frees cells and all that pointers from them point to. Null is ignored. */
 CALOTTE_C_API void calotte_cells_free(calotte_cells* cells);
 
-/** Computes the Voronoi cells of a mesh. */
+/** The Voronoi cells of a mesh of the whole sphere or of a periodic box, or of a plane with rings,
+ * which clip them. */
 CALOTTE_C_API calotte_status calotte_voronoi(const calotte_mesh* mesh, calotte_cells** cells,
                                              calotte_error* error);
 
 /** What cells hold, as calotte::Voronoi documents it; the pointers are valid until they are freed.
- * Cell i has the entries begin[i] to begin[i + 1] - 1 of the next three arrays. */
+ * Cell i has the entries begin[i] to begin[i + 1] - 1 of the next three arrays. -1 stands for a
+ * missing cell or edge along a boundary. In a plane the third coordinate is 0. */
 typedef struct calotte_tessellation {
+  size_t size;                     /**< sizeof(calotte_tessellation) */
   int64_t cells;                   /**< number of cells */
   int64_t edges;                   /**< number of edges */
   int64_t vertices;                /**< number of vertices */
@@ -124,63 +184,140 @@ typedef struct calotte_tessellation {
 } calotte_tessellation;
 
 /** Fills *view. */
-CALOTTE_C_API void calotte_cells_view(const calotte_cells* cells, calotte_tessellation* view);
+CALOTTE_C_API calotte_status calotte_cells_view(const calotte_cells* cells,
+                                                calotte_tessellation* view, calotte_error* error);
 
-/* ---- Centroidal Voronoi tessellations of the sphere */
+/* ---- Grids: centroidal Voronoi tessellations */
 
-/** Sets rho[i] to the density at direction i of xyz (unit vectors). Many threads call it at once. A
- * result other than 0 ends the run with CALOTTE_CANCELLED. */
+/** Sets rho[i] to the density at point i of xyz: 3 numbers, unit vectors on the sphere, x y 0 in a
+ * plane. It is 0 or from 1e-150 to 1e150 and depends on the point alone. Many threads call it at
+ * once. A result other than 0 ends the run with CALOTTE_CANCELLED. */
 typedef int (*calotte_density)(const double* xyz, int64_t n, double* rho, void* data);
 
 /** Called after each iteration; a result other than 0 ends the run there, with its mesh. */
 typedef int (*calotte_progress)(int64_t iterations, double residual, void* data);
 
-/** Options of a run; see calotte_cvt_defaults(). */
-typedef struct calotte_cvt_options {
-  calotte_density density;   /**< null: uniform */
-  void* density_data;        /**< its last argument */
-  calotte_progress progress; /**< null: none */
-  void* progress_data;       /**< its last argument */
-  double tolerance;   /**< of the rms distance to the centroids over the spacing; 0: the default */
-  int64_t iterations; /**< the most of a level; 0: the default, 1000 */
-  int64_t seed;       /**< of random points */
-  int32_t well_centred; /**< 1: without obtuse triangles and short Voronoi edges */
-} calotte_cvt_options;
+/** What a user asks for, as calotte::Recipe, which documents the ranges. A member that is 0 or null
+ * has its default; {sizeof recipe} and a number of cells are complete. */
+typedef struct calotte_recipe {
+  size_t size; /**< sizeof(calotte_recipe) */
+  /** Number of cells, fixed points among them. 0: as many as the widths imply, or of the start's
+   * points. */
+  int64_t cells;
+  const calotte_surface* surface; /**< null: the sphere */
+  calotte_density density;        /**< null: uniform, or that of the widths */
+  void* density_data;             /**< its last argument */
+  /** Cell widths: the distances between the centres of neighbouring cells, which set the density.
+   * widths_nx times widths_ny numbers, those of the first y first; km on the sphere, in a plane its
+   * unit. Bilinear between the nodes, see calotte::CellWidth and calotte::PlanarCellWidth. Null:
+   * none. */
+  const double* widths;
+  const double* widths_x; /**< widths_nx, ascending: degrees of longitude; x in a plane */
+  const double* widths_y; /**< widths_ny, ascending: degrees of latitude; y in a plane */
+  int64_t widths_nx;      /**< >= 2 */
+  int64_t widths_ny;      /**< >= 2 */
+  double earth_radius_km; /**< of the sphere that the widths refer to; 0: 6371 */
+  /** Generators that stay where they are, the first sites of the mesh: 3 numbers each on the
+   * sphere, 2 in a plane. Null: none. */
+  const double* fixed;
+  int64_t fixed_count;        /**< their number */
+  const double* start_points; /**< the other generators at the start, likewise; null: none */
+  int64_t start_count;        /**< their number; `cells` is then 0 */
+  const char* start;          /**< "automatic" (null), "multilevel", "density", ...: --start */
+  const char* norm;           /**< "l2-scaled" (null), "linf", ...: --norm */
+  const char* method;         /**< "auto" (null), "lloyd", "lbfgs", ...: --method */
+  int64_t bisections;         /**< of the converged grid; 0: none, or those of the start */
+  int64_t insertion_rounds;   /**< of the start multilevel; 0: 1, with fixed points 3 */
+  double tolerance;           /**< of the norm; 0: 1e-4 if the run ends well-centred, else 1e-6 */
+  int64_t max_iterations;     /**< evaluations of a descent; 0: 1000 */
+  int64_t iterations;         /**< exactly this number in place of norm and tolerance; 0: none */
+  /** 1: shapes are brought within the limits of models at the end; -1: a pure CVT; 0: 1 for the
+   * start multilevel unless `iterations` is given, else -1. */
+  int64_t well_centred;
+  double least_spacing;        /**< of that end: the least edge over the spacing; 0: 0.8 */
+  int64_t seed;                /**< of random points; 0: 1 */
+  double relaxation;           /**< of the method lloyd, 1 or more and less than 2; 0: 1 */
+  int64_t rule;                /**< quadrature points: 1, 3, 6, 7, 13 or 19; 0: 3 */
+  int64_t final_rule;          /**< the same near the end; 0: 6 */
+  int64_t triangle_divisions;  /**< of quadrature, 1 to 100; 0: 1 */
+  int64_t limited_area;        /**< 1: the surface, a part of the sphere, with rings around it, for
+                                  calotte_write_grid(); requires widths */
+  int64_t walls_x;             /**< 1: the box ends at walls in x; see calotte_write_grid() */
+  int64_t walls_y;             /**< 1: the same in y */
+  int64_t boundary_generators; /**< 1: the mesh of a part of the sphere ends at generators on the
+                                  boundary; 0: the boundary clips cells */
+  int64_t refuse_duplicates;   /**< 1: equal points of the start are an error; 0: they merge */
+  double merge_within; /**< points of the start at most this far apart merge; 0: equal ones */
+} calotte_recipe;
 
 /** The course of a run, as calotte::CvtReport. */
-typedef struct calotte_cvt_report {
-  int32_t converged;    /**< 1 if the norm is at most the tolerance */
-  int32_t well_centred; /**< 1 if a finish brought all shapes within their limits */
-  int64_t iterations;   /**< number of evaluations */
-  double residual;      /**< the norm at the end */
-  double energy;        /**< at the end */
-  double seconds;       /**< wall-clock time */
-} calotte_cvt_report;
+typedef struct calotte_report {
+  size_t size;             /**< sizeof(calotte_report) */
+  int64_t converged;       /**< 1 if the norm is at most the tolerance */
+  int64_t well_centred;    /**< 1 if a finish brought all shapes within their limits */
+  int64_t misshapen_cells; /**< after a finish that did not: cells beyond a limit */
+  int64_t worst_cell;      /**< the one farthest beyond; -1 for none */
+  int64_t iterations;      /**< number of evaluations */
+  double residual;         /**< the norm at the end */
+  double energy;           /**< at the end */
+  double seconds;          /**< wall-clock time */
+} calotte_report;
 
-/** Zeros, and the seed 1. */
-CALOTTE_C_API void calotte_cvt_defaults(calotte_cvt_options* options);
+/** Makes the grid of a recipe, as the command `calotte cvt` does.
+ * progress: null for none. progress_data: its last argument. report: may be null.
+ * A run that does not converge, or that progress ends, is no error: see the report. */
+CALOTTE_C_API calotte_status calotte_make_grid(const calotte_recipe* recipe,
+                                               calotte_progress progress, void* progress_data,
+                                               calotte_mesh** mesh, calotte_report* report,
+                                               calotte_error* error);
 
-/** A grid of `cells` generators, from the start that the command takes: a geodesic one if the
- * density is uniform, otherwise levels with insertion. Report and options may be null. */
-CALOTTE_C_API calotte_status calotte_grid(int64_t cells, const calotte_cvt_options* options,
-                                          calotte_mesh** mesh, calotte_cvt_report* report,
+/** What follows from a recipe before any generator moves, as calotte::Schedule. The first five
+ * members are those of the caller; calotte_plan() fills the others. */
+typedef struct calotte_schedule {
+  size_t size; /**< sizeof(calotte_schedule) */
+  /** Length of the following four arrays of the caller; a run has at most 14 levels. Each array may
+   * be null. calotte_plan() fills them, from the coarsest level to that of the result. */
+  int64_t level_capacity;
+  int64_t* level_cells;      /**< number of generators at the level's end */
+  int64_t* level_rounds;     /**< rounds of insertion and contraction */
+  double* level_tolerance;   /**< at which its descents end */
+  int64_t* level_iterations; /**< evaluations of a descent, at most */
+  int64_t levels;            /**< number of levels, of which the arrays hold the first */
+  int64_t cells;             /**< of the run: with walls or a limited area more than are written;
+                                0 where the start's points are given */
+  double implied_cells;      /**< by the widths; 0 without */
+  int64_t fixed;             /**< fixed generators, those on the boundary among them */
+  int64_t on_boundary;       /**< the last of them, by boundary_generators */
+  const char* start;         /**< as calotte_recipe.start; for ever valid */
+  const char* first;         /**< how the points of the first level are made, likewise */
+  int64_t insertion_rounds;  /**< of the last level */
+  int64_t well_centred;      /**< 1 if the run ends so, else -1 */
+  double tolerance;          /**< of the norm */
+} calotte_schedule;
+
+/** Makes all choices of a recipe, as calotte_make_grid() does before it starts. */
+CALOTTE_C_API calotte_status calotte_plan(const calotte_recipe* recipe, calotte_schedule* schedule,
                                           calotte_error* error);
-
-/** The tessellation that n generators descend to. */
-CALOTTE_C_API calotte_status calotte_cvt(const double* xyz, int64_t n,
-                                         const calotte_cvt_options* options, calotte_mesh** mesh,
-                                         calotte_cvt_report* report, calotte_error* error);
 
 /* ---- Files */
 
-/** Reads a mesh of the sphere in any format that calotte::read_mesh() reads. */
+/** Reads a mesh of the sphere or of a plane in any format that calotte::read_mesh() reads. */
 CALOTTE_C_API calotte_status calotte_read(const char* path, calotte_mesh** mesh,
                                           calotte_error* error);
 
 /** Writes a mesh in the format of its name (.nc: MPAS).
- * sphere_radius: of NetCDF files, in their unit of length; 1 in a plane. */
+ * sphere_radius: of NetCDF files, in their unit of length (MPAS: metres); > 0. No effect in a
+ * plane. */
 CALOTTE_C_API calotte_status calotte_write(const char* path, const calotte_mesh* mesh,
                                            double sphere_radius, calotte_error* error);
+
+/** Writes the grid of a recipe, as the command `calotte cvt` does: of a limited area the cells of
+ * the region and of the rings around it, an MPAS file; with walls the cells between them; else the
+ * mesh. The file has the density of the recipe.
+ * mesh: of calotte_make_grid() with the same recipe. sphere_radius: as for calotte_write(). */
+CALOTTE_C_API calotte_status calotte_write_grid(const char* path, const calotte_mesh* mesh,
+                                                const calotte_recipe* recipe, double sphere_radius,
+                                                calotte_error* error);
 
 #ifdef __cplusplus
 }

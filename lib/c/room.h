@@ -2,7 +2,9 @@
 #pragma once
 
 /// The interface for C and for the languages that call C: plain data, error codes and opaque
-/// meshes around the functions of the other rooms.
+/// meshes around the functions of the other rooms. It makes no choices: a recipe of C is one of
+/// C++.
 ///
-/// In: pointers to numbers of the caller. Out: a code, a message and pointers into a mesh.
+/// In: structs of the caller that begin with their size, and pointers to its numbers. Out: a code,
+/// a message, numbers and pointers into a mesh.
 namespace calotte::c_detail {}

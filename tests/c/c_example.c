@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Every function of the interface for C. Usage: c_example NAME.nc, a file to write. */
+ * Every function of the interface for C: laws and errors. Usage: c_example NAME.nc, a file to
+ * write. */
 #include <calotte/c.h>
 
 #include <math.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,6 +18,43 @@ static void expect(int holds, const char* what) {
   }
 }
 
+static calotte_error error = {.size = sizeof error};
+
+/* The status is that of a bad option, and the message holds a text. */
+static void refuses(calotte_status status, const char* text) {
+  const int holds = status == CALOTTE_BAD_OPTION && strstr(error.message, text) != NULL;
+  if (!holds)
+    fprintf(stderr, "c_example: status %d: %s\n", (int)status, error.message);
+  expect(holds, text);
+}
+
+static void succeeds(calotte_status status, const char* what) {
+  if (status != CALOTTE_OK)
+    fprintf(stderr, "c_example: status %d: %s\n", (int)status, error.message);
+  expect(status == CALOTTE_OK, what);
+}
+
+static calotte_triangulation view_of(const calotte_mesh* mesh) {
+  calotte_triangulation view = {.size = sizeof view};
+  succeeds(calotte_mesh_view(mesh, &view, &error), "a view");
+  return view;
+}
+
+/* The caller frees it. */
+static calotte_mesh* mesh_of(const double* points, int64_t n, const calotte_surface* surface,
+                             const char* what) {
+  calotte_mesh* mesh = NULL;
+  succeeds(calotte_delaunay(points, n, surface, &mesh, &error), what);
+  return mesh;
+}
+
+/* The mesh of a recipe that is complete; the caller frees it. */
+static calotte_mesh* grid_of(const calotte_recipe* recipe, const char* what) {
+  calotte_mesh* mesh = NULL;
+  succeeds(calotte_make_grid(recipe, NULL, NULL, &mesh, NULL, &error), what);
+  return mesh;
+}
+
 /* Widths differ by two between the hemispheres. */
 static int density(const double* xyz, int64_t n, double* rho, void* data) {
   int64_t i;
@@ -25,7 +64,7 @@ static int density(const double* xyz, int64_t n, double* rho, void* data) {
   return 0;
 }
 
-static int refuses(const double* xyz, int64_t n, double* rho, void* data) {
+static int cancels(const double* xyz, int64_t n, double* rho, void* data) {
   (void)xyz, (void)n, (void)rho, (void)data;
   return 1;
 }
@@ -41,102 +80,469 @@ static int stop(int64_t iterations, double residual, void* data) {
   return iterations >= 3;
 }
 
-static void octahedron(void) {
-  const double xyz[] = {1, 0, 0, -1, 0, 0, 0, 2, 0, 0, -2, 0, 0, 0, 1, 0, 0, -1, 1, 0, 0};
+static const int64_t four_corners[2] = {0, 4};
+static const double rectangle_ring[8] = {0, 0, 2, 0, 2, 1, 0, 1};
+static const double octant_ring[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+static const int64_t three_corners[2] = {0, 3};
+
+static const calotte_surface rectangle = {.size = sizeof(calotte_surface),
+                                          .kind = CALOTTE_PLANE,
+                                          .rings = 1,
+                                          .corners = rectangle_ring,
+                                          .begin = four_corners};
+static const calotte_surface octant = {
+    .size = sizeof(calotte_surface), .rings = 1, .corners = octant_ring, .begin = three_corners};
+static const calotte_surface box = {
+    .size = sizeof(calotte_surface), .kind = CALOTTE_PLANE, .period = {2, 1}};
+static const calotte_surface plane = {.size = sizeof(calotte_surface), .kind = CALOTTE_PLANE};
+
+static const double octahedron[] = {1, 0, 0, -1, 0, 0, 0,  2, 0, 0, -2,
+                                    0, 0, 0, 1,  0, 0, -1, 1, 0, 0};
+static const double square[] = {0, 0, 1, 0, 0, 1, 1, 1, 0.5, 0.4};
+
+static double sum(const double* values, int64_t n) {
+  double total = 0;
+  int64_t i;
+  for (i = 0; i < n; ++i)
+    total += values[i];
+  return total;
+}
+
+/* ---- Meshes */
+
+static void sphere(void) {
   calotte_mesh* mesh = NULL;
   calotte_cells* cells = NULL;
-  calotte_error error;
   calotte_triangulation t;
-  calotte_tessellation v;
-  double area = 0;
-  int64_t i;
-  expect(calotte_delaunay(xyz, 7, &mesh, &error) == CALOTTE_OK, "an octahedron");
-  calotte_mesh_view(mesh, &t);
+  calotte_tessellation v = {.size = sizeof v};
+  mesh = mesh_of(octahedron, 7, NULL, "an octahedron");
+  t = view_of(mesh);
   expect(t.dimensions == 3 && t.sites == 6 && t.triangles == 8 && t.inputs == 7, "its counts");
   expect(t.site_of_input[6] == 0, "a duplicate");
-  expect(memcmp(t.points, xyz, 18 * sizeof(double)) == 0, "points keep their bits");
-  expect(calotte_check(mesh, &error) == CALOTTE_OK, "check");
-  expect(calotte_voronoi(mesh, &cells, &error) == CALOTTE_OK, "cells");
-  calotte_cells_view(cells, &v);
-  for (i = 0; i < v.cells; ++i)
-    area += v.cell_area[i];
+  expect(memcmp(t.points, octahedron, 18 * sizeof(double)) == 0, "points keep their bits");
+  succeeds(calotte_check(mesh, &error), "check");
+  succeeds(calotte_voronoi(mesh, &cells, &error), "cells");
+  succeeds(calotte_cells_view(cells, &v, &error), "their view");
   expect(v.edges == 12 && v.vertices == 8 && v.begin[6] == 24, "their counts");
-  expect(fabs(area - 4 * 3.14159265358979323846) < 1e-12, "their area");
+  expect(fabs(sum(v.cell_area, v.cells) - 4 * 3.14159265358979323846) < 1e-12, "their area");
   calotte_cells_free(cells);
   calotte_mesh_free(mesh);
 }
 
-static void plane(void) {
-  const double xy[] = {0, 0, 1, 0, 0, 1, 1, 1, 0.5, 0.4};
+static void planes(void) {
+  double in_box[64];
+  int i;
   calotte_mesh* mesh = NULL;
+  calotte_cells* cells = NULL;
   calotte_triangulation t;
-  expect(calotte_delaunay_in_plane(xy, 5, 0, 0, &mesh, NULL) == CALOTTE_OK, "a square");
-  calotte_mesh_view(mesh, &t);
+  calotte_tessellation v = {.size = sizeof v};
+  mesh = mesh_of(square, 5, &plane, "a square");
+  t = view_of(mesh);
   expect(t.dimensions == 2 && t.triangles == 4, "its triangles");
+  expect(memcmp(t.points, square, sizeof square) == 0, "places keep their bits");
+  succeeds(calotte_check(mesh, &error), "check in the plane");
+  calotte_mesh_free(mesh);
+
+  for (i = 0; i < 32; ++i) {
+    in_box[2 * i] = (i % 8) * 0.25 + (i * 7 % 5) * 0.03;
+    in_box[2 * i + 1] = (i / 8) * 0.25 + (i * 3 % 7) * 0.02;
+  }
+  mesh = mesh_of(in_box, 32, &box, "a box");
+  t = view_of(mesh);
+  expect(t.sites == 32 && t.triangles == 64, "its triangles");
+  succeeds(calotte_voronoi(mesh, &cells, &error), "cells of a box");
+  succeeds(calotte_cells_view(cells, &v, &error), "their view");
+  expect(fabs(sum(v.cell_area, v.cells) - 2) < 1e-12, "their area is that of the box");
+  calotte_cells_free(cells);
+  calotte_mesh_free(mesh);
+
+  mesh = mesh_of(in_box, 32, &rectangle, "a rectangle");
+  succeeds(calotte_voronoi(mesh, &cells, &error), "clipped cells");
+  succeeds(calotte_cells_view(cells, &v, &error), "their view");
+  expect(fabs(sum(v.cell_area, v.cells) - 2) < 1e-12, "their area is that of the rectangle");
+  calotte_cells_free(cells);
   calotte_mesh_free(mesh);
 }
 
-static void grids(const char* path) {
-  calotte_cvt_options options;
-  calotte_cvt_report report;
-  calotte_mesh *mesh = NULL, *read = NULL, *again = NULL;
+static void surfaces(void) {
+  const int64_t falling[2] = {3, 0};
+  calotte_mesh* mesh = NULL;
+  calotte_surface surface = {.size = sizeof surface};
+  mesh = mesh_of(octahedron, 6, &surface, "all zero is the sphere");
+  expect(view_of(mesh).dimensions == 3, "its dimensions");
+  calotte_mesh_free(mesh);
+  mesh = NULL;
+  surface.kind = 7;
+  refuses(calotte_delaunay(square, 5, &surface, &mesh, &error), "CALOTTE_PLANE");
+  surface.kind = CALOTTE_SPHERE;
+  surface.period[1] = 1;
+  refuses(calotte_delaunay(square, 5, &surface, &mesh, &error), "a period is that of a plane");
+  refuses(calotte_delaunay(octahedron, 6, &octant, &mesh, &error), "leave out the rings");
+  surface = rectangle;
+  surface.period[0] = 1;
+  refuses(calotte_delaunay(square, 5, &surface, &mesh, &error), "rings bound the whole");
+  surface = rectangle;
+  surface.begin = falling;
+  refuses(calotte_delaunay(square, 5, &surface, &mesh, &error), "ring 0 begins at corner 3");
+  surface.begin = NULL;
+  refuses(calotte_delaunay(square, 5, &surface, &mesh, &error), "null pointer");
+  surface = rectangle;
+  surface.rings = -1;
+  refuses(calotte_delaunay(square, 5, &surface, &mesh, &error), "number of rings");
+  surface = box;
+  surface.period[0] = -1;
+  refuses(calotte_delaunay(square, 5, &surface, &mesh, &error), "give two lengths");
+  surface.size = 0;
+  refuses(calotte_delaunay(square, 5, &surface, &mesh, &error), "sizeof(calotte_surface)");
+  expect(mesh == NULL, "outputs stay unchanged");
+}
+
+static void positions(void) {
+  const double at[] = {1, 1, 1, 3, 0, 0, -1, 2, -3}, outside[] = {0.25, 0.25, 5, 5};
+  double values[6], weights[9], out[3];
+  int32_t triangles[3], nearest[3];
+  calotte_mesh* mesh = NULL;
+  int i;
+  mesh = mesh_of(octahedron, 6, NULL, "an octahedron");
+  succeeds(calotte_locate(mesh, at, 3, triangles, weights, nearest, &error), "locate");
+  for (i = 0; i < 3; ++i)
+    expect(triangles[i] >= 0 && triangles[i] < 8 && fabs(sum(weights + 3 * i, 3) - 1) < 1e-15,
+           "weights sum to 1");
+  expect(fabs(weights[0] - 1. / 3) < 1e-15 && nearest[0] == 0, "the middle of a triangle");
+  expect(nearest[1] == 0 && weights[3] + weights[4] + weights[5] == 1, "a site");
+  expect(nearest[2] == 5, "the nearest site");
+  succeeds(calotte_locate(mesh, at, 3, NULL, NULL, NULL, &error), "outputs may be null");
+  succeeds(calotte_locate(mesh, NULL, 0, NULL, NULL, NULL, &error), "no position");
+  for (i = 0; i < 6; ++i)
+    values[i] = i;
+  succeeds(calotte_interpolate(mesh, values, at, 3, 0, out, &error), "interpolate");
+  expect(out[1] == 0 && fabs(out[0] - (0 + 2 + 4) / 3.) < 1e-14, "linear on a triangle");
+  succeeds(calotte_interpolate(mesh, values, octahedron, 3, 1, out, &error), "natural neighbours");
+  expect(out[0] == 0 && out[1] == 1 && out[2] == 2, "exact at sites");
+  refuses(calotte_interpolate(mesh, NULL, at, 3, 0, out, &error), "null pointer");
+  refuses(calotte_interpolate(mesh, values, at, 3, 2, out, &error), "natural is 2");
+  refuses(calotte_locate(mesh, NULL, 3, triangles, NULL, NULL, &error), "null pointer");
+  refuses(calotte_locate(NULL, at, 3, triangles, NULL, NULL, &error), "null pointer");
+  calotte_mesh_free(mesh);
+
+  mesh = mesh_of(square, 5, &plane, "a square");
+  succeeds(calotte_locate(mesh, outside, 2, triangles, weights, nearest, &error), "in the plane");
+  expect(triangles[0] >= 0 && triangles[1] == -1 && isnan(weights[3]) && nearest[1] == 3,
+         "a position outside");
+  for (i = 0; i < 5; ++i)
+    values[i] = 3 * square[2 * i] - square[2 * i + 1];
+  for (i = 0; i < 2; ++i) {
+    succeeds(calotte_interpolate(mesh, values, outside, 2, i, out, &error), "interpolate");
+    expect(fabs(out[0] - 0.5) < 1e-14 && isnan(out[1]), "exact for linear functions; NaN outside");
+  }
+  calotte_mesh_free(mesh);
+}
+
+/* ---- Structs of other sizes */
+
+static void sizes(void) {
+  struct {
+    calotte_recipe recipe;
+    double newer;
+  } later = {.recipe = {.size = sizeof later, .cells = 42}};
+  calotte_recipe recipe = {.size = sizeof recipe};
+  calotte_error brief = {.size = offsetof(calotte_error, message) + 8, .message = "unchanged text"};
+  calotte_triangulation view = {.size = offsetof(calotte_triangulation, triangles),
+                                .triangles = -7};
+  calotte_mesh* mesh = NULL;
+  recipe.cells = 42;
+  calotte_mesh_free(grid_of(&recipe, "a size and a number of cells are a request"));
+  recipe.size = offsetof(calotte_recipe, surface);
+  recipe.iterations = -5;
+  mesh = grid_of(&recipe, "members that a shorter struct lacks are not read");
+  succeeds(calotte_mesh_view(mesh, &view, &error), "a short view");
+  expect(view.sites == 42 && view.triangles == -7, "the library writes what fits");
+  view.size = 0;
+  refuses(calotte_mesh_view(mesh, &view, &error), "sizeof(calotte_triangulation)");
+  calotte_mesh_free(mesh);
+  mesh = NULL;
+  calotte_mesh_free(grid_of(&later.recipe, "members of a longer struct may be 0"));
+  later.newer = 1;
+  refuses(calotte_make_grid(&later.recipe, NULL, NULL, &mesh, NULL, &error), "beyond the");
+  recipe.size = 0;
+  refuses(calotte_make_grid(&recipe, NULL, NULL, &mesh, NULL, &error), "sizeof(calotte_recipe)");
+  recipe.size = (size_t)-1;
+  refuses(calotte_make_grid(&recipe, NULL, NULL, &mesh, NULL, &error), "sizeof(calotte_recipe)");
+  refuses(calotte_make_grid(NULL, NULL, NULL, &mesh, NULL, &error), "calotte_recipe is null");
+  expect(calotte_make_grid(NULL, NULL, NULL, &mesh, NULL, &brief) == CALOTTE_BAD_OPTION &&
+             strlen(brief.message) == 7 && strcmp(brief.message + 8, " text") != 0,
+         "a short message");
+  expect(strcmp(brief.message + 10, "text") == 0, "nothing beyond it is written");
+  brief.size = 0;
+  recipe.size = sizeof recipe;
+  recipe.iterations = 0;
+  expect(calotte_make_grid(&recipe, NULL, NULL, &mesh, NULL, &brief) == CALOTTE_BAD_OPTION &&
+             mesh == NULL,
+         "an error without a size");
+}
+
+/* ---- Grids */
+
+static void runs(void) {
+  calotte_recipe recipe = {.size = sizeof recipe, .cells = 642};
+  calotte_report report = {.size = sizeof report};
+  calotte_mesh *mesh = NULL, *again = NULL;
   calotte_triangulation a, b;
-  calotte_error error;
   int calls = 0;
-  calotte_cvt_defaults(&options);
-  options.progress = count;
-  options.progress_data = &calls;
-  expect(calotte_grid(642, &options, &mesh, &report, &error) == CALOTTE_OK, "a uniform grid");
-  expect(report.converged && calls > 1, "its report");
-  expect(calotte_write(path, mesh, 6371229, &error) == CALOTTE_OK, "write");
-  expect(calotte_read(path, &read, &error) == CALOTTE_OK, "read");
-  calotte_mesh_view(mesh, &a);
-  calotte_mesh_view(read, &b);
+  succeeds(calotte_make_grid(&recipe, count, &calls, &mesh, &report, &error), "a uniform grid");
+  expect(report.converged && calls > 1 && report.iterations >= calls, "its report");
+  expect(report.residual <= 1e-6 && report.energy > 0 && report.worst_cell == -1, "its numbers");
+  a = view_of(mesh);
+  expect(a.sites == 642 && a.triangles == 1280, "its counts");
+  calotte_mesh_free(mesh);
+
+  recipe.cells = 1000;
+  recipe.density = density;
+  calotte_set_threads(1);
+  succeeds(calotte_make_grid(&recipe, NULL, NULL, &mesh, &report, &error), "a graded grid");
+  expect(report.well_centred == 1 && report.misshapen_cells == 0, "it is well-centred");
+  calotte_set_threads(2);
+  again = grid_of(&recipe, "the same with two threads");
+  calotte_set_threads(0);
+  a = view_of(mesh);
+  b = view_of(again);
+  expect(a.sites == 1000 && memcmp(a.points, b.points, 3000 * sizeof(double)) == 0, "same bits");
+  calotte_mesh_free(again);
+
+  recipe.cells = 0;
+  recipe.start_points = a.points;
+  recipe.start_count = a.sites;
+  succeeds(calotte_make_grid(&recipe, stop, NULL, &again, &report, &error), "an early end");
+  expect(report.iterations == 3 && !report.converged, "its report");
+  calotte_mesh_free(again);
+  again = NULL;
+  recipe.density = cancels;
+  expect(calotte_make_grid(&recipe, NULL, NULL, &again, NULL, &error) == CALOTTE_CANCELLED &&
+             again == NULL,
+         "a density that ends the run");
+  report.size = 0;
+  refuses(calotte_make_grid(&recipe, NULL, NULL, &again, &report, &error), "calotte_report");
+  refuses(calotte_make_grid(&recipe, NULL, NULL, NULL, NULL, &error), "receives the mesh");
+  calotte_mesh_free(mesh);
+}
+
+static void recipes(void) {
+  const double fixed[] = {0.5, 0.5, 1.5, 0.5};
+  calotte_recipe recipe = {.size = sizeof recipe};
+  calotte_mesh *mesh = NULL, *one = NULL, *two = NULL;
+  calotte_triangulation view, other;
+  recipe.cells = 60;
+  recipe.surface = &rectangle;
+  recipe.fixed = fixed;
+  recipe.fixed_count = 2;
+  mesh = grid_of(&recipe, "fixed points in a rectangle");
+  view = view_of(mesh);
+  expect(view.sites == 60 && view.dimensions == 2, "its cells");
+  expect(memcmp(view.points, fixed, sizeof fixed) == 0, "fixed points are the first sites");
+  calotte_mesh_free(mesh);
+
+  memset(&recipe, 0, sizeof recipe);
+  recipe.size = sizeof recipe;
+  recipe.cells = 100;
+  recipe.surface = &octant;
+  mesh = grid_of(&recipe, "a part of the sphere");
+  expect(view_of(mesh).sites == 100, "its cells");
+  succeeds(calotte_check(mesh, &error), "its triangles");
+  calotte_mesh_free(mesh);
+
+  recipe.surface = NULL;
+  recipe.start = "random";
+  one = grid_of(&recipe, "random points");
+  recipe.seed = 1;
+  two = grid_of(&recipe, "the seed 1");
+  view = view_of(one);
+  other = view_of(two);
+  expect(memcmp(view.points, other.points, 300 * sizeof(double)) == 0, "is the default");
+  calotte_mesh_free(two);
+  recipe.seed = 2;
+  two = grid_of(&recipe, "another seed");
+  other = view_of(two);
+  expect(memcmp(view.points, other.points, 300 * sizeof(double)) != 0, "gives other points");
+  calotte_mesh_free(two);
+  calotte_mesh_free(one);
+
+  mesh = NULL;
+  memset(&recipe, 0, sizeof recipe);
+  recipe.size = sizeof recipe;
+  refuses(calotte_make_grid(&recipe, NULL, NULL, &mesh, NULL, &error), "no number of cells");
+#define REFUSES(MEMBER, VALUE, TEXT)                                                               \
+  recipe.cells = 100;                                                                              \
+  recipe.MEMBER = VALUE;                                                                           \
+  refuses(calotte_make_grid(&recipe, NULL, NULL, &mesh, NULL, &error), TEXT);                      \
+  recipe.MEMBER = 0
+  REFUSES(cells, -1, "-1");
+  REFUSES(start, "somewhere", "'somewhere'; give one of automatic, points, multilevel");
+  REFUSES(norm, "l3", "'l3'; give one of l2, linf");
+  REFUSES(method, "newton", "'newton'; give one of auto, lloyd");
+  REFUSES(bisections, -1, "bisections");
+  REFUSES(bisections, 5000000000, "5000000000");
+  REFUSES(insertion_rounds, -1, "rounds of insertion");
+  REFUSES(tolerance, -1, "tolerance");
+  REFUSES(max_iterations, -1, "iterations");
+  REFUSES(iterations, -1, "iterations");
+  REFUSES(well_centred, 2, "give -1, 0 or 1");
+  REFUSES(least_spacing, 1, "spacing");
+  REFUSES(relaxation, 3, "relaxation");
+  REFUSES(rule, 4, "rule");
+  REFUSES(final_rule, 4, "rule");
+  REFUSES(triangle_divisions, 101, "divi");
+  REFUSES(limited_area, 1, "limited area");
+  REFUSES(limited_area, 2, "limited_area is 2; give 0 or 1");
+  REFUSES(walls_x, 1, "walls");
+  REFUSES(walls_y, -1, "walls_y is -1");
+  REFUSES(boundary_generators, 1, "give the rings");
+  REFUSES(refuse_duplicates, 2, "refuse_duplicates is 2");
+  REFUSES(merge_within, -1, "merge");
+  REFUSES(fixed_count, 1, "the fixed points are a null pointer");
+  REFUSES(start_count, -1, "number of points is -1");
+  REFUSES(widths, fixed, "widths_x and widths_y");
+  REFUSES(widths_nx, 2, "null pointer");
+#undef REFUSES
+  recipe.cells = 0;
+  recipe.start_points = octahedron;
+  recipe.start_count = 7;
+  recipe.refuse_duplicates = 1;
+  expect(calotte_make_grid(&recipe, NULL, NULL, &mesh, NULL, &error) == CALOTTE_DUPLICATE &&
+             error.index == 6,
+         "equal points are refused");
+  expect(mesh == NULL, "outputs stay unchanged");
+}
+
+static void plans(void) {
+  const double x[] = {0, 180}, y[] = {-90, 0, 90}, km[] = {300, 300, 400, 400, 500, 500};
+  int64_t cells[14], rounds[14], iterations[14];
+  double tolerance[14];
+  calotte_recipe recipe = {.size = sizeof recipe,
+                           .widths = km,
+                           .widths_x = x,
+                           .widths_y = y,
+                           .widths_nx = 2,
+                           .widths_ny = 3};
+  calotte_schedule schedule = {.size = sizeof schedule,
+                               .level_capacity = 14,
+                               .level_cells = cells,
+                               .level_rounds = rounds,
+                               .level_tolerance = tolerance,
+                               .level_iterations = iterations};
+  succeeds(calotte_plan(&recipe, &schedule, &error), "a plan");
+  expect(schedule.levels >= 1 && schedule.levels <= 14, "its levels");
+  expect(cells[schedule.levels - 1] == schedule.cells, "the last level has the cells");
+  expect(fabs((double)schedule.cells - schedule.implied_cells) <= 0.5, "as many as implied");
+  expect(strcmp(schedule.start, "multilevel") == 0 && schedule.first != NULL, "its start");
+  expect(schedule.insertion_rounds == 1 && rounds[schedule.levels - 1] == 1, "its rounds");
+  expect(schedule.well_centred == 1 && schedule.tolerance == 1e-4, "its end");
+  expect(tolerance[0] > 0 && iterations[0] > 0 && schedule.fixed == 0, "its descents");
+  schedule.level_capacity = 0;
+  cells[0] = -7;
+  succeeds(calotte_plan(&recipe, &schedule, &error), "a plan without levels");
+  expect(cells[0] == -7 && schedule.levels >= 1, "no array is filled beyond its length");
+  recipe.earth_radius_km = 6371. / 2;
+  succeeds(calotte_plan(&recipe, &schedule, &error), "half the radius");
+  expect(fabs(schedule.implied_cells * 4 - (double)schedule.cells * 4) <= 2, "a quarter of cells");
+  recipe.earth_radius_km = -1;
+  refuses(calotte_plan(&recipe, &schedule, &error), "radius");
+  recipe.earth_radius_km = 0;
+  recipe.density = density;
+  refuses(calotte_plan(&recipe, &schedule, &error), "widths and a density");
+  recipe.density = NULL;
+  schedule.level_capacity = -1;
+  refuses(calotte_plan(&recipe, &schedule, &error), "level_capacity");
+  schedule.size = 0;
+  refuses(calotte_plan(&recipe, &schedule, &error), "sizeof(calotte_schedule)");
+}
+
+/* ---- Files */
+
+static void files(const char* path) {
+  const double x[] = {0, 180}, y[] = {-90, 90}, km[] = {600, 600, 600, 600};
+  calotte_recipe recipe = {.size = sizeof recipe, .cells = 642};
+  calotte_mesh *mesh = NULL, *read = NULL;
+  calotte_triangulation a, b;
+  mesh = grid_of(&recipe, "a uniform grid");
+  a = view_of(mesh);
+  succeeds(calotte_write(path, mesh, 6371229, &error), "write");
+  succeeds(calotte_read(path, &read, &error), "read");
+  b = view_of(read);
   expect(a.sites == 642 && a.triangles == b.triangles, "the file's mesh");
   calotte_mesh_free(read);
+  succeeds(calotte_write_grid(path, mesh, &recipe, 1, &error), "a grid of the whole sphere");
+  refuses(calotte_write(path, mesh, 0, &error), "radius");
+  refuses(calotte_write(NULL, mesh, 1, &error), "null pointer");
+  refuses(calotte_write(path, NULL, 1, &error), "null pointer");
+  refuses(calotte_write_grid(path, mesh, NULL, 1, &error), "calotte_recipe is null");
 
-  options.density = density;
-  options.well_centred = 1;
-  calotte_set_threads(2);
-  expect(calotte_grid(1000, &options, &again, &report, &error) == CALOTTE_OK, "a graded grid");
-  calotte_set_threads(0);
-  calotte_mesh_free(again);
-  options.progress = stop;
-  again = NULL;
-  expect(calotte_cvt(a.points, a.sites, &options, &again, &report, &error) == CALOTTE_OK &&
-             report.iterations == 3 && !report.converged,
-         "a run that ends early");
-  calotte_mesh_free(again);
-  options.density = refuses;
-  expect(calotte_cvt(a.points, a.sites, &options, &again, &report, &error) == CALOTTE_CANCELLED,
-         "a density that ends the run");
+  recipe.cells = 0;
+  recipe.surface = &octant;
+  recipe.widths = km;
+  recipe.widths_x = x;
+  recipe.widths_y = y;
+  recipe.widths_nx = recipe.widths_ny = 2;
+  recipe.limited_area = 1;
+  refuses(calotte_write_grid(path, mesh, &recipe, 1, &error), "another surface");
+  calotte_mesh_free(mesh);
+  mesh = grid_of(&recipe, "a limited area");
+  succeeds(calotte_write_grid(path, mesh, &recipe, 1, &error), "its file");
+  read = NULL;
+  succeeds(calotte_read(path, &read, &error), "which is read");
+  expect(view_of(read).sites < view_of(mesh).sites, "cells beyond the rings are left out");
+  calotte_mesh_free(read);
+  refuses(calotte_write_grid("area.vtp", mesh, &recipe, 1, &error), "give a name that ends in .nc");
+  calotte_mesh_free(mesh);
+
+  memset(&recipe, 0, sizeof recipe);
+  recipe.size = sizeof recipe;
+  recipe.cells = 200;
+  recipe.surface = &box;
+  recipe.walls_y = 1;
+  mesh = grid_of(&recipe, "a box with walls");
+  expect(view_of(mesh).sites > 200, "the gap beyond them has cells");
+  succeeds(calotte_write_grid(path, mesh, &recipe, 1, &error), "its file");
   calotte_mesh_free(mesh);
 }
 
 static void errors(void) {
   double xyz[12] = {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
-  calotte_error error;
   calotte_mesh* mesh = NULL;
+  calotte_cells* cells = NULL;
   xyz[4] = nan("");
-  expect(calotte_delaunay(xyz, 4, &mesh, &error) == CALOTTE_NOT_FINITE && error.index == 1, "NaN");
+  expect(calotte_delaunay(xyz, 4, NULL, &mesh, &error) == CALOTTE_NOT_FINITE && error.index == 1,
+         "NaN");
   xyz[4] = 1;
-  expect(calotte_delaunay(xyz, 4, &mesh, &error) == CALOTTE_ZERO_VECTOR && error.index == 3,
+  expect(calotte_delaunay(xyz, 4, NULL, &mesh, &error) == CALOTTE_ZERO_VECTOR && error.index == 3,
          "a point at the origin");
-  expect(calotte_delaunay(xyz, 2, &mesh, &error) == CALOTTE_TOO_FEW_SITES, "2 points");
-  expect(calotte_delaunay(NULL, 3, &mesh, &error) == CALOTTE_BAD_OPTION, "a null pointer");
-  expect(calotte_delaunay(xyz, -1, &mesh, NULL) == CALOTTE_BAD_OPTION, "a negative count");
+  expect(calotte_delaunay(xyz, 2, NULL, &mesh, &error) == CALOTTE_TOO_FEW_SITES, "2 points");
+  refuses(calotte_delaunay(NULL, 3, NULL, &mesh, &error), "the points are a null pointer");
+  refuses(calotte_delaunay(xyz, -1, NULL, &mesh, &error), "-1");
+  refuses(calotte_delaunay(xyz, 3, NULL, NULL, &error), "receives the mesh");
+  expect(calotte_delaunay(xyz, -1, NULL, &mesh, NULL) == CALOTTE_BAD_OPTION, "without an error");
   expect(calotte_read("no such file.nc", &mesh, &error) == CALOTTE_FILE, "no file");
   expect(strstr(error.message, "no such file.nc") != NULL, "a message with its name");
-  expect(mesh == NULL, "outputs stay unchanged");
+  refuses(calotte_voronoi(mesh, &cells, &error), "null pointer");
+  refuses(calotte_mesh_view(mesh, NULL, &error), "null pointer");
+  refuses(calotte_cells_view(cells, NULL, &error), "null pointer");
+  refuses(calotte_check(mesh, &error), "null pointer");
+  expect(mesh == NULL && cells == NULL, "outputs stay unchanged");
   calotte_mesh_free(NULL);
+  calotte_cells_free(NULL);
 }
 
 int main(int argc, char** argv) {
   if (argc != 2 || strlen(calotte_version()) < 5)
     return 2;
-  octahedron();
-  plane();
-  grids(argv[1]);
+  sphere();
+  planes();
+  surfaces();
+  positions();
+  sizes();
+  runs();
+  recipes();
+  plans();
+  files(argv[1]);
   errors();
   return failures != 0;
 }

@@ -3,30 +3,60 @@
 
 #include <calotte/c.h>
 
+#include <vector>
+
 using calotte::fuzz::require;
+
+namespace {
+
+/// Positions are located, and values interpolated, or neither output is set.
+void look_up(const calotte_mesh* mesh, const Eigen::MatrixXd& positions) {
+  calotte_triangulation view{};
+  view.size = sizeof view;
+  require(calotte_mesh_view(mesh, &view, nullptr) == 0);
+  const auto n = static_cast<std::size_t>(positions.cols());
+  const std::vector<double> ones(static_cast<std::size_t>(view.sites), 1);
+  std::vector<double> weights(3 * n), values(n);
+  std::vector<std::int32_t> triangles(n, -2), nearest(n, -2);
+  if (calotte_locate(mesh, positions.data(), positions.cols(), triangles.data(), weights.data(),
+                     nearest.data(), nullptr) == 0)
+    for (std::size_t i = 0; i < n; ++i)
+      require(triangles[i] >= -1 && triangles[i] < view.triangles && nearest[i] >= 0 &&
+              nearest[i] < view.sites);
+  for (const int natural : {0, 1})
+    calotte_interpolate(mesh, ones.data(), positions.data(), positions.cols(), natural,
+                        values.data(), nullptr);
+}
+
+} // namespace
 
 /// The C functions: each returns a status, and what succeeds has consistent views.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   calotte::fuzz::Bytes bytes(data, size);
-  const bool plane = bytes.integer(0, 1) == 1;
-  const double period_x = bytes.number(), period_y = bytes.number();
-  const Eigen::MatrixXd points = bytes.columns(plane ? 2 : 3, 60);
+  calotte_surface surface{};
+  surface.size = sizeof surface;
+  surface.kind = bytes.integer(0, 1);
+  if (surface.kind == CALOTTE_PLANE) {
+    surface.period[0] = bytes.number();
+    surface.period[1] = bytes.number();
+  }
+  const int rows = surface.kind == CALOTTE_PLANE ? 2 : 3;
+  const Eigen::MatrixXd points = bytes.columns(rows, 60);
   calotte_mesh* mesh = nullptr;
-  calotte_error error;
-  const calotte_status status = plane
-                                    ? calotte_delaunay_in_plane(points.data(), points.cols(),
-                                                                period_x, period_y, &mesh, &error)
-                                    : calotte_delaunay(points.data(), points.cols(), &mesh, &error);
+  calotte_error error{};
+  error.size = sizeof error;
+  const calotte_status status =
+      calotte_delaunay(points.data(), points.cols(), &surface, &mesh, &error);
   require((status == 0) == (mesh != nullptr));
   if (mesh == nullptr)
     return 0;
-  calotte_triangulation view;
-  calotte_mesh_view(mesh, &view);
   require(calotte_check(mesh, &error) == 0);
+  look_up(mesh, bytes.columns(rows, 8));
   calotte_cells* cells = nullptr;
   if (calotte_voronoi(mesh, &cells, &error) == 0) {
-    calotte_tessellation tessellation;
-    calotte_cells_view(cells, &tessellation);
+    calotte_tessellation tessellation{};
+    tessellation.size = sizeof tessellation;
+    require(calotte_cells_view(cells, &tessellation, &error) == 0);
   }
   calotte_cells_free(cells);
   calotte_mesh_free(mesh);

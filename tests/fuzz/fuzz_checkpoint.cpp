@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bytes.h"
+#include "cvt/cvt.h"
 #include "scratch_file.h"
 
 #include <calotte/cvt.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bytes.h"
+#include "delaunay/delaunay.h"
 #include "mutation.h"
 
 #include <calotte/check.h>

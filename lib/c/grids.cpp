@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <calotte/c.h>
+
+#include "c/guard.h"
+#include "c/mesh.h"
+#include "c/recipe.h"
+
+#include <calotte/grid.h>
+#include <calotte/write_grid.h>
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace calotte::c_detail {
+namespace {
+
+calotte_report report_of(const CvtReport& report) {
+  return {0,
+          report.converged ? 1 : 0,
+          report.well_centred ? 1 : 0,
+          report.misshapen_cells,
+          report.worst_cell,
+          std::ssize(report.iterations),
+          report.residual,
+          report.iterations.empty() ? 0 : report.iterations.back().energy,
+          report.seconds};
+}
+
+/// Fills one of a caller's arrays of levels. \param member of a level.
+template <class Number, class Member>
+void fill_levels(const Schedule& schedule, std::int64_t capacity, Number* out, Member member) {
+  const auto& levels = schedule.levels;
+  if (out != nullptr)
+    std::transform(levels.begin(), levels.begin() + std::min(std::ssize(levels), capacity), out,
+                   [&](const CvtLevel& level) { return static_cast<Number>(level.*member); });
+}
+
+calotte_schedule filled(const Schedule& schedule, calotte_schedule given) {
+  require(given.level_capacity >= 0, "level_capacity is negative; give 0 or more");
+  const Recipe& made = schedule.recipe;
+  const std::int64_t capacity = given.level_capacity;
+  fill_levels(schedule, capacity, given.level_cells, &CvtLevel::cells);
+  fill_levels(schedule, capacity, given.level_rounds, &CvtLevel::insertion_rounds);
+  fill_levels(schedule, capacity, given.level_tolerance, &CvtLevel::tolerance);
+  fill_levels(schedule, capacity, given.level_iterations, &CvtLevel::max_iterations);
+  given.levels = std::ssize(schedule.levels);
+  given.cells = made.cells;
+  given.implied_cells = schedule.implied_cells;
+  given.fixed = made.fixed.cols();
+  given.on_boundary = schedule.on_boundary;
+  given.start = word_of(made.start.kind).data();
+  given.first = word_of(schedule.first).data();
+  given.insertion_rounds = made.start.insertion_rounds.value_or(0);
+  given.well_centred = *made.stop.well_centred ? 1 : -1;
+  given.tolerance = *made.stop.tolerance;
+  return given;
+}
+
+} // namespace
+} // namespace calotte::c_detail
+
+using namespace calotte;
+using namespace calotte::c_detail;
+
+calotte_status calotte_make_grid(const calotte_recipe* recipe, calotte_progress progress,
+                                 void* progress_data, calotte_mesh** mesh, calotte_report* report,
+                                 calotte_error* error) {
+  return guarded(error, [&] {
+    require_output(mesh);
+    if (report != nullptr)
+      size_of(report, "calotte_report");
+    RunOptions options;
+    if (progress != nullptr)
+      options.callback = [=](const CvtProgress& now) {
+        return progress(std::ssize(now.report.iterations), now.report.residual, progress_data) != 0;
+      };
+    Cvt grid = make_grid(recipe_of(recipe), options);
+    hand_over(std::move(grid.mesh), mesh);
+    if (report != nullptr)
+      fill(report, report_of(grid.report), "calotte_report");
+  });
+}
+
+calotte_status calotte_plan(const calotte_recipe* recipe, calotte_schedule* schedule,
+                            calotte_error* error) {
+  return guarded(error, [&] {
+    const calotte_schedule given = known_part(schedule, "calotte_schedule");
+    fill(schedule, filled(plan(recipe_of(recipe)), given), "calotte_schedule");
+  });
+}
+
+calotte_status calotte_write_grid(const char* path, const calotte_mesh* mesh,
+                                  const calotte_recipe* recipe, double sphere_radius,
+                                  calotte_error* error) {
+  return guarded(error, [&] {
+    require(path != nullptr, "the path is a null pointer; give the name of a file");
+    const Mesh& made = mesh_of(mesh);
+    const Recipe asked = recipe_of(recipe);
+    WriteOptions options;
+    options.sphere_radius = sphere_radius;
+    write_grid(path, made, asked, plan(asked), options);
+  });
+}

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "base/require.h"
+#include "c/room.h"
+
+#include <calotte/c.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <functional>
+#include <string>
+
+namespace calotte::c_detail {
+
+using base_detail::require;
+
+/// The threads of later work of the calling thread; 0 for all cores.
+void set_threads(int count);
+
+/// Does the work in these threads and turns what it throws into a code and *error.
+/// \param error null, or of a caller; without room for a message nothing is done, and the code is
+///        CALOTTE_BAD_OPTION.
+calotte_status guarded(calotte_error* error, const std::function<void()>& work);
+
+/// The size of a caller's struct. \param name of its type.
+/// \throws Error bad_option for a null pointer and for a size that no struct of this type has.
+template <class Struct> std::size_t size_of(const Struct* given, const std::string& name) {
+  constexpr std::size_t most = 1 << 16; // a member that was never set
+  require(given != nullptr, "the pointer to a " + name + " is null; give the address of one");
+  require(given->size >= sizeof given->size && given->size <= most,
+          "the size of the " + name + " is " + std::to_string(given->size) + "; set it to sizeof(" +
+              name + ")");
+  return given->size;
+}
+
+/// A caller's struct with all members that the library knows: 0 where the caller's has none.
+/// \throws Error bad_option as size_of(), and for other members that are not 0.
+template <class Struct> Struct known_part(const Struct* given, const std::string& name) {
+  const std::size_t size = size_of(given, name);
+  Struct known{};
+  std::memcpy(&known, given, std::min(size, sizeof known));
+  const auto* bytes = reinterpret_cast<const unsigned char*>(given);
+  require(std::all_of(bytes + std::min(size, sizeof known), bytes + size,
+                      [](unsigned char byte) { return byte == 0; }),
+          "the " + name + " has members beyond the " + std::to_string(sizeof known) +
+              " bytes that this library knows, and they are not 0; leave them 0, or use a newer "
+              "library");
+  return known;
+}
+
+/// Sets the members that a caller's struct has. \throws Error bad_option as size_of().
+template <class Struct> void fill(Struct* out, Struct values, const std::string& name) {
+  values.size = size_of(out, name);
+  std::memcpy(out, &values, std::min(values.size, sizeof values));
+}
+
+} // namespace calotte::c_detail

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "c/guard.h"
+
+#include <calotte/types.h>
+
+/// What the opaque pointer of C points to.
+struct calotte_mesh {
+  calotte::Mesh mesh;
+  calotte::Points2 places; ///< x y of the sites in a plane, as a view has them; empty on the sphere
+};
+
+namespace calotte::c_detail {
+
+/// \throws Error bad_option for a null pointer.
+void require_output(calotte_mesh** mesh);
+
+/// Gives a mesh to a caller. \pre require_output(mesh).
+void hand_over(Mesh&& made, calotte_mesh** mesh);
+
+/// A caller's mesh. \throws Error bad_option for a null pointer.
+const Mesh& mesh_of(const calotte_mesh* mesh);
+
+} // namespace calotte::c_detail

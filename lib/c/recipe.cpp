@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "c/recipe.h"
+
+#include <calotte/error.h>
+
+#include <algorithm>
+#include <limits>
+#include <span>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace calotte::c_detail {
+namespace {
+
+int integer_of(std::int64_t value, const std::string& name) {
+  constexpr std::int64_t most = std::numeric_limits<int>::max();
+  require(value >= -most && value <= most,
+          name + " is " + std::to_string(value) + "; give at most " + std::to_string(most));
+  return static_cast<int>(value);
+}
+
+bool flag_of(std::int64_t value, const std::string& name) {
+  require(value == 0 || value == 1, name + " is " + std::to_string(value) + "; give 0 or 1");
+  return value == 1;
+}
+
+/// The value of a caller's word. \param usual without one.
+template <class Value>
+Value value_of(const char* word, std::span<const Word<Value>> words, Value usual,
+               const std::string& name) {
+  if (word == nullptr)
+    return usual;
+  const auto found = std::ranges::find(words, std::string_view(word), &Word<Value>::word);
+  if (found != words.end())
+    return found->value;
+  std::string all;
+  for (const Word<Value>& known : words)
+    all += (all.empty() ? "" : ", ") + std::string(known.word);
+  throw Error(ErrorCode::bad_option, "the " + name + " is '" + word + "'; give one of " + all);
+}
+
+Surface::Rings rings_of(const calotte_surface& surface) {
+  require(surface.rings >= 0, "the number of rings is negative; give 0 or more");
+  require(surface.corners != nullptr && surface.begin != nullptr,
+          "the corners of the rings, or where each begins, are a null pointer; give both");
+  const int rows = surface.kind == CALOTTE_SPHERE ? 3 : 2;
+  Surface::Rings rings;
+  for (std::int64_t i = 0; i < surface.rings; ++i) {
+    const std::int64_t begin = surface.begin[i], end = surface.begin[i + 1];
+    require(begin >= 0 && end >= begin,
+            "ring " + std::to_string(i) + " begins at corner " + std::to_string(begin) +
+                " and ends before " + std::to_string(end) + "; give ascending numbers from 0 on");
+    rings.emplace_back(points_of(surface.corners + begin * rows, end - begin, rows, "the corners"));
+  }
+  return rings;
+}
+
+// ---- Parts of a recipe
+
+Density density_of(calotte_density function, void* data) {
+  Density density;
+  if (function == nullptr)
+    return density;
+  density.kind = Density::Kind::callable;
+  density.callable = [function, data](const Eigen::Ref<const Points3>& x,
+                                      Eigen::Ref<Eigen::VectorXd> rho) {
+    if (function(x.data(), x.cols(), rho.data(), data) != 0)
+      throw Error(ErrorCode::cancelled, "the density function ended the run");
+  };
+  return density;
+}
+
+/// Points with three rows, in a plane with z = 0.
+Points3 spatial_points(const double* values, std::int64_t n, bool sphere, const std::string& name) {
+  if (values == nullptr && n == 0)
+    return {};
+  const int rows = sphere ? 3 : 2;
+  const auto given = points_of(values, n, rows, name);
+  Points3 points = Points3::Zero(3, n);
+  points.topRows(rows) = given;
+  return points;
+}
+
+void take_widths(const calotte_recipe& given, Recipe& recipe) {
+  if (given.widths == nullptr && given.widths_nx == 0 && given.widths_ny == 0)
+    return;
+  constexpr std::int64_t most = 1 << 20;
+  require(given.widths != nullptr && given.widths_x != nullptr && given.widths_y != nullptr,
+          "the widths, or the coordinates of their nodes, are a null pointer; give widths, "
+          "widths_x and widths_y");
+  require(std::min(given.widths_nx, given.widths_ny) >= 2 &&
+              std::max(given.widths_nx, given.widths_ny) <= most,
+          "the widths have " + std::to_string(given.widths_nx) + " x " +
+              std::to_string(given.widths_ny) + " nodes; give 2 to 1048576 in either direction");
+  DoubleVector x = Eigen::Map<const DoubleVector>(given.widths_x, given.widths_nx),
+               y = Eigen::Map<const DoubleVector>(given.widths_y, given.widths_ny);
+  DoubleMatrix widths =
+      Eigen::Map<const DoubleMatrix>(given.widths, given.widths_nx, given.widths_ny);
+  if (recipe.surface.is_sphere())
+    recipe.widths = CellWidth{std::move(x), std::move(y), std::move(widths)};
+  else
+    recipe.planar_widths = PlanarCellWidth{std::move(x), std::move(y), std::move(widths)};
+}
+
+Start start_of(const calotte_recipe& given, bool sphere) {
+  Start start;
+  start.kind = value_of(given.start, start_words(), start.kind, "start");
+  start.points =
+      spatial_points(given.start_points, given.start_count, sphere, "the start's points");
+  if (given.bisections != 0)
+    start.bisections = integer_of(given.bisections, "the number of bisections");
+  if (given.insertion_rounds != 0)
+    start.insertion_rounds =
+        integer_of(given.insertion_rounds, "the number of rounds of insertion");
+  return start;
+}
+
+Stop stop_of(const calotte_recipe& given) {
+  Stop stop;
+  stop.norm = value_of(given.norm, norm_words(), stop.norm, "norm");
+  if (given.tolerance != 0)
+    stop.tolerance = given.tolerance;
+  if (given.max_iterations != 0)
+    stop.max_iterations = integer_of(given.max_iterations, "max_iterations");
+  if (given.iterations != 0)
+    stop.iterations = integer_of(given.iterations, "the number of iterations");
+  require(given.well_centred >= -1 && given.well_centred <= 1,
+          "well_centred is " + std::to_string(given.well_centred) + "; give -1, 0 or 1");
+  if (given.well_centred != 0)
+    stop.well_centred = given.well_centred == 1;
+  if (given.least_spacing != 0)
+    stop.least_spacing = given.least_spacing;
+  return stop;
+}
+
+/// The members of method and quadrature, and what becomes of equal points.
+void take_method(const calotte_recipe& given, Recipe& recipe) {
+  recipe.method = value_of(given.method, method_words(), recipe.method, "method");
+  if (given.relaxation != 0)
+    recipe.relaxation = given.relaxation;
+  if (given.rule != 0)
+    recipe.rule = integer_of(given.rule, "the quadrature rule");
+  if (given.final_rule != 0)
+    recipe.final_rule = integer_of(given.final_rule, "the final quadrature rule");
+  if (given.triangle_divisions != 0)
+    recipe.triangle_divisions = integer_of(given.triangle_divisions, "triangle_divisions");
+  if (flag_of(given.refuse_duplicates, "refuse_duplicates"))
+    recipe.duplicates = Duplicates::refuse;
+  recipe.merge_within = given.merge_within;
+}
+
+} // namespace
+
+Eigen::Map<const DoubleMatrix> points_of(const double* values, std::int64_t n, int rows,
+                                         const std::string& name) {
+  base_detail::require_count(n, 0, "the number of points");
+  require(values != nullptr || n == 0, name + " are a null pointer; give an array");
+  return {values, rows, n};
+}
+
+Surface surface_of(const calotte_surface* given) {
+  if (given == nullptr)
+    return {};
+  const calotte_surface surface = known_part(given, "calotte_surface");
+  require(surface.kind == CALOTTE_SPHERE || surface.kind == CALOTTE_PLANE,
+          "the kind of the surface is " + std::to_string(surface.kind) +
+              "; give CALOTTE_SPHERE or CALOTTE_PLANE");
+  const Eigen::Vector2d period(surface.period[0], surface.period[1]);
+  const bool repeats = !period.isZero(0), sphere = surface.kind == CALOTTE_SPHERE;
+  require(!sphere || !repeats, "a period is that of a plane; give the kind CALOTTE_PLANE");
+  const Surface whole =
+      sphere ? Surface::sphere() : (repeats ? Surface::periodic(period) : Surface::plane());
+  return surface.rings == 0 ? whole : whole.within(rings_of(surface));
+}
+
+Recipe recipe_of(const calotte_recipe* pointer) {
+  const calotte_recipe given = known_part(pointer, "calotte_recipe");
+  Recipe recipe;
+  recipe.cells = given.cells;
+  recipe.surface = surface_of(given.surface);
+  const bool sphere = recipe.surface.is_sphere();
+  recipe.density = density_of(given.density, given.density_data);
+  take_widths(given, recipe);
+  if (given.earth_radius_km != 0)
+    recipe.radius_km = given.earth_radius_km;
+  recipe.limited_area = flag_of(given.limited_area, "limited_area");
+  recipe.walls = {flag_of(given.walls_x, "walls_x"), flag_of(given.walls_y, "walls_y")};
+  if (flag_of(given.boundary_generators, "boundary_generators"))
+    recipe.boundary = Boundary::generators;
+  recipe.fixed = spatial_points(given.fixed, given.fixed_count, sphere, "the fixed points");
+  recipe.start = start_of(given, sphere);
+  recipe.stop = stop_of(given);
+  if (given.seed != 0)
+    recipe.seed = static_cast<std::uint64_t>(given.seed);
+  take_method(given, recipe);
+  return recipe;
+}
+
+} // namespace calotte::c_detail

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "c/guard.h"
+
+#include <calotte/grid.h>
+#include <calotte/surface.h>
+#include <calotte/types.h>
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <string>
+
+namespace calotte::c_detail {
+
+/// A caller's points, in place. \param rows numbers of a point. \param name for the message.
+/// \throws Error bad_option for a count out of range and for a null pointer to points.
+Eigen::Map<const DoubleMatrix> points_of(const double* values, std::int64_t n, int rows,
+                                         const std::string& name);
+
+/// \param given null for the sphere. \throws Error bad_option.
+Surface surface_of(const calotte_surface* given);
+
+/// What a caller asks for. It refers to the caller's density and its data.
+/// \throws Error bad_option.
+Recipe recipe_of(const calotte_recipe* given);
+
+} // namespace calotte::c_detail
