@@ -92,7 +92,7 @@ def test_options():
     refuses("no norm", calotte.cvt, 100, norm="l7")
     refuses("", calotte.cvt, 100, tolerance=-1.0)
     refuses("", calotte.cvt, 100, tolerance=0.0)
-    refuses("give a number of cells", calotte.cvt)
+    refuses("there is no number of cells; give one", calotte.cvt)
     refuses("needs a domain", calotte.quality,
             calotte.delaunay(np.eye(3)[:, :2], plane=True))
     refuses("1 or more", calotte.threads(0).__enter__)

@@ -15,7 +15,7 @@ from calotte import _calotte, _functions
 
 GROUPS = [
     ("Triangulations and cells", ["delaunay", "voronoi", "check", "quality", "operator_errors",
-                                  "threads"]),
+                                  "locate", "interpolate", "threads"]),
     ("Grids", ["cvt", "plan", "limited_area", "density"]),
     ("Points", ["random_sphere", "fibonacci_sphere", "spiral_sphere", "geodesic_sphere",
                 "bisected_icosahedron", "lat_lon_sphere", "cubed_sphere", "random_places",
@@ -24,8 +24,8 @@ GROUPS = [
                              "periodic_box", "planar_polygon"]),
     ("Files", ["read", "read_fields", "read_points", "write", "cut", "cull"]),
 ]
-KINDS = ["Mesh", "PlanarMesh", "Polygons", "PolygonShapes", "Voronoi", "Cvt", "Plan", "Quality", "Range",
-         "Percentiles", "Check", "OperatorErrors", "ErrorNorms", "Density", "CellWidth", "Region",
+KINDS = ["Mesh", "PlanarMesh", "Polygons", "PolygonShapes", "Voronoi", "Locations", "Cvt", "Level", "Plan",
+         "Quality", "Range", "Percentiles", "Check", "OperatorErrors", "ErrorNorms", "Density", "CellWidth", "Region",
          "PlanarDomain", "Error"]
 
 

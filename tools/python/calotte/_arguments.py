@@ -123,6 +123,41 @@ def cell_width(widths, earth_radius=EARTH_RADIUS_KM, region=None):
     return made
 
 
+def widths(given, plane, earth_radius=EARTH_RADIUS_KM, part=None):
+    """Widths of the sphere in km, or those of a plane in its unit."""
+    return planar_cell_width(given) if plane else cell_width(given, earth_radius, part)
+
+
+def planar_cell_width(widths):
+    """Widths of a number, a raster or a file in the unit of the plane, as PlanarCellWidth."""
+    if isinstance(widths, _calotte.PlanarCellWidth):
+        return widths
+    if isinstance(widths, str) and (parts := measure(widths)):
+        if parts[1]:
+            raise Error(f"the cell width is {widths!r}; the plane has the unit of its coordinates, "
+                        "so give a number in that unit")
+        return planar_cell_width(parts[0])
+    if isinstance(widths, str) or hasattr(widths, "__fspath__"):
+        return _calotte.read_planar_cell_width(str(widths))
+    if isinstance(widths, tuple):
+        if len(widths) != 3:
+            raise Error("give cell widths of a plane as (values, x, y)")
+        return _planar_raster(*widths)
+    value = np.asarray(widths)
+    if value.ndim != 0 or value.dtype.kind not in "fiu":
+        raise Error("give cell widths of a plane as a number in its unit, (values, x, y) or a file")
+    far = np.array([-1e30, 1e30])  # the largest coordinates of a domain
+    return _calotte.PlanarCellWidth(np.full((2, 2), float(value)), far, far)
+
+
+def _planar_raster(values, x, y):
+    array = numbers(values, "cell widths")
+    x, y = numbers(x, "x"), numbers(y, "y")
+    if array.shape != (y.size, x.size):
+        raise Error(f"cell widths have the shape {array.shape}; give y x x, here {y.size} x {x.size}")
+    return _calotte.PlanarCellWidth(array, x, y)
+
+
 def _widths(widths, earth_radius, region):
     if isinstance(widths, _calotte.CellWidth):
         return widths
@@ -252,13 +287,18 @@ def bumps(names, join="maximum", plane=False):
     return _calotte.density_of_bumps([_bump(name, plane) for name in names], join == "sum")
 
 
+def require_one(density, widths):
+    if density is not None and widths is not None:
+        raise Error("give a density or cell widths, not both")
+
+
 def density(value, widths=None, plane=False):
     """A density of a name or several, of widths or of a function."""
+    require_one(value, widths)
     if widths is not None:
-        if value is not None:
-            raise Error("give a density or cell widths, not both")
-        same = np.ptp(widths.widths) == 0
-        return _calotte.Density() if same else _calotte.density_of_widths(widths)
+        if np.ptp(widths.widths) == 0:
+            return _calotte.Density()
+        return widths.density() if plane else _calotte.density_of_widths(widths)
     if value is None or (isinstance(value, str) and value == "uniform"):
         return _calotte.Density()
     if isinstance(value, _calotte.Density):

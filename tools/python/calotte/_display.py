@@ -67,6 +67,12 @@ def _errors(errors):
             f"{errors.tangential.l2:.2g}>")
 
 
+def _locations(found):
+    outside = int((found.triangle < 0).sum())
+    return (f"<calotte.Locations: {counted(len(found), 'position')}"
+            f"{f', {outside} outside' if outside else ''}>")
+
+
 def _region(region):
     if region.whole:
         return "<calotte.Region: the whole sphere>"
@@ -200,7 +206,8 @@ def picture(mesh):
 for _kind, _line in ((_calotte.Mesh, _mesh), (_calotte.PlanarMesh, _mesh),
                      (_calotte.Polygons, _polygons), (_calotte.PolygonShapes, _shapes),
                      (_calotte.Voronoi, _voronoi),
-                     (_calotte.Quality, _quality), (_calotte.Check, _check),
+                     (_calotte.Locations, _locations), (_calotte.Quality, _quality),
+                     (_calotte.Check, _check),
                      (_calotte.OperatorErrors, _errors), (_calotte.Region, _region),
                      (_calotte.PlanarDomain, _domain), (_calotte.CellWidth, _widths),
                      (_calotte.Density, _density), (_calotte.Range, _numbers),

@@ -15,30 +15,19 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _arguments, _calotte, _display
 from ._arguments import EARTH_RADIUS_KM
-from ._calotte import (CellWidth, Check, Density, Error, Mesh, OperatorErrors, PlanarDomain,
-                       PlanarMesh, Polygons, Quality, Region, Voronoi)
+from ._calotte import (CellWidth, Check, Density, Error, Locations, Mesh, OperatorErrors,
+                       PlanarDomain, PlanarMesh, Polygons, Quality, Region, Voronoi)
 
 Array = NDArray[np.float64]
 Path = str | os.PathLike[str]
 Grid = Mesh | PlanarMesh | Polygons
 DensityLike = str | Density | Callable[[Array], ArrayLike]
-WidthLike = Any  #: a number, a file, (values, lon, lat), a DataArray or a function
+WidthLike = Any  #: a number, a file, (values, lon, lat or x, y), a DataArray or a function
 RegionLike = Path | Region
 DomainLike = Path | PlanarDomain
 Progress = Callable[[dict[str, Any]], "bool | None"]
 
-_METHODS = {"auto": _calotte.Method.automatic, "lloyd": _calotte.Method.lloyd,
-            "nesterov": _calotte.Method.nesterov, "lbfgs": _calotte.Method.lbfgs,
-            "lbfgs-laplacian": _calotte.Method.lbfgs_laplacian}
-_NORMS = {"l2": _calotte.Norm.l2, "linf": _calotte.Norm.linf, "l2-scaled": _calotte.Norm.l2_scaled,
-          "linf-scaled": _calotte.Norm.linf_scaled, "gradient": _calotte.Norm.gradient}
-
-
-def _choice(words, word, what):
-    try:
-        return words[word]
-    except (KeyError, TypeError):
-        raise Error(f"no {what} {word}; give one of: {', '.join(words)}") from None
+_USUAL = _calotte.Recipe()  #: the library's defaults
 
 
 def _count(value, what):
@@ -132,6 +121,17 @@ def _require_mesh(grid):
                     "voronoi() where they are Voronoi cells")
 
 
+def _in_plane(grid):
+    return isinstance(grid, PlanarMesh) or (isinstance(grid, Polygons) and not grid.on_sphere)
+
+
+def _density_for(grid, density, cell_width):
+    """The density of a name or of widths, of the space that the grid is in."""
+    plane = _in_plane(grid)
+    widths = None if cell_width is None else _arguments.widths(cell_width, plane)
+    return _arguments.density(density, widths, plane)
+
+
 def check(mesh: Grid) -> Check:
     """Proves that a mesh is the Delaunay triangulation of its points, in exact arithmetic.
 
@@ -147,8 +147,7 @@ def check(mesh: Grid) -> Check:
 def _measured(measure, mesh, domain, density, cell_width):
     """measure(mesh, density), in the plane measure(mesh, domain, density)."""
     _require_mesh(mesh)
-    widths = None if cell_width is None else _arguments.cell_width(cell_width)
-    rho = _arguments.density(density, widths, isinstance(mesh, _calotte.PlanarMesh))
+    rho = _density_for(mesh, density, cell_width)
     if isinstance(mesh, _calotte.PlanarMesh):
         if domain is None and not mesh.period.all():
             raise Error("a planar mesh needs a domain, which clips its cells; give domain=")
@@ -194,7 +193,79 @@ def operator_errors(mesh: Grid, *, domain: DomainLike | None = None,
     return _measured(_calotte.operator_errors, mesh, domain, density, cell_width)
 
 
+def _positions(mesh, positions):
+    if isinstance(mesh, Polygons):
+        raise Error("polygons have no triangles; give a mesh")
+    if isinstance(mesh, PlanarMesh):
+        return _arguments.plane_points(positions, "positions")
+    return _arguments.sphere_points(positions, "positions")
+
+
+def locate(mesh: Mesh | PlanarMesh, positions: ArrayLike) -> Locations:
+    """Where positions lie in a mesh: the triangle and its weights, and the nearest site. Exact.
+
+    positions: k x 3 directions of any length, or k x 2 longitudes and latitudes in degrees; k x 2 in
+        the plane, in a periodic box inside or outside of it.
+    Returns Locations. A position outside of an open mesh has the triangle -1 and the weights NaN.
+    Raises Error, with the index of the position.
+
+    >>> mesh = delaunay(fibonacci_sphere(1000))
+    >>> found = locate(mesh, [(-105.0, 40.0), (0.0, 90.0)])
+    >>> found.triangle.shape, found.weights.shape, int(found.nearest[1])
+    ((2,), (2, 3), 0)
+    >>> place = found.weights[0] @ mesh.points[mesh.triangles[found.triangle[0]]]
+    >>> bool(np.allclose(to_lonlat(place[np.newaxis]), (-105, 40)))
+    True
+    """
+    return _calotte.locate(mesh, _positions(mesh, positions))
+
+
+def interpolate(mesh: Mesh | PlanarMesh, values: ArrayLike, positions: ArrayLike, *,
+                method: str = "linear") -> Array:
+    """Values at positions, of values at the sites of a mesh.
+
+    values: n numbers, one for each site; or n x fields.
+    positions: as for locate().
+    method: "linear" on each triangle; or "natural", by the areas that a cell of the position would
+        take from the cells around it (Sibson, 1980), which is smooth except at the sites.
+    Returns k numbers, or k x fields; NaN outside of an open mesh. Raises Error, with the index of the
+    position.
+
+    >>> mesh = delaunay(random_places(200, rectangle((0, 0), (1, 1))), plane=True)
+    >>> values = mesh.points @ [1.0, 2.0]
+    >>> inside, outside = interpolate(mesh, values, [(0.5, 0.25), (7.0, 7.0)], method="natural")
+    >>> round(float(inside), 12), float(outside)
+    (1.0, nan)
+    """
+    if method not in ("linear", "natural"):
+        raise Error(f"no method {method}; give one of: linear, natural")
+    places = _positions(mesh, positions)
+    fields = _arguments.numbers(values, "values")
+    if fields.ndim not in (1, 2) or len(fields) != len(mesh):
+        raise Error(f"values have the shape {fields.shape}; give a number, or a row of them, for "
+                    f"each of the {_display.counted(len(mesh), 'site')}")
+    by_site = fields[:, np.newaxis] if fields.ndim == 1 else fields
+    found = _calotte.interpolate(mesh, by_site, places, method == "natural")
+    return found[:, 0] if fields.ndim == 1 else found
+
+
 # ---- Centroidal Voronoi tessellations
+
+@dataclass(frozen=True)
+class Level:
+    """A level of a run: descents of grids with about the same number of cells.
+
+    cells: at its end.
+    insertion_rounds: the largest number of rounds of insertion and contraction.
+    tolerance: at which its descents end, but for the last one of a run; 0 with iterations.
+    max_iterations: of a descent.
+    """
+
+    cells: int
+    insertion_rounds: int
+    tolerance: float
+    max_iterations: int
+
 
 @dataclass(frozen=True, repr=False)
 class Cvt:
@@ -211,7 +282,9 @@ class Cvt:
     seconds: of wall-clock time.
     energies: by iteration.
     norms: by iteration, l2-scaled.
-    domain: of the plane, which clips the cells.
+    domain: of the plane, which clips the cells; with walls the wider box of the run.
+    levels: of the run, from the coarsest; see Level.
+    cells: with walls the Polygons between them; otherwise None.
     """
 
     mesh: Mesh | PlanarMesh
@@ -226,13 +299,18 @@ class Cvt:
     energies: Array
     norms: Array
     domain: PlanarDomain | None = None
+    levels: tuple[Level, ...] = ()
+    cells: Polygons | None = None
+
+    def _grid(self) -> Any:
+        return self.mesh if self.cells is None else self.cells
 
     def __repr__(self) -> str:
         end = "converged after" if self.converged else "not converged in"
         shape = ("well-centred, " if self.well_centred else
                  f"{_display.counted(self.misshapen_cells, 'misshapen cell')}, "
                  if self.misshapen_cells else "")
-        return (f"<calotte.Cvt: {_display.counted(len(self.mesh), 'cell')}, {end} "
+        return (f"<calotte.Cvt: {_display.counted(len(self._grid()), 'cell')}, {end} "
                 f"{_display.counted(self.iterations, 'iteration')}, {shape}residual "
                 f"{self.residual:.2g}>")
 
@@ -240,82 +318,127 @@ class Cvt:
         rows = [(name, getattr(self, name), "") for name in
                 ("converged", "well_centred", "misshapen_cells", "worst_cell", "residual",
                  "energy", "iterations", "seconds")]
-        return self.mesh._repr_html_() + _display.table(repr(self).strip("<>"), rows)
+        return self._grid()._repr_html_() + _display.table(repr(self).strip("<>"), rows)
 
     def plot(self, field: Any = None, **options: Any) -> Any:
         """Draws the cells; see Mesh.plot()."""
-        if self.domain is not None:
+        if self.domain is not None and self.cells is None:
             options.setdefault("domain", self.domain)
-        return self.mesh.plot(field, **options)
+        return self._grid().plot(field, **options)
 
     def voronoi(self) -> Voronoi:
         """The Voronoi cells; see voronoi()."""
-        return voronoi(self.mesh, self.domain)
+        return voronoi(self._grid(), self.domain if self.cells is None else None)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Plan:
-    """What widths demand, before a mesh is made, of plan().
+    """What a run would do, of plan().
 
     cells: their number.
-    least_km: the least width, km.
-    greatest_km: the greatest width, km.
-    gradient: the largest, km per km; most models need less than 0.03.
-    steepest: longitude and latitude of it, degrees.
+    levels: of the run, from the coarsest; see Level.
+    kind: of its start; see cvt().
+    widths: the least and the greatest, km, in a plane in its unit; None without widths.
+    gradient: the largest of the widths, km per km; most models need less than 0.03. None in a plane
+        and without widths.
+    steepest: longitude and latitude of it, degrees; None as gradient.
     """
 
     cells: int
-    least_km: float
-    greatest_km: float
-    gradient: float
-    steepest: tuple[float, float]
+    levels: tuple[Level, ...]
+    kind: str
+    widths: tuple[float, float] | None = None
+    gradient: float | None = None
+    steepest: tuple[float, float] | None = None
+
+    @property
+    def least_km(self) -> float:
+        """The least width, km."""
+        return self._width(0)
+
+    @property
+    def greatest_km(self) -> float:
+        """The greatest width, km."""
+        return self._width(1)
+
+    def __repr__(self) -> str:
+        unit = "" if self.gradient is None else " km"
+        widths = "" if self.widths is None else f", {self.widths[0]:.4g} to {self.widths[1]:.4g}{unit}"
+        return (f"<calotte.Plan: {_display.counted(self.cells, 'cell')}, start {self.kind}, "
+                f"{_display.counted(len(self.levels), 'level')}{widths}>")
+
+    def _width(self, k: int) -> float:
+        return math.nan if self.widths is None else self.widths[k]
 
 
-def plan(cell_width: WidthLike, *, region: RegionLike | None = None,
-         earth_radius: float = EARTH_RADIUS_KM) -> Plan:
-    """What cell widths demand: cells, range and largest gradient. Arguments as for cvt().
+def plan(cell_width: WidthLike = None, *, region: RegionLike | None = None,
+         earth_radius: float = EARTH_RADIUS_KM, **options: Any) -> Plan:
+    """What cvt() would do with the same arguments: cells, levels, and what the widths demand.
+
+    options: other arguments of cvt(), such as start, density or domain.
 
     >>> plan(120.0).cells
     40962
+    >>> [level.cells for level in plan(start=2562, density="x8").levels]
+    [642, 2562]
     """
-    part = _arguments.region(region, earth_radius)
-    widths = _arguments.cell_width(cell_width, earth_radius, part)
+    recipe, widths = _recipe(cell_width=cell_width, region=region, earth_radius=earth_radius,
+                             **options)
+    made = _calotte.plan(recipe)
+    made["levels"] = _levels(made["levels"])
+    if widths is None:
+        return Plan(**made)
+    made["widths"] = float(widths.widths.min()), float(widths.widths.max())
+    if not isinstance(widths, CellWidth):
+        return Plan(**made)
     slope, longitude, latitude = _calotte.largest_gradient(widths, earth_radius)
-    return Plan(_cells_for(widths, part, earth_radius), float(widths.widths.min()),
-                float(widths.widths.max()), slope, (longitude, latitude))
+    return Plan(**made, gradient=slope, steepest=(longitude, latitude))
 
 
-def _cells_for(widths, part, earth_radius):
-    implied = round(_calotte.implied_cells(widths, part, earth_radius))
-    if not 12 <= implied <= 2**30:
-        raise Error(f"the widths require {implied:.4g} cells, but a grid has 12 to 1073741824; give "
-                    "widths in km")
-    if part.whole and np.ptp(widths.widths) == 0:
-        return _calotte.geodesic_count(implied)
-    return implied
+def _levels(rows):
+    return tuple(Level(*row) for row in rows)
 
 
-def _options(rho, method, norm, tolerance, max_iterations, least_spacing, well_centred, regions):
-    options = _calotte.CvtOptions()
-    options.density = rho
-    options.method = _choice(_METHODS, method, "method")
-    options.norm = _choice(_NORMS, norm, "norm")
-    options.well_centred = well_centred
-    options.least_spacing = least_spacing
-    if tolerance is not None:
-        options.tolerance = tolerance
-    elif well_centred:
-        options.tolerance = _calotte.tolerance_before_finish
-    options.max_iterations = max_iterations
-    options.regions = regions
-    return options
+def _take_start(recipe, start, points):
+    """A number of cells, or points; None where the widths give the number."""
+    if start is None:
+        return
+    if np.ndim(start) > 0:
+        recipe.points = points(start)
+        if recipe.kind == _USUAL.kind:
+            recipe.kind = "points"
+        return
+    recipe.cells = _count(start, "the number of cells")
+    if recipe.cells == 0:
+        raise Error("the number of cells is 0; give a larger one, or None where widths give it")
 
 
-def _multilevel(options, cells, insertion_rounds):
-    options.cells = cells
-    usual = (_calotte.insertion_rounds_beside_fixed if options.fixed
-             else _calotte.usual_insertion_rounds)
-    options.insertion_rounds = usual if insertion_rounds is None else insertion_rounds
+def _recipe(start=None, density=None, cell_width=None, region=None, domain=None, fixed=None,
+            earth_radius=EARTH_RADIUS_KM, **fields):
+    """The recipe of the arguments of cvt(), and the widths, or None."""
+    recipe, plane = _calotte.Recipe(), domain is not None
+    if plane and region is not None:
+        raise Error("a domain is a part of the plane and a region one of the sphere; give one of "
+                    "them")
+    for name, value in fields.items():
+        if not hasattr(type(recipe), name):
+            raise TypeError(f"unexpected keyword argument {name!r}")
+        setattr(recipe, name, value)
+    part = _arguments.domain(domain) if plane else _arguments.region(region, earth_radius)
+    recipe.surface, recipe.radius_km = part, earth_radius
+    widths = (None if cell_width is None else
+              _arguments.widths(cell_width, plane, earth_radius, part))
+    _arguments.require_one(density, widths)
+    recipe.density = _arguments.density(density, plane=plane)
+    if plane:
+        recipe.planar_widths = widths
+    else:
+        recipe.widths = widths
+    points = _arguments.plane_points if plane else _arguments.sphere_points
+    if fixed is not None:
+        recipe.fixed = points(fixed, "fixed points")
+    _take_start(recipe, start, points)
+    return recipe, widths
 
 
 def _reporting(progress):
@@ -337,12 +460,17 @@ def _reporting(progress):
 
 def cvt(start: int | ArrayLike | None = None, *, density: DensityLike | None = None,
         cell_width: WidthLike = None, region: RegionLike | None = None,
-        domain: DomainLike | None = None, fixed: ArrayLike | None = None, seed: int = 1,
-        method: str = "auto", norm: str = "l2-scaled", tolerance: float | None = None, max_iterations: int = 1000,
-        well_centred: bool | None = None, least_spacing: float = 0.8,
-        insertion_rounds: int | None = None, regions: int | None = None,
-        progress: Progress | bool | None = None,
-        earth_radius: float = EARTH_RADIUS_KM) -> Cvt:
+        domain: DomainLike | None = None, fixed: ArrayLike | None = None, seed: int = _USUAL.seed,
+        method: str = _USUAL.method, norm: str = _USUAL.norm, tolerance: float | None = None,
+        max_iterations: int = _USUAL.max_iterations, well_centred: bool | None = None,
+        least_spacing: float = _USUAL.least_spacing, insertion_rounds: int | None = None,
+        kind: str = _USUAL.kind, bisections: int | None = None, iterations: int | None = None,
+        boundary: str = _USUAL.boundary, walls: str = _USUAL.walls,
+        limited_area: bool = _USUAL.limited_area, relaxation: float = _USUAL.relaxation,
+        rule: int = _USUAL.rule, final_rule: int = _USUAL.final_rule,
+        triangle_divisions: int = _USUAL.triangle_divisions, duplicates: str = _USUAL.duplicates,
+        merge_within: float = _USUAL.merge_within, regions: int | None = None,
+        progress: Progress | bool | None = None, earth_radius: float = EARTH_RADIUS_KM) -> Cvt:
     """A centroidal Voronoi tessellation of the sphere, of a region, or of a planar domain.
 
     start: the number of cells; or the generators at the start, as points of delaunay(); or None,
@@ -350,11 +478,12 @@ def cvt(start: int | ArrayLike | None = None, *, density: DensityLike | None = N
     density: "uniform"; "x8", the paper's bump with an eightfold contrast of widths;
         "tanh:lon=270,lat=30,beta=30deg,alpha=0.2,gamma=x8"; several such names, of which the
         maximum counts; the result of density(); or a function of k x 3 unit vectors (in a domain
-        k x 2 places, z = 0) that returns k densities.
+        k x 3 with z = 0) that returns k densities.
     cell_width: in km, in place of a density: a number; text with a unit, "60km" or "60000m";
         (values, longitudes, latitudes) in degrees; an xarray.DataArray over lat and lon, in km or
         in the length of its attribute units; a file as `calotte cvt --cell-width` reads it; or a
         function of arrays of longitudes and latitudes, which is sampled every quarter of a degree.
+        With a domain, in the unit of its coordinates: a number; (values, x, y); or a file.
     region: a part of the sphere, of circle(), ellipse(), channel() or polygon(); text as of
         `calotte cvt --region`, such as "circle=-105,40,1000km"; or a file.
     domain: a part of the plane, of rectangle(), periodic_box(), planar_polygon() or a file.
@@ -365,11 +494,28 @@ def cvt(start: int | ArrayLike | None = None, *, density: DensityLike | None = N
     norm: that is compared with the tolerance: l2, linf, l2-scaled, linf-scaled or gradient.
     tolerance: default 1e-6, and 1e-4 with well_centred.
     max_iterations: on each level.
-    well_centred: without obtuse triangles and short Voronoi edges, as models need. Default: where a
-        density or widths are given with a number of cells.
+    well_centred: without obtuse triangles and short Voronoi edges, as models need. Default: with
+        the start multilevel, unless iterations are given.
     least_spacing: with well_centred, the least distance of neighbours over the demanded width, 0 to
         0.95.
-    insertion_rounds: default as `calotte cvt`. regions: parts that run in parallel.
+    insertion_rounds: of the start multilevel, on its last level; default as `calotte cvt`.
+    kind: of the start: multilevel, continuation, density, random, fibonacci, spiral, icosahedron,
+        geodesic or hexagonal, as `calotte cvt --start`. Default: multilevel where a density, widths,
+        fixed points or a region are given, unless bisections or iterations are; otherwise
+        continuation, in the plane density.
+    bisections: of the converged grid, each followed by a descent; for other kinds than multilevel
+        and continuation, which choose them. Default 0.
+    iterations: this number on each level, in place of norm, tolerance and max_iterations.
+    boundary: "clip", where that of a region clips the cells; or "generators", where the mesh ends
+        at generators on it, which follow the fixed ones in the result.
+    walls: "x" or "y", a direction in which a periodic box ends at walls. The run covers a wider box;
+        `cells` of the result are those between the walls.
+    limited_area: the run covers the region and the rings of cells around it; see limited_area().
+    relaxation: factor of the steps of the method lloyd, from 1 to below 2.
+    rule, final_rule: quadrature points per half kite during a run and at its end: 1, 3, 6, 7, 13 or
+        19. triangle_divisions: divides each half kite into this number squared.
+    duplicates, merge_within: of the start, as for delaunay().
+    regions: parts that run in parallel.
     progress: a function that receives a dict after each iteration and ends the run by returning
         True; or True for a bar of tqdm.
     Returns a Cvt. A run that does not converge is no error. Raises Error.
@@ -377,66 +523,25 @@ def cvt(start: int | ArrayLike | None = None, *, density: DensityLike | None = N
     >>> grid = cvt(642)
     >>> grid.converged, len(grid.mesh)
     (True, 642)
+    >>> channel = cvt(200, domain=periodic_box(2, 1), walls="y")
+    >>> 190 < len(channel.cells) < 210
+    True
     """
-    if domain is not None:
-        if region is not None or cell_width is not None:
-            raise Error("a domain of the plane has no region and no cell widths in km; give a "
-                        "density")
-        return _planar_cvt(start, _arguments.domain(domain), density, fixed, seed,
-                           (method, norm, tolerance, max_iterations, least_spacing), well_centred,
-                           insertion_rounds, regions, progress)
-    part = _arguments.region(region, earth_radius)
-    widths = (None if cell_width is None else
-              _arguments.cell_width(cell_width, earth_radius, part))
-    rho = _arguments.density(density, widths)
-    stay = np.empty((0, 3)) if fixed is None else _arguments.sphere_points(fixed, "fixed points")
-    if start is None:
-        if widths is None:
-            raise Error("give a number of cells, points, or cell widths in km")
-        start = _cells_for(widths, part, earth_radius)
-        if fixed is not None:
-            start = _calotte.cells_beside(stay, start, rho, part)
-    counted = np.ndim(start) == 0
-    graded = counted and not (part.whole and rho.uniform and not len(stay))
-    finish = graded if well_centred is None else well_centred
-    options = _options(rho, method, norm, tolerance, max_iterations, least_spacing, finish,
-                       regions)
-    options.fixed = len(stay)
-    if not counted:
-        points = _arguments.sphere_points(start)
-    elif graded:
-        cells = _count(start, "the number of cells")
-        points, options.bisections = _calotte.multilevel(cells, part, rho, seed, stay)
-        _multilevel(options, cells, insertion_rounds)
-    else:
-        points, options.bisections = _calotte.continuation(_count(start, "the number of cells"),
-                                                           rho, seed)
-    points = np.concatenate([stay, points])
-    result, report = _calotte.cvt(points, part, options, _reporting(progress))
-    return Cvt(result, **report)
-
-
-def _planar_cvt(start, parts, density, fixed, seed, words, well_centred, insertion_rounds,
-                regions, progress):
-    if start is None:
-        raise Error("give a number of cells, or places in the domain")
-    rho, counted = _arguments.density(density, plane=True), np.ndim(start) == 0
-    stay = np.empty((0, 2)) if fixed is None else _arguments.plane_points(fixed, "fixed points")
-    graded = counted and not (rho.uniform and not len(stay))
-    options = _options(rho, *words,
-                       graded if well_centred is None else well_centred, regions)
-    options.fixed = len(stay)
-    if not counted:
-        places = _arguments.plane_points(start)
-    elif graded:
-        cells = _count(start, "the number of cells")
-        places, options.bisections = _calotte.multilevel_in_plane(cells, parts, rho, seed, stay)
-        _multilevel(options, cells, insertion_rounds)
-    else:
-        places = _calotte.random_places(_count(start, "the number of cells"), parts, rho, seed)
-    places = np.concatenate([stay, places])
-    result, report = _calotte.cvt_in_plane(places, parts, options, _reporting(progress))
-    return Cvt(result, **report, domain=parts)
+    recipe, _ = _recipe(
+        start, density, cell_width, region, domain, fixed, earth_radius, seed=seed, method=method,
+        norm=norm, tolerance=tolerance, max_iterations=max_iterations, well_centred=well_centred,
+        least_spacing=least_spacing, insertion_rounds=insertion_rounds, kind=kind,
+        bisections=bisections, iterations=iterations, boundary=boundary, walls=walls,
+        limited_area=limited_area, relaxation=relaxation, rule=rule, final_rule=final_rule,
+        triangle_divisions=triangle_divisions, duplicates=duplicates, merge_within=merge_within)
+    mesh, report, between = _calotte.make_grid(recipe, regions, _reporting(progress))
+    report["levels"] = _levels(report["levels"])
+    if domain is None:
+        return Cvt(mesh, **report)
+    if between is None:
+        return Cvt(mesh, **report, domain=_arguments.domain(domain))
+    cells, cells._content = between
+    return Cvt(mesh, **report, domain=periodic_box(*mesh.period), cells=cells)
 
 
 # ---- Points
@@ -647,10 +752,9 @@ def write(path: Path, mesh: Grid, *, format: str = "by-name",
     domain: of a planar mesh, which clips its cells. Its meshDensity follows from a density with it.
     fields: a dict of n numbers at the cells, beside those that were read.
     """
-    widths = None if cell_width is None else _arguments.cell_width(cell_width)
     values = {name: _arguments.numbers(value, name) for name, value in (fields or {}).items()}
     output = _calotte.Output(str(path), format, sphere_radius,
-                             _arguments.density(density, widths, isinstance(mesh, PlanarMesh)),
+                             _density_for(mesh, density, cell_width),
                              density is not None or cell_width is not None, values, history)
     part = None if domain is None else _arguments.domain(domain)
     content = content_of(mesh)
@@ -683,16 +787,16 @@ def limited_area(path: Path, region: RegionLike, cell_width: WidthLike, *,
     """Makes a limited-area grid: the cells of a region with seven rings of boundary cells around it.
 
     cell_width: as for cvt(). sphere_radius: of the MPAS file; the model expects 1.
-    options: seed, max_iterations, regions and progress as for cvt().
+    options: other arguments of cvt(), such as fixed, seed and progress.
     Returns a dict of counts: cells, and cells_by_mask (inside, then by ring).
     """
     part = _arguments.region(region, earth_radius)
     widths = _arguments.cell_width(cell_width, earth_radius, part)
-    meshed = _calotte.with_rings(part, widths, earth_radius)
-    grid = cvt(cell_width=widths, region=meshed, earth_radius=earth_radius, **options)
+    grid = cvt(cell_width=widths, region=part, limited_area=True, earth_radius=earth_radius,
+               **options)
     output = _calotte.Output(str(path), "mpas", sphere_radius, _arguments.density(None, widths),
                              True, {}, "")
-    return _calotte.write_limited_area(output, grid.mesh.points, meshed, part)
+    return _calotte.write_limited_area(output, grid.mesh, part)
 
 
 def _files(value):

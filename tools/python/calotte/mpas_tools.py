@@ -35,16 +35,11 @@ def build_planar_mesh(cellWidth, x, y, geom_points, geom_edges, out_filename="ba
     as records of jigsawpy, [((x, y), tag), ...], or k x 2. geom_edges: pairs of their ids, in any
     order and direction. Returns the number of cells.
     """
-    values = _arguments.numbers(cellWidth, "cell widths")
-    x, y = _arguments.numbers(x, "x"), _arguments.numbers(y, "y")
-    if values.shape != (y.size, x.size):
-        raise Error(f"cell widths have the shape {values.shape}; give y x x, here {y.size} x "
-                    f"{x.size}")
-    widths = _calotte.PlanarCellWidth(1000 * values, x, y)
+    widths = _arguments.planar_cell_width((1000 * _arguments.numbers(cellWidth, "cell widths"), x, y))
     domain = _calotte.PlanarDomain(_rings(geom_points, geom_edges))
-    widths.require_covering(domain)
     rho = widths.density()
-    grid = _functions.cvt(round(widths.cells(domain)), domain=domain, density=rho)
+    cells = _functions.plan(widths, domain=domain).cells
+    grid = _functions.cvt(cells, domain=domain, density=rho)
     if logger is not None:
         logger.info(f"{out_filename}: {len(grid.mesh)} cells, {grid.iterations} iterations")
     grid.mesh.to_mpas(out_filename, domain=domain, density=rho)

@@ -92,12 +92,6 @@ void add_cell_width(py::module_& module) {
     call([&] { require_covering(widths, region); });
   });
   module.def("kilometres_in", &kilometres_in);
-  module.def("implied_cells", [](const CellWidth& widths, const Region& region, double radius_km) {
-    return call([&] {
-      return region.whole() ? implied_cells(widths, radius_km)
-                            : implied_cells(widths, region, radius_km);
-    });
-  });
   module.def("largest_gradient", [](const CellWidth& widths, double radius_km) {
     const Gradient gradient = call([&] { return largest_gradient(widths, radius_km); });
     return std::tuple(gradient.slope, gradient.longitude, gradient.latitude);
@@ -125,14 +119,11 @@ void add_densities(py::module_& module) {
              [](const CellWidth& widths) { return call([&] { return density_of(widths); }); });
   py::class_<PlanarCellWidth>(module, "PlanarCellWidth")
       .def(py::init(&planar_widths))
-      .def("density", [](const PlanarCellWidth& widths) { return density_of(widths); })
-      .def("cells",
-           [](const PlanarCellWidth& widths, const PlanarDomain& domain) {
-             return call([&] { return implied_cells(widths, domain); });
-           })
-      .def("require_covering", [](const PlanarCellWidth& widths, const PlanarDomain& domain) {
-        require_covering(widths, domain);
-      });
+      .def_property_readonly(
+          "widths",
+          [](py::object self) { return view(self.cast<const PlanarCellWidth&>().widths, self); })
+      .def("density", [](const PlanarCellWidth& widths) { return density_of(widths); });
+  module.def("read_planar_cell_width", &read_planar_cell_width);
 }
 
 } // namespace calotte::python

@@ -2,6 +2,7 @@
 #include "calls.h"
 #include "members.h"
 #include "module.h"
+#include "planes.h"
 
 #include "draw/coastlines.h"
 
@@ -39,14 +40,13 @@ py::tuple read(const std::string& path, const std::string& fields) {
   auto content = std::make_shared<MeshFile>(
       call([&] { return read_mesh_file(path, nullptr, choice_of(fields)); }));
   py::object grid;
-  if (content->mesh)
+  if (content->sphere())
     grid = py::cast(std::make_shared<Mesh>(std::move(*content->mesh)));
-  else if (content->plane)
-    grid = py::cast(std::make_shared<PlanarMesh>(std::move(*content->plane)));
+  else if (content->plane())
+    grid = py::cast(std::make_shared<PlanarMesh>(planar(std::move(*content->mesh))));
   else
     grid = py::cast(std::shared_ptr<Polygons>(content, &*content->polygons));
   content->mesh.reset();
-  content->plane.reset();
   return py::make_tuple(grid, content);
 }
 
@@ -72,6 +72,16 @@ py::dict fields_of(py::object self) {
   return fields;
 }
 
+/// A mesh of a plane in its period, or in a domain that clips its cells.
+/// \throws Error bad_option for a domain of another period.
+Mesh in_plane(const PlanarMesh& mesh, const std::optional<PlanarDomain>& domain) {
+  if (domain && domain->periodic() && domain->period != mesh.period)
+    throw Error(ErrorCode::bad_option,
+                "the domain is a periodic box that is not the mesh's; give that of the mesh");
+  const bool clips = domain && !domain->periodic();
+  return spatial(mesh, clips ? Surface(*domain) : Surface(PlanarDomain({}, mesh.period)));
+}
+
 /// A content with the mesh that it came with.
 MeshFile whole(const MeshFile& content, const py::object& grid,
                const std::optional<PlanarDomain>& domain) {
@@ -79,8 +89,7 @@ MeshFile whole(const MeshFile& content, const py::object& grid,
   if (py::isinstance<Mesh>(grid))
     file.mesh = grid.cast<const Mesh&>();
   else if (py::isinstance<PlanarMesh>(grid))
-    file.plane = grid.cast<const PlanarMesh&>();
-  file.domain = domain;
+    file.mesh = in_plane(grid.cast<const PlanarMesh&>(), domain);
   return file;
 }
 
@@ -265,18 +274,10 @@ void write_mesh(const Mesh& mesh, const Output& output) {
   });
 }
 
-void write_plane(const PlanarMesh& mesh, std::optional<PlanarDomain> domain, const Output& output) {
-  WriteOptions options = options_of(output);
-  call([&] {
-    if (domain && !output.density.uniform()) {
-      options.site_density = evaluate(output.density, *domain, mesh.points);
-      options.density = {};
-    }
-    if (domain)
-      write(output.path, mesh, *domain, options);
-    else
-      write(output.path, mesh, options);
-  });
+void write_plane(const PlanarMesh& mesh, const std::optional<PlanarDomain>& domain,
+                 const Output& output) {
+  const WriteOptions options = options_of(output);
+  call([&] { write(output.path, in_plane(mesh, domain), options); });
 }
 
 /// An Earth in kilometres, as JIGSAW's meshes have it; NetCDF formats are in metres.
@@ -293,10 +294,6 @@ std::vector<std::string> write_content(const MeshFile& content, const py::object
   if (!output.radius)
     options.sphere_radius = radius_in_metres(file.sphere_radius);
   return call([&] {
-    if (file.plane && domain && !output.density.uniform()) {
-      options.site_density = evaluate(output.density, *domain, file.plane->points);
-      options.density = {};
-    }
     const bool lacks_density =
         file.density.size() == 0 || file.density.minCoeff() == file.density.maxCoeff();
     if (!output.known && lacks_density && is_mpas(format_of(output.path, output.format)))
@@ -318,14 +315,13 @@ py::dict cut_mesh(const std::string& source, const std::string& target, const Re
   return values;
 }
 
-py::dict write_limited(const Output& output, const Doubles& generators, const Region& meshed,
-                       const Region& region) {
+/// \param mesh of a run of a limited area.
+py::dict write_limited(const Output& output, const Mesh& mesh, const Region& region) {
   CutOptions options;
   options.sphere_radius = output.radius.value_or(1);
   const WriteOptions written = options_of(output);
-  const Points3 points = columns(generators);
   const CutReport report = call(
-      [&] { return write_limited_area(output.path, points, meshed, region, written, options); });
+      [&] { return write_limited_area(output.path, mesh, Surface(region), written, options); });
   py::dict values;
   values["cells"] = report.cells;
   values["cells_by_mask"] = report.cells_by_mask;

@@ -2,10 +2,12 @@
 #include "calls.h"
 #include "members.h"
 #include "module.h"
+#include "planes.h"
 
 #include <calotte/check.h>
 #include <calotte/delaunay.h>
 #include <calotte/generators.h>
+#include <calotte/region.h>
 #include <calotte/renumber.h>
 
 #include <memory>
@@ -41,7 +43,8 @@ template <class AnyMesh> py::tuple state_of(const py::object& self) {
     return py::make_tuple(mesh.points, mesh.triangles, mesh.neighbours, mesh.site_of_input,
                           py::make_tuple(mesh.period, rest));
   else
-    return py::make_tuple(mesh.points, mesh.triangles, mesh.neighbours, mesh.site_of_input, rest);
+    return py::make_tuple(mesh.points, mesh.triangles, mesh.neighbours, mesh.site_of_input, rest,
+                          mesh.surface.rings());
 }
 
 template <class AnyMesh> std::shared_ptr<AnyMesh> of_state(const py::tuple& state) {
@@ -70,7 +73,7 @@ std::shared_ptr<Mesh> delaunay(const Doubles& points, double merge_within, bool 
                                std::optional<int> regions) {
   const DelaunayOptions options = options_of(merge_within, merge, regions);
   const auto sites = columns(points);
-  return call([&] { return std::make_shared<Mesh>(spherical_delaunay(sites, options)); });
+  return call([&] { return std::make_shared<Mesh>(calotte::delaunay(sites, {}, options)); });
 }
 
 std::shared_ptr<PlanarMesh> delaunay_in_plane(const Doubles& points,
@@ -80,8 +83,8 @@ std::shared_ptr<PlanarMesh> delaunay_in_plane(const Doubles& points,
   const DelaunayOptions options = options_of(merge_within, merge, regions);
   const auto sites = columns(points);
   return call([&] {
-    return std::make_shared<PlanarMesh>(period ? periodic_delaunay(sites, *period, options)
-                                               : planar_delaunay(sites, options));
+    const Surface surface = period ? Surface::periodic(*period) : Surface::plane();
+    return std::make_shared<PlanarMesh>(planar(calotte::delaunay(sites, surface, options)));
   });
 }
 
@@ -114,7 +117,9 @@ void add_meshes(py::module_& module) {
           [](const Mesh& mesh) { return handed_over(call([&] { return bisect(mesh); })); },
           "(4 n - 6, 3) the points and the midpoints of the edges.")
       .def(py::pickle(&state_of<Mesh>, [](const py::tuple& state) {
-        return std::pair(of_state<Mesh>(state), state[4].cast<py::dict>());
+        auto mesh = of_state<Mesh>(state);
+        mesh->surface = Region(state[5].cast<std::vector<Points3>>());
+        return std::pair(std::move(mesh), state[4].cast<py::dict>());
       }));
   auto plane = add_mesh<PlanarMesh>(
       module, "PlanarMesh",

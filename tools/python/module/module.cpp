@@ -27,6 +27,7 @@ PYBIND11_MODULE(_calotte, module) {
   add_operators(module);
   add_corners(module);
   add_points(module);
+  add_positions(module);
   add_tessellations(module);
   add_files(module);
 }

@@ -16,6 +16,7 @@ void add_densities(pybind11::module_& module);
 void add_regions(pybind11::module_& module);
 void add_tessellations(pybind11::module_& module);
 void add_points(pybind11::module_& module);
+void add_positions(pybind11::module_& module);
 void add_files(pybind11::module_& module);
 
 } // namespace calotte::python

@@ -24,8 +24,6 @@ void add_points(py::module_& module) {
                                        : random_sphere(n, region, density, seed);
                });
              });
-  module.def("geodesic_count",
-             [](double points) { return call([&] { return geodesic_count(points); }); });
   module.def("geodesic_sphere",
              [](std::int64_t n) { return made([&] { return geodesic_sphere(n); }); });
   module.def("fibonacci_sphere",

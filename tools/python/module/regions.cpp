@@ -4,7 +4,6 @@
 #include "module.h"
 
 #include <calotte/domain.h>
-#include <calotte/limited_area.h>
 #include <calotte/ocean.h>
 #include <calotte/read.h>
 #include <calotte/region.h>
@@ -97,12 +96,9 @@ void add_regions(py::module_& module) {
   module.def("circle", &circle);
   module.def("ellipse", &ellipse);
   module.def("channel", &channel);
-  module.def("read_region", py::overload_cast<const std::string&>(&read_region));
+  module.def("read_region", [](const std::string& path) { return Region(read_region(path)); });
   module.def("land_around", [](const std::string& path, const Eigen::Vector3d& place) {
-    return call([&] { return land_around(read_coast(path), place); });
-  });
-  module.def("with_rings", [](const Region& region, const CellWidth& widths, double radius_km) {
-    return call([&] { return with_rings(region, widths, radius_km); });
+    return Region(call([&] { return land_around(read_coast(path), place); }));
   });
   py::class_<PlanarDomain>(module, "PlanarDomain",
                            "A part of the plane, of rectangle(), periodic_box(), planar_polygon() "
@@ -124,12 +120,13 @@ void add_regions(py::module_& module) {
       .def(py::pickle(
           [](const PlanarDomain& domain) { return py::make_tuple(domain.rings, domain.period); },
           [](const py::tuple& state) {
-            return PlanarDomain{.rings = state[0].cast<decltype(PlanarDomain::rings)>(),
-                                .period = state[1].cast<Eigen::Vector2d>()};
+            return PlanarDomain(state[0].cast<decltype(PlanarDomain::rings)>(),
+                                state[1].cast<Eigen::Vector2d>());
           }));
   module.def("rectangle", &rectangle);
   module.def("periodic_box", &periodic_box);
-  module.def("read_domain", &read_domain);
+  module.def("read_domain",
+             [](const std::string& path) { return PlanarDomain(read_domain(path)); });
 }
 
 } // namespace calotte::python

@@ -2,19 +2,173 @@
 #include "arrays.h"
 #include "calls.h"
 #include "module.h"
+#include "planes.h"
 
-#include <calotte/cvt.h>
+#include <calotte/error.h>
+#include <calotte/grid.h>
+#include <calotte/mesh_file.h>
 
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <memory>
-#include <tuple>
+#include <optional>
+#include <span>
+#include <string>
+#include <type_traits>
 #include <utility>
+#include <variant>
 
 namespace calotte::python {
 namespace {
+
+// ---- The recipe
+
+constexpr std::array<Word<Boundary>, 2> boundaries{
+    {{"clip", Boundary::clip}, {"generators", Boundary::generators}}};
+constexpr std::array<Word<Duplicates>, 2> duplicates{
+    {{"merge", Duplicates::merge}, {"refuse", Duplicates::refuse}}};
+
+/// \throws Error bad_option, with the words that there are.
+template <class Value>
+Value named(std::span<const Word<Value>> words, const std::string& word, const std::string& what) {
+  std::string names;
+  for (const Word<Value>& known : words) {
+    if (known.word == word)
+      return known.value;
+    names += (names.empty() ? "" : ", ") + std::string(known.word);
+  }
+  throw Error(ErrorCode::bad_option, "no " + what + " " + word + "; give one of: " + names);
+}
+
+template <class Value> std::string word_in(std::span<const Word<Value>> words, Value value) {
+  return std::string(std::ranges::find(words, value, &Word<Value>::value)->word);
+}
+
+/// A field of a recipe, or of a part of it, as an attribute.
+/// \param field returns a reference to it.
+template <class Field>
+void add_field(py::class_<Recipe>& type, const char* name, const Field& field) {
+  using Value = std::remove_cvref_t<decltype(field(std::declval<Recipe&>()))>;
+  type.def_property(
+      name, [field](const Recipe& recipe) -> Value { return field(recipe); },
+      [field](Recipe& recipe, Value value) { field(recipe) = std::move(value); });
+}
+
+/// The same for a field that has words.
+/// \param what it is, in messages.
+template <class Value, class Field>
+void add_word(py::class_<Recipe>& type, const char* name, const std::string& what,
+              std::span<const Word<Value>> words, const Field& field) {
+  type.def_property(
+      name, [=](const Recipe& recipe) { return word_in(words, field(recipe)); },
+      [=](Recipe& recipe, const std::string& word) { field(recipe) = named(words, word, what); });
+}
+
+/// n x 3 or n x 2 points, in the plane with z = 0, as an attribute that is set.
+template <class Field>
+void add_points_field(py::class_<Recipe>& type, const char* name, const Field& field) {
+  type.def_property(
+      name, [field](const Recipe& recipe) { return handed_over(Points3(field(recipe))); },
+      [field](Recipe& recipe, const Doubles& points) {
+        const auto given = columns(points);
+        Points3& all = field(recipe);
+        all.setZero(3, given.cols());
+        all.topRows(given.rows()) = given;
+      });
+}
+
+using Part = std::variant<Region, PlanarDomain>;
+
+/// "x", "y", "xy" or "".
+Walls walls_named(const std::string& word) {
+  if (word.find_first_not_of("xy") != std::string::npos)
+    throw Error(ErrorCode::bad_option, "no walls " + word + "; give x or y");
+  return {word.find('x') != std::string::npos, word.find('y') != std::string::npos};
+}
+
+std::string word_of(Walls walls) { return std::string(walls.x ? "x" : "") + (walls.y ? "y" : ""); }
+
+void add_recipe(py::module_& module) {
+  py::class_<Recipe> type(module, "Recipe");
+  type.def(py::init<>())
+      .def_property("surface", nullptr,
+                    [](Recipe& recipe, const Part& part) {
+                      recipe.surface =
+                          std::visit([](const auto& rings) { return Surface(rings); }, part);
+                    })
+      .def_property(
+          "walls", [](const Recipe& recipe) { return word_of(recipe.walls); },
+          [](Recipe& recipe, const std::string& word) { recipe.walls = walls_named(word); })
+      .def_readwrite("cells", &Recipe::cells)
+      .def_readwrite("density", &Recipe::density)
+      .def_readwrite("widths", &Recipe::widths)
+      .def_readwrite("planar_widths", &Recipe::planar_widths)
+      .def_readwrite("radius_km", &Recipe::radius_km)
+      .def_readwrite("limited_area", &Recipe::limited_area)
+      .def_readwrite("seed", &Recipe::seed)
+      .def_readwrite("relaxation", &Recipe::relaxation)
+      .def_readwrite("rule", &Recipe::rule)
+      .def_readwrite("final_rule", &Recipe::final_rule)
+      .def_readwrite("triangle_divisions", &Recipe::triangle_divisions)
+      .def_readwrite("merge_within", &Recipe::merge_within);
+  const auto of_start = [&](const char* name, auto Start::*field) {
+    add_field(
+        type, name, [field](auto& recipe) -> auto& { return recipe.start.*field; });
+  };
+  of_start("bisections", &Start::bisections);
+  of_start("insertion_rounds", &Start::insertion_rounds);
+  const auto of_stop = [&](const char* name, auto Stop::*field) {
+    add_field(
+        type, name, [field](auto& recipe) -> auto& { return recipe.stop.*field; });
+  };
+  of_stop("tolerance", &Stop::tolerance);
+  of_stop("max_iterations", &Stop::max_iterations);
+  of_stop("iterations", &Stop::iterations);
+  of_stop("well_centred", &Stop::well_centred);
+  of_stop("least_spacing", &Stop::least_spacing);
+  add_points_field(
+      type, "points", [](auto& recipe) -> auto& { return recipe.start.points; });
+  add_points_field(
+      type, "fixed", [](auto& recipe) -> auto& { return recipe.fixed; });
+  add_word(
+      type, "kind", "kind of start", start_words(),
+      [](auto& recipe) -> auto& { return recipe.start.kind; });
+  add_word(
+      type, "norm", "norm", norm_words(), [](auto& recipe) -> auto& { return recipe.stop.norm; });
+  add_word(
+      type, "method", "method", method_words(),
+      [](auto& recipe) -> auto& { return recipe.method; });
+  add_word(
+      type, "boundary", "boundary", std::span<const Word<Boundary>>(boundaries),
+      [](auto& recipe) -> auto& { return recipe.boundary; });
+  add_word(
+      type, "duplicates", "rule for duplicates", std::span<const Word<Duplicates>>(duplicates),
+      [](auto& recipe) -> auto& { return recipe.duplicates; });
+}
+
+py::list levels_of(const std::vector<CvtLevel>& levels) {
+  py::list values;
+  for (const CvtLevel& level : levels)
+    values.append(
+        py::make_tuple(level.cells, level.insertion_rounds, level.tolerance, level.max_iterations));
+  return values;
+}
+
+/// The choices of a recipe, by name.
+py::dict plan_of(const Recipe& recipe) {
+  const Schedule schedule = call([&] { return plan(recipe); });
+  py::dict values;
+  values["cells"] = schedule.recipe.cells;
+  values["kind"] = word_in(start_words(), schedule.recipe.start.kind);
+  values["levels"] = levels_of(schedule.levels);
+  return values;
+}
+
+// ---- The run
 
 /// An accepted iteration, as a function of Python receives it.
 py::dict progress_of(const CvtProgress& now) {
@@ -49,6 +203,7 @@ py::dict report_of(const CvtReport& report) {
   values["iterations"] = report.iterations.size();
   values["energy"] = report.iterations.empty() ? 0 : report.iterations.back().energy;
   values["seconds"] = report.seconds;
+  values["levels"] = levels_of(report.levels);
   DoubleVector energies(std::ssize(report.iterations)), norms(std::ssize(report.iterations));
   Eigen::Index k = 0;
   for (const CvtIteration& iteration : report.iterations) {
@@ -60,91 +215,40 @@ py::dict report_of(const CvtReport& report) {
   return values;
 }
 
-template <class Result> auto unpacked(Result&& result) {
-  using AnyMesh = decltype(result.mesh);
-  return std::tuple(std::make_shared<AnyMesh>(std::move(result.mesh)), report_of(result.report));
+/// The cells between walls, with their density.
+MeshFile between_walls(const Recipe& asked, const Recipe& made, const Mesh& box) {
+  MeshFile file = walled(box, asked.surface.period(), asked.walls);
+  if (!made.density.uniform())
+    file.density = evaluate(made.density, file.polygons->centres, box.surface);
+  return file;
 }
 
-auto cvt(const Doubles& start, const Region& region, const CvtOptions& options,
-         py::object function) {
-  const auto sites = columns(start);
+/// The mesh, the report, and the polygons between walls with their content, or None.
+py::tuple run(const Recipe& recipe, std::optional<int> regions, py::object function) {
   const CvtCallback callback = callback_of(std::move(function));
-  return unpacked(call([&] { return spherical_cvt(sites, region, options, callback); }));
-}
-
-auto cvt_in_plane(const Doubles& start, const PlanarDomain& domain, const CvtOptions& options,
-                  py::object function) {
-  const auto sites = columns(start);
-  const CvtCallback callback = callback_of(std::move(function));
-  return unpacked(call([&] { return planar_cvt(sites, domain, options, callback); }));
-}
-
-template <class Start> auto start_of(Start&& from) {
-  return std::tuple(handed_over(std::move(from.start)), from.bisections);
-}
-
-void add_options(py::module_& module) {
-  py::enum_<Norm>(module, "Norm")
-      .value("l2", Norm::l2)
-      .value("linf", Norm::linf)
-      .value("l2_scaled", Norm::l2_scaled)
-      .value("linf_scaled", Norm::linf_scaled)
-      .value("gradient", Norm::gradient)
-      .value("none", Norm::none);
-  py::enum_<Method>(module, "Method")
-      .value("automatic", Method::automatic)
-      .value("lloyd", Method::lloyd)
-      .value("nesterov", Method::nesterov)
-      .value("lbfgs", Method::lbfgs)
-      .value("lbfgs_laplacian", Method::lbfgs_laplacian);
-  py::class_<CvtOptions>(module, "CvtOptions")
-      .def(py::init<>())
-      .def_readwrite("density", &CvtOptions::density)
-      .def_readwrite("method", &CvtOptions::method)
-      .def_readwrite("norm", &CvtOptions::norm)
-      .def_readwrite("tolerance", &CvtOptions::tolerance)
-      .def_readwrite("max_iterations", &CvtOptions::max_iterations)
-      .def_readwrite("bisections", &CvtOptions::bisections)
-      .def_readwrite("insertion_rounds", &CvtOptions::insertion_rounds)
-      .def_readwrite("cells", &CvtOptions::cells)
-      .def_readwrite("fixed", &CvtOptions::fixed)
-      .def_readwrite("well_centred", &CvtOptions::well_centred)
-      .def_readwrite("least_spacing", &CvtOptions::least_spacing)
-      .def_property(
-          "regions", [](const CvtOptions& options) { return options.partition.regions; },
-          [](CvtOptions& options, std::optional<int> regions) {
-            options.partition.regions = regions;
-          });
+  auto cells = std::make_shared<MeshFile>();
+  Cvt grid = call([&] {
+    const Schedule schedule = plan(recipe);
+    Cvt made = make_grid(schedule, {.partition = {.regions = regions}, .callback = callback});
+    if (recipe.walls.x || recipe.walls.y)
+      *cells = between_walls(recipe, schedule.recipe, made.mesh);
+    return made;
+  });
+  py::object mesh = grid.mesh.surface.is_sphere()
+                        ? py::cast(std::make_shared<Mesh>(std::move(grid.mesh)))
+                        : py::cast(std::make_shared<PlanarMesh>(planar(std::move(grid.mesh))));
+  py::object polygons = py::none();
+  if (cells->polygons)
+    polygons = py::make_tuple(std::shared_ptr<Polygons>(cells, &*cells->polygons), cells);
+  return py::make_tuple(mesh, report_of(grid.report), polygons);
 }
 
 } // namespace
 
 void add_tessellations(py::module_& module) {
-  add_options(module);
-  module.attr("tolerance_before_finish") = tolerance_before_finish;
-  module.attr("usual_insertion_rounds") = usual_insertion_rounds;
-  module.attr("insertion_rounds_beside_fixed") = insertion_rounds_beside_fixed;
-  module.def("continuation", [](std::int64_t cells, const Density& density, std::uint64_t seed) {
-    return start_of(call([&] { return continuation(cells, density, seed); }));
-  });
-  module.def("multilevel", [](std::int64_t cells, const Region& region, const Density& density,
-                              std::uint64_t seed, const Doubles& fixed) {
-    const Points3 stay = columns(fixed);
-    return start_of(call([&] { return multilevel(cells, region, density, seed, stay); }));
-  });
-  module.def("multilevel_in_plane", [](std::int64_t cells, const PlanarDomain& domain,
-                                       const Density& density, std::uint64_t seed,
-                                       const Doubles& fixed) {
-    const Points2 stay = columns(fixed);
-    return start_of(call([&] { return multilevel(cells, domain, density, seed, stay); }));
-  });
-  module.def("cells_beside", [](const Doubles& fixed, std::int64_t cells, const Density& density,
-                                const Region& region) {
-    const Points3 stay = columns(fixed);
-    return call([&] { return cells_beside(stay, cells, density, region); });
-  });
-  module.def("cvt", &cvt);
-  module.def("cvt_in_plane", &cvt_in_plane);
+  add_recipe(module);
+  module.def("plan", &plan_of);
+  module.def("make_grid", &run);
 }
 
 } // namespace calotte::python

@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Positions in meshes, and values there."""
+import numpy as np
+import pytest
+
+import calotte
+
+RNG = np.random.default_rng(3)
+
+
+def nearest(points, positions):
+    return np.argmax(positions @ points.T, axis=1)
+
+
+def test_on_the_sphere():
+    mesh = calotte.delaunay(calotte.random_sphere(500))
+    positions = calotte.random_sphere(2000, seed=2)
+    found = calotte.locate(mesh, 3 * positions)
+    assert len(found) == 2000 and found.triangle.dtype == found.nearest.dtype == np.int32
+    assert found.weights.shape == (2000, 3) and (found.weights >= 0).all()
+    assert np.allclose(found.weights.sum(axis=1), 1)
+    corners = mesh.points[mesh.triangles[found.triangle]]
+    within = (found.weights[:, :, np.newaxis] * corners).sum(axis=1)
+    assert np.allclose(within / np.linalg.norm(within, axis=1, keepdims=True), positions)
+    assert (found.nearest == nearest(mesh.points, positions)).all()
+    again = calotte.locate(mesh, calotte.to_lonlat(positions))
+    assert (again.nearest == found.nearest).all()
+    values = mesh.points[:, 2]
+    linear = (found.weights * values[mesh.triangles[found.triangle]]).sum(axis=1)
+    assert np.allclose(calotte.interpolate(mesh, values, positions), linear)
+    natural = calotte.interpolate(mesh, mesh.points, positions, method="natural")
+    assert natural.shape == (2000, 3) and np.abs(natural - positions).max() < 0.05
+    assert np.allclose(calotte.interpolate(mesh, values, mesh.points, method="natural"), values)
+    assert repr(found) == "<calotte.Locations: 2000 positions>"
+
+
+def test_outside_of_an_open_mesh():
+    mesh = calotte.delaunay([(0, 50), (90, 50), (180, 50), (270, 50), (30, 70)])
+    found = calotte.locate(mesh, [(0, -90), (10, 80)])
+    assert found.triangle[0] == -1 and found.triangle[1] >= 0
+    assert np.isnan(found.weights[0]).all() and np.isfinite(found.weights[1]).all()
+    for method in ("linear", "natural"):
+        values = calotte.interpolate(mesh, np.ones(5), [(0, -90), (10, 80)], method=method)
+        assert np.isnan(values[0]) and values[1] == pytest.approx(1)
+    assert repr(found) == "<calotte.Locations: 2 positions, 1 outside>"
+
+
+def test_in_the_plane():
+    mesh = calotte.delaunay(RNG.random((300, 2)), plane=True)
+    positions = 0.2 + 0.6 * RNG.random((1000, 2))
+    found = calotte.locate(mesh, positions)
+    corners = mesh.points[mesh.triangles[found.triangle]]
+    assert np.allclose((found.weights[:, :, np.newaxis] * corners).sum(axis=1), positions)
+    distances = np.linalg.norm(positions[:, np.newaxis] - mesh.points, axis=2)
+    assert (found.nearest == distances.argmin(axis=1)).all()
+    values = 1 + mesh.points @ [2, 3]
+    for method in ("linear", "natural"):
+        assert np.allclose(calotte.interpolate(mesh, values, positions, method=method),
+                           1 + positions @ [2, 3])
+    assert calotte.locate(mesh, [(9, 9)]).triangle[0] == -1
+
+
+def test_in_a_periodic_box():
+    mesh = calotte.cvt(100, domain=calotte.periodic_box(2, 1)).mesh
+    positions = RNG.random((500, 2)) * [2, 1]
+    found = calotte.locate(mesh, positions)
+    shifted = calotte.locate(mesh, positions + [4, -3])
+    assert (found.triangle >= 0).all() and (shifted.nearest == found.nearest).all()
+    assert calotte.interpolate(mesh, np.ones(100), positions) == pytest.approx(1)
+
+
+def test_errors():
+    mesh = calotte.delaunay(calotte.random_sphere(50))
+    plane = calotte.delaunay(RNG.random((50, 2)), plane=True)
+    positions = calotte.random_sphere(10)
+    positions[4, 0] = np.nan
+    for call in (lambda p: calotte.locate(mesh, p),
+                 lambda p: calotte.interpolate(mesh, np.ones(50), p)):
+        with pytest.raises(calotte.Error, match="4") as caught:
+            call(positions)
+        assert (caught.value.code, caught.value.index) == ("not_finite", 4)
+        with pytest.raises(calotte.Error) as caught:
+            call(np.eye(4)[:, :3])
+        assert (caught.value.code, caught.value.index) == ("zero_vector", 3)
+        with pytest.raises(calotte.Error, match="latitude") as caught:
+            call([(0, 0), (0, 91)])
+        assert caught.value.index == 1
+        with pytest.raises(calotte.Error, match=r"positions have the shape \(4, 4\)"):
+            call(np.eye(4))
+    with pytest.raises(calotte.Error, match="n x 2 in the plane"):
+        calotte.locate(plane, np.eye(3))
+    with pytest.raises(calotte.Error, match=r"shape \(3,\); give a number, or a row of them, for "
+                                            "each of the 50 sites"):
+        calotte.interpolate(mesh, np.ones(3), np.eye(3))
+    with pytest.raises(calotte.Error, match="must be numbers"):
+        calotte.interpolate(mesh, ["a"] * 50, np.eye(3))
+    with pytest.raises(calotte.Error, match="no method cubic; give one of: linear, natural"):
+        calotte.interpolate(mesh, np.ones(50), np.eye(3), method="cubic")

@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Makes a request of tests/grids/recipes_test.py with the Python package.
+
+    recipe_caller.py REQUEST OUTPUT
+
+The output holds the cells' generators, 3 doubles each, in a plane with z = 0. The numbers are those of
+tests/grids/requests.h: whole or made by + - * / and %, so that all callers have the same bits.
+"""
+import sys
+
+import numpy as np
+
+import calotte
+
+
+def density(points):
+    """Widths at the equator are half of those at the poles."""
+    z = points[:, 2]
+    root = 1 + 15 * (z * z)
+    return 16 / (root * root)
+
+
+def start():
+    """100 directions, not on the unit sphere."""
+    i = np.arange(100)[:, np.newaxis]
+    modulus = np.array([101, 103, 107])
+    return ((i * [37, 59, 71] + [11, 5, 17]) % modulus - modulus // 2) / 8
+
+
+REGION = [(-115, 25), (-95, 25), (-85, 35), (-85, 45), (-95, 55), (-115, 55), (-125, 45), (-125, 35)]
+SMALL = [(-110, 33), (-100, 33), (-95, 38), (-95, 42), (-100, 47), (-110, 47), (-115, 42), (-115, 38)]
+WIDTHS = ([[1200, 1000, 1100, 1300], [900, 800, 1000, 1200], [1100, 900, 1000, 1400]],
+          [0, 90, 180, 270], [-60, 0, 60])  # km; longitudes; latitudes
+FIXED = [(1, 0, 0), (0, 1, 0), (0, 0.6, 0.8)]
+BOX = calotte.periodic_box(2, 1)
+
+REQUESTS = {
+    "uniform": {"start": 642},
+    "x8": {"start": 2562, "density": density},
+    "widths": {"cell_width": WIDTHS},
+    "region": {"start": 500, "region": calotte.polygon(REGION)},
+    "limited-area": {"cell_width": 200, "region": calotte.polygon(SMALL), "limited_area": True},
+    "plane": {"start": 300, "domain": calotte.rectangle((0, 0), (2, 1))},
+    "box": {"start": 400, "domain": BOX},
+    "walls": {"start": 300, "domain": BOX, "walls": "y"},
+    "fixed": {"start": 500, "fixed": FIXED},
+    "points": {"start": start()},
+    "pure": {"start": 642, "density": density, "well_centred": False, "tolerance": 1e-3},
+    "well-centred": {"start": 642, "well_centred": True},
+    "rules": {"start": 642, "density": density, "rule": 6, "final_rule": 7, "method": "lloyd",
+              "iterations": 20},
+}
+
+
+def generators(request):
+    points = calotte.cvt(**REQUESTS[request]).mesh.points
+    if points.shape[1] == 3:
+        return points
+    return np.concatenate([points, np.zeros((len(points), 1))], axis=1)
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 3 or sys.argv[1] not in REQUESTS:
+        sys.exit(f"recipe_caller.py REQUEST OUTPUT; the requests are: {', '.join(REQUESTS)}")
+    np.ascontiguousarray(generators(sys.argv[1])).tofile(sys.argv[2])

@@ -1,0 +1,202 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Every choice of a recipe has the bits of the command, and errors name what does not fit."""
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import calotte
+import recipe_caller
+
+COMMAND = os.environ.get("CALOTTE_COMMAND", "calotte")
+RECTANGLE, BOX = calotte.rectangle((0, 0), (2, 1)), calotte.periodic_box(2, 1)
+
+
+def run(*words):
+    result = subprocess.run([COMMAND, *map(str, words)], capture_output=True, text=True)
+    assert result.returncode in (0, 1, 5), result.stderr
+
+
+def refuses(text, call, *arguments, **words):
+    with pytest.raises(calotte.Error) as caught:
+        call(*arguments, **words)
+    assert text in str(caught.value)
+    return caught.value
+
+
+# ---- The command's bits
+
+@pytest.mark.parametrize("words, arguments", [
+    (["--cells", 162, "--start", "icosahedron", "--bisections", 1],
+     {"start": 162, "kind": "icosahedron", "bisections": 1}),
+    (["--cells", 300, "--start", "geodesic"], {"start": 300, "kind": "geodesic"}),
+    (["--cells", 300, "--start", "random", "--seed", 7, "--iterations", 5],
+     {"start": 300, "kind": "random", "seed": 7, "iterations": 5}),
+    (["--cells", 300, "--start", "fibonacci", "--method", "lloyd", "--relaxation", "1.5",
+      "--iterations", 5],
+     {"start": 300, "kind": "fibonacci", "method": "lloyd", "relaxation": 1.5, "iterations": 5}),
+    (["--cells", 300, "--start", "density", "--density", "x4", "--rule", 6, "--final-rule", 7,
+      "--triangle-divisions", 2, "--norm", "linf", "--tolerance", 1e-3],
+     {"start": 300, "kind": "density", "density": "x4", "rule": 6, "final_rule": 7,
+      "triangle_divisions": 2, "norm": "linf", "tolerance": 1e-3}),
+    (["--cells", 300, "--density", "x4", "--insertion-rounds", 2],
+     {"start": 300, "density": "x4", "insertion_rounds": 2}),
+    (["--cells", 300, "--stop", "well-centred"], {"start": 300, "well_centred": True}),
+    (["--cells", 200, "--region", "circle=-105,40,1000km", "--boundary", "generators"],
+     {"start": 200, "region": "circle=-105,40,1000km", "boundary": "generators"}),
+])
+def test_on_the_sphere(tmp_path, words, arguments):
+    run("cvt", *words, "-o", tmp_path / "a.vtp")
+    file, mesh = calotte.read(tmp_path / "a.vtp"), calotte.cvt(**arguments).mesh
+    assert (file.points == mesh.points).all() and (file.triangles == mesh.triangles).all()
+
+
+def planar_widths(path):
+    netcdf = pytest.importorskip("netCDF4")
+    x, y = np.linspace(0, 2, 9), np.linspace(0, 1, 5)
+    values = 0.06 + 0.04 * x + 0.02 * y[:, np.newaxis]
+    with netcdf.Dataset(path, "w") as file:
+        for name, axis in (("x", x), ("y", y)):
+            file.createDimension(name, len(axis))
+            file.createVariable(name, "f8", (name,))[:] = axis
+        file.createVariable("cellWidth", "f8", ("y", "x"))[:] = values
+    return values, x, y
+
+
+def test_widths_of_a_plane(tmp_path):
+    raster = planar_widths(tmp_path / "widths.nc")
+    run("cvt", "--rectangle", "0,0,2,1", "--cell-width", tmp_path / "widths.nc", "-o",
+        tmp_path / "a.vtp")
+    expected = calotte.read(tmp_path / "a.vtp").points
+    for given in (tmp_path / "widths.nc", str(tmp_path / "widths.nc"), raster):
+        grid = calotte.cvt(cell_width=given, domain=RECTANGLE)
+        assert (grid.mesh.points == expected).all() and grid.well_centred
+    plan = calotte.plan(raster, domain=RECTANGLE)
+    assert plan.cells == len(expected) and plan.kind == "multilevel" and plan.gradient is None
+    assert plan.widths == (raster[0].min(), raster[0].max())
+    quality = calotte.quality(grid.mesh, domain=RECTANGLE, cell_width=raster)
+    assert quality.dc_over_h.p50 == pytest.approx(1, abs=0.05)
+    grid.mesh.to_mpas(tmp_path / "grid.nc", domain=RECTANGLE, cell_width=raster)
+
+
+def test_a_width_of_a_plane(tmp_path):
+    netcdf = pytest.importorskip("netCDF4")
+    run("cvt", "--periodic", "2,1", "--cell-width", "0.1", "-o", tmp_path / "command.nc")
+    for width in (0.1, "0.1"):
+        grid = calotte.cvt(cell_width=width, domain=BOX)
+        grid.mesh.to_mpas(tmp_path / "python.nc")
+        with netcdf.Dataset(tmp_path / "command.nc") as a, \
+                netcdf.Dataset(tmp_path / "python.nc") as b:
+            assert len(grid.mesh) == a.dimensions["nCells"].size == 231
+            assert all((a[name][:] == b[name][:]).all() for name in ("xCell", "yCell"))
+
+
+def test_a_hexagonal_lattice():
+    grid = calotte.cvt(200, domain=RECTANGLE, kind="hexagonal", max_iterations=0)
+    assert len(grid.mesh) == len(calotte.hexagonal_lattice(200, RECTANGLE))
+
+
+@pytest.mark.parametrize("density", [None, "tanh:x=1,y=0.5,beta=0.3,alpha=0.2,gamma=x2"])
+@pytest.mark.parametrize("walls", ["x", "y"])
+def test_a_channel(tmp_path, walls, density):
+    netcdf = pytest.importorskip("netCDF4")
+    words = [] if density is None else ["--density", density]
+    run("cvt", "--cells", 300, "--periodic", "2,1", "--walls", walls, *words, "-o",
+        tmp_path / "command.nc")
+    grid = calotte.cvt(300, domain=BOX, walls=walls, density=density)
+    grid.cells.to_mpas(tmp_path / "python.nc")
+    with netcdf.Dataset(tmp_path / "command.nc") as a, netcdf.Dataset(tmp_path / "python.nc") as b:
+        for name in ("xCell", "yCell", "cellsOnCell", "meshDensity", "areaCell"):
+            assert (a[name][:] == b[name][:]).all(), name
+        assert len(grid.cells) == a.dimensions["nCells"].size < len(grid.mesh)
+    k = "xy".index(walls)
+    assert grid.cells.period[k] == 0 and grid.mesh.period[k] > BOX.period[k]
+    assert (grid.domain.period == grid.mesh.period).all()
+    assert calotte.check(grid.mesh) and len(grid.voronoi().cells) == len(grid.cells)
+    assert repr(grid).startswith(f"<calotte.Cvt: {len(grid.cells)} cells")
+
+
+def test_a_limited_area_with_fixed_points(tmp_path):
+    netcdf = pytest.importorskip("netCDF4")
+    (tmp_path / "fixed.txt").write_text("-105 40\n-104 41\n")
+    run("cvt", "--region", "circle=-105,40,1000km", "--cell-width", "200km", "--limited-area",
+        "--fixed", tmp_path / "fixed.txt", "--lonlat", "-o", tmp_path / "command.nc")
+    counts = calotte.limited_area(tmp_path / "python.nc", "circle=-105,40,1000km", 200.0,
+                                  fixed=[(-105, 40), (-104, 41)])
+    with netcdf.Dataset(tmp_path / "command.nc") as a, netcdf.Dataset(tmp_path / "python.nc") as b:
+        assert counts["cells"] == a.dimensions["nCells"].size
+        for name in ("xCell", "bdyMaskCell", "meshDensity", "nominalMinDc"):
+            assert (a[name][:] == b[name][:]).all(), name
+
+
+# ---- The plan
+
+def test_a_plan_is_what_runs():
+    for words in ({"start": 642}, {"start": 2562, "density": "x8"},
+                  {"start": 400, "domain": BOX}, {"start": 300, "kind": "random"},
+                  {"start": 200, "region": "circle=0,0,20deg"},
+                  {"start": 642, "kind": "icosahedron", "bisections": 2, "iterations": 3}):
+        plan, grid = calotte.plan(**words), calotte.cvt(**words)
+        assert plan.levels == grid.levels and plan.cells == len(grid.mesh)
+        assert plan.levels[-1].cells == plan.cells
+        assert plan.widths is None and np.isnan(plan.least_km)
+    assert calotte.plan(start=calotte.random_sphere(50)).kind == "points"
+    plan = calotte.plan(200.0, region="circle=0,0,20deg", limited_area=True)
+    assert plan.cells > calotte.plan(200.0, region="circle=0,0,20deg").cells
+    assert (plan.least_km, plan.greatest_km, plan.widths) == (200, 200, (200, 200))
+
+
+# ---- Errors
+
+def test_words():
+    refuses("no kind of start cube; give one of: automatic, points", calotte.cvt, 100, kind="cube")
+    refuses("no method newton; give one of: auto, lloyd", calotte.cvt, 100, method="newton")
+    refuses("no boundary open; give one of: clip, generators", calotte.cvt, 100, boundary="open")
+    refuses("no rule for duplicates keep", calotte.cvt, 100, duplicates="keep")
+    refuses("no walls z", calotte.cvt, 100, domain=BOX, walls="z")
+    with pytest.raises(TypeError, match="start_kind"):
+        calotte.plan(start=100, start_kind="random")
+
+
+def test_what_does_not_fit():
+    points = calotte.random_sphere(50)
+    refuses("norm none", calotte.cvt, 100, norm="none")
+    refuses("sphere only", calotte.cvt, 100, domain=BOX, kind="geodesic")
+    refuses("plane only", calotte.cvt, 100, kind="hexagonal")
+    refuses("the start has points", calotte.cvt, points, kind="random")
+    refuses("the start has no points", calotte.cvt, np.empty((0, 3)))
+    refuses("the number of cells is 0", calotte.cvt, 0, cell_width=500.0)
+    refuses("chooses the bisections", calotte.cvt, 100, kind="multilevel", bisections=1)
+    refuses("multilevel only", calotte.cvt, 642, insertion_rounds=1)
+    refuses("1 or more", calotte.cvt, 642, iterations=0)
+    refuses("limited area", calotte.cvt, cell_width=200.0, limited_area=True)
+    refuses("part of the sphere only", calotte.cvt, 100, boundary="generators")
+    refuses("periodic box", calotte.cvt, 100, domain=RECTANGLE, walls="y")
+    refuses("no period", calotte.cvt, 100, domain=BOX, walls="xy")
+    refuses("give one of them", calotte.cvt, 100, domain=BOX, region="circle=0,0,20deg")
+    refuses("rule", calotte.cvt, 100, density="x4", rule=2)
+    assert refuses("", calotte.cvt, points[[0, *range(50)]], duplicates="refuse").index == 1
+    assert refuses("fixed point 99", calotte.cvt, 100, fixed=calotte.random_sphere(100)).index == 99
+
+
+def test_widths_of_a_plane_that_are_none():
+    refuses("unit of its coordinates", calotte.cvt, cell_width="1km", domain=BOX)
+    refuses("y x x", calotte.cvt, cell_width=(np.ones((2, 3)), [0, 1], [0, 1, 2]), domain=BOX)
+    refuses("(values, x, y)", calotte.cvt, cell_width=lambda x, y: x, domain=BOX)
+    refuses("(values, x, y)", calotte.cvt, cell_width=(1, 2), domain=BOX)
+    refuses("", calotte.cvt, cell_width=(0.1 * np.ones((2, 2)), [0, 1], [0, 1]), domain=BOX)
+    refuses("not both", calotte.cvt, cell_width=0.1, density="uniform", domain=BOX)
+    refuses("no-such.nc", calotte.cvt, cell_width="no-such.nc", domain=BOX)
+
+
+# ---- The program that compares callers
+
+@pytest.mark.parametrize("request_", ["uniform", "walls", "points"])
+def test_the_caller_writes_what_it_makes(tmp_path, request_):
+    subprocess.run([sys.executable, recipe_caller.__file__, request_, str(tmp_path / "a")],
+                   check=True)
+    points = np.fromfile(tmp_path / "a").reshape(-1, 3)
+    assert (points == recipe_caller.generators(request_)).all()
+    assert (points[:, 2] == 0).all() == (request_ == "walls")

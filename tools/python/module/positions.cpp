@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "calls.h"
+#include "members.h"
+#include "module.h"
+
+#include <calotte/interpolate.h>
+#include <calotte/locate.h>
+
+#include <memory>
+#include <utility>
+
+namespace calotte::python {
+namespace {
+
+template <class AnyMesh>
+std::shared_ptr<Locations> locate_in(const AnyMesh& mesh, const Doubles& positions) {
+  const auto places = columns(positions);
+  return call([&] { return std::make_shared<Locations>(locate(mesh, places)); });
+}
+
+/// \param values n x fields, by site. \returns k x fields, by position.
+template <class AnyMesh>
+py::array interpolate_in(const AnyMesh& mesh, const Doubles& values, const Doubles& positions,
+                         bool natural) {
+  const auto places = columns(positions);
+  const auto by_field = columns(values);
+  return handed_over(call([&] {
+    const Weights weights = interpolation_weights(
+        mesh, places, natural ? Interpolation::natural_neighbours : Interpolation::linear);
+    Eigen::MatrixXd result(by_field.rows(), places.cols());
+    for (Eigen::Index k = 0; k < by_field.rows(); ++k)
+      result.row(k) = interpolate(weights, by_field.row(k).transpose());
+    return result;
+  }));
+}
+
+template <class AnyMesh> void add_functions(py::module_& module) {
+  module.def("locate", &locate_in<AnyMesh>);
+  module.def("interpolate", &interpolate_in<AnyMesh>);
+}
+
+} // namespace
+
+void add_positions(py::module_& module) {
+  py::class_<Locations, std::shared_ptr<Locations>> type(
+      module, "Locations", "Where positions lie in a mesh, of locate().");
+  add_members(
+      type,
+      Member{"triangle", &Locations::triangle,
+             "(k,) the triangle that holds the position, the lowest of several; -1 outside "
+             "of an open mesh."},
+      Member{"weights", &Locations::weights,
+             "(k, 3) barycentric, of the triangle's vertices; their sum is 1; NaN outside."},
+      Member{"nearest", &Locations::nearest,
+             "(k,) the nearest site, the lowest of those that are equally near."});
+  type.def("__len__", [](const Locations& locations) { return locations.triangle.size(); });
+  add_functions<Mesh>(module);
+  add_functions<PlanarMesh>(module);
+}
+
+} // namespace calotte::python
