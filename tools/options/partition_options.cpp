@@ -28,10 +28,7 @@ Points3 read_centres(const PartitionWords& words, bool plane) {
                     " is not a file; give sample, fibonacci or a file of points");
   if (!plane)
     return read_point_file(words.centres, false).points;
-  const Points2 places = read_planar_point_file(words.centres).points.topRows<2>();
-  Points3 centres = Points3::Zero(3, places.cols());
-  centres.topRows<2>() = places;
-  return centres;
+  return read_planar_point_file(words.centres).points;
 }
 
 } // namespace
