@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <calotte/density.h>
+#include <calotte/domain.h>
 #include <calotte/error.h>
 #include <calotte/export.h>
 #include <calotte/types.h>
@@ -159,6 +161,29 @@ struct Cvt {
              ///< (after bisections, the midpoints follow)
   CvtReport report; ///< how the run went
 };
+
+/// Inserts the midpoints of the longest edges of a mesh and contracts the shortest edges, each to
+/// its midpoint. Lengths are relative to the spacing h ~ rho^(-1/4) at the ends of the edge. No end
+/// of a chosen edge is an end of another one or next to it; if a mesh has no more such edges, fewer
+/// are chosen. Equal lengths are ordered by the edges' ends. Edges at a site with 8 neighbours or
+/// more count as twice as long, those at a site with 4 or fewer as half as long. On a bounded
+/// surface edges are chosen whose midpoint lies inside.
+///
+/// In a graded mesh of minimal CVT energy, pairs of cells with 5 and 7 neighbours (dislocations)
+/// let rows of cells end. A descent cannot create them; this function can.
+/// \param mesh on the sphere of columns of any norm.
+/// \param inserted, contracted numbers of edges, >= 0.
+/// \returns the points that remain, in their order, a midpoint in the place of the lower end of a
+///          contracted edge, then the inserted midpoints; on the sphere unit columns.
+/// \throws Error bad_option for a negative number, more than 2^30 points, an id out of range, or an
+///         ill-formed density.
+Points3 insert_and_contract(const Mesh& mesh, const Density& density, std::int64_t inserted,
+                            std::int64_t contracted);
+
+/// As insert_and_contract(mesh, density, inserted, contracted), for a PlanarMesh and its domain.
+/// \throws Error as there and as require_domain().
+Points2 insert_and_contract(const PlanarMesh& mesh, const PlanarDomain& domain,
+                            const Density& density, std::int64_t inserted, std::int64_t contracted);
 
 } // namespace calotte
 CALOTTE_API_END

@@ -141,24 +141,6 @@ Points3 cubed_sphere(std::int64_t m);
 /// \throws Error bad_option if an id is out of range.
 Points3 bisect(const Mesh& mesh);
 
-/// Inserts the midpoints of the longest edges of a mesh and contracts the shortest edges, each to
-/// its midpoint. Lengths are relative to the spacing h ~ rho^(-1/4) at the ends of the edge. No end
-/// of a chosen edge is an end of another one or next to it; if a mesh has no more such edges, fewer
-/// are chosen. Equal lengths are ordered by the edges' ends. Edges at a site with 8 neighbours or
-/// more count as twice as long, those at a site with 4 or fewer as half as long. On a bounded
-/// surface edges are chosen whose midpoint lies inside.
-///
-/// In a graded mesh of minimal CVT energy, pairs of cells with 5 and 7 neighbours (dislocations)
-/// let rows of cells end. A descent cannot create them; this function can.
-/// \param mesh on the sphere of columns of any norm.
-/// \param inserted, contracted numbers of edges, >= 0.
-/// \returns the points that remain, in their order, a midpoint in the place of the lower end of a
-///          contracted edge, then the inserted midpoints; on the sphere unit columns.
-/// \throws Error bad_option for a negative number, more than 2^30 points, an id out of range, or an
-///         ill-formed density.
-Points3 insert_and_contract(const Mesh& mesh, const Density& density, std::int64_t inserted,
-                            std::int64_t contracted);
-
 /// The mesh of regular hexagons in the doubly periodic box [0, columns spacing) x [0, rows spacing
 /// sqrt(3)/2). Every second row is shifted by half a spacing. Site r columns + c is in row r. The
 /// mesh is the Delaunay triangulation of the sites.
@@ -203,11 +185,6 @@ Points2 hexagonal_lattice(std::int64_t n, const PlanarDomain& domain);
 /// As bisect(mesh), for a PlanarMesh and its domain.
 /// \throws Error bad_option also if the period of the mesh is not the domain's.
 Points2 bisect(const PlanarMesh& mesh, const PlanarDomain& domain);
-
-/// As insert_and_contract(mesh, density, inserted, contracted), for a PlanarMesh and its domain.
-/// \throws Error as there and as require_domain().
-Points2 insert_and_contract(const PlanarMesh& mesh, const PlanarDomain& domain,
-                            const Density& density, std::int64_t inserted, std::int64_t contracted);
 
 } // namespace calotte
 CALOTTE_API_END

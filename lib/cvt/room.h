@@ -5,6 +5,7 @@
 
 /// The iteration to a centroidal Voronoi tessellation: mesh -> [ exchange, integrate, repair ] for
 /// each region -> step -> converged? Its methods are steps over one functional of the generators.
+/// Between descents, edges are split and contracted, and dislocations moved.
 ///
 /// In: a start, a density and options. Out: converged generators with their mesh, and a report.
 namespace calotte::cvt_detail {

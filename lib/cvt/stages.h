@@ -2,11 +2,11 @@
 #pragma once
 
 #include "cvt/cvt.h"
+#include "cvt/insertion.h"
 #include "cvt/room.h"
 #include "cvt/shape.h"
 #include "cvt/state.h"
 #include "cvt/tessellation.h"
-#include "generators/insertion.h"
 
 #include <calotte/cvt.h>
 

@@ -4,9 +4,9 @@
 #include "base/points.h"
 #include "cvt/cvt.h"
 #include "cvt/functional.h"
+#include "cvt/insertion.h"
 #include "cvt/state.h"
 #include "cvt/tessellation.h"
-#include "generators/insertion.h"
 #include "mesh/connectivity.h"
 
 #include <calotte/cvt.h>

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "cvt/insertion.h"
 #include "delaunay/delaunay.h"
-#include "generators/insertion.h"
 
 #include "support/densities.h"
 
+#include <calotte/cvt.h>
 #include <calotte/delaunay.h>
 #include <calotte/domain.h>
 #include <calotte/error.h>
@@ -170,16 +171,16 @@ TEST_CASE("insertion: sites with 8 neighbours lose some") {
 }
 
 TEST_CASE("insertion: dislocations grow as the root of the number, and uniform meshes need none") {
-  CHECK(generators_detail::dislocations(relaxed(1000, Density{}), Density{}) == 0);
-  const double few = generators_detail::dislocations(relaxed(4000, x8()), x8()),
-               many = generators_detail::dislocations(relaxed(16000, x8()), x8());
+  CHECK(cvt_detail::dislocations(relaxed(1000, Density{}), Density{}) == 0);
+  const double few = cvt_detail::dislocations(relaxed(4000, x8()), x8()),
+               many = cvt_detail::dislocations(relaxed(16000, x8()), x8());
   CHECK(many / few == doctest::Approx(2).epsilon(0.05));
 }
 
 TEST_CASE("insertion: where the density is 0, nothing is demanded") {
   const Density half = rising(0);
   const Mesh mesh = spherical_delaunay(fibonacci_sphere(1000));
-  const double demanded = generators_detail::dislocations(mesh, half);
+  const double demanded = cvt_detail::dislocations(mesh, half);
   CHECK(demanded > 0);
   CHECK(demanded < 1000);
   const Points3 points = insert_and_contract(mesh, half, 20, 20);

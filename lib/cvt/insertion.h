@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "cvt/room.h"
 #include "domain/spherical_outline.h"
-#include "generators/room.h"
 
 #include <calotte/density.h>
 #include <calotte/domain.h>
@@ -10,7 +10,7 @@
 
 #include <cstdint>
 
-namespace calotte::generators_detail {
+namespace calotte::cvt_detail {
 
 /// An estimate of the number of dislocations that a mesh needs so that its spacing can follow a
 /// density: the integral of |grad h| / h^2, h the spacing. It grows as sqrt(n), and is 0 for
@@ -40,4 +40,4 @@ Points2 exchanged(const PlanarMesh& mesh, const PlanarDomain& domain, const Dens
 /// True if the midpoint of an edge is within a fifth of its length of the boundary.
 bool lies_along(const SphericalOutline& outline, const Vec3& a, const Vec3& b);
 
-} // namespace calotte::generators_detail
+} // namespace calotte::cvt_detail

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "generators/insertion.h"
+#include "cvt/insertion.h"
 
-#include <calotte/generators.h>
+#include <calotte/cvt.h>
 
 #include "base/points.h"
 #include "base/require.h"
@@ -30,7 +30,7 @@ namespace {
 using base_detail::column;
 using base_detail::require;
 using namespace domain_detail;
-using namespace generators_detail;
+using namespace cvt_detail;
 
 /// An edge, and its length in units of the spacing that the density demands there, up to one
 /// factor.
@@ -288,7 +288,7 @@ Points3 exchanged_in_plane(const PlanarMesh& mesh, const Points3& points,
 
 } // namespace
 
-namespace generators_detail {
+namespace cvt_detail {
 
 double dislocations(const Mesh& mesh, const Density& density) {
   return sum_dislocations(mesh, unit(mesh.points), density);
@@ -323,7 +323,7 @@ bool lies_along(const SphericalOutline& outline, const Vec3& a, const Vec3& b) {
   return near;
 }
 
-} // namespace generators_detail
+} // namespace cvt_detail
 
 Points3 insert_and_contract(const Mesh& mesh, const Density& density, std::int64_t inserted,
                             std::int64_t contracted) {
@@ -339,7 +339,7 @@ Points3 insert_and_contract(const Mesh& mesh, const Density& density, std::int64
 Points2 insert_and_contract(const PlanarMesh& mesh, const PlanarDomain& domain,
                             const Density& density, std::int64_t inserted,
                             std::int64_t contracted) {
-  return generators_detail::exchanged(mesh, domain, density, {inserted, contracted});
+  return cvt_detail::exchanged(mesh, domain, density, {inserted, contracted});
 }
 
 } // namespace calotte
