@@ -57,10 +57,6 @@ void require_options(const CvtOptions& options) {
 
 namespace {
 
-/// Of an excess over the limits of shape.h, at which a finish ends; at accepted_excess where its
-/// penalty has been raised.
-constexpr double shape_tolerance = 0.02;
-
 /// Throws for a state that no run can have left, in any space.
 void require_state(const State& state) {
   const auto n = static_cast<std::size_t>(state.points.cols());
@@ -96,7 +92,7 @@ void conclude(State& state, const CvtOptions& options, const CvtIteration& itera
   report.residual = norm_of(iteration, options.norm);
   if (state.penalty > 0) {
     report.converged =
-        iteration.misshapen <= (state.raised > 0 ? accepted_excess : shape_tolerance);
+        iteration.misshapen <= (state.raised > 0 ? accepted_excess : polished_excess);
   } else if (options.norm == Norm::none) {
     report.converged = state.iterations_of_level >= options.max_iterations;
   } else {

@@ -26,8 +26,19 @@ struct ShapeLimits {
 };
 inline constexpr ShapeLimits shape_limits;
 
-/// A mesh whose shapes exceed no limit by more is well-centred.
-inline constexpr double accepted_excess = 0.03;
+// How far beyond its limit the worst cotangent or ratio may be:
+inline constexpr double polished_excess = 0.02;  ///< where a finish ends
+inline constexpr double accepted_excess = 0.03;  ///< in a well-centred mesh
+inline constexpr double reachable_excess = 0.11; ///< where a raised penalty still helps
+
+/// The limits of an early glide, a little within shape_limits, so that few shapes come near these.
+constexpr ShapeLimits early_glide_limits() {
+  constexpr double edge_margin = 0.03, cotangent_margin = 0.08;
+  ShapeLimits limits = shape_limits;
+  limits.least_edge += edge_margin;
+  limits.least_cotangent += cotangent_margin;
+  return limits;
+}
 
 /// The penalty for shapes beyond the limits.
 struct ShapeTerms {

@@ -61,7 +61,6 @@ bool has_stalled(const State& state) {
 
 Stage stage_after(const State& state, const CvtOptions& options) {
   constexpr int most_raised = 2;
-  constexpr double reachable = 0.11; // an excess: a penalty cannot remove larger ones
   const bool inserts = options.insertion_rounds > 0, in_finish = state.penalty > 0;
   // A round may find too few edges for all generators that are missing.
   if (inserts && !in_finish &&
@@ -73,7 +72,7 @@ Stage stage_after(const State& state, const CvtOptions& options) {
   if (options.well_centred && !in_finish)
     return Stage::finish;
   const bool fell_short = in_finish && !state.report.converged;
-  if (fell_short && state.raised < most_raised && last_accepted(state).misshapen < reachable)
+  if (fell_short && state.raised < most_raised && last_accepted(state).misshapen < reachable_excess)
     return Stage::raise;
   return Stage::end;
 }
@@ -86,12 +85,7 @@ bool may_glide(const State& state, const CvtOptions& options) {
 
 ShapeLimits limits_of_glide(const State& state) {
   constexpr int within = 2;
-  ShapeLimits limits = shape_limits;
-  if (state.glides < within) {
-    limits.least_edge += 0.03;
-    limits.least_cotangent += 0.08;
-  }
-  return limits;
+  return state.glides < within ? early_glide_limits() : shape_limits;
 }
 
 CvtOptions early(const CvtOptions& options) {

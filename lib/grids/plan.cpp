@@ -331,6 +331,7 @@ CvtOptions options_of(const Schedule& schedule) {
     options.cells = recipe.cells;
   }
   options.well_centred = *recipe.stop.well_centred;
+  static_assert(Stop().least_spacing == CvtOptions::usual_least_spacing);
   options.least_spacing = recipe.stop.least_spacing;
   options.rule = recipe.rule;
   options.final_rule = recipe.final_rule;
