@@ -5,6 +5,7 @@
 #include "base/points.h"
 #include "base/require.h"
 #include "curve/hilbert.h"
+#include "grids/room.h"
 #include "voronoi/cell_walk.h"
 #include "voronoi/groups.h"
 #include "voronoi/triangle_area.h"
@@ -22,7 +23,7 @@
 // coast.
 
 namespace calotte {
-namespace voronoi_detail {
+namespace grids_detail {
 namespace {
 
 constexpr double sphere = 4 * std::numbers::pi;
@@ -286,17 +287,17 @@ DoubleVector fractions_of(const CellAreas& areas, double area) {
 }
 
 } // namespace
-} // namespace voronoi_detail
+} // namespace grids_detail
 
 DoubleVector land_fractions(const Voronoi& cells, const Coast& coast) {
-  using namespace voronoi_detail;
+  using namespace grids_detail;
   Traces traces = traces_of(cells, arcs_of(coast));
   const EdgeCrossings crossings(std::move(traces.crossings), cells.edges_on_cell.maxCoeff() + 1);
   return fractions_of(areas_of(cells, crossings, std::move(traces.pieces)), coast.area);
 }
 
 std::vector<std::int32_t> cells_on_lines(const Voronoi& cells, const std::vector<Points3>& lines) {
-  using namespace voronoi_detail;
+  using namespace grids_detail;
   const CellWalk walk(cells);
   std::vector<std::int32_t> found;
   std::int32_t cell = 0;

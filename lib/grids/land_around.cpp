@@ -6,7 +6,7 @@
 #include "domain/loops.h"
 #include "domain/spherical_outline.h"
 #include "exact/predicates.h"
-#include "voronoi/room.h"
+#include "grids/room.h"
 
 #include <cmath>
 #include <numbers>
@@ -14,7 +14,7 @@
 namespace calotte {
 namespace {
 
-using namespace voronoi_detail;
+using namespace grids_detail;
 
 /// Sines and cosines of azimuths of directions seen from a place, up to a common factor.
 class Compass {

@@ -3,7 +3,7 @@
 
 #include "base/require.h"
 #include "domain/surface.h"
-#include "voronoi/room.h"
+#include "grids/room.h"
 
 #include <algorithm>
 #include <initializer_list>

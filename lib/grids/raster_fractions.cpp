@@ -5,6 +5,7 @@
 #include "base/parallel.h"
 #include "base/points.h"
 #include "base/require.h"
+#include "grids/room.h"
 #include "voronoi/cell_walk.h"
 #include "voronoi/triangle_area.h"
 
@@ -22,7 +23,7 @@
 // the rows.
 
 namespace calotte {
-namespace voronoi_detail {
+namespace grids_detail {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
@@ -246,10 +247,10 @@ double value_at(const LandRaster& raster, const Grid& grid, const Vec3& place) {
 }
 
 } // namespace
-} // namespace voronoi_detail
+} // namespace grids_detail
 
 DoubleVector land_fractions(const Voronoi& cells, const LandRaster& raster) {
-  using namespace voronoi_detail;
+  using namespace grids_detail;
   require_raster(raster);
   const Grid grid(raster);
   const Finder finder(cells);
