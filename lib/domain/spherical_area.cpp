@@ -2,7 +2,7 @@
 #include "domain/spherical_area.h"
 
 #include "base/double_double.h"
-#include "base/spherical_angles.h"
+#include "base/spherical_triangle.h"
 
 #include <algorithm>
 #include <numbers>
@@ -12,17 +12,6 @@ namespace calotte::domain_detail {
 namespace {
 
 constexpr DoubleDouble sphere{4 * std::numbers::pi, 4 * 1.2246467991473532e-16};
-
-/// The signed area of the triangle between a place and an arc, positive if they run
-/// counter-clockwise. It loses digits where the arc comes near the opposite of the place.
-///
-/// tan(area/2) = det(o,a,b) / ((o+a).(o+b)) (Van Oosterom and Strackee, 1983); the determinant is
-/// one of small differences.
-double triangle_area(const Vec3& o, const Arc& arc) {
-  const Vec3& a = arc.from;
-  const Vec3 side = dot(o, a) > 0 ? a - o : a + o;
-  return 2 * longitude_of(dot(o + a, o + arc.to), dot(o, cross(side, arc.to - a)));
-}
 
 /// Places to sum triangles from: the mean direction of the arcs, and those of a cube's faces, edges
 /// and corners.
@@ -62,7 +51,7 @@ DoubleDouble sum_from(const Vec3& origin, std::span<const Arc> arcs) {
   DoubleDouble sum;
   for (const Arc& arc : arcs)
     for_each_part(arc, [&](const Arc& part) {
-      sum = sum + DoubleDouble{triangle_area(origin, part), 0};
+      sum = sum + DoubleDouble{triangle_area(origin, part.from, part.to), 0};
     });
   return sum;
 }

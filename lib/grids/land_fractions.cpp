@@ -4,11 +4,11 @@
 #include "base/parallel.h"
 #include "base/points.h"
 #include "base/require.h"
+#include "base/spherical_triangle.h"
 #include "curve/hilbert.h"
 #include "grids/room.h"
 #include "voronoi/cell_walk.h"
 #include "voronoi/groups.h"
-#include "voronoi/triangle_area.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,9 +5,9 @@
 #include "base/parallel.h"
 #include "base/points.h"
 #include "base/require.h"
+#include "base/spherical_triangle.h"
 #include "grids/room.h"
 #include "voronoi/cell_walk.h"
-#include "voronoi/triangle_area.h"
 
 #include <algorithm>
 #include <array>

@@ -32,7 +32,9 @@ std::vector<CellCorner> tangent_cell(const TangentPlane& plane,
   return cell;
 }
 
-/// The area of the spherical triangle with a corner in the site (Oosterom and Strackee, 1983).
+/// The area of the spherical triangle with a corner in the site (Oosterom and Strackee, 1983). The
+/// form of triangle_area() for corners that are known by their places in the tangent plane, which
+/// the bits of every CVT of a region follow from.
 double area_of(const CellSide& side) {
   const double np = std::sqrt(1 + dot(side.p, side.p)), nq = std::sqrt(1 + dot(side.q, side.q));
   return 2 * angle_of(cross(side.p, side.q), 1 + dot(side.p, side.q) + np + nq + np * nq);

@@ -3,6 +3,7 @@
 
 #include "base/parallel.h"
 #include "base/points.h"
+#include "base/spherical_triangle.h"
 #include "domain/periodic_box.h"
 
 #include <calotte/error.h>
@@ -38,18 +39,16 @@ void for_each_triangle(const Polygons& polygons, std::int64_t polygon, const Add
       add(place(polygons, first), place(polygons, k), place(polygons, k + 1));
 }
 
-/// A triangle's area is 2 atan2(a . b x c, 1 + a.b + b.c + c.a) (Oosterom and Strackee, IEEE Trans.
-/// Biomed. Eng. 30, 1983), with differences in the product, which keep the digits of small
-/// triangles. Multiplied as complex numbers, the fan's sum their angles.
+/// Multiplied as complex numbers, the fan's half areas sum their angles.
 double spherical_area(const Polygons& polygons, std::int64_t polygon) {
   double x = 1, y = 0;
   for_each_triangle(polygons, polygon, [&](const Vec3& a, const Vec3& b, const Vec3& c) {
-    const double sine = dot(a, cross(b - a, c - a)) / 4,
-                 cosine = (1 + dot(a, b) + dot(b, c) + dot(c, a)) / 4, before = x;
+    const HalfArea half = half_area(a, b, c);
+    const double sine = half.sine / 4, cosine = half.cosine / 4, before = x;
     x = before * cosine - y * sine;
     y = before * sine + y * cosine;
   });
-  return 2 * std::atan2(y, x);
+  return 2 * longitude_of(x, y);
 }
 
 double planar_area(const Polygons& polygons, std::int64_t polygon) {

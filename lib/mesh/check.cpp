@@ -5,6 +5,7 @@
 #include "mesh/planar_mesh.h"
 
 #include "base/points.h"
+#include "base/spherical_triangle.h"
 #include "curve/hilbert.h"
 
 #include <algorithm>
@@ -27,21 +28,24 @@ std::string direction_failure(const Mesh& mesh, std::int64_t site) {
   return good ? std::string() : "site " + std::to_string(site) + " is not a direction";
 }
 
-/// The area of a triangle known to be counter-clockwise, 2 atan2(det, s) with det = a . (b-a) x
-/// (c-a) and s = 1 + a.b + b.c + c.a (Oosterom and Strackee, 1983), and a bound on its error.
+/// The area of a triangle known to be counter-clockwise, and a bound on its error. With p = b-a (or
+/// b+a) and q = c-b, half of it is the angle of det = a . p x q and s = (a+b) . (a+c), see
+/// half_area().
 ///
 /// The unit vectors' lengths are good to 5 roundoffs u (their directions are free: any move of the
 /// sites leaves the sum of the areas as it is). So det errs by 15u and, in its evaluation, by (6
-/// sqrt 3 + 2)u times |b-a| |c-a|; s by 60u for the lengths and 21u in its evaluation; the angle by
-/// (|s| err(det) + det err(s)) / (det^2 + s^2).
-Area triangle_area(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 p = b - a, q = c - a;
-  const double det = std::max(0.0, dot(a, cross(p, q))); // not -0, whose angle may be -pi
-  const double s = 1 + dot(a, b) + dot(b, c) + dot(c, a);
+/// sqrt 3 + 2)u times |p| |q|; s by 40u for the lengths and 20u in its evaluation; the angle by
+/// (|s| err(det) + det err(s)) / (det^2 + s^2) and, in its evaluation, by 7u of itself.
+Area area_of(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const auto [sine, s] = base_detail::half_area(a, b, c);
+  const double det = std::max(0.0, sine); // not -0, whose angle may be -pi
+  const double angle = base_detail::longitude_of(s, det);
+  const Vec3 p = dot(a, b) > 0 ? b - a : b + a, q = c - b;
   const double det_error = 32 * exact_detail::roundoff * std::sqrt(dot(p, p) * dot(q, q));
   const double s_error = 96 * exact_detail::roundoff;
-  const double angle_error = (std::abs(s) * det_error + det * s_error) / (det * det + s * s);
-  return {2 * std::atan2(det, s), 2 * std::min(std::numbers::pi, angle_error)};
+  const double angle_error = (std::abs(s) * det_error + det * s_error) / (det * det + s * s) +
+                             7 * exact_detail::roundoff * angle;
+  return {2 * angle, 2 * std::min(std::numbers::pi, angle_error)};
 }
 
 Array<Vec3> unit_vectors(const Points3& points) {
@@ -120,7 +124,7 @@ struct OnSphere : mesh_detail::Faces {
   static std::int64_t euler(std::int64_t boundary_edges) { return boundary_edges == 0 ? 2 : 1; }
 
   Area area(std::int64_t t) const {
-    return triangle_area(unit[vertex(t, 0)], unit[vertex(t, 1)], unit[vertex(t, 2)]);
+    return area_of(unit[vertex(t, 0)], unit[vertex(t, 1)], unit[vertex(t, 2)]);
   }
 
   static void set_area(double sum, Check& result) {

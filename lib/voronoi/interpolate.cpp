@@ -4,11 +4,12 @@
 #include "base/parallel.h"
 #include "base/points.h"
 #include "base/require.h"
+#include "base/spherical_triangle.h"
 #include "mesh/connectivity.h"
 #include "mesh/faces.h"
 #include "mesh/locate_spaces.h"
 #include "mesh/planar_mesh.h"
-#include "voronoi/triangle_area.h"
+#include "voronoi/room.h"
 
 #include <calotte/locate.h>
 

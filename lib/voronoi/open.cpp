@@ -4,10 +4,10 @@
 #include "base/matrix_memory.h"
 #include "base/parallel.h"
 #include "base/points.h"
+#include "base/spherical_triangle.h"
 #include "domain/periodic_box.h"
 #include "exact/predicates.h"
 #include "voronoi/groups.h"
-#include "voronoi/triangle_area.h"
 
 #include <calotte/error.h>
 
