@@ -2,9 +2,12 @@
 #include "base/lonlat.h"
 
 #include "base/circle.h"
+#include "base/spherical_angles.h"
 #include "base/vector_loops.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace calotte::base_detail {
 namespace {
@@ -51,7 +54,30 @@ void set_near(const double* longitudes, const double* latitudes, std::int64_t n,
     out[i] = place(cos_sin(turned_near(longitudes[i])), cos_sin(latitudes[i]));
 }
 
+/// The vector, or one by a power of two longer or shorter whose squares are doubles.
+Vec3 of_moderate_norm(const Vec3& a) {
+  const double size = std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)});
+  if (size > 1e-100 && size < 1e100)
+    return a;
+  int exponent = 0;
+  std::frexp(size, &exponent);
+  return {std::ldexp(a.x, -exponent), std::ldexp(a.y, -exponent), std::ldexp(a.z, -exponent)};
+}
+
 } // namespace
+
+LonLat lonlat_of(const Vec3& direction) {
+  constexpr double degrees = 180 / std::numbers::pi;
+  const Vec3 east = of_moderate_norm({direction.x, direction.y, 0}),
+             p = of_moderate_norm(direction);
+  const bool pole = direction.x == 0 && direction.y == 0;
+  return {pole ? 0 : longitude_of(east.x, east.y) * degrees, latitude_of(p.x, p.y, p.z) * degrees};
+}
+
+LonLat eastern_lonlat_of(const Vec3& direction) {
+  const LonLat place = lonlat_of(direction);
+  return {eastern(place.longitude, 360), place.latitude + 0.0};
+}
 
 double turned_back(double degrees) {
   return std::abs(degrees) < near ? turned_near(degrees) : std::remainder(degrees, 360.0);

@@ -16,6 +16,19 @@ Vec3 from_lonlat(double longitude, double latitude);
 /// The same at n places.
 void from_lonlats(const double* longitudes, const double* latitudes, std::int64_t n, Vec3* out);
 
+/// Degrees.
+struct LonLat {
+  double longitude, latitude;
+};
+
+/// The longitude from -180 to 180, 0 at the poles, and the latitude of a direction of any norm,
+/// within about 1e-15 of 360; the same bits on every machine. Loops over radians call
+/// longitude_of() and latitude_of(), of which these are the bits.
+LonLat lonlat_of(const Vec3& direction);
+
+/// The same with a longitude from 0 to below 360. No angle is -0.
+LonLat eastern_lonlat_of(const Vec3& direction);
+
 /// An angle in degrees from -180 to 180, which differs by whole turns. Exact.
 double turned_back(double degrees);
 

@@ -26,4 +26,11 @@ CALOTTE_INLINE double latitude_of(double x, double y, double z) {
   return std::copysign(angle_of_squares(x * x + y * y, z * z), z);
 }
 
+/// An angle from minus half a turn to half a turn, from 0 to below a turn.
+CALOTTE_INLINE double eastern(double angle, double turn) {
+  const double turned = angle < 0 ? angle + turn : angle;
+  // An angle below 0 by less than the spacing of doubles at a turn is rounded to it; -0 becomes 0.
+  return turned < turn ? turned + 0.0 : 0;
+}
+
 } // namespace calotte::base_detail

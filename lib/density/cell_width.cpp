@@ -2,11 +2,11 @@
 #include <calotte/cell_width.h>
 
 #include "base/elementary.h"
+#include "base/lonlat.h"
 #include "base/number_text.h"
 #include "base/parallel.h"
 #include "base/points.h"
 #include "base/require.h"
-#include "base/spherical_angles.h"
 #include "density/cell_width_field.h"
 #include "density/sampling.h"
 #include "domain/spherical_outline.h"
@@ -203,11 +203,10 @@ struct Cover {
   bool whole() const { return around && to_south && to_north; }
 
   bool holds(const Eigen::Vector3d& x) const {
-    constexpr double degrees = 180 / std::numbers::pi;
-    const double latitude = latitude_of(x.x(), x.y(), x.z()) * degrees;
+    const auto [longitude, latitude] = base_detail::lonlat_of({x.x(), x.y(), x.z()});
     if ((latitude < south && !to_south) || (latitude > north && !to_north))
       return false;
-    const double east = longitude_of(x.x(), x.y()) * degrees - west;
+    const double east = longitude - west;
     return around || east - 360 * std::floor(east / 360) <= length;
   }
 };
@@ -274,10 +273,9 @@ std::string uncovered(const DoubleVector& longitudes, const DoubleVector& latitu
   const std::optional<Eigen::Vector3d> place = place_outside(cover, region);
   if (!place)
     return {};
-  constexpr double degrees = 180 / std::numbers::pi;
+  const auto [east, north] = base_detail::lonlat_of({place->x(), place->y(), place->z()});
   return extent(longitude, longitudes) + ", " + extent(latitude, latitudes) +
-         ", and leaves out the place " + shortly(longitude_of(place->x(), place->y()) * degrees) +
-         " " + shortly(latitude_of(place->x(), place->y(), place->z()) * degrees) +
+         ", and leaves out the place " + shortly(east) + " " + shortly(north) +
          " of the region; give a raster in degrees that covers it";
 }
 

@@ -8,7 +8,6 @@
 #include <calotte/error.h>
 
 #include <cmath>
-#include <numbers>
 #include <string>
 
 namespace calotte {
@@ -41,13 +40,11 @@ Points3 from_lonlat(const PointsRef& lonlat) {
 
 Points2 to_lonlat(const PointsRef& points) {
   base_detail::require(points.rows() == 3, "points on the sphere must have 3 rows");
-  constexpr double degrees = 180 / std::numbers::pi;
   Points2 lonlat(2, points.cols());
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
-    const double x = points(0, i), y = points(1, i), z = points(2, i);
-    const bool pole = x == 0 && y == 0;
-    lonlat.col(i) << (pole ? 0 : std::atan2(y, x) * degrees),
-        std::atan2(z, std::hypot(x, y)) * degrees;
+    const base_detail::LonLat place =
+        base_detail::lonlat_of({points(0, i), points(1, i), points(2, i)});
+    lonlat.col(i) << place.longitude, place.latitude;
   }
   return lonlat;
 }

@@ -237,13 +237,12 @@ double value_at(const LandRaster& raster, const Grid& grid, const Vec3& place) {
     const auto after = std::upper_bound(all.begin() + 1, all.end() - 1, value);
     return after - all.begin() - 1;
   };
-  double longitude = std::atan2(place.y, place.x) / degree;
+  auto [longitude, latitude] = lonlat_of(place);
   while (longitude < grid.meridians.front())
     longitude += 360;
   while (longitude >= grid.meridians.back())
     longitude -= 360;
-  return raster.land(index_of(grid.meridians, longitude),
-                     index_of(grid.parallels, std::asin(std::clamp(place.z, -1.0, 1.0)) / degree));
+  return raster.land(index_of(grid.meridians, longitude), index_of(grid.parallels, latitude));
 }
 
 } // namespace

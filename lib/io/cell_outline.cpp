@@ -4,20 +4,18 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 
 namespace calotte::io_detail {
 namespace {
 
-constexpr double degrees = 180 / std::numbers::pi;
 constexpr double cut = 180; ///< the meridian; any number of turns may be added
 
-using Ring = std::vector<MapPlace>;
+using Ring = std::vector<LonLat>;
 
 /// A place whose longitude continues beyond 180 degrees. The turns are kept apart: the longitude of
 /// a corner has the same bits in all cells that share it.
 struct TurnedPlace {
-  MapPlace place;
+  LonLat place;
   int turn = 0;
 
   double longitude(int less = 0) const { return place.longitude + 360 * (turn - less); }
@@ -26,12 +24,6 @@ struct TurnedPlace {
 using TurnedRing = std::vector<TurnedPlace>;
 
 bool at_pole(const Vec3& p) { return std::hypot(p.x, p.y) < 1e-12 * std::abs(p.z); }
-
-double longitude_of(const Vec3& p) {
-  return std::clamp(std::atan2(p.y, p.x) * degrees, -180.0, 180.0);
-}
-
-double latitude_of(const Vec3& p) { return std::atan2(p.z, std::hypot(p.x, p.y)) * degrees; }
 
 /// Longitudes that continue beyond 180 degrees, along the ring from its first place back to it.
 class Unrolled {
@@ -43,7 +35,7 @@ public:
     std::vector<Vec3> ring(start, corners.end());
     ring.insert(ring.end(), corners.begin(), start);
     ring.push_back(ring.front());
-    places_.push_back({{longitude_of(ring.front()), latitude_of(ring.front())}});
+    places_.push_back({lonlat_of(ring.front())});
     for (std::size_t last = 0, next = 1; next < ring.size(); ++next)
       if (!at_pole(ring[next])) {
         append(ring[last], ring[next], next - last > 1 ? ring[last + 1] : ring[last] + ring[next],
@@ -62,7 +54,8 @@ private:
   /// Continues from a to b, which are no poles, through the pole on the side of `between` if that
   /// is a pole, or if the edge passes through it.
   void append(const Vec3& a, const Vec3& b, const Vec3& between, bool pole) {
-    double step = std::remainder(longitude_of(b) - longitude_of(a), 360.0);
+    const LonLat end = lonlat_of(b);
+    double step = std::remainder(end.longitude - lonlat_of(a).longitude, 360.0);
     const TurnedPlace from = places_.back();
     if (pole || std::abs(step) > 180 - 1e-10) {
       // Seen from the pole the cell is a wedge to the west of the meridian that runs north.
@@ -70,14 +63,14 @@ private:
       if (std::abs(step) > 180 - 1e-10)
         step = -std::copysign(step, edge);
       push({{from.place.longitude, edge}, from.turn});
-      push({{longitude_of(b), edge}, turn_of(from, step, b)});
+      push({{end.longitude, edge}, turn_of(from, step, end)});
     }
-    push({{longitude_of(b), latitude_of(b)}, turn_of(from, step, b)}, &a, &b);
+    push({end, turn_of(from, step, end)}, &a, &b);
   }
 
   /// The turn of a corner that is a step from a place.
-  static int turn_of(const TurnedPlace& from, double step, const Vec3& corner) {
-    return static_cast<int>(std::lround((from.longitude() + step - longitude_of(corner)) / 360));
+  static int turn_of(const TurnedPlace& from, double step, const LonLat& corner) {
+    return static_cast<int>(std::lround((from.longitude() + step - corner.longitude) / 360));
   }
 
   /// Adds a place if the path to it crosses the cut: on the arc from a to b, or at a pole.
@@ -86,9 +79,9 @@ private:
                  high = std::max(last, next.longitude());
     const int turn = static_cast<int>(std::ceil((low - cut) / 360));
     if (low < cut + 360 * turn && cut + 360 * turn < high)
-      places_.push_back(
-          {{cut, a ? latitude_of(std::abs(b->y) * *a + std::abs(a->y) * *b) : next.place.latitude},
-           turn});
+      places_.push_back({{cut, a ? lonlat_of(std::abs(b->y) * *a + std::abs(a->y) * *b).latitude
+                                 : next.place.latitude},
+                         turn});
     places_.push_back(next);
   }
 
@@ -125,16 +118,16 @@ Ring around_pole(TurnedRing ring, int turns) {
 /// Removes places that repeat the one before; empty if the ring has no width.
 Ring cleaned(const Ring& ring) {
   Ring out;
-  const auto same = [](const MapPlace& a, const MapPlace& b) {
+  const auto same = [](const LonLat& a, const LonLat& b) {
     return a.longitude == b.longitude && a.latitude == b.latitude;
   };
-  for (const MapPlace& place : ring)
+  for (const LonLat& place : ring)
     if (out.empty() || !same(out.back(), place))
       out.push_back(place);
   while (out.size() > 1 && same(out.back(), out.front()))
     out.pop_back();
   const auto [west, east] =
-      std::minmax_element(out.begin(), out.end(), [](const MapPlace& a, const MapPlace& b) {
+      std::minmax_element(out.begin(), out.end(), [](const LonLat& a, const LonLat& b) {
         return a.longitude < b.longitude;
       });
   return out.size() < 3 || west->longitude == east->longitude ? Ring() : out;
@@ -142,7 +135,7 @@ Ring cleaned(const Ring& ring) {
 
 } // namespace
 
-std::vector<std::vector<MapPlace>> outline_of(const std::vector<Vec3>& corners) {
+std::vector<std::vector<LonLat>> outline_of(const std::vector<Vec3>& corners) {
   const Unrolled unrolled(corners);
   std::vector<Ring> rings;
   if (unrolled.turns() != 0) {

@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "base/lonlat.h"
 #include "base/vec3.h"
 #include "io/room.h"
 
 #include <vector>
 
 namespace calotte::io_detail {
-
-/// Degrees: longitude -180 to 180, latitude -90 to 90.
-struct MapPlace {
-  double longitude, latitude;
-};
 
 /// The outline of a convex cell of the sphere in the plane of longitude and latitude, as RFC 7946
 /// (Butler et al., 2016, Sect. 3.1) requires: rings run counter-clockwise, and the first place is
@@ -21,6 +17,6 @@ struct MapPlace {
 /// \param corners unit vectors counter-clockwise seen from outside. Corners within 1e-12 of a pole
 ///         count as the pole; equal corners count once.
 /// \returns no ring for fewer than three places.
-std::vector<std::vector<MapPlace>> outline_of(const std::vector<Vec3>& corners);
+std::vector<std::vector<LonLat>> outline_of(const std::vector<Vec3>& corners);
 
 } // namespace calotte::io_detail

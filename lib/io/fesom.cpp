@@ -156,7 +156,7 @@ void put_nodes(const Mesh& mesh, OutputFile& file) {
   out.number(std::int64_t{mesh.points.cols()}).text("\n");
   const Points3 units = on_sphere(mesh.points, 1);
   for (Eigen::Index i = 0; i < units.cols(); ++i) {
-    const LonLat place = lonlat_of(column(units, i));
+    const LonLat place = eastern_lonlat_of(column(units, i));
     out.number(std::int64_t{i + 1}).text(" ").number(place.longitude).text(" ");
     out.number(place.latitude).text(coast[static_cast<std::size_t>(i)] ? " 1\n" : " 0\n");
   }

@@ -31,7 +31,7 @@ void put_number(Writer& out, double value) {
     out.number(value);
 }
 
-void put_place(Writer& out, const MapPlace& place) {
+void put_place(Writer& out, const LonLat& place) {
   out.text("[");
   put_number(out, place.longitude);
   out.text(",");
@@ -40,9 +40,9 @@ void put_place(Writer& out, const MapPlace& place) {
 }
 
 /// A polygon's coordinates: one ring, which ends where it starts.
-void put_polygon(Writer& out, const std::vector<MapPlace>& ring) {
+void put_polygon(Writer& out, const std::vector<LonLat>& ring) {
   out.text("[[");
-  for (const MapPlace& place : ring) {
+  for (const LonLat& place : ring) {
     put_place(out, place);
     out.text(",");
   }
@@ -50,7 +50,7 @@ void put_polygon(Writer& out, const std::vector<MapPlace>& ring) {
   out.text("]]");
 }
 
-void put_geometry(Writer& out, const std::vector<std::vector<MapPlace>>& rings) {
+void put_geometry(Writer& out, const std::vector<std::vector<LonLat>>& rings) {
   if (rings.empty()) {
     out.text("null");
     return;
@@ -78,11 +78,11 @@ std::vector<Vec3> corners_of(const Polygons& cells, std::int64_t cell) {
 }
 
 /// In a plane x and y stand in place of longitude and latitude.
-std::vector<std::vector<MapPlace>> rings_of(const Polygons& cells, std::int64_t cell) {
+std::vector<std::vector<LonLat>> rings_of(const Polygons& cells, std::int64_t cell) {
   const std::vector<Vec3> corners = corners_of(cells, cell);
   if (cells.on_sphere)
     return outline_of(corners);
-  std::vector<MapPlace> ring;
+  std::vector<LonLat> ring;
   for (const Vec3& corner : corners)
     ring.push_back({corner.x, corner.y});
   return {ring};

@@ -124,7 +124,7 @@ void check_bounds(const std::string& variable, bool longitude, const StoredGrid&
   const Polygons& faces = grid.polygons;
   const std::int64_t width = deviations.width(name);
   const auto corner_at = [&](std::int64_t face, std::int64_t k) {
-    return lonlat_of(column(faces.corners, faces.ids[faces.begin[face] + k]));
+    return eastern_lonlat_of(column(faces.corners, faces.ids[faces.begin[face] + k]));
   };
   deviations.add(name,
                  deviations.visit_rows<double>(

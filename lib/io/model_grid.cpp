@@ -5,7 +5,6 @@
 #include "base/matrix_memory.h"
 #include "base/parallel.h"
 #include "base/points.h"
-#include "base/spherical_angles.h"
 #include "io/polygons.h"
 #include "io/text.h"
 #include "voronoi/cell_fields.h"
@@ -33,14 +32,6 @@ template <class Of> NetcdfWriter::Fill<double> each(const Points3& points, const
 }
 
 } // namespace
-
-LonLat lonlat_of(const Vec3& place) {
-  const double east = longitude_of(place.x, place.y) * degrees_per_radian;
-  const double turned = east < 0 ? east + 360 : east;
-  // What is west of 0 by less than the spacing of doubles at 360 is rounded to 360; -0 becomes 0.
-  return {turned < 360 ? turned + 0.0 : 0,
-          latitude_of(place.x, place.y, place.z) * degrees_per_radian + 0.0};
-}
 
 Points3 on_sphere(Points3 points, double radius) {
   if (!(radius > 0 && std::isfinite(radius)))
@@ -90,16 +81,16 @@ std::int64_t most_corners(const Voronoi& cells) {
 }
 
 NetcdfWriter::Fill<double> longitudes_of(const Points3& points) {
-  return each(points, [](const Vec3& p) { return lonlat_of(p).longitude; });
+  return each(points, [](const Vec3& p) { return eastern_lonlat_of(p).longitude; });
 }
 
 NetcdfWriter::Fill<double> latitudes_of(const Points3& points) {
-  return each(points, [](const Vec3& p) { return lonlat_of(p).latitude; });
+  return each(points, [](const Vec3& p) { return eastern_lonlat_of(p).latitude; });
 }
 
 NetcdfWriter::Fill<double> lonlats_of(const Points3& points) {
   return table<double>(2, [&points](std::int64_t i, std::int64_t k) {
-    const LonLat place = lonlat_of(column(points, i));
+    const LonLat place = eastern_lonlat_of(column(points, i));
     return k == 0 ? place.longitude : place.latitude;
   });
 }

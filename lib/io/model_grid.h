@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "base/lonlat.h"
 #include "base/vec3.h"
 #include "io/netcdf_fields.h"
 #include "io/netcdf_reader.h"
@@ -24,13 +25,6 @@
 namespace calotte::io_detail {
 
 // ---- Writing
-
-/// Degrees: longitude in [0, 360), 0 at the poles; latitude -90 to 90.
-struct LonLat {
-  double longitude, latitude;
-};
-/// Of a unit vector.
-LonLat lonlat_of(const Vec3& place);
 
 /// `radius` times the unit vectors; a point whose norm is that but for rounding keeps its bits.
 /// \throws Error bad_option for a radius that is not positive and finite.

@@ -19,10 +19,7 @@ using Announced = GridFile::Announced;
 /// From 0 to below 2 pi.
 CALOTTE_INLINE double eastern_longitude(double x, double y) {
   constexpr double turn = 2 * std::numbers::pi;
-  const double angle = longitude_of(x, y);
-  const double turned = angle < 0 ? angle + turn : angle;
-  // What is west of 0 by less than the spacing of doubles at 2 pi is rounded to it; -0 becomes 0.
-  return turned < turn ? turned + 0.0 : 0;
+  return eastern(longitude_of(x, y), turn);
 }
 
 CALOTTE_VECTOR_WIDTHS

@@ -30,7 +30,7 @@ NetcdfAttributes centre_angle(const std::string& standard_name, const std::strin
 /// Of the cells' corners; the last one fills the row.
 NetcdfWriter::Fill<double> corner_angles(const Polygons& cells, double LonLat::*angle) {
   return table<double>(most_corners(cells), [&cells, angle](std::int64_t cell, std::int64_t k) {
-    return lonlat_of(column(cells.corners, corner_or_last(cells, cell, k))).*angle;
+    return eastern_lonlat_of(column(cells.corners, corner_or_last(cells, cell, k))).*angle;
   });
 }
 

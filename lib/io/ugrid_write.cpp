@@ -90,7 +90,7 @@ void add_bounds(GridFile& file, int faces, std::int64_t most, const Corner& corn
     file.doubles(face_name + axis + bounds_end, {faces, corners},
                  {{"units", units}, long_name(what + " of the corners of the face")},
                  table<double>(most, [corner, angle](std::int64_t face, std::int64_t k) {
-                   return angle(lonlat_of(corner(face, k)));
+                   return angle(eastern_lonlat_of(corner(face, k)));
                  }));
   };
   add("_lon", "longitude", "degrees_east", [](const LonLat& place) { return place.longitude; });

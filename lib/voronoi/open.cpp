@@ -4,6 +4,7 @@
 #include "base/matrix_memory.h"
 #include "base/parallel.h"
 #include "base/points.h"
+#include "base/spherical_angles.h"
 #include "base/spherical_triangle.h"
 #include "domain/periodic_box.h"
 #include "exact/predicates.h"
@@ -222,9 +223,7 @@ struct Plane {
   }
   static Vec3 to_the_right(const Vec3& way, const Vec3&) { return {way.y, -way.x, 0}; }
   static double angle(const Vec3&, const Vec3& direction) {
-    const double angle = std::atan2(direction.y, direction.x);
-    const double turned = angle < 0 ? angle + 2 * std::numbers::pi : angle;
-    return turned < 2 * std::numbers::pi ? turned + 0.0 : 0;
+    return eastern(std::atan2(direction.y, direction.x), 2 * std::numbers::pi);
   }
 };
 

@@ -48,6 +48,11 @@ TEST_CASE("longitudes and latitudes there and back, for directions of any norm")
   CHECK(lonlat.row(1).cwiseAbs().maxCoeff() <= 90);
   CHECK((from_lonlat(lonlat) - points).cwiseAbs().maxCoeff() < 1e-14);
   CHECK(to_lonlat(Eigen::Vector3d(0, 0, -2)) == Eigen::Vector2d(0, -90));
+  for (const double size : {0x1p-900, 0x1p-400, 0x1p-3, 0x1p700, 0x1p1000})
+    CHECK(to_lonlat(size * points.leftCols(100)) == to_lonlat(points.leftCols(100)));
+  const Points2 polar = to_lonlat(Eigen::Vector3d(-1e-200, 1e-200, 1));
+  CHECK(std::abs(polar(0, 0) - 135) < 1e-13);
+  CHECK(polar(1, 0) == 90);
 }
 
 TEST_CASE("longitudes and latitudes out of range name their index") {

@@ -14,7 +14,6 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <set>
 #include <utility>
 #include <vector>
@@ -22,21 +21,21 @@
 // The rings of cells on a map: corners that cells share have the same bits in each.
 
 using namespace calotte;
+using base_detail::LonLat;
 using base_detail::Vec3;
-using io_detail::MapPlace;
 
 namespace {
 
-std::pair<std::uint64_t, std::uint64_t> bits_of(const MapPlace& place) {
+std::pair<std::uint64_t, std::uint64_t> bits_of(const LonLat& place) {
   return {std::bit_cast<std::uint64_t>(place.longitude),
           std::bit_cast<std::uint64_t>(place.latitude)};
 }
 
 /// Twice the area of a ring on the map, positive for counter-clockwise.
-double twice_area(const std::vector<MapPlace>& ring) {
+double twice_area(const std::vector<LonLat>& ring) {
   double sum = 0;
   for (std::size_t k = 0; k < ring.size(); ++k) {
-    const MapPlace &a = ring[k], &b = ring[(k + 1) % ring.size()];
+    const LonLat &a = ring[k], &b = ring[(k + 1) % ring.size()];
     sum += a.longitude * b.latitude - b.longitude * a.latitude;
   }
   return sum;
@@ -45,7 +44,6 @@ double twice_area(const std::vector<MapPlace>& ring) {
 } // namespace
 
 TEST_CASE("a corner has the bits of its longitude and latitude in the ring of each cell") {
-  const double degrees = 180 / std::numbers::pi;
   const std::vector<Points3> sets{random_sphere(2000, 5), random_sphere(50, 6),
                                   fibonacci_sphere(3000), lat_lon_sphere(10, 20, true),
                                   bisected_icosahedron(3)};
@@ -57,21 +55,18 @@ TEST_CASE("a corner has the bits of its longitude and latitude in the ring of ea
     const Polygons cells =
         io_detail::with_merged_corners(io_detail::polygons_of(std::move(voronoi)), areas);
     std::set<std::pair<std::uint64_t, std::uint64_t>> of_corners;
-    for (Eigen::Index v = 0; v < cells.corners.cols(); ++v) {
-      const Eigen::Vector3d p = cells.corners.col(v);
-      of_corners.insert(bits_of({std::clamp(std::atan2(p.y(), p.x()) * degrees, -180.0, 180.0),
-                                 std::atan2(p.z(), std::hypot(p.x(), p.y())) * degrees}));
-    }
+    for (Eigen::Index v = 0; v < cells.corners.cols(); ++v)
+      of_corners.insert(bits_of(base_detail::lonlat_of(base_detail::column(cells.corners, v))));
     double whole = 0;
     for (Eigen::Index i = 0; i < cells.size(); ++i) {
       std::vector<Vec3> corners;
       for (std::int64_t k = cells.begin[i]; k < cells.begin[i + 1]; ++k)
         corners.push_back(base_detail::column(cells.corners, cells.ids[k]));
-      for (const std::vector<MapPlace>& ring : io_detail::outline_of(corners)) {
+      for (const std::vector<LonLat>& ring : io_detail::outline_of(corners)) {
         whole += twice_area(ring) / 2;
         std::set<std::pair<std::uint64_t, std::uint64_t>> places;
         for (std::size_t k = 0; k < ring.size(); ++k) {
-          const MapPlace &place = ring[k], &next = ring[(k + 1) % ring.size()];
+          const LonLat &place = ring[k], &next = ring[(k + 1) % ring.size()];
           const bool added = std::abs(place.longitude) == 180 || std::abs(place.latitude) == 90;
           CHECK((added || of_corners.contains(bits_of(place))));
           CHECK(places.insert(bits_of(place)).second); // no place comes again

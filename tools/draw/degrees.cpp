@@ -10,7 +10,6 @@ namespace calotte::tools {
 
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr int most_lines = 6;  ///< in each direction
 constexpr int points_of = 128; ///< along a line or an edge
 
@@ -78,9 +77,8 @@ private:
 
   /// \param near a longitude less than half a turn away.
   static LonLat lonlat(const Vector3d& p, double near) {
-    const double longitude = std::atan2(p.y(), p.x()) / degree;
-    return {near + std::remainder(longitude - near, 360),
-            std::atan2(p.z(), std::hypot(p.x(), p.y())) / degree};
+    const LonLat place = lonlat_of(p);
+    return {near + std::remainder(place.longitude - near, 360), place.latitude};
   }
 
   bool shows(const Vector3d& on_earth) const {

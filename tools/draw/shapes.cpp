@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "draw/shapes.h"
 
+#include <calotte/lonlat.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -180,13 +182,17 @@ Scene make_flat_scene(const Mesh& mesh, Shapes shapes, const Points2& places) {
   return scene;
 }
 
+LonLat lonlat_of(const Vector3d& direction) {
+  const Points2 place = to_lonlat(direction);
+  return {place(0, 0), place(1, 0)};
+}
+
 LonLat middle(const Mesh& mesh) {
   Vector3d sum = Vector3d::Zero();
   for (Eigen::Index i = 0; i < mesh.points.cols(); ++i) {
     sum += direction_of(Vector3d(mesh.points.col(i)));
   }
-  return {std::atan2(sum.y(), sum.x()) / degree,
-          std::atan2(sum.z(), std::hypot(sum.x(), sum.y())) / degree};
+  return lonlat_of(sum);
 }
 
 void outline_of(const Scene& scene, Shapes shapes, std::int64_t shape,

@@ -49,6 +49,9 @@ Eigen::Vector3d direction_of(const LonLat& place);
 /// Unit, for norms whose squares under- or overflow, too.
 Eigen::Vector3d direction_of(const Eigen::Vector3d& point);
 
+/// The place on the earth in a direction of any norm.
+LonLat lonlat_of(const Eigen::Vector3d& direction);
+
 /// The middle of the sites, the default view of an open mesh.
 LonLat middle(const Mesh& mesh);
 

@@ -13,9 +13,8 @@ constexpr double degree = std::numbers::pi / 180;
 constexpr double margin = 1.07;    ///< of the picture, over the mesh
 constexpr double least_zoom = 1.5; ///< a mesh that would be enlarged less is drawn on a whole map
 
-LonLat lonlat_of(const Vector3d& p) {
-  const LonLat place = {std::atan2(p.y(), p.x()) / degree,
-                        std::atan2(p.z(), std::hypot(p.x(), p.y())) / degree};
+LonLat lonlat_or_pole(const Vector3d& p) {
+  const LonLat place = lonlat_of(p);
   constexpr double polar = 89.5; // any longitude is as good there
   return std::abs(place.latitude) < polar ? place : LonLat{0, std::copysign(90, place.latitude)};
 }
@@ -52,7 +51,7 @@ LonLat centre_around(const Look& look, const LonLat& start, const Points3& place
   for (int step = 0; step < steps && !look.view; ++step) {
     const LonLat middle = Map::period > 0 ? LonLat{centre.longitude, 0} : centre;
     if (const std::optional<Bounds> bounds = bounds_of<Map>(places, middle)) {
-      centre = lonlat_of(centre_of<Map>(*bounds, middle));
+      centre = lonlat_or_pole(centre_of<Map>(*bounds, middle));
     }
   }
   return centre;

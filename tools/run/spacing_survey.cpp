@@ -2,6 +2,7 @@
 #include "run/spacing_survey.h"
 
 #include <calotte/generators.h>
+#include <calotte/lonlat.h>
 
 #include <Eigen/Geometry>
 
@@ -116,10 +117,8 @@ SpacingSurvey survey_spacing(const Density& density, std::int64_t cells, const S
   survey.least = -peak(negative).value;
   survey.greatest = peak(spacing).value;
   const Peak steepest = peak(slope);
-  constexpr double degrees = 180 / std::numbers::pi;
-  const Eigen::Vector3d& p = steepest.place;
-  survey.steepest = {steepest.value, std::atan2(p.y(), p.x()) * degrees,
-                     std::atan2(p.z(), std::hypot(p.x(), p.y())) * degrees};
+  const Points2 place = to_lonlat(steepest.place);
+  survey.steepest = {steepest.value, place(0, 0), place(1, 0)};
   return survey;
 }
 
