@@ -212,13 +212,12 @@ def test_results_show_themselves_in_a_line(files):
         assert "nan nan" not in table and len(table) < 150_000
     assert repr(calotte.cvt(642)).startswith("<calotte.Cvt: 642 cells, converged after ")
     assert repr(calotte.circle((0, 0), 10)) == \
-        "<calotte.Region: 1 ring, 360 corners, 0.09545 steradians>"
+        "<calotte.Surface: 1 ring, 360 corners, 0.09545 steradians>"
 
 
 def test_every_attribute_has_documentation():
-    for kind in (calotte.Mesh, calotte.PlanarMesh, calotte.Polygons, calotte.Voronoi,
-                 calotte.Quality, calotte.Check, calotte.OperatorErrors, calotte.Region,
-                 calotte.PlanarDomain, calotte.CellWidth, calotte.Density):
+    for kind in (calotte.Mesh, calotte.Polygons, calotte.Voronoi, calotte.Quality, calotte.Check,
+                 calotte.OperatorErrors, calotte.Surface, calotte.CellWidth, calotte.Density):
         assert kind.__doc__
         for name, member in vars(kind).items():
             if not name.startswith("_"):

@@ -76,9 +76,9 @@ def test_widths_of_a_plane(tmp_path):
     plan = calotte.plan(raster, domain=RECTANGLE)
     assert plan.cells == len(expected) and plan.kind == "multilevel" and plan.gradient is None
     assert plan.widths == (raster[0].min(), raster[0].max())
-    quality = calotte.quality(grid.mesh, domain=RECTANGLE, cell_width=raster)
+    quality = calotte.quality(grid.mesh, cell_width=raster)
     assert quality.dc_over_h.p50 == pytest.approx(1, abs=0.05)
-    grid.mesh.to_mpas(tmp_path / "grid.nc", domain=RECTANGLE, cell_width=raster)
+    grid.mesh.to_mpas(tmp_path / "grid.nc", cell_width=raster)
 
 
 def test_a_width_of_a_plane(tmp_path):
@@ -112,8 +112,7 @@ def test_a_channel(tmp_path, walls, density):
             assert (a[name][:] == b[name][:]).all(), name
         assert len(grid.cells) == a.dimensions["nCells"].size < len(grid.mesh)
     k = "xy".index(walls)
-    assert grid.cells.period[k] == 0 and grid.mesh.period[k] > BOX.period[k]
-    assert (grid.domain.period == grid.mesh.period).all()
+    assert grid.cells.period[k] == 0 and grid.mesh.surface.period[k] > BOX.period[k]
     assert calotte.check(grid.mesh) and len(grid.voronoi().cells) == len(grid.cells)
     assert repr(grid).startswith(f"<calotte.Cvt: {len(grid.cells)} cells")
 

@@ -18,6 +18,7 @@ grid = calotte.cvt(642, density="x8", progress=lambda now: now["residual"] < 1e-
 cells = calotte.voronoi(grid.mesh)
 total: float = float(cells.cell_area.sum())
 mesh = calotte.delaunay([(0.0, 0.0, 1.0)] * 4, regions=2)
+area: float = mesh.surface.widened(0.1).area
 passed: bool = calotte.check(mesh).passed
 channel = calotte.cvt(cell_width=0.1, domain=calotte.periodic_box(2, 1), walls="y", kind="random")
 levels: int = len(calotte.plan(start=162, iterations=3).levels)

@@ -24,9 +24,8 @@ GROUPS = [
                              "periodic_box", "planar_polygon"]),
     ("Files", ["read", "read_fields", "read_points", "write", "cut", "cull"]),
 ]
-KINDS = ["Mesh", "PlanarMesh", "Polygons", "PolygonShapes", "Voronoi", "Locations", "Cvt", "Level", "Plan",
-         "Quality", "Range", "Percentiles", "Check", "OperatorErrors", "ErrorNorms", "Density", "CellWidth", "Region",
-         "PlanarDomain", "Error"]
+KINDS = ["Mesh", "Surface", "Polygons", "PolygonShapes", "Voronoi", "Locations", "Cvt", "Level", "Plan", "Quality",
+         "Range", "Percentiles", "Check", "OperatorErrors", "ErrorNorms", "Density", "CellWidth", "Error"]
 
 
 def escaped(text):
@@ -123,7 +122,7 @@ def page():
     lines += ["## Types", ""]
     for name in KINDS:
         lines += kind_lines(name)
-    lines += ["### plot", "", "Of Mesh, PlanarMesh, Polygons and Cvt.", "", "```text",
+    lines += ["### plot", "", "Of Mesh, Polygons and Cvt.", "", "```text",
               signature("plot", calotte.Mesh.plot), "", wrapped(calotte.Mesh.plot.__doc__),
               "```"]
     return "\n".join(lines) + "\n"

@@ -43,6 +43,16 @@ def plane_points(points, what="points"):
     return array
 
 
+def points_of(surface, points, what="points"):
+    """Directions, or places of a plane."""
+    return (sphere_points if surface.is_sphere else plane_points)(points, what)
+
+
+def on_sphere(grid):
+    """Whether a mesh or polygons are."""
+    return grid.on_sphere if isinstance(grid, _calotte.Polygons) else grid.surface.is_sphere
+
+
 def direction(place, what):
     """A longitude and latitude in degrees, or a vector."""
     return sphere_points(np.asarray(place)[np.newaxis], what)[0]
@@ -117,7 +127,7 @@ def cell_width(widths, earth_radius=EARTH_RADIUS_KM, region=None):
 
     region: which a raster must cover; None for any raster.
     """
-    made = _widths(widths, earth_radius, _calotte.Region() if region is None else region)
+    made = _widths(widths, earth_radius, _calotte.Surface() if region is None else region)
     if region is not None:
         _calotte.require_covering(made, region)
     return made
@@ -362,8 +372,8 @@ def _length(text, earth_radius):
 def region(value, earth_radius=EARTH_RADIUS_KM):
     """A region of the sphere; None is all of it."""
     if value is None:
-        return _calotte.Region()
-    if isinstance(value, _calotte.Region):
+        return _calotte.Surface()
+    if isinstance(value, _calotte.Surface) and value.is_sphere:
         return value
     if isinstance(value, str) and (made := _shape(value, earth_radius)) is not None:
         return made
@@ -375,7 +385,7 @@ def region(value, earth_radius=EARTH_RADIUS_KM):
 
 def domain(value):
     """A domain of the plane."""
-    if isinstance(value, _calotte.PlanarDomain):
+    if isinstance(value, _calotte.Surface) and not value.is_sphere:
         return value
     if isinstance(value, str) or hasattr(value, "__fspath__"):
         return _calotte.read_domain(str(value))

@@ -19,15 +19,18 @@ def _range(values, unit=""):
 
 # ---- A line
 
+def _periodic(surface):
+    directions = " and ".join(name for name, side in zip("xy", surface.period) if side)
+    return f", periodic in {directions}" if directions else ""
+
+
 def _mesh(mesh):
-    kind = "Mesh" if isinstance(mesh, _calotte.Mesh) else "PlanarMesh"
-    if kind == "Mesh":
+    if mesh.surface.is_sphere:
         surface = "" if mesh.closed else ", open"
     else:
-        surface = (", periodic" if mesh.period.all() else
-                   f", periodic in {'xy'[int(mesh.period[1] > 0)]}" if mesh.period.any() else "")
+        surface = f", in a plane{_periodic(mesh.surface)}"
     cells = "" if mesh.cells is None else f", {counted(len(mesh.cells), 'polygon')}"
-    return (f"<calotte.{kind}: {counted(len(mesh), 'site')}, "
+    return (f"<calotte.Mesh: {counted(len(mesh), 'site')}, "
             f"{counted(len(mesh.triangles), 'triangle')}{surface}{cells}>")
 
 
@@ -73,20 +76,17 @@ def _locations(found):
             f"{f', {outside} outside' if outside else ''}>")
 
 
-def _region(region):
-    if region.whole:
-        return "<calotte.Region: the whole sphere>"
-    corners = sum(len(ring) for ring in region.rings)
-    return (f"<calotte.Region: {counted(len(region.rings), 'ring')}, "
-            f"{counted(corners, 'corner')}, {region.area:.4g} steradians>")
-
-
-def _domain(domain):
-    if not domain.rings:
-        return f"<calotte.PlanarDomain: periodic box {domain.period[0]:g} x {domain.period[1]:g}>"
-    corners = sum(len(ring) for ring in domain.rings)
-    return (f"<calotte.PlanarDomain: {counted(len(domain.rings), 'ring')}, "
-            f"{counted(corners, 'corner')}, area {domain.area:.4g}>")
+def _surface(surface):
+    if surface.is_bounded:
+        corners = sum(len(ring) for ring in surface.rings)
+        area = (f"{surface.area:.4g} steradians" if surface.is_sphere else
+                f"area {surface.area:.4g} in a plane")
+        what = f"{counted(len(surface.rings), 'ring')}, {counted(corners, 'corner')}, {area}"
+    elif surface.period.all():
+        what = f"periodic box {surface.period[0]:g} x {surface.period[1]:g}"
+    else:
+        what = f"the whole {'sphere' if surface.is_sphere else 'plane'}{_periodic(surface)}"
+    return f"<calotte.Surface: {what}>"
 
 
 def _widths(widths):
@@ -145,9 +145,9 @@ def _seen(mesh):
     """x, y of the sites in the picture, and which of them it shows."""
     points = mesh.points
     if points.shape[1] == 2:
-        periodic = mesh.period > 0
-        low = np.where(periodic, 0, points.min(axis=0))
-        high = np.where(periodic, mesh.period, points.max(axis=0))
+        period = mesh.surface.period
+        low = np.where(period > 0, 0, points.min(axis=0))
+        high = np.where(period > 0, period, points.max(axis=0))
         return 2 * (points - low) / np.maximum(high - low, 1e-300).max() - 1, np.full(len(points), True)
     unit = points / np.linalg.norm(points, axis=1, keepdims=True)
     towards = np.array([1.0, 0.5, 0.6])
@@ -184,11 +184,12 @@ def _edges(triangles):
 def _ends(mesh, places, edges):
     """Both ends of edges; in a periodic plane the second is the copy nearest to the first."""
     a, b = mesh.points[edges[:, 0]], mesh.points[edges[:, 1]]
-    if a.shape[1] == 3 or not mesh.period.any():
+    period = mesh.surface.period
+    if not period.any():
         return places[edges[:, 0]], places[edges[:, 1]]
     start = places[edges[:, 0]]
-    scale = 2 / max(np.where(mesh.period > 0, mesh.period, np.ptp(mesh.points, axis=0)))
-    return start, start + scale * nearest(b - a, mesh.period)
+    scale = 2 / max(np.where(period > 0, period, np.ptp(mesh.points, axis=0)))
+    return start, start + scale * nearest(b - a, period)
 
 
 def picture(mesh):
@@ -203,18 +204,17 @@ def picture(mesh):
             "</figcaption></figure>")
 
 
-for _kind, _line in ((_calotte.Mesh, _mesh), (_calotte.PlanarMesh, _mesh),
-                     (_calotte.Polygons, _polygons), (_calotte.PolygonShapes, _shapes),
+for _kind, _line in ((_calotte.Mesh, _mesh), (_calotte.Polygons, _polygons),
+                     (_calotte.PolygonShapes, _shapes),
                      (_calotte.Voronoi, _voronoi),
                      (_calotte.Locations, _locations), (_calotte.Quality, _quality),
                      (_calotte.Check, _check),
-                     (_calotte.OperatorErrors, _errors), (_calotte.Region, _region),
-                     (_calotte.PlanarDomain, _domain), (_calotte.CellWidth, _widths),
+                     (_calotte.OperatorErrors, _errors), (_calotte.Surface, _surface),
+                     (_calotte.CellWidth, _widths),
                      (_calotte.Density, _density), (_calotte.Range, _numbers),
                      (_calotte.Percentiles, _numbers), (_calotte.ErrorNorms, _numbers)):
     _kind.__repr__ = _line
 for _kind in (_calotte.Voronoi, _calotte.Quality, _calotte.Check, _calotte.OperatorErrors,
               _calotte.Polygons, _calotte.PolygonShapes):
     _kind._repr_html_ = _as_table
-for _kind in (_calotte.Mesh, _calotte.PlanarMesh):
-    _kind._repr_html_ = picture
+_calotte.Mesh._repr_html_ = picture

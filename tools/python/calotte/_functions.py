@@ -15,16 +15,16 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _arguments, _calotte, _display
 from ._arguments import EARTH_RADIUS_KM
-from ._calotte import (CellWidth, Check, Density, Error, Locations, Mesh, OperatorErrors,
-                       PlanarDomain, PlanarMesh, Polygons, Quality, Region, Voronoi)
+from ._calotte import (CellWidth, Check, Density, Error, Locations, Mesh, OperatorErrors, Polygons,
+                       Quality, Surface, Voronoi)
 
 Array = NDArray[np.float64]
 Path = str | os.PathLike[str]
-Grid = Mesh | PlanarMesh | Polygons
+Grid = Mesh | Polygons
 DensityLike = str | Density | Callable[[Array], ArrayLike]
 WidthLike = Any  #: a number, a file, (values, lon, lat or x, y), a DataArray or a function
-RegionLike = Path | Region
-DomainLike = Path | PlanarDomain
+RegionLike = Path | Surface
+DomainLike = Path | Surface
 Progress = Callable[[dict[str, Any]], "bool | None"]
 
 _USUAL = _calotte.Recipe()  #: the library's defaults
@@ -56,7 +56,7 @@ def threads(count: int) -> Iterator[None]:
 
 def delaunay(points: ArrayLike, *, plane: bool = False, period: ArrayLike | None = None,
              merge_within: float = 0.0, duplicates: str = "merge",
-             regions: int | None = None) -> Mesh | PlanarMesh:
+             regions: int | None = None) -> Mesh:
     """The Delaunay triangulation of points on the sphere, or in the plane.
 
     points: n x 3 directions of any length, or n x 2 longitudes and latitudes in degrees; with
@@ -66,7 +66,7 @@ def delaunay(points: ArrayLike, *, plane: bool = False, period: ArrayLike | None
     merge_within: points nearer than this become one; radians, in the plane the unit of the points.
     duplicates: "merge" makes one site of equal points; "refuse" raises an error for them.
     regions: the number of parts that are triangulated in parallel; no effect on the result.
-    Returns a Mesh, or a PlanarMesh. Raises Error.
+    Returns a Mesh. Raises Error.
 
     >>> mesh = delaunay(random_sphere(1000))
     >>> mesh.triangles.shape
@@ -74,12 +74,10 @@ def delaunay(points: ArrayLike, *, plane: bool = False, period: ArrayLike | None
     """
     if duplicates not in ("merge", "refuse"):
         raise Error(f"duplicates is {duplicates!r}; give merge or refuse")
-    merge = duplicates == "merge"
-    if not plane and period is None:
-        sites = _arguments.sphere_points(points)
-        return _calotte.delaunay(sites, merge_within, merge, regions)
-    places = _arguments.plane_points(points)
-    return _calotte.delaunay_in_plane(places, period, merge_within, merge, regions)
+    surface = (_calotte.periodic_box(period) if period is not None else
+               _calotte.plane() if plane else Surface())
+    sites = _arguments.points_of(surface, points)
+    return _calotte.delaunay(sites, surface, merge_within, duplicates == "merge", regions)
 
 
 def content_of(grid):
@@ -87,8 +85,22 @@ def content_of(grid):
     return vars(grid).get("_content")
 
 
+def in_domain(mesh, domain):
+    """The mesh; where a domain is given, in a plane, with its boundary."""
+    if domain is None or isinstance(mesh, Polygons):
+        return mesh
+    return _calotte.within(mesh, _arguments.domain(domain))
+
+
+def _require_end(mesh):
+    """Cells at the hull of a mesh in a plane are unbounded."""
+    if math.isinf(mesh.surface.area):
+        raise Error("a mesh in a plane without an end needs a domain, which clips its cells; give "
+                    "domain=")
+
+
 def voronoi(mesh: Grid, domain: DomainLike | None = None) -> Voronoi:
-    """The Voronoi cells of a mesh: of the sphere, of a periodic box, or of a plane in a domain.
+    """The Voronoi cells of a mesh, on its surface: the sphere, a periodic box, a domain of a plane.
 
     Cell i has the entries begin[i] to begin[i + 1] of edges_on_cell, vertices_on_cell and
     cells_on_cell, counter-clockwise. Areas are steradians and lengths radians, in the plane those of
@@ -97,21 +109,20 @@ def voronoi(mesh: Grid, domain: DomainLike | None = None) -> Voronoi:
     mesh: what read() returns of a part of the sphere, such as an ocean or a limited area, has the
         cells of its file. The cells of other sites in a hemisphere reach round the far side of the
         sphere. Polygons that are no Voronoi cells raise Error; they have areas and corners.
-    domain: of a planar mesh, which clips its cells.
+    domain: clips the cells of a mesh in a plane; those of cvt() have theirs.
 
     >>> cells = voronoi(delaunay(fibonacci_sphere(500)))
     >>> bool(abs(cells.cell_area.sum() - 4 * math.pi) < 1e-12)
     True
     """
-    part = None if domain is None else _arguments.domain(domain)
     content = content_of(mesh)
     if isinstance(mesh, Polygons) and content is None:
         raise Error("polygons without the file that they are of have no Voronoi cells; use areas")
+    mesh = in_domain(mesh, domain)
     if content is not None and content.polygons is not None:
-        return _calotte.cells_of_file(content, mesh, part)
-    if isinstance(mesh, PlanarMesh) and part is None and not mesh.period.all():
-        raise Error("the cells of a bounded plane need its domain, which clips them; give domain=")
-    return _calotte.voronoi(mesh) if part is None else _calotte.voronoi(mesh, part)
+        return _calotte.cells_of_file(content, mesh)
+    _require_end(mesh)
+    return _calotte.voronoi(mesh)
 
 
 def _require_mesh(grid):
@@ -121,13 +132,9 @@ def _require_mesh(grid):
                     "voronoi() where they are Voronoi cells")
 
 
-def _in_plane(grid):
-    return isinstance(grid, PlanarMesh) or (isinstance(grid, Polygons) and not grid.on_sphere)
-
-
 def _density_for(grid, density, cell_width):
     """The density of a name or of widths, of the space that the grid is in."""
-    plane = _in_plane(grid)
+    plane = not _arguments.on_sphere(grid)
     widths = None if cell_width is None else _arguments.widths(cell_width, plane)
     return _arguments.density(density, widths, plane)
 
@@ -144,18 +151,6 @@ def check(mesh: Grid) -> Check:
     return _calotte.check(mesh)
 
 
-def _measured(measure, mesh, domain, density, cell_width):
-    """measure(mesh, density), in the plane measure(mesh, domain, density)."""
-    _require_mesh(mesh)
-    rho = _density_for(mesh, density, cell_width)
-    if isinstance(mesh, _calotte.PlanarMesh):
-        if domain is None and not mesh.period.all():
-            raise Error("a planar mesh needs a domain, which clips its cells; give domain=")
-        parts = periodic_box(*mesh.period) if domain is None else _arguments.domain(domain)
-        return measure(mesh, parts, rho)
-    return measure(mesh, rho)
-
-
 def quality(mesh: Grid, *, domain: DomainLike | None = None,
             density: DensityLike | None = None, cell_width: WidthLike = None) -> Quality:
     """Measures a mesh and its Voronoi cells; see the attributes of Quality.
@@ -169,9 +164,10 @@ def quality(mesh: Grid, *, domain: DomainLike | None = None,
     0
     """
     _require_mesh(mesh)
-    if isinstance(mesh, PlanarMesh) and domain is None and mesh.period.any() != mesh.period.all():
-        return _calotte.open_quality(mesh)
-    return _measured(_calotte.quality, mesh, domain, density, cell_width)
+    mesh = in_domain(mesh, domain)
+    if not mesh.surface.period.any():
+        _require_end(mesh)
+    return _calotte.quality(mesh, _density_for(mesh, density, cell_width))
 
 
 def operator_errors(mesh: Grid, *, domain: DomainLike | None = None,
@@ -190,18 +186,19 @@ def operator_errors(mesh: Grid, *, domain: DomainLike | None = None,
     >>> operator_errors(delaunay(bisected_icosahedron(3))).gradient.l2 < 0.01
     True
     """
-    return _measured(_calotte.operator_errors, mesh, domain, density, cell_width)
+    _require_mesh(mesh)
+    mesh = in_domain(mesh, domain)
+    _require_end(mesh)
+    return _calotte.operator_errors(mesh, _density_for(mesh, density, cell_width))
 
 
 def _positions(mesh, positions):
     if isinstance(mesh, Polygons):
         raise Error("polygons have no triangles; give a mesh")
-    if isinstance(mesh, PlanarMesh):
-        return _arguments.plane_points(positions, "positions")
-    return _arguments.sphere_points(positions, "positions")
+    return _arguments.points_of(mesh.surface, positions, "positions")
 
 
-def locate(mesh: Mesh | PlanarMesh, positions: ArrayLike) -> Locations:
+def locate(mesh: Mesh, positions: ArrayLike) -> Locations:
     """Where positions lie in a mesh: the triangle and its weights, and the nearest site. Exact.
 
     positions: k x 3 directions of any length, or k x 2 longitudes and latitudes in degrees; k x 2 in
@@ -220,7 +217,7 @@ def locate(mesh: Mesh | PlanarMesh, positions: ArrayLike) -> Locations:
     return _calotte.locate(mesh, _positions(mesh, positions))
 
 
-def interpolate(mesh: Mesh | PlanarMesh, values: ArrayLike, positions: ArrayLike, *,
+def interpolate(mesh: Mesh, values: ArrayLike, positions: ArrayLike, *,
                 method: str = "linear") -> Array:
     """Values at positions, of values at the sites of a mesh.
 
@@ -271,7 +268,7 @@ class Level:
 class Cvt:
     """A centroidal Voronoi tessellation: its mesh, and the course of its run, of cvt().
 
-    mesh: the Delaunay triangulation of the generators.
+    mesh: the Delaunay triangulation of the generators; with walls that of a wider box.
     converged: whether the norm fell below the tolerance.
     well_centred: whether all shapes are within the limits of models.
     misshapen_cells: number of cells beyond them, where that was asked for.
@@ -282,12 +279,11 @@ class Cvt:
     seconds: of wall-clock time.
     energies: by iteration.
     norms: by iteration, l2-scaled.
-    domain: of the plane, which clips the cells; with walls the wider box of the run.
     levels: of the run, from the coarsest; see Level.
     cells: with walls the Polygons between them; otherwise None.
     """
 
-    mesh: Mesh | PlanarMesh
+    mesh: Mesh
     converged: bool
     well_centred: bool
     misshapen_cells: int
@@ -298,7 +294,6 @@ class Cvt:
     seconds: float
     energies: Array
     norms: Array
-    domain: PlanarDomain | None = None
     levels: tuple[Level, ...] = ()
     cells: Polygons | None = None
 
@@ -322,13 +317,11 @@ class Cvt:
 
     def plot(self, field: Any = None, **options: Any) -> Any:
         """Draws the cells; see Mesh.plot()."""
-        if self.domain is not None and self.cells is None:
-            options.setdefault("domain", self.domain)
         return self._grid().plot(field, **options)
 
     def voronoi(self) -> Voronoi:
         """The Voronoi cells; see voronoi()."""
-        return voronoi(self._grid(), self.domain if self.cells is None else None)
+        return voronoi(self._grid())
 
 
 @dataclass(frozen=True, repr=False)
@@ -399,12 +392,12 @@ def _levels(rows):
     return tuple(Level(*row) for row in rows)
 
 
-def _take_start(recipe, start, points):
+def _take_start(recipe, start):
     """A number of cells, or points; None where the widths give the number."""
     if start is None:
         return
     if np.ndim(start) > 0:
-        recipe.points = points(start)
+        recipe.points = _arguments.points_of(recipe.surface, start)
         if recipe.kind == _USUAL.kind:
             recipe.kind = "points"
         return
@@ -434,10 +427,9 @@ def _recipe(start=None, density=None, cell_width=None, region=None, domain=None,
         recipe.planar_widths = widths
     else:
         recipe.widths = widths
-    points = _arguments.plane_points if plane else _arguments.sphere_points
     if fixed is not None:
-        recipe.fixed = points(fixed, "fixed points")
-    _take_start(recipe, start, points)
+        recipe.fixed = _arguments.points_of(part, fixed, "fixed points")
+    _take_start(recipe, start)
     return recipe, widths
 
 
@@ -536,12 +528,10 @@ def cvt(start: int | ArrayLike | None = None, *, density: DensityLike | None = N
         triangle_divisions=triangle_divisions, duplicates=duplicates, merge_within=merge_within)
     mesh, report, between = _calotte.make_grid(recipe, regions, _reporting(progress))
     report["levels"] = _levels(report["levels"])
-    if domain is None:
-        return Cvt(mesh, **report)
     if between is None:
-        return Cvt(mesh, **report, domain=_arguments.domain(domain))
+        return Cvt(mesh, **report)
     cells, cells._content = between
-    return Cvt(mesh, **report, domain=periodic_box(*mesh.period), cells=cells)
+    return Cvt(mesh, **report, cells=cells)
 
 
 # ---- Points
@@ -553,7 +543,7 @@ def random_sphere(n: int, *, density: DensityLike | None = None, region: RegionL
     >>> random_sphere(3).shape
     (3, 3)
     """
-    return _calotte.random_sphere(_count(n, "the number of points"), _arguments.region(region),
+    return _calotte.random_points(_count(n, "the number of points"), _arguments.region(region),
                                   _arguments.density(density), seed)
 
 
@@ -596,7 +586,7 @@ def cubed_sphere(m: int) -> Array:
 def random_places(n: int, domain: DomainLike, *, density: DensityLike | None = None,
                   seed: int = 1) -> Array:
     """Independent random places in a domain of the plane, n x 2."""
-    return _calotte.random_places(_count(n, "the number of places"), _arguments.domain(domain),
+    return _calotte.random_points(_count(n, "the number of places"), _arguments.domain(domain),
                                   _arguments.density(density, plane=True), seed)
 
 
@@ -607,7 +597,9 @@ def hexagonal_lattice(n: int, domain: DomainLike) -> Array:
 
 
 def bisect(mesh: Mesh) -> Array:
-    """The points of a mesh and the midpoints of its edges, (4 n - 6) x 3.
+    """The points of a mesh and the midpoints of its edges: (4 n - 6) x 3 on the sphere.
+
+    Midpoints outside of the mesh's surface are left out. In a plane there are two columns.
 
     >>> bisect(delaunay(bisected_icosahedron(0))).shape
     (42, 3)
@@ -629,7 +621,7 @@ def to_lonlat(points: ArrayLike) -> Array:
 # ---- Regions and domains
 
 def circle(centre: ArrayLike, radius: float | str, corners: int = 360, *,
-           earth_radius: float = EARTH_RADIUS_KM) -> Region:
+           earth_radius: float = EARTH_RADIUS_KM) -> Surface:
     """The region around a centre (longitude and latitude in degrees, or a vector).
 
     radius: degrees, or text with a unit: "1000km", "500000m", "10deg". earth_radius: km, for these.
@@ -643,7 +635,7 @@ def circle(centre: ArrayLike, radius: float | str, corners: int = 360, *,
 
 def ellipse(centre: ArrayLike, semi_major: float | str, semi_minor: float | str,
             bearing: float = 0.0, corners: int = 360, *,
-            earth_radius: float = EARTH_RADIUS_KM) -> Region:
+            earth_radius: float = EARTH_RADIUS_KM) -> Surface:
     """The region in an ellipse.
 
     semi_major, semi_minor: as the radius of circle(). bearing: of the major axis, degrees clockwise
@@ -655,12 +647,12 @@ def ellipse(centre: ArrayLike, semi_major: float | str, semi_minor: float | str,
                             math.radians(bearing), corners)
 
 
-def channel(lower: float, upper: float, corners: int = 360) -> Region:
+def channel(lower: float, upper: float, corners: int = 360) -> Surface:
     """The region between two latitudes in degrees."""
     return _calotte.channel(math.radians(lower), math.radians(upper), corners)
 
 
-def polygon(*rings: ArrayLike, inside: ArrayLike | None = None) -> Region:
+def polygon(*rings: ArrayLike, inside: ArrayLike | None = None) -> Surface:
     """The region that rings enclose, each k x 2 longitudes and latitudes in degrees or k x 3.
 
     Rings may run either way, be closed, and reach a pole along a meridian. They enclose the side
@@ -676,19 +668,19 @@ def polygon(*rings: ArrayLike, inside: ArrayLike | None = None) -> Region:
                             else _arguments.direction(inside, "the place inside"))
 
 
-def rectangle(lower: ArrayLike, upper: ArrayLike) -> PlanarDomain:
+def rectangle(lower: ArrayLike, upper: ArrayLike) -> Surface:
     """The domain between two corners (x, y) of the plane."""
     return _calotte.rectangle(lower, upper)
 
 
-def periodic_box(x: float, y: float) -> PlanarDomain:
+def periodic_box(x: float, y: float) -> Surface:
     """The doubly periodic box [0, x) x [0, y) of the plane."""
     return _calotte.periodic_box([x, y])
 
 
-def planar_polygon(*rings: ArrayLike) -> PlanarDomain:
+def planar_polygon(*rings: ArrayLike) -> Surface:
     """The domain inside rings of k x 2 corners: what an odd number of them contains."""
-    return _calotte.PlanarDomain([_arguments.plane_points(ring, "corners") for ring in rings])
+    return _calotte.planar_polygon([_arguments.plane_points(ring, "corners") for ring in rings])
 
 
 def density(*names: str, join: str = "maximum", plane: bool = False) -> Density:
@@ -713,8 +705,8 @@ def read(path: Path, *, fields: str = "scalars") -> Grid:
 
     fields: which of the file's fields to read: "scalars", those with one number for each cell;
         "all", or "none". They are the attribute `fields`, and written files get them again.
-    Returns a Mesh or a PlanarMesh, whose attribute `cells` has the file's cells where these are not
-    the Voronoi cells of a whole mesh; or Polygons, where the file has no triangles for its cells.
+    Returns a Mesh, whose attribute `cells` has the file's cells where these are not the Voronoi cells
+    of a whole mesh; or Polygons, where the file has no triangles for its cells.
     Raises Error, naming the line or the variable.
     """
     if fields not in ("scalars", "all", "none"):
@@ -749,25 +741,23 @@ def write(path: Path, mesh: Grid, *, format: str = "by-name",
         that of a file that was read, else 1.
     density, cell_width: as for cvt(); they set meshDensity and nominalMinDc. Without them the density
     of an MPAS file on the sphere follows from the smoothed spacing of the cells, if this varies.
-    domain: of a planar mesh, which clips its cells. Its meshDensity follows from a density with it.
+    domain: as for voronoi().
     fields: a dict of n numbers at the cells, beside those that were read.
     """
     values = {name: _arguments.numbers(value, name) for name, value in (fields or {}).items()}
     output = _calotte.Output(str(path), format, sphere_radius,
                              _density_for(mesh, density, cell_width),
                              density is not None or cell_width is not None, values, history)
-    part = None if domain is None else _arguments.domain(domain)
     content = content_of(mesh)
+    mesh = in_domain(mesh, domain)
     if content is not None:
-        names = _calotte.write_content(content, mesh, part, output)
+        names = _calotte.write_content(content, mesh, output)
         dropped = [name for name in names if name in content.fields or name in values]
         if dropped:
             warnings.warn(f"{path}: the format does not hold {', '.join(dropped)}", stacklevel=2)
     elif isinstance(mesh, Polygons):
         raise Error("polygons without the file that they are of cannot be written; give what "
                     "read() returns")
-    elif isinstance(mesh, PlanarMesh):
-        _calotte.write_in_plane(mesh, part, output)
     else:
         _calotte.write(mesh, output)
 

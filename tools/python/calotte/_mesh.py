@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Methods of Mesh, PlanarMesh and Polygons that are written in Python."""
+"""Methods of Mesh, Polygons and Surface that are written in Python."""
 import math
 import os
 import tempfile
@@ -7,7 +7,7 @@ import types
 
 import numpy as np
 
-from . import _calotte, _functions, _plot
+from . import _arguments, _calotte, _functions, _plot
 
 
 def _cells(mesh):
@@ -47,6 +47,8 @@ def _to_xarray(grid, kind="mpas", **options):
 
 def _topology(mesh):
     """The arguments of uxarray.Grid.from_topology for the cells of the mesh."""
+    if not _arguments.on_sphere(mesh):
+        raise _calotte.Error("the topology has longitudes and latitudes, and a plane has none")
     begin, ids, corners = _plot.rings(mesh)
     degrees = np.diff(begin)
     width, fill = int(degrees.max()), -1
@@ -55,6 +57,11 @@ def _topology(mesh):
     nodes = _functions.to_lonlat(corners)
     return {"node_lon": nodes[:, 0].copy(), "node_lat": nodes[:, 1].copy(),
             "face_node_connectivity": faces, "fill_value": fill, "start_index": 0}
+
+
+def _contains(surface, points):
+    """(n,) whether each point, as those of delaunay(), lies inside or on the boundary."""
+    return _calotte.contains(surface, _arguments.points_of(surface, points))
 
 
 # ---- What the command prints of operators
@@ -90,13 +97,12 @@ def _diffusion_step(errors, viscosity, radius=1.0, of="divergence"):
 _calotte.ErrorNorms.at = property(_at, doc=_at.__doc__)
 _calotte.OperatorErrors.wave_step = _wave_step
 _calotte.OperatorErrors.diffusion_step = _diffusion_step
-for _class in (_calotte.Mesh, _calotte.PlanarMesh, _calotte.Polygons):
+_calotte.Surface.contains = _contains
+for _class in (_calotte.Mesh, _calotte.Polygons):
     _class.fields = property(_fields, doc=_fields.__doc__)
     _class.to_mpas = _to_mpas
     _class.to_xarray = _to_xarray
     _class.plot = _plot.plot
-for _class in (_calotte.Mesh, _calotte.PlanarMesh):
-    _class.cells = property(_cells, doc=_cells.__doc__)
-_calotte.Mesh.topology = _topology
-_calotte.Polygons.topology = _topology
+    _class.topology = _topology
+_calotte.Mesh.cells = property(_cells, doc=_cells.__doc__)
 _calotte.Polygons.not_voronoi = property(_not_voronoi, doc=_not_voronoi.__doc__)

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from . import _arguments, _calotte, _display
+from . import _arguments, _calotte, _display, _functions
 from ._arguments import EARTH_RADIUS_KM
 from ._calotte import Error
 
@@ -58,22 +58,25 @@ def _whole_cells(mesh):
 def _whole_planar_cells(mesh):
     """Of a mesh of the plane without its domain."""
     a, b, c = (mesh.points[mesh.triangles[:, k]] for k in range(3))
-    b, c = (_display.nearest(end - a, mesh.period) for end in (b, c))
+    period = mesh.surface.period
+    b, c = (_display.nearest(end - a, period) for end in (b, c))
     twice = 2 * (b[:, 0] * c[:, 1] - b[:, 1] * c[:, 0])
     bb, cc = (b**2).sum(axis=1), (c**2).sum(axis=1)
     corners = a + np.stack([c[:, 1] * bb - b[:, 1] * cc, b[:, 0] * cc - c[:, 0] * bb],
                            axis=1) / twice[:, np.newaxis]
 
     def offsets(triangle, site):
-        return _display.nearest(corners[triangle] - mesh.points[site], mesh.period)
+        return _display.nearest(corners[triangle] - mesh.points[site], period)
 
     begin, ids = _around_sites(mesh, offsets)
     flat = np.column_stack([corners, np.zeros(len(corners))])
-    return _unrolled(begin, ids, flat, mesh.period) if mesh.period.any() else (begin, ids, flat)
+    return _unrolled(begin, ids, flat, period)
 
 
 def _unrolled(begin, ids, corners, period):
     """In a periodic plane: each cell with corners of its own, the copies nearest to the first."""
+    if not period.any():
+        return begin, ids, corners
     places = corners[ids]
     first = np.repeat(places[begin[:-1].clip(max=len(ids) - 1), :2], np.diff(begin), axis=0)
     places[:, :2] = first + _display.nearest(places[:, :2] - first, period)
@@ -83,25 +86,16 @@ def _unrolled(begin, ids, corners, period):
 def rings(grid, domain=None):
     """begin, ids and corners of the cells of a mesh or of polygons; some may have no corners."""
     polygons = grid if isinstance(grid, _calotte.Polygons) else grid.cells
-    if polygons is not None and domain is None:
-        shapes = polygons.begin, polygons.ids, polygons.corners
-        return _unrolled(*shapes, polygons.period) if polygons.period.any() else shapes
-    if isinstance(grid, _calotte.Mesh):
-        if not grid.closed:
-            return _whole_cells(grid)
-        cells = _calotte.voronoi(grid)
-    elif grid.period.all():
-        cells = _calotte.voronoi(grid)
-        return _unrolled(cells.begin, cells.vertices_on_cell, cells.vertices, grid.period)
-    elif domain is not None:
-        cells = _calotte.voronoi(grid, _arguments.domain(domain))
-    else:
-        return _whole_planar_cells(grid)
-    return cells.begin, cells.vertices_on_cell, cells.vertices
-
-
-def _is_spherical(grid):
-    return isinstance(grid, _calotte.Mesh) or getattr(grid, "on_sphere", False)
+    if polygons is not None and (domain is None or polygons is grid):
+        return _unrolled(polygons.begin, polygons.ids, polygons.corners, polygons.period)
+    mesh = _functions.in_domain(grid, domain)
+    surface = mesh.surface
+    if surface.is_sphere and not mesh.closed:
+        return _whole_cells(mesh)
+    if np.isinf(surface.area):
+        return _whole_planar_cells(mesh)
+    cells = _calotte.voronoi(mesh)
+    return _unrolled(cells.begin, cells.vertices_on_cell, cells.vertices, surface.period)
 
 
 def _areas(begin, ids, corners, spherical):
@@ -315,7 +309,7 @@ def plot(self, field=None, *, ax=None, projection=None, view=None, coast=True, d
     view: longitude and latitude in degrees of the middle of a globe, in place of a map.
     coast: True draws coastlines (Natural Earth, 1:110 million), False none; or a file of land as
         `calotte cull --land` reads it. In a plane there are none.
-    domain: of a planar mesh, which clips its cells.
+    domain: as for voronoi().
     cmap, vmin, vmax: as in matplotlib. edgecolor, linewidth: of the cells' sides.
     colorbar: whether there is one. label: its name; default that of the field.
     earth_radius: km, for widths and areas on the sphere.
@@ -325,7 +319,7 @@ def plot(self, field=None, *, ax=None, projection=None, view=None, coast=True, d
     """
     _matplotlib()
     from matplotlib.collections import PolyCollection
-    spherical = _is_spherical(self)
+    spherical = _arguments.on_sphere(self)
     _require_projection(spherical, ax, projection, view)
     begin, ids, corners = rings(self, domain)
     if not len(ids):

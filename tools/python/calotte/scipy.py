@@ -63,7 +63,7 @@ class SphericalVoronoi:
         if len(offsets) < 4:
             raise ValueError("Rank of input points must be at least 3")
         try:
-            self._mesh = _calotte.delaunay(offsets, 0.0, False, None)
+            self._mesh = _calotte.delaunay(offsets, _calotte.Surface(), 0.0, False, None)
         except _calotte.Error as error:
             if error.code == "duplicate":
                 raise ValueError(f"Duplicate generators present: {error}") from error

@@ -52,7 +52,7 @@ class sTriangulation:
         self.points = _vectors(lons, lats)
         self.x, self.y, self.z = self.points.T
         self.npoints = len(self.points)
-        self._mesh = _calotte.delaunay(self.points, 0.0, False, None)
+        self._mesh = _calotte.delaunay(self.points, _calotte.Surface(), 0.0, False, None)
 
     @property
     def simplices(self):

@@ -52,4 +52,10 @@ template <class Values> py::array handed_over(Values&& values) {
   return array_over(*kept, owner);
 }
 
+/// An array that takes points of a surface over: n x 3, in a plane n x 2.
+inline py::array handed_over_on(const Surface& surface, Points3&& points) {
+  return surface.is_sphere() ? handed_over(std::move(points))
+                             : handed_over(Points2(points.topRows<2>()));
+}
+
 } // namespace calotte::python

@@ -7,14 +7,11 @@
 #include <calotte/quality.h>
 #include <calotte/voronoi.h>
 
+#include <cmath>
 #include <memory>
 
 namespace calotte::python {
 namespace {
-
-template <class... Arguments> std::shared_ptr<Voronoi> cells_of(const Arguments&... arguments) {
-  return call([&] { return std::make_shared<Voronoi>(voronoi(arguments...)); });
-}
 
 void add_ranges(py::module_& module) {
   py::class_<Range> range(module, "Range", "Extremes and mean of a quantity.");
@@ -130,13 +127,14 @@ void add_voronoi(py::module_& module) {
       Member{"kites", &Voronoi::kites,
              "(m, 3) signed areas of the parts of a triangle nearest to each of its cells; "
              "steradians, in the plane the square of the points' unit."});
-  module.def("voronoi", &cells_of<Mesh>);
-  module.def("voronoi", &cells_of<PlanarMesh>);
-  module.def("voronoi", &cells_of<PlanarMesh, PlanarDomain>);
+  module.def("voronoi", [](const Mesh& mesh) {
+    return call([&] { return std::make_shared<Voronoi>(voronoi(mesh)); });
+  });
 }
 
+/// The triangles alone of an open mesh of the sphere and of a channel.
 Quality quality_of(const Mesh& mesh, const Density& density) {
-  if (mesh.closed())
+  if (mesh.surface.is_sphere() ? mesh.closed() : std::isfinite(mesh.surface.area()))
     return quality(mesh, density);
   return count_edges(mesh).not_delaunay > 0 ? triangle_quality(mesh) : open_quality(mesh);
 }
@@ -150,12 +148,6 @@ void add_cells(py::module_& module) {
   module.def("quality", [](const Mesh& mesh, const Density& density) {
     return call([&] { return quality_of(mesh, density); });
   });
-  module.def("quality",
-             [](const PlanarMesh& mesh, const PlanarDomain& domain, const Density& density) {
-               return call([&] { return quality(mesh, domain, density); });
-             });
-  module.def("open_quality",
-             [](const PlanarMesh& mesh) { return call([&] { return open_quality(mesh); }); });
 }
 
 } // namespace calotte::python

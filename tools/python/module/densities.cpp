@@ -64,7 +64,7 @@ PlanarCellWidth planar_widths(const Doubles& values, const Doubles& x, const Dou
 }
 
 CellWidth read_widths(const std::string& path, double inside, double outside, double transition,
-                      double radius_km, const Region& region) {
+                      double radius_km, const Surface& region) {
   return call([&] {
     return read_cell_width(path, {inside, outside, transition, radius_km}, region);
   });
@@ -88,7 +88,7 @@ void add_cell_width(py::module_& module) {
       },
       "(n,) the widths at n x 3 directions, km.");
   module.def("read_cell_width", &read_widths);
-  module.def("require_covering", [](const CellWidth& widths, const Region& region) {
+  module.def("require_covering", [](const CellWidth& widths, const Surface& region) {
     call([&] { require_covering(widths, region); });
   });
   module.def("kilometres_in", &kilometres_in);

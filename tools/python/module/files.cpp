@@ -2,7 +2,6 @@
 #include "calls.h"
 #include "members.h"
 #include "module.h"
-#include "planes.h"
 
 #include "draw/coastlines.h"
 
@@ -40,10 +39,8 @@ py::tuple read(const std::string& path, const std::string& fields) {
   auto content = std::make_shared<MeshFile>(
       call([&] { return read_mesh_file(path, nullptr, choice_of(fields)); }));
   py::object grid;
-  if (content->sphere())
+  if (content->mesh)
     grid = py::cast(std::make_shared<Mesh>(std::move(*content->mesh)));
-  else if (content->plane())
-    grid = py::cast(std::make_shared<PlanarMesh>(planar(std::move(*content->mesh))));
   else
     grid = py::cast(std::shared_ptr<Polygons>(content, &*content->polygons));
   content->mesh.reset();
@@ -72,30 +69,16 @@ py::dict fields_of(py::object self) {
   return fields;
 }
 
-/// A mesh of a plane in its period, or in a domain that clips its cells.
-/// \throws Error bad_option for a domain of another period.
-Mesh in_plane(const PlanarMesh& mesh, const std::optional<PlanarDomain>& domain) {
-  if (domain && domain->periodic() && domain->period != mesh.period)
-    throw Error(ErrorCode::bad_option,
-                "the domain is a periodic box that is not the mesh's; give that of the mesh");
-  const bool clips = domain && !domain->periodic();
-  return spatial(mesh, clips ? Surface(*domain) : Surface(PlanarDomain({}, mesh.period)));
-}
-
 /// A content with the mesh that it came with.
-MeshFile whole(const MeshFile& content, const py::object& grid,
-               const std::optional<PlanarDomain>& domain) {
+MeshFile whole(const MeshFile& content, const py::object& grid) {
   MeshFile file = content;
   if (py::isinstance<Mesh>(grid))
     file.mesh = grid.cast<const Mesh&>();
-  else if (py::isinstance<PlanarMesh>(grid))
-    file.mesh = in_plane(grid.cast<const PlanarMesh&>(), domain);
   return file;
 }
 
-std::shared_ptr<Voronoi> cells_of(const MeshFile& content, const py::object& grid,
-                                  const std::optional<PlanarDomain>& domain) {
-  const MeshFile file = whole(content, grid, domain);
+std::shared_ptr<Voronoi> cells_of(const MeshFile& content, const py::object& grid) {
+  const MeshFile file = whole(content, grid);
   return call([&] { return std::make_shared<Voronoi>(voronoi(file)); });
 }
 
@@ -268,16 +251,10 @@ void write_mesh(const Mesh& mesh, const Output& output) {
   WriteOptions options = options_of(output);
   call([&] {
     const Format format = format_of(output.path, output.format);
-    if (!output.known && mesh.closed() && is_mpas(format))
+    if (!output.known && mesh.surface.is_sphere() && mesh.closed() && is_mpas(format))
       options.site_density = spacing_density(voronoi(mesh));
     write(output.path, mesh, options);
   });
-}
-
-void write_plane(const PlanarMesh& mesh, const std::optional<PlanarDomain>& domain,
-                 const Output& output) {
-  const WriteOptions options = options_of(output);
-  call([&] { write(output.path, in_plane(mesh, domain), options); });
 }
 
 /// An Earth in kilometres, as JIGSAW's meshes have it; NetCDF formats are in metres.
@@ -287,9 +264,8 @@ double radius_in_metres(double radius) {
 
 /// Writes what was read. \returns the names of the fields that the format does not hold.
 std::vector<std::string> write_content(const MeshFile& content, const py::object& grid,
-                                       const std::optional<PlanarDomain>& domain,
                                        const Output& output) {
-  const MeshFile file = whole(content, grid, domain);
+  const MeshFile file = whole(content, grid);
   WriteOptions options = options_of(output);
   if (!output.radius)
     options.sphere_radius = radius_in_metres(file.sphere_radius);
@@ -302,7 +278,7 @@ std::vector<std::string> write_content(const MeshFile& content, const py::object
   });
 }
 
-py::dict cut_mesh(const std::string& source, const std::string& target, const Region& region,
+py::dict cut_mesh(const std::string& source, const std::string& target, const Surface& region,
                   int rings, std::optional<double> radius) {
   CutOptions options;
   options.rings = rings;
@@ -316,12 +292,12 @@ py::dict cut_mesh(const std::string& source, const std::string& target, const Re
 }
 
 /// \param mesh of a run of a limited area.
-py::dict write_limited(const Output& output, const Mesh& mesh, const Region& region) {
+py::dict write_limited(const Output& output, const Mesh& mesh, const Surface& region) {
   CutOptions options;
   options.sphere_radius = output.radius.value_or(1);
   const WriteOptions written = options_of(output);
-  const CutReport report = call(
-      [&] { return write_limited_area(output.path, mesh, Surface(region), written, options); });
+  const CutReport report =
+      call([&] { return write_limited_area(output.path, mesh, region, written, options); });
   py::dict values;
   values["cells"] = report.cells;
   values["cells_by_mask"] = report.cells_by_mask;
@@ -456,7 +432,6 @@ void add_files(py::module_& module) {
     return handed_over(call([&] { return read_sites(path); }));
   });
   module.def("write", &write_mesh);
-  module.def("write_in_plane", &write_plane);
   module.def("cut", &cut_mesh);
   module.def("write_limited_area", &write_limited);
   module.def("cull", &cull_mesh);

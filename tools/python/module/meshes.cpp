@@ -2,58 +2,34 @@
 #include "calls.h"
 #include "members.h"
 #include "module.h"
-#include "planes.h"
 
 #include <calotte/check.h>
 #include <calotte/delaunay.h>
+#include <calotte/error.h>
 #include <calotte/generators.h>
-#include <calotte/region.h>
 #include <calotte/renumber.h>
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
 namespace calotte::python {
 namespace {
 
-/// What Mesh and PlanarMesh have in common. An instance has a dictionary, for what a file holds
-/// besides the mesh.
-template <class AnyMesh>
-auto add_mesh(py::module_& module, const char* name, const char* doc, const char* points) {
-  auto type = py::class_<AnyMesh, std::shared_ptr<AnyMesh>>(module, name, doc, py::dynamic_attr());
-  add_member(type, Member{"points", &AnyMesh::points, points});
-  add_member(type, Member{"triangles", &AnyMesh::triangles,
-                          "(m, 3) ids of sites, counter-clockwise, seen from outside a sphere."});
-  add_member(type, Member{"neighbours", &AnyMesh::neighbours,
-                          "(m, 3) the triangle across from each vertex; -1 at an open boundary."});
-  add_member(type, Member{"site_of_input", &AnyMesh::site_of_input,
-                          "For each point of the input its site."});
-  type.def("__len__", [](const AnyMesh& mesh) { return mesh.points.cols(); });
-  return type;
+/// The mesh, with the dictionary of its instance, for what a file holds besides it.
+py::tuple state_of(const py::object& self) {
+  const auto& mesh = self.cast<const Mesh&>();
+  return py::make_tuple(mesh.points, mesh.triangles, mesh.neighbours, mesh.site_of_input,
+                        mesh.surface, self.attr("__dict__"));
 }
 
-template <class AnyMesh> py::tuple state_of(const py::object& self) {
-  const auto& mesh = self.cast<const AnyMesh&>();
-  const py::object rest = self.attr("__dict__");
-  if constexpr (std::is_same_v<AnyMesh, PlanarMesh>)
-    return py::make_tuple(mesh.points, mesh.triangles, mesh.neighbours, mesh.site_of_input,
-                          py::make_tuple(mesh.period, rest));
-  else
-    return py::make_tuple(mesh.points, mesh.triangles, mesh.neighbours, mesh.site_of_input, rest,
-                          mesh.surface.rings());
-}
-
-template <class AnyMesh> std::shared_ptr<AnyMesh> of_state(const py::tuple& state) {
-  auto mesh = std::make_shared<AnyMesh>();
-  mesh->points = state[0].cast<decltype(mesh->points)>();
-  mesh->triangles = state[1].cast<Triangles>();
-  mesh->neighbours = state[2].cast<Triangles>();
-  mesh->site_of_input = state[3].cast<std::vector<std::int32_t>>();
-  return mesh;
+std::pair<std::shared_ptr<Mesh>, py::dict> of_state(const py::tuple& state) {
+  Mesh mesh{state[0].cast<Points3>(), state[1].cast<Triangles>(), state[2].cast<Triangles>(),
+            state[3].cast<std::vector<std::int32_t>>(), state[4].cast<Surface>()};
+  return {std::make_shared<Mesh>(std::move(mesh)), state[5].cast<py::dict>()};
 }
 
 DelaunayOptions options_of(double merge_within, bool merge, std::optional<int> regions) {
@@ -69,27 +45,25 @@ DelaunayOptions options_of(double merge_within, bool merge, std::optional<int> r
   return options;
 }
 
-std::shared_ptr<Mesh> delaunay(const Doubles& points, double merge_within, bool merge,
-                               std::optional<int> regions) {
+std::shared_ptr<Mesh> delaunay(const Doubles& points, const Surface& surface, double merge_within,
+                               bool merge, std::optional<int> regions) {
   const DelaunayOptions options = options_of(merge_within, merge, regions);
   const auto sites = columns(points);
-  return call([&] { return std::make_shared<Mesh>(calotte::delaunay(sites, {}, options)); });
+  return call([&] { return std::make_shared<Mesh>(calotte::delaunay(sites, surface, options)); });
 }
 
-std::shared_ptr<PlanarMesh> delaunay_in_plane(const Doubles& points,
-                                              std::optional<Eigen::Vector2d> period,
-                                              double merge_within, bool merge,
-                                              std::optional<int> regions) {
-  const DelaunayOptions options = options_of(merge_within, merge, regions);
-  const auto sites = columns(points);
-  return call([&] {
-    const Surface surface = period ? Surface::periodic(*period) : Surface::plane();
-    return std::make_shared<PlanarMesh>(planar(calotte::delaunay(sites, surface, options)));
-  });
-}
-
-template <class AnyMesh> Check check_of(const AnyMesh& mesh) {
-  return call([&] { return check(mesh); });
+/// The mesh with the boundary of a domain.
+/// \throws Error bad_option for a mesh of the sphere, and for a domain of another period.
+std::shared_ptr<Mesh> within(const Mesh& mesh, const Surface& domain) {
+  if (mesh.surface.is_sphere())
+    throw Error(ErrorCode::bad_option, "the mesh is on the sphere, and a domain is a part of the "
+                                       "plane; leave it out");
+  if (domain.period() != mesh.surface.period())
+    throw Error(ErrorCode::bad_option,
+                "the mesh and the domain have different periods; give the domain of the mesh");
+  auto bounded = std::make_shared<Mesh>(mesh);
+  bounded->surface = domain;
+  return bounded;
 }
 
 Numbering numbering_of(const std::string& name) {
@@ -99,10 +73,33 @@ Numbering numbering_of(const std::string& name) {
 } // namespace
 
 void add_meshes(py::module_& module) {
-  auto sphere = add_mesh<Mesh>(
-      module, "Mesh", "A Delaunay triangulation of the sphere, of delaunay(), cvt() or read().",
-      "(n, 3) sites: directions, of a CVT or a file unit vectors.");
-  sphere.def_property_readonly("closed", &Mesh::closed, "True if the triangles cover the sphere.")
+  py::class_<Mesh, std::shared_ptr<Mesh>> type(
+      module, "Mesh",
+      "A Delaunay triangulation of the sphere or of a plane, of delaunay(), cvt() or read().",
+      py::dynamic_attr());
+  type.def_property_readonly(
+          "points",
+          [](const py::object& self) {
+            const auto& mesh = self.cast<const Mesh&>();
+            const py::array all = view(mesh.points, self);
+            return mesh.surface.is_sphere()
+                       ? all
+                       : py::array(all[py::make_tuple(py::ellipsis(), py::slice(0, 2, 1))]);
+          },
+          "(n, 3) sites: directions, of a CVT or a file unit vectors; in a plane (n, 2) in any "
+          "unit of length.")
+      .def_property_readonly(
+          "surface", [](const Mesh& mesh) { return mesh.surface; },
+          "The Surface that the points live on; in a plane its rings clip the cells.");
+  add_member(type, Member{"triangles", &Mesh::triangles,
+                          "(m, 3) ids of sites, counter-clockwise, seen from outside a sphere."});
+  add_member(type, Member{"neighbours", &Mesh::neighbours,
+                          "(m, 3) the triangle across from each vertex; -1 at an open boundary."});
+  add_member(
+      type, Member{"site_of_input", &Mesh::site_of_input, "For each point of the input its site."});
+  type.def_property_readonly("closed", &Mesh::closed,
+                             "True if the triangles cover the sphere, or a periodic box.")
+      .def("__len__", [](const Mesh& mesh) { return mesh.points.cols(); })
       .def(
           "renumbered",
           [](const Mesh& mesh, const std::string& numbering) {
@@ -114,28 +111,13 @@ void add_meshes(py::module_& module) {
           "numbers (\"rcm\": reverse Cuthill-McKee).")
       .def(
           "bisected_points",
-          [](const Mesh& mesh) { return handed_over(call([&] { return bisect(mesh); })); },
-          "(4 n - 6, 3) the points and the midpoints of the edges.")
-      .def(py::pickle(&state_of<Mesh>, [](const py::tuple& state) {
-        auto mesh = of_state<Mesh>(state);
-        mesh->surface = Region(state[5].cast<std::vector<Points3>>());
-        return std::pair(std::move(mesh), state[4].cast<py::dict>());
-      }));
-  auto plane = add_mesh<PlanarMesh>(
-      module, "PlanarMesh",
-      "A Delaunay triangulation of the plane or of a periodic box, of delaunay(), cvt() or read().",
-      "(n, 2) sites, in any unit of length.");
-  add_member(plane,
-             Member{"period", &PlanarMesh::period,
-                    "(2,) side lengths of the periodic box, unit of the points; 0 if none."});
-  plane.def(py::pickle(&state_of<PlanarMesh>, [](const py::tuple& state) {
-    auto mesh = of_state<PlanarMesh>(state);
-    const auto rest = state[4].cast<py::tuple>();
-    mesh->period = rest[0].cast<Eigen::Vector2d>();
-    return std::pair(std::move(mesh), rest[1].cast<py::dict>());
-  }));
+          [](const Mesh& mesh) {
+            return handed_over_on(mesh.surface, call([&] { return bisect(mesh); }));
+          },
+          "The points and the midpoints of the edges, those inside of the surface.")
+      .def(py::pickle(&state_of, &of_state));
   module.def("delaunay", &delaunay);
-  module.def("delaunay_in_plane", &delaunay_in_plane);
+  module.def("within", &within);
   py::class_<Check> check(module, "Check", "What check() found; true if all laws hold.");
   add_members(check,
               Member{"failure", &Check::failure, "The first law that does not hold, or empty."},
@@ -147,8 +129,7 @@ void add_meshes(py::module_& module) {
                      "points' unit."});
   check.def_property_readonly("passed", &Check::passed, "True if all laws hold.")
       .def("__bool__", &Check::passed);
-  module.def("check", &check_of<Mesh>);
-  module.def("check", &check_of<PlanarMesh>);
+  module.def("check", [](const Mesh& mesh) { return call([&] { return calotte::check(mesh); }); });
 }
 
 } // namespace calotte::python

@@ -20,7 +20,7 @@ PYBIND11_MODULE(_calotte, module) {
   module.attr("__version__") = CALOTTE_VERSION;
   module.def("set_threads", [](int count) { return std::exchange(threads(), count); });
   add_errors(module);
-  add_regions(module);
+  add_surfaces(module);
   add_densities(module);
   add_meshes(module);
   add_cells(module);

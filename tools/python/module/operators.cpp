@@ -38,9 +38,8 @@ void add_operator(Errors& errors, const char* name, const char* by_cell,
       "(n,) the same error of each cell; NaN at a boundary.");
 }
 
-template <class... Arguments>
-std::shared_ptr<OperatorErrors> errors_of(const Arguments&... arguments) {
-  return call([&] { return std::make_shared<OperatorErrors>(operator_errors(arguments...)); });
+std::shared_ptr<OperatorErrors> errors_of(const Mesh& mesh, const Density& density) {
+  return call([&] { return std::make_shared<OperatorErrors>(operator_errors(mesh, density)); });
 }
 
 constexpr std::array norms_of{&OperatorErrors::divergence,   &OperatorErrors::gradient,
@@ -102,8 +101,7 @@ void add_operators(py::module_& module) {
                     "radians, in the plane of the points' unit.")
       .def_readonly("dual_eigenvalue", &OperatorErrors::dual_eigenvalue, "The same at vertices.")
       .def(py::pickle(&state_of, &of_state));
-  module.def("operator_errors", &errors_of<Mesh, Density>);
-  module.def("operator_errors", &errors_of<PlanarMesh, PlanarDomain, Density>);
+  module.def("operator_errors", &errors_of);
 }
 
 } // namespace calotte::python

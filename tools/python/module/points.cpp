@@ -17,13 +17,10 @@ template <class Make> py::array made(Make make) { return handed_over(call(make))
 } // namespace
 
 void add_points(py::module_& module) {
-  module.def("random_sphere",
-             [](std::int64_t n, const Region& region, const Density& density, std::uint64_t seed) {
-               return made([&] {
-                 return region.whole() ? random_sphere(n, density, seed)
-                                       : random_sphere(n, region, density, seed);
-               });
-             });
+  module.def("random_points", [](std::int64_t n, const Surface& surface, const Density& density,
+                                 std::uint64_t seed) {
+    return handed_over_on(surface, call([&] { return random_points(n, surface, density, seed); }));
+  });
   module.def("geodesic_sphere",
              [](std::int64_t n) { return made([&] { return geodesic_sphere(n); }); });
   module.def("fibonacci_sphere",
@@ -36,12 +33,8 @@ void add_points(py::module_& module) {
     return made([&] { return lat_lon_sphere(latitudes, longitudes, poles); });
   });
   module.def("cubed_sphere", [](std::int64_t m) { return made([&] { return cubed_sphere(m); }); });
-  module.def("random_places", [](std::int64_t n, const PlanarDomain& domain, const Density& density,
-                                 std::uint64_t seed) {
-    return made([&] { return random_places(n, domain, density, seed); });
-  });
-  module.def("hexagonal_lattice", [](std::int64_t n, const PlanarDomain& domain) {
-    return made([&] { return hexagonal_lattice(n, domain); });
+  module.def("hexagonal_lattice", [](std::int64_t n, const Surface& surface) {
+    return handed_over_on(surface, call([&] { return hexagonal_lattice(n, surface); }));
   });
   module.def("from_lonlat", [](const Doubles& lonlat) {
     const auto places = columns(lonlat);

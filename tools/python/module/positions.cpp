@@ -12,15 +12,13 @@
 namespace calotte::python {
 namespace {
 
-template <class AnyMesh>
-std::shared_ptr<Locations> locate_in(const AnyMesh& mesh, const Doubles& positions) {
+std::shared_ptr<Locations> locate_in(const Mesh& mesh, const Doubles& positions) {
   const auto places = columns(positions);
   return call([&] { return std::make_shared<Locations>(locate(mesh, places)); });
 }
 
 /// \param values n x fields, by site. \returns k x fields, by position.
-template <class AnyMesh>
-py::array interpolate_in(const AnyMesh& mesh, const Doubles& values, const Doubles& positions,
+py::array interpolate_in(const Mesh& mesh, const Doubles& values, const Doubles& positions,
                          bool natural) {
   const auto places = columns(positions);
   const auto by_field = columns(values);
@@ -32,11 +30,6 @@ py::array interpolate_in(const AnyMesh& mesh, const Doubles& values, const Doubl
       result.row(k) = interpolate(weights, by_field.row(k).transpose());
     return result;
   }));
-}
-
-template <class AnyMesh> void add_functions(py::module_& module) {
-  module.def("locate", &locate_in<AnyMesh>);
-  module.def("interpolate", &interpolate_in<AnyMesh>);
 }
 
 } // namespace
@@ -54,8 +47,8 @@ void add_positions(py::module_& module) {
       Member{"nearest", &Locations::nearest,
              "(k,) the nearest site, the lowest of those that are equally near."});
   type.def("__len__", [](const Locations& locations) { return locations.triangle.size(); });
-  add_functions<Mesh>(module);
-  add_functions<PlanarMesh>(module);
+  module.def("locate", &locate_in);
+  module.def("interpolate", &interpolate_in);
 }
 
 } // namespace calotte::python

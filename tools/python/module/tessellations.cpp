@@ -2,7 +2,6 @@
 #include "arrays.h"
 #include "calls.h"
 #include "module.h"
-#include "planes.h"
 
 #include <calotte/error.h>
 #include <calotte/grid.h>
@@ -20,7 +19,6 @@
 #include <string>
 #include <type_traits>
 #include <utility>
-#include <variant>
 
 namespace calotte::python {
 namespace {
@@ -81,8 +79,6 @@ void add_points_field(py::class_<Recipe>& type, const char* name, const Field& f
       });
 }
 
-using Part = std::variant<Region, PlanarDomain>;
-
 /// "x", "y", "xy" or "".
 Walls walls_named(const std::string& word) {
   if (word.find_first_not_of("xy") != std::string::npos)
@@ -95,11 +91,7 @@ std::string word_of(Walls walls) { return std::string(walls.x ? "x" : "") + (wal
 void add_recipe(py::module_& module) {
   py::class_<Recipe> type(module, "Recipe");
   type.def(py::init<>())
-      .def_property("surface", nullptr,
-                    [](Recipe& recipe, const Part& part) {
-                      recipe.surface =
-                          std::visit([](const auto& rings) { return Surface(rings); }, part);
-                    })
+      .def_readwrite("surface", &Recipe::surface)
       .def_property(
           "walls", [](const Recipe& recipe) { return word_of(recipe.walls); },
           [](Recipe& recipe, const std::string& word) { recipe.walls = walls_named(word); })
@@ -234,13 +226,11 @@ py::tuple run(const Recipe& recipe, std::optional<int> regions, py::object funct
       *cells = between_walls(recipe, schedule.recipe, made.mesh);
     return made;
   });
-  py::object mesh = grid.mesh.surface.is_sphere()
-                        ? py::cast(std::make_shared<Mesh>(std::move(grid.mesh)))
-                        : py::cast(std::make_shared<PlanarMesh>(planar(std::move(grid.mesh))));
   py::object polygons = py::none();
   if (cells->polygons)
     polygons = py::make_tuple(std::shared_ptr<Polygons>(cells, &*cells->polygons), cells);
-  return py::make_tuple(mesh, report_of(grid.report), polygons);
+  return py::make_tuple(std::make_shared<Mesh>(std::move(grid.mesh)), report_of(grid.report),
+                        polygons);
 }
 
 } // namespace
