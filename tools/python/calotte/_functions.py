@@ -74,7 +74,7 @@ def delaunay(points: ArrayLike, *, plane: bool = False, period: ArrayLike | None
     """
     if duplicates not in ("merge", "refuse"):
         raise Error(f"duplicates is {duplicates!r}; give merge or refuse")
-    surface = (_calotte.periodic_box(period) if period is not None else
+    surface = (periodic_box(*period) if period is not None else
                _calotte.plane() if plane else Surface())
     sites = _arguments.points_of(surface, points)
     return _calotte.delaunay(sites, surface, merge_within, duplicates == "merge", regions)
@@ -675,6 +675,8 @@ def rectangle(lower: ArrayLike, upper: ArrayLike) -> Surface:
 
 def periodic_box(x: float, y: float) -> Surface:
     """The doubly periodic box [0, x) x [0, y) of the plane."""
+    if not (x > 0 and y > 0):
+        raise Error(f"the periodic box is {x} x {y}; give two positive lengths")
     return _calotte.periodic_box([x, y])
 
 
