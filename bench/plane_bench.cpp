@@ -3,6 +3,7 @@
 // rounds as delaunay_bench does. The triangles of both are compared in every round.
 
 #include "delaunay/delaunay.h"
+#include "mesh/planar_mesh.h"
 #include "peers.h"
 #include "program.h"
 #include "report.h"

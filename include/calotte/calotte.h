@@ -10,7 +10,6 @@
 #include <calotte/cvt.h>
 #include <calotte/delaunay.h>
 #include <calotte/density.h>
-#include <calotte/domain.h>
 #include <calotte/error.h>
 #include <calotte/export.h>
 #include <calotte/generators.h>
@@ -29,7 +28,6 @@
 #include <calotte/progress.h>
 #include <calotte/quality.h>
 #include <calotte/read.h>
-#include <calotte/region.h>
 #include <calotte/renumber.h>
 #include <calotte/surface.h>
 #include <calotte/types.h>

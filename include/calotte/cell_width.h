@@ -3,7 +3,7 @@
 
 #include <calotte/density.h>
 #include <calotte/export.h>
-#include <calotte/region.h>
+#include <calotte/surface.h>
 #include <calotte/types.h>
 
 #include <cstdint>
@@ -50,19 +50,12 @@ double implied_cells(const CellWidth& cell_width, double radius_km = earth_radiu
 double implied_cells(const CellWidth& cell_width, const Surface& surface,
                      double radius_km = earth_radius_km);
 
-/// As above, for a Region.
-double implied_cells(const CellWidth& cell_width, const Region& region,
-                     double radius_km = earth_radius_km);
-
 /// Throws unless the nodes cover the sphere, or a region of it: at its boundary the nearest nodes
 /// are at most half of the widest step away, between the last longitude and the first one and
 /// beyond the outer latitudes at most 1.5 of it.
 /// \throws Error bad_option, naming the extent of the nodes and a place of the region outside; for
 ///         a plane; as require_region().
 void require_covering(const CellWidth& cell_width, const Surface& surface = {});
-
-/// As above, for a Region.
-void require_covering(const CellWidth& cell_width, const Region& region);
 
 /// The gradient of the cell width at one location.
 struct Gradient {

@@ -56,9 +56,6 @@ struct Check {
 /// \throws Error cancelled.
 Check check(const Mesh& mesh, const ProgressCallback& progress = {});
 
-/// As above, for a PlanarMesh.
-Check check(const PlanarMesh& mesh, const ProgressCallback& progress = {});
-
 /// Proves less, for a mesh that need be neither Delaunay nor convex, such as a region cut from a
 /// larger mesh, or an ocean: ids, canonical order and neighbours as above; every triangle
 /// counter-clockwise; the triangles at each site a single cycle that turns around it once, a single
@@ -68,9 +65,6 @@ Check check(const PlanarMesh& mesh, const ProgressCallback& progress = {});
 /// of one cycle or fan.
 /// \throws Error cancelled.
 Check check_surface(const Mesh& mesh, const ProgressCallback& progress = {});
-
-/// As above, for a PlanarMesh.
-Check check_surface(const PlanarMesh& mesh, const ProgressCallback& progress = {});
 
 /// Counts of what keeps a mesh from being the Delaunay triangulation of its points, or closed.
 struct EdgeCounts {
@@ -96,8 +90,6 @@ struct EdgeCounts {
 /// \pre ids are in range, triangles are counter-clockwise, neighbours are mutual, as read_mesh()
 /// makes them.
 EdgeCounts count_edges(const Mesh& mesh);
-/// As above, for a PlanarMesh.
-EdgeCounts count_edges(const PlanarMesh& mesh);
 
 } // namespace calotte
 CALOTTE_API_END

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <calotte/density.h>
-#include <calotte/domain.h>
 #include <calotte/error.h>
 #include <calotte/export.h>
 #include <calotte/types.h>
@@ -179,11 +178,6 @@ struct Cvt {
 ///         ill-formed density.
 Points3 insert_and_contract(const Mesh& mesh, const Density& density, std::int64_t inserted,
                             std::int64_t contracted);
-
-/// As insert_and_contract(mesh, density, inserted, contracted), for a PlanarMesh and its domain.
-/// \throws Error as there and as require_domain().
-Points2 insert_and_contract(const PlanarMesh& mesh, const PlanarDomain& domain,
-                            const Density& density, std::int64_t inserted, std::int64_t contracted);
 
 } // namespace calotte
 CALOTTE_API_END

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <calotte/domain.h>
 #include <calotte/export.h>
+#include <calotte/surface.h>
 #include <calotte/types.h>
 
 #include <functional>
@@ -68,9 +68,6 @@ Density tanh_bump(const Eigen::Vector3d& centre, double beta, double alpha, doub
 /// \throws Error bad_option if the density is ill-formed.
 Density site_density(const Density& density, const Surface& surface = {});
 
-/// As above, for a PlanarDomain.
-Density site_density(const Density& density, const PlanarDomain& domain);
-
 /// The density at each of n points.
 /// \param points on the sphere 3 x n unit columns; in the plane 2 x n, or 3 x n with z = 0.
 /// \param surface where the points are; in a periodic plane the density is periodic. Its rings have
@@ -78,10 +75,6 @@ Density site_density(const Density& density, const PlanarDomain& domain);
 /// \throws Error bad_option: another number of rows, or a z in the plane; an ill-formed density; a
 ///         callable's value that is negative, infinite or NaN.
 DoubleVector evaluate(const Density& density, const PointsRef& points, const Surface& surface = {});
-
-/// As above, for a PlanarDomain.
-/// \param places 2 x n, in the unit of the domain.
-DoubleVector evaluate(const Density& density, const PlanarDomain& domain, const PointsRef& places);
 
 /// The density that values at the sites of a mesh give everywhere on its surface: rho^(-1/4), which
 /// cell widths are proportional to, is linear on each triangle, on the sphere of unit vectors. With

@@ -2,9 +2,8 @@
 #pragma once
 
 #include <calotte/density.h>
-#include <calotte/domain.h>
 #include <calotte/export.h>
-#include <calotte/region.h>
+#include <calotte/surface.h>
 #include <calotte/types.h>
 
 #include <cstdint>
@@ -60,11 +59,6 @@ Points3 random_sphere(std::int64_t n, std::uint64_t seed = 1);
 ///         everywhere; or a callable without a maximum.
 Points3 random_sphere(std::int64_t n, const Density& density, std::uint64_t seed = 1);
 
-/// As above, in a region.
-/// \throws Error as above and as require_region().
-Points3 random_sphere(std::int64_t n, const Region& region, const Density& density = {},
-                      std::uint64_t seed = 1);
-
 /// Generators along the boundary of a region, ring by ring, for Recipe::fixed of a run with
 /// Boundary::generators: at the distances of neighbours that a density demands of so many
 /// generators, of which those on the boundary have half a cell. Corners where the boundary turns by
@@ -79,9 +73,6 @@ Points3 random_sphere(std::int64_t n, const Region& region, const Density& densi
 /// \throws Error as require_region(); bad_option for a plane, an ill-formed density, cells out of
 ///         range, and if the boundary takes all of the cells.
 Points3 boundary_points(const Surface& surface, std::int64_t cells, const Density& density = {});
-
-/// As above, for a Region.
-Points3 boundary_points(const Region& region, std::int64_t cells, const Density& density = {});
 
 /// The Fibonacci lattice, from north to south: z_i = 1 - (2i + 1)/n, longitude i times the golden
 /// angle pi (3 - sqrt 5).
@@ -150,16 +141,6 @@ Points3 bisect(const Mesh& mesh);
 /// \throws Error bad_option for an argument out of range.
 Mesh hexagonal_box(std::int64_t columns, std::int64_t rows, double spacing);
 
-/// As above, as a PlanarMesh.
-PlanarMesh periodic_hexagons(std::int64_t columns, std::int64_t rows, double spacing);
-
-/// As random_points(), 2 x n points of a PlanarDomain, uniform.
-Points2 random_places(std::int64_t n, const PlanarDomain& domain, std::uint64_t seed = 1);
-
-/// As above, with a density.
-Points2 random_places(std::int64_t n, const PlanarDomain& domain, const Density& density,
-                      std::uint64_t seed = 1);
-
 /// A regular hexagonal lattice in a box or a part of the plane, with rows along x, from the bottom
 /// up. For the sphere see geodesic_sphere().
 ///
@@ -178,13 +159,6 @@ Points2 random_places(std::int64_t n, const PlanarDomain& domain, const Density&
 ///         fewer points than 12 in a periodic box; if no lattice point is inside; as
 ///         require_domain().
 Points3 hexagonal_lattice(std::int64_t n, const Surface& surface);
-
-/// As above, 2 x n points of a PlanarDomain.
-Points2 hexagonal_lattice(std::int64_t n, const PlanarDomain& domain);
-
-/// As bisect(mesh), for a PlanarMesh and its domain.
-/// \throws Error bad_option also if the period of the mesh is not the domain's.
-Points2 bisect(const PlanarMesh& mesh, const PlanarDomain& domain);
 
 } // namespace calotte
 CALOTTE_API_END

@@ -29,10 +29,6 @@ using Weights = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 Weights interpolation_weights(const Mesh& mesh, const PointsRef& positions,
                               Interpolation kind = Interpolation::linear);
 
-/// As above, for a PlanarMesh.
-Weights interpolation_weights(const PlanarMesh& mesh, const PointsRef& positions,
-                              Interpolation kind = Interpolation::linear);
-
 /// Values at positions: the product of weights and values; NaN outside.
 /// \param values by site.
 /// \throws Error bad_option unless there is a value for each site.

@@ -3,7 +3,7 @@
 
 #include <calotte/cell_width.h>
 #include <calotte/export.h>
-#include <calotte/region.h>
+#include <calotte/surface.h>
 #include <calotte/voronoi.h>
 
 #include <cstdint>
@@ -50,10 +50,6 @@ Ids least_mask(const Offsets& begin, const Ids& ids, const Ids& mask, std::int64
 /// \throws Error as widened() and evaluate(); bad_option for a plane.
 Surface with_rings(const Surface& surface, const CellWidth& widths,
                    double radius_km = earth_radius_km);
-
-/// As above, for a Region.
-Region with_rings(const Region& region, const CellWidth& widths,
-                  double radius_km = earth_radius_km);
 
 } // namespace calotte
 CALOTTE_API_END

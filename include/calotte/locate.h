@@ -40,8 +40,5 @@ struct Locations {
 ///         zero_vector (on the sphere), with the index of the position.
 Locations locate(const Mesh& mesh, const PointsRef& positions);
 
-/// As above, for a PlanarMesh.
-Locations locate(const PlanarMesh& mesh, const PointsRef& positions);
-
 } // namespace calotte
 CALOTTE_API_END

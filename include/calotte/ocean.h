@@ -3,7 +3,7 @@
 
 #include <calotte/export.h>
 #include <calotte/limited_area.h>
-#include <calotte/region.h>
+#include <calotte/surface.h>
 #include <calotte/types.h>
 #include <calotte/voronoi.h>
 

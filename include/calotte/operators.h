@@ -2,8 +2,8 @@
 #pragma once
 
 #include <calotte/density.h>
-#include <calotte/domain.h>
 #include <calotte/export.h>
+#include <calotte/surface.h>
 #include <calotte/types.h>
 #include <calotte/voronoi.h>
 
@@ -100,10 +100,6 @@ inline double diffusion_step(double eigenvalue, double viscosity) {
 ///         count_edges(); for an open mesh of the sphere no site of which is surrounded by
 ///         triangles.
 OperatorErrors operator_errors(const Mesh& mesh, const Density& density = {});
-
-/// As above, for a PlanarMesh and its domain.
-OperatorErrors operator_errors(const PlanarMesh& mesh, const PlanarDomain& domain,
-                               const Density& density = {});
 
 } // namespace calotte
 CALOTTE_API_END

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <calotte/density.h>
-#include <calotte/domain.h>
 #include <calotte/export.h>
+#include <calotte/surface.h>
 #include <calotte/types.h>
 
 CALOTTE_API_BEGIN
@@ -40,16 +40,10 @@ Density density_of(const PlanarCellWidth& cell_width);
 ///         without rings and two periods.
 double implied_cells(const PlanarCellWidth& cell_width, const Surface& surface);
 
-/// As above, for a PlanarDomain.
-double implied_cells(const PlanarCellWidth& cell_width, const PlanarDomain& domain);
-
 /// Throws unless the nodes cover a box or a part of the plane, except for half of the widest step.
 /// \throws Error bad_option, naming the extents; for the sphere, and for a plane without rings and
 ///         two periods; as require_domain().
 void require_covering(const PlanarCellWidth& cell_width, const Surface& surface);
-
-/// As above, for a PlanarDomain.
-void require_covering(const PlanarCellWidth& cell_width, const PlanarDomain& domain);
 
 } // namespace calotte
 CALOTTE_API_END

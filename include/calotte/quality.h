@@ -2,8 +2,8 @@
 #pragma once
 
 #include <calotte/density.h>
-#include <calotte/domain.h>
 #include <calotte/export.h>
+#include <calotte/surface.h>
 #include <calotte/types.h>
 
 #include <cstdint>
@@ -137,13 +137,6 @@ Quality triangle_quality(const Mesh& mesh);
 /// \throws Error bad_option, for a mesh that fails check_surface().
 Quality open_quality(const Mesh& mesh);
 
-/// As above, for a PlanarMesh.
-Quality open_quality(const PlanarMesh& mesh);
-
-/// As quality(const Mesh&), for a PlanarMesh and its domain.
-/// \throws Error as there and as require_domain(); bad_option for a mesh of another period.
-Quality quality(const PlanarMesh& mesh, const PlanarDomain& domain, const Density& density = {});
-
 /// The measures of Quality cell by cell and triangle by triangle, for maps and lists. Lengths are
 /// arcs on the unit sphere in radians and areas steradians, or in the unit of a plane and its
 /// square. NaN where a cell has no such measure: at sites that triangles do not surround, and at
@@ -176,20 +169,12 @@ struct CellMeasures {
 ///         the plane as quality() and voronoi().
 CellMeasures cell_measures(const Mesh& mesh, const Density& density = {});
 
-/// As above, for a PlanarMesh and its domain.
-CellMeasures cell_measures(const PlanarMesh& mesh, const PlanarDomain& domain,
-                           const Density& density = {});
-
 /// For each site whether the boundary of the mesh's surface clips its cell, or the site lies
 /// outside. quality() leaves these cells out of `degrees`. The whole sphere and a box clip no cell.
 /// \param mesh its points and its surface only.
 /// \throws Error bad_option for a region of the sphere, whose cells quality() does not clip, and
 ///         for a plane without rings and two periods.
 std::vector<bool> clipped_cells(const Mesh& mesh);
-
-/// As above, for a PlanarMesh and its domain.
-/// \throws Error as require_domain(); bad_option for a domain of another period.
-std::vector<bool> clipped_cells(const PlanarMesh& mesh, const PlanarDomain& domain);
 
 } // namespace calotte
 CALOTTE_API_END

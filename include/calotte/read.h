@@ -2,12 +2,11 @@
 #pragma once
 
 #include <calotte/cell_width.h>
-#include <calotte/domain.h>
 #include <calotte/error.h>
 #include <calotte/export.h>
 #include <calotte/ocean.h>
 #include <calotte/planar_raster.h>
-#include <calotte/region.h>
+#include <calotte/surface.h>
 #include <calotte/types.h>
 
 #include <cstdint>

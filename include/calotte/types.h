@@ -43,21 +43,5 @@ struct Mesh {
   }
 };
 
-/// A Delaunay triangulation in the plane: of the convex hull of the sites; of the doubly periodic
-/// box [0, period.x) x [0, period.y); or of a channel, which is periodic in one direction and ends
-/// at walls in the other. In a periodic direction the corners of a triangle are the nearest copies
-/// of its sites. In the box n sites have 2n triangles; in a channel n sites, of which w are on the
-/// walls, have 2n - w. Triangles and neighbours are as in Mesh.
-struct PlanarMesh {
-  Points2 points;                          ///< 2 x n sites; in a periodic direction in [0, period)
-  Triangles triangles;                     ///< 3 x m site ids, counter-clockwise
-  Triangles neighbours;                    ///< 3 x m triangle ids; -1 along an open boundary
-  std::vector<std::int32_t> site_of_input; ///< as in Mesh
-  Eigen::Vector2d period{0, 0}; ///< of the plane in x and y; 0 in a direction without one
-
-  /// True if it covers a doubly periodic box; false in a channel, and in a box with land.
-  bool closed() const { return period.minCoeff() > 0 && triangles.cols() == 2 * points.cols(); }
-};
-
 } // namespace calotte
 CALOTTE_API_END

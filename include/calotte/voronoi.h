@@ -2,8 +2,8 @@
 #pragma once
 
 #include <calotte/density.h>
-#include <calotte/domain.h>
 #include <calotte/export.h>
+#include <calotte/surface.h>
 #include <calotte/types.h>
 
 #include <cstdint>
@@ -90,13 +90,6 @@ struct Voronoi {
 ///         the index: the first point outside; the first cell that is no single polygon, because
 ///         the boundary cuts it into several parts or encloses an island in it.
 Voronoi voronoi(const Mesh& mesh);
-
-/// As above, for a PlanarMesh of a box.
-Voronoi voronoi(const PlanarMesh& mesh);
-
-/// As above, for a PlanarMesh and its domain.
-/// \throws Error as above and as require_domain(); bad_option for a mesh of another period.
-Voronoi voronoi(const PlanarMesh& mesh, const PlanarDomain& domain);
 
 /// TRiSK weights, which reconstruct the tangential velocity from the normal velocity: v_e is the
 /// sum of weight times u_e' over the other edges e' of the two cells of e, first those of

@@ -2,12 +2,12 @@
 #pragma once
 
 #include <calotte/density.h>
-#include <calotte/domain.h>
 #include <calotte/error.h>
 #include <calotte/export.h>
 #include <calotte/mesh_field.h>
 #include <calotte/progress.h>
 #include <calotte/renumber.h>
+#include <calotte/surface.h>
 #include <calotte/types.h>
 
 #include <iosfwd>
@@ -99,12 +99,21 @@ struct WriteOptions {
 /// - a name that starts with SaveVertices: mpi_scvt. The rest of the name is also that of
 ///   SaveTriangles and SaveDensity beside it.
 ///
-/// Formats of cells require a closed mesh. Coordinates in NetCDF files are sphere_radius times the
-/// unit vectors; a point whose norm equals that radius up to rounding keeps its bits.
-/// \param mesh as delaunay() or read_mesh() returns it: columns of any norm, triangles
-///        counter-clockwise seen from outside.
-/// \throws Error bad_option for an unknown suffix, a radius out of range, an ill-formed density,
-///         ids out of range, or an open mesh in a format of cells, all before any file is written;
+/// On the sphere formats of cells require a closed mesh. Coordinates in NetCDF files are
+/// sphere_radius times the unit vectors; a point whose norm equals that radius up to rounding keeps
+/// its bits.
+///
+/// A mesh of the plane keeps the order of its sites. All planes support triangles; one with a
+/// period mpas and mpas_minimal; others vtp, vtu, off, ply and msh, at z = 0; and a part of the
+/// plane, which clips the cells, mpas, ugrid, vtp_cells, vtu_cells and geojson. An MPAS file has the
+/// boundary that voronoi() describes, with 0 for what is missing. NetCDF files call the unit of the
+/// points metre, GeoJSON has x and y in place of longitude and latitude. Fields at vertices are not
+/// written to formats of clipped cells, whose corners are not those of the triangles.
+/// \param mesh as delaunay() or read_mesh() returns it: on the sphere columns of any norm,
+///        triangles counter-clockwise seen from outside.
+/// \throws Error bad_option for an unknown suffix, a format that does not support the mesh, a
+///         radius out of range, an ill-formed density, or ids out of range; in the plane for
+///         Numbering::curve and Numbering::rcm, and as voronoi(); all before any file is written;
 ///         not_finite or zero_vector as renumbered(); cancelled; file.
 void write(const std::string& path, const Mesh& mesh, const WriteOptions& options = {});
 
@@ -112,23 +121,6 @@ void write(const std::string& path, const Mesh& mesh, const WriteOptions& option
 /// and free each after its last use. The mesh is empty afterwards. If the function throws, the mesh
 /// is unchanged or empty.
 void write(const std::string& path, Mesh&& mesh, const WriteOptions& options = {});
-
-/// Writes a planar mesh in the order of its sites. A periodic mesh supports mpas, mpas_minimal and
-/// triangles; other planar meshes support triangles and, with z = 0, vtp, vtu, off, ply and msh,
-/// and formats of cells if the domain is known, see below. \throws Error as above; bad_option for
-/// another format, for Numbering::curve and Numbering::rcm,
-///         and for a density that is not uniform in an MPAS file.
-void write(const std::string& path, const PlanarMesh& mesh, const WriteOptions& options = {});
-
-/// Writes a planar mesh, or its Voronoi cells clipped by its domain, in the order of its sites. In
-/// addition to the formats above a bounded plane supports mpas, ugrid, vtp_cells, vtu_cells and
-/// geojson. An MPAS file has the boundary that voronoi() describes, with 0 for what is missing.
-/// Coordinates are those of the points, with z = 0; NetCDF files call their unit metre, GeoJSON has
-/// x and y in place of longitude and latitude. Fields at vertices are not written to formats of
-/// cells, whose corners are not those of the triangles. \throws Error as above, and as
-/// voronoi(mesh, domain), before any file is written.
-void write(const std::string& path, const PlanarMesh& mesh, const PlanarDomain& domain,
-           const WriteOptions& options = {});
 
 /// The format in which `write` writes a path: the option, or for by_name the format of the name.
 /// The case of a suffix does not matter. An option other than mpi_scvt may have a name of unknown
@@ -146,14 +138,11 @@ const std::vector<std::pair<std::string, Format>>& format_words();
 /// plane.
 bool holds_cells(Format format);
 
-/// Throws unless `write` supports planar meshes in the format.
+/// Throws unless `write` supports meshes of a plane in the format.
 /// \param path for the message.
-/// \param periodic the mesh is that of a periodic box.
 /// \param format not by_name.
-/// \param bounded the domain is known and not periodic, so that it clips the cells.
 /// \throws Error bad_option.
-void require_planar_format(const std::string& path, bool periodic, Format format,
-                           bool bounded = false);
+void require_planar_format(const std::string& path, const Surface& plane, Format format);
 
 /// Writes bytes to a file, which is complete or absent as described above.
 /// \throws Error file.

@@ -12,6 +12,8 @@
 #include "cvt/stages.h"
 #include "cvt/state.h"
 #include "cvt/worlds.h"
+#include "domain/planar_domain.h"
+#include "domain/region.h"
 #include "integrals/quadrature.h"
 #include "mesh/canonical_order.h"
 

@@ -2,12 +2,13 @@
 #pragma once
 
 #include "cvt/room.h"
+#include "domain/planar_domain.h"
+#include "domain/region.h"
+#include "mesh/planar_mesh.h"
 
 #include <calotte/cvt.h>
 #include <calotte/density.h>
-#include <calotte/domain.h>
 #include <calotte/options.h>
-#include <calotte/region.h>
 
 #include <concepts>
 #include <cstdint>

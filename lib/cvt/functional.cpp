@@ -13,6 +13,7 @@
 #include "cvt/shape.h"
 #include "cvt/spherical_cells.h"
 #include "cvt/tessellation.h"
+#include "domain/planar_domain.h"
 #include "integrals/quads.h"
 #include "integrals/rows.h"
 

@@ -8,10 +8,10 @@
 #include "cvt/room.h"
 #include "cvt/shape.h"
 #include "cvt/tessellation.h"
+#include "domain/planar_domain.h"
 #include "domain/spherical_outline.h"
 
 #include <calotte/cvt.h>
-#include <calotte/domain.h>
 
 #include <cstdint>
 #include <memory>

@@ -9,6 +9,7 @@
 #include "domain/arcs.h"
 #include "domain/outline.h"
 #include "domain/periodic_box.h"
+#include "domain/planar_domain.h"
 #include "domain/surface.h"
 #include "generators/midpoints.h"
 #include "mesh/edges.h"
@@ -334,12 +335,6 @@ Points3 insert_and_contract(const Mesh& mesh, const Density& density, std::int64
   if (mesh.surface.is_bounded())
     return exchanged(mesh, SphericalOutline(region_of(mesh.surface)), density, numbers);
   return exchanged(mesh, density, numbers);
-}
-
-Points2 insert_and_contract(const PlanarMesh& mesh, const PlanarDomain& domain,
-                            const Density& density, std::int64_t inserted,
-                            std::int64_t contracted) {
-  return cvt_detail::exchanged(mesh, domain, density, {inserted, contracted});
 }
 
 } // namespace calotte

@@ -2,10 +2,11 @@
 #pragma once
 
 #include "cvt/room.h"
+#include "domain/planar_domain.h"
 #include "domain/spherical_outline.h"
+#include "mesh/planar_mesh.h"
 
 #include <calotte/density.h>
-#include <calotte/domain.h>
 #include <calotte/types.h>
 
 #include <cstdint>

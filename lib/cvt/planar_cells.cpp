@@ -5,6 +5,7 @@
 #include "base/points.h"
 #include "delaunay/periodic.h"
 #include "domain/clipped_cell.h"
+#include "domain/planar_domain.h"
 #include "integrals/planar_moments.h"
 
 #include <algorithm>

@@ -7,11 +7,11 @@
 #include "delaunay/regions.h"
 #include "delaunay/sites.h"
 #include "domain/outline.h"
+#include "domain/planar_domain.h"
 #include "integrals/integrand.h"
 #include "integrals/moments.h"
 #include "integrals/patches.h"
 
-#include <calotte/domain.h>
 #include <calotte/types.h>
 
 #include <array>

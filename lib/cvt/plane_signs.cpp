@@ -4,6 +4,7 @@
 #include "cvt/signs.h"
 #include "delaunay/delaunay.h"
 #include "exact/predicates.h"
+#include "mesh/planar_mesh.h"
 
 #include <calotte/delaunay.h>
 #include <calotte/error.h>

@@ -3,9 +3,8 @@
 
 #include "cvt/cvt.h"
 #include "cvt/worlds.h"
+#include "domain/region.h"
 #include "domain/spherical_outline.h"
-
-#include <calotte/region.h>
 
 #include <cstdint>
 #include <memory>

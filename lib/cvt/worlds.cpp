@@ -14,7 +14,10 @@
 #include "density/planar_density.h"
 #include "domain/arcs.h"
 #include "domain/periodic_box.h"
+#include "domain/planar_domain.h"
+#include "generators/midpoints.h"
 #include "mesh/canonical_order.h"
+#include "mesh/planar_mesh.h"
 #include "mesh/subdivide.h"
 
 #include <calotte/delaunay.h>
@@ -262,7 +265,7 @@ PlanarMesh PlanarWorld::mesh(const Points3& points, Connectivity&& canonical) co
 }
 
 Level PlanarWorld::set_bisected(State& state, const PlanarMesh& coarse) const {
-  const Sites sites = make_planar_sites(bisect(coarse, domain_), Duplicates::refuse, 0);
+  const Sites sites = make_planar_sites(generators_detail::bisected(coarse, domain_), Duplicates::refuse, 0);
   set_places(state, sites);
   if (!domain_.periodic()) // a part of the midpoints
     return {};

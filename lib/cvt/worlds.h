@@ -7,10 +7,11 @@
 #include "cvt/insertion.h"
 #include "cvt/state.h"
 #include "cvt/tessellation.h"
+#include "domain/planar_domain.h"
 #include "mesh/connectivity.h"
+#include "mesh/planar_mesh.h"
 
 #include <calotte/cvt.h>
-#include <calotte/domain.h>
 
 #include <cstdint>
 #include <memory>

@@ -5,6 +5,7 @@
 #include "delaunay/regions.h"
 #include "delaunay/room.h"
 #include "delaunay/sites.h"
+#include "mesh/planar_mesh.h"
 
 #include <calotte/delaunay.h>
 

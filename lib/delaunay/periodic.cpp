@@ -2,6 +2,7 @@
 #include "delaunay/periodic.h"
 
 #include "base/require.h"
+#include "mesh/planar_mesh.h"
 
 #include "mesh/adjacency.h"
 #include "mesh/canonical_order.h"

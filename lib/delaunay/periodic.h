@@ -4,6 +4,7 @@
 #include "base/points.h"
 #include "delaunay/room.h"
 #include "exact/plane_predicates.h"
+#include "mesh/planar_mesh.h"
 
 #include <calotte/types.h>
 

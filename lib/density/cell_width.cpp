@@ -9,6 +9,7 @@
 #include "base/require.h"
 #include "density/cell_width_field.h"
 #include "density/sampling.h"
+#include "domain/region.h"
 #include "domain/spherical_outline.h"
 #include "domain/surface.h"
 
@@ -173,10 +174,7 @@ double implied_cells(const CellWidth& cell_width, double radius_km) {
 }
 
 double implied_cells(const CellWidth& cell_width, const Surface& surface, double radius_km) {
-  return implied_cells(cell_width, part_of_sphere(surface, widths_are), radius_km);
-}
-
-double implied_cells(const CellWidth& cell_width, const Region& region, double radius_km) {
+  const Region region = part_of_sphere(surface, widths_are);
   if (region.whole())
     return implied_cells(cell_width, radius_km);
   require_radius(radius_km);
@@ -239,7 +237,7 @@ std::optional<Eigen::Vector3d> place_outside(const Cover& cover, const Region& r
           return at;
       }
     }
-  const auto contained = containing(region);
+  const Surface part = region;
   std::vector<Eigen::Vector3d> others;
   if (!cover.to_south || !cover.around)
     others.emplace_back(0, 0, -1);
@@ -251,7 +249,7 @@ std::optional<Eigen::Vector3d> place_outside(const Cover& cover, const Region& r
     others.emplace_back(std::cos(opposite), std::sin(opposite), 0);
   }
   for (const Eigen::Vector3d& at : others)
-    if (contained(at))
+    if (part.contains(at))
       return at;
   return std::nullopt;
 }
@@ -282,10 +280,7 @@ std::string uncovered(const DoubleVector& longitudes, const DoubleVector& latitu
 } // namespace density_detail
 
 void require_covering(const CellWidth& cell_width, const Surface& surface) {
-  require_covering(cell_width, part_of_sphere(surface, widths_are));
-}
-
-void require_covering(const CellWidth& cell_width, const Region& region) {
+  const Region region = part_of_sphere(surface, widths_are);
   const WidthField field(cell_width); // throws if it is ill-formed
   const std::string problem = density_detail::uncovered(cell_width.longitudes, cell_width.latitudes,
                                                         region, "longitude", "latitude");

@@ -3,6 +3,7 @@
 
 #include "density/room.h"
 #include "density/width_table.h"
+#include "domain/region.h"
 
 #include <calotte/cell_width.h>
 

@@ -3,6 +3,7 @@
 
 #include "base/elementary.h"
 #include "base/parallel.h"
+#include "domain/planar_domain.h"
 
 #include <calotte/error.h>
 
@@ -96,7 +97,9 @@ Shown RegionMap::shown(const Box& box) const {
 }
 
 PlanarMap::PlanarMap(const PlanarDomain& domain)
-    : outline_(domain.periodic() ? rectangle({0, 0}, periodic_box(domain.period).period) : domain),
+    : outline_(domain.periodic()
+                   ? PlanarDomain(rectangle({0, 0}, periodic_box(domain.period).period))
+                   : domain),
       periodic_(domain.periodic()) {
   const auto& [low, high] = outline_.box();
   half_extent_ = {(high.x - low.x) / 2, (high.y - low.y) / 2};

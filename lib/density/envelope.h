@@ -5,6 +5,7 @@
 #include "density/density_evaluator.h"
 #include "density/room.h"
 #include "domain/outline.h"
+#include "domain/planar_domain.h"
 #include "domain/spherical_outline.h"
 
 #include <calotte/density.h>

@@ -5,6 +5,7 @@
 #include "base/require.h"
 #include "density/density_evaluator.h"
 #include "domain/periodic_box.h"
+#include "domain/planar_domain.h"
 
 #include <algorithm>
 #include <cmath>
@@ -87,16 +88,3 @@ Density planar_density(const Density& density, const PlanarDomain& domain) {
 }
 
 } // namespace calotte::density_detail
-
-namespace calotte {
-
-DoubleVector evaluate(const Density& density, const PlanarDomain& domain, const PointsRef& places) {
-  return evaluate(density_detail::planar_density(density, domain),
-                  base_detail::with_z(base_detail::places_of(places)));
-}
-
-Density site_density(const Density& density, const PlanarDomain& domain) {
-  return site_density(density_detail::planar_density(density, domain));
-}
-
-} // namespace calotte

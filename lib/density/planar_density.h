@@ -2,9 +2,9 @@
 #pragma once
 
 #include "density/room.h"
+#include "domain/planar_domain.h"
 
 #include <calotte/density.h>
-#include <calotte/domain.h>
 
 namespace calotte::density_detail {
 

@@ -5,6 +5,7 @@
 #include "base/require.h"
 #include "density/cell_width_field.h"
 #include "density/sampling.h"
+#include "domain/planar_domain.h"
 #include "domain/surface.h"
 
 #include <cmath>
@@ -133,10 +134,7 @@ Density density_of(const PlanarCellWidth& cell_width) {
 }
 
 double implied_cells(const PlanarCellWidth& cell_width, const Surface& surface) {
-  return implied_cells(cell_width, part_of_plane(surface, widths_are));
-}
-
-double implied_cells(const PlanarCellWidth& cell_width, const PlanarDomain& domain) {
+  const PlanarDomain domain = part_of_plane(surface, widths_are);
   constexpr std::int64_t samples = 1 << 18;
   const Field field = field_of(cell_width);
   const Points2 places = draw(samples, Density{}, domain, 1);
@@ -149,10 +147,7 @@ double implied_cells(const PlanarCellWidth& cell_width, const PlanarDomain& doma
 }
 
 void require_covering(const PlanarCellWidth& cell_width, const Surface& surface) {
-  require_covering(cell_width, part_of_plane(surface, widths_are));
-}
-
-void require_covering(const PlanarCellWidth& cell_width, const PlanarDomain& domain) {
+  const PlanarDomain domain = part_of_plane(surface, widths_are);
   require_widths(cell_width);
   require_domain(domain);
   Eigen::Vector2d low(0, 0), high = domain.period;

@@ -4,6 +4,7 @@
 #include "base/parallel.h"
 #include "base/split_mix.h"
 #include "density/envelope.h"
+#include "domain/planar_domain.h"
 
 #include <calotte/error.h>
 

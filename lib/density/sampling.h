@@ -2,10 +2,10 @@
 #pragma once
 
 #include "density/room.h"
+#include "domain/planar_domain.h"
 #include "domain/spherical_outline.h"
 
 #include <calotte/density.h>
-#include <calotte/domain.h>
 #include <calotte/types.h>
 
 #include <cstdint>

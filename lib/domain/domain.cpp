@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <calotte/domain.h>
+#include "domain/planar_domain.h"
 
 #include "base/require.h"
 #include "domain/outline.h"
 
-#include <memory>
 #include <string>
 
 namespace calotte {
@@ -19,14 +18,14 @@ void require_box(const Eigen::Vector2d& period) {
 
 } // namespace
 
-PlanarDomain rectangle(const Eigen::Vector2d& lower, const Eigen::Vector2d& upper) {
+Surface rectangle(const Eigen::Vector2d& lower, const Eigen::Vector2d& upper) {
   base_detail::require(
       (lower.array() < upper.array()).all(),
       "the rectangle's lower corner is not below and left of the upper one; give the "
       "lesser coordinates first");
   Points2 ring(2, 4);
   ring << lower.x(), upper.x(), upper.x(), lower.x(), lower.y(), lower.y(), upper.y(), upper.y();
-  return {{ring}, {0, 0}};
+  return PlanarDomain({ring});
 }
 
 PlanarDomain periodic_box(const Eigen::Vector2d& period) {
@@ -43,21 +42,6 @@ void require_domain(const PlanarDomain& domain) {
 
 double area(const PlanarDomain& domain) {
   return domain.periodic() ? domain.period.prod() : domain_detail::Outline(domain).area();
-}
-
-bool contains(const PlanarDomain& domain, const Eigen::Vector2d& place) {
-  return containing(domain)(place);
-}
-
-std::function<bool(const Eigen::Vector2d&)> containing(const PlanarDomain& domain) {
-  if (domain.periodic())
-    return [period = domain.period](const Eigen::Vector2d& place) {
-      return (place.array() >= 0).all() && (place.array() < period.array()).all();
-    };
-  return
-      [outline = std::make_shared<domain_detail::Outline>(domain)](const Eigen::Vector2d& place) {
-        return outline->side({place.x(), place.y()}) != domain_detail::Side::outside;
-      };
 }
 
 } // namespace calotte

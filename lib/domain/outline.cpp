@@ -3,6 +3,7 @@
 
 #include "base/first_fault.h"
 #include "base/parallel.h"
+#include "domain/planar_domain.h"
 
 #include <calotte/error.h>
 

@@ -2,10 +2,9 @@
 #pragma once
 
 #include "base/points.h"
+#include "domain/planar_domain.h"
 #include "domain/room.h"
 #include "exact/plane_predicates.h"
-
-#include <calotte/domain.h>
 
 #include <algorithm>
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <calotte/region.h>
+#include "domain/region.h"
 
 #include "base/circle.h"
 #include "base/points.h"
@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -85,21 +84,21 @@ Points3 reversed(const Points3& ring) { return ring.rowwise().reverse(); }
 
 } // namespace
 
-Region circle(const Eigen::Vector3d& centre, double radius, int corners) {
+Surface circle(const Eigen::Vector3d& centre, double radius, int corners) {
   const auto [up, east, north] = compass_at(centre, "circle");
   require(radius >= least_angle && radius <= half_turn - least_angle,
           "the circle's radius is " + in_words(radius) + "; give 1e-6 to pi - 1e-6 radians");
   require_corners(corners);
   const CosSin away = cos_sin(radius);
-  return {{ring_of(corners, [&, up = up, east = east, north = north](const CosSin& turn) {
+  return Region({ring_of(corners, [&, up = up, east = east, north = north](const CosSin& turn) {
     return away.cos * up + away.sin * (turn.cos * north - turn.sin * east);
-  })}};
+  })});
 }
 
 // A plane that touches the sphere at the centre shows the ellipse as an ellipse of the semi-axes
 // tan(semi_major) and tan(semi_minor), as great circles are its lines.
-Region ellipse(const Eigen::Vector3d& centre, double semi_major, double semi_minor, double bearing,
-               int corners) {
+Surface ellipse(const Eigen::Vector3d& centre, double semi_major, double semi_minor, double bearing,
+                int corners) {
   const auto [up, east, north] = compass_at(centre, "ellipse");
   require(semi_minor >= least_angle && semi_minor <= semi_major &&
               semi_major <= quarter_turn - least_angle,
@@ -113,12 +112,12 @@ Region ellipse(const Eigen::Vector3d& centre, double semi_major, double semi_min
   const CosSin a = cos_sin(semi_major), b = cos_sin(semi_minor);
   const Vec3 major = (a.sin / a.cos) * (along.cos * north + along.sin * east),
              minor = (b.sin / b.cos) * (along.sin * north - along.cos * east);
-  return {{ring_of(corners, [&, up = up](const CosSin& turn) {
+  return Region({ring_of(corners, [&, up = up](const CosSin& turn) {
     return up + turn.cos * major + turn.sin * minor;
-  })}};
+  })});
 }
 
-Region channel(double lower, double upper, int corners) {
+Surface channel(double lower, double upper, int corners) {
   const auto is_pole = [](double latitude) { return std::abs(latitude) >= quarter_turn - 1e-15; };
   const auto valid = [&](double latitude) {
     return std::abs(latitude) <= quarter_turn - least_angle ||
@@ -139,17 +138,17 @@ Region channel(double lower, double upper, int corners) {
   return region;
 }
 
-Region region_around(const std::vector<Points3>& rings, const Eigen::Vector3d& place) {
+Surface region_around(const std::vector<Points3>& rings, const Eigen::Vector3d& place) {
   require(!rings.empty(), "the region has no rings; give one at least");
   require(place.allFinite() && !place.isZero(0),
           "the place inside the region is no direction; give three finite numbers that are not "
           "all 0");
-  return {corners_of(around(written(rings), as_unit({place.x(), place.y(), place.z()})))};
+  return Region(corners_of(around(written(rings), as_unit({place.x(), place.y(), place.z()}))));
 }
 
-Region enclosed_region(const std::vector<Points3>& rings) {
+Surface enclosed_region(const std::vector<Points3>& rings) {
   require(!rings.empty(), "the region has no rings; give one at least");
-  return {corners_of(enclosed(written(rings)))};
+  return Region(corners_of(enclosed(written(rings))));
 }
 
 void require_region(const Region& region) {
@@ -159,22 +158,6 @@ void require_region(const Region& region) {
 
 double area(const Region& region) {
   return region.whole() ? 4 * half_turn : SphericalOutline(region).area();
-}
-
-bool contains(const Region& region, const Eigen::Vector3d& place) {
-  return containing(region)(place);
-}
-
-std::function<bool(const Eigen::Vector3d&)> containing(const Region& region) {
-  const auto is_direction = [](const Eigen::Vector3d& place) {
-    return place.allFinite() && !place.isZero(0);
-  };
-  if (region.whole())
-    return is_direction;
-  return [is_direction,
-          outline = std::make_shared<SphericalOutline>(region)](const Eigen::Vector3d& place) {
-    return is_direction(place) && outline->side({place.x(), place.y(), place.z()}) != Side::outside;
-  };
 }
 
 } // namespace calotte

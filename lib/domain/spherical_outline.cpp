@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "domain/spherical_outline.h"
 
+#include "domain/region.h"
 #include "domain/spherical_area.h"
 
 #include <string>

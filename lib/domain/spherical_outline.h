@@ -4,11 +4,10 @@
 #include "domain/arc_tree.h"
 #include "domain/arcs.h"
 #include "domain/outline.h"
+#include "domain/region.h"
 #include "domain/rings.h"
 #include "domain/room.h"
 #include "domain/side_cells.h"
-
-#include <calotte/region.h>
 
 #include <cstdint>
 #include <vector>

@@ -4,6 +4,8 @@
 #include "base/parallel.h"
 #include "base/require.h"
 #include "domain/outline.h"
+#include "domain/planar_domain.h"
+#include "domain/region.h"
 #include "domain/spherical_outline.h"
 
 #include <algorithm>
@@ -38,19 +40,17 @@ struct Surface::Bounds {
   mutable std::optional<domain_detail::Outline> planar;
 };
 
-Surface::Surface(const Region& region) {
-  if (!region.whole())
-    bounds_ = std::make_shared<Bounds>(Rings(region.rings.begin(), region.rings.end()));
+Surface domain_detail::unchecked(bool sphere, Surface::Rings rings, const Eigen::Vector2d& period) {
+  Surface surface;
+  surface.sphere_ = sphere;
+  if (rings.empty())
+    surface.period_ = period;
+  else
+    surface.bounds_ = std::make_shared<Surface::Bounds>(std::move(rings));
+  return surface;
 }
 
-Surface::Surface(const PlanarDomain& domain) : sphere_(false), period_(domain.period) {
-  if (!domain.rings.empty()) {
-    bounds_ = std::make_shared<Bounds>(domain.rings);
-    period_.setZero();
-  }
-}
-
-Surface Surface::plane() { return PlanarDomain{}; }
+Surface Surface::plane() { return domain_detail::unchecked(false, {}, {0, 0}); }
 
 Surface Surface::periodic(const Eigen::Vector2d& period) {
   const auto good = [](double side) { return side == 0 || (side >= 1e-30 && side <= 1e30); };
@@ -58,7 +58,7 @@ Surface Surface::periodic(const Eigen::Vector2d& period) {
                        "the period is " + std::to_string(period.x()) + " x " +
                            std::to_string(period.y()) +
                            "; give two lengths from 1e-30 to 1e30, or one and 0");
-  return PlanarDomain{{}, period};
+  return domain_detail::unchecked(false, {}, period);
 }
 
 Surface Surface::within(Rings rings) const {
@@ -120,10 +120,16 @@ Region::Region(const Surface& surface) {
   rings.assign(surface.rings().begin(), surface.rings().end());
 }
 
+Region::operator Surface() const {
+  return domain_detail::unchecked(true, {rings.begin(), rings.end()}, {0, 0});
+}
+
 PlanarDomain::PlanarDomain(const Surface& surface)
     : rings(surface.rings()), period(surface.period()) {
   base_detail::require(!surface.is_sphere(), "the surface is on the sphere; give one of the plane");
 }
+
+PlanarDomain::operator Surface() const { return domain_detail::unchecked(false, rings, period); }
 
 namespace domain_detail {
 

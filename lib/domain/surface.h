@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "domain/planar_domain.h"
+#include "domain/region.h"
 #include "domain/room.h"
 
-#include <calotte/domain.h>
-#include <calotte/region.h>
 #include <calotte/surface.h>
 
 #include <string>
+#include <vector>
 
 namespace calotte::domain_detail {
+
+/// A part of the sphere, or a plane, which may have a period in place of rings; not checked.
+Surface unchecked(bool sphere, std::vector<DoubleMatrix> rings, const Eigen::Vector2d& period);
 
 /// The part of the sphere. \pre the surface is on the sphere.
 Region region_of(const Surface& surface);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <calotte/region.h>
 
 #include "base/points.h"
 #include "base/require.h"
+#include "domain/region.h"
+#include "domain/surface.h"
 #include "domain/spherical_outline.h"
 #include "domain/tangent_shore.h"
 
@@ -120,13 +121,14 @@ Points3 lifted(const Polygon::ring_type& ring, double least, const Stereographic
 
 } // namespace
 
-Region widened(const Region& region, double distance) {
+Surface widened(const Surface& surface, double distance) {
   constexpr double farthest = 2; // radians from the centre, where distances are enlarged 3.4 times
   base_detail::require(distance > 0 && std::isfinite(distance),
                        "the distance is " + std::to_string(distance) +
                            "; give a positive angle in radians");
+  const Region region = part_of_sphere(surface, "a widened region is");
   if (region.whole())
-    return region;
+    return surface;
   const SphericalOutline outline(region);
   const Vec3 centre = centre_of(outline);
   double reach = 0;

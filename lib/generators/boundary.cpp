@@ -5,6 +5,7 @@
 #include "base/require.h"
 #include "density/demanded_spacing.h"
 #include "density/hexagons.h"
+#include "domain/region.h"
 #include "domain/rings.h"
 #include "domain/spherical_outline.h"
 #include "domain/surface.h"
@@ -198,11 +199,7 @@ double whole_cells(double n, double edges) {
 } // namespace
 
 Points3 boundary_points(const Surface& surface, std::int64_t cells, const Density& density) {
-  return boundary_points(
-      domain_detail::part_of_sphere(surface, "generators along the boundary are"), cells, density);
-}
-
-Points3 boundary_points(const Region& region, std::int64_t cells, const Density& density) {
+  const Region region = domain_detail::part_of_sphere(surface, "generators along the boundary are");
   constexpr std::int64_t samples = 65536;
   require(cells >= 4 && cells <= most_points, "the number of cells is " + std::to_string(cells) +
                                                   "; give 4 to " + std::to_string(most_points));

@@ -7,7 +7,9 @@
 #include "base/require.h"
 #include "base/split_mix.h"
 #include "base/vec3.h"
+#include "density/planar_density.h"
 #include "density/sampling.h"
+#include "domain/planar_domain.h"
 #include "domain/spherical_outline.h"
 #include "domain/surface.h"
 #include "generators/midpoints.h"
@@ -103,7 +105,7 @@ std::vector<LinkedTriangle> hexagons_triangles(std::int64_t columns, std::int64_
 }
 
 /// Sorted by their vertices.
-void set_hexagons_triangles(std::int64_t columns, std::int64_t rows, PlanarMesh& mesh) {
+void set_hexagons_triangles(std::int64_t columns, std::int64_t rows, Mesh& mesh) {
   const std::vector<LinkedTriangle> triangles = hexagons_triangles(columns, rows);
   std::vector<std::int32_t> order(triangles.size()), place(triangles.size());
   std::iota(order.begin(), order.end(), 0);
@@ -139,9 +141,15 @@ Points3 inside_after(std::int64_t first, Points3&& points, const Surface& surfac
 
 Points3 random_points(std::int64_t n, const Surface& surface, const Density& density,
                       std::uint64_t seed) {
-  return surface.is_sphere() ? random_sphere(n, domain_detail::region_of(surface), density, seed)
-                             : base_detail::with_z(random_places(
-                                   n, domain_detail::domain_of(surface), density, seed));
+  require_count(n, 1, "the number of points");
+  if (surface.is_whole_sphere())
+    return random_sphere(n, density, seed);
+  if (surface.is_sphere())
+    return density_detail::draw(
+        n, density, domain_detail::SphericalOutline(domain_detail::region_of(surface)), seed);
+  const PlanarDomain domain = domain_detail::domain_of(surface);
+  return base_detail::with_z(
+      density_detail::draw(n, density_detail::planar_density(density, domain), domain, seed));
 }
 
 Points3 random_sphere(std::int64_t n, std::uint64_t seed) {
@@ -165,14 +173,6 @@ Points3 random_sphere(std::int64_t n, std::uint64_t seed) {
 Points3 random_sphere(std::int64_t n, const Density& density, std::uint64_t seed) {
   require_count(n, 1, "the number of points");
   return density.uniform() ? random_sphere(n, seed) : density_detail::draw(n, density, seed);
-}
-
-Points3 random_sphere(std::int64_t n, const Region& region, const Density& density,
-                      std::uint64_t seed) {
-  if (region.whole())
-    return random_sphere(n, density, seed);
-  require_count(n, 1, "the number of points");
-  return density_detail::draw(n, density, domain_detail::SphericalOutline(region), seed);
 }
 
 Points3 fibonacci_sphere(std::int64_t n) {
@@ -274,12 +274,6 @@ Points3 bisect(const Mesh& mesh) {
 }
 
 Mesh hexagonal_box(std::int64_t columns, std::int64_t rows, double spacing) {
-  PlanarMesh mesh = periodic_hexagons(columns, rows, spacing);
-  const Surface box = Surface::periodic(mesh.period);
-  return mesh_detail::spatial(std::move(mesh), box);
-}
-
-PlanarMesh periodic_hexagons(std::int64_t columns, std::int64_t rows, double spacing) {
   require_count(columns, 3, "the number of columns");
   require_count(rows, 4, "the number of rows");
   require(rows % 2 == 0, "the number of rows is " + std::to_string(rows) +
@@ -287,16 +281,18 @@ PlanarMesh periodic_hexagons(std::int64_t columns, std::int64_t rows, double spa
   require(rows <= most_points / columns,
           "the plane has more than " + std::to_string(most_points) + " cells; give fewer rows");
   const double rise = spacing * (std::numbers::sqrt3 / 2);
-  PlanarMesh mesh;
-  mesh.period = {static_cast<double>(columns) * spacing, static_cast<double>(rows) * rise};
-  require(rise > 0 && mesh.period.allFinite(),
+  const Eigen::Vector2d period(static_cast<double>(columns) * spacing,
+                               static_cast<double>(rows) * rise);
+  require(rise > 0 && period.allFinite(),
           "the spacing is " + std::to_string(spacing) + "; give a positive number");
-  mesh.points.resize(2, columns * rows);
+  Mesh mesh;
+  mesh.surface = Surface::periodic(period);
+  mesh.points.resize(3, columns * rows);
   for (std::int64_t r = 0; r < rows; ++r)
     for (std::int64_t c = 0; c < columns; ++c)
       mesh.points.col(r * columns + c)
           << (static_cast<double>(c) + (r % 2 == 0 ? 0 : 0.5)) * spacing,
-          static_cast<double>(r) * rise;
+          static_cast<double>(r) * rise, 0;
   set_hexagons_triangles(columns, rows, mesh);
   mesh.site_of_input = base_detail::themselves(mesh.points.cols());
   return mesh;

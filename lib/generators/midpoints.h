@@ -2,10 +2,11 @@
 #pragma once
 
 #include "base/vec3.h"
+#include "domain/planar_domain.h"
 #include "generators/room.h"
+#include "mesh/planar_mesh.h"
 
 #include "generators/room.h"
-#include <calotte/domain.h>
 #include <calotte/types.h>
 
 /// The points that a bisection or an insertion adds.

@@ -7,10 +7,12 @@
 #include "density/planar_density.h"
 #include "density/sampling.h"
 #include "domain/outline.h"
+#include "domain/planar_domain.h"
 #include "domain/surface.h"
 #include "generators/midpoints.h"
 #include "generators/room.h"
 #include "mesh/edges.h"
+#include "mesh/planar_mesh.h"
 
 #include <algorithm>
 #include <cmath>
@@ -168,7 +170,7 @@ Grid grid_for(std::int64_t n, const Eigen::Vector2d& period) {
   return best;
 }
 
-/// The spacing of periodic_hexagons() that gives this box exactly, if there is one.
+/// The spacing of hexagonal_box() that gives this box exactly, if there is one.
 std::optional<double> regular_spacing(const Grid& grid, const Eigen::Vector2d& period) {
   const double near = period.x() / static_cast<double>(grid.columns);
   for (const double spacing : {near, std::nextafter(near, 0.0), std::nextafter(near, 2 * near)})
@@ -181,7 +183,7 @@ std::optional<double> regular_spacing(const Grid& grid, const Eigen::Vector2d& p
 Points2 lattice_of_box(std::int64_t n, const Eigen::Vector2d& period) {
   const Grid grid = grid_for(n, period);
   if (const std::optional<double> spacing = regular_spacing(grid, period))
-    return periodic_hexagons(grid.columns, grid.rows, *spacing).points;
+    return hexagonal_box(grid.columns, grid.rows, *spacing).points.topRows<2>();
   const double across = period.x() / static_cast<double>(grid.columns),
                up = period.y() / static_cast<double>(grid.rows);
   Points2 places(2, grid.columns * grid.rows);
@@ -227,35 +229,13 @@ Points2 generators_detail::bisected(const PlanarMesh& mesh, const PlanarDomain& 
   return domain.rings.empty() ? bisected_box(mesh) : bisected_inside(mesh, Outline(domain));
 }
 
-Points2 random_places(std::int64_t n, const PlanarDomain& domain, std::uint64_t seed) {
-  return random_places(n, domain, Density{}, seed);
-}
-
-Points2 random_places(std::int64_t n, const PlanarDomain& domain, const Density& density,
-                      std::uint64_t seed) {
-  require_count(n, 1, "the number of points");
-  return density_detail::draw(n, density_detail::planar_density(density, domain), domain, seed);
-}
-
 Points3 hexagonal_lattice(std::int64_t n, const Surface& surface) {
-  return base_detail::with_z(
-      hexagonal_lattice(n, domain_detail::part_of_plane(surface, "a hexagonal lattice is")));
-}
-
-Points2 hexagonal_lattice(std::int64_t n, const PlanarDomain& domain) {
+  const PlanarDomain domain = domain_detail::part_of_plane(surface, "a hexagonal lattice is");
   require_count(n, domain.periodic() ? 12 : 1, "the number of points");
   if (!domain.periodic())
-    return lattice_inside(n, Outline(domain));
+    return base_detail::with_z(lattice_inside(n, Outline(domain)));
   require_domain(domain);
-  return lattice_of_box(n, domain.period);
-}
-
-Points2 bisect(const PlanarMesh& mesh, const PlanarDomain& domain) {
-  const bool periodic = mesh.closed();
-  require(periodic == domain.periodic() && (!periodic || mesh.period == domain.period),
-          "the mesh and the domain are not both of one periodic box, or neither; give the domain "
-          "that the mesh was made for");
-  return generators_detail::bisected(mesh, domain);
+  return base_detail::with_z(lattice_of_box(n, domain.period));
 }
 
 } // namespace calotte

@@ -4,9 +4,8 @@
 #include "grids/room.h"
 
 #include <calotte/density.h>
-#include <calotte/domain.h>
-#include <calotte/region.h>
-#include <calotte/types.h>
+#include <calotte/matrices.h>
+#include <calotte/surface.h>
 
 #include <cstdint>
 
@@ -19,22 +18,16 @@ namespace calotte::grids_detail {
 /// the demanded distance or more from each of them, and near to one whose neighbours leave a gap.
 /// Where such places do not suffice, those farthest from fixed generators are taken.
 /// \param count number of points; 0 or more.
-/// \param cells number of cells that the density demands in the region, fixed ones included.
-/// \param fixed 3 x m, of any norm; if there are none, the points are those of random_sphere().
+/// \param cells number of cells that the density demands on the surface, fixed ones included.
+/// \param fixed on the sphere of any norm; if there are none, the points are those of
+///        random_points().
 /// \param sites density of sites, see site_density().
 Points3 free_points(std::int64_t count, std::int64_t cells, const Points3& fixed,
-                    const Region& region, const Density& sites, std::uint64_t seed);
-
-/// The same in the plane. \param fixed 2 x m.
-Points2 free_points(std::int64_t count, std::int64_t cells, const Points2& fixed,
-                    const PlanarDomain& domain, const Density& sites, std::uint64_t seed);
+                    const Surface& surface, const Density& sites, std::uint64_t seed);
 
 /// The number of cells of a grid with fixed generators: theirs, and as many of `cells`, which the
 /// density demands without them, as they leave unmet. An estimate from random places.
-std::int64_t cells_beside_fixed(const Points3& fixed, std::int64_t cells, const Region& region,
+std::int64_t cells_beside_fixed(const Points3& fixed, std::int64_t cells, const Surface& surface,
                                 const Density& sites);
-/// The same in the plane.
-std::int64_t cells_beside_fixed(const Points2& fixed, std::int64_t cells,
-                                const PlanarDomain& domain, const Density& sites);
 
 } // namespace calotte::grids_detail

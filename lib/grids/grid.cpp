@@ -3,6 +3,8 @@
 
 #include "base/require.h"
 #include "cvt/cvt.h"
+#include "domain/planar_domain.h"
+#include "domain/region.h"
 #include "domain/surface.h"
 #include "grids/schedule.h"
 #include "grids/start.h"

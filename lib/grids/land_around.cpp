@@ -4,6 +4,7 @@
 #include "base/points.h"
 #include "base/require.h"
 #include "domain/loops.h"
+#include "domain/region.h"
 #include "domain/spherical_outline.h"
 #include "exact/predicates.h"
 #include "grids/room.h"

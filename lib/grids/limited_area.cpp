@@ -2,6 +2,7 @@
 #include <calotte/limited_area.h>
 
 #include "base/require.h"
+#include "domain/region.h"
 #include "domain/surface.h"
 #include "grids/room.h"
 
@@ -98,11 +99,8 @@ Ids least_mask(const Offsets& begin, const Ids& ids, const Ids& mask, std::int64
 }
 
 Surface with_rings(const Surface& surface, const CellWidth& widths, double radius_km) {
-  return with_rings(domain_detail::part_of_sphere(surface, "a limited area is"), widths, radius_km);
-}
-
-Region with_rings(const Region& region, const CellWidth& widths, double radius_km) {
   constexpr int beyond = 4; // cells
+  const Region region = domain_detail::part_of_sphere(surface, "a limited area is");
   Region meshed = region;
   for (int k = 0; k < 3; ++k) { // the widths may grow outwards
     double widest = 0;
@@ -112,7 +110,7 @@ Region with_rings(const Region& region, const CellWidth& widths, double radius_k
           corner /= corner.norm();
         widest = std::max(widest, evaluate(widths, ring).maxCoeff());
       }
-    meshed = widened(region, (limited_area_rings + beyond) * widest / radius_km);
+    meshed = widened(surface, (limited_area_rings + beyond) * widest / radius_km);
   }
   return meshed;
 }

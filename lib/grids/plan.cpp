@@ -91,7 +91,7 @@ void take_widths(Recipe& recipe) {
       recipe.density = density_of(*recipe.widths);
   }
   if (recipe.planar_widths) {
-    require_covering(*recipe.planar_widths, domain_of(recipe.surface));
+    require_covering(*recipe.planar_widths, recipe.surface);
     if (!uniform(recipe.planar_widths->widths))
       recipe.density = density_of(*recipe.planar_widths);
   }
@@ -102,7 +102,7 @@ void require_density(const Recipe& recipe) {
   if (recipe.surface.is_sphere())
     evaluate(recipe.density, bisected_icosahedron(0));
   else
-    site_density(recipe.density, domain_of(recipe.surface));
+    site_density(recipe.density, recipe.surface);
 }
 
 /// The run of a limited area covers the rings around it, too.
@@ -113,7 +113,7 @@ void take_limited_area(Recipe& recipe) {
           "a limited area is a part of the sphere; give the rings that bound it");
   require(recipe.widths.has_value(), "a limited area requires cell widths, from which the rings "
                                      "around the region follow; give them");
-  const Region meshed = with_rings(region_of(recipe.surface), *recipe.widths, recipe.radius_km);
+  const Surface meshed = with_rings(recipe.surface, *recipe.widths, recipe.radius_km);
   require_covering(*recipe.widths, meshed);
   recipe.surface = meshed;
 }
@@ -191,7 +191,7 @@ double cells_in_part(const Recipe& recipe, const Surface& asked, double implied)
   constexpr double fewest = 40;
   implied = within_range(implied, fewest, " in the region");
   if (recipe.limited_area) { // whose rings lie around the cells inside
-    const double inside = implied_cells(*recipe.widths, region_of(asked), recipe.radius_km);
+    const double inside = implied_cells(*recipe.widths, asked, recipe.radius_km);
     require(inside >= 1, "the region has room for " + base_detail::shortly(inside) +
                              " cells only, without those of the rings; give smaller widths or a "
                              "larger region");
@@ -199,10 +199,10 @@ double cells_in_part(const Recipe& recipe, const Surface& asked, double implied)
   double cells = implied;
   for (int k = 0; k < 3 && recipe.boundary == Boundary::generators; ++k) // with half a cell each
     cells = implied +
-            static_cast<double>(boundary_points(region_of(recipe.surface),
-                                                static_cast<std::int64_t>(cells), recipe.density)
-                                    .cols() /
-                                2);
+            static_cast<double>(
+                boundary_points(recipe.surface, static_cast<std::int64_t>(cells), recipe.density)
+                    .cols() /
+                2);
   return std::min(cells, double(1 << 30));
 }
 
@@ -212,7 +212,7 @@ double take_cells(Recipe& recipe, const Surface& asked) {
   require(!counts || recipe.widths || recipe.planar_widths,
           "there is no number of cells; give one, or cell widths, or the points of the start");
   if (recipe.planar_widths) {
-    const double implied = implied_cells(*recipe.planar_widths, domain_of(recipe.surface));
+    const double implied = implied_cells(*recipe.planar_widths, recipe.surface);
     if (counts)
       recipe.cells = static_cast<std::int64_t>(
           within_range(implied, static_cast<double>(PlanarWorld::fewest)));
@@ -220,7 +220,7 @@ double take_cells(Recipe& recipe, const Surface& asked) {
   }
   if (!recipe.widths)
     return 0;
-  const double implied = implied_cells(*recipe.widths, region_of(recipe.surface), recipe.radius_km);
+  const double implied = implied_cells(*recipe.widths, recipe.surface, recipe.radius_km);
   if (!counts)
     return implied;
   if (!recipe.surface.is_bounded()) {
@@ -264,7 +264,7 @@ std::int64_t take_boundary(Recipe& recipe) {
   require(recipe.start.kind != Start::Kind::points,
           "a mesh that ends at generators does not take points of the start; give a number of "
           "cells, or fixed points on the boundary");
-  const Points3 points = boundary_points(region_of(recipe.surface), recipe.cells, recipe.density);
+  const Points3 points = boundary_points(recipe.surface, recipe.cells, recipe.density);
   recipe.fixed = joined(recipe.fixed, points);
   return points.cols();
 }

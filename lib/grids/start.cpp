@@ -70,15 +70,15 @@ std::int64_t spreading(const Density& sites) {
 
 /// How many generators of a density leave no empty circle as wide as half of a periodic box, which
 /// would hold no triangulation: the largest of independent random points has a diameter of
-/// about 2.5 spacings. 0 of other domains.
-std::int64_t spreading(const Density& density, const PlanarDomain& domain) {
-  if (!domain.periodic())
+/// about 2.5 spacings. 0 of other planes.
+std::int64_t spreading_in_plane(const Density& density, const Surface& surface) {
+  if (surface.is_bounded())
     return 0;
   constexpr double spacings_across = 6;
   const DoubleVector rho =
-      evaluate(density, domain, random_places(1 << 14, domain)).cwiseMax(1e-150);
-  const double root = area(domain) * rho.cwiseSqrt().mean(),
-               widest = domain.period.minCoeff() / spacings_across;
+      evaluate(density, random_points(1 << 14, surface), surface).cwiseMax(1e-150);
+  const double root = surface.area() * rho.cwiseSqrt().mean(),
+               widest = surface.period().minCoeff() / spacings_across;
   const double cells =
       2 / std::numbers::sqrt3 * root / (std::sqrt(rho.minCoeff()) * widest * widest);
   return static_cast<std::int64_t>(
@@ -133,26 +133,6 @@ std::int64_t start_in_plane(std::int64_t cells, int bisections, bool box) {
   return n;
 }
 
-Points3 flat(const Points2& places) {
-  Points3 points = Points3::Zero(3, places.cols());
-  points.topRows<2>() = places;
-  return points;
-}
-
-Points3 free_in_plane(const Schedule& schedule, std::int64_t count) {
-  const Recipe& recipe = schedule.recipe;
-  const PlanarDomain domain = domain_of(recipe.surface);
-  if (recipe.start.kind == Start::Kind::multilevel)
-    return flat(free_points(count, schedule.levels.front().cells,
-                            Points2(recipe.fixed.topRows<2>()), domain,
-                            site_density(recipe.density, domain), recipe.seed));
-  if (schedule.first == Start::Kind::hexagonal)
-    return flat(hexagonal_lattice(count, domain));
-  if (schedule.first == Start::Kind::random)
-    return flat(random_places(count, domain, recipe.seed));
-  return flat(random_places(count, domain, site_density(recipe.density, domain), recipe.seed));
-}
-
 } // namespace
 
 FirstLevel first_of_continuation(std::int64_t cells, bool uniform) {
@@ -175,7 +155,7 @@ FirstLevel first_of_multilevel(std::int64_t cells, const Surface& surface, const
   constexpr std::int64_t fewest_at_start = 160;
   std::int64_t least = std::max(fewest_at_start, 4 * fixed);
   if (!surface.is_sphere())
-    least = std::max(least, spreading(density, domain_of(surface)));
+    least = std::max(least, spreading_in_plane(density, surface));
   else if (!surface.is_bounded())
     least = std::max(least, spreading(site_density(density)));
   FirstLevel first{Start::Kind::density, cells, 0};
@@ -207,13 +187,12 @@ FirstLevel first_of_kind(Start::Kind kind, std::int64_t cells, int bisections,
 
 Points3 free_generators(const Schedule& schedule) {
   const Recipe& recipe = schedule.recipe;
+  const Surface& surface = recipe.surface;
   const std::int64_t count = schedule.levels.front().cells - recipe.fixed.cols();
-  if (!recipe.surface.is_sphere())
-    return free_in_plane(schedule, count);
-  const Region region = region_of(recipe.surface);
+  const Density sites = site_density(recipe.density, surface);
   if (recipe.start.kind == Start::Kind::multilevel)
-    return free_points(count, schedule.levels.front().cells, recipe.fixed, region,
-                       site_density(recipe.density), recipe.seed);
+    return free_points(count, schedule.levels.front().cells, recipe.fixed, surface, sites,
+                       recipe.seed);
   switch (schedule.first) {
   case Start::Kind::geodesic:
     return geodesic_sphere(count);
@@ -223,10 +202,12 @@ Points3 free_generators(const Schedule& schedule) {
     return fibonacci_sphere(count);
   case Start::Kind::spiral:
     return spiral_sphere(count);
+  case Start::Kind::hexagonal:
+    return hexagonal_lattice(count, surface);
   case Start::Kind::random:
-    return random_sphere(count, region, {}, recipe.seed);
+    return random_points(count, surface, {}, recipe.seed);
   default:
-    return random_sphere(count, region, site_density(recipe.density), recipe.seed);
+    return random_points(count, surface, sites, recipe.seed);
   }
 }
 
@@ -236,11 +217,7 @@ std::int64_t least_cells(const Surface& surface) {
 
 std::int64_t cells_beside(const Points3& fixed, std::int64_t cells, const Density& density,
                           const Surface& surface) {
-  if (surface.is_sphere())
-    return cells_beside_fixed(fixed, cells, region_of(surface), site_density(density));
-  const PlanarDomain domain = domain_of(surface);
-  return cells_beside_fixed(Points2(fixed.topRows<2>()), cells, domain,
-                            site_density(density, domain));
+  return cells_beside_fixed(fixed, cells, surface, site_density(density, surface));
 }
 
 } // namespace calotte::grids_detail

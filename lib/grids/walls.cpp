@@ -30,8 +30,8 @@ Points2 on_walls(const Eigen::Vector2d& extent, Walls walls) {
   return places.leftCols(count);
 }
 
-double mean_root(const Density& density, const PlanarDomain& box, const Points2& places) {
-  return evaluate(density, box, places).cwiseSqrt().mean();
+double mean_root(const Density& density, const Surface& box, const Points3& places) {
+  return evaluate(density, places, box).cwiseSqrt().mean();
 }
 
 /// A callable that sees beyond a wall the places from 0 on as those before 0, from the middle of
@@ -61,17 +61,16 @@ WallsRun run_between_walls(const Surface& channel, Walls walls, const Density& d
   const auto widened = [&](double gap) -> Eigen::Vector2d {
     return extent + Eigen::Vector2d(walls.x ? gap : 0, walls.y ? gap : 0);
   };
-  const PlanarDomain apart = periodic_box(widened(10 * extent.maxCoeff())); // no copies across
-  const double root =
-      mean_root(density, apart, random_places(samples, domain_of(channel))) * extent.prod();
+  const Surface apart = Surface::periodic(widened(10 * extent.maxCoeff())); // no copies across
+  const double root = mean_root(density, apart, random_points(samples, channel)) * extent.prod();
   const double unit = std::sqrt(2 / std::numbers::sqrt3 * root / static_cast<double>(cells));
   const double least =
-      std::max(evaluate(density, apart, on_walls(extent, walls)).minCoeff(), 1e-150);
+      std::max(evaluate(density, on_walls(extent, walls), apart).minCoeff(), 1e-150);
   constexpr double widths = 4;
   const double gap = std::min(widths * unit * std::pow(least, -0.25), 4 * extent.maxCoeff());
-  const PlanarDomain box = periodic_box(widened(gap));
-  WallsRun run{box, unwrapped(density, extent, box.period), 0};
-  const double all = mean_root(run.density, box, random_places(samples, box)) * box.period.prod();
+  const Surface box = Surface::periodic(widened(gap));
+  WallsRun run{box, unwrapped(density, extent, box.period()), 0};
+  const double all = mean_root(run.density, box, random_points(samples, box)) * box.area();
   run.cells = std::max<std::int64_t>(std::llround(static_cast<double>(cells) * all / root), 12);
   return run;
 }

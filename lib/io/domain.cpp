@@ -94,15 +94,15 @@ Rings rings_of_geojson(std::istream& in, const std::string& name) {
   return rings;
 }
 
-PlanarDomain domain_of(const Rings& rings) {
-  PlanarDomain domain;
+Surface domain_of(const Rings& rings) {
+  Surface::Rings all;
   for (const GeoRing& corners : rings.corners) {
     DoubleMatrix ring(2, std::ssize(corners));
     for (std::size_t i = 0; i < corners.size(); ++i)
       ring.col(static_cast<Eigen::Index>(i)) << corners[i][0], corners[i][1];
-    domain.rings.push_back(std::move(ring));
+    all.push_back(std::move(ring));
   }
-  return domain;
+  return Surface::plane().within(std::move(all));
 }
 
 } // namespace
@@ -112,9 +112,8 @@ Surface read_domain(const std::string& path) {
   const std::string suffix = suffix_of(path);
   const bool json = suffix == ".geojson" || suffix == ".json";
   const Rings rings = json ? rings_of_geojson(in, path) : rings_of_text(in, path);
-  PlanarDomain domain = domain_of(rings);
   try {
-    require_domain(domain);
+    return domain_of(rings);
   } catch (const Error& error) {
     const std::int64_t ring = error.index();
     const bool named = ring >= 0 && ring < std::ssize(rings.origins);
@@ -125,7 +124,6 @@ Surface read_domain(const std::string& path) {
                            : ""),
                 ring);
   }
-  return domain;
 }
 
 } // namespace calotte

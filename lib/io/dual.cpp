@@ -8,6 +8,7 @@
 #include "io/field_order.h"
 #include "io/polygons.h"
 #include "mesh/canonical_order.h"
+#include "mesh/planar_mesh.h"
 
 #include <calotte/check.h>
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "io/room.h"
+#include "mesh/planar_mesh.h"
 
 #include <calotte/mesh_field.h>
 #include <calotte/mesh_file.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "domain/planar_domain.h"
 #include "io/polygons.h"
 
 #include <calotte/error.h>

@@ -74,13 +74,11 @@ std::optional<Format> polygon_format(Format format);
 
 /// The mesh is consumed: its arrays are reused, and freed after their last use.
 void write_mpas(const std::string& path, Mesh mesh, const WriteOptions& options);
-void write_mpas(const std::string& path, PlanarMesh mesh, const WriteOptions& options);
 /// A whole tessellation, which may be open. \param places of its cells: radius times the unit
 /// vectors; in a plane 3 x 0.
 void write_mpas(const std::string& path, Voronoi voronoi, Points3 places,
                 const WriteOptions& options);
 void write_mpas_minimal(const std::string& path, Mesh mesh, const WriteOptions& options);
-void write_mpas_minimal(const std::string& path, PlanarMesh mesh, const WriteOptions& options);
 struct CellGrid;
 void write_ugrid(const std::string& path, const CellGrid& grid, const WriteOptions& options);
 void write_ugrid_triangles(const std::string& path, const Mesh& mesh, const WriteOptions& options);

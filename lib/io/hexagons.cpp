@@ -140,7 +140,7 @@ MeshFile planar_hexagons(std::int64_t columns, std::int64_t rows, double spacing
     places.col(next++) = within(lattice.centre(row, column), lattice.period()).head<2>();
   });
   file.mesh = mesh_detail::spatial(periodic_delaunay(places, lattice.period()),
-                                   periodic_box(lattice.period()));
+                                   Surface::periodic(lattice.period()));
   return file;
 }
 

@@ -3,6 +3,7 @@
 
 #include "base/points.h"
 #include "delaunay/delaunay.h"
+#include "domain/planar_domain.h"
 #include "io/dual.h"
 #include "io/field_order.h"
 #include "io/polygons.h"

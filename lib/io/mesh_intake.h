@@ -4,6 +4,7 @@
 #include "delaunay/delaunay.h"
 #include "io/formats.h"
 #include "io/room.h"
+#include "mesh/planar_mesh.h"
 
 #include <calotte/mesh_file.h>
 

@@ -22,7 +22,7 @@ namespace {
 constexpr double float_digits = 1.2e-7; // relative rounding of two floats
 
 /// As voronoi(mesh), which it takes apart.
-template <class AnyMesh> Voronoi voronoi_of(AnyMesh mesh) {
+Voronoi voronoi_of(Mesh mesh) {
   BegunVoronoi cells = begun(mesh);
   release(mesh.points);
   connect(cells);
@@ -94,8 +94,7 @@ void check_mpas(MeshFile file, Deviations& deviations) {
     else if (file.plane() && (file.polygons || !file.mesh->surface.is_box()))
       check_open_mpas(file, 1, deviations);
     else if (file.plane())
-      check_closed(voronoi_of(mesh_detail::planar(*file.mesh)), 1, std::move(file.density),
-                   deviations);
+      check_closed(voronoi_of(std::move(*file.mesh)), 1, std::move(file.density), deviations);
   } catch (const Error& error) {
     if (error.code() != ErrorCode::bad_option)
       throw;

@@ -7,6 +7,7 @@
 #include "io/netcdf_fields.h"
 #include "io/netcdf_reader.h"
 #include "io/polygons.h"
+#include "mesh/planar_mesh.h"
 
 #include "base/parallel.h"
 #include "base/points.h"

@@ -281,7 +281,11 @@ void write_minimal(const std::string& path, MpasMesh mesh, const WriteOptions& o
 using Writer = void (*)(const std::string&, MpasMesh, const WriteOptions&);
 
 /// All is computed from the places as the file holds them, so that its mesh gives the same file.
-void write_sphere(const std::string& path, Mesh mesh, const WriteOptions& options, Writer writer) {
+void write_mesh(const std::string& path, Mesh mesh, const WriteOptions& options, Writer writer) {
+  if (!mesh.surface.is_sphere()) {
+    BegunVoronoi cells = begun(mesh);
+    return writer(path, {cells.voronoi, {}, 1, [&] { connect(cells); }}, options);
+  }
   mesh.points = on_sphere(std::move(mesh.points), options.sphere_radius);
   BegunVoronoi cells = begun(mesh);
   writer(path,
@@ -289,20 +293,10 @@ void write_sphere(const std::string& path, Mesh mesh, const WriteOptions& option
          options);
 }
 
-void write_plane(const std::string& path, PlanarMesh mesh, const WriteOptions& options,
-                 Writer writer) {
-  BegunVoronoi cells = begun(mesh);
-  writer(path, {cells.voronoi, {}, 1, [&] { connect(cells); }}, options);
-}
-
 } // namespace
 
 void write_mpas(const std::string& path, Mesh mesh, const WriteOptions& options) {
-  write_sphere(path, std::move(mesh), options, write_full);
-}
-
-void write_mpas(const std::string& path, PlanarMesh mesh, const WriteOptions& options) {
-  write_plane(path, std::move(mesh), options, write_full);
+  write_mesh(path, std::move(mesh), options, write_full);
 }
 
 void write_mpas(const std::string& path, Voronoi voronoi, Points3 places,
@@ -312,11 +306,7 @@ void write_mpas(const std::string& path, Voronoi voronoi, Points3 places,
 }
 
 void write_mpas_minimal(const std::string& path, Mesh mesh, const WriteOptions& options) {
-  write_sphere(path, std::move(mesh), options, write_minimal);
-}
-
-void write_mpas_minimal(const std::string& path, PlanarMesh mesh, const WriteOptions& options) {
-  write_plane(path, std::move(mesh), options, write_minimal);
+  write_mesh(path, std::move(mesh), options, write_minimal);
 }
 
 } // namespace calotte::io_detail

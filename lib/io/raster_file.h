@@ -4,7 +4,8 @@
 #include "io/netcdf_reader.h"
 #include "io/room.h"
 
-#include <calotte/region.h>
+#include <calotte/matrices.h>
+#include <calotte/surface.h>
 
 #include <Eigen/Core>
 

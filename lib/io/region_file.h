@@ -5,7 +5,7 @@
 #include "io/room.h"
 
 #include <calotte/error.h>
-#include <calotte/region.h>
+#include <calotte/surface.h>
 
 #include <iosfwd>
 #include <string>
@@ -22,14 +22,14 @@ template <class Call> auto named(const std::string& name, const Call& call) -> d
   }
 }
 
-Region read_region_geojson(std::istream& in, const std::string& name);
+Surface read_region_geojson(std::istream& in, const std::string& name);
 
 /// Point files of MPAS-Limited-Area.
-Region read_region_pts(std::istream& in, const std::string& name);
+Surface read_region_pts(std::istream& in, const std::string& name);
 
 /// Loops of MPI-SCVT.
 /// \param counts of SaveLoopCounts, or null: all points are one loop.
-Region read_region_loops(std::istream& in, const std::string& name, std::istream* counts,
-                         const std::string& counts_name);
+Surface read_region_loops(std::istream& in, const std::string& name, std::istream* counts,
+                          const std::string& counts_name);
 
 } // namespace calotte::io_detail

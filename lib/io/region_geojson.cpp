@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "domain/region.h"
 #include "io/geojson_areas.h"
 #include "io/region_file.h"
 
@@ -26,7 +27,7 @@ std::vector<WrittenRing> rings_of(std::vector<GeoArea> areas, const std::string&
 
 } // namespace
 
-Region read_region_geojson(std::istream& in, const std::string& name) {
+Surface read_region_geojson(std::istream& in, const std::string& name) {
   std::vector<WrittenRing> rings = rings_of(geojson_areas(read_geojson(in, name), name), name);
   return named(name, [&] {
     rings = joined(std::move(rings));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/lonlat.h"
+#include "domain/region.h"
 #include "exact/predicates.h"
 #include "io/region_file.h"
 #include "io/text.h"
@@ -65,8 +66,8 @@ std::vector<Run> runs_of(std::istream& counts, const std::string& name, std::int
 
 } // namespace
 
-Region read_region_loops(std::istream& in, const std::string& name, std::istream* counts,
-                         const std::string& counts_name) {
+Surface read_region_loops(std::istream& in, const std::string& name, std::istream* counts,
+                          const std::string& counts_name) {
   LineReader reader(in, name);
   std::vector<Vec3> points;
   std::vector<std::int64_t> lines;

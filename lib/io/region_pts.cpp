@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/lonlat.h"
+#include "domain/region.h"
 #include "io/region_file.h"
 #include "io/text.h"
 
@@ -54,7 +55,7 @@ class Parser {
 public:
   Parser(std::istream& in, const std::string& name) : reader_(in, name) {}
 
-  Region read() {
+  Surface read() {
     for (std::string_view line; reader_.next_content(line);)
       if (const std::size_t colon = line.find(':'); colon != std::string_view::npos)
         set(lower(trimmed(line.substr(0, colon))), trimmed(line.substr(colon + 1)));
@@ -127,7 +128,7 @@ private:
     return {point_->x, point_->y, point_->z};
   }
 
-  Region region() {
+  Surface region() {
     if (type_ == "circle")
       return circle(point(), value_of("radius") / earth_radius);
     if (type_ == "ellipse")
@@ -152,7 +153,7 @@ private:
 
 } // namespace
 
-Region read_region_pts(std::istream& in, const std::string& name) {
+Surface read_region_pts(std::istream& in, const std::string& name) {
   return Parser(in, name).read();
 }
 

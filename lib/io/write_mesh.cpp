@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/write_mesh.h"
+#include "domain/planar_domain.h"
 #include "io/file.h"
 #include "io/file_names.h"
 #include "io/formats.h"
@@ -30,8 +31,7 @@ namespace {
 
 using namespace io_detail;
 
-/// Of either kind of mesh.
-template <class AnyMesh> void require_ids(const std::string& path, const AnyMesh& mesh) {
+void require_ids(const std::string& path, const Mesh& mesh) {
   const std::int64_t sites = mesh.points.cols();
   if (!are_ids(mesh.triangles, sites) || !are_ids(mesh.site_of_input, sites))
     refuse_to_write(path, "the mesh has an id that is not one of its " + std::to_string(sites) +
@@ -39,9 +39,6 @@ template <class AnyMesh> void require_ids(const std::string& path, const AnyMesh
 }
 
 MeshSizes sizes_of(const Mesh& mesh) {
-  return {mesh.points.cols(), mesh.triangles.cols(), mesh.closed()};
-}
-MeshSizes sizes_of(const PlanarMesh& mesh) {
   return {mesh.points.cols(), mesh.triangles.cols(), mesh.closed()};
 }
 
@@ -127,18 +124,6 @@ void require_input_numbering(const std::string& path, Numbering numbering) {
     refuse_to_write(path, "the cells of a planar mesh keep their numbers; leave the order out");
 }
 
-/// At z = 0.
-Mesh in_space(const PlanarMesh& mesh) {
-  Mesh out{Points3::Zero(3, mesh.points.cols()), mesh.triangles, mesh.neighbours,
-           mesh.site_of_input};
-  out.points.topRows<2>() = mesh.points;
-  return out;
-}
-
-} // namespace
-
-namespace {
-
 /// \param mesh `const Mesh&`; or an rvalue, which is freed as early as the format allows.
 template <class AnyMesh>
 void write_sphere(const std::string& path, AnyMesh&& mesh, const WriteOptions& options) {
@@ -167,41 +152,53 @@ void write_sphere(const std::string& path, AnyMesh&& mesh, const WriteOptions& o
   monitor.finish("write");
 }
 
-} // namespace
+/// Those that files of polygons do not compute.
+void add_cell_fields(const Voronoi& voronoi, WriteOptions& options) {
+  const CellFields fields = fields_of(voronoi, options);
+  options.fields.push_back({.name = "density", .values = fields.density});
+  options.fields.push_back({.name = "spacing", .values = fields.spacing});
+  options.fields.push_back({.name = "quality", .values = fields.quality});
+  options.fields.push_back({.name = "degree", .values = fields.degree.cast<double>()});
+}
 
-namespace {
+void write_cells(const std::string& path, Voronoi cells, WriteOptions options) {
+  if (options.format == Format::mpas)
+    return write_mpas(path, std::move(cells), {}, options);
+  if (options.format != Format::ugrid)
+    add_cell_fields(cells, options);
+  DoubleVector area = std::move(cells.cell_area);
+  write_polygons(path, {polygons_of(std::move(cells)), std::move(area), {}}, options);
+}
 
-/// Files of a plane hold the density by site.
-void write_plane(const std::string& path, const Mesh& mesh, WriteOptions options) {
-  const PlanarMesh plane = mesh_detail::planar(mesh);
-  const PlanarDomain domain = domain_detail::domain_of(mesh.surface);
+void write_plane(const std::string& path, const Mesh& mesh, const WriteOptions& options) {
+  const Surface& surface = mesh.surface;
+  WriteOptions resolved = options;
+  resolved.format = format_of(path, options.format);
+  require_planar_format(path, surface, resolved.format);
   if (options.site_density.size() == 0 && !options.density.uniform())
-    options.site_density = evaluate(options.density, domain, plane.points);
-  options.density = {};
-  if (mesh.surface.is_bounded() || mesh.surface.is_box())
-    write(path, plane, domain, options);
-  else
-    write(path, plane, options);
+    resolved.site_density = evaluate(options.density, mesh.points, surface); // held by site
+  resolved.density = {};
+  require_options(path, resolved);
+  require_input_numbering(path, options.numbering);
+  require_ids(path, mesh);
+  require_values(path, sizes_of(mesh), resolved);
+  if (is_netcdf(resolved.format))
+    settle_names(resolved.fields);
+  resolved.progress = rest_of(options.progress, 0);
+  if (surface.is_bounded() && holds_cells(resolved.format)) {
+    std::erase_if(resolved.fields,
+                  [](const MeshField& field) { return field.location != Location::cells; });
+    write_cells(path, voronoi(mesh), resolved);
+  } else {
+    write_numbered(path, mesh, resolved);
+  }
+  Monitor(options.progress).finish("write");
 }
 
 } // namespace
 
-void write(const std::string& path, const Mesh& mesh, const WriteOptions& options) {
-  if (mesh.surface.is_sphere())
-    write_sphere(path, mesh, options);
-  else
-    write_plane(path, mesh, options);
-}
-
-void write(const std::string& path, Mesh&& mesh, const WriteOptions& options) {
-  if (mesh.surface.is_sphere())
-    write_sphere(path, std::move(mesh), options);
-  else
-    write_plane(path, mesh, options);
-  mesh = {};
-}
-
-void require_planar_format(const std::string& path, bool periodic, Format format, bool bounded) {
+void require_planar_format(const std::string& path, const Surface& plane, Format format) {
+  const bool periodic = plane.period().maxCoeff() > 0, bounded = plane.is_bounded();
   const bool mpas = format == Format::mpas || format == Format::mpas_minimal;
   const bool cells = format == Format::mpas || format == Format::ugrid ||
                      format == Format::vtp_cells || format == Format::vtu_cells ||
@@ -223,66 +220,19 @@ void require_planar_format(const std::string& path, bool periodic, Format format
                        "convert that file with its domain");
 }
 
-void write(const std::string& path, const PlanarMesh& mesh, const WriteOptions& options) {
-  WriteOptions resolved = options;
-  resolved.format = format_of(path, options.format);
-  require_options(path, resolved);
-  require_planar_format(path, mesh.period.maxCoeff() > 0, resolved.format);
-  require_input_numbering(path, options.numbering);
-  require_ids(path, mesh);
-  require_values(path, sizes_of(mesh), resolved);
-  if (is_netcdf(resolved.format))
-    settle_names(resolved.fields);
-  resolved.progress = rest_of(options.progress, 0);
-  if (resolved.format == Format::mpas)
-    write_mpas(path, mesh, resolved);
-  else if (resolved.format == Format::mpas_minimal)
-    write_mpas_minimal(path, mesh, resolved);
+void write(const std::string& path, const Mesh& mesh, const WriteOptions& options) {
+  if (mesh.surface.is_sphere())
+    write_sphere(path, mesh, options);
   else
-    write_numbered(path, in_space(mesh), resolved);
-  Monitor(options.progress).finish("write");
+    write_plane(path, mesh, options);
 }
 
-namespace {
-
-/// Those that files of polygons do not compute.
-void add_cell_fields(const Voronoi& voronoi, WriteOptions& options) {
-  const CellFields fields = fields_of(voronoi, options);
-  options.fields.push_back({.name = "density", .values = fields.density});
-  options.fields.push_back({.name = "spacing", .values = fields.spacing});
-  options.fields.push_back({.name = "quality", .values = fields.quality});
-  options.fields.push_back({.name = "degree", .values = fields.degree.cast<double>()});
-}
-
-void write_cells(const std::string& path, Voronoi cells, WriteOptions options) {
-  if (options.format == Format::mpas)
-    return write_mpas(path, std::move(cells), {}, options);
-  if (options.format != Format::ugrid)
-    add_cell_fields(cells, options);
-  DoubleVector area = std::move(cells.cell_area);
-  write_polygons(path, {polygons_of(std::move(cells)), std::move(area), {}}, options);
-}
-
-} // namespace
-
-void write(const std::string& path, const PlanarMesh& mesh, const PlanarDomain& domain,
-           const WriteOptions& options) {
-  WriteOptions resolved = options;
-  resolved.format = format_of(path, options.format);
-  require_planar_format(path, domain.periodic(), resolved.format, !domain.periodic());
-  if (domain.periodic() || !holds_cells(resolved.format))
-    return write(path, mesh, options);
-  require_options(path, resolved);
-  require_input_numbering(path, options.numbering);
-  require_ids(path, mesh);
-  require_values(path, sizes_of(mesh), resolved);
-  if (is_netcdf(resolved.format))
-    settle_names(resolved.fields);
-  std::erase_if(resolved.fields,
-                [](const MeshField& field) { return field.location != Location::cells; });
-  resolved.progress = rest_of(options.progress, 0);
-  write_cells(path, voronoi(mesh, domain), resolved);
-  Monitor(options.progress).finish("write");
+void write(const std::string& path, Mesh&& mesh, const WriteOptions& options) {
+  if (mesh.surface.is_sphere())
+    write_sphere(path, std::move(mesh), options);
+  else
+    write_plane(path, mesh, options);
+  mesh = {};
 }
 
 } // namespace calotte

@@ -5,6 +5,7 @@
 #include "exact/plane_predicates.h"
 #include "exact/predicates.h"
 #include "mesh/by_vertex.h"
+#include "mesh/planar_mesh.h"
 
 #include <algorithm>
 #include <numeric>

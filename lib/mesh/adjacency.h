@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "mesh/planar_mesh.h"
 #include "mesh/room.h"
 
 #include <calotte/types.h>

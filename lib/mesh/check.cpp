@@ -151,7 +151,7 @@ Check prove(const Mesh& mesh, mesh_detail::Proof proof, const ProgressCallback& 
 
 EdgeCounts count_edges(const Mesh& mesh) {
   return mesh.surface.is_sphere() ? mesh_detail::count_edges_of(OnSphere(mesh))
-                                  : count_edges(mesh_detail::planar(mesh));
+                                  : mesh_detail::count_edges_in_plane(mesh_detail::planar(mesh));
 }
 
 // Why local laws are enough. The triangles are counter-clockwise and turn around each inner site

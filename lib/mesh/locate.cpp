@@ -278,28 +278,9 @@ void require_positions(std::int64_t count, const Bad& bad, ErrorCode code,
 }
 
 } // namespace
-} // namespace mesh_detail
 
-Locations locate(const Mesh& mesh, const PointsRef& given) {
-  using namespace mesh_detail;
-  if (!mesh.surface.is_sphere())
-    return locate(planar(mesh), base_detail::plane_points_of(given));
+Locations locate_in_plane(const PlanarMesh& mesh, const base_detail::Points2Ref& positions) {
   require_triangles(mesh);
-  const base_detail::Points3Ref positions = base_detail::directions_of(given);
-  const auto at = [&](std::int64_t i) { return positions.col(i); };
-  require_positions(
-      positions.cols(), [&](std::int64_t i) { return !at(i).allFinite(); }, ErrorCode::not_finite,
-      " is not finite; leave it out");
-  require_positions(
-      positions.cols(), [&](std::int64_t i) { return (at(i).array() == 0).all(); },
-      ErrorCode::zero_vector, " is the zero vector, which is no direction; leave it out");
-  return locate_all(mesh, OnSphere(mesh, positions), positions.cols());
-}
-
-Locations locate(const PlanarMesh& mesh, const PointsRef& given) {
-  using namespace mesh_detail;
-  require_triangles(mesh);
-  const base_detail::Points2Ref positions = base_detail::places_of(given);
   require_positions(
       positions.cols(), [&](std::int64_t i) { return !positions.col(i).allFinite(); },
       ErrorCode::not_finite, " is not finite; leave it out");
@@ -312,6 +293,24 @@ Locations locate(const PlanarMesh& mesh, const PointsRef& given) {
   require_positions(positions.cols(), is_far, ErrorCode::bad_option,
                     " is more than 2^30 periods away; give its copy in the box");
   return locate_all(mesh, InPlane(mesh, positions), positions.cols());
+}
+
+} // namespace mesh_detail
+
+Locations locate(const Mesh& mesh, const PointsRef& given) {
+  using namespace mesh_detail;
+  if (!mesh.surface.is_sphere())
+    return locate_in_plane(planar(mesh), base_detail::plane_points_of(given));
+  require_triangles(mesh);
+  const base_detail::Points3Ref positions = base_detail::directions_of(given);
+  const auto at = [&](std::int64_t i) { return positions.col(i); };
+  require_positions(
+      positions.cols(), [&](std::int64_t i) { return !at(i).allFinite(); }, ErrorCode::not_finite,
+      " is not finite; leave it out");
+  require_positions(
+      positions.cols(), [&](std::int64_t i) { return (at(i).array() == 0).all(); },
+      ErrorCode::zero_vector, " is the zero vector, which is no direction; leave it out");
+  return locate_all(mesh, OnSphere(mesh, positions), positions.cols());
 }
 
 } // namespace calotte

@@ -7,8 +7,10 @@
 #include "curve/hilbert.h"
 #include "exact/plane_predicates.h"
 #include "exact/predicates.h"
+#include "mesh/planar_mesh.h"
 #include "mesh/room.h"
 
+#include <calotte/locate.h>
 #include <calotte/types.h>
 
 #include <algorithm>
@@ -178,5 +180,8 @@ private:
   Eigen::Vector2d low_;
   double half_ = 1; ///< of the longer side
 };
+
+/// As locate().
+Locations locate_in_plane(const PlanarMesh& mesh, const base_detail::Points2Ref& positions);
 
 } // namespace calotte::mesh_detail

@@ -218,18 +218,6 @@ struct InPlane : mesh_detail::Faces {
 // Triangles narrower
 // than half of the box lie in the plane without overlap, which is what in_circle() works in. Such a
 // mesh with Delaunay edges is Delaunay.
-Check check(const PlanarMesh& mesh, const ProgressCallback& progress) {
-  return mesh_detail::check_laws(
-      mesh, [&](std::int64_t site) { return place_failure(mesh, site); },
-      [&] { return InPlane(mesh, Proof::delaunay); }, Proof::delaunay, progress);
-}
-
-Check check_surface(const PlanarMesh& mesh, const ProgressCallback& progress) {
-  return mesh_detail::check_laws(
-      mesh, [&](std::int64_t site) { return place_failure(mesh, site); },
-      [&] { return InPlane(mesh); }, mesh_detail::Proof::surface, progress);
-}
-
 Check mesh_detail::check_in_plane(const Mesh& mesh, Proof proof, const ProgressCallback& progress) {
   const PlanarMesh plane = planar(mesh);
   const auto site_failure = [&](std::int64_t site) {
@@ -241,8 +229,8 @@ Check mesh_detail::check_in_plane(const Mesh& mesh, Proof proof, const ProgressC
       plane, site_failure, [&] { return InPlane(plane, proof); }, proof, progress);
 }
 
-EdgeCounts count_edges(const PlanarMesh& mesh) {
-  return mesh_detail::count_edges_of(InPlane(mesh));
+EdgeCounts mesh_detail::count_edges_in_plane(const PlanarMesh& mesh) {
+  return count_edges_of(InPlane(mesh));
 }
 
 } // namespace calotte

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mesh/check_laws.h"
+#include "mesh/planar_mesh.h"
 #include "mesh/room.h"
 
 #include <calotte/check.h>
@@ -10,5 +11,8 @@ namespace calotte::mesh_detail {
 
 /// What check() or check_surface() finds. \pre the mesh is one of the plane.
 Check check_in_plane(const Mesh& mesh, Proof proof, const ProgressCallback& progress);
+
+/// As count_edges().
+EdgeCounts count_edges_in_plane(const PlanarMesh& mesh);
 
 } // namespace calotte::mesh_detail

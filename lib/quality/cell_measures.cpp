@@ -2,12 +2,11 @@
 #include <calotte/quality.h>
 
 #include "base/points.h"
-#include "domain/surface.h"
 #include "integrals/moments.h"
-#include "mesh/planar_mesh.h"
 #include "quality/cell_measures.h"
 #include "quality/demand.h"
 #include "quality/flat_hull.h"
+#include "quality/planar_quality.h"
 #include "quality/sides.h"
 
 #include <calotte/check.h>
@@ -71,8 +70,7 @@ CellMeasures measure_cells(const Mesh& mesh, const Density& density) {
 
 CellMeasures cell_measures(const Mesh& mesh, const Density& density) {
   if (!mesh.surface.is_sphere())
-    return cell_measures(mesh_detail::planar(mesh), domain_detail::domain_of(mesh.surface),
-                         density);
+    return quality_detail::cell_measures_in_plane(mesh, density);
   evaluate(density, Points3(Eigen::Vector3d::UnitZ())); // throws if the density is ill-formed
   if (const Check found = check_surface(mesh); !found.passed())
     throw Error(ErrorCode::bad_option, "the triangles do not form a surface: " + found.failure +

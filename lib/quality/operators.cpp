@@ -3,9 +3,7 @@
 
 #include "base/first_fault.h"
 #include "base/points.h"
-#include "domain/surface.h"
 #include "integrals/moments.h"
-#include "mesh/planar_mesh.h"
 #include "quality/eigenvalues.h"
 #include "quality/error_norms.h"
 #include "quality/flat_hull.h"
@@ -123,29 +121,26 @@ OperatorErrors of_open(const Mesh& mesh) {
   return out;
 }
 
+OperatorErrors in_plane(const Mesh& mesh, const Density& density) {
+  const DoubleVector off = cell_measures(mesh, density).off_centroid;
+  const Voronoi cells = voronoi(mesh);
+  OperatorErrors out = errors_of(cells);
+  out.off_centroid = distance_norms(off.size(), [&](std::int64_t i) { return off[i]; });
+  set_place(cells.cells, out.off_centroid);
+  return out;
+}
+
 } // namespace
 } // namespace quality_detail
 
 OperatorErrors operator_errors(const Mesh& mesh, const Density& density) {
   using namespace quality_detail;
   if (!mesh.surface.is_sphere())
-    return operator_errors(mesh_detail::planar(mesh), domain_detail::domain_of(mesh.surface),
-                           density);
+    return in_plane(mesh, density);
   evaluate(density, Points3(Eigen::Vector3d::UnitZ())); // throws if the density is ill-formed
   const bool closed = require_delaunay(mesh);
   const Mesh unit = without_flat_hull(with_unit_columns(mesh)).mesh;
   return closed ? of_closed(unit, density) : of_open(unit);
-}
-
-OperatorErrors operator_errors(const PlanarMesh& mesh, const PlanarDomain& domain,
-                               const Density& density) {
-  using namespace quality_detail;
-  const DoubleVector off = cell_measures(mesh, domain, density).off_centroid;
-  const Voronoi cells = voronoi(mesh, domain);
-  OperatorErrors out = errors_of(cells);
-  out.off_centroid = distance_norms(off.size(), [&](std::int64_t i) { return off[i]; });
-  set_place(cells.cells, out.off_centroid);
-  return out;
 }
 
 } // namespace calotte

@@ -8,6 +8,7 @@
 #include "cvt/planar_cells.h"
 #include "density/planar_density.h"
 #include "domain/clipped_cell.h"
+#include "domain/planar_domain.h"
 #include "domain/surface.h"
 #include "mesh/planar_mesh.h"
 #include "quality/cell_measures.h"
@@ -161,11 +162,6 @@ Evaluation evaluated(const Points3& points, const Connectivity& mesh, const Plan
   return result;
 }
 
-void require_period(const PlanarMesh& mesh, const PlanarDomain& domain) {
-  require(mesh.period == domain.period,
-          "the mesh and the domain have different periods; give the domain of the mesh");
-}
-
 /// The integral of rho^(1/2) over the domain. Errors of 1e-6 remain with few points a cell, if
 /// there are many cells: in the sum most of them cancel.
 double root_integral(const Points3& points, const Connectivity& mesh, const PlanarDomain& domain,
@@ -183,7 +179,6 @@ double root_integral(const Points3& points, const Connectivity& mesh, const Plan
 
 void require_mesh(const PlanarMesh& mesh, const PlanarDomain& domain) {
   require_domain(domain);
-  require_period(mesh, domain);
   require_voronoi_mesh(mesh);
   require_inside(mesh.points, domain);
 }
@@ -213,12 +208,12 @@ void set_sides(const Voronoi& cells, CellMeasures& out) {
 } // namespace
 } // namespace quality_detail
 
-CellMeasures cell_measures(const PlanarMesh& mesh, const PlanarDomain& domain,
-                           const Density& density) {
-  using namespace quality_detail;
+CellMeasures quality_detail::cell_measures_in_plane(const Mesh& given, const Density& density) {
+  const PlanarDomain domain = domain_detail::domain_of(given.surface);
+  const PlanarMesh mesh = mesh_detail::planar(given);
   require_mesh(mesh, domain);
   const Density planar = planar_density(density, domain);
-  const Points3 points = with_z(mesh.points);
+  const Points3& points = given.points;
   const Vec2 period{mesh.period.x(), mesh.period.y()};
   PlanarCells cells(domain);
   cells.move(points);
@@ -237,7 +232,7 @@ CellMeasures cell_measures(const PlanarMesh& mesh, const PlanarDomain& domain,
   CellMeasures out = unset_measures(points.cols(), mesh.triangles.cols());
   set_angles(subject, out);
   set_fits(subject, out);
-  set_sides(voronoi(mesh, domain), out);
+  set_sides(voronoi(given), out);
   const Points3 centroids = evaluated(points, closed, domain, planar).centroids;
   for (Eigen::Index i = 0; i < points.cols(); ++i)
     out.off_centroid[i] =
@@ -245,11 +240,11 @@ CellMeasures cell_measures(const PlanarMesh& mesh, const PlanarDomain& domain,
   return out;
 }
 
-Quality quality(const PlanarMesh& mesh, const PlanarDomain& domain, const Density& density) {
-  using namespace quality_detail;
-  require_mesh(mesh, domain);
+Quality quality_detail::quality_in_plane(const Mesh& mesh, const Density& density) {
+  const PlanarDomain domain = domain_detail::domain_of(mesh.surface);
+  require_mesh(mesh_detail::planar(mesh), domain);
   const Density planar = planar_density(density, domain);
-  const Points3 points = with_z(mesh.points);
+  const Points3& points = mesh.points;
   PlanarCells cells(domain);
   cells.move(points);
   const Connectivity closed = cells.signs().triangulate();
@@ -268,10 +263,6 @@ Quality quality(const PlanarMesh& mesh, const PlanarDomain& domain, const Densit
   set_energy(result, measured.energy, root);
   result.cells_area = areas.sum / area(domain);
   return result;
-}
-
-Quality open_quality(const PlanarMesh& mesh) {
-  return quality_detail::measure_open_plane(mesh, true);
 }
 
 Quality quality_detail::measure_open_plane(const PlanarMesh& mesh, bool cells) {
@@ -308,19 +299,15 @@ std::vector<bool> clipped_cells(const Mesh& mesh) {
       !surface.is_sphere(),
       "the mesh is one of a region of the sphere, which clips no cells; give one "
       "of the plane or of the whole sphere");
-  return clipped_cells(mesh_detail::planar(mesh), domain_detail::domain_of(surface));
-}
-
-std::vector<bool> clipped_cells(const PlanarMesh& mesh, const PlanarDomain& domain) {
   using namespace quality_detail;
+  const PlanarDomain domain = domain_detail::domain_of(surface);
   require_domain(domain);
-  require_period(mesh, domain);
   const std::int64_t n = mesh.points.cols();
   std::vector<bool> clipped(static_cast<std::size_t>(n));
   if (domain.periodic() || n == 0)
     return clipped;
   PlanarCells cells(domain);
-  cells.move(with_z(mesh.points));
+  cells.move(mesh.points);
   const Connectivity closed = cells.signs().triangulate();
   const Array<std::uint8_t> whole =
       whole_cells(Insides(cells, domain, n), closed,

@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "domain/planar_domain.h"
+#include "mesh/planar_mesh.h"
 #include "quality/room.h"
 
 #include <calotte/quality.h>
 
+/// What quality() and its kin measure in the plane.
 namespace calotte::quality_detail {
+
+/// \throws Error as quality() and cell_measures().
+Quality quality_in_plane(const Mesh& mesh, const Density& density);
+CellMeasures cell_measures_in_plane(const Mesh& mesh, const Density& density);
 
 /// What triangle_quality() measures in a plane, and with `cells` what open_quality() does.
 /// \throws Error as these.

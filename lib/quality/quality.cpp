@@ -2,9 +2,7 @@
 #include <calotte/quality.h>
 
 #include "base/points.h"
-#include "domain/surface.h"
 #include "integrals/moments.h"
-#include "mesh/planar_mesh.h"
 #include "quality/demand.h"
 #include "quality/flat_hull.h"
 #include "quality/planar_quality.h"
@@ -99,7 +97,7 @@ Quality measure(const Mesh& mesh, const Density& density) {
 
 Quality quality(const Mesh& mesh, const Density& density) {
   if (!mesh.surface.is_sphere())
-    return quality(mesh_detail::planar(mesh), domain_detail::domain_of(mesh.surface), density);
+    return quality_detail::quality_in_plane(mesh, density);
   evaluate(density, Points3(Eigen::Vector3d::UnitZ())); // throws if the density is ill-formed
   const double triangles_area = quality_detail::require_closed_delaunay(mesh);
   Quality result = quality_detail::measure(quality_detail::with_unit_columns(mesh), density);

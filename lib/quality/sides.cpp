@@ -4,6 +4,7 @@
 #include "base/points.h"
 #include "exact/predicates.h"
 #include "mesh/connectivity.h"
+#include "mesh/planar_mesh.h"
 
 #include <algorithm>
 #include <array>

@@ -3,7 +3,9 @@
 
 #include "base/require.h"
 #include "domain/clipped_cell.h"
+#include "domain/planar_domain.h"
 #include "mesh/ids.h"
+#include "mesh/planar_mesh.h"
 #include "voronoi/groups.h"
 #include "voronoi/open.h"
 #include "voronoi/shore.h"
@@ -26,9 +28,7 @@ namespace {
 
 constexpr std::int32_t none = -1;
 
-void require_mesh(const PlanarMesh& mesh, const PlanarDomain& domain) {
-  require(mesh.period == domain.period,
-          "the mesh and the domain have different periods; give the domain of the mesh");
+void require_mesh(const PlanarMesh& mesh) {
   require(are_ids(mesh.triangles, mesh.points.cols()),
           "the mesh has an id that is not one of its " + std::to_string(mesh.points.cols()) +
               " points: triangulate the points anew");
@@ -349,19 +349,12 @@ Voronoi bounded(const PlanarMesh& mesh, const Outline& outline) {
 }
 
 } // namespace
-} // namespace calotte::voronoi_detail
 
-namespace calotte {
-
-Voronoi voronoi(const PlanarMesh& mesh, const PlanarDomain& domain) {
-  using namespace voronoi_detail;
-  require_domain(domain);
-  require_mesh(mesh, domain);
-  if (domain.periodic())
-    return voronoi(mesh);
+Voronoi bounded(const PlanarMesh& mesh, const PlanarDomain& domain) {
   const Outline outline(domain);
+  require_mesh(mesh);
   require_inside(mesh.points, outline);
   return bounded(mesh, outline);
 }
 
-} // namespace calotte
+} // namespace calotte::voronoi_detail

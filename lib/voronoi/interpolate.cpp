@@ -203,17 +203,14 @@ Weights weights_of(const AnyMesh& mesh, const Space& space, const Locations& at,
 } // namespace voronoi_detail
 
 Weights interpolation_weights(const Mesh& mesh, const PointsRef& given, Interpolation kind) {
-  if (!mesh.surface.is_sphere())
-    return interpolation_weights(mesh_detail::planar(mesh), base_detail::plane_points_of(given),
-                                 kind);
+  if (!mesh.surface.is_sphere()) {
+    const PlanarMesh plane = mesh_detail::planar(mesh);
+    const base_detail::Points2Ref positions = base_detail::plane_points_of(given);
+    return voronoi_detail::weights_of(plane, mesh_detail::InPlane(plane, positions),
+                                      mesh_detail::locate_in_plane(plane, positions), kind);
+  }
   const base_detail::Points3Ref positions = base_detail::directions_of(given);
   return voronoi_detail::weights_of(mesh, mesh_detail::OnSphere(mesh, positions),
-                                    locate(mesh, positions), kind);
-}
-
-Weights interpolation_weights(const PlanarMesh& mesh, const PointsRef& given, Interpolation kind) {
-  const base_detail::Points2Ref positions = base_detail::places_of(given);
-  return voronoi_detail::weights_of(mesh, mesh_detail::InPlane(mesh, positions),
                                     locate(mesh, positions), kind);
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "domain/planar_domain.h"
+#include "mesh/planar_mesh.h"
 #include "voronoi/connectivity.h"
 #include "voronoi/room.h"
 
@@ -19,7 +21,10 @@ struct BegunVoronoi {
 /// Takes the triangles and their neighbours out of the mesh, which keeps its points.
 /// \throws Error bad_option, as voronoi(mesh).
 BegunVoronoi begun(Mesh& mesh);
-BegunVoronoi begun(PlanarMesh& mesh);
+
+/// The cells of a part of the plane, which clips them.
+/// \throws Error bad_option, as voronoi(mesh).
+Voronoi bounded(const PlanarMesh& mesh, const PlanarDomain& domain);
 
 /// Sets all other ids; frees the rings and the neighbours.
 /// \throws Error bad_option if two cells share two edges.

@@ -30,7 +30,7 @@ namespace {
 /// columns err by 5 units of roundoff, their squares by twice that and 3 of their own.
 Vec3 unit_column(const Vec3& x) { return std::abs(dot(x, x) - 1) <= 0x1p-49 ? x : normalised(x); }
 
-void set_cells(const Mesh& mesh, Voronoi& out) {
+void set_directions(const Mesh& mesh, Voronoi& out) {
   make_room(out.cells, 3, mesh.points.cols());
   FirstFault fault;
   for_each_block(mesh.points.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
@@ -44,14 +44,15 @@ void set_cells(const Mesh& mesh, Voronoi& out) {
   fault.refuse("site", "has no direction: give finite points other than 0");
 }
 
-void set_cells(const PlanarMesh& mesh, Voronoi& out) {
+void set_places(const Mesh& mesh, Voronoi& out) {
+  const Eigen::Vector2d& period = mesh.surface.period();
   make_room(out.cells, 3, mesh.points.cols());
   FirstFault fault;
   for_each_block(mesh.points.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i) {
       const double x = mesh.points(0, i), y = mesh.points(1, i);
       set_column(out.cells, i, {x, y, 0});
-      if (!(x >= 0 && x < mesh.period[0] && y >= 0 && y < mesh.period[1]))
+      if (!(x >= 0 && x < period[0] && y >= 0 && y < period[1]))
         fault.at(i);
     }
   });
@@ -59,28 +60,27 @@ void set_cells(const PlanarMesh& mesh, Voronoi& out) {
 }
 
 /// \throws Error bad_option for a mesh that does not cover its space.
-void set_space(const Mesh& mesh, Voronoi&) {
-  require(mesh.closed(), "the mesh is open, and a grid of its cells would reach round the far side "
-                         "of the sphere: give sites all around");
-}
-
-void set_space(const PlanarMesh& mesh, Voronoi& out) {
+void set_space(const Mesh& mesh, Voronoi& out) {
+  if (mesh.surface.is_sphere()) {
+    require(mesh.closed(), "the mesh is open, and a grid of its cells would reach round the far "
+                           "side of the sphere: give sites all around");
+    return;
+  }
   // Products and quotients of areas must stay in the range of doubles.
-  require(mesh.period.minCoeff() > 1e-30 && mesh.period.maxCoeff() < 1e30,
-          "the box of the plane is " + std::to_string(mesh.period[0]) + " x " +
-              std::to_string(mesh.period[1]) +
-              ": give two positive periods between 1e-30 and 1e30");
-  require(mesh.triangles.cols() == 2 * mesh.points.cols(),
-          "the mesh of " + std::to_string(mesh.points.cols()) + " sites has " +
-              std::to_string(mesh.triangles.cols()) +
-              " triangles, and one that covers a periodic box has two for each site: give "
-              "such a mesh");
+  const Eigen::Vector2d& period = mesh.surface.period();
+  require(period.minCoeff() > 1e-30 && period.maxCoeff() < 1e30,
+          "the box of the plane is " + std::to_string(period[0]) + " x " +
+              std::to_string(period[1]) + ": give two positive periods between 1e-30 and 1e30");
+  require(mesh.closed(), "the mesh of " + std::to_string(mesh.points.cols()) + " sites has " +
+                             std::to_string(mesh.triangles.cols()) +
+                             " triangles, and one that covers a periodic box has two for each "
+                             "site: give such a mesh");
   out.on_sphere = false;
-  out.period = mesh.period;
+  out.period = period;
 }
 
 /// Sets cells, begin and the kind of the space.
-template <class AnyMesh> Rings begin(const AnyMesh& mesh, Voronoi& out) {
+Rings begin(const Mesh& mesh, Voronoi& out) {
   set_space(mesh, out);
   constexpr std::int64_t most_cells = std::int64_t{1} << 29;
   require(mesh.points.cols() <= most_cells,
@@ -91,16 +91,11 @@ template <class AnyMesh> Rings begin(const AnyMesh& mesh, Voronoi& out) {
               " triangles but neighbours of " + std::to_string(mesh.neighbours.cols()) +
               ": give a mesh with both");
   Rings rings = find_rings(faces_of(mesh), out);
-  set_cells(mesh, out);
+  if (mesh.surface.is_sphere())
+    set_directions(mesh, out);
+  else
+    set_places(mesh, out);
   return rings;
-}
-
-template <class AnyMesh> BegunVoronoi begun_of(AnyMesh& mesh) {
-  BegunVoronoi out;
-  out.rings = begin(mesh, out.voronoi);
-  out.voronoi.cells_on_vertex = std::move(mesh.triangles);
-  out.neighbours = std::move(mesh.neighbours);
-  return out;
 }
 
 void copy_triangles(const Triangles& triangles, Voronoi& out) {
@@ -110,7 +105,7 @@ void copy_triangles(const Triangles& triangles, Voronoi& out) {
   });
 }
 
-template <class AnyMesh> Voronoi voronoi_of(const AnyMesh& mesh) {
+Voronoi voronoi_of_closed(const Mesh& mesh) {
   Voronoi out;
   const Rings rings = begin(mesh, out);
   copy_triangles(mesh.triangles, out);
@@ -149,8 +144,13 @@ Voronoi voronoi_of_open(const Mesh& mesh) {
 
 } // namespace
 
-BegunVoronoi begun(Mesh& mesh) { return begun_of(mesh); }
-BegunVoronoi begun(PlanarMesh& mesh) { return begun_of(mesh); }
+BegunVoronoi begun(Mesh& mesh) {
+  BegunVoronoi out;
+  out.rings = begin(mesh, out.voronoi);
+  out.voronoi.cells_on_vertex = std::move(mesh.triangles);
+  out.neighbours = std::move(mesh.neighbours);
+  return out;
+}
 
 void connect(BegunVoronoi& out) {
   connect(Faces{out.voronoi.cells_on_vertex, out.neighbours, out.voronoi.cells.cols()}, out.rings,
@@ -162,14 +162,11 @@ void connect(BegunVoronoi& out) {
 } // namespace voronoi_detail
 
 Voronoi voronoi(const Mesh& mesh) {
-  if (!mesh.surface.is_sphere()) {
-    const PlanarMesh plane = mesh_detail::planar(mesh);
-    return mesh.surface.is_bounded() ? voronoi(plane, domain_detail::domain_of(mesh.surface))
-                                     : voronoi(plane);
-  }
-  return mesh.closed() ? voronoi_detail::voronoi_of(mesh) : voronoi_detail::voronoi_of_open(mesh);
+  using namespace voronoi_detail;
+  const Surface& surface = mesh.surface;
+  if (!surface.is_sphere() && surface.is_bounded())
+    return bounded(mesh_detail::planar(mesh), domain_detail::domain_of(surface));
+  return surface.is_sphere() && !mesh.closed() ? voronoi_of_open(mesh) : voronoi_of_closed(mesh);
 }
-
-Voronoi voronoi(const PlanarMesh& mesh) { return voronoi_detail::voronoi_of(mesh); }
 
 } // namespace calotte

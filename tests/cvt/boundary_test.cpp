@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cvt/cvt.h"
+#include "domain/region.h"
+#include "support/planes.h"
 #include "support/starts.h"
 
 #include <calotte/check.h>
 #include <calotte/cvt.h>
 #include <calotte/generators.h>
-#include <calotte/region.h>
 
 #include <Eigen/Geometry>
 #include <doctest/doctest.h>

@@ -3,10 +3,12 @@
 #include <calotte/cvt.h>
 #include <calotte/generators.h>
 #include <calotte/io.h>
-#include <calotte/region.h>
 
 #include "cvt/cvt.h"
+#include "domain/planar_domain.h"
+#include "domain/region.h"
 #include "support/files.h"
+#include "support/planes.h"
 #include "support/starts.h"
 
 #include <doctest/doctest.h>
@@ -31,8 +33,8 @@ const Eigen::Vector3d centre(0.6, 0, 0.8);
 Points3 stations(std::int64_t cells) {
   const double h = std::sqrt(4 * std::numbers::pi / static_cast<double>(cells));
   Points3 points(3, 12);
-  points.leftCols(8) = random_sphere(8, circle(centre, 30 * degree), {}, 5);
-  points.rightCols(4) = random_sphere(4, circle(centre, h / 2), {}, 6);
+  points.leftCols(8) = random_points(8, circle(centre, 30 * degree), {}, 5);
+  points.rightCols(4) = random_points(4, circle(centre, h / 2), {}, 6);
   return points;
 }
 
@@ -109,8 +111,8 @@ std::string message_of(const Points3& start, const Region& region, const CvtOpti
 
 TEST_CASE("fixed generators keep their bits, and all others are centroids") {
   const Points3 fixed = stations(400);
-  for (const Region& region : {Region{}, circle(centre, 35 * degree)}) {
-    const Points3 start = joined(fixed, random_sphere(388, region));
+  for (const Region& region : {Region(), Region(circle(centre, 35 * degree))}) {
+    const Points3 start = joined(fixed, random_points(388, region));
     for (const Method method : {Method::automatic, Method::lloyd, Method::nesterov}) {
       CvtOptions options = fixing(12);
       options.method = method;
@@ -127,7 +129,7 @@ TEST_CASE("fixed generators keep their bits, and all others are centroids") {
 
 TEST_CASE("fixed generators of any norm are normalised once") {
   Points3 fixed = 7.3 * stations(400);
-  const Cvt once = spherical_cvt(joined(fixed, random_sphere(100, Region{})), fixing(12));
+  const Cvt once = spherical_cvt(joined(fixed, random_points(100, Region{})), fixing(12));
   CHECK((once.mesh.points.leftCols(12) - fixed / 7.3).cwiseAbs().maxCoeff() < 1e-15);
   fixed = once.mesh.points.leftCols(12);
   const Cvt again = spherical_cvt(once.mesh.points, fixing(12));
@@ -144,7 +146,7 @@ TEST_CASE("fixed generators only: nothing moves") {
 TEST_CASE("fixed generators through bisections, insertion and a finish [slow]") {
   const std::int64_t cells = 3000;
   const Points3 fixed = stations(cells);
-  for (const Region& region : {Region{}, circle(centre, 35 * degree)}) {
+  for (const Region& region : {Region(), Region(circle(centre, 35 * degree))}) {
     CvtOptions options = graded(cells, 12, 0);
     const test::FirstGenerators from = test::multilevel(cells, region, options.density, 1, fixed);
     CHECK(from.bisections > 0);
@@ -165,7 +167,7 @@ TEST_CASE("fixed generators: the same bits for all threads and regions, and resu
   const std::int64_t cells = 1200;
   const Points3 fixed = stations(cells);
   const Scratch scratch;
-  for (const Region& region : {Region{}, circle(centre, 35 * degree)}) {
+  for (const Region& region : {Region(), Region(circle(centre, 35 * degree))}) {
     CvtOptions options = graded(cells, 12, 0);
     options.well_centred = true;
     options.tolerance = 3e-4;
@@ -195,7 +197,8 @@ TEST_CASE("fixed generators: the same bits for all threads and regions, and resu
 }
 
 TEST_CASE("fixed generators in the plane") {
-  for (const PlanarDomain& domain : {rectangle({0, 0}, {4, 3}), periodic_box({4, 3})}) {
+  for (const PlanarDomain& domain :
+       {PlanarDomain(rectangle({0, 0}, {4, 3})), periodic_box({4, 3})}) {
     const Points2 fixed = random_places(9, domain, 3);
     const test::FirstGenerators from = test::multilevel(900, domain, {}, 1, spatial(fixed));
     CvtOptions options = fixing(9);
@@ -222,7 +225,7 @@ TEST_CASE("fixed generators in the plane") {
 
 TEST_CASE("fixed generators: bad input is one clear line with the index") {
   const Region region = circle(centre, 35 * degree);
-  Points3 start = random_sphere(60, region);
+  Points3 start = random_points(60, region);
   CHECK(message_of(start, region, fixing(61)) ==
         "fixed is 61; give 0 to 60, the number of generators of the start @-1");
   CHECK(message_of(start, region, fixing(-1)).find("fixed is -1; give 0 to 60") == 0);
@@ -327,7 +330,8 @@ TEST_CASE("fixed generators: a refined part of a grid is well-centred [slow]") {
 }
 
 TEST_CASE("fixed generators in the plane: free ones start where these leave room") {
-  for (const PlanarDomain& domain : {rectangle({0, 0}, {4, 3}), periodic_box({4, 3})}) {
+  for (const PlanarDomain& domain :
+       {PlanarDomain(rectangle({0, 0}, {4, 3})), periodic_box({4, 3})}) {
     CvtOptions once;
     once.tolerance = 1e-3;
     const Points2 grid = planar_cvt(random_places(600, domain), domain, once).mesh.points;

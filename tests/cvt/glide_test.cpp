@@ -2,6 +2,9 @@
 #include "cvt/cvt.h"
 #include "cvt/glide.h"
 #include "delaunay/delaunay.h"
+#include "domain/planar_domain.h"
+#include "domain/region.h"
+#include "support/planes.h"
 
 #include "cvt/functional.h"
 #include "cvt/shape.h"
@@ -12,7 +15,6 @@
 #include <calotte/check.h>
 #include <calotte/cvt.h>
 #include <calotte/delaunay.h>
-#include <calotte/domain.h>
 #include <calotte/generators.h>
 #include <calotte/quality.h>
 
@@ -159,7 +161,7 @@ TEST_CASE("glide: threads and regions have no effect") {
 TEST_CASE("glide: in a periodic box, a rectangle and a region of the sphere") {
   PlanarDomain box;
   box.period = {2, 1};
-  for (const PlanarDomain& domain : {rectangle({0, 0}, {2, 1}), box}) {
+  for (const PlanarDomain& domain : {PlanarDomain(rectangle({0, 0}, {2, 1})), box}) {
     CAPTURE(domain.periodic());
     CvtOptions options;
     options.tolerance = 1e-4;
@@ -168,14 +170,15 @@ TEST_CASE("glide: in a periodic box, a rectangle and a region of the sphere") {
     const PlanarCvt grid = planar_cvt(pure.mesh.points, domain, options);
     CHECK(check(grid.mesh).failure == "");
     CHECK(grid.report.well_centred);
-    const double energy = quality(pure.mesh, domain).energy;
-    CHECK(quality(grid.mesh, domain).energy < energy * (1 + 1e-3));
-    CHECK(quality(grid.mesh, domain).obtuse <= quality(pure.mesh, domain).obtuse);
+    const double energy = quality(in_domain(domain, pure.mesh)).energy;
+    CHECK(quality(in_domain(domain, grid.mesh)).energy < energy * (1 + 1e-3));
+    CHECK(quality(in_domain(domain, grid.mesh)).obtuse <=
+          quality(in_domain(domain, pure.mesh)).obtuse);
   }
   const Region region = circle({0, 0, 1}, 0.6);
   CvtOptions options;
   options.tolerance = 1e-4;
-  const Points3 start = random_sphere(900, region, Density{}, 5);
+  const Points3 start = random_points(900, region, Density{}, 5);
   options.well_centred = true;
   const Cvt grid = spherical_cvt(start, region, options);
   CHECK(grid.report.well_centred);

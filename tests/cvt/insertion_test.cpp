@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cvt/insertion.h"
 #include "delaunay/delaunay.h"
+#include "domain/planar_domain.h"
+#include "mesh/planar_mesh.h"
+#include "support/planes.h"
 
 #include "support/densities.h"
 
 #include <calotte/cvt.h>
 #include <calotte/delaunay.h>
-#include <calotte/domain.h>
 #include <calotte/error.h>
 #include <calotte/generators.h>
 
@@ -193,7 +195,7 @@ TEST_CASE("insertion: in the plane midpoints lie inside the domain or the box") 
   corner.rings.push_back((Eigen::MatrixXd(2, 6) << 0, 2, 2, 1, 1, 0, 0, 0, 1, 1, 2, 2).finished());
   const Density fine = tanh_bump({0.5, 0.5, 0}, 0.3, 0.2, 1.0 / 256);
   const PlanarMesh mesh = planar_delaunay(random_places(600, corner, 2));
-  const Points2 points = insert_and_contract(mesh, corner, fine, 25, 15);
+  const Points2 points = insert_and_contract(in_domain(corner, mesh), fine, 25, 15).topRows<2>();
   CHECK(points.cols() == 610);
   for (const auto& x : points.colwise()) {
     CHECK(x.minCoeff() > 0);
@@ -202,7 +204,7 @@ TEST_CASE("insertion: in the plane midpoints lie inside the domain or the box") 
   PlanarDomain box;
   box.period = {3, 2};
   const PlanarMesh periodic = periodic_delaunay(random_places(500, box, 2), box.period);
-  const Points2 inside = insert_and_contract(periodic, box, fine, 10, 10);
+  const Points2 inside = insert_and_contract(periodic, fine, 10, 10).topRows<2>();
   CHECK(inside.cols() == 500);
   CHECK(inside.minCoeff() >= 0);
   CHECK((inside.row(0).array() < 3).all());

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cvt/cvt.h"
 #include "delaunay/delaunay.h"
+#include "domain/planar_domain.h"
 #include "support/densities.h"
+#include "support/planes.h"
 
 #include <calotte/cvt.h>
 #include <calotte/delaunay.h>
-#include <calotte/domain.h>
 #include <calotte/generators.h>
 
 #include <doctest/doctest.h>

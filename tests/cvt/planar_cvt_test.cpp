@@ -3,12 +3,14 @@
 #include "cvt/planar_cells.h"
 #include "delaunay/delaunay.h"
 #include "density/planar_density.h"
+#include "domain/planar_domain.h"
+#include "mesh/planar_mesh.h"
+#include "support/planes.h"
 
 #include "support/random.h"
 
 #include <calotte/cvt.h>
 #include <calotte/delaunay.h>
-#include <calotte/domain.h>
 #include <calotte/error.h>
 #include <calotte/generators.h>
 #include <calotte/planar_raster.h>
@@ -448,7 +450,7 @@ TEST_CASE("clusters, and domains far from the origin or of any size") {
 TEST_CASE("quality of hexagons in a box, and of clipped cells") {
   const PlanarMesh lattice = periodic_hexagons(24, 28, 0.37);
   const PlanarDomain box = periodic_box(lattice.period);
-  const Quality hexagonal = quality(lattice, box);
+  const Quality hexagonal = quality(in_domain(box, lattice));
   CHECK(hexagonal.triangles == 2 * 24 * 28);
   CHECK(hexagonal.degrees[6] == 24 * 28);
   CHECK(hexagonal.spacing.min == doctest::Approx(0.37));
@@ -461,7 +463,7 @@ TEST_CASE("quality of hexagons in a box, and of clipped cells") {
 
   const PlanarCvt grid =
       planar_cvt(random_start(lake(), 500, 3), lake(), with_method(Method::automatic));
-  const Quality clipped = quality(grid.mesh, lake());
+  const Quality clipped = quality(in_domain(lake(), grid.mesh));
   CHECK(clipped.cells == 500);
   CHECK(clipped.cells_area == doctest::Approx(1).epsilon(1e-10));
   CHECK(clipped.residual < 1e-5);
@@ -486,8 +488,8 @@ TEST_CASE("a raster is bilinear, and constant beyond its rim") {
   CHECK(values[3] == doctest::Approx(8));
   raster.density(1, 1) = -1;
   CHECK_THROWS_AS(density_of(raster), Error);
-  CHECK(evaluate(tanh_bump({0.05, 0.5, 0}, 0.2, 0.1, 0.01), periodic_box({1, 1}),
-                 Points2(Eigen::Vector2d(0.95, 0.5)))[0] > 0.7); // around the edge
+  CHECK(evaluate(tanh_bump({0.05, 0.5, 0}, 0.2, 0.1, 0.01), Points2(Eigen::Vector2d(0.95, 0.5)),
+                 Surface::periodic({1, 1}))[0] > 0.7); // around the edge
 }
 
 TEST_CASE("bad input ends in one clear error") {

@@ -3,11 +3,12 @@
 #include <calotte/cvt.h>
 #include <calotte/generators.h>
 #include <calotte/ocean.h>
-#include <calotte/region.h>
 
 #include "cvt/cvt.h"
+#include "domain/region.h"
 #include "support/files.h"
 #include "support/gshhg.h"
+#include "support/planes.h"
 #include "support/region_laws.h"
 #include "support/starts.h"
 
@@ -103,7 +104,7 @@ TEST_CASE("Australia: the cells' areas sum to the region's, and generators stay 
   const Region australia = land_around(gshhg('l'), at(134, -25));
   REQUIRE(australia.rings[0].cols() > 1000);
   const double whole = area(australia);
-  const Points3 start = random_sphere(500, australia);
+  const Points3 start = random_points(500, australia);
   CHECK(std::abs(sum_of_cells(australia, start) / whole - 1) < 1e-12);
   CvtOptions options;
   options.max_iterations = 25;

@@ -3,10 +3,11 @@
 #include <calotte/cvt.h>
 #include <calotte/generators.h>
 #include <calotte/io.h>
-#include <calotte/region.h>
 
 #include "cvt/cvt.h"
+#include "domain/region.h"
 #include "support/files.h"
+#include "support/planes.h"
 #include "support/region_laws.h"
 #include "support/starts.h"
 
@@ -38,7 +39,7 @@ Region archipelago() {
   for (int k = 0; k < 200; ++k)
     region.rings.push_back(
         circle(at(6.0 * (k % 20), -30 + 6.0 * (k / 20)), (1 + 0.1 * (k % 7)) * degree, 12)
-            .rings[0]);
+            .rings()[0]);
   return region;
 }
 
@@ -57,7 +58,7 @@ Region comb() {
 
 Region with_hole() {
   Region region = circle(at(90, 85), 25 * degree); // holds the pole
-  const Points3 hole = circle(at(0, 90), 8 * degree, 40).rings[0];
+  const Points3 hole = circle(at(0, 90), 8 * degree, 40).rings()[0];
   region.rings.push_back(hole.rowwise().reverse());
   return region;
 }
@@ -100,7 +101,7 @@ std::string message_of(const Points3& start, const Region& region) {
 TEST_CASE("region: the cells' areas sum to the region's, and generators stay inside") {
   for (const auto& [name, region] : regions()) {
     CAPTURE(name);
-    const Points3 start = random_sphere(300, region);
+    const Points3 start = random_points(300, region);
     const double whole = area(region);
     CHECK(std::abs(sum_of_cells(region, start) / whole - 1) < 1e-12);
     CvtOptions options;
@@ -118,7 +119,7 @@ TEST_CASE("region: the cells' areas sum to the region's, and generators stay ins
 
 TEST_CASE("region: generators that start in a corner spread over all of it") {
   const Region region = circle(at(10, 20), 30 * degree);
-  const Points3 corner = random_sphere(150, circle(at(30, 20), degree));
+  const Points3 corner = random_points(150, circle(at(30, 20), degree));
   CvtOptions options;
   options.tolerance = 1e-3;
   const Cvt grid = spherical_cvt(corner, region, options);
@@ -130,7 +131,7 @@ TEST_CASE("region: a pure CVT converges near the limit of hexagons") {
   const Region region = circle(at(10, 20), 30 * degree);
   CvtOptions options;
   options.tolerance = 1e-6;
-  const Cvt grid = spherical_cvt(random_sphere(300, region), region, options);
+  const Cvt grid = spherical_cvt(random_points(300, region), region, options);
   CHECK(grid.report.converged);
   const double whole = area(region), hexagons = 5 / (18 * std::sqrt(3.0)) * whole * whole / 300,
                energy = grid.report.iterations.back().energy;
@@ -140,7 +141,7 @@ TEST_CASE("region: a pure CVT converges near the limit of hexagons") {
 
 TEST_CASE("region: uniform density by closed forms and by quadrature") {
   const Region region = circle(at(200, -70), 5 * degree);
-  const Points3 start = random_sphere(200, region);
+  const Points3 start = random_points(200, region);
   CvtOptions options;
   options.norm = Norm::none;
   options.max_iterations = 1;
@@ -206,16 +207,16 @@ TEST_CASE("region: a wider one holds all places within the distance") {
                        std::sin(3 * degree) * (std::cos(angle) * east + std::sin(angle) * north)));
         }
   }
-  CHECK(widened(circle(at(0, 0), 170 * degree), 0.1).whole());
+  CHECK(widened(circle(at(0, 0), 170 * degree), 0.1).is_whole_sphere());
   CHECK_THROWS_AS(widened(circle(at(0, 0), 1), -1), Error);
 }
 
 TEST_CASE("region: bad input is an error") {
   const Region region = circle(at(0, 0), 10 * degree);
-  Points3 start = random_sphere(20, region);
+  Points3 start = random_points(20, region);
   start.col(7) = at(90, 0);
   CHECK(message_of(start, region).find("generator 7 is outside the region") == 0);
-  CHECK(message_of(random_sphere(3, region), region).find("at least 4") != std::string::npos);
+  CHECK(message_of(random_points(3, region), region).find("at least 4") != std::string::npos);
   CHECK(message_of(start, Region{{region.rings[0].leftCols(2)}}).find("corners") !=
         std::string::npos);
 }

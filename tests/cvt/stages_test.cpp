@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cvt/cvt.h"
 #include "cvt/stages.h"
+#include "domain/planar_domain.h"
+#include "support/planes.h"
 
 #include "support/densities.h"
 #include "support/files.h"
 
 #include <calotte/check.h>
 #include <calotte/cvt.h>
-#include <calotte/domain.h>
 #include <calotte/error.h>
 #include <calotte/generators.h>
 #include <calotte/io.h>
@@ -236,14 +237,14 @@ TEST_CASE("stages: in the plane, with a boundary and in a box [slow]") {
   const Density fine = tanh_bump({0.7, 0.5, 0}, 0.2, 0.2, 1.0 / 256);
   PlanarDomain box;
   box.period = {2, 1};
-  for (const PlanarDomain& domain : {rectangle({0, 0}, {2, 1}), box}) {
+  for (const PlanarDomain& domain : {PlanarDomain(rectangle({0, 0}, {2, 1})), box}) {
     CAPTURE(domain.periodic());
     const Points2 start = random_places(120, domain, site_density(fine, domain), 3);
     const PlanarCvt grid = planar_cvt(start, domain, graded(1900, 2, fine));
     CHECK(grid.mesh.points.cols() == 1900);
     CHECK(grid.report.converged);
     CHECK(check(grid.mesh).failure == "");
-    const Quality q = quality(grid.mesh, domain, fine);
+    const Quality q = quality(in_domain(domain, grid.mesh), fine);
     CHECK(q.angles.min > 36.9);
     CHECK(q.obtuse == 0);
   }

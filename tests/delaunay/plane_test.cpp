@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "delaunay/delaunay.h"
 #include "delaunay/plane.h"
+#include "mesh/planar_mesh.h"
 #include "support/plane_laws.h"
 #include "support/random.h"
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "domain/planar_domain.h"
+#include "support/planes.h"
+
 #include <calotte/density.h>
-#include <calotte/domain.h>
 #include <calotte/error.h>
 #include <calotte/generators.h>
-#include <calotte/region.h>
 
 #include <Eigen/Geometry>
 #include <doctest/doctest.h>
@@ -325,7 +326,7 @@ TEST_CASE("a region narrower than rounding is refused, not its density [slow]") 
   ring << 1, 0.6, 0.8, 0, 0.8, 0.6, 0, 0, 1e-14;
   for (Eigen::Index i = 0; i < 3; ++i)
     ring.col(i).normalize();
-  CHECK_THROWS_WITH_AS(random_sphere(100, enclosed_region({ring})),
+  CHECK_THROWS_WITH_AS(random_points(100, enclosed_region({ring})),
                        doctest::Contains("widen the region"), Error);
 }
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "domain/outline.h"
+#include "domain/planar_domain.h"
+#include "support/planes.h"
 
 #include "support/random.h"
 
-#include <calotte/domain.h>
 #include <calotte/error.h>
 
 #include <doctest/doctest.h>

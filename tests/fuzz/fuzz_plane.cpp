@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bytes.h"
 #include "delaunay/delaunay.h"
+#include "mesh/planar_mesh.h"
 #include "mutation.h"
 
 #include <calotte/check.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bytes.h"
+#include "support/planes.h"
 
 #include <calotte/error.h>
 #include <calotte/read.h>

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bytes.h"
+#include "domain/region.h"
+#include "support/planes.h"
 
 #include <calotte/delaunay.h>
 #include <calotte/error.h>
 #include <calotte/generators.h>
-#include <calotte/region.h>
 
 using namespace calotte;
 using calotte::fuzz::require;

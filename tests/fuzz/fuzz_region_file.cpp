@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bytes.h"
+#include "domain/region.h"
+#include "support/planes.h"
 
 #include <calotte/error.h>
 #include <calotte/read.h>
-#include <calotte/region.h>
 
 #include <sstream>
 #include <string>

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "domain/planar_domain.h"
+#include "domain/region.h"
 #include "support/densities.h"
+#include "support/planes.h"
 
 #include <calotte/calotte.h>
 #include <calotte/grid.h>
@@ -246,7 +249,7 @@ TEST_CASE("plan: values out of range are refused before any work") {
       "longitude");
   CHECK_THROWS_AS(make_grid(Schedule{}), Error);
   const Surface square = rectangle({0, 0}, {1, 1});
-  CHECK_THROWS_AS(random_sphere(100, Region(square)), Error);
+  CHECK_THROWS_AS(random_points(100, Region(square)), Error);
   CHECK_THROWS_AS(random_places(100, PlanarDomain(Surface::sphere())), Error);
 }
 

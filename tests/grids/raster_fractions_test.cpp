@@ -2,12 +2,13 @@
 #include <calotte/delaunay.h>
 #include <calotte/generators.h>
 #include <calotte/ocean.h>
-#include <calotte/region.h>
 #include <calotte/voronoi.h>
 
 #include "base/lonlat.h"
 #include "delaunay/delaunay.h"
+#include "domain/region.h"
 #include "support/files.h"
+#include "support/planes.h"
 
 #include <doctest/doctest.h>
 #include <tbb/task_arena.h>
@@ -81,8 +82,9 @@ TEST_CASE("a raster of one value gives it to every cell; complements add up to 1
 }
 
 TEST_CASE("a fine raster of a region gives about the exact fractions") {
-  for (const Region& region : {circle(at(30, 40), 50 * degree), circle(at(0, 90), 20 * degree),
-                               circle(at(180, -5), 30 * degree)}) {
+  for (const Region& region :
+       std::vector<Region>{circle(at(30, 40), 50 * degree), circle(at(0, 90), 20 * degree),
+                           circle(at(180, -5), 30 * degree)}) {
     const auto inside = containing(region);
     const LandRaster raster =
         raster_of(720, 360, [&](double lon, double lat) { return inside(at(lon, lat)) ? 1 : 0; });
@@ -126,7 +128,7 @@ TEST_CASE("a cell inside a rectangle of a coarse raster has its value") {
 
 TEST_CASE("cells that are much smaller than their neighbours have a value, too") {
   Points3 points(3, 600);
-  points << random_sphere(300, 5), random_sphere(300, circle(at(77, 33), 1e-5));
+  points << random_sphere(300, 5), random_points(300, circle(at(77, 33), 1e-5));
   const Voronoi cells = cells_of(points);
   const Eigen::VectorXd fractions = land_fractions(cells, raster_of(36, 18, noise));
   CHECK(fractions.minCoeff() >= 0);

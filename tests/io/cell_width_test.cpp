@@ -4,6 +4,8 @@
 #include "base/lonlat.h"
 #include "base/spherical_angles.h"
 #include "cvt/cvt.h"
+#include "domain/planar_domain.h"
+#include "domain/region.h"
 #include "exact/predicates.h"
 #include "io/netcdf_writer.h"
 #include "support/files.h"
@@ -537,7 +539,7 @@ TEST_CASE("widths of the plane: from a file, their density and their number of c
   CHECK(read.widths(0, 1) == 0.4);
   CHECK(read.widths(2, 0) == 0.1);
   const PlanarDomain box = rectangle({0, 0}, {4, 3});
-  const Eigen::VectorXd rho = evaluate(density_of(read), box, Points2(Eigen::Vector2d(2.5, 1)));
+  const Eigen::VectorXd rho = evaluate(density_of(read), Points2(Eigen::Vector2d(2.5, 1)), box);
   CHECK(rho[0] == doctest::Approx(std::pow(0.1 / 0.15, 4)));
   // The integral of 1/h^2 of a linear h from a to b over a length is the length over a b.
   const double integral = 3 * (1 / (0.4 * 0.2) + 3 / (0.2 * 0.1));

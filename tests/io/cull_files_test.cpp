@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/lonlat.h"
 #include "delaunay/delaunay.h"
+#include "domain/region.h"
 #include "io/netcdf_reader.h"
 #include "io/netcdf_writer.h"
 #include "support/cut_laws.h"
@@ -8,13 +9,13 @@
 #include "support/full_disk.h"
 #include "support/global_file.h"
 #include "support/gshhg.h"
+#include "support/planes.h"
 
 #include <calotte/cull.h>
 #include <calotte/cut.h>
 #include <calotte/delaunay.h>
 #include <calotte/generators.h>
 #include <calotte/read.h>
-#include <calotte/region.h>
 #include <calotte/write.h>
 
 #include <doctest/doctest.h>

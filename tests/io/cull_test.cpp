@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "delaunay/delaunay.h"
+#include "domain/region.h"
 #include "support/cut_laws.h"
 #include "support/files.h"
 #include "support/global_file.h"
+#include "support/planes.h"
 #include "support/random.h"
 
 #include <calotte/cull.h>
 #include <calotte/generators.h>
 #include <calotte/read.h>
-#include <calotte/region.h>
 #include <calotte/voronoi.h>
 
 #include <Eigen/Geometry>

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cvt/cvt.h"
 #include "delaunay/delaunay.h"
+#include "domain/planar_domain.h"
+#include "domain/region.h"
 #include "support/cut_laws.h"
 #include "support/files.h"
 #include "support/global_file.h"
+#include "support/planes.h"
 
 #include <calotte/check_file.h>
 #include <calotte/cut.h>
 #include <calotte/cvt.h>
 #include <calotte/delaunay.h>
-#include <calotte/domain.h>
 #include <calotte/generators.h>
 #include <calotte/write.h>
 
@@ -321,7 +323,7 @@ TEST_CASE("sources without a mesh of the sphere with connectivity are refused") 
   CHECK(refusal() == source + " holds no nEdgesOnCell; complete it with calotte convert IN OUT.nc");
   write(source, mesh, {.format = Format::ugrid});
   CHECK(refusal() == source + " holds no MPAS mesh; convert it with calotte convert");
-  write(source, periodic_delaunay(hexagonal_lattice(100, periodic_box({1, 1})), {1, 1}),
+  write(source, periodic_delaunay(lattice_places(100, periodic_box({1, 1})), {1, 1}),
         {.format = Format::mpas});
   CHECK(refusal() == source + " holds a mesh of the plane, not of the sphere; give another");
   write(source, mesh, {.format = Format::mpas});
@@ -353,7 +355,7 @@ TEST_CASE("a grid made in a region keeps all rules, and is that cut from a globa
   CvtOptions options;
   options.max_iterations = 60;
   const Points3 generators =
-      spherical_cvt(random_sphere(1900, meshed), meshed, options).mesh.points;
+      spherical_cvt(random_points(1900, meshed), meshed, options).mesh.points;
   const std::string made = scratch / "made.nc", global = scratch / "global.nc",
                     cut_out = scratch / "cut.nc";
   Mesh run;

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "delaunay/delaunay.h"
+#include "domain/planar_domain.h"
 #include "io/formats.h"
 #include "io/model_grid.h"
+#include "mesh/planar_mesh.h"
 #include "support/files.h"
 #include "support/meshes.h"
+#include "support/planes.h"
 
 #include <calotte/delaunay.h>
 #include <calotte/error.h>
@@ -81,7 +84,7 @@ TEST_CASE("an MPAS file that is computed while it is written has the bits of the
     io_detail::write_mpas(scratch / "stored.nc", voronoi(mesh), mesh.points, options);
     CHECK(test::read_file(scratch / "computed.nc") == test::read_file(scratch / "stored.nc"));
   }
-  const PlanarMesh plane = periodic_delaunay(hexagonal_lattice(100, periodic_box({1, 1})), {1, 1});
+  const PlanarMesh plane = periodic_delaunay(lattice_places(100, periodic_box({1, 1})), {1, 1});
   io_detail::write_mpas(scratch / "computed.nc", plane, {});
   io_detail::write_mpas(scratch / "stored.nc", voronoi(plane), {}, {});
   CHECK(test::read_file(scratch / "computed.nc") == test::read_file(scratch / "stored.nc"));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/files.h"
+#include "support/planes.h"
 
 #include <calotte/error.h>
 #include <calotte/io.h>

@@ -6,6 +6,7 @@
 #include "io/netcdf_reader.h"
 #include "io/netcdf_writer.h"
 #include "mesh/adjacency.h"
+#include "mesh/planar_mesh.h"
 #include "support/files.h"
 #include "support/planes.h"
 

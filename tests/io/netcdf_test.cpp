@@ -4,6 +4,7 @@
 #include "io/netcdf_writer.h"
 #include "support/files.h"
 #include "support/full_disk.h"
+#include "support/planes.h"
 #include "support/random.h"
 
 #include <calotte/error.h>

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cvt/cvt.h"
 #include "delaunay/delaunay.h"
+#include "domain/planar_domain.h"
+#include "mesh/planar_mesh.h"
 #include "support/files.h"
 #include "support/open_mpas.h"
+#include "support/planes.h"
 #include "support/spoilt_files.h"
 
 #include <calotte/cvt.h>
 #include <calotte/delaunay.h>
-#include <calotte/domain.h>
 #include <calotte/generators.h>
 #include <calotte/mesh_file.h>
 #include <calotte/read.h>
@@ -155,7 +157,7 @@ TEST_CASE("a bounded plane as MPAS: the file keeps all laws and gives the same c
     const MeshField depth{.name = "depth", .values = plane.mesh.points.row(0).transpose()};
     WriteOptions options;
     options.fields = {depth};
-    write(path, plane.mesh, plane.domain, options);
+    write(path, in_domain(plane.domain, plane.mesh), options);
     CHECK(text_attribute(path, "on_a_sphere") == "NO");
     CHECK(text_attribute(path, "is_periodic") == "NO");
     check_none(path);
@@ -165,7 +167,7 @@ TEST_CASE("a bounded plane as MPAS: the file keeps all laws and gives the same c
     CHECK(file.mesh->points.topRows<2>() == plane.mesh.points);
     CHECK(file.mesh->triangles == plane.mesh.triangles);
     REQUIRE(file.polygons.has_value());
-    CHECK(same_cells(*file.polygons, polygons_of(voronoi(plane.mesh, plane.domain))));
+    CHECK(same_cells(*file.polygons, polygons_of(voronoi(in_domain(plane.domain, plane.mesh)))));
     CHECK(std::abs(areas(*file.polygons).sum() / area(plane.domain) - 1) <= 1e-12);
     REQUIRE(file.fields.size() == 1);
     CHECK(file.fields[0].values == depth.values);
@@ -182,9 +184,9 @@ TEST_CASE("graph.info lists the neighbours that are there") {
   const Scratch scratch;
   const PlanarDomain domain = rectangle({0, 0}, {1, 1});
   const PlanarMesh mesh = relaxed(40, domain);
-  write(scratch / "plane.nc", mesh, domain);
+  write(scratch / "plane.nc", in_domain(domain, mesh));
   std::ifstream graph(scratch / "plane.graph.info");
-  const Voronoi cells = voronoi(mesh, domain);
+  const Voronoi cells = voronoi(in_domain(domain, mesh));
   std::int64_t n = 0, edges = 0, listed = 0;
   std::string line;
   graph >> n >> edges;
@@ -207,7 +209,7 @@ TEST_CASE("a variable of a bounded plane's MPAS file that is spoilt alone is fou
   const Scratch scratch;
   const std::string path = scratch / "plane.nc";
   const PlanarDomain domain = rectangle({0, 0}, {3, 2});
-  write(path, relaxed(30, domain), domain);
+  write(path, in_domain(domain, relaxed(30, domain)));
   check_none(path);
   for (const Variable& variable : Patch(path).all())
     for (const Corruption& corruption : corruptions()) {
@@ -230,7 +232,7 @@ TEST_CASE("a bounded plane as UGRID: places in the plane, and areas that sum to 
   const std::string path = scratch / "plane.nc";
   for (const Plane& plane : planes()) {
     CAPTURE(plane.name);
-    write(path, plane.mesh, plane.domain, {.format = Format::ugrid});
+    write(path, in_domain(plane.domain, plane.mesh), {.format = Format::ugrid});
     const Patch file(path);
     const Variable x = file.get("mesh_node_x"), y = file.get("mesh_node_y"),
                    faces = file.get("mesh_face_nodes"), areas = file.get("cell_area");
@@ -254,7 +256,7 @@ TEST_CASE("a bounded plane as UGRID: places in the plane, and areas that sum to 
     check_none(path);
     const MeshFile copy = read_mesh_file(path);
     CHECK(copy.mesh->points.topRows<2>() == plane.mesh.points);
-    CHECK(same_cells(*copy.polygons, polygons_of(voronoi(plane.mesh, plane.domain))));
+    CHECK(same_cells(*copy.polygons, polygons_of(voronoi(in_domain(plane.domain, plane.mesh)))));
     CHECK(write(scratch / "back.nc", copy).dropped.empty());
     check_none(scratch / "back.nc");
   }
@@ -263,7 +265,7 @@ TEST_CASE("a bounded plane as UGRID: places in the plane, and areas that sum to 
 TEST_CASE("a variable of a bounded plane's UGRID file that is spoilt alone is found") {
   const Scratch scratch;
   const PlanarDomain domain = rectangle({0, 0}, {3, 2});
-  write(scratch / "plane.nc", relaxed(30, domain), domain, {.format = Format::ugrid});
+  write(scratch / "plane.nc", in_domain(domain, relaxed(30, domain)), {.format = Format::ugrid});
   check_each_variable(scratch / "plane.nc", Format::ugrid, 3);
 }
 
@@ -271,10 +273,10 @@ TEST_CASE("a bounded plane as cells of VTK and GeoJSON") {
   const Scratch scratch;
   for (const Plane& plane : planes()) {
     CAPTURE(plane.name);
-    const Polygons cells = polygons_of(voronoi(plane.mesh, plane.domain));
+    const Polygons cells = polygons_of(voronoi(in_domain(plane.domain, plane.mesh)));
     for (const auto& [name, format] :
          {std::pair("a.vtp", Format::vtp_cells), std::pair("a.vtu", Format::vtu_cells)}) {
-      write(scratch / name, plane.mesh, plane.domain, {.format = format});
+      write(scratch / name, in_domain(plane.domain, plane.mesh), {.format = format});
       const MeshFile file = read_mesh_file(scratch / name);
       REQUIRE(file.polygons.has_value());
       CHECK(same_cells(*file.polygons, cells));
@@ -282,7 +284,7 @@ TEST_CASE("a bounded plane as cells of VTK and GeoJSON") {
       CHECK(write(scratch / "copy.nc", file).dropped.empty());
       check_none(scratch / "copy.nc");
     }
-    write(scratch / "a.geojson", plane.mesh, plane.domain);
+    write(scratch / "a.geojson", in_domain(plane.domain, plane.mesh));
     const MeshFile file = read_mesh_file(scratch / "a.geojson");
     CHECK(file.mesh->points.topRows<2>() == plane.mesh.points);
     const std::string text = test::read_file(scratch / "a.geojson");
@@ -298,7 +300,7 @@ TEST_CASE("what a bounded plane cannot be written as is refused, naming the reme
   const auto problem = [&](const std::string& name, Format format, bool bounded) {
     const WriteOptions options{.format = format};
     return std::string(error_of([&] {
-                         bounded ? write(scratch / name, mesh, domain, options)
+                         bounded ? write(scratch / name, in_domain(domain, mesh), options)
                                  : write(scratch / name, mesh, options);
                        }).what());
   };
@@ -307,7 +309,9 @@ TEST_CASE("what a bounded plane cannot be written as is refused, naming the reme
     CHECK(problem("a.nc", format, true).find("written as mpas (.nc), ugrid, vtp-cells") !=
           std::string::npos);
   const Points2 far = random_places(20, rectangle({2, 2}, {3, 3}), 1);
-  CHECK(std::string(error_of([&] { write(scratch / "a.nc", planar_delaunay(far), domain); }).what())
+  CHECK(std::string(error_of([&] {
+                      write(scratch / "a.nc", in_domain(domain, planar_delaunay(far)));
+                    }).what())
             .find("is outside of the domain") != std::string::npos);
   CHECK(scratch.files() == 0);
 }

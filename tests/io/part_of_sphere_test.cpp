@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "delaunay/delaunay.h"
+#include "domain/planar_domain.h"
+#include "mesh/planar_mesh.h"
 #include "support/files.h"
 #include "support/open_mpas.h"
+#include "support/planes.h"
 
 #include <calotte/check.h>
 #include <calotte/delaunay.h>
@@ -285,7 +288,7 @@ TEST_CASE("clipped cells of a plane are written as their own triangles, not as t
   const Scratch scratch;
   const PlanarDomain domain = rectangle({0, 0}, {3, 2});
   const PlanarMesh mesh = planar_delaunay(random_places(60, domain, 4));
-  write(scratch / "plane.nc", mesh, domain);
+  write(scratch / "plane.nc", in_domain(domain, mesh));
   const MeshFile file = read_mesh_file(scratch / "plane.nc");
   REQUIRE(file.polygons);
   std::vector<int> cells_at(static_cast<std::size_t>(file.polygons->corners.cols()));

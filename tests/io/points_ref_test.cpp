@@ -2,13 +2,15 @@
 // Points come in from a caller's matrix of any kind; the number of rows is checked at run time.
 #include "cvt/cvt.h"
 #include "delaunay/delaunay.h"
+#include "domain/planar_domain.h"
+#include "mesh/planar_mesh.h"
 #include "support/files.h"
+#include "support/planes.h"
 
 #include <calotte/cell_width.h>
 #include <calotte/cvt.h>
 #include <calotte/delaunay.h>
 #include <calotte/density.h>
-#include <calotte/domain.h>
 #include <calotte/error.h>
 #include <calotte/generators.h>
 #include <calotte/io.h>
@@ -74,7 +76,7 @@ std::vector<Call> calls_in_plane() {
            [](const PointsRef& x) {
              planar_cvt(x, periodic_box({1, 1}), one_step());
            }},
-          {"evaluate a density", [](const PointsRef& x) { evaluate(Density(), unit_square(), x); }},
+          {"evaluate a density", [](const PointsRef& x) { evaluate(Density(), x, unit_square()); }},
           {"a domain's rings", [](const PointsRef& x) {
              PlanarDomain domain;
              domain.rings.emplace_back(x);
@@ -176,7 +178,7 @@ TEST_CASE("empty matrices are refused, or give nothing") {
   CHECK(code([] { planar_delaunay(Eigen::MatrixXd(2, 0)); }) == ErrorCode::too_few_sites);
   CHECK(code([] { planar_cvt(Points2(), unit_square()); }) == ErrorCode::too_few_sites);
   CHECK(evaluate(Density(), Eigen::MatrixXd(3, 0)).size() == 0);
-  CHECK(evaluate(Density(), unit_square(), Eigen::MatrixXd(2, 0)).size() == 0);
+  CHECK(evaluate(Density(), Eigen::MatrixXd(2, 0), unit_square()).size() == 0);
   CHECK(evaluate(wide_cells(), Eigen::MatrixXd(3, 0)).size() == 0);
 }
 
@@ -233,12 +235,12 @@ TEST_CASE("any kind of matrix gives the same mesh of the plane") {
   const PlanarMesh mesh = planar_delaunay(places),
                    periodic = periodic_delaunay(places, Eigen::Vector2d(1, 1));
   const Density bump = tanh_bump({0.5, 0.5, 0}, 0.2, 0.1, 0.1);
-  const Eigen::VectorXd rho = evaluate(bump, box, places);
+  const Eigen::VectorXd rho = evaluate(bump, places, box);
   for_each_kind(places, [&](const char* kind, const auto& other) {
     CAPTURE(kind);
     CHECK(same(planar_delaunay(other), mesh));
     CHECK(same(periodic_delaunay(other, Eigen::Vector2d(1, 1)), periodic));
-    CHECK(evaluate(bump, box, other) == rho);
+    CHECK(evaluate(bump, other, box) == rho);
   });
 }
 

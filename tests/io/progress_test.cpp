@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Progress and cancellation of triangulation, check and write.
 #include "delaunay/delaunay.h"
+#include "domain/planar_domain.h"
 #include "support/files.h"
+#include "support/planes.h"
 
 #include <calotte/check.h>
 #include <calotte/delaunay.h>

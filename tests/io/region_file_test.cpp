@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/lonlat.h"
+#include "domain/region.h"
+#include "support/planes.h"
 
 #include "support/files.h"
 
 #include <calotte/error.h>
 #include <calotte/read.h>
-#include <calotte/region.h>
 
 #include <doctest/doctest.h>
 
@@ -230,15 +231,15 @@ TEST_CASE("GeoJSON: positions") {
 TEST_CASE(".pts: circles, ellipses and channels") {
   const Region circular = read(
       "india.pts", "Name: india\nType: circle\nPoint: 20.0, 80.0\nradius: 2000000.0   # Meters\n");
-  CHECK(circular.rings == circle(lonlat(80, 20), 2e6 / earth).rings);
+  CHECK(circular == circle(lonlat(80, 20), 2e6 / earth));
   const Region oval =
       read("japan.PTS", "name: japan\nTYPE:Ellipse\r\n point : 38 , 138\nSemi-major-axis: "
                         "1580000\nSemi-minor-axis: 1e6\nOrientation-angle: 45\n");
-  CHECK(oval.rings == ellipse(lonlat(138, 38), 1.58e6 / earth, 1e6 / earth, 45 * degree).rings);
+  CHECK(oval == ellipse(lonlat(138, 38), 1.58e6 / earth, 1e6 / earth, 45 * degree));
   for (const std::string& text :
        {std::string("ulat: 23.4\nllat: -10\n"), std::string("Upper-lat: 23.4\nLower-lat: -10\n")})
-    CHECK(read("tropics.pts", "Name: tropics\nType: channel\n" + text).rings ==
-          channel(-10 * degree, 23.4 * degree).rings);
+    CHECK(read("tropics.pts", "Name: tropics\nType: channel\n" + text) ==
+          channel(-10 * degree, 23.4 * degree));
 }
 
 TEST_CASE(".pts: a polygon around its point, of any winding") {

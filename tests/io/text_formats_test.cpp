@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "delaunay/delaunay.h"
+#include "domain/planar_domain.h"
+#include "mesh/planar_mesh.h"
 #include "support/files.h"
 #include "support/meshes.h"
 #include "support/planes.h"
 
 #include <calotte/delaunay.h>
 #include <calotte/density.h>
-#include <calotte/domain.h>
 #include <calotte/io.h>
 #include <calotte/mesh_file.h>
 #include <calotte/voronoi.h>

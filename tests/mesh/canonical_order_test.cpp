@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "delaunay/delaunay.h"
+#include "domain/planar_domain.h"
 #include "mesh/canonical_order.h"
+#include "mesh/planar_mesh.h"
 #include "support/clouds.h"
 #include "support/laws.h"
 #include "support/random.h"
 #include "support/shuffled.h"
 
 #include <calotte/delaunay.h>
-#include <calotte/domain.h>
 #include <calotte/generators.h>
 
 #include <doctest/doctest.h>

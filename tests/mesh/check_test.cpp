@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "curve/traversal.h"
 #include "delaunay/delaunay.h"
+#include "mesh/planar_mesh.h"
 #include "mesh/renumber.h"
 #include "support/clouds.h"
 #include "support/laws.h"
+#include "support/planes.h"
 
 #include <calotte/check.h>
 #include <calotte/delaunay.h>

@@ -5,9 +5,12 @@
 
 #include "base/points.h"
 #include "delaunay/delaunay.h"
+#include "domain/planar_domain.h"
 #include "exact/plane_predicates.h"
 #include "exact/predicates.h"
+#include "mesh/planar_mesh.h"
 #include "support/clouds.h"
+#include "support/planes.h"
 
 #include <Eigen/Geometry>
 #include <doctest/doctest.h>
@@ -208,12 +211,12 @@ TEST_CASE("open meshes: a hemisphere, and one with a hole and a bay") {
 TEST_CASE("the plane and periodic boxes") {
   const PlanarDomain domain = rectangle({0, 0}, {4, 3}), box = periodic_box({4, 3});
   const Points2 inside = random_places(400, rectangle({-2, -1}, {8, 5}), 3);
-  for (const Points2& points : {random_places(200, domain), hexagonal_lattice(150, domain)}) {
+  for (const Points2& points : {random_places(200, domain), lattice_places(150, domain)}) {
     const PlanarMesh mesh = planar_delaunay(points);
     check_located(mesh, inside);
     check_located(mesh, points);
   }
-  for (const Points2& points : {random_places(200, box), hexagonal_lattice(150, box)}) {
+  for (const Points2& points : {random_places(200, box), lattice_places(150, box)}) {
     const PlanarMesh mesh = periodic_delaunay(points, {4, 3});
     check_located(mesh, inside);
     check_located(mesh, Points2(points.colwise() + Eigen::Vector2d(8, -3)));

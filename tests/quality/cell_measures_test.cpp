@@ -2,6 +2,8 @@
 #include <calotte/quality.h>
 
 #include "delaunay/delaunay.h"
+#include "domain/planar_domain.h"
+#include "mesh/planar_mesh.h"
 #include "support/clouds.h"
 #include "support/densities.h"
 
@@ -122,13 +124,12 @@ TEST_CASE("in the plane the lists have the ranges of quality()") {
   const Points2 places = (random.topRows<2>().array() + 1) / 2;
   const PlanarDomain box = rectangle({-0.1, -0.1}, {1.1, 1.2});
   const PlanarMesh open = planar_delaunay(places);
-  const CellMeasures cells = cell_measures(open, box);
-  check_ranges(cells, quality(open, box));
+  const CellMeasures cells = cell_measures(in_domain(box, open));
+  check_ranges(cells, quality(in_domain(box, open)));
   CHECK(cells.area.sum() == doctest::Approx(1.2 * 1.3));
-  const PlanarDomain periodic = periodic_box({1.01, 1.02});
   const PlanarMesh torus = periodic_delaunay(places, {1.01, 1.02});
-  const Quality whole = quality(torus, periodic);
-  const CellMeasures of_torus = cell_measures(torus, periodic);
+  const Quality whole = quality(torus);
+  const CellMeasures of_torus = cell_measures(torus);
   check_ranges(of_torus, whole);
   check_range("triangle quality", of_torus.triangle_quality, whole.triangle_quality);
   CHECK(least_of(of_torus.least_fit) == doctest::Approx(whole.dc_over_h.min));

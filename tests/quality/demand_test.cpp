@@ -2,8 +2,11 @@
 #include <calotte/quality.h>
 
 #include "delaunay/delaunay.h"
+#include "domain/planar_domain.h"
+#include "mesh/planar_mesh.h"
 #include "support/densities.h"
 #include "support/laws.h"
+#include "support/planes.h"
 
 #include <calotte/cell_width.h>
 #include <calotte/delaunay.h>
@@ -171,7 +174,7 @@ TEST_CASE("the limit of cell widths is that of the number of cells that they imp
 
 TEST_CASE("laws: regular hexagons of a periodic box have no excess, and exact ratios") {
   const PlanarMesh mesh = hexagons(24, 28);
-  const Quality q = quality(mesh, periodic_box(mesh.period));
+  const Quality q = quality(mesh);
   CHECK(std::abs(q.excess) < 1e-12);
   for (const double fit : {q.dc_over_h.min, q.dc_over_h.p50, q.dc_over_h.max})
     CHECK(fit == doctest::Approx(1).epsilon(1e-12));
@@ -192,8 +195,9 @@ TEST_CASE("in a plane the limit is that of the domain, and follows its unit") {
   };
   const PlanarMesh mesh = planar_delaunay(places);
   const PlanarDomain square = rectangle({0, 0}, {1, 1});
-  CHECK(quality(mesh, square).limit == doctest::Approx(limit_of(1)).epsilon(1e-12));
-  CHECK(quality(mesh, square, linear).limit == doctest::Approx(limit_of(1.5)).epsilon(1e-9));
+  CHECK(quality(in_domain(square, mesh)).limit == doctest::Approx(limit_of(1)).epsilon(1e-12));
+  CHECK(quality(in_domain(square, mesh), linear).limit ==
+        doctest::Approx(limit_of(1.5)).epsilon(1e-9));
   const Density bump = tanh_bump({0.4, 0.5, 0}, 0.15, 0.05, 1.0 / 256);
   constexpr int side = 2000; // of a lattice of midpoints
   Eigen::Matrix2Xd row(2, side);
@@ -201,12 +205,13 @@ TEST_CASE("in a plane the limit is that of the domain, and follows its unit") {
   for (int j = 0; j < side; ++j) {
     for (int i = 0; i < side; ++i)
       row.col(i) << (i + 0.5) / side, (j + 0.5) / side;
-    sum += evaluate(bump, square, row).cwiseSqrt().sum() / side / side;
+    sum += evaluate(bump, row, square).cwiseSqrt().sum() / side / side;
   }
-  CHECK(quality(mesh, square, bump).limit == doctest::Approx(limit_of(sum)).epsilon(2e-6));
-  const Quality small = quality(mesh, square),
-                large = quality(planar_delaunay(Points2(1000 * places)),
-                                rectangle({0, 0}, {1000, 1000}));
+  CHECK(quality(in_domain(square, mesh), bump).limit ==
+        doctest::Approx(limit_of(sum)).epsilon(2e-6));
+  const Quality small = quality(in_domain(square, mesh)),
+                large = quality(in_domain(rectangle({0, 0}, {1000, 1000}),
+                                          planar_delaunay(Points2(1000 * places))));
   CHECK(large.excess == doctest::Approx(small.excess));
   CHECK(large.dc_over_h.p50 == doctest::Approx(small.dc_over_h.p50));
   CHECK(large.bad_cells == small.bad_cells);

@@ -3,9 +3,12 @@
 
 #include "cvt/cvt.h"
 #include "delaunay/delaunay.h"
+#include "domain/planar_domain.h"
+#include "mesh/planar_mesh.h"
 #include "support/clouds.h"
 #include "support/densities.h"
 #include "support/meshes.h"
+#include "support/planes.h"
 
 #include <calotte/cvt.h>
 #include <calotte/delaunay.h>
@@ -471,7 +474,7 @@ struct Wave {
 TEST_CASE("regular hexagons in a periodic plane have the errors of plane waves") {
   const double d = 0.7;
   const PlanarMesh mesh = periodic_hexagons(12, 18, d);
-  const OperatorErrors errors = operator_errors(mesh, periodic_box(mesh.period));
+  const OperatorErrors errors = operator_errors(in_domain(periodic_box(mesh.period), mesh));
   const Wave x{{2 * pi / mesh.period[0], 0}, d}, y{{0, 2 * pi / mesh.period[1]}, d};
   const auto mean = [&](double (Wave::*error)() const) { return (x.*error)() + (y.*error)(); };
   const double fourth = std::pow(x.k[0], 4) + std::pow(y.k[1], 4),
@@ -495,13 +498,13 @@ TEST_CASE("in a bounded plane the cells count that the boundary does not clip") 
   const Points2 places = (random.topRows<2>().array() + 1) / 2;
   const PlanarDomain box = rectangle({-0.1, -0.1}, {1.1, 1.2});
   const PlanarMesh mesh = planar_delaunay(places);
-  const OperatorErrors errors = operator_errors(mesh, box);
-  const std::vector<bool> clipped = clipped_cells(mesh, box);
+  const OperatorErrors errors = operator_errors(in_domain(box, mesh));
+  const std::vector<bool> clipped = clipped_cells(in_domain(box, mesh));
   for (std::size_t i = 0; i < clipped.size(); ++i)
     CHECK(std::isnan(errors.by_cell.divergence[static_cast<Eigen::Index>(i)]) == clipped[i]);
   CHECK(errors.by_cell.curl[errors.curl.cell] == errors.curl.max);
   CHECK(errors.gradient.l2 < 0.1);
-  CHECK(errors.off_centroid.max == cell_measures(mesh, box).off_centroid.maxCoeff());
+  CHECK(errors.off_centroid.max == cell_measures(in_domain(box, mesh)).off_centroid.maxCoeff());
 }
 
 TEST_CASE("no density, no whole cell and no Voronoi cells are errors") {

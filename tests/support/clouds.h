@@ -3,6 +3,7 @@
 
 #include "support/exact.h"
 #include "support/oracle.h"
+#include "support/planes.h"
 #include "support/random.h"
 
 #include <calotte/generators.h>

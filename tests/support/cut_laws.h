@@ -2,6 +2,7 @@
 #pragma once
 
 #include "support/netcdf_content.h"
+#include "support/planes.h"
 
 #include <cmath>
 #include <deque>

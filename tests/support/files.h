@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "support/planes.h"
+
 #include <calotte/error.h>
 #include <calotte/types.h>
 

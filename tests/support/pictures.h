@@ -2,6 +2,7 @@
 #pragma once
 
 #include "draw/scale.h"
+#include "support/planes.h"
 
 #include <calotte/error.h>
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "mesh/planar_mesh.h"
+
 #include <calotte/types.h>
 
 #include <doctest/doctest.h>

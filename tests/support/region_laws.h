@@ -3,11 +3,11 @@
 
 #include "base/points.h"
 #include "cvt/region_cells.h"
+#include "domain/region.h"
 #include "domain/spherical_outline.h"
 #include "integrals/region_moments.h"
 
 #include <calotte/cvt.h>
-#include <calotte/region.h>
 
 #include <cmath>
 #include <memory>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/planar_mesh.h"
 #include "support/command.h"
 #include "support/planes.h"
 

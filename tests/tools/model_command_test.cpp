@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "delaunay/delaunay.h"
 #include "support/command.h"
+#include "support/planes.h"
 
 #include <calotte/delaunay.h>
 #include <calotte/generators.h>

@@ -3,7 +3,6 @@
 #include "support/planes.h"
 
 #include <calotte/io.h>
-#include <calotte/region.h>
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cvt/cvt.h"
 #include "delaunay/delaunay.h"
+#include "domain/planar_domain.h"
+#include "mesh/planar_mesh.h"
+#include "support/planes.h"
 
 #include <calotte/cvt.h>
 #include <calotte/delaunay.h>
-#include <calotte/domain.h>
 #include <calotte/error.h>
 #include <calotte/generators.h>
 #include <calotte/read.h>
@@ -214,7 +216,7 @@ void check_weights(const Voronoi& v) {
 
 Voronoi checked(const Points2& places, const PlanarDomain& domain) {
   const PlanarMesh mesh = planar_delaunay(places);
-  const Voronoi v = voronoi(mesh, domain);
+  const Voronoi v = voronoi(in_domain(domain, mesh));
   CHECK(!v.on_sphere);
   check_areas(v, mesh.points, domain);
   check_lists(v);
@@ -246,7 +248,7 @@ Points2 relaxed(std::int64_t n, const PlanarDomain& domain, std::uint64_t seed) 
 /// Where a cell is no polygon, that is said of the right one.
 bool is_refused(const Points2& places, const PlanarDomain& domain) {
   try {
-    voronoi(planar_delaunay(places), domain);
+    voronoi(in_domain(domain, planar_delaunay(places)));
   } catch (const Error& error) {
     CHECK(error.code() == ErrorCode::bad_option);
     CHECK(std::string(error.what()).find("island") != std::string::npos);
@@ -347,7 +349,7 @@ TEST_CASE("what does not fit is refused") {
   const PlanarMesh mesh = planar_delaunay(random_places(9, rectangle({0, 0}, {1, 1}), 3));
   const auto message = [](const PlanarMesh& given, const PlanarDomain& domain) {
     try {
-      voronoi(given, domain);
+      voronoi(in_domain(domain, given));
     } catch (const Error& error) {
       CHECK(error.code() == ErrorCode::bad_option);
       return std::string(error.what());
@@ -369,7 +371,7 @@ TEST_CASE("what does not fit is refused") {
 
 TEST_CASE("a periodic domain gives the cells of the box") {
   const PlanarMesh mesh = periodic_delaunay(random_places(200, periodic_box({2, 1}), 1), {2, 1});
-  const Voronoi v = voronoi(mesh, periodic_box({2, 1})), w = voronoi(mesh);
+  const Voronoi v = voronoi(in_domain(periodic_box({2, 1}), mesh)), w = voronoi(mesh);
   CHECK((v.cell_area.array() == w.cell_area.array()).all());
 }
 

@@ -5,7 +5,10 @@
 #include <calotte/voronoi.h>
 
 #include "delaunay/delaunay.h"
+#include "domain/planar_domain.h"
+#include "mesh/planar_mesh.h"
 #include "support/clouds.h"
+#include "support/planes.h"
 
 #include <doctest/doctest.h>
 #include <tbb/global_control.h>
@@ -84,7 +87,7 @@ TEST_CASE("natural neighbours on the sphere have what the cells lose") {
 
 TEST_CASE("natural neighbours in a periodic box have what the cells lose") {
   for (const Points2& points :
-       {random_places(120, periodic_box({4, 3})), hexagonal_lattice(100, periodic_box({4, 3}))}) {
+       {random_places(120, periodic_box({4, 3})), lattice_places(100, periodic_box({4, 3}))}) {
     const PlanarMesh mesh = periodic_delaunay(points, {4, 3});
     const Eigen::VectorXd before = voronoi(mesh).cell_area;
     const Points2 at = random_places(60, rectangle({-1, -1}, {6, 5}), 5);

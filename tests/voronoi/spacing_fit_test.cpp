@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "delaunay/delaunay.h"
+#include "domain/planar_domain.h"
+#include "mesh/planar_mesh.h"
+#include "support/planes.h"
 #include "voronoi/spacing_fit.h"
 
 #include <calotte/delaunay.h>
@@ -139,7 +142,7 @@ TEST_CASE("cells along a boundary tell nothing of the spacing") {
   for (Eigen::Index i = 0; i < points.cols(); ++i)
     points.col(i) = kept[static_cast<std::size_t>(i)];
   const PlanarDomain domain = rectangle({0, 0}, upper);
-  const Voronoi cells = voronoi(planar_delaunay(points), domain);
+  const Voronoi cells = voronoi(in_domain(domain, planar_delaunay(points)));
   CHECK(voronoi_detail::nominal_spacing(cells, {}) == doctest::Approx(spacing).epsilon(1e-9));
   CHECK(median_of_dc(cells) == doctest::Approx(spacing).epsilon(1e-9));
   CHECK(nominal_spacing(cell_fields(cells)) < 0.98 * spacing); // with the boundary's

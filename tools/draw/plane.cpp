@@ -10,9 +10,9 @@
 #include "draw/values.h"
 #include "draw/vector.h"
 
-#include <calotte/domain.h>
 #include <calotte/error.h>
 #include <calotte/quality.h>
+#include <calotte/surface.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #include "draw/plane.h"
 
 #include <calotte/delaunay.h>
-#include <calotte/domain.h>
+#include <calotte/surface.h>
 
 #include <algorithm>
 #include <array>

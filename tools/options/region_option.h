@@ -2,7 +2,7 @@
 #pragma once
 
 #include <calotte/cell_width.h>
-#include <calotte/region.h>
+#include <calotte/surface.h>
 
 #include <CLI/App.hpp>
 

@@ -5,9 +5,9 @@
 #include "draw/values.h"
 
 #include <calotte/check.h>
-#include <calotte/domain.h>
 #include <calotte/error.h>
 #include <calotte/operators.h>
+#include <calotte/surface.h>
 
 #include <algorithm>
 #include <cmath>

@@ -6,9 +6,9 @@
 #include "draw/values.h"
 #include "support/clouds.h"
 #include "support/pictures.h"
+#include "support/planes.h"
 
 #include <calotte/delaunay.h>
-#include <calotte/domain.h>
 #include <calotte/generators.h>
 #include <calotte/quality.h>
 
@@ -87,7 +87,7 @@ TEST_CASE("a planar map of degrees has the counts of quality(), and cells at the
 TEST_CASE("a lattice in a rectangle shows no defects, as cells or as triangles") {
   const Folder folder;
   const Surface domain = rectangle({0, 0}, {3, 2});
-  Mesh mesh = delaunay(hexagonal_lattice(300, domain), domain);
+  Mesh mesh = delaunay(lattice_places(300, domain), domain);
   const auto counts = counts_of(degrees_of_cells(mesh));
   CHECK(counts.size() == 2);
   CHECK(counts.contains(6));

@@ -11,7 +11,6 @@
 #include "support/pictures.h"
 
 #include <calotte/delaunay.h>
-#include <calotte/domain.h>
 #include <calotte/generators.h>
 #include <calotte/io.h>
 

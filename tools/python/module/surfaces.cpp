@@ -3,10 +3,8 @@
 #include "calls.h"
 #include "module.h"
 
-#include <calotte/domain.h>
 #include <calotte/ocean.h>
 #include <calotte/read.h>
-#include <calotte/region.h>
 #include <calotte/surface.h>
 
 #include <pybind11/eigen.h>

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <calotte/export.h>
-#include <calotte/types.h>
+#include "domain/room.h"
 
-#include <functional>
+#include <calotte/surface.h>
+
 #include <utility>
 #include <vector>
 
-CALOTTE_API_BEGIN
 namespace calotte {
 
 /// A bounded domain of the plane: the interior of closed polygons, or a doubly periodic box.
@@ -27,15 +26,11 @@ struct PlanarDomain {
   PlanarDomain(std::vector<DoubleMatrix> all, const Eigen::Vector2d& box = {0, 0})
       : rings(std::move(all)), period(box) {}
   PlanarDomain(const Surface& surface); ///< \throws Error bad_option for the sphere
+  operator Surface() const;             ///< not checked
 
   /// True for a periodic box.
   bool periodic() const { return rings.empty(); }
 };
-
-/// The rectangle [lower.x, upper.x] x [lower.y, upper.y], in any unit of length.
-/// \param lower, upper opposite corners; finite.
-/// \throws Error bad_option unless lower < upper in both coordinates.
-PlanarDomain rectangle(const Eigen::Vector2d& lower, const Eigen::Vector2d& upper);
 
 /// The doubly periodic box [0, period.x) x [0, period.y).
 /// \param period side lengths, from 1e-30 to 1e30, in any unit of length.
@@ -53,17 +48,4 @@ void require_domain(const PlanarDomain& domain);
 /// \throws Error as require_domain() if the domain has rings.
 double area(const PlanarDomain& domain);
 
-/// True if the point lies inside the domain or on its boundary; for a periodic box, if it lies in
-/// the half-open box. The test is exact. Each call prepares the boundary; for many places call
-/// containing().
-/// \param place in the unit of the domain; false for NaN.
-/// \throws Error as require_domain() if the domain has rings.
-bool contains(const PlanarDomain& domain, const Eigen::Vector2d& place);
-
-/// Returns contains() as a function for many places. It prepares the boundary once; a call reads
-/// only the edges near the place. The result keeps a copy of the boundary.
-/// \throws Error as require_domain() if the domain has rings.
-std::function<bool(const Eigen::Vector2d&)> containing(const PlanarDomain& domain);
-
 } // namespace calotte
-CALOTTE_API_END

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "domain/room.h"
+
+#include <calotte/surface.h>
+
+#include <utility>
+#include <vector>
+
+namespace calotte {
+
+/// A part of the sphere between closed rings of great-circle arcs.
+struct Region {
+  /// Boundary rings, each 3 x corners, directions of any norm. An arc shorter than a half circle
+  /// joins each corner to the next, and the last to the first. The region lies to the left of every
+  /// ring, seen from outside the sphere: an outer boundary runs counter-clockwise, a hole
+  /// clockwise. Default: none, which is the whole sphere.
+  std::vector<Points3> rings;
+
+  Region() = default; ///< the whole sphere
+  /// The part within these rings.
+  Region(std::vector<Points3> all) : rings(std::move(all)) {}
+  Region(const Surface& surface); ///< \throws Error bad_option for a plane
+  operator Surface() const;       ///< not checked
+
+  /// True for the whole sphere.
+  bool whole() const { return rings.empty(); }
+};
+
+/// Throws unless the rings bound a region. The whole sphere is valid.
+/// \throws Error bad_option, naming ring and corner, with the ring as index(): fewer than three
+///         corners; a corner that is no direction; equal or opposite neighbours; arcs that meet
+///         elsewhere than in the corner that joins them; rings of which one does not have the
+///         region to its left.
+void require_region(const Region& region);
+
+/// The area in steradians; 4 pi for the whole sphere. It errs by about 1e-15.
+/// \throws Error as require_region().
+double area(const Region& region);
+
+} // namespace calotte
