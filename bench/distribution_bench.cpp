@@ -36,8 +36,8 @@ namespace calotte::bench {
 namespace {
 
 const std::vector<std::string> decompositions = {"default", "fibonacci", "uniform", "x8"};
-const std::map<std::string, Sort> sorts = {
-    {"halo", Sort::halo}, {"distance", Sort::distance}, {"voronoi", Sort::voronoi}};
+const std::map<std::string, Overlap> sorts = {
+    {"halo", Overlap::halo}, {"distance", Overlap::distance}, {"voronoi", Overlap::voronoi}};
 
 struct Options : RoundOptions {
   std::vector<std::string> sets = {"uniform", "x8"};
@@ -104,7 +104,7 @@ Points3 centres_of(const std::string& decomposition, int regions) {
 
 Partition partition_of(const Cut& cut) {
   Partition options;
-  options.sort = sorts.at(cut.sort);
+  options.overlap = sorts.at(cut.sort);
   if (cut.regions > 0)
     options.regions = cut.regions;
   if (cut.decomposition == "fibonacci")
@@ -244,7 +244,7 @@ public:
     partition_.given_centres = centres;
     DelaunayReport report;
     spherical_delaunay(points_, {.partition = partition_}, &report);
-    if (report.one_region) {
+    if (report.serial) {
       report.seconds_per_region = {report.seconds.triangulate};
       return report;
     }

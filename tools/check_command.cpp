@@ -64,7 +64,8 @@ std::string area_line(const Check& result, bool plane) {
   line << (plane && result.boundary_edges > 0 ? "area / hull     "
            : plane                            ? "area / box      "
                                               : "area / 4 pi     ")
-       << std::setprecision(15) << result.area / (plane ? result.whole : 4 * std::numbers::pi);
+       << std::setprecision(15)
+       << result.area / (plane ? result.expected_area : 4 * std::numbers::pi);
   return line.str();
 }
 

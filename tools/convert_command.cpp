@@ -40,14 +40,14 @@ void require_request(const Request& request) {
   const Format format = options_of(*request.format, request.output)
                             .format; // throws for a file that cannot be written
   if (request.depths.given() && format != Format::fesom)
-    throw Error(ErrorCode::bad_option,
+    throw Error(ErrorCode::invalid_argument,
                 request.output + ": --depth-levels applies to FESOM's nod2d.out; leave it out");
   const WidthWords& widths = request.density->widths;
   require_outputs({{"mesh", request.output}},
                   {source.path, source.points, widths.file, widths.raster,
                    request.domain->file.value_or(""), *request.config});
   if (source.points.empty() && (source.path == "-" || holds_triangles(source.path)))
-    throw Error(ErrorCode::bad_option,
+    throw Error(ErrorCode::invalid_argument,
                 source.path +
                     " holds triangles without points; give the points with --points FILE, or, if "
                     "the file holds points, triangulate them with calotte delaunay");
@@ -137,20 +137,20 @@ std::string remarks(const Request& request, const MeshFile& file, const WriteOpt
   return lines;
 }
 
-/// \throws Error bad_option, where the domain of a plane is missing or in vain.
+/// \throws Error invalid_argument, where the domain of a plane is missing or in vain.
 MeshFile read_input(const Request& request) {
   MeshFile file = read_mesh_file(*request.source, FieldChoice::all);
   const bool unbounded = file.plane() && file.mesh->surface.period().maxCoeff() == 0;
   const std::optional<Surface> part = surface_of(*request.domain);
   if (part && !unbounded)
-    throw Error(ErrorCode::bad_option, request.source->path +
-                                           " holds no mesh of a bounded plane; leave --domain and "
-                                           "--rectangle out");
+    throw Error(ErrorCode::invalid_argument,
+                request.source->path + " holds no mesh of a bounded plane; leave --domain and "
+                                       "--rectangle out");
   const Format format = options_of(*request.format, request.output).format;
   if (part)
     file.mesh->surface = *part;
   else if (unbounded && !file.polygons && holds_cells(format))
-    throw Error(ErrorCode::bad_option,
+    throw Error(ErrorCode::invalid_argument,
                 request.output +
                     ": the cells of a bounded plane need its domain, which clips them; "
                     "give --domain FILE or --rectangle X0,Y0,X1,Y1");
@@ -159,11 +159,12 @@ MeshFile read_input(const Request& request) {
 
 /// Makes an open mesh one that FESOM reads, where it is written for it.
 EarReport remove_ears(const Request& request, MeshFile& file) {
-  EarReport report;
-  if (file.sphere() && !file.mesh->closed() &&
-      options_of(*request.format, request.output).format == Format::fesom)
-    file = without_ears(std::move(file), &report);
-  return report;
+  if (!file.sphere() || file.mesh->closed() ||
+      options_of(*request.format, request.output).format != Format::fesom)
+    return {};
+  WithoutEars rest = without_ears(std::move(file));
+  file = std::move(rest.file);
+  return rest.removed;
 }
 
 std::string describe(const Request& request, const EarReport& ears) {

@@ -50,7 +50,7 @@ void require_request(const Request& request) {
   if (request.land.empty() && request.raster.empty() && request.field.empty() &&
       request.barriers.empty())
     throw Error(
-        ErrorCode::bad_option,
+        ErrorCode::invalid_argument,
         "there is no land; give --land FILE, --raster FILE, --field NAME or --barrier FILE");
   const auto map = [&](const std::string& name) {
     return request.cell_map.empty() ? ""
@@ -103,9 +103,9 @@ CullOptions options_of(const Request& request) {
   options.land_fraction = request.land_fraction;
   options.field = {request.field_file, request.field};
   if (request.from)
-    options.field.least = *request.from;
+    options.field.lower = *request.from;
   if (request.from || request.below)
-    options.field.most = request.below.value_or(std::numeric_limits<double>::infinity());
+    options.field.upper = request.below.value_or(std::numeric_limits<double>::infinity());
   options.passages = lines_of(request.passages);
   options.barriers = lines_of(request.barriers);
   options.fill = !request.no_fill;

@@ -106,7 +106,7 @@ void keep(const CvtState& state, KeptStates& states, Progress& progress) {
 }
 
 /// Shows progress, keeps states and checkpoints, and ends the run after a signal.
-bool after_iteration(const CvtProgress& now, const Schedule& schedule, Keeper& keeper,
+Next after_iteration(const CvtProgress& now, const Schedule& schedule, Keeper& keeper,
                      KeptStates& states, Progress& progress, Outcome& outcome) {
   progress.stage(describe(now, schedule), std::to_string(now.bisections_left));
   if (states.due(now.report))
@@ -116,7 +116,7 @@ bool after_iteration(const CvtProgress& now, const Schedule& schedule, Keeper& k
     outcome.kept = keep(now.state, keeper, progress, "");
   else if (keeper.due(now.report)) // a full disk may have space again by the next time
     keep(now.state, keeper, progress, " (the run continues)");
-  return outcome.signal != 0;
+  return outcome.signal != 0 ? Next::stop : Next::proceed;
 }
 
 /// A run before its first descent.
@@ -166,8 +166,9 @@ Outcome tessellate(const CvtRequest& request, Run& run, Progress& progress) {
   Keeper keeper(request, run.configuration, outcome.before);
   KeptStates states(request, run.schedule.recipe.surface, outcome.before);
   RunOptions options{options_of(*request.partition, planar(request)).partition,
-                     [&](const CvtProgress& now) {
-                       return after_iteration(now, run.schedule, keeper, states, progress, outcome);
+                     [&](const calotte::Progress& now) {
+                       return after_iteration(*now.run, run.schedule, keeper, states, progress,
+                                              outcome);
                      },
                      std::move(run.state)};
   progress.stage("making the start");
@@ -217,12 +218,12 @@ Outcome tessellate(const CvtRequest& request, Run& run, Progress& progress) {
            : " at cell " + std::to_string(report.worst_cell) + outcome.worst_place;
   const std::string cells = report.worst_cell < 0
                                 ? "a shape is "
-                                : std::to_string(report.misshapen_cells) + " of " +
+                                : std::to_string(report.cells_beyond_limits) + " of " +
                                       std::to_string(report.iterations.back().cells) +
                                       " cells with shapes beyond their limits, the worst, ";
   std::cout.flush();
   std::cerr << "calotte: not well-centred: " + cells +
-                   formatted("%.2g", report.iterations.back().misshapen) + " beyond" +
+                   formatted("%.2g", report.iterations.back().shape_excess) + " beyond" +
                    (report.worst_cell < 0 ? " its limit" : "," + where) +
                    "; the mesh is written; make the widths smoother, or give more cells\n";
   finish(not_well_centred);
@@ -262,8 +263,8 @@ GridFile write_file_of(const CvtRequest& request, const Run& run, Mesh& mesh,
     return write_grid(request.mesh, std::move(mesh), run.input.recipe, run.schedule, options);
   } catch (const Error& error) {
     const Surface& surface = run.schedule.recipe.surface;
-    if (error.code() == ErrorCode::bad_option && !surface.is_sphere() && surface.is_bounded() &&
-        mesh.points.cols() > 0)
+    if (error.code() == ErrorCode::invalid_argument && !surface.is_sphere() &&
+        surface.is_bounded() && mesh.points.cols() > 0)
       keep_triangles(request.mesh, std::move(mesh), error);
     throw;
   }

@@ -39,9 +39,10 @@ struct Request {
 /// Checks all options that can fail, before any work.
 void require_request(const Request& request) {
   if (request.plane && request.format->sphere_radius)
-    throw Error(ErrorCode::bad_option, "--sphere-radius does not apply with --plane; leave it out");
+    throw Error(ErrorCode::invalid_argument,
+                "--sphere-radius does not apply with --plane; leave it out");
   if (request.plane && holds_points(request.points))
-    throw Error(ErrorCode::bad_option,
+    throw Error(ErrorCode::invalid_argument,
                 request.points +
                     ": --plane requires text with x y on each line; leave --plane out for a mesh");
   period_of(request.periodic);               // throws for an invalid box
@@ -86,7 +87,7 @@ std::string to_json(const Triangulation& result, double read, double write) {
   json["duplicates"] = report.duplicates;
   json["regions"] = report.regions;
   json["threads"] = report.threads;
-  json["one_region"] = report.one_region;
+  json["serial"] = report.serial;
   json["overlap"] = report.overlap;
   json["seconds"] = {{"sites", report.seconds.sites},
                      {"regions", report.seconds.regions},

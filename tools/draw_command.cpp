@@ -45,12 +45,12 @@ std::string file_name(const MeshSource& source) {
 void require_density(const DrawArguments& arguments) {
   const bool wanted = arguments.spacing_law || arguments.options.colouring == Colouring::density;
   if (wanted && !arguments.has_density()) {
-    throw Error(ErrorCode::bad_option,
+    throw Error(ErrorCode::invalid_argument,
                 std::string(arguments.spacing_law ? "--spacing-law" : "--colour density") +
                     " requires a density; give --density or --cell-width");
   }
   if (!wanted && arguments.has_density()) {
-    throw Error(ErrorCode::bad_option,
+    throw Error(ErrorCode::invalid_argument,
                 "a mesh with a density requires --colour density or --spacing-law; give one of "
                 "these, or leave MESH out to draw the density");
   }
@@ -81,15 +81,18 @@ void set_errors(const std::string& word, const OperatorErrors& errors, DrawOptio
   options.field_name = std::string("error of the ") + name->label;
 }
 
-/// \throws Error bad_option in a plane without an end, whose cells nothing clips, and for a mesh
+/// \throws Error invalid_argument in a plane without an end, whose cells nothing clips, and for a
+/// mesh
 ///         that ends at walls; as operator_errors().
 OperatorErrors errors_of(const Mesh& mesh) {
   if (mesh.surface == Surface::plane())
-    throw Error(ErrorCode::bad_option, "the errors of operators depend on the domain, which clips "
-                                       "the cells; give --domain, --rectangle or --periodic");
+    throw Error(ErrorCode::invalid_argument,
+                "the errors of operators depend on the domain, which clips "
+                "the cells; give --domain, --rectangle or --periodic");
   if (has_walls(mesh))
-    throw Error(ErrorCode::bad_option, "the mesh ends at walls, where its cells have no errors of "
-                                       "operators; choose another --colour");
+    throw Error(ErrorCode::invalid_argument,
+                "the mesh ends at walls, where its cells have no errors of "
+                "operators; choose another --colour");
   return operator_errors(mesh);
 }
 
@@ -152,10 +155,10 @@ void draw_cells(const DrawArguments& arguments, const MeshFile& file) {
       arguments.source->path + ": the cells are not Voronoi cells (" + file.not_voronoi + ")";
   if (arguments.spacing_law ||
       (arguments.what->count() > 0 && arguments.options.shapes != Shapes::cells)) {
-    throw Error(ErrorCode::bad_option, not_voronoi + "; draw them with --what cells");
+    throw Error(ErrorCode::invalid_argument, not_voronoi + "; draw them with --what cells");
   }
   if (!arguments.error_of.empty()) {
-    throw Error(ErrorCode::bad_option,
+    throw Error(ErrorCode::invalid_argument,
                 not_voronoi +
                     ", so that they have no errors of operators; choose another --colour");
   }
@@ -180,7 +183,7 @@ void draw_mesh(const DrawArguments& arguments) {
   DrawOptions options = options_for(arguments, file);
   options.density = density;
   if (!plane && file.plane()) {
-    throw Error(ErrorCode::bad_option,
+    throw Error(ErrorCode::invalid_argument,
                 arguments.source->path +
                     ": it holds a mesh of the plane; read it as one of the plane");
   }
@@ -249,7 +252,7 @@ void draw_density(const DrawArguments& arguments) {
   }
   if (colouring != Colouring::density && colouring != Colouring::spacing) {
     throw Error(
-        ErrorCode::bad_option,
+        ErrorCode::invalid_argument,
         "a picture of a density is coloured by density or spacing; give one of these, or a mesh");
   }
   Look look = arguments.options.look;

@@ -38,7 +38,7 @@ LonLat parse_view(std::string_view text) {
   }
   if (!good) {
     throw Error(
-        ErrorCode::bad_option,
+        ErrorCode::invalid_argument,
         "--view " + std::string(text) +
             " is not a location; give longitude and latitude in degrees, as in --view 15,-30");
   }
@@ -133,9 +133,10 @@ void add_zoom(CLI::App& command, std::optional<double>& zoom) {
                (take_number(rest, number) && rest.empty() && number >= 1 && number <= most_zoom)) {
       zoom = number;
     } else {
-      throw Error(ErrorCode::bad_option, "--zoom " + word +
-                                             " is no enlargement; give auto, whole or a number "
-                                             "from 1 to 2000, as in --zoom 5");
+      throw Error(ErrorCode::invalid_argument,
+                  "--zoom " + word +
+                      " is no enlargement; give auto, whole or a number "
+                      "from 1 to 2000, as in --zoom 5");
     }
   };
   command
@@ -159,7 +160,7 @@ void add_range(CLI::App& command, std::optional<Range>& range) {
              std::isfinite(given.high) && given.low < given.high;
     }
     if (!good) {
-      throw Error(ErrorCode::bad_option,
+      throw Error(ErrorCode::invalid_argument,
                   "--range " + text +
                       " is no range of a colour bar; give its lower and its upper end, as in "
                       "--range 30,120");

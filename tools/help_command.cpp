@@ -23,7 +23,7 @@ constexpr const char* command_line = "calotte"; ///< before the name of a comman
   std::vector<std::string> names = command_names(app);
   for (const Topic& topic : topics())
     names.push_back(topic.name);
-  throw Error(ErrorCode::bad_option,
+  throw Error(ErrorCode::invalid_argument,
               "no help on \"" + name + "\"; " + remedy_for(name, names, "", "calotte --help"));
 }
 
@@ -49,7 +49,7 @@ std::string man_page_of(const CLI::App& app, const std::string& name) {
   for (const CLI::App* command : app.get_subcommands({}))
     if (command->get_name() == name)
       return man_page(app, *command);
-  throw Error(ErrorCode::bad_option,
+  throw Error(ErrorCode::invalid_argument,
               "no manual page of \"" + name + "\"; " +
                   remedy_for(name, command_names(app), "", "calotte --help"));
 }

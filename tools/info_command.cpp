@@ -98,7 +98,7 @@ std::vector<std::int64_t> masks_of(const std::string& path, std::int64_t cells) 
       ++counts[static_cast<std::size_t>(mask)];
     }
   } catch (const Error& error) {
-    if (error.code() != ErrorCode::bad_option) // no such variable
+    if (error.code() != ErrorCode::invalid_argument) // no such variable
       throw;
   }
   return counts;
@@ -148,7 +148,7 @@ void measure_plane(const Request& request, const MeshFile& file,
   if (!covered && file.polygons && file.mesh->surface.period().maxCoeff() > 0)
     return measure_walls(request, file, measured);
   if (!covered)
-    throw Error(ErrorCode::bad_option,
+    throw Error(ErrorCode::invalid_argument,
                 request.source->path + ": a planar mesh needs its domain, which clips the cells; "
                                        "give --domain, --rectangle or --periodic");
   measured.density = density_name(*request.density);
@@ -162,13 +162,13 @@ void measure_plane(const Request& request, const MeshFile& file,
 }
 
 /// Sets the part of the plane that clips the cells, or the box.
-/// \throws Error bad_option for a box where the file's plane has another period.
+/// \throws Error invalid_argument for a box where the file's plane has another period.
 void set_surface(const Surface& part, MeshFile& file) {
   const Eigen::Vector2d& period = file.mesh->surface.period();
   if (period != part.period())
-    throw Error(ErrorCode::bad_option, "the domain's period is not that of the mesh, " +
-                                           shortest(period.x()) + " x " + shortest(period.y()) +
-                                           "; leave the domain out, or give that of the mesh");
+    throw Error(ErrorCode::invalid_argument,
+                "the domain's period is not that of the mesh, " + shortest(period.x()) + " x " +
+                    shortest(period.y()) + "; leave the domain out, or give that of the mesh");
   file.mesh->surface = part;
 }
 
@@ -246,14 +246,15 @@ std::string read_and_measure(const Request& request) {
 void require_radius(const Request& request) {
   require_sphere_radius(request.sphere_radius.value_or(1));
   if (request.sphere_radius && request.source->plane)
-    throw Error(ErrorCode::bad_option, "--sphere-radius does not apply with --plane; leave it out");
+    throw Error(ErrorCode::invalid_argument,
+                "--sphere-radius does not apply with --plane; leave it out");
   if (request.units && request.source->plane)
-    throw Error(ErrorCode::bad_option, "--units does not apply with --plane; leave it out");
+    throw Error(ErrorCode::invalid_argument, "--units does not apply with --plane; leave it out");
 }
 
 void run(const Request& request) {
   if (request.domain->given() && !request.source->plane)
-    throw Error(ErrorCode::bad_option,
+    throw Error(ErrorCode::invalid_argument,
                 "a domain requires --plane; add --plane, or leave the domain out");
   request.density->widths.plane = request.source->plane;
   require_radius(request);

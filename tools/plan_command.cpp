@@ -64,7 +64,7 @@ struct Plan {
 };
 
 [[noreturn]] void refuse(const std::string& problem) {
-  throw Error(ErrorCode::bad_option, problem);
+  throw Error(ErrorCode::invalid_argument, problem);
 }
 
 Recipe recipe_of(const Request& request) {

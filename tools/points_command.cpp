@@ -30,23 +30,23 @@ struct Request {
 
 void require_options(const Request& request) {
   if (request.seed && request.kind != "random" && request.kind != "random-plane")
-    throw Error(ErrorCode::bad_option, "--seed applies to random points only; leave it out");
+    throw Error(ErrorCode::invalid_argument, "--seed applies to random points only; leave it out");
   if (request.planar() && !request.domain->given())
-    throw Error(ErrorCode::bad_option,
+    throw Error(ErrorCode::invalid_argument,
                 request.kind +
                     " points need a planar domain; give --domain, --rectangle or --periodic");
   if (!request.planar() && request.domain->given())
     throw Error(
-        ErrorCode::bad_option,
+        ErrorCode::invalid_argument,
         request.kind +
             " points lie on the sphere; leave the domain out, or give random-plane or hexagonal");
   if (request.poles && request.kind != "latlon")
-    throw Error(ErrorCode::bad_option, "--poles applies to latlon points only; leave it out");
+    throw Error(ErrorCode::invalid_argument, "--poles applies to latlon points only; leave it out");
   if (request.output == "-")
     return;
   if (holds_points(request.output) || std::filesystem::path(request.output).extension() == ".tri")
     throw Error(
-        ErrorCode::bad_option,
+        ErrorCode::invalid_argument,
         request.output + ": points are text with " + (request.planar() ? "x y" : "x y z") +
             " on each line; give a name such as points.txt; calotte delaunay makes a mesh of them");
   require_outputs({{"points", request.output}}, {request.domain->file.value_or("")});
@@ -61,15 +61,15 @@ int level_of(std::int64_t count) {
     if (points == count)
       return level;
     if (points > count)
-      throw Error(ErrorCode::bad_option,
+      throw Error(ErrorCode::invalid_argument,
                   "a bisected icosahedron has 12, 42, 162, 642 and so on points, not " +
                       std::to_string(count) + "; give " +
                       (fewer > 0 ? std::to_string(fewer) + " or " : "") + std::to_string(points));
     fewer = points;
   }
-  throw Error(ErrorCode::bad_option, "a bisected icosahedron of " + std::to_string(count) +
-                                         " points is too large; give " + std::to_string(fewer) +
-                                         " or fewer");
+  throw Error(ErrorCode::invalid_argument, "a bisected icosahedron of " + std::to_string(count) +
+                                               " points is too large; give " +
+                                               std::to_string(fewer) + " or fewer");
 }
 
 Points3 generate(const Request& request) {

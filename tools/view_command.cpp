@@ -51,7 +51,7 @@ struct Request {
 };
 
 [[noreturn]] void refuse(const std::string& problem) {
-  throw Error(ErrorCode::bad_option, problem);
+  throw Error(ErrorCode::invalid_argument, problem);
 }
 
 std::string file_name(const std::string& path) { return std::filesystem::path(path).filename(); }

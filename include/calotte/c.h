@@ -22,8 +22,8 @@
  * Every struct starts with its size, which the caller sets to sizeof: a program that was compiled
  * with an older header works with a newer library. The library reads and writes as many bytes at
  * most. Members that are 0 have their defaults, and so have those that the caller's struct lacks. A
- * size of 0 is CALOTTE_BAD_OPTION, and so is a member that the library does not know and that is
- * not 0. All members but arrays of characters have 8 bytes where pointers have.
+ * size of 0 is CALOTTE_INVALID_ARGUMENT, and so is a member that the library does not know and that
+ * is not 0. All members but arrays of characters have 8 bytes where pointers have.
  */
 
 #include <stddef.h>
@@ -41,18 +41,18 @@ extern "C" {
 
 /** Why a function failed; the values of calotte::ErrorCode, plus 1. */
 typedef enum calotte_status {
-  CALOTTE_OK = 0,        /**< success */
-  CALOTTE_NOT_FINITE,    /**< a coordinate is NaN or infinite */
-  CALOTTE_ZERO_VECTOR,   /**< a point at the origin has no direction */
-  CALOTTE_DUPLICATE,     /**< equal points, where these are refused */
-  CALOTTE_TOO_FEW_SITES, /**< too few distinct points, or a hemisphere without generators */
-  CALOTTE_DEGENERATE,    /**< all points on one great circle or line */
-  CALOTTE_BAD_OPTION,    /**< an argument out of its range */
-  CALOTTE_PARSE,         /**< a file violates its format */
-  CALOTTE_FILE,          /**< a file cannot be opened, read or written */
-  CALOTTE_CANCELLED,     /**< a callback ended the run */
-  CALOTTE_INTERNAL,      /**< a bug of the library; please report it */
-  CALOTTE_NO_MEMORY      /**< memory is exhausted */
+  CALOTTE_OK = 0,           /**< success */
+  CALOTTE_NOT_FINITE,       /**< a coordinate is NaN or infinite */
+  CALOTTE_ZERO_VECTOR,      /**< a point at the origin has no direction */
+  CALOTTE_DUPLICATE,        /**< equal points, where these are refused */
+  CALOTTE_TOO_FEW_SITES,    /**< too few distinct points, or a hemisphere without generators */
+  CALOTTE_DEGENERATE,       /**< all points on one great circle or line */
+  CALOTTE_INVALID_ARGUMENT, /**< an argument out of its range */
+  CALOTTE_PARSE,            /**< a file violates its format */
+  CALOTTE_FILE,             /**< a file cannot be opened, read or written */
+  CALOTTE_CANCELLED,        /**< a callback ended the run */
+  CALOTTE_INTERNAL,         /**< a bug of the library; please report it */
+  CALOTTE_NO_MEMORY         /**< memory is exhausted */
 } calotte_status;
 
 /** The error of a function. */
@@ -99,7 +99,7 @@ CALOTTE_C_API void calotte_mesh_free(calotte_mesh* mesh);
 /** The Delaunay triangulation of n points. Equal points merge.
  * surface: null for the sphere; a plane, whose rings clip the Voronoi cells; or the doubly periodic
  * box [0, period[0]) x [0, period[1]), which the points lie in. Rings on the sphere are
- * CALOTTE_BAD_OPTION.
+ * CALOTTE_INVALID_ARGUMENT.
  * points: 3 numbers each on the sphere, 2 in a plane; 3 points or more. */
 CALOTTE_C_API calotte_status calotte_delaunay(const double* points, int64_t n,
                                               const calotte_surface* surface, calotte_mesh** mesh,
@@ -124,7 +124,7 @@ CALOTTE_C_API calotte_status calotte_mesh_view(const calotte_mesh* mesh,
 
 /** Proves that a mesh is the Delaunay triangulation of its points; of a part of the sphere, that
  * its triangles are well-formed and do not overlap, see calotte::check_surface().
- * CALOTTE_BAD_OPTION with the violated law in the message if it is not. */
+ * CALOTTE_INVALID_ARGUMENT with the violated law in the message if it is not. */
 CALOTTE_C_API calotte_status calotte_check(const calotte_mesh* mesh, calotte_error* error);
 
 /** Locates n positions in the triangles of a mesh. An output that is null is not computed for the
@@ -252,15 +252,15 @@ typedef struct calotte_recipe {
 
 /** The course of a run, as calotte::CvtReport. */
 typedef struct calotte_report {
-  size_t size;             /**< sizeof(calotte_report) */
-  int64_t converged;       /**< 1 if the norm is at most the tolerance */
-  int64_t well_centred;    /**< 1 if a finish brought all shapes within their limits */
-  int64_t misshapen_cells; /**< after a finish that did not: cells beyond a limit */
-  int64_t worst_cell;      /**< the one farthest beyond; -1 for none */
-  int64_t iterations;      /**< number of evaluations */
-  double residual;         /**< the norm at the end */
-  double energy;           /**< at the end */
-  double seconds;          /**< wall-clock time */
+  size_t size;                 /**< sizeof(calotte_report) */
+  int64_t converged;           /**< 1 if the norm is at most the tolerance */
+  int64_t well_centred;        /**< 1 if a polish brought all shapes within their limits */
+  int64_t cells_beyond_limits; /**< after a polish that did not: cells beyond a limit */
+  int64_t worst_cell;          /**< the one farthest beyond; -1 for none */
+  int64_t iterations;          /**< number of evaluations */
+  double residual;             /**< the norm at the end */
+  double energy;               /**< at the end */
+  double seconds;              /**< wall-clock time */
 } calotte_report;
 
 /** Makes the grid of a recipe, as the command `calotte cvt` does.

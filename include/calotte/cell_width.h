@@ -30,30 +30,32 @@ inline constexpr double earth_radius_km = 6371;
 /// nodes. A CVT for this density has spacings proportional to h (Ju, Ringler and Gunzburger, 2011).
 /// The result is a callable that returns the same bits for any number of threads and on every
 /// x86-64 machine.
-/// \throws Error bad_option if shapes, coordinates or widths violate the conditions of CellWidth.
+/// \throws Error invalid_argument if shapes, coordinates or widths violate the conditions of
+/// CellWidth.
 Density density_of(const CellWidth& cell_width);
 
 /// The widths in km at n points.
 /// \param points 3 x n unit columns.
-/// \throws Error as density_of; bad_option unless the points have 3 rows.
+/// \throws Error as density_of; invalid_argument unless the points have 3 rows.
 DoubleVector evaluate(const CellWidth& cell_width, const PointsRef& points);
 
 /// The number of cells that the widths h imply: the integral of 2/(sqrt(3) h^2) over the sphere. A
 /// regular hexagon of width h has the area sqrt(3)/2 h^2.
 /// \param radius_km radius of the sphere, > 0 and finite; default that of the Earth.
-/// \throws Error as density_of; bad_option for a radius out of range.
+/// \throws Error as density_of; invalid_argument for a radius out of range.
 double implied_cells(const CellWidth& cell_width, double radius_km = earth_radius_km);
 
 /// The same integral over the sphere or a region of it; over a region within about 0.2%, as a mean
 /// over 2^18 random places.
-/// \throws Error as above and as require_region(); bad_option for a plane.
+/// \throws Error as above and as require_region(); invalid_argument for a plane.
 double implied_cells(const CellWidth& cell_width, const Surface& surface,
                      double radius_km = earth_radius_km);
 
 /// Throws unless the nodes cover the sphere, or a region of it: at its boundary the nearest nodes
 /// are at most half of the widest step away, between the last longitude and the first one and
 /// beyond the outer latitudes at most 1.5 of it.
-/// \throws Error bad_option, naming the extent of the nodes and a place of the region outside; for
+/// \throws Error invalid_argument, naming the extent of the nodes and a place of the region
+/// outside; for
 ///         a plane; as require_region().
 void require_covering(const CellWidth& cell_width, const Surface& surface = {});
 
@@ -68,8 +70,8 @@ struct Gradient {
 /// h in the corner of a box between nodes, or over the box if that is smaller. (At a node the
 /// gradient of the interpolated field itself may be sqrt(2) times that of the widths that were
 /// sampled.) Most models need a value below about 0.03. \param radius_km radius of the sphere, > 0
-/// and finite; default that of the Earth. \throws Error as density_of; bad_option for a radius out
-/// of range.
+/// and finite; default that of the Earth. \throws Error as density_of; invalid_argument for a
+/// radius out of range.
 Gradient largest_gradient(const CellWidth& cell_width, double radius_km = earth_radius_km);
 
 /// Widths for the polygons of a GeoJSON file, all in km, see read_cell_width(). A width of 0, the

@@ -25,7 +25,7 @@ struct Check {
   double area = 0;
   /// Expected area: 4 pi (0 for an open mesh); in the plane that of the boundary polygon, the box
   /// or the channel.
-  double whole = 0;
+  double expected_area = 0;
 
   /// True if all laws hold.
   bool passed() const { return failure.empty(); }

@@ -20,10 +20,10 @@ namespace calotte {
 struct SeaField {
   std::string path;     ///< NetCDF file; empty for the source
   std::string variable; ///< one number for each cell; empty for no field
-  /// Cells with least <= value < most may be sea; others, and those without a number, are land.
+  /// Cells with lower <= value < upper may be sea; others, and those without a number, are land.
   /// Default: below 0, as for a topography.
-  double least = -std::numeric_limits<double>::infinity();
-  double most = 0; ///< see `least`
+  double lower = -std::numeric_limits<double>::infinity();
+  double upper = 0; ///< see `lower`
 };
 
 /// Options of cull().
@@ -83,7 +83,8 @@ struct CullReport {
 ///
 /// NAME.graph.info is written beside NAME.nc. All files are complete or absent: they get their
 /// names when all are written, the mesh last.
-/// \throws Error bad_option as land_fractions(), cells_on_lines() and sea_cells(); for a source
+/// \throws Error invalid_argument as land_fractions(), cells_on_lines() and sea_cells(); for a
+/// source
 ///         that holds no mesh of the sphere with connectivity, a fraction out of range, and if
 ///         there is neither a coast nor a raster nor a field nor a barrier; parse; cancelled; file.
 CullReport cull(const std::string& source, const std::string& target,

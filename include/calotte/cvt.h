@@ -7,12 +7,14 @@
 #include <calotte/types.h>
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <vector>
 
 CALOTTE_API_BEGIN
 namespace calotte {
+namespace cvt_detail {
+struct State;
+}
 
 /// The norm that is compared with the tolerance. x are the n generators, x' their centroids, the
 /// targets of a Lloyd step. l2 and linf are as printed by Jacobsen et al., 2013, Sect. 2.2;
@@ -51,24 +53,25 @@ enum class Boundary {
 struct CvtIteration {
   std::int64_t cells = 0; ///< number of generators
   double spacing = 0;     ///< h, the square root of the mean cell area
-  /// Quadrature points per half kite; 0 for exact moments; -1 for a density that is linear between
-  /// the generators, as in a run with insertion_rounds except at its end.
-  int rule = 0;
+  int rule = 0;           ///< quadrature points per half kite; 0 for exact moments
+  /// The density is linear between the generators, as in a run with insertion rounds except at its
+  /// end; the moments are exact.
+  bool linear_density = false;
   double l2 = 0;       ///< Norm::l2, not scaled
   double linf = 0;     ///< Norm::linf, not scaled
   double gradient = 0; ///< Norm::gradient
   double energy = 0;   ///< sum over cells of the integral of rho |x - x_i|^2
   /// At a well-centred end, see Stop::well_centred: the largest excess of a shape over its limit;
   /// otherwise 0.
-  double misshapen = 0;
-  /// In a finish: the number of generators farther than 0.01 of the demanded spacing from their
+  double shape_excess = 0;
+  /// In a polish: the number of generators farther than 0.01 of the demanded spacing from their
   /// centroids; otherwise 0.
-  std::int64_t displaced = 0;
-  double displacement = 0; ///< in a finish: the largest such distance over the spacing
-  bool accepted = true;    ///< false if the line search rejected this trial
-  std::int64_t flips = 0;  ///< edge flips after the last move
-  bool rebuilt = false;    ///< the last move required a new triangulation
-  double seconds = 0;      ///< wall-clock time of the evaluation
+  std::int64_t off_centroid = 0;
+  double largest_offset = 0; ///< in a polish: the largest such distance over the spacing
+  bool accepted = true;      ///< false if the line search rejected this trial
+  std::int64_t flips = 0;    ///< edge flips after the last move
+  bool rebuilt = false;      ///< the last move required a new triangulation
+  double seconds = 0;        ///< wall-clock time of the evaluation
   /// Time of copying positions, summed over the regions' tasks, not wall-clock.
   double seconds_exchange = 0;
   double seconds_repair = 0;  ///< the same of restoring the Delaunay property
@@ -99,12 +102,12 @@ struct CvtLevel {
 
 /// The course of a run.
 struct CvtReport {
-  /// The norm of the last level, before a finish, is at most the tolerance; with Norm::none, all
+  /// The norm of the last level, before a polish, is at most the tolerance; with Norm::none, all
   /// iterations are done.
   bool converged = false;
-  bool well_centred = false; ///< a finish brought all shapes within their limits
-  /// After a finish that did not: the number of cells whose triangles are beyond a limit.
-  std::int64_t misshapen_cells = 0;
+  bool well_centred = false; ///< a polish brought all shapes within their limits
+  /// After a polish that did not: the number of cells whose triangles are beyond a limit.
+  std::int64_t cells_beyond_limits = 0;
   std::int64_t worst_cell = -1;         ///< one with the shape farthest beyond; -1 for none
   double residual = 0;                  ///< the selected norm at the end of the run
   std::vector<CvtLevel> levels;         ///< all of the schedule, from the coarsest
@@ -128,16 +131,9 @@ public:
 
   const CvtReport& report() const; ///< of the run so far
 
-  /// \cond internal
-  // Internal to the library.
-  struct Data;
-  explicit CvtState(Data data);
-  const Data& data() const { return *data_; }
-  Data& data() { return *data_; }
-  /// \endcond
-
 private:
-  std::unique_ptr<Data> data_;
+  friend struct cvt_detail::State;
+  std::unique_ptr<cvt_detail::State> state_;
 };
 
 /// The progress of a run after an accepted iteration. Valid during the call that it is passed to.
@@ -149,11 +145,6 @@ struct CvtProgress {
   const CvtState& state;       ///< for write_checkpoint()
 };
 
-/// Called after each accepted iteration; return true to stop the run there. The result is then the
-/// mesh of the generators as they are, marked not converged. An exception that it throws ends the
-/// run and reaches the caller, as does one that a callable density throws.
-using CvtCallback = std::function<bool(const CvtProgress&)>;
-
 /// A centroidal Voronoi tessellation: generators that are the centroids of their Voronoi cells.
 struct Cvt {
   Mesh mesh; ///< Delaunay triangulation of the generators, unit columns, in the order of the start
@@ -161,23 +152,24 @@ struct Cvt {
   CvtReport report; ///< how the run went
 };
 
-/// Inserts the midpoints of the longest edges of a mesh and contracts the shortest edges, each to
-/// its midpoint. Lengths are relative to the spacing h ~ rho^(-1/4) at the ends of the edge. No end
-/// of a chosen edge is an end of another one or next to it; if a mesh has no more such edges, fewer
-/// are chosen. Equal lengths are ordered by the edges' ends. Edges at a site with 8 neighbours or
-/// more count as twice as long, those at a site with 4 or fewer as half as long. On a bounded
-/// surface edges are chosen whose midpoint lies inside.
+/// Splits the longest edges of a mesh at their midpoints and collapses the shortest edges to
+/// theirs. Lengths are relative to the spacing h ~ rho^(-1/4) at the ends of the edge. No end of a
+/// chosen edge is an end of another one or next to it; if a mesh has no more such edges, fewer are
+/// chosen. Equal lengths are ordered by the edges' ends. Edges at a site with 8 neighbours or more
+/// count as twice as long, those at a site with 4 or fewer as half as long. On a bounded surface
+/// edges are chosen whose midpoint lies inside.
 ///
 /// In a graded mesh of minimal CVT energy, pairs of cells with 5 and 7 neighbours (dislocations)
 /// let rows of cells end. A descent cannot create them; this function can.
 /// \param mesh on the sphere of columns of any norm.
-/// \param inserted, contracted numbers of edges, >= 0.
+/// \param splits, collapses numbers of edges, >= 0.
 /// \returns the points that remain, in their order, a midpoint in the place of the lower end of a
-///          contracted edge, then the inserted midpoints; on the sphere unit columns.
-/// \throws Error bad_option for a negative number, more than 2^30 points, an id out of range, or an
+///          collapsed edge, then the midpoints of split ones; on the sphere unit columns.
+/// \throws Error invalid_argument for a negative number, more than 2^30 points, an id out of range,
+/// or an
 ///         ill-formed density.
-Points3 insert_and_contract(const Mesh& mesh, const Density& density, std::int64_t inserted,
-                            std::int64_t contracted);
+Points3 split_and_collapse(const Mesh& mesh, const Density& density, std::int64_t splits,
+                           std::int64_t collapses);
 
 } // namespace calotte
 CALOTTE_API_END

@@ -28,7 +28,7 @@ struct DelaunayReport {
   std::int64_t duplicates = 0; ///< input columns that were merged into another
   int regions = 0;             ///< their number
   int threads = 0;             ///< of the task arena it ran in
-  bool one_region = false;     ///< the sites were triangulated serially as one region
+  bool serial = false;         ///< the sites were triangulated serially as one region
   double overlap = 0; ///< sites of all regions, halos included, divided by the number of sites
   std::vector<std::int64_t> sites_per_region; ///< owned and halo
   std::vector<std::int64_t> owned_per_region; ///< owned alone
@@ -66,7 +66,7 @@ struct Triangulation {
 /// cells of voronoi().
 ///
 /// The result depends only on the set of points: it has the same bits for any number of threads and
-/// regions, any `sort` and any centres; a permuted input permutes the ids. One symbolic rule
+/// regions, any overlap and any centres; a permuted input permutes the ids. One symbolic rule
 /// resolves cocircular points (lib/exact/predicates.h). The function runs in the caller's task
 /// arena.
 ///
@@ -77,7 +77,8 @@ struct Triangulation {
 ///        is 0; in any unit of length.
 /// \param surface where the points live. Default: the sphere.
 /// \param options merge_within is an angle in radians on the sphere, in the plane a distance.
-/// \throws Error bad_option: another number of rows, more than 2^30 points, an option out of range
+/// \throws Error invalid_argument: another number of rows, more than 2^30 points, an option out of
+/// range
 ///         (see DelaunayOptions and Partition); with its index a point that has a z in the plane or
 ///         is outside the box; a plane with one period, whose meshes come from make_grid() or a
 ///         file. Also not_finite, zero_vector (on the sphere), duplicate

@@ -65,14 +65,15 @@ Density tanh_bump(const Eigen::Vector3d& centre, double beta, double alpha, doub
 /// Inf. Theory 25, 1979.)
 /// \param surface where the density is; in a periodic plane the result is periodic. Default: the
 ///        sphere.
-/// \throws Error bad_option if the density is ill-formed.
+/// \throws Error invalid_argument if the density is ill-formed.
 Density site_density(const Density& density, const Surface& surface = {});
 
 /// The density at each of n points.
 /// \param points on the sphere 3 x n unit columns; in the plane 2 x n, or 3 x n with z = 0.
 /// \param surface where the points are; in a periodic plane the density is periodic. Its rings have
 ///        no effect. Default: the sphere.
-/// \throws Error bad_option: another number of rows, or a z in the plane; an ill-formed density; a
+/// \throws Error invalid_argument: another number of rows, or a z in the plane; an ill-formed
+/// density; a
 ///         callable's value that is negative, infinite or NaN.
 DoubleVector evaluate(const Density& density, const PointsRef& points, const Surface& surface = {});
 
@@ -81,7 +82,8 @@ DoubleVector evaluate(const Density& density, const PointsRef& points, const Sur
 /// a period it is periodic. Outside an open mesh the nearest triangle found holds.
 /// \param mesh the density keeps a copy of what it needs.
 /// \param density n values >= 0, finite, by site.
-/// \throws Error bad_option for another number of values, a value out of range, or no triangle.
+/// \throws Error invalid_argument for another number of values, a value out of range, or no
+/// triangle.
 Density interpolated_density(const Mesh& mesh, const DoubleVector& density);
 
 } // namespace calotte

@@ -18,12 +18,12 @@ enum class ErrorCode {
   /// Fewer than 4 distinct sites on the sphere, 3 in the plane, or 12 generators of a spherical
   /// CVT; sites that leave an empty circle wider than half of a periodic box.
   too_few_sites,
-  degenerate, ///< all sites on one great circle or line
-  bad_option, ///< an argument or option of the wrong shape or out of its range
-  parse,      ///< a file violates its format
-  file,       ///< a file cannot be opened, read or written
-  cancelled,  ///< the caller's progress callback ended the run
-  internal,   ///< a bug of this library; please report it
+  degenerate,       ///< all sites on one great circle or line
+  invalid_argument, ///< an argument or option of the wrong shape or out of its range
+  parse,            ///< a file violates its format
+  file,             ///< a file cannot be opened, read or written
+  cancelled,        ///< the caller's progress callback ended the run
+  internal,         ///< a bug of this library; please report it
 };
 
 /// The one exception this library throws. `what()` is one line that names the offending index (or

@@ -13,8 +13,8 @@ namespace calotte {
 
 /// Starts of a CVT and test sets. All functions return 3 x n points: Cartesian unit columns on the
 /// sphere, with the same bits on every machine; x, y and 0 in the plane, in its unit of length;
-/// those of a PlanarDomain 2 x n. They throw Error bad_option for a count out of range; the largest
-/// count is 2^30.
+/// those of a PlanarDomain 2 x n. They throw Error invalid_argument for a count out of range; the
+/// largest count is 2^30.
 
 /// Independent random points of a surface. They depend on n, surface, density and seed, not on the
 /// number of threads; a smaller n gives the first points of a larger n.
@@ -31,7 +31,7 @@ namespace calotte {
 /// \param surface the sphere, a region of it, a box, or a part of the plane.
 /// \param density default: uniform.
 /// \param seed any value; default 1.
-/// \throws Error bad_option for a plane without rings and two periods; as require_region() or
+/// \throws Error invalid_argument for a plane without rings and two periods; as require_region() or
 ///         require_domain(); if the density is ill-formed; negative, infinite or NaN somewhere;
 ///         zero everywhere; or a callable without a maximum.
 Points3 random_points(std::int64_t n, const Surface& surface, const Density& density = {},
@@ -55,7 +55,8 @@ Points3 random_sphere(std::int64_t n, std::uint64_t seed = 1);
 /// \param n number of points, 1 to 2^30.
 /// \param density uniform gives the points above.
 /// \param seed any value; default 1.
-/// \throws Error bad_option if the density is ill-formed; negative, infinite or NaN somewhere; zero
+/// \throws Error invalid_argument if the density is ill-formed; negative, infinite or NaN
+/// somewhere; zero
 ///         everywhere; or a callable without a maximum.
 Points3 random_sphere(std::int64_t n, const Density& density, std::uint64_t seed = 1);
 
@@ -70,7 +71,8 @@ Points3 random_sphere(std::int64_t n, const Density& density, std::uint64_t seed
 /// \param surface the sphere or a region of it.
 /// \param cells number of generators of the run, 4 to 2^30.
 /// \returns 3 x n unit columns; none for the whole sphere.
-/// \throws Error as require_region(); bad_option for a plane, an ill-formed density, cells out of
+/// \throws Error as require_region(); invalid_argument for a plane, an ill-formed density, cells
+/// out of
 ///         range, and if the boundary takes all of the cells.
 Points3 boundary_points(const Surface& surface, std::int64_t cells, const Density& density = {});
 
@@ -129,7 +131,7 @@ Points3 cubed_sphere(std::int64_t m);
 /// in a periodic direction it is that between nearest copies, moved into [0, period). On a bounded
 /// surface midpoints outside are left out. A closed mesh of n points gives 4n - 6 points on the
 /// sphere, 4n in a box.
-/// \throws Error bad_option if an id is out of range.
+/// \throws Error invalid_argument if an id is out of range.
 Points3 bisect(const Mesh& mesh);
 
 /// The mesh of regular hexagons in the doubly periodic box [0, columns spacing) x [0, rows spacing
@@ -138,7 +140,7 @@ Points3 bisect(const Mesh& mesh);
 /// \param columns number of columns, >= 3; columns times rows is at most 2^30.
 /// \param rows number of rows, even, >= 4.
 /// \param spacing distance between neighbouring sites, in any unit of length; > 0 and finite.
-/// \throws Error bad_option for an argument out of range.
+/// \throws Error invalid_argument for an argument out of range.
 Mesh hexagonal_box(std::int64_t columns, std::int64_t rows, double spacing);
 
 /// A regular hexagonal lattice in a box or a part of the plane, with rows along x, from the bottom
@@ -155,7 +157,8 @@ Mesh hexagonal_box(std::int64_t columns, std::int64_t rows, double spacing);
 /// of points, and that of the ratio sqrt(3)/2 of row to column distance. A box of hexagonal_box()
 /// gives its points.
 /// \param n approximate number of points, 1 to 2^30; in a periodic box >= 12.
-/// \throws Error bad_option for the sphere, and for a plane without rings and two periods; for
+/// \throws Error invalid_argument for the sphere, and for a plane without rings and two periods;
+/// for
 ///         fewer points than 12 in a periodic box; if no lattice point is inside; as
 ///         require_domain().
 Points3 hexagonal_lattice(std::int64_t n, const Surface& surface);

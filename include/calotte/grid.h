@@ -7,6 +7,7 @@
 #include <calotte/export.h>
 #include <calotte/options.h>
 #include <calotte/planar_raster.h>
+#include <calotte/progress.h>
 #include <calotte/surface.h>
 #include <calotte/types.h>
 
@@ -60,7 +61,7 @@ struct Start {
   /// continuation choose them. Default 0.
   std::optional<int> bisections = {};
   /// Rounds of insertion and contraction on the last level of kind multilevel, see
-  /// insert_and_contract(); coarser levels have up to 14. 1 to 100. Default 1; 3 with fixed
+  /// split_and_collapse(); coarser levels have up to 14. 1 to 100. Default 1; 3 with fixed
   /// generators, which further rounds move free ones away from. The errors of a model's operators
   /// do not fall with more.
   std::optional<int> insertion_rounds = {};
@@ -143,7 +144,8 @@ struct Schedule {
 };
 
 /// Makes all choices of a recipe.
-/// \throws Error bad_option, with what is out of range or does not fit together, and the remedy;
+/// \throws Error invalid_argument, with what is out of range or does not fit together, and the
+/// remedy;
 ///         with the index of a fixed generator that leaves no free one. As implied_cells(),
 ///         require_covering(), with_rings(), boundary_points() and evaluate().
 Schedule plan(Recipe recipe);
@@ -151,7 +153,7 @@ Schedule plan(Recipe recipe);
 /// What affects a run's course, but not its result, and where it goes on.
 struct RunOptions {
   Partition partition = {};           ///< see Partition
-  CvtCallback callback = {};          ///< called after each accepted iteration
+  ProgressCallback progress = {};     ///< called after each accepted iteration
   std::optional<CvtState> state = {}; ///< of an earlier run of the same recipe, which goes on
 };
 
@@ -162,10 +164,11 @@ struct RunOptions {
 ///
 /// The result has the same bits for any number of threads and regions, and for a run that a state
 /// continues. A run that does not converge is no error; the report says so. The mesh of a part of
-/// the sphere has the triangles in it, see Boundary; its surface is the schedule's.
+/// the sphere has the triangles in it, see Boundary; its surface is the schedule's. An exception
+/// that a callable density throws ends the run and reaches the caller.
 /// \throws Error as plan(); as delaunay(); too_few_sites where generators leave a hemisphere empty
-///         or meet; bad_option for a density that is negative or NaN somewhere, or zero over a
-///         whole cell, for a start outside the surface, with its index, counted after the fixed
+///         or meet; invalid_argument for a density that is negative or NaN somewhere, or zero over
+///         a whole cell, for a start outside the surface, with its index, counted after the fixed
 ///         ones, and for the state of a run with other levels.
 Cvt make_grid(const Recipe& recipe, RunOptions options = {});
 

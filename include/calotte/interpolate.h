@@ -31,7 +31,7 @@ Weights interpolation_weights(const Mesh& mesh, const PointsRef& positions,
 
 /// Values at positions: the product of weights and values; NaN outside.
 /// \param values by site.
-/// \throws Error bad_option unless there is a value for each site.
+/// \throws Error invalid_argument unless there is a value for each site.
 DoubleVector interpolate(const Weights& weights, const DoubleVector& values);
 
 } // namespace calotte

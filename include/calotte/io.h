@@ -23,7 +23,7 @@ void write_checkpoint(const std::string& path, const CvtState& state,
 /// Reads a checkpoint. The state has the bits of the one written.
 /// \param configuration must equal the text that the checkpoint was written with.
 /// \throws Error file; parse for a file that is not a checkpoint, is incomplete or damaged, or
-///         comes from another version or byte order; bad_option if the configuration differs,
+///         comes from another version or byte order; invalid_argument if the configuration differs,
 ///         naming the first line that does.
 CvtState read_checkpoint(const std::string& path, const std::string& configuration);
 

@@ -29,7 +29,8 @@ inline constexpr int limited_area_rings = 7;
 /// \param inside n flags: 1 for the cells of the region, whose generators lie in it; else 0.
 /// \param rings number of rings, 0 to limited_area_rings.
 /// \returns by cell: 0 inside, 1 to `rings` for the cells of a ring, -1 for cells not selected.
-/// \throws Error bad_option for rings out of range, if no cell is inside, if all are removed, and
+/// \throws Error invalid_argument for rings out of range, if no cell is inside, if all are removed,
+/// and
 ///         if all cells of a closed mesh are selected, so that there is no boundary.
 Ids limited_area_mask(const Offsets& begin, const Ids& cells_on_cell,
                       const std::vector<std::uint8_t>& inside, int rings = limited_area_rings);
@@ -47,7 +48,7 @@ Ids least_mask(const Offsets& begin, const Ids& ids, const Ids& mask, std::int64
 /// than widened() allows.
 /// \param surface a region of the sphere.
 /// \param radius_km radius of the sphere of the widths.
-/// \throws Error as widened() and evaluate(); bad_option for a plane.
+/// \throws Error as widened() and evaluate(); invalid_argument for a plane.
 Surface with_rings(const Surface& surface, const CellWidth& widths,
                    double radius_km = earth_radius_km);
 

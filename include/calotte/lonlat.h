@@ -11,14 +11,14 @@ namespace calotte {
 /// same bits on every machine. Longitudes that differ by 360 give the same point, and so do all
 /// longitudes at a pole.
 /// \param lonlat 2 x n degrees: longitude (any finite value), latitude (-90 to 90).
-/// \throws Error bad_option unless the places have 2 rows, and for a latitude out of range;
+/// \throws Error invalid_argument unless the places have 2 rows, and for a latitude out of range;
 ///         not_finite; both with the index of the column.
 Points3 from_lonlat(const PointsRef& lonlat);
 
 /// Longitude from -180 to 180 and latitude in degrees, 2 x n, within about 1e-15 of 360; at a pole
 /// the longitude is 0.
 /// \param points 3 x n directions of any norm but 0.
-/// \throws Error bad_option unless the points have 3 rows.
+/// \throws Error invalid_argument unless the points have 3 rows.
 Points2 to_lonlat(const PointsRef& points);
 
 } // namespace calotte

@@ -31,7 +31,7 @@ using Points3 = Triples;
 using Points2 = Eigen::Matrix<double, 2, Eigen::Dynamic, Eigen::DontAlign>;
 
 /// Points that a caller passes, 3 x n on the sphere or 2 x n in the plane, one Cartesian point a
-/// column. Functions that take them check the number of rows at run time: Error bad_option.
+/// column. Functions that take them check the number of rows at run time: Error invalid_argument.
 ///
 /// Matrices of fixed or dynamic rows, aligned or not, their columns and blocks, and Eigen::Map are
 /// read in place. Expressions, and matrices whose columns are not contiguous (transposed,

@@ -111,7 +111,7 @@ struct MeshFile {
 ///        rows >= 4 and even, with walls in y >= 2.
 /// \param spacing d, the distance of neighbours, in any unit of length; from 1e-20 to 1e20.
 /// \returns `mesh` of a box without walls, else `polygons`.
-/// \throws Error bad_option for an argument out of range.
+/// \throws Error invalid_argument for an argument out of range.
 MeshFile planar_hexagons(std::int64_t columns, std::int64_t rows, double spacing, Walls walls = {});
 
 /// The Voronoi cells of a doubly periodic box whose sites lie in a part of it, from 0 to `extent`
@@ -119,7 +119,8 @@ MeshFile planar_hexagons(std::int64_t columns, std::int64_t rows, double spacing
 /// the sides of whole cells, as MPAS-Ocean has it. \param box as make_grid() makes it with
 /// Recipe::walls: its period is that of the part where there is no wall, and larger where there is
 /// one. \returns `polygons`, in the order of the sites.
-/// \throws Error bad_option for no wall, an extent that is not below the box's period, or no cell;
+/// \throws Error invalid_argument for no wall, an extent that is not below the box's period, or no
+/// cell;
 ///         as voronoi().
 MeshFile walled(const Mesh& box, const Eigen::Vector2d& extent, Walls walls);
 
@@ -163,7 +164,8 @@ std::optional<Surface> filled_surface(const MeshFile& file);
 /// The tessellation of a file's cells: that of its mesh, or of its polygons where these are part of
 /// a Voronoi tessellation, such as the cells of an ocean or a limited area. Polygons keep their
 /// corners; edges at their boundary have one cell, as in a bounded plane.
-/// \throws Error as voronoi(); bad_option for polygons that are no Voronoi cells, with the reason,
+/// \throws Error as voronoi(); invalid_argument for polygons that are no Voronoi cells, with the
+/// reason,
 ///         and for a plane whose surface is not bounded, without polygons.
 Voronoi voronoi(const MeshFile& file);
 
@@ -180,12 +182,18 @@ struct EarReport {
   std::int64_t sites = 0;     ///< that no triangle was left with
 };
 
+/// What is left without ears.
+struct WithoutEars {
+  MeshFile file;
+  EarReport removed; ///< counts
+};
+
 /// Removes the triangles of an open mesh of the sphere that have a single neighbour, or none,
 /// repeatedly, and the sites that no triangle is left with: FESOM's partitioner refuses them
 /// (fvom_init.F90, find_elem_neighbors_ini). Density and fields follow. A closed mesh has none.
-/// \param report receives what was removed, unless it is null.
-/// \throws Error bad_option, for a file without a mesh of the sphere, and if no triangle is left.
-MeshFile without_ears(MeshFile file, EarReport* report = nullptr);
+/// \throws Error invalid_argument, for a file without a mesh of the sphere, and if no triangle is
+/// left.
+WithoutEars without_ears(MeshFile file);
 
 /// What became of a file's fields.
 struct WrittenFields {
@@ -200,7 +208,7 @@ struct WrittenFields {
 /// cells: the polygons of an open mesh are written if each corner of three cells is the
 /// circumcentre of their centres, within a millionth of a cell's width. Density and fields at cells
 /// go along. \param options its density, if not uniform, replaces the file's. \throws Error as
-/// write(); bad_option if the format cannot hold the mesh, with the reason.
+/// write(); invalid_argument if the format cannot hold the mesh, with the reason.
 WrittenFields write(const std::string& path, const MeshFile& file,
                     const WriteOptions& options = {});
 

@@ -26,7 +26,8 @@ struct Coast {
 /// The land around a place, such as an island with its lakes: the smallest left side of a ring that
 /// contains it, without the loops in which a simplified coast crosses itself.
 /// \param place direction of any norm.
-/// \throws Error bad_option for a place in the sea; as require_region() for the rings around it.
+/// \throws Error invalid_argument for a place in the sea; as require_region() for the rings around
+/// it.
 Surface land_around(const Coast& coast, const Eigen::Vector3d& place);
 
 /// The fraction of each cell that is land, from the exact intersections of the coast's arcs with
@@ -36,7 +37,8 @@ Surface land_around(const Coast& coast, const Eigen::Vector3d& place);
 /// \param cells a closed tessellation of the sphere; only its cells, vertices, begin and lists of
 ///        cells are read.
 /// \returns n fractions from 0 to 1.
-/// \throws Error bad_option, for cells that do not cover the sphere; for an area that is not that
+/// \throws Error invalid_argument, for cells that do not cover the sphere; for an area that is not
+/// that
 ///         of the rings, and for places covered twice.
 DoubleVector land_fractions(const Voronoi& cells, const Coast& coast);
 
@@ -57,13 +59,15 @@ struct LandRaster {
 /// The result has the same bits for any number of threads.
 /// \param cells as above.
 /// \returns n fractions from 0 to 1.
-/// \throws Error bad_option, for cells that do not cover the sphere, and for shapes, coordinates or
+/// \throws Error invalid_argument, for cells that do not cover the sphere, and for shapes,
+/// coordinates or
 ///         values that violate the conditions of LandRaster.
 DoubleVector land_fractions(const Voronoi& cells, const LandRaster& raster);
 
 /// The cells that lines cross, in increasing order. Successive cells of a line share an edge.
 /// \param lines each 3 x places, unit columns, joined by arcs shorter than a half circle.
-/// \throws Error bad_option, for cells that do not cover the sphere, or a line without a place.
+/// \throws Error invalid_argument, for cells that do not cover the sphere, or a line without a
+/// place.
 std::vector<std::int32_t> cells_on_lines(const Voronoi& cells, const std::vector<Points3>& lines);
 
 /// What makes sea of cells that are no land.
@@ -84,16 +88,21 @@ struct SeaReport {
   std::int64_t severed = 0; ///< cells in parts without a seed
 };
 
+/// The sea, and how it was decided.
+struct SeaCells {
+  Ids mask; ///< by cell: 0 for the sea, -1 for land
+  SeaReport report;
+};
+
 /// The cells of a connected sea: first closed and opened cells, then filled ones, then the parts
 /// without a seed, are decided. A cell that is filled lies on no way between two others, so that an
 /// opened passage stays open.
 /// \param begin n + 1 offsets.
 /// \param cells_on_cell 0-based neighbours; -1 for a missing one, which counts as land.
 /// \param land n flags: 1 for land.
-/// \returns by cell: 0 for the sea, -1 for land.
-/// \throws Error bad_option, if no cell is sea, and naming the first seed that is on land.
-Ids sea_cells(const Offsets& begin, const Ids& cells_on_cell, const std::vector<std::uint8_t>& land,
-              const SeaOptions& options = {}, SeaReport* report = nullptr);
+/// \throws Error invalid_argument, if no cell is sea, and naming the first seed that is on land.
+SeaCells sea_cells(const Offsets& begin, const Ids& cells_on_cell,
+                   const std::vector<std::uint8_t>& land, const SeaOptions& options = {});
 
 } // namespace calotte
 CALOTTE_API_END

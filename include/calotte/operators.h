@@ -95,7 +95,8 @@ inline double diffusion_step(double eigenvalue, double viscosity) {
 ///        the plane as in quality().
 /// \param density weights the centroids, as in quality(). Default: uniform. Without effect on an
 ///        open mesh of the sphere.
-/// \throws Error bad_option as voronoi() and quality(), but open meshes of the sphere are measured;
+/// \throws Error invalid_argument as voronoi() and quality(), but open meshes of the sphere are
+/// measured;
 ///         for a mesh that fails check_surface() or has edges that are not Delaunay, see
 ///         count_edges(); for an open mesh of the sphere no site of which is surrounded by
 ///         triangles.

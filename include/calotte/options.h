@@ -12,7 +12,7 @@ namespace calotte {
 
 /// The sites that a region triangulates besides its own. The choice affects time and memory, not
 /// the result.
-enum class Sort {
+enum class Overlap {
   halo,     ///< those within a thin strip around its coarse Voronoi cell; the default
   distance, ///< those closer to its centre than the farthest neighbouring centre (Jacobsen et al.,
             ///< 2013, Sect. 2.1.1)
@@ -31,8 +31,8 @@ enum class Centres {
 /// How the sites are divided into regions, which are triangulated in parallel. These options affect
 /// time and memory, not the result.
 ///
-/// A function that takes them throws Error bad_option for an option out of range; for a centre that
-/// is out of range, index() is its column.
+/// A function that takes them throws Error invalid_argument for an option out of range; for a
+/// centre that is out of range, index() is its column.
 struct Partition {
   /// Number of regions; >= 1. The library uses at most one per site. Default: 1 for fewer than 4096
   /// sites, otherwise one per 16384 sites, but at least 12.
@@ -42,7 +42,7 @@ struct Partition {
   /// options above. On the sphere 3 x k finite, non-zero directions of any norm. In the plane 2 x k
   /// finite places in the unit of the points, or 3 x k, whose third row is ignored. Default: none.
   std::optional<DoubleMatrix> given_centres = {};
-  Sort sort = Sort::halo; ///< no effect if there is one region
+  Overlap overlap = Overlap::halo; ///< no effect if there is one region
 };
 
 /// What happens to points of equal direction, in the plane of equal place, and to points that

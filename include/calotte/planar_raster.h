@@ -18,7 +18,7 @@ struct PlanarRaster {
 };
 
 /// The density of a raster, a callable for planar domains.
-/// \throws Error bad_option if shapes, coordinates or values violate the conditions above.
+/// \throws Error invalid_argument if shapes, coordinates or values violate the conditions above.
 Density density_of(const PlanarRaster& raster);
 
 /// Prescribed cell widths (distances between the centres of neighbouring cells) of the plane at the
@@ -31,17 +31,18 @@ struct PlanarCellWidth {
 };
 
 /// The density rho = (h_min/h)^4 of the interpolated width h, see density_of(const CellWidth&).
-/// \throws Error bad_option if shapes, coordinates or values violate the conditions above.
+/// \throws Error invalid_argument if shapes, coordinates or values violate the conditions above.
 Density density_of(const PlanarCellWidth& cell_width);
 
 /// The number of cells that the widths h imply: the integral of 2/(sqrt(3) h^2) over a box or a
 /// part of the plane, within about 0.2%: a mean over 2^18 random places.
-/// \throws Error as above and as require_domain(); bad_option for the sphere, and for a plane
+/// \throws Error as above and as require_domain(); invalid_argument for the sphere, and for a plane
 ///         without rings and two periods.
 double implied_cells(const PlanarCellWidth& cell_width, const Surface& surface);
 
 /// Throws unless the nodes cover a box or a part of the plane, except for half of the widest step.
-/// \throws Error bad_option, naming the extents; for the sphere, and for a plane without rings and
+/// \throws Error invalid_argument, naming the extents; for the sphere, and for a plane without
+/// rings and
 ///         two periods; as require_domain().
 void require_covering(const PlanarCellWidth& cell_width, const Surface& surface);
 

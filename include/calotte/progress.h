@@ -9,23 +9,34 @@
 CALOTTE_API_BEGIN
 namespace calotte {
 
-/// How far a run has come.
+struct CvtProgress;
+
+/// How far a call has come.
 struct Progress {
   /// The current stage, one word: "sites", "regions", "triangulate" or "unite" of a triangulation,
-  /// "number" or "write" of write(), "check" of check().
+  /// "descend" of make_grid(), "number" or "write" of write(), "check" of check().
   std::string_view stage;
-  double fraction = 0; ///< estimated part of the run that is done: 0 to 1, never decreasing
+  /// Estimated part of the call that is done: 0 to 1, never decreasing; 0 for "descend", whose end
+  /// is not known.
+  double fraction = 0;
+  const CvtProgress* run = nullptr; ///< of make_grid(): the run so far; null for other functions
 };
 
-/// Called at the start of each stage and between the parallel tasks of a run: after each region,
-/// block or file section, never from inside the triangulation of a region. Return true to cancel
-/// the run, which then throws Error cancelled and leaves no result and no file.
+/// What a call does after its callback.
+enum class Next {
+  proceed, ///< goes on
+  stop,    ///< make_grid() ends with the grid as it is, marked not converged; others as `cancel`
+  cancel,  ///< throws Error cancelled, and leaves no result and no file
+};
+
+/// Called at the start of each stage and between the parallel tasks of a call: after each region,
+/// block or file section, never from inside the triangulation of a region; in make_grid() after
+/// each accepted iteration.
 ///
-/// Calls come from one thread at a time, but not always from the same thread. The last call of a
-/// run that completes has the fraction 1; its return value is ignored. An exception that the
-/// callback throws ends the run and reaches the caller. Default: empty; the run then reports
-/// nothing.
-using ProgressCallback = std::function<bool(const Progress&)>;
+/// Calls come from one thread at a time, but not always from the same thread. Outside of
+/// make_grid() the last call has the fraction 1; what it returns has no effect. An exception that
+/// the callback throws reaches the caller. Default: empty; nothing is reported.
+using ProgressCallback = std::function<Next(const Progress&)>;
 
 } // namespace calotte
 CALOTTE_API_END

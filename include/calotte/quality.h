@@ -33,8 +33,8 @@ struct Percentiles {
 
 /// Limits beyond which models object to an edge.
 inline constexpr double short_voronoi_edge = 0.18; ///< of dv/dc
-inline constexpr double least_fit = 0.75;          ///< of dc/h
-inline constexpr double greatest_fit = 1.4;        ///< of dc/h
+inline constexpr double least_dc_over_h = 0.75;    ///< of dc/h
+inline constexpr double greatest_dc_over_h = 1.4;  ///< of dc/h
 
 /// Quality of a mesh and its Voronoi cells. On the sphere lengths are arcs in radians, and areas
 /// are in steradians; in a plane lengths are in the unit of the points, and areas in its square.
@@ -92,7 +92,8 @@ struct Quality {
   /// sphere; 1/sqrt(3) for regular hexagons, 0 where cocircular sites share a corner.
   Range dv_over_dc;
   std::int64_t short_edges = 0; ///< number of edges with dv/dc below short_voronoi_edge
-  std::int64_t unfit_edges = 0; ///< number of edges with dc/h outside least_fit to greatest_fit
+  std::int64_t mismatched_edges =
+      0; ///< number of edges with dc/h outside least_dc_over_h to greatest_dc_over_h
   /// Number of cells that a model may object to: with a side or a neighbour counted above, or with
   /// a corner that is the centre of an obtuse triangle.
   std::int64_t bad_cells = 0;
@@ -114,7 +115,8 @@ struct Quality {
 /// \param mesh the Delaunay triangulation of its points: on the sphere closed, of directions of any
 ///        norm; in a part of the plane of points inside it or on its boundary.
 /// \param density default: uniform.
-/// \throws Error bad_option, for a mesh that fails check(); for an open mesh of the sphere, whose
+/// \throws Error invalid_argument, for a mesh that fails check(); for an open mesh of the sphere,
+/// whose
 ///         cells do not cover it, see open_quality(); for a plane without rings and two periods;
 ///         with the index of a point outside its surface; for a density that is ill-formed,
 ///         negative, infinite or NaN somewhere, or zero over a whole cell.
@@ -124,7 +126,7 @@ Quality quality(const Mesh& mesh, const Density& density = {});
 /// have no effect: triangles, flat (on the sphere), spacing, triangle_quality, angles, obtuse and
 /// triangles_area. `cells` is the number of sites, and `degrees` counts the sites with a closed
 /// ring of triangles. The other fields, which belong to Voronoi cells, stay 0.
-/// \throws Error bad_option, for a mesh that fails check_surface().
+/// \throws Error invalid_argument, for a mesh that fails check_surface().
 Quality triangle_quality(const Mesh& mesh);
 
 /// Measures an open Delaunay triangulation, such as that of a limited-area grid or of a channel:
@@ -134,7 +136,7 @@ Quality triangle_quality(const Mesh& mesh);
 /// alone) and bad_spacing; cells_area is the sum of their areas over 4 pi, in a plane 0.
 /// \pre no edge but those whose opposite sites are cocircular fails to be Delaunay: see
 ///      count_edges().
-/// \throws Error bad_option, for a mesh that fails check_surface().
+/// \throws Error invalid_argument, for a mesh that fails check_surface().
 Quality open_quality(const Mesh& mesh);
 
 /// The measures of Quality cell by cell and triangle by triangle, for maps and lists. Lengths are
@@ -154,10 +156,10 @@ struct CellMeasures {
   /// n: the spacing h that the density demands of n cells, see Quality::dc_over_h. Empty for an
   /// open mesh.
   DoubleVector prescribed;
-  DoubleVector least_fit;        ///< n: least dc/h of the edges at the site; or empty
-  DoubleVector greatest_fit;     ///< n: greatest dc/h of these edges; or empty
-  DoubleVector triangle_angle;   ///< m: largest angle, degrees
-  DoubleVector triangle_quality; ///< m: as Quality::triangle_quality
+  DoubleVector least_dc_over_h;    ///< n: least dc/h of the edges at the site; or empty
+  DoubleVector greatest_dc_over_h; ///< n: greatest dc/h of these edges; or empty
+  DoubleVector triangle_angle;     ///< m: largest angle, degrees
+  DoubleVector triangle_quality;   ///< m: as Quality::triangle_quality
 };
 
 /// Measures the cells and triangles of a mesh. One of the sphere may be open, and need not be
@@ -165,14 +167,16 @@ struct CellMeasures {
 /// and quality; triangles whose circumcentre lies outside have no values.
 /// \param mesh in the plane as in quality().
 /// \param density as in quality(); without effect on an open mesh of the sphere.
-/// \throws Error bad_option, for a mesh that fails check_surface(); for a density as quality(); in
+/// \throws Error invalid_argument, for a mesh that fails check_surface(); for a density as
+/// quality(); in
 ///         the plane as quality() and voronoi().
 CellMeasures cell_measures(const Mesh& mesh, const Density& density = {});
 
 /// For each site whether the boundary of the mesh's surface clips its cell, or the site lies
 /// outside. quality() leaves these cells out of `degrees`. The whole sphere and a box clip no cell.
 /// \param mesh its points and its surface only.
-/// \throws Error bad_option for a region of the sphere, whose cells quality() does not clip, and
+/// \throws Error invalid_argument for a region of the sphere, whose cells quality() does not clip,
+/// and
 ///         for a plane without rings and two periods.
 std::vector<bool> clipped_cells(const Mesh& mesh);
 

@@ -23,10 +23,11 @@ namespace calotte {
 enum class Columns {
   xyz,    ///< x y z: a direction of any norm but 0; the default
   lonlat, ///< longitude (any) and latitude (-90 to 90), in degrees, become unit columns
+  xy,     ///< x y of the plane, in any unit; z becomes 0
 };
 
-/// Reads points as text, one on each line: three numbers, or two with Columns::lonlat. The result
-/// is 3 x n, with Columns::xyz as written, with Columns::lonlat unit columns. Blanks or tabs, and
+/// Reads points as text, one on each line: three numbers, or two with Columns::lonlat and
+/// Columns::xy. The result is 3 x n. Blanks or tabs, and
 /// at most one of comma, semicolon and bar, separate them; `#` starts a comment; blank lines are
 /// ignored; one header line without numbers may precede the points; further columns are ignored.
 /// Lines end in LF, CRLF or CR; a missing final newline loses nothing.
@@ -34,22 +35,24 @@ enum class Columns {
 /// Longitude and latitude are exact at multiples of 90 degrees and give the same bits on every
 /// machine. Longitudes that differ by 360 give the same point, and so do all longitudes at a pole.
 /// \param name the name of the stream in messages.
-/// \param lines if not null, receives the 1-based line of each column; default null.
 /// \throws Error parse (index() is the 1-based line) for text that is not a number, NaN, infinity
 ///         or the zero vector, too few columns, a latitude out of range, or a file without points;
 ///         file.
-Points3 read_points(std::istream& in, const std::string& name, Columns columns = Columns::xyz,
-                    std::vector<std::int64_t>* lines = nullptr);
+Points3 read_points(std::istream& in, const std::string& name, Columns columns = Columns::xyz);
 /// The same from a file.
-Points3 read_points(const std::string& path, Columns columns = Columns::xyz,
-                    std::vector<std::int64_t>* lines = nullptr);
+Points3 read_points(const std::string& path, Columns columns = Columns::xyz);
 
-/// The same for points in the plane: x y on each line, in any unit. The result is 2 x n.
-/// \throws Error as above.
-Points2 read_planar_points(std::istream& in, const std::string& name,
-                           std::vector<std::int64_t>* lines = nullptr);
+/// Points of a text, and where they stand.
+struct PointLines {
+  Points3 points;                  ///< as of read_points()
+  std::vector<std::int64_t> lines; ///< for each column its 1-based line
+};
+
+/// As read_points(), with the lines, for messages about a point.
+PointLines read_point_lines(std::istream& in, const std::string& name,
+                            Columns columns = Columns::xyz);
 /// The same from a file.
-Points2 read_planar_points(const std::string& path, std::vector<std::int64_t>* lines = nullptr);
+PointLines read_point_lines(const std::string& path, Columns columns = Columns::xyz);
 
 /// Reads a planar domain. The suffix selects the format:
 ///
@@ -57,8 +60,8 @@ Points2 read_planar_points(const std::string& path, std::vector<std::int64_t>* l
 /// of them one domain. Positions are taken as x and y, in any unit; a third coordinate is ignored.
 ///
 /// Other suffixes: text with a corner x y on each line, in the order of the ring, in the syntax of
-/// read_planar_points. A blank line, or a line that starts with `>` (as in GMT's multi-segment
-/// files), ends a ring.
+/// read_points() with Columns::xy. A blank line, or a line that starts with `>` (as in GMT's
+/// multi-segment files), ends a ring.
 ///
 /// A ring may repeat its first corner at its end.
 /// \throws Error parse, naming the line, or the feature and its ring; as require_domain(), with the
@@ -85,7 +88,7 @@ Surface read_domain(const std::string& path);
 /// loop, counted from 1, or the number of its corners; without it there is one loop. The region is
 /// what all loops enclose together.
 /// \throws Error parse, naming the line, or the feature and its ring; as require_region(), with the
-///         file's name; bad_option for an unknown suffix; file.
+///         file's name; invalid_argument for an unknown suffix; file.
 Surface read_region(const std::string& path);
 
 /// The same from a stream.
@@ -119,7 +122,8 @@ Surface read_region(std::istream& in, const std::string& name);
 /// \param points 3 x n, the points that the ids of a .txt or .tri file refer to; other formats
 ///         ignore them. A column in no triangle is a duplicate of a column of the same direction,
 ///         or else a site without triangles. Default null.
-/// \throws Error bad_option for an unknown suffix, or a .txt or .tri file without `points`; parse;
+/// \throws Error invalid_argument for an unknown suffix, or a .txt or .tri file without `points`;
+/// parse;
 ///         file; for sites that delaunay() refuses, its code.
 Mesh read_mesh(const std::string& path, const Points3* points = nullptr);
 
@@ -181,13 +185,14 @@ struct CellField {
 /// \param name name of the variable.
 /// \param cells number of columns of read_sites(): cells of MPAS and UGRID files, nodes of UGRID
 ///        triangles.
-/// \throws Error bad_option if the file has no such variable, naming the variables of that size;
+/// \throws Error invalid_argument if the file has no such variable, naming the variables of that
+/// size;
 ///         parse; file.
 CellField read_cell_field(const std::string& path, const std::string& name, std::int64_t cells);
 
 /// The kilometres in a unit of length: 1 for km and 0.001 for m, by symbol or by name as UDUNITS
 /// spells them (km, kilometer, kilometres, m, meters, metre, ...); 1 for an empty text.
-/// \throws Error bad_option for any other unit.
+/// \throws Error invalid_argument for any other unit.
 double kilometres_in(const std::string& unit);
 
 /// Reads cell widths from a file. The suffix selects the format:
@@ -216,7 +221,8 @@ double kilometres_in(const std::string& unit);
 ///
 /// \param polygons widths for GeoJSON; other formats ignore them.
 /// \param region which the widths must cover; default the sphere.
-/// \throws Error bad_option for an unknown suffix, a width, transition or radius that is missing or
+/// \throws Error invalid_argument for an unknown suffix, a width, transition or radius that is
+/// missing or
 ///         not positive, a transition narrower than 0.2 degrees, or points of a mesh within a
 ///         hemisphere; parse, naming the variable and its index, the line or the feature; file.
 CellWidth read_cell_width(const std::string& path, const PolygonWidths& polygons = {},

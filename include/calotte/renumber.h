@@ -21,7 +21,8 @@ enum class Numbering {
 /// curve. The time is linear.
 /// \param mesh as delaunay() or read_mesh() returns it; it may be open.
 /// \param numbering by_format and input return the mesh unchanged.
-/// \throws Error bad_option for ids out of range, or neighbours that do not match the triangles;
+/// \throws Error invalid_argument for ids out of range, or neighbours that do not match the
+/// triangles;
 ///         with Numbering::curve not_finite and zero_vector (on the sphere), with the index of the
 ///         point.
 Mesh renumbered(const Mesh& mesh, Numbering numbering);

@@ -42,14 +42,15 @@ public:
   static Surface plane();
   /// The plane that repeats in x, in y, or in both.
   /// \param period lengths from 1e-30 to 1e30; 0 in a direction without one; not both 0.
-  /// \throws Error bad_option for a length out of range.
+  /// \throws Error invalid_argument for a length out of range.
   static Surface periodic(const Eigen::Vector2d& period);
 
   /// The part that rings bound. On the sphere arcs of great circles, shorter than a half circle,
   /// join the corners; the part lies to the left of every ring, seen from outside. In the plane a
   /// point is inside if it lies inside an odd number of rings, of either orientation. The corners
   /// are finite, in the plane at most 1e30.
-  /// \throws Error bad_option: a plane with a period, or a surface that is bounded already; naming
+  /// \throws Error invalid_argument: a plane with a period, or a surface that is bounded already;
+  /// naming
   ///         ring and corner, with the ring as index(): another number of rows; fewer than three
   ///         corners; a corner that is no direction, or not finite; neighbours that are equal, or
   ///         opposite on the sphere; edges that meet elsewhere than in the corner that joins them;
@@ -92,14 +93,14 @@ struct Walls {
 
 /// The rectangle [lower.x, upper.x] x [lower.y, upper.y], in any unit of length.
 /// \param lower, upper opposite corners; finite.
-/// \throws Error bad_option unless lower < upper in both coordinates.
+/// \throws Error invalid_argument unless lower < upper in both coordinates.
 Surface rectangle(const Eigen::Vector2d& lower, const Eigen::Vector2d& upper);
 
 /// A circle around a centre, as a regular polygon with corners on the circle.
 /// \param centre direction of any norm.
 /// \param radius angle in radians, from 1e-6 to pi - 1e-6.
 /// \param corners 8 to 2^24; the first is north of the centre. Default 360.
-/// \throws Error bad_option for a value out of range.
+/// \throws Error invalid_argument for a value out of range.
 Surface circle(const Eigen::Vector3d& centre, double radius, int corners = 360);
 
 /// An ellipse, as a polygon with corners on it: the places whose distances from two foci have a sum
@@ -109,7 +110,7 @@ Surface circle(const Eigen::Vector3d& centre, double radius, int corners = 360);
 /// \param bearing of the major axis at the centre, radians clockwise from north; at a pole, north
 ///        is that of longitude 0.
 /// \param corners as for a circle; the first is at an end of the major axis.
-/// \throws Error bad_option for a value out of range.
+/// \throws Error invalid_argument for a value out of range.
 Surface ellipse(const Eigen::Vector3d& centre, double semi_major, double semi_minor, double bearing,
                 int corners = 360);
 
@@ -119,7 +120,7 @@ Surface ellipse(const Eigen::Vector3d& centre, double semi_major, double semi_mi
 /// \param lower, upper radians, -pi/2 to pi/2; 1e-6 or more from each other and from a pole that is
 ///        not one of them. A band up to a pole contains it.
 /// \param corners as for a circle, of each parallel; the first is at longitude 0.
-/// \throws Error bad_option for a value out of range, and for the whole sphere.
+/// \throws Error invalid_argument for a value out of range, and for the whole sphere.
 Surface channel(double lower, double upper, int corners = 360);
 
 /// The region that rings enclose. One rule holds for all rings that users or files write, in either
@@ -141,7 +142,7 @@ Surface enclosed_region(const std::vector<Points3>& rings);
 
 /// The same for the side of the rings that contains a place.
 /// \param place direction of any norm, not on a ring.
-/// \throws Error as above; bad_option for a place on the boundary.
+/// \throws Error as above; invalid_argument for a place on the boundary.
 Surface region_around(const std::vector<Points3>& rings, const Eigen::Vector3d& place);
 
 /// A region that holds all places within a distance of another one, and few more: the boundary
@@ -149,7 +150,7 @@ Surface region_around(const std::vector<Points3>& rings, const Eigen::Vector3d& 
 /// the result would reach farther than 2 radians from there.
 /// \param region the sphere or a part of it.
 /// \param distance angle in radians, > 0 and finite.
-/// \throws Error bad_option for a plane, and for a distance out of range.
+/// \throws Error invalid_argument for a plane, and for a distance out of range.
 Surface widened(const Surface& region, double distance);
 
 } // namespace calotte

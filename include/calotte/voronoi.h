@@ -82,7 +82,7 @@ struct Voronoi {
 /// \param mesh the Delaunay triangulation of its points: on the sphere directions of any norm, in a
 ///        part of the plane inside it or on its boundary. The function does not check the Delaunay
 ///        property; check() does.
-/// \throws Error bad_option. In all cases: ids, neighbours or points that do not form a
+/// \throws Error invalid_argument. In all cases: ids, neighbours or points that do not form a
 ///         triangulation, naming the first triangle or site; more than 2^29 sites, whose edges
 ///         exceed int32. On the sphere: an open mesh whose boundary is not the hull of its sites.
 ///         In a plane without rings: other than two periods between 1e-30 and 1e30; a site outside
@@ -120,7 +120,7 @@ struct CellFields {
 
 /// Computes the fields.
 /// \param density evaluated at the sites; in a plane uniform. Default: uniform.
-/// \throws Error bad_option as evaluate(), and if the density is zero at every cell.
+/// \throws Error invalid_argument as evaluate(), and if the density is zero at every cell.
 CellFields cell_fields(const Voronoi& voronoi, const Density& density = {});
 
 /// The nominal spacing at the maximum of the density, for regular hexagonal cells with h ~

@@ -25,7 +25,7 @@ namespace calotte {
 /// Writes x y z, in the plane x y, on each line, separated by blanks, with the fewest digits (at
 /// most 17) that read back to the same bits.
 /// \param points 3 x n or 2 x n, unchanged.
-/// \throws Error bad_option for another number of rows, before any file is touched; file.
+/// \throws Error invalid_argument for another number of rows, before any file is touched; file.
 void write_points(const std::string& path, const PointsRef& points);
 /// The same to a stream, which it flushes.
 void write_points(std::ostream& out, const PointsRef& points);
@@ -51,7 +51,7 @@ enum class Format {
   geojson,         ///< the cells as polygons with their CellFields
   exodus,          ///< Exodus II of the cells, NetCDF, as TempestRemap reads it
   fesom,           ///< nod2d.out, and elem2d.out beside it: the triangles for FESOM, text
-  vtk,             ///< legacy VTK, which is read only: write() throws bad_option
+  vtk,             ///< legacy VTK, which is read only: write() throws invalid_argument
 };
 
 /// Options of write(). No option changes the geometry of the mesh.
@@ -105,13 +105,13 @@ struct WriteOptions {
 ///
 /// A mesh of the plane keeps the order of its sites. All planes support triangles; one with a
 /// period mpas and mpas_minimal; others vtp, vtu, off, ply and msh, at z = 0; and a part of the
-/// plane, which clips the cells, mpas, ugrid, vtp_cells, vtu_cells and geojson. An MPAS file has the
-/// boundary that voronoi() describes, with 0 for what is missing. NetCDF files call the unit of the
-/// points metre, GeoJSON has x and y in place of longitude and latitude. Fields at vertices are not
-/// written to formats of clipped cells, whose corners are not those of the triangles.
-/// \param mesh as delaunay() or read_mesh() returns it: on the sphere columns of any norm,
+/// plane, which clips the cells, mpas, ugrid, vtp_cells, vtu_cells and geojson. An MPAS file has
+/// the boundary that voronoi() describes, with 0 for what is missing. NetCDF files call the unit of
+/// the points metre, GeoJSON has x and y in place of longitude and latitude. Fields at vertices are
+/// not written to formats of clipped cells, whose corners are not those of the triangles. \param
+/// mesh as delaunay() or read_mesh() returns it: on the sphere columns of any norm,
 ///        triangles counter-clockwise seen from outside.
-/// \throws Error bad_option for an unknown suffix, a format that does not support the mesh, a
+/// \throws Error invalid_argument for an unknown suffix, a format that does not support the mesh, a
 ///         radius out of range, an ill-formed density, or ids out of range; in the plane for
 ///         Numbering::curve and Numbering::rcm, and as voronoi(); all before any file is written;
 ///         not_finite or zero_vector as renumbered(); cancelled; file.
@@ -125,7 +125,7 @@ void write(const std::string& path, Mesh&& mesh, const WriteOptions& options = {
 /// The format in which `write` writes a path: the option, or for by_name the format of the name.
 /// The case of a suffix does not matter. An option other than mpi_scvt may have a name of unknown
 /// suffix.
-/// \throws Error bad_option if by_name meets an unknown suffix; for legacy VTK (.vtk); if the
+/// \throws Error invalid_argument if by_name meets an unknown suffix; for legacy VTK (.vtk); if the
 ///         option contradicts a known suffix, because readers go by the name (.nc has the NetCDF
 ///         formats, .vtp has vtp and vtp_cells, .vtu has vtu and vtu_cells); for mpi_scvt under
 ///         another name.
@@ -141,7 +141,7 @@ bool holds_cells(Format format);
 /// Throws unless `write` supports meshes of a plane in the format.
 /// \param path for the message.
 /// \param format not by_name.
-/// \throws Error bad_option.
+/// \throws Error invalid_argument.
 void require_planar_format(const std::string& path, const Surface& plane, Format format);
 
 /// Writes bytes to a file, which is complete or absent as described above.

@@ -24,10 +24,10 @@ public:
     const std::int64_t index = first_.load(std::memory_order_relaxed);
     return index == none ? -1 : index;
   }
-  /// \throws Error bad_option "<thing> <index> <fault>" if there is a fault.
+  /// \throws Error invalid_argument "<thing> <index> <fault>" if there is a fault.
   void refuse(const std::string& thing, const std::string& fault) const {
     if (index() >= 0)
-      throw Error(ErrorCode::bad_option, thing + ' ' + std::to_string(index()) + ' ' + fault,
+      throw Error(ErrorCode::invalid_argument, thing + ' ' + std::to_string(index()) + ' ' + fault,
                   index());
   }
 

@@ -8,7 +8,7 @@
 #include <tbb/task_arena.h>
 
 #include "base/clock.h"
-#include "base/handover.h"
+#include "base/happens_before.h"
 
 #include <algorithm>
 #include <atomic>
@@ -56,7 +56,7 @@ private:
 /// body(i) for 0 <= i < n, each in its own task.
 template <class Body> void for_each_task(std::int64_t n, const Body& body) {
   Placement placement(n > 1 ? thread_count() : 1);
-  Handover handover;
+  HappensBefore handover;
   handover.fork();
   tbb::parallel_for(
       tbb::blocked_range<std::int64_t>(0, n, 1),

@@ -30,7 +30,7 @@ inline const Vec3& column(const Points3Ref& points, std::int64_t i) {
   return *reinterpret_cast<const Vec3*>(points.data() + points.outerStride() * i);
 }
 
-/// \throws Error bad_option unless a caller's points have the given number of rows.
+/// \throws Error invalid_argument unless a caller's points have the given number of rows.
 /// \param columns the shape to give instead, for the message.
 /// \param instead the function for points of the other kind, for the message, or empty.
 inline void require_rows(const PointsRef& points, Eigen::Index rows, const std::string& columns,
@@ -43,7 +43,7 @@ inline void require_rows(const PointsRef& points, Eigen::Index rows, const std::
 
 /// A caller's directions, in place.
 /// \param planar the function for points of 2 rows, for the message, or empty.
-/// \throws Error bad_option unless they have 3 rows.
+/// \throws Error invalid_argument unless they have 3 rows.
 inline Points3Ref directions_of(const PointsRef& points, const std::string& planar = {}) {
   require_rows(points, 3, "3 x n columns x y z", planar);
   return points;
@@ -51,14 +51,15 @@ inline Points3Ref directions_of(const PointsRef& points, const std::string& plan
 
 /// A caller's places in the plane, in place.
 /// \param spherical the function for points of 3 rows, for the message, or empty.
-/// \throws Error bad_option unless they have 2 rows.
+/// \throws Error invalid_argument unless they have 2 rows.
 inline Points2Ref places_of(const PointsRef& points, const std::string& spherical = {}) {
   require_rows(points, 2, "2 x n columns x y", spherical);
   return points;
 }
 
 /// A caller's points in the plane, in place: without their z.
-/// \throws Error bad_option unless they have 2 rows, or 3 of which z is 0; with the index of the
+/// \throws Error invalid_argument unless they have 2 rows, or 3 of which z is 0; with the index of
+/// the
 ///         first other point.
 inline Points2Ref plane_points_of(const PointsRef& points) {
   if (points.rows() != 3) {
@@ -67,7 +68,7 @@ inline Points2Ref plane_points_of(const PointsRef& points) {
   }
   for (Eigen::Index i = 0; i < points.cols(); ++i)
     if (!(points(2, i) == 0))
-      throw Error(ErrorCode::bad_option,
+      throw Error(ErrorCode::invalid_argument,
                   "point " + std::to_string(i) + " of the plane has the z " +
                       std::to_string(points(2, i)) + "; give z = 0, or 2 rows",
                   i);

@@ -11,13 +11,13 @@ namespace calotte::base_detail {
 /// A mesh of n sites has up to 2n - 4 triangles, and their ids are int32.
 constexpr std::int64_t most_points = std::int64_t{1} << 30;
 
-/// \throws Error bad_option with the message.
+/// \throws Error invalid_argument with the message.
 inline void require(bool holds, const std::string& message) {
   if (!holds)
-    throw Error(ErrorCode::bad_option, message);
+    throw Error(ErrorCode::invalid_argument, message);
 }
 
-/// \throws Error bad_option, when the count is below the least or above most_points.
+/// \throws Error invalid_argument, when the count is below the least or above most_points.
 inline void require_count(std::int64_t count, std::int64_t least, const std::string& name) {
   require(count >= least && count <= most_points,
           name + " is " + std::to_string(count) + "; give a number from " + std::to_string(least) +

@@ -19,7 +19,7 @@ calotte_report report_of(const CvtReport& report) {
   return {0,
           report.converged ? 1 : 0,
           report.well_centred ? 1 : 0,
-          report.misshapen_cells,
+          report.cells_beyond_limits,
           report.worst_cell,
           std::ssize(report.iterations),
           report.residual,
@@ -72,8 +72,11 @@ calotte_status calotte_make_grid(const calotte_recipe* recipe, calotte_progress 
       size_of(report, "calotte_report");
     RunOptions options;
     if (progress != nullptr)
-      options.callback = [=](const CvtProgress& now) {
-        return progress(std::ssize(now.report.iterations), now.report.residual, progress_data) != 0;
+      options.progress = [=](const Progress& now) {
+        const CvtReport& so_far = now.run->report;
+        return progress(std::ssize(so_far.iterations), so_far.residual, progress_data) != 0
+                   ? Next::stop
+                   : Next::proceed;
       };
     Cvt grid = make_grid(recipe_of(recipe), options);
     hand_over(std::move(grid.mesh), mesh);

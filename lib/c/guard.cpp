@@ -33,7 +33,7 @@ void set_threads(int count) { threads = std::max(count, 0); }
 
 calotte_status guarded(calotte_error* error, const std::function<void()>& work) {
   if (error != nullptr && !has_message(*error))
-    return CALOTTE_BAD_OPTION;
+    return CALOTTE_INVALID_ARGUMENT;
   try {
     if (threads == 0)
       work();

@@ -21,11 +21,12 @@ void set_threads(int count);
 
 /// Does the work in these threads and turns what it throws into a code and *error.
 /// \param error null, or of a caller; without room for a message nothing is done, and the code is
-///        CALOTTE_BAD_OPTION.
+///        CALOTTE_INVALID_ARGUMENT.
 calotte_status guarded(calotte_error* error, const std::function<void()>& work);
 
 /// The size of a caller's struct. \param name of its type.
-/// \throws Error bad_option for a null pointer and for a size that no struct of this type has.
+/// \throws Error invalid_argument for a null pointer and for a size that no struct of this type
+/// has.
 template <class Struct> std::size_t size_of(const Struct* given, const std::string& name) {
   constexpr std::size_t most = 1 << 16; // a member that was never set
   require(given != nullptr, "the pointer to a " + name + " is null; give the address of one");
@@ -36,7 +37,7 @@ template <class Struct> std::size_t size_of(const Struct* given, const std::stri
 }
 
 /// A caller's struct with all members that the library knows: 0 where the caller's has none.
-/// \throws Error bad_option as size_of(), and for other members that are not 0.
+/// \throws Error invalid_argument as size_of(), and for other members that are not 0.
 template <class Struct> Struct known_part(const Struct* given, const std::string& name) {
   const std::size_t size = size_of(given, name);
   Struct known{};
@@ -50,7 +51,7 @@ template <class Struct> Struct known_part(const Struct* given, const std::string
   return known;
 }
 
-/// Sets the members that a caller's struct has. \throws Error bad_option as size_of().
+/// Sets the members that a caller's struct has. \throws Error invalid_argument as size_of().
 template <class Struct> void fill(Struct* out, Struct values, const std::string& name) {
   values.size = size_of(out, name);
   std::memcpy(out, &values, std::min(values.size, sizeof values));

@@ -13,13 +13,13 @@ struct calotte_mesh {
 
 namespace calotte::c_detail {
 
-/// \throws Error bad_option for a null pointer.
+/// \throws Error invalid_argument for a null pointer.
 void require_output(calotte_mesh** mesh);
 
 /// Gives a mesh to a caller. \pre require_output(mesh).
 void hand_over(Mesh&& made, calotte_mesh** mesh);
 
-/// A caller's mesh. \throws Error bad_option for a null pointer.
+/// A caller's mesh. \throws Error invalid_argument for a null pointer.
 const Mesh& mesh_of(const calotte_mesh* mesh);
 
 } // namespace calotte::c_detail

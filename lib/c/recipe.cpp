@@ -37,7 +37,8 @@ Value value_of(const char* word, std::span<const Word<Value>> words, Value usual
   std::string all;
   for (const Word<Value>& known : words)
     all += (all.empty() ? "" : ", ") + std::string(known.word);
-  throw Error(ErrorCode::bad_option, "the " + name + " is '" + word + "'; give one of " + all);
+  throw Error(ErrorCode::invalid_argument,
+              "the " + name + " is '" + word + "'; give one of " + all);
 }
 
 Surface::Rings rings_of(const calotte_surface& surface) {

@@ -15,15 +15,15 @@
 namespace calotte::c_detail {
 
 /// A caller's points, in place. \param rows numbers of a point. \param name for the message.
-/// \throws Error bad_option for a count out of range and for a null pointer to points.
+/// \throws Error invalid_argument for a count out of range and for a null pointer to points.
 Eigen::Map<const DoubleMatrix> points_of(const double* values, std::int64_t n, int rows,
                                          const std::string& name);
 
-/// \param given null for the sphere. \throws Error bad_option.
+/// \param given null for the sphere. \throws Error invalid_argument.
 Surface surface_of(const calotte_surface* given);
 
 /// What a caller asks for. It refers to the caller's density and its data.
-/// \throws Error bad_option.
+/// \throws Error invalid_argument.
 Recipe recipe_of(const calotte_recipe* given);
 
 } // namespace calotte::c_detail

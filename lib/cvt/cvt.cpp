@@ -30,7 +30,9 @@ namespace calotte {
 namespace cvt_detail {
 
 void require_options(const CvtOptions& options) {
-  const auto refuse = [](const std::string& what) { throw Error(ErrorCode::bad_option, what); };
+  const auto refuse = [](const std::string& what) {
+    throw Error(ErrorCode::invalid_argument, what);
+  };
   if (!(options.tolerance > 0) || !std::isfinite(options.tolerance))
     refuse("the tolerance is " + std::to_string(options.tolerance) +
            "; give a positive number such as 1e-6");
@@ -90,11 +92,11 @@ void require_state(const State& state) {
 /// Updates the state with the evaluation at its points: the norm, convergence and the rule.
 void conclude(State& state, const CvtOptions& options, const CvtIteration& iteration) {
   CvtReport& report = state.report;
-  const bool by_final_rule = options.density.uniform() || iteration.rule == options.final_rule;
+  const bool by_final_rule = options.density.uniform() || rule_of(iteration) == options.final_rule;
   report.residual = norm_of(iteration, options.norm);
   if (state.penalty > 0) {
     report.converged =
-        iteration.misshapen <= (state.raised > 0 ? accepted_excess : polished_excess);
+        iteration.shape_excess <= (state.raised > 0 ? accepted_excess : polished_excess);
   } else if (options.norm == Norm::none) {
     report.converged = state.iterations_of_level >= options.max_iterations;
   } else {
@@ -112,7 +114,7 @@ bool level_ended(const State& state, const CvtOptions& options) {
          state.stuck || has_stalled(state);
 }
 
-/// A CVT's generators are the centroids of its cells; a finish keeps its own.
+/// A CVT's generators are the centroids of its cells; a polish keeps its own.
 void end_descent(State& state, Descent& descent) {
   if (state.penalty == 0) {
     descent.end_at_centroids();
@@ -121,7 +123,7 @@ void end_descent(State& state, Descent& descent) {
   const ShapeTerms& shapes = descent.here().shapes;
   CvtReport& report = state.report;
   report.converged = shapes.worst <= accepted_excess;
-  report.misshapen_cells = shapes.generators;
+  report.cells_beyond_limits = shapes.generators;
   report.worst_cell =
       report.converged ? -1 : state.id[static_cast<std::size_t>(shapes.worst_generator)];
 }
@@ -136,7 +138,7 @@ struct Ending {
 template <class World>
 Ending iterate(const World& world, CvtState& whole, Level&& level, const CvtOptions& options,
                const CvtCallback& callback) {
-  State& state = whole.data();
+  State& state = State::of(whole);
   if (state.penalty == 0 && options.norm != Norm::none) // the tolerance may be another now
     state.report.converged = state.report.converged &&
                              (state.report.residual <= options.tolerance || creeps(state, options));
@@ -181,11 +183,11 @@ Ending iterate(const World& world, CvtState& whole, Level&& level, const CvtOpti
 template <class World>
 void require_room(const World& world, const State& state, const CvtOptions& options) {
   if (options.insertion_rounds > 0 && (options.cells < world.fewest || options.cells > most_points))
-    throw Error(ErrorCode::bad_option, "cells is " + std::to_string(options.cells) +
-                                           "; give at least " + std::to_string(world.fewest) +
-                                           " and at most " + std::to_string(most_points));
+    throw Error(ErrorCode::invalid_argument, "cells is " + std::to_string(options.cells) +
+                                                 "; give at least " + std::to_string(world.fewest) +
+                                                 " and at most " + std::to_string(most_points));
   if (options.insertion_rounds > 0 && options.cells < state.fixed)
-    throw Error(ErrorCode::bad_option,
+    throw Error(ErrorCode::invalid_argument,
                 "fixed generator " + std::to_string(options.cells) + " is beyond the " +
                     std::to_string(options.cells) +
                     " cells of the result; give more cells or fewer fixed generators",
@@ -195,18 +197,18 @@ void require_room(const World& world, const State& state, const CvtOptions& opti
   for (std::int64_t cells = world.bisected(n); cells <= most_points; cells = world.bisected(cells))
     ++most;
   if (state.bisections_left > most)
-    throw Error(ErrorCode::bad_option,
+    throw Error(ErrorCode::invalid_argument,
                 std::to_string(state.bisections_left) + " bisections of " + std::to_string(n) +
                     " generators are too many; give at most " + std::to_string(most));
   std::int64_t cells = std::max(n, options.insertion_rounds > 0 ? options.cells : 0);
   for (int k = 0; k < state.bisections_left; ++k)
     cells = world.bisected(cells);
   if (options.method == Method::lbfgs_laplacian && cells > most_laplacian_rows)
-    throw Error(ErrorCode::bad_option, std::to_string(cells) +
-                                           " generators are too many for the method "
-                                           "lbfgs_laplacian, which takes at most " +
-                                           std::to_string(most_laplacian_rows) +
-                                           "; give the method lbfgs or lloyd");
+    throw Error(ErrorCode::invalid_argument, std::to_string(cells) +
+                                                 " generators are too many for the method "
+                                                 "lbfgs_laplacian, which takes at most " +
+                                                 std::to_string(most_laplacian_rows) +
+                                                 "; give the method lbfgs or lloyd");
 }
 
 /// The mesh of the state's points, in the order of the start.
@@ -221,8 +223,8 @@ template <class World> auto mesh_of(const World& world, const State& state, Endi
 template <class World>
 Level begin(const World& world, Stage stage, State& state, const CvtOptions& options,
             Ending&& ending) {
-  if (stage == Stage::finish) {
-    begin_finish(state);
+  if (stage == Stage::polish) {
+    begin_polish(state);
     return {};
   }
   if (stage == Stage::raise) {
@@ -238,7 +240,7 @@ Level begin(const World& world, Stage stage, State& state, const CvtOptions& opt
 template <class World>
 typename World::Result run(const World& world, CvtState whole, Level&& level, CvtOptions options,
                            const CvtCallback& callback) {
-  State& state = whole.data();
+  State& state = State::of(whole);
   require_options(options);
   options.density = world.density(options.density);
   require_state(state);
@@ -274,7 +276,8 @@ template <class World>
 typename World::Result run(const World& world, Begun&& begun, const CvtOptions& options,
                            const CvtCallback& callback) {
   begun.state.rounds_left = rounds_of_level(begun.state.bisections_left, options);
-  return run(world, CvtState(std::move(begun.state)), std::move(begun.level), options, callback);
+  return run(world, State::wrapped(std::move(begun.state)), std::move(begun.level), options,
+             callback);
 }
 
 template <class Points>

@@ -12,12 +12,16 @@
 
 #include <concepts>
 #include <cstdint>
+#include <functional>
 
 /// Runs of descents from given generators, one function a surface; make_grid() calls them.
 namespace calotte {
 
-/// Options of a CVT run. A function that takes them throws Error bad_option for a value out of
-/// range.
+/// Called after each accepted iteration; true ends the run there.
+using CvtCallback = std::function<bool(const CvtProgress&)>;
+
+/// Options of a CVT run. A function that takes them throws Error invalid_argument for a value out
+/// of range.
 struct CvtOptions {
   Density density = {};              ///< rho of the energy; default uniform
   Method method = Method::automatic; ///< see Method
@@ -32,7 +36,7 @@ struct CvtOptions {
   /// level. A level that has converged or reached max_iterations is bisected (n -> 4n - 6, see
   /// bisect()) and converges again.
   int bisections = 0;
-  /// Rounds of insertion and contraction on the last level, see insert_and_contract(), and up to
+  /// Rounds of insertion and contraction on the last level, see split_and_collapse(), and up to
   /// 14 on coarser levels; each is followed by a descent. A round after a descent of more than 15
   /// evaluations counts for two. With rounds, all descents but the last end at an l2_scaled norm of
   /// 1e-3 or the tolerance, whichever is larger, or after 75 evaluations. >= 0; default 0.
@@ -43,17 +47,17 @@ struct CvtOptions {
   /// Ends the run with the shapes that models ask for. A pure CVT has few others, at dislocations,
   /// pairs of cells with 5 and 7 neighbours. First, up to four times after the last descent,
   /// dislocations at short Voronoi edges are moved along their rows, the generators around them
-  /// relax, and the descent goes on. Then a finish minimises the energy plus the squares of
+  /// relax, and the descent goes on. Then a polish minimises the energy plus the squares of
   /// excesses over limits that are left: angles of triangles from 38 to 87 degrees, Voronoi edges
   /// from 0.21 to 1.1 times the length of the Delaunay edges across, and these from 0.8 to 1.3
   /// times the spacing that the density demands. It moves generators next to such shapes away from
   /// their centroids. It ends when no cotangent and no such ratio exceeds its limit by more than
   /// 0.02, after 60 evaluations, or after ten that hardly improve the worst shape; the mesh is
-  /// well-centred if none does by 0.03. Near that the finish goes on, up to twice, with squares of
-  /// four times the weight. A mesh within the limits does not change. A descent before a finish
+  /// well-centred if none does by 0.03. Near that the polish goes on, up to twice, with squares of
+  /// four times the weight. A mesh within the limits does not change. A descent before a polish
   /// also converges when 45 evaluations have not halved its norm. Default false: a pure CVT.
   bool well_centred = false;
-  /// In a finish: the least length of a Delaunay edge over the spacing that the density demands
+  /// In a polish: the least length of a Delaunay edge over the spacing that the density demands
   /// there; 0 to 0.95. The shortest edge decides the stable step of gravity waves. Values near 1
   /// move many generators away from their centroids. Where the widths do not allow it, the report
   /// is not well_centred. Default 0.8.
@@ -93,8 +97,8 @@ struct CvtOptions {
 /// \param callback called after each accepted iteration, see CvtCallback; default none.
 ///
 /// \throws Error as spherical_delaunay(); too_few_sites for fewer than 12 generators, or when they
-///         leave a hemisphere empty or meet; bad_option for an option out of range, or a density
-///         that is ill-formed, negative or NaN somewhere, or zero over a whole cell.
+///         leave a hemisphere empty or meet; invalid_argument for an option out of range, or a
+///         density that is ill-formed, negative or NaN somewhere, or zero over a whole cell.
 Cvt spherical_cvt(const PointsRef& start, const CvtOptions& options = {},
                   const CvtCallback& callback = {});
 
@@ -109,7 +113,7 @@ Cvt spherical_cvt(Points3&& start, const CvtOptions& options, const CvtCallback&
 /// Continues from a state. With the same options the result has the bits of an uninterrupted run.
 /// CvtOptions::bisections, duplicates, merge_within and fixed have no effect; the state holds the
 /// bisections that remain and the number of fixed generators.
-/// \throws Error as above; bad_option for an incomplete state.
+/// \throws Error as above; invalid_argument for an incomplete state.
 Cvt spherical_cvt(CvtState state, const CvtOptions& options, const CvtCallback& callback = {});
 
 /// The same in a region of the sphere, whose boundary clips the cells. Generators stay inside:
@@ -122,12 +126,13 @@ Cvt spherical_cvt(CvtState state, const CvtOptions& options, const CvtCallback& 
 /// midpoint between two of them along the boundary.
 ///
 /// \param start 3 x n directions inside the region, 4 distinct at least.
-/// \throws Error as above and as require_region(); bad_option with the index of a generator outside
+/// \throws Error as above and as require_region(); invalid_argument with the index of a generator
+/// outside
 ///         the region.
 Cvt spherical_cvt(const PointsRef& start, const Region& region, const CvtOptions& options = {},
                   const CvtCallback& callback = {});
 /// Continues from a state in a region.
-/// \throws Error as above; bad_option for an incomplete state.
+/// \throws Error as above; invalid_argument for an incomplete state.
 Cvt spherical_cvt(CvtState state, const Region& region, const CvtOptions& options,
                   const CvtCallback& callback = {});
 
@@ -147,13 +152,13 @@ struct PlanarCvt {
 /// \param start 2 x n places inside the domain, 3 distinct at least, not on one line; in a periodic
 ///         box as periodic_delaunay() requires.
 /// \param domain bounded by rings, or a periodic box.
-/// \throws Error as planar_delaunay() and periodic_delaunay(); bad_option as above, as
+/// \throws Error as planar_delaunay() and periodic_delaunay(); invalid_argument as above, as
 ///         require_domain(), or with the index of a generator outside of the domain.
 PlanarCvt planar_cvt(const PointsRef& start, const PlanarDomain& domain,
                      const CvtOptions& options = {}, const CvtCallback& callback = {});
 
 /// Continues from a state of a run in the same domain.
-/// \throws Error as above; bad_option for an incomplete state.
+/// \throws Error as above; invalid_argument for an incomplete state.
 PlanarCvt planar_cvt(CvtState state, const PlanarDomain& domain, const CvtOptions& options,
                      const CvtCallback& callback = {});
 

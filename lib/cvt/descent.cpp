@@ -71,7 +71,7 @@ void Descent::begin() {
     evaluate(state_.points, here_);
     return;
   }
-  const bool final_rule = state_.report.iterations.back().rule == options_.final_rule;
+  const bool final_rule = rule_of(state_.report.iterations.back()) == options_.final_rule;
   functional_.evaluate(state_.points, final_rule, uses_gradients(), here_);
   const Memory& memory = state_.memory;
   for (std::size_t k = 0; k < memory.steps.size(); ++k)
@@ -85,7 +85,7 @@ void Descent::begin() {
 
 void Descent::step() {
   const bool other_rule = !options_.density.uniform() && state_.final_rule &&
-                          here_.iteration.rule != options_.final_rule;
+                          rule_of(here_.iteration) != options_.final_rule;
   if (options_.method == Method::lloyd && options_.relaxation == 1)
     lloyd_step();
   else if (other_rule) // another functional, whose energies do not compare
@@ -380,7 +380,7 @@ void Descent::quasi_newton_step() {
     evaluate(trial_, there_);
     // A density that is linear between the generators moves with them.
     const bool rose = there_.iteration.energy > (1 + rule_error) * here_.iteration.energy;
-    if (here_.iteration.rule == rule_at_sites && rose) {
+    if (here_.iteration.linear_density && rose) {
       state_.report.iterations.back().accepted = false;
       state_.stuck = options_.final_rule == rule_at_sites || options_.norm == Norm::none;
       return;

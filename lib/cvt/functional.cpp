@@ -169,16 +169,16 @@ void make_room(Evaluation& out, Eigen::Index n, bool with_gradient) {
 }
 
 /// Counts the generators away from their centroids.
-void count_displaced(const Array<SiteTerms>& terms, const DoubleVector& inverse_spacing,
-                     CvtIteration& iteration) {
+void count_off_centroid(const Array<SiteTerms>& terms, const DoubleVector& inverse_spacing,
+                        CvtIteration& iteration) {
   constexpr double least = 0.01;
   double most = 0;
   for (std::int64_t i = 0; i < terms.size(); ++i) {
     const double square = terms[i].square * inverse_spacing[i] * inverse_spacing[i];
-    iteration.displaced += square > least * least;
+    iteration.off_centroid += square > least * least;
     most = std::max(most, square);
   }
-  iteration.displacement = std::sqrt(most);
+  iteration.largest_offset = std::sqrt(most);
 }
 
 template <class Cells> class FunctionalOver final : public Functional {
@@ -268,7 +268,9 @@ void FunctionalOver<Cells>::evaluate(const Points3& points, bool final_rule, boo
   CvtIteration& iteration = out.iteration = {};
   iteration.cells = points.cols();
   iteration.spacing = tessellation_.cells().spacing();
-  iteration.rule = final_rule ? final_rule_ : rule_;
+  const int rule = final_rule ? final_rule_ : rule_;
+  iteration.linear_density = rule == rule_at_sites;
+  iteration.rule = iteration.linear_density ? 0 : rule;
   iteration.flips = effort.flips;
   iteration.rebuilt = effort.rebuilt;
   iteration.seconds_exchange = effort.seconds_exchange;
@@ -276,8 +278,9 @@ void FunctionalOver<Cells>::evaluate(const Points3& points, bool final_rule, boo
   iteration.seconds_moments = effort.seconds_moments;
   add_sums(terms_, iteration);
   if (!std::isfinite(iteration.energy))
-    throw Error(ErrorCode::bad_option, "the density is zero over a whole cell, or beyond 1e150: "
-                                       "make it positive everywhere, and smaller");
+    throw Error(ErrorCode::invalid_argument,
+                "the density is zero over a whole cell, or beyond 1e150: "
+                "make it positive everywhere, and smaller");
   if (penalty_ > 0)
     add_penalty(points, out);
   iteration.seconds = lap(mark);
@@ -306,9 +309,9 @@ void FunctionalOver<Cells>::add_penalty(const Points3& points, Evaluation& out) 
   for_each_block(points.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     make_tangential(out.gradient, points, {begin, end});
   });
-  count_displaced(terms_, inverse_spacing, out.iteration);
+  count_off_centroid(terms_, inverse_spacing, out.iteration);
   out.penalty = penalty_ * out.shapes.value;
-  out.iteration.misshapen = out.shapes.worst;
+  out.iteration.shape_excess = out.shapes.worst;
 }
 
 template <class Cells>

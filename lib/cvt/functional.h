@@ -10,6 +10,7 @@
 #include "cvt/tessellation.h"
 #include "domain/planar_domain.h"
 #include "domain/spherical_outline.h"
+#include "integrals/integrand.h"
 
 #include <calotte/cvt.h>
 
@@ -20,6 +21,11 @@
 
 namespace calotte::cvt_detail {
 
+/// The rule of an evaluation, as CvtOptions have it.
+inline int rule_of(const CvtIteration& iteration) {
+  return iteration.linear_density ? integrals_detail::rule_at_sites : iteration.rule;
+}
+
 /// The CVT energy E of n generators x, with Lloyd's map or with the gradient, from which Lloyd's
 /// map follows: storing both would take 48 bytes more for each generator of a descent.
 struct Evaluation {
@@ -27,8 +33,8 @@ struct Evaluation {
   Points3 centroids;      ///< Lloyd's map, 3 x n; without the gradient
   Points3 gradient;       ///< dE/dx, tangential; on request
   Array<double> mass;     ///< with the gradient; see SphericalCells::Pull
-  double penalty = 0;     ///< for the shapes of a finish; the gradient includes it
-  ShapeTerms shapes;      ///< of a finish
+  double penalty = 0;     ///< for the shapes of a polish; the gradient includes it
+  ShapeTerms shapes;      ///< of a polish
 
   /// What the steps of a descent lower.
   double value() const { return iteration.energy + penalty; }
@@ -42,7 +48,8 @@ public:
 
   /// \param points 3 x n.
   /// \param final_rule uses the finer of the two rules.
-  /// \throws Error bad_option for a density that is zero or infinite over a cell; too_few_sites.
+  /// \throws Error invalid_argument for a density that is zero or infinite over a cell;
+  /// too_few_sites.
   virtual void evaluate(const Points3& points, bool final_rule, bool with_gradient,
                         Evaluation& out) = 0;
 

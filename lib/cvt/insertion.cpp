@@ -180,8 +180,9 @@ std::vector<Edge> edges_of(const AnyMesh& mesh, const Points3& points, const Den
 /// The points that remain, those of contracted edges moved to the midpoints unless they are fixed,
 /// then the inserted ones.
 template <class Middle>
-Points3 exchanged(const Points3& points, const std::vector<Edge>& split,
-                  const std::vector<Edge>& contracted, std::int64_t fixed, const Middle& middle) {
+Points3 split_and_collapsed(const Points3& points, const std::vector<Edge>& split,
+                            const std::vector<Edge>& contracted, std::int64_t fixed,
+                            const Middle& middle) {
   Points3 moved = points;
   std::vector<std::uint8_t> gone(static_cast<std::size_t>(points.cols()), 0);
   for (const Edge& edge : contracted) {
@@ -202,8 +203,8 @@ Points3 exchanged(const Points3& points, const std::vector<Edge>& split,
 /// \param Space has offset(a, b), middle(a, b), holds(middle) and keeps(a, b), which forbids to
 ///        split an edge between fixed points.
 template <class AnyMesh, class Space>
-Points3 exchange(const AnyMesh& mesh, const Points3& points, const Density& density,
-                 const Space& space, const Exchange& numbers) {
+Points3 change_edges(const AnyMesh& mesh, const Points3& points, const Density& density,
+                     const Space& space, const EdgeChanges& numbers) {
   require_counts(points.cols(), numbers.inserted, numbers.contracted);
   std::vector<Edge> edges = edges_of(mesh, points, density, space);
   const auto middle = [&](const Edge& edge) {
@@ -218,7 +219,7 @@ Points3 exchange(const AnyMesh& mesh, const Points3& points, const Density& dens
   const std::vector<Edge> split = choice.choose(edges, numbers.inserted, is_longer, may_split),
                           contracted =
                               choice.choose(edges, numbers.contracted, is_shorter, may_contract);
-  return exchanged(points, split, contracted, numbers.fixed, middle);
+  return split_and_collapsed(points, split, contracted, numbers.fixed, middle);
 }
 
 struct OnSphere {
@@ -278,13 +279,14 @@ double sum_dislocations(const AnyMesh& mesh, const Points3& points, const Densit
 }
 
 /// \param points of the mesh, with z = 0.
-Points3 exchanged_in_plane(const PlanarMesh& mesh, const Points3& points,
-                           const PlanarDomain& domain, const Density& density,
-                           const Exchange& numbers) {
+Points3 split_and_collapsed_in_plane(const PlanarMesh& mesh, const Points3& points,
+                                     const PlanarDomain& domain, const Density& density,
+                                     const EdgeChanges& numbers) {
   const std::unique_ptr<const Outline> outline =
       domain.periodic() ? nullptr : std::make_unique<const Outline>(domain);
   const InPlane space{{domain.period.x(), domain.period.y()}, outline.get()};
-  return exchange(mesh, points, density_detail::planar_density(density, domain), space, numbers);
+  return change_edges(mesh, points, density_detail::planar_density(density, domain), space,
+                      numbers);
 }
 
 } // namespace
@@ -299,19 +301,20 @@ double dislocations(const PlanarMesh& mesh, const Density& density) {
   return sum_dislocations(mesh, base_detail::with_z(mesh.points), density);
 }
 
-Points3 exchanged(const Mesh& mesh, const Density& density, const Exchange& exchange) {
-  return calotte::exchange(mesh, unit(mesh.points, exchange.fixed), density, OnSphere(), exchange);
+Points3 split_and_collapsed(const Mesh& mesh, const Density& density, const EdgeChanges& changes) {
+  return change_edges(mesh, unit(mesh.points, changes.fixed), density, OnSphere(), changes);
 }
 
-Points3 exchanged(const Mesh& mesh, const SphericalOutline& outline, const Density& density,
-                  const Exchange& exchange) {
-  return calotte::exchange(mesh, unit(mesh.points, exchange.fixed), density, InRegion{{}, &outline},
-                           exchange);
+Points3 split_and_collapsed(const Mesh& mesh, const SphericalOutline& outline,
+                            const Density& density, const EdgeChanges& changes) {
+  return change_edges(mesh, unit(mesh.points, changes.fixed), density, InRegion{{}, &outline},
+                      changes);
 }
 
-Points2 exchanged(const PlanarMesh& mesh, const PlanarDomain& domain, const Density& density,
-                  const Exchange& exchange) {
-  return exchanged_in_plane(mesh, base_detail::with_z(mesh.points), domain, density, exchange)
+Points2 split_and_collapsed(const PlanarMesh& mesh, const PlanarDomain& domain,
+                            const Density& density, const EdgeChanges& changes) {
+  return split_and_collapsed_in_plane(mesh, base_detail::with_z(mesh.points), domain, density,
+                                      changes)
       .topRows<2>();
 }
 
@@ -326,15 +329,15 @@ bool lies_along(const SphericalOutline& outline, const Vec3& a, const Vec3& b) {
 
 } // namespace cvt_detail
 
-Points3 insert_and_contract(const Mesh& mesh, const Density& density, std::int64_t inserted,
-                            std::int64_t contracted) {
-  const Exchange numbers{inserted, contracted};
+Points3 split_and_collapse(const Mesh& mesh, const Density& density, std::int64_t inserted,
+                           std::int64_t contracted) {
+  const EdgeChanges numbers{inserted, contracted};
   if (!mesh.surface.is_sphere())
-    return exchanged_in_plane(mesh_detail::planar(mesh), mesh.points, domain_of(mesh.surface),
-                              density, numbers);
+    return split_and_collapsed_in_plane(mesh_detail::planar(mesh), mesh.points,
+                                        domain_of(mesh.surface), density, numbers);
   if (mesh.surface.is_bounded())
-    return exchanged(mesh, SphericalOutline(region_of(mesh.surface)), density, numbers);
-  return exchanged(mesh, density, numbers);
+    return split_and_collapsed(mesh, SphericalOutline(region_of(mesh.surface)), density, numbers);
+  return split_and_collapsed(mesh, density, numbers);
 }
 
 } // namespace calotte

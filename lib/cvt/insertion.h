@@ -21,22 +21,22 @@ double dislocations(const Mesh& mesh, const Density& density);
 /// The same in the plane. \pre the density is that of planar_density().
 double dislocations(const PlanarMesh& mesh, const Density& density);
 
-/// What an exchange of generators does.
-struct Exchange {
+/// What a split and collapse of edges does.
+struct EdgeChanges {
   std::int64_t inserted = 0, contracted = 0; ///< numbers of edges
   /// The first points of the mesh, which keep their bits. No edge between two of them is
   /// contracted; one to another point is contracted to the fixed one.
   std::int64_t fixed = 0;
 };
 
-/// As insert_and_contract().
-Points3 exchanged(const Mesh& mesh, const Density& density, const Exchange& exchange);
+/// As split_and_collapse().
+Points3 split_and_collapsed(const Mesh& mesh, const Density& density, const EdgeChanges& changes);
 /// The same where midpoints must lie in a region. An edge between two fixed points along the
 /// boundary, see lies_along(), is not split.
-Points3 exchanged(const Mesh& mesh, const SphericalOutline& outline, const Density& density,
-                  const Exchange& exchange);
-Points2 exchanged(const PlanarMesh& mesh, const PlanarDomain& domain, const Density& density,
-                  const Exchange& exchange);
+Points3 split_and_collapsed(const Mesh& mesh, const SphericalOutline& outline,
+                            const Density& density, const EdgeChanges& changes);
+Points2 split_and_collapsed(const PlanarMesh& mesh, const PlanarDomain& domain,
+                            const Density& density, const EdgeChanges& changes);
 
 /// True if the midpoint of an edge is within a fifth of its length of the boundary.
 bool lies_along(const SphericalOutline& outline, const Vec3& a, const Vec3& b);

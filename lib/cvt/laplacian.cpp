@@ -107,7 +107,7 @@ private:
 class PlanarEdges {
 public:
   PlanarEdges(const PlanarSites& sites, const Faces& mesh, const Array<Corner>& starts)
-      : sites_(&sites), clipped_(sites.generators), shore_(sites.generators),
+      : sites_(&sites), clipped_(sites.generators), boundary_(sites.generators),
         area_(sites.generators) {
     for_each_block(sites.generators, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
       std::vector<Corner> ring;
@@ -134,8 +134,8 @@ public:
   /// a negative term; their sum is at least 0, so that the matrix stays positive.
   double held(std::int32_t i, double rho, double area) const {
     const double whole = clipped_[i] != 0 ? area_[i] : area;
-    return rho *
-           (whole * whole * (4 * std::numbers::pi) / sites_->area + 2 * std::max(shore_[i], 0.0));
+    return rho * (whole * whole * (4 * std::numbers::pi) / sites_->area +
+                  2 * std::max(boundary_[i], 0.0));
   }
 
 private:
@@ -145,7 +145,7 @@ private:
 
   void clip(const Triangles& triangles, const std::vector<Corner>& ring, std::int32_t i) {
     clipped_[i] = 0;
-    shore_[i] = area_[i] = 0;
+    boundary_[i] = area_[i] = 0;
     if (sites_->outline == nullptr)
       return;
     std::vector<CellCorner> cell;
@@ -154,12 +154,12 @@ private:
       cell.push_back({circumcentre(between(i, triangles(next_vertex(v), t)), beyond), beyond});
     }
     const Vec2 site{sites_->places[i].x, sites_->places[i].y};
-    if (!near_shore(*sites_->outline, site, cell))
+    if (!near_boundary(*sites_->outline, site, cell))
       return;
     clipped_[i] = 1;
     for (const CellSide& side : clipped_cell(*sites_->outline, site, cell)) {
       area_[i] += cross(side.p, side.q) / 2;
-      shore_[i] += side.shore ? cross(side.p, side.q) / 2 : 0;
+      boundary_[i] += side.boundary ? cross(side.p, side.q) / 2 : 0;
     }
   }
 
@@ -181,7 +181,8 @@ private:
 
   const PlanarSites* sites_;
   Array<std::uint8_t> clipped_;
-  Array<double> shore_, area_; ///< of clipped cells: between the generator and the shore, and all
+  Array<double> boundary_,
+      area_; ///< of clipped cells: between the generator and the boundary, and all
 };
 
 /// The input of a matrix.

@@ -68,7 +68,7 @@ struct PlanarSites {
 
 /// The same in the plane. Voronoi edges beside the hull's places lie outside of the domain, and
 /// count for nothing. A cell that the domain clips has on the diagonal 2 rho times the area between
-/// its generator and the shore: half of the trace of what the second derivative, 2 m less the
+/// its generator and the boundary: half of the trace of what the second derivative, 2 m less the
 /// integrals over Voronoi edges, is when all generators move as one.
 Laplacian graph_laplacian(const PlanarSites& sites, const Connectivity& mesh,
                           const Density& density);

@@ -21,7 +21,7 @@
 
 namespace calotte::cvt_detail {
 
-/// \throws Error bad_option with the index of the first place outside the domain.
+/// \throws Error invalid_argument with the index of the first place outside the domain.
 void require_inside(const Points2Ref& places, const PlanarDomain& domain);
 
 /// The cells of generators in a planar domain, with the functions of SphericalCells.

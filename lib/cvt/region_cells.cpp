@@ -6,7 +6,7 @@
 #include "base/triangle.h"
 #include "density/demanded_spacing.h"
 #include "domain/clipped_cell.h"
-#include "domain/tangent_shore.h"
+#include "domain/tangent_outline.h"
 #include "integrals/region_moments.h"
 
 #include <calotte/generators.h>
@@ -196,10 +196,10 @@ void RegionCells::retract(const Points3& x, double step, const Points3& d, Point
       if (outline_->side(column(to, i)) == Side::inside)
         continue;
       const TangentPlane plane(column(x, i));
-      const TangentShore shore(*outline_, plane);
+      const TangentOutline boundary(*outline_, plane);
       const Vec2 there = plane.projected(column(to, i));
       const Vec3 inside =
-          plane.lifted(nearest_inside(shore, Vec2{0, 0}, there).value_or(Vec2{0, 0}));
+          plane.lifted(nearest_inside(boundary, Vec2{0, 0}, there).value_or(Vec2{0, 0}));
       set_column(to, i, (1 / norm(inside)) * inside);
     }
   });

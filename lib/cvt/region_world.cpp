@@ -107,7 +107,7 @@ bool all_inside(const SphericalOutline& outline, const Points3& points) {
 }
 
 /// \param fixed number of fixed generators, the first points.
-/// \throws Error bad_option with the index of the first point outside.
+/// \throws Error invalid_argument with the index of the first point outside.
 void require_inside(const SphericalOutline& outline, const Points3Ref& points, std::int64_t fixed) {
   FirstFault outside;
   for_each_block(points.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
@@ -191,10 +191,10 @@ Level RegionWorld::set_bisected(State& state, const Mesh& coarse) const {
   return {};
 }
 
-Level RegionWorld::set_exchanged(State& state, const Mesh& mesh, const Density& density,
-                                 const Exchange& exchange) const {
-  set_generators(state,
-                 make_sites(exchanged(mesh, *outline_, density, exchange), Duplicates::refuse, 0));
+Level RegionWorld::set_split_and_collapsed(State& state, const Mesh& mesh, const Density& density,
+                                           const EdgeChanges& changes) const {
+  set_generators(state, make_sites(split_and_collapsed(mesh, *outline_, density, changes),
+                                   Duplicates::refuse, 0));
   return {};
 }
 

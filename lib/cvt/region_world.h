@@ -23,7 +23,7 @@ public:
   explicit RegionWorld(const Region& region)
       : outline_(std::make_shared<const SphericalOutline>(region)) {}
 
-  /// \throws Error as SphericalWorld; bad_option with the index of the first point outside.
+  /// \throws Error as SphericalWorld; invalid_argument with the index of the first point outside.
   Begun begin(const Points3Ref& start, const CvtOptions& options) const;
   static Density density(const Density& density) { return SphericalWorld::density(density); }
   void require_points(const State& state) const;
@@ -36,8 +36,8 @@ public:
   Mesh triangulated(Points3&& points) const;
   Mesh mesh(Points3&& points, Connectivity&&) const { return triangulated(std::move(points)); }
   Level set_bisected(State& state, const Mesh& coarse) const;
-  Level set_exchanged(State& state, const Mesh& mesh, const Density& density,
-                      const Exchange& exchange) const;
+  Level set_split_and_collapsed(State& state, const Mesh& mesh, const Density& density,
+                                const EdgeChanges& changes) const;
 
   /// The part of a mesh that the region contains, see Boundary: without triangles that touch the
   /// others at a site in a vertex only.

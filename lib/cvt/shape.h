@@ -13,7 +13,7 @@
 
 namespace calotte::cvt_detail {
 
-/// The limits of shape that a finish keeps. Models bear all shapes within them: a triangle must not
+/// The limits of shape that a polish keeps. Models bear all shapes within them: a triangle must not
 /// be obtuse, and a short Voronoi edge shortens the step that is stable for diffusion of vorticity.
 /// A pure CVT has few shapes beyond them, all near pairs of cells with 5 and 7 neighbours.
 struct ShapeLimits {
@@ -27,7 +27,7 @@ struct ShapeLimits {
 inline constexpr ShapeLimits shape_limits;
 
 // How far beyond its limit the worst cotangent or ratio may be:
-inline constexpr double polished_excess = 0.02;  ///< where a finish ends
+inline constexpr double polished_excess = 0.02;  ///< where a polish ends
 inline constexpr double accepted_excess = 0.03;  ///< in a well-centred mesh
 inline constexpr double reachable_excess = 0.11; ///< where a raised penalty still helps
 

@@ -2,6 +2,7 @@
 #include "cvt/stages.h"
 
 #include "cvt/cvt.h"
+#include "cvt/functional.h"
 #include "density/hexagons.h"
 #include "integrals/integrand.h"
 
@@ -37,7 +38,7 @@ bool creeps(const State& state, const CvtOptions& options) {
   double before = std::numeric_limits<double>::infinity(), now = before;
   for (std::ptrdiff_t k = 1; k <= state.iterations_of_level; ++k) {
     const CvtIteration& iteration = *(all.end() - k);
-    if (iteration.rule != all.back().rule) // another functional
+    if (rule_of(iteration) != rule_of(all.back())) // another functional
       break;
     if (iteration.accepted)
       (k <= window ? now : before) =
@@ -55,24 +56,25 @@ bool has_stalled(const State& state) {
   double before = std::numeric_limits<double>::infinity();
   for (auto i = end + window - state.iterations_of_level; i != end; ++i)
     if (i->accepted)
-      before = std::min(before, i->misshapen);
-  return last_accepted(state).misshapen > progress * before;
+      before = std::min(before, i->shape_excess);
+  return last_accepted(state).shape_excess > progress * before;
 }
 
 Stage stage_after(const State& state, const CvtOptions& options) {
   constexpr int most_raised = 2;
-  const bool inserts = options.insertion_rounds > 0, in_finish = state.penalty > 0;
+  const bool inserts = options.insertion_rounds > 0, in_polish = state.penalty > 0;
   // A round may find too few edges for all generators that are missing.
-  if (inserts && !in_finish &&
+  if (inserts && !in_polish &&
       (state.rounds_left > 0 ||
        (state.bisections_left == 0 && state.points.cols() != options.cells)))
     return Stage::insert;
   if (state.bisections_left > 0)
     return Stage::bisect;
-  if (options.well_centred && !in_finish)
-    return Stage::finish;
-  const bool fell_short = in_finish && !state.report.converged;
-  if (fell_short && state.raised < most_raised && last_accepted(state).misshapen < reachable_excess)
+  if (options.well_centred && !in_polish)
+    return Stage::polish;
+  const bool fell_short = in_polish && !state.report.converged;
+  if (fell_short && state.raised < most_raised &&
+      last_accepted(state).shape_excess < reachable_excess)
     return Stage::raise;
   return Stage::end;
 }
@@ -80,7 +82,7 @@ Stage stage_after(const State& state, const CvtOptions& options) {
 bool may_glide(const State& state, const CvtOptions& options) {
   constexpr int most = 4;
   return options.well_centred && state.penalty == 0 && state.report.converged &&
-         state.glides < most && stage_after(state, options) == Stage::finish;
+         state.glides < most && stage_after(state, options) == Stage::polish;
 }
 
 ShapeLimits limits_of_glide(const State& state) {
@@ -101,13 +103,13 @@ CvtOptions early(const CvtOptions& options) {
 }
 
 CvtOptions options_of_descent(const State& state, const CvtOptions& options, bool at_sites) {
-  constexpr int most_in_finish = 60;
+  constexpr int most_in_polish = 60;
   constexpr double fine = 1e-5;
   constexpr std::int64_t resolving = 2000; // generators, between which a density is nearly linear
   CvtOptions here = options;
   if (state.penalty > 0) {
     here.method = Method::lbfgs;
-    here.max_iterations = most_in_finish;
+    here.max_iterations = most_in_polish;
     if (at_sites && state.points.cols() >= resolving)
       here.rule = rule_at_sites;
     return here;
@@ -134,7 +136,7 @@ void begin_descent(State& state) {
   state.report.converged = false;
 }
 
-void begin_finish(State& state) {
+void begin_polish(State& state) {
   constexpr double factor = 60; // of an excess squared, in units of a cell's energy
   const CvtIteration& last = state.report.iterations.back();
   state.penalty = factor * last.energy / static_cast<double>(last.cells);

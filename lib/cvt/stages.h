@@ -17,20 +17,20 @@
 /// The course of a run: descents, and what happens to the generators between two of them.
 ///
 ///     descent -> [ insert -> descent ]* -> [ bisect -> descent -> [ insert -> descent ]* ]*
-///             -> [ glide ]* -> [ finish -> [ raise ]* ]
+///             -> [ glide ]* -> [ polish -> [ raise ]* ]
 ///
-/// A glide is part of the descent before the finish, see glide.h.
+/// A glide is part of the descent before the polish, see glide.h.
 namespace calotte::cvt_detail {
 
-/// \throws Error bad_option for a value out of range.
+/// \throws Error invalid_argument for a value out of range.
 void require_options(const CvtOptions& options);
 
 /// What follows a descent.
 enum class Stage {
   insert, ///< insertion and contraction on the same level
   bisect, ///< the next level
-  finish, ///< a descent with the penalty of shape.h
-  raise,  ///< the finish goes on with a larger penalty, where it fell short
+  polish, ///< a descent with the penalty of shape.h
+  raise,  ///< the polish goes on with a larger penalty, where it fell short
   end,
 };
 
@@ -45,16 +45,16 @@ std::int64_t cells_of_level(const World& world, std::int64_t cells, int bisectio
 /// The last evaluation of the run that was accepted. \pre there is one.
 const CvtIteration& last_accepted(const State& state);
 
-/// Whether 45 evaluations of a descent before a finish have not halved the norm: generators glide
+/// Whether 45 evaluations of a descent before a polish have not halved the norm: generators glide
 /// on along defects, where widths change too steeply or are noisy, and the grid hardly gets better.
 bool creeps(const State& state, const CvtOptions& options);
 
-/// Whether ten evaluations of a finish have hardly improved the worst shape.
+/// Whether ten evaluations of a polish have hardly improved the worst shape.
 bool has_stalled(const State& state);
 
 Stage stage_after(const State& state, const CvtOptions& options);
 
-/// Whether dislocations may be moved: at the end of the descent before a finish, up to four times.
+/// Whether dislocations may be moved: at the end of the descent before a polish, up to four times.
 bool may_glide(const State& state, const CvtOptions& options);
 
 /// The limits of the next glide: twice a little within shape_limits, so that few shapes come near
@@ -120,8 +120,8 @@ Level begin_level(const World& world, State& state, const CvtOptions& options,
 /// of a model's vorticity, divergence and kinetic energy grow with the number of dislocations. With
 /// fewer, cells are sheared, so that the stable step of gravity waves is shorter.
 template <class AnyMesh>
-Exchange exchange_of(const State& state, const AnyMesh& mesh, const Density& density,
-                     std::int64_t cells) {
+EdgeChanges edge_changes_of(const State& state, const AnyMesh& mesh, const Density& density,
+                            std::int64_t cells) {
   constexpr double share = 0.05; // of the dislocations
   constexpr double most = 0.02;  // of the generators
   const std::int64_t n = mesh.points.cols();
@@ -137,10 +137,10 @@ Exchange exchange_of(const State& state, const AnyMesh& mesh, const Density& den
 template <class World, class AnyMesh>
 Level begin_round(const World& world, State& state, const CvtOptions& options,
                   const AnyMesh& mesh) {
-  Level level =
-      world.set_exchanged(state, mesh, options.density,
-                          exchange_of(state, mesh, options.density,
-                                      cells_of_level(world, options.cells, state.bisections_left)));
+  Level level = world.set_split_and_collapsed(
+      state, mesh, options.density,
+      edge_changes_of(state, mesh, options.density,
+                      cells_of_level(world, options.cells, state.bisections_left)));
   state.rounds_left = std::max(state.rounds_left - count_of_round(state), 0);
   state.site_of_input.clear();
   begin_descent(state);
@@ -148,7 +148,7 @@ Level begin_round(const World& world, State& state, const CvtOptions& options,
 }
 
 /// Sets the factor of the penalty and the demanded spacing from the last evaluation.
-void begin_finish(State& state);
+void begin_polish(State& state);
 
 /// Raises the factor.
 void begin_raised(State& state);

@@ -8,6 +8,12 @@
 namespace calotte {
 namespace cvt_detail {
 
+CvtState State::wrapped(State&& state) {
+  CvtState whole;
+  *whole.state_ = std::move(state);
+  return whole;
+}
+
 std::vector<std::uint8_t> fixed_generators(const State& state) {
   std::vector<std::uint8_t> fixed(state.fixed > 0 ? state.id.size() : 0);
   for (std::size_t r = 0; r < fixed.size(); ++r)
@@ -26,17 +32,17 @@ Points3 in_order(const State& state) {
 
 } // namespace cvt_detail
 
-CvtState::CvtState() : CvtState(Data()) {}
-CvtState::CvtState(Data data) : data_(std::make_unique<Data>(std::move(data))) {}
-CvtState::CvtState(const CvtState& other) : CvtState(*other.data_) {}
+CvtState::CvtState() : state_(std::make_unique<cvt_detail::State>()) {}
+CvtState::CvtState(const CvtState& other)
+    : state_(std::make_unique<cvt_detail::State>(*other.state_)) {}
 CvtState::CvtState(CvtState&& other) noexcept = default;
 CvtState& CvtState::operator=(CvtState other) noexcept {
-  data_.swap(other.data_);
+  state_.swap(other.state_);
   return *this;
 }
 CvtState::~CvtState() = default;
 
-Points3 CvtState::points() const { return cvt_detail::in_order(*data_); }
-const CvtReport& CvtState::report() const { return data_->report; }
+Points3 CvtState::points() const { return cvt_detail::in_order(*state_); }
+const CvtReport& CvtState::report() const { return state_->report; }
 
 } // namespace calotte

@@ -24,12 +24,12 @@ struct Memory {
   double momentum = 1;
 };
 
-} // namespace calotte::cvt_detail
+/// What a CvtState holds.
+struct State {
+  static State& of(CvtState& state) { return *state.state_; }
+  static const State& of(const CvtState& state) { return *state.state_; }
+  static CvtState wrapped(State&& state);
 
-namespace calotte {
-
-/// The state from which a run continues to the same bits.
-struct CvtState::Data {
   Points3 points; ///< unit generators, along a space-filling curve; in the plane with z = 0
   std::vector<std::int32_t> id;            ///< of each: its column in the result
   std::vector<std::int32_t> site_of_input; ///< as Mesh's; of the start, or empty after a bisection
@@ -39,20 +39,14 @@ struct CvtState::Data {
   int iterations_of_level = 0;
   bool final_rule = false;     ///< it has taken over
   bool stuck = false;          ///< no step lowers the value, as far as the method can tell
-  double penalty = 0;          ///< of shapes, in the finish; 0 before
-  double demanded_spacing = 1; ///< in the finish: at rho = 1
+  double penalty = 0;          ///< of shapes, in the polish; 0 before
+  double demanded_spacing = 1; ///< in the polish: at rho = 1
   int glides = 0;              ///< how often dislocations were moved
   int raised = 0;              ///< how often the penalty was raised
-  bool descended = true;       ///< the descent before the finish converged
-  cvt_detail::Memory memory;
+  bool descended = true;       ///< the descent before the polish converged
+  Memory memory;
   CvtReport report;
 };
-
-} // namespace calotte
-
-namespace calotte::cvt_detail {
-
-using State = CvtState::Data;
 
 /// Whether each generator stays where it is; empty if none does.
 std::vector<std::uint8_t> fixed_generators(const State& state);

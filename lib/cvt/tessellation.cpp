@@ -41,7 +41,7 @@ Tessellation<Cells>::Tessellation(Cells cells, const Points3& points, const Part
   mesh_ = std::move(*level.mesh);
   adopt(std::move(owners));
   Effort unused;
-  if (const Faults faults = find_faults(unused); !faults.none() && !mend(faults, unused))
+  if (const Faults faults = find_faults(unused); !faults.none() && !repair_faults(faults, unused))
     rebuild(unused);
 }
 
@@ -180,7 +180,8 @@ template <class Cells> Faults Tessellation<Cells>::find_faults(Effort& effort) {
 }
 
 /// Makes the mesh Delaunay by flips. False if flips do not suffice; the mesh is then unusable.
-template <class Cells> bool Tessellation<Cells>::mend(const Faults& faults, Effort& effort) {
+template <class Cells>
+bool Tessellation<Cells>::repair_faults(const Faults& faults, Effort& effort) {
   Clock::time_point start = Clock::now();
   const std::optional<Repair> repaired = repair(mesh_, cells_.signs(), faults);
   if (repaired) {
@@ -232,12 +233,12 @@ void Tessellation<Cells>::integrate_repaired(const Integrand& integrand,
                                              const std::function<void(bool)>& set_room,
                                              const Receiver& receive, Effort& effort) {
   bool turned = false; // a second time, flips have not sufficed
-  const auto repair_faults = [&](const Faults& faults) {
+  const auto make_sound = [&](const Faults& faults) {
     if (faults.none())
       return;
     const bool again = turned && !faults.overturned.empty();
     turned = turned || !faults.overturned.empty();
-    if (!again && mend(faults, effort))
+    if (!again && repair_faults(faults, effort))
       return;
     set_room(false);
     rebuild(effort);
@@ -247,9 +248,9 @@ void Tessellation<Cells>::integrate_repaired(const Integrand& integrand,
     return integrate(integrand, receive, effort);
   };
   if (restless_)
-    repair_faults(find_faults(effort));
+    make_sound(find_faults(effort));
   for (Faults faults = integrate_all(); !faults.none(); faults = integrate_all())
-    repair_faults(faults);
+    make_sound(faults);
   restless_ = effort.flips > 0 || effort.rebuilt;
 }
 
@@ -258,7 +259,7 @@ template <class Cells> void Tessellation<Cells>::make_delaunay(Effort& effort) {
     const Faults faults = find_faults(effort);
     if (faults.none())
       return;
-    if (tries > 1 || !mend(faults, effort)) {
+    if (tries > 1 || !repair_faults(faults, effort)) {
       rebuild(effort);
       return;
     }

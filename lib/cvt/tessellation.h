@@ -97,7 +97,7 @@ public:
   /// Makes the mesh Delaunay, by flips or a new triangulation.
   void make_delaunay(Effort& effort);
 
-  /// The triangles whose shape may be beyond the limits of a finish, each once.
+  /// The triangles whose shape may be beyond the limits of a polish, each once.
   std::vector<std::int32_t> distorted(const DoubleVector& inverse_spacing,
                                       const ShapeLimits& limits) const;
 
@@ -124,7 +124,7 @@ private:
     std::int32_t regions;
   };
 
-  bool mend(const Faults& faults, Effort& effort);
+  bool repair_faults(const Faults& faults, Effort& effort);
   void rebuild(Effort& effort);
   Faults integrate(const Integrand& integrand, const Receiver& receive, Effort& effort);
   Owners owners_of(const Sites& sites, const Regions& regions) const;

@@ -138,9 +138,9 @@ Sites distinct_units(Sites&& sites, const CvtOptions& options) {
 void require_fixed(const Sites& sites, std::int64_t fixed) {
   const std::vector<std::int32_t>& site_of_input = sites.site_of_input;
   if (fixed < 0 || fixed > std::ssize(site_of_input))
-    throw Error(ErrorCode::bad_option, "fixed is " + std::to_string(fixed) + "; give 0 to " +
-                                           std::to_string(site_of_input.size()) +
-                                           ", the number of generators of the start");
+    throw Error(ErrorCode::invalid_argument, "fixed is " + std::to_string(fixed) + "; give 0 to " +
+                                                 std::to_string(site_of_input.size()) +
+                                                 ", the number of generators of the start");
   for (std::int64_t i = 0; i < fixed; ++i)
     if (const std::int32_t site = site_of_input[static_cast<std::size_t>(i)]; site != i)
       throw Error(ErrorCode::duplicate,
@@ -165,7 +165,7 @@ void set_points(State& state, const Sites& sites, const Array<Vec3>& points) {
 
 void refuse_state() {
   throw Error(
-      ErrorCode::bad_option,
+      ErrorCode::invalid_argument,
       "the state is not one that a run has left: its points must be unit vectors, or places "
       "in the domain, and its ids a permutation");
 }
@@ -215,9 +215,9 @@ Level SphericalWorld::set_bisected(State& state, const Mesh& coarse) {
   return {by_rank(std::move(sites)), std::move(mesh)};
 }
 
-Level SphericalWorld::set_exchanged(State& state, const Mesh& mesh, const Density& density,
-                                    const Exchange& exchange) {
-  Sites sites = make_sites(exchanged(mesh, density, exchange), Duplicates::refuse, 0);
+Level SphericalWorld::set_split_and_collapsed(State& state, const Mesh& mesh,
+                                              const Density& density, const EdgeChanges& changes) {
+  Sites sites = make_sites(split_and_collapsed(mesh, density, changes), Duplicates::refuse, 0);
   set_points(state, sites, sites.unit);
   if (have_equal(sites.size(), [&](std::int64_t rank) { return column(state.points, rank); }))
     return {}; // its tessellation refuses them
@@ -265,7 +265,8 @@ PlanarMesh PlanarWorld::mesh(const Points3& points, Connectivity&& canonical) co
 }
 
 Level PlanarWorld::set_bisected(State& state, const PlanarMesh& coarse) const {
-  const Sites sites = make_planar_sites(generators_detail::bisected(coarse, domain_), Duplicates::refuse, 0);
+  const Sites sites =
+      make_planar_sites(generators_detail::bisected(coarse, domain_), Duplicates::refuse, 0);
   set_places(state, sites);
   if (!domain_.periodic()) // a part of the midpoints
     return {};
@@ -273,10 +274,11 @@ Level PlanarWorld::set_bisected(State& state, const PlanarMesh& coarse) const {
           bisected_mesh(coarse.triangles, coarse.neighbours, coarse.points.cols(), sites)};
 }
 
-Level PlanarWorld::set_exchanged(State& state, const PlanarMesh& mesh, const Density& density,
-                                 const Exchange& exchange) const {
-  set_places(state,
-             make_planar_sites(exchanged(mesh, domain_, density, exchange), Duplicates::refuse, 0));
+Level PlanarWorld::set_split_and_collapsed(State& state, const PlanarMesh& mesh,
+                                           const Density& density,
+                                           const EdgeChanges& changes) const {
+  set_places(state, make_planar_sites(split_and_collapsed(mesh, domain_, density, changes),
+                                      Duplicates::refuse, 0));
   return {};
 }
 

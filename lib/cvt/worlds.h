@@ -18,11 +18,11 @@
 
 namespace calotte::cvt_detail {
 
-/// \throws Error bad_option: the state is not one that a run has left.
+/// \throws Error invalid_argument: the state is not one that a run has left.
 [[noreturn]] void refuse_state();
 
-/// \throws Error bad_option for a number of fixed generators out of range; duplicate, with the
-/// index
+/// \throws Error invalid_argument for a number of fixed generators out of range; duplicate, with
+/// the index
 ///         of a fixed generator that merges with an earlier one.
 void require_fixed(const Sites& sites, std::int64_t fixed);
 
@@ -53,7 +53,7 @@ public:
   static Begun begin(const Points3Ref& start, const CvtOptions& options);
 
   /// The density in the form that the functional takes.
-  /// \throws Error bad_option if it is ill-formed.
+  /// \throws Error invalid_argument if it is ill-formed.
   static Density density(const Density& density);
 
   /// Throws for a state whose points are not unit vectors, or too few.
@@ -80,8 +80,8 @@ public:
   static Level set_bisected(State& state, const Mesh& coarse);
 
   /// The same after insertion and contraction of edges.
-  static Level set_exchanged(State& state, const Mesh& mesh, const Density& density,
-                             const Exchange& exchange);
+  static Level set_split_and_collapsed(State& state, const Mesh& mesh, const Density& density,
+                                       const EdgeChanges& changes);
 };
 
 /// The same of a domain in the plane.
@@ -106,8 +106,8 @@ public:
   PlanarMesh triangulated(const Points3& points) const;
   PlanarMesh mesh(const Points3& points, Connectivity&& canonical) const; ///< of a periodic box
   Level set_bisected(State& state, const PlanarMesh& coarse) const;
-  Level set_exchanged(State& state, const PlanarMesh& mesh, const Density& density,
-                      const Exchange& exchange) const;
+  Level set_split_and_collapsed(State& state, const PlanarMesh& mesh, const Density& density,
+                                const EdgeChanges& changes) const;
 
 private:
   bool all_inside(const Points3& points) const;

@@ -148,7 +148,7 @@ std::vector<Vec3> columns(const PointsRef& points, const std::optional<Frame>& p
       continue;
     }
     if (!finite || (p.x == 0 && p.y == 0 && p.z == 0))
-      throw Error(ErrorCode::bad_option,
+      throw Error(ErrorCode::invalid_argument,
                   "region centre " + std::to_string(k) +
                       " has no direction: give finite, non-zero centres",
                   k);
@@ -171,12 +171,12 @@ int default_region_count(std::int64_t sites) {
 std::vector<Vec3> make_centres(const Sites& sites, const Partition& partition) {
   if (partition.given_centres) {
     if (partition.given_centres->cols() == 0)
-      throw Error(ErrorCode::bad_option, "no region centre is given; give at least one");
+      throw Error(ErrorCode::invalid_argument, "no region centre is given; give at least one");
     return columns(*partition.given_centres, sites.frame);
   }
   const int regions = partition.regions.value_or(default_region_count(sites.size()));
   if (regions < 1)
-    throw Error(ErrorCode::bad_option,
+    throw Error(ErrorCode::invalid_argument,
                 "the number of regions is " + std::to_string(regions) + ": give at least 1");
   // More regions than sites would own no sites; their centres would only cost time and memory.
   const auto useful = static_cast<int>(std::min<std::int64_t>(regions, sites.size()));

@@ -17,7 +17,7 @@ int default_region_count(std::int64_t sites);
 
 /// The centres that the options give, or as many as the number of regions, but at most one per
 /// site.
-/// \throws Error bad_option (fewer than one region, centres without a direction).
+/// \throws Error invalid_argument (fewer than one region, centres without a direction).
 std::vector<Vec3> make_centres(const Sites& sites, const Partition& partition);
 
 } // namespace calotte::delaunay_detail

@@ -63,7 +63,7 @@ template <class Space> Reports triangulate_whole(const Sites& sites, DelaunayRep
   reports.regions.push_back(report_triangles(triangulation, sites, Array<std::int32_t>(),
                                              reports.triangles_of, reports.memory));
   add(report, triangulation.space().counts());
-  report.one_region = true;
+  report.serial = true;
   report.regions = 1;
   report.overlap = 1;
   report.sites_per_region = report.owned_per_region = {sites.size()};
@@ -256,7 +256,7 @@ Regions divide(const Sites& sites, const Partition& partition) {
     return {std::move(centres), {}, {}, {}};
   const std::vector<std::vector<std::int32_t>> adjacent =
       adjacent_centres(centres, sites.frame.has_value());
-  return make_regions(sites, std::move(centres), adjacent, partition.sort);
+  return make_regions(sites, std::move(centres), adjacent, partition.overlap);
 }
 
 namespace {

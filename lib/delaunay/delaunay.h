@@ -41,13 +41,14 @@ namespace calotte {
 /// The Delaunay triangulation of the directions of `points` on the unit sphere.
 ///
 /// The result depends only on the set of directions: it has the same bits for any number of threads
-/// and regions, any `sort` and any centres; a permuted input permutes the ids. One symbolic rule
+/// and regions, any `overlap` and any centres; a permuted input permutes the ids. One symbolic rule
 /// resolves cocircular sites (design of the in-circle predicate in lib/exact/predicates.h). It runs
 /// in the caller's task arena.
 ///
 /// \param points 3 x n directions of any norm from 1e-200 to 1e200, n from 3 to 2^30.
 /// \param report if not null, receives times and counts; default null.
-/// \throws Error bad_option (not 3 rows, more than 2^30 points, or an option out of range; see
+/// \throws Error invalid_argument (not 3 rows, more than 2^30 points, or an option out of range;
+/// see
 ///         DelaunayOptions and Partition), not_finite, zero_vector, duplicate (when refused),
 ///         too_few_sites (fewer than 3 distinct), degenerate (all on one great circle), cancelled
 ///         (by options.progress).
@@ -73,7 +74,7 @@ Mesh spherical_delaunay(Points3&& points, const DelaunayOptions& options, Delaun
 /// \param points 2 x n places in any unit of length, n from 3 to 2^30.
 /// \param options merge_within is a distance in that unit.
 /// \param report if not null, receives times and counts; default null.
-/// \throws Error bad_option (not 2 rows, more than 2^30 points, or an option out of range),
+/// \throws Error invalid_argument (not 2 rows, more than 2^30 points, or an option out of range),
 ///         not_finite, duplicate (when refused), too_few_sites (fewer than 3 distinct), degenerate
 ///         (all on one line), cancelled (by options.progress).
 PlanarMesh planar_delaunay(const PointsRef& points, const DelaunayOptions& options = {},
@@ -85,7 +86,8 @@ PlanarMesh planar_delaunay(const PointsRef& points, const DelaunayOptions& optio
 ///
 /// \param points 2 x n places inside the box.
 /// \param period side lengths of the box, positive, at most 1e300, in the unit of the points.
-/// \throws Error as planar_delaunay(); bad_option for a period out of range or a point outside the
+/// \throws Error as planar_delaunay(); invalid_argument for a period out of range or a point
+/// outside the
 ///         box; too_few_sites if a circle wider than half of the box holds no site.
 PlanarMesh periodic_delaunay(const PointsRef& points, const Eigen::Vector2d& period,
                              const DelaunayOptions& options = {}, DelaunayReport* report = nullptr);

@@ -10,7 +10,7 @@ namespace calotte::delaunay_detail {
 
 /// Divides sites into regions by the options: centres, owners and members. A single region has no
 /// lists of owners and members.
-/// \throws Error bad_option.
+/// \throws Error invalid_argument.
 Regions divide(const Sites& sites, const Partition& partition);
 
 } // namespace calotte::delaunay_detail

@@ -159,7 +159,7 @@ void require_in_box(const Points2Ref& points, const Eigen::Vector2d& period) {
   for (Eigen::Index i = 0; i < points.cols(); ++i)
     if (points.col(i).allFinite() &&
         ((points.col(i).array() < 0).any() || (points.col(i).array() >= period.array()).any()))
-      throw Error(ErrorCode::bad_option,
+      throw Error(ErrorCode::invalid_argument,
                   "point " + std::to_string(i) +
                       " is outside the periodic box, which starts at 0 0: add or subtract "
                       "periods",

@@ -26,7 +26,8 @@ using TriangulateImages = std::function<PlanarMesh(std::vector<Image> images, co
 PlanarMesh triangulate_periodic(const Points2& sites, const Eigen::Vector2d& period,
                                 const TriangulateImages& triangulate);
 
-/// \throws Error bad_option for a period that is not in (0, 1e300], or a point outside the box.
+/// \throws Error invalid_argument for a period that is not in (0, 1e300], or a point outside the
+/// box.
 void require_in_box(const Points2Ref& points, const Eigen::Vector2d& period);
 
 } // namespace calotte::delaunay_detail

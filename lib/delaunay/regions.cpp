@@ -354,18 +354,18 @@ std::vector<std::int32_t> merge_failed(const Sites& sites, const std::vector<cha
 }
 
 Regions make_regions(const Sites& sites, std::vector<Vec3> centres,
-                     const std::vector<std::vector<std::int32_t>>& adjacent, Sort sort) {
+                     const std::vector<std::vector<std::int32_t>>& adjacent, Overlap overlap) {
   Regions regions;
   regions.centres = std::move(centres);
   regions.owner = owners(sites.cells, sites.unit, regions.centres);
-  if (sort == Sort::halo)
+  if (overlap == Overlap::halo)
     regions.covered = halo_half_spaces(sites, regions, adjacent);
-  if (sort == Sort::distance)
+  if (overlap == Overlap::distance)
     regions.covered = distance_half_spaces(sites, regions, adjacent);
-  if (sort == Sort::voronoi)
+  if (overlap == Overlap::voronoi)
     regions.covered = voronoi_half_spaces(regions, adjacent);
-  regions.members = sort == Sort::voronoi ? members_of_neighbours(regions, adjacent)
-                                          : members_inside(sites, regions);
+  regions.members = overlap == Overlap::voronoi ? members_of_neighbours(regions, adjacent)
+                                                : members_inside(sites, regions);
   return regions;
 }
 

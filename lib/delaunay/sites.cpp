@@ -103,8 +103,8 @@ template <class Input> void require_count(std::int64_t n, const char* kind) {
                                               ": a triangulation of " + Input::domain +
                                               " needs at least " + std::to_string(Input::fewest));
   if (n > std::int64_t{1} << 30)
-    throw Error(ErrorCode::bad_option, "there are " + std::to_string(n) +
-                                           " points: 32-bit triangle ids allow 2^30 at most");
+    throw Error(ErrorCode::invalid_argument, "there are " + std::to_string(n) +
+                                                 " points: 32-bit triangle ids allow 2^30 at most");
 }
 
 /// \param all_points returns the input's points in the form of Sites; called at most once, after
@@ -153,9 +153,9 @@ Sites make_sites_of(const Input& input, Duplicates duplicates, double merge_with
 
 void require_distance(double merge_within, const std::string& kind, const std::string& unit) {
   if (!(merge_within >= 0) || !std::isfinite(merge_within))
-    throw Error(ErrorCode::bad_option, "the " + kind + " to merge within is " +
-                                           std::to_string(merge_within) + "; give 0" + unit +
-                                           " or more");
+    throw Error(ErrorCode::invalid_argument, "the " + kind + " to merge within is " +
+                                                 std::to_string(merge_within) + "; give 0" + unit +
+                                                 " or more");
 }
 
 Vec2 place_of(const Image& image, const Vec2& period) {

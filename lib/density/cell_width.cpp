@@ -35,7 +35,7 @@ const char* const widths_are = "cell widths by longitude and latitude are";
 
 void require_radius(double radius_km) {
   if (!(radius_km > 0) || !std::isfinite(radius_km))
-    throw Error(ErrorCode::bad_option, "the sphere's radius must be positive; give it in km");
+    throw Error(ErrorCode::invalid_argument, "the sphere's radius must be positive; give it in km");
 }
 
 /// The widths at the columns of a block.

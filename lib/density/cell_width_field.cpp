@@ -17,7 +17,7 @@ namespace {
 constexpr double radians = std::numbers::pi / 180;
 
 [[noreturn]] void refuse(const std::string& problem) {
-  throw Error(ErrorCode::bad_option, "cell width: " + problem);
+  throw Error(ErrorCode::invalid_argument, "cell width: " + problem);
 }
 
 constexpr double nearest = 1e-9; // degrees between nodes; slopes overflow where they are closer

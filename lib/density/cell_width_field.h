@@ -41,7 +41,7 @@ private:
 /// rows at the poles have one value each.
 class WidthField {
 public:
-  /// \throws Error bad_option if it violates the conditions of CellWidth.
+  /// \throws Error invalid_argument if it violates the conditions of CellWidth.
   explicit WidthField(const CellWidth& cell_width);
 
   /// Widths at unit vectors given by their coordinates. The bits of each width depend on its vector

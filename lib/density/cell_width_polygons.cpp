@@ -97,7 +97,7 @@ bool add_edges(const Ring& ring, std::int32_t polygon, std::int32_t number,
     });
   }
   if (std::abs(round) > turn)
-    throw Error(ErrorCode::bad_option,
+    throw Error(ErrorCode::invalid_argument,
                 "polygon " + std::to_string(polygon) +
                     " of a width runs round the Earth more than once; cut it in parts");
   const bool north_is_left = round > 0;
@@ -290,7 +290,7 @@ double step_for(const PolygonWidths& widths) {
                   "a transition of %g km is too narrow for the finest raster, of %g degrees; give "
                   "at least %.3g km",
                   widths.transition, finest, 1.005 * least);
-    throw Error(ErrorCode::bad_option, text);
+    throw Error(ErrorCode::invalid_argument, text);
   }
   return std::clamp(degrees / samples, finest, coarsest);
 }

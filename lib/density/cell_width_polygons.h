@@ -35,7 +35,8 @@ struct WidthRegion {
 /// See read_cell_width(). The outside width and the transition in `widths` are set. An inside width
 /// may exceed the outside width only if there is one region.
 /// \pre the places are finite, latitudes from -90 to 90.
-/// \throws Error bad_option for a transition too narrow for the finest raster, or a ring that runs
+/// \throws Error invalid_argument for a transition too narrow for the finest raster, or a ring that
+/// runs
 ///         round the Earth more than once.
 CellWidth cell_width_of(const std::vector<WidthRegion>& regions, const PolygonWidths& widths);
 

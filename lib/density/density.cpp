@@ -23,7 +23,9 @@ namespace calotte {
 namespace density_detail {
 namespace {
 
-[[noreturn]] void refuse(const std::string& what) { throw Error(ErrorCode::bad_option, what); }
+[[noreturn]] void refuse(const std::string& what) {
+  throw Error(ErrorCode::invalid_argument, what);
+}
 
 Profile profile_of(const Bump& bump, std::size_t b) {
   const std::string name = "bump " + std::to_string(b) + " of the density: ";

@@ -44,18 +44,18 @@ CALOTTE_INLINE double gentle_value_at(const Profile& bump, double angle) {
 
 /// The profile without centre and axis.
 /// \param name names the bump in messages.
-/// \throws Error bad_option if a number is out of range.
+/// \throws Error invalid_argument if a number is out of range.
 Profile profile_without_place(const Bump& bump, const std::string& name);
 
 /// A density prepared for repeated evaluation.
 class DensityEvaluator {
 public:
-  /// \throws Error bad_option if the density is ill-formed.
+  /// \throws Error invalid_argument if the density is ill-formed.
   explicit DensityEvaluator(const Density& density);
 
   /// The density at unit vectors given by their coordinates. The bits of each value depend on its
   /// vector alone.
-  /// \throws Error bad_option if a value of a callable is negative, infinite or NaN.
+  /// \throws Error invalid_argument if a value of a callable is negative, infinite or NaN.
   void operator()(std::span<const double> x, std::span<const double> y, std::span<const double> z,
                   std::span<double> rho) const;
 

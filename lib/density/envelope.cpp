@@ -151,10 +151,10 @@ EnvelopeOf<Map>::EnvelopeOf(const Density& density, Map map)
   cover(depth);
   while (std::all_of(boxes_.begin(), boxes_.end(), is_zero)) {
     if (depth++ == last_depth)
-      throw Error(ErrorCode::bad_option, "the density is zero at each of " +
-                                             std::to_string(boxes_.size() * lattice * lattice) +
-                                             " points spread over the " + Map::name +
-                                             ": make it positive somewhere");
+      throw Error(ErrorCode::invalid_argument,
+                  "the density is zero at each of " +
+                      std::to_string(boxes_.size() * lattice * lattice) +
+                      " points spread over the " + Map::name + ": make it positive somewhere");
     cover(depth);
   }
   refine();

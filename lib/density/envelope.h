@@ -122,7 +122,8 @@ struct Witness {
 template <class Map> class EnvelopeOf {
 public:
   /// \param density of places of the map.
-  /// \throws Error bad_option if the density is ill-formed, negative, infinite or NaN, or zero
+  /// \throws Error invalid_argument if the density is ill-formed, negative, infinite or NaN, or
+  /// zero
   ///         everywhere.
   explicit EnvelopeOf(const Density& density, Map map = Map());
 

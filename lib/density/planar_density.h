@@ -10,7 +10,7 @@ namespace calotte::density_detail {
 
 /// Converts a density of a planar domain for functions that evaluate columns (x, y, 0): uniform, or
 /// a callable that accounts for the period of the box.
-/// \throws Error bad_option if the density is ill-formed.
+/// \throws Error invalid_argument if the density is ill-formed.
 Density planar_density(const Density& density, const PlanarDomain& domain);
 
 } // namespace calotte::density_detail

@@ -145,9 +145,9 @@ std::vector<Witness> fill(const EnvelopeOf<Map>& envelope, std::uint64_t seed, s
     filled = append(drawn, filled, points);
     proposed += tasks * proposals_of_task;
     if (proposed >= most_in_vain && proposed / acceptable > filled)
-      throw Error(ErrorCode::bad_option, "only " + std::to_string(filled) + " of " +
-                                             std::to_string(proposed) + " points tried " +
-                                             remedy_in_vain<Map>());
+      throw Error(ErrorCode::invalid_argument, "only " + std::to_string(filled) + " of " +
+                                                   std::to_string(proposed) + " points tried " +
+                                                   remedy_in_vain<Map>());
   }
   return {};
 }
@@ -164,8 +164,9 @@ Points3 draw_from(EnvelopeOf<Map> envelope, std::int64_t n, std::uint64_t seed) 
       return points;
     envelope.raise(above);
   }
-  throw Error(ErrorCode::bad_option, "the density grows without bound, or from call to call: give "
-                                     "one with a greatest value");
+  throw Error(ErrorCode::invalid_argument,
+              "the density grows without bound, or from call to call: give "
+              "one with a greatest value");
 }
 
 } // namespace

@@ -20,7 +20,7 @@ namespace calotte::density_detail {
 /// far follow the wrong distribution. The function then raises the envelope there and draws all
 /// points again.
 ///
-/// \throws Error bad_option as random_sphere(n, density, seed).
+/// \throws Error invalid_argument as random_sphere(n, density, seed).
 Points3 draw(std::int64_t n, const Density& density, std::uint64_t seed);
 
 /// The same in a region of the sphere, also for uniform density.
@@ -28,7 +28,7 @@ Points3 draw(std::int64_t n, const Density& density, const SphericalOutline& out
              std::uint64_t seed);
 
 /// The same in a domain of the plane. \param density uniform, or a callable of places (x, y, 0).
-/// \throws Error bad_option as random_places(n, domain, density, seed).
+/// \throws Error invalid_argument as random_places(n, domain, density, seed).
 Points2 draw(std::int64_t n, const Density& density, const PlanarDomain& domain,
              std::uint64_t seed);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "domain/clipped_cell.h"
 
-#include "domain/tangent_shore.h"
+#include "domain/tangent_outline.h"
 
 #include <algorithm>
 #include <cmath>
@@ -54,11 +54,11 @@ Box2 box_around(const std::vector<CellCorner>& polygon, const Vec2& site) {
   return {low - margin + site, high + margin + site};
 }
 
-template <class Shore>
-std::vector<Outline::Edge> shore_near(const Shore& outline, const Box2& box) {
-  std::vector<Outline::Edge> shore;
-  outline.for_each_edge_near(box, [&](const Outline::Edge& edge) { shore.push_back(edge); });
-  return shore;
+template <class AnyOutline>
+std::vector<Outline::Edge> boundary_near(const AnyOutline& outline, const Box2& box) {
+  std::vector<Outline::Edge> boundary;
+  outline.for_each_edge_near(box, [&](const Outline::Edge& edge) { boundary.push_back(edge); });
+  return boundary;
 }
 
 /// The bisector with the generator of a neighbouring cell, seen from this cell's generator. It
@@ -75,8 +75,8 @@ struct Bisector {
 };
 
 /// The part of a boundary's edge inside a cell (Cyrus and Beck, 1978).
-void add_shore(const std::vector<CellCorner>& cell, const Vec2& from, const Vec2& to,
-               std::vector<CellSide>& sides) {
+void add_boundary(const std::vector<CellCorner>& cell, const Vec2& from, const Vec2& to,
+                  std::vector<CellSide>& sides) {
   double first = 0, last = 1;
   for (const CellCorner& corner : cell) {
     const Bisector bisector{corner.beyond};
@@ -108,15 +108,15 @@ public:
 
   /// True if the domain contains the part; its middle decides. If the boundary is so close that
   /// rounding could move it across the middle, a place farther inside decides, together with the
-  /// edges between the two, which are those that add_shore() counts as the cell's.
-  template <class Shore>
-  bool inside(const Shore& outline, const Vec2& site,
-              const std::vector<Outline::Edge>& shore) const {
+  /// edges between the two, which are those that add_boundary() counts as the cell's.
+  template <class AnyOutline>
+  bool inside(const AnyOutline& outline, const Vec2& site,
+              const std::vector<Outline::Edge>& boundary) const {
     const double noise =
         noise_ + 1e-14 * std::max(std::abs(site.x) + std::abs(site.y), norm(middle_));
     std::vector<double> depths;
     bool close = false;
-    for (const Outline::Edge& edge : shore)
+    for (const Outline::Edge& edge : boundary)
       if (const std::optional<double> depth = depth_of(edge.from - site, edge.to - site)) {
         depths.push_back(*depth);
         close = close || std::abs(*depth) <= noise;
@@ -150,18 +150,18 @@ private:
   double noise_; ///< of cells' corners
 };
 
-/// The parts of a cell's side inside the domain. They end at the places where add_shore() ends the
-/// edges that cross the side.
-template <class Shore>
-void add_inner(const Shore& outline, const Vec2& site, const std::vector<Outline::Edge>& shore,
-               const CellCorner& corner, const Vec2& to, std::vector<Crossing>& crossings,
-               std::vector<CellSide>& sides) {
+/// The parts of a cell's side inside the domain. They end at the places where add_boundary() ends
+/// the edges that cross the side.
+template <class AnyOutline>
+void add_inner(const AnyOutline& outline, const Vec2& site,
+               const std::vector<Outline::Edge>& boundary, const CellCorner& corner, const Vec2& to,
+               std::vector<Crossing>& crossings, std::vector<CellSide>& sides) {
   const Bisector bisector{corner.beyond};
   const Crossing begin{bisector.along(corner.place), corner.place}, end{bisector.along(to), to};
   if (bisector.none() || !(begin.along < end.along)) // along the box, or of no length
     return;
   crossings.assign({begin, end});
-  for (const Outline::Edge& edge : shore) {
+  for (const Outline::Edge& edge : boundary) {
     const Vec2 a = edge.from - site, b = edge.to - site;
     const double start = bisector.over(a), share = start / (start - bisector.over(b));
     // A crossing that rounding adds only divides a part in two.
@@ -175,7 +175,7 @@ void add_inner(const Shore& outline, const Vec2& site, const std::vector<Outline
             [](const Crossing& a, const Crossing& b) { return a.along < b.along; });
   for (std::size_t k = 0; k + 1 < crossings.size(); ++k)
     if (const Crossing& p = crossings[k], &q = crossings[k + 1];
-        p.along < q.along && Part(bisector, p, q).inside(outline, site, shore))
+        p.along < q.along && Part(bisector, p, q).inside(outline, site, boundary))
       sides.push_back({p.place, q.place, false});
 }
 
@@ -196,7 +196,8 @@ public:
   }
 
   /// The inward direction of an edge, and of a corner that points into the cell.
-  template <class Shore> std::optional<Vec2> inside(const Shore& outline, const Vec2& site) const {
+  template <class AnyOutline>
+  std::optional<Vec2> inside(const AnyOutline& outline, const Vec2& site) const {
     const Vec2 onward = place_ - to_;
     const double length = norm(onward), reach = norm(place_) + length;
     for (double share = 1e-9; share < 0.1 && length > 0 && std::isfinite(least_); share *= 8) {
@@ -214,7 +215,7 @@ private:
 
 } // namespace
 
-bool near_shore(const Outline& outline, const Vec2& site, double reach) {
+bool near_boundary(const Outline& outline, const Vec2& site, double reach) {
   const Box2& box = outline.box();
   if (!(reach < box.high.x - box.low.x)) // infinite or not a number, too
     return true;
@@ -225,11 +226,11 @@ bool near_shore(const Outline& outline, const Vec2& site, double reach) {
   return found;
 }
 
-bool near_shore(const Outline& outline, const Vec2& site, const std::vector<CellCorner>& cell) {
+bool near_boundary(const Outline& outline, const Vec2& site, const std::vector<CellCorner>& cell) {
   double reach2 = 0;
   for (const CellCorner& corner : cell)
     reach2 = std::max(reach2, dot(corner.place, corner.place));
-  return near_shore(outline, site, std::sqrt(reach2));
+  return near_boundary(outline, site, std::sqrt(reach2));
 }
 
 std::vector<CellCorner> cut_by_bisector(const std::vector<CellCorner>& polygon,
@@ -237,19 +238,19 @@ std::vector<CellCorner> cut_by_bisector(const std::vector<CellCorner>& polygon,
   return cut(polygon, beyond, dot(beyond, beyond) / 2, beyond);
 }
 
-template <class Shore>
-std::vector<CellSide> clipped_cell(const Shore& outline, const Vec2& site,
+template <class AnyOutline>
+std::vector<CellSide> clipped_cell(const AnyOutline& outline, const Vec2& site,
                                    std::vector<CellCorner> cell) {
   cell = cut_to_box(std::move(cell), outline.box(), site);
   std::vector<CellSide> sides;
   if (cell.empty())
     return sides;
-  const std::vector<Outline::Edge> shore = shore_near(outline, box_around(cell, site));
-  for (const Outline::Edge& edge : shore)
-    add_shore(cell, edge.from - site, edge.to - site, sides);
+  const std::vector<Outline::Edge> boundary = boundary_near(outline, box_around(cell, site));
+  for (const Outline::Edge& edge : boundary)
+    add_boundary(cell, edge.from - site, edge.to - site, sides);
   std::vector<Crossing> crossings;
   for (std::size_t k = 0; k < cell.size(); ++k)
-    add_inner(outline, site, shore, cell[k], cell[k + 1 == cell.size() ? 0 : k + 1].place,
+    add_inner(outline, site, boundary, cell[k], cell[k + 1 == cell.size() ? 0 : k + 1].place,
               crossings, sides);
   return sides;
 }
@@ -258,23 +259,24 @@ std::vector<CellSide> parts_inside(const Outline& outline, const Vec2& site,
                                    const CellCorner& corner, const Vec2& to) {
   std::vector<Crossing> crossings;
   std::vector<CellSide> parts;
-  add_inner(outline, site, shore_near(outline, box_around({corner, {to, {}}}, site)), corner, to,
+  add_inner(outline, site, boundary_near(outline, box_around({corner, {to, {}}}, site)), corner, to,
             crossings, parts);
   return parts;
 }
 
-template <class Shore>
-std::optional<Vec2> nearest_inside(const Shore& outline, const Vec2& site,
+template <class AnyOutline>
+std::optional<Vec2> nearest_inside(const AnyOutline& outline, const Vec2& site,
                                    const std::vector<CellSide>& sides, const Vec2& outside) {
   Nearest nearest(outside);
   for (const CellSide& side : sides)
-    if (side.shore)
+    if (side.boundary)
       nearest.look_at(side.p, side.q);
   return nearest.inside(outline, site);
 }
 
-template <class Shore>
-std::optional<Vec2> nearest_inside(const Shore& outline, const Vec2& site, const Vec2& outside) {
+template <class AnyOutline>
+std::optional<Vec2> nearest_inside(const AnyOutline& outline, const Vec2& site,
+                                   const Vec2& outside) {
   Nearest nearest(outside);
   const double radius = norm(outside);
   const Vec2 corner{radius, radius}, there = site + outside;
@@ -285,13 +287,13 @@ std::optional<Vec2> nearest_inside(const Shore& outline, const Vec2& site, const
 }
 
 template std::vector<CellSide> clipped_cell(const Outline&, const Vec2&, std::vector<CellCorner>);
-template std::vector<CellSide> clipped_cell(const TangentShore&, const Vec2&,
+template std::vector<CellSide> clipped_cell(const TangentOutline&, const Vec2&,
                                             std::vector<CellCorner>);
 template std::optional<Vec2> nearest_inside(const Outline&, const Vec2&,
                                             const std::vector<CellSide>&, const Vec2&);
-template std::optional<Vec2> nearest_inside(const TangentShore&, const Vec2&,
+template std::optional<Vec2> nearest_inside(const TangentOutline&, const Vec2&,
                                             const std::vector<CellSide>&, const Vec2&);
 template std::optional<Vec2> nearest_inside(const Outline&, const Vec2&, const Vec2&);
-template std::optional<Vec2> nearest_inside(const TangentShore&, const Vec2&, const Vec2&);
+template std::optional<Vec2> nearest_inside(const TangentOutline&, const Vec2&, const Vec2&);
 
 } // namespace calotte::domain_detail

@@ -29,26 +29,26 @@ struct CellCorner {
   Vec2 place, beyond;
 };
 
-/// The functions below take the boundary as an Outline, or as a TangentShore with the site 0.
+/// The functions below take the boundary as an Outline, or as a TangentOutline with the site 0.
 
 /// True if the domain's boundary, by the boxes of its edges, comes within `reach` of a site. If it
 /// does not come as near as the farthest corner of a cell, the cell lies inside the domain.
-bool near_shore(const Outline& outline, const Vec2& site, double reach);
-bool near_shore(const Outline& outline, const Vec2& site, const std::vector<CellCorner>& cell);
+bool near_boundary(const Outline& outline, const Vec2& site, double reach);
+bool near_boundary(const Outline& outline, const Vec2& site, const std::vector<CellCorner>& cell);
 
 /// The part of a convex polygon on the cell's side of the bisector with a generator.
 std::vector<CellCorner> cut_by_bisector(const std::vector<CellCorner>& polygon, const Vec2& beyond);
 
 /// A side of the part of a cell in the domain, which lies to the left of the direction from p to q.
 struct CellSide {
-  Vec2 p, q;  ///< seen from the cell's generator
-  bool shore; ///< on the domain's boundary
+  Vec2 p, q;     ///< seen from the cell's generator
+  bool boundary; ///< on the domain's boundary
 };
 
 /// The sides of the intersection of a domain and a Voronoi cell, in any order.
 /// \param cell corners of the whole cell, counter-clockwise, relative to the generator at `site`.
-template <class Shore>
-std::vector<CellSide> clipped_cell(const Shore& outline, const Vec2& site,
+template <class AnyOutline>
+std::vector<CellSide> clipped_cell(const AnyOutline& outline, const Vec2& site,
                                    std::vector<CellCorner> cell);
 
 /// The parts of a cell's side, from a corner to the next, inside the domain.
@@ -58,12 +58,13 @@ std::vector<CellSide> parts_inside(const Outline& outline, const Vec2& site,
 /// The place inside the domain that is nearest to one outside, moved towards the generator by a
 /// billionth of the distance and relative to the generator. Only the boundary within the cell
 /// counts. None if the boundary can nowhere be entered.
-template <class Shore>
-std::optional<Vec2> nearest_inside(const Shore& outline, const Vec2& site,
+template <class AnyOutline>
+std::optional<Vec2> nearest_inside(const AnyOutline& outline, const Vec2& site,
                                    const std::vector<CellSide>& sides, const Vec2& outside);
 
 /// The same for all of the domain's boundary no farther from the place than the generator.
-template <class Shore>
-std::optional<Vec2> nearest_inside(const Shore& outline, const Vec2& site, const Vec2& outside);
+template <class AnyOutline>
+std::optional<Vec2> nearest_inside(const AnyOutline& outline, const Vec2& site,
+                                   const Vec2& outside);
 
 } // namespace calotte::domain_detail

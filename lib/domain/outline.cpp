@@ -18,7 +18,7 @@ namespace {
 constexpr double largest_coordinate = 1e30, least_extent = 1e-30;
 
 [[noreturn]] void refuse(const std::string& what, std::int64_t index = -1) {
-  throw Error(ErrorCode::bad_option, "the domain: " + what, index);
+  throw Error(ErrorCode::invalid_argument, "the domain: " + what, index);
 }
 
 /// The ring of an edge and the corner at which the edge starts.

@@ -80,7 +80,7 @@ private:
   std::vector<std::int32_t> listed_;
 };
 
-/// \throws Error bad_option with the index of the first place outside the domain.
+/// \throws Error invalid_argument with the index of the first place outside the domain.
 void require_inside(const Points2Ref& places, const Outline& outline);
 
 } // namespace calotte::domain_detail

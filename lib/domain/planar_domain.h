@@ -25,7 +25,7 @@ struct PlanarDomain {
   /// The members.
   PlanarDomain(std::vector<DoubleMatrix> all, const Eigen::Vector2d& box = {0, 0})
       : rings(std::move(all)), period(box) {}
-  PlanarDomain(const Surface& surface); ///< \throws Error bad_option for the sphere
+  PlanarDomain(const Surface& surface); ///< \throws Error invalid_argument for the sphere
   operator Surface() const;             ///< not checked
 
   /// True for a periodic box.
@@ -34,12 +34,13 @@ struct PlanarDomain {
 
 /// The doubly periodic box [0, period.x) x [0, period.y).
 /// \param period side lengths, from 1e-30 to 1e30, in any unit of length.
-/// \throws Error bad_option for a side length out of range.
+/// \throws Error invalid_argument for a side length out of range.
 PlanarDomain periodic_box(const Eigen::Vector2d& period);
 
 /// Throws unless the rings bound a well-defined region, or the period is valid. Absolute
 /// coordinates are at most 1e30; the domain's extent is at least 1e-30.
-/// \throws Error bad_option, naming ring and corner: no ring and no period; a ring that has not 2
+/// \throws Error invalid_argument, naming ring and corner: no ring and no period; a ring that has
+/// not 2
 ///         rows; fewer than three corners; a coordinate that is not finite; an edge without length;
 ///         edges that meet elsewhere than in the corner that joins them.
 void require_domain(const PlanarDomain& domain);

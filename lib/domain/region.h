@@ -21,7 +21,7 @@ struct Region {
   Region() = default; ///< the whole sphere
   /// The part within these rings.
   Region(std::vector<Points3> all) : rings(std::move(all)) {}
-  Region(const Surface& surface); ///< \throws Error bad_option for a plane
+  Region(const Surface& surface); ///< \throws Error invalid_argument for a plane
   operator Surface() const;       ///< not checked
 
   /// True for the whole sphere.
@@ -29,7 +29,8 @@ struct Region {
 };
 
 /// Throws unless the rings bound a region. The whole sphere is valid.
-/// \throws Error bad_option, naming ring and corner, with the ring as index(): fewer than three
+/// \throws Error invalid_argument, naming ring and corner, with the ring as index(): fewer than
+/// three
 ///         corners; a corner that is no direction; equal or opposite neighbours; arcs that meet
 ///         elsewhere than in the corner that joins them; rings of which one does not have the
 ///         region to its left.

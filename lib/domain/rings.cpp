@@ -75,7 +75,7 @@ std::int32_t first_conflict(const Rings& rings, const ArcTree& tree, std::int32_
 } // namespace
 
 void refuse_region(const std::string& what, std::int64_t ring) {
-  throw Error(ErrorCode::bad_option, "the region: " + what, ring);
+  throw Error(ErrorCode::invalid_argument, "the region: " + what, ring);
 }
 
 std::size_t Rings::ring_of(std::int32_t arc) const {

@@ -31,11 +31,12 @@ struct Rings {
   SideCells::Corner corner_of(std::size_t ring) const { return {begin[ring + 1] - 1, begin[ring]}; }
 };
 
-/// \throws Error bad_option, naming ring and corner, for a corner that is no direction.
+/// \throws Error invalid_argument, naming ring and corner, for a corner that is no direction.
 void require_directions(const Points3& corners, std::int64_t ring);
 
 /// The rings of corners, 3 x n directions each, rounded to unit vectors.
-/// \throws Error bad_option, naming ring and corner: fewer than three corners; a corner that is no
+/// \throws Error invalid_argument, naming ring and corner: fewer than three corners; a corner that
+/// is no
 ///         direction; equal or opposite neighbours. Its index() is the ring.
 Rings rings_of(const std::vector<Points3>& corners);
 
@@ -43,7 +44,7 @@ Rings rings_of(const std::vector<Points3>& corners);
 std::int64_t first_meeting(const Rings& rings, const ArcTree& tree);
 
 /// Throws where arcs meet elsewhere than in the corner that joins them.
-/// \throws Error bad_option, naming ring and corner of the first arc that meets another. Its
+/// \throws Error invalid_argument, naming ring and corner of the first arc that meets another. Its
 ///         index() is the ring.
 /// \return the rings.
 const Rings& simple(const Rings& rings, const ArcTree& tree);
@@ -54,7 +55,7 @@ std::vector<std::pair<std::int32_t, std::int32_t>> meetings(const Rings& rings,
                                                             const ArcTree& tree);
 
 /// Ends in an error on a region.
-/// \throws Error bad_option, always.
+/// \throws Error invalid_argument, always.
 [[noreturn]] void refuse_region(const std::string& what, std::int64_t ring = -1);
 
 } // namespace calotte::domain_detail

@@ -20,7 +20,7 @@ Region region_of(const Surface& surface);
 
 /// The part of the sphere, or of the plane, for a function that knows this kind of surface alone.
 /// \param what is of that kind, for the message: "a lattice is".
-/// \throws Error bad_option for a surface of the other kind.
+/// \throws Error invalid_argument for a surface of the other kind.
 Region part_of_sphere(const Surface& surface, const std::string& what);
 PlanarDomain part_of_plane(const Surface& surface, const std::string& what);
 

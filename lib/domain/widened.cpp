@@ -3,9 +3,9 @@
 #include "base/points.h"
 #include "base/require.h"
 #include "domain/region.h"
-#include "domain/surface.h"
 #include "domain/spherical_outline.h"
-#include "domain/tangent_shore.h"
+#include "domain/surface.h"
+#include "domain/tangent_outline.h"
 
 #include <boost/geometry.hpp>
 #include <boost/geometry/geometries/multi_polygon.hpp>

@@ -29,7 +29,7 @@ std::vector<Arc> arcs_of(const WrittenRing& ring);
 inline constexpr double nearby = 1e-9;
 
 /// A caller's rings, 3 x corners directions each, which may repeat corners.
-/// \throws Error bad_option, naming ring and corner, for a corner that is no direction.
+/// \throws Error invalid_argument, naming ring and corner, for a corner that is no direction.
 std::vector<WrittenRing> written(const std::vector<Points3>& rings);
 
 /// Removes corners that repeat the one before, or at the end the first.
@@ -59,7 +59,8 @@ std::vector<WrittenRing> enclosed(std::vector<WrittenRing> rings);
 
 /// Joined rings, turned so that the side that contains a place is to the left of each.
 /// \param place unit vector.
-/// \throws Error as require_region(), orientation aside; bad_option for a place on the boundary.
+/// \throws Error as require_region(), orientation aside; invalid_argument for a place on the
+/// boundary.
 std::vector<WrittenRing> around(std::vector<WrittenRing> rings, const Vec3& place);
 
 /// The corners of each ring, 3 x n.

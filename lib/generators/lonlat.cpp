@@ -21,7 +21,7 @@ void require_lonlat(double longitude, double latitude, Eigen::Index i) {
   if (!std::isfinite(longitude) || !std::isfinite(latitude))
     refuse(ErrorCode::not_finite, i, "longitude or latitude is not finite; remove or correct it");
   if (std::abs(latitude) > 90)
-    refuse(ErrorCode::bad_option, i,
+    refuse(ErrorCode::invalid_argument, i,
            "the latitude is not within -90 to 90 degrees; give longitude, then latitude");
 }
 

@@ -57,7 +57,7 @@ Points3 generators(const Schedule& schedule) {
   return all;
 }
 
-/// \throws Error bad_option for a state of a run whose levels are others.
+/// \throws Error invalid_argument for a state of a run whose levels are others.
 void require_levels(const Schedule& schedule, const CvtState& state) {
   const std::vector<CvtLevel>& theirs = state.report().levels;
   const auto same = [](const CvtLevel& a, const CvtLevel& b) {
@@ -69,22 +69,35 @@ void require_levels(const Schedule& schedule, const CvtState& state) {
                        "made with, or no state");
 }
 
+CvtCallback callback_of(const ProgressCallback& progress) {
+  if (!progress)
+    return {};
+  return [&progress](const CvtProgress& now) {
+    const Next next = progress({.stage = "descend", .run = &now});
+    if (next == Next::cancel)
+      throw Error(ErrorCode::cancelled, "the progress callback cancelled the run");
+    return next == Next::stop;
+  };
+}
+
 Cvt in_plane(const Schedule& schedule, const CvtOptions& options, RunOptions&& run) {
   const Surface& surface = schedule.recipe.surface;
   const PlanarDomain domain = domain_of(surface);
   PlanarCvt result =
-      run.state ? planar_cvt(std::move(*run.state), domain, options, run.callback)
-                : planar_cvt(generators(schedule).topRows<2>(), domain, options, run.callback);
+      run.state ? planar_cvt(std::move(*run.state), domain, options, callback_of(run.progress))
+                : planar_cvt(generators(schedule).topRows<2>(), domain, options,
+                             callback_of(run.progress));
   return {mesh_detail::spatial(std::move(result.mesh), surface), std::move(result.report)};
 }
 
 Cvt on_sphere(const Schedule& schedule, const CvtOptions& options, RunOptions&& run) {
   const Surface& surface = schedule.recipe.surface;
   const Region region = region_of(surface);
-  Cvt result = run.state ? spherical_cvt(std::move(*run.state), region, options, run.callback)
-               : region.whole()
-                   ? spherical_cvt(generators(schedule), options, run.callback)
-                   : spherical_cvt(generators(schedule), region, options, run.callback);
+  Cvt result =
+      run.state ? spherical_cvt(std::move(*run.state), region, options, callback_of(run.progress))
+      : region.whole()
+          ? spherical_cvt(generators(schedule), options, callback_of(run.progress))
+          : spherical_cvt(generators(schedule), region, options, callback_of(run.progress));
   result.mesh.surface = surface;
   return result;
 }

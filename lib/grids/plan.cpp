@@ -97,7 +97,7 @@ void take_widths(Recipe& recipe) {
   }
 }
 
-/// \throws Error bad_option for an ill-formed density, even if the start does not use it.
+/// \throws Error invalid_argument for an ill-formed density, even if the start does not use it.
 void require_density(const Recipe& recipe) {
   if (recipe.surface.is_sphere())
     evaluate(recipe.density, bisected_icosahedron(0));
@@ -273,7 +273,7 @@ void require_free(const Recipe& recipe) {
   if (recipe.start.kind == Start::Kind::points)
     return;
   if (recipe.cells >= 1 && recipe.fixed.cols() >= recipe.cells)
-    throw Error(ErrorCode::bad_option,
+    throw Error(ErrorCode::invalid_argument,
                 "fixed point " + std::to_string(recipe.cells - 1) + " leaves no free one of the " +
                     std::to_string(recipe.cells) + " cells; give more cells or fewer fixed points",
                 recipe.cells - 1);

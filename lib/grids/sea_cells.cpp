@@ -99,9 +99,8 @@ std::vector<bool> kept_parts(const Parts& parts, const std::vector<std::int32_t>
 
 } // namespace
 
-Ids sea_cells(const Offsets& begin, const Ids& cells_on_cell,
-              const std::vector<std::uint8_t>& is_land, const SeaOptions& options,
-              SeaReport* report) {
+SeaCells sea_cells(const Offsets& begin, const Ids& cells_on_cell,
+                   const std::vector<std::uint8_t>& is_land, const SeaOptions& options) {
   Ids of_cell(begin.size() - 1);
   for (std::int64_t i = 0; i < of_cell.size(); ++i)
     of_cell[i] = is_land[static_cast<std::size_t>(i)] != 0 ? land : sea;
@@ -119,9 +118,7 @@ Ids sea_cells(const Offsets& begin, const Ids& cells_on_cell,
       of_cell[i] = land;
       ++counts.severed;
     }
-  if (report != nullptr)
-    *report = counts;
-  return of_cell;
+  return {std::move(of_cell), counts};
 }
 
 } // namespace calotte

@@ -21,12 +21,12 @@ FirstLevel first_of_continuation(std::int64_t cells, bool uniform);
 
 /// That of Start::Kind::multilevel: as few generators as resolve the density. They are at least
 /// 160, 12 in each hemisphere on average or 6 across a box, and four times as many as fixed ones.
-/// \throws Error bad_option for an ill-formed density.
+/// \throws Error invalid_argument for an ill-formed density.
 FirstLevel first_of_multilevel(std::int64_t cells, const Surface& surface, const Density& density,
                                std::int64_t fixed);
 
-/// That of another kind with a number of bisections. \throws Error bad_option if these do not lead
-/// to the number of cells, with the nearest numbers to which they do.
+/// That of another kind with a number of bisections. \throws Error invalid_argument if these do not
+/// lead to the number of cells, with the nearest numbers to which they do.
 FirstLevel first_of_kind(Start::Kind kind, std::int64_t cells, int bisections,
                          const Surface& surface, std::int64_t fixed);
 

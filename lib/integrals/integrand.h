@@ -27,7 +27,7 @@ inline constexpr int rule_at_sites = -1;
 
 /// \param rule a number of points, see quadrature_rule(), or rule_at_sites.
 /// \param divisions 1 to 100.
-/// \throws Error bad_option for an ill-formed density, or a rule that does not exist.
+/// \throws Error invalid_argument for an ill-formed density, or a rule that does not exist.
 Integrand make_integrand(const Density& density, int rule, int divisions);
 
 } // namespace calotte::integrals_detail

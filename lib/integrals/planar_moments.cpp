@@ -168,7 +168,7 @@ Array<CellKind> kinds_of(const PlanarField& field, const Patch& patch,
   for (std::int32_t i = 0; i < patch.owned; ++i)
     if (patch.sites[static_cast<std::size_t>(i)] < field.generators) {
       const bool clipped = field.outline != nullptr &&
-                           near_shore(*field.outline, {x[i].x, x[i].y}, std::sqrt(reach2[i]));
+                           near_boundary(*field.outline, {x[i].x, x[i].y}, std::sqrt(reach2[i]));
       kinds[i] = clipped ? CellKind::clipped : CellKind::whole;
     }
   return kinds;

@@ -94,8 +94,9 @@ const QuadratureRule& quadrature_rule(int points) {
   case 19:
     return rule<19, 9>();
   default:
-    throw Error(ErrorCode::bad_option, "there is no quadrature rule of " + std::to_string(points) +
-                                           " points: take 1, 3, 6, 7, 13 or 19");
+    throw Error(ErrorCode::invalid_argument, "there is no quadrature rule of " +
+                                                 std::to_string(points) +
+                                                 " points: take 1, 3, 6, 7, 13 or 19");
   }
 }
 

@@ -18,8 +18,8 @@ struct QuadratureRule {
 };
 
 /// The rule of 1, 3, 6, 7, 13 or 19 interior points: degrees 1, 2, 4, 5, 7 and 9 (Strang and Fix,
-/// 1973; Dunavant, Int. J. Numer. Methods Eng. 21, 1985). \throws Error bad_option for another
-/// number.
+/// 1973; Dunavant, Int. J. Numer. Methods Eng. 21, 1985). \throws Error invalid_argument for
+/// another number.
 const QuadratureRule& quadrature_rule(int points);
 
 } // namespace calotte::integrals_detail

@@ -4,7 +4,7 @@
 #include "base/spherical_angles.h"
 #include "base/triangle.h"
 #include "domain/clipped_cell.h"
-#include "domain/tangent_shore.h"
+#include "domain/tangent_outline.h"
 
 #include <algorithm>
 #include <array>
@@ -22,7 +22,7 @@ double angle_of(double sine, double cosine) { return longitude_of(cosine, sine);
 /// The Voronoi cell, cut to a square.
 std::vector<CellCorner> tangent_cell(const TangentPlane& plane,
                                      const std::vector<Vec3>& neighbours) {
-  constexpr double r = TangentShore::reach;
+  constexpr double r = TangentOutline::reach;
   std::vector<CellCorner> cell{{{-r, -r}, {}}, {{r, -r}, {}}, {{r, r}, {}}, {{-r, r}, {}}};
   for (const Vec3& neighbour : neighbours) {
     const Vec2 along = plane.along(neighbour);
@@ -121,20 +121,20 @@ private:
 };
 
 /// Moves the centroid of a cell to the region.
-void keep_inside(const TangentShore& shore, const std::vector<CellSide>& sides, Local& first) {
+void keep_inside(const TangentOutline& boundary, const std::vector<CellSide>& sides, Local& first) {
   const Vec2 centroid = (1 / first.height) * first.along;
-  if (!(first.height > 0) || shore.side(centroid) == Side::inside)
+  if (!(first.height > 0) || boundary.side(centroid) == Side::inside)
     return;
-  const Vec2 inside = nearest_inside(shore, {0, 0}, sides, centroid).value_or(Vec2{0, 0});
+  const Vec2 inside = nearest_inside(boundary, {0, 0}, sides, centroid).value_or(Vec2{0, 0});
   first.along = first.height * inside;
 }
 
 CellMoments clipped_moments(const Integrand& integrand, const SphericalOutline& outline,
                             const Vec3& site, const std::vector<Vec3>& neighbours) {
   const TangentPlane plane(site);
-  const TangentShore shore(outline, plane);
+  const TangentOutline boundary(outline, plane);
   const std::vector<CellSide> sides =
-      clipped_cell(shore, Vec2{0, 0}, tangent_cell(plane, neighbours));
+      clipped_cell(boundary, Vec2{0, 0}, tangent_cell(plane, neighbours));
   CellSums sums = TangentRule(integrand, plane)(sides);
   if (integrand.uniform) {
     sums.first = {};
@@ -143,7 +143,7 @@ CellMoments clipped_moments(const Integrand& integrand, const SphericalOutline& 
       sums.first = {sums.first.along + arc.along, sums.first.height + arc.height};
     }
   }
-  keep_inside(shore, sides, sums.first);
+  keep_inside(boundary, sides, sums.first);
   return {sums.first.height * site + plane.tangent(sums.first.along), sums.energy};
 }
 
@@ -217,7 +217,7 @@ double clipped_area(const SphericalOutline& outline, const Vec3& site,
   const TangentPlane plane(site);
   double area = 0;
   for (const CellSide& side :
-       clipped_cell(TangentShore(outline, plane), Vec2{0, 0}, tangent_cell(plane, neighbours)))
+       clipped_cell(TangentOutline(outline, plane), Vec2{0, 0}, tangent_cell(plane, neighbours)))
     area += area_of(side);
   return area;
 }

@@ -29,7 +29,7 @@ std::string names_of_cell_fields(const io_detail::NetcdfReader& file, std::int64
 [[noreturn]] void refuse(const io_detail::NetcdfReader& file, const std::string& problem,
                          std::int64_t cells) {
   const std::string names = names_of_cell_fields(file, cells);
-  throw Error(ErrorCode::bad_option,
+  throw Error(ErrorCode::invalid_argument,
               file.path() + ": " + problem + "; " +
                   (names.empty() ? "the file has none: give another" : "there are " + names));
 }

@@ -228,14 +228,14 @@ std::optional<CellRows> cell_rows_of(const NetcdfReader& file) {
   return cells ? cells : oasis_cells(file);
 }
 
-Soup read_cells(const NetcdfReader& file, const CellRows& rows, FieldChoice choice) {
-  Soup soup;
+RawMesh read_cells(const NetcdfReader& file, const CellRows& rows, FieldChoice choice) {
+  RawMesh raw;
   if (!rows.longitude.empty())
-    soup.points =
+    raw.points =
         read_lonlats(file, rows.longitude, rows.latitude,
                      std::vector<std::int64_t>(file.dimensions_of(rows.longitude).size(), -1));
-  soup.polygons = read_cell_rows(file, rows, soup.points);
-  soup.corner_rounding = file.is_float(rows.corner_longitude) ? float_rounding : 0;
+  raw.polygons = read_cell_rows(file, rows, raw.points);
+  raw.corner_rounding = file.is_float(rows.corner_longitude) ? float_rounding : 0;
   std::vector<std::string> dimensions = file.dimensions_of(rows.corner_longitude);
   dimensions.erase(rows.corners_first ? dimensions.begin() : std::prev(dimensions.end()));
   read_fields(
@@ -243,9 +243,9 @@ Soup read_cells(const NetcdfReader& file, const CellRows& rows, FieldChoice choi
       {.cells = dimensions.size() == 1 ? dimensions.front() : "",
        .vertices = "",
        .variables = {rows.corner_longitude, rows.corner_latitude, rows.longitude, rows.latitude}},
-      choice, soup);
-  drop_derived_fields(soup);
-  return soup;
+      choice, raw);
+  drop_derived_fields(raw);
+  return raw;
 }
 
 void refuse_netcdf(const NetcdfReader& file) {

@@ -36,7 +36,7 @@ std::optional<CellRows> cell_rows_of(const NetcdfReader& file);
 
 /// The cells with their centres, and the fields on cells of one dimension. \throws Error parse,
 /// file.
-Soup read_cells(const NetcdfReader& file, const CellRows& rows, FieldChoice choice);
+RawMesh read_cells(const NetcdfReader& file, const CellRows& rows, FieldChoice choice);
 
 /// Why a NetCDF file is none of a mesh, what it is instead, and the remedy.
 /// \throws Error parse.

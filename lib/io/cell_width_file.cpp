@@ -29,7 +29,7 @@ CellWidth read_cell_width(const std::string& path, const PolygonWidths& polygons
   if (suffix == ".nc")
     return io_detail::read_cell_width_netcdf(path, region);
   if (suffix != ".msh" && suffix != ".geojson" && suffix != ".json")
-    throw Error(ErrorCode::bad_option,
+    throw Error(ErrorCode::invalid_argument,
                 path + ": unknown suffix of a file of cell widths; give .nc, .msh or "
                        ".geojson");
   std::ifstream in = io_detail::open_input(path);

@@ -57,7 +57,7 @@ private:
     if (width == 0 && given != root.end())
       width = positive(*given, "\"" + key + "\"");
     if (!std::isfinite(width) || width < 0 || (needed && width == 0))
-      throw Error(ErrorCode::bad_option,
+      throw Error(ErrorCode::invalid_argument,
                   name_ + ": no positive " +
                       (key == "transition" ? "width of the transition"
                                            : key.substr(0, key.size() - 5) + " width") +
@@ -121,7 +121,7 @@ private:
 CellWidth read_cell_width_geojson(std::istream& in, const std::string& name,
                                   const PolygonWidths& widths) {
   if (!(widths.radius_km > 0) || !std::isfinite(widths.radius_km))
-    throw Error(ErrorCode::bad_option, "the sphere's radius must be positive; give it in km");
+    throw Error(ErrorCode::invalid_argument, "the sphere's radius must be positive; give it in km");
   return Collector(name, widths).read(read_geojson(in, name));
 }
 

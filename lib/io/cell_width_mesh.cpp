@@ -84,8 +84,9 @@ double step_for(const Mesh& mesh) {
 CellWidth resampled(const Points3& points, const DoubleVector& widths) {
   const Mesh mesh = spherical_delaunay(points);
   if (!mesh.closed())
-    throw Error(ErrorCode::bad_option, "the points lie within a hemisphere; give widths on the "
-                                       "whole sphere");
+    throw Error(ErrorCode::invalid_argument,
+                "the points lie within a hemisphere; give widths on the "
+                "whole sphere");
   DoubleVector of_site(mesh.points.cols());
   for (Eigen::Index i = points.cols(); i-- > 0;) // the lowest duplicate is assigned last
     of_site[mesh.site_of_input[static_cast<std::size_t>(i)]] = widths[i];

@@ -41,7 +41,7 @@ double kilometres_in(const std::string& unit) {
     return 1;
   if (holds(metres, name))
     return 0.001;
-  throw Error(ErrorCode::bad_option,
+  throw Error(ErrorCode::invalid_argument,
               "the unit \"" + unit + "\" is not one of cell widths; give km or m");
 }
 

@@ -13,7 +13,7 @@
 #include <type_traits>
 
 // The head, which names format, version and order of bytes; the configuration; the command; the
-// fields of CvtState::Data as they stand, each array after its length as Int64; and the CRC-32 of
+// fields of State as they stand, each array after its length as Int64; and the CRC-32 of
 // all that.
 
 namespace calotte {
@@ -27,7 +27,7 @@ constexpr std::string_view format = "calotte checkpoint ";
 
 std::string head() {
   std::string line(format);
-  line += "10, ";
+  line += "11, ";
   line += little_endian ? "little" : "big";
   line += "-endian\n";
   return line;
@@ -35,8 +35,8 @@ std::string head() {
 
 /// One list of fields serves writing and reading.
 template <class Iteration, class Visit> void visit_iteration(Iteration& i, const Visit& visit) {
-  visit(i.cells), visit(i.spacing), visit(i.rule), visit(i.l2), visit(i.linf), visit(i.gradient),
-      visit(i.energy), visit(i.misshapen), visit(i.displaced), visit(i.displacement);
+  visit(i.cells), visit(i.spacing), visit(i.rule), visit(i.linear_density), visit(i.l2), visit(i.linf), visit(i.gradient),
+      visit(i.energy), visit(i.shape_excess), visit(i.off_centroid), visit(i.largest_offset);
   visit(i.accepted), visit(i.flips), visit(i.rebuilt), visit(i.seconds);
   visit(i.seconds_exchange), visit(i.seconds_repair), visit(i.seconds_moments);
   visit(i.seconds_solver);
@@ -218,9 +218,9 @@ void require_same(const std::string& path, std::string_view theirs, std::string_
     their_line = take_line(theirs);
     our_line = take_line(ours);
   } while (their_line == our_line && !(theirs.empty() && ours.empty()));
-  throw Error(ErrorCode::bad_option, path + ": a checkpoint of another configuration: it has " +
-                                         their_line + " where this run has " + our_line +
-                                         "; give the same options or start anew");
+  throw Error(ErrorCode::invalid_argument,
+              path + ": a checkpoint of another configuration: it has " + their_line +
+                  " where this run has " + our_line + "; give the same options or start anew");
 }
 
 } // namespace
@@ -233,7 +233,7 @@ void write_checkpoint(const std::string& path, const CvtState& state,
     checksum.process_bytes(bytes.data(), bytes.size());
     file.append(bytes);
   };
-  put_checkpoint(sink, state.data(), configuration, command);
+  put_checkpoint(sink, State::of(state), configuration, command);
   const auto sum = checksum.checksum();
   file.append({reinterpret_cast<const char*>(&sum), sizeof sum});
   file.commit();
@@ -246,7 +246,7 @@ CvtState read_checkpoint(const std::string& path, const std::string& configurati
   const std::int64_t words = take_count(bytes);
   require_same(path, bytes.take(words), configuration);
   bytes.take(take_count(bytes)); // the command
-  return CvtState(take_state(bytes));
+  return State::wrapped(take_state(bytes));
 }
 
 std::string read_checkpoint_command(const std::string& path) {

@@ -34,11 +34,11 @@ void require_options(const CullOptions& options) {
 }
 
 /// Coasts and rasters are followed from cell to cell all around the sphere.
-/// \throws Error bad_option, for a part of the sphere.
+/// \throws Error invalid_argument, for a part of the sphere.
 void require_global(const MpasSource& source, const Voronoi& cells) {
   if (cells.cells_on_cell.minCoeff() < 0)
     throw Error(
-        ErrorCode::bad_option,
+        ErrorCode::invalid_argument,
         source.netcdf().reader().path() +
             " does not cover the sphere, so that coasts and rasters leave its cells; leave the "
             "land out of the global mesh with calotte cull and cut the region from that "
@@ -92,7 +92,7 @@ Land land_of(const std::string& source, const Ground& ground, const CullOptions&
   for (std::int64_t i = 0; i < n; ++i) {
     const bool by_fraction = land.fractions.size() > 0 && land.fractions[i] > options.land_fraction;
     const bool by_field =
-        values.size() > 0 && !(values[i] >= field.least && values[i] < field.most);
+        values.size() > 0 && !(values[i] >= field.lower && values[i] < field.upper);
     land.flags[static_cast<std::size_t>(i)] = by_fraction || by_field ? 1 : 0;
   }
   return land;
@@ -118,7 +118,8 @@ SeaOptions sea_options(const Ground& ground, const CullOptions& options) {
   return sea;
 }
 
-/// \throws Error bad_option, naming the first passage that is on land and opens none of the sea.
+/// \throws Error invalid_argument, naming the first passage that is on land and opens none of the
+/// sea.
 void require_passages(const Ground& ground, const Land& land, const Ids& sea,
                       const CullOptions& options) {
   for (std::size_t p = 0; p < options.passages.size(); ++p) {
@@ -127,7 +128,7 @@ void require_passages(const Ground& ground, const Land& land, const Ids& sea,
       return land.flags[static_cast<std::size_t>(cell)] != 0 && sea[cell] < 0;
     });
     if (apart)
-      throw Error(ErrorCode::bad_option,
+      throw Error(ErrorCode::invalid_argument,
                   "passage " + std::to_string(p) +
                       " lies on land only and reaches no sea; begin and end it in the sea",
                   static_cast<std::int64_t>(p));
@@ -243,8 +244,10 @@ CullReport cull(const std::string& source_path, const std::string& target,
   const Land land = land_of(source_path, ground, options);
   CullReport report;
   report.land = std::count(land.flags.begin(), land.flags.end(), 1);
-  const Ids sea = sea_cells(ground.begin, ground.cells_on_cell, land.flags,
-                            sea_options(ground, options), &report.sea);
+  const SeaCells decided =
+      sea_cells(ground.begin, ground.cells_on_cell, land.flags, sea_options(ground, options));
+  const Ids& sea = decided.mask;
+  report.sea = decided.report;
   require_passages(ground, land, sea, options);
   const MpasPart part = part_of(source, sea);
   const ReversedEdges reversed = reversed_edges(source, part);

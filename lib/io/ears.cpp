@@ -99,19 +99,21 @@ void select_fields(const Mesh& mesh, const Selection& sites, const Selection& tr
 
 } // namespace
 
-MeshFile without_ears(MeshFile file, EarReport* report) {
+WithoutEars without_ears(MeshFile given) {
+  WithoutEars result{std::move(given), {}};
+  MeshFile& file = result.file;
   if (!file.mesh)
-    throw Error(ErrorCode::bad_option,
+    throw Error(ErrorCode::invalid_argument,
                 "there is no mesh of the sphere that could have ears; give another file");
   const Flags kept = triangles_without_ears(*file.mesh);
   const Selection triangles(kept), sites(sites_of(*file.mesh, kept));
-  if (report != nullptr)
-    *report = {triangles.removed(), sites.removed()};
+  result.removed = {triangles.removed(), sites.removed()};
   if (triangles.old.empty())
-    throw Error(ErrorCode::bad_option, "no triangle has two neighbours that have two neighbours in "
-                                       "turn; give a mesh of finer cells");
-  if (triangles.removed() == 0 && sites.removed() == 0)
-    return file;
+    throw Error(ErrorCode::invalid_argument,
+                "no triangle has two neighbours that have two neighbours in "
+                "turn; give a mesh of finer cells");
+  if (result.removed.triangles == 0 && result.removed.sites == 0)
+    return result;
   const Mesh before = std::move(*file.mesh);
   file.mesh = selected(before, sites, triangles);
   file.polygons.reset();
@@ -122,7 +124,7 @@ MeshFile without_ears(MeshFile file, EarReport* report) {
     for (Eigen::Index i = 0; i < file.density.size(); ++i)
       file.density[i] = all[sites.old[static_cast<std::size_t>(i)]];
   }
-  return file;
+  return result;
 }
 
 } // namespace calotte

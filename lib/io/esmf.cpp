@@ -145,18 +145,18 @@ Polygons read_esmf_cells(const NetcdfReader& file, const Points3& centres) {
   return read_elements(file, read_pairs(file, "nodeCoords"), centres);
 }
 
-Soup read_esmf(const NetcdfReader& file, FieldChoice choice) {
-  Soup soup{.points = read_esmf_centres(file)};
+RawMesh read_esmf(const NetcdfReader& file, FieldChoice choice) {
+  RawMesh raw{.points = read_esmf_centres(file)};
   if (file.has_variable("elementConn")) {
-    soup.polygons = read_esmf_cells(file, soup.points);
-    soup.corner_rounding = file.is_float("nodeCoords") ? float_rounding : 0;
-  } else if (soup.points.cols() == 0) {
+    raw.polygons = read_esmf_cells(file, raw.points);
+    raw.corner_rounding = file.is_float("nodeCoords") ? float_rounding : 0;
+  } else if (raw.points.cols() == 0) {
     file.fail("it has neither centerCoords, the cells' sites, nor elementConn, their corners; give "
               "a file that has");
   }
-  read_fields(file, esmf_names(), choice, soup);
-  drop_derived_fields(soup);
-  return soup;
+  read_fields(file, esmf_names(), choice, raw);
+  drop_derived_fields(raw);
+  return raw;
 }
 
 } // namespace calotte::io_detail

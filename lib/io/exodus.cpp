@@ -146,7 +146,7 @@ bool is_exodus(const NetcdfReader& file) {
   return file.dimension("num_el_blk") > 0 && file.dimension("num_nodes") >= 0;
 }
 
-Soup read_exodus(const NetcdfReader& file, FieldChoice choice) {
+RawMesh read_exodus(const NetcdfReader& file, FieldChoice choice) {
   Points3 nodes = read_nodes(file);
   require_directions(file.path(), nodes);
   Elements elements(file, nodes.cols());
@@ -159,18 +159,18 @@ Soup read_exodus(const NetcdfReader& file, FieldChoice choice) {
       names.variables.insert(block_name(stem, block));
     file.has_variable(counts) ? elements.add_block(connect, counts) : elements.add_block(connect);
   }
-  Soup soup;
-  soup.polygons = elements.polygons(std::move(nodes));
-  if (all_triangles(soup.polygons)) {
-    soup.points = std::move(soup.polygons.corners);
-    soup.triangles = soup.polygons.ids.reshaped(3, soup.polygons.size());
-    soup.polygons = {};
+  RawMesh raw;
+  raw.polygons = elements.polygons(std::move(nodes));
+  if (all_triangles(raw.polygons)) {
+    raw.points = std::move(raw.polygons.corners);
+    raw.triangles = raw.polygons.ids.reshaped(3, raw.polygons.size());
+    raw.polygons = {};
     std::swap(names.cells, names.vertices);
   } else {
-    soup.polygons.corners = on_sphere(soup.polygons.corners, 1);
+    raw.polygons.corners = on_sphere(raw.polygons.corners, 1);
   }
-  read_fields(file, names, choice, soup);
-  return soup;
+  read_fields(file, names, choice, raw);
+  return raw;
 }
 
 } // namespace calotte::io_detail

@@ -52,7 +52,7 @@ std::int64_t take_count(LineReader& reader, const std::string& of) {
 
 /// Consecutive ids are the rule; the flags go along as a field. \param longitudes receives those of
 /// the file.
-Soup read_nodes(const std::string& path, std::vector<double>& longitudes) {
+RawMesh read_nodes(const std::string& path, std::vector<double>& longitudes) {
   std::ifstream in = open_input(path);
   LineReader reader(in, path);
   const std::int64_t count = take_count(reader, "nodes");
@@ -71,11 +71,11 @@ Soup read_nodes(const std::string& path, std::vector<double>& longitudes) {
     places.insert(places.end(), {place.x, place.y, place.z});
     flags.push_back(row[3]);
   }
-  Soup soup{.points = Eigen::Map<const Points3>(places.data(), 3, count)};
-  soup.fields.push_back({.name = "coast",
-                         .long_name = "1 for a node on the coast",
-                         .values = Eigen::Map<const DoubleVector>(flags.data(), count)});
-  return soup;
+  RawMesh raw{.points = Eigen::Map<const Points3>(places.data(), 3, count)};
+  raw.fields.push_back({.name = "coast",
+                        .long_name = "1 for a node on the coast",
+                        .values = Eigen::Map<const DoubleVector>(flags.data(), count)});
+  return raw;
 }
 
 Triangles read_elements(const std::string& path, std::int64_t nodes) {
@@ -109,17 +109,17 @@ struct Span {
 /// files do not hold. On the sphere the triangles that join them run all along the mesh, the other
 /// way round. \param longitudes of the nodes as the file has them.
 void require_no_channel(const std::string& path, const std::vector<double>& longitudes,
-                        const Soup& soup) {
-  const mesh_detail::Orientations found = mesh_detail::orientations_of(soup.points, soup.triangles);
+                        const RawMesh& raw) {
+  const mesh_detail::Orientations found = mesh_detail::orientations_of(raw.points, raw.triangles);
   if (!found.contradict())
     return;
   Span all, most_others;
   std::int64_t joining = 0;
   for (const double x : longitudes)
     all.add(x);
-  for (Eigen::Index t = 0; t < soup.triangles.cols(); ++t) {
+  for (Eigen::Index t = 0; t < raw.triangles.cols(); ++t) {
     Span span;
-    for (const std::int32_t node : soup.triangles.col(t))
+    for (const std::int32_t node : raw.triangles.col(t))
       span.add(longitudes[static_cast<std::size_t>(node)]);
     if (span.width() > all.width() / 2)
       ++joining;
@@ -199,12 +199,12 @@ void write_fesom(const std::string& path, const Mesh& mesh, const WriteOptions& 
   nodes.commit();
 }
 
-Soup read_fesom(const std::string& path) {
+RawMesh read_fesom(const std::string& path) {
   std::vector<double> longitudes;
-  Soup soup = read_nodes(path, longitudes);
-  soup.triangles = read_elements(beside(path, fesom_elements_name), soup.points.cols());
-  require_no_channel(path, longitudes, soup);
-  return soup;
+  RawMesh raw = read_nodes(path, longitudes);
+  raw.triangles = read_elements(beside(path, fesom_elements_name), raw.points.cols());
+  require_no_channel(path, longitudes, raw);
+  return raw;
 }
 
 } // namespace calotte::io_detail

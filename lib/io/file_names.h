@@ -40,7 +40,7 @@ std::optional<Format> format_of_name(const std::string& path);
 std::optional<std::string> sibling(const std::string& path, std::string_view stem,
                                    std::string_view other);
 
-/// \throws Error bad_option, always, with the names that determine a format.
+/// \throws Error invalid_argument, always, with the names that determine a format.
 [[noreturn]] void refuse_name(const std::string& path);
 
 } // namespace calotte::io_detail

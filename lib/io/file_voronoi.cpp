@@ -12,8 +12,8 @@ namespace {
 Voronoi of_polygons(const MeshFile& file) {
   io_detail::OpenCells cells = io_detail::open_cells(file);
   if (!cells.problem.empty())
-    throw Error(ErrorCode::bad_option, "the cells are not Voronoi cells: " + cells.problem +
-                                           "; use areas() and the corners of the polygons");
+    throw Error(ErrorCode::invalid_argument, "the cells are not Voronoi cells: " + cells.problem +
+                                                 "; use areas() and the corners of the polygons");
   return std::move(cells.voronoi);
 }
 
@@ -21,7 +21,7 @@ Voronoi of_polygons(const MeshFile& file) {
 
 Voronoi voronoi(const MeshFile& file) {
   if (!file.mesh && !file.polygons)
-    throw Error(ErrorCode::bad_option, "the file holds neither a mesh nor cells");
+    throw Error(ErrorCode::invalid_argument, "the file holds neither a mesh nor cells");
   const bool clipped = file.plane() && file.mesh->surface.is_bounded();
   return file.polygons && !clipped ? of_polygons(file) : voronoi(*file.mesh);
 }

@@ -52,7 +52,7 @@ bool clips_to(const Surface& part, Mesh mesh, const Polygons& polygons) {
     mesh.surface = part;
     return part.is_bounded() && are_areas_of(polygons, voronoi(mesh).cell_area);
   } catch (const Error& error) {
-    if (error.code() != ErrorCode::bad_option) // a cell in several parts, or rings that touch
+    if (error.code() != ErrorCode::invalid_argument) // a cell in several parts, or rings that touch
       throw;
     return false;
   }

@@ -86,7 +86,7 @@ std::optional<std::string> sibling(const std::string& path, std::string_view ste
 void refuse_name(const std::string& path) {
   const std::string suffix = suffix_of(path);
   throw Error(
-      ErrorCode::bad_option,
+      ErrorCode::invalid_argument,
       path + ": " + (suffix.empty() ? "no suffix" : "unknown suffix " + in_quotes(suffix)) +
           "; a mesh file ends in .nc, .vtp, .vtu, .vtk (read only), .off, .ply, .msh, .geojson, "
           ".g, .exo, .txt or .tri, or is named SaveVertices or nod2d.out");
@@ -122,7 +122,7 @@ const std::vector<std::pair<std::string, Format>>& format_words() {
 Format format_of(const std::string& path, Format option) {
   const std::optional<Format> named = format_of_name(path);
   if (named == Format::vtk || option == Format::vtk)
-    throw Error(ErrorCode::bad_option,
+    throw Error(ErrorCode::invalid_argument,
                 path + ": legacy VTK files are read, but not written; write .vtp or .vtu");
   if (option == Format::by_name) {
     if (!named)
@@ -130,15 +130,16 @@ Format format_of(const std::string& path, Format option) {
     return *named;
   }
   if (option == Format::fesom && named != Format::fesom)
-    throw Error(ErrorCode::bad_option, path + ": files of that format are named " +
-                                           std::string(fesom_nodes_name) + "; give that name");
+    throw Error(ErrorCode::invalid_argument, path + ": files of that format are named " +
+                                                 std::string(fesom_nodes_name) +
+                                                 "; give that name");
   if (option == Format::mpi_scvt && named != Format::mpi_scvt)
-    throw Error(ErrorCode::bad_option, path + ": files of that format are named " +
-                                           std::string(vertices_name) +
-                                           " and so on; give such a name");
+    throw Error(ErrorCode::invalid_argument, path + ": files of that format are named " +
+                                                 std::string(vertices_name) +
+                                                 " and so on; give such a name");
   if (named && of_suffix(option) != *named)
     throw Error(
-        ErrorCode::bad_option,
+        ErrorCode::invalid_argument,
         path + ": its name belongs to another format than the selected one; change one of them");
   return option;
 }

@@ -18,7 +18,7 @@
 namespace calotte::io_detail {
 
 /// A mesh as a file holds it, before anything is known of its order and orientation.
-struct Soup {
+struct RawMesh {
   Points3 points = {};      ///< the sites; none where the file holds cells without centres
   Triangles triangles = {}; ///< of the sites; none where these are to be triangulated
   Polygons polygons = {};   ///< the cells, of either orientation; a cell without corners is unknown
@@ -52,12 +52,12 @@ void put_geojson(const Sink& sink, const Mesh& mesh, const WriteOptions& options
 void put_geojson(const Sink& sink, const Polygons& polygons, const WriteOptions& options);
 
 /// \throws Error parse, file.
-Soup get_vtk_xml(std::istream& in, const std::string& name);    ///< .vtp and .vtu
-Soup get_vtk_legacy(std::istream& in, const std::string& name); ///< .vtk
-Soup get_off(std::istream& in, const std::string& name);
-Soup get_ply(std::istream& in, const std::string& name);
-Soup get_msh(std::istream& in, const std::string& name);
-Soup get_geojson(std::istream& in, const std::string& name);
+RawMesh get_vtk_xml(std::istream& in, const std::string& name);    ///< .vtp and .vtu
+RawMesh get_vtk_legacy(std::istream& in, const std::string& name); ///< .vtk
+RawMesh get_off(std::istream& in, const std::string& name);
+RawMesh get_ply(std::istream& in, const std::string& name);
+RawMesh get_msh(std::istream& in, const std::string& name);
+RawMesh get_geojson(std::istream& in, const std::string& name);
 
 /// Triangles of `points` columns.
 Triangles get_triangles_text(std::istream& in, const std::string& name, std::int64_t points);
@@ -70,7 +70,7 @@ bool holds_field(Format format, const MeshField& field);
 /// their own for cells. none for a format that holds no other faces than triangles.
 std::optional<Format> polygon_format(Format format);
 
-// ---- Files of their own making. \throws Error bad_option, file.
+// ---- Files of their own making. \throws Error invalid_argument, file.
 
 /// The mesh is consumed: its arrays are reused, and freed after their last use.
 void write_mpas(const std::string& path, Mesh mesh, const WriteOptions& options);
@@ -97,22 +97,22 @@ bool is_esmf(const NetcdfReader& file);
 bool is_exodus(const NetcdfReader& file);
 bool is_icon(const NetcdfReader& file);
 /// \pre it is. \throws Error parse, file.
-Soup read_mpas(const NetcdfReader& file, FieldChoice choice = FieldChoice::all);
+RawMesh read_mpas(const NetcdfReader& file, FieldChoice choice = FieldChoice::all);
 Points3 read_mpas_sites(const NetcdfReader& file); ///< without a look at the triangles
 bool is_planar_mpas(const NetcdfReader& file);
 MeshFile read_planar_mpas(const NetcdfReader& file, FieldChoice choice = FieldChoice::all);
-Soup read_ugrid(const NetcdfReader& file, FieldChoice choice = FieldChoice::all);
-Soup read_scrip(const NetcdfReader& file, FieldChoice choice = FieldChoice::all);
-Soup read_esmf(const NetcdfReader& file, FieldChoice choice = FieldChoice::all);
-Soup read_exodus(const NetcdfReader& file, FieldChoice choice = FieldChoice::all);
-Soup read_icon(const NetcdfReader& file, FieldChoice choice = FieldChoice::all);
-Soup read_fesom(const std::string& path);
+RawMesh read_ugrid(const NetcdfReader& file, FieldChoice choice = FieldChoice::all);
+RawMesh read_scrip(const NetcdfReader& file, FieldChoice choice = FieldChoice::all);
+RawMesh read_esmf(const NetcdfReader& file, FieldChoice choice = FieldChoice::all);
+RawMesh read_exodus(const NetcdfReader& file, FieldChoice choice = FieldChoice::all);
+RawMesh read_icon(const NetcdfReader& file, FieldChoice choice = FieldChoice::all);
+RawMesh read_fesom(const std::string& path);
 /// The cells with their corners' lists as the file has them. \pre it has corners, and as many
 /// centres or none.
 Polygons read_scrip_cells(const NetcdfReader& file, const Points3& centres);
 Polygons read_esmf_cells(const NetcdfReader& file, const Points3& centres);
 Points3 read_esmf_centres(const NetcdfReader& file); ///< none where the file has none
-Soup read_mpi_scvt(const std::string& path);
+RawMesh read_mpi_scvt(const std::string& path);
 
 /// Appends ids of one line of text, which count from `first` there and from 0 in `faces`.
 /// \throws Error parse for an id that is not one of the points.

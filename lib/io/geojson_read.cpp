@@ -84,24 +84,24 @@ public:
 
   std::int64_t count() const { return count_; }
 
-  Soup soup() {
-    Soup soup;
+  RawMesh raw() {
+    RawMesh raw;
     const bool has_sites = std::ssize(sites_) == count_;
     if (has_sites) {
-      soup.points.resize(3, count_);
+      raw.points.resize(3, count_);
       for (std::int64_t i = 0; i < count_; ++i)
-        set_column(soup.points, i, sites_[static_cast<std::size_t>(i)]);
+        set_column(raw.points, i, sites_[static_cast<std::size_t>(i)]);
     }
     if (voronoi_ > 0 && !are_part_of_sphere())
       rings_.clear(); // their sites tell all
     else if (!unread_.empty())
       throw Error(ErrorCode::parse, unread_);
     if (!rings_.empty())
-      soup.polygons = polygons(has_sites ? directions_of(soup.points) : Points3());
-    soup.turns_each = true;
-    add_fields(has_sites, soup);
-    soup.ignored.assign(ignored_.begin(), ignored_.end());
-    return soup;
+      raw.polygons = polygons(has_sites ? directions_of(raw.points) : Points3());
+    raw.turns_each = true;
+    add_fields(has_sites, raw);
+    raw.ignored.assign(ignored_.begin(), ignored_.end());
+    return raw;
   }
 
 private:
@@ -246,27 +246,27 @@ private:
 
   /// Without those that a writer makes anew.
   bool is_derived(const std::string& name, const DoubleVector& values, bool has_sites,
-                  const Soup& soup) const {
+                  const RawMesh& raw) const {
     if (name == "x" || name == "y" || name == "z")
       return has_sites;
     if (name == "id")
       return values == DoubleVector::LinSpaced(count_, 0, static_cast<double>(count_ - 1));
-    if (soup.polygons.size() > 0 && voronoi_ == 0)
-      return name == "area" && are_areas_of(soup.polygons, values);
+    if (raw.polygons.size() > 0 && voronoi_ == 0)
+      return name == "area" && are_areas_of(raw.polygons, values);
     return name == "area" || name == "spacing" || name == "quality" || name == "degree";
   }
 
-  void add_fields(bool has_sites, Soup& soup) {
+  void add_fields(bool has_sites, RawMesh& raw) {
     for (auto& [name, column] : columns_) {
       column.values.resize(static_cast<std::size_t>(count_), Column::none);
       DoubleVector values =
           Eigen::Map<const DoubleVector>(column.values.data(), std::ssize(column.values));
-      if (is_derived(name, values, has_sites, soup))
+      if (is_derived(name, values, has_sites, raw))
         continue;
       if (name == "density" && values.allFinite())
-        soup.density = std::move(values);
+        raw.density = std::move(values);
       else
-        soup.fields.push_back(
+        raw.fields.push_back(
             {.name = name, .values = std::move(values), .integer = column.integer});
     }
   }
@@ -308,7 +308,7 @@ json parse(std::istream& in, const std::string& name,
 
 } // namespace
 
-Soup get_geojson(std::istream& in, const std::string& name) {
+RawMesh get_geojson(std::istream& in, const std::string& name) {
   Features features(name);
   const json rest = parse(in, name, [&](const json& feature) { features.take(feature); });
   if (!rest.is_object() || text_in(rest, "type") != "FeatureCollection")
@@ -317,7 +317,7 @@ Soup get_geojson(std::istream& in, const std::string& name) {
   if (features.count() == 0 || !others.is_array() || !others.empty())
     throw Error(ErrorCode::parse, name + ": \"features\" is empty or holds other values than "
                                          "objects; give one feature for each cell");
-  return features.soup();
+  return features.raw();
 }
 
 } // namespace calotte::io_detail

@@ -35,14 +35,14 @@ class GmshFile {
 public:
   GmshFile(std::istream& in, const std::string& name) : reader_(in, name) {}
 
-  Soup read() {
+  RawMesh read() {
     for (std::string_view line; reader_.next_content(line);)
       section(trimmed(line));
     if (corners_.empty())
       throw Error(ErrorCode::parse,
                   reader_.name() + ": a file of Gmsh without triangles; mesh its surfaces (gmsh "
                                    "-2), and save all elements (Mesh.SaveAll=1)");
-    return soup();
+    return raw();
   }
 
 private:
@@ -188,7 +188,7 @@ private:
 
   /// Only the nodes of triangles are sites: others belong to the geometry, such as the centre of a
   /// sphere.
-  Soup soup() const {
+  RawMesh raw() const {
     std::vector<std::int32_t> site(places_.size() / 3, -1);
     const auto place_of = [&](std::int64_t node) {
       const auto found = place_of_.find(node);
@@ -203,14 +203,14 @@ private:
     std::int32_t sites = 0;
     for (std::int32_t& id : site)
       id = id < 0 ? -1 : sites++;
-    Soup soup{.points = Points3(3, sites)};
+    RawMesh raw{.points = Points3(3, sites)};
     for (std::size_t k = 0; k < site.size(); ++k)
       if (site[k] >= 0)
-        soup.points.col(site[k]) = Eigen::Map<const Eigen::Vector3d>(places_.data() + 3 * k);
-    soup.triangles.resize(3, std::ssize(corners_) / 3);
+        raw.points.col(site[k]) = Eigen::Map<const Eigen::Vector3d>(places_.data() + 3 * k);
+    raw.triangles.resize(3, std::ssize(corners_) / 3);
     for (std::size_t k = 0; k < corners_.size(); ++k)
-      soup.triangles.data()[k] = site[place_of(corners_[k])];
-    return soup;
+      raw.triangles.data()[k] = site[place_of(corners_[k])];
+    return raw;
   }
 
   static constexpr std::size_t most_tags = 8;
@@ -227,6 +227,6 @@ private:
 
 bool is_gmsh(std::istream& in) { return in.peek() == '$'; }
 
-Soup get_gmsh(std::istream& in, const std::string& name) { return GmshFile(in, name).read(); }
+RawMesh get_gmsh(std::istream& in, const std::string& name) { return GmshFile(in, name).read(); }
 
 } // namespace calotte::io_detail

@@ -15,6 +15,6 @@ bool is_gmsh(std::istream& in);
 /// The triangles of a file of Gmsh, and their nodes in the order of the file.
 /// \pre is_gmsh(). \throws Error parse that names the line, for text that is no such file; for
 /// binary files and version 1; for elements other than triangles, lines and points.
-Soup get_gmsh(std::istream& in, const std::string& name);
+RawMesh get_gmsh(std::istream& in, const std::string& name);
 
 } // namespace calotte::io_detail

@@ -49,19 +49,19 @@ bool is_icon(const NetcdfReader& file) {
          file.has_variable("vlat");
 }
 
-Soup read_icon(const NetcdfReader& file, FieldChoice choice) {
-  Soup soup{.points = read_lonlats(file, "vlon", "vlat")};
+RawMesh read_icon(const NetcdfReader& file, FieldChoice choice) {
+  RawMesh raw{.points = read_lonlats(file, "vlon", "vlat")};
   const std::vector<std::int32_t> ids = file.ints("vertex_of_cell", {3, -1});
   const std::int64_t cells = file.shape_of("vertex_of_cell")[1];
-  soup.triangles.resize(3, cells);
+  raw.triangles.resize(3, cells);
   for (int i = 0; i < 3; ++i)
-    soup.triangles.row(i) = Eigen::Map<const Eigen::Matrix<std::int32_t, 1, Eigen::Dynamic>>(
-                                ids.data() + i * cells, cells)
-                                .cwiseMax(0) // one below 1 becomes -1, which is refused
-                                .array() -
-                            1;
-  read_fields(file, icon_names, choice, soup);
-  return soup;
+    raw.triangles.row(i) = Eigen::Map<const Eigen::Matrix<std::int32_t, 1, Eigen::Dynamic>>(
+                               ids.data() + i * cells, cells)
+                               .cwiseMax(0) // one below 1 becomes -1, which is refused
+                               .array() -
+                           1;
+  read_fields(file, icon_names, choice, raw);
+  return raw;
 }
 
 } // namespace calotte::io_detail

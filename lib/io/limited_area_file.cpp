@@ -18,12 +18,12 @@ namespace calotte {
 namespace {
 
 /// A file that is removed, with its graph, at the end at the latest.
-class Scrap {
+class ScopedFile {
 public:
-  explicit Scrap(std::string path) : path_(std::move(path)) {}
-  Scrap(const Scrap&) = delete;
-  Scrap& operator=(const Scrap&) = delete;
-  ~Scrap() { remove(); }
+  explicit ScopedFile(std::string path) : path_(std::move(path)) {}
+  ScopedFile(const ScopedFile&) = delete;
+  ScopedFile& operator=(const ScopedFile&) = delete;
+  ~ScopedFile() { remove(); }
   /// Who has the file open reads on.
   void remove() {
     if (std::error_code ignored; !std::exchange(removed_, true)) {
@@ -54,7 +54,7 @@ Points3 spanning(const Points3& generators, const Surface& meshed, const Density
 
 CutReport write_limited_area(const std::string& target, const Mesh& mesh, const Surface& region,
                              const WriteOptions& written, const CutOptions& options) {
-  Scrap whole(target + ".whole.nc");
+  ScopedFile whole(target + ".whole.nc");
   WriteOptions mpas = written;
   mpas.format = Format::mpas;
   mpas.sphere_radius = 1;

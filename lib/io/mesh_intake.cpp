@@ -161,11 +161,11 @@ void turn_cells(const std::string& name, Polygons& polygons, bool each, MeshFile
 }
 
 /// Keeps the polygons unless they are the Voronoi cells of the mesh.
-void settle_polygons(const std::string& name, Soup soup, MeshFile& file) {
-  Polygons& polygons = soup.polygons;
+void settle_polygons(const std::string& name, RawMesh raw, MeshFile& file) {
+  Polygons& polygons = raw.polygons;
   if (file.mesh && may_be_voronoi(*file.mesh, polygons)) {
     const Voronoi cells = voronoi(*file.mesh);
-    file.not_voronoi = difference_from(cells, polygons, soup.corner_rounding);
+    file.not_voronoi = difference_from(cells, polygons, raw.corner_rounding);
     if (file.not_voronoi.empty())
       return move_to_triangles(cells, polygons, file.fields);
   } else if (file.mesh) {
@@ -189,17 +189,17 @@ void triangulate_centres(const Points3& centres, MeshFile& file) {
 
 /// Cells without triangles. A mesh is what their own corners make of them. Corners of more than
 /// three cells are those of Voronoi cells if they agree with the triangulation of the centres.
-void settle_cells(const std::string& name, Soup soup, MeshFile& file) {
-  if (soup.points.cols() == 0) {
+void settle_cells(const std::string& name, RawMesh raw, MeshFile& file) {
+  if (raw.points.cols() == 0) {
     file.not_voronoi = "the cells have no centres";
-    return settle_polygons(name, std::move(soup), file);
+    return settle_polygons(name, std::move(raw), file);
   }
-  file.mesh = mesh_of_cells(soup.points, soup.polygons, soup.corner_rounding, file.fields);
+  file.mesh = mesh_of_cells(raw.points, raw.polygons, raw.corner_rounding, file.fields);
   if (file.mesh && file.mesh->closed())
     return;
-  if (!file.mesh && cover_sphere(soup.polygons)) {
-    triangulate_centres(soup.points, file);
-    settle_polygons(name, std::move(soup), file);
+  if (!file.mesh && cover_sphere(raw.polygons)) {
+    triangulate_centres(raw.points, file);
+    settle_polygons(name, std::move(raw), file);
     if (file.polygons) // triangles of the centres are not the file's
       file.mesh.reset();
     return;
@@ -207,7 +207,7 @@ void settle_cells(const std::string& name, Soup soup, MeshFile& file) {
   if (!file.mesh)
     file.not_voronoi = "they are a part of the sphere, and their corners are not the circumcentres "
                        "of three centres each";
-  settle_polygons(name, std::move(soup), file);
+  settle_polygons(name, std::move(raw), file);
 }
 
 /// Keeps the polygons: their boundary is the file's alone. Each has a site.
@@ -246,12 +246,12 @@ void merge_values(const Mesh& mesh, MeshFile& file) {
       select_values(field, lowest);
 }
 
-MeshFile rest_of(const std::string& format, Soup& soup) {
+MeshFile rest_of(const std::string& format, RawMesh& raw) {
   MeshFile file;
   file.format = format;
-  file.density = std::move(soup.density);
-  file.fields = std::move(soup.fields);
-  file.ignored = std::move(soup.ignored);
+  file.density = std::move(raw.density);
+  file.fields = std::move(raw.fields);
+  file.ignored = std::move(raw.ignored);
   return file;
 }
 
@@ -260,7 +260,7 @@ void require_places(const std::string& name, const Points3& points) {
     if (!points.col(i).allFinite())
       refuse(name, "point " + std::to_string(i) + " has no place (NaN or infinite)", i);
     if (points(2, i) != 0)
-      throw Error(ErrorCode::bad_option,
+      throw Error(ErrorCode::invalid_argument,
                   name + ": z is not 0 at point " + std::to_string(i) +
                       ", so it is not a planar mesh; read it as one of the sphere",
                   i);
@@ -276,7 +276,7 @@ bool lies_in_plane(const Points3& points) {
 void require_sphere(const std::string& name, const Points3& points) {
   if (lies_in_plane(points))
     throw Error(
-        ErrorCode::bad_option,
+        ErrorCode::invalid_argument,
         name +
             ": z is 0 at all points, which makes a mesh of the plane; read it as one of the plane");
 }
@@ -300,52 +300,52 @@ double radius_of(const Points3& points) {
   return std::strtod(text.data(), nullptr);
 }
 
-MeshFile mesh_file_of(const std::string& name, const std::string& format, Soup soup) {
-  require_sphere(name, soup.points);
-  require_directions(name, soup.points);
-  MeshFile file = rest_of(format, soup);
-  const bool has_cells = soup.polygons.size() > 0;
+MeshFile mesh_file_of(const std::string& name, const std::string& format, RawMesh raw) {
+  require_sphere(name, raw.points);
+  require_directions(name, raw.points);
+  MeshFile file = rest_of(format, raw);
+  const bool has_cells = raw.polygons.size() > 0;
   if (has_cells)
-    turn_cells(name, soup.polygons, soup.turns_each, file);
-  if (soup.triangles.cols() > 0) {
-    require_ids(name, soup.triangles, soup.points.cols());
-    Mesh mesh{std::move(soup.points), std::move(soup.triangles), {}, {}, {}};
+    turn_cells(name, raw.polygons, raw.turns_each, file);
+  if (raw.triangles.cols() > 0) {
+    require_ids(name, raw.triangles, raw.points.cols());
+    Mesh mesh{std::move(raw.points), std::move(raw.triangles), {}, {}, {}};
     mesh.neighbours = canonical(name, mesh.triangles, mesh.points.cols(),
-                                orientations_of(mesh.points, mesh.triangles), file, &soup.polygons);
+                                orientations_of(mesh.points, mesh.triangles), file, &raw.polygons);
     mesh.site_of_input = themselves(mesh.points.cols());
-    settle_edge_fields(mesh.triangles, soup.edges, file.fields, file.changes, file.ignored);
+    settle_edge_fields(mesh.triangles, raw.edges, file.fields, file.changes, file.ignored);
     file.mesh = std::move(mesh);
     if (has_cells)
-      settle_polygons(name, std::move(soup), file);
+      settle_polygons(name, std::move(raw), file);
   } else if (!has_cells) {
-    file.mesh = named(name, [&] { return spherical_delaunay(soup.points); });
+    file.mesh = named(name, [&] { return spherical_delaunay(raw.points); });
     merge_values(*file.mesh, file);
-    file.changes.push_back("triangulated " + std::to_string(soup.points.cols()) + " points");
+    file.changes.push_back("triangulated " + std::to_string(raw.points.cols()) + " points");
   } else {
-    settle_cells(name, std::move(soup), file);
+    settle_cells(name, std::move(raw), file);
   }
   if (file.mesh)
     file.sphere_radius = radius_of(file.mesh->points);
   return file;
 }
 
-MeshFile planar_mesh_file_of(const std::string& name, const std::string& format, Soup soup) {
-  require_places(name, soup.points);
-  MeshFile file = rest_of(format, soup);
+MeshFile planar_mesh_file_of(const std::string& name, const std::string& format, RawMesh raw) {
+  require_places(name, raw.points);
+  MeshFile file = rest_of(format, raw);
   PlanarMesh mesh;
-  mesh.points = soup.points.topRows<2>();
-  if (soup.triangles.cols() == 0 && soup.polygons.size() > 0 && soup.polygons.on_sphere)
-    throw Error(ErrorCode::bad_option,
+  mesh.points = raw.points.topRows<2>();
+  if (raw.triangles.cols() == 0 && raw.polygons.size() > 0 && raw.polygons.on_sphere)
+    throw Error(ErrorCode::invalid_argument,
                 name + ": it holds cells of the sphere; of a plane only triangles are read");
-  if (soup.triangles.cols() == 0) {
+  if (raw.triangles.cols() == 0) {
     file.mesh =
         spatial(named(name, [&] { return planar_delaunay(mesh.points); }), Surface::plane());
-    if (soup.polygons.size() > 0)
-      settle_clipped(name, std::move(soup.polygons), file);
+    if (raw.polygons.size() > 0)
+      settle_clipped(name, std::move(raw.polygons), file);
     return file;
   }
-  require_ids(name, soup.triangles, mesh.points.cols());
-  mesh.triangles = std::move(soup.triangles);
+  require_ids(name, raw.triangles, mesh.points.cols());
+  mesh.triangles = std::move(raw.triangles);
   mesh.neighbours = canonical(name, mesh.triangles, mesh.points.cols(),
                               orientations_of(mesh.points, mesh.triangles), file);
   mesh.site_of_input = themselves(mesh.points.cols());
@@ -381,7 +381,7 @@ MeshFile mesh_file_of_columns(const std::string& name, const Points3& points, Tr
   return file;
 }
 
-MeshFile periodic_mesh_file_of(const std::string& name, PlanarMesh mesh, Soup rest) {
+MeshFile periodic_mesh_file_of(const std::string& name, PlanarMesh mesh, RawMesh rest) {
   MeshFile file = rest_of("MPAS", rest);
   mesh.neighbours = canonical(name, mesh.triangles, mesh.points.cols(),
                               orientations_of(mesh.points, mesh.triangles, mesh.period), file);

@@ -15,13 +15,13 @@
 namespace calotte::io_detail {
 
 /// A mesh of the sphere, of triangles, cells or both. \param format for messages.
-/// \throws Error parse, for a file that contradicts itself; bad_option, for a mesh of the plane;
-/// what spherical_delaunay() throws, with the file's name.
-MeshFile mesh_file_of(const std::string& name, const std::string& format, Soup soup);
+/// \throws Error parse, for a file that contradicts itself; invalid_argument, for a mesh of the
+/// plane; what spherical_delaunay() throws, with the file's name.
+MeshFile mesh_file_of(const std::string& name, const std::string& format, RawMesh raw);
 
-/// A mesh of the plane, with z = 0 at all points. \throws Error as above; bad_option, where z is
-/// not 0.
-MeshFile planar_mesh_file_of(const std::string& name, const std::string& format, Soup soup);
+/// A mesh of the plane, with z = 0 at all points. \throws Error as above; invalid_argument, where z
+/// is not 0.
+MeshFile planar_mesh_file_of(const std::string& name, const std::string& format, RawMesh raw);
 
 /// A mesh whose triangles refer to columns of points that a caller has, of the plane if z is 0 at
 /// all of them. \throws Error parse.
@@ -29,14 +29,14 @@ MeshFile mesh_file_of_columns(const std::string& name, const Points3& points, Tr
 
 /// A mesh in a periodic plane, whose points are within the periods. It has a boundary where `rest`
 /// has polygons, one for each point. \throws Error parse.
-MeshFile periodic_mesh_file_of(const std::string& name, PlanarMesh mesh, Soup rest);
+MeshFile periodic_mesh_file_of(const std::string& name, PlanarMesh mesh, RawMesh rest);
 
 /// Whether z is 0 at all of three or more points: a mesh of the plane.
 bool lies_in_plane(const Points3& points);
 
 /// \throws Error parse, for a point without a direction.
 void require_directions(const std::string& name, const Points3& points);
-/// \throws Error bad_option, for points of the plane.
+/// \throws Error invalid_argument, for points of the plane.
 void require_sphere(const std::string& name, const Points3& points);
 
 /// Of the sphere that all points stand on but for their digits, with 12 of its own; 1 where there

@@ -35,7 +35,7 @@ template <class Of> NetcdfWriter::Fill<double> each(const Points3& points, const
 
 Points3 on_sphere(Points3 points, double radius) {
   if (!(radius > 0 && std::isfinite(radius)))
-    throw Error(ErrorCode::bad_option,
+    throw Error(ErrorCode::invalid_argument,
                 "the sphere's radius is " + std::to_string(radius) + "; it must be positive");
   constexpr double rounding = 0x1p-50; // of a norm, in which four operations round
   for_each_block(points.cols(), [&](std::int64_t /*block*/, std::int64_t begin, std::int64_t end) {
@@ -171,10 +171,10 @@ NetcdfWriter::Fill<std::int32_t> mask_of(const WriteOptions& options) {
   });
 }
 
-void drop_derived_fields(Soup& soup) {
-  std::erase_if(soup.fields, [&](const MeshField& field) {
+void drop_derived_fields(RawMesh& raw) {
+  std::erase_if(raw.fields, [&](const MeshField& field) {
     return (is_mask(field) && (field.values.array() == 1).all()) ||
-           (is_area(field) && are_areas_of(soup.polygons, field.values));
+           (is_area(field) && are_areas_of(raw.polygons, field.values));
   });
 }
 

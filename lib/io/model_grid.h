@@ -27,7 +27,7 @@ namespace calotte::io_detail {
 // ---- Writing
 
 /// `radius` times the unit vectors; a point whose norm is that but for rounding keeps its bits.
-/// \throws Error bad_option for a radius that is not positive and finite.
+/// \throws Error invalid_argument for a radius that is not positive and finite.
 Points3 on_sphere(Points3 points, double radius);
 
 /// Options of a file of a plane.
@@ -41,9 +41,9 @@ struct CellGrid {
 };
 
 /// The options' density at the cells, that of the sites first, divided by its maximum; empty if it
-/// is uniform. \throws Error bad_option.
+/// is uniform. \throws Error invalid_argument.
 DoubleVector density_of(const Voronoi& voronoi, const WriteOptions& options);
-/// The cells' fields with that density. \throws Error bad_option.
+/// The cells' fields with that density. \throws Error invalid_argument.
 CellFields fields_of(const Voronoi& voronoi, const WriteOptions& options);
 
 CellGrid cell_grid(const Mesh& mesh); ///< the Voronoi cells. \throws Error as voronoi().
@@ -138,7 +138,7 @@ inline constexpr double float_rounding = 4e-7;
 
 /// Removes areas of SCRIP and ESMF that are those of the polygons but for rounding, and masks that
 /// are 1 at all cells: what a writer makes anew.
-void drop_derived_fields(Soup& soup);
+void drop_derived_fields(RawMesh& raw);
 
 /// How many degrees the unit of a variable is: of none, or one that starts with "deg", 1; of one
 /// that starts with "rad", 180 / pi. \throws Error parse, for others.

@@ -96,7 +96,7 @@ void check_mpas(MeshFile file, Deviations& deviations) {
     else if (file.plane())
       check_closed(voronoi_of(std::move(*file.mesh)), 1, std::move(file.density), deviations);
   } catch (const Error& error) {
-    if (error.code() != ErrorCode::bad_option)
+    if (error.code() != ErrorCode::invalid_argument)
       throw;
     deviations.add("cellsOnVertex", "cellsOnVertex: the vertices have no tessellation: " +
                                         std::string(error.what()));

@@ -17,14 +17,14 @@ namespace {
 void require_lists(const NetcdfSource& file) {
   const std::string& path = file.reader().path();
   if (!is_mpas(file.reader()))
-    throw Error(ErrorCode::bad_option, path + " holds no MPAS mesh; convert it with calotte "
-                                              "convert");
+    throw Error(ErrorCode::invalid_argument, path + " holds no MPAS mesh; convert it with calotte "
+                                                    "convert");
   if (is_planar_mpas(file.reader()))
-    throw Error(ErrorCode::bad_option,
+    throw Error(ErrorCode::invalid_argument,
                 path + " holds a mesh of the plane, not of the sphere; give another");
   for (const char* name : {"nEdgesOnCell", "cellsOnCell", "edgesOnCell", "verticesOnCell"})
     if (file.find(name) < 0)
-      throw Error(ErrorCode::bad_option,
+      throw Error(ErrorCode::invalid_argument,
                   path + " holds no " + name + "; complete it with calotte convert IN OUT.nc");
   for (const char* name : {"nCells", "nEdges", "nVertices"})
     if (file.reader().dimension(name) < 0)

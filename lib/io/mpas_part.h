@@ -17,7 +17,8 @@ namespace calotte::io_detail {
 /// A file with the lists that tell which edges and vertices its cells have.
 class MpasSource {
 public:
-  /// \throws Error file; parse; bad_option for a file that holds no mesh of the sphere, or one
+  /// \throws Error file; parse; invalid_argument for a file that holds no mesh of the sphere, or
+  /// one
   ///         without these lists.
   explicit MpasSource(const std::string& path);
 

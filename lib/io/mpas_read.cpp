@@ -130,27 +130,27 @@ void wrap(Points3& places, const Eigen::Vector2d& period) {
       x = domain_detail::wrapped(x, period[row]);
 }
 
-bool has_edge_fields(const Soup& soup) {
-  return std::any_of(soup.fields.begin(), soup.fields.end(),
+bool has_edge_fields(const RawMesh& raw) {
+  return std::any_of(raw.fields.begin(), raw.fields.end(),
                      [](const MeshField& field) { return field.location == Location::edges; });
 }
 
 /// The cells of the edges, which fields need that are at edges.
-void read_edges(const NetcdfReader& file, std::int64_t cells, Soup& soup) {
-  if (!has_edge_fields(soup) || !file.has_variable("cellsOnEdge"))
+void read_edges(const NetcdfReader& file, std::int64_t cells, RawMesh& raw) {
+  if (!has_edge_fields(raw) || !file.has_variable("cellsOnEdge"))
     return;
   const std::vector<std::int32_t> ids =
       ids_of(file, "cellsOnEdge", {file.dimension("nEdges"), 2}, "edge", 2, "cell", cells);
-  soup.edges = Eigen::Map<const Pairs>(ids.data(), 2, std::ssize(ids) / 2);
+  raw.edges = Eigen::Map<const Pairs>(ids.data(), 2, std::ssize(ids) / 2);
 }
 
 void read_density_and_fields(const NetcdfReader& file, std::int64_t cells, FieldChoice choice,
-                             Soup& soup) {
-  read_fields(file, mpas_names(), choice, soup);
-  read_edges(file, cells, soup);
+                             RawMesh& raw) {
+  read_fields(file, mpas_names(), choice, raw);
+  read_edges(file, cells, raw);
   if (file.has_variable("meshDensity") &&
       file.shape_of("meshDensity") == std::vector<std::int64_t>{cells})
-    soup.density = values_with_fill(file, "meshDensity");
+    raw.density = values_with_fill(file, "meshDensity");
 }
 
 bool has_cells(const NetcdfReader& file) {
@@ -197,12 +197,12 @@ MeshFile read_bounded_plane(const NetcdfReader& file, FieldChoice choice) {
   if (!has_cells(file))
     file.fail("a plane without periods, but no cells (nEdgesOnCell, verticesOnCell and xVertex); "
               "make the file again");
-  Soup soup{.points = places_of(file, "Cell")};
+  RawMesh raw{.points = places_of(file, "Cell")};
   Points3 vertices = finite_places_of(file, "Vertex");
-  read_density_and_fields(file, soup.points.cols(), choice, soup);
-  soup.polygons = cells_of(file, soup.points, std::move(vertices));
-  soup.polygons.on_sphere = false;
-  return planar_mesh_file_of(file.path(), "MPAS", std::move(soup));
+  read_density_and_fields(file, raw.points.cols(), choice, raw);
+  raw.polygons = cells_of(file, raw.points, std::move(vertices));
+  raw.polygons.on_sphere = false;
+  return planar_mesh_file_of(file.path(), "MPAS", std::move(raw));
 }
 
 } // namespace
@@ -217,27 +217,27 @@ bool is_planar_mpas(const NetcdfReader& file) {
 
 Points3 read_mpas_sites(const NetcdfReader& file) {
   if (is_planar_mpas(file))
-    throw Error(ErrorCode::bad_option, file.path() + " holds a mesh of the plane, not of the "
-                                                     "sphere; read it with read_mesh()");
+    throw Error(ErrorCode::invalid_argument, file.path() + " holds a mesh of the plane, not of the "
+                                                           "sphere; read it with read_mesh()");
   return places_of(file, "Cell");
 }
 
-Soup read_mpas(const NetcdfReader& file, FieldChoice choice) {
-  Soup soup{.points = read_mpas_sites(file)};
-  require_directions(file.path(), soup.points);
-  const std::int64_t cells = soup.points.cols();
+RawMesh read_mpas(const NetcdfReader& file, FieldChoice choice) {
+  RawMesh raw{.points = read_mpas_sites(file)};
+  require_directions(file.path(), raw.points);
+  const std::int64_t cells = raw.points.cols();
   CompleteVertices complete = complete_vertices(file, cells);
-  read_density_and_fields(file, cells, choice, soup);
+  read_density_and_fields(file, cells, choice, raw);
   if (has_cells(file)) {
     const Points3 vertices = places_of(file, "Vertex");
     require_directions(file.path() + ": of the vertices", vertices);
-    if (!complete.all || !are_cell_corners(soup.points, complete.triangles, vertices))
-      soup.polygons = cells_of(file, on_sphere(soup.points, 1), on_sphere(vertices, 1));
+    if (!complete.all || !are_cell_corners(raw.points, complete.triangles, vertices))
+      raw.polygons = cells_of(file, on_sphere(raw.points, 1), on_sphere(vertices, 1));
   }
   if (!complete.all)
-    select_vertices(soup.fields, complete.vertex);
-  soup.triangles = std::move(complete.triangles);
-  return soup;
+    select_vertices(raw.fields, complete.vertex);
+  raw.triangles = std::move(complete.triangles);
+  return raw;
 }
 
 MeshFile read_planar_mpas(const NetcdfReader& file, FieldChoice choice) {
@@ -250,7 +250,7 @@ MeshFile read_planar_mpas(const NetcdfReader& file, FieldChoice choice) {
   mesh.points = places.topRows<2>();
   CompleteVertices complete = complete_vertices(file, mesh.points.cols());
   mesh.triangles = std::move(complete.triangles);
-  Soup rest;
+  RawMesh rest;
   read_density_and_fields(file, mesh.points.cols(), choice, rest);
   require_walls(file, mesh.period, complete.all);
   if (!complete.all) {

@@ -73,7 +73,7 @@ Triangles triangles_of(const std::string& path, const Points3& points) {
 
 /// The density of the file beside the points, where it has a finite number for each that is not
 /// negative; otherwise the file is ignored.
-void read_density(const std::string& path, Soup& soup) {
+void read_density(const std::string& path, RawMesh& raw) {
   const std::string file = beside(path, density_name);
   if (std::error_code error; !std::filesystem::is_regular_file(file, error))
     return;
@@ -88,10 +88,10 @@ void read_density(const std::string& path, Soup& soup) {
         parse_columns(line, 1, &value).outcome == Outcome::ok && value >= 0 && std::isfinite(value);
     values.push_back(value);
   }
-  if (valid && std::ssize(values) == soup.points.cols())
-    soup.density = Eigen::Map<const DoubleVector>(values.data(), std::ssize(values));
+  if (valid && std::ssize(values) == raw.points.cols())
+    raw.density = Eigen::Map<const DoubleVector>(values.data(), std::ssize(values));
   else
-    soup.ignored.push_back(std::string(density_name));
+    raw.ignored.push_back(std::string(density_name));
 }
 
 } // namespace
@@ -117,11 +117,11 @@ void write_mpi_scvt(const std::string& path, const Mesh& mesh, const WriteOption
   vertices.commit();
 }
 
-Soup read_mpi_scvt(const std::string& path) {
-  Soup soup{read_points(path), {}};
-  soup.triangles = triangles_of(path, soup.points);
-  read_density(path, soup);
-  return soup;
+RawMesh read_mpi_scvt(const std::string& path) {
+  RawMesh raw{read_points(path), {}};
+  raw.triangles = triangles_of(path, raw.points);
+  read_density(path, raw);
+  return raw;
 }
 
 } // namespace calotte::io_detail

@@ -25,7 +25,7 @@ void put_msh(const Sink& sink, const Mesh& mesh) {
   out.flush();
 }
 
-Soup get_msh(std::istream& in, const std::string& name) {
+RawMesh get_msh(std::istream& in, const std::string& name) {
   if (is_gmsh(in))
     return get_gmsh(in, name);
   const JigsawFile file = read_jigsaw(in, name);

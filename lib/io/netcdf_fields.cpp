@@ -116,7 +116,7 @@ DoubleVector values_with_fill(const NetcdfReader& file, const std::string& name)
 }
 
 void read_fields(const NetcdfReader& file, const NetcdfMeshNames& names, FieldChoice choice,
-                 Soup& soup) {
+                 RawMesh& raw) {
   if (choice == FieldChoice::none)
     return;
   const std::set<std::string> of_mesh = mesh_dimensions(file, names);
@@ -125,11 +125,11 @@ void read_fields(const NetcdfReader& file, const NetcdfMeshNames& names, FieldCh
       continue;
     std::optional<MeshField> field = field_of(file, names, of_mesh, name);
     if (!field || (choice == FieldChoice::scalars && field->count() > 1)) {
-      soup.ignored.push_back(name);
+      raw.ignored.push_back(name);
       continue;
     }
     read_values(file, *field);
-    soup.fields.push_back(*std::move(field));
+    raw.fields.push_back(*std::move(field));
   }
 }
 

@@ -21,12 +21,12 @@ struct NetcdfMeshNames {
   std::set<std::string> derived = {}; ///< that writers make themselves; they may be read as fields
 };
 
-/// Reads the variables with numbers for each cell, edge or vertex into the soup's fields, and lists
+/// Reads the variables with numbers for each cell, edge or vertex into the raw's fields, and lists
 /// all others that do not describe the mesh as ignored. A dimension of the mesh's own variables,
 /// such as the edges of a cell, whose order another file would not keep, makes no field.
 /// \throws Error parse, file.
 void read_fields(const NetcdfReader& file, const NetcdfMeshNames& names, FieldChoice choice,
-                 Soup& soup);
+                 RawMesh& raw);
 
 /// The values of a variable, NaN where it has its _FillValue, unpacked by its scale_factor and
 /// add_offset. \throws Error parse, file.

@@ -81,7 +81,7 @@ std::optional<std::size_t> axis_of(const NetcdfSource& source, const NetcdfSubse
     if (!subset.kept.contains(source.dimensions()[id].name))
       continue;
     if (axis)
-      throw Error(ErrorCode::bad_option,
+      throw Error(ErrorCode::invalid_argument,
                   source.reader().path() + ": " + variable.name +
                       " has two dimensions of cells, edges or vertices; remove the variable");
     axis = d;

@@ -76,8 +76,8 @@ std::int64_t row_values(const NetcdfSource& source, const NetcdfSubset& subset, 
 
 /// Writes the variables of a file, of which rows are left out, to a new one, which the caller then
 /// commits. \returns the variables that a classic file cannot hold: those of strings and of users'
-/// types. \throws Error file; parse; bad_option for a variable with two of the dimensions; what
-/// changes throw.
+/// types. \throws Error file; parse; invalid_argument for a variable with two of the dimensions;
+/// what changes throw.
 std::vector<std::string> put_subset(const NetcdfSource& source, const NetcdfSubset& subset,
                                     NetcdfWriter& file);
 

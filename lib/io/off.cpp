@@ -88,7 +88,7 @@ void put_off(const Sink& sink, const Polygons& polygons) {
   out.flush();
 }
 
-Soup get_off(std::istream& in, const std::string& name) {
+RawMesh get_off(std::istream& in, const std::string& name) {
   LineReader reader(in, name);
   std::string_view line;
   if (!reader.next_content(line) || line.substr(0, line.find_last_not_of(" \t") + 1) != "OFF")
@@ -115,7 +115,7 @@ Soup get_off(std::istream& in, const std::string& name) {
   surface.points = Eigen::Map<const Points3>(points.data(), 3, std::ssize(points) / 3);
   surface.begin = Eigen::Map<const Offsets>(begin.data(), std::ssize(begin));
   surface.ids = Eigen::Map<const Ids>(ids.data(), std::ssize(ids));
-  return soup_of(name, std::move(surface));
+  return raw_mesh_of(name, std::move(surface));
 }
 
 } // namespace calotte::io_detail

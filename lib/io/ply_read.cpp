@@ -281,7 +281,7 @@ void skip_rows(const Element& element, Body& body, Surface& surface) {
 
 } // namespace
 
-Soup get_ply(std::istream& in, const std::string& name) {
+RawMesh get_ply(std::istream& in, const std::string& name) {
   const std::string content = read_all(in, name, require_ply);
   std::string_view rest = content;
   const Head head = take_head(rest, name);
@@ -300,7 +300,7 @@ Soup get_ply(std::istream& in, const std::string& name) {
   }
   body.finish();
   require_polygons(name, surface, {"face", "face"});
-  return soup_of(name, std::move(surface));
+  return raw_mesh_of(name, std::move(surface));
 }
 
 } // namespace calotte::io_detail

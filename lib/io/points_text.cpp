@@ -47,8 +47,12 @@ void append_lonlat(std::vector<double>& coordinates, const double* values) {
   coordinates.insert(coordinates.end(), {p.x, p.y, p.z});
 }
 
-template <int count> void append(std::vector<double>& coordinates, const double* values) {
-  coordinates.insert(coordinates.end(), values, values + count);
+void append_xyz(std::vector<double>& coordinates, const double* values) {
+  coordinates.insert(coordinates.end(), values, values + 3);
+}
+
+void append_xy(std::vector<double>& coordinates, const double* values) {
+  coordinates.insert(coordinates.end(), {values[0], values[1], 0});
 }
 
 Row row_of(Columns columns) {
@@ -59,17 +63,15 @@ Row row_of(Columns columns) {
             "direction",
             require_latitude,
             append_lonlat};
+  if (columns == Columns::xy)
+    return {2,       "write two numbers x y on each line",    "",
+            "place", [](const LineReader&, const double*) {}, append_xy};
   return {3,
           "write three numbers x y z on each line",
           ", or read them as longitude and latitude, or as places in a plane",
           "direction",
           require_direction,
-          append<3>};
-}
-
-Row planar_row() {
-  return {2,       "write two numbers x y on each line",    "",
-          "place", [](const LineReader&, const double*) {}, append<2>};
+          append_xyz};
 }
 
 [[noreturn]] void refuse(const LineReader& reader, const Columned& read, const Row& row) {
@@ -87,12 +89,13 @@ void require_finite(const LineReader& reader, const double* values, const Row& r
                   row.use + "; remove the point or correct it");
 }
 
-/// Coordinates of all points, one after the other.
-std::vector<double> read_rows(std::istream& in, const std::string& name, const Row& row,
-                              std::vector<std::int64_t>* lines) {
+} // namespace
+
+PointLines read_point_lines(std::istream& in, const std::string& name, Columns columns) {
+  const Row row = row_of(columns);
   LineReader reader(in, name);
   std::vector<double> coordinates;
-  std::vector<std::int64_t> numbers;
+  PointLines result;
   bool header = false;
   for (std::string_view line; reader.next_content(line);) {
     double values[3];
@@ -106,17 +109,30 @@ std::vector<double> read_rows(std::istream& in, const std::string& name, const R
     require_finite(reader, values, row);
     row.require(reader, values);
     row.append(coordinates, values);
-    if (lines)
-      numbers.push_back(reader.number());
+    result.lines.push_back(reader.number());
   }
   if (coordinates.empty())
     throw Error(ErrorCode::parse, name + ": no points in " + std::to_string(reader.number()) +
                                       (reader.number() == 1 ? " line" : " lines") + "; " +
                                       row.expected);
-  if (lines)
-    *lines = std::move(numbers);
-  return coordinates;
+  result.points = Eigen::Map<const Points3>(coordinates.data(), 3, std::ssize(coordinates) / 3);
+  return result;
 }
+
+PointLines read_point_lines(const std::string& path, Columns columns) {
+  std::ifstream in = io_detail::open_input(path);
+  return read_point_lines(in, path, columns);
+}
+
+Points3 read_points(std::istream& in, const std::string& name, Columns columns) {
+  return read_point_lines(in, name, columns).points;
+}
+
+Points3 read_points(const std::string& path, Columns columns) {
+  return read_point_lines(path, columns).points;
+}
+
+namespace {
 
 // ---- Writing
 
@@ -137,30 +153,6 @@ void require_2_or_3_rows(const PointsRef& points) {
 } // namespace
 
 void io_detail::put_points(const Sink& sink, const Points3& points) { put_rows(sink, points); }
-
-Points3 read_points(std::istream& in, const std::string& name, Columns columns,
-                    std::vector<std::int64_t>* lines) {
-  const std::vector<double> coordinates = read_rows(in, name, row_of(columns), lines);
-  return Eigen::Map<const Points3>(coordinates.data(), 3,
-                                   static_cast<Eigen::Index>(coordinates.size() / 3));
-}
-
-Points2 read_planar_points(std::istream& in, const std::string& name,
-                           std::vector<std::int64_t>* lines) {
-  const std::vector<double> coordinates = read_rows(in, name, planar_row(), lines);
-  return Eigen::Map<const Points2>(coordinates.data(), 2,
-                                   static_cast<Eigen::Index>(coordinates.size() / 2));
-}
-
-Points2 read_planar_points(const std::string& path, std::vector<std::int64_t>* lines) {
-  std::ifstream in = io_detail::open_input(path);
-  return read_planar_points(in, path, lines);
-}
-
-Points3 read_points(const std::string& path, Columns columns, std::vector<std::int64_t>* lines) {
-  std::ifstream in = io_detail::open_input(path);
-  return read_points(in, path, columns, lines);
-}
 
 void write_points(const std::string& path, const PointsRef& points) {
   require_2_or_3_rows(points);

@@ -22,7 +22,7 @@ using namespace io_detail;
 // ---- Which format
 
 /// Whether the file is NetCDF: its name says so, or its contents where the name says nothing.
-/// \throws Error bad_option, where neither says a format.
+/// \throws Error invalid_argument, where neither says a format.
 bool holds_netcdf(const std::string& path) {
   const std::optional<Format> format = format_of_name(path);
   if (!format && !is_netcdf_file(path))
@@ -31,15 +31,16 @@ bool holds_netcdf(const std::string& path) {
 }
 
 [[noreturn]] void refuse_triangles_alone(const std::string& path) {
-  throw Error(ErrorCode::bad_option, path + " holds triangles only; give the points they refer to");
+  throw Error(ErrorCode::invalid_argument,
+              path + " holds triangles only; give the points they refer to");
 }
 
 // ---- Files of each kind
 
 /// Formats that hold points in space may hold a mesh of the plane.
-MeshFile mesh_file_of_any(const std::string& path, const std::string& format, Soup soup) {
-  return lies_in_plane(soup.points) ? planar_mesh_file_of(path, format, std::move(soup))
-                                    : mesh_file_of(path, format, std::move(soup));
+MeshFile mesh_file_of_any(const std::string& path, const std::string& format, RawMesh raw) {
+  return lies_in_plane(raw.points) ? planar_mesh_file_of(path, format, std::move(raw))
+                                   : mesh_file_of(path, format, std::move(raw));
 }
 
 MeshFile read_netcdf(const std::string& path, FieldChoice choice) {
@@ -64,21 +65,21 @@ MeshFile read_netcdf(const std::string& path, FieldChoice choice) {
 
 /// MPI-SCVT's centres of regions. Its triangles of these say nothing that the centres do not, so
 /// that either file stands for both. Nothing where the name is none of the two.
-std::optional<Soup> read_centres(const std::string& path) {
+std::optional<RawMesh> read_centres(const std::string& path) {
   if (format_of_name(path).value_or(Format::triangles) != Format::triangles)
     return std::nullopt;
   if (sibling(path, centres_name, centres_name))
-    return Soup{read_points(path)};
+    return RawMesh{read_points(path)};
   const std::optional<std::string> centres = sibling(path, centre_triangles_name, centres_name);
   if (!centres)
     return std::nullopt;
   if (!std::ifstream(*centres))
     throw Error(ErrorCode::file, path + ": it holds the centres' triangles only, and " + *centres +
                                      ", which holds the centres, cannot be read; put it there");
-  return Soup{read_points(*centres)};
+  return RawMesh{read_points(*centres)};
 }
 
-Soup read_stream(const std::string& path, Format format) {
+RawMesh read_stream(const std::string& path, Format format) {
   std::ifstream in = open_input(path);
   switch (format) {
   case Format::vtp:
@@ -117,7 +118,7 @@ std::string name_of(Format format) {
 }
 
 MeshFile read_any(const std::string& path, FieldChoice choice) {
-  if (std::optional<Soup> centres = read_centres(path))
+  if (std::optional<RawMesh> centres = read_centres(path))
     return mesh_file_of(path, name_of(Format::mpi_scvt), *std::move(centres));
   if (holds_netcdf(path))
     return read_netcdf(path, choice);
@@ -133,17 +134,18 @@ MeshFile read_any(const std::string& path, FieldChoice choice) {
 
 // ---- Points alone
 
-/// \throws Error bad_option, for cells without centres.
-Points3 sites_of(const std::string& path, Soup soup) {
-  if (soup.points.cols() == 0 && soup.polygons.size() > 0)
-    throw Error(ErrorCode::bad_option, path + ": its cells have no centres, so it has no sites; "
-                                              "read them with read_mesh_file()");
-  return std::move(soup.points);
+/// \throws Error invalid_argument, for cells without centres.
+Points3 sites_of(const std::string& path, RawMesh raw) {
+  if (raw.points.cols() == 0 && raw.polygons.size() > 0)
+    throw Error(ErrorCode::invalid_argument, path +
+                                                 ": its cells have no centres, so it has no sites; "
+                                                 "read them with read_mesh_file()");
+  return std::move(raw.points);
 }
 
 /// Without what goes with them where that costs a look or may fail.
 Points3 sites_of(const std::string& path) {
-  if (std::optional<Soup> centres = read_centres(path))
+  if (std::optional<RawMesh> centres = read_centres(path))
     return std::move(centres->points);
   const std::optional<Format> format = format_of_name(path);
   if (format == Format::mpi_scvt)
@@ -194,12 +196,13 @@ MeshFile read_mesh_file(const std::string& path, const Points3* points, FieldCho
 Mesh read_mesh(const std::string& path, const Points3* points) {
   MeshFile file = read_mesh_file(path, points, FieldChoice::none);
   if (file.polygons && !file.plane() && !(file.mesh && !file.mesh->closed()))
-    throw Error(ErrorCode::bad_option, path +
-                                           ": the cells are not the Voronoi cells of their "
-                                           "centres (" +
-                                           file.not_voronoi +
-                                           "); read them with read_mesh_file(), or read their "
-                                           "centres with read_sites() and triangulate these");
+    throw Error(ErrorCode::invalid_argument,
+                path +
+                    ": the cells are not the Voronoi cells of their "
+                    "centres (" +
+                    file.not_voronoi +
+                    "); read them with read_mesh_file(), or read their "
+                    "centres with read_sites() and triangulate these");
   return std::move(*file.mesh);
 }
 

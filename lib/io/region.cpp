@@ -27,7 +27,7 @@ bool is_geojson(const std::string& name) {
 
 void require_format(const std::string& name) {
   if (!counts_beside(name) && !is_geojson(name) && suffix_of(name) != ".pts")
-    throw Error(ErrorCode::bad_option,
+    throw Error(ErrorCode::invalid_argument,
                 name + ": the name determines no format of regions; name it .geojson, .json or "
                        ".pts, or SaveBoundaries");
 }

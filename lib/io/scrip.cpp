@@ -89,17 +89,17 @@ Polygons read_scrip_cells(const NetcdfReader& file, const Points3& centres) {
       file, {"grid_corner_lon", "grid_corner_lat", "grid_center_lon", "grid_center_lat"}, centres);
 }
 
-Soup read_scrip(const NetcdfReader& file, FieldChoice choice) {
-  Soup soup;
+RawMesh read_scrip(const NetcdfReader& file, FieldChoice choice) {
+  RawMesh raw;
   if (file.has_variable("grid_center_lon") || !file.has_variable("grid_corner_lon"))
-    soup.points = read_lonlats(file, "grid_center_lon", "grid_center_lat");
+    raw.points = read_lonlats(file, "grid_center_lon", "grid_center_lat");
   if (file.has_variable("grid_corner_lon")) {
-    soup.polygons = read_scrip_cells(file, soup.points);
-    soup.corner_rounding = file.is_float("grid_corner_lon") ? float_rounding : 0;
+    raw.polygons = read_scrip_cells(file, raw.points);
+    raw.corner_rounding = file.is_float("grid_corner_lon") ? float_rounding : 0;
   }
-  read_fields(file, scrip_names(), choice, soup);
-  drop_derived_fields(soup);
-  return soup;
+  read_fields(file, scrip_names(), choice, raw);
+  drop_derived_fields(raw);
+  return raw;
 }
 
 } // namespace calotte::io_detail

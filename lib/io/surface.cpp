@@ -84,30 +84,30 @@ void require_triangles_of_cells(const std::string& name, const Surface& surface,
 
 // ---- Fields
 
-void add_field(SurfaceArray& array, Location location, std::set<std::string>& names, Soup& soup) {
+void add_field(SurfaceArray& array, Location location, std::set<std::string>& names, RawMesh& raw) {
   if (location == Location::cells && is_derived(array.name))
     return;
   const bool first = names.insert(array.name).second;
   if (!first)
-    soup.ignored.push_back(std::move(array.name));
+    raw.ignored.push_back(std::move(array.name));
   else if (location == Location::cells && array.name == "density")
-    soup.density = std::move(array.values);
+    raw.density = std::move(array.values);
   else
-    soup.fields.push_back(
+    raw.fields.push_back(
         {.name = std::move(array.name), .location = location, .values = std::move(array.values)});
 }
 
 /// Adds the arrays of one component.
-void add_fields(Surface& surface, bool polygons_are_cells, Soup& soup) {
+void add_fields(Surface& surface, bool polygons_are_cells, RawMesh& raw) {
   std::set<std::string> names;
-  soup.ignored = std::move(surface.ignored);
+  raw.ignored = std::move(surface.ignored);
   for (SurfaceArray& array : surface.arrays)
     if (array.components == 1 && array.values.size() > 0)
       add_field(array,
                 array.of_polygons == polygons_are_cells ? Location::cells : Location::vertices,
-                names, soup);
+                names, raw);
     else if (array.name != site_name && array.name != triangle_name && !polygons_are_cells)
-      soup.ignored.push_back(array.name);
+      raw.ignored.push_back(array.name);
 }
 
 // ---- Cells
@@ -117,27 +117,27 @@ Points3 directions(const std::string& name, const Points3& points) {
   return on_sphere(points, 1);
 }
 
-Soup cells_of(const std::string& name, Surface& surface, const SurfaceArray* centres) {
-  Soup soup;
+RawMesh cells_of(const std::string& name, Surface& surface, const SurfaceArray* centres) {
+  RawMesh raw;
   if (lies_in_plane(surface.points)) {
     if (centres == nullptr)
-      throw Error(ErrorCode::bad_option,
+      throw Error(ErrorCode::invalid_argument,
                   name +
                       ": z is 0 at all points; of a plane only triangles, and cells with an array "
                       "site, are read");
-    soup.points = points_of(*centres);
-    soup.polygons = {std::move(surface.points), std::move(surface.begin), std::move(surface.ids),
-                     soup.points, false};
-    return soup;
+    raw.points = points_of(*centres);
+    raw.polygons = {std::move(surface.points), std::move(surface.begin), std::move(surface.ids),
+                    raw.points, false};
+    return raw;
   }
-  soup.polygons = {directions(name, surface.points), std::move(surface.begin),
-                   std::move(surface.ids), Points3(3, 0)};
+  raw.polygons = {directions(name, surface.points), std::move(surface.begin),
+                  std::move(surface.ids), Points3(3, 0)};
   if (centres != nullptr) {
-    soup.points = points_of(*centres);
-    soup.polygons.centres = directions(name + ": array " + in_quotes(centres->name), soup.points);
+    raw.points = points_of(*centres);
+    raw.polygons.centres = directions(name + ": array " + in_quotes(centres->name), raw.points);
   }
-  soup.corner_rounding = surface.single ? single_rounding : 0;
-  return soup;
+  raw.corner_rounding = surface.single ? single_rounding : 0;
+  return raw;
 }
 
 } // namespace
@@ -180,23 +180,23 @@ void require_polygons(const std::string& name, const Surface& surface, const Sur
                    std::to_string(count) + " polygons have " + std::to_string(used) + again);
 }
 
-Soup soup_of(const std::string& name, Surface&& surface) {
+RawMesh raw_mesh_of(const std::string& name, Surface&& surface) {
   const SurfaceArray* const site = find(surface, site_name, true);
   const SurfaceArray* const triangle = find(surface, triangle_name, false);
   const bool cells = surface.size() > 0 && (site != nullptr || !all_triangles(surface));
-  Soup soup;
+  RawMesh raw;
   if (cells && site != nullptr && triangle != nullptr) {
-    soup.points = points_of(*site);
-    soup.triangles = triangles_of(name, *triangle, surface.size());
-    require_triangles_of_cells(name, surface, soup.triangles);
+    raw.points = points_of(*site);
+    raw.triangles = triangles_of(name, *triangle, surface.size());
+    require_triangles_of_cells(name, surface, raw.triangles);
   } else if (cells) {
-    soup = cells_of(name, surface, site != nullptr ? site : find(surface, "Center", true));
+    raw = cells_of(name, surface, site != nullptr ? site : find(surface, "Center", true));
   } else {
-    soup.points = std::move(surface.points);
-    soup.triangles = Eigen::Map<const Triangles>(surface.ids.data(), 3, surface.size());
+    raw.points = std::move(surface.points);
+    raw.triangles = Eigen::Map<const Triangles>(surface.ids.data(), 3, surface.size());
   }
-  add_fields(surface, cells, soup);
-  return soup;
+  add_fields(surface, cells, raw);
+  return raw;
 }
 
 } // namespace calotte::io_detail

@@ -35,7 +35,7 @@ struct Surface {
   std::int64_t size() const { return begin.size() > 0 ? begin.size() - 1 : 0; }
 };
 
-/// Whether soup_of() uses an array of that name.
+/// Whether raw_mesh_of() uses an array of that name.
 bool is_read(const std::string& name, bool of_polygons, std::int64_t components);
 
 /// What a file calls the parts of a surface, for messages.
@@ -57,8 +57,8 @@ void require_polygons(const std::string& name, const Surface& surface,
 ///
 /// Arrays of one component become fields, `density` of the cells the density. Those that calotte
 /// derives from a mesh are left out.
-/// \throws Error parse; bad_option for polygons in a plane without centres.
-Soup soup_of(const std::string& name, Surface&& surface);
+/// \throws Error parse; invalid_argument for polygons in a plane without centres.
+RawMesh raw_mesh_of(const std::string& name, Surface&& surface);
 
 /// \throws Error parse: what is wrong with an array.
 [[noreturn]] void fail_array(const std::string& name, const std::string& array,

@@ -234,38 +234,38 @@ Polygons read_ugrid_faces(const NetcdfReader& file, const Topology& topology) {
   return faces_of(faces, std::move(nodes), std::move(centres), topology.planar);
 }
 
-Soup read_ugrid(const NetcdfReader& file, FieldChoice choice) {
+RawMesh read_ugrid(const NetcdfReader& file, FieldChoice choice) {
   const Topology topology = topology_of(file);
   const std::vector<std::int64_t> nodes = file.shape_of(topology.nodes[0]);
   if (nodes.size() != 1)
     file.fail(topology.nodes[0] + " is not a list of nodes; make the file again");
   const FaceNodes faces = face_nodes_of(file, topology, nodes[0]);
 
-  Soup soup;
+  RawMesh raw;
   const std::vector<std::string>& sites = topology.sites;
   const bool sites_are_faces =
       !sites.empty() && file.dimensions_of(sites[0]) != file.dimensions_of(topology.nodes[0]);
   const bool sites_are_nodes = !sites_are_faces && (!sites.empty() || all_triangles(faces));
   if (sites_are_faces) {
-    soup.points = read_places(file, sites, faces.cols());
-    soup.triangles = dual(file, faces, nodes[0]);
+    raw.points = read_places(file, sites, faces.cols());
+    raw.triangles = dual(file, faces, nodes[0]);
   } else if (sites_are_nodes) {
-    soup.points = sites.empty() ? read_pairs(file, topology, topology.nodes)
-                                : read_places(file, sites, nodes[0]);
-    soup.triangles = faces.topRows(3);
+    raw.points = sites.empty() ? read_pairs(file, topology, topology.nodes)
+                               : read_places(file, sites, nodes[0]);
+    raw.triangles = faces.topRows(3);
   } else {
     if (!topology.faces.empty())
-      soup.points = read_pairs(file, topology, topology.faces);
+      raw.points = read_pairs(file, topology, topology.faces);
     else if (topology.planar)
       file.fail("the mesh variable " + topology.mesh +
                 " names no face_coordinates, which cells of a plane need; add the attribute");
-    soup.polygons =
-        faces_of(faces, read_pairs(file, topology, topology.nodes), soup.points, topology.planar);
-    soup.corner_rounding = file.is_float(topology.nodes[0]) ? float_rounding : 0;
+    raw.polygons =
+        faces_of(faces, read_pairs(file, topology, topology.nodes), raw.points, topology.planar);
+    raw.corner_rounding = file.is_float(topology.nodes[0]) ? float_rounding : 0;
   }
-  read_fields(file, names_of(file, topology, sites_are_nodes), choice, soup);
-  drop_derived_fields(soup);
-  return soup;
+  read_fields(file, names_of(file, topology, sites_are_nodes), choice, raw);
+  drop_derived_fields(raw);
+  return raw;
 }
 
 } // namespace calotte::io_detail

@@ -293,9 +293,9 @@ private:
 
 } // namespace
 
-Soup get_vtk_legacy(std::istream& in, const std::string& name) {
+RawMesh get_vtk_legacy(std::istream& in, const std::string& name) {
   const std::string content = read_all(in, name, require_legacy_vtk);
-  return soup_of(name, Reader(content, name).read());
+  return raw_mesh_of(name, Reader(content, name).read());
 }
 
 } // namespace calotte::io_detail

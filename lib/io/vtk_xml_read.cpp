@@ -256,7 +256,7 @@ void ignore_field_data(const VtkFile& file, Surface& surface) {
 
 } // namespace
 
-Soup get_vtk_xml(std::istream& in, const std::string& name) {
+RawMesh get_vtk_xml(std::istream& in, const std::string& name) {
   const std::string content = read_all(in, name, require_xml);
   const VtkFile file = file_of(content, name);
   const XmlElement& piece = piece_of(file);
@@ -270,7 +270,7 @@ Soup get_vtk_xml(std::istream& in, const std::string& name) {
   require_polygons(name, surface);
   ignore_field_data(file, surface);
   read_data(file, piece, counts, surface);
-  return soup_of(name, std::move(surface));
+  return raw_mesh_of(name, std::move(surface));
 }
 
 } // namespace calotte::io_detail

@@ -13,8 +13,8 @@ namespace {
 
 using base_detail::require;
 
-/// The options with the density of the schedule. \throws Error bad_option for a mesh of another
-/// run.
+/// The options with the density of the schedule. \throws Error invalid_argument for a mesh of
+/// another run.
 WriteOptions options_for(const Mesh& mesh, const Schedule& schedule, const WriteOptions& options) {
   require(mesh.surface == schedule.recipe.surface,
           "the mesh lies on another surface than that of the recipe's run; give the mesh that "

@@ -12,10 +12,10 @@
 /// What the writers of a mesh and of the contents of a file have in common.
 namespace calotte::io_detail {
 
-/// \throws Error bad_option, that names the file.
+/// \throws Error invalid_argument, that names the file.
 [[noreturn]] void refuse_to_write(const std::string& path, const std::string& problem);
 
-/// \throws Error bad_option, for a radius out of range or an ill-formed density.
+/// \throws Error invalid_argument, for a radius out of range or an ill-formed density.
 void require_options(const std::string& path, const WriteOptions& options);
 
 /// A file from front to back.
@@ -35,7 +35,7 @@ std::int64_t expected_bytes(Format format);
 ProgressCallback rest_of(const ProgressCallback& progress, double from);
 
 /// Polygons in a format of cells other than MPAS.
-/// \throws Error bad_option, for polygons of a plane in a format of longitudes and latitudes.
+/// \throws Error invalid_argument, for polygons of a plane in a format of longitudes and latitudes.
 void write_polygons(const std::string& path, const CellGrid& grid, const WriteOptions& options);
 
 /// The names of the formats of cells that hold any polygons, for messages.

@@ -26,7 +26,7 @@ namespace {
 
 using namespace io_detail;
 
-/// \throws Error bad_option, where the format does not hold cells of any shape.
+/// \throws Error invalid_argument, where the format does not hold cells of any shape.
 void require_polygon_format(const std::string& path, const MeshFile& file, Format format) {
   const std::string others = "; write " + formats_of_polygons(file.polygons->on_sphere);
   if (format == Format::mpas_minimal)

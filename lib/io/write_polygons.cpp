@@ -10,7 +10,7 @@
 namespace calotte::io_detail {
 
 void refuse_to_write(const std::string& path, const std::string& problem) {
-  throw Error(ErrorCode::bad_option, path + ": " + problem);
+  throw Error(ErrorCode::invalid_argument, path + ": " + problem);
 }
 
 void require_options(const std::string& path, const WriteOptions& options) {

@@ -13,7 +13,7 @@ namespace calotte::io_detail {
 namespace {
 
 [[noreturn]] void refuse(const std::string& path, const std::string& problem) {
-  throw Error(ErrorCode::bad_option, path + ": " + problem);
+  throw Error(ErrorCode::invalid_argument, path + ": " + problem);
 }
 
 void require_size(const std::string& path, const std::string& what, std::int64_t size,

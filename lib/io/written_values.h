@@ -18,7 +18,7 @@ struct MeshSizes {
   bool closed; ///< each edge belongs to two triangles
 };
 
-/// \throws Error bad_option, for values that do not fit the mesh.
+/// \throws Error invalid_argument, for values that do not fit the mesh.
 void require_values(const std::string& path, const MeshSizes& mesh, const WriteOptions& options);
 
 /// The options' values follow the sites, edges and triangles of a mesh to their new places.

@@ -129,11 +129,11 @@ struct OnSphere : mesh_detail::Faces {
 
   static void set_area(double sum, Check& result) {
     result.area = sum;
-    result.whole = result.boundary_edges == 0 ? 4 * std::numbers::pi : 0;
+    result.expected_area = result.boundary_edges == 0 ? 4 * std::numbers::pi : 0;
   }
 
   static std::string area_failure(const Area& area, const Check& result) {
-    if (result.boundary_edges > 0 || std::abs(result.whole - area.value) <= 2 * area.error)
+    if (result.boundary_edges > 0 || std::abs(result.expected_area - area.value) <= 2 * area.error)
       return {};
     return "the areas sum to " + std::to_string(area.value) + " instead of 4 pi";
   }

@@ -30,7 +30,7 @@ void for_each_edge_of(const AnyMesh& mesh, std::int64_t begin, std::int64_t end,
         body(mesh.triangles((i + 1) % 3, t), mesh.triangles((i + 2) % 3, t));
 }
 
-/// \throws Error bad_option for a vertex outside the mesh.
+/// \throws Error invalid_argument for a vertex outside the mesh.
 template <class AnyMesh> void require_vertices(const AnyMesh& mesh) {
   if (are_ids(mesh.triangles, mesh.points.cols()))
     return;
@@ -46,7 +46,8 @@ struct EdgeCount {
   std::int64_t all = 0;
 };
 
-/// \throws Error bad_option if the mesh lacks neighbours, has a vertex outside of it, or more edges
+/// \throws Error invalid_argument if the mesh lacks neighbours, has a vertex outside of it, or more
+/// edges
 ///         and sites than most_points.
 template <class AnyMesh> EdgeCount count_edges(const AnyMesh& mesh) {
   const std::int64_t n = mesh.points.cols(), triangles = mesh.triangles.cols();

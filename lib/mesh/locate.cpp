@@ -290,7 +290,7 @@ Locations locate_in_plane(const PlanarMesh& mesh, const base_detail::Points2Ref&
             mesh.period.array() > 0)
         .any();
   };
-  require_positions(positions.cols(), is_far, ErrorCode::bad_option,
+  require_positions(positions.cols(), is_far, ErrorCode::invalid_argument,
                     " is more than 2^30 periods away; give its copy in the box");
   return locate_all(mesh, InPlane(mesh, positions), positions.cols());
 }

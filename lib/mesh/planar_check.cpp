@@ -189,7 +189,7 @@ struct InPlane : mesh_detail::Faces {
 
   void set_area(double sum, Check& result) const {
     result.area = std::ldexp(sum, -2 * scale);
-    result.whole = std::ldexp(whole().value, -2 * scale);
+    result.expected_area = std::ldexp(whole().value, -2 * scale);
   }
 
   /// In a box with a boundary the areas may sum to less.

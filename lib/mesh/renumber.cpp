@@ -103,9 +103,10 @@ void require_ids(const Mesh& mesh) {
   const std::int64_t sites = mesh.points.cols(), triangles = mesh.triangles.cols();
   if (!are_ids(mesh.triangles, sites) || mesh.neighbours.cols() != triangles ||
       !are_ids(mesh.neighbours, triangles, -1) || !are_ids(mesh.site_of_input, sites))
-    throw Error(ErrorCode::bad_option, "the mesh to renumber has an id out of range, or not the "
-                                       "neighbours of its triangles; give one as delaunay() or "
-                                       "read_mesh() makes it");
+    throw Error(ErrorCode::invalid_argument,
+                "the mesh to renumber has an id out of range, or not the "
+                "neighbours of its triangles; give one as delaunay() or "
+                "read_mesh() makes it");
 }
 
 /// Along the curve in the bounding box of points of the plane.

@@ -73,8 +73,8 @@ CellMeasures cell_measures(const Mesh& mesh, const Density& density) {
     return quality_detail::cell_measures_in_plane(mesh, density);
   evaluate(density, Points3(Eigen::Vector3d::UnitZ())); // throws if the density is ill-formed
   if (const Check found = check_surface(mesh); !found.passed())
-    throw Error(ErrorCode::bad_option, "the triangles do not form a surface: " + found.failure +
-                                           "; triangulate the points anew");
+    throw Error(ErrorCode::invalid_argument, "the triangles do not form a surface: " +
+                                                 found.failure + "; triangulate the points anew");
   using namespace quality_detail;
   const WithoutFlatHull part = without_flat_hull(with_unit_columns(mesh));
   CellMeasures measures = measure_cells(part.mesh, density);

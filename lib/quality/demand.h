@@ -15,7 +15,7 @@ namespace calotte::quality_detail {
 /// The integral of rho^(1/2) over the sphere: the 6-point rule on each triangle of the mesh, and on
 /// parts of it where the mesh is coarse.
 /// \param mesh closed, of unit columns.
-/// \throws Error bad_option as DensityEvaluator.
+/// \throws Error invalid_argument as DensityEvaluator.
 double root_integral(const Mesh& mesh, const Density& density);
 
 /// Sets the energy, its limit and the excess over it.
@@ -26,7 +26,7 @@ void set_energy(Quality& quality, double energy, double root_integral);
 /// between their centres fill the domain.
 /// \param points 3 x n, as the density takes them.
 /// \param root_integral r, of rho^(1/2) over the domain.
-/// \throws Error bad_option as DensityEvaluator.
+/// \throws Error invalid_argument as DensityEvaluator.
 DoubleVector inverse_spacings(const Points3& points, const Density& density, double root_integral);
 
 } // namespace calotte::quality_detail

@@ -55,10 +55,10 @@ template <class First> ErrorNorms off_centroid(const Voronoi& cells, const First
 bool require_delaunay(const Mesh& mesh) {
   const Check found = check_surface(mesh);
   if (!found.passed())
-    throw Error(ErrorCode::bad_option, "the triangles do not form a surface: " + found.failure +
-                                           "; triangulate the points anew");
+    throw Error(ErrorCode::invalid_argument, "the triangles do not form a surface: " +
+                                                 found.failure + "; triangulate the points anew");
   if (const std::int64_t edges = count_edges(mesh).not_delaunay; edges > 0)
-    throw Error(ErrorCode::bad_option,
+    throw Error(ErrorCode::invalid_argument,
                 std::to_string(edges) + " edges are not Delaunay, so that the mesh has no Voronoi "
                                         "cells; triangulate the points anew");
   return found.boundary_edges == 0;

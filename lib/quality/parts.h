@@ -134,7 +134,9 @@ inline bool is_obtuse(const Shape& shape) {
 
 inline bool is_short(const Edge& edge) { return edge.voronoi < short_voronoi_edge * edge.arc; }
 
-inline bool is_unfit(double fit) { return !(fit >= least_fit && fit <= greatest_fit); }
+inline bool is_mismatched(double fit) {
+  return !(fit >= least_dc_over_h && fit <= greatest_dc_over_h);
+}
 
 inline void add_triangle(TrianglePart& part, const Shape& shape) {
   const auto& [a, b, c] = shape.side;
@@ -148,7 +150,7 @@ inline void add_triangle(TrianglePart& part, const Shape& shape) {
 
 struct EdgePart {
   Tally spacing, off_centring, ratio; ///< ratio of the Voronoi edge to the Delaunay edge
-  std::int64_t short_edges = 0, unfit_edges = 0;
+  std::int64_t short_edges = 0, mismatched_edges = 0;
   std::vector<double> fits;
 
   void join(const EdgePart& other) {
@@ -156,7 +158,7 @@ struct EdgePart {
     off_centring.join(other.off_centring);
     ratio.join(other.ratio);
     short_edges += other.short_edges;
-    unfit_edges += other.unfit_edges;
+    mismatched_edges += other.mismatched_edges;
     fits.insert(fits.end(), other.fits.begin(), other.fits.end());
   }
 };
@@ -198,7 +200,7 @@ inline void add_edges(EdgePart& part, const Subject& subject, std::int64_t t) {
     part.spacing.add(edge.arc);
     if (subject.inverse_spacing.size() > 0) {
       part.fits.push_back(subject.fit(t, v));
-      part.unfit_edges += is_unfit(part.fits.back());
+      part.mismatched_edges += is_mismatched(part.fits.back());
     }
     if (!subject.has(t) || !subject.has(other))
       continue;
@@ -240,7 +242,7 @@ inline void add_cell(CellPart& part, const Subject& subject, std::int64_t site) 
     const int across = previous_vertex(corner.vertex);
     const Edge edge = edge_of(subject.shapes, corner.triangle, across, before.triangle,
                               next_vertex(before.vertex));
-    bad = bad || is_short(edge) || is_unfit(subject.fit(corner.triangle, across)) ||
+    bad = bad || is_short(edge) || is_mismatched(subject.fit(corner.triangle, across)) ||
           is_obtuse(subject.shapes[corner.triangle]);
     arcs.add(edge.arc);
     voronoi.add(edge.voronoi);
@@ -280,7 +282,7 @@ inline Quality measure_shapes(const Subject& subject, std::int64_t cells) {
   result.dv_over_dc = edges.ratio.range();
   result.dc_over_h = percentiles(edges.fits);
   result.short_edges = edges.short_edges;
-  result.unfit_edges = edges.unfit_edges;
+  result.mismatched_edges = edges.mismatched_edges;
   result.bad_cells = of_cells.bad_spacing.count;
   result.bad_spacing = of_cells.bad_spacing.range();
   return result;

@@ -69,11 +69,11 @@ public:
     }
     if (outline_.side(here) == Side::outside)
       return false;
-    if (!near_shore(outline_, here, cell))
+    if (!near_boundary(outline_, here, cell))
       return true;
     const std::vector<CellSide> sides = clipped_cell(outline_, here, std::move(cell));
     return std::none_of(sides.begin(), sides.end(),
-                        [](const CellSide& side) { return side.shore; });
+                        [](const CellSide& side) { return side.boundary; });
   }
 
 private:
@@ -267,8 +267,8 @@ Quality quality_detail::quality_in_plane(const Mesh& mesh, const Density& densit
 
 Quality quality_detail::measure_open_plane(const PlanarMesh& mesh, bool cells) {
   if (const Check found = check_surface(mesh); !found.passed())
-    throw Error(ErrorCode::bad_option, "the triangles do not form a surface: " + found.failure +
-                                           "; triangulate the points anew");
+    throw Error(ErrorCode::invalid_argument, "the triangles do not form a surface: " +
+                                                 found.failure + "; triangulate the points anew");
   const Points3 points = with_z(mesh.points);
   const Subject subject{mesh.triangles,
                         mesh.neighbours,

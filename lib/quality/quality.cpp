@@ -63,7 +63,7 @@ MomentPart add_moments(const Mesh& mesh, const Density& density) {
 double require_closed_delaunay(const Mesh& mesh) {
   const Check found = require_voronoi_mesh(mesh);
   if (found.boundary_edges > 0)
-    throw Error(ErrorCode::bad_option,
+    throw Error(ErrorCode::invalid_argument,
                 "the mesh is open, as all its sites lie in a hemisphere, and its Voronoi cells do "
                 "not tessellate the sphere: give sites all around");
   return found.area;
@@ -72,7 +72,7 @@ double require_closed_delaunay(const Mesh& mesh) {
 Quality measure(const Mesh& mesh, const Density& density) {
   const MomentPart moments = add_moments(mesh, density);
   if (const std::int64_t i = moments.without_centroid; i >= 0)
-    throw Error(ErrorCode::bad_option,
+    throw Error(ErrorCode::invalid_argument,
                 "the density is zero over the whole cell of site " + std::to_string(i) +
                     ": make it positive everywhere",
                 i);
@@ -114,8 +114,8 @@ Quality measure_open(const Mesh& mesh, bool cells) {
     return measure_open_plane(mesh_detail::planar(mesh), cells);
   const Check found = check_surface(mesh);
   if (!found.passed())
-    throw Error(ErrorCode::bad_option, "the triangles do not form a surface: " + found.failure +
-                                           "; triangulate the points anew");
+    throw Error(ErrorCode::invalid_argument, "the triangles do not form a surface: " +
+                                                 found.failure + "; triangulate the points anew");
   const Mesh unit = without_flat_hull(with_unit_columns(mesh)).mesh;
   const Subject subject{unit.triangles, unit.neighbours, {}, make_shapes(unit), {}, {}, {}};
   Quality result = measure_shapes(subject, 0);

@@ -12,7 +12,7 @@ namespace calotte::quality_detail {
 /// of cocircular sites, which make the same cells.
 /// \param mesh of the sphere or the plane.
 /// \returns what check() or, with such diagonals, check_surface() finds.
-/// \throws Error bad_option.
+/// \throws Error invalid_argument.
 template <class AnyMesh> Check require_voronoi_mesh(const AnyMesh& mesh) {
   Check found = check(mesh);
   if (found.passed())
@@ -22,7 +22,7 @@ template <class AnyMesh> Check require_voronoi_mesh(const AnyMesh& mesh) {
   const EdgeCounts edges = found.passed() ? count_edges(mesh) : EdgeCounts{};
   if (edges.cocircular == 0 || edges.not_delaunay > 0 || edges.not_convex > 0 ||
       edges.unused_sites > 0)
-    throw Error(ErrorCode::bad_option,
+    throw Error(ErrorCode::invalid_argument,
                 "the mesh is not the Delaunay triangulation of its points, so it has no Voronoi "
                 "cells: " +
                     failure + "; triangulate the points anew");

@@ -60,7 +60,7 @@ WholeCells whole_cells(const Mesh& mesh) {
       out.site.push_back(site);
     }
   if (out.site.empty())
-    throw Error(ErrorCode::bad_option,
+    throw Error(ErrorCode::invalid_argument,
                 "triangles surround no site of the open mesh, so that it has no whole cell");
   std::vector<std::int32_t> vertex(static_cast<std::size_t>(mesh.triangles.cols()), -1);
   for (const std::int32_t t : used)

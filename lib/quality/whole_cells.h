@@ -18,7 +18,7 @@ struct WholeCells {
 };
 
 /// \param mesh of unit columns; Delaunay, but for cocircular sites.
-/// \throws Error bad_option if triangles surround no site.
+/// \throws Error invalid_argument if triangles surround no site.
 WholeCells whole_cells(const Mesh& mesh);
 
 } // namespace calotte::quality_detail

@@ -6,9 +6,9 @@
 #include "domain/planar_domain.h"
 #include "mesh/ids.h"
 #include "mesh/planar_mesh.h"
+#include "voronoi/boundary_walk.h"
 #include "voronoi/groups.h"
 #include "voronoi/open.h"
-#include "voronoi/shore.h"
 
 #include <calotte/error.h>
 
@@ -20,8 +20,8 @@
 #include <vector>
 
 // The Voronoi cells of a bounded plane. The boundary's vertices form closed walks in the
-// triangulation (shore.h). How often these turn around a triangle tells whether its circumcentre is
-// inside, and on each Voronoi edge the ends alternate: no rounding makes cells that do not fit.
+// triangulation (boundary.h). How often these turn around a triangle tells whether its circumcentre
+// is inside, and on each Voronoi edge the ends alternate: no rounding makes cells that do not fit.
 
 namespace calotte::voronoi_detail {
 namespace {
@@ -44,10 +44,11 @@ struct DelaunayEdge {
 };
 
 [[noreturn]] void refuse_edge(const DelaunayEdge& edge) {
-  throw Error(ErrorCode::bad_option, "the edge from site " + std::to_string(edge.low) + " to " +
-                                         std::to_string(edge.high) +
-                                         " has several triangles on one side: triangulate the "
-                                         "points anew");
+  throw Error(ErrorCode::invalid_argument,
+              "the edge from site " + std::to_string(edge.low) + " to " +
+                  std::to_string(edge.high) +
+                  " has several triangles on one side: triangulate the "
+                  "points anew");
 }
 
 /// Sorted by their sites.
@@ -87,7 +88,7 @@ Neighbours neighbours_of(const std::vector<DelaunayEdge>& edges, std::int64_t si
       ++out.begin[static_cast<std::size_t>(site) + 1];
   for (std::size_t i = 1; i < out.begin.size(); ++i) {
     if (out.begin[i] == 0)
-      throw Error(ErrorCode::bad_option,
+      throw Error(ErrorCode::invalid_argument,
                   "site " + std::to_string(i - 1) +
                       " is not a vertex of any triangle: triangulate the points anew",
                   static_cast<std::int64_t>(i) - 1);
@@ -117,12 +118,12 @@ struct Crossing {
 };
 
 /// In their order on each edge.
-std::vector<Crossing> crossings_of(const std::vector<std::vector<ShoreVertex>>& rings,
+std::vector<Crossing> crossings_of(const std::vector<std::vector<BoundaryVertex>>& rings,
                                    const std::vector<DelaunayEdge>& edges, const Points2& sites) {
   std::vector<Crossing> crossings;
   std::int32_t vertex = 0;
   for (const auto& ring : rings)
-    for (const ShoreVertex& at : ring) {
+    for (const BoundaryVertex& at : ring) {
       const std::int32_t own = vertex++;
       if (!at.crossing())
         continue;
@@ -220,7 +221,7 @@ struct Side {
 /// Of the Voronoi edges: the parts of each start and end in turn.
 void add_inner_sides(const std::vector<DelaunayEdge>& edges, const std::vector<Crossing>& crossings,
                      const std::vector<std::int32_t>& vertex_of_triangle,
-                     std::int32_t first_of_shore, std::vector<Side>& sides) {
+                     std::int32_t first_of_boundary, std::vector<Side>& sides) {
   const auto vertex_of = [&](std::int32_t triangle) {
     return triangle < 0 ? none : vertex_of_triangle[static_cast<std::size_t>(triangle)];
   };
@@ -233,7 +234,7 @@ void add_inner_sides(const std::vector<DelaunayEdge>& edges, const std::vector<C
     if (first >= 0)
       starts.push_back(first);
     for (; crossing != crossings.end() && crossing->edge == e; ++crossing)
-      (crossing->starts ? starts : ends).push_back(first_of_shore + crossing->vertex);
+      (crossing->starts ? starts : ends).push_back(first_of_boundary + crossing->vertex);
     if (last >= 0)
       ends.push_back(last);
     for (std::size_t k = 0; k < std::min(starts.size(), ends.size()); ++k) {
@@ -243,8 +244,8 @@ void add_inner_sides(const std::vector<DelaunayEdge>& edges, const std::vector<C
   }
 }
 
-void add_shore_sides(const std::vector<std::vector<ShoreVertex>>& rings, std::int32_t first_vertex,
-                     std::vector<Side>& sides) {
+void add_boundary_sides(const std::vector<std::vector<BoundaryVertex>>& rings,
+                        std::int32_t first_vertex, std::vector<Side>& sides) {
   for (const auto& ring : rings) {
     const auto size = static_cast<std::int32_t>(ring.size());
     for (std::int32_t k = 0; k < size; ++k)
@@ -255,7 +256,7 @@ void add_shore_sides(const std::vector<std::vector<ShoreVertex>>& rings, std::in
 }
 
 [[noreturn]] void refuse_cell(std::int32_t cell) {
-  throw Error(ErrorCode::bad_option,
+  throw Error(ErrorCode::invalid_argument,
               "the domain's boundary cuts the Voronoi cell of site " + std::to_string(cell) +
                   " into several parts, or encloses an island in it, and a cell is one polygon; "
                   "give more sites there",
@@ -305,7 +306,7 @@ void set_cells(std::vector<Side> sides, std::int64_t cells, Voronoi& out) {
 }
 
 void set_vertices(const PlanarMesh& mesh, const std::vector<std::int32_t>& vertex_of_triangle,
-                  const std::vector<std::vector<ShoreVertex>>& rings, std::int32_t inner,
+                  const std::vector<std::vector<BoundaryVertex>>& rings, std::int32_t inner,
                   Voronoi& out) {
   std::int64_t count = inner;
   for (const auto& ring : rings)
@@ -316,13 +317,13 @@ void set_vertices(const PlanarMesh& mesh, const std::vector<std::int32_t>& verte
       set_column(out.vertices, v, circumcentre_of(mesh.points, mesh.triangles, t));
   std::int64_t v = inner;
   for (const auto& ring : rings)
-    for (const ShoreVertex& at : ring)
+    for (const BoundaryVertex& at : ring)
       set_column(out.vertices, v++, {at.place.x, at.place.y, 0});
 }
 
 Voronoi bounded(const PlanarMesh& mesh, const Outline& outline) {
   const std::vector<DelaunayEdge> edges = delaunay_edges(mesh.triangles, mesh.points.cols());
-  const auto rings = walk_shore(outline, mesh.points, neighbours_of(edges, mesh.points.cols()));
+  const auto rings = walk_boundary(outline, mesh.points, neighbours_of(edges, mesh.points.cols()));
   const std::vector<Crossing> crossings = crossings_of(rings, edges, mesh.points);
   std::vector<int> starts(edges.size());
   for (const Crossing& crossing : crossings)
@@ -341,7 +342,7 @@ Voronoi bounded(const PlanarMesh& mesh, const Outline& outline) {
   set_vertices(mesh, vertex_of_triangle, rings, inner, out);
   std::vector<Side> sides;
   add_inner_sides(edges, crossings, vertex_of_triangle, inner, sides);
-  add_shore_sides(rings, inner, sides);
+  add_boundary_sides(rings, inner, sides);
   set_cells(std::move(sides), mesh.points.cols(), out);
   connect_open(out);
   measure_open(out);

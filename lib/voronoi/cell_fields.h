@@ -12,7 +12,7 @@
 namespace calotte::voronoi_detail {
 
 /// The density at the cells divided by its maximum; empty if it is uniform.
-/// \throws Error bad_option, as cell_fields().
+/// \throws Error invalid_argument, as cell_fields().
 DoubleVector relative_density(const Voronoi& voronoi, const Density& density);
 
 double spacing_at(const Voronoi& voronoi, std::int64_t cell); ///< CellFields::spacing

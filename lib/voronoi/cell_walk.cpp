@@ -55,8 +55,9 @@ std::int32_t CellWalk::locate(std::int32_t near, const Vec3& place) const {
 }
 
 void CellWalk::lose() {
-  throw Error(ErrorCode::bad_option, "a line leaves the cells of the mesh, which do not cover the "
-                                     "sphere; give a global mesh");
+  throw Error(ErrorCode::invalid_argument,
+              "a line leaves the cells of the mesh, which do not cover the "
+              "sphere; give a global mesh");
 }
 
 } // namespace calotte::voronoi_detail

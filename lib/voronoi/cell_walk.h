@@ -23,14 +23,15 @@ public:
 
   /// The cell that contains a unit vector. \param near a cell; the time is the number of cells on
   /// the way from it.
-  /// \throws Error bad_option, if there is no walk.
+  /// \throws Error invalid_argument, if there is no walk.
   std::int32_t locate(std::int32_t near, const Vec3& place) const;
 
   /// Walks along an arc from the cell that contains its start.
   /// \param cross called as cross(cell, k) before the walk leaves a cell through the edge at place
   ///        k of its lists.
   /// \returns the cell that contains the end.
-  /// \throws Error bad_option, if there is no walk, as in a mesh that does not cover the sphere.
+  /// \throws Error invalid_argument, if there is no walk, as in a mesh that does not cover the
+  /// sphere.
   template <class Cross>
   std::int32_t walk(std::int32_t cell, const Arc& arc, const Cross& cross) const {
     for (std::int64_t steps = 0; steps <= cells_.cells.cols(); ++steps) {

@@ -19,12 +19,13 @@ struct Rings {
 
 /// The first of two stages that set the ids of the tessellation dual to a closed surface: begin.
 /// \pre as many neighbours as triangles; at most 2^29 sites.
-/// \throws Error bad_option if ids are out of range, the neighbours do not match the triangles, or
+/// \throws Error invalid_argument if ids are out of range, the neighbours do not match the
+/// triangles, or
 ///         the triangles at a site do not form one ring.
 Rings find_rings(const Faces& surface, Voronoi& out);
 
 /// Sets the other lists, pairs and triples, but for cells_on_vertex, the surface's triangles.
-/// \throws Error bad_option if two cells share two edges.
+/// \throws Error invalid_argument if two cells share two edges.
 void connect(const Faces& surface, const Rings& rings, Voronoi& out);
 
 } // namespace calotte::voronoi_detail

@@ -23,7 +23,7 @@ namespace calotte::voronoi_detail {
 namespace {
 
 [[noreturn]] void refuse(std::int64_t site, const std::string& problem) {
-  throw Error(ErrorCode::bad_option,
+  throw Error(ErrorCode::invalid_argument,
               "the mesh is open, and its boundary is not the hull of its sites: " + problem +
                   "; use the cells of its file, or triangulate the points anew",
               site);

@@ -26,7 +26,7 @@ namespace {
 constexpr std::int32_t none = -1;
 
 [[noreturn]] void refuse(const std::string& problem, std::int64_t index) {
-  throw Error(ErrorCode::bad_option, problem, index);
+  throw Error(ErrorCode::invalid_argument, problem, index);
 }
 
 // ---- Edges

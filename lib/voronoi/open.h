@@ -11,8 +11,8 @@ namespace calotte::voronoi_detail {
 /// Sets the other lists, pairs and triples of ids from `begin` and `vertices_on_cell`. Edges
 /// between two cells come first, sorted by these; those of one cell follow, in the order of cells.
 /// Around a vertex without missing cells the list starts with the lowest. \pre begin and
-/// vertices_on_cell are in range; each vertex is on a cell. \throws Error bad_option, naming the
-/// cell or vertex, for cells that overlap, for a vertex with
+/// vertices_on_cell are in range; each vertex is on a cell. \throws Error invalid_argument, naming
+/// the cell or vertex, for cells that overlap, for a vertex with
 ///         more than three edges, and for one between two cells only that is not on the boundary.
 void connect_open(Voronoi& out);
 

@@ -19,15 +19,15 @@ struct BegunVoronoi {
 };
 
 /// Takes the triangles and their neighbours out of the mesh, which keeps its points.
-/// \throws Error bad_option, as voronoi(mesh).
+/// \throws Error invalid_argument, as voronoi(mesh).
 BegunVoronoi begun(Mesh& mesh);
 
 /// The cells of a part of the plane, which clips them.
-/// \throws Error bad_option, as voronoi(mesh).
+/// \throws Error invalid_argument, as voronoi(mesh).
 Voronoi bounded(const PlanarMesh& mesh, const PlanarDomain& domain);
 
 /// Sets all other ids; frees the rings and the neighbours.
-/// \throws Error bad_option if two cells share two edges.
+/// \throws Error invalid_argument if two cells share two edges.
 void connect(BegunVoronoi& out);
 
 } // namespace calotte::voronoi_detail

@@ -59,7 +59,7 @@ void set_places(const Mesh& mesh, Voronoi& out) {
   fault.refuse("site", "lies outside the periodic box: give the copy of it that is inside");
 }
 
-/// \throws Error bad_option for a mesh that does not cover its space.
+/// \throws Error invalid_argument for a mesh that does not cover its space.
 void set_space(const Mesh& mesh, Voronoi& out) {
   if (mesh.surface.is_sphere()) {
     require(mesh.closed(), "the mesh is open, and a grid of its cells would reach round the far "

@@ -22,7 +22,7 @@ static calotte_error error = {.size = sizeof error};
 
 /* The status is that of a bad option, and the message holds a text. */
 static void refuses(calotte_status status, const char* text) {
-  const int holds = status == CALOTTE_BAD_OPTION && strstr(error.message, text) != NULL;
+  const int holds = status == CALOTTE_INVALID_ARGUMENT && strstr(error.message, text) != NULL;
   if (!holds)
     fprintf(stderr, "c_example: status %d: %s\n", (int)status, error.message);
   expect(holds, text);
@@ -269,14 +269,14 @@ static void sizes(void) {
   recipe.size = (size_t)-1;
   refuses(calotte_make_grid(&recipe, NULL, NULL, &mesh, NULL, &error), "sizeof(calotte_recipe)");
   refuses(calotte_make_grid(NULL, NULL, NULL, &mesh, NULL, &error), "calotte_recipe is null");
-  expect(calotte_make_grid(NULL, NULL, NULL, &mesh, NULL, &brief) == CALOTTE_BAD_OPTION &&
+  expect(calotte_make_grid(NULL, NULL, NULL, &mesh, NULL, &brief) == CALOTTE_INVALID_ARGUMENT &&
              strlen(brief.message) == 7 && strcmp(brief.message + 8, " text") != 0,
          "a short message");
   expect(strcmp(brief.message + 10, "text") == 0, "nothing beyond it is written");
   brief.size = 0;
   recipe.size = sizeof recipe;
   recipe.iterations = 0;
-  expect(calotte_make_grid(&recipe, NULL, NULL, &mesh, NULL, &brief) == CALOTTE_BAD_OPTION &&
+  expect(calotte_make_grid(&recipe, NULL, NULL, &mesh, NULL, &brief) == CALOTTE_INVALID_ARGUMENT &&
              mesh == NULL,
          "an error without a size");
 }
@@ -300,7 +300,7 @@ static void runs(void) {
   recipe.density = density;
   calotte_set_threads(1);
   succeeds(calotte_make_grid(&recipe, NULL, NULL, &mesh, &report, &error), "a graded grid");
-  expect(report.well_centred == 1 && report.misshapen_cells == 0, "it is well-centred");
+  expect(report.well_centred == 1 && report.cells_beyond_limits == 0, "it is well-centred");
   calotte_set_threads(2);
   again = grid_of(&recipe, "the same with two threads");
   calotte_set_threads(0);
@@ -519,7 +519,7 @@ static void errors(void) {
   refuses(calotte_delaunay(NULL, 3, NULL, &mesh, &error), "the points are a null pointer");
   refuses(calotte_delaunay(xyz, -1, NULL, &mesh, &error), "-1");
   refuses(calotte_delaunay(xyz, 3, NULL, NULL, &error), "receives the mesh");
-  expect(calotte_delaunay(xyz, -1, NULL, &mesh, NULL) == CALOTTE_BAD_OPTION, "without an error");
+  expect(calotte_delaunay(xyz, -1, NULL, &mesh, NULL) == CALOTTE_INVALID_ARGUMENT, "without an error");
   expect(calotte_read("no such file.nc", &mesh, &error) == CALOTTE_FILE, "no file");
   expect(strstr(error.message, "no such file.nc") != NULL, "a message with its name");
   refuses(calotte_voronoi(mesh, &cells, &error), "null pointer");

@@ -48,7 +48,7 @@ module calotte
 
   type, bind(c) :: calotte_report
     integer(c_size_t) :: size = 0
-    integer(c_int64_t) :: converged = 0, well_centred = 0, misshapen_cells = 0, worst_cell = 0
+    integer(c_int64_t) :: converged = 0, well_centred = 0, cells_beyond_limits = 0, worst_cell = 0
     integer(c_int64_t) :: iterations = 0
     real(c_double) :: residual = 0, energy = 0, seconds = 0
   end type

@@ -119,19 +119,20 @@ struct Run {
 };
 
 Run run_of(const Case& here, std::int64_t cells) {
-  const Points3 shore = boundary_points(here.region, cells, here.density);
+  const Points3 boundary = boundary_points(here.region, cells, here.density);
   Run run;
   run.options.density = here.density;
-  run.options.fixed = shore.cols();
+  run.options.fixed = boundary.cols();
   run.options.boundary = Boundary::generators;
   run.options.cells = cells;
   run.options.insertion_rounds = 2;
   run.options.tolerance = 3e-4;
   run.options.well_centred = true;
-  const test::FirstGenerators from = test::multilevel(cells, here.region, here.density, 1, shore);
+  const test::FirstGenerators from =
+      test::multilevel(cells, here.region, here.density, 1, boundary);
   run.options.bisections = from.bisections;
-  run.start.resize(3, shore.cols() + from.start.cols());
-  run.start << shore, from.start;
+  run.start.resize(3, boundary.cols() + from.start.cols());
+  run.start << boundary, from.start;
   return run;
 }
 

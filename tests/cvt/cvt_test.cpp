@@ -24,6 +24,7 @@
 
 using namespace calotte;
 using namespace calotte::integrals_detail;
+using cvt_detail::State;
 using test::x8;
 
 namespace {
@@ -34,8 +35,9 @@ constexpr double pi = std::numbers::pi;
 void check_descent(const CvtReport& report) {
   const CvtIteration* before = nullptr;
   for (const CvtIteration& iteration : report.iterations) {
-    const bool same =
-        before != nullptr && before->cells == iteration.cells && before->rule == iteration.rule;
+    const bool same = before != nullptr && before->cells == iteration.cells &&
+                      before->rule == iteration.rule &&
+                      before->linear_density == iteration.linear_density;
     if (!iteration.accepted)
       continue;
     if (same)
@@ -54,19 +56,19 @@ void check_random_start(const Density& density, Method method) {
   options.density = density;
   options.method = method;
   options.max_iterations = 40;
-  const auto with = [&](std::size_t threads, int regions, Sort sort) {
+  const auto with = [&](std::size_t threads, int regions, Overlap overlap) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     options.partition.regions = regions;
-    options.partition.sort = sort;
+    options.partition.overlap = overlap;
     return spherical_cvt(random_sphere(1700, 4), options);
   };
-  const Cvt one = with(1, 1, Sort::halo);
+  const Cvt one = with(1, 1, Overlap::halo);
   CHECK(!one.report.converged);
   CHECK(one.report.iterations.size() >= 40);
   CHECK(check(one.mesh).failure == "");
   check_descent(one.report);
-  for (const Cvt& other : {with(4, 12, Sort::halo), with(2, 42, Sort::distance),
-                           with(3, 2, Sort::voronoi), with(2, 300, Sort::halo)}) {
+  for (const Cvt& other : {with(4, 12, Overlap::halo), with(2, 42, Overlap::distance),
+                           with(3, 2, Overlap::voronoi), with(2, 300, Overlap::halo)}) {
     CHECK((one.mesh.points == other.mesh.points));
     CHECK((one.mesh.triangles == other.mesh.triangles));
     for (std::size_t k = 0; k < one.report.iterations.size(); ++k) {
@@ -192,11 +194,11 @@ TEST_CASE("a state that no run has left is refused") {
   });
   CHECK_NOTHROW(spherical_cvt(good, options));
   std::vector<CvtState> bad(5, good);
-  bad[0].data().id[3] = bad[0].data().id[4];
-  bad[1].data().id.pop_back();
-  bad[2].data().points(0, 7) = std::nan("");
-  bad[3].data().points *= 2;
-  bad[4].data().site_of_input[0] = 50;
+  State::of(bad[0]).id[3] = State::of(bad[0]).id[4];
+  State::of(bad[1]).id.pop_back();
+  State::of(bad[2]).points(0, 7) = std::nan("");
+  State::of(bad[3]).points *= 2;
+  State::of(bad[4]).site_of_input[0] = 50;
   for (const CvtState& state : bad)
     CHECK_THROWS_AS(spherical_cvt(state, options), Error);
 }
@@ -258,8 +260,8 @@ TEST_CASE("the report counts the regions' sites and their seconds") {
   options.max_iterations = 3;
   options.norm = Norm::none;
   const Points3 start = bisected_icosahedron(5);
-  for (const Sort sort : {Sort::halo, Sort::distance, Sort::voronoi}) {
-    options.partition.sort = sort;
+  for (const Overlap overlap : {Overlap::halo, Overlap::distance, Overlap::voronoi}) {
+    options.partition.overlap = overlap;
     const CvtReport report = spherical_cvt(start, options).report;
     std::int64_t sites = 0;
     for (const CvtRegion& region : report.regions) {
@@ -422,43 +424,43 @@ TEST_CASE("bad input is refused in one line") {
   half.row(2) = half.row(2).cwiseAbs();
   CHECK(code(half, options) == ErrorCode::too_few_sites);
   options.tolerance = 0;
-  CHECK(code(start, options) == ErrorCode::bad_option);
+  CHECK(code(start, options) == ErrorCode::invalid_argument);
   for (const double relaxation : {0.9, 2.0, std::nan("")}) {
     options = {};
     options.relaxation = relaxation;
-    CHECK(code(start, options) == ErrorCode::bad_option);
+    CHECK(code(start, options) == ErrorCode::invalid_argument);
   }
   for (const int divisions : {0, 101}) {
     options = {};
     options.triangle_divisions = divisions;
-    CHECK(code(start, options) == ErrorCode::bad_option);
+    CHECK(code(start, options) == ErrorCode::invalid_argument);
   }
   for (const int bisections : {-1, 12, 100}) {
     options = {};
     options.bisections = bisections;
-    CHECK(code(start, options) == ErrorCode::bad_option);
+    CHECK(code(start, options) == ErrorCode::invalid_argument);
   }
   options = {};
   options.bisections = 11; // 411 million generators
   options.method = Method::lbfgs_laplacian;
-  CHECK(code(start, options) == ErrorCode::bad_option);
+  CHECK(code(start, options) == ErrorCode::invalid_argument);
   options = {};
   options.rule = 5;
-  CHECK(code(start, options) == ErrorCode::bad_option);
+  CHECK(code(start, options) == ErrorCode::invalid_argument);
   options = {};
   options.density = tanh_bump({0, 0, 1}, 0.5, 0.2, 0);
-  CHECK(code(start, options) == ErrorCode::bad_option);
+  CHECK(code(start, options) == ErrorCode::invalid_argument);
   options.density.kind = Density::Kind::callable;
   options.density.callable = [](const Eigen::Ref<const Points3>&, Eigen::Ref<Eigen::VectorXd> rho) {
     rho.setZero();
   };
-  CHECK(code(start, options) == ErrorCode::bad_option);
+  CHECK(code(start, options) == ErrorCode::invalid_argument);
   options.density.callable = [](const Eigen::Ref<const Points3>&, Eigen::Ref<Eigen::VectorXd> rho) {
     rho.setConstant(-1);
   };
-  CHECK(code(start, options) == ErrorCode::bad_option);
+  CHECK(code(start, options) == ErrorCode::invalid_argument);
   options.density.callable = [](const Eigen::Ref<const Points3>&, Eigen::Ref<Eigen::VectorXd> rho) {
     rho.setConstant(std::nan(""));
   };
-  CHECK(code(start, options) == ErrorCode::bad_option);
+  CHECK(code(start, options) == ErrorCode::invalid_argument);
 }

@@ -325,8 +325,8 @@ TEST_CASE("fixed generators: a refined part of a grid is well-centred [slow]") {
   CHECK(grid.mesh.points.leftCols(fixed.cols()) == fixed);
   CHECK(check(grid.mesh).passed());
   // No cell is squeezed: of a start anywhere, thousands are.
-  CHECK(grid.report.misshapen_cells <= 2);
-  CHECK(grid.report.iterations.back().misshapen < 0.1);
+  CHECK(grid.report.cells_beyond_limits <= 2);
+  CHECK(grid.report.iterations.back().shape_excess < 0.1);
 }
 
 TEST_CASE("fixed generators in the plane: free ones start where these leave room") {

@@ -182,5 +182,5 @@ TEST_CASE("glide: in a periodic box, a rectangle and a region of the sphere") {
   options.well_centred = true;
   const Cvt grid = spherical_cvt(start, region, options);
   CHECK(grid.report.well_centred);
-  CHECK(grid.report.iterations.back().misshapen <= 0.03);
+  CHECK(grid.report.iterations.back().shape_excess <= 0.03);
 }

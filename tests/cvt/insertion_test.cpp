@@ -65,7 +65,7 @@ Mesh relaxed(std::int64_t n, const Density& density) {
 std::string message_of(const Mesh& mesh, const Density& density, std::int64_t inserted,
                        std::int64_t contracted) {
   try {
-    insert_and_contract(mesh, density, inserted, contracted);
+    split_and_collapse(mesh, density, inserted, contracted);
   } catch (const Error& error) {
     return error.what();
   }
@@ -84,7 +84,7 @@ std::int64_t odd_sites(const Mesh& mesh) {
 
 TEST_CASE("insertion: counts, unit columns, and points that stay keep their bits and order") {
   const Mesh mesh = relaxed(2000, x8());
-  const Points3 points = insert_and_contract(mesh, x8(), 30, 20);
+  const Points3 points = split_and_collapse(mesh, x8(), 30, 20);
   REQUIRE(points.cols() == 2010);
   CHECK(((points.colwise().norm().array() - 1).abs() < 1e-15).all());
   CHECK(places_of(points).size() == 2010); // distinct
@@ -116,9 +116,9 @@ TEST_CASE("insertion: the longest edges are split and the shortest contracted") 
   const auto middle_of = [&](const Edge& e) {
     return Eigen::Vector3d((points.col(e.a) + points.col(e.b)).normalized());
   };
-  CHECK(has(insert_and_contract(moved, Density{}, 1, 0), middle_of(sorted.back())));
-  CHECK(has(insert_and_contract(moved, Density{}, 0, 1), middle_of(sorted.front())));
-  CHECK(!has(insert_and_contract(moved, Density{}, 0, 1), points.col(sorted.front().b)));
+  CHECK(has(split_and_collapse(moved, Density{}, 1, 0), middle_of(sorted.back())));
+  CHECK(has(split_and_collapse(moved, Density{}, 0, 1), middle_of(sorted.front())));
+  CHECK(!has(split_and_collapse(moved, Density{}, 0, 1), points.col(sorted.front().b)));
 }
 
 TEST_CASE("insertion: the choice does not depend on the numbers of the points") {
@@ -128,7 +128,7 @@ TEST_CASE("insertion: the choice does not depend on the numbers of the points") 
   std::shuffle(order.begin(), order.end(), std::mt19937(5));
   const Points3 shuffled = points(Eigen::all, order);
   const auto of = [](const Points3& start) {
-    const Points3 out = insert_and_contract(spherical_delaunay(start), x8(), 40, 40);
+    const Points3 out = split_and_collapse(spherical_delaunay(start), x8(), 40, 40);
     Points3 rounded = (out.array() * 1e12).round(); // a + b and b + a round alike; a midpoint's
     return places_of(rounded);                      // place in the sum may not
   };
@@ -138,8 +138,8 @@ TEST_CASE("insertion: the choice does not depend on the numbers of the points") 
 TEST_CASE("insertion: small meshes give what they can") {
   const Mesh icosahedron = spherical_delaunay(bisected_icosahedron(0));
   for (const std::int64_t count : {1, 5, 1000}) {
-    const std::int64_t more = insert_and_contract(icosahedron, Density{}, count, 0).cols(),
-                       fewer = insert_and_contract(icosahedron, Density{}, 0, count).cols();
+    const std::int64_t more = split_and_collapse(icosahedron, Density{}, count, 0).cols(),
+                       fewer = split_and_collapse(icosahedron, Density{}, 0, count).cols();
     CHECK(more >= 13);
     CHECK(more <= 12 + std::min<std::int64_t>(count, 2));
     CHECK(fewer <= 11);
@@ -166,7 +166,7 @@ TEST_CASE("insertion: sites with 8 neighbours lose some") {
   REQUIRE(pole_of(mesh) == 8);
   const std::int64_t odd = odd_sites(mesh);
   REQUIRE(odd >= 1);
-  const Points3 out = insert_and_contract(mesh, Density{}, odd, 0);
+  const Points3 out = split_and_collapse(mesh, Density{}, odd, 0);
   const bool near_pole =
       ((out.rightCols(out.cols() - points.cols()).row(2).array()) > std::sqrt(1 - 0.02)).any();
   CHECK(near_pole);
@@ -185,7 +185,7 @@ TEST_CASE("insertion: where the density is 0, nothing is demanded") {
   const double demanded = cvt_detail::dislocations(mesh, half);
   CHECK(demanded > 0);
   CHECK(demanded < 1000);
-  const Points3 points = insert_and_contract(mesh, half, 20, 20);
+  const Points3 points = split_and_collapse(mesh, half, 20, 20);
   CHECK(points.cols() == 1000);
   CHECK(points.allFinite());
 }
@@ -195,7 +195,7 @@ TEST_CASE("insertion: in the plane midpoints lie inside the domain or the box") 
   corner.rings.push_back((Eigen::MatrixXd(2, 6) << 0, 2, 2, 1, 1, 0, 0, 0, 1, 1, 2, 2).finished());
   const Density fine = tanh_bump({0.5, 0.5, 0}, 0.3, 0.2, 1.0 / 256);
   const PlanarMesh mesh = planar_delaunay(random_places(600, corner, 2));
-  const Points2 points = insert_and_contract(in_domain(corner, mesh), fine, 25, 15).topRows<2>();
+  const Points2 points = split_and_collapse(in_domain(corner, mesh), fine, 25, 15).topRows<2>();
   CHECK(points.cols() == 610);
   for (const auto& x : points.colwise()) {
     CHECK(x.minCoeff() > 0);
@@ -204,7 +204,7 @@ TEST_CASE("insertion: in the plane midpoints lie inside the domain or the box") 
   PlanarDomain box;
   box.period = {3, 2};
   const PlanarMesh periodic = periodic_delaunay(random_places(500, box, 2), box.period);
-  const Points2 inside = insert_and_contract(periodic, fine, 10, 10).topRows<2>();
+  const Points2 inside = split_and_collapse(periodic, fine, 10, 10).topRows<2>();
   CHECK(inside.cols() == 500);
   CHECK(inside.minCoeff() >= 0);
   CHECK((inside.row(0).array() < 3).all());

@@ -39,7 +39,7 @@ Points3 near_optimum(const Density& density, std::int64_t cells) {
   options.tolerance = 1e-2;
   Points3 points;
   spherical_cvt(from.start, options, [&](const CvtProgress& now) {
-    points = now.state.data().points;
+    points = State::of(now.state).points;
     return false;
   });
   return points;

@@ -134,7 +134,7 @@ TEST_CASE("stages: a finish gives the shapes that models require [slow]") {
       CHECK(grid.mesh.points.cols() == 3001);
       CHECK(grid.report.converged);
       CHECK(grid.report.well_centred);
-      CHECK(grid.report.iterations.back().misshapen <= 0.03);
+      CHECK(grid.report.iterations.back().shape_excess <= 0.03);
       CHECK(check(grid.mesh).failure == "");
       check_shapes(grid.mesh);
       CHECK(grid.report.residual < 0.02);
@@ -149,8 +149,8 @@ TEST_CASE("stages: in each descent every accepted step lowers the energy") {
   std::tuple<int, int, int, int> rule_and_stage;
   spherical_cvt(start_of(160, x8()), options, [&](const CvtProgress& now) {
     const CvtIteration& here = now.report.iterations.back();
-    const cvt_detail::State& state = now.state.data();
-    if (state.penalty > 0 || !here.accepted) // a finish minimises another function
+    const cvt_detail::State& state = cvt_detail::State::of(now.state);
+    if (state.penalty > 0 || !here.accepted) // a polish minimises another function
       return false;
     const std::tuple now_in(here.rule, now.bisections_left, now.rounds_left, state.glides);
     const bool same = now.iterations_of_level > 1 && now_in == rule_and_stage;
@@ -196,7 +196,7 @@ TEST_CASE("stages: a run resumes to the same bits within each stage") {
     states.push_back(now.state);
     return false;
   });
-  REQUIRE(states.back().data().penalty > 0);
+  REQUIRE(cvt_detail::State::of(states.back()).penalty > 0);
   REQUIRE(states.size() > 40);
   for (std::size_t k = 0; k < states.size(); k += k + 6 < states.size() ? 19 : 1) {
     CAPTURE(k);
@@ -228,7 +228,7 @@ TEST_CASE("stages: a least spacing is kept, or the report says that it is not") 
   if (wider.report.well_centred)
     CHECK(least(wider) > 0.9 - 0.03 - 0.01); // the demanded spacing follows from the energy
   else
-    CHECK(wider.report.iterations.back().misshapen > 0.03);
+    CHECK(wider.report.iterations.back().shape_excess > 0.03);
   options.least_spacing = 0.97;
   CHECK_THROWS_AS(spherical_cvt(start, options), Error);
 }

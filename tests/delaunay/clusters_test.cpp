@@ -41,22 +41,22 @@ Points3 beside(const Points3& a, const Points3& b) {
   return both;
 }
 
-DelaunayOptions regions(int count, Sort sort = Sort::halo) {
+DelaunayOptions regions(int count, Overlap overlap = Overlap::halo) {
   DelaunayOptions options;
   options.partition.regions = count;
-  options.partition.sort = sort;
+  options.partition.overlap = overlap;
   return options;
 }
 
 const Eigen::Vector3d here = Eigen::Vector3d(1, 2, 3).normalized();
 
 /// The mesh of one region, from caps.
-void check_caps(const Points3& points, int count, Sort sort = Sort::halo) {
+void check_caps(const Points3& points, int count, Overlap overlap = Overlap::halo) {
   CAPTURE(count);
-  CAPTURE(static_cast<int>(sort));
+  CAPTURE(static_cast<int>(overlap));
   DelaunayReport report;
-  const Mesh mesh = spherical_delaunay(points, regions(count, sort), &report);
-  CHECK_FALSE(report.one_region);
+  const Mesh mesh = spherical_delaunay(points, regions(count, overlap), &report);
+  CHECK_FALSE(report.serial);
   const Mesh whole = spherical_delaunay(points, regions(1));
   CHECK((mesh.triangles == whole.triangles));
   CHECK((mesh.neighbours == whole.neighbours));
@@ -73,7 +73,7 @@ TEST_CASE("a cluster within one region or over several does not make the run ser
                   many = beside(others, cluster(here, 3000, width));
     check_caps(few, 12);
     check_caps(many, 42);
-    check_caps(many, 42, Sort::distance);
+    check_caps(many, 42, Overlap::distance);
   }
 }
 

@@ -41,11 +41,11 @@ struct Setting {
   DelaunayOptions options;
 };
 
-DelaunayOptions with_regions(int regions, Sort sort = Sort::halo,
+DelaunayOptions with_regions(int regions, Overlap overlap = Overlap::halo,
                              Centres centres = Centres::sample) {
   DelaunayOptions options;
   options.partition.regions = regions;
-  options.partition.sort = sort;
+  options.partition.overlap = overlap;
   options.partition.centres = centres;
   return options;
 }
@@ -56,17 +56,17 @@ DelaunayOptions with_centres(const Points3& centres) {
   return options;
 }
 
-/// Every sort and every kind of centres. The given centres include some at sites and some opposite
+/// every overlap and every kind of centres. The given centres include some at sites and some opposite
 /// to sites.
 std::vector<Setting> settings(const Points3& points) {
   std::vector<Setting> out;
   for (const int regions : {2, 12, 42}) {
     const std::string count = std::to_string(regions) + " regions, ";
-    out.push_back({count + "distance", with_regions(regions, Sort::distance)});
-    out.push_back({count + "voronoi", with_regions(regions, Sort::voronoi)});
-    out.push_back({count + "fibonacci", with_regions(regions, Sort::halo, Centres::fibonacci)});
+    out.push_back({count + "distance", with_regions(regions, Overlap::distance)});
+    out.push_back({count + "voronoi", with_regions(regions, Overlap::voronoi)});
+    out.push_back({count + "fibonacci", with_regions(regions, Overlap::halo, Centres::fibonacci)});
   }
-  out.push_back({"voronoi, fibonacci", with_regions(12, Sort::voronoi, Centres::fibonacci)});
+  out.push_back({"voronoi, fibonacci", with_regions(12, Overlap::voronoi, Centres::fibonacci)});
   out.push_back({"octahedron", with_centres(octahedron())});
   const Eigen::Index few = std::min<Eigen::Index>(points.cols(), 9);
   out.push_back({"centres on sites", with_centres(points.leftCols(few))});
@@ -181,7 +181,7 @@ DelaunayOptions random_options(Random& random, const Points3& points) {
   const auto count = static_cast<int>(std::min<Eigen::Index>(points.cols(), 8));
   const Points3 some = points.leftCols(random.integer(1, count));
   DelaunayOptions options = with_regions(random.integer(2, random.integer(2, 60)));
-  options.partition.sort = static_cast<Sort>(random.integer(0, 2));
+  options.partition.overlap = static_cast<Overlap>(random.integer(0, 2));
   switch (random.integer(0, 4)) {
   case 0:
     options.partition.centres = Centres::fibonacci;
@@ -250,12 +250,12 @@ TEST_CASE("small sets: the triangulation that the definition gives") {
   }
 }
 
-TEST_CASE("small sets: the laws, one mesh for any regions, threads, sort and centres") {
+TEST_CASE("small sets: the laws, one mesh for any regions, threads, overlap and centres") {
   for (const Cloud& cloud : small_clouds())
     require_one_mesh(cloud, all_runs());
 }
 
-TEST_CASE("large sets: the laws, one mesh for any regions, threads, sort and centres [slow]") {
+TEST_CASE("large sets: the laws, one mesh for any regions, threads, overlap and centres [slow]") {
   for (const Cloud& cloud : large_clouds())
     require_one_mesh(cloud, all_runs());
 }
@@ -431,34 +431,34 @@ TEST_CASE("three sites make one open triangle, counter-clockwise from outside") 
 
 TEST_CASE("options outside their range are an error") {
   const Points3 points = random_sphere(50, 3);
-  require_error(points, with_regions(0), ErrorCode::bad_option, -1);
-  require_error(points, with_regions(-3), ErrorCode::bad_option, -1);
-  require_error(points, with_centres(Points3(3, 0)), ErrorCode::bad_option, -1);
+  require_error(points, with_regions(0), ErrorCode::invalid_argument, -1);
+  require_error(points, with_regions(-3), ErrorCode::invalid_argument, -1);
+  require_error(points, with_centres(Points3(3, 0)), ErrorCode::invalid_argument, -1);
   for (const double within : {-1.0, std::numeric_limits<double>::quiet_NaN()}) {
     DelaunayOptions options;
     options.merge_within = within;
-    CHECK(failure_of(points, options).code == ErrorCode::bad_option);
+    CHECK(failure_of(points, options).code == ErrorCode::invalid_argument);
   }
   Points3 centres = octahedron();
   centres.col(4).setZero();
-  CHECK(failure_of(points, with_centres(centres)).code == ErrorCode::bad_option);
+  CHECK(failure_of(points, with_centres(centres)).code == ErrorCode::invalid_argument);
   centres(0, 4) = std::numeric_limits<double>::quiet_NaN();
-  CHECK(failure_of(points, with_centres(centres)).code == ErrorCode::bad_option);
+  CHECK(failure_of(points, with_centres(centres)).code == ErrorCode::invalid_argument);
 }
 
 TEST_CASE("regression: bisecting 162 icosahedral sites over 12 regions gives 642 (MPI-SCVT: 694)") {
   const Points3 coarse = bisected_icosahedron(2);
   REQUIRE(coarse.cols() == 162);
   for (const DelaunayOptions& options :
-       {with_regions(12), with_centres(bisected_icosahedron(0)), with_regions(12, Sort::distance),
-        with_regions(12, Sort::voronoi)})
+       {with_regions(12), with_centres(bisected_icosahedron(0)),
+        with_regions(12, Overlap::distance), with_regions(12, Overlap::voronoi)})
     CHECK(bisect(spherical_delaunay(coarse, options)).cols() == 642);
 }
 
 TEST_CASE("regression: 642 icosahedral sites over 12 icosahedral centres (MPI-SCVT: 1172)") {
-  for (const Sort sort : {Sort::halo, Sort::distance, Sort::voronoi}) {
+  for (const Overlap overlap : {Overlap::halo, Overlap::distance, Overlap::voronoi}) {
     DelaunayOptions options = with_centres(bisected_icosahedron(0));
-    options.partition.sort = sort;
+    options.partition.overlap = overlap;
     CHECK(spherical_delaunay(bisected_icosahedron(3), options).triangles.cols() == 1280);
   }
 }
@@ -494,7 +494,7 @@ TEST_CASE("regions whose centres and foci are sites") {
   DelaunayReport report;
   CHECK(identical(spherical_delaunay(points, with_centres(octahedron()), &report), mesh));
   CHECK(report.regions == 6);
-  CHECK_FALSE(report.one_region);
+  CHECK_FALSE(report.serial);
 }
 
 TEST_CASE("a lowest site with any number of triangles: they ascend by their second site") {
@@ -528,7 +528,7 @@ TEST_CASE("the report adds up") {
   CHECK(report.sites == 20000);
   CHECK(report.duplicates == 0);
   CHECK(report.regions == 12);
-  CHECK_FALSE(report.one_region);
+  CHECK_FALSE(report.serial);
   REQUIRE(report.sites_per_region.size() == 12);
   REQUIRE(report.owned_per_region.size() == 12);
   REQUIRE(report.seconds_per_region.size() == 12);
@@ -554,15 +554,15 @@ TEST_CASE("the report adds up") {
           return other.threads;
         }) == 2);
   spherical_delaunay(points, with_regions(1), &report);
-  CHECK(report.one_region);
+  CHECK(report.serial);
   spherical_delaunay(upper_half(500, 92), with_regions(12), &report);
-  CHECK(report.one_region);
+  CHECK(report.serial);
 }
 
 TEST_CASE("caps give up where each query would look at most sites: along a satellite's track") {
   const Points3 points = joined(circle_at_random(30000, 1e-6, 93), random_sphere(6, 94));
   DelaunayReport report;
   const Mesh mesh = spherical_delaunay(points, with_regions(12), &report);
-  CHECK(report.one_region);
+  CHECK(report.serial);
   CHECK(check(mesh).failure == "");
 }

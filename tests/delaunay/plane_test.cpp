@@ -141,11 +141,11 @@ template <class Call> auto with_threads(int threads, const Call& call) {
   return arena.execute(call);
 }
 
-DelaunayOptions with_regions(int regions, Sort sort = Sort::halo,
+DelaunayOptions with_regions(int regions, Overlap overlap = Overlap::halo,
                              Centres centres = Centres::sample) {
   DelaunayOptions options;
   options.partition.regions = regions;
-  options.partition.sort = sort;
+  options.partition.overlap = overlap;
   options.partition.centres = centres;
   return options;
 }
@@ -253,10 +253,10 @@ TEST_CASE("any regions, sorts, centres and threads give the same planar mesh") {
             threads, [&] { return planar_delaunay(cloud.points, with_regions(regions)); });
         CHECK(identical(again, mesh));
       }
-    for (const Sort sort : {Sort::distance, Sort::voronoi})
-      CHECK(identical(planar_delaunay(cloud.points, with_regions(12, sort)), mesh));
-    CHECK(identical(planar_delaunay(cloud.points, with_regions(12, Sort::halo, Centres::fibonacci)),
-                    mesh));
+    for (const Overlap overlap : {Overlap::distance, Overlap::voronoi})
+      CHECK(identical(planar_delaunay(cloud.points, with_regions(12, overlap)), mesh));
+    CHECK(identical(
+        planar_delaunay(cloud.points, with_regions(12, Overlap::halo, Centres::fibonacci)), mesh));
     DelaunayOptions options;
     options.partition.given_centres = Points3(3, 3);
     *options.partition.given_centres << cloud.points.leftCols(3), 7, 8, 9;
@@ -293,7 +293,7 @@ TEST_CASE("regions are used, and certified by cull") {
   const Points2 points = random_box(30000, 1, 1, 21);
   DelaunayReport report;
   const PlanarMesh mesh = planar_delaunay(points, with_regions(12), &report);
-  CHECK_FALSE(report.one_region);
+  CHECK_FALSE(report.serial);
   CHECK(report.regions == 12);
   CHECK(report.overlap < 1.3);
   CHECK(report.certified_by_cull > 50 * report.certified_by_query);
@@ -486,8 +486,8 @@ TEST_CASE("sparse periodic boxes and points outside are refused") {
   };
   CHECK(code_of(random_box(5, 1, 1, 36), {1, 1}) == ErrorCode::too_few_sites);
   CHECK(code_of(random_box(500, 0.3, 0.3, 37), {1, 1}) == ErrorCode::too_few_sites);
-  CHECK(code_of(random_box(50, 1, 1, 38), {0.5, 1}) == ErrorCode::bad_option);
-  CHECK(code_of(random_box(50, 1, 1, 38), {1, -1}) == ErrorCode::bad_option);
+  CHECK(code_of(random_box(50, 1, 1, 38), {0.5, 1}) == ErrorCode::invalid_argument);
+  CHECK(code_of(random_box(50, 1, 1, 38), {1, -1}) == ErrorCode::invalid_argument);
   CHECK(code_of(lattice(50, 1, {0.01, 0.01}, {0, 0}), {1, 1}) == ErrorCode::too_few_sites);
   Points2 line(2, 4); // copies, whose rounded places are the same, on the hull
   line << 0.3, 0.1, 0, 0.5, 0, 0, 0, 0;

@@ -23,18 +23,18 @@ std::vector<std::vector<std::int32_t>> all_pairs(std::size_t count) {
   return adjacent;
 }
 
-Regions regions_of(const Sites& sites, int count, Centres centres, Sort sort) {
+Regions regions_of(const Sites& sites, int count, Centres centres, Overlap overlap) {
   Partition partition;
   partition.regions = count;
   partition.centres = centres;
   return make_regions(sites, make_centres(sites, partition),
-                      all_pairs(static_cast<std::size_t>(count)), sort);
+                      all_pairs(static_cast<std::size_t>(count)), overlap);
 }
 
 /// For the sampled regions, the largest number of owned sites over the mean.
 double fullest(const Points3& points, int count) {
   const Sites sites = make_sites(points, Duplicates::merge, 0);
-  const Regions regions = regions_of(sites, count, Centres::sample, Sort::halo);
+  const Regions regions = regions_of(sites, count, Centres::sample, Overlap::halo);
   std::vector<std::int64_t> owned(static_cast<std::size_t>(count), 0);
   for (const std::int32_t k : regions.owner)
     ++owned[static_cast<std::size_t>(k)];
@@ -57,7 +57,7 @@ Points3 crowded_cap() {
 TEST_CASE("each site is owned by the nearest centre, by brute force") {
   const Sites sites = make_sites(random_sphere(5000, 8), Duplicates::merge, 0);
   for (const int count : {2, 12, 100}) {
-    const Regions regions = regions_of(sites, count, Centres::sample, Sort::halo);
+    const Regions regions = regions_of(sites, count, Centres::sample, Overlap::halo);
     for (std::int64_t r = 0; r < sites.size(); ++r) {
       const auto squared = [&](std::int32_t k) {
         const Vec3 apart = sites.unit[r] - regions.centres[static_cast<std::size_t>(k)];
@@ -71,11 +71,11 @@ TEST_CASE("each site is owned by the nearest centre, by brute force") {
   }
 }
 
-TEST_CASE("members ascend, hold all owned sites and all sites of the covered part, in every sort") {
+TEST_CASE("members ascend, hold all owned sites and all sites of the covered part, for every overlap") {
   const Sites sites = make_sites(random_sphere(4000, 9), Duplicates::merge, 0);
-  for (const Sort sort : {Sort::halo, Sort::distance, Sort::voronoi})
+  for (const Overlap overlap : {Overlap::halo, Overlap::distance, Overlap::voronoi})
     for (const int count : {2, 12, 60}) {
-      const Regions regions = regions_of(sites, count, Centres::fibonacci, sort);
+      const Regions regions = regions_of(sites, count, Centres::fibonacci, overlap);
       for (std::size_t k = 0; k < regions.members.size(); ++k) {
         std::vector<bool> member(static_cast<std::size_t>(sites.size()), false);
         std::int32_t end = 0;
@@ -97,7 +97,7 @@ TEST_CASE("members ascend, hold all owned sites and all sites of the covered par
 }
 
 TEST_CASE(
-    "what the voronoi sort calls covered is, though centres stand too close to tell owners apart") {
+    "what the voronoi overlap calls covered is, though centres stand too close to tell owners apart") {
   // Near the centres and their antipodes, each site is equally near to both centres in doubles.
   Points3 points = random_sphere(20000, 6), centres = random_sphere(40, 7);
   const Eigen::Vector3d middle = centres.col(0);
@@ -112,7 +112,7 @@ TEST_CASE(
   for (std::int32_t k = 0; k < 40; ++k)
     adjacent[static_cast<std::size_t>(k)] = {k == 0 ? 39 : k - 1, k == 39 ? 0 : k + 1};
   const Regions regions =
-      make_regions(sites, make_centres(sites, partition), adjacent, Sort::voronoi);
+      make_regions(sites, make_centres(sites, partition), adjacent, Overlap::voronoi);
   for (std::size_t k = 0; k < 40; ++k)
     for (std::int64_t r = 0; r < sites.size(); ++r) {
       const auto in = [&](const HalfSpace& h) { return dot(sites.unit[r], h.normal) <= h.offset; };
@@ -131,7 +131,7 @@ TEST_CASE("there are no more placed centres than sites, and halos stay thin with
   CHECK(make_centres(sites, partition).size() == 1000);
   partition.centres = Centres::fibonacci;
   CHECK(make_centres(sites, partition).size() == 1000);
-  const Regions regions = regions_of(sites, 1000, Centres::sample, Sort::halo);
+  const Regions regions = regions_of(sites, 1000, Centres::sample, Overlap::halo);
   std::int64_t members = 0;
   for (const std::vector<Run>& runs : regions.members)
     for (const Run& run : runs)

@@ -155,6 +155,6 @@ TEST_CASE("bad input is refused with its first offending index") {
   CHECK(code_of(Points3(3, 0), index) == ErrorCode::too_few_sites);
   Points3 same = Points3::Ones(3, 10);
   CHECK(code_of(same, index) == ErrorCode::too_few_sites);
-  CHECK(code_of(random_sphere(10), index, Duplicates::merge, -1) == ErrorCode::bad_option);
-  CHECK(code_of(random_sphere(10), index, Duplicates::merge, nan) == ErrorCode::bad_option);
+  CHECK(code_of(random_sphere(10), index, Duplicates::merge, -1) == ErrorCode::invalid_argument);
+  CHECK(code_of(random_sphere(10), index, Duplicates::merge, nan) == ErrorCode::invalid_argument);
 }

@@ -111,7 +111,7 @@ std::string message_of(const Density& density) {
   try {
     evaluate(density, bisected_icosahedron(0));
   } catch (const Error& error) {
-    CHECK(error.code() == ErrorCode::bad_option);
+    CHECK(error.code() == ErrorCode::invalid_argument);
     return error.what();
   }
   return "";

@@ -282,7 +282,7 @@ TEST_CASE("random: a density that cannot be drawn gives an error of one line wit
     try {
       random_sphere(n, density);
     } catch (const Error& error) {
-      CHECK(error.code() == ErrorCode::bad_option);
+      CHECK(error.code() == ErrorCode::invalid_argument);
       return error.what();
     }
     return "";

@@ -50,7 +50,7 @@ std::string refusal(const PlanarDomain& domain) {
   try {
     require_domain(domain);
   } catch (const Error& error) {
-    CHECK(error.code() == ErrorCode::bad_option);
+    CHECK(error.code() == ErrorCode::invalid_argument);
     return error.what();
   }
   return "";

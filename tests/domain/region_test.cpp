@@ -435,7 +435,7 @@ template <class Call> std::string refusal(const Call& call) {
   try {
     call();
   } catch (const Error& error) {
-    CHECK(error.code() == ErrorCode::bad_option);
+    CHECK(error.code() == ErrorCode::invalid_argument);
     return error.what();
   }
   return "";

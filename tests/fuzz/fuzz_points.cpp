@@ -14,20 +14,13 @@ using namespace calotte;
 /// Points in text: as many as lines that count, all finite.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string text(reinterpret_cast<const char*>(data), size);
-  for (const Columns columns : {Columns::xyz, Columns::lonlat})
+  for (const Columns columns : {Columns::xyz, Columns::lonlat, Columns::xy})
     try {
       std::istringstream in(text);
-      std::vector<std::int64_t> lines;
-      const Points3 points = read_points(in, "points", columns, &lines);
+      const auto [points, lines] = read_point_lines(in, "points", columns);
       fuzz::require(points.cols() == std::ssize(lines) && points.allFinite());
     } catch (const Error& error) {
       fuzz::require(error.code() != ErrorCode::internal);
     }
-  try {
-    std::istringstream in(text);
-    read_planar_points(in, "points");
-  } catch (const Error& error) {
-    fuzz::require(error.code() != ErrorCode::internal);
-  }
   return 0;
 }

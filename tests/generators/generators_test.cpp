@@ -243,6 +243,6 @@ TEST_CASE("a count or an id out of range is an error") {
       }};
   for (std::size_t i = 0; i < calls.size(); ++i) {
     CAPTURE(i);
-    CHECK(code_of(calls[i]) == ErrorCode::bad_option);
+    CHECK(code_of(calls[i]) == ErrorCode::invalid_argument);
   }
 }

@@ -185,10 +185,10 @@ TEST_CASE("geodesic counts: the nearest within half a percent, bisected icosahed
 TEST_CASE("geodesic: numbers out of range are errors") {
   const std::int64_t huge = std::numeric_limits<std::int64_t>::max();
   for (const auto& [b, c] : {Vector{0, 0}, {-1, 2}, {3, -1}, {10363, 1}, {huge, huge}})
-    CHECK(code_of([&, b = b, c = c] { geodesic_sphere(b, c); }) == ErrorCode::bad_option);
+    CHECK(code_of([&, b = b, c = c] { geodesic_sphere(b, c); }) == ErrorCode::invalid_argument);
   for (const std::int64_t n :
        {std::int64_t{0}, std::int64_t{11}, std::int64_t{13}, (std::int64_t{1} << 30) + 1, huge})
-    CHECK(code_of([&] { geodesic_sphere(n); }) == ErrorCode::bad_option);
+    CHECK(code_of([&] { geodesic_sphere(n); }) == ErrorCode::invalid_argument);
   for (const double n : {0.0, -5.0, 11.9, 1.1e9, std::nan("")})
-    CHECK(code_of([&] { geodesic_count(n); }) == ErrorCode::bad_option);
+    CHECK(code_of([&] { geodesic_count(n); }) == ErrorCode::invalid_argument);
 }

@@ -58,7 +58,7 @@ TEST_CASE("longitudes and latitudes there and back, for directions of any norm")
 TEST_CASE("longitudes and latitudes out of range name their index") {
   Points2 lonlat = Points2::Zero(2, 5);
   lonlat(1, 3) = 90.5;
-  CHECK(error_of(lonlat).code() == ErrorCode::bad_option);
+  CHECK(error_of(lonlat).code() == ErrorCode::invalid_argument);
   CHECK(error_of(lonlat).index() == 3);
   lonlat(0, 2) = std::numeric_limits<double>::infinity();
   CHECK(error_of(lonlat).code() == ErrorCode::not_finite);

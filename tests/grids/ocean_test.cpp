@@ -70,12 +70,15 @@ struct Earth {
   bool is_sea(const Ids& sea, const Eigen::Vector3d& place) const {
     return sea[cell_at(place)] >= 0;
   }
-  Ids sea(const std::vector<Points3>& passages, const std::vector<Points3>& barriers = {},
-          SeaReport* report = nullptr) const {
+  SeaCells decided(const std::vector<Points3>& passages,
+                   const std::vector<Points3>& barriers = {}) const {
     SeaOptions options;
     options.opened = cells_on_lines(cells, passages);
     options.closed = cells_on_lines(cells, barriers);
-    return sea_cells(cells.begin, cells.cells_on_cell, land, options, report);
+    return sea_cells(cells.begin, cells.cells_on_cell, land, options);
+  }
+  Ids sea(const std::vector<Points3>& passages, const std::vector<Points3>& barriers = {}) const {
+    return decided(passages, barriers).mask;
   }
 };
 
@@ -124,8 +127,7 @@ void check_fractions(const Earth& earth) {
 
 /// Each strait is open with its passage, and closed by its barrier alone.
 void check_straits(const Earth& earth) {
-  SeaReport report;
-  const Ids open = earth.sea({gibraltar, bosphorus}, {}, &report);
+  const auto [open, report] = earth.decided({gibraltar, bosphorus});
   CHECK(report.opened > 0);
   check_sea(earth, open);
   for (const Eigen::Vector3d& place : {atlantic, mediterranean, black_sea})

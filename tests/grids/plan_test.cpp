@@ -2,6 +2,7 @@
 #include "domain/planar_domain.h"
 #include "domain/region.h"
 #include "support/densities.h"
+#include "support/files.h"
 #include "support/planes.h"
 
 #include <calotte/calotte.h>
@@ -260,15 +261,17 @@ TEST_CASE("make_grid: a run that is stopped goes on from its state to the same b
   const Cvt whole = make_grid(recipe);
   RunOptions stopping;
   std::optional<CvtState> state;
-  stopping.callback = [&](const CvtProgress& now) {
-    state = now.state;
-    return now.report.iterations.size() >= 20;
+  stopping.progress = [&](const Progress& now) {
+    state = now.run->state;
+    return now.run->report.iterations.size() >= 20 ? Next::stop : Next::proceed;
   };
-  make_grid(recipe, stopping);
+  CHECK_FALSE(make_grid(recipe, stopping).report.converged);
   REQUIRE(state);
   RunOptions going;
   going.state = state;
   CHECK(make_grid(recipe, going).mesh.points == whole.mesh.points);
   recipe.cells = 900;
   CHECK_THROWS_AS(make_grid(recipe, going), Error);
+  stopping.progress = [](const Progress&) { return Next::cancel; };
+  CHECK(test::error_of([&] { make_grid(recipe, stopping); }).code() == ErrorCode::cancelled);
 }

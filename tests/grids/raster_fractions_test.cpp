@@ -152,7 +152,7 @@ TEST_CASE("rasters that are refused") {
     LandRaster bad = good;
     spoil(bad);
     const Error error = error_of([&] { land_fractions(cells, bad); });
-    CHECK(error.code() == ErrorCode::bad_option);
+    CHECK(error.code() == ErrorCode::invalid_argument);
     return std::string(error.what());
   };
   CHECK(refusal([](LandRaster& r) { r.land(3, 2) = 1.5; }).find("no fraction of land") !=

@@ -94,7 +94,7 @@ TEST_CASE("continuation refuses what it cannot reach in one line") {
     try {
       test::continuation(cells, density);
     } catch (const Error& error) {
-      CHECK(error.code() == ErrorCode::bad_option);
+      CHECK(error.code() == ErrorCode::invalid_argument);
       return error.what();
     }
     return "";
@@ -211,7 +211,7 @@ std::string error_of(const std::function<void()>& call) {
   try {
     call();
   } catch (const Error& error) {
-    CHECK(error.code() == ErrorCode::bad_option);
+    CHECK(error.code() == ErrorCode::invalid_argument);
     return error.what();
   }
   return "";

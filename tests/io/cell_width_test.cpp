@@ -391,7 +391,7 @@ TEST_CASE("widths cover a region with half of a step to spare") {
     try {
       require_covering(width, region);
     } catch (const Error& error) {
-      CHECK(error.code() == ErrorCode::bad_option);
+      CHECK(error.code() == ErrorCode::invalid_argument);
       return error.what();
     }
     return "";
@@ -649,7 +649,7 @@ TEST_CASE("invalid NetCDF rasters give an error of one line that names the defec
         }) == ": lon spans more than 360 degrees; remove the repeated longitudes");
   CHECK(refused([&](Raster& r) { r.lon.back() = 180; }).starts_with(": cellWidth differs at"));
   CHECK(refusal(folder("text.nc", "cellWidth")) != "not refused");
-  CHECK(refusal(folder("widths.txt"), {}, ErrorCode::bad_option) ==
+  CHECK(refusal(folder("widths.txt"), {}, ErrorCode::invalid_argument) ==
         ": unknown suffix of a file of cell widths; give .nc, .msh or .geojson");
   CHECK_THROWS_AS(read_cell_width(folder("absent.nc")), Error);
   CHECK_THROWS_AS(read_cell_width(folder("absent.msh")), Error);
@@ -730,7 +730,7 @@ TEST_CASE("a JIGSAW mesh is interpolated between its nodes") {
             .find("has vertex 6, but there are 6 points") != std::string::npos);
   CHECK(refusal(folder("e.msh", "MSHID=3;EUCLIDEAN-MESH\nNDIMS=3\nPOINT=4\n1;0;1;0\n0;1;1;0\n"
                                 "-1;0;1;0\n0;-1;1;0\nVALUE=4;1\n1\n1\n1\n1\n"),
-                {}, ErrorCode::bad_option)
+                {}, ErrorCode::invalid_argument)
             .find("within a hemisphere") != std::string::npos);
 }
 
@@ -907,7 +907,7 @@ TEST_CASE("the raster resolves the transition and is the same for any number of 
   // A cubic's greatest slope is 3/2 of the mean one.
   CHECK(largest_gradient(one).slope == doctest::Approx(1.5 * 100 / 400).epsilon(0.02));
   widths.transition = 10;
-  CHECK(refusal(path, widths, ErrorCode::bad_option) ==
+  CHECK(refusal(path, widths, ErrorCode::invalid_argument) ==
         ": a transition of 10 km is too narrow for the finest raster, of 0.05 degrees; give at "
         "least 22.4 km");
 }
@@ -938,12 +938,12 @@ TEST_CASE("GeoJSON that gives no widths ends in one line that names the feature"
   CHECK(refused(R"({"type":"Polygon"})").starts_with(": no array \"coordinates\""));
   PolygonWidths widths = coastal;
   widths.outside = 0;
-  CHECK(refused(polygon(square), widths, ErrorCode::bad_option) ==
+  CHECK(refused(polygon(square), widths, ErrorCode::invalid_argument) ==
         ": no positive outside width; give it in km as an option or as the file's "
         "\"outsideWidth\"");
   widths = coastal;
   widths.transition = -1;
-  CHECK(refused(polygon(square), widths, ErrorCode::bad_option)
+  CHECK(refused(polygon(square), widths, ErrorCode::invalid_argument)
             .starts_with(": no positive width of the transition"));
   widths = coastal;
   widths.inside = 0;

@@ -165,12 +165,12 @@ TEST_CASE("a state comes back with every field, bit for bit") {
   State state = some_state();
   for (const bool converged : {false, true}) {
     state.report.converged = converged;
-    write_checkpoint(scratch.path, CvtState(state), configuration);
-    check_equal(read_checkpoint(scratch.path, configuration).data(), state);
-    CHECK(std::signbit(read_checkpoint(scratch.path, configuration).data().points(0, 7)));
+    write_checkpoint(scratch.path, State::wrapped(State(state)), configuration);
+    check_equal(State::of(read_checkpoint(scratch.path, configuration)), state);
+    CHECK(std::signbit(State::of(read_checkpoint(scratch.path, configuration)).points(0, 7)));
   }
   write_checkpoint(scratch.path, {}, "");
-  check_equal(read_checkpoint(scratch.path, "").data(), State{});
+  check_equal(State::of(read_checkpoint(scratch.path, "")), State{});
   CHECK(scratch.files() == 1);
 }
 
@@ -218,8 +218,9 @@ TEST_CASE("with every method a run resumes from its checkpoint to the same bits"
       return false;
     });
     REQUIRE(states.size() > 10);
-    const auto ruled = std::find_if(states.begin(), states.end(),
-                                    [](const CvtState& state) { return state.data().final_rule; });
+    const auto ruled = std::find_if(states.begin(), states.end(), [](const CvtState& state) {
+      return State::of(state).final_rule;
+    });
     std::set<std::ptrdiff_t> places{
         0, 1, 2, ruled - states.begin() - 1, ruled - states.begin(), ruled - states.begin() + 1};
     for (std::ptrdiff_t place = 5; place < std::ssize(states); place += 11)
@@ -240,7 +241,7 @@ TEST_CASE("with every method a run resumes from its checkpoint to the same bits"
 
 TEST_CASE("a checkpoint that was cut short anywhere is refused, and so is one with more") {
   const Scratch scratch;
-  write_checkpoint(scratch.path, CvtState(some_state()), configuration);
+  write_checkpoint(scratch.path, State::wrapped(some_state()), configuration);
   const std::string whole = scratch.bytes();
   for (std::size_t size = 0; size < whole.size(); ++size) {
     CAPTURE(size);
@@ -257,7 +258,7 @@ TEST_CASE("a checkpoint that was cut short anywhere is refused, and so is one wi
 
 TEST_CASE("damage to any byte is found") {
   const Scratch scratch;
-  write_checkpoint(scratch.path, CvtState(some_state()), configuration);
+  write_checkpoint(scratch.path, State::wrapped(some_state()), configuration);
   const std::string whole = scratch.bytes();
   for (std::size_t place = 0; place < whole.size(); ++place) {
     CAPTURE(place);
@@ -270,7 +271,7 @@ TEST_CASE("damage to any byte is found") {
 
 TEST_CASE("a file that is no checkpoint of this version is refused") {
   const Scratch scratch;
-  write_checkpoint(scratch.path, CvtState(some_state()), configuration);
+  write_checkpoint(scratch.path, State::wrapped(some_state()), configuration);
   std::string other = scratch.bytes();
   other[other.find("checkpoint ") + 11] = '3'; // an older version
   scratch.put(other);
@@ -285,11 +286,11 @@ TEST_CASE("a file that is no checkpoint of this version is refused") {
 
 TEST_CASE("another configuration is refused with the first line that differs") {
   const Scratch scratch;
-  write_checkpoint(scratch.path, CvtState(some_state()), configuration);
+  write_checkpoint(scratch.path, State::wrapped(some_state()), configuration);
   const auto check_words = [&](const std::string& words, const std::string& part) {
     CAPTURE(words);
     const Error error = refusal(scratch, words);
-    CHECK(error.code() == ErrorCode::bad_option);
+    CHECK(error.code() == ErrorCode::invalid_argument);
     CHECK(says(error, "run.checkpoint: a checkpoint of another configuration: it has " + part));
   };
   check_words("start random\ncells 31\ntolerance 1e-08\n",
@@ -302,9 +303,9 @@ TEST_CASE("another configuration is refused with the first line that differs") {
 
 TEST_CASE("a checkpoint that cannot be written leaves the old one unchanged") {
   const Scratch scratch;
-  write_checkpoint(scratch.path, CvtState(some_state()), configuration);
+  write_checkpoint(scratch.path, State::wrapped(some_state()), configuration);
   const std::string before = scratch.bytes();
   CHECK_THROWS_AS(write_checkpoint(scratch.folder / "absent" / "file", {}, ""), Error);
-  CHECK_THROWS_AS(write_checkpoint("/dev/full", CvtState(some_state()), ""), Error);
+  CHECK_THROWS_AS(write_checkpoint("/dev/full", State::wrapped(some_state()), ""), Error);
   CHECK(scratch.bytes() == before);
 }

@@ -153,11 +153,9 @@ TEST_CASE("lines cross cells that share edges, from one end to the other") {
   std::vector<std::uint8_t> land(2000, 1);
   for (const std::int32_t cell : found)
     land[static_cast<std::size_t>(cell)] = 0;
-  SeaReport report;
   SeaOptions options;
   options.fill = false;
-  sea_cells(cells.begin, cells.cells_on_cell, land, options, &report);
-  CHECK(report.parts == 1);
+  CHECK(sea_cells(cells.begin, cells.cells_on_cell, land, options).report.parts == 1);
   for (const Eigen::Index end : {0, 2}) {
     Eigen::Index nearest = 0;
     (cells.cells.colwise() - line.col(end)).colwise().norm().minCoeff(&nearest);
@@ -179,9 +177,9 @@ struct Divided {
     line << 0.6, 0.6, 0, 0, 0.8, -0.8;
   }
   SeaReport report(const SeaOptions& options, Ids& sea) const {
-    SeaReport report;
-    sea = sea_cells(cells.begin, cells.cells_on_cell, land, options, &report);
-    return report;
+    SeaCells decided = sea_cells(cells.begin, cells.cells_on_cell, land, options);
+    sea = std::move(decided.mask);
+    return decided.report;
   }
 };
 

@@ -286,7 +286,7 @@ TEST_CASE("regions that leave no grid are refused, and no file is left") {
   const std::ptrdiff_t files = scratch.files();
   const auto refusal = [&](double angle, const CutOptions& options) {
     const Error error = error_of([&] { cut(source, target, within(angle), options); });
-    CHECK(error.code() == ErrorCode::bad_option);
+    CHECK(error.code() == ErrorCode::invalid_argument);
     CHECK(scratch.files() == files);
     return std::string(error.what());
   };
@@ -342,7 +342,9 @@ TEST_CASE("a cancelled run leaves no file") {
   write_global(scratch, source, {.cells = 800});
   const std::ptrdiff_t files = scratch.files();
   CutOptions options;
-  options.progress = [](const Progress& progress) { return progress.fraction > 0.3; };
+  options.progress = [](const Progress& progress) {
+    return progress.fraction > 0.3 ? Next::cancel : Next::proceed;
+  };
   options.rings = 3;
   const Error error = error_of([&] { cut(source, target, within(0.5), options); });
   CHECK(error.code() == ErrorCode::cancelled);

@@ -85,8 +85,7 @@ TEST_CASE("what is left is the largest part in which each triangle has two neigh
       CAPTURE(share);
       CAPTURE(seed);
       const MeshFile before = ragged(500, share, seed);
-      EarReport report;
-      const MeshFile after = without_ears(before, &report);
+      const auto [after, report] = without_ears(before);
       const Mesh& mesh = *after.mesh;
       std::map<double, std::int32_t> old; // by z, which differs from site to site
       for (std::int32_t i = 0; i < before.mesh->points.cols(); ++i)
@@ -109,7 +108,7 @@ TEST_CASE("what is left is the largest part in which each triangle has two neigh
 }
 
 TEST_CASE("density and fields follow") {
-  const MeshFile before = ragged(400, 0.1, 5), after = without_ears(before);
+  const MeshFile before = ragged(400, 0.1, 5), after = without_ears(before).file;
   const Mesh& mesh = *after.mesh;
   REQUIRE(after.fields.size() == 2);
   CHECK(after.fields[0].values == mesh.points.row(2).transpose());
@@ -129,16 +128,16 @@ TEST_CASE("density and fields follow") {
 TEST_CASE("a closed mesh stays, and a mesh of ears alone is refused") {
   MeshFile closed;
   closed.mesh = spherical_delaunay(fibonacci_sphere(50));
-  EarReport report{1, 1};
-  CHECK(without_ears(closed, &report).mesh->triangles == closed.mesh->triangles);
-  CHECK(report.triangles == 0);
-  CHECK(report.sites == 0);
+  const auto [file, removed] = without_ears(closed);
+  CHECK(file.mesh->triangles == closed.mesh->triangles);
+  CHECK(removed.triangles == 0);
+  CHECK(removed.sites == 0);
   MeshFile strip; // three triangles in a row
   strip.mesh =
       spherical_delaunay(Points3{{1, 1, 1, 1, 1}, {0, 0.1, 0.2, 0.05, 0.15}, {0, 0, 0, 0.1, 0.1}});
   REQUIRE(strip.mesh->triangles.cols() == 3);
-  CHECK(error_of([&] { without_ears(strip); }).code() == ErrorCode::bad_option);
-  CHECK(error_of([] { without_ears(MeshFile{}); }).code() == ErrorCode::bad_option);
+  CHECK(error_of([&] { without_ears(strip); }).code() == ErrorCode::invalid_argument);
+  CHECK(error_of([] { without_ears(MeshFile{}); }).code() == ErrorCode::invalid_argument);
 }
 
 TEST_CASE("FESOM's depths: levels and bottoms below 0, in the order of the nodes") {
@@ -177,7 +176,7 @@ TEST_CASE("depths that FESOM refuses are refused before any file is written") {
   good.site_depth = Eigen::VectorXd::Constant(40, 50);
   const auto refuses = [&](const WriteOptions& options) {
     CHECK(error_of([&] { write(scratch / "nod2d.out", mesh, options); }).code() ==
-          ErrorCode::bad_option);
+          ErrorCode::invalid_argument);
     CHECK(scratch.files() == 0);
   };
   for (const std::vector<double>& levels : std::vector<std::vector<double>>{

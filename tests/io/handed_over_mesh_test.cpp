@@ -67,7 +67,7 @@ TEST_CASE("a mesh that is refused remains") {
   Mesh mesh = spherical_delaunay(random_sphere(100, 1));
   const Points3 points = mesh.points;
   CHECK(error_of([&] { write(scratch / "mesh.unknown", std::move(mesh)); }).code() ==
-        ErrorCode::bad_option);
+        ErrorCode::invalid_argument);
   CHECK(mesh.points == points); // NOLINT(bugprone-use-after-move): as documented
   CHECK(mesh.closed());
 }

@@ -59,7 +59,7 @@ std::string refusal(std::int64_t columns, std::int64_t rows, double spacing, Wal
   try {
     planar_hexagons(columns, rows, spacing, walls);
   } catch (const Error& error) {
-    CHECK(error.code() == ErrorCode::bad_option);
+    CHECK(error.code() == ErrorCode::invalid_argument);
     return error.what();
   }
   return "";

@@ -124,9 +124,7 @@ TEST_CASE("any separators, comments, blank lines, endings and a header give the 
 
 TEST_CASE("lines are those of the columns") {
   std::istringstream in("# c\nx y z\n1 2 3\n\n4 5 6\n");
-  std::vector<std::int64_t> lines;
-  calotte::read_points(in, "points", Columns::xyz, &lines);
-  CHECK(lines == std::vector<std::int64_t>{3, 5});
+  CHECK(calotte::read_point_lines(in, "points").lines == std::vector<std::int64_t>{3, 5});
 }
 
 TEST_CASE("a file longer than the reader's buffer loses nothing, whatever ends its lines") {
@@ -375,10 +373,10 @@ TEST_CASE("files that are no mesh, or incomplete, give one clear error") {
                        "line, counted from 0"));
   write_text(scratch / "mesh.tri", "0 1 2\n0 1 -1\n");
   CHECK(error("mesh.tri", &points).index() == 2);
-  CHECK(error("mesh.tri").code() == ErrorCode::bad_option);
+  CHECK(error("mesh.tri").code() == ErrorCode::invalid_argument);
   write_text(scratch / "mesh.tri", "");
   CHECK(error("mesh.tri", &points).code() == ErrorCode::parse);
-  CHECK(error("mesh.xyz").code() == ErrorCode::bad_option);
+  CHECK(error("mesh.xyz").code() == ErrorCode::invalid_argument);
   CHECK(error("absent.vtp").code() == ErrorCode::file);
 }
 
@@ -401,7 +399,7 @@ TEST_CASE("unknown suffixes, folders that do not exist and full disks leave noth
   const auto error = [&](const std::string& path) {
     return error_of([&] { calotte::write(path, mesh); });
   };
-  CHECK(error(scratch / "mesh.stl").code() == ErrorCode::bad_option);
+  CHECK(error(scratch / "mesh.stl").code() == ErrorCode::invalid_argument);
   CHECK(std::string(error(scratch / "mesh").what())
             .ends_with(
                 "mesh: no suffix; a mesh file ends in .nc, .vtp, .vtu, .vtk (read only), .off, "
@@ -458,14 +456,14 @@ TEST_CASE("the weather stations are read as they are") {
 
 TEST_CASE("places in a plane are read as they stand, with their lines") {
   std::istringstream in("# two\nx;y\n1e-300;-2\n\n0x;0\n");
-  CHECK_THROWS_WITH_AS(calotte::read_planar_points(in, "points"),
+  CHECK_THROWS_WITH_AS(calotte::read_points(in, "points", Columns::xy),
                        "points line 5: \"0x\" is not a number; write two numbers x y on each line",
                        calotte::Error);
   std::istringstream good("x y\n1e-300 -2 7\n0 0\n");
-  std::vector<std::int64_t> lines;
-  const calotte::Points2 points = calotte::read_planar_points(good, "points", &lines);
+  const auto [points, lines] = calotte::read_point_lines(good, "points", Columns::xy);
   REQUIRE(points.cols() == 2);
   CHECK(points(0, 0) == 1e-300);
   CHECK(points(1, 0) == -2);
+  CHECK(points.row(2).isZero(0));
   CHECK(lines == std::vector<std::int64_t>{2, 3});
 }

@@ -361,7 +361,7 @@ TEST_CASE("fields that do not fit are refused by name") {
     options.fields = {field};
     const calotte::Error error =
         error_of([&] { calotte::write(scratch / "mesh.nc", of, options); });
-    CHECK(error.code() == ErrorCode::bad_option);
+    CHECK(error.code() == ErrorCode::invalid_argument);
     CHECK(scratch.files() == 0);
     return std::string(error.what()).substr((scratch / "mesh.nc: ").size());
   };

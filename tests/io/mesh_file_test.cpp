@@ -76,12 +76,12 @@ TEST_CASE("a name tells its format, in any case; an option tells it too, and mus
     for (const Kind& other : kinds)
       if (kind.file != other.file)
         CHECK(error_of([&] { format_of(other.file, kind.format); }).code() ==
-              ErrorCode::bad_option);
+              ErrorCode::invalid_argument);
   }
   CHECK(error_of([&] { format_of("grid.data", Format::mpi_scvt); }).code() ==
-        ErrorCode::bad_option);
+        ErrorCode::invalid_argument);
   for (const char* name : {"mesh", "mesh.stl", "", "vtp", "a.vtp/mesh", "SaveTriangles"})
-    CHECK(error_of([&] { calotte::format_of(name); }).code() == ErrorCode::bad_option);
+    CHECK(error_of([&] { calotte::format_of(name); }).code() == ErrorCode::invalid_argument);
   CHECK(std::string(error_of([&] { format_of("mesh.stl"); }).what()) ==
         "mesh.stl: unknown suffix \".stl\"; a mesh file ends in .nc, .vtp, .vtu, .vtk (read only), "
         ".off, "
@@ -143,7 +143,7 @@ TEST_CASE("a NetCDF file's contents tell its kind, whatever its name") {
   CHECK(error_of([&] { calotte::read_mesh(scratch / "mesh.nc"); }).code() == ErrorCode::parse);
   write_text(scratch / "grid.data", "x y z\n1 2 3\n");
   CHECK(error_of([&] { calotte::read_mesh(scratch / "grid.data"); }).code() ==
-        ErrorCode::bad_option);
+        ErrorCode::invalid_argument);
   CHECK(error_of([&] { calotte::read_mesh(scratch / "absent.nc"); }).code() == ErrorCode::file);
   CHECK(error_of([&] { calotte::read_mesh(scratch / "absent.vtp"); }).code() == ErrorCode::file);
 }
@@ -154,7 +154,7 @@ TEST_CASE("options out of range are refused before any file is touched") {
   const auto refused = [&](const Kind& kind, calotte::WriteOptions options) {
     options.format = kind.format;
     CHECK(error_of([&] { calotte::write(scratch / kind.file, mesh, options); }).code() ==
-          ErrorCode::bad_option);
+          ErrorCode::invalid_argument);
     CHECK(scratch.files() == 0);
   };
   for (const Kind& kind : kinds) {
@@ -166,7 +166,7 @@ TEST_CASE("options out of range are refused before any file is touched") {
     refused(kind, {.density = empty});
   }
   CHECK(error_of([&] { calotte::write(scratch / "mesh.stl", mesh); }).code() ==
-        ErrorCode::bad_option);
+        ErrorCode::invalid_argument);
   CHECK(scratch.files() == 0);
 }
 
@@ -192,29 +192,29 @@ TEST_CASE("cells need a closed mesh, triangles none; ids must be the mesh's") {
         calotte::write(scratch / "bad.data", bad, {.format = kind.format});
       };
       if (kind.format != Format::mpi_scvt)
-        CHECK(error_of(write).code() == ErrorCode::bad_option);
+        CHECK(error_of(write).code() == ErrorCode::invalid_argument);
       bad = good;
       bad.site_of_input[3] = id;
       if (kind.format != Format::mpi_scvt)
-        CHECK(error_of(write).code() == ErrorCode::bad_option);
+        CHECK(error_of(write).code() == ErrorCode::invalid_argument);
     }
   CHECK_FALSE(std::filesystem::exists(scratch / "bad.data"));
 }
 
-TEST_CASE("a soup is written as triangles without fields; reading refuses triangles that overlap") {
+TEST_CASE("a raw is written as triangles without fields; reading refuses triangles that overlap") {
   const Scratch scratch;
-  Mesh soup = calotte::spherical_delaunay(octahedron());
-  soup.triangles.col(7) = soup.triangles.col(0); // as many as a closed mesh has, but open edges
-  soup.neighbours.setConstant(-1);
+  Mesh raw = calotte::spherical_delaunay(octahedron());
+  raw.triangles.col(7) = raw.triangles.col(0); // as many as a closed mesh has, but open edges
+  raw.neighbours.setConstant(-1);
   for (const char* file : {"mesh.vtp", "mesh.vtu", "mesh.off", "mesh.ply", "mesh.msh"}) {
-    calotte::write(scratch / file, soup);
+    calotte::write(scratch / file, raw);
     CHECK(error_of([&] { calotte::read_mesh(scratch / file); }).code() == ErrorCode::parse);
   }
-  soup.neighbours.resize(3, 0);
-  soup.site_of_input.clear();
+  raw.neighbours.resize(3, 0);
+  raw.site_of_input.clear();
   for (const char* file : {"mesh.vtp", "mesh.vtu", "mesh.off", "mesh.ply", "mesh.msh", "mesh.tri"})
-    calotte::write(scratch / file, soup);
-  CHECK(error_of([&] { calotte::read_mesh(scratch / "mesh.tri", &soup.points); }).code() ==
+    calotte::write(scratch / file, raw);
+  CHECK(error_of([&] { calotte::read_mesh(scratch / "mesh.tri", &raw.points); }).code() ==
         ErrorCode::parse);
 }
 
@@ -258,8 +258,10 @@ TEST_CASE("triangles alone are no sites") {
   const Mesh mesh = calotte::spherical_delaunay(octahedron());
   for (const char* file : {"mesh.txt", "mesh.tri"}) {
     calotte::write(scratch / file, mesh);
-    CHECK(error_of([&] { calotte::read_sites(scratch / file); }).code() == ErrorCode::bad_option);
-    CHECK(error_of([&] { calotte::read_mesh(scratch / file); }).code() == ErrorCode::bad_option);
+    CHECK(error_of([&] { calotte::read_sites(scratch / file); }).code() ==
+          ErrorCode::invalid_argument);
+    CHECK(error_of([&] { calotte::read_mesh(scratch / file); }).code() ==
+          ErrorCode::invalid_argument);
   }
 }
 
@@ -275,12 +277,12 @@ TEST_CASE("a periodic plane is MPAS's or triangles alone, and keeps its numbers"
       calotte::write(path, plane, {.format = kind.format, .numbering = numbering});
     };
     if (kind.format != Format::mpas && kind.format != Format::mpas_minimal) {
-      CHECK(error_of([&] { write(Numbering::by_format); }).code() == ErrorCode::bad_option);
+      CHECK(error_of([&] { write(Numbering::by_format); }).code() == ErrorCode::invalid_argument);
       CHECK((is_netcdf(kind) || !std::filesystem::exists(path)));
       continue;
     }
-    CHECK(error_of([&] { write(Numbering::curve); }).code() == ErrorCode::bad_option);
-    CHECK(error_of([&] { write(Numbering::rcm); }).code() == ErrorCode::bad_option);
+    CHECK(error_of([&] { write(Numbering::curve); }).code() == ErrorCode::invalid_argument);
+    CHECK(error_of([&] { write(Numbering::rcm); }).code() == ErrorCode::invalid_argument);
     write(Numbering::by_format);
     const calotte::PlanarMesh read = calotte::test::read_planar_mesh(path);
     CHECK(equal_bits(read.points, plane.points));
@@ -291,10 +293,10 @@ TEST_CASE("a periodic plane is MPAS's or triangles alone, and keeps its numbers"
   const Mesh sphere = calotte::spherical_delaunay(octahedron());
   calotte::write(scratch / "mesh.nc", sphere);
   CHECK(error_of([&] { calotte::test::read_planar_mesh(scratch / "mesh.nc"); }).code() ==
-        ErrorCode::bad_option);
+        ErrorCode::invalid_argument);
   calotte::write(scratch / "mesh.off", sphere);
   CHECK(error_of([&] { calotte::test::read_planar_mesh(scratch / "mesh.off"); }).code() ==
-        ErrorCode::bad_option);
+        ErrorCode::invalid_argument);
 }
 
 TEST_CASE("a plane that does not repeat itself is written with z = 0, but not as cells") {
@@ -307,7 +309,7 @@ TEST_CASE("a plane that does not repeat itself is written with z = 0, but not as
     const std::string path = scratch / kind.file;
     const auto write = [&] { calotte::write(path, plane, {.format = kind.format}); };
     if (is_netcdf(kind) || holds_cells(kind.format) || kind.format == Format::mpi_scvt) {
-      CHECK(error_of(write).code() == ErrorCode::bad_option);
+      CHECK(error_of(write).code() == ErrorCode::invalid_argument);
       continue;
     }
     write();

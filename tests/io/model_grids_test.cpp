@@ -40,7 +40,7 @@ using calotte::io_detail::NetcdfAttributes;
 using calotte::io_detail::NetcdfReader;
 using calotte::io_detail::NetcdfType;
 using calotte::io_detail::NetcdfWriter;
-using calotte::io_detail::Soup;
+using calotte::io_detail::RawMesh;
 using calotte::test::NamedMesh;
 using calotte::test::Scratch;
 
@@ -255,7 +255,7 @@ Polygons scrip_polygons(const NetcdfReader& file) {
 // ---- Round trips
 
 using Write = void (*)(const std::string&, const Mesh&, const WriteOptions&);
-using Read = Soup (*)(const NetcdfReader&, calotte::FieldChoice);
+using Read = RawMesh (*)(const NetcdfReader&, calotte::FieldChoice);
 
 // The cells of a mesh as files of polygons.
 void write_ugrid(const std::string& path, const Mesh& mesh, const WriteOptions& options) {
@@ -268,8 +268,8 @@ void write_esmf(const std::string& path, const Mesh& mesh, const WriteOptions& o
   io_detail::write_esmf(path, io_detail::cell_grid(mesh), options);
 }
 
-Soup written_and_read(const std::string& path, const Mesh& mesh, Write write, Read read,
-                      const WriteOptions& options = {}) {
+RawMesh written_and_read(const std::string& path, const Mesh& mesh, Write write, Read read,
+                         const WriteOptions& options = {}) {
   write(path, mesh, options);
   return read(NetcdfReader(path), calotte::FieldChoice::all);
 }
@@ -479,18 +479,18 @@ TEST_CASE("UGRID gives the mesh back to the bit") {
       // Unit columns stay as they are, whatever their last bits; others come to the radius and
       // stay.
       const bool unit = ((c.mesh.points.colwise().norm().array() - 1).abs() < 5e-16).all();
-      Soup soup = written_and_read(scratch / "a.nc", c.mesh, write, io_detail::read_ugrid);
-      CHECK((!unit || test::same_bits(soup.points, c.mesh.points)));
-      CHECK((soup.points - on_sphere(c.mesh, 1)).cwiseAbs().maxCoeff() < 1e-15);
-      CHECK(test::same_bits(soup.triangles, c.mesh.triangles));
+      RawMesh raw = written_and_read(scratch / "a.nc", c.mesh, write, io_detail::read_ugrid);
+      CHECK((!unit || test::same_bits(raw.points, c.mesh.points)));
+      CHECK((raw.points - on_sphere(c.mesh, 1)).cwiseAbs().maxCoeff() < 1e-15);
+      CHECK(test::same_bits(raw.triangles, c.mesh.triangles));
 
       const WriteOptions earth{.sphere_radius = 6371220};
-      soup = written_and_read(scratch / "b.nc", c.mesh, write, io_detail::read_ugrid, earth);
-      CHECK((soup.points - on_sphere(c.mesh, 6371220)).cwiseAbs().maxCoeff() < 6371220e-15);
-      const Mesh again{soup.points, soup.triangles, c.mesh.neighbours, c.mesh.site_of_input};
-      const Soup twice =
+      raw = written_and_read(scratch / "b.nc", c.mesh, write, io_detail::read_ugrid, earth);
+      CHECK((raw.points - on_sphere(c.mesh, 6371220)).cwiseAbs().maxCoeff() < 6371220e-15);
+      const Mesh again{raw.points, raw.triangles, c.mesh.neighbours, c.mesh.site_of_input};
+      const RawMesh twice =
           written_and_read(scratch / "c.nc", again, write, io_detail::read_ugrid, earth);
-      CHECK(test::same_bits(twice.points, soup.points));
+      CHECK(test::same_bits(twice.points, raw.points));
       CHECK(test::same_bits(twice.triangles, c.mesh.triangles));
     }
   }
@@ -500,12 +500,12 @@ TEST_CASE("SCRIP and ESMF give the sites back, but for rounding") {
   const Scratch scratch;
   for (const NamedMesh& c : meshes()) {
     CAPTURE(c.name);
-    for (const Soup& soup :
+    for (const RawMesh& raw :
          {written_and_read(scratch / "a.nc", c.mesh, write_scrip, io_detail::read_scrip),
           written_and_read(scratch / "b.nc", c.mesh, write_esmf, io_detail::read_esmf)}) {
-      CHECK(soup.triangles.cols() == 0);
-      REQUIRE(soup.points.cols() == c.mesh.points.cols());
-      CHECK((soup.points - on_sphere(c.mesh, 1)).cwiseAbs().maxCoeff() < 2e-15);
+      CHECK(raw.triangles.cols() == 0);
+      REQUIRE(raw.points.cols() == c.mesh.points.cols());
+      CHECK((raw.points - on_sphere(c.mesh, 1)).cwiseAbs().maxCoeff() < 2e-15);
     }
   }
 }
@@ -611,9 +611,9 @@ TEST_CASE("cells need a closed mesh, triangles do not") {
   for (const Format format : {Format::ugrid, Format::scrip, Format::esmf})
     CHECK_THROWS_AS(write(scratch / "a.nc", open, {.format = format}), Error);
   CHECK(scratch.files() == 0);
-  const Soup soup = written_and_read(scratch / "a.nc", open, io_detail::write_ugrid_triangles,
-                                     io_detail::read_ugrid);
-  CHECK(test::same_bits(soup.triangles, open.triangles));
+  const RawMesh raw = written_and_read(scratch / "a.nc", open, io_detail::write_ugrid_triangles,
+                                       io_detail::read_ugrid);
+  CHECK(test::same_bits(raw.triangles, open.triangles));
   CHECK(!NetcdfReader(scratch / "a.nc").has_variable("mesh_face_lon"));
 }
 
@@ -638,9 +638,9 @@ TEST_CASE("UGRID of others") {
   const std::string path = scratch / "a.nc";
   const auto check_read = [&](const Foreign& foreign, const Triangles& triangles) {
     foreign.write(path, mesh.points);
-    const Soup soup = io_detail::read_ugrid(NetcdfReader(path));
-    CHECK((soup.points - mesh.points).cwiseAbs().maxCoeff() < 2e-15);
-    CHECK(test::same_bits(soup.triangles, triangles));
+    const RawMesh raw = io_detail::read_ugrid(NetcdfReader(path));
+    CHECK((raw.points - mesh.points).cwiseAbs().maxCoeff() < 2e-15);
+    CHECK(test::same_bits(raw.triangles, triangles));
   };
   check_read({.faces = faces_of(mesh, 0)}, mesh.triangles);
   check_read({.faces = faces_of(mesh, 1), .start_index = 1}, mesh.triangles);
@@ -656,7 +656,7 @@ TEST_CASE("UGRID of others") {
   check_read({.faces = padded}, mesh.triangles);
   padded[5].back() = 0; // a quadrangle: the faces are cells
   Foreign{.faces = padded}.write(path, mesh.points);
-  const Soup cells = io_detail::read_ugrid(NetcdfReader(path));
+  const RawMesh cells = io_detail::read_ugrid(NetcdfReader(path));
   CHECK(cells.points.cols() == 0);
   CHECK(cells.triangles.cols() == 0);
   CHECK(cells.polygons.size() == mesh.triangles.cols());

@@ -600,8 +600,8 @@ std::vector<Case> cases() {
 Mesh read_back(const std::string& path, const Mesh& like) {
   const NetcdfReader file(path);
   CHECK(io_detail::is_mpas(file));
-  io_detail::Soup soup = io_detail::read_mpas(file);
-  Mesh mesh{std::move(soup.points), std::move(soup.triangles), {}, like.site_of_input};
+  io_detail::RawMesh raw = io_detail::read_mpas(file);
+  Mesh mesh{std::move(raw.points), std::move(raw.triangles), {}, like.site_of_input};
   mesh.neighbours = mesh_detail::neighbours_of(mesh.triangles, mesh.points.cols());
   return mesh;
 }
@@ -793,7 +793,7 @@ TEST_CASE("meshes that make no such file are refused") {
   half.row(2) = half.row(2).cwiseAbs().array() + 0.01;
   CHECK(error_of([&] {
           io_detail::write_mpas(scratch / "a.nc", spherical_delaunay(half), {});
-        }).code() == ErrorCode::bad_option);
+        }).code() == ErrorCode::invalid_argument);
   CHECK(scratch.files() == 0);
 }
 
@@ -856,7 +856,7 @@ TEST_CASE("files that are not as they should be end in one line") {
   CHECK(message({.id = 13}) == path + ": cellsOnVertex has cell 13 at vertex 7 (both 1-based), but "
                                       "there are 12; make the file again");
   CHECK(message({.id = -1}).find("cell -1 at vertex 7") != std::string::npos);
-  CHECK(message({.kind = "NO", .period = -1}, ErrorCode::bad_option) ==
+  CHECK(message({.kind = "NO", .period = -1}, ErrorCode::invalid_argument) ==
         path + " holds a mesh of the plane, not of the sphere; read it with read_mesh()");
   CHECK(message({.kind = "NO"}) ==
         path +

@@ -106,7 +106,7 @@ double edge_length(Mpas& file, std::size_t e, const std::string& kind, const std
 /// The laws of the format, by its definitions.
 void check_mpas_laws(const std::string& path, const PlanarDomain& domain) {
   Mpas file(path);
-  double area_of_cells = 0, area_of_triangles = 0, shore = 0;
+  double area_of_cells = 0, area_of_triangles = 0, boundary = 0;
   for (const double a : file["areaCell"].values)
     area_of_cells += a;
   for (const double a : file["areaTriangle"].values)
@@ -114,7 +114,7 @@ void check_mpas_laws(const std::string& path, const PlanarDomain& domain) {
   const double whole = area(domain);
   CHECK(std::abs(area_of_cells - whole) <= 1e-12 * whole);
   CHECK(std::abs(area_of_triangles - whole) <= 1e-12 * whole);
-  std::set<std::size_t> on_shore;
+  std::set<std::size_t> on_boundary;
   for (std::size_t e = 0; e < file.rows("dcEdge"); ++e) {
     REQUIRE(file.at("cellsOnEdge", e, 0) > 0);
     const double length = edge_length(file, e, "Vertex", "verticesOnEdge");
@@ -125,17 +125,17 @@ void check_mpas_laws(const std::string& path, const PlanarDomain& domain) {
       continue;
     }
     CHECK(file.at("dcEdge", e) == doctest::Approx(std::sqrt(3) * length).epsilon(1e-12));
-    shore += length;
+    boundary += length;
     for (const std::size_t k : {0, 1})
-      on_shore.insert(file.id("verticesOnEdge", e, k));
+      on_boundary.insert(file.id("verticesOnEdge", e, k));
   }
   double perimeter = 0;
   for (const DoubleMatrix& line : domain.rings)
     for (Eigen::Index k = 0; k < line.cols(); ++k)
       perimeter += (line.col((k + 1) % line.cols()) - line.col(k)).norm();
-  CHECK(shore == doctest::Approx(perimeter).epsilon(1e-12));
+  CHECK(boundary == doctest::Approx(perimeter).epsilon(1e-12));
   for (std::size_t v = 0; v < file.rows("boundaryVertex"); ++v)
-    CHECK(file.at("boundaryVertex", v) == (on_shore.contains(v) ? 1 : 0));
+    CHECK(file.at("boundaryVertex", v) == (on_boundary.contains(v) ? 1 : 0));
 }
 
 std::string text_attribute(const std::string& path, const std::string& name) {

@@ -43,7 +43,7 @@ struct Telling {
         stages.emplace_back(progress.stage);
       fractions.push_back(progress.fraction);
       --inside;
-      return false;
+      return Next::proceed;
     };
   }
 };
@@ -75,7 +75,7 @@ void check_cancelled(const Work& work, const std::vector<std::string>& stages,
         called_again = called_again || cancelled;
         cancelled =
             cancelled || (progress.stage == stage && progress.fraction < 1 && ++calls == wanted);
-        return cancelled;
+        return cancelled ? Next::cancel : Next::proceed;
       };
       try {
         work(callback);
@@ -143,10 +143,10 @@ TEST_CASE("triangulations of the plane, of a box and of few sites report progres
 TEST_CASE("an exception of the callback reaches the caller") {
   const Points3 points = random_sphere(100'000, 4);
   for (const std::string& stage : stages_of_delaunay) {
-    const auto callback = [&](const Progress& progress) -> bool {
+    const auto callback = [&](const Progress& progress) {
       if (progress.stage == stage)
         throw std::out_of_range("mine");
-      return false;
+      return Next::proceed;
     };
     CHECK_THROWS_WITH_AS(spherical_delaunay(points, with(callback)), "mine", std::out_of_range);
   }
@@ -193,7 +193,9 @@ TEST_CASE("write of a file that is there leaves it as it was when cancelled") {
   const Mesh mesh = spherical_delaunay(random_sphere(20'000, 4));
   const Scratch scratch;
   test::write_text(scratch / "a.nc", "older");
-  const auto cancel = [](const Progress& progress) { return progress.stage == "write"; };
+  const auto cancel = [](const Progress& progress) {
+    return progress.stage == "write" ? Next::cancel : Next::proceed;
+  };
   CHECK(error_of([&] { write(scratch / "a.nc", mesh, told(cancel)); }).code() ==
         ErrorCode::cancelled);
   CHECK(scratch.files() == 1);

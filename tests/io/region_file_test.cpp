@@ -138,22 +138,22 @@ TEST_CASE("GeoJSON: several polygons, and what is not one region") {
       collection({feature(polygon({square, inner})), feature(polygon({"[6,6],[8,6],[8,8]"}))}));
   CHECK(contains(island, lonlat(7.5, 6.5)));
   CHECK(refusal("R.geojson", collection({feature(polygon({square})), feature(polygon({inner}))}),
-                ErrorCode::bad_option) ==
+                ErrorCode::invalid_argument) ==
         "R.geojson: the region: it is to the left of feature 0: ring 0 and to the right of feature "
         "1: ring 0; give rings that all have it to their left: an outer boundary "
         "counter-clockwise, a hole clockwise");
   CHECK(holds(refusal("R.geojson",
                       collection({feature(polygon({square})), feature(polygon({other})),
                                   feature(polygon({"[35,5],[45,5],[45,15]"}))}),
-                      ErrorCode::bad_option),
+                      ErrorCode::invalid_argument),
               "R.geojson: the region: the edges from feature 1: ring 0, corner 1 and from feature "
               "2: ring 0, corner 0 meet; rings may neither cross nor touch"));
   CHECK(holds(
-      refusal("R.geojson", polygon({"[0,0],[10,10],[10,0],[0,10]"}), ErrorCode::bad_option),
+      refusal("R.geojson", polygon({"[0,0],[10,10],[10,0],[0,10]"}), ErrorCode::invalid_argument),
       "R.geojson: the region: the edges from ring 0, corner 0 and from ring 0, corner 2 meet"));
-  CHECK(
-      holds(refusal("R.geojson", polygon({square, "[30,0],[40,0],[40,10]"}), ErrorCode::bad_option),
-            "to the right of ring 1"));
+  CHECK(holds(
+      refusal("R.geojson", polygon({square, "[30,0],[40,0],[40,10]"}), ErrorCode::invalid_argument),
+      "to the right of ring 1"));
   CHECK(
       holds(refusal("R.geojson", collection({feature(polygon({"[0,0],[90,0],[180,0],[-90,0]"})),
                                              feature(polygon({"[-90,0],[180,0],[90,0],[0,0]"}))})),
@@ -177,7 +177,7 @@ TEST_CASE("GeoJSON: a place inside decides, otherwise rings of either orientatio
       CHECK(area(land) + area(water) == doctest::Approx(4 * pi).epsilon(1e-15));
     }
   CHECK(holds(refusal("R.geojson", feature(polygon({square}), R"({"inside":[0,5]})"),
-                      ErrorCode::bad_option),
+                      ErrorCode::invalid_argument),
               "R.geojson: the place that is to be inside the region is on its boundary"));
   CHECK(holds(refusal("R.geojson", feature(polygon({square}), R"({"inside":"here"})")),
               "its property \"inside\" is not a position [longitude, latitude]; give degrees"));
@@ -221,7 +221,7 @@ TEST_CASE("GeoJSON: positions") {
               "ring 0 has fewer than 3 distinct places; an edge is the shorter arc of a great "
               "circle, so give more places "
               "along a parallel"));
-  CHECK(holds(refusal("R.geojson", polygon({"[0,0],[180,0],[90,10]"}), ErrorCode::bad_option),
+  CHECK(holds(refusal("R.geojson", polygon({"[0,0],[180,0],[90,10]"}), ErrorCode::invalid_argument),
               "ring 0, corner 0 and the next are opposite"));
   CHECK(geojson(polygon({"[0,0],[0,0],[20,0],[20,20],[20,20],[0,0],[0,0]"})).rings[0].cols() == 3);
 }
@@ -257,11 +257,11 @@ TEST_CASE(".pts: a polygon around its point, of any winding") {
               "a.pts: a region of the type custom has no line \"Point:\"; add a place inside it"));
   CHECK(
       holds(refusal("a.pts", head + "50, -129\n50 -65\n20\n"), "a.pts line 6: \"20\" is no place"));
-  CHECK(holds(refusal("a.pts", head + "50, -129\n50 -65\n", ErrorCode::bad_option),
+  CHECK(holds(refusal("a.pts", head + "50, -129\n50 -65\n", ErrorCode::invalid_argument),
               "a.pts: the region: ring 0 has 2 corners"));
-  CHECK(holds(
-      refusal("a.pts", head + "50, -129\n20, -65\n50, -65\n20, -129\n", ErrorCode::bad_option),
-      "meet; rings may neither"));
+  CHECK(holds(refusal("a.pts", head + "50, -129\n20, -65\n50, -65\n20, -129\n",
+                      ErrorCode::invalid_argument),
+              "meet; rings may neither"));
 }
 
 TEST_CASE(".pts: lines that are none") {
@@ -278,9 +278,9 @@ TEST_CASE(".pts: lines that are none") {
               "20000000, without the unit"));
   CHECK(holds(refusal("a.pts", "Type: channel\nUpper-lat: 100\n"),
               "\"100\" is no upper-lat; write a number of degrees from -90 to 90"));
-  CHECK(holds(
-      refusal("a.pts", "Type: channel\nUpper-lat: 10\nLower-lat: 20\n", ErrorCode::bad_option),
-      "a.pts: the channel's latitudes are"));
+  CHECK(holds(refusal("a.pts", "Type: channel\nUpper-lat: 10\nLower-lat: 20\n",
+                      ErrorCode::invalid_argument),
+              "a.pts: the channel's latitudes are"));
   CHECK(holds(refusal("a.pts", "Type: circle\nPoint: 1, 2\nRadius: 1000\n1, 2\n"),
               "a.pts: it has corners, which only Type: custom takes"));
   CHECK(holds(refusal("a.pts", "Point: 100, 2\n"),
@@ -346,7 +346,7 @@ TEST_CASE("SaveBoundaries: lines that are no points") {
   CHECK(
       holds(refusal("SaveBoundaries", "1 2\n3 10\n"), "SaveBoundaries: 2 points enclose nothing"));
   CHECK(
-      holds(refusal("SaveBoundaries", "0 0\n10 10\n10 0\n0 10\n", ErrorCode::bad_option),
+      holds(refusal("SaveBoundaries", "0 0\n10 10\n10 0\n0 10\n", ErrorCode::invalid_argument),
             "the edges from the loop that begins in line 1, corner 0 and from the loop that begins "
             "in line 1, corner 2 meet; rings may neither cross nor touch themselves"));
 }
@@ -363,7 +363,7 @@ TEST_CASE("a file cut short is read or refused, with one line") {
 }
 
 TEST_CASE("names and files") {
-  CHECK(holds(refusal("region.txt", "", ErrorCode::bad_option),
+  CHECK(holds(refusal("region.txt", "", ErrorCode::invalid_argument),
               "region.txt: the name determines no format of regions"));
   CHECK(test::error_of([] { read_region("/nowhere/R.geojson"); }).code() == ErrorCode::file);
   CHECK(holds(refusal("R.geojson", "{"), "R.geojson: no JSON"));

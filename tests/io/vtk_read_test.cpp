@@ -105,7 +105,7 @@ TEST_CASE("VTK: polygons are cells, with unit corners, and centres if there are 
         CHECK(!file.mesh); // they are not Voronoi cells
       }
   CHECK(error_of([&] { calotte::read_mesh(scratch / "mesh.vtp"); }).code() ==
-        ErrorCode::bad_option);
+        ErrorCode::invalid_argument);
   write_text(scratch / "mesh.vtp", vtk_text("PolyData", faces, {}));
   CHECK(std::string(error_of([&] { calotte::read_sites(scratch / "mesh.vtp"); }).what())
             .find("no centres") != std::string::npos);
@@ -209,7 +209,7 @@ TEST_CASE(
     CHECK((file.fields.at(0).values - cells.vertices.row(2).transpose()).norm() < 1e-13);
   }
   CHECK(error_of([&] { calotte::test::read_planar_mesh(scratch / "mesh.vtp"); }).code() ==
-        ErrorCode::bad_option);
+        ErrorCode::invalid_argument);
 }
 
 TEST_CASE("VTK: points alone are triangulated; empty pieces, vertices and lines are passed over") {

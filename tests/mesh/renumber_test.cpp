@@ -166,25 +166,25 @@ TEST_CASE("reverse Cuthill-McKee keeps edges within two levels of a breadth-firs
 }
 
 TEST_CASE("soups: sites without triangles, repeated vertices, and edges of three triangles") {
-  Mesh soup;
-  soup.points = calotte::random_sphere(9, 4);
-  soup.triangles.resize(3, 7);
-  soup.triangles << 0, 0, 1, 7, 3, 0, 2, //
-      1, 1, 0, 7, 3, 1, 0,               //
+  Mesh raw;
+  raw.points = calotte::random_sphere(9, 4);
+  raw.triangles.resize(3, 7);
+  raw.triangles << 0, 0, 1, 7, 3, 0, 2, //
+      1, 1, 0, 7, 3, 1, 0,              //
       2, 3, 4, 5, 3, 2, 1;
-  soup.neighbours = Triangles::Constant(3, 7, -1);
-  soup.neighbours(2, 1) = 2;
-  soup.neighbours(2, 2) = 1;
+  raw.neighbours = Triangles::Constant(3, 7, -1);
+  raw.neighbours(2, 1) = 2;
+  raw.neighbours(2, 2) = 1;
   for (int i = 0; i < 9; ++i)
-    soup.site_of_input.push_back(i);
+    raw.site_of_input.push_back(i);
   for (const Numbering numbering : {Numbering::curve, Numbering::rcm}) {
-    const Mesh moved = calotte::renumbered(soup, numbering);
-    const std::vector<std::int32_t> to = where(soup, moved);
+    const Mesh moved = calotte::renumbered(raw, numbering);
+    const std::vector<std::int32_t> to = where(raw, moved);
     std::vector<Triple> expected, found;
     for (Eigen::Index t = 0; t < 7; ++t) {
       Triple ids{};
       for (int i = 0; i < 3; ++i)
-        ids[std::size_t(i)] = to[std::size_t(soup.triangles(i, t))];
+        ids[std::size_t(i)] = to[std::size_t(raw.triangles(i, t))];
       Triple lowest = ids;
       for (int i = 0; i < 3; ++i) {
         std::rotate(ids.begin(), ids.begin() + 1, ids.end());
@@ -228,16 +228,16 @@ TEST_CASE("ids out of range and points without a direction are refused") {
   for (const std::int32_t id : {-1, 6}) {
     Mesh bad = mesh;
     bad.triangles(1, 3) = id;
-    CHECK(code(bad) == calotte::ErrorCode::bad_option);
+    CHECK(code(bad) == calotte::ErrorCode::invalid_argument);
     bad = mesh;
     bad.site_of_input[2] = id;
-    CHECK(code(bad) == calotte::ErrorCode::bad_option);
+    CHECK(code(bad) == calotte::ErrorCode::invalid_argument);
   }
   Mesh bad = mesh;
   bad.neighbours(0, 0) = 8;
-  CHECK(code(bad) == calotte::ErrorCode::bad_option);
+  CHECK(code(bad) == calotte::ErrorCode::invalid_argument);
   bad.neighbours.resize(3, 0);
-  CHECK(code(bad) == calotte::ErrorCode::bad_option);
+  CHECK(code(bad) == calotte::ErrorCode::invalid_argument);
   bad = mesh;
   bad.points.col(2).setZero();
   CHECK(!calotte::mesh_detail::is_in_curve_order(bad));

@@ -111,7 +111,7 @@ TEST_CASE("meshes of the plane have the triangles of the plane's own functions, 
 TEST_CASE("meshes of the plane are proven, and searched for positions with or without z") {
   for (Mesh mesh : all_planes()) {
     CHECK(check(mesh).failure == "");
-    CHECK(check(mesh).area == doctest::Approx(check(mesh).whole));
+    CHECK(check(mesh).area == doctest::Approx(check(mesh).expected_area));
     CHECK(check_surface(mesh).passed());
     const Points3 at = random_points(100, periodic_box({4, 3}));
     for (const PointsRef& positions : {PointsRef(at), PointsRef(at.topRows<2>())}) {
@@ -168,7 +168,7 @@ TEST_CASE("points and densities are those of the surface") {
     CHECK(rho == evaluate(bump(), points.topRows<2>(), surface));
     CHECK(evaluate(site_density(bump(), surface), points).isApprox(rho.cwiseSqrt(), 1e-14));
     const Mesh mesh = plane.mesh();
-    for (const Points3& places : {bisect(mesh), insert_and_contract(mesh, bump(), 9, 5)}) {
+    for (const Points3& places : {bisect(mesh), split_and_collapse(mesh, bump(), 9, 5)}) {
       CHECK(places.row(2).isZero(0));
       for (const auto& place : places.colwise())
         CHECK(surface.contains(place));
@@ -186,7 +186,7 @@ TEST_CASE("points and densities are those of the surface") {
 
 TEST_CASE("midpoints stay on the surface") {
   const Mesh part = delaunay(random_points(100, cap(), {}, 4), cap());
-  const Points3 finer = bisect(part), exchanged = insert_and_contract(part, {}, 20, 0);
+  const Points3 finer = bisect(part), exchanged = split_and_collapse(part, {}, 20, 0);
   CHECK(finer.cols() > 300);
   for (const Points3& points : {finer, exchanged})
     for (Eigen::Index i = 0; i < points.cols(); ++i)

@@ -60,7 +60,7 @@ Real arc(const Vector& a, const Vector& b) { return std::atan2(a.cross(b).norm()
 /// What the header defines, from the list of all edges.
 struct Definition {
   std::vector<double> fits, ratios;
-  std::int64_t short_edges = 0, unfit_edges = 0;
+  std::int64_t short_edges = 0, mismatched_edges = 0;
   std::map<std::int32_t, std::vector<double>> arcs; ///< by cell
   std::set<std::int32_t> bad;
 
@@ -100,7 +100,7 @@ struct Definition {
     ratios.push_back(ratio);
     const bool is_short = ratio < 0.18, unfit = fit < 0.75 || fit > 1.4;
     short_edges += is_short;
-    unfit_edges += unfit;
+    mismatched_edges += unfit;
     if (is_short || unfit)
       bad.insert({edge.first, edge.second});
   }
@@ -127,7 +127,7 @@ void check_definition(const Mesh& mesh, const Density& density, double root_inte
   CHECK(q.dv_over_dc.max ==
         doctest::Approx(*std::max_element(truth.ratios.begin(), truth.ratios.end())));
   CHECK(q.short_edges == truth.short_edges);
-  CHECK(q.unfit_edges == truth.unfit_edges);
+  CHECK(q.mismatched_edges == truth.mismatched_edges);
   CHECK(q.bad_cells == std::ssize(truth.bad));
   double sum = 0;
   for (const std::int32_t cell : truth.bad) {
@@ -180,7 +180,7 @@ TEST_CASE("laws: regular hexagons of a periodic box have no excess, and exact ra
     CHECK(fit == doctest::Approx(1).epsilon(1e-12));
   for (const double ratio : {q.dv_over_dc.min, q.dv_over_dc.mean, q.dv_over_dc.max})
     CHECK(ratio == doctest::Approx(1 / std::sqrt(3.0)).epsilon(1e-12));
-  CHECK(q.short_edges + q.unfit_edges + q.bad_cells + q.obtuse == 0);
+  CHECK(q.short_edges + q.mismatched_edges + q.bad_cells + q.obtuse == 0);
 }
 
 TEST_CASE("in a plane the limit is that of the domain, and follows its unit") {
@@ -250,7 +250,7 @@ TEST_CASE("an open mesh has no limit, and no cells to object to") {
   CHECK(q.limit == 0);
   CHECK(q.dc_over_h.max == 0);
   CHECK(q.dv_over_dc.max == 0);
-  CHECK(q.short_edges + q.unfit_edges + q.bad_cells == 0);
+  CHECK(q.short_edges + q.mismatched_edges + q.bad_cells == 0);
 }
 
 TEST_CASE("a closed mesh without one triangle has the cells of the closed one, but three") {

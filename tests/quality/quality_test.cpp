@@ -397,7 +397,7 @@ TEST_CASE(
     } catch (const Error& error) {
       const std::string message = error.what();
       CAPTURE(message);
-      CHECK(error.code() == ErrorCode::bad_option);
+      CHECK(error.code() == ErrorCode::invalid_argument);
       CHECK(message.find(words) != std::string::npos);
       CHECK(message.find('\n') == std::string::npos);
     }

@@ -66,14 +66,14 @@ inline PlanarMesh periodic_hexagons(std::int64_t columns, std::int64_t rows, dou
 
 namespace test {
 
-/// \throws Error bad_option for a mesh of the sphere.
+/// \throws Error invalid_argument for a mesh of the sphere.
 inline PlanarMesh read_planar_mesh(const std::string& path, const Points2* points = nullptr) {
   Points3 places;
   if (points != nullptr)
     places = base_detail::with_z(*points);
   Mesh mesh = read_mesh(path, points != nullptr ? &places : nullptr);
   if (mesh.surface.is_sphere())
-    throw Error(ErrorCode::bad_option, path + " holds a mesh of the sphere");
+    throw Error(ErrorCode::invalid_argument, path + " holds a mesh of the sphere");
   return mesh_detail::planar(std::move(mesh));
 }
 

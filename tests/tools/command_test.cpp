@@ -362,7 +362,7 @@ TEST_CASE("info prints a table of the mesh as a grid, and reports the same as JS
                           "p50",
                           "dv_over_dc",
                           "short_voronoi_edges",
-                          "unfit_edges",
+                          "mismatched_edges",
                           "bad_cells"})
     CHECK(report.find(std::string("\"").append(key).append("\": ")) != std::string::npos);
 }

@@ -741,7 +741,7 @@ TEST_CASE("an input that is no closed mesh is refused in one line that names the
     } catch (const Error& error) {
       const std::string message = error.what();
       CAPTURE(message);
-      CHECK(error.code() == ErrorCode::bad_option);
+      CHECK(error.code() == ErrorCode::invalid_argument);
       CHECK(error.index() == index);
       CHECK(message.find(words) != std::string::npos);
       CHECK(message.find('\n') == std::string::npos);
@@ -821,7 +821,7 @@ TEST_CASE("a box so narrow that neighbours meet twice is refused") {
   } catch (const Error& error) {
     const std::string message = error.what();
     CAPTURE(message);
-    CHECK(error.code() == ErrorCode::bad_option);
+    CHECK(error.code() == ErrorCode::invalid_argument);
     CHECK(message.find("shares two edges") != std::string::npos);
   }
 }

@@ -137,13 +137,13 @@ Legend make_legend(Painting& painting, const DrawOptions& options) {
 
 namespace {
 
-/// \throws Error bad_option unless the field has one value for each site.
+/// \throws Error invalid_argument unless the field has one value for each site.
 void require_field(const DrawOptions& options, std::int64_t sites) {
   if (options.field.values.size() != sites) {
-    throw Error(ErrorCode::bad_option, options.field_name + " has " +
-                                           std::to_string(options.field.values.size()) +
-                                           " values for " + std::to_string(sites) +
-                                           " sites; give a field of the mesh's cells");
+    throw Error(ErrorCode::invalid_argument, options.field_name + " has " +
+                                                 std::to_string(options.field.values.size()) +
+                                                 " values for " + std::to_string(sites) +
+                                                 " sites; give a field of the mesh's cells");
   }
 }
 
@@ -172,7 +172,7 @@ DoubleVector by_site(const Mesh& mesh, const DrawOptions& options) {
   const DoubleVector rho = density_at_sites(mesh, options.density);
   const double greatest = rho.maxCoeff();
   if (!(greatest > 0)) {
-    throw Error(ErrorCode::bad_option,
+    throw Error(ErrorCode::invalid_argument,
                 "the density is zero at every site; give one that is positive somewhere");
   }
   return rho / greatest;
@@ -196,12 +196,12 @@ Look seen(Look look, const View& view) {
   return look;
 }
 
-/// \throws Error bad_option unless there is a cell for each site.
+/// \throws Error invalid_argument unless there is a cell for each site.
 void require_cells(const DrawOptions& options, const Mesh& mesh) {
   if (options.cells != nullptr && options.cells->size() != mesh.points.cols()) {
-    throw Error(ErrorCode::bad_option, "there are " + std::to_string(options.cells->size()) +
-                                           " cells for " + std::to_string(mesh.points.cols()) +
-                                           " sites; give the cells of the mesh");
+    throw Error(ErrorCode::invalid_argument,
+                "there are " + std::to_string(options.cells->size()) + " cells for " +
+                    std::to_string(mesh.points.cols()) + " sites; give the cells of the mesh");
   }
 }
 
@@ -241,9 +241,10 @@ std::vector<double> values_of(const Polygons& polygons, const DrawOptions& optio
     return sides;
   }
   default:
-    throw Error(ErrorCode::bad_option, "the cells are not Voronoi cells, which alone have that "
-                                       "colouring; colour them by area, valence, field:NAME or "
-                                       "none");
+    throw Error(ErrorCode::invalid_argument,
+                "the cells are not Voronoi cells, which alone have that "
+                "colouring; colour them by area, valence, field:NAME or "
+                "none");
   }
 }
 

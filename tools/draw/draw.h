@@ -95,13 +95,14 @@ struct DrawOptions {
 /// and title have an effect. The rings of the mesh's surface clip the cells, or otherwise a box
 /// slightly larger than the sites does; triangles are not clipped. Of a periodic plane the box is
 /// drawn, with the Delaunay triangles of its own sites.
-/// \throws Error bad_option, also for cells' area or quality of an open mesh, and for a density or
+/// \throws Error invalid_argument, also for cells' area or quality of an open mesh, and for a
+/// density or
 ///         field that does not fit; file.
 void draw(const std::string& path, const Mesh& mesh, const DrawOptions& options = {});
 
 /// Draws cells that need not be Voronoi cells, coloured by area (the default in place of spacing),
 /// valence (the number of their sides), a field, or not at all.
-/// \throws Error bad_option, also for triangles and for other colourings; file.
+/// \throws Error invalid_argument, also for triangles and for other colourings; file.
 void draw(const std::string& path, const Polygons& polygons, const DrawOptions& options = {});
 
 /// A scalar field on the whole sphere.
@@ -112,7 +113,7 @@ struct SphereField {
 };
 
 /// Draws a field, each pixel evaluated, with its title and a colour bar.
-/// \throws Error bad_option, file, and what `values` throws.
+/// \throws Error invalid_argument, file, and what `values` throws.
 void draw(const std::string& path, const SphereField& field, const Look& look = {});
 
 } // namespace calotte::tools

@@ -422,9 +422,9 @@ Rgb history_colour(std::size_t run) {
 void draw_history(const std::string& path, const std::vector<History>& histories, int size) {
   require_picture(path, size);
   if (histories.empty() || histories.size() > most_histories) {
-    throw Error(ErrorCode::bad_option, "a picture shows 1 to " + std::to_string(most_histories) +
-                                           " reports, not " + std::to_string(histories.size()) +
-                                           "; leave some out");
+    throw Error(ErrorCode::invalid_argument,
+                "a picture shows 1 to " + std::to_string(most_histories) + " reports, not " +
+                    std::to_string(histories.size()) + "; leave some out");
   }
   const HistoryPage page = history_page(histories, size);
   write_picture(path, page.width, page.height,

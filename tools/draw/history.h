@@ -19,7 +19,7 @@ Rgb history_colour(std::size_t run);
 /// ends of the levels. Curves connect accepted evaluations; rejected trials count on the horizontal
 /// axis.
 /// \param size width in pixels; in points for SVG and PDF. 64 to 16384
-/// \throws Error bad_option (also for no or too many runs), file.
+/// \throws Error invalid_argument (also for no or too many runs), file.
 void draw_history(const std::string& path, const std::vector<History>& histories, int size = 1200);
 
 } // namespace calotte::tools

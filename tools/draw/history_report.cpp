@@ -121,7 +121,11 @@ CvtIteration iteration_of(const Part& part) {
   iteration.spacing = part.value.contains("spacing") // older reports are for the sphere
                           ? part.at("spacing").number()
                           : std::sqrt(4 * std::numbers::pi / static_cast<double>(iteration.cells));
-  iteration.rule = static_cast<int>(std::min<std::int64_t>(part.at("rule").count(-1), 1000));
+  // Older reports have the rule -1 for a density that is linear between the generators.
+  const auto rule = static_cast<int>(std::min<std::int64_t>(part.at("rule").count(-1), 1000));
+  iteration.linear_density =
+      rule < 0 || (part.value.contains("linear_density") && part.at("linear_density").truth());
+  iteration.rule = std::max(rule, 0);
   iteration.l2 = part.at("l2").number();
   iteration.linf = part.at("linf").number();
   iteration.energy = part.at("energy").number();
@@ -179,21 +183,27 @@ std::vector<std::size_t> accepted_between(const History& history, std::size_t fi
   return accepted;
 }
 
+/// Whether energies compare.
+bool same_functional(const CvtIteration& a, const CvtIteration& b) {
+  return a.rule == b.rule && a.linear_density == b.linear_density;
+}
+
 /// The decrease of the energy from the k-th to the next of the evaluations `way` of a level.
 double descent(const History& history, const std::vector<std::size_t>& way, std::size_t k) {
   const auto at = [&](std::size_t j) -> const CvtIteration& { return history.iterations[way[j]]; };
-  if (at(k).rule == at(k + 1).rule) {
+  if (same_functional(at(k), at(k + 1))) {
     return at(k).energy - at(k + 1).energy;
   }
   // Energies of different rules do not compare.
-  return k > 0 && at(k - 1).rule == at(k).rule ? at(k - 1).energy - at(k).energy : 0;
+  return k > 0 && same_functional(at(k - 1), at(k)) ? at(k - 1).energy - at(k).energy : 0;
 }
 
 /// Levels of runs have the same key if their energies compare.
-using Comparable = std::tuple<std::vector<std::string>, std::int64_t, int>;
+using Comparable = std::tuple<std::vector<std::string>, std::int64_t, int, bool>;
 
 Comparable comparable(const History& history, std::size_t last) {
-  return {history.density, history.iterations[last].cells, history.iterations[last].rule};
+  const CvtIteration& end = history.iterations[last];
+  return {history.density, end.cells, end.rule, end.linear_density};
 }
 
 /// Calls the function for each level of a run with its accepted evaluations, if there are any.

@@ -14,7 +14,7 @@ namespace calotte::tools {
 Legend make_legend(Painting& painting, const DrawOptions& options);
 
 /// The values of the sites for Colouring::density, over their greatest, field and region; else
-/// none. \throws Error bad_option for a density or field that does not fit.
+/// none. \throws Error invalid_argument for a density or field that does not fit.
 DoubleVector by_site(const Mesh& mesh, const DrawOptions& options);
 
 } // namespace calotte::tools

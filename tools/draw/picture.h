@@ -11,11 +11,12 @@ namespace calotte::tools {
 enum class PictureFormat { png, svg, pdf };
 
 /// The format of a file's suffix.
-/// \throws Error bad_option for an unknown suffix.
+/// \throws Error invalid_argument for an unknown suffix.
 PictureFormat picture_format(const std::string& path);
 
 /// Validates a file name and a width before any work.
-/// \throws Error bad_option for a suffix that is no picture's, or a width outside 64 to 16384.
+/// \throws Error invalid_argument for a suffix that is no picture's, or a width outside 64 to
+/// 16384.
 void require_picture(const std::string& path, int width);
 
 /// Calls a function that paints on white, width times height pixels (points in SVG and PDF), and

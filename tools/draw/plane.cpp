@@ -196,7 +196,7 @@ void paint_plane(cairo_t* context, const Page& page, const Painting& painting, c
 
 void set_domain(Mesh& mesh, const Surface& domain) {
   if (domain.period() != mesh.surface.period()) {
-    throw Error(ErrorCode::bad_option,
+    throw Error(ErrorCode::invalid_argument,
                 "the domain is not the one that the mesh was made for: one of the two is periodic, "
                 "or both with other periods; leave the domain out");
   }

@@ -23,7 +23,7 @@ inline bool has_walls(const Mesh& mesh) {
 Surface walls_of(const Polygons& cells);
 
 /// Sets the part of the plane that clips the cells of a mesh.
-/// \throws Error bad_option for a domain with another period.
+/// \throws Error invalid_argument for a domain with another period.
 void set_domain(Mesh& mesh, const Surface& domain);
 
 /// The visible part of the plane.

@@ -122,8 +122,9 @@ double Scale::unit() const {
 
 void set_range(Scale& scale, const Range& range) {
   if (scale.colouring == Colouring::none || has_classes(scale.colouring)) {
-    throw Error(ErrorCode::bad_option, "--range sets the ends of a colour bar, which this --colour "
-                                       "does not have; leave --range out");
+    throw Error(ErrorCode::invalid_argument,
+                "--range sets the ends of a colour bar, which this --colour "
+                "does not have; leave --range out");
   }
   scale.low = range.low * scale.unit();
   scale.high = range.high * scale.unit();

@@ -38,7 +38,7 @@ struct Scale {
 Scale make_scale(const std::vector<double>& values, Colouring colouring);
 
 /// Makes the colour bar that of a range in the legend's unit.
-/// \throws Error bad_option for a colouring that has no colour bar.
+/// \throws Error invalid_argument for a colouring that has no colour bar.
 void set_range(Scale& scale, const Range& range);
 
 /// Whether the values are a few classes of a colour each, with a legend of these.

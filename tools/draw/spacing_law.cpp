@@ -80,7 +80,7 @@ std::vector<double> lawful_spacings(const Mesh& mesh, const Density& density,
       continue;
     }
     if (!(value > 0)) {
-      throw Error(ErrorCode::bad_option,
+      throw Error(ErrorCode::invalid_argument,
                   "the density is 0 at site " + std::to_string(i) +
                       ", where the law has no spacing; give a density that is positive",
                   static_cast<std::int64_t>(i));
@@ -304,8 +304,9 @@ SpacingLaw spacing_law(const Mesh& mesh, const Density& density) {
   std::copy_if(spacings.begin(), spacings.end(), std::back_inserter(law.measured),
                [](double h) { return !std::isnan(h); });
   if (law.measured.empty()) {
-    throw Error(ErrorCode::bad_option, "no cell of this mesh is bounded; draw the law of a mesh "
-                                       "that covers more of the sphere");
+    throw Error(ErrorCode::invalid_argument,
+                "no cell of this mesh is bounded; draw the law of a mesh "
+                "that covers more of the sphere");
   }
   std::vector<double> factors(law.measured.size());
   std::transform(law.measured.begin(), law.measured.end(), law.lawful.begin(), factors.begin(),

@@ -29,7 +29,8 @@ struct SpacingLaw {
 
 inline constexpr double law_band = 0.05;
 
-/// \throws Error bad_option for a mesh without bounded cells, or a density that is 0 at a site; as
+/// \throws Error invalid_argument for a mesh without bounded cells, or a density that is 0 at a
+/// site; as
 ///         evaluate().
 SpacingLaw spacing_law(const Mesh& mesh, const Density& density);
 
@@ -50,7 +51,7 @@ inline constexpr std::size_t most_dots = 20000;
 /// evenly over the sites' order), with the law's line and a band of law_band about it; and beneath,
 /// the deviations with their running median.
 /// \param size width in pixels; in points for SVG and PDF. 64 to 16384
-/// \throws Error as spacing_law; bad_option, file.
+/// \throws Error as spacing_law; invalid_argument, file.
 void draw_spacing_law(const std::string& path, const Mesh& mesh, const Density& density,
                       int size = 1200);
 

@@ -80,7 +80,7 @@ std::vector<double> tessellation_values(const Scene& scene, Colouring colouring)
     return area ? as_vector(areas(*scene.polygons)) : as_vector(side_ratios(*scene.polygons));
   }
   if (!scene.mesh->closed()) {
-    throw Error(ErrorCode::bad_option,
+    throw Error(ErrorCode::invalid_argument,
                 std::string("the mesh has an open boundary, so that its cells have no ") +
                     (area ? "area" : "quality") + "; colour its triangles, or cells by spacing");
   }

@@ -25,7 +25,7 @@ std::vector<double> site_valences(const Scene& scene, const std::vector<bool>& c
 /// domain closes those of a plane).
 /// \param by_site for Colouring::density, field and region: n values.
 /// \param clipped for Colouring::valence of a plane, as above.
-/// \throws Error bad_option for the area or quality of cells of an open mesh.
+/// \throws Error invalid_argument for the area or quality of cells of an open mesh.
 std::vector<double> values_of(const Scene& scene, Colouring colouring,
                               const DoubleVector& by_site = {},
                               const std::vector<bool>& clipped = {});

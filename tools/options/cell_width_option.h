@@ -39,12 +39,13 @@ std::string name_of(const WidthWords& words);
 
 /// Reads widths from either file, or makes uniform ones; those of a density raster have no unit.
 /// \pre words.given().
-/// \throws Error as read_cell_width; bad_option for polygons' widths without polygons.
+/// \throws Error as read_cell_width; invalid_argument for polygons' widths without polygons.
 /// \param region which a raster must cover.
 CellWidth read_widths(const WidthWords& words, const Surface& region = {});
 
 /// The same in the plane. \pre words.in_km().
-/// \throws Error as read_planar_cell_width; bad_option for a width with a unit, and for polygons.
+/// \throws Error as read_planar_cell_width; invalid_argument for a width with a unit, and for
+/// polygons.
 PlanarCellWidth read_planar_widths(const WidthWords& words);
 
 /// The input that determines the widths, one line each: the file's contents, and the numbers.

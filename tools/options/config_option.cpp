@@ -142,7 +142,7 @@ public:
 
 private:
   [[noreturn]] void refuse(const ConfigSetting& setting, const std::string& problem) const {
-    throw Error(ErrorCode::bad_option,
+    throw Error(ErrorCode::invalid_argument,
                 path_ + " line " + std::to_string(setting.line) + ": " + problem, setting.line);
   }
 

@@ -21,7 +21,8 @@ namespace calotte::tools {
 ///
 /// (CLI11's own set_config serves the main command alone and reads a part of TOML.)
 /// \return the file's name, once the options are parsed; "" if there is none. The parsing throws
-///         Error file, parse, and bad_option naming the file, the line and the nearest known name.
+///         Error file, parse, and invalid_argument naming the file, the line and the nearest known
+///         name.
 std::shared_ptr<std::string> add_config(CLI::App& command);
 
 /// All options given to a command, by the command line or a file, one value a line.

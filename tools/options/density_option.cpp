@@ -42,7 +42,7 @@ struct BumpWords {
 };
 
 [[noreturn]] void refuse(const std::string& text, const std::string& problem) {
-  throw Error(ErrorCode::bad_option, "--density \"" + text + "\": " + problem);
+  throw Error(ErrorCode::invalid_argument, "--density \"" + text + "\": " + problem);
 }
 
 [[noreturn]] void refuse_value(const BumpWords& words, const std::string& key,

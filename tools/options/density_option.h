@@ -37,7 +37,7 @@ struct Resolution {
 /// \param planar a bump's centre and lengths are in the plane: x and y, beta and alpha without a
 ///        unit; a raster is one of x and y, and a width has no unit.
 /// \param region which a raster must cover.
-/// \throws Error bad_option naming the word and the remedy; as read_cell_width.
+/// \throws Error invalid_argument naming the word and the remedy; as read_cell_width.
 Resolution resolution_of(const DensityWords& words, bool planar = false,
                          const Surface& region = {});
 /// The same without the widths.

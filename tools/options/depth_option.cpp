@@ -12,7 +12,7 @@ namespace calotte::tools {
 namespace {
 
 [[noreturn]] void refuse(const std::string& problem) {
-  throw Error(ErrorCode::bad_option, problem);
+  throw Error(ErrorCode::invalid_argument, problem);
 }
 
 std::optional<double> number_of(const std::string& text) {

@@ -23,7 +23,8 @@ void add_depths(CLI::App& command, DepthWords& words);
 
 /// Sets the depths of a file that is written.
 /// \param file as it is written: its fields may have the depth of the bottom.
-/// \throws Error bad_option, for what are no numbers, and for a field that the file does not have;
+/// \throws Error invalid_argument, for what are no numbers, and for a field that the file does not
+/// have;
 ///         file.
 void set_depths(const DepthWords& words, const MeshFile& file, WriteOptions& options);
 

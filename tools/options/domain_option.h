@@ -29,17 +29,17 @@ std::shared_ptr<DomainWords> add_domain(CLI::App& command);
 /// Adds --hexagons and --walls.
 void add_hexagons(CLI::App& command, DomainWords& words);
 
-/// The directions of --walls. \throws Error bad_option.
+/// The directions of --walls. \throws Error invalid_argument.
 Walls walls_of(const DomainWords& words);
 
-/// The mesh of --hexagons. \pre words.hexagons. \throws Error bad_option.
+/// The mesh of --hexagons. \pre words.hexagons. \throws Error invalid_argument.
 MeshFile hexagons_of(const DomainWords& words);
 
 /// Adds --domain and --rectangle only.
 std::shared_ptr<DomainWords> add_bounded_domain(CLI::App& command);
 
 /// The part of the plane, or the box, of the options; none if no option is given. Reads the file,
-/// if there is one. \throws Error bad_option naming the word and the remedy; as read_domain.
+/// if there is one. \throws Error invalid_argument naming the word and the remedy; as read_domain.
 std::optional<Surface> surface_of(const DomainWords& words);
 
 /// The input that determines it, a line "name value" for a run's configuration; for a file, its
@@ -53,7 +53,7 @@ std::string domain_configuration(const DomainWords& words);
 CLI::Option* add_periodic(CLI::App& command, std::optional<std::string>& word);
 
 /// The period of --periodic, if it is given.
-/// \throws Error bad_option.
+/// \throws Error invalid_argument.
 std::optional<Eigen::Vector2d> period_of(const std::optional<std::string>& word);
 
 } // namespace calotte::tools

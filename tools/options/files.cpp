@@ -35,7 +35,7 @@ void require_folder(const std::string& path) {
 void require_distinct(const std::string& output, const std::string& input) {
   std::error_code absent;
   if (input != "-" && std::filesystem::equivalent(output, input, absent))
-    throw Error(ErrorCode::bad_option,
+    throw Error(ErrorCode::invalid_argument,
                 output + " is both input and output; give the output another name");
 }
 
@@ -51,9 +51,9 @@ void require_outputs(const std::vector<Output>& outputs, const std::vector<std::
       require_distinct(output->path, input);
     for (auto other = outputs.begin(); other != output; ++other)
       if (place(*other) == place(*output))
-        throw Error(ErrorCode::bad_option, output->path + " is both " + other->what + " and " +
-                                               output->what + "; give the " + output->what +
-                                               " another name");
+        throw Error(ErrorCode::invalid_argument, output->path + " is both " + other->what +
+                                                     " and " + output->what + "; give the " +
+                                                     output->what + " another name");
   }
 }
 

@@ -13,7 +13,7 @@ namespace calotte::tools {
 void require_folder(const std::string& path);
 
 /// Throws for an output that would replace an input ("-" is none).
-/// \throws Error bad_option.
+/// \throws Error invalid_argument.
 void require_distinct(const std::string& output, const std::string& input);
 
 /// A file that a command writes, and its name in messages.
@@ -23,7 +23,7 @@ struct Output {
 
 /// As require_folder and require_distinct, for all outputs with a path; two outputs must not be one
 /// file.
-/// \throws Error file, bad_option.
+/// \throws Error file, invalid_argument.
 void require_outputs(const std::vector<Output>& outputs, const std::vector<std::string>& inputs);
 
 /// Throws if the disk has no space for a file of so many bytes.

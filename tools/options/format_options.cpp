@@ -34,7 +34,7 @@ Format format_of(const FormatWords& words, const std::string& path) {
   const Format format = calotte::format_of(path, given);
   if (model != nullptr && model->format != format)
     throw Error(
-        ErrorCode::bad_option,
+        ErrorCode::invalid_argument,
         path + ": --for " + model->word + " writes the format " + word_of(model->format) +
             ", not " + word_of(format) + "; give " +
             (model->format == Format::fesom ? "the name nod2d.out" : "a name that ends in .nc") +
@@ -73,9 +73,9 @@ bool is_netcdf(Format format) {
 void require_radius(double radius, Format format, const std::string& path) {
   require_sphere_radius(radius);
   if (radius != 1 && !is_netcdf(format))
-    throw Error(ErrorCode::bad_option, "--sphere-radius " + shortest(radius) +
-                                           " applies to NetCDF files only, not to " + path +
-                                           "; leave it out, or give a name that ends in .nc");
+    throw Error(ErrorCode::invalid_argument, "--sphere-radius " + shortest(radius) +
+                                                 " applies to NetCDF files only, not to " + path +
+                                                 "; leave it out, or give a name that ends in .nc");
 }
 
 } // namespace
@@ -138,7 +138,7 @@ WriteOptions options_of(const FormatWords& words, const std::string& path) {
   if (words.order)
     options.numbering = numberings.at(*words.order);
   if (words.order && *words.order != "input" && options.format == Format::triangles)
-    throw Error(ErrorCode::bad_option,
+    throw Error(ErrorCode::invalid_argument,
                 path + " holds triangles that refer to the input points; leave --order out");
   return options;
 }

@@ -12,11 +12,11 @@ namespace calotte::tools {
 /// Adds the positional option GLOBAL.
 void add_global(CLI::App& command, std::string& path);
 
-/// \throws Error bad_option unless the name is that of a complete MPAS file.
+/// \throws Error invalid_argument unless the name is that of a complete MPAS file.
 void require_mpas_name(const std::string& output);
 
 /// \param model the word of --for, if given.
-/// \throws Error bad_option for a model that reads other formats.
+/// \throws Error invalid_argument for a model that reads other formats.
 void require_mpas_model(const std::optional<std::string>& model);
 
 } // namespace calotte::tools

@@ -43,8 +43,8 @@ MeshFile read_mesh_file(const MeshSource& source, FieldChoice choice) {
                           : read_point_file(source.points, source.lonlat).points;
   MeshFile file = calotte::read_mesh_file(source.path, points ? &*points : nullptr, choice);
   if (source.plane && !file.plane())
-    throw Error(ErrorCode::bad_option, source.path + ": it holds no mesh of the plane" +
-                                           first_off_plane(file) + "; leave --plane out");
+    throw Error(ErrorCode::invalid_argument, source.path + ": it holds no mesh of the plane" +
+                                                 first_off_plane(file) + "; leave --plane out");
   if (!source.plane && source.points.empty() && is_netcdf_file(source.path))
     warn_of_radius(file.sphere_radius, source.path);
   return file;

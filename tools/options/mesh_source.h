@@ -25,7 +25,8 @@ std::shared_ptr<MeshSource> add_mesh_source(CLI::App& command, const std::string
 /// Adds --plane. \returns the option.
 CLI::Option* add_plane(CLI::App& command, MeshSource& source);
 
-/// \throws Error as read_mesh_file and read_points do; bad_option, with --plane, for a mesh of the
+/// \throws Error as read_mesh_file and read_points do; invalid_argument, with --plane, for a mesh
+/// of the
 ///         sphere.
 MeshFile read_mesh_file(const MeshSource& source, FieldChoice choice);
 

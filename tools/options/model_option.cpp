@@ -35,7 +35,7 @@ std::optional<double> radius_for(const Model* model, std::optional<double> given
   if (model == nullptr)
     return given;
   if (given && !suits(*model, model->format, *given, model->dimensions))
-    throw Error(ErrorCode::bad_option,
+    throw Error(ErrorCode::invalid_argument,
                 "--for " + model->word + " needs a sphere with a radius of " +
                     shortest(model->sphere_radius) + ", not --sphere-radius " + shortest(*given) +
                     "; leave one of them out");

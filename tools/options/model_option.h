@@ -20,7 +20,7 @@ const Model* model_of(const std::optional<std::string>& word);
 /// The radius of a file for a model.
 /// \param given value of --sphere-radius, which stays.
 /// \returns nothing without a radius and without a model.
-/// \throws Error bad_option, for a radius that the model cannot use.
+/// \throws Error invalid_argument, for a radius that the model cannot use.
 std::optional<double> radius_for(const Model* model, std::optional<double> given);
 
 /// A line on the models that an MPAS file of the sphere suits; "" for other formats.

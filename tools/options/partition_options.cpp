@@ -19,11 +19,11 @@ namespace {
 
 Points3 read_centres(const PartitionWords& words, bool plane) {
   if (words.regions)
-    throw Error(ErrorCode::bad_option,
+    throw Error(ErrorCode::invalid_argument,
                 "--regions and a file of centres exclude each other; leave one of them out");
   if (std::error_code absent;
       words.centres != "-" && !std::filesystem::exists(words.centres, absent))
-    throw Error(ErrorCode::bad_option,
+    throw Error(ErrorCode::invalid_argument,
                 "--centres " + words.centres +
                     " is not a file; give sample, fibonacci or a file of points");
   if (!plane)
@@ -72,11 +72,11 @@ std::string centres_file(const PartitionWords& words) {
 }
 
 DelaunayOptions options_of(const PartitionWords& words, bool plane) {
-  static const std::map<std::string, Sort> sorts{
-      {"halo", Sort::halo}, {"distance", Sort::distance}, {"voronoi", Sort::voronoi}};
+  static const std::map<std::string, Overlap> sorts{
+      {"halo", Overlap::halo}, {"distance", Overlap::distance}, {"voronoi", Overlap::voronoi}};
   DelaunayOptions options;
   options.partition.regions = words.regions;
-  options.partition.sort = sorts.at(words.sort);
+  options.partition.overlap = sorts.at(words.sort);
   options.duplicates = words.duplicates == "merge" ? Duplicates::merge : Duplicates::refuse;
   options.merge_within = words.merge_within;
   if (words.centres == "fibonacci")

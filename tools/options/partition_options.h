@@ -26,7 +26,7 @@ std::shared_ptr<PartitionWords> add_partition(CLI::App& command);
 std::string centres_file(const PartitionWords& words);
 
 /// Reads the file of centres where there is one, in the plane x y a line.
-/// \throws Error bad_option, or as read_points.
+/// \throws Error invalid_argument, or as read_points.
 DelaunayOptions options_of(const PartitionWords& words, bool plane = false);
 
 /// Runs the work with that number of threads, or with all.

@@ -10,10 +10,12 @@
 namespace calotte::tools {
 namespace {
 
-/// Reads as read_points(); "-" is standard input.
-Points3 points_from(const std::string& path, Columns columns, std::vector<std::int64_t>* lines) {
-  return path == "-" ? read_points(std::cin, "standard input", columns, lines)
-                     : read_points(path, columns, lines);
+/// Text; "-" is standard input.
+PointFile text_of(const std::string& path, Columns columns) {
+  const std::string name = path == "-" ? "standard input" : path;
+  PointLines read =
+      path == "-" ? read_point_lines(std::cin, name, columns) : read_point_lines(path, columns);
+  return {name, std::move(read.points), std::move(read.lines)};
 }
 
 } // namespace
@@ -21,31 +23,21 @@ Points3 points_from(const std::string& path, Columns columns, std::vector<std::i
 PointFile read_point_file(const std::string& path, bool lonlat) {
   if (holds_points(path)) {
     if (lonlat)
-      throw Error(ErrorCode::bad_option,
+      throw Error(ErrorCode::invalid_argument,
                   path + ": the points of a mesh are x y z; leave --lonlat out, or give text");
     return {path, read_sites(path), {}};
   }
-  PointFile file;
-  file.name = path == "-" ? "standard input" : path;
-  file.points = points_from(path, lonlat ? Columns::lonlat : Columns::xyz, &file.lines);
-  return file;
+  return text_of(path, lonlat ? Columns::lonlat : Columns::xyz);
 }
 
 PointFile read_planar_point_file(const std::string& path) {
-  PointFile file;
-  file.name = path == "-" ? "standard input" : path;
-  if (holds_points(path)) {
-    Mesh mesh = read_mesh(path);
-    if (mesh.surface.is_sphere())
-      throw Error(ErrorCode::bad_option, path + ": it holds points of the sphere, not of a plane");
-    file.points = std::move(mesh.points);
-    return file;
-  }
-  const Points2 places = path == "-" ? read_planar_points(std::cin, file.name, &file.lines)
-                                     : read_planar_points(path, &file.lines);
-  file.points = Points3::Zero(3, places.cols());
-  file.points.topRows<2>() = places;
-  return file;
+  if (!holds_points(path))
+    return text_of(path, Columns::xy);
+  Mesh mesh = read_mesh(path);
+  if (mesh.surface.is_sphere())
+    throw Error(ErrorCode::invalid_argument,
+                path + ": it holds points of the sphere, not of a plane");
+  return {path, std::move(mesh.points), {}};
 }
 
 void rethrow_with_line(const Error& error, const std::string& name,
@@ -54,7 +46,7 @@ void rethrow_with_line(const Error& error, const std::string& name,
                         error.code() == ErrorCode::zero_vector ||
                         error.code() == ErrorCode::duplicate ||
                         // outside of a domain; other options' indices are of other things
-                        (error.code() == ErrorCode::bad_option &&
+                        (error.code() == ErrorCode::invalid_argument &&
                          (std::string_view(error.what()).starts_with("point ") ||
                           std::string_view(error.what()).starts_with("generator ") ||
                           std::string_view(error.what()).starts_with("fixed generator ") ||

@@ -19,12 +19,12 @@ struct PointFile {
 
 /// Text (MPI-SCVT's SaveVertices and RegionList are such), or the points of a mesh, see
 /// mesh_suffixes, which have no lines.
-/// \throws Error as read_points() and read_sites(); bad_option for a mesh in longitude and
+/// \throws Error as read_points() and read_sites(); invalid_argument for a mesh in longitude and
 /// latitude.
 PointFile read_point_file(const std::string& path, bool lonlat);
 
 /// Points of the plane, with z = 0: text, x y a line ("-" is standard input), or the points of a
-/// mesh. \throws Error as read_planar_points() and read_mesh(); bad_option for a mesh of the
+/// mesh. \throws Error as read_points() and read_mesh(); invalid_argument for a mesh of the
 /// sphere.
 PointFile read_planar_point_file(const std::string& path);
 

@@ -29,7 +29,7 @@ struct Word {
 };
 
 [[noreturn]] void refuse(const Word& word, const std::string& problem) {
-  throw Error(ErrorCode::bad_option,
+  throw Error(ErrorCode::invalid_argument,
               word.option + " " + word.text + ": " + problem + "; give " + word.form);
 }
 
@@ -151,14 +151,15 @@ void add_region(CLI::App& command, RegionWords& words) {
 
 void require_region_words(const RegionWords& words) {
   if (words.limited_area && words.region.empty())
-    throw Error(ErrorCode::bad_option, "--limited-area requires a region; give --region");
+    throw Error(ErrorCode::invalid_argument, "--limited-area requires a region; give --region");
   if (!ends_at_boundary(words))
     return;
   if (words.region.empty())
-    throw Error(ErrorCode::bad_option, "--boundary generators requires a region; give --region");
+    throw Error(ErrorCode::invalid_argument,
+                "--boundary generators requires a region; give --region");
   if (words.limited_area)
     throw Error(
-        ErrorCode::bad_option,
+        ErrorCode::invalid_argument,
         "--boundary generators does not apply to --limited-area, whose rings lie outside the "
         "region; leave one of them out");
 }

@@ -27,7 +27,7 @@ void add_inside(CLI::App& command, std::string& inside);
 /// Adds --region, --inside, --limited-area and --boundary.
 void add_region(CLI::App& command, RegionWords& words);
 
-/// Rejects words that exclude each other. \throws Error bad_option.
+/// Rejects words that exclude each other. \throws Error invalid_argument.
 void require_region_words(const RegionWords& words);
 
 /// The region of the word of --region: a file, or circle=LON,LAT,RADIUS,
@@ -35,7 +35,7 @@ void require_region_words(const RegionWords& words);
 /// region`. Reads the file, if there is one.
 /// \param inside LON,LAT of the region, where its rings may have it on either side; or empty.
 /// \param radius_km radius of the sphere to which lengths in km refer.
-/// \throws Error bad_option naming the word and the remedy; as read_region, region_around,
+/// \throws Error invalid_argument naming the word and the remedy; as read_region, region_around,
 ///         read_coast and land_around.
 Surface region_of(const std::string& word, const std::string& inside,
                   double radius_km = earth_radius_km);

@@ -30,7 +30,7 @@ void add_sphere_radius(CLI::App& command, std::optional<double>& metres, const s
 
 void require_sphere_radius(double metres) {
   if (!(metres > 0) || !std::isfinite(metres))
-    throw Error(ErrorCode::bad_option,
+    throw Error(ErrorCode::invalid_argument,
                 "--sphere-radius " + shortest(metres) +
                     " is not a positive number; give one such as 6371229, in metres");
 }

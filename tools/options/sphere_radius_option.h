@@ -16,7 +16,7 @@ inline constexpr double earth_radius = 6371229;
 void add_sphere_radius(CLI::App& command, std::optional<double>& metres, const std::string& help);
 
 /// \param metres the value of --sphere-radius.
-/// \throws Error bad_option for a radius that is not positive and finite.
+/// \throws Error invalid_argument for a radius that is not positive and finite.
 void require_sphere_radius(double metres);
 
 /// Warns of a radius of 1000 to 10 000 m, which may be in km.

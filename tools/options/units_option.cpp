@@ -18,7 +18,7 @@ void add_units(CLI::App& command, std::optional<std::string>& word) {
 Unit unit_of(const std::optional<std::string>& word, std::optional<double> radius_km) {
   const std::string name = word.value_or(radius_km ? "km" : "degrees");
   if (name == "km" && !radius_km)
-    throw Error(ErrorCode::bad_option,
+    throw Error(ErrorCode::invalid_argument,
                 "--units km requires the radius of the sphere; give --sphere-radius earth, or a "
                 "radius in metres");
   if (name == "km")

@@ -20,7 +20,7 @@ struct Unit {
 void add_units(CLI::App& command, std::optional<std::string>& word);
 
 /// The unit of a word. Default: km if the radius of the sphere is known, else degrees.
-/// \throws Error bad_option for km without a radius.
+/// \throws Error invalid_argument for km without a radius.
 Unit unit_of(const std::optional<std::string>& word, std::optional<double> radius_km);
 
 } // namespace calotte::tools

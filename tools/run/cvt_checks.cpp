@@ -22,7 +22,7 @@ namespace {
 
 void require_positive(const std::string& option, double value, const std::string& remedy) {
   if (!(value > 0) || !std::isfinite(value))
-    throw Error(ErrorCode::bad_option,
+    throw Error(ErrorCode::invalid_argument,
                 option + " " + shortest(value) + " is not a positive number; give " + remedy);
 }
 
@@ -30,10 +30,10 @@ void require_positive(const std::string& option, double value, const std::string
 void require_walls_format(const CvtRequest& request, const WriteOptions& options) {
   const Walls walls = walls_of(*request.domain);
   if ((walls.x || walls.y) && format_of(request.mesh, options.format) != Format::mpas)
-    throw Error(ErrorCode::bad_option,
+    throw Error(ErrorCode::invalid_argument,
                 request.mesh + ": a plane with walls is written as MPAS; give a name in .nc");
   if (request.domain->periodic && walls.x && walls.y)
-    throw Error(ErrorCode::bad_option,
+    throw Error(ErrorCode::invalid_argument,
                 "--walls xy leaves no period; give --rectangle, whose sides clip the cells");
 }
 
@@ -43,15 +43,18 @@ void require_plane(const CvtRequest& request, const WriteOptions& options) {
                         format_of(request.mesh, options.format));
   require_walls_format(request, options);
   if (!request.points.empty() && request.domain->walls)
-    throw Error(ErrorCode::bad_option,
+    throw Error(ErrorCode::invalid_argument,
                 "--walls needs points beyond them, too; give --cells instead of START");
   if (request.format->sphere_radius)
-    throw Error(ErrorCode::bad_option, "--sphere-radius does not apply to the plane; leave it out");
+    throw Error(ErrorCode::invalid_argument,
+                "--sphere-radius does not apply to the plane; leave it out");
 }
 
 /// Rejects formats and options that a run in a region does not support.
 void require_region_format(const CvtRequest& request, const WriteOptions& options) {
-  const auto refuse = [](const std::string& what) { throw Error(ErrorCode::bad_option, what); };
+  const auto refuse = [](const std::string& what) {
+    throw Error(ErrorCode::invalid_argument, what);
+  };
   if (request.part.region.empty())
     return;
   if (planar(request))
@@ -80,7 +83,7 @@ void require_hexagons(const CvtRequest& request) {
   static const std::set<std::string> allowed{"hexagons", "walls",  "output",  "format",
                                              "for",      "config", "threads", "numbering"};
   const auto exclude = [](const std::string& option) {
-    throw Error(ErrorCode::bad_option,
+    throw Error(ErrorCode::invalid_argument,
                 "--hexagons makes a uniform grid without a run; leave " + option + " out");
   };
   if (!request.points.empty())
@@ -99,7 +102,8 @@ void require_request(const CvtRequest& request) {
   require_positive("--tolerance", request.given_tolerance.value_or(1), "one such as 1e-6");
   require_positive("--checkpoint-minutes", request.checkpoint_minutes, "one such as 10");
   if (request.relaxation != 1 && request.method != "lloyd")
-    throw Error(ErrorCode::bad_option, "--relaxation applies to --method lloyd only; leave it out");
+    throw Error(ErrorCode::invalid_argument,
+                "--relaxation applies to --method lloyd only; leave it out");
   require_start(request);
   const WriteOptions options = write_options(request); // throws for a file that cannot be written
   if (planar(request))

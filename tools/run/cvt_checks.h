@@ -5,11 +5,11 @@
 
 namespace calotte::tools {
 
-/// Rejects options that do not apply to the grid of --hexagons. \throws Error bad_option.
+/// Rejects options that do not apply to the grid of --hexagons. \throws Error invalid_argument.
 void require_hexagons(const CvtRequest& request);
 
 /// Checks all options of a run that can fail, before any work.
-/// \throws Error bad_option, file.
+/// \throws Error invalid_argument, file.
 void require_request(const CvtRequest& request);
 
 } // namespace calotte::tools

@@ -158,10 +158,10 @@ std::string describe(const CvtProgress& progress, const Schedule& schedule) {
   std::string text = std::to_string(last.cells) + " cells, iteration " +
                      std::to_string(progress.iterations_of_level);
   std::array<char, 64> number{};
-  const bool finishes = last.misshapen > 0;
-  if (finishes) {
+  const bool polishes = last.shape_excess > 0;
+  if (polishes) {
     std::snprintf(number.data(), number.size(), ", shapes %.2g beyond their limits",
-                  last.misshapen);
+                  last.shape_excess);
     text += number.data();
   } else if (!stop.iterations) {
     std::snprintf(number.data(), number.size(), " %.2e of %.0e", progress.report.residual,
@@ -174,7 +174,7 @@ std::string describe(const CvtProgress& progress, const Schedule& schedule) {
   if (progress.bisections_left > 0)
     text += ", then " + std::to_string(progress.bisections_left) +
             (progress.bisections_left == 1 ? " finer level" : " finer levels");
-  if (const auto left = remaining(progress, schedule); left && !finishes) {
+  if (const auto left = remaining(progress, schedule); left && !polishes) {
     const std::string from = duration(left->least), to = duration(left->most);
     text += ", " + (from == to ? from : from + " to " + to) + " left";
   }

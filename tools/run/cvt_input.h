@@ -31,18 +31,19 @@ inline bool is_drawn(Start::Kind kind) {
          kind == Start::Kind::random || kind == Start::Kind::density;
 }
 
-/// Validates the options of the start before any work. \throws Error bad_option.
+/// Validates the options of the start before any work. \throws Error invalid_argument.
 void require_start(const CvtRequest& request);
 
 /// Reads all files that a recipe takes.
-/// \throws Error bad_option, parse, file.
+/// \throws Error invalid_argument, parse, file.
 CvtInput read_input(const CvtRequest& request);
 
 /// The schedule of its recipe. An error that names a point names its line, too.
 /// \throws Error as plan().
 Schedule plan_of(const CvtInput& input);
 
-/// Rejects options that the start chosen for the request does not have. \throws Error bad_option.
+/// Rejects options that the start chosen for the request does not have. \throws Error
+/// invalid_argument.
 void require_used(const CvtRequest& request, const Schedule& schedule);
 
 /// Remarks on the widths and on the number of cells, a line each, without an end.

@@ -16,13 +16,14 @@ Json to_json(const CvtIteration& iteration) {
   return {{"cells", iteration.cells},
           {"spacing", iteration.spacing},
           {"rule", iteration.rule},
+          {"linear_density", iteration.linear_density},
           {"l2", iteration.l2},
           {"linf", iteration.linf},
           {"gradient", iteration.gradient},
           {"energy", iteration.energy},
-          {"misshapen", iteration.misshapen},
-          {"displaced", iteration.displaced},
-          {"displacement", iteration.displacement},
+          {"shape_excess", iteration.shape_excess},
+          {"off_centroid", iteration.off_centroid},
+          {"largest_offset", iteration.largest_offset},
           {"accepted", iteration.accepted},
           {"flips", iteration.flips},
           {"rebuilt", iteration.rebuilt},
@@ -70,7 +71,7 @@ std::string to_json(const CvtRequest& request, const Stop& stop, const CvtReport
   json["converged"] = report.converged;
   json["well_centred"] = report.well_centred;
   if (report.worst_cell >= 0) {
-    json["misshapen_cells"] = report.misshapen_cells;
+    json["cells_beyond_limits"] = report.cells_beyond_limits;
     json["worst_cell"] = report.worst_cell;
   }
   json["residual"] = report.residual;
@@ -109,11 +110,11 @@ std::string summary(const CvtRequest& request, const Stop& stop, const CvtReport
     line += std::string(", energy x cells ") + (planar(request) ? "/ area^2 " : "") +
             formatted("%.7g", last.energy * static_cast<double>(last.cells) / (area * area));
   }
-  if (iterations > 0 && report.iterations.back().displaced > 0) {
+  if (iterations > 0 && report.iterations.back().off_centroid > 0) {
     const CvtIteration& last = report.iterations.back();
-    line += ", " + std::to_string(last.displaced) +
+    line += ", " + std::to_string(last.off_centroid) +
             " generators more than 0.01 of the spacing from their centroids (at most " +
-            formatted("%.2g", last.displacement) + ")";
+            formatted("%.2g", last.largest_offset) + ")";
   }
   return line + ", " + formatted("%.2f", report.seconds) + " s";
 }

@@ -55,7 +55,7 @@ void add_cells(const Quality& quality, nlohmann::ordered_json& json) {
   json["limit"] = quality.limit;
   json["excess"] = quality.excess;
   json["dc_over_h"] = to_json(quality.dc_over_h);
-  json["unfit_edges"] = quality.unfit_edges;
+  json["mismatched_edges"] = quality.mismatched_edges;
   json["bad_cells"] = quality.bad_cells;
   json["bad_spacing"] = to_json(quality.bad_spacing);
   json["cells_area"] = quality.cells_area;
@@ -194,7 +194,7 @@ void add_cell_rows(const Measured& measured, Table& table) {
   table.row("its limit", quality.limit / (area * area), 7);
   table.row("excess, percent", 100 * quality.excess, 4);
   table.row("dc / h", quality.dc_over_h);
-  table.row("outside 0.75 to 1.4", quality.unfit_edges);
+  table.row("outside 0.75 to 1.4", quality.mismatched_edges);
   add_bad_cells(measured, table);
   table.row(plane ? "cells / domain" : "cells / 4 pi", quality.cells_area, 15);
 }

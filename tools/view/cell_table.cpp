@@ -12,9 +12,9 @@ namespace calotte::tools {
 
 std::string cell_table(const ViewMesh& mesh, std::int64_t cell) {
   if (cell >= mesh.cells)
-    throw Error(ErrorCode::bad_option, "--cell " + std::to_string(cell) +
-                                           ": the mesh has the cells 0 to " +
-                                           std::to_string(mesh.cells - 1));
+    throw Error(ErrorCode::invalid_argument, "--cell " + std::to_string(cell) +
+                                                 ": the mesh has the cells 0 to " +
+                                                 std::to_string(mesh.cells - 1));
   std::ostringstream out;
   const auto row = [&out](const std::string& name, const std::string& value) {
     out << std::left << std::setw(28) << name << value << "\n";

@@ -38,7 +38,8 @@ std::vector<unsigned char> compressed(const std::vector<unsigned char>& bytes) {
   std::vector<unsigned char> result(size);
   constexpr int level = 6;
   if (compress2(result.data(), &size, bytes.data(), bytes.size(), level) != Z_OK)
-    throw Error(ErrorCode::bad_option, "the page's data do not fit in memory; view a smaller mesh");
+    throw Error(ErrorCode::invalid_argument,
+                "the page's data do not fit in memory; view a smaller mesh");
   result.resize(size);
   return result;
 }

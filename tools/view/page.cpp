@@ -235,7 +235,7 @@ std::string script_safe(const Json& json) {
 void replace(std::string& text, const std::string& place, const std::string& by) {
   const std::size_t at = text.find(place);
   if (at == std::string::npos)
-    throw Error(ErrorCode::bad_option, "the page's template lacks " + place);
+    throw Error(ErrorCode::invalid_argument, "the page's template lacks " + place);
   text.replace(at, place.size(), by);
 }
 

@@ -221,16 +221,16 @@ Triangles triangles_of(const Points3& points, const ViewMesh& whole, const Curve
   return kept;
 }
 
-/// \throws Error bad_option where so few sites do not fill a periodic box.
+/// \throws Error invalid_argument where so few sites do not fill a periodic box.
 Mesh planar_mesh(const Points3& points, const Surface& surface) {
   try {
     return delaunay(points, surface);
   } catch (const Error& error) {
     if (error.code() != ErrorCode::too_few_sites || !surface.is_box())
       throw;
-    throw Error(ErrorCode::bad_option, std::to_string(points.cols()) +
-                                           " cells are too few for the periodic box; give a "
-                                           "greater number to --most-cells");
+    throw Error(ErrorCode::invalid_argument, std::to_string(points.cols()) +
+                                                 " cells are too few for the periodic box; give a "
+                                                 "greater number to --most-cells");
   }
 }
 

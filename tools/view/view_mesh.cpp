@@ -20,7 +20,7 @@ constexpr std::size_t most_fields = 12; // that are shown by default
 constexpr const char* mask_name = "bdyMaskCell";
 
 [[noreturn]] void refuse(const std::string& problem) {
-  throw Error(ErrorCode::bad_option, problem);
+  throw Error(ErrorCode::invalid_argument, problem);
 }
 
 /// Whether the cells are measured as the file has them: those that are not Voronoi cells, and

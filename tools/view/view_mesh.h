@@ -46,12 +46,13 @@ struct ViewChoice {
   std::int64_t most_cells = 1000000; ///< larger meshes are thinned
 };
 
-/// \throws Error bad_option for a field that the file does not have at cells or triangles, and for
+/// \throws Error invalid_argument for a field that the file does not have at cells or triangles,
+/// and for
 ///         a domain of another period; as cell_measures() and voronoi().
 ViewMesh view_mesh(const std::string& name, MeshFile file, const ViewChoice& choice);
 
 /// The numbers of one cell, a line each: its location and its quantities.
-/// \throws Error bad_option if the mesh does not have it.
+/// \throws Error invalid_argument if the mesh does not have it.
 std::string cell_table(const ViewMesh& mesh, std::int64_t cell);
 
 /// Keeps some of the cells, evenly spread, and the ten worst of each quantity; triangulates them.

@@ -552,10 +552,11 @@ TEST_CASE("no reports, too many, an invalid size or suffix: refused, and no file
   const auto code = [&](const std::string& name, const std::vector<History>& histories, int size) {
     return code_of([&] { draw_history(folder.file(name), histories, size); });
   };
-  CHECK(code("a.png", {}, 1200) == ErrorCode::bad_option);
-  CHECK(code("a.png", std::vector(most_histories + 1, history), 1200) == ErrorCode::bad_option);
-  CHECK(code("a.png", one, 63) == ErrorCode::bad_option);
-  CHECK(code("a.jpg", one, 1200) == ErrorCode::bad_option);
+  CHECK(code("a.png", {}, 1200) == ErrorCode::invalid_argument);
+  CHECK(code("a.png", std::vector(most_histories + 1, history), 1200) ==
+        ErrorCode::invalid_argument);
+  CHECK(code("a.png", one, 63) == ErrorCode::invalid_argument);
+  CHECK(code("a.jpg", one, 1200) == ErrorCode::invalid_argument);
   CHECK(code("none/a.png", one, 1200) == ErrorCode::file);
   CHECK(folder.count() == 1); // the report
 }

@@ -186,7 +186,7 @@ TEST_CASE("a range sets the ends of the bar, in the unit of the legend") {
   CHECK(wide.place(100) == doctest::Approx(0.5));
   for (const Colouring colouring : {Colouring::valence, Colouring::region, Colouring::none}) {
     Scale classes = make_scale({5, 6}, colouring);
-    CHECK(code_of([&] { set_range(classes, {0, 1}); }) == ErrorCode::bad_option);
+    CHECK(code_of([&] { set_range(classes, {0, 1}); }) == ErrorCode::invalid_argument);
   }
 }
 

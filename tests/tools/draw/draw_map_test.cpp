@@ -519,7 +519,7 @@ TEST_CASE("an unknown field is refused with the names of the fields in the file"
   write_fields(path);
   const auto message = [&](const std::string& name, std::int64_t count) {
     const Error error = error_of([&] { read_cell_field(path, name, count); });
-    CHECK(error.code() == ErrorCode::bad_option);
+    CHECK(error.code() == ErrorCode::invalid_argument);
     return std::string(error.what());
   };
   CHECK(message("deep", cells) == path + ": no variable deep; there are depth, index");
@@ -689,10 +689,10 @@ TEST_CASE("a plane's pictures are written in every format, shape and colouring")
   const Mesh mesh = plane_cases().front().mesh;
   DrawOptions options = coloured_by_number(mesh, Shapes::cells);
   options.field.values.resize(3);
-  CHECK(code_of([&] { draw(folder.file("b.png"), mesh, options); }) == ErrorCode::bad_option);
+  CHECK(code_of([&] { draw(folder.file("b.png"), mesh, options); }) == ErrorCode::invalid_argument);
   options.colouring = Colouring::density;
   options.density.kind = Density::Kind::maximum; // of no bumps
-  CHECK(code_of([&] { draw(folder.file("b.png"), mesh, options); }) == ErrorCode::bad_option);
+  CHECK(code_of([&] { draw(folder.file("b.png"), mesh, options); }) == ErrorCode::invalid_argument);
   CHECK(!fs::exists(folder.file("b.png")));
 }
 
@@ -704,7 +704,7 @@ TEST_CASE("a domain of another period is not one of the mesh") {
         set_domain(mesh, domain);
         CHECK(mesh.surface == domain);
       } else {
-        CHECK(code_of([&] { set_domain(mesh, domain); }) == ErrorCode::bad_option);
+        CHECK(code_of([&] { set_domain(mesh, domain); }) == ErrorCode::invalid_argument);
         CHECK(mesh.surface == c.mesh.surface);
       }
     }

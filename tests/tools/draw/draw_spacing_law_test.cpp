@@ -112,14 +112,14 @@ TEST_CASE("an open mesh: its unbounded cells are left out; with no other there i
   square << 0, 1, 0, -1, 0, /**/ 0, 0, 1, 0, -1, /**/ 1, 1, 1, 1, 1;
   CHECK(spacing_law(delaunay(square), {}).measured.size() == 1); // the one in the middle
   const Mesh none = delaunay(square.rightCols(4));
-  CHECK(code_of([&] { spacing_law(none, {}); }) == ErrorCode::bad_option);
+  CHECK(code_of([&] { spacing_law(none, {}); }) == ErrorCode::invalid_argument);
 }
 
 TEST_CASE("a density of 0 at a site is refused by the site's number") {
   const Mesh mesh = delaunay(random_sphere(50));
   const Density density = obeyed_by(mesh, [](std::size_t i) { return i < 37 ? 1 : 0; });
   const Error error = error_of([&] { spacing_law(mesh, density); });
-  CHECK(error.code() == ErrorCode::bad_option);
+  CHECK(error.code() == ErrorCode::invalid_argument);
   CHECK(error.index() == 37);
 }
 
@@ -169,9 +169,9 @@ TEST_CASE("every format and size; a picture that cannot be drawn leaves no file"
   CHECK(bytes_of(folder.file("a.svg")).ends_with("</svg>\n"));
   CHECK(bytes_of(folder.file("a.pdf")).ends_with("%%EOF\n"));
   CHECK(code_of([&] { draw_spacing_law(folder.file("b.gif"), mesh, {}); }) ==
-        ErrorCode::bad_option);
+        ErrorCode::invalid_argument);
   CHECK(code_of([&] { draw_spacing_law(folder.file("b.png"), mesh, {}, 63); }) ==
-        ErrorCode::bad_option);
+        ErrorCode::invalid_argument);
   CHECK(folder.count() == 3);
 }
 

@@ -108,12 +108,12 @@ TEST_CASE("a picture that cannot be drawn is refused, and leaves no file") {
   const Mesh mesh = tetrahedron();
   for (const char* name : {"a.jpg", "a", "png", ".", "a.png/"}) {
     CAPTURE(name);
-    CHECK(code_of([&] { draw(folder.file(name), mesh); }) == ErrorCode::bad_option);
+    CHECK(code_of([&] { draw(folder.file(name), mesh); }) == ErrorCode::invalid_argument);
   }
   CHECK(code_of([&] { draw(folder.file("a.png"), mesh, {.look = {.size = 63}}); }) ==
-        ErrorCode::bad_option);
+        ErrorCode::invalid_argument);
   CHECK(code_of([&] { draw(folder.file("a.png"), mesh, {.look = {.size = 16385}}); }) ==
-        ErrorCode::bad_option);
+        ErrorCode::invalid_argument);
   CHECK(code_of([&] { draw(folder.file("none/a.png"), mesh); }) == ErrorCode::file);
   CHECK(folder.count() == 0);
 }
@@ -320,7 +320,8 @@ TEST_CASE("labels of a bar say the values at their places, in degrees or powers 
 TEST_CASE("a colouring that a mesh does not support is refused, and leaves no file") {
   const Folder folder;
   const auto refused = [&](const Mesh& mesh, const DrawOptions& options) {
-    CHECK(code_of([&] { draw(folder.file("a.png"), mesh, options); }) == ErrorCode::bad_option);
+    CHECK(code_of([&] { draw(folder.file("a.png"), mesh, options); }) ==
+          ErrorCode::invalid_argument);
     CHECK(folder.count() == 0);
   };
   for (const Colouring colouring : {Colouring::area, Colouring::quality}) {

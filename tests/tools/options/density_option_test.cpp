@@ -32,7 +32,7 @@ std::string refusal(const std::string& words) {
   try {
     density_of(DensityWords{{words}});
   } catch (const Error& error) {
-    CHECK(error.code() == ErrorCode::bad_option);
+    CHECK(error.code() == ErrorCode::invalid_argument);
     const std::string message = error.what(), start = "--density \"" + words + "\": ";
     REQUIRE(message.starts_with(start));
     return message.substr(start.size());

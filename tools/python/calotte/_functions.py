@@ -271,7 +271,7 @@ class Cvt:
     mesh: the Delaunay triangulation of the generators; with walls that of a wider box.
     converged: whether the norm fell below the tolerance.
     well_centred: whether all shapes are within the limits of models.
-    misshapen_cells: number of cells beyond them, where that was asked for.
+    cells_beyond_limits: number of cells beyond them, where that was asked for.
     worst_cell: the cell farthest beyond them; -1 for none.
     residual: the norm at the end, relative to the spacing of the cells.
     energy: at the end: integral of density times squared distance from the generator.
@@ -286,7 +286,7 @@ class Cvt:
     mesh: Mesh
     converged: bool
     well_centred: bool
-    misshapen_cells: int
+    cells_beyond_limits: int
     worst_cell: int
     residual: float
     energy: float
@@ -303,15 +303,15 @@ class Cvt:
     def __repr__(self) -> str:
         end = "converged after" if self.converged else "not converged in"
         shape = ("well-centred, " if self.well_centred else
-                 f"{_display.counted(self.misshapen_cells, 'misshapen cell')}, "
-                 if self.misshapen_cells else "")
+                 f"{_display.counted(self.cells_beyond_limits, 'shape_excess cell')}, "
+                 if self.cells_beyond_limits else "")
         return (f"<calotte.Cvt: {_display.counted(len(self._grid()), 'cell')}, {end} "
                 f"{_display.counted(self.iterations, 'iteration')}, {shape}residual "
                 f"{self.residual:.2g}>")
 
     def _repr_html_(self) -> str:
         rows = [(name, getattr(self, name), "") for name in
-                ("converged", "well_centred", "misshapen_cells", "worst_cell", "residual",
+                ("converged", "well_centred", "cells_beyond_limits", "worst_cell", "residual",
                  "energy", "iterations", "seconds")]
         return self._grid()._repr_html_() + _display.table(repr(self).strip("<>"), rows)
 

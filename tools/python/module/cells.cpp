@@ -73,7 +73,7 @@ void add_quality(py::module_& module) {
              "Range over edges of the length of the Voronoi edge over that of the Delaunay edge; "
              "0.577 for regular hexagons."},
       Member{"short_edges", &Quality::short_edges, "Number of edges with dv/dc below 0.18."},
-      Member{"unfit_edges", &Quality::unfit_edges,
+      Member{"mismatched_edges", &Quality::mismatched_edges,
              "Number of edges with dc/h outside 0.75 to 1.4."},
       Member{"bad_cells", &Quality::bad_cells,
              "Number of cells with such an edge or with the centre of an obtuse triangle."},

@@ -72,8 +72,9 @@ void set_centres(const Mesh& mesh, Corners& corners) {
 
 std::tuple<py::array, py::array, py::array, double, bool> corners_of(const Mesh& mesh) {
   if (!mesh.closed())
-    throw Error(ErrorCode::bad_option, "the points lie within a hemisphere, so that some cells are "
-                                       "unbounded; spread them over the sphere");
+    throw Error(ErrorCode::invalid_argument,
+                "the points lie within a hemisphere, so that some cells are "
+                "unbounded; spread them over the sphere");
   Corners corners = call([&] {
     Corners made;
     tbb::parallel_invoke([&] { walk_rings(mesh, made); }, [&] { set_centres(mesh, made); });

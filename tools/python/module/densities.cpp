@@ -25,7 +25,7 @@ Density callable(py::object function) {
     const py::gil_scoped_acquire locked;
     const Doubles values(f(handed_over(Points3(x))));
     if (values.ndim() != 1 || values.shape(0) != x.cols())
-      throw Error(ErrorCode::bad_option,
+      throw Error(ErrorCode::invalid_argument,
                   "the density function must return one number for each of its points");
     rho = Eigen::Map<const Eigen::VectorXd>(values.data(), values.shape(0));
   };

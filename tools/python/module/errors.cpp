@@ -23,8 +23,8 @@ std::string name_of(ErrorCode code) {
     return "too_few_sites";
   case ErrorCode::degenerate:
     return "degenerate";
-  case ErrorCode::bad_option:
-    return "bad_option";
+  case ErrorCode::invalid_argument:
+    return "invalid_argument";
   case ErrorCode::parse:
     return "parse";
   case ErrorCode::file:
@@ -54,13 +54,13 @@ void add_errors(py::module_& module) {
       "calotte.Error",
       "Input that calotte refuses, in one line that names the remedy.\n\n"
       "code: why, one of not_finite, zero_vector, duplicate, too_few_sites, degenerate,\n"
-      "bad_option, parse, file, cancelled, internal.\n"
+      "invalid_argument, parse, file, cancelled, internal.\n"
       "index: the 0-based index, or the 1-based line of a file, or None.",
       PyExc_ValueError, nullptr);
   if (error_type == nullptr)
     throw py::error_already_set();
   const py::object type = py::reinterpret_borrow<py::object>(error_type);
-  type.attr("code") = "bad_option";
+  type.attr("code") = "invalid_argument";
   type.attr("index") = py::none();
   module.attr("Error") = type;
   py::register_exception_translator([](std::exception_ptr thrown) {

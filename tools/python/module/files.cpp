@@ -126,7 +126,7 @@ Content of_state(const py::tuple& state) {
 using Offsets = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>;
 using CornerIds = py::array_t<std::int32_t, py::array::c_style | py::array::forcecast>;
 
-/// Cells on the sphere. \throws Error bad_option for ids out of range.
+/// Cells on the sphere. \throws Error invalid_argument for ids out of range.
 std::shared_ptr<Polygons> polygons_from(const Doubles& corners, const Offsets& begin,
                                         const CornerIds& ids) {
   auto cells = std::make_shared<Polygons>();
@@ -138,7 +138,7 @@ std::shared_ptr<Polygons> polygons_from(const Doubles& corners, const Offsets& b
                          std::is_sorted(cells->begin.begin(), cells->begin.end());
   if (corners.ndim() != 2 || corners.shape(1) != 3 || !ascending ||
       (ids.size() > 0 && (cells->ids.minCoeff() < 0 || cells->ids.maxCoeff() >= corners.shape(0))))
-    throw Error(ErrorCode::bad_option,
+    throw Error(ErrorCode::invalid_argument,
                 "corners, begin and ids do not fit; give m x 3 corners, and ids below m of which "
                 "begin[i] to begin[i + 1] - 1 are those of polygon i");
   return cells;
@@ -410,7 +410,7 @@ Format format_named(const std::string& name) {
       return format;
     names += ", " + word;
   }
-  throw Error(ErrorCode::bad_option, "no format " + name + "; give one of: " + names);
+  throw Error(ErrorCode::invalid_argument, "no format " + name + "; give one of: " + names);
 }
 
 Output output_of(std::string path, const std::string& format, std::optional<double> radius,

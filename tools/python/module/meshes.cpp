@@ -40,7 +40,7 @@ DelaunayOptions options_of(double merge_within, bool merge, std::optional<int> r
   options.progress = [](const Progress&) { // ^C reaches the thread that Python's main code runs in
     const py::gil_scoped_acquire locked;
     check_interrupt();
-    return false;
+    return Next::proceed;
   };
   return options;
 }
@@ -53,13 +53,14 @@ std::shared_ptr<Mesh> delaunay(const Doubles& points, const Surface& surface, do
 }
 
 /// The mesh with the boundary of a domain.
-/// \throws Error bad_option for a mesh of the sphere, and for a domain of another period.
+/// \throws Error invalid_argument for a mesh of the sphere, and for a domain of another period.
 std::shared_ptr<Mesh> within(const Mesh& mesh, const Surface& domain) {
   if (mesh.surface.is_sphere())
-    throw Error(ErrorCode::bad_option, "the mesh is on the sphere, and a domain is a part of the "
-                                       "plane; leave it out");
+    throw Error(ErrorCode::invalid_argument,
+                "the mesh is on the sphere, and a domain is a part of the "
+                "plane; leave it out");
   if (domain.period() != mesh.surface.period())
-    throw Error(ErrorCode::bad_option,
+    throw Error(ErrorCode::invalid_argument,
                 "the mesh and the domain have different periods; give the domain of the mesh");
   auto bounded = std::make_shared<Mesh>(mesh);
   bounded->surface = domain;

@@ -97,36 +97,21 @@ void add_surfaces(py::module_& module) {
                              "infinite for a plane without an end.")
       .def_property_readonly("is_sphere", &Surface::is_sphere, "False in a plane.")
       .def_property_readonly("is_bounded", &Surface::is_bounded, "True if it has rings.")
-      .def(
-          "widened",
-          [](const Surface& surface, double distance) -> Surface {
-            return widened(surface, distance);
-          },
-          "A region of the sphere and what is within a distance of it, radians.")
+      .def("widened", &widened,
+           "A region of the sphere and what is within a distance of it, radians.")
       .def(py::self == py::self)
       .def(py::pickle(&state_of, &of_state));
   module.def("contains", &contains);
   module.def("plane", &Surface::plane);
   module.def("periodic_box", &Surface::periodic);
   module.def("planar_polygon", &planar_polygon);
-  module.def("rectangle",
-             [](const Eigen::Vector2d& lower, const Eigen::Vector2d& upper) -> Surface {
-               return rectangle(lower, upper);
-             });
+  module.def("rectangle", &rectangle);
   module.def("polygon", &polygon);
-  module.def("circle", [](const Eigen::Vector3d& centre, double radius, int corners) -> Surface {
-    return circle(centre, radius, corners);
-  });
-  module.def("ellipse",
-             [](const Eigen::Vector3d& centre, double semi_major, double semi_minor, double bearing,
-                int corners) -> Surface {
-               return ellipse(centre, semi_major, semi_minor, bearing, corners);
-             });
-  module.def("channel", [](double lower, double upper, int corners) -> Surface {
-    return channel(lower, upper, corners);
-  });
+  module.def("circle", &circle);
+  module.def("ellipse", &ellipse);
+  module.def("channel", &channel);
   module.def("read_region", [](const std::string& path) { return read_region(path); });
-  module.def("read_domain", [](const std::string& path) { return read_domain(path); });
+  module.def("read_domain", &read_domain);
   module.def("land_around", [](const std::string& path, const Eigen::Vector3d& place) {
     return call([&] { return land_around(read_coast(path), place); });
   });

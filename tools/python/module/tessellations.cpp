@@ -30,7 +30,7 @@ constexpr std::array<Word<Boundary>, 2> boundaries{
 constexpr std::array<Word<Duplicates>, 2> duplicates{
     {{"merge", Duplicates::merge}, {"refuse", Duplicates::refuse}}};
 
-/// \throws Error bad_option, with the words that there are.
+/// \throws Error invalid_argument, with the words that there are.
 template <class Value>
 Value named(std::span<const Word<Value>> words, const std::string& word, const std::string& what) {
   std::string names;
@@ -39,7 +39,7 @@ Value named(std::span<const Word<Value>> words, const std::string& word, const s
       return known.value;
     names += (names.empty() ? "" : ", ") + std::string(known.word);
   }
-  throw Error(ErrorCode::bad_option, "no " + what + " " + word + "; give one of: " + names);
+  throw Error(ErrorCode::invalid_argument, "no " + what + " " + word + "; give one of: " + names);
 }
 
 template <class Value> std::string word_in(std::span<const Word<Value>> words, Value value) {
@@ -82,7 +82,7 @@ void add_points_field(py::class_<Recipe>& type, const char* name, const Field& f
 /// "x", "y", "xy" or "".
 Walls walls_named(const std::string& word) {
   if (word.find_first_not_of("xy") != std::string::npos)
-    throw Error(ErrorCode::bad_option, "no walls " + word + "; give x or y");
+    throw Error(ErrorCode::invalid_argument, "no walls " + word + "; give x or y");
   return {word.find('x') != std::string::npos, word.find('y') != std::string::npos};
 }
 
@@ -177,11 +177,12 @@ py::dict progress_of(const CvtProgress& now) {
 }
 
 /// Ends the run after ^C, or where the function returns True.
-CvtCallback callback_of(py::object function) {
-  return [f = Callable(std::move(function))](const CvtProgress& now) {
+ProgressCallback callback_of(py::object function) {
+  return [f = Callable(std::move(function))](const Progress& now) {
     const py::gil_scoped_acquire locked;
     check_interrupt();
-    return !f.none() && f(progress_of(now)).template cast<py::object>().is(py::bool_(true));
+    const bool stops = !f.none() && f(progress_of(*now.run)).is(py::bool_(true));
+    return stops ? Next::stop : Next::proceed;
   };
 }
 
@@ -189,7 +190,7 @@ py::dict report_of(const CvtReport& report) {
   py::dict values;
   values["converged"] = report.converged;
   values["well_centred"] = report.well_centred;
-  values["misshapen_cells"] = report.misshapen_cells;
+  values["cells_beyond_limits"] = report.cells_beyond_limits;
   values["worst_cell"] = report.worst_cell;
   values["residual"] = report.residual;
   values["iterations"] = report.iterations.size();
@@ -217,11 +218,11 @@ MeshFile between_walls(const Recipe& asked, const Recipe& made, const Mesh& box)
 
 /// The mesh, the report, and the polygons between walls with their content, or None.
 py::tuple run(const Recipe& recipe, std::optional<int> regions, py::object function) {
-  const CvtCallback callback = callback_of(std::move(function));
+  const ProgressCallback callback = callback_of(std::move(function));
   auto cells = std::make_shared<MeshFile>();
   Cvt grid = call([&] {
     const Schedule schedule = plan(recipe);
-    Cvt made = make_grid(schedule, {.partition = {.regions = regions}, .callback = callback});
+    Cvt made = make_grid(schedule, {.partition = {.regions = regions}, .progress = callback});
     if (recipe.walls.x || recipe.walls.y)
       *cells = between_walls(recipe, schedule.recipe, made.mesh);
     return made;

@@ -20,7 +20,7 @@ struct Neighbours {
 
 /// A place on the boundary where sides of cells along it meet: a corner of the boundary, or the end
 /// of a Voronoi edge.
-struct ShoreVertex {
+struct BoundaryVertex {
   Vec2 place;
   /// The cells of the sides that end and start here, with the domain to the left; equal at a corner
   /// of the boundary within a cell. Others are neighbours.
@@ -36,7 +36,7 @@ struct ShoreVertex {
 /// bisector comes first. Each step makes progress in the edge's direction, so that the walk ends,
 /// and the vertices of a ring form a closed walk in the triangulation, whatever the rounding. A
 /// bisector that runs along the boundary but for rounding belongs to the site on the domain's side.
-std::vector<std::vector<ShoreVertex>> walk_shore(const Outline& outline, const Points2& sites,
-                                                 const Neighbours& neighbours);
+std::vector<std::vector<BoundaryVertex>> walk_boundary(const Outline& outline, const Points2& sites,
+                                                       const Neighbours& neighbours);
 
 } // namespace calotte::voronoi_detail

@@ -11,7 +11,7 @@ namespace calotte::base_detail {
 /// that is not instrumented. They state that everything before a parallel loop happens before each
 /// of its bodies, and each body before everything after the loop. Two bodies remain unordered, so
 /// that races between them are still found. In other builds the functions do nothing.
-class Handover {
+class HappensBefore {
 #ifdef __SANITIZE_THREAD__
 #define CALOTTE_UNSEEN                                                                             \
   __attribute__((no_sanitize("thread"))) // for the code between oneTBB and the body

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "voronoi/shore.h"
+#include "voronoi/boundary_walk.h"
 
 #include "domain/clipped_cell.h"
 #include "exact/plane_predicates.h"
@@ -44,16 +44,16 @@ public:
   }
 
   /// Whether two consecutive vertices are one place but for rounding.
-  bool near(const ShoreVertex& a, const ShoreVertex& b) const {
+  bool near(const BoundaryVertex& a, const BoundaryVertex& b) const {
     const double rounding = 0x1p-50 * (std::abs(a.place.x) + std::abs(a.place.y));
     return norm(b.place - a.place) <= rounding + relative * norm(a.place - site(a.after));
   }
 
   /// The crossings at a place where several cells meet, from one of them to another by the least
   /// number of cells on the domain's side. None if rounding has put them in another order.
-  std::optional<std::vector<ShoreVertex>> around(const Vec2& place, std::int32_t from,
-                                                 std::int32_t to) const {
-    std::vector<ShoreVertex> path;
+  std::optional<std::vector<BoundaryVertex>> around(const Vec2& place, std::int32_t from,
+                                                    std::int32_t to) const {
+    std::vector<BoundaryVertex> path;
     if (from == to)
       path.push_back({place, from, from});
     for (std::int32_t cell = from; cell != to;) {
@@ -132,7 +132,7 @@ private:
 };
 
 /// Appends a vertex; a corner where cells meet is one vertex.
-void append(const Walk& walk, const ShoreVertex& vertex, std::vector<ShoreVertex>& ring) {
+void append(const Walk& walk, const BoundaryVertex& vertex, std::vector<BoundaryVertex>& ring) {
   const bool again = !ring.empty() && walk.near(ring.back(), vertex);
   if (again && !ring.back().crossing())
     ring.back().after = vertex.after;
@@ -141,7 +141,7 @@ void append(const Walk& walk, const ShoreVertex& vertex, std::vector<ShoreVertex
 }
 
 /// The ring may end where it starts.
-void close(const Walk& walk, std::vector<ShoreVertex>& ring) {
+void close(const Walk& walk, std::vector<BoundaryVertex>& ring) {
   if (ring.size() < 2 || !walk.near(ring.back(), ring.front()))
     return;
   if (!ring.front().crossing())
@@ -151,7 +151,7 @@ void close(const Walk& walk, std::vector<ShoreVertex>& ring) {
 }
 
 /// Where the boundary runs through a vertex of cells, those outside of the domain are left out.
-std::vector<ShoreVertex> straightened(const Walk& walk, std::vector<ShoreVertex> ring) {
+std::vector<BoundaryVertex> straightened(const Walk& walk, std::vector<BoundaryVertex> ring) {
   const auto follows = [&](std::size_t k) {
     return walk.near(ring[k == 0 ? ring.size() - 1 : k - 1], ring[k]);
   };
@@ -161,7 +161,7 @@ std::vector<ShoreVertex> straightened(const Walk& walk, std::vector<ShoreVertex>
   if (first == ring.size())
     return ring;
   std::rotate(ring.begin(), ring.begin() + static_cast<std::ptrdiff_t>(first), ring.end());
-  std::vector<ShoreVertex> out;
+  std::vector<BoundaryVertex> out;
   for (std::size_t k = 0, end = 0; k < ring.size(); k = end) {
     for (end = k + 1; end < ring.size() && follows(end);)
       ++end;
@@ -178,9 +178,9 @@ std::vector<ShoreVertex> straightened(const Walk& walk, std::vector<ShoreVertex>
 }
 
 /// \param cell at the first corner; receives that at the end.
-std::vector<ShoreVertex> walk_once(const Walk& walk, const std::vector<Vec2>& corners,
-                                   std::int32_t& cell) {
-  std::vector<ShoreVertex> ring;
+std::vector<BoundaryVertex> walk_once(const Walk& walk, const std::vector<Vec2>& corners,
+                                      std::int32_t& cell) {
+  std::vector<BoundaryVertex> ring;
   for (std::size_t k = 0; k < corners.size(); ++k) {
     append(walk, {corners[k], cell, cell}, ring);
     cell = walk.go(cell, corners[k], corners[k + 1 == corners.size() ? 0 : k + 1],
@@ -193,13 +193,13 @@ std::vector<ShoreVertex> walk_once(const Walk& walk, const std::vector<Vec2>& co
 }
 
 /// Where several cells meet at the first corner, the first round shows in which of them it ends.
-std::vector<ShoreVertex> walk_ring(const Walk& walk, const std::vector<Vec2>& corners) {
+std::vector<BoundaryVertex> walk_ring(const Walk& walk, const std::vector<Vec2>& corners) {
   constexpr int most_rounds = 4;
   const auto ignore = [](std::int32_t, std::int32_t, const Vec2&) {};
   std::int32_t cell = walk.go(0, walk.site(0), corners.front(), ignore);
   for (int round = 0; round < most_rounds; ++round) {
     const std::int32_t start = cell;
-    std::vector<ShoreVertex> ring = walk_once(walk, corners, cell);
+    std::vector<BoundaryVertex> ring = walk_once(walk, corners, cell);
     if (cell == start)
       return straightened(walk, std::move(ring));
   }
@@ -208,10 +208,10 @@ std::vector<ShoreVertex> walk_ring(const Walk& walk, const std::vector<Vec2>& co
 
 } // namespace
 
-std::vector<std::vector<ShoreVertex>> walk_shore(const Outline& outline, const Points2& sites,
-                                                 const Neighbours& neighbours) {
+std::vector<std::vector<BoundaryVertex>> walk_boundary(const Outline& outline, const Points2& sites,
+                                                       const Neighbours& neighbours) {
   const Walk walk(sites, neighbours);
-  std::vector<std::vector<ShoreVertex>> rings;
+  std::vector<std::vector<BoundaryVertex>> rings;
   for (const std::vector<Vec2>& corners : outline.rings())
     rings.push_back(walk_ring(walk, corners));
   return rings;

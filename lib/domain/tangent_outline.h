@@ -50,11 +50,11 @@ private:
 /// The boundary of a region of the sphere in the plane that touches the sphere at a site: Voronoi
 /// cells and the region have straight sides there. It shows what is within some 76 degrees of the
 /// site.
-class TangentShore {
+class TangentOutline {
 public:
   static constexpr double reach = 4; ///< in the plane
 
-  TangentShore(const SphericalOutline& outline, const TangentPlane& plane)
+  TangentOutline(const SphericalOutline& outline, const TangentPlane& plane)
       : outline_(&outline), plane_(&plane) {}
 
   static const Box2& box() {
